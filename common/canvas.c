@@ -1,0 +1,285 @@
+#include "canvas.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+const CanvasBackend *const CANVAS_BACKENDS[] = {&CANVAS_EGL, NULL};
+
+/* With a format of 8 bits that clamps to 0..1, or of 32 that does not. */
+static GLenum color_format(const Canvas *canvas)
+{
+    return canvas->real ? GL_RGBA32F_EXT : GL_RGBA8_OES;
+}
+
+static bool check_size(const Canvas *canvas, int width, int height, Message *message)
+{
+    GLint most_buffer = 0, most_viewport[2] = {0, 0};
+    glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &most_buffer);
+    glGetIntegerv(GL_MAX_VIEWPORT_DIMS, most_viewport);
+    const int most_width = most_buffer < most_viewport[0] ? most_buffer : most_viewport[0];
+    const int most_height = most_buffer < most_viewport[1] ? most_buffer : most_viewport[1];
+    if (width >= 1 && width <= most_width && height >= 1 && height <= most_height)
+        return true;
+    if (canvas->supersample > 1)
+        return message_set(message,
+                           "size %dx%d: with %dx%d supersampling %s draws 1x1 to %dx%d; ask for "
+                           "less",
+                           canvas->width, canvas->height, canvas->supersample, canvas->supersample,
+                           canvas->renderer, most_width / canvas->supersample,
+                           most_height / canvas->supersample);
+    return message_set(message, "size %dx%d: %s draws 1x1 to %dx%d", canvas->width, canvas->height,
+                       canvas->renderer, most_width, most_height);
+}
+
+static const char *framebuffer_status(GLenum status)
+{
+    switch (status) {
+    case GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT:
+        return "incomplete attachment";
+    case GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT:
+        return "missing attachment";
+    case GL_FRAMEBUFFER_UNSUPPORTED:
+        return "unsupported combination of formats";
+    default:
+        return "incomplete";
+    }
+}
+
+static void renderbuffer(GLuint *name, int samples, GLenum format, int width, int height)
+{
+    glGenRenderbuffers(1, name);
+    glBindRenderbuffer(GL_RENDERBUFFER, *name);
+    if (samples > 0)
+        glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, format, width, height);
+    else
+        glRenderbufferStorage(GL_RENDERBUFFER, format, width, height);
+}
+
+static bool framebuffer(GLuint *name, GLuint color, GLuint depth, int width, int height,
+                        Message *message)
+{
+    glGenFramebuffers(1, name);
+    glBindFramebuffer(GL_FRAMEBUFFER, *name);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color);
+    if (depth)
+        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth);
+    const GLenum error = glGetError();
+    if (error != GL_NO_ERROR)
+        return message_set(message,
+                           "canvas: a %dx%d framebuffer: %s from the driver; ask for a "
+                           "smaller size or fewer samples",
+                           width, height, gl_error_name(error));
+    const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
+    if (status != GL_FRAMEBUFFER_COMPLETE)
+        return message_set(message, "canvas: a %dx%d framebuffer: %s", width, height,
+                           framebuffer_status(status));
+    return true;
+}
+
+/* Decides between the driver's own antialiasing and supersampling. */
+static bool choose_samples(Canvas *canvas, int samples, Message *message)
+{
+    enum { MOST_SUPERSAMPLE = 4 };
+    if (samples <= 1)
+        return true;
+    if (glRenderbufferStorageMultisample && glBlitFramebuffer) {
+        GLint most = 0;
+        glGetIntegerv(GL_MAX_SAMPLES_ANGLE, &most);
+        if (samples > most)
+            return message_set(message, "%d samples: %s has at most %d", samples, canvas->renderer,
+                               (int)most);
+        canvas->samples = samples;
+        return true;
+    }
+    int side = 2;
+    while (side * side < samples)
+        side++;
+    if (side > MOST_SUPERSAMPLE)
+        return message_set(message,
+                           "%d samples: %s has none of its own, and supersampling gives "
+                           "at most %d",
+                           samples, canvas->renderer, MOST_SUPERSAMPLE * MOST_SUPERSAMPLE);
+    canvas->supersample *= side;
+    return true;
+}
+
+static bool check_bits(Canvas *canvas, Message *message)
+{
+    glGetIntegerv(GL_RED_BITS, &canvas->red_bits);
+    glGetIntegerv(GL_GREEN_BITS, &canvas->green_bits);
+    glGetIntegerv(GL_BLUE_BITS, &canvas->blue_bits);
+    glGetIntegerv(GL_ALPHA_BITS, &canvas->alpha_bits);
+    glGetIntegerv(GL_DEPTH_BITS, &canvas->depth_bits);
+    const int bits = canvas->real ? 32 : 8;
+    if (canvas->red_bits != bits || canvas->green_bits != bits || canvas->blue_bits != bits ||
+        canvas->alpha_bits != bits || canvas->depth_bits < 24)
+        return message_set(message,
+                           "canvas: asked for RGBA %d %d %d %d and depth 24, the driver gave %d %d "
+                           "%d %d and %d",
+                           bits, bits, bits, bits, canvas->red_bits, canvas->green_bits,
+                           canvas->blue_bits, canvas->alpha_bits, canvas->depth_bits);
+    return true;
+}
+
+static bool make_framebuffers(Canvas *canvas, Message *message)
+{
+    const int width = canvas->width * canvas->supersample;
+    const int height = canvas->height * canvas->supersample;
+    const bool es3 = gl_version() >= 30;
+    const GLenum depth_format =
+        es3 || gl_has("GL_OES_depth24") ? GL_DEPTH_COMPONENT24_OES : GL_DEPTH_COMPONENT16;
+    if (!es3 && !gl_has("GL_OES_rgb8_rgba8"))
+        return message_set(message, "canvas: %s cannot draw to 8-bit RGBA (GL_OES_rgb8_rgba8)",
+                           canvas->renderer);
+    if (canvas->samples > 0) {
+        renderbuffer(&canvas->resolve_color, 0, color_format(canvas), width, height);
+        if (!framebuffer(&canvas->resolve_framebuffer, canvas->resolve_color, 0, width, height,
+                         message))
+            return false;
+    }
+    renderbuffer(&canvas->color, canvas->samples, color_format(canvas), width, height);
+    renderbuffer(&canvas->depth, canvas->samples, depth_format, width, height);
+    if (!framebuffer(&canvas->framebuffer, canvas->color, canvas->depth, width, height, message))
+        return false;
+    if (canvas->samples > 0)
+        glGetIntegerv(GL_SAMPLES, &canvas->samples);
+    return check_bits(canvas, message);
+}
+
+bool canvas_open(Canvas *canvas, const CanvasOptions *options, Message *message)
+{
+    *canvas = (Canvas){
+        .backend = options->backend ? options->backend : &CANVAS_EGL,
+        .width = options->width,
+        .height = options->height,
+        .supersample = options->supersample > 1 ? options->supersample : 1,
+    };
+    if (!canvas->backend->open(&canvas->context, &canvas->platform, message)) {
+        *canvas = (Canvas){0};
+        return false;
+    }
+    if (!gl_load(canvas->backend->address, message))
+        goto fail;
+    canvas->renderer = (const char *)glGetString(GL_RENDERER);
+    canvas->version = (const char *)glGetString(GL_VERSION);
+    canvas->real = options->real && gl_version() >= 30 && gl_has("GL_EXT_color_buffer_float");
+    if (!choose_samples(canvas, options->samples, message) ||
+        !check_size(canvas, canvas->width * canvas->supersample,
+                    canvas->height * canvas->supersample, message) ||
+        !make_framebuffers(canvas, message))
+        goto fail;
+    canvas_begin(canvas);
+    return true;
+fail:
+    canvas_close(canvas);
+    return false;
+}
+
+void canvas_begin(const Canvas *canvas)
+{
+    glBindFramebuffer(GL_FRAMEBUFFER, canvas->framebuffer);
+    glViewport(0, 0, canvas->width * canvas->supersample, canvas->height * canvas->supersample);
+}
+
+/* OpenGL's row 0 is the bottom one. */
+static bool turn_rows(Image *image, Message *message)
+{
+    const size_t row = image_row_size(image);
+    unsigned char *spare = malloc(row), *pixels = image->pixels;
+    if (!spare)
+        return message_set(message, "canvas: not enough memory for a row of pixels");
+    for (int y = 0; y < image->height / 2; y++) {
+        unsigned char *upper = pixels + (size_t)y * row;
+        unsigned char *lower = pixels + (size_t)(image->height - 1 - y) * row;
+        memcpy(spare, upper, row);
+        memcpy(upper, lower, row);
+        memcpy(lower, spare, row);
+    }
+    free(spare);
+    return true;
+}
+
+/* Each pixel of `image` is the mean of `side` x `side` of `large`. */
+static void average(Image *image, const Image *large, int side)
+{
+    const size_t channels = 4, stride = (size_t)large->width * channels;
+    const double count = side * side;
+    for (int y = 0; y < image->height; y++) {
+        for (int x = 0; x < image->width; x++) {
+            for (size_t c = 0; c < channels; c++) {
+                const size_t first =
+                    (size_t)(y * side) * stride + (size_t)(x * side) * channels + c;
+                const size_t to = ((size_t)y * (size_t)image->width + (size_t)x) * channels + c;
+                double sum = 0;
+                for (size_t j = 0; j < (size_t)side; j++) {
+                    for (size_t i = 0; i < (size_t)side; i++) {
+                        const size_t from = first + j * stride + i * channels;
+                        sum += image->type == IMAGE_FLOAT
+                                   ? (double)((const float *)large->pixels)[from]
+                                   : (double)((const unsigned char *)large->pixels)[from];
+                    }
+                }
+                if (image->type == IMAGE_FLOAT)
+                    ((float *)image->pixels)[to] = (float)(sum / count);
+                else
+                    ((unsigned char *)image->pixels)[to] = (unsigned char)lrint(sum / count);
+            }
+        }
+    }
+}
+
+static bool read_pixels(const Canvas *canvas, Image *image, Message *message)
+{
+    if (canvas->samples > 0) {
+        const int width = canvas->width * canvas->supersample;
+        const int height = canvas->height * canvas->supersample;
+        glBindFramebuffer(GL_DRAW_FRAMEBUFFER_ANGLE, canvas->resolve_framebuffer);
+        glBindFramebuffer(GL_READ_FRAMEBUFFER_ANGLE, canvas->framebuffer);
+        glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT,
+                          GL_NEAREST);
+        glBindFramebuffer(GL_FRAMEBUFFER, canvas->resolve_framebuffer);
+    }
+    glPixelStorei(GL_PACK_ALIGNMENT, 4);
+    glReadPixels(0, 0, image->width, image->height, GL_RGBA,
+                 canvas->real ? GL_FLOAT : GL_UNSIGNED_BYTE, image->pixels);
+    glBindFramebuffer(GL_FRAMEBUFFER, canvas->framebuffer);
+    const GLenum error = glGetError();
+    if (error != GL_NO_ERROR)
+        return message_set(message, "canvas: drawing and reading back a %dx%d picture: %s",
+                           image->width, image->height, gl_error_name(error));
+    return turn_rows(image, message);
+}
+
+bool canvas_read(const Canvas *canvas, Image *image, Message *message)
+{
+    if (image->width != canvas->width || image->height != canvas->height ||
+        image->type != (canvas->real ? IMAGE_FLOAT : IMAGE_BYTE))
+        return message_set(message, "canvas: a %dx%d %s image cannot take a %dx%d %s picture",
+                           image->width, image->height,
+                           image->type == IMAGE_FLOAT ? "float" : "byte", canvas->width,
+                           canvas->height, canvas->real ? "float" : "byte");
+    if (canvas->supersample == 1)
+        return read_pixels(canvas, image, message);
+    Image large;
+    if (!image_open(&large, canvas->width * canvas->supersample,
+                    canvas->height * canvas->supersample, image->type, message))
+        return false;
+    const bool read = read_pixels(canvas, &large, message);
+    if (read)
+        average(image, &large, canvas->supersample);
+    image_close(&large);
+    return read;
+}
+
+void canvas_close(Canvas *canvas)
+{
+    if (!canvas || !canvas->context) {
+        if (canvas)
+            *canvas = (Canvas){0};
+        return;
+    }
+    /* The context owns its framebuffers and takes them along. */
+    canvas->backend->close(canvas->context);
+    *canvas = (Canvas){0};
+}

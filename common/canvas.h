@@ -1,0 +1,70 @@
+/*
+ * canvas: a place to draw, and the way to read back what was drawn.
+ *
+ * A backend (EGL now; others join the table in canvas.c) makes an OpenGL ES 2 context current; the
+ * canvas draws into framebuffer objects of its own, so that every backend has the same formats,
+ * size and antialiasing. One canvas is current at a time: the one opened last.
+ */
+#ifndef CANVAS_H
+#define CANVAS_H
+
+#include "gl.h"
+#include "image.h"
+
+/* What a backend is: one table of functions. `open` leaves a context current, loads nothing else,
+ * and puts what it holds in *backend; `platform` is for --verbose ("surfaceless"). */
+typedef struct CanvasBackend {
+    const char *name;
+    const char *summary;
+    bool (*open)(void **context, const char **platform, Message *message);
+    GlFunction (*address)(const char *name);
+    void (*close)(void *context);
+    /* Says on standard output what each platform and library answers and what to install; true
+     * where the backend works. For --doctor. */
+    bool (*doctor)(void);
+} CanvasBackend;
+
+extern const CanvasBackend CANVAS_EGL;
+
+/* NULL-terminated: every backend there is. */
+extern const CanvasBackend *const CANVAS_BACKENDS[];
+
+typedef struct CanvasOptions {
+    const CanvasBackend *backend; /* NULL: EGL */
+    int width, height;            /* 1.. what the driver allows */
+    int samples;     /* 0 or 1: none. More: a multisampled framebuffer that is resolved,
+                        or supersampling where the driver has none */
+    int supersample; /* 0 or 1: none. K: K x K pixels for each, averaged */
+    bool real;       /* colours as floats, not clamped, where the driver can */
+} CanvasOptions;
+
+typedef struct Canvas {
+    const CanvasBackend *backend;
+    void *context;
+    const char *platform;
+    const char *renderer, *version; /* GL_RENDERER, GL_VERSION */
+    int width, height;
+    int samples;     /* as the driver gave them; 0 for none */
+    int supersample; /* 1 for none */
+    bool real;
+    int red_bits, green_bits, blue_bits, alpha_bits, depth_bits;
+    GLuint framebuffer, color, depth;          /* drawn to */
+    GLuint resolve_framebuffer, resolve_color; /* read from, with samples */
+} Canvas;
+
+/* Opens a canvas with 8-bit RGBA (or float) colour and at least 24 bits of depth, and checks that
+ * it got them. `canvas` is zeroed on failure. */
+bool canvas_open(Canvas *canvas, const CanvasOptions *options, Message *message);
+
+/* Binds the canvas's framebuffer and sets the viewport: the beginning of every frame. */
+void canvas_begin(const Canvas *canvas);
+
+/* Resolves, reads back and turns the rows the right way up: row 0 is the top. `image` must have the
+ * canvas's size; its type must be IMAGE_FLOAT for a real canvas, else IMAGE_BYTE. Reports any GL
+ * error since the last call. */
+bool canvas_read(const Canvas *canvas, Image *image, Message *message);
+
+/* NULL or a zeroed canvas is fine. */
+void canvas_close(Canvas *canvas);
+
+#endif

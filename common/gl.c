@@ -1,0 +1,79 @@
+#include "gl.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define GL_DEFINE(TYPE, name) PFNGL##TYPE##PROC gl##name;
+GL_FUNCTIONS(GL_DEFINE)
+GlRenderbufferStorageMultisample glRenderbufferStorageMultisample;
+GlBlitFramebuffer glBlitFramebuffer;
+
+bool gl_load(GlFunction (*address)(const char *name), Message *message)
+{
+#define GL_LOAD(TYPE, name)                                                                        \
+    gl##name = (PFNGL##TYPE##PROC)address("gl" #name);                                             \
+    if (!gl##name)                                                                                 \
+        return message_set(message, "OpenGL ES 2: the driver has no gl" #name                      \
+                                    "; `--doctor` shows what is installed");
+    GL_FUNCTIONS(GL_LOAD)
+#undef GL_LOAD
+
+    /* A driver may hand out a stub for a function that the context does not have: ask the context
+     * first, not the pointer. */
+    const bool es3 = gl_version() >= 30;
+    glRenderbufferStorageMultisample = NULL;
+    glBlitFramebuffer = NULL;
+    if (es3) {
+        glRenderbufferStorageMultisample =
+            (GlRenderbufferStorageMultisample)address("glRenderbufferStorageMultisample");
+        glBlitFramebuffer = (GlBlitFramebuffer)address("glBlitFramebuffer");
+    } else if (gl_has("GL_ANGLE_framebuffer_multisample") && gl_has("GL_ANGLE_framebuffer_blit")) {
+        glRenderbufferStorageMultisample =
+            (GlRenderbufferStorageMultisample)address("glRenderbufferStorageMultisampleANGLE");
+        glBlitFramebuffer = (GlBlitFramebuffer)address("glBlitFramebufferANGLE");
+    }
+    return true;
+}
+
+int gl_version(void)
+{
+    const char *text = (const char *)glGetString(GL_VERSION);
+    int major = 0, minor = 0;
+    if (!text || sscanf(text, "OpenGL ES %d.%d", &major, &minor) != 2)
+        return 0;
+    return 10 * major + minor;
+}
+
+bool gl_has(const char *extension)
+{
+    const char *list = (const char *)glGetString(GL_EXTENSIONS);
+    const size_t length = strlen(extension);
+    for (const char *p = list; p && (p = strstr(p, extension)); p += length) {
+        const bool begins = p == list || p[-1] == ' ';
+        const bool ends = p[length] == ' ' || p[length] == '\0';
+        if (begins && ends)
+            return true;
+    }
+    return false;
+}
+
+const char *gl_error_name(GLenum error)
+{
+    switch (error) {
+    case GL_NO_ERROR:
+        return "GL_NO_ERROR";
+    case GL_INVALID_ENUM:
+        return "GL_INVALID_ENUM";
+    case GL_INVALID_VALUE:
+        return "GL_INVALID_VALUE";
+    case GL_INVALID_OPERATION:
+        return "GL_INVALID_OPERATION";
+    case GL_INVALID_FRAMEBUFFER_OPERATION:
+        return "GL_INVALID_FRAMEBUFFER_OPERATION";
+    case GL_OUT_OF_MEMORY:
+        return "GL_OUT_OF_MEMORY";
+    default:
+        return "an unknown GL error";
+    }
+}

@@ -1,0 +1,86 @@
+#include "mesh_buffer.h"
+
+#include <limits.h>
+#include <stdlib.h>
+
+enum { MOST_SHORT_VERTICES = 65536 };
+
+/* Indices as 16-bit numbers: half the memory, and what every driver has. */
+static bool upload_short_indices(const Mesh *mesh, Message *message)
+{
+    GLushort *narrow = malloc(mesh->index_count * sizeof *narrow);
+    if (!narrow)
+        return message_set(message, "mesh: not enough memory for %zu indices", mesh->index_count);
+    for (size_t i = 0; i < mesh->index_count; i++)
+        narrow[i] = (GLushort)mesh->indices[i];
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)(mesh->index_count * sizeof *narrow), narrow,
+                 GL_STATIC_DRAW);
+    free(narrow);
+    return true;
+}
+
+bool mesh_buffer_open(MeshBuffer *buffer, const Mesh *mesh, Message *message)
+{
+    *buffer = (MeshBuffer){.index_type = GL_UNSIGNED_SHORT};
+    if (mesh->index_count > INT_MAX)
+        return message_set(message, "mesh: %zu indices: OpenGL draws at most %d in one call",
+                           mesh->index_count, INT_MAX);
+    if (mesh->vertex_count > MOST_SHORT_VERTICES) {
+        if (gl_version() < 30 && !gl_has("GL_OES_element_index_uint"))
+            return message_set(message,
+                               "mesh: %zu vertices: this driver indexes at most %d (it lacks "
+                               "GL_OES_element_index_uint); use fewer divisions",
+                               mesh->vertex_count, MOST_SHORT_VERTICES);
+        buffer->index_type = GL_UNSIGNED_INT;
+    }
+    buffer->index_count = (GLsizei)mesh->index_count;
+    glGenBuffers(1, &buffer->vertices);
+    glGenBuffers(1, &buffer->indices);
+    glBindBuffer(GL_ARRAY_BUFFER, buffer->vertices);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(mesh->vertex_count * sizeof *mesh->vertices),
+                 mesh->vertices, GL_STATIC_DRAW);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffer->indices);
+    if (buffer->index_type == GL_UNSIGNED_INT) {
+        glBufferData(GL_ELEMENT_ARRAY_BUFFER,
+                     (GLsizeiptr)(mesh->index_count * sizeof *mesh->indices), mesh->indices,
+                     GL_STATIC_DRAW);
+    } else if (!upload_short_indices(mesh, message)) {
+        mesh_buffer_close(buffer);
+        return false;
+    }
+    const GLenum error = glGetError();
+    if (error != GL_NO_ERROR) {
+        mesh_buffer_close(buffer);
+        return message_set(message, "mesh: %zu vertices, %zu indices: %s from the driver",
+                           mesh->vertex_count, mesh->index_count, gl_error_name(error));
+    }
+    return true;
+}
+
+static void point_attribute(GLint location, size_t offset)
+{
+    if (location < 0)
+        return;
+    glEnableVertexAttribArray((GLuint)location);
+    glVertexAttribPointer((GLuint)location, 3, GL_FLOAT, GL_FALSE, (GLsizei)sizeof(MeshVertex),
+                          (const void *)offset);
+}
+
+void mesh_buffer_bind(const MeshBuffer *buffer, GLint position, GLint normal)
+{
+    glBindBuffer(GL_ARRAY_BUFFER, buffer->vertices);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffer->indices);
+    point_attribute(position, offsetof(MeshVertex, position));
+    point_attribute(normal, offsetof(MeshVertex, normal));
+}
+
+void mesh_buffer_close(MeshBuffer *buffer)
+{
+    if (!buffer)
+        return;
+    if (buffer->vertices)
+        glDeleteBuffers(1, &buffer->vertices);
+    if (buffer->indices)
+        glDeleteBuffers(1, &buffer->indices);
+    *buffer = (MeshBuffer){0};
+}

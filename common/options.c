@@ -1,0 +1,397 @@
+#include "options.h"
+
+#include "output.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <getopt.h>
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* The lecture's animations turn by 30 degrees a second, so an angle is a time. */
+static const double DEGREES_PER_SECOND = 30;
+
+enum {
+    OPTION_SAMPLES = 256,
+    OPTION_FPS,
+    OPTION_SHADERS,
+    OPTION_PRECISION,
+    OPTION_PRINT_SHADER,
+    OPTION_ALPHA,
+    OPTION_COMPRESS,
+    OPTION_DOCTOR,
+    OPTION_VERSION,
+};
+
+static const struct option LONG_OPTIONS[] = {
+    {"output", required_argument, NULL, 'o'},
+    {"size", required_argument, NULL, 's'},
+    {"time", required_argument, NULL, 't'},
+    {"angle", required_argument, NULL, 'a'},
+    {"frames", required_argument, NULL, 'n'},
+    {"fps", required_argument, NULL, OPTION_FPS},
+    {"samples", required_argument, NULL, OPTION_SAMPLES},
+    {"backend", required_argument, NULL, 'b'},
+    {"shaders", required_argument, NULL, OPTION_SHADERS},
+    {"precision", required_argument, NULL, OPTION_PRECISION},
+    {"print-shader", optional_argument, NULL, OPTION_PRINT_SHADER},
+    {"alpha", no_argument, NULL, OPTION_ALPHA},
+    {"compress", required_argument, NULL, OPTION_COMPRESS},
+    {"doctor", no_argument, NULL, OPTION_DOCTOR},
+    {"verbose", no_argument, NULL, 'v'},
+    {"help", no_argument, NULL, 'h'},
+    {"version", no_argument, NULL, OPTION_VERSION},
+    {NULL, 0, NULL, 0},
+};
+
+static void print_help(const Usage *usage)
+{
+    if (usage->gallery)
+        printf("Usage: %s [options] [NAME...]\n\n%s\n\n"
+               "  -o, --output DIR       the folder for the pictures, the contact sheet and\n"
+               "                         index.html; made if need be; default gallery\n",
+               usage->name, usage->summary);
+    else
+        printf("Usage: %s [options]\n\n%s\n\n"
+               "Draws one picture without a window or a display.\n\n"
+               "  -o, --output FILE      the picture; default %s.png. The extension names the\n"
+               "                         format (.png, .exr, .tif, .jpg, .webp...); - writes PNG\n"
+               "                         to standard output\n",
+               usage->name, usage->summary, usage->name);
+    printf("  -s, --size WxH         in pixels; default 400x400, the lecture's canvas\n"
+           "  -t, --time SECONDS     the moment to draw; default 0\n"
+           "  -a, --angle DEG        the moment at which an animation that turns by 30 degrees a\n"
+           "                         second has this angle\n");
+    if (!usage->gallery)
+        printf(
+            "  -n, --frames N         N pictures from --time on; the name needs a number, as in\n"
+            "                         -o turn%%03d.png; default 1\n"
+            "      --fps F            pictures for each second of time; default 30\n");
+    printf(
+        "      --samples N        antialiasing with N samples a pixel; default 0, none\n"
+        "  -b, --backend egl      what draws; egl is headless\n"
+        "      --shaders DIR      look for shader files here first: edit a copy of a shader and\n"
+        "                         see what changes (also: LIGHTING_SHADERS in the environment)\n"
+        "      --precision highp|mediump\n"
+        "                         of fragment shaders; default: as the shader says\n"
+        "      --print-shader[=vert|frag]\n"
+        "                         print what the driver is given, and draw nothing\n"
+        "      --alpha            keep the alpha channel: the background is transparent\n"
+        "      --compress 0..9    of PNG files: 1 is fast (default), 9 is small\n"
+        "  -v, --verbose          say what runs where, and how long it took\n"
+        "      --doctor           say what this machine has for drawing, and what is missing\n"
+        "  -h, --help             this text\n"
+        "      --version          the version\n\n"
+        "Exit status: 0, 1 if something failed, 2 if the command line is wrong.\n");
+    if (!usage->gallery)
+        printf("\nTry:  %s --size 800x800 --samples 4\n"
+               "      %s --frames 90 -o turn%%03d.png\n"
+               "      %s --precision highp --print-shader=frag\n",
+               usage->name, usage->name, usage->name);
+}
+
+bool options_size(const char *text, int *width, int *height)
+{
+    const char *p = text;
+    int sizes[2];
+    for (int i = 0; i < 2; i++) {
+        int value = 0, digits = 0;
+        for (; *p >= '0' && *p <= '9' && digits < 6; p++, digits++)
+            value = 10 * value + (*p - '0');
+        if (!digits || value < 1 || value > SIZE_MOST)
+            return false;
+        sizes[i] = value;
+        if (i == 0 && *p != 'x' && *p != 'X')
+            return false;
+        p += i == 0;
+    }
+    if (*p)
+        return false;
+    *width = sizes[0];
+    *height = sizes[1];
+    return true;
+}
+
+bool options_number(const char *text, double least, double most, double *number)
+{
+    char *end;
+    /* strtod takes blanks, hexadecimal and names too; a number here begins with a digit. */
+    const char *digits = text + (*text == '-' || *text == '+');
+    if (!((*digits >= '0' && *digits <= '9') || *digits == '.') || strpbrk(text, "xX"))
+        return false;
+    const double value = strtod(text, &end);
+    if (end == text || *end || !(value >= least && value <= most))
+        return false;
+    *number = value;
+    return true;
+}
+
+static bool whole_number(const char *text, int least, int most, int *number)
+{
+    double value;
+    if (!options_number(text, least, most, &value) || value != floor(value))
+        return false;
+    *number = (int)value;
+    return true;
+}
+
+/* Changes of one letter that turn a into b (Levenshtein), as far as 63 letters. */
+static int distance(const char *a, const char *b)
+{
+    enum { MOST = 63 };
+    int row[MOST + 1];
+    const int length = (int)strlen(b) < MOST ? (int)strlen(b) : MOST;
+    for (int j = 0; j <= length; j++)
+        row[j] = j;
+    for (int i = 1; i <= MOST && a[i - 1]; i++) {
+        int diagonal = row[0];
+        row[0] = i;
+        for (int j = 1; j <= length; j++) {
+            const int change = diagonal + (a[i - 1] != b[j - 1]);
+            diagonal = row[j];
+            const int other = 1 + (row[j] < row[j - 1] ? row[j] : row[j - 1]);
+            row[j] = change < other ? change : other;
+        }
+    }
+    return row[length];
+}
+
+const char *options_nearest(const char *word, const char *const *names)
+{
+    const char *nearest = NULL;
+    int least = 1 + (int)strlen(word) / 3; /* a third of the letters may be wrong */
+    for (; *names; names++) {
+        const int d = distance(word, *names);
+        if (d <= least && (!nearest || d < least)) {
+            nearest = *names;
+            least = d;
+        }
+    }
+    return nearest;
+}
+
+static bool unknown_option(const char *given, Message *message)
+{
+    enum { COUNT = sizeof LONG_OPTIONS / sizeof LONG_OPTIONS[0] };
+    const char *names[COUNT];
+    char word[64];
+    for (int i = 0; i < COUNT; i++)
+        names[i] = LONG_OPTIONS[i].name;
+    const char *start = given + strspn(given, "-");
+    snprintf(word, sizeof word, "%.*s", (int)strcspn(start, "="), start);
+    const char *nearest = word[1] ? options_nearest(word, names) : NULL;
+    if (nearest)
+        return message_set(message, "%s: no such option; did you mean --%s?", given, nearest);
+    return message_set(message, "%s: no such option; --help lists them", given);
+}
+
+/* getopt_long's '?' and ':' as a message. */
+static bool bad_option(int result, int argc, char *argv[], Message *message)
+{
+    const char *last = argv[optind - 1 < argc ? optind - 1 : argc - 1];
+    const bool is_long = strncmp(last, "--", 2) == 0;
+    char shown[3] = {'-', (char)optopt, '\0'};
+    if (result == ':')
+        return message_set(message, "%s: needs a value; see --help", is_long ? last : shown);
+    if (!is_long)
+        return unknown_option(shown, message);
+    if (optopt) /* a known option with a value that it does not take */
+        return message_set(message, "%s: takes no value", last);
+    return unknown_option(last, message);
+}
+
+static bool bad_value(const char *option, const char *value, const char *wanted, Message *message)
+{
+    return message_set(message, "%s %s: must be %s", option, value, wanted);
+}
+
+static bool read_backend(Options *options, const char *name, Message *message)
+{
+    char known[128] = "";
+    for (int i = 0; CANVAS_BACKENDS[i]; i++) {
+        if (strcmp(name, CANVAS_BACKENDS[i]->name) == 0) {
+            options->canvas.backend = CANVAS_BACKENDS[i];
+            return true;
+        }
+        const size_t used = strlen(known);
+        snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "",
+                 CANVAS_BACKENDS[i]->name);
+    }
+    return message_set(message, "--backend %s: no such backend; there is %s", name, known);
+}
+
+static bool read_option(Options *options, int option, const char *value, Message *message)
+{
+    switch (option) {
+    case 'o':
+        options->output = value;
+        options->output_given = true;
+        return value[0] ? true : message_set(message, "--output: the name is empty");
+    case 's':
+        if (!options_size(value, &options->width, &options->height))
+            return bad_value("--size", value, "WIDTHxHEIGHT, each 1 to 16384, as in 400x400",
+                             message);
+        return true;
+    case 't':
+        if (!options_number(value, -1e9, 1e9, &options->seconds))
+            return bad_value("--time", value, "seconds, -1e9 to 1e9", message);
+        return true;
+    case 'a':
+        if (!options_number(value, -3e10, 3e10, &options->seconds))
+            return bad_value("--angle", value, "degrees, -3e10 to 3e10", message);
+        options->seconds /= DEGREES_PER_SECOND;
+        return true;
+    case 'n':
+        if (!whole_number(value, 1, FRAMES_MOST, &options->frames))
+            return bad_value("--frames", value, "a whole number, 1 to 1000000", message);
+        return true;
+    case OPTION_FPS:
+        if (!options_number(value, 1e-3, 1e6, &options->fps))
+            return bad_value("--fps", value, "pictures for each second, 0.001 to 1000000", message);
+        return true;
+    case OPTION_SAMPLES:
+        if (!whole_number(value, 0, 64, &options->canvas.samples))
+            return bad_value("--samples", value, "a whole number, 0 to 64", message);
+        return true;
+    case 'b':
+        return read_backend(options, value, message);
+    case OPTION_SHADERS:
+        options->shaders.folder = value;
+        return value[0] ? true : message_set(message, "--shaders: the name is empty");
+    case OPTION_PRECISION:
+        if (strcmp(value, "highp") != 0 && strcmp(value, "mediump") != 0)
+            return bad_value("--precision", value, "highp or mediump", message);
+        options->shaders.precision = value;
+        return true;
+    case OPTION_PRINT_SHADER:
+        if (!value)
+            options->shaders.print = SHADER_PRINT_VERTEX | SHADER_PRINT_FRAGMENT;
+        else if (strcmp(value, "vert") == 0)
+            options->shaders.print = SHADER_PRINT_VERTEX;
+        else if (strcmp(value, "frag") == 0)
+            options->shaders.print = SHADER_PRINT_FRAGMENT;
+        else
+            return bad_value("--print-shader", value, "vert or frag, or nothing for both", message);
+        return true;
+    case OPTION_ALPHA:
+        options->alpha = true;
+        return true;
+    case OPTION_COMPRESS:
+        if (!whole_number(value, 0, 9, &options->compress))
+            return bad_value("--compress", value, "a whole number, 0 to 9", message);
+        return true;
+    case OPTION_DOCTOR:
+        options->doctor = true;
+        return true;
+    default: /* 'v' */
+        options->verbose = true;
+        options->shaders.verbose = true;
+        return true;
+    }
+}
+
+/* What the command line alone shows to be wrong about the output. */
+static bool check_output(const Options *options, const Usage *usage, Message *message)
+{
+    char format[16];
+    const char *output = options->output;
+    if (usage->gallery || options->doctor || options->shaders.print)
+        return true;
+    if (strcmp(output, "-") == 0) {
+        if (options->frames > 1)
+            return message_set(message, "--output -: standard output takes one picture, not %d",
+                               options->frames);
+        if (isatty(STDOUT_FILENO))
+            return message_set(message, "--output -: standard output is a terminal; send it to a "
+                                        "file or a pipe");
+        return true;
+    }
+    const size_t length = strlen(output);
+    if (output[length - 1] == '/')
+        return message_set(message, "%s: is a folder; name a file in it", output);
+    char first[PATH_MAX];
+    if (options->frames > 1 && !output_numbered(output, 0, first, sizeof first, message))
+        return false;
+    return image_format(output, format, message);
+}
+
+OptionsResult options_read(Options *options, const Usage *usage, int argc, char *argv[],
+                           Message *message)
+{
+    *options = (Options){
+        .width = 400, .height = 400, .frames = 1, .fps = 30, .compress = IMAGE_COMPRESS_DEFAULT};
+    optind = 0; /* from the beginning, however often this is called */
+    opterr = 0;
+    int option;
+    while ((option = getopt_long(argc, argv, ":o:s:t:a:n:b:vh", LONG_OPTIONS, NULL)) != -1) {
+        if (option == 'h') {
+            print_help(usage);
+            return OPTIONS_ANSWERED;
+        }
+        if (option == OPTION_VERSION) {
+            printf("%s (lighting) %s\n", usage->name, VERSION);
+            return OPTIONS_ANSWERED;
+        }
+        if (option == '?' || option == ':') {
+            bad_option(option, argc, argv, message);
+            return OPTIONS_BAD;
+        }
+        if (usage->gallery && (option == 'n' || option == OPTION_FPS)) {
+            message_set(message, "%s: a gallery has one picture of each program",
+                        option == 'n' ? "--frames" : "--fps");
+            return OPTIONS_BAD;
+        }
+        if (!read_option(options, option, optarg, message))
+            return OPTIONS_BAD;
+    }
+    options->names = argv + optind;
+    if (!usage->gallery && optind < argc) {
+        message_set(message, "%s: not an option; --help lists them, -o FILE names the picture",
+                    argv[optind]);
+        return OPTIONS_BAD;
+    }
+    if (!options->output_given) {
+        if (usage->gallery)
+            snprintf(options->default_output, sizeof options->default_output, "gallery");
+        else
+            snprintf(options->default_output, sizeof options->default_output, "%s%s.png",
+                     usage->name, options->frames > 1 ? "%04d" : "");
+        options->output = options->default_output;
+    }
+    return check_output(options, usage, message) ? OPTIONS_RUN : OPTIONS_BAD;
+}
+
+void options_prepare_process(void)
+{
+    for (int file = 0; file <= 2; file++) {
+        /* Read-only for the outputs too, so that writing to what was closed fails. */
+        if (fcntl(file, F_GETFD) < 0 && errno == EBADF)
+            (void)!open("/dev/null", O_RDONLY);
+    }
+    signal(SIGPIPE, SIG_IGN);
+    signal(SIGXFSZ, SIG_IGN);
+}
+
+int options_fail(const char *program, const Message *message, int code)
+{
+    fflush(stdout);
+    if (message->located)
+        fprintf(stderr, "%s\n", message->text);
+    else
+        fprintf(stderr, "%s: %s\n", program, message->text[0] ? message->text : "failed");
+    return code;
+}
+
+int options_finish(const char *program, int code)
+{
+    Message message = {0};
+    if (ferror(stdout) || fflush(stdout) != 0) {
+        message_set(&message, "standard output: cannot write: %s", strerror(errno));
+        return options_fail(program, &message, EXIT_FAILED);
+    }
+    return code;
+}

@@ -1,0 +1,69 @@
+/*
+ * options: the command line, the same for every program.
+ */
+#ifndef OPTIONS_H
+#define OPTIONS_H
+
+#include "canvas.h"
+#include "shader.h"
+
+/* Exit codes besides 0. */
+enum {
+    EXIT_FAILED = 1, /* the machine, a file or a driver did not allow it */
+    EXIT_USAGE = 2,  /* the command line is at fault */
+};
+
+enum { SIZE_MOST = 16384, FRAMES_MOST = 1000000 };
+
+typedef struct Options {
+    const char *output; /* a file, "-", a name with %d; for a gallery a folder */
+    bool output_given;
+    int width, height;
+    double seconds;
+    int frames;
+    double fps;
+    CanvasOptions canvas; /* without size and real */
+    ShaderLoader shaders;
+    bool alpha;
+    int compress;
+    bool verbose;
+    bool doctor;
+    char *const *names; /* arguments that are no options; NULL-terminated */
+    char default_output[128];
+} Options;
+
+/* What --help says besides the options, and what the program accepts. */
+typedef struct Usage {
+    const char *name;
+    const char *summary;
+    bool gallery; /* -o names a folder, names may follow the options, no --frames */
+} Usage;
+
+typedef enum OptionsResult { OPTIONS_RUN, OPTIONS_ANSWERED, OPTIONS_BAD } OptionsResult;
+
+/* Reads the command line. OPTIONS_ANSWERED: --help or --version was printed on standard output;
+ * OPTIONS_BAD: a usage error, with its message. */
+OptionsResult options_read(Options *options, const Usage *usage, int argc, char *argv[],
+                           Message *message);
+
+/* "WIDTHxHEIGHT", each 1 to SIZE_MOST, and nothing else. */
+bool options_size(const char *text, int *width, int *height);
+
+/* A finite decimal number within least..most, and nothing else. */
+bool options_number(const char *text, double least, double most, double *number);
+
+/* The name most like `word`, or NULL where none is near; `names` is NULL-terminated. */
+const char *options_nearest(const char *word, const char *const *names);
+
+/* The edge of a program: opens /dev/null in the place of closed standard streams (a picture must
+ * not land in a file that took the number of standard output), and turns signals about broken pipes
+ * and file sizes into errors of the write. */
+void options_prepare_process(void);
+
+/* Says a message on standard error and returns `code`. */
+int options_fail(const char *program, const Message *message, int code);
+
+/* Closes standard output; EXIT_FAILED, having said so, where something written did not arrive. */
+int options_finish(const char *program, int code);
+
+#endif

@@ -1,0 +1,146 @@
+#include "picture.h"
+
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* One being drawn, one being written, and one between them to even out their times. */
+enum { SLOTS = 3 };
+
+typedef enum SlotState { SLOT_FREE, SLOT_TAKEN, SLOT_WAITING, SLOT_WRITING } SlotState;
+
+struct PictureQueue {
+    pthread_t thread;
+    pthread_mutex_t lock;
+    pthread_cond_t changed;
+    Picture pictures[SLOTS];
+    SlotState states[SLOTS];
+    unsigned long order[SLOTS]; /* of giving, so that pictures are written in that order */
+    unsigned long given;
+    bool ended;
+    Message failure; /* of the first picture that could not be written */
+};
+
+bool picture_write(const Picture *picture, Message *message)
+{
+    const ImageText text[] = {
+        {"Title", picture->title},
+        {"Software", "lighting " VERSION},
+        {"Time", picture->moment},
+        {"Settings", picture->settings},
+        {NULL, NULL},
+    };
+    const ImageOptions options = {
+        .compress = picture->compress, .alpha = picture->alpha, .text = text};
+    return image_write(&picture->image, picture->path, &options, message);
+}
+
+/* The slot in `state` that was given first, or -1. */
+static int oldest(const PictureQueue *queue, SlotState state)
+{
+    int found = -1;
+    for (int i = 0; i < SLOTS; i++)
+        if (queue->states[i] == state && (found < 0 || queue->order[i] < queue->order[found]))
+            found = i;
+    return found;
+}
+
+static void *write_pictures(void *argument)
+{
+    PictureQueue *queue = argument;
+    pthread_mutex_lock(&queue->lock);
+    for (;;) {
+        const int slot = oldest(queue, SLOT_WAITING);
+        if (slot < 0 && queue->ended)
+            break;
+        if (slot < 0) {
+            pthread_cond_wait(&queue->changed, &queue->lock);
+            continue;
+        }
+        queue->states[slot] = SLOT_WRITING;
+        if (!queue->failure.text[0]) {
+            Message message = {0};
+            pthread_mutex_unlock(&queue->lock);
+            const bool written = picture_write(&queue->pictures[slot], &message);
+            pthread_mutex_lock(&queue->lock);
+            if (!written)
+                queue->failure = message;
+        }
+        queue->states[slot] = SLOT_FREE;
+        pthread_cond_broadcast(&queue->changed);
+    }
+    pthread_mutex_unlock(&queue->lock);
+    return NULL;
+}
+
+static void free_queue(PictureQueue *queue)
+{
+    for (int i = 0; i < SLOTS; i++)
+        image_close(&queue->pictures[i].image);
+    pthread_cond_destroy(&queue->changed);
+    pthread_mutex_destroy(&queue->lock);
+    free(queue);
+}
+
+bool picture_queue_open(PictureQueue **opened, int width, int height, ImageType type,
+                        Message *message)
+{
+    PictureQueue *queue = calloc(1, sizeof *queue);
+    *opened = NULL;
+    if (!queue)
+        return message_set(message, "pictures: not enough memory");
+    pthread_mutex_init(&queue->lock, NULL);
+    pthread_cond_init(&queue->changed, NULL);
+    for (int i = 0; i < SLOTS; i++) {
+        if (!image_open(&queue->pictures[i].image, width, height, type, message)) {
+            free_queue(queue);
+            return false;
+        }
+    }
+    const int error = pthread_create(&queue->thread, NULL, write_pictures, queue);
+    if (error) {
+        free_queue(queue);
+        return message_set(message, "pictures: cannot start a thread: %s", strerror(error));
+    }
+    *opened = queue;
+    return true;
+}
+
+Picture *picture_queue_take(PictureQueue *queue)
+{
+    int slot;
+    pthread_mutex_lock(&queue->lock);
+    while ((slot = oldest(queue, SLOT_FREE)) < 0)
+        pthread_cond_wait(&queue->changed, &queue->lock);
+    queue->states[slot] = SLOT_TAKEN;
+    pthread_mutex_unlock(&queue->lock);
+    return &queue->pictures[slot];
+}
+
+bool picture_queue_give(PictureQueue *queue, Picture *picture, Message *message)
+{
+    const size_t slot = (size_t)(picture - queue->pictures);
+    pthread_mutex_lock(&queue->lock);
+    queue->states[slot] = SLOT_WAITING;
+    queue->order[slot] = queue->given++;
+    const Message failure = queue->failure;
+    pthread_cond_broadcast(&queue->changed);
+    pthread_mutex_unlock(&queue->lock);
+    return failure.text[0] ? message_set(message, "%s", failure.text) : true;
+}
+
+bool picture_queue_close(PictureQueue *queue, Message *message)
+{
+    if (!queue)
+        return true;
+    pthread_mutex_lock(&queue->lock);
+    queue->ended = true;
+    pthread_cond_broadcast(&queue->changed);
+    pthread_mutex_unlock(&queue->lock);
+    pthread_join(queue->thread, NULL);
+    const bool written = !queue->failure.text[0];
+    if (!written)
+        message_set(message, "%s", queue->failure.text);
+    free_queue(queue);
+    return written;
+}

@@ -1,0 +1,46 @@
+/*
+ * picture: a drawn image on its way to a file, on this thread or on a second one.
+ *
+ * A queue keeps one thread encoding and writing while the caller draws: with two cores an animation
+ * costs the longer of the two, not their sum.
+ */
+#ifndef PICTURE_H
+#define PICTURE_H
+
+#include "image.h"
+
+#include <limits.h>
+
+/* An image and everything its file needs. */
+typedef struct Picture {
+    Image image;
+    char path[PATH_MAX]; /* "-": standard output, as PNG */
+    int compress;
+    bool alpha;
+    /* The file's text chunks. */
+    char title[64];     /* the program's name */
+    char moment[64];    /* the time drawn: "1.5 s" */
+    char settings[512]; /* size, samples, precision, renderer */
+} Picture;
+
+/* Encodes and writes; see output.h for what becomes of an existing file. */
+bool picture_write(const Picture *picture, Message *message);
+
+typedef struct PictureQueue PictureQueue;
+
+/* Starts the second thread. Every picture of the queue has this size and type. */
+bool picture_queue_open(PictureQueue **queue, int width, int height, ImageType type,
+                        Message *message);
+
+/* A picture to draw into; waits while all are being written. */
+Picture *picture_queue_take(PictureQueue *queue);
+
+/* Gives it to the second thread. False, with its message, where an earlier picture could not be
+ * written: nothing more is written then. */
+bool picture_queue_give(PictureQueue *queue, Picture *picture, Message *message);
+
+/* Waits until all that was given is written, ends the thread and frees the queue. False, with the
+ * first failure's message, where a picture could not be written. NULL is fine. */
+bool picture_queue_close(PictureQueue *queue, Message *message);
+
+#endif

@@ -1,0 +1,33 @@
+/*
+ * stage: what a program with one example and a gallery of them share: a canvas opened as the
+ * options say, an example put on it, a frame drawn and made a picture.
+ */
+#ifndef STAGE_H
+#define STAGE_H
+
+#include "canvas.h"
+#include "example.h"
+#include "options.h"
+#include "picture.h"
+
+/* Opens the canvas that the options ask for; with float colours where the output's format holds
+ * them. On --verbose says on standard error what it got. */
+bool stage_open(Canvas *canvas, const Options *options, const char *output, Message *message);
+
+/* The example's init, with its name before the message, and its finish, which also puts back the
+ * GL state that an example may have changed. */
+bool stage_enter(const Example *example, const Options *options, Message *message);
+void stage_leave(const Example *example);
+
+/* Clears the canvas and draws one frame, without reading it back. */
+bool stage_draw(const Example *example, const Canvas *canvas, const Options *options,
+                double seconds, Message *message);
+
+/* Draws one frame and reads it back into the picture, whose path is set by the caller. */
+bool stage_picture(const Example *example, const Canvas *canvas, const Options *options,
+                   double seconds, Picture *picture, Message *message);
+
+/* --doctor: says what this machine has. Returns the exit code. */
+int stage_doctor(void);
+
+#endif
