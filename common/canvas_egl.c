@@ -248,7 +248,7 @@ static bool egl_open(void **opened, const char **platform, Message *message)
         return message_set(message, "EGL: not enough memory");
     Route routes[2 + MOST_DEVICES];
     const int count = find_routes(routes);
-    char reasons[1024] = "";
+    Message reasons = {0};
     for (int i = 0; i < count; i++) {
         Message reason = {0};
         if (route_open(&routes[i], context, &reason)) {
@@ -256,16 +256,14 @@ static bool egl_open(void **opened, const char **platform, Message *message)
             *platform = context->platform;
             return true;
         }
-        const size_t used = strlen(reasons);
-        snprintf(reasons + used, sizeof reasons - used, "%s%s: %.200s", i ? "; " : "",
-                 routes[i].name, reason.text);
+        message_add(&reasons, "%s%s: %s", i ? "; " : "", routes[i].name, reason.text);
     }
     free(context);
     return message_set(
         message,
         "EGL: no platform gives an OpenGL ES 2 context (%s); install the packages " EGL_PACKAGES
         ", or see --doctor",
-        reasons);
+        reasons.text);
 }
 
 static void egl_close(void *opened)

@@ -4,78 +4,73 @@
 #include "progress.h"
 #include "stage.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
-/* One picture, all on this thread. */
-static bool draw_one(const Example *example, const Canvas *canvas, const Options *options,
-                     Message *message)
+/* Where picture `number` goes. */
+static bool picture_path(const Options *options, int number, char path[PATH_MAX], Message *message)
 {
-    Picture picture = {.path = ""};
-    snprintf(picture.path, sizeof picture.path, "%s", options->output);
-    const double start = progress_now();
-    bool done = image_open(&picture.image, canvas->width, canvas->height,
-                           canvas->real ? IMAGE_FLOAT : IMAGE_BYTE, message) &&
-                stage_picture(example, canvas, options, options->seconds, &picture, message);
-    const double drawn = progress_now();
-    done = done && picture_write(&picture, message);
-    if (done && options->verbose)
-        fprintf(stderr, "drawing and reading took %.1f ms, encoding and writing %.1f ms\n",
-                1e3 * (drawn - start), 1e3 * (progress_now() - drawn));
-    image_close(&picture.image);
-    return done;
+    if (options->frames > 1)
+        return output_numbered(options->output, number, path, PATH_MAX, message);
+    if (snprintf(path, PATH_MAX, "%s", options->output) >= PATH_MAX)
+        return message_set(message, "%s: %s", options->output, strerror(ENAMETOOLONG));
+    return true;
 }
 
-/* Several pictures: a second thread writes one while the next is drawn. */
-static bool draw_many(const Example *example, const Canvas *canvas, const Options *options,
-                      Message *message)
+/* Draws every picture that the options ask for, and gives it to the thread that writes. */
+static bool draw(const Example *example, const Canvas *canvas, const Options *options,
+                 PictureQueue *queue, Message *message)
 {
-    PictureQueue *queue;
-    if (!picture_queue_open(&queue, canvas->width, canvas->height,
-                            canvas->real ? IMAGE_FLOAT : IMAGE_BYTE, message))
-        return false;
     Progress progress = progress_start(example->name);
     bool done = true;
     for (int i = 0; i < options->frames && done; i++) {
         const double seconds = options->seconds + i / options->fps;
         Picture *picture = picture_queue_take(queue);
-        done = output_numbered(options->output, i, picture->path, sizeof picture->path, message) &&
+        done = picture_path(options, i, picture->path, message) &&
                stage_picture(example, canvas, options, seconds, picture, message) &&
                picture_queue_give(queue, picture, message);
         progress_update(&progress, i + 1, options->frames);
     }
     progress_end(&progress);
-    const bool written = picture_queue_close(queue, message);
-    if (done && written && options->verbose)
-        fprintf(stderr, "%d pictures took %.1f ms\n", options->frames,
+    if (done && options->verbose)
+        fprintf(stderr, "drawing and reading took %.1f ms\n",
                 1e3 * (progress_now() - progress.start));
-    return done && written;
+    return done;
 }
 
 static bool run(const Example *example, const Options *options, Message *message)
 {
     char first[PATH_MAX];
     Canvas canvas = {0};
-    const bool many = options->frames > 1;
-    if (many && !output_numbered(options->output, 0, first, sizeof first, message))
+    PictureQueue *queue = NULL;
+    if (!shader_loader_check(&options->shaders, message) ||
+        !picture_path(options, 0, first, message))
         return false;
-    if (!shader_loader_check(&options->shaders, message))
+    if (!options->shaders.print && !output_check(first, message))
         return false;
-    if (!options->shaders.print && !output_check(many ? first : options->output, message))
-        return false;
-    /* While a second thread encodes, llvmpipe's own threads are in its way. */
-    if (many)
+    /* While a second thread encodes one picture after another, llvmpipe's own are in its way. */
+    if (options->frames > 1)
         setenv("LP_NUM_THREADS", "0", 0);
-    if (!stage_open(&canvas, options, options->output, message))
+    if (!stage_open(&canvas, options, first, message))
         return false;
     bool done = stage_enter(example, options, message);
     if (done) {
         if (!options->shaders.print)
-            done = many ? draw_many(example, &canvas, options, message)
-                        : draw_one(example, &canvas, options, message);
+            done = picture_queue_open(&queue, canvas.width, canvas.height,
+                                      canvas.real ? IMAGE_FLOAT : IMAGE_BYTE, options->frames,
+                                      message) &&
+                   draw(example, &canvas, options, queue, message);
         stage_leave(example);
     }
+    /* The driver takes as long to close as the last picture to encode: both at once. */
+    const double start = progress_now();
     canvas_close(&canvas);
+    done = picture_queue_close(queue, message) && done;
+    if (done && options->verbose)
+        fprintf(stderr, "closing, and encoding and writing the last picture, took %.1f ms\n",
+                1e3 * (progress_now() - start));
     return done;
 }
 

@@ -5,7 +5,7 @@
 #include <string.h>
 
 /* One being drawn, one being written, and one between them to even out their times. */
-enum { SLOTS = 3 };
+enum { MOST_SLOTS = 3 };
 
 typedef enum SlotState { SLOT_FREE, SLOT_TAKEN, SLOT_WAITING, SLOT_WRITING } SlotState;
 
@@ -13,9 +13,10 @@ struct PictureQueue {
     pthread_t thread;
     pthread_mutex_t lock;
     pthread_cond_t changed;
-    Picture pictures[SLOTS];
-    SlotState states[SLOTS];
-    unsigned long order[SLOTS]; /* of giving, so that pictures are written in that order */
+    int slots;
+    Picture pictures[MOST_SLOTS];
+    SlotState states[MOST_SLOTS];
+    unsigned long order[MOST_SLOTS]; /* of giving, so that pictures are written in that order */
     unsigned long given;
     bool ended;
     Message failure; /* of the first picture that could not be written */
@@ -39,7 +40,7 @@ bool picture_write(const Picture *picture, Message *message)
 static int oldest(const PictureQueue *queue, SlotState state)
 {
     int found = -1;
-    for (int i = 0; i < SLOTS; i++)
+    for (int i = 0; i < queue->slots; i++)
         if (queue->states[i] == state && (found < 0 || queue->order[i] < queue->order[found]))
             found = i;
     return found;
@@ -75,23 +76,24 @@ static void *write_pictures(void *argument)
 
 static void free_queue(PictureQueue *queue)
 {
-    for (int i = 0; i < SLOTS; i++)
+    for (int i = 0; i < queue->slots; i++)
         image_close(&queue->pictures[i].image);
     pthread_cond_destroy(&queue->changed);
     pthread_mutex_destroy(&queue->lock);
     free(queue);
 }
 
-bool picture_queue_open(PictureQueue **opened, int width, int height, ImageType type,
+bool picture_queue_open(PictureQueue **opened, int width, int height, ImageType type, int count,
                         Message *message)
 {
     PictureQueue *queue = calloc(1, sizeof *queue);
     *opened = NULL;
     if (!queue)
         return message_set(message, "pictures: not enough memory");
+    queue->slots = count < MOST_SLOTS ? count : MOST_SLOTS;
     pthread_mutex_init(&queue->lock, NULL);
     pthread_cond_init(&queue->changed, NULL);
-    for (int i = 0; i < SLOTS; i++) {
+    for (int i = 0; i < queue->slots; i++) {
         if (!image_open(&queue->pictures[i].image, width, height, type, message)) {
             free_queue(queue);
             return false;

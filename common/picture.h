@@ -28,8 +28,8 @@ bool picture_write(const Picture *picture, Message *message);
 
 typedef struct PictureQueue PictureQueue;
 
-/* Starts the second thread. Every picture of the queue has this size and type. */
-bool picture_queue_open(PictureQueue **queue, int width, int height, ImageType type,
+/* Starts the second thread, for `count` pictures of this size and type. */
+bool picture_queue_open(PictureQueue **queue, int width, int height, ImageType type, int count,
                         Message *message);
 
 /* A picture to draw into; waits while all are being written. */

@@ -1,0 +1,101 @@
+# setup.sh: what examples/run and tests/run do before their own work; sourced, not run.
+#
+#   setup_packages NAME...   installs those Debian packages that are missing, having said so
+#   setup_lock               keeps a second call from building in the same folder at once
+#   setup_configure          configures the build folder, unless that is done
+#   setup_build TARGET       builds what is not up to date
+#
+# Sets $root, the source tree, and $build, the build folder (LIGHTING_BUILD in the environment, or
+# build/ in the source tree). Nothing here uses the network when nothing is missing.
+
+root=$(cd "$(dirname "$0")/.." && pwd -P) || exit 1
+build=${LIGHTING_BUILD:-$root/build}
+
+# To build and draw; the rest of what EGL needs at run time comes with these.
+packages_to_draw="gcc g++ libc6-dev pkg-config meson ninja-build libegl-dev libgles-dev libegl1
+    libegl-mesa0 libgl1-mesa-dri libpng-dev libopenimageio-dev fonts-dejavu-core"
+packages_to_test="libcmocka-dev python3"
+
+say() {
+    printf '%s: %s\n' "$(basename "$(dirname "$0")")/$(basename "$0")" "$*" >&2
+}
+
+setup_packages() {
+    command -v dpkg-query >/dev/null || {
+        command -v meson >/dev/null && return 0
+        say "this is not a Debian system; install what these packages hold, then run again: $*"
+        exit 1
+    }
+    missing=$(dpkg-query -W -f '${Package} ${db:Status-Status}\n' "$@" 2>/dev/null |
+        awk -v wanted="$*" '$2 == "installed" { have[$1] = 1 }
+            END { n = split(wanted, w, " "); for (i = 1; i <= n; i++) if (!(w[i] in have)) print w[i] }')
+    [ -n "$missing" ] || return 0
+    # shellcheck disable=SC2086
+    set -- $missing
+    sudo=
+    if [ "$(id -u)" != 0 ]; then
+        sudo=sudo
+        command -v sudo >/dev/null || {
+            say "missing packages, and neither root nor sudo; as root run: apt-get install $*"
+            exit 1
+        }
+    fi
+    say "installing with apt-get: $*"
+    log=$(mktemp) || exit 1
+    # The lists of packages may be old or absent: fetch them only then.
+    if ! $sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "$@" \
+        >"$log" 2>&1 </dev/null &&
+        ! { $sudo apt-get update >"$log" 2>&1 </dev/null &&
+            $sudo env DEBIAN_FRONTEND=noninteractive \
+                apt-get install -y --no-install-recommends "$@" >>"$log" 2>&1 </dev/null; }; then
+        tail -n 5 "$log" >&2
+        rm -f "$log"
+        say "apt-get could not install: $*"
+        exit 1
+    fi
+    rm -f "$log"
+    installed=yes
+}
+
+# One at a time: two calls must not build in one folder at once. Waits for the other.
+setup_lock() {
+    mkdir -p "$build" || {
+        say "cannot make the build folder $build; LIGHTING_BUILD names another"
+        exit 1
+    }
+    exec 9>"$build/.lock" || {
+        say "cannot write to the build folder $build; LIGHTING_BUILD names another"
+        exit 1
+    }
+    flock 9
+}
+
+setup_configure() {
+    [ -f "$build/build.ninja" ] && [ -z "${installed-}" ] && return 0
+    say "configuring $build"
+    log=$(mktemp) || exit 1
+    # What an interrupted configuration left is not worth keeping.
+    [ -f "$build/build.ninja" ] || rm -rf "$build/meson-private" "$build/meson-info"
+    again=
+    [ -f "$build/build.ninja" ] && again=--reconfigure # what was missing may be there now
+    if ! meson setup $again "$build" "$root" >"$log" 2>&1 9>&-; then
+        tail -n 20 "$log" >&2
+        rm -f "$log"
+        say "meson could not configure $build"
+        exit 1
+    fi
+    rm -f "$log"
+}
+
+setup_build() {
+    if ! [ -f "$build/.built-$1" ]; then
+        say "building"
+        [ -t 2 ] && ninja -C "$build" "$1" >&2 9>&- # with ninja's own progress line
+    fi
+    if ! output=$(ninja -C "$build" "$1" 2>&1 9>&-); then
+        printf '%s\n' "$output" >&2
+        say "the build failed"
+        exit 1
+    fi
+    : >"$build/.built-$1"
+}

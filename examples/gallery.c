@@ -1,0 +1,311 @@
+/*
+ * gallery: every picture in one process and one context.
+ *
+ * Writes each example's picture, a contact sheet of them all, and index.html, a page with the
+ * pictures, what each teaches, and the command that draws it. While a second thread encodes one
+ * picture the next is drawn.
+ */
+#include "output.h"
+#include "progress.h"
+#include "stage.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+/* The build gives every example's name, as X(LightedCube) X(LightedCube_animation)... */
+#define X(name) extern const Example name;
+EXAMPLES
+#undef X
+
+static const Example *const ALL[] = {
+#define X(name) &name,
+    EXAMPLES
+#undef X
+};
+enum { COUNT = sizeof ALL / sizeof ALL[0] };
+
+/* The contact sheet: thumbnails in rows, a label under each. In pixels. */
+enum { COLUMNS = 3, THUMBNAIL = 200, MARGIN = 10, LABEL = 22, LABEL_SIZE = 12 };
+
+/* The examples to draw, in the order of ALL. */
+typedef struct Selection {
+    const Example *examples[COUNT];
+    int count;
+} Selection;
+
+static bool select_examples(Selection *selection, char *const *names, Message *message)
+{
+    bool chosen[COUNT] = {false};
+    const char *known[COUNT + 1] = {NULL};
+    for (int i = 0; i < COUNT; i++)
+        known[i] = ALL[i]->name;
+    for (char *const *name = names; *name; name++) {
+        int found = -1;
+        for (int i = 0; i < COUNT && found < 0; i++)
+            if (strcmp(*name, known[i]) == 0)
+                found = i;
+        if (found < 0) {
+            const char *nearest = options_nearest(*name, known);
+            return message_set(message, "%s: no such program; %s%s%s", *name,
+                               nearest ? "did you mean " : "examples/run --list names them",
+                               nearest ? nearest : "", nearest ? "?" : "");
+        }
+        chosen[found] = true;
+    }
+    for (int i = 0; i < COUNT; i++)
+        if (!*names || chosen[i])
+            selection->examples[selection->count++] = ALL[i];
+    return true;
+}
+
+/* The folder, made if it is not there. Its path is short enough for what will stand in it. */
+static bool make_folder(const char *folder, Message *message)
+{
+    struct stat status;
+    if (strlen(folder) > PATH_MAX - 128)
+        return message_set(message, "%s: %s", folder, strerror(ENAMETOOLONG));
+    if (mkdir(folder, 0777) != 0 && errno != EEXIST)
+        return message_set(message, "%s: cannot make the folder: %s", folder, strerror(errno));
+    if (stat(folder, &status) != 0 || !S_ISDIR(status.st_mode))
+        return message_set(message, "%s: is there already and no folder", folder);
+    return true;
+}
+
+/* The mean of the pixels that one pixel of a thumbnail covers: whole pixels, at least one. */
+static void shrink(const Image *image, unsigned char *to, size_t stride, int width, int height)
+{
+    const unsigned char *from = image->pixels;
+    for (int y = 0; y < height; y++) {
+        const int y0 = y * image->height / height;
+        const int y1 = (y + 1) * image->height / height;
+        for (int x = 0; x < width; x++) {
+            const int x0 = x * image->width / width, x1 = (x + 1) * image->width / width;
+            unsigned sum[3] = {0, 0, 0}, count = 0;
+            for (int j = y0; j < y1 || j == y0; j++) {
+                for (int i = x0; i < x1 || i == x0; i++, count++)
+                    for (int c = 0; c < 3; c++)
+                        sum[c] +=
+                            from[4 * ((size_t)j * (size_t)image->width + (size_t)i) + (size_t)c];
+            }
+            unsigned char *pixel = to + (size_t)y * stride + 4 * (size_t)x;
+            for (int c = 0; c < 3; c++)
+                pixel[c] = (unsigned char)((sum[c] + count / 2) / count);
+            pixel[3] = 255;
+        }
+    }
+}
+
+static bool sheet_open(Image *sheet, int count, Message *message)
+{
+    const int columns = count < COLUMNS ? count : COLUMNS;
+    const int rows = (count + COLUMNS - 1) / COLUMNS;
+    if (!image_open(sheet, MARGIN + columns * (THUMBNAIL + MARGIN),
+                    MARGIN + rows * (THUMBNAIL + LABEL + MARGIN), IMAGE_BYTE, message))
+        return false;
+    unsigned char *pixels = sheet->pixels;
+    for (size_t i = 0; i < (size_t)sheet->width * (size_t)sheet->height; i++) {
+        pixels[4 * i] = pixels[4 * i + 1] = pixels[4 * i + 2] = 48;
+        pixels[4 * i + 3] = 255;
+    }
+    return true;
+}
+
+/* Where picture `index` has its place on the sheet. */
+static void sheet_place(int index, int *x, int *y)
+{
+    *x = MARGIN + index % COLUMNS * (THUMBNAIL + MARGIN);
+    *y = MARGIN + index / COLUMNS * (THUMBNAIL + LABEL + MARGIN);
+}
+
+static void sheet_put(Image *sheet, int index, const Image *image)
+{
+    const int longer = image->width > image->height ? image->width : image->height;
+    int width = (int)lround((double)THUMBNAIL * image->width / longer);
+    int height = (int)lround((double)THUMBNAIL * image->height / longer);
+    width = width < 1 ? 1 : width;
+    height = height < 1 ? 1 : height;
+    int x, y;
+    sheet_place(index, &x, &y);
+    x += (THUMBNAIL - width) / 2;
+    y += (THUMBNAIL - height) / 2;
+    const size_t stride = image_row_size(sheet);
+    unsigned char *to = (unsigned char *)sheet->pixels + (size_t)y * stride + 4 * (size_t)x;
+    shrink(image, to, stride, width, height);
+}
+
+/* Names under the thumbnails; a sheet without them, where there is no font, is still a sheet. */
+static void sheet_label(Image *sheet, const Selection *selection, const char *program)
+{
+    for (int i = 0; i < selection->count; i++) {
+        int x, y;
+        Message message = {0};
+        sheet_place(i, &x, &y);
+        if (!image_label(sheet, x + THUMBNAIL / 2, y + THUMBNAIL + 15, LABEL_SIZE,
+                         selection->examples[i]->name, &message)) {
+            fprintf(stderr, "%s: the contact sheet has no labels: %s\n", program, message.text);
+            return;
+        }
+    }
+}
+
+/* The options that make a difference to a picture, as one types them. */
+static void print_options(FILE *file, const Options *options)
+{
+    if (options->width != 400 || options->height != 400)
+        fprintf(file, " --size %dx%d", options->width, options->height);
+    if (options->seconds != 0)
+        fprintf(file, " --time %.17g", options->seconds);
+    if (options->canvas.samples)
+        fprintf(file, " --samples %d", options->canvas.samples);
+    if (options->shaders.precision)
+        fprintf(file, " --precision %s", options->shaders.precision);
+    if (options->alpha)
+        fprintf(file, " --alpha");
+}
+
+static bool write_page(const char *folder, const Selection *selection, const Options *options,
+                       Message *message)
+{
+    static const char head[] =
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+        "<title>Lighting: the gallery</title>\n<style>\n"
+        "body { font-family: sans-serif; background: #222; color: #eee; margin: 2em; }\n"
+        "main { display: flex; flex-wrap: wrap; gap: 1.5em; }\n"
+        "figure { margin: 0; width: 16em; }\n"
+        "img { width: 100%; height: 16em; object-fit: contain; background: #000; }\n"
+        "a { color: #9cf; }\ncode { color: #fc9; overflow-wrap: anywhere; }\n"
+        "</style>\n</head>\n<body>\n<h1>Lighting</h1>\n"
+        "<p><a href=\"contact-sheet.png\">All on one sheet</a></p>\n<main>\n";
+    char *text = NULL, path[PATH_MAX];
+    size_t size = 0;
+    FILE *file = open_memstream(&text, &size);
+    if (!file)
+        return message_set(message, "index.html: %s", strerror(errno));
+    fputs(head, file);
+    for (int i = 0; i < selection->count; i++) {
+        const Example *example = selection->examples[i];
+        fprintf(
+            file,
+            "<figure>\n<a href=\"%s.png\"><img src=\"%s.png\" alt=\"%s\" loading=\"lazy\"></a>\n"
+            "<figcaption><strong>%s</strong><br>%s<br><code>examples/run %s",
+            example->name, example->name, example->name, example->name, example->summary,
+            example->name);
+        print_options(file, options);
+        fputs("</code></figcaption>\n</figure>\n", file);
+    }
+    fputs("</main>\n</body>\n</html>\n", file);
+    fclose(file);
+    snprintf(path, sizeof path, "%s/index.html", folder);
+    const bool written = output_write(path, text, size, message);
+    free(text);
+    return written;
+}
+
+/* Draws one example into a picture of the queue, and into the sheet. */
+static bool draw(const Example *example, int index, const Canvas *canvas, const Options *options,
+                 PictureQueue *queue, Image *sheet, Message *message)
+{
+    if (!stage_enter(example, options, message))
+        return false;
+    Picture *picture = picture_queue_take(queue);
+    snprintf(picture->path, sizeof picture->path, "%s/%s.png", options->output, example->name);
+    const bool drawn = stage_picture(example, canvas, options, options->seconds, picture, message);
+    stage_leave(example);
+    if (!drawn)
+        return false;
+    sheet_put(sheet, index, &picture->image);
+    return picture_queue_give(queue, picture, message);
+}
+
+static bool draw_all(const Selection *selection, const Canvas *canvas, const Options *options,
+                     Image *sheet, Message *message)
+{
+    PictureQueue *queue;
+    Progress progress = progress_start("gallery");
+    if (!picture_queue_open(&queue, canvas->width, canvas->height, IMAGE_BYTE, selection->count,
+                            message))
+        return false;
+    bool done = true;
+    for (int i = 0; i < selection->count && done; i++) {
+        const double start = progress_now();
+        done = draw(selection->examples[i], i, canvas, options, queue, sheet, message);
+        if (options->verbose)
+            fprintf(stderr, "%s took %.1f ms\n", selection->examples[i]->name,
+                    1e3 * (progress_now() - start));
+        progress_update(&progress, i + 1, selection->count);
+    }
+    progress_end(&progress);
+    return picture_queue_close(queue, message) && done;
+}
+
+static bool write_sheet(const Image *sheet, const Options *options, Message *message)
+{
+    char path[PATH_MAX];
+    const ImageOptions image_options = {.compress = options->compress};
+    snprintf(path, sizeof path, "%s/contact-sheet.png", options->output);
+    return image_write(sheet, path, &image_options, message);
+}
+
+static bool run(const Selection *selection, const Options *options, Message *message)
+{
+    Canvas canvas = {0};
+    Image sheet = {0};
+    if (!shader_loader_check(&options->shaders, message))
+        return false;
+    setenv("LP_NUM_THREADS", "0", 0); /* as in example.c: a second thread encodes */
+    bool done = stage_open(&canvas, options, "gallery.png", message);
+    if (done && options->shaders.print) {
+        for (int i = 0; i < selection->count && done; i++) {
+            done = stage_enter(selection->examples[i], options, message);
+            if (done)
+                stage_leave(selection->examples[i]);
+        }
+    } else if (done) {
+        done = make_folder(options->output, message) &&
+               sheet_open(&sheet, selection->count, message) &&
+               draw_all(selection, &canvas, options, &sheet, message);
+        if (done) {
+            sheet_label(&sheet, selection, "gallery");
+            done = write_sheet(&sheet, options, message) &&
+                   write_page(options->output, selection, options, message);
+        }
+    }
+    image_close(&sheet);
+    canvas_close(&canvas);
+    return done;
+}
+
+int main(int argc, char *argv[])
+{
+    static const Usage usage = {
+        .name = "gallery",
+        .summary = "Draws every example, or those named, into a folder, with a contact sheet and a "
+                   "page.",
+        .gallery = true,
+    };
+    Options options;
+    Message message = {0};
+    Selection selection = {.count = 0};
+    options_prepare_process();
+    switch (options_read(&options, &usage, argc, argv, &message)) {
+    case OPTIONS_ANSWERED:
+        return options_finish(usage.name, 0);
+    case OPTIONS_BAD:
+        return options_fail(usage.name, &message, EXIT_USAGE);
+    case OPTIONS_RUN:
+        break;
+    }
+    if (!select_examples(&selection, options.names, &message))
+        return options_fail(usage.name, &message, EXIT_USAGE);
+    if (options.doctor)
+        return options_finish(usage.name, stage_doctor());
+    if (!run(&selection, &options, &message))
+        return options_fail(usage.name, &message, EXIT_FAILED);
+    if (!options.shaders.print && !message.text[0])
+        printf("%s/index.html\n", options.output);
+    return options_finish(usage.name, 0);
+}

@@ -1,0 +1,147 @@
+/*
+ * Pictures a second of 200 frames of PointLightedCube_perFragment at 400x400, to PNG files from one
+ * process: drawing and encoding side by side, over drawing and reading back alone, and over
+ * libpng's defaults written one after the other.
+ */
+#include "measure.h"
+#include "stage.h"
+
+#include <ftw.h>
+#include <png.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+extern const Example PointLightedCube_perFragment;
+
+enum { FRAMES = 200, ROUNDS = 7 };
+
+static const Example *const EXAMPLE_DRAWN = &PointLightedCube_perFragment;
+
+static Canvas canvas;
+static Options options = {
+    .width = 400, .height = 400, .frames = FRAMES, .fps = 30, .compress = IMAGE_COMPRESS_DEFAULT};
+static char folder[] = "/tmp/lighting-benchmark-XXXXXX";
+
+static double moment(int frame)
+{
+    return frame / options.fps;
+}
+
+/* Drawing and reading back, nothing else: what no way of writing can beat. */
+static bool draw_only(void *argument)
+{
+    (void)argument;
+    Message message = {0};
+    Picture picture = {.path = ""};
+    bool done = image_open(&picture.image, canvas.width, canvas.height, IMAGE_BYTE, &message);
+    for (int i = 0; i < FRAMES && done; i++)
+        done = stage_picture(EXAMPLE_DRAWN, &canvas, &options, moment(i), &picture, &message);
+    image_close(&picture.image);
+    return done;
+}
+
+/* As --frames does it. */
+static bool draw_and_write(void *argument)
+{
+    (void)argument;
+    Message message = {0};
+    PictureQueue *queue;
+    bool done =
+        picture_queue_open(&queue, canvas.width, canvas.height, IMAGE_BYTE, FRAMES, &message);
+    for (int i = 0; i < FRAMES && done; i++) {
+        Picture *picture = picture_queue_take(queue);
+        snprintf(picture->path, sizeof picture->path, "%s/frame%03d.png", folder, i);
+        done = stage_picture(EXAMPLE_DRAWN, &canvas, &options, moment(i), picture, &message) &&
+               picture_queue_give(queue, picture, &message);
+    }
+    done = picture_queue_close(queue, &message) && done;
+    if (!done)
+        fprintf(stderr, "%s\n", message.text);
+    return done;
+}
+
+static bool write_default_png(const char *path, const Image *image)
+{
+    FILE *file = fopen(path, "wb");
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, NULL, NULL);
+    png_infop info = png ? png_create_info_struct(png) : NULL;
+    if (!file || !info || setjmp(png_jmpbuf(png)))
+        abort();
+    png_init_io(png, file);
+    png_set_IHDR(png, info, (png_uint_32)image->width, (png_uint_32)image->height, 8,
+                 PNG_COLOR_TYPE_RGB_ALPHA, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+                 PNG_FILTER_TYPE_DEFAULT);
+    png_write_info(png, info);
+    for (int y = 0; y < image->height; y++)
+        png_write_row(png, (png_const_bytep)image->pixels + (size_t)y * image_row_size(image));
+    png_write_end(png, info);
+    png_destroy_write_struct(&png, &info);
+    return fclose(file) == 0;
+}
+
+static bool draw_then_write_default(void *argument)
+{
+    (void)argument;
+    Message message = {0};
+    Picture picture = {.path = ""};
+    char path[PATH_MAX];
+    bool done = image_open(&picture.image, canvas.width, canvas.height, IMAGE_BYTE, &message);
+    for (int i = 0; i < FRAMES && done; i++) {
+        snprintf(path, sizeof path, "%s/frame%03d.png", folder, i);
+        done = stage_picture(EXAMPLE_DRAWN, &canvas, &options, moment(i), &picture, &message) &&
+               write_default_png(path, &picture.image);
+    }
+    image_close(&picture.image);
+    return done;
+}
+
+static int remove_entry(const char *path, const struct stat *status, int type, struct FTW *walk)
+{
+    (void)status, (void)type, (void)walk;
+    return remove(path);
+}
+
+int main(void)
+{
+    Message message = {0};
+    setenv("LP_NUM_THREADS", "0", 0); /* as --frames does */
+    if (!mkdtemp(folder)) {
+        perror(folder);
+        return 1;
+    }
+    if (!stage_open(&canvas, &options, "x.png", &message) ||
+        !stage_enter(EXAMPLE_DRAWN, &options, &message)) {
+        canvas_close(&canvas);
+        rmdir(folder);
+        return options_fail("frames_benchmark", &message, 77);
+    }
+    enum { DRAW, WRITE, DEFAULT, COUNT };
+    Measured measured[COUNT] = {
+        [DRAW] = {"drawing and reading alone", draw_only, NULL, NULL},
+        [WRITE] = {"and writing, side by side", draw_and_write, NULL, NULL},
+        [DEFAULT] = {"libpng's default, one after the other", draw_then_write_default, NULL, NULL},
+    };
+    const bool done = measure_rounds(measured, COUNT, ROUNDS);
+    if (done) {
+        measure_print_machine();
+        printf("%-38s pictures/s\n", "200 frames, 400x400, one process");
+        for (int i = 0; i < COUNT; i++) {
+            const Summary time = measure_summary(measured[i].seconds, ROUNDS);
+            printf("%-38s %6.0f [%.0f, %.0f]\n", measured[i].name, FRAMES / time.median,
+                   FRAMES / time.upper, FRAMES / time.lower);
+        }
+        const Summary alone = measure_ratio(&measured[DRAW], &measured[WRITE], 1, ROUNDS);
+        const Summary plain = measure_ratio(&measured[DEFAULT], &measured[WRITE], 1, ROUNDS);
+        printf("pictures a second, side by side over drawing alone: %.2f [%.2f, %.2f]\n",
+               alone.median, alone.lower, alone.upper);
+        printf("pictures a second, side by side over libpng's default: %.1f [%.1f, %.1f]\n",
+               plain.median, plain.lower, plain.upper);
+    }
+    measure_finish(measured, COUNT);
+    stage_leave(EXAMPLE_DRAWN);
+    canvas_close(&canvas);
+    nftw(folder, remove_entry, 8, FTW_DEPTH | FTW_PHYS);
+    return done ? 0 : 1;
+}
