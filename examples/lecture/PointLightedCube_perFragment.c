@@ -4,7 +4,8 @@
  * New: position and normal are interpolated in the place of the colour, and the fragment shader
  * computes the light (Phong interpolation). The interpolated normal has to be made unit again.
  *
- * Look at the round pool of light on a face, which no interpolation between its corners can give.
+ * Look at how the light falls off on a face, alike in all directions: the diagonal between its two
+ * triangles shows no more.
  */
 #include "example.h"
 #include "matrix.h"
