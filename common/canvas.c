@@ -1,8 +1,12 @@
 #include "canvas.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* The functions of gl.h, and EGL's display, are those of one canvas. */
+static bool is_open;
 
 const CanvasBackend *const CANVAS_BACKENDS[] = {&CANVAS_EGL, NULL};
 
@@ -12,24 +16,22 @@ static GLenum color_format(const Canvas *canvas)
     return canvas->real ? GL_RGBA32F_EXT : GL_RGBA8_OES;
 }
 
-static bool check_size(const Canvas *canvas, int width, int height, Message *message)
+static bool check_size(const Canvas *canvas, Message *message)
 {
-    GLint most_buffer = 0, most_viewport[2] = {0, 0};
+    GLint most_buffer = 0, most[2] = {0, 0};
+    char how[64] = "";
     glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &most_buffer);
-    glGetIntegerv(GL_MAX_VIEWPORT_DIMS, most_viewport);
-    const int most_width = most_buffer < most_viewport[0] ? most_buffer : most_viewport[0];
-    const int most_height = most_buffer < most_viewport[1] ? most_buffer : most_viewport[1];
-    if (width >= 1 && width <= most_width && height >= 1 && height <= most_height)
+    glGetIntegerv(GL_MAX_VIEWPORT_DIMS, most);
+    for (int i = 0; i < 2; i++)
+        most[i] = (most_buffer < most[i] ? most_buffer : most[i]) / canvas->supersample;
+    if (canvas->width >= 1 && canvas->width <= most[0] && canvas->height >= 1 &&
+        canvas->height <= most[1])
         return true;
     if (canvas->supersample > 1)
-        return message_set(message,
-                           "size %dx%d: with %dx%d supersampling %s draws 1x1 to %dx%d; ask for "
-                           "less",
-                           canvas->width, canvas->height, canvas->supersample, canvas->supersample,
-                           canvas->renderer, most_width / canvas->supersample,
-                           most_height / canvas->supersample);
-    return message_set(message, "size %dx%d: %s draws 1x1 to %dx%d", canvas->width, canvas->height,
-                       canvas->renderer, most_width, most_height);
+        snprintf(how, sizeof how, " with %dx%d supersampling", canvas->supersample,
+                 canvas->supersample);
+    return message_set(message, "size %dx%d: %s%s draws 1x1 to %dx%d", canvas->width,
+                       canvas->height, canvas->renderer, how, most[0], most[1]);
 }
 
 static const char *framebuffer_status(GLenum status)
@@ -155,18 +157,17 @@ bool canvas_open(Canvas *canvas, const CanvasOptions *options, Message *message)
         .height = options->height,
         .supersample = options->supersample > 1 ? options->supersample : 1,
     };
-    if (!canvas->backend->open(&canvas->context, &canvas->platform, message)) {
+    if (is_open || !canvas->backend->open(&canvas->context, &canvas->platform, message)) {
         *canvas = (Canvas){0};
-        return false;
+        return message_set(message, "canvas: another one is open; close it first");
     }
+    is_open = true;
     if (!gl_load(canvas->backend->address, message))
         goto fail;
     canvas->renderer = (const char *)glGetString(GL_RENDERER);
     canvas->version = (const char *)glGetString(GL_VERSION);
     canvas->real = options->real && gl_version() >= 30 && gl_has("GL_EXT_color_buffer_float");
-    if (!choose_samples(canvas, options->samples, message) ||
-        !check_size(canvas, canvas->width * canvas->supersample,
-                    canvas->height * canvas->supersample, message) ||
+    if (!choose_samples(canvas, options->samples, message) || !check_size(canvas, message) ||
         !make_framebuffers(canvas, message))
         goto fail;
     canvas_begin(canvas);
@@ -281,5 +282,6 @@ void canvas_close(Canvas *canvas)
     }
     /* The context owns its framebuffers and takes them along. */
     canvas->backend->close(canvas->context);
+    is_open = false;
     *canvas = (Canvas){0};
 }

@@ -3,7 +3,7 @@
  *
  * A backend (EGL now; others join the table in canvas.c) makes an OpenGL ES 2 context current; the
  * canvas draws into framebuffer objects of its own, so that every backend has the same formats,
- * size and antialiasing. One canvas is current at a time: the one opened last.
+ * size and antialiasing. One canvas is open at a time.
  */
 #ifndef CANVAS_H
 #define CANVAS_H

@@ -84,16 +84,25 @@ bool encode(const Image *image, const char *format, const ImageOptions *options,
         const bool alpha = options->alpha && output->supports("alpha");
         ImageSpec spec(image->width, image->height, alpha ? CHANNELS : CHANNELS - 1,
                        type_of(image));
-        // Lossless where the format allows, and for JPEG a quality that keeps edges clean.
+        // Lossless where the library allows: its WebP is so but for a rounding of colours.
         spec.attribute("Compression", std::strcmp(format, "webp") == 0     ? "lossless"
                                       : std::strncmp(format, "jp", 2) == 0 ? "jpeg:95"
                                                                            : "zip");
         for (const ImageText *text = options->text; text && text->key; text++)
             spec.attribute(text->key, text->text);
+        // Unmultiplied colours are kept where the format can say so; else multiplied by alpha, as
+        // the library wants them.
+        ImageBuf own = wrap(image);
+        if (alpha && std::strncmp(format, "tif", 3) == 0)
+            spec.attribute("oiio:UnassociatedAlpha", 1);
+        else if (alpha)
+            own = ImageBufAlgo::premult(own);
+        if (own.has_error())
+            return or_unknown(own.geterror());
         const std::string path = "/proc/self/fd/" + std::to_string(file);
         if (!output->open(path, spec))
             return or_unknown(output->geterror());
-        if (!output->write_image(type_of(image), image->pixels,
+        if (!output->write_image(type_of(image), own.localpixels(),
                                  stride_t(CHANNELS * value_size(image))))
             return or_unknown(output->geterror());
         if (!output->close())
@@ -105,7 +114,10 @@ bool encode(const Image *image, const char *format, const ImageOptions *options,
 bool read(const char *path, Image *image, char *reason, size_t reason_size)
 {
     return guarded(reason, reason_size, [&]() -> std::string {
-        auto input = ImageInput::open(path);
+        // Colours as the file has them, where the format holds them unmultiplied.
+        ImageSpec wanted;
+        wanted.attribute("oiio:UnassociatedAlpha", 1);
+        auto input = ImageInput::open(path, &wanted);
         if (!input)
             return or_unknown(geterror());
         const ImageSpec spec = input->spec();
@@ -128,7 +140,10 @@ bool read(const char *path, Image *image, char *reason, size_t reason_size)
             return or_unknown(input->geterror());
         const int order[CHANNELS] = {0, n < 3 ? 0 : 1, n < 3 ? 0 : 2, n == 2 ? 1 : n > 3 ? 3 : -1};
         const float fill[CHANNELS] = {0, 0, 0, 1};
-        const ImageBuf spread = ImageBufAlgo::channels(file, CHANNELS, order, fill);
+        ImageBuf spread = ImageBufAlgo::channels(file, CHANNELS, order, fill);
+        spread.specmod().alpha_channel = CHANNELS - 1;
+        if (spec.alpha_channel >= 0 && !spec.get_int_attribute("oiio:UnassociatedAlpha"))
+            spread = ImageBufAlgo::unpremult(spread);
         if (spread.has_error())
             return or_unknown(spread.geterror());
         if (!spread.get_pixels(own.roi(), desc, image->pixels))

@@ -22,6 +22,12 @@ static bool starts_with(const char *text, const char *start)
     return strncmp(text, start, strlen(start)) == 0;
 }
 
+/* /dev/stdout and its like lead here: links that are not followed by name, but opened. */
+static bool stands_for_open_file(const char *path)
+{
+    return starts_with(path, "/proc/") || starts_with(path, "/dev/fd/");
+}
+
 static mode_t new_file_mode(void)
 {
     const mode_t mask = umask(0);
@@ -50,6 +56,8 @@ static bool follow_links(const char *path, Target *target, Message *message)
         return message_set(message, "%s: %s", path, strerror(ENAMETOOLONG));
     for (int i = 0; i <= MOST_LINKS; i++) {
         char link[PATH_MAX];
+        if (stands_for_open_file(target->path))
+            return true;
         const ssize_t length = readlink(target->path, link, sizeof link - 1);
         if (!set_folder(target))
             return message_set(message, "%s: %s", path, strerror(ENAMETOOLONG));
@@ -61,8 +69,6 @@ static bool follow_links(const char *path, Target *target, Message *message)
         if (strlen(joined) >= sizeof target->path)
             return message_set(message, "%s: %s", path, strerror(ENAMETOOLONG));
         memcpy(target->path, joined, strlen(joined) + 1);
-        if (starts_with(target->path, "/dev/") || starts_with(target->path, "/proc/"))
-            return true;
     }
     return message_set(message, "%s: %s", path, strerror(ELOOP));
 }
@@ -73,20 +79,14 @@ static bool find_target(const char *path, Target *target, Message *message)
     *target = (Target){.mode = 0};
     if (!path[0])
         return message_set(message, "the output's name is empty");
-    /* Links below these (/dev/stdout, /dev/fd/3, /proc/self/fd/3) stand for open files. */
-    if (starts_with(path, "/dev/") || starts_with(path, "/proc/")) {
-        if (snprintf(target->path, sizeof target->path, "%s", path) >= (int)sizeof target->path)
-            return message_set(message, "%s: %s", path, strerror(ENAMETOOLONG));
-    } else if (!follow_links(path, target, message)) {
+    if (!follow_links(path, target, message))
         return false;
-    }
     const bool exists = stat(target->path, &status) == 0;
     if (!exists && errno != ENOENT)
         return message_set(message, "%s: %s", path, strerror(errno));
     if (exists && S_ISDIR(status.st_mode))
         return message_set(message, "%s: is a folder; name a file in it", path);
-    target->through = (exists && !S_ISREG(status.st_mode)) || starts_with(target->path, "/dev/") ||
-                      starts_with(target->path, "/proc/");
+    target->through = (exists && !S_ISREG(status.st_mode)) || stands_for_open_file(target->path);
     target->mode = exists ? status.st_mode & 0777 : new_file_mode();
     if (exists && access(target->path, W_OK) != 0)
         return message_set(message, "%s: %s", path, strerror(errno));

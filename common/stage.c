@@ -67,12 +67,34 @@ bool stage_draw(const Example *example, const Canvas *canvas, const Options *opt
     const Frame frame = {.seconds = seconds, .aspect = (double)canvas->width / canvas->height};
     const float *color = example->clear_color;
     canvas_begin(canvas);
-    glClearColor(color[0], color[1], color[2], options->alpha ? 0 : 1);
+    if (options->alpha)
+        glClearColor(0, 0, 0, 0);
+    else
+        glClearColor(color[0], color[1], color[2], 1);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     if (example->draw(&frame))
         return true;
     return message_set(message, "no matrix can be made for time %g s at %dx%d", seconds,
                        canvas->width, canvas->height);
+}
+
+/* Where samples of an object and of the transparent background, which is black, were averaged, the
+ * colour is that of the object times its share, which alpha tells. */
+static void divide_by_alpha(Image *image)
+{
+    const size_t count = (size_t)image->width * (size_t)image->height;
+    for (size_t i = 0; i < count; i++) {
+        float *real = (float *)image->pixels + 4 * i;
+        unsigned char *byte = (unsigned char *)image->pixels + 4 * i;
+        for (int c = 0; c < 3; c++) {
+            if (image->type == IMAGE_FLOAT && real[3] > 0 && real[3] < 1) {
+                real[c] /= real[3];
+            } else if (image->type == IMAGE_BYTE && byte[3] > 0 && byte[3] < 255) {
+                const int color = (255 * byte[c] + byte[3] / 2) / byte[3];
+                byte[c] = (unsigned char)(color < 255 ? color : 255);
+            }
+        }
+    }
 }
 
 bool stage_picture(const Example *example, const Canvas *canvas, const Options *options,
@@ -81,6 +103,8 @@ bool stage_picture(const Example *example, const Canvas *canvas, const Options *
     if (!stage_draw(example, canvas, options, seconds, message) ||
         !canvas_read(canvas, &picture->image, message))
         return false;
+    if (options->alpha && (canvas->samples || canvas->supersample > 1))
+        divide_by_alpha(&picture->image);
     picture->compress = options->compress;
     picture->alpha = options->alpha;
     snprintf(picture->title, sizeof picture->title, "%s", example->name);

@@ -1,0 +1,1063 @@
+/*
+ * The canvas, on every backend that this machine has: formats, sizes, rows, antialiasing, what it
+ * refuses and what it gives back. What a driver may lack is tried with backends that hide it.
+ */
+#include "canvas.h"
+#include "mesh_buffer.h"
+#include "picture_check.h"
+#include "shader.h"
+
+#include <dirent.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <cmocka.h>
+
+#if defined(__SANITIZE_ADDRESS__)
+#define ADDRESS_SANITIZER true
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define ADDRESS_SANITIZER true
+#endif
+#endif
+#ifndef ADDRESS_SANITIZER
+#define ADDRESS_SANITIZER false
+#endif
+
+static const double PI = 3.14159265358979323846;
+static const Vec3 WHITE = {1, 1, 1}, RED = {1, 0, 0}, GREEN = {0, 1, 0}, BLUE = {0, 0, 1};
+
+static const CanvasBackend *backend; /* under test */
+
+/* Opening, reading, comparing. */
+
+static Canvas open_canvas(CanvasOptions options)
+{
+    Canvas canvas;
+    Message message = {0};
+    if (!options.backend)
+        options.backend = backend;
+    if (!canvas_open(&canvas, &options, &message))
+        fail_msg("%s", message.text);
+    return canvas;
+}
+
+static void assert_zeroed(const Canvas *canvas)
+{
+    static const Canvas zero;
+    assert_memory_equal(canvas, &zero, sizeof zero);
+}
+
+static void assert_refused(CanvasOptions options, const char *expected)
+{
+    Canvas canvas;
+    Message message = {0};
+    memset(&canvas, 0xa5, sizeof canvas);
+    if (!options.backend)
+        options.backend = backend;
+    assert_false(canvas_open(&canvas, &options, &message));
+    assert_string_equal(message.text, expected);
+    assert_zeroed(&canvas);
+}
+
+static Image new_image(const Canvas *canvas)
+{
+    Image image;
+    assert_true(image_open(&image, canvas->width, canvas->height,
+                           canvas->real ? IMAGE_FLOAT : IMAGE_BYTE, NULL));
+    return image;
+}
+
+static Image read_canvas(const Canvas *canvas)
+{
+    Message message = {0};
+    Image image = new_image(canvas);
+    if (!canvas_read(canvas, &image, &message))
+        fail_msg("%s", message.text);
+    return image;
+}
+
+static unsigned char *pixel(const Image *image, int x, int y)
+{
+    return (unsigned char *)image->pixels + 4 * ((size_t)y * (size_t)image->width + (size_t)x);
+}
+
+static void set_pixel(Image *image, int x, int y, Vec3 color)
+{
+    unsigned char *p = pixel(image, x, y);
+    p[0] = (unsigned char)(255 * color.x);
+    p[1] = (unsigned char)(255 * color.y);
+    p[2] = (unsigned char)(255 * color.z);
+    p[3] = 255;
+}
+
+/* Every value lies within least..most. Where one does not, the pictures are written to files. */
+static void assert_between(const Image *got, const Image *least, const Image *most,
+                           const char *name)
+{
+    for (int y = 0; y < got->height; y++) {
+        for (int x = 0; x < got->width; x++) {
+            for (int c = 0; c < 4; c++) {
+                const int value = pixel(got, x, y)[c];
+                const int low = pixel(least, x, y)[c], high = pixel(most, x, y)[c];
+                if (value >= low && value <= high)
+                    continue;
+                picture_check_keep(name, got, least);
+                fail_msg("%s: pixel (%d, %d), channel %d is %d, not %d to %d", name, x, y, c, value,
+                         low, high);
+            }
+        }
+    }
+}
+
+/* A program that draws in one colour: the last of the lecture's cubes in ambient light alone, so
+ * that the colour is a uniform of the fragment shader. */
+typedef struct Flat {
+    Shader shader;
+    GLint clip_from_model, color;
+} Flat;
+
+static void set_matrix(const Shader *shader, const char *name, Mat4 matrix)
+{
+    GLint location;
+    assert_true(shader_uniform(shader, name, &location, NULL));
+    shader_set_mat4(location, matrix);
+}
+
+static Flat open_flat(void)
+{
+    static const float unit[3] = {0, 0, 1}, white[3] = {1, 1, 1};
+    const ShaderLoader loader = {.precision = "highp"};
+    Flat flat;
+    GLint light = -1, color = -1, normal = -1;
+    Message message = {0};
+    if (!shader_open(&flat.shader, &loader, "lecture/PointLightedCube_perFragment", &message) ||
+        !shader_uniform(&flat.shader, "u_MvpMatrix", &flat.clip_from_model, &message) ||
+        !shader_uniform(&flat.shader, "u_AmbientLight", &flat.color, &message) ||
+        !shader_uniform(&flat.shader, "u_LightPosition", &light, &message) ||
+        !shader_attribute(&flat.shader, "a_Color", &color, &message) ||
+        !shader_attribute(&flat.shader, "a_Normal", &normal, &message))
+        fail_msg("%s", message.text);
+    glUseProgram(flat.shader.program);
+    glVertexAttrib3fv((GLuint)color, white);
+    glVertexAttrib3fv((GLuint)normal, unit);
+    /* The light is black, but must have a direction. */
+    shader_set_vec3(light, (Vec3){0, 0, 1e6});
+    set_matrix(&flat.shader, "u_ModelMatrix", mat4_identity());
+    set_matrix(&flat.shader, "u_NormalMatrix", mat4_identity());
+    return flat;
+}
+
+static void draw_mesh(const Flat *flat, const Mesh *mesh, Mat4 clip_from_model, Vec3 color)
+{
+    MeshBuffer buffer;
+    Message message = {0};
+    if (!mesh_buffer_open(&buffer, mesh, &message))
+        fail_msg("%s", message.text);
+    mesh_buffer_bind(&buffer, 0, -1);
+    shader_set_mat4(flat->clip_from_model, clip_from_model);
+    shader_set_vec3(flat->color, color);
+    glDrawElements(GL_TRIANGLES, buffer.index_count, buffer.index_type, NULL);
+    mesh_buffer_close(&buffer);
+}
+
+typedef struct Point {
+    double x, y;
+} Point;
+
+enum { MOST_CORNERS = 16 };
+typedef struct Polygon {
+    Point corners[MOST_CORNERS];
+    int count;
+} Polygon;
+
+/* A convex polygon at depth z, as a fan of triangles. */
+static void draw_polygon(const Flat *flat, Polygon polygon, double z, Mat4 clip_from_model,
+                         Vec3 color)
+{
+    MeshVertex vertices[MOST_CORNERS];
+    uint32_t indices[3 * MOST_CORNERS];
+    size_t count = 0;
+    for (int i = 0; i < polygon.count; i++)
+        vertices[i] = (MeshVertex){
+            {(float)polygon.corners[i].x, (float)polygon.corners[i].y, (float)z}, {0, 0, 1}};
+    for (uint32_t i = 1; i + 1 < (uint32_t)polygon.count; i++) {
+        indices[count++] = 0;
+        indices[count++] = i;
+        indices[count++] = i + 1;
+    }
+    const Mesh mesh = {vertices, indices, (size_t)polygon.count, count};
+    draw_mesh(flat, &mesh, clip_from_model, color);
+}
+
+/* In clip coordinates: x to the right, y upwards, -1..1. */
+static void draw_rectangle(const Flat *flat, double left, double bottom, double right, double top,
+                           double z, Vec3 color)
+{
+    const Polygon polygon = {{{left, bottom}, {right, bottom}, {right, top}, {left, top}}, 4};
+    draw_polygon(flat, polygon, z, mat4_identity(), color);
+}
+
+static void clear(double red, double green, double blue, double alpha)
+{
+    glClearColor((float)red, (float)green, (float)blue, (float)alpha);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
+/* Formats. */
+
+static void a_canvas_has_8_bits_for_each_channel_and_24_of_depth(void **state)
+{
+    (void)state;
+    static const CanvasOptions wanted[] = {{.samples = 0}, {.samples = 4}, {.supersample = 2}};
+    for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
+        CanvasOptions options = wanted[i];
+        options.width = 40;
+        options.height = 30;
+        Canvas canvas = open_canvas(options);
+        GLint bits[4] = {0, 0, 0, 0};
+        glGetIntegerv(GL_RED_BITS, &bits[0]);
+        glGetIntegerv(GL_GREEN_BITS, &bits[1]);
+        glGetIntegerv(GL_BLUE_BITS, &bits[2]);
+        glGetIntegerv(GL_ALPHA_BITS, &bits[3]);
+        assert_true(bits[0] == 8 && canvas.red_bits == 8);
+        assert_true(bits[1] == 8 && canvas.green_bits == 8);
+        assert_true(bits[2] == 8 && canvas.blue_bits == 8);
+        assert_true(bits[3] == 8 && canvas.alpha_bits == 8);
+        assert_true(canvas.depth_bits >= 24);
+        assert_ptr_equal(canvas.backend, backend);
+        assert_true(canvas.renderer[0] && canvas.version[0] && canvas.platform[0]);
+        assert_true(canvas.width == 40 && canvas.height == 30 && !canvas.real);
+        canvas_close(&canvas);
+    }
+}
+
+static void depths_four_steps_of_24_bits_apart_are_told_apart_in_either_order(void **state)
+{
+    (void)state;
+    static const int samples[] = {0, 4};
+    for (size_t s = 0; s < 2; s++) {
+        for (int near_first = 0; near_first < 2; near_first++) {
+            Canvas canvas =
+                open_canvas((CanvasOptions){.width = 32, .height = 32, .samples = samples[s]});
+            Flat flat = open_flat();
+            Image expected = new_image(&canvas);
+            clear(0, 0, 0, 1);
+            glEnable(GL_DEPTH_TEST);
+            for (int i = 0; i < 2; i++) {
+                const bool near = i != near_first;
+                /* Depth runs from -1 to 1 in clip coordinates, so that a step is 2^-23; a float
+                 * near 0.5 has steps of 2^-25. */
+                draw_rectangle(&flat, -1, -1, 1, 1, near ? -0.5 : -0.5 + 4 * 0x1p-23,
+                               near ? GREEN : RED);
+            }
+            for (int y = 0; y < 32; y++)
+                for (int x = 0; x < 32; x++)
+                    set_pixel(&expected, x, y, GREEN);
+            Image got = read_canvas(&canvas);
+            assert_between(&got, &expected, &expected, "canvas-depth");
+            image_close(&got);
+            image_close(&expected);
+            shader_close(&flat.shader);
+            canvas_close(&canvas);
+        }
+    }
+}
+
+static void assert_colors(const Canvas *canvas, const float color[4], double tolerance)
+{
+    Image image = read_canvas(canvas);
+    const float *values = image.pixels;
+    for (int i = 0; i < 4 * image.width * image.height; i++) {
+        const float expected = color[i % 4];
+        if (isnan(expected))
+            assert_true(isnan(values[i]));
+        else if (isinf(expected))
+            assert_true(values[i] == expected);
+        else
+            assert_true(fabs(values[i] - expected) <= tolerance * fabs(expected));
+    }
+    image_close(&image);
+}
+
+static void a_float_canvas_keeps_what_is_above_1_below_0_and_not_finite(void **state)
+{
+    (void)state;
+    static const float colors[][4] = {{2.5F, -1, 0.1F, 1},
+                                      {1e30F, -1e-30F, 65536.125F, 1},
+                                      {INFINITY, -INFINITY, NAN, 1},
+                                      {0, 1, 1.0F / 3, 1}};
+    static const CanvasOptions wanted[] = {
+        {.samples = 0}, {.samples = 4}, {.supersample = 2}, {.supersample = 3}};
+    for (size_t w = 0; w < sizeof wanted / sizeof wanted[0]; w++) {
+        CanvasOptions options = wanted[w];
+        options.width = 5;
+        options.height = 3;
+        options.real = true;
+        Canvas canvas = open_canvas(options);
+        if (!canvas.real) {
+            print_message("%s draws no floats\n", canvas.renderer);
+            canvas_close(&canvas);
+            skip();
+        }
+        assert_int_equal(canvas.red_bits, 32);
+        Flat flat = open_flat();
+        for (size_t i = 0; i < sizeof colors / sizeof colors[0]; i++) {
+            const float *c = colors[i];
+            /* The mean of equal values, summed as floats: an error of 2^-24 for each of three sums
+             * of four; in double, none. */
+            const double tolerance = canvas.samples ? 0x3p-24 : 0;
+            clear(c[0], c[1], c[2], c[3]);
+            assert_colors(&canvas, c, tolerance);
+            clear(0, 0, 0, 1);
+            draw_rectangle(&flat, -1, -1, 1, 1, 0, (Vec3){c[0], c[1], c[2]});
+            assert_colors(&canvas, c, tolerance);
+        }
+        shader_close(&flat.shader);
+        canvas_close(&canvas);
+    }
+}
+
+static void each_of_the_256_levels_of_a_clear_color_is_read_back_exactly(void **state)
+{
+    (void)state;
+    static const CanvasOptions wanted[] = {
+        {.samples = 0}, {.samples = 4}, {.supersample = 2}, {.supersample = 3}};
+    for (size_t w = 0; w < sizeof wanted / sizeof wanted[0]; w++) {
+        CanvasOptions options = wanted[w];
+        options.width = 7;
+        options.height = 5;
+        Canvas canvas = open_canvas(options);
+        for (int level = 0; level < 256; level++) {
+            const int levels[4] = {level, 255 - level, (level + 85) % 256, (level + 170) % 256};
+            canvas_begin(&canvas);
+            clear(levels[0] / 255.0, levels[1] / 255.0, levels[2] / 255.0, levels[3] / 255.0);
+            Image image = read_canvas(&canvas);
+            const unsigned char *values = image.pixels;
+            for (int i = 0; i < 4 * 7 * 5; i++)
+                assert_int_equal(values[i], levels[i % 4]);
+            image_close(&image);
+        }
+        canvas_close(&canvas);
+    }
+}
+
+/* Rows, columns and sizes. */
+
+/* Rectangles that no turning or mirroring takes to each other. */
+static void assert_right_way_up(CanvasOptions options)
+{
+    Canvas canvas = open_canvas(options);
+    Flat flat = open_flat();
+    Image expected = new_image(&canvas);
+    const int width = canvas.width, height = canvas.height;
+    clear(0, 0, 0, 1);
+    draw_rectangle(&flat, -1, 0, 0, 1, 0, RED);   /* the upper left quarter */
+    draw_rectangle(&flat, 0, 0, 1, 1, 0, GREEN);  /* the upper right quarter */
+    draw_rectangle(&flat, -1, -1, 0, 0, 0, BLUE); /* the lower left quarter */
+    for (int y = 0; y < height; y++) {
+        for (int x = 0; x < width; x++) {
+            /* The sizes are even: no pixel has its centre on a border. */
+            const bool left = 2 * x + 1 < width, upper = 2 * y + 1 < height;
+            set_pixel(&expected, x, y,
+                      upper ? (left ? RED : GREEN) : (left ? BLUE : (Vec3){0, 0, 0}));
+        }
+    }
+    Image got = read_canvas(&canvas);
+    assert_between(&got, &expected, &expected, "canvas-quarters");
+    image_close(&got);
+    image_close(&expected);
+    shader_close(&flat.shader);
+    canvas_close(&canvas);
+}
+
+static void row_0_is_the_top_and_column_0_the_left(void **state)
+{
+    (void)state;
+    assert_right_way_up((CanvasOptions){.width = 64, .height = 48});
+    assert_right_way_up((CanvasOptions){.width = 64, .height = 48, .samples = 4});
+    assert_right_way_up((CanvasOptions){.width = 64, .height = 48, .supersample = 3});
+    assert_right_way_up((CanvasOptions){.width = 2, .height = 2});
+}
+
+static int most_side(void)
+{
+    Canvas canvas = open_canvas((CanvasOptions){.width = 1, .height = 1});
+    GLint buffer = 0, viewport[2] = {0, 0};
+    glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &buffer);
+    glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
+    canvas_close(&canvas);
+    assert_int_equal(viewport[0], viewport[1]);
+    return buffer < viewport[0] ? buffer : viewport[0];
+}
+
+static void a_canvas_is_as_small_as_one_pixel_and_as_long_as_the_driver_allows(void **state)
+{
+    (void)state;
+    static const Vec3 black = {0, 0, 0};
+    const int most = most_side();
+    assert_true(most >= 2048); /* what OpenGL ES 3 promises */
+    const int sizes[][2] = {{1, 1}, {most, 1}, {1, most}};
+    for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++) {
+        Canvas canvas = open_canvas((CanvasOptions){.width = sizes[s][0], .height = sizes[s][1]});
+        Flat flat = open_flat();
+        Image expected = new_image(&canvas);
+        clear(0, 0, 0, 1);
+        /* The first quarter from the left, or from the top; of one pixel, all. */
+        draw_rectangle(&flat, -1, canvas.height > 1 ? 0.5 : -1, canvas.width > 1 ? -0.5 : 1, 1, 0,
+                       WHITE);
+        for (int y = 0; y < canvas.height; y++)
+            for (int x = 0; x < canvas.width; x++)
+                set_pixel(&expected, x, y,
+                          4 * x < canvas.width && 4 * y < canvas.height ? WHITE : black);
+        Image got = read_canvas(&canvas);
+        assert_between(&got, &expected, &expected, "canvas-long");
+        image_close(&got);
+        image_close(&expected);
+        shader_close(&flat.shader);
+        canvas_close(&canvas);
+    }
+}
+
+static void a_size_beyond_the_driver_is_refused_and_the_limit_named(void **state)
+{
+    (void)state;
+    const int most = most_side();
+    const struct {
+        int width, height, supersample;
+    } bad[] = {{most + 1, 1, 0},     {1, most + 1, 0},  {0, 1, 0},         {1, 0, 0},
+               {-5, 7, 0},           {INT32_MAX, 1, 0}, {1, INT32_MIN, 0}, {most / 2 + 1, 1, 2},
+               {1, most / 3 + 1, 3}, {0, 4, 2}};
+    Canvas canvas = open_canvas((CanvasOptions){.width = 1, .height = 1});
+    char renderer[128];
+    snprintf(renderer, sizeof renderer, "%s", canvas.renderer);
+    canvas_close(&canvas);
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        const int side = bad[i].supersample;
+        char expected[512];
+        if (side)
+            snprintf(expected, sizeof expected,
+                     "size %dx%d: %s with %dx%d supersampling draws 1x1 to %dx%d", bad[i].width,
+                     bad[i].height, renderer, side, side, most / side, most / side);
+        else
+            snprintf(expected, sizeof expected, "size %dx%d: %s draws 1x1 to %dx%d", bad[i].width,
+                     bad[i].height, renderer, most, most);
+        assert_refused(
+            (CanvasOptions){.width = bad[i].width, .height = bad[i].height, .supersample = side},
+            expected);
+    }
+}
+
+/* Opening, closing, and what is reported. */
+
+static int open_files(void)
+{
+    int count = 0;
+    DIR *folder = opendir("/proc/self/fd");
+    assert_non_null(folder);
+    while (readdir(folder))
+        count++;
+    closedir(folder);
+    return count;
+}
+
+static long resident_kib(void)
+{
+    char line[256];
+    long kib = 0;
+    FILE *file = fopen("/proc/self/status", "r");
+    assert_non_null(file);
+    while (!kib && fgets(line, sizeof line, file))
+        sscanf(line, "VmRSS: %ld kB", &kib);
+    fclose(file);
+    return kib;
+}
+
+static void a_canvas_opened_200_times_keeps_no_file_and_no_memory(void **state)
+{
+    (void)state;
+    enum { WARM = 20, TIMES = 200, SIDE = 256 };
+    int files = 0;
+    long memory = 0;
+    for (int i = 0; i < WARM + TIMES; i++) {
+        if (i == WARM) {
+            files = open_files();
+            memory = resident_kib();
+        }
+        Canvas canvas = open_canvas((CanvasOptions){.width = SIDE, .height = SIDE});
+        clear(1, 0, 0, 1);
+        Image image = read_canvas(&canvas);
+        assert_int_equal(pixel(&image, SIDE - 1, SIDE - 1)[0], 255);
+        image_close(&image);
+        canvas_close(&canvas);
+    }
+    const long grown = resident_kib() - memory;
+    print_message("%d openings: %ld KiB more\n", TIMES, grown);
+    assert_int_equal(open_files(), files);
+    /* Colour and depth of one canvas are 512 KiB, of all of them 100 MiB. The driver and the heap
+     * keep some kilobytes for each context; one canvas in ten would be seen. The address
+     * sanitizer's quarantine grows by itself, and leaks are told by it. */
+    if (!ADDRESS_SANITIZER)
+        assert_true(grown < 10 * 1024);
+}
+
+static void of_two_canvases_one_after_another_each_shows_its_own(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        Canvas canvas = open_canvas((CanvasOptions){.width = 10 + i, .height = 20 - i});
+        clear(i, 1 - i, 0, 1);
+        Image image = read_canvas(&canvas);
+        for (int y = 0; y < 20 - i; y++) {
+            for (int x = 0; x < 10 + i; x++) {
+                assert_int_equal(pixel(&image, x, y)[0], 255 * i);
+                assert_int_equal(pixel(&image, x, y)[1], 255 * (1 - i));
+            }
+        }
+        image_close(&image);
+        canvas_close(&canvas);
+    }
+}
+
+static void a_canvas_may_be_closed_twice_and_nothing_may_be_closed(void **state)
+{
+    (void)state;
+    Canvas canvas = {0};
+    canvas_close(NULL);
+    canvas_close(&canvas);
+    canvas = open_canvas((CanvasOptions){.width = 3, .height = 3});
+    canvas_close(&canvas);
+    assert_zeroed(&canvas);
+    canvas_close(&canvas);
+    assert_zeroed(&canvas);
+}
+
+static void an_image_of_another_size_or_type_is_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        int width, height;
+        ImageType type;
+        bool real;
+        const char *message;
+    } bad[] = {
+        {11, 20, IMAGE_BYTE, false, "canvas: a 11x20 byte image cannot take a 10x20 byte picture"},
+        {10, 19, IMAGE_BYTE, false, "canvas: a 10x19 byte image cannot take a 10x20 byte picture"},
+        {20, 10, IMAGE_BYTE, false, "canvas: a 20x10 byte image cannot take a 10x20 byte picture"},
+        {10, 20, IMAGE_FLOAT, false,
+         "canvas: a 10x20 float image cannot take a 10x20 byte picture"},
+        {10, 20, IMAGE_BYTE, true, "canvas: a 10x20 byte image cannot take a 10x20 float picture"},
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        Canvas canvas =
+            open_canvas((CanvasOptions){.width = 10, .height = 20, .real = bad[i].real});
+        if (canvas.real == bad[i].real) {
+            Image image;
+            Message message = {0};
+            assert_true(image_open(&image, bad[i].width, bad[i].height, bad[i].type, NULL));
+            assert_false(canvas_read(&canvas, &image, &message));
+            assert_string_equal(message.text, bad[i].message);
+            image_close(&image);
+        }
+        canvas_close(&canvas);
+    }
+}
+
+static void an_error_that_a_program_made_is_reported_by_the_next_reading_alone(void **state)
+{
+    (void)state;
+    for (int supersample = 1; supersample <= 2; supersample++) {
+        Canvas canvas =
+            open_canvas((CanvasOptions){.width = 9, .height = 8, .supersample = supersample});
+        Image image = new_image(&canvas);
+        Message message = {0};
+        glEnable(0xFFFF);
+        assert_false(canvas_read(&canvas, &image, &message));
+        assert_non_null(strstr(message.text, "GL_INVALID_ENUM"));
+        assert_true(canvas_read(&canvas, &image, NULL));
+        glViewport(0, 0, -1, -1);
+        message = (Message){0};
+        assert_false(canvas_read(&canvas, &image, &message));
+        assert_non_null(strstr(message.text, "GL_INVALID_VALUE"));
+        image_close(&image);
+        canvas_close(&canvas);
+    }
+}
+
+/* Drivers that lack something: the backend under test, some of whose answers are hidden. */
+
+static struct {
+    const char *version, *extensions; /* NULL: as they are */
+    GLenum integer;                   /* the name of a number to be told as 16 */
+    const char *missing;              /* a function's name, or its beginning */
+} hidden;
+
+static const GLubyte *GL_APIENTRY hiding_get_string(GLenum name)
+{
+    if (name == GL_VERSION && hidden.version)
+        return (const GLubyte *)hidden.version;
+    if (name == GL_EXTENSIONS && hidden.extensions)
+        return (const GLubyte *)hidden.extensions;
+    return ((PFNGLGETSTRINGPROC)backend->address("glGetString"))(name);
+}
+
+static void GL_APIENTRY hiding_get_integers(GLenum name, GLint *values)
+{
+    ((PFNGLGETINTEGERVPROC)backend->address("glGetIntegerv"))(name, values);
+    if (hidden.integer && name == hidden.integer)
+        *values = 16;
+}
+
+static GlFunction hiding_address(const char *name)
+{
+    if (hidden.missing && strncmp(name, hidden.missing, strlen(hidden.missing)) == 0)
+        return NULL;
+    if (strcmp(name, "glGetString") == 0)
+        return (GlFunction)hiding_get_string;
+    if (strcmp(name, "glGetIntegerv") == 0)
+        return (GlFunction)hiding_get_integers;
+    return backend->address(name);
+}
+
+static CanvasBackend hiding_backend(void)
+{
+    CanvasBackend hiding = *backend;
+    memset(&hidden, 0, sizeof hidden);
+    hiding.address = hiding_address;
+    return hiding;
+}
+
+static void a_driver_without_a_function_is_refused_and_the_function_named(void **state)
+{
+    (void)state;
+    const CanvasBackend hiding = hiding_backend();
+    hidden.missing = "glUniformMatrix4fv";
+    assert_refused((CanvasOptions){.backend = &hiding, .width = 4, .height = 4},
+                   "OpenGL ES 2: the driver has no glUniformMatrix4fv; `--doctor` shows what is "
+                   "installed");
+}
+
+static void a_driver_that_gives_fewer_bits_than_asked_is_refused_and_they_are_named(void **state)
+{
+    (void)state;
+    const CanvasBackend hiding = hiding_backend();
+    const CanvasOptions options = {.backend = &hiding, .width = 4, .height = 4};
+    hidden.integer = GL_DEPTH_BITS;
+    assert_refused(options, "canvas: asked for RGBA 8 8 8 8 and depth 24, the driver gave 8 8 8 8 "
+                            "and 16");
+    hidden.integer = GL_GREEN_BITS;
+    Canvas canvas;
+    Message message = {0};
+    assert_false(canvas_open(&canvas, &options, &message));
+    assert_non_null(strstr(message.text, "the driver gave 8 16 8 8 and"));
+}
+
+static void a_driver_of_opengl_es_2_alone_draws_with_what_it_has(void **state)
+{
+    (void)state;
+    const CanvasBackend hiding = hiding_backend();
+    CanvasOptions options = {
+        .backend = &hiding, .width = 8, .height = 8, .samples = 4, .real = true};
+    hidden.version = "OpenGL ES 2.0 hidden";
+    hidden.extensions = "GL_OES_depth24 GL_OES_rgb8_rgba8";
+    Canvas canvas = open_canvas(options);
+    assert_false(canvas.real);
+    assert_int_equal(canvas.samples, 0);
+    assert_int_equal(canvas.supersample, 2);
+
+    Mesh mesh;
+    MeshBuffer buffer;
+    Message message = {0};
+    assert_true(mesh_sphere(&mesh, 1, 256, 255, NULL));
+    assert_false(mesh_buffer_open(&buffer, &mesh, &message));
+    assert_string_equal(message.text, "mesh: 65792 vertices: this driver indexes at most 65536 (it "
+                                      "lacks GL_OES_element_index_uint); use fewer divisions");
+    mesh_close(&mesh);
+    canvas_close(&canvas);
+
+    hidden.extensions = "GL_OES_depth24 GL_OES_rgb8_rgba8_and_more";
+    message = (Message){0};
+    assert_false(canvas_open(&canvas, &options, &message));
+    assert_non_null(strstr(message.text, "cannot draw to 8-bit RGBA (GL_OES_rgb8_rgba8)"));
+}
+
+static void more_samples_than_there_are_is_refused_and_the_most_named(void **state)
+{
+    (void)state;
+    Canvas canvas = open_canvas((CanvasOptions){.width = 4, .height = 4, .samples = 2});
+    GLint most = 0;
+    char expected[256];
+    assert_true(canvas.samples >= 2);
+    glGetIntegerv(GL_MAX_SAMPLES_ANGLE, &most);
+    snprintf(expected, sizeof expected, "%d samples: %s has at most %d", (int)most + 1,
+             canvas.renderer, (int)most);
+    canvas_close(&canvas);
+    assert_refused((CanvasOptions){.width = 4, .height = 4, .samples = (int)most + 1}, expected);
+}
+
+static void a_driver_without_samples_takes_more_pixels_instead_up_to_4_by_4(void **state)
+{
+    (void)state;
+    static const int sides[][2] = {{2, 2}, {4, 2}, {5, 3}, {9, 3}, {10, 4}, {16, 4}};
+    const CanvasBackend hiding = hiding_backend();
+    CanvasOptions options = {.backend = &hiding, .width = 4, .height = 4};
+    hidden.missing = "glRenderbufferStorageMultisample";
+    for (size_t i = 0; i < sizeof sides / sizeof sides[0]; i++) {
+        options.samples = sides[i][0];
+        Canvas canvas = open_canvas(options);
+        assert_int_equal(canvas.samples, 0);
+        assert_int_equal(canvas.supersample, sides[i][1]);
+        canvas_close(&canvas);
+    }
+    Canvas canvas;
+    Message message = {0};
+    options.samples = 17;
+    assert_false(canvas_open(&canvas, &options, &message));
+    assert_non_null(strstr(message.text, "17 samples: "));
+    assert_non_null(strstr(message.text, "supersampling gives at most 16"));
+}
+
+/* Meshes. */
+
+/* The unit sphere from along z: a disc of radius 0.8 of half the canvas. Pixels nearer to its edge
+ * than one pixel may be either. */
+static void assert_disc(const Mesh *mesh, GLenum index_type)
+{
+    enum { SIDE = 200 };
+    const double radius = 0.8 * SIDE / 2;
+    Canvas canvas = open_canvas((CanvasOptions){.width = SIDE, .height = SIDE});
+    Flat flat = open_flat();
+    Image least = new_image(&canvas), most = new_image(&canvas);
+    MeshBuffer buffer;
+    assert_true(mesh_buffer_open(&buffer, mesh, NULL));
+    assert_int_equal(buffer.index_type, index_type);
+    assert_int_equal(buffer.index_count, mesh->index_count);
+    mesh_buffer_close(&buffer);
+    clear(0, 0, 0, 1);
+    draw_mesh(&flat, mesh, mat4_scale((Vec3){0.8, 0.8, -0.8}), WHITE);
+    for (int y = 0; y < SIDE; y++) {
+        for (int x = 0; x < SIDE; x++) {
+            const double r = hypot(x + 0.5 - SIDE / 2.0, y + 0.5 - SIDE / 2.0);
+            set_pixel(&least, x, y, r < radius - 1 ? WHITE : (Vec3){0, 0, 0});
+            set_pixel(&most, x, y, r < radius + 1 ? WHITE : (Vec3){0, 0, 0});
+        }
+    }
+    Image got = read_canvas(&canvas);
+    assert_between(&got, &least, &most, "canvas-disc");
+    image_close(&got);
+    image_close(&least);
+    image_close(&most);
+    shader_close(&flat.shader);
+    canvas_close(&canvas);
+}
+
+static void a_mesh_of_more_than_65536_vertices_is_drawn_whole_with_longer_indices(void **state)
+{
+    (void)state;
+    static const struct {
+        int slices, stacks;
+        GLenum index_type;
+    } spheres[] = {{100, 100, GL_UNSIGNED_SHORT},
+                   {255, 255, GL_UNSIGNED_SHORT}, /* 65536 vertices */
+                   {256, 255, GL_UNSIGNED_INT},
+                   {400, 400, GL_UNSIGNED_INT}};
+    for (size_t i = 0; i < sizeof spheres / sizeof spheres[0]; i++) {
+        Mesh mesh;
+        assert_true(mesh_sphere(&mesh, 1, spheres[i].slices, spheres[i].stacks, NULL));
+        assert_disc(&mesh, spheres[i].index_type);
+        mesh_close(&mesh);
+    }
+}
+
+static void a_mesh_buffer_may_be_closed_twice_and_nothing_may_be_closed(void **state)
+{
+    (void)state;
+    Canvas canvas = open_canvas((CanvasOptions){.width = 1, .height = 1});
+    Mesh mesh;
+    MeshBuffer buffer = {0};
+    mesh_buffer_close(NULL);
+    mesh_buffer_close(&buffer);
+    assert_true(mesh_cube(&mesh, 1, NULL));
+    assert_true(mesh_buffer_open(&buffer, &mesh, NULL));
+    mesh_close(&mesh);
+    mesh_buffer_close(&buffer);
+    assert_true(!buffer.vertices && !buffer.indices && !buffer.index_count);
+    mesh_buffer_close(&buffer);
+    canvas_close(&canvas);
+}
+
+/* Antialiasing: pixels against the exact area of what covers them. */
+
+/* The part of a polygon to the side of the line from `a` to `b` where the cross product is
+ * positive (Sutherland and Hodgman). */
+static Polygon clip(Polygon polygon, Point a, Point b)
+{
+    Polygon kept = {.count = 0};
+    for (int i = 0; i < polygon.count; i++) {
+        const Point p = polygon.corners[i], q = polygon.corners[(i + 1) % polygon.count];
+        const double p_side = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+        const double q_side = (b.x - a.x) * (q.y - a.y) - (b.y - a.y) * (q.x - a.x);
+        if (p_side >= 0)
+            kept.corners[kept.count++] = p;
+        if ((p_side < 0) != (q_side < 0)) {
+            const double t = p_side / (p_side - q_side);
+            kept.corners[kept.count++] = (Point){p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)};
+        }
+    }
+    return kept;
+}
+
+static double polygon_area(Polygon polygon)
+{
+    double sum = 0;
+    for (int i = 0; i < polygon.count; i++) {
+        const Point p = polygon.corners[i], q = polygon.corners[(i + 1) % polygon.count];
+        sum += p.x * q.y - p.y * q.x;
+    }
+    return fabs(sum) / 2;
+}
+
+static Polygon square(double x, double y)
+{
+    return (Polygon){{{x, y}, {x + 1, y}, {x + 1, y + 1}, {x, y + 1}}, 4};
+}
+
+/* Where the samples of a pixel are, in 0..1. */
+enum { MOST_SAMPLES = 64 };
+typedef struct Pattern {
+    Point points[MOST_SAMPLES];
+    int count;
+} Pattern;
+
+/* A grid of pixels, each with its centre or with the four samples of the rotated grid that Direct3D
+ * prescribes (D3D11_STANDARD_MULTISAMPLE_PATTERN, in sixteenths) and drivers share. */
+static Pattern pattern_of(const Canvas *canvas)
+{
+    static const Point rotated[4] = {{6, 2}, {14, 6}, {2, 10}, {10, 14}}, centre[1] = {{8, 8}};
+    const Point *points = canvas->samples ? rotated : centre;
+    const int count = canvas->samples ? 4 : 1, side = canvas->supersample;
+    Pattern pattern = {.count = 0};
+    for (int i = 0; i < count * side * side; i++) {
+        const Point p = points[i % count];
+        const int x = i / count % side, y = i / count / side;
+        pattern.points[pattern.count++] = (Point){(x + p.x / 16) / side, (y + p.y / 16) / side};
+    }
+    return pattern;
+}
+
+/* How far the part of the samples on one side of the line through `a` towards (dx, dy) is from the
+ * part of the pixel, those on the line being counted as is worse. */
+static double line_error(const Pattern *pattern, Point a, double dx, double dy)
+{
+    const double part = polygon_area(clip(square(0, 0), a, (Point){a.x + dx, a.y + dy}));
+    int beyond = 0, on = 0;
+    for (int i = 0; i < pattern->count; i++) {
+        const Point p = pattern->points[i];
+        const double side = dx * (p.y - a.y) - dy * (p.x - a.x);
+        on += fabs(side) <= 1e-12;
+        beyond += side > 1e-12;
+    }
+    const double count = pattern->count;
+    return fmax((beyond + on) / count - part, part - beyond / count);
+}
+
+/* The most by which any straight edge through a pixel can be misjudged (the half-plane discrepancy
+ * of the pattern). While an edge meets no sample its area changes and its count does not, so the
+ * worst edge goes through a sample: all directions through each, by tenths of a degree, and exactly
+ * through each pair. The area is stationary in the direction where it matters, so what lies between
+ * two directions is missed by their difference's square, 3e-6. */
+static double worst_error(const Pattern *pattern)
+{
+    double worst = 0;
+    for (int i = 0; i < pattern->count; i++) {
+        const Point a = pattern->points[i];
+        for (int tenths = 0; tenths < 3600; tenths++)
+            worst = fmax(worst,
+                         line_error(pattern, a, cos(tenths * PI / 1800), sin(tenths * PI / 1800)));
+        for (int j = 0; j < pattern->count; j++)
+            if (j != i)
+                worst = fmax(worst, line_error(pattern, a, pattern->points[j].x - a.x,
+                                               pattern->points[j].y - a.y));
+    }
+    return worst;
+}
+
+enum { AA_SIDE = 128, AA_POLYGONS = 8 };
+
+static double to_256th(double x)
+{
+    return rint(256 * x) / 256;
+}
+
+/* A pentagon about the middle whose corners lie on the grid of 1/256 pixel that rasterizers use
+ * (OpenGL ES asks for 1/16), so that what is drawn is what is expected. No side is shorter than a
+ * tenth of the canvas. */
+static Polygon random_pentagon(unsigned short seed[3])
+{
+    Polygon polygon = {.count = 5};
+    for (int i = 0; i < 5; i++) {
+        const double angle = 2 * PI * (i + 0.8 * erand48(seed)) / 5;
+        polygon.corners[i] = (Point){to_256th(AA_SIDE * (0.5 + 0.45 * cos(angle))),
+                                     to_256th(AA_SIDE * (0.5 + 0.45 * sin(angle)))};
+    }
+    return polygon;
+}
+
+/* What the edge pixels of several pictures come to. */
+typedef struct Errors {
+    int pixels, between; /* crossed by one edge; of these, neither black nor white */
+    double sum, squares, worst;
+} Errors;
+
+/* Draws a polygon and holds each pixel against the exact part that is covered. */
+static void check_polygon(const Canvas *canvas, const Flat *flat, Polygon polygon, double bound,
+                          Errors *errors)
+{
+    Mat4 clip_from_pixels;
+    Image least = new_image(canvas), most = new_image(canvas);
+    assert_true(mat4_ortho(0, AA_SIDE, AA_SIDE, 0, -1, 1, &clip_from_pixels));
+    clear(0, 0, 0, 1);
+    draw_polygon(flat, polygon, 0, clip_from_pixels, WHITE);
+    Image got = read_canvas(canvas);
+    for (int y = 0; y < AA_SIDE; y++) {
+        for (int x = 0; x < AA_SIDE; x++) {
+            Polygon covered = square(x, y);
+            int crossing = 0;
+            for (int i = 0; i < polygon.count && covered.count; i++) {
+                const Point a = polygon.corners[i];
+                const Point b = polygon.corners[(i + 1) % polygon.count];
+                const double side = polygon_area(clip(square(x, y), a, b));
+                crossing += side > 1e-12 && side < 1 - 1e-12;
+                covered = clip(covered, a, b);
+            }
+            const double part = polygon_area(covered);
+            const bool edge = part > 1e-12 && part < 1 - 1e-12;
+            /* At a corner two edges' errors meet: not judged. Else the driver and the mean over
+             * pixels round to a level, each by less than half of one. */
+            const double error = !edge ? 0 : crossing > 1 ? 1 : bound;
+            const double low = fmax(255 * (part - error) - (edge ? 1 : 0), 0);
+            const double high = fmin(255 * (part + error) + (edge ? 1 : 0), 255);
+            set_pixel(&least, x, y, vec3_scale(WHITE, ceil(low - 1e-9) / 255));
+            set_pixel(&most, x, y, vec3_scale(WHITE, floor(high + 1e-9) / 255));
+            if (edge && crossing == 1) {
+                const int value = pixel(&got, x, y)[0];
+                const double off = value / 255.0 - part;
+                errors->pixels++;
+                errors->between += value > 0 && value < 255;
+                errors->sum += off;
+                errors->squares += off * off;
+                errors->worst = fmax(errors->worst, fabs(off));
+            }
+        }
+    }
+    assert_between(&got, &least, &most, "canvas-antialiasing");
+    image_close(&got);
+    image_close(&least);
+    image_close(&most);
+}
+
+static unsigned long test_seed(void)
+{
+    const char *text = getenv("LIGHTING_TEST_SEED");
+    return text ? strtoul(text, NULL, 0) : 20240229;
+}
+
+static Errors check_antialiasing(CanvasOptions options, const char *name)
+{
+    const unsigned long number = test_seed();
+    unsigned short seed[3] = {0x330e, (unsigned short)number, (unsigned short)(number >> 16)};
+    options.width = options.height = AA_SIDE;
+    Canvas canvas = open_canvas(options);
+    Flat flat = open_flat();
+    const Pattern pattern = pattern_of(&canvas);
+    const double bound = worst_error(&pattern);
+    Errors errors = {0};
+    for (int i = 0; i < AA_POLYGONS; i++)
+        check_polygon(&canvas, &flat, random_pentagon(seed), bound, &errors);
+    shader_close(&flat.shader);
+    canvas_close(&canvas);
+    const double mean = errors.sum / errors.pixels, rms = sqrt(errors.squares / errors.pixels);
+    print_message("%s: seed %lu, %d edge pixels, %d of them between black and white; error mean "
+                  "%+.4f, rms %.4f, worst %.4f of at most %.4f\n",
+                  name, number, errors.pixels, errors.between, mean, rms, errors.worst, bound);
+    /* Independent errors would leave a mean of rms / sqrt(pixels), about a 57th of the rms. Those
+     * of one edge's pixels depend on each other: six times as much is allowed. */
+    assert_true(fabs(mean) < rms / 10);
+    return errors;
+}
+
+static void without_samples_an_edge_pixel_is_black_or_white_by_its_centre(void **state)
+{
+    (void)state;
+    assert_int_equal(check_antialiasing((CanvasOptions){.samples = 0}, "no samples").between, 0);
+    assert_int_equal(check_antialiasing((CanvasOptions){.samples = 1}, "one sample").between, 0);
+}
+
+static void samples_smooth_edges_to_within_the_bound_of_their_pattern(void **state)
+{
+    (void)state;
+    const CanvasBackend hiding = hiding_backend();
+    const struct {
+        CanvasOptions options;
+        const char *name;
+    } kinds[] = {{{.samples = 4}, "4 samples"},
+                 {{.supersample = 2}, "2x2"},
+                 {{.supersample = 3}, "3x3"},
+                 {{.supersample = 4}, "4x4"},
+                 {{.samples = 4, .supersample = 2}, "4 samples in 2x2"},
+                 {{.samples = 4, .backend = &hiding}, "a driver without samples, asked for 4"}};
+    hidden.missing = "glBlitFramebuffer";
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
+        const Errors errors = check_antialiasing(kinds[i].options, kinds[i].name);
+        /* Worst for 2x2, where an edge along an axis leaves half of its pixels black or white, and
+         * one across leaves a quarter. */
+        assert_true(errors.between > 0.4 * errors.pixels);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_canvas_has_8_bits_for_each_channel_and_24_of_depth),
+        cmocka_unit_test(depths_four_steps_of_24_bits_apart_are_told_apart_in_either_order),
+        cmocka_unit_test(a_float_canvas_keeps_what_is_above_1_below_0_and_not_finite),
+        cmocka_unit_test(each_of_the_256_levels_of_a_clear_color_is_read_back_exactly),
+        cmocka_unit_test(row_0_is_the_top_and_column_0_the_left),
+        cmocka_unit_test(a_canvas_is_as_small_as_one_pixel_and_as_long_as_the_driver_allows),
+        cmocka_unit_test(a_size_beyond_the_driver_is_refused_and_the_limit_named),
+        cmocka_unit_test(a_canvas_opened_200_times_keeps_no_file_and_no_memory),
+        cmocka_unit_test(of_two_canvases_one_after_another_each_shows_its_own),
+        cmocka_unit_test(a_canvas_may_be_closed_twice_and_nothing_may_be_closed),
+        cmocka_unit_test(an_image_of_another_size_or_type_is_refused),
+        cmocka_unit_test(an_error_that_a_program_made_is_reported_by_the_next_reading_alone),
+        cmocka_unit_test(a_driver_without_a_function_is_refused_and_the_function_named),
+        cmocka_unit_test(a_driver_that_gives_fewer_bits_than_asked_is_refused_and_they_are_named),
+        cmocka_unit_test(a_driver_of_opengl_es_2_alone_draws_with_what_it_has),
+        cmocka_unit_test(more_samples_than_there_are_is_refused_and_the_most_named),
+        cmocka_unit_test(a_driver_without_samples_takes_more_pixels_instead_up_to_4_by_4),
+        cmocka_unit_test(a_mesh_of_more_than_65536_vertices_is_drawn_whole_with_longer_indices),
+        cmocka_unit_test(a_mesh_buffer_may_be_closed_twice_and_nothing_may_be_closed),
+        cmocka_unit_test(without_samples_an_edge_pixel_is_black_or_white_by_its_centre),
+        cmocka_unit_test(samples_smooth_edges_to_within_the_bound_of_their_pattern),
+    };
+    int failed = 0, tested = 0;
+    for (int i = 0; CANVAS_BACKENDS[i]; i++) {
+        void *context;
+        const char *platform;
+        Message message = {0};
+        backend = CANVAS_BACKENDS[i];
+        if (!backend->open(&context, &platform, &message)) {
+            printf("canvas_test: %s skipped: %s\n", backend->name, message.text);
+            continue;
+        }
+        backend->close(context);
+        tested++;
+        failed += cmocka_run_group_tests_name(backend->name, tests, NULL, NULL);
+    }
+    return tested ? failed : EXIT_SKIPPED;
+}
