@@ -192,7 +192,6 @@ bool mat4_look_at(Vec3 eye, Vec3 center, Vec3 up, Mat4 *eye_from_world)
         vec3_normalize(vec3_cross(forward, axis_least_along(forward)), &side);
     }
     vec3_normalize(vec3_cross(side, forward), &upward);
-    side = vec3_cross(forward, upward);
 
     Vec3 e = vec3_scaled(eye, &exponent);
     Mat4 result = {{side.x, upward.x, -forward.x, 0, //
@@ -206,7 +205,7 @@ bool mat4_look_at(Vec3 eye, Vec3 center, Vec3 up, Mat4 *eye_from_world)
 /* The third row of a perspective projection, in quotients that cannot overflow. */
 static void set_depth(double near, double far, Mat4 *clip_from_eye)
 {
-    double ratio = isinf(far) ? 0 : near / far;
+    double ratio = near / far;
     double range = isinf(far) ? 1 : (far - near) / far;
     clip_from_eye->m[10] = -(1 + ratio) / range;
     clip_from_eye->m[14] = -2 * (near / range);
@@ -317,18 +316,21 @@ static int exponent_of(double x)
 static Scaled scale_by_powers_of_two(Mat4 a, int n)
 {
     Scaled s = {{{0}}, {0}, {0}};
+    int exponent[4][4];
     for (int j = 0; j < n; j++) {
         int largest = EXPONENT_OF_ZERO;
-        for (int i = 0; i < n; i++)
-            if (exponent_of(a.m[4 * j + i]) > largest)
-                largest = exponent_of(a.m[4 * j + i]);
+        for (int i = 0; i < n; i++) {
+            exponent[i][j] = exponent_of(a.m[4 * j + i]);
+            if (exponent[i][j] > largest)
+                largest = exponent[i][j];
+        }
         s.column[j] = largest == EXPONENT_OF_ZERO ? 0 : largest;
     }
     for (int i = 0; i < n; i++) {
         int largest = EXPONENT_OF_ZERO / 2;
         for (int j = 0; j < n; j++)
-            if (exponent_of(a.m[4 * j + i]) - s.column[j] > largest)
-                largest = exponent_of(a.m[4 * j + i]) - s.column[j];
+            if (exponent[i][j] - s.column[j] > largest)
+                largest = exponent[i][j] - s.column[j];
         s.row[i] = largest == EXPONENT_OF_ZERO / 2 ? 0 : largest;
         for (int j = 0; j < n; j++)
             s.b[i][j] = ldexp(a.m[4 * j + i], -(s.row[i] + s.column[j]));
@@ -379,9 +381,9 @@ double mat4_determinant(Mat4 a)
     return ldexp(mantissa, exponent);
 }
 
-/* Eliminates in the transpose, so solves for the inverse row by row. That makes inverse * a close
- * to the identity, which is the product that takes a vector there and back; a solver makes only one
- * of the two products so (Higham, section 14.3). */
+/* Eliminates in the transpose, so solves for the inverse row by row. That makes inverse * a, which
+ * takes a vector there and back, as close to the identity as condition * 1.1e-16; elimination in
+ * `a` itself would do that for a * inverse. No solver does it for both (Higham, section 14.3). */
 static bool inverse_general(Mat4 a, Mat4 *inverse)
 {
     Scaled s = scale_by_powers_of_two(mat4_transpose(a), 4);
@@ -401,9 +403,9 @@ static bool inverse_general(Mat4 a, Mat4 *inverse)
     return true;
 }
 
-/* Cofactors of the 3x3 part of b; returns its determinant. The cofactors keep their digits, so what
- * error the inverse has comes from the determinant and is common to its entries: at most about
- * 5 * 1.1e-16 * condition. */
+/* Cofactors of the upper left 3x3 part of b; returns its determinant. The cofactors keep their
+ * digits, so what error the inverse has comes mostly from the determinant, where it is at most
+ * 5 * 1.1e-16 * condition, and is a common factor of all entries. */
 static double cofactors(double b[4][8], double cofactor[3][3])
 {
     for (int i = 0; i < 3; i++) {

@@ -27,19 +27,20 @@ typedef struct Mat4 {
     double m[16]; /* m[4 * column + row] */
 } Mat4;
 
-/* Vectors. Any length, any unit. */
+/* Vectors. Any length, any unit; products and sums overflow as those of numbers do. */
 
 double vec3_dot(Vec3 a, Vec3 b);
 Vec3 vec3_add(Vec3 a, Vec3 b);
 Vec3 vec3_subtract(Vec3 a, Vec3 b);
 Vec3 vec3_scale(Vec3 a, double factor);
 
-/* a x b; right-handed. Each component is a difference of products with one rounding error left
- * (Kahan; Jeannerod, Louvet and Muller, Math. Comp. 82, 2013), so nearly parallel vectors keep
- * their digits. */
+/* a x b; right-handed. Each component is a difference of products with a relative error of at most
+ * 2.2e-16 (Kahan; Jeannerod, Louvet and Muller, Math. Comp. 82, 2013), so nearly parallel vectors
+ * keep their digits, and exactly parallel ones give exactly zero. */
 Vec3 vec3_cross(Vec3 a, Vec3 b);
 
-/* Length, without overflow or underflow on the way: right for lengths of 5e-324 to 1.8e308. */
+/* Length, without overflow or underflow on the way: right for lengths of 5e-324 to 1.8e308. Not
+ * finite where `a` is not. */
 double vec3_length(Vec3 a);
 
 /* The unit vector along `a`. False, and a zero vector, where `a` is zero or not finite. */
@@ -65,9 +66,10 @@ bool mat4_rotate(double degrees, Vec3 axis, Mat4 *rotation);
  * `up` in the half plane x = 0, y > 0. `up` need be neither unit nor perpendicular. The rotation is
  * orthonormal to 4e-15 whatever the arguments.
  * False, with a matrix that is still rigid and usable, where the arguments do not determine it:
- *   up is zero or parallel to the view: the coordinate axis least along the view stands in for up;
+ *   up is zero or exactly parallel to center - eye, as rounded: the coordinate axis least along the
+ *     view (of equals y, then z) stands in for up;
  *   eye equals center: the view is along -z;
- *   anything is not finite: the identity. */
+ *   anything is not finite, or the translation would not be: the identity. */
 bool mat4_look_at(Vec3 eye, Vec3 center, Vec3 up, Mat4 *eye_from_world);
 
 /* Projections to OpenGL's clip space: near to z/w = -1, far to z/w = +1. `far` may be INFINITY in
@@ -91,16 +93,19 @@ Vec4 mat4_transform(Mat4 a, Vec4 v);
 Vec3 mat4_transform_point(Mat4 a, Vec3 point);
 Vec3 mat4_transform_direction(Mat4 a, Vec3 direction);
 
-/* Determinant by Gaussian elimination with partial pivoting. May overflow to an infinity or
- * underflow to 0 where the true value does. */
+/* Determinant by Gaussian elimination with partial pivoting. Nothing overflows or underflows on
+ * the way, the result only where the value does. Not a number where `a` is not finite. */
 double mat4_determinant(Mat4 a);
 
 /* The inverse. An affine matrix (bottom row exactly 0 0 0 1) goes through its 3x3 part, by
  * cofactors whose differences of products keep their digits; any other through Gaussian elimination
  * with partial pivoting (Higham, Accuracy and Stability of Numerical Algorithms, ch. 9 and 14).
- * Rows or columns are scaled by powers of two first, so no absolute threshold enters: a scale of
- * 1e-300 inverts. Relative error (Frobenius) at most a small multiple of condition * 1.1e-16.
- * False, and the identity, where the matrix is singular or not finite, or its inverse is not
+ * Rows and columns are scaled by powers of two first, and no threshold enters: a scale of 1e-300
+ * inverts. The relative error of the inverse and the distance of inverse * a from the identity are
+ * at most a small multiple of condition * 1.1e-16 (Frobenius norms); that of a * inverse can be far
+ * larger.
+ * False, and the identity, where the matrix is singular (its determinant or a pivot is computed as
+ * exactly 0: one that is singular but for rounding may pass) or not finite, or its inverse is not
  * finite. */
 bool mat4_inverse(Mat4 a, Mat4 *inverse);
 
@@ -109,8 +114,8 @@ bool mat4_inverse(Mat4 a, Mat4 *inverse);
  * whose other entries are the identity's. Computed as sign(det) * cofactor matrix, which needs no
  * division and so exists for singular matrices too (Turkowski, Graphics Gems, 1990), and divided by
  * a power of two that brings its largest entry into [0.5, 1). The result must be normalized.
- * False, with a zero 3x3 part, where no surface keeps a normal (rank below 2) or `a` is not
- * finite. Where the determinant is zero its sign counts as +1. */
+ * False, with a zero 3x3 part, where no surface keeps a normal (rank below 2) or any entry of `a`
+ * is not finite. Where the determinant is zero its sign counts as +1. */
 bool mat4_normal(Mat4 a, Mat4 *normal_matrix);
 
 /* For upload to a uniform: rounds to nearest, column by column. A value beyond a float's range

@@ -183,6 +183,15 @@ static bool unknown_option(const char *given, Message *message)
         names[i] = LONG_OPTIONS[i].name;
     const char *start = given + strspn(given, "-");
     snprintf(word, sizeof word, "%.*s", (int)strcspn(start, "="), start);
+    /* An abbreviation of several is no option either. */
+    const char *first = NULL;
+    for (int i = 0; i < COUNT - 1 && word[0]; i++) {
+        if (strncmp(names[i], word, strlen(word)) != 0)
+            continue;
+        if (first && start > given + 1)
+            return message_set(message, "%s: could be --%s or --%s", given, first, names[i]);
+        first = names[i];
+    }
     const char *nearest = word[1] ? options_nearest(word, names) : NULL;
     if (nearest)
         return message_set(message, "%s: no such option; did you mean --%s?", given, nearest);
@@ -193,15 +202,17 @@ static bool unknown_option(const char *given, Message *message)
 static bool bad_option(int result, int argc, char *argv[], Message *message)
 {
     const char *last = argv[optind - 1 < argc ? optind - 1 : argc - 1];
-    const bool is_long = strncmp(last, "--", 2) == 0;
     char shown[3] = {'-', (char)optopt, '\0'};
     if (result == ':')
-        return message_set(message, "%s: needs a value; see --help", is_long ? last : shown);
-    if (!is_long)
-        return unknown_option(shown, message);
-    if (optopt) /* a known option with a value that it does not take */
-        return message_set(message, "%s: takes no value", last);
-    return unknown_option(last, message);
+        return message_set(message, "%s: needs a value; see --help",
+                           strncmp(last, "--", 2) == 0 ? last : shown);
+    if (!optopt)
+        return unknown_option(last, message);
+    /* Of a known option, this is a value that it does not take; else, a letter among letters. */
+    for (const struct option *option = LONG_OPTIONS; option->name; option++)
+        if (option->val == optopt)
+            return message_set(message, "%s: takes no value", last);
+    return unknown_option(shown, message);
 }
 
 static bool bad_value(const char *option, const char *value, const char *wanted, Message *message)
@@ -254,8 +265,8 @@ static bool read_option(Options *options, int option, const char *value, Message
             return bad_value("--fps", value, "pictures for each second, 0.001 to 1000000", message);
         return true;
     case OPTION_SAMPLES:
-        if (!whole_number(value, 0, 64, &options->canvas.samples))
-            return bad_value("--samples", value, "a whole number, 0 to 64", message);
+        if (!whole_number(value, 0, 65536, &options->canvas.samples))
+            return bad_value("--samples", value, "a whole number, 0 to 65536", message);
         return true;
     case 'b':
         return read_backend(options, value, message);

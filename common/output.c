@@ -147,7 +147,10 @@ typedef struct Temporary {
 static bool temporary_open(Temporary *temporary, const char *folder)
 {
     snprintf(temporary->name, sizeof temporary->name, "%s.lighting-XXXXXX", folder);
-    temporary->file = open(folder, O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
+    /* It is named through /proc. */
+    temporary->file = access("/proc/self/fd", X_OK) == 0
+                          ? open(folder, O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600)
+                          : -1;
     temporary->named = temporary->file < 0;
     if (temporary->named)
         temporary->file = mkostemp(temporary->name, O_CLOEXEC);

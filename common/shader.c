@@ -52,22 +52,32 @@ static GLuint compile(const ShaderSource *source, ShaderStage stage, Message *me
     return 0;
 }
 
-/* Whether a line declares `word`: "varying vec3 v_Normal;". */
+static bool in_name(char c)
+{
+    return isalnum((unsigned char)c) || c == '_';
+}
+
+/* Whether a line declares `word`: "varying vec3 v_Normal;", where a separator follows the name. */
 static bool declares(const char *line, int length, const char *word, int word_length)
 {
     static const char *const kinds[] = {"attribute", "uniform", "varying"};
-    bool declaration = false, named = false;
+    bool declaration = false;
     for (int i = 0; i < length;) {
         int n = 0;
-        while (i + n < length && (isalnum((unsigned char)line[i + n]) || line[i + n] == '_'))
+        while (i + n < length && in_name(line[i + n]))
             n++;
         for (int k = 0; k < 3; k++)
             declaration |=
                 n == (int)strlen(kinds[k]) && strncmp(line + i, kinds[k], (size_t)n) == 0;
-        named |= declaration && n == word_length && strncmp(line + i, word, (size_t)n) == 0;
+        int after = i + n;
+        while (after < length && isspace((unsigned char)line[after]))
+            after++;
+        if (declaration && n == word_length && strncmp(line + i, word, (size_t)n) == 0 &&
+            after < length && strchr(";,[", line[after]))
+            return true;
         i += n ? n : 1;
     }
-    return named;
+    return false;
 }
 
 /* A link error names variables, not lines: finds where one of them is declared. */
@@ -77,10 +87,10 @@ static bool locate_link_error(const ShaderSource *source, const char *log, Messa
     for (const char *p = source->text; *p;) {
         const char *newline = strchr(p, '\n');
         const int length = newline ? (int)(newline - p) : (int)strlen(p);
-        const bool numbered = sscanf(p, "#line %d %d", &line, &file) == 2;
+        const bool numbered = shader_line_directive(p, &file, &line);
         for (const char *w = log; *w && !numbered;) {
             int n = 0;
-            while (isalnum((unsigned char)w[n]) || w[n] == '_')
+            while (in_name(w[n]))
                 n++;
             if (n > 1 && declares(p, length, w, n)) {
                 message_set(message, "%s:%d: linking: %s\n  %d | %.*s", source->files[file], line,

@@ -17,12 +17,18 @@
 #include <limits.h>
 #include <stddef.h>
 
+/* A file that is made, not found: its name in #include, and its text. */
+typedef struct ShaderText {
+    const char *name, *text;
+} ShaderText;
+
 /* Where and how shaders are loaded: the same for every shader of a program. Zero means default. */
 typedef struct ShaderLoader {
     const char *folder;         /* --shaders: looked in first; NULL for none */
     const char *precision;      /* "highp" or "mediump" for every fragment shader's mediump or
                                    highp; NULL: as the file says */
     const char *const *defines; /* "NAME" or "NAME value", ended by NULL; may be NULL */
+    const ShaderText *texts; /* looked in before any folder; ended by a NULL name; may be NULL */
     int print;                  /* what to print on standard output, as below */
     bool verbose;               /* report compile times on standard error */
 } ShaderLoader;
@@ -40,7 +46,7 @@ typedef struct ShaderSource {
 typedef enum ShaderStage { SHADER_VERTEX, SHADER_FRAGMENT } ShaderStage;
 
 /* Files larger than this are refused: no shader is. */
-enum { SHADER_FILE_MOST = 1 << 20 };
+enum { SHADER_FILE_MOST = 999999 };
 
 /* Whether the loader's folders are usable: --shaders and the environment's LIGHTING_SHADERS, where
  * set, must name folders that exist. */
@@ -61,6 +67,9 @@ void shader_source_close(ShaderSource *source);
 /* The driver's log in terms of files: each line that begins with a source string and line number
  * becomes "file:line: rest", and the first such line is followed by that line of source. */
 bool shader_explain_log(const ShaderSource *source, const char *log, Message *message);
+
+/* Whether a line of a source's text is one of its #line directives, and what it says of the next. */
+bool shader_line_directive(const char *text, int *file, int *line);
 
 /* A linked program. */
 typedef struct Shader {

@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 enum {
+    MOST_INCLUDES = 1000,
     MOST_DEPTH = 32,     /* of includes */
     MOST_TEXT = 4 << 20, /* of a whole shader: includes of includes can grow beyond bounds */
 };
@@ -25,6 +26,7 @@ typedef struct Assembly {
     size_t capacity;
     int chain[MOST_DEPTH]; /* files being read, outermost first, as numbers in source->files */
     int depth;
+    int includes;
     Message *message;
 } Assembly;
 
@@ -50,10 +52,15 @@ static bool append(Assembly *assembly, const char *text, size_t size)
     return true;
 }
 
+/* Line numbers tell the file too, a million lines for each, since Mesa forgets the source string of
+ * everything but syntax errors: "#line 1000003 1" is line 3 of file 1. */
+enum { LINES_OF_FILE = SHADER_FILE_MOST + 1 };
+
 static bool append_line_directive(Assembly *assembly, int line, int file)
 {
     char text[64];
-    const int length = snprintf(text, sizeof text, "#line %d %d\n", line, file);
+    const int length =
+        snprintf(text, sizeof text, "#line %d %d\n", file * LINES_OF_FILE + line, file);
     return append(assembly, text, (size_t)length);
 }
 
@@ -183,6 +190,15 @@ static bool try_file(const char *path, char **text, size_t *size, char *tried, s
 static bool find_file(const ShaderLoader *loader, const char *name, const char *from,
                       char path[PATH_MAX], char **text, size_t *size, Message *message)
 {
+    for (const ShaderText *made = loader->texts; made && made->name; made++) {
+        if (strcmp(made->name, name) != 0)
+            continue;
+        *size = strlen(made->text);
+        *text = strdup(made->text);
+        snprintf(path, PATH_MAX, "%s", name);
+        return *text ? true : message_set(message, "%s: not enough memory", name);
+    }
+
     char tried[3000] = "";
     Message own = {0};
     const char *slash = from ? strrchr(from, '/') : NULL;
@@ -293,6 +309,35 @@ static const char *directive(const char *line, size_t length, const char *name, 
 
 static bool assemble(Assembly *assembly, const char *path, const char *text, size_t size);
 
+static bool same_file(const char *a, const char *b)
+{
+    struct stat first, second;
+    if (strcmp(a, b) == 0)
+        return true;
+    return stat(a, &first) == 0 && stat(b, &second) == 0 && first.st_dev == second.st_dev &&
+           first.st_ino == second.st_ino;
+}
+
+/* Whether a file may be included by the files that are being read. */
+static bool check_chain(const Assembly *assembly, const char *path, Message *message)
+{
+    char **files = assembly->source->files;
+    for (int i = 0; i < assembly->depth; i++) {
+        if (!same_file(files[assembly->chain[i]], path))
+            continue;
+        message_set(message, "%s: includes itself", path);
+        for (int j = i + 1; j < assembly->depth; j++)
+            message_add(message, "%s%s", j == i + 1 ? ", through " : " and ",
+                        files[assembly->chain[j]]);
+        return false;
+    }
+    if (assembly->includes == MOST_INCLUDES)
+        return message_set(message, "%s: is the one more than %d includes", path, MOST_INCLUDES);
+    if (assembly->depth == MOST_DEPTH)
+        return message_set(message, "%s: is included more than %d deep", path, MOST_DEPTH);
+    return true;
+}
+
 static bool include(Assembly *assembly, const char *path, int line, const char *argument,
                     size_t length)
 {
@@ -309,43 +354,18 @@ static bool include(Assembly *assembly, const char *path, int line, const char *
     Message reason = {0};
     if (!find_file(assembly->loader, name, path, found, &text, &size, &reason))
         return located(assembly->message, path, line, reason.text);
-    const bool done =
-        clean_text(text, &size, found, assembly->message) && assemble(assembly, found, text, size);
+    const bool allowed = check_chain(assembly, found, &reason);
+    assembly->includes++;
+    const bool done = allowed ? clean_text(text, &size, found, assembly->message) &&
+                                    assemble(assembly, found, text, size)
+                              : located(assembly->message, path, line, reason.text);
     free(text);
     return done;
-}
-
-static bool same_file(const char *a, const char *b)
-{
-    struct stat first, second;
-    if (strcmp(a, b) == 0)
-        return true;
-    return stat(a, &first) == 0 && stat(b, &second) == 0 && first.st_dev == second.st_dev &&
-           first.st_ino == second.st_ino;
-}
-
-/* Where the file that is being assembled is included from, as lines to add to a message. */
-static bool refuse_cycle(Assembly *assembly, const char *path)
-{
-    char **files = assembly->source->files;
-    for (int i = 0; i < assembly->depth; i++) {
-        if (!same_file(files[assembly->chain[i]], path))
-            continue;
-        message_set(assembly->message, "%s: includes itself", path);
-        for (int j = i + 1; j < assembly->depth; j++)
-            message_add(assembly->message, ", through %s", files[assembly->chain[j]]);
-        return false;
-    }
-    if (assembly->depth == MOST_DEPTH)
-        return message_set(assembly->message, "%s: includes more than %d deep", path, MOST_DEPTH);
-    return true;
 }
 
 /* Appends a file's lines, taking in what they include. */
 static bool assemble(Assembly *assembly, const char *path, const char *text, size_t size)
 {
-    if (!refuse_cycle(assembly, path))
-        return false;
     const int file = file_number(assembly, path);
     if (file < 0 || !append_line_directive(assembly, 1, file))
         return false;
@@ -358,22 +378,32 @@ static bool assemble(Assembly *assembly, const char *path, const char *text, siz
         const size_t length = newline ? (size_t)(newline - line) : (size_t)(end - line);
         size_t rest = 0;
         const char *argument;
+        bool left_out = false;
         number++;
         if (!in_comment && (argument = directive(line, length, "include", &rest))) {
             if (!include(assembly, path, number, argument, rest) ||
-                !append_line_directive(assembly, number + 1, file))
+                !append_line_directive(assembly, number, file))
                 return false;
+            left_out = true;
         } else if (!in_comment && (argument = directive(line, length, "version", &rest))) {
             if (rest < 3 || strncmp(argument, "100", 3) != 0 ||
                 (rest > 3 && !isspace((unsigned char)argument[3])))
                 return located(assembly->message, path, number,
                                "only #version 100, GLSL ES 1.00, runs everywhere here");
-            if (!append(assembly, "\n", 1)) /* it stands at the very beginning already */
+            left_out = true; /* it stands at the very beginning already */
+        } else if (directive(line, length, "line", &rest)) {
+            /* The numbers are those of the file. */
+            left_out = !in_comment;
+            if (in_comment && !append(assembly, " ", 1)) /* not to be taken for one of ours */
                 return false;
-        } else {
-            in_comment = comment_after(line, length, in_comment);
-            if (!append(assembly, line, length) || !append(assembly, "\n", 1))
+        }
+        in_comment = comment_after(line, length, in_comment);
+        if (left_out) {
+            /* But not a comment that begins behind it. */
+            if (!append(assembly, in_comment ? "/*\n" : "\n", in_comment ? 3 : 1))
                 return false;
+        } else if (!append(assembly, line, length) || !append(assembly, "\n", 1)) {
+            return false;
         }
         line += length + (newline ? 1 : 0);
     }
@@ -442,6 +472,16 @@ void shader_source_close(ShaderSource *source)
 
 /* The driver's log. */
 
+bool shader_line_directive(const char *text, int *file, int *line)
+{
+    char *end;
+    if (strncmp(text, "#line ", 6) != 0)
+        return false;
+    *line = (int)(strtol(text + 6, &end, 10) % LINES_OF_FILE);
+    *file = (int)strtol(end, &end, 10);
+    return true;
+}
+
 /* Line `line` of source string `file`, found by following our own #line directives. */
 static const char *find_line(const ShaderSource *source, int file, int line, int *length)
 {
@@ -449,7 +489,7 @@ static const char *find_line(const ShaderSource *source, int file, int line, int
     for (const char *p = source->text; p && *p;) {
         const char *newline = strchr(p, '\n');
         const int n = newline ? (int)(newline - p) : (int)strlen(p);
-        if (sscanf(p, "#line %d %d", &at_line, &at_file) != 2) {
+        if (!shader_line_directive(p, &at_file, &at_line)) {
             if (at_file == file && at_line == line) {
                 *length = n;
                 return p;
@@ -469,13 +509,14 @@ static const char *parse_position(const char *log, int *file, int *line)
         log += 7;
     else if (strncmp(log, "WARNING: ", 9) == 0)
         log += 9;
-    if (sscanf(log, "%d:%d(%d):%n", file, line, &column, &used) == 3 && used)
-        return log + used;
-    if (sscanf(log, "%d:%d:%n", file, line, &used) == 2 && used)
-        return log + used;
-    if (sscanf(log, "%d(%d) :%n", file, line, &used) == 2 && used)
-        return log + used;
-    return NULL;
+    const bool found = (sscanf(log, "%d:%d(%d):%n", file, line, &column, &used) == 3 && used) ||
+                       (sscanf(log, "%d:%d:%n", file, line, &used) == 2 && used) ||
+                       (sscanf(log, "%d(%d) :%n", file, line, &used) == 2 && used);
+    if (found && *line > LINES_OF_FILE) {
+        *file = *line / LINES_OF_FILE;
+        *line %= LINES_OF_FILE;
+    }
+    return found ? log + used : NULL;
 }
 
 static void show_line(const ShaderSource *source, int file, int line, Message *message)

@@ -1,0 +1,551 @@
+#!/usr/bin/env python3
+"""The programs as they are used: every option, every fault, every stream and every kind of file.
+
+usage: command_line_test.py EXAMPLES_FOLDER_OF_THE_BUILD SOURCE_FOLDER [unittest's arguments]
+
+Exit codes are those of --help: 1 where the machine, a file or a driver did not allow it, 2 where
+the command line is at fault. Whoever fails says so in one line, writes nothing, and leaves what was
+there. Exit code of the test: 77 where nothing can be drawn.
+"""
+import os
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+import zlib
+
+EXAMPLES, SOURCE = (os.path.abspath(path) for path in sys.argv[1:3])
+PROGRAMS = sorted(name[:-2] for name in os.listdir(os.path.join(SOURCE, "examples/lecture")))
+MODULE = os.path.join(EXAMPLES, "../common/image_oiio.so")
+NO_DRIVER = {"__EGL_VENDOR_LIBRARY_DIRS": "/nonexistent", "LIBGL_DRIVERS_PATH": "/nonexistent"}
+# Somebody whom permissions bind. No test writes to a device as root, who would lose it to a fault.
+SOMEBODY = {"user": 65534, "group": 65534, "extra_groups": []} if os.getuid() == 0 else {}
+SMALL = ("-s", "40x40")
+
+
+class Png:
+    """An RGB or RGBA PNG of 8 bits: its size, pixels and texts. Every checksum is checked."""
+
+    def __init__(self, data):
+        assert data[:8] == b"\x89PNG\r\n\x1a\n", "no PNG signature"
+        at, packed, self.texts, kind = 8, b"", {}, b""
+        while at < len(data):
+            length, kind = struct.unpack(">I4s", data[at:at + 8])
+            body = data[at + 8:at + 8 + length]
+            assert struct.unpack(">I", data[at + 8 + length:at + 12 + length])[0] == zlib.crc32(
+                kind + body), f"wrong checksum of {kind}"
+            at += 12 + length
+            if kind == b"IHDR":
+                self.width, self.height, depth, color = struct.unpack(">IIBB", body[:10])
+                assert depth == 8 and color in (2, 6) and body[10:] == b"\0\0\0", body
+                self.channels = 3 if color == 2 else 4
+            elif kind == b"tEXt":
+                key, text = body.split(b"\0", 1)
+                self.texts[key.decode("latin-1")] = text.decode("latin-1")
+            elif kind == b"IDAT":
+                packed += body
+        assert kind == b"IEND", "no end"
+        self.pixels = self.unfilter(zlib.decompress(packed))
+
+    def unfilter(self, raw):
+        stride, step = self.width * self.channels, self.channels
+        assert len(raw) == (stride + 1) * self.height, "wrong length"
+        above, pixels = bytearray(stride), bytearray()
+        for start in range(0, len(raw), stride + 1):
+            kind, row = raw[start], bytearray(raw[start + 1:start + 1 + stride])
+            for i in range(stride if kind else 0):
+                b = above[i]
+                a, c = (row[i - step], above[i - step]) if i >= step else (0, 0)
+                near = min((abs(b - c), 0, a), (abs(a - c), 1, b), (abs(a + b - 2 * c), 2, c))[2]
+                row[i] = (row[i] + (0, a, b, (a + b) // 2, near)[kind]) & 255
+            pixels += row
+            above = row
+        return bytes(pixels)
+
+    def at(self, x, y):
+        start = (y * self.width + x) * self.channels
+        return tuple(self.pixels[start:start + self.channels])
+
+
+class Case(unittest.TestCase):
+    """A test in a folder of its own, in which the programs run."""
+
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="command_line_test-")
+        os.chmod(self.folder, 0o755)
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def path(self, *names):
+        return os.path.join(self.folder, *names)
+
+    def make(self, name, content=b"old"):
+        os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
+        with open(self.path(name), "wb") as file:
+            file.write(content if isinstance(content, bytes) else content.encode())
+
+    def read(self, name):
+        with open(self.path(name), "rb") as file:
+            return file.read()
+
+    def png(self, name):
+        return Png(self.read(name))
+
+    def everything(self):
+        """What the folder has, down to the bytes; pipes and folders by their kind alone."""
+        found = {}
+        for folder, folders, files in os.walk(self.folder):
+            for name in folders + files:
+                path = os.path.join(folder, name)
+                if os.path.islink(path):
+                    found[path] = os.readlink(path)
+                elif os.path.isfile(path):
+                    with open(path, "rb") as file:
+                        found[path] = file.read()
+                else:
+                    found[path] = os.lstat(path).st_mode
+        return found
+
+    def run_it(self, *arguments, program="LightedCube", environment=None, shell="", cwd=None,
+               **more):
+        """`shell` are redirections: "2>&-"."""
+        clean = {key: value for key, value in os.environ.items() if key != "LIGHTING_SHADERS"}
+        command = [os.path.join(EXAMPLES, program), *arguments]
+        if shell:
+            command = ["sh", "-c", 'exec "$@" ' + shell, "sh", *command]
+        more.setdefault("stdout", subprocess.PIPE)
+        return subprocess.run(command, cwd=cwd or self.folder, env={**clean, **(environment or {})},
+                              stderr=subprocess.PIPE, timeout=60, **more)
+
+    def good(self, *arguments, **more):
+        result = self.run_it(*arguments, **more)
+        self.assertEqual((result.returncode, result.stderr), (0, b""), arguments)
+        return result.stdout
+
+    def refused(self, code, said, *arguments, lines=1, **more):
+        """Fails with this code, says a line that matches `said`, and leaves the folder alone."""
+        before = self.everything()
+        result = self.run_it(*arguments, **more)
+        error = result.stderr.decode()
+        with self.subTest(arguments=arguments):
+            self.assertEqual(result.returncode, code, error)
+            self.assertRegex(error, said)
+            self.assertTrue(error.endswith("\n"))
+            if lines:
+                self.assertEqual(error.count("\n"), lines, error)
+            self.assertFalse(result.stdout)
+            self.assertEqual(self.everything(), before)
+        return error
+
+
+class Options(Case):
+    def test_every_program_answers_help_and_version(self):
+        for program in PROGRAMS + ["gallery"]:
+            with self.subTest(program=program):
+                version = self.good("--version", program=program).decode()
+                self.assertRegex(version, rf"^{program} \(lighting\) \d[\d.]*\n$")
+                text = self.good("--help", program=program).decode()
+                self.assertTrue(text.startswith(f"Usage: {program} [options]"))
+                self.assertEqual(text, self.good("-h", "--bogus", program=program).decode())
+        self.assertEqual(self.everything(), {})
+
+    def test_every_program_draws_its_picture(self):
+        for program in PROGRAMS:
+            with self.subTest(program=program):
+                self.assertEqual(self.good(program=program), b"")
+                png = self.png(program + ".png")
+                self.assertEqual((png.width, png.height, png.channels), (400, 400, 3))
+                self.assertNotEqual(png.at(200, 200), png.at(0, 0))
+        self.assertEqual(sorted(os.listdir(self.folder)), [name + ".png" for name in PROGRAMS])
+
+    def test_what_the_command_line_has_wrong_is_a_usage_error(self):
+        self.make("LightedCube.png")
+        wanted = "must be"
+        for said, *arguments in (
+                ("no such option; did you mean --size", "--sise", "4x4"),
+                ("no such option", "--xylophone"), ("-z: no such option", "-z"),
+                ("-z: no such option", "--verbose", "-zv"),
+                ("--precision.*--print-shader", "--pr"),
+                ("needs a value", "--output"), ("needs a value", "-s"),
+                ("takes no value", "--alpha=yes"), ("not an option", "picture.png"),
+                ("no such backend; there is .*egl", "--backend", "vulkan"),
+                *((wanted, "--size", value) for value in (
+                    "0", "400x", "x400", "0x0", "20000x1", "16385x1", "-1x5", "4x4x4", "", "4 x4")),
+                *((wanted, "--frames", value) for value in ("0", "abc", "-1", "1.5", "1e99")),
+                *((wanted, "--fps", value) for value in ("0", "-1", "inf")),
+                *((wanted, "--time", value) for value in ("nan", "inf", "abc", "1e999", "0x1", "")),
+                *((wanted, "--angle", value) for value in ("nan", "-inf", "abc")),
+                *((wanted, "--samples", value) for value in ("-1", "abc", "1.5")),
+                *((wanted, "--compress", value) for value in ("10", "-1", "best")),
+                (wanted, "--precision", "lowp"), (wanted, "--print-shader=geometry"),
+                ("name is empty", "--shaders", ""), ("name is empty", "-o", ""),
+                ("number", "-n", "3", "-o", "a.png"), ("number", "-n", "3", "-o", "a%d%d.png"),
+                ("number", "-n", "3", "-o", "a%s.png"), ("one picture", "-n", "3", "-o", "-"),
+                ("is a folder", "-o", "folder/"), ("extension", "-o", "picture"),
+                ("extension", "-o", ".png"), ("xyz", "-o", "picture.xyz")):
+            self.refused(2, "^LightedCube: .*" + said, *arguments)
+
+    def test_more_samples_than_there_are_name_the_most(self):
+        self.make("LightedCube.png")
+        for samples in ("64", "999"):
+            self.refused(1, r"^LightedCube: .*\bat most \d+$", "--samples", samples)
+
+    def test_sizes(self):
+        for width, height in ((1, 1), (1, 400), (777, 3), (16384, 1)):
+            self.good("-s", f"{width}x{height}", "-o", "a.png")
+            png = self.png("a.png")
+            self.assertEqual((png.width, png.height), (width, height))
+
+    def test_texts_say_what_the_picture_is(self):
+        self.good("--size=30x20", "-t", "1.5", "--samples", "4", "--precision", "highp", "--alpha",
+                  "-o", "a.png", program="PointLightedCube_animation")
+        texts = self.png("a.png").texts
+        self.assertEqual(texts["Title"], "PointLightedCube_animation")
+        self.assertRegex(texts["Software"], r"^lighting \d")
+        self.assertEqual(texts["Time"], "1.5 s")
+        for part in ("--size 30x20", "--samples 4", "--precision highp", "--alpha", "egl"):
+            self.assertIn(part, texts["Settings"])
+
+    def test_alpha_makes_the_background_transparent(self):
+        self.good(*SMALL, "-o", "opaque.png")
+        self.good(*SMALL, "--alpha", "-o", "clear.png")
+        opaque, clear = self.png("opaque.png"), self.png("clear.png")
+        self.assertEqual((opaque.channels, clear.channels), (3, 4))
+        self.assertEqual(clear.at(0, 0)[3], 0)
+        self.assertEqual(clear.at(20, 20), (*opaque.at(20, 20), 255))
+
+    def test_samples_smooth_the_edges(self):
+        colors = []
+        for samples in ("0", "4"):
+            self.good("--samples", samples, "-o", "a.png")
+            png = self.png("a.png")
+            colors.append(len({png.at(x, y) for x in range(400) for y in range(400)}))
+        self.assertGreater(colors[1], 2 * colors[0])  # a cube has few colours, its edges have many
+
+    def test_frames_are_the_pictures_of_their_times(self):
+        move = {"program": "LightedCube_animation"}
+        self.good(*SMALL, "--frames", "5", "--fps", "2", "-t", "0.25", "-o", "f%02d.png", **move)
+        self.assertEqual(sorted(os.listdir(self.folder)), [f"f{i:02}.png" for i in range(5)])
+        pictures = [self.png(f"f{i:02}.png") for i in range(5)]
+        self.assertEqual(len({picture.pixels for picture in pictures}), 5)
+        for i, picture in enumerate(pictures):
+            self.good(*SMALL, "-t", str(0.25 + i / 2), "-o", "one.png", **move)
+            one = self.png("one.png")
+            self.assertEqual((one.pixels, one.texts), (picture.pixels, picture.texts))
+        self.good(*SMALL, "-n", "2", **move)
+        self.assertTrue(os.path.exists(self.path("LightedCube_animation0001.png")))
+
+    def test_an_angle_is_a_time(self):
+        for program, moves in (("LightedCube_animation", True), ("LightedCube", False)):
+            for name, option, value in (("a.png", "-a", "75"), ("t.png", "-t", "2.5"),
+                                        ("0.png", "--angle", "0")):
+                self.good(*SMALL, option, value, "-o", name, program=program)
+            self.assertEqual(self.read("a.png"), self.read("t.png"))
+            self.assertEqual(self.png("a.png").pixels != self.png("0.png").pixels, moves)
+
+    def test_compressing_changes_the_size_alone(self):
+        for level in "09":
+            self.good("--compress", level, "-o", level + ".png")
+        self.assertLess(len(self.read("9.png")), len(self.read("0.png")) // 2)
+        self.assertEqual(self.png("9.png").pixels, self.png("0.png").pixels)
+
+    def test_printing_a_shader_draws_nothing(self):
+        for stage, has in (("vert", "gl_Position"), ("frag", "gl_FragColor")):
+            text = self.good("--print-shader=" + stage, program="PointLightedCube").decode()
+            self.assertTrue(text.startswith("#version 100\n"))
+            self.assertIn(has, text)
+        both = self.good("--print-shader").decode()
+        self.assertEqual(both.count("#version 100\n"), 2)
+        high = self.good("--print-shader=frag", "--precision", "highp").decode()
+        self.assertIn("#define mediump highp", high)
+        self.assertEqual(self.everything(), {})
+
+    def test_verbose_speaks_on_standard_error(self):
+        for option in ("-v", "--verbose"):
+            result = self.run_it(*SMALL, option, "-o", "-")
+            self.assertEqual(result.returncode, 0)
+            self.assertEqual(Png(result.stdout).width, 40)
+            for word in ("backend: egl", "renderer: ", "40x40", "precision", " ms"):
+                self.assertIn(word, result.stderr.decode())
+
+    def test_a_backend_can_be_named(self):
+        self.good(*SMALL, "-o", "a.png")
+        self.good(*SMALL, "-b", "egl", "-o", "b.png")
+        self.assertEqual(self.read("a.png"), self.read("b.png"))
+
+    def test_the_doctor_says_what_works(self):
+        text = self.good("--doctor").decode()
+        self.assertRegex(text, r"(?s)egl.*works.*renderer.*This machine can draw\.\n$")
+        self.assertEqual(self.everything(), {})
+
+    def test_without_a_driver_one_line_names_the_packages(self):
+        self.make("LightedCube.png")
+        self.refused(1, "^LightedCube: EGL: .*install the packages libegl1 ",
+                     environment=NO_DRIVER)
+        result = self.run_it("--doctor", environment=NO_DRIVER)
+        self.assertEqual((result.returncode, result.stderr), (1, b""))
+        self.assertRegex(result.stdout.decode(), r"(?s)libegl1.*cannot draw yet\.\n$")
+
+
+class Outputs(Case):
+    def test_what_cannot_be_written_is_a_failure(self):
+        self.make("file")
+        os.mkdir(self.path("folder.png"))
+        os.symlink("loop.png", self.path("loop.png"))
+        os.symlink("missing/a.png", self.path("lost.png"))
+        for output, said in (("missing/a.png", "folder missing/ does not exist"),
+                             ("folder.png", "is a folder"), ("file/a.png", "Not a directory"),
+                             ("loop.png", "symbolic links"), ("lost.png", "does not exist"),
+                             ("n" * 300 + ".png", "too long")):
+            self.refused(1, "^LightedCube: .*" + said, *SMALL, "-o", output)
+        self.refused(1, "folder missing0/ does not exist", "-n", "2", "-o", "missing%d/a.png")
+
+    def need_somebody(self):
+        try:
+            self.good("--version", **SOMEBODY)
+        except (OSError, AssertionError):
+            self.skipTest("nobody may not enter the build's folder")
+
+    def test_devices_are_written_through(self):
+        self.need_somebody()
+        os.symlink("/dev/full", self.path("full.png"))
+        os.symlink("/dev/null", self.path("null.png"))
+        expected = self.good(*SMALL, "-o", "-")
+        for output in ("/dev/null", "null.png"):
+            self.assertEqual(self.good(*SMALL, "-o", output, **SOMEBODY), b"")
+        # What /dev/stdout leads to, in a folder where nothing can be replaced.
+        self.assertEqual(self.good(*SMALL, "-o", "/proc/self/fd/1"), expected)
+        for output in ("/dev/full", "full.png"):
+            self.refused(1, "^LightedCube: .*No space left", *SMALL, "-o", output, **SOMEBODY)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["full.png", "null.png"])
+
+    def test_what_is_protected_stays(self):
+        self.need_somebody()
+        self.make("read_only.png")
+        self.make("protected/old.png")
+        os.chmod(self.path("read_only.png"), 0o444)
+        os.chmod(self.path("protected"), 0o555)
+        self.addCleanup(os.chmod, self.path("protected"), 0o755)
+        for output in ("read_only.png", "protected/old.png", "protected/new.png"):
+            self.refused(1, "^LightedCube: .*Permission denied", "-o", output, **SOMEBODY)
+
+    def test_a_file_is_replaced_and_keeps_its_permissions(self):
+        self.make("a.png")
+        os.chmod(self.path("a.png"), 0o640)
+        self.good(*SMALL, "-o", "a.png")
+        self.assertEqual(self.png("a.png").width, 40)
+        self.assertEqual(os.stat(self.path("a.png")).st_mode & 0o777, 0o640)
+        self.assertEqual(os.listdir(self.folder), ["a.png"])
+
+    def test_a_file_too_large_for_the_limit_leaves_the_old_one(self):
+        self.make("a.png")
+        limit = 'ulimit -f 8; trap "" XFSZ; exec "$@"'  # 8 blocks of 512 or 1024 bytes
+        for number in ((), ("-n", "3")):
+            before = self.everything()
+            name = "b%d.png" if number else "a.png"
+            result = subprocess.run(["sh", "-c", limit, "sh", os.path.join(EXAMPLES, "LightedCube"),
+                                     "--compress", "0", *number, "-o", name], cwd=self.folder,
+                                    capture_output=True, timeout=60)
+            self.assertEqual((result.returncode, result.stdout), (1, b""))
+            self.assertRegex(result.stderr.decode(), r"^LightedCube: \w+\.png: cannot write: .*\n$")
+            self.assertEqual(self.everything(), before)
+
+    def test_links_and_pipes_are_written_through(self):
+        self.make("target.png")
+        os.symlink("target.png", self.path("link.png"))
+        self.good(*SMALL, "-o", "link.png")
+        self.assertTrue(os.path.islink(self.path("link.png")))
+        expected = self.read("target.png")
+        self.assertEqual(Png(expected).width, 40)
+
+        got = []
+        os.mkfifo(self.path("pipe.png"))
+        reader = threading.Thread(target=lambda: got.append(self.read("pipe.png")))
+        reader.start()
+        self.good(*SMALL, "-o", "pipe.png")
+        reader.join(10)
+        self.assertEqual(got, [expected])
+        self.assertEqual(sorted(os.listdir(self.folder)), ["link.png", "pipe.png", "target.png"])
+
+    def test_a_dash_is_standard_output(self):
+        self.good(*SMALL, "-o", "a.png")
+        self.assertEqual(self.good(*SMALL, "-o", "-"), self.read("a.png"))
+        self.assertEqual(os.listdir(self.folder), ["a.png"])
+
+    def test_output_that_does_not_arrive_is_a_failure(self):
+        for arguments in (("--help",), ("--version",), ("-o", "-"), ("--print-shader",),
+                          ("--doctor",)):
+            for shell in (">&-", ">/dev/full"):
+                self.refused(1, "^LightedCube: standard output: cannot write: ", *SMALL, *arguments,
+                             shell=shell)
+            reading, writing = os.pipe()
+            os.close(reading)
+            self.refused(1, "cannot write: Broken pipe", *SMALL, *arguments, stdout=writing)
+            os.close(writing)
+
+    def test_closed_streams_do_no_harm(self):
+        self.good(*SMALL, "-o", "right.png")
+        for shell in ("<&-", ">&-", "2>&-", "<&- >&- 2>&-"):
+            result = self.run_it(*SMALL, "-v", "-o", "a.png", shell=shell)
+            self.assertEqual(result.returncode, 0)
+            self.assertEqual(self.read("a.png"), self.read("right.png"))
+        for shell in ("2>&-", "2>/dev/full", "<&- >&- 2>&-"):
+            for code, arguments in ((2, ("--bogus",)), (1, ("-o", "missing/a.png"))):
+                self.assertEqual(self.run_it(*arguments, shell=shell).returncode, code)
+
+    def test_programs_run_from_any_folder_and_under_any_name(self):
+        os.makedirs(self.path("a b/h\u00e9"))
+        self.good(*SMALL, "-o", self.path("a.png"), cwd="/")
+        self.good(*SMALL, "-o", "a.png", cwd=self.path("a b/h\u00e9"))
+        self.assertEqual(self.read("a.png"), self.read("a b/h\u00e9/a.png"))
+        os.symlink(os.path.join(EXAMPLES, "LightedCube"), self.path("linked"))
+        self.good(*SMALL, "-o", "b.png", program=self.path("linked"))
+        self.assertEqual(self.read("a.png"), self.read("b.png"))
+
+    @unittest.skipUnless(os.path.exists(MODULE), "built without OpenImageIO")
+    def test_other_formats(self):
+        for extension, start in (("exr", b"\x76\x2f\x31\x01"), ("tif", b"II*\0"), ("webp", b"RIFF"),
+                                 ("jpg", b"\xff\xd8\xff"), ("PNG", b"\x89PNG")):
+            self.good(*SMALL, "-o", "a." + extension)
+            self.assertTrue(self.read("a." + extension).startswith(start), extension)
+        # The channels of an OpenEXR file: a name, and 2 for 32-bit float.
+        channels = self.read("a.exr").split(b"channels\0chlist\0", 1)[1][4:]
+        self.assertEqual(channels[:6], b"B\0" + struct.pack("<I", 2))
+        self.refused(1, "folder missing/ does not exist", "-o", "missing/a.exr")
+
+
+class Shaders(Case):
+    def setUp(self):
+        super().setUp()
+        self.make("LightedCube.png")
+        self.lecture = os.path.join(SOURCE, "shaders/lecture")
+        os.mkdir(self.path("mine"))
+
+    def original(self, name="LightedCube.frag"):
+        with open(os.path.join(self.lecture, name), encoding="utf-8") as file:
+            return file.read()
+
+    def test_an_edited_shader_is_found_and_drawn(self):
+        # Always 1, but no compiler knows: what the program sets must be in use.
+        red = ("precision mediump float;\nvarying vec4 v_Color;\nvoid main() {\n"
+               "    float one = step(-9.0, dot(v_Color, v_Color));\n"
+               "    gl_FragColor = vec4(one, 0.0, 0.0, 1.0);\n}\n")
+        blue = red.replace("one, 0.0, 0.0", "0.0, 0.0, one")
+        self.make("by_name/LightedCube.frag", red)
+        self.make("by_path/lecture/LightedCube.frag", blue)
+        for color, arguments, environment in (
+                ((255, 0, 0), ("--shaders", "by_name"), {}),
+                ((0, 0, 255), ("--shaders", "by_path"), {}),
+                ((255, 0, 0), (), {"LIGHTING_SHADERS": "by_name"}),
+                ((0, 0, 255), ("--shaders", "by_path"), {"LIGHTING_SHADERS": "by_name"})):
+            self.good(*SMALL, "-o", "a.png", *arguments, environment=environment)
+            self.assertEqual(self.png("a.png").at(20, 20), color)
+
+    def test_folders_that_are_not_there_are_named(self):
+        self.refused(1, "^LightedCube: --shaders nowhere: ", "--shaders", "nowhere")
+        self.refused(1, "^LightedCube: --shaders LightedCube.png: ", "--shaders", "LightedCube.png")
+        self.refused(1, "^LightedCube: LIGHTING_SHADERS=nowhere: ",
+                     environment={"LIGHTING_SHADERS": "nowhere"})
+
+    def test_a_broken_shader_is_said_with_its_line(self):
+        original = self.original()
+        lines = original.count("\n")
+        mine = "mine/LightedCube.frag"
+        long = ("//" + "x" * 47 + "\n") * 16383
+        for content, said, count in (
+                ("", rf"^{mine}:1: the file is empty\n", 1),
+                (b"\x7fELF\0\1\2", rf"^{mine}:1: byte 0x7F: ", 1),
+                (b"int a;\n\0", rf"^{mine}:2: byte 0x00: ", 1),
+                (bytes(10 << 20), rf"^LightedCube: {mine}: has 10485760 bytes", 1),
+                ("#version 300 es\n", rf"^{mine}:1: only #version 100", 1),
+                ("\nint a = 1.0;\n" + original, rf"^{mine}:2: .*\n  2 \| int a = 1\.0;\n", 0),
+                (original + "int wrong = ;\n",
+                 rf"^{mine}:{lines + 1}: .*\n  {lines + 1} \| int wrong = ;\n", 0),
+                (original.replace("\n", "\r\n") + "int wrong = ;\r\n",
+                 rf"^{mine}:{lines + 1}: .*\n  {lines + 1} \| int wrong = ;\n", 0),
+                (long + "wrong;\n", rf"^{mine}:16384: .*\n  16384 \| wrong;\n", 0),
+                ("\n#include \"LightedCube.frag\"\n", rf"^{mine}:2: .*includes itself\n", 1),
+                ("#include \"missing.glsl\"\n",
+                 rf"^{mine}:1: missing.glsl: no such .*\n  tried mine/missing.glsl\n", 0),
+                ("#include \"part.glsl\"\n" + original,
+                 r"^mine/part.glsl:2: .*\n  2 \| int p = q;\n", 0),
+                ("precision mediump float;\nvarying vec3 v_Color;\nvoid main() {\n"
+                 "    gl_FragColor = vec4(v_Color, 1.0);\n}\n",
+                 rf"^{mine}:2: linking: .*\n  2 \| varying vec3 v_Color;\n", 0)):
+            self.make("mine/part.glsl", "\nint p = q;\n")
+            self.make(mine, content)
+            self.refused(1, said, "--shaders", "mine", lines=count)
+
+    def test_a_shader_that_leaves_out_a_variable_is_said(self):
+        self.make("mine/LightedCube.vert", "attribute vec4 a_Position;\nvarying vec4 v_Color;\n"
+                  "void main() {\n    gl_Position = v_Color = a_Position;\n}\n")
+        self.refused(1, "^LightedCube: .*the linked program has no (attribute a|uniform u)_",
+                     "--shaders", "mine")
+
+    def test_what_is_no_file_is_no_shader(self):
+        os.mkfifo(self.path("mine/LightedCube.frag"))
+        self.refused(1, "LightedCube.frag: is not a regular file", "--shaders", "mine")
+        os.remove(self.path("mine/LightedCube.frag"))
+        os.mkdir(self.path("mine/LightedCube.frag"))
+        self.refused(1, "LightedCube.frag: is not a regular file", "--shaders", "mine")
+
+    def test_precision_changes_the_shader_and_hardly_the_picture(self):
+        for precision in ("highp", "mediump"):
+            self.good(*SMALL, "--precision", precision, "-o", precision + ".png")
+        high, medium = (self.png(name + ".png").pixels for name in ("highp", "mediump"))
+        # One step of rounding: a driver may take mediump's ten bits at its word.
+        self.assertLessEqual(max(abs(a - b) for a, b in zip(high, medium)), 1)
+
+
+class Gallery(Case):
+    def gallery(self, *arguments, **more):
+        return self.good(*arguments, program="gallery", **more)
+
+    def test_every_picture_is_the_one_that_its_program_draws(self):
+        self.assertEqual(self.gallery(*SMALL, "-o", "pictures"), b"pictures/index.html\n")
+        self.assertEqual(sorted(os.listdir(self.path("pictures"))),
+                         sorted([name + ".png" for name in PROGRAMS] +
+                                ["contact-sheet.png", "index.html"]))
+        page = self.read("pictures/index.html").decode()
+        for program in PROGRAMS:
+            self.good(*SMALL, "-o", "one.png", program=program)
+            self.assertEqual(self.png("one.png").pixels, self.png(f"pictures/{program}.png").pixels)
+            self.assertIn(f"<code>examples/run {program} --size 40x40</code>", page)
+
+    def test_those_named_are_drawn_into_the_default_folder(self):
+        self.gallery("PointLightedCube", *SMALL, "LightedCube")
+        self.assertEqual(sorted(os.listdir(self.path("gallery"))),
+                         ["LightedCube.png", "PointLightedCube.png", "contact-sheet.png",
+                          "index.html"])
+
+    def test_what_is_wrong_is_said(self):
+        self.make("file")
+        for code, said, *arguments in (
+                (2, "LightedCub: no such program; did you mean LightedCube", "LightedCub"),
+                (2, "xylophone: no such program", "xylophone"), (2, "--frames: ", "-n", "2"),
+                (2, "--fps: ", "--fps", "2"), (2, "--size 0x0: must be", "-s", "0x0"),
+                (1, "file: is there already and no folder", "-o", "file"),
+                (1, "missing/deep: cannot make the folder", "-o", "missing/deep")):
+            self.refused(code, "^gallery: " + said, *arguments, program="gallery")
+        self.refused(1, "^gallery: EGL: .*install", program="gallery", environment=NO_DRIVER)
+
+
+def main():
+    doctor = subprocess.run([os.path.join(EXAMPLES, "LightedCube"), "--doctor"],
+                            capture_output=True)
+    if doctor.returncode == 1:
+        print("skipped: this machine cannot draw; LightedCube --doctor says why")
+        return 77
+    test = unittest.main(argv=[sys.argv[0], *sys.argv[3:]], exit=False).result
+    failed = {case.id().split(" ")[0] for case, _ in test.failures + test.errors}
+    failed |= {case.id() for case in test.unexpectedSuccesses}
+    for case, reason in test.skipped:
+        print(f"not checked: {case.id()}: {reason}")
+    print(f"{test.testsRun - len(failed) - len(test.skipped)} passed, {len(failed)} failed")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

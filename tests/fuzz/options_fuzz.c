@@ -1,0 +1,76 @@
+/*
+ * options_fuzz: no command line may do harm.
+ *
+ * The input's lines (or what zeros separate) are the arguments; each is also read as a size, a
+ * number, a name and a pattern on its own.
+ */
+#include "options.h"
+#include "output.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+static const char *const NAMES[] = {"LightedCube", "PointLightedCube", "output", NULL};
+
+static void read_one(const char *argument)
+{
+    int width = 0, height = 0;
+    double number = 0;
+    char path[64];
+    Message message = {0};
+    if (options_size(argument, &width, &height) &&
+        (width < 1 || width > SIZE_MOST || height < 1 || height > SIZE_MOST))
+        abort();
+    if (options_number(argument, -1e9, 1e9, &number) && !(fabs(number) <= 1e9))
+        abort();
+    options_nearest(argument, NAMES);
+    if (output_numbered(argument, 12345, path, sizeof path, &message) != !message.text[0])
+        abort();
+}
+
+static void read_all(const Usage *usage, int count, char *arguments[])
+{
+    Options options;
+    Message message = {0};
+    const OptionsResult result = options_read(&options, usage, count, arguments, &message);
+    if ((result == OPTIONS_BAD) != (message.text[0] != '\0'))
+        abort();
+    if (result == OPTIONS_RUN && (!options.output[0] || options.frames < 1 || !(options.fps > 0) ||
+                                  !isfinite(options.seconds) || options.width < 1))
+        abort();
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    enum { MOST = 16 };
+    static const Usage program = {.name = "LightedCube", .summary = "Fuzzed."};
+    static const Usage gallery = {.name = "gallery", .summary = "Fuzzed.", .gallery = true};
+    static bool quiet;
+    if (!quiet && !freopen("/dev/null", "w", stdout)) /* --help is printed often */
+        abort();
+    quiet = true;
+
+    char *text = malloc(size + 1);
+    if (!text)
+        return 0;
+    for (size_t i = 0; i < size; i++)
+        text[i] = data[i] == '\n' ? '\0' : (char)data[i];
+    text[size] = '\0';
+    char *arguments[MOST + 2] = {"program"}, *again[MOST + 2];
+    int count = 1;
+    for (char *p = text; p < text + size && count <= MOST; p += strlen(p) + 1) {
+        read_one(p);
+        arguments[count++] = p;
+    }
+    memcpy(again, arguments, sizeof again); /* reading moves what is no option to the end */
+    read_all(&program, count, arguments);
+    read_all(&gallery, count, again);
+    free(text);
+    return 0;
+}

@@ -1,0 +1,82 @@
+/*
+ * shader_fuzz: no bytes of a shader file, and none of a driver's log, may do harm.
+ *
+ * The input is a shader, a zero, and a log; includes are looked for in a folder with a few files
+ * that include each other. Seeds: the files of shaders/.
+ */
+#include "shader.h"
+
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+static char folder[] = "/tmp/shader_fuzz-XXXXXX";
+
+static void remove_folder(void)
+{
+    char command[64];
+    snprintf(command, sizeof command, "rm -rf %s", folder);
+    if (system(command) != 0)
+        fprintf(stderr, "%s: left behind\n", folder);
+}
+
+static void make_folder(void)
+{
+    static const char *const files[][2] = {
+        {"a", "int a;\n#include \"b\"\n#line 9 9\nint after;"},
+        {"b", "/* no\n#include \"a\"\n*/ varying vec4 v_B;\n"},
+        {"cycle", "#include \"a\"\n#include \"through\"\n"},
+        {"through", "#include \"cycle\"\n"},
+        {"version", "#version 300 es\n"},
+        {"empty", ""},
+        {"zero", "\x01"},
+        {"twice", "#include \"a\"\r#include \"a\"\r\n"},
+    };
+    if (!mkdtemp(folder))
+        abort();
+    atexit(remove_folder);
+    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
+        char path[64];
+        snprintf(path, sizeof path, "%s/%s", folder, files[i][0]);
+        FILE *file = fopen(path, "w");
+        if (!file || fputs(files[i][1], file) < 0 || fclose(file) != 0)
+            abort();
+    }
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    static bool made;
+    if (!made)
+        make_folder();
+    made = true;
+
+    const char *text = (const char *)data;
+    const char *zero = size ? memchr(text, '\0', size) : NULL;
+    const size_t text_size = zero ? (size_t)(zero - text) : size;
+    char *log = strndup(zero ? zero + 1 : "", zero ? size - text_size - 1 : 0);
+    /* The first byte also chooses what is added. */
+    static const char *const defines[] = {"FOG", "LIGHTS 3", NULL};
+    const unsigned choice = size ? data[0] : 0;
+    const ShaderLoader loader = {.folder = folder,
+                                 .precision = choice & 1 ? "highp" : NULL,
+                                 .defines = choice & 2 ? defines : NULL};
+    ShaderSource source;
+    Message message = {0};
+    if (shader_source_parse(&source, &loader, "main.frag", text, text_size, SHADER_FRAGMENT,
+                            &message)) {
+        if (message.text[0] || strlen(source.text) != source.size ||
+            strncmp(source.text, "#version 100\n", 13) != 0)
+            abort();
+        if (shader_explain_log(&source, log, &message))
+            abort();
+        shader_source_close(&source);
+    } else if (!message.text[0] || source.text || source.files) {
+        abort();
+    }
+    free(log);
+    return 0;
+}

@@ -1,0 +1,621 @@
+/*
+ * options: every option, every bad value, and the edge of a program.
+ */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "options.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <float.h>
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+enum { MOST_ARGUMENTS = 8 };
+
+static const Usage PROGRAM = {.name = "LightedCube", .summary = "A summary."};
+static const Usage GALLERY = {.name = "gallery", .summary = "A summary.", .gallery = true};
+
+static Options options;
+static Message message;
+
+/* Reads a command line whose arguments are separated by blanks; "" stands for an empty one. */
+static OptionsResult read_as(const Usage *usage, const char *line)
+{
+    static char text[512];
+    static char *arguments[MOST_ARGUMENTS + 2];
+    int count = 0;
+    snprintf(text, sizeof text, "%s %s", usage->name, line);
+    for (char *word = strtok(text, " "); word; word = strtok(NULL, " ")) {
+        assert_true(count <= MOST_ARGUMENTS);
+        arguments[count++] = strcmp(word, "\"\"") == 0 ? word + 2 : word;
+    }
+    arguments[count] = NULL;
+    message = (Message){0};
+    return options_read(&options, usage, count, arguments, &message);
+}
+
+static void accept(const char *line)
+{
+    if (read_as(&PROGRAM, line) != OPTIONS_RUN)
+        fail_msg("refused: %s: %s", line, message.text);
+    assert_string_equal(message.text, "");
+}
+
+static void refuse_as(const Usage *usage, const char *line, const char *said)
+{
+    if (read_as(usage, line) != OPTIONS_BAD)
+        fail_msg("accepted: %s", line);
+    if (!strstr(message.text, said))
+        fail_msg("%s: expected \"%s\" in \"%s\"", line, said, message.text);
+    if (strchr(message.text, '\n'))
+        fail_msg("%s: more than one line: %s", line, message.text);
+    assert_false(message.located);
+}
+
+static void refuse(const char *line, const char *said)
+{
+    refuse_as(&PROGRAM, line, said);
+}
+
+static void without_options_the_defaults_are_those_of_the_lecture(void **state)
+{
+    (void)state;
+    accept("");
+    assert_string_equal(options.output, "LightedCube.png");
+    assert_false(options.output_given);
+    assert_int_equal(options.width, 400);
+    assert_int_equal(options.height, 400);
+    assert_true(options.seconds == 0);
+    assert_int_equal(options.frames, 1);
+    assert_true(options.fps == 30);
+    assert_null(options.canvas.backend);
+    assert_int_equal(options.canvas.samples, 0);
+    assert_null(options.shaders.folder);
+    assert_null(options.shaders.precision);
+    assert_int_equal(options.shaders.print, 0);
+    assert_int_equal(options.compress, IMAGE_COMPRESS_DEFAULT);
+    assert_false(options.alpha || options.verbose || options.shaders.verbose || options.doctor);
+    assert_null(options.names[0]);
+}
+
+static void every_option_is_read_in_its_short_and_long_form(void **state)
+{
+    (void)state;
+    static const char *const outputs[] = {"-o a.png",       "-oa.png",     "--output a.png",
+                                          "--output=a.png", "--out a.png", "-o b.png -o a.png"};
+    for (size_t i = 0; i < sizeof outputs / sizeof outputs[0]; i++) {
+        accept(outputs[i]);
+        assert_string_equal(options.output, "a.png");
+        assert_true(options.output_given);
+    }
+    static const char *const sizes[] = {"-s 3x16384", "--size 3x16384", "--size=3X16384"};
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+        accept(sizes[i]);
+        assert_int_equal(options.width, 3);
+        assert_int_equal(options.height, 16384);
+    }
+    accept("-t -1.5");
+    assert_true(options.seconds == -1.5);
+    accept("--time=2e3");
+    assert_true(options.seconds == 2000);
+    accept("-a 90");
+    assert_true(options.seconds == 3); /* at the lecture's 30 degrees a second */
+    accept("--angle -45");
+    assert_true(options.seconds == -1.5);
+    accept("-t 1 -a 90 -t 5"); /* the last one counts */
+    assert_true(options.seconds == 5);
+    accept("-n 7 -o x%d.png");
+    assert_int_equal(options.frames, 7);
+    accept("--frames 1000000 --fps 0.5");
+    assert_int_equal(options.frames, FRAMES_MOST);
+    assert_true(options.fps == 0.5);
+    accept("--samples 4");
+    assert_int_equal(options.canvas.samples, 4);
+    accept("-b egl");
+    assert_ptr_equal(options.canvas.backend, &CANVAS_EGL);
+    accept("--backend=egl");
+    assert_ptr_equal(options.canvas.backend, &CANVAS_EGL);
+    accept("--shaders some/folder");
+    assert_string_equal(options.shaders.folder, "some/folder");
+    accept("--precision highp");
+    assert_string_equal(options.shaders.precision, "highp");
+    accept("--precision mediump");
+    assert_string_equal(options.shaders.precision, "mediump");
+    accept("--print-shader");
+    assert_int_equal(options.shaders.print, SHADER_PRINT_VERTEX | SHADER_PRINT_FRAGMENT);
+    accept("--print-shader=vert");
+    assert_int_equal(options.shaders.print, SHADER_PRINT_VERTEX);
+    accept("--print-shader=frag");
+    assert_int_equal(options.shaders.print, SHADER_PRINT_FRAGMENT);
+    accept("--alpha");
+    assert_true(options.alpha);
+    accept("--compress 0");
+    assert_int_equal(options.compress, 0);
+    accept("--compress 9");
+    assert_int_equal(options.compress, 9);
+    accept("-v");
+    assert_true(options.verbose && options.shaders.verbose);
+    accept("--verbose");
+    assert_true(options.verbose && options.shaders.verbose);
+    accept("--doctor");
+    assert_true(options.doctor);
+}
+
+static void every_bad_value_is_refused_with_the_option_and_the_value(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *option, *values[14];
+    } cases[] = {
+        {"--size",
+         {"0", "400x", "x400", "0x0", "20000x1", "1x16385", "-1x5", "4x4x4", "400", "x", "1.5x2",
+          "0x10x4", "99999999999x1"}},
+        {"--time",
+         {"nan", "-nan", "inf", "-infinity", "0x10", "1e999", "2e9", "-2e9", "abc", "1s", "--",
+          "+-1", "1,5"}},
+        {"--angle", {"nan", "inf", "0x5a", "4e10", "abc", "90deg"}},
+        {"--frames", {"0", "-1", "1.5", "abc", "1000001", "1e9", "nan", "0x2", "3x"}},
+        {"--fps", {"0", "-30", "nan", "inf", "2e6", "abc", "1e-9"}},
+        {"--samples", {"-1", "1.5", "abc", "nan", "4x", "1e99"}},
+        {"--backend", {"vulkan", "EGL", "eg"}},
+        {"--precision", {"lowp", "high", "HIGHP", "highp,mediump"}},
+        {"--print-shader", {"fragment", "both", "vert,frag"}},
+        {"--compress", {"-1", "10", "1.5", "best"}},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        for (const char *const *value = cases[i].values; *value; value++) {
+            char line[128], said[128];
+            snprintf(line, sizeof line, "%s=%s", cases[i].option, *value);
+            snprintf(said, sizeof said, "%s %s: ", cases[i].option, *value);
+            refuse(line, said);
+        }
+        char empty[64];
+        snprintf(empty, sizeof empty, "%s=", cases[i].option);
+        refuse(empty, cases[i].option);
+    }
+    refuse("--output=", "--output: the name is empty");
+    refuse("-o \"\"", "--output: the name is empty");
+    refuse("--shaders=", "--shaders: the name is empty");
+    refuse("--backend osmosis", "there is egl");
+}
+
+static void an_option_without_its_value_says_so(void **state)
+{
+    (void)state;
+    static const char *const lines[] = {
+        "--output",  "--size",    "--time",    "--angle",     "--frames",   "--fps",
+        "--samples", "--backend", "--shaders", "--precision", "--compress", "-o",
+        "-s",        "-t",        "-a",        "-n",          "-b"};
+    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
+        char said[64];
+        snprintf(said, sizeof said, "%s: needs a value", lines[i]);
+        refuse(lines[i], said);
+    }
+    refuse("-vo", "-o: needs a value");
+}
+
+static void a_value_for_an_option_that_takes_none_is_refused(void **state)
+{
+    (void)state;
+    refuse("--alpha=1", "--alpha=1: takes no value");
+    refuse("--verbose=very", "takes no value");
+    refuse("--help=me", "takes no value");
+}
+
+static void an_unknown_option_gets_the_nearest_name(void **state)
+{
+    (void)state;
+    refuse("--sise 4x4", "--sise: no such option; did you mean --size?");
+    refuse("--ouptut=a.png", "did you mean --output?");
+    refuse("--Samples 4", "did you mean --samples?");
+    refuse("--precison highp", "did you mean --precision?");
+    refuse("--print-shaders", "did you mean --print-shader?");
+    refuse("--fsp 3", "did you mean --fps?");
+    refuse("--xylophone", "--xylophone: no such option; --help lists them");
+    refuse("--=3", "no such option");
+    refuse("-z", "-z: no such option; --help lists them");
+}
+
+static void an_unknown_letter_is_named_wherever_it_stands(void **state)
+{
+    (void)state;
+    refuse("-vz", "-z: no such option");
+    refuse("-zv", "-z: no such option");
+    refuse("--verbose -zv", "-z: no such option");
+    refuse("--alpha -zo a.png", "-z: no such option");
+}
+
+static void a_beginning_of_several_options_names_them(void **state)
+{
+    (void)state;
+    refuse("--pr", "--precision");
+    refuse("--pr", "--print-shader");
+    refuse("--s 4", "--samples");
+}
+
+static void what_is_no_option_is_refused(void **state)
+{
+    (void)state;
+    refuse("picture.png", "picture.png: not an option");
+    refuse("-v picture.png --alpha", "picture.png: not an option");
+    refuse("-- --alpha", "--alpha: not an option");
+    refuse("-", "-: not an option");
+    refuse("\"\"", "not an option");
+}
+
+static void a_size_is_two_whole_numbers(void **state)
+{
+    (void)state;
+    static const char *const bad[] = {
+        "",        "x",     "1",     "1x",   "x1",    "0x1",  "1x0",         "16385x1",
+        "1x16385", "-1x1",  "+1x1",  " 1x1", "1x1 ",  "1 x1", "1x 1",        "1x1x1",
+        "1e2x1",   "1.0x1", "0x1x1", "1*1",  "1x1\n", "axb",  "4294967297x1"};
+    int width = 11, height = 22;
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++)
+        if (options_size(bad[i], &width, &height))
+            fail_msg("accepted: \"%s\"", bad[i]);
+    assert_int_equal(width, 11);
+    assert_int_equal(height, 22);
+    static const struct {
+        const char *text;
+        int width, height;
+    } good[] = {
+        {"1x1", 1, 1}, {"16384x16384", 16384, 16384}, {"007x3", 7, 3}, {"640X480", 640, 480}};
+    for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) {
+        assert_true(options_size(good[i].text, &width, &height));
+        assert_int_equal(width, good[i].width);
+        assert_int_equal(height, good[i].height);
+    }
+}
+
+static void a_number_is_finite_decimal_and_nothing_else(void **state)
+{
+    (void)state;
+    static const char *const bad[] = {
+        "",         ".",   "-",     "+",     "e",      "nan", "NAN",   "inf", "-inf",
+        "infinity", "0x1", "0X1p3", "1e400", "-1e400", " 1",  "1 ",    "\t1", "1\n",
+        "1a",       "1e",  "--1",   "+-1",   "1.2.3",  "1,5", "1_000", "1f",  "\xC2\xB2"};
+    double number = 42;
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++)
+        if (options_number(bad[i], -DBL_MAX, DBL_MAX, &number))
+            fail_msg("accepted: \"%s\"", bad[i]);
+    assert_true(number == 42);
+    static const struct {
+        const char *text;
+        double value;
+    } good[] = {{"0", 0},      {"-1.5", -1.5}, {"+2", 2},      {".5", 0.5}, {"5.", 5},
+                {"1e3", 1000}, {"1E-2", 0.01}, {"-.25", -.25}, {"010", 10}, {"1e-400", 0}};
+    for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) {
+        assert_true(options_number(good[i].text, -DBL_MAX, DBL_MAX, &number));
+        assert_true(number == good[i].value);
+    }
+}
+
+static void the_ends_of_a_range_belong_to_it(void **state)
+{
+    (void)state;
+    double number;
+    assert_true(options_number("-2", -2, 3, &number));
+    assert_true(options_number("3", -2, 3, &number));
+    assert_false(options_number("-2.0000001", -2, 3, &number));
+    assert_false(options_number("3.0000001", -2, 3, &number));
+}
+
+static void the_nearest_name_is_the_one_with_fewest_changes(void **state)
+{
+    (void)state;
+    static const char *const names[] = {
+        "cube", "sphere", "torus", "LightedCube", "LightedCube_ambient", NULL};
+    static const char *const none[] = {NULL};
+    static const struct {
+        const char *word, *nearest;
+    } cases[] = {
+        {"cube", "cube"},
+        {"cub", "cube"},
+        {"cubes", "cube"},
+        {"Cube", "cube"},
+        {"ucbe", "cube"},
+        {"shpere", "sphere"},
+        {"tours", "torus"},
+        {"lightedcube", "LightedCube"},
+        {"LightedCubes", "LightedCube"},
+        {"LightedCube_ambiant", "LightedCube_ambient"},
+        {"teapot", NULL},
+        {"xyz", NULL},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const char *found = options_nearest(cases[i].word, names);
+        if (!cases[i].nearest && found)
+            fail_msg("%s: found %s", cases[i].word, found);
+        if (cases[i].nearest)
+            assert_string_equal(found ? found : "(none)", cases[i].nearest);
+    }
+    assert_null(options_nearest("cube", none));
+
+    char endless[5000];
+    memset(endless, 'c', sizeof endless - 1);
+    endless[sizeof endless - 1] = '\0';
+    const char *const long_names[] = {endless, NULL};
+    assert_null(options_nearest("cube", long_names));
+    options_nearest(endless, names); /* whatever it finds, it must come back */
+}
+
+static void the_default_output_is_named_for_the_program(void **state)
+{
+    (void)state;
+    accept("");
+    assert_string_equal(options.output, "LightedCube.png");
+    accept("-n 3");
+    assert_string_equal(options.output, "LightedCube%04d.png");
+    assert_false(options.output_given);
+    assert_int_equal(read_as(&GALLERY, ""), OPTIONS_RUN);
+    assert_string_equal(options.output, "gallery");
+}
+
+static void an_output_that_cannot_be_a_picture_is_refused(void **state)
+{
+    (void)state;
+    refuse("-o folder/", "folder/: is a folder");
+    refuse("-o picture", "picture: the extension names the format");
+    refuse("-o folder.png/picture", "folder.png/picture: the extension");
+    refuse("-o .png", "the extension");
+    refuse("-o picture.", "the extension");
+    refuse("-o - -n 2", "standard output takes one picture, not 2");
+    accept("-o picture.PNG");
+    accept("-o /dev/null");
+    accept("-o 100%.png"); /* one picture's name is taken as it is */
+}
+
+static void several_pictures_need_exactly_one_number_in_the_name(void **state)
+{
+    (void)state;
+    static const char *const bad[] = {"a.png",  "a%%.png",   "%d%d.png", "a%s.png",
+                                      "a%.png", "a%-3d.png", "a%x.png",  "a%100d.png"};
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        char line[64];
+        snprintf(line, sizeof line, "--frames 2 -o %s", bad[i]);
+        refuse(line, bad[i]);
+    }
+    accept("--frames 2 -o a%d.png");
+    accept("--frames 2 -o a%04d.png");
+    accept("--frames 2 -o 100%%_%3d.png");
+    accept("--frames 1 -o a.png");
+    accept("-o a.png --print-shader --frames 2"); /* nothing is written, so no name is wrong */
+}
+
+static void a_gallery_takes_names_and_a_folder_but_no_frames(void **state)
+{
+    (void)state;
+    assert_int_equal(read_as(&GALLERY, "LightedCube -s 64x64 PointLightedCube -o here"),
+                     OPTIONS_RUN);
+    assert_string_equal(options.output, "here"); /* needs no extension */
+    assert_true(options.output_given);
+    assert_int_equal(options.width, 64);
+    assert_string_equal(options.names[0], "LightedCube");
+    assert_string_equal(options.names[1], "PointLightedCube");
+    assert_null(options.names[2]);
+    assert_int_equal(read_as(&GALLERY, "-o here/"), OPTIONS_RUN);
+    refuse_as(&GALLERY, "-n 2", "--frames: a gallery");
+    refuse_as(&GALLERY, "--fps 2", "--fps: a gallery");
+    refuse_as(&GALLERY, "-s 4", "--size 4: must be");
+}
+
+static void reading_twice_starts_anew(void **state)
+{
+    (void)state;
+    accept("-v --alpha -s 4x4");
+    refuse("--bogus -v", "--bogus");
+    accept("");
+    assert_false(options.verbose || options.alpha);
+    assert_int_equal(options.width, 400);
+}
+
+/* A stream's file descriptor, while a temporary file stands in its place. */
+typedef struct Capture {
+    FILE *stream, *file;
+    int saved;
+} Capture;
+
+static Capture capture_start(FILE *stream)
+{
+    Capture capture = {.stream = stream, .file = tmpfile()};
+    assert_non_null(capture.file);
+    fflush(stream);
+    capture.saved = dup(fileno(stream));
+    assert_true(dup2(fileno(capture.file), fileno(stream)) >= 0);
+    return capture;
+}
+
+static void capture_end(Capture *capture, char *text, size_t size)
+{
+    fflush(capture->stream);
+    assert_true(dup2(capture->saved, fileno(capture->stream)) >= 0);
+    close(capture->saved);
+    rewind(capture->file);
+    text[fread(text, 1, size - 1, capture->file)] = '\0';
+    fclose(capture->file);
+}
+
+static void help_names_every_option_and_version_is_one_line(void **state)
+{
+    (void)state;
+    static const char *const named[] = {"Usage: LightedCube [options]",
+                                        "A summary.",
+                                        "-o, --output",
+                                        "-s, --size",
+                                        "-t, --time",
+                                        "-a, --angle",
+                                        "-n, --frames",
+                                        "--fps",
+                                        "--samples",
+                                        "-b, --backend",
+                                        "--shaders",
+                                        "--precision",
+                                        "--print-shader",
+                                        "--alpha",
+                                        "--compress",
+                                        "-v, --verbose",
+                                        "--doctor",
+                                        "-h, --help",
+                                        "--version",
+                                        "LIGHTING_SHADERS",
+                                        "400x400",
+                                        "Exit status"};
+    char text[8192];
+    Capture capture = capture_start(stdout);
+    const OptionsResult result = read_as(&PROGRAM, "--help");
+    capture_end(&capture, text, sizeof text);
+    assert_int_equal(result, OPTIONS_ANSWERED);
+    for (size_t i = 0; i < sizeof named / sizeof named[0]; i++)
+        if (!strstr(text, named[i]))
+            fail_msg("not in --help: %s", named[i]);
+    for (char *line = strtok(text, "\n"); line; line = strtok(NULL, "\n"))
+        if (strlen(line) > 100)
+            fail_msg("too long: %s", line);
+
+    capture = capture_start(stdout);
+    const OptionsResult gallery = read_as(&GALLERY, "-h");
+    capture_end(&capture, text, sizeof text);
+    assert_int_equal(gallery, OPTIONS_ANSWERED);
+    assert_non_null(strstr(text, "Usage: gallery [options] [NAME...]"));
+    assert_null(strstr(text, "--frames"));
+
+    capture = capture_start(stdout);
+    const OptionsResult version = read_as(&PROGRAM, "--version");
+    capture_end(&capture, text, sizeof text);
+    assert_int_equal(version, OPTIONS_ANSWERED);
+    assert_string_equal(text, "LightedCube (lighting) " VERSION "\n");
+}
+
+static void a_failure_is_said_with_the_programs_name_unless_it_has_a_place(void **state)
+{
+    (void)state;
+    char text[256];
+    const Message plain = {.text = "a.png: is a folder"};
+    const Message placed = {.text = "a.vert:3: syntax error", .located = true};
+    const Message empty = {.text = ""};
+    Capture capture = capture_start(stderr);
+    const int first = options_fail("LightedCube", &plain, EXIT_USAGE);
+    const int second = options_fail("LightedCube", &placed, EXIT_FAILED);
+    options_fail("LightedCube", &empty, EXIT_FAILED);
+    capture_end(&capture, text, sizeof text);
+    assert_int_equal(first, EXIT_USAGE);
+    assert_int_equal(second, EXIT_FAILED);
+    assert_string_equal(text, "LightedCube: a.png: is a folder\na.vert:3: syntax error\n"
+                              "LightedCube: failed\n");
+}
+
+/* Runs `body` in a child; 0 where all that it checked was so. */
+static int in_child(int (*body)(void))
+{
+    int status = 0;
+    fflush(NULL);
+    const pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0)
+        _exit(body());
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status));
+    return WEXITSTATUS(status);
+}
+
+static int prepare_with_closed_streams(void)
+{
+    close(0);
+    close(1);
+    close(2);
+    options_prepare_process();
+    const int next = open("/dev/null", O_RDONLY);
+    char byte;
+    if (next != 3)
+        return 1; /* a file took the number of a standard stream */
+    if (read(0, &byte, 1) != 0)
+        return 2;
+    if (write(1, "x", 1) >= 0 || write(2, "x", 1) >= 0)
+        return 3; /* what is written to a closed stream must fail */
+    return 0;
+}
+
+static int prepare_with_open_streams(void)
+{
+    int ends[2];
+    if (pipe(ends) != 0 || dup2(ends[1], 1) < 0)
+        return 1;
+    options_prepare_process();
+    if (write(1, "x", 1) != 1)
+        return 2; /* open streams stay as they are */
+    close(ends[0]);
+    if (write(1, "x", 1) >= 0 || errno != EPIPE)
+        return 3; /* and a broken pipe is an error, not the end */
+    return signal(SIGXFSZ, SIG_DFL) == SIG_IGN ? 0 : 4;
+}
+
+static int finish_on_a_full_device(void)
+{
+    const int full = open("/dev/full", O_WRONLY);
+    const int quiet = open("/dev/null", O_WRONLY);
+    if (full < 0 || dup2(full, 1) < 0 || dup2(quiet, 2) < 0)
+        return 1;
+    if (options_finish("LightedCube", 0) != 0)
+        return 2; /* nothing was written, so nothing is lost */
+    fputs("data", stdout);
+    return options_finish("LightedCube", 0) == EXIT_FAILED ? 0 : 3;
+}
+
+static void closed_standard_streams_are_held_by_nothing_else(void **state)
+{
+    (void)state;
+    assert_int_equal(in_child(prepare_with_closed_streams), 0);
+}
+
+static void open_streams_stay_and_broken_pipes_are_errors(void **state)
+{
+    (void)state;
+    assert_int_equal(in_child(prepare_with_open_streams), 0);
+}
+
+static void output_that_does_not_arrive_is_a_failure(void **state)
+{
+    (void)state;
+    assert_int_equal(in_child(finish_on_a_full_device), 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(without_options_the_defaults_are_those_of_the_lecture),
+        cmocka_unit_test(every_option_is_read_in_its_short_and_long_form),
+        cmocka_unit_test(every_bad_value_is_refused_with_the_option_and_the_value),
+        cmocka_unit_test(an_option_without_its_value_says_so),
+        cmocka_unit_test(a_value_for_an_option_that_takes_none_is_refused),
+        cmocka_unit_test(an_unknown_option_gets_the_nearest_name),
+        cmocka_unit_test(an_unknown_letter_is_named_wherever_it_stands),
+        cmocka_unit_test(a_beginning_of_several_options_names_them),
+        cmocka_unit_test(what_is_no_option_is_refused),
+        cmocka_unit_test(a_size_is_two_whole_numbers),
+        cmocka_unit_test(a_number_is_finite_decimal_and_nothing_else),
+        cmocka_unit_test(the_ends_of_a_range_belong_to_it),
+        cmocka_unit_test(the_nearest_name_is_the_one_with_fewest_changes),
+        cmocka_unit_test(the_default_output_is_named_for_the_program),
+        cmocka_unit_test(an_output_that_cannot_be_a_picture_is_refused),
+        cmocka_unit_test(several_pictures_need_exactly_one_number_in_the_name),
+        cmocka_unit_test(a_gallery_takes_names_and_a_folder_but_no_frames),
+        cmocka_unit_test(reading_twice_starts_anew),
+        cmocka_unit_test(help_names_every_option_and_version_is_one_line),
+        cmocka_unit_test(a_failure_is_said_with_the_programs_name_unless_it_has_a_place),
+        cmocka_unit_test(closed_standard_streams_are_held_by_nothing_else),
+        cmocka_unit_test(open_streams_stay_and_broken_pipes_are_errors),
+        cmocka_unit_test(output_that_does_not_arrive_is_a_failure),
+    };
+    return cmocka_run_group_tests_name("options", tests, NULL, NULL);
+}

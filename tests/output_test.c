@@ -1,0 +1,612 @@
+/*
+ * output: a file is whole or as it was, and what is no file is written through.
+ */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "output.h"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <sched.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mount.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+/* More than a pipe holds, and than the limits that are set below. */
+enum { LARGE = 300000 };
+
+static char folder[] = "/tmp/output_test-XXXXXX";
+static char large[LARGE + 1];
+static Message message;
+
+static void make(const char *path, const char *text)
+{
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    assert_true(fputs(text, file) >= 0);
+    assert_int_equal(fclose(file), 0);
+}
+
+static bool holds(const char *path, const char *text)
+{
+    static char found[LARGE + 2];
+    const int file = open(path, O_RDONLY | O_NONBLOCK);
+    size_t used = 0;
+    ssize_t got;
+    if (file < 0)
+        return false;
+    while ((got = read(file, found + used, sizeof found - 1 - used)) > 0)
+        used += (size_t)got;
+    close(file);
+    found[used] = '\0';
+    return strcmp(found, text) == 0;
+}
+
+/* Every name in a folder, hidden ones too. */
+static int entries(const char *path)
+{
+    int count = -2; /* . and .. */
+    DIR *listing = opendir(path);
+    assert_non_null(listing);
+    while (readdir(listing))
+        count++;
+    closedir(listing);
+    return count;
+}
+
+static mode_t mode_of(const char *path)
+{
+    struct stat status;
+    assert_int_equal(lstat(path, &status), 0);
+    return status.st_mode;
+}
+
+static bool write_text(const char *path, const char *text)
+{
+    message = (Message){0};
+    return output_write(path, text, strlen(text), &message);
+}
+
+static void written(const char *path, const char *text)
+{
+    message = (Message){0};
+    if (!output_check(path, &message) || !write_text(path, text))
+        fail_msg("%s: %s", path, message.text);
+    assert_string_equal(message.text, "");
+}
+
+/* Refused beforehand and when written, in one line that says `said`; nothing appears. */
+static void refused(const char *path, const char *said)
+{
+    const int before = entries(".");
+    for (int attempt = 0; attempt < 2; attempt++) {
+        message = (Message){0};
+        if (attempt ? write_text(path, "new") : output_check(path, &message))
+            fail_msg("accepted: %.100s", path);
+        if (!strstr(message.text, said) || strchr(message.text, '\n'))
+            fail_msg("%.100s: expected \"%s\" in \"%s\"", path, said, message.text);
+    }
+    assert_int_equal(entries("."), before);
+}
+
+/* Runs `body` in a child, which may give away what it has; 0 where all was as it should be. */
+static int in_child(int (*body)(void))
+{
+    int status = 0;
+    fflush(NULL);
+    const pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0)
+        _exit(body());
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status));
+    return WEXITSTATUS(status);
+}
+
+/* Somebody whom permissions bind: root becomes nobody. */
+static bool become_somebody(void)
+{
+    return geteuid() != 0 || setresuid(65534, 65534, 65534) == 0;
+}
+
+static void a_new_file_gets_the_bytes_and_the_umask(void **state)
+{
+    (void)state;
+    const mode_t mask = umask(027);
+    written("new.png", "bytes");
+    umask(mask);
+    assert_true(holds("new.png", "bytes"));
+    assert_int_equal(mode_of("new.png"), S_IFREG | 0640);
+    written("nothing.png", "");
+    assert_true(holds("nothing.png", ""));
+    assert_true(output_write("zeros.png", "a\0b", 3, &message));
+    struct stat status;
+    assert_int_equal(stat("zeros.png", &status), 0);
+    assert_int_equal(status.st_size, 3);
+    assert_int_equal(entries("."), 3);
+}
+
+static void an_existing_file_is_replaced_and_keeps_its_permissions(void **state)
+{
+    (void)state;
+    static const mode_t modes[] = {0644, 0600, 0666, 0755, 0640};
+    for (size_t i = 0; i < sizeof modes / sizeof modes[0]; i++) {
+        make("old.png", large);
+        assert_int_equal(chmod("old.png", modes[i]), 0);
+        written("old.png", "short");
+        assert_true(holds("old.png", "short"));
+        assert_int_equal(mode_of("old.png") & 07777, modes[i]);
+    }
+    assert_int_equal(entries("."), 1);
+}
+
+static void whoever_reads_the_old_file_keeps_it_whole(void **state)
+{
+    (void)state;
+    char text[16] = "";
+    make("old.png", "old");
+    assert_int_equal(link("old.png", "other_name.png"), 0);
+    const int reader = open("old.png", O_RDONLY);
+    written("old.png", "new");
+    assert_int_equal(read(reader, text, sizeof text), 3);
+    close(reader);
+    assert_string_equal(text, "old");
+    assert_true(holds("other_name.png", "old"));
+    assert_true(holds("old.png", "new"));
+}
+
+static void every_form_of_a_path_works(void **state)
+{
+    (void)state;
+    char absolute[128], longest[256];
+    assert_int_equal(mkdir("sub", 0777), 0);
+    snprintf(absolute, sizeof absolute, "%s/absolute.png", folder);
+    memset(longest, 'n', 255); /* the longest name that Linux has */
+    longest[255] = '\0';
+    const char *const paths[] = {"a.png",        "./b.png", "sub/c.png",     "sub//d.png",
+                                 "sub/../e.png", absolute,  longest,         "-f.png",
+                                 "a b.png",      "%d.png",  "h\xC3\xA9.png", "no_extension"};
+    for (size_t i = 0; i < sizeof paths / sizeof paths[0]; i++) {
+        written(paths[i], "bytes");
+        assert_true(holds(paths[i], "bytes"));
+    }
+    assert_int_equal(entries("sub"), 2);
+    assert_int_equal(entries("."), 11);
+}
+
+static void what_cannot_be_written_is_refused_beforehand(void **state)
+{
+    (void)state;
+    char name[300], path[PATH_MAX + 10];
+    make("file.png", "old");
+    assert_int_equal(mkdir("sub", 0777), 0);
+    assert_int_equal(symlink("sub", "link_to_folder"), 0);
+    memset(name, 'n', sizeof name - 1);
+    name[sizeof name - 1] = '\0';
+    memset(path, '/', sizeof path - 1);
+    path[sizeof path - 1] = '\0';
+
+    refused("", "name is empty");
+    refused("sub", "sub: is a folder");
+    refused("sub/", "is a folder");
+    refused(".", "is a folder");
+    refused("/", "is a folder");
+    refused("link_to_folder", "is a folder");
+    refused("missing/a.png", "the folder missing/ does not exist");
+    refused("/missing/deep/a.png", "the folder /missing/deep/ does not exist");
+    refused("missing/", "missing/");
+    refused("file.png/a.png", "Not a directory");
+    refused("file.png/", "Not a directory");
+    refused(name, "File name too long");
+    refused(path, "//"); /* the message has no room for more than the name */
+    assert_true(holds("file.png", "old"));
+}
+
+static void a_link_stays_and_what_it_points_to_is_replaced(void **state)
+{
+    (void)state;
+    assert_int_equal(mkdir("far", 0777), 0);
+    make("far/target.png", "old");
+    assert_int_equal(chmod("far/target.png", 0600), 0);
+    assert_int_equal(symlink("target.png", "far/beside.png"), 0); /* relative to its own folder */
+    assert_int_equal(symlink("far/beside.png", "link.png"), 0);
+    written("link.png", "new");
+    assert_true(holds("far/target.png", "new"));
+    assert_int_equal(mode_of("far/target.png"), S_IFREG | 0600);
+    assert_true(S_ISLNK(mode_of("link.png")));
+    assert_true(S_ISLNK(mode_of("far/beside.png")));
+    assert_int_equal(entries("far"), 2);
+    assert_int_equal(entries("."), 2);
+}
+
+static void a_link_to_a_file_that_is_not_there_makes_it(void **state)
+{
+    (void)state;
+    char target[128];
+    snprintf(target, sizeof target, "%s/made.png", folder);
+    assert_int_equal(symlink(target, "dangling.png"), 0);
+    assert_int_equal(symlink("missing/a.png", "lost.png"), 0);
+    written("dangling.png", "new");
+    assert_true(S_ISLNK(mode_of("dangling.png")));
+    assert_int_equal(mode_of("made.png") & S_IFMT, S_IFREG);
+    assert_true(holds("made.png", "new"));
+    refused("lost.png", "does not exist");
+}
+
+static void links_in_a_circle_are_refused(void **state)
+{
+    (void)state;
+    assert_int_equal(symlink("b.png", "a.png"), 0);
+    assert_int_equal(symlink("a.png", "b.png"), 0);
+    assert_int_equal(symlink("self.png", "self.png"), 0);
+    refused("a.png", "symbolic links");
+    refused("self.png", "symbolic links");
+}
+
+/* Never as root, who would lose the machine's device to a fault. */
+static int write_to_devices(void)
+{
+    static const char *const full[] = {"/dev/full", "full.png"};
+    if (!become_somebody())
+        return 1;
+    if (!write_text("/dev/null", large) || !write_text("null.png", large))
+        return 2;
+    for (size_t i = 0; i < 2; i++)
+        if (write_text(full[i], "bytes") || !strstr(message.text, full[i]) ||
+            !strstr(message.text, "No space left on device; make room"))
+            return 3;
+    return 0;
+}
+
+static void devices_are_written_through(void **state)
+{
+    (void)state;
+    assert_int_equal(chmod(".", 0755), 0); /* for nobody to come in */
+    assert_int_equal(symlink("/dev/null", "null.png"), 0);
+    assert_int_equal(symlink("/dev/full", "full.png"), 0);
+    assert_int_equal(in_child(write_to_devices), 0);
+    assert_true(S_ISCHR(mode_of("/dev/null")));
+    assert_true(S_ISCHR(mode_of("/dev/full")));
+    assert_true(S_ISLNK(mode_of("null.png")));
+    assert_int_equal(entries("."), 2);
+}
+
+static void a_pipe_with_a_reader_gets_every_byte(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"pipe.png", "link_to_pipe.png"};
+    assert_int_equal(mkfifo("pipe.png", 0600), 0);
+    assert_int_equal(symlink("pipe.png", "link_to_pipe.png"), 0);
+    for (int i = 0; i < 2; i++) {
+        int status = 0;
+        fflush(NULL);
+        const pid_t reader = fork();
+        if (reader == 0) {
+            static char piece[4096];
+            const int pipe = open("pipe.png", O_RDONLY);
+            size_t total = 0;
+            ssize_t got;
+            while ((got = read(pipe, piece, sizeof piece)) > 0)
+                total += (size_t)got;
+            _exit(total == LARGE ? 0 : 1);
+        }
+        written(names[i], large);
+        assert_int_equal(waitpid(reader, &status, 0), reader);
+        assert_int_equal(status, 0);
+        assert_true(S_ISFIFO(mode_of("pipe.png")));
+    }
+    assert_int_equal(entries("."), 2);
+}
+
+static void a_reader_that_goes_away_is_an_error(void **state)
+{
+    (void)state;
+    int ends[2];
+    char path[32];
+    assert_int_equal(pipe(ends), 0);
+    snprintf(path, sizeof path, "/dev/fd/%d", ends[1]);
+    close(ends[0]);
+    assert_false(write_text(path, "bytes"));
+    assert_non_null(strstr(message.text, "Broken pipe"));
+    close(ends[1]);
+}
+
+static void names_of_open_files_are_written_through(void **state)
+{
+    (void)state;
+    static const char *const forms[] = {"/dev/fd/%d", "/proc/self/fd/%d"};
+    for (size_t i = 0; i < 2; i++) {
+        char path[32];
+        struct stat before, after;
+        const int file = open("open.png", O_RDWR | O_CREAT | O_TRUNC, 0600);
+        assert_int_equal(fstat(file, &before), 0);
+        snprintf(path, sizeof path, forms[i], file);
+        written(path, "through");
+        close(file);
+        assert_int_equal(stat("open.png", &after), 0);
+        assert_int_equal(before.st_ino, after.st_ino);
+        assert_true(holds("open.png", "through"));
+    }
+}
+
+static void a_new_file_in_shared_memory_is_a_file_like_any_other(void **state)
+{
+    (void)state;
+    char path[64];
+    snprintf(path, sizeof path, "/dev/shm/output_test-%ld.png", (long)getpid());
+    if (access("/dev/shm", W_OK) != 0)
+        return;
+    message = (Message){0};
+    const bool done = output_check(path, &message) && write_text(path, "bytes");
+    const bool there = holds(path, "bytes");
+    unlink(path);
+    assert_string_equal(message.text, "");
+    assert_true(done && there);
+}
+
+static void a_dash_is_standard_output(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *target, *said;
+    } cases[] = {{"out", ""}, {"/dev/full", "standard output: cannot write: No space left"}};
+    for (size_t i = 0; i < 2; i++) {
+        fflush(stdout);
+        const int saved = dup(1), target = open(cases[i].target, O_WRONLY | O_CREAT, 0600);
+        assert_true(target >= 0 && dup2(target, 1) == 1);
+        message = (Message){0};
+        const bool possible = output_check("-", &message);
+        const bool done = write_text("-", large);
+        dup2(saved, 1);
+        close(saved);
+        close(target);
+        assert_true(possible);
+        assert_int_equal(done, i == 0);
+        assert_non_null(strstr(message.text, cases[i].said));
+    }
+    assert_true(holds("out", large));
+    assert_int_equal(entries("."), 1);
+}
+
+/* With files limited to 100000 bytes, as a quota would have it. */
+static int write_beyond_a_limit(void)
+{
+    const struct rlimit limit = {100000, 100000};
+    make("old.png", "old");
+    if (setrlimit(RLIMIT_FSIZE, &limit) != 0)
+        return 1;
+    if (write_text("old.png", large) || write_text("new.png", large))
+        return 2;
+    if (!strstr(message.text, "new.png: cannot write: File too large"))
+        return 3;
+    return holds("old.png", "old") && entries(".") == 1 ? 0 : 4;
+}
+
+static void a_write_that_fails_midway_leaves_the_old_file(void **state)
+{
+    (void)state;
+    assert_int_equal(in_child(write_beyond_a_limit), 0);
+}
+
+/* A file system of 100 kB, for this process alone; false where that is not permitted. */
+static bool mount_small(const char *path)
+{
+    if (mkdir(path, 0777) != 0)
+        return false;
+    if (unshare(CLONE_NEWNS) != 0) {
+        char map[64];
+        const int length = snprintf(map, sizeof map, "0 %u 1", (unsigned)getuid());
+        if (unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0)
+            return false;
+        const int file = open("/proc/self/uid_map", O_WRONLY);
+        if (file < 0 || write(file, map, (size_t)length) != length)
+            return false;
+        close(file);
+    }
+    return mount(NULL, "/", NULL, MS_REC | MS_PRIVATE, NULL) == 0 &&
+           mount("small", path, "tmpfs", 0, "size=100k") == 0;
+}
+
+enum { NOT_PERMITTED = 77 };
+
+static int write_to_a_full_disk(void)
+{
+    if (!mount_small("small"))
+        return NOT_PERMITTED;
+    make("small/old.png", "old");
+    if (!write_text("small/old.png", "newer") || !holds("small/old.png", "newer"))
+        return 1;
+    if (write_text("small/old.png", large) || write_text("small/new.png", large))
+        return 2;
+    if (!strstr(message.text, "No space left on device; make room and run again"))
+        return 3;
+    return holds("small/old.png", "newer") && entries("small") == 1 ? 0 : 4;
+}
+
+static int write_without_proc(void)
+{
+    if (!mount_small("small") || mount("none", "/proc", "tmpfs", 0, NULL) != 0)
+        return NOT_PERMITTED;
+    if (!write_text("small/new.png", "new") || !holds("small/new.png", "new"))
+        return 1;
+    /* Here the temporary file has a name from the beginning, and must lose it. */
+    if (write_text("small/new.png", large) || write_text("small/other.png", large))
+        return 2;
+    return holds("small/new.png", "new") && entries("small") == 1 ? 0 : 3;
+}
+
+static void check_mounted(int (*body)(void))
+{
+    const int result = in_child(body);
+    if (result == NOT_PERMITTED)
+        print_message("not checked: this machine does not permit mounting a file system\n");
+    else
+        assert_int_equal(result, 0);
+}
+
+static void a_full_disk_leaves_the_old_file(void **state)
+{
+    (void)state;
+    check_mounted(write_to_a_full_disk);
+}
+
+static void a_file_can_be_written_where_proc_is_not_mounted(void **state)
+{
+    (void)state;
+    check_mounted(write_without_proc);
+}
+
+static int write_what_is_protected(void)
+{
+    if (!become_somebody())
+        return 1;
+    refused("protected/new.png", "cannot write to the folder protected/: Permission denied");
+    refused("protected/old.png", "Permission denied");
+    refused("open/read_only.png", "open/read_only.png: Permission denied");
+    refused("hidden/a.png", "Permission denied");
+    return holds("open/read_only.png", "old") && holds("protected/old.png", "old") ? 0 : 2;
+}
+
+static void what_is_protected_is_refused(void **state)
+{
+    (void)state;
+    assert_int_equal(chmod(".", 0755), 0); /* for nobody to come in */
+    assert_int_equal(mkdir("protected", 0755), 0);
+    assert_int_equal(mkdir("open", 0777), 0);
+    assert_int_equal(chmod("open", 0777), 0);
+    make("protected/old.png", "old");
+    make("open/read_only.png", "old");
+    assert_int_equal(chmod("protected/old.png", 0666), 0);
+    assert_int_equal(chmod("open/read_only.png", 0444), 0);
+    assert_int_equal(chmod("protected", 0555), 0);
+    assert_int_equal(mkdir("hidden", 0700), 0);
+    assert_int_equal(chmod("hidden", 0), 0);
+    const int result = in_child(write_what_is_protected);
+    chmod("protected", 0755);
+    chmod("hidden", 0755);
+    assert_int_equal(result, 0);
+}
+
+static void looking_beforehand_writes_nothing(void **state)
+{
+    (void)state;
+    make("old.png", "old");
+    assert_true(output_check("old.png", NULL));
+    assert_true(output_check("new.png", NULL));
+    assert_true(output_check("-", NULL));
+    assert_false(output_check("missing/a.png", NULL));
+    assert_true(holds("old.png", "old"));
+    assert_int_equal(entries("."), 1);
+}
+
+static void a_pattern_gives_numbered_names(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *pattern;
+        int number;
+        const char *path;
+    } good[] = {
+        {"a%d.png", 7, "a7.png"},
+        {"a%d.png", 12345, "a12345.png"},
+        {"a%04d.png", 7, "a0007.png"},
+        {"a%4d.png", 7, "a   7.png"},
+        {"%03d", 1000, "1000"},
+        {"%%%d%%", 1, "%1%"},
+        {"d%d/a.png", 2, "d2/a.png"},
+        {"%0d", 5, "5"},
+        {"%20d", 1, "                   1"},
+        {"%d", 0, "0"},
+    };
+    static const char *const bad[] = {
+        "a.png", "",     "%%",    "%",   "a%",   "%%d",  "%d%d", "%d%04d", "%s",
+        "%i",    "%u",   "%x",    "%ld", "%-3d", "%+d",  "% d",  "%.3d",   "%*d",
+        "%1$d",  "%21d", "%100d", "%n",  "%d%n", "%d%s", "%0",   "%03",    "%99999999999d"};
+    char path[32];
+    for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) {
+        message = (Message){0};
+        if (!output_numbered(good[i].pattern, good[i].number, path, sizeof path, &message))
+            fail_msg("%s: %s", good[i].pattern, message.text);
+        assert_string_equal(path, good[i].path);
+    }
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        message = (Message){0};
+        if (output_numbered(bad[i], 3, path, sizeof path, &message))
+            fail_msg("accepted: %s", bad[i]);
+        assert_non_null(strstr(message.text, ": "));
+        assert_memory_equal(message.text, bad[i], strlen(bad[i]));
+    }
+}
+
+static void a_numbered_name_that_is_too_long_is_refused(void **state)
+{
+    (void)state;
+    char path[16] = "";
+    assert_true(output_numbered("picture%03d.png", 7, path, sizeof path - 1, NULL));
+    assert_string_equal(path, "picture007.png"); /* 14 characters and the terminating zero */
+    memset(path, 'z', sizeof path);
+    assert_false(output_numbered("picture%03d.png", 7, path, 14, NULL));
+    assert_int_equal(path[14], 'z');
+    assert_false(output_numbered("%20d", 7, path, 20, NULL));
+    assert_int_equal(path[14], 'z');
+}
+
+static int enter_folder(void **state)
+{
+    (void)state;
+    memcpy(folder + sizeof folder - 7, "XXXXXX", 6);
+    return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    char command[128];
+    snprintf(command, sizeof command, "rm -rf %s", folder);
+    return chdir("/") == 0 ? system(command) : -1;
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, enter_folder, remove_folder)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(a_new_file_gets_the_bytes_and_the_umask),
+        TEST(an_existing_file_is_replaced_and_keeps_its_permissions),
+        TEST(whoever_reads_the_old_file_keeps_it_whole),
+        TEST(every_form_of_a_path_works),
+        TEST(what_cannot_be_written_is_refused_beforehand),
+        TEST(a_link_stays_and_what_it_points_to_is_replaced),
+        TEST(a_link_to_a_file_that_is_not_there_makes_it),
+        TEST(links_in_a_circle_are_refused),
+        TEST(devices_are_written_through),
+        TEST(a_pipe_with_a_reader_gets_every_byte),
+        TEST(a_reader_that_goes_away_is_an_error),
+        TEST(names_of_open_files_are_written_through),
+        TEST(a_new_file_in_shared_memory_is_a_file_like_any_other),
+        TEST(a_dash_is_standard_output),
+        TEST(a_write_that_fails_midway_leaves_the_old_file),
+        TEST(a_full_disk_leaves_the_old_file),
+        TEST(a_file_can_be_written_where_proc_is_not_mounted),
+        TEST(what_is_protected_is_refused),
+        TEST(looking_beforehand_writes_nothing),
+        TEST(a_pattern_gives_numbered_names),
+        TEST(a_numbered_name_that_is_too_long_is_refused),
+    };
+    /* As options_prepare_process has it in every program. */
+    signal(SIGPIPE, SIG_IGN);
+    signal(SIGXFSZ, SIG_IGN);
+    memset(large, 'L', LARGE);
+    return cmocka_run_group_tests_name("output", tests, NULL, NULL);
+}
