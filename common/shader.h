@@ -28,7 +28,7 @@ typedef struct ShaderLoader {
     const char *precision;      /* "highp" or "mediump" for every fragment shader's mediump or
                                    highp; NULL: as the file says */
     const char *const *defines; /* "NAME" or "NAME value", ended by NULL; may be NULL */
-    const ShaderText *texts; /* looked in before any folder; ended by a NULL name; may be NULL */
+    const ShaderText *texts;    /* looked in before any folder; ended by a NULL name; may be NULL */
     int print;                  /* what to print on standard output, as below */
     bool verbose;               /* report compile times on standard error */
 } ShaderLoader;
@@ -68,7 +68,8 @@ void shader_source_close(ShaderSource *source);
  * becomes "file:line: rest", and the first such line is followed by that line of source. */
 bool shader_explain_log(const ShaderSource *source, const char *log, Message *message);
 
-/* Whether a line of a source's text is one of its #line directives, and what it says of the next. */
+/* Whether a line of a source's text is one of its #line directives, and what it says of the next.
+ */
 bool shader_line_directive(const char *text, int *file, int *line);
 
 /* A linked program. */
