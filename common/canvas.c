@@ -38,7 +38,8 @@ static const char *framebuffer_status(GLenum status)
 {
     switch (status) {
     case GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT:
-        return "incomplete attachment";
+        return "incomplete attachment, most likely for want of memory; ask for a smaller size or "
+               "fewer samples";
     case GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT:
         return "missing attachment";
     case GL_FRAMEBUFFER_UNSUPPORTED:
@@ -157,9 +158,13 @@ bool canvas_open(Canvas *canvas, const CanvasOptions *options, Message *message)
         .height = options->height,
         .supersample = options->supersample > 1 ? options->supersample : 1,
     };
-    if (is_open || !canvas->backend->open(&canvas->context, &canvas->platform, message)) {
+    if (is_open) {
         *canvas = (Canvas){0};
         return message_set(message, "canvas: another one is open; close it first");
+    }
+    if (!canvas->backend->open(&canvas->context, &canvas->platform, message)) {
+        *canvas = (Canvas){0};
+        return false;
     }
     is_open = true;
     if (!gl_load(canvas->backend->address, message))
@@ -180,7 +185,36 @@ fail:
 void canvas_begin(const Canvas *canvas)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, canvas->framebuffer);
+    glDisable(GL_SCISSOR_TEST);
     glViewport(0, 0, canvas->width * canvas->supersample, canvas->height * canvas->supersample);
+}
+
+void canvas_view(const Canvas *canvas, int x, int y, int width, int height)
+{
+    const int side = canvas->supersample;
+    const int bottom = (canvas->height - y - height) * side;
+    glViewport(x * side, bottom, width * side, height * side);
+    /* A large point is not cut off at the viewport's edge. */
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(x * side, bottom, width * side, height * side);
+}
+
+bool canvas_resize(Canvas *canvas, int width, int height, Message *message)
+{
+    if (canvas->width == width && canvas->height == height)
+        return true;
+    const GLuint framebuffers[2] = {canvas->framebuffer, canvas->resolve_framebuffer};
+    const GLuint buffers[3] = {canvas->color, canvas->depth, canvas->resolve_color};
+    glDeleteFramebuffers(2, framebuffers); /* 0 is left alone */
+    glDeleteRenderbuffers(3, buffers);
+    canvas->framebuffer = canvas->resolve_framebuffer = 0;
+    canvas->color = canvas->depth = canvas->resolve_color = 0;
+    canvas->width = width;
+    canvas->height = height;
+    if (!check_size(canvas, message) || !make_framebuffers(canvas, message))
+        return false;
+    canvas_begin(canvas);
+    return true;
 }
 
 /* OpenGL's row 0 is the bottom one. */

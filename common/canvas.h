@@ -56,8 +56,16 @@ typedef struct Canvas {
  * it got them. `canvas` is zeroed on failure. */
 bool canvas_open(Canvas *canvas, const CanvasOptions *options, Message *message);
 
-/* Binds the canvas's framebuffer and sets the viewport: the beginning of every frame. */
+/* Gives an open canvas another size, in the same context. On failure it can only be closed. */
+bool canvas_resize(Canvas *canvas, int width, int height, Message *message);
+
+/* Binds the canvas's framebuffer and sets the viewport to all of it: the beginning of every frame.
+ */
 void canvas_begin(const Canvas *canvas);
+
+/* Limits drawing, until canvas_begin, to the rectangle whose upper left pixel is (x, y), row 0
+ * being the top. */
+void canvas_view(const Canvas *canvas, int x, int y, int width, int height);
 
 /* Resolves, reads back and turns the rows the right way up: row 0 is the top. `image` must have the
  * canvas's size; its type must be IMAGE_FLOAT for a real canvas, else IMAGE_BYTE. Reports any GL

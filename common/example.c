@@ -9,10 +9,31 @@
 #include <stdlib.h>
 #include <string.h>
 
+static const double DEGREES_PER_SECOND = 30;
+
+void example_annotate(double seconds, int view, const Scene *scene, Annotations *annotations)
+{
+    (void)seconds, (void)view;
+    marks_add_axes(&annotations->lines, 2);
+    marks_add_lights(&annotations->points, scene);
+}
+
+Mat4 example_turned(double seconds)
+{
+    Mat4 turned;
+    mat4_rotate(DEGREES_PER_SECOND * seconds, (Vec3){0, 1, 0}, &turned);
+    return turned;
+}
+
+Vec3 example_turn(Vec3 point, double seconds)
+{
+    return mat4_transform_point(example_turned(seconds), point);
+}
+
 /* Where picture `number` goes. */
 static bool picture_path(const Options *options, int number, char path[PATH_MAX], Message *message)
 {
-    if (options->frames > 1)
+    if (options->numbered)
         return output_numbered(options->output, number, path, PATH_MAX, message);
     if (snprintf(path, PATH_MAX, "%s", options->output) >= PATH_MAX)
         return message_set(message, "%s: %s", options->output, strerror(ENAMETOOLONG));
@@ -45,19 +66,23 @@ static bool run(const Example *example, const Options *options, Message *message
     char first[PATH_MAX];
     Canvas canvas = {0};
     PictureQueue *queue = NULL;
-    if (!shader_loader_check(&options->shaders, message) ||
-        !picture_path(options, 0, first, message))
+    const bool drawing = !options->shaders.print && !options->explain;
+    if (!shader_loader_check(&options->shaders, message))
         return false;
-    if (!options->shaders.print && !output_check(first, message))
+    if (drawing && (!picture_path(options, 0, first, message) || !output_check(first, message)))
         return false;
     /* While a second thread encodes one picture after another, llvmpipe's own are in its way. */
     if (options->frames > 1)
         setenv("LP_NUM_THREADS", "0", 0);
-    if (!stage_open(&canvas, options, first, message))
+    if (!stage_open(&canvas, options, drawing ? first : "x.png", message))
         return false;
     bool done = stage_enter(example, options, message);
     if (done) {
-        if (!options->shaders.print)
+        if (options->explain)
+            done = stage_explain(example, options, message);
+        else if (options->shaders.print && example->scene)
+            done = stage_draw(example, &canvas, options, options->seconds, message);
+        else if (drawing)
             done = picture_queue_open(&queue, canvas.width, canvas.height,
                                       canvas.real ? IMAGE_FLOAT : IMAGE_BYTE, options->frames,
                                       message) &&
@@ -78,7 +103,12 @@ int example_main(const Example *example, int argc, char *argv[])
 {
     Options options;
     Message message = {0};
-    const Usage usage = {.name = example->name, .summary = example->summary};
+    const Usage usage = {.name = example->name,
+                         .summary = example->summary,
+                         .scene = example->scene != NULL,
+                         .width = example->width,
+                         .height = example->height,
+                         .parameters = example->parameters};
     options_prepare_process();
     switch (options_read(&options, &usage, argc, argv, &message)) {
     case OPTIONS_ANSWERED:
@@ -88,6 +118,8 @@ int example_main(const Example *example, int argc, char *argv[])
     case OPTIONS_RUN:
         break;
     }
+    if (options.explain) /* with the shaders, as the driver is given them */
+        options.shaders.print = SHADER_PRINT_VERTEX | SHADER_PRINT_FRAGMENT;
     if (options.doctor)
         return options_finish(example->name, stage_doctor());
     if (!run(example, &options, &message))

@@ -28,6 +28,7 @@
     X(COMPILESHADER, CompileShader)                                                                \
     X(CREATEPROGRAM, CreateProgram)                                                                \
     X(CREATESHADER, CreateShader)                                                                  \
+    X(CULLFACE, CullFace)                                                                          \
     X(DELETEBUFFERS, DeleteBuffers)                                                                \
     X(DELETEFRAMEBUFFERS, DeleteFramebuffers)                                                      \
     X(DELETEPROGRAM, DeleteProgram)                                                                \
@@ -35,14 +36,19 @@
     X(DELETESHADER, DeleteShader)                                                                  \
     X(DISABLE, Disable)                                                                            \
     X(DISABLEVERTEXATTRIBARRAY, DisableVertexAttribArray)                                          \
+    X(DRAWARRAYS, DrawArrays)                                                                      \
     X(DRAWELEMENTS, DrawElements)                                                                  \
     X(ENABLE, Enable)                                                                              \
     X(ENABLEVERTEXATTRIBARRAY, EnableVertexAttribArray)                                            \
     X(FINISH, Finish)                                                                              \
     X(FRAMEBUFFERRENDERBUFFER, FramebufferRenderbuffer)                                            \
+    X(FRONTFACE, FrontFace)                                                                        \
     X(GENBUFFERS, GenBuffers)                                                                      \
     X(GENFRAMEBUFFERS, GenFramebuffers)                                                            \
     X(GENRENDERBUFFERS, GenRenderbuffers)                                                          \
+    X(GETACTIVEATTRIB, GetActiveAttrib)                                                            \
+    X(GETACTIVEUNIFORM, GetActiveUniform)                                                          \
+    X(GETATTACHEDSHADERS, GetAttachedShaders)                                                      \
     X(GETATTRIBLOCATION, GetAttribLocation)                                                        \
     X(GETERROR, GetError)                                                                          \
     X(GETINTEGERV, GetIntegerv)                                                                    \
@@ -51,14 +57,18 @@
     X(GETSHADERINFOLOG, GetShaderInfoLog)                                                          \
     X(GETSHADERIV, GetShaderiv)                                                                    \
     X(GETSHADERPRECISIONFORMAT, GetShaderPrecisionFormat)                                          \
+    X(GETSHADERSOURCE, GetShaderSource)                                                            \
     X(GETSTRING, GetString)                                                                        \
     X(GETUNIFORMLOCATION, GetUniformLocation)                                                      \
     X(LINKPROGRAM, LinkProgram)                                                                    \
     X(PIXELSTOREI, PixelStorei)                                                                    \
     X(READPIXELS, ReadPixels)                                                                      \
     X(RENDERBUFFERSTORAGE, RenderbufferStorage)                                                    \
+    X(SCISSOR, Scissor)                                                                            \
     X(SHADERSOURCE, ShaderSource)                                                                  \
+    X(UNIFORM1FV, Uniform1fv)                                                                      \
     X(UNIFORM3FV, Uniform3fv)                                                                      \
+    X(UNIFORM4FV, Uniform4fv)                                                                      \
     X(UNIFORMMATRIX4FV, UniformMatrix4fv)                                                          \
     X(USEPROGRAM, UseProgram)                                                                      \
     X(VERTEXATTRIB3FV, VertexAttrib3fv)                                                            \

@@ -1,10 +1,10 @@
 #include "image.h"
 
 #include "image_module.h"
+#include "module.h"
 #include "output.h"
 
 #include <ctype.h>
-#include <dlfcn.h>
 #include <errno.h>
 #include <math.h>
 #include <png.h>
@@ -13,9 +13,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <unistd.h>
-
-#define OIIO_PACKAGE "libopenimageio-dev"
 
 static size_t value_size(ImageType type)
 {
@@ -75,44 +74,15 @@ static bool image_file_append(ImageFile *file, const void *bytes, size_t size)
 
 static bool module_open(const ImageModule **module, Message *message)
 {
+    static const ModuleName name = {"image_oiio.so", IMAGE_MODULE_SYMBOL, "OpenImageIO",
+                                    "libopenimageio-dev"};
     static const ImageModule *loaded; /* the library cannot be unloaded: load it once */
-    if (loaded) {
-        *module = loaded;
-        return true;
+    if (!loaded) {
+        const ImageModuleEntry entry = (ImageModuleEntry)module_entry(&name, message);
+        if (!entry)
+            return false;
+        loaded = entry();
     }
-    /* Beside the program (a build folder), in its sibling lib folder (an installation), or where
-     * this build was to be installed. */
-    char self[4096], folder[4096], path[3][8192];
-    const ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
-    self[length > 0 ? length : 0] = '\0';
-    char *slash = strrchr(self, '/');
-    if (slash)
-        *slash = '\0';
-    snprintf(folder, sizeof folder, "%s", self);
-    snprintf(path[0], sizeof path[0], "%s", IMAGE_MODULE_BUILT);
-    snprintf(path[1], sizeof path[1], "%s/%s", folder, IMAGE_MODULE_RELATIVE);
-    snprintf(path[2], sizeof path[2], "%s", IMAGE_MODULE_INSTALLED);
-    void *library = NULL;
-    char reason[1024] = "";
-    for (int i = 0; i < 3 && !library; i++) {
-        library = dlopen(path[i], RTLD_NOW | RTLD_LOCAL);
-        if (library)
-            break;
-        const char *error = dlerror();
-        /* A module that is there but cannot be loaded says more than one that is not. */
-        if (!reason[0] || access(path[i], F_OK) == 0)
-            snprintf(reason, sizeof reason, "%s", error);
-    }
-    if (!library)
-        return message_set(
-            message,
-            "OpenImageIO: its module cannot be loaded (%s); install the package " OIIO_PACKAGE
-            " and build again",
-            reason);
-    ImageModuleEntry entry = (ImageModuleEntry)dlsym(library, IMAGE_MODULE_SYMBOL);
-    if (!entry)
-        return message_set(message, "OpenImageIO: %s", dlerror());
-    loaded = entry();
     *module = loaded;
     return true;
 }
@@ -132,45 +102,55 @@ bool image_doctor(void)
 
 /* Formats. */
 
+static bool is_one_of(const char *format, const char *const *list)
+{
+    for (; *list; list++)
+        if (strcmp(format, *list) == 0)
+            return true;
+    return false;
+}
+
+/* What is written through OpenImageIO: it names more formats, but some write nothing, or to the
+ * terminal. */
+static const char *const MODULE_FORMATS[] = {"exr", "tif", "tiff", "jpg", "jpeg", "webp",
+                                             "bmp", "tga", "ppm",  "hdr", "dpx",  NULL};
+
 bool image_format(const char *path, char format[16], Message *message)
 {
     const char *slash = strrchr(path, '/');
     const char *name = slash ? slash + 1 : path;
     const char *dot = strrchr(name, '.');
+    const bool named = dot && dot != name && dot[1];
     /* Standard output and devices have no extension. */
-    if (strcmp(path, "-") == 0 || strncmp(path, "/dev/", 5) == 0 ||
-        strncmp(path, "/proc/", 6) == 0) {
-        memcpy(format, "png", 4);
-        return true;
-    }
-    if (!dot || dot == name || !dot[1])
+    const bool device =
+        strcmp(path, "-") == 0 || strncmp(path, "/dev/", 5) == 0 || strncmp(path, "/proc/", 6) == 0;
+    if (!named && !device)
         return message_set(message, "%s: the extension names the format; give one, as in %s.png",
                            path, name);
     size_t length = 0;
-    for (const char *p = dot + 1; *p && length < 15; p++)
+    for (const char *p = named ? dot + 1 : "png"; *p && length < 15; p++)
         format[length++] = (char)tolower((unsigned char)*p);
     format[length] = '\0';
     if (strcmp(format, "png") == 0)
         return true;
-    const ImageModule *module;
-    Message reason = {0};
-    if (!module_open(&module, &reason))
-        return message_set(message, "%s: %s", path, reason.text);
-    if (!module->can_write(format))
-        return message_set(message,
-                           "%s: no picture format is named .%s; .png, .exr, .tif, .jpg and .webp "
-                           "are written here",
-                           path, format);
-    return true;
+    if (is_one_of(format, MODULE_FORMATS))
+        return true;
+    return message_set(message,
+                       "%s: no picture format is named .%s; .png, .exr, .tif, .jpg and .webp are "
+                       "written here",
+                       path, format);
 }
 
 bool image_format_is_float(const char *format)
 {
-    static const char *const floats[] = {"exr", "hdr", "rgbe", "tif", "tiff", "pfm"};
-    for (size_t i = 0; i < sizeof floats / sizeof floats[0]; i++)
-        if (strcmp(format, floats[i]) == 0)
-            return true;
-    return false;
+    static const char *const floats[] = {"exr", "hdr", "tif", "tiff", NULL};
+    return is_one_of(format, floats);
+}
+
+bool image_format_has_alpha(const char *format)
+{
+    static const char *const opaque[] = {"jpg", "jpeg", "ppm", "hdr", NULL};
+    return !is_one_of(format, opaque);
 }
 
 /* PNG. */
@@ -271,6 +251,18 @@ end:
     return done;
 }
 
+/* A limit on the size of files (ulimit -f) holds for memory too, and not every encoder bears it: it
+ * is lifted as far as may be while one runs, and met when the file itself is written. */
+static struct rlimit lift_file_limit(void)
+{
+    struct rlimit limit = {RLIM_INFINITY, RLIM_INFINITY};
+    if (getrlimit(RLIMIT_FSIZE, &limit) == 0) {
+        const struct rlimit lifted = {limit.rlim_max, limit.rlim_max};
+        setrlimit(RLIMIT_FSIZE, &lifted);
+    }
+    return limit;
+}
+
 /* Through memory that has a file descriptor: OpenImageIO writes some formats to files only, and a
  * full disk must not be met half-way. */
 static bool module_encode(const Image *image, const char *format, const ImageOptions *options,
@@ -283,19 +275,26 @@ static bool module_encode(const Image *image, const char *format, const ImageOpt
     if (memory < 0)
         return message_set(message, "%s: %s", format, strerror(errno));
     char reason[1024] = "";
-    bool done = module->encode(image, format, options, memory, reason, sizeof reason);
+    const struct rlimit limit = lift_file_limit();
+    bool done = module->can_write(format);
     if (!done) {
-        message_set(message, "cannot write %s: %s", format, reason);
+        message_set(message, "this OpenImageIO does not write .%s", format);
+    } else if (!module->encode(image, format, options, memory, reason, sizeof reason)) {
+        done = message_set(message, "cannot write %s: %s", format, reason);
     } else {
         unsigned char piece[64 * 1024];
         ssize_t got;
         lseek(memory, 0, SEEK_SET);
         while (done && (got = read(memory, piece, sizeof piece)) > 0)
             done = image_file_append(file, piece, (size_t)got);
-        if (!done)
-            message_set(message, "%s: not enough memory for the file", format);
+        if (!done || got < 0 || !file->size)
+            done = message_set(message, "cannot write %s: %s", format,
+                               !done     ? "not enough memory for the file"
+                               : got < 0 ? strerror(errno)
+                                         : "nothing was written");
     }
     close(memory);
+    setrlimit(RLIMIT_FSIZE, &limit);
     return done;
 }
 

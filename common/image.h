@@ -62,6 +62,9 @@ bool image_format(const char *path, char format[16], Message *message);
 /* Whether a format holds floats, so that it is worth drawing them ("exr", "hdr", "tif"...). */
 bool image_format_is_float(const char *format);
 
+/* Whether a format keeps an alpha channel. */
+bool image_format_has_alpha(const char *format);
+
 /* Encodes to memory. A float image goes to an integer format clamped to 0..1 and rounded. */
 bool image_encode(const Image *image, const char *format, const ImageOptions *options,
                   ImageFile *file, Message *message);

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-static const double radians_per_degree = 0.017453292519943295769;
+static const double RADIANS_PER_DEGREE = 0.017453292519943295769;
 
 /*
  * Differences of products, with at most two units in the last place lost where a * b and c * d
@@ -146,7 +146,7 @@ bool mat4_rotate(double degrees, Vec3 axis, Mat4 *rotation)
     /* Both steps are exact: a remainder is, and so is the difference of nearby numbers. */
     double turn = remainder(degrees, 360);
     int quarter = (int)lround(turn / 90);
-    double rest = (turn - 90 * quarter) * radians_per_degree;
+    double rest = (turn - 90 * quarter) * RADIANS_PER_DEGREE;
     const double cosines[] = {cos(rest), -sin(rest), -cos(rest), sin(rest)};
     double c = cosines[quarter & 3];
     double s = cosines[(quarter - 1) & 3];
@@ -223,7 +223,7 @@ bool mat4_perspective(double fovy_degrees, double aspect, double near, double fa
      * their digits too. */
     double half = 0.5 * fovy_degrees;
     double cotangent =
-        half < 45 ? 1 / tan(half * radians_per_degree) : tan((90 - half) * radians_per_degree);
+        half < 45 ? 1 / tan(half * RADIANS_PER_DEGREE) : tan((90 - half) * RADIANS_PER_DEGREE);
     Mat4 result = {{cotangent / aspect, 0, 0, 0, 0, cotangent, 0, 0, 0, 0, 0, -1, 0, 0, 0, 0}};
     set_depth(near, far, &result);
     return finite_or_identity(result, clip_from_eye);

@@ -25,6 +25,12 @@ enum {
     OPTION_COMPRESS,
     OPTION_DOCTOR,
     OPTION_VERSION,
+    OPTION_EXPLAIN,
+    OPTION_FULL,
+    OPTION_CLAMP,
+    OPTION_LINEAR,
+    OPTION_SHOW_CLIPPED,
+    OPTION_PARAMETER, /* the first of the program's own */
 };
 
 static const struct option LONG_OPTIONS[] = {
@@ -45,8 +51,35 @@ static const struct option LONG_OPTIONS[] = {
     {"verbose", no_argument, NULL, 'v'},
     {"help", no_argument, NULL, 'h'},
     {"version", no_argument, NULL, OPTION_VERSION},
-    {NULL, 0, NULL, 0},
 };
+
+static const struct option SCENE_OPTIONS[] = {
+    {"explain", no_argument, NULL, OPTION_EXPLAIN},
+    {"full", no_argument, NULL, OPTION_FULL},
+    {"clamp", required_argument, NULL, OPTION_CLAMP},
+    {"linear", no_argument, NULL, OPTION_LINEAR},
+    {"show-clipped", no_argument, NULL, OPTION_SHOW_CLIPPED},
+};
+
+enum {
+    LONG_COUNT = sizeof LONG_OPTIONS / sizeof LONG_OPTIONS[0],
+    SCENE_COUNT = sizeof SCENE_OPTIONS / sizeof SCENE_OPTIONS[0],
+    MOST_OPTIONS = LONG_COUNT + SCENE_COUNT + OPTIONS_MOST_PARAMETERS + 1,
+};
+
+/* Every option that a program has, as getopt_long wants them. */
+static void gather_options(const Usage *usage, struct option all[MOST_OPTIONS])
+{
+    int count = LONG_COUNT;
+    memcpy(all, LONG_OPTIONS, sizeof LONG_OPTIONS);
+    for (int i = 0; i < SCENE_COUNT && usage->scene; i++)
+        all[count++] = SCENE_OPTIONS[i];
+    const Parameter *parameter = usage->parameters;
+    for (int i = 0; parameter && parameter[i].name && i < OPTIONS_MOST_PARAMETERS; i++)
+        all[count++] =
+            (struct option){parameter[i].name, required_argument, NULL, OPTION_PARAMETER + i};
+    all[count] = (struct option){NULL, 0, NULL, 0};
+}
 
 static void print_help(const Usage *usage)
 {
@@ -62,10 +95,13 @@ static void print_help(const Usage *usage)
                "                         format (.png, .exr, .tif, .jpg, .webp...); - writes PNG\n"
                "                         to standard output\n",
                usage->name, usage->summary, usage->name);
-    printf("  -s, --size WxH         in pixels; default 400x400, the lecture's canvas\n"
+    const int width = usage->width ? usage->width : 400;
+    const int height = usage->height ? usage->height : 400;
+    printf("  -s, --size WxH         in pixels; default %dx%d\n"
            "  -t, --time SECONDS     the moment to draw; default 0\n"
            "  -a, --angle DEG        the moment at which an animation that turns by 30 degrees a\n"
-           "                         second has this angle\n");
+           "                         second has this angle\n",
+           width, height);
     if (!usage->gallery)
         printf(
             "  -n, --frames N         N pictures from --time on; the name needs a number, as in\n"
@@ -174,18 +210,17 @@ const char *options_nearest(const char *word, const char *const *names)
     return nearest;
 }
 
-static bool unknown_option(const char *given, Message *message)
+static bool unknown_option(const struct option *all, const char *given, Message *message)
 {
-    enum { COUNT = sizeof LONG_OPTIONS / sizeof LONG_OPTIONS[0] };
-    const char *names[COUNT];
+    const char *names[MOST_OPTIONS] = {NULL};
     char word[64];
-    for (int i = 0; i < COUNT; i++)
-        names[i] = LONG_OPTIONS[i].name;
+    for (int i = 0; all[i].name; i++)
+        names[i] = all[i].name;
     const char *start = given + strspn(given, "-");
     snprintf(word, sizeof word, "%.*s", (int)strcspn(start, "="), start);
     /* An abbreviation of several is no option either. */
     const char *first = NULL;
-    for (int i = 0; i < COUNT - 1 && word[0]; i++) {
+    for (int i = 0; names[i] && word[0]; i++) {
         if (strncmp(names[i], word, strlen(word)) != 0)
             continue;
         if (first && start > given + 1)
@@ -199,7 +234,8 @@ static bool unknown_option(const char *given, Message *message)
 }
 
 /* getopt_long's '?' and ':' as a message. */
-static bool bad_option(int result, int argc, char *argv[], Message *message)
+static bool bad_option(const struct option *all, int result, int argc, char *argv[],
+                       Message *message)
 {
     const char *last = argv[optind - 1 < argc ? optind - 1 : argc - 1];
     char shown[3] = {'-', (char)optopt, '\0'};
@@ -207,12 +243,12 @@ static bool bad_option(int result, int argc, char *argv[], Message *message)
         return message_set(message, "%s: needs a value; see --help",
                            strncmp(last, "--", 2) == 0 ? last : shown);
     if (!optopt)
-        return unknown_option(last, message);
+        return unknown_option(all, last, message);
     /* Of a known option, this is a value that it does not take; else, a letter among letters. */
-    for (const struct option *option = LONG_OPTIONS; option->name; option++)
+    for (const struct option *option = all; option->name; option++)
         if (option->val == optopt)
             return message_set(message, "%s: takes no value", last);
-    return unknown_option(shown, message);
+    return unknown_option(all, shown, message);
 }
 
 static bool bad_value(const char *option, const char *value, const char *wanted, Message *message)
@@ -246,6 +282,7 @@ static bool read_option(Options *options, int option, const char *value, Message
         if (!options_size(value, &options->width, &options->height))
             return bad_value("--size", value, "WIDTHxHEIGHT, each 1 to 16384, as in 400x400",
                              message);
+        options->size_given = true;
         return true;
     case 't':
         if (!options_number(value, -1e9, 1e9, &options->seconds))
@@ -259,6 +296,7 @@ static bool read_option(Options *options, int option, const char *value, Message
     case 'n':
         if (!whole_number(value, 1, FRAMES_MOST, &options->frames))
             return bad_value("--frames", value, "a whole number, 1 to 1000000", message);
+        options->numbered = true;
         return true;
     case OPTION_FPS:
         if (!options_number(value, 1e-3, 1e6, &options->fps))
@@ -298,6 +336,23 @@ static bool read_option(Options *options, int option, const char *value, Message
     case OPTION_DOCTOR:
         options->doctor = true;
         return true;
+    case OPTION_EXPLAIN:
+        options->explain = true;
+        return true;
+    case OPTION_FULL:
+        options->full = true;
+        return true;
+    case OPTION_CLAMP:
+        if (strcmp(value, "vertex") != 0 && strcmp(value, "end") != 0)
+            return bad_value("--clamp", value, "vertex or end", message);
+        options->clamp_vertex = strcmp(value, "vertex") == 0;
+        return true;
+    case OPTION_LINEAR:
+        options->linear = true;
+        return true;
+    case OPTION_SHOW_CLIPPED:
+        options->show_clipped = true;
+        return true;
     default: /* 'v' */
         options->verbose = true;
         options->shaders.verbose = true;
@@ -306,13 +361,18 @@ static bool read_option(Options *options, int option, const char *value, Message
 }
 
 /* What the command line alone shows to be wrong about the output. */
-static bool check_output(const Options *options, const Usage *usage, Message *message)
+static bool check_output(Options *options, const Usage *usage, Message *message)
 {
-    char format[16];
+    char format[16], first[PATH_MAX];
     const char *output = options->output;
-    if (usage->gallery || options->doctor || options->shaders.print)
+    if (options->doctor || options->shaders.print || options->explain)
         return true;
+    if (usage->gallery)
+        return strcmp(output, "-") != 0
+                   ? true
+                   : message_set(message, "--output -: a gallery is a folder, not one picture");
     if (strcmp(output, "-") == 0) {
+        options->numbered = false;
         if (options->frames > 1)
             return message_set(message, "--output -: standard output takes one picture, not %d",
                                options->frames);
@@ -324,21 +384,34 @@ static bool check_output(const Options *options, const Usage *usage, Message *me
     const size_t length = strlen(output);
     if (output[length - 1] == '/')
         return message_set(message, "%s: is a folder; name a file in it", output);
-    char first[PATH_MAX];
-    if (options->frames > 1 && !output_numbered(output, 0, first, sizeof first, message))
+    /* One picture needs no number. */
+    if (options->frames == 1 && options->numbered)
+        options->numbered = output_numbered(output, 0, first, sizeof first, NULL);
+    if (options->numbered && !output_numbered(output, 0, first, sizeof first, message))
         return false;
-    return image_format(output, format, message);
+    if (!image_format(output, format, message))
+        return false;
+    if (options->alpha && !image_format_has_alpha(format))
+        return message_set(message,
+                           "%s: .%s has no alpha channel; leave out --alpha, or name a .png",
+                           output, format);
+    return true;
 }
 
 OptionsResult options_read(Options *options, const Usage *usage, int argc, char *argv[],
                            Message *message)
 {
-    *options = (Options){
-        .width = 400, .height = 400, .frames = 1, .fps = 30, .compress = IMAGE_COMPRESS_DEFAULT};
+    *options = (Options){.width = usage->width ? usage->width : 400,
+                         .height = usage->height ? usage->height : 400,
+                         .frames = 1,
+                         .fps = 30,
+                         .compress = IMAGE_COMPRESS_DEFAULT};
     optind = 0; /* from the beginning, however often this is called */
     opterr = 0;
+    struct option all[MOST_OPTIONS];
     int option;
-    while ((option = getopt_long(argc, argv, ":o:s:t:a:n:b:vh", LONG_OPTIONS, NULL)) != -1) {
+    gather_options(usage, all);
+    while ((option = getopt_long(argc, argv, ":o:s:t:a:n:b:vh", all, NULL)) != -1) {
         if (option == 'h') {
             print_help(usage);
             return OPTIONS_ANSWERED;
@@ -348,7 +421,7 @@ OptionsResult options_read(Options *options, const Usage *usage, int argc, char 
             return OPTIONS_ANSWERED;
         }
         if (option == '?' || option == ':') {
-            bad_option(option, argc, argv, message);
+            bad_option(all, option, argc, argv, message);
             return OPTIONS_BAD;
         }
         if (usage->gallery && (option == 'n' || option == OPTION_FPS)) {
@@ -356,7 +429,9 @@ OptionsResult options_read(Options *options, const Usage *usage, int argc, char 
                         option == 'n' ? "--frames" : "--fps");
             return OPTIONS_BAD;
         }
-        if (!read_option(options, option, optarg, message))
+        if (option >= OPTION_PARAMETER
+                ? !parameter_read(&usage->parameters[option - OPTION_PARAMETER], optarg, message)
+                : !read_option(options, option, optarg, message))
             return OPTIONS_BAD;
     }
     options->names = argv + optind;

@@ -5,6 +5,7 @@
 #define OPTIONS_H
 
 #include "canvas.h"
+#include "parameter.h"
 #include "shader.h"
 
 /* Exit codes besides 0. */
@@ -19,8 +20,10 @@ typedef struct Options {
     const char *output; /* a file, "-", a name with %d; for a gallery a folder */
     bool output_given;
     int width, height;
+    bool size_given;
     double seconds;
     int frames;
+    bool numbered; /* --frames was given, and the output's name has a number */
     double fps;
     CanvasOptions canvas; /* without size and real */
     ShaderLoader shaders;
@@ -28,6 +31,12 @@ typedef struct Options {
     int compress;
     bool verbose;
     bool doctor;
+    /* Of programs that draw scenes. */
+    bool explain;      /* say which effects the scene calls for, and draw nothing */
+    bool full;         /* draw with the program that has every effect */
+    bool clamp_vertex; /* see scene.h */
+    bool linear;
+    bool show_clipped;
     char *const *names; /* arguments that are no options; NULL-terminated */
     char default_output[128];
 } Options;
@@ -36,8 +45,13 @@ typedef struct Options {
 typedef struct Usage {
     const char *name;
     const char *summary;
-    bool gallery; /* -o names a folder, names may follow the options, no --frames */
+    bool gallery;                /* -o names a folder, names may follow the options, no --frames */
+    bool scene;                  /* the options of programs that draw scenes */
+    int width, height;           /* of the picture where --size says nothing; zero: 400 */
+    const Parameter *parameters; /* the program's own options; ended by a NULL name; may be NULL */
 } Usage;
+
+enum { OPTIONS_MOST_PARAMETERS = 32 };
 
 typedef enum OptionsResult { OPTIONS_RUN, OPTIONS_ANSWERED, OPTIONS_BAD } OptionsResult;
 

@@ -1,8 +1,10 @@
 #include "output.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
+#include <poll.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,7 +16,8 @@ typedef struct Target {
     bool through;          /* open and write; else temporary file and rename */
     char path[PATH_MAX];   /* with links followed */
     char folder[PATH_MAX]; /* of `path` */
-    mode_t mode;           /* of the file that is replaced, or of a new one */
+    bool replaces;         /* a file that is there */
+    mode_t mode;           /* of that file */
 } Target;
 
 static bool starts_with(const char *text, const char *start)
@@ -26,13 +29,6 @@ static bool starts_with(const char *text, const char *start)
 static bool stands_for_open_file(const char *path)
 {
     return starts_with(path, "/proc/") || starts_with(path, "/dev/fd/");
-}
-
-static mode_t new_file_mode(void)
-{
-    const mode_t mask = umask(0);
-    umask(mask);
-    return 0666 & ~mask;
 }
 
 static bool set_folder(Target *target)
@@ -87,7 +83,8 @@ static bool find_target(const char *path, Target *target, Message *message)
     if (exists && S_ISDIR(status.st_mode))
         return message_set(message, "%s: is a folder; name a file in it", path);
     target->through = (exists && !S_ISREG(status.st_mode)) || stands_for_open_file(target->path);
-    target->mode = exists ? status.st_mode & 0777 : new_file_mode();
+    target->replaces = exists;
+    target->mode = exists ? status.st_mode & 0777 : 0;
     if (exists && access(target->path, W_OK) != 0)
         return message_set(message, "%s: %s", path, strerror(errno));
     if (target->through)
@@ -108,6 +105,11 @@ static bool write_all(int file, const void *bytes, size_t size)
         const ssize_t written = write(file, next, size);
         if (written < 0 && errno == EINTR)
             continue;
+        if (written < 0 && errno == EAGAIN) { /* somebody set it not to wait */
+            struct pollfd ready = {.fd = file, .events = POLLOUT};
+            poll(&ready, 1, -1);
+            continue;
+        }
         if (written < 0)
             return false;
         next += written;
@@ -122,10 +124,28 @@ static bool fail(const char *path, int error, Message *message)
     return message_set(message, "%s: cannot write: %s%s", path, strerror(error), advice);
 }
 
+/* The number of the open file that a name stands for: /dev/fd/3, /proc/self/fd/3; or -1. */
+static int open_file_number(const char *path)
+{
+    static const char *const starts[] = {"/proc/self/fd/", "/dev/fd/"};
+    for (size_t i = 0; i < 2; i++) {
+        const size_t length = strlen(starts[i]);
+        char *end;
+        if (strncmp(path, starts[i], length) != 0 || !isdigit((unsigned char)path[length]))
+            continue;
+        const long number = strtol(path + length, &end, 10);
+        return *end || number > INT_MAX ? -1 : (int)number;
+    }
+    return -1;
+}
+
 static bool write_through(const char *path, const Target *target, const void *bytes, size_t size,
                           Message *message)
 {
-    const int file = open(target->path, O_WRONLY | O_CLOEXEC | O_TRUNC);
+    /* An open file keeps its place and mode; opening it anew would cut it off. */
+    const int number = open_file_number(target->path);
+    const int file = number >= 0 ? fcntl(number, F_DUPFD_CLOEXEC, 3)
+                                 : open(target->path, O_WRONLY | O_CLOEXEC | O_TRUNC);
     if (file < 0)
         return fail(path, errno, message);
     const bool written = write_all(file, bytes, size);
@@ -143,17 +163,30 @@ typedef struct Temporary {
     char name[PATH_MAX + 32];
 } Temporary;
 
-/* Without any name where the file system has such files, so that not even a crash leaves one. */
+/* A name beside the target that nothing else has. */
+static void temporary_try(Temporary *temporary, const char *folder, int number)
+{
+    snprintf(temporary->name, sizeof temporary->name, "%s.lighting-%ld-%d", folder, (long)getpid(),
+             number);
+}
+
+enum { MOST_TRIES = 1000 };
+
+/* Without any name where the file system has such files, so that not even a crash leaves one. The
+ * process's mask decides on the permissions, as for any new file. */
 static bool temporary_open(Temporary *temporary, const char *folder)
 {
-    snprintf(temporary->name, sizeof temporary->name, "%s.lighting-XXXXXX", folder);
     /* It is named through /proc. */
     temporary->file = access("/proc/self/fd", X_OK) == 0
-                          ? open(folder, O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600)
+                          ? open(folder, O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666)
                           : -1;
     temporary->named = temporary->file < 0;
-    if (temporary->named)
-        temporary->file = mkostemp(temporary->name, O_CLOEXEC);
+    for (int i = 0; i < MOST_TRIES && temporary->file < 0; i++) {
+        temporary_try(temporary, folder, i);
+        temporary->file = open(temporary->name, O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+        if (temporary->file < 0 && errno != EEXIST)
+            break;
+    }
     return temporary->file >= 0;
 }
 
@@ -164,9 +197,8 @@ static bool temporary_name(Temporary *temporary, const char *folder)
     if (temporary->named)
         return true;
     snprintf(self, sizeof self, "/proc/self/fd/%d", temporary->file);
-    for (int i = 0; i < 1000 && !temporary->named; i++) {
-        snprintf(temporary->name, sizeof temporary->name, "%s.lighting-%ld-%d", folder,
-                 (long)getpid(), i);
+    for (int i = 0; i < MOST_TRIES && !temporary->named; i++) {
+        temporary_try(temporary, folder, i);
         temporary->named =
             linkat(AT_FDCWD, self, AT_FDCWD, temporary->name, AT_SYMLINK_FOLLOW) == 0;
         if (!temporary->named && errno != EEXIST)
@@ -181,10 +213,13 @@ static bool replace(const char *path, const Target *target, const void *bytes, s
     Temporary temporary;
     if (!temporary_open(&temporary, target->folder))
         return fail(path, errno, message);
-    bool done = write_all(temporary.file, bytes, size) &&
-                fchmod(temporary.file, target->mode) == 0 &&
-                temporary_name(&temporary, target->folder);
+    bool done =
+        write_all(temporary.file, bytes, size) && temporary_name(&temporary, target->folder);
     int error = errno;
+    /* Where a file system does not let the mode be kept, the picture is worth more than the mode.
+     */
+    if (done && target->replaces)
+        (void)!fchmod(temporary.file, target->mode);
     if (close(temporary.file) != 0 && done) { /* some file systems report a full disk only here */
         done = false;
         error = errno;

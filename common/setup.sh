@@ -1,4 +1,5 @@
-# setup.sh: what examples/run and tests/run do before their own work; sourced, not run.
+# setup.sh: what examples/run and tests/run do before their own work; sourced, not run. $self is the path
+# of the script that does, with links followed.
 #
 #   setup_packages NAME...   installs those Debian packages that are missing, having said so
 #   setup_lock               keeps a second call from building in the same folder at once
@@ -8,7 +9,7 @@
 # Sets $root, the source tree, and $build, the build folder (LIGHTING_BUILD in the environment, or
 # build/ in the source tree). Nothing here uses the network when nothing is missing.
 
-root=$(cd "$(dirname "$0")/.." && pwd -P) || exit 1
+root=$(CDPATH='' cd -- "${self%/*}/.." && pwd -P) || exit 1
 build=${LIGHTING_BUILD:-$root/build}
 
 # To build and draw; the rest of what EGL needs at run time comes with these.
@@ -17,7 +18,7 @@ packages_to_draw="gcc g++ libc6-dev pkg-config meson ninja-build libegl-dev libg
 packages_to_test="libcmocka-dev python3"
 
 say() {
-    printf '%s: %s\n' "$(basename "$(dirname "$0")")/$(basename "$0")" "$*" >&2
+    printf '%s: %s\n' "${self#"$root"/}" "$*" >&2
 }
 
 setup_packages() {
@@ -54,45 +55,58 @@ setup_packages() {
         exit 1
     fi
     rm -f "$log"
-    installed=yes
 }
 
-# One at a time: two calls must not build in one folder at once. Waits for the other.
+# One at a time: two calls must not build in one folder at once. Waits for the other. What a call that
+# was killed left running keeps the lock until it ends.
 setup_lock() {
-    mkdir -p "$build" || {
-        say "cannot make the build folder $build; LIGHTING_BUILD names another"
-        exit 1
-    }
-    exec 9>"$build/.lock" || {
+    mkdir -p "$build" 2>/dev/null && { : >>"$build/.lock"; } 2>/dev/null || {
         say "cannot write to the build folder $build; LIGHTING_BUILD names another"
         exit 1
     }
+    exec 9>>"$build/.lock"
     flock 9
 }
 
+# The stamp holds the source tree's path, and is as old as the configuration: a tree that was moved, and
+# packages that came since, want a new one.
 setup_configure() {
-    [ -f "$build/build.ninja" ] && [ -z "${installed-}" ] && return 0
+    stamp=$build/.configured
+    if [ -f "$build/build.ninja" ]; then
+        if [ "$(cat "$stamp" 2>/dev/null || printf '%s' "$root")" != "$root" ]; then
+            rm -rf "$build"/meson-* "$build/build.ninja"
+        elif [ -f "$stamp" ] && ! [ /var/lib/dpkg/status -nt "$stamp" ]; then
+            return 0
+        fi
+    else
+        rm -rf "$build/meson-private" "$build/meson-info" # of an interrupted configuration
+    fi
     say "configuring $build"
-    log=$(mktemp) || exit 1
-    # What an interrupted configuration left is not worth keeping.
-    [ -f "$build/build.ninja" ] || rm -rf "$build/meson-private" "$build/meson-info"
     again=
-    [ -f "$build/build.ninja" ] && again=--reconfigure # what was missing may be there now
-    if ! meson setup $again "$build" "$root" >"$log" 2>&1 9>&-; then
+    [ -f "$build/build.ninja" ] && again=--reconfigure
+    log=$(mktemp) || exit 1
+    # shellcheck disable=SC2086
+    if ! meson setup $again "$build" "$root" >"$log" 2>&1; then
         tail -n 20 "$log" >&2
         rm -f "$log"
         say "meson could not configure $build"
         exit 1
     fi
     rm -f "$log"
+    printf '%s' "$root" >"$stamp"
 }
 
 setup_build() {
     if ! [ -f "$build/.built-$1" ]; then
         say "building"
-        [ -t 2 ] && ninja -C "$build" "$1" >&2 9>&- # with ninja's own progress line
+        if [ -t 2 ]; then # with ninja's own progress line
+            ninja -C "$build" "$1" >&2 || {
+                say "the build failed"
+                exit 1
+            }
+        fi
     fi
-    if ! output=$(ninja -C "$build" "$1" 2>&1 9>&-); then
+    if ! output=$(ninja -C "$build" "$1" 2>&1); then
         printf '%s\n' "$output" >&2
         say "the build failed"
         exit 1

@@ -3,21 +3,15 @@
  */
 #include "shader.h"
 
+#include "progress.h"
+
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 /* Never longer than a Message; what is cut is the driver's repetition. */
 enum { LOG_MOST = 4096 };
-
-static double now_ms(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return 1e3 * (double)now.tv_sec + 1e-6 * (double)now.tv_nsec;
-}
 
 static void print_source(const ShaderLoader *loader, const ShaderSource *source, ShaderStage stage)
 {
@@ -143,7 +137,7 @@ bool shader_open(Shader *shader, const ShaderLoader *loader, const char *name, M
     GLuint vertex = 0, fragment = 0;
     char file[160];
     bool done = false;
-    const double start = now_ms();
+    const double start = progress_now();
 
     *shader = (Shader){0};
     snprintf(shader->name, sizeof shader->name, "%s", name);
@@ -167,7 +161,7 @@ bool shader_open(Shader *shader, const ShaderLoader *loader, const char *name, M
     done = link_program(shader->program, &vertex_source, &fragment_source, message);
     if (done && loader->verbose)
         fprintf(stderr, "%s: %s and %s: compiled and linked in %.1f ms\n", name,
-                vertex_source.files[0], fragment_source.files[0], now_ms() - start);
+                vertex_source.files[0], fragment_source.files[0], 1e3 * (progress_now() - start));
 end:
     /* Deleted now, they live as long as the program that they are attached to. */
     if (vertex)

@@ -1,5 +1,6 @@
 #include "stage.h"
 
+#include "lighting.h"
 #include "progress.h"
 
 #include <dlfcn.h>
@@ -37,10 +38,21 @@ bool stage_open(Canvas *canvas, const Options *options, const char *output, Mess
     return true;
 }
 
+/* What draws the example on the stage, if that is a scene. */
+static struct {
+    Lighting *lighting;
+    Marks marks;
+} on_stage;
+
 bool stage_enter(const Example *example, const Options *options, Message *message)
 {
     const double start = progress_now();
-    if (!example->init(&options->shaders, message)) {
+    const bool done =
+        example->init(&options->shaders, message) &&
+        (!example->scene || lighting_open(&on_stage.lighting, &options->shaders, message)) &&
+        (!example->annotate || options->shaders.print ||
+         marks_open(&on_stage.marks, &options->shaders, message));
+    if (!done) {
         stage_leave(example);
         return false;
     }
@@ -53,6 +65,9 @@ void stage_leave(const Example *example)
 {
     GLint attributes = 0;
     example->finish();
+    lighting_close(on_stage.lighting);
+    on_stage.lighting = NULL;
+    marks_close(&on_stage.marks);
     glUseProgram(0);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
@@ -61,21 +76,142 @@ void stage_leave(const Example *example)
         glDisableVertexAttribArray((GLuint)i);
 }
 
-bool stage_draw(const Example *example, const Canvas *canvas, const Options *options,
-                double seconds, Message *message)
+/* How the views lie; the number of views. */
+static int view_layout(const Example *example, int *columns, int *rows)
 {
-    const Frame frame = {.seconds = seconds, .aspect = (double)canvas->width / canvas->height};
-    const float *color = example->clear_color;
-    canvas_begin(canvas);
+    *columns = *rows = 1;
+    if (example->layout)
+        example->layout(columns, rows);
+    return *columns * *rows;
+}
+
+static int view_count(const Example *example)
+{
+    int columns, rows;
+    return view_layout(example, &columns, &rows);
+}
+
+/* The part of the picture that a view has: x, y, width, height, in pixels from the upper left. */
+static void view_place(const Example *example, int view, int width, int height, int place[4])
+{
+    int columns, rows;
+    view_layout(example, &columns, &rows);
+    const int column = view % columns, row = view / columns;
+    place[0] = column * width / columns;
+    place[1] = row * height / rows;
+    place[2] = (column + 1) * width / columns - place[0];
+    place[3] = (row + 1) * height / rows - place[1];
+}
+
+/* The scene of a view, as the example and the options want it. */
+static bool view_scene(const Example *example, const Options *options, double seconds, int view,
+                       Scene *scene, Message *message)
+{
+    *scene = (Scene){.object_count = 0};
+    example->scene(seconds, view, scene);
+    scene->clamp_vertex |= options->clamp_vertex;
+    scene->linear |= options->linear;
+    scene->show_clipped |= options->show_clipped;
+    return scene_check(scene, message);
+}
+
+static bool draw_view(const Example *example, const Options *options, double seconds, int view,
+                      double aspect, Message *message)
+{
+    Scene scene;
+    if (!view_scene(example, options, seconds, view, &scene, message) ||
+        !lighting_draw(on_stage.lighting, &scene, aspect, options->full, message))
+        return false;
+    if (!example->annotate || !on_stage.marks.buffer)
+        return true;
+    static const double POINT_SIZE = 10;
+    Annotations annotations = {{.count = 0}, {.count = 0}};
+    example->annotate(seconds, view, &scene, &annotations);
+    const bool done =
+        marks_draw(&on_stage.marks, &annotations.lines, GL_LINES, 1, &scene, aspect, message) &&
+        marks_draw(&on_stage.marks, &annotations.points, GL_POINTS, POINT_SIZE, &scene, aspect,
+                   message);
+    marks_list_close(&annotations.lines);
+    marks_list_close(&annotations.points);
+    return done;
+}
+
+static void clear(const Example *example, const Options *options, double seconds)
+{
+    Vec3 color = {(double)example->clear_color[0], (double)example->clear_color[1],
+                  (double)example->clear_color[2]};
+    if (example->scene) {
+        Scene scene = {.object_count = 0};
+        example->scene(seconds, 0, &scene);
+        color = scene.background;
+    }
     if (options->alpha)
         glClearColor(0, 0, 0, 0);
     else
-        glClearColor(color[0], color[1], color[2], 1);
+        glClearColor((float)color.x, (float)color.y, (float)color.z, 1);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    if (example->draw(&frame))
-        return true;
-    return message_set(message, "no matrix can be made for time %g s at %dx%d", seconds,
-                       canvas->width, canvas->height);
+}
+
+bool stage_draw(const Example *example, const Canvas *canvas, const Options *options,
+                double seconds, Message *message)
+{
+    canvas_begin(canvas);
+    clear(example, options, seconds);
+    if (!example->scene) {
+        const Frame frame = {.seconds = seconds, .aspect = (double)canvas->width / canvas->height};
+        if (example->draw(&frame))
+            return true;
+        return message_set(message, "no matrix can be made for time %g s at %dx%d", seconds,
+                           canvas->width, canvas->height);
+    }
+    for (int view = 0; view < view_count(example); view++) {
+        int place[4];
+        view_place(example, view, canvas->width, canvas->height, place);
+        if (place[2] < 1 || place[3] < 1)
+            continue; /* less than a pixel */
+        canvas_view(canvas, place[0], place[1], place[2], place[3]);
+        if (!draw_view(example, options, seconds, view, (double)place[2] / place[3], message))
+            return false;
+    }
+    return true;
+}
+
+bool stage_explain(const Example *example, const Options *options, Message *message)
+{
+    if (!example->scene)
+        return message_set(message, "--explain: this program's shaders are written by hand");
+    for (int view = 0; view < view_count(example); view++) {
+        Scene scene;
+        if (!view_scene(example, options, options->seconds, view, &scene, message))
+            return false;
+        for (int i = 0; i < scene.object_count; i++) {
+            printf("# %s, view %d, object %d\n", example->name, view, i);
+            effects_explain(&scene, &scene.objects[i], stdout);
+            if (!lighting_program(on_stage.lighting, &scene, &scene.objects[i], options->full,
+                                  message))
+                return false;
+            printf("\n");
+        }
+    }
+    const LightingCounts counts = lighting_counts(on_stage.lighting);
+    printf("# %d programs, compiled in %.1f ms\n", counts.programs, 1e3 * counts.compile_seconds);
+    return true;
+}
+
+/* Each view's text, at its foot. */
+static bool label_views(const Example *example, Image *image, Message *message)
+{
+    enum { SIZE = 12, FOOT = 6 };
+    for (int view = 0; view < view_count(example); view++) {
+        const char *text = example->label(view);
+        int place[4];
+        view_place(example, view, image->width, image->height, place);
+        if (text && place[3] > 4 * SIZE &&
+            !image_label(image, place[0] + place[2] / 2, place[1] + place[3] - FOOT, SIZE, text,
+                         message))
+            return false;
+    }
+    return true;
 }
 
 /* Where samples of an object and of the transparent background, which is black, were averaged, the
@@ -100,15 +236,29 @@ static void divide_by_alpha(Image *image)
 bool stage_picture(const Example *example, const Canvas *canvas, const Options *options,
                    double seconds, Picture *picture, Message *message)
 {
+    Image *image = &picture->image;
+    if (image->width != canvas->width || image->height != canvas->height) {
+        const ImageType type = image->type;
+        image_close(image);
+        if (!image_open(image, canvas->width, canvas->height, type, message))
+            return false;
+    }
     if (!stage_draw(example, canvas, options, seconds, message) ||
-        !canvas_read(canvas, &picture->image, message))
+        !canvas_read(canvas, image, message))
         return false;
-    if (options->alpha && (canvas->samples || canvas->supersample > 1))
-        divide_by_alpha(&picture->image);
+    const bool averaged = canvas->samples || canvas->supersample > 1;
+    if (options->alpha && averaged)
+        divide_by_alpha(image);
+    if (picture->image.type == IMAGE_BYTE) {
+        if (example->retouch)
+            example->retouch(&picture->image);
+        if (example->label && !label_views(example, &picture->image, message))
+            return false;
+    }
     picture->compress = options->compress;
     picture->alpha = options->alpha;
     snprintf(picture->title, sizeof picture->title, "%s", example->name);
-    snprintf(picture->moment, sizeof picture->moment, "%.17g s", seconds);
+    snprintf(picture->moment, sizeof picture->moment, "%.15g s", seconds);
     snprintf(picture->settings, sizeof picture->settings,
              "--size %dx%d --samples %d%s%s%s; backend %s, %s; %s", canvas->width, canvas->height,
              options->canvas.samples, options->shaders.precision ? " --precision " : "",

@@ -14,8 +14,8 @@
  * them. On --verbose says on standard error what it got. */
 bool stage_open(Canvas *canvas, const Options *options, const char *output, Message *message);
 
-/* The example's init, with its name before the message, and its finish, which also puts back the
- * GL state that an example may have changed. */
+/* Puts an example on the stage: its init, and for one that is a scene what draws it. One at a time.
+ * stage_leave takes it off, and puts back the GL state that it may have changed. */
 bool stage_enter(const Example *example, const Options *options, Message *message);
 void stage_leave(const Example *example);
 
@@ -23,9 +23,14 @@ void stage_leave(const Example *example);
 bool stage_draw(const Example *example, const Canvas *canvas, const Options *options,
                 double seconds, Message *message);
 
-/* Draws one frame and reads it back into the picture, whose path is set by the caller. */
+/* Draws one frame and reads it back into the picture, whose image gets the canvas's size, and whose
+ * path is set by the caller. */
 bool stage_picture(const Example *example, const Canvas *canvas, const Options *options,
                    double seconds, Picture *picture, Message *message);
+
+/* --explain: says on standard output, for each view and object, which effects the scene calls for,
+ * and prints the shaders of its program. */
+bool stage_explain(const Example *example, const Options *options, Message *message);
 
 /* --doctor: says what this machine has. Returns the exit code. */
 int stage_doctor(void);

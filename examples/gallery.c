@@ -29,7 +29,7 @@ static const Example *const ALL[] = {
 enum { COUNT = sizeof ALL / sizeof ALL[0] };
 
 /* The contact sheet: thumbnails in rows, a label under each. In pixels. */
-enum { COLUMNS = 3, THUMBNAIL = 200, MARGIN = 10, LABEL = 22, LABEL_SIZE = 12 };
+enum { COLUMNS = 5, THUMBNAIL = 200, MARGIN = 10, LABEL = 22, LABEL_SIZE = 12 };
 
 /* The examples to draw, in the order of ALL. */
 typedef struct Selection {
@@ -158,11 +158,13 @@ static void print_options(FILE *file, const Options *options)
     if (options->width != 400 || options->height != 400)
         fprintf(file, " --size %dx%d", options->width, options->height);
     if (options->seconds != 0)
-        fprintf(file, " --time %.17g", options->seconds);
+        fprintf(file, " --time %.15g", options->seconds);
     if (options->canvas.samples)
         fprintf(file, " --samples %d", options->canvas.samples);
     if (options->shaders.precision)
         fprintf(file, " --precision %s", options->shaders.precision);
+    if (options->shaders.folder)
+        fprintf(file, " --shaders ...");
     if (options->alpha)
         fprintf(file, " --alpha");
 }
@@ -198,18 +200,23 @@ static bool write_page(const char *folder, const Selection *selection, const Opt
         fputs("</code></figcaption>\n</figure>\n", file);
     }
     fputs("</main>\n</body>\n</html>\n", file);
-    fclose(file);
+    const bool whole = fclose(file) == 0;
     snprintf(path, sizeof path, "%s/index.html", folder);
-    const bool written = output_write(path, text, size, message);
+    const bool written = whole ? output_write(path, text, size, message)
+                               : message_set(message, "index.html: not enough memory");
     free(text);
     return written;
 }
 
 /* Draws one example into a picture of the queue, and into the sheet. */
-static bool draw(const Example *example, int index, const Canvas *canvas, const Options *options,
+static bool draw(const Example *example, int index, Canvas *canvas, const Options *options,
                  PictureQueue *queue, Image *sheet, Message *message)
 {
-    if (!stage_enter(example, options, message))
+    /* The size that is asked for, or the example's own. */
+    const bool own = !options->size_given && example->width;
+    if (!canvas_resize(canvas, own ? example->width : options->width,
+                       own ? example->height : options->height, message) ||
+        !stage_enter(example, options, message))
         return false;
     Picture *picture = picture_queue_take(queue);
     snprintf(picture->path, sizeof picture->path, "%s/%s.png", options->output, example->name);
@@ -221,7 +228,7 @@ static bool draw(const Example *example, int index, const Canvas *canvas, const 
     return picture_queue_give(queue, picture, message);
 }
 
-static bool draw_all(const Selection *selection, const Canvas *canvas, const Options *options,
+static bool draw_all(const Selection *selection, Canvas *canvas, const Options *options,
                      Image *sheet, Message *message)
 {
     PictureQueue *queue;
@@ -258,13 +265,13 @@ static bool run(const Selection *selection, const Options *options, Message *mes
         return false;
     setenv("LP_NUM_THREADS", "0", 0); /* as in example.c: a second thread encodes */
     bool done = stage_open(&canvas, options, "gallery.png", message);
-    if (done && options->shaders.print) {
-        for (int i = 0; i < selection->count && done; i++) {
-            done = stage_enter(selection->examples[i], options, message);
-            if (done)
-                stage_leave(selection->examples[i]);
-        }
-    } else if (done) {
+    /* All of them once before anything is written: one that fails must not leave half a gallery. */
+    for (int i = 0; i < selection->count && done; i++) {
+        done = stage_enter(selection->examples[i], options, message);
+        if (done)
+            stage_leave(selection->examples[i]);
+    }
+    if (done && !options->shaders.print) {
         done = make_folder(options->output, message) &&
                sheet_open(&sheet, selection->count, message) &&
                draw_all(selection, &canvas, options, &sheet, message);
@@ -305,7 +312,7 @@ int main(int argc, char *argv[])
         return options_finish(usage.name, stage_doctor());
     if (!run(&selection, &options, &message))
         return options_fail(usage.name, &message, EXIT_FAILED);
-    if (!options.shaders.print && !message.text[0])
+    if (!options.shaders.print)
         printf("%s/index.html\n", options.output);
     return options_finish(usage.name, 0);
 }

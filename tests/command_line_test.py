@@ -19,6 +19,7 @@ import zlib
 
 EXAMPLES, SOURCE = (os.path.abspath(path) for path in sys.argv[1:3])
 PROGRAMS = sorted(name[:-2] for name in os.listdir(os.path.join(SOURCE, "examples/lecture")))
+SCENES = sorted(name[:-2] for name in os.listdir(os.path.join(SOURCE, "examples/lighting")))
 MODULE = os.path.join(EXAMPLES, "../common/image_oiio.so")
 NO_DRIVER = {"__EGL_VENDOR_LIBRARY_DIRS": "/nonexistent", "LIBGL_DRIVERS_PATH": "/nonexistent"}
 # Somebody whom permissions bind. No test writes to a device as root, who would lose it to a fault.
@@ -142,7 +143,7 @@ class Case(unittest.TestCase):
 
 class Options(Case):
     def test_every_program_answers_help_and_version(self):
-        for program in PROGRAMS + ["gallery"]:
+        for program in PROGRAMS + SCENES + ["gallery"]:
             with self.subTest(program=program):
                 version = self.good("--version", program=program).decode()
                 self.assertRegex(version, rf"^{program} \(lighting\) \d[\d.]*\n$")
@@ -499,6 +500,69 @@ class Shaders(Case):
         self.assertLessEqual(max(abs(a - b) for a, b in zip(high, medium)), 1)
 
 
+class Scenes(Case):
+    def test_every_scene_draws_the_same_with_the_full_program(self):
+        for program in SCENES:
+            with self.subTest(program=program):
+                self.good(program=program)
+                self.good("--full", "-o", "full.png", program=program)
+                lean, full = self.png(program + ".png"), self.png("full.png")
+                self.assertGreater(len(set(zip(*[iter(lean.pixels)] * 3))), 50)
+                self.assertEqual((lean.width, lean.height), (full.width, full.height))
+                apart = [abs(a - b) for a, b in zip(lean.pixels, full.pixels)]
+                # Each rounds once to a level, and they round differently on the way there; where a
+                # spot's edge or an opposite normal decides, a pixel may fall on either side.
+                self.assertLess(sum(a > 1 for a in apart), 1e-4 * len(apart))
+
+    def test_every_scene_explains_itself_and_draws_nothing(self):
+        for program in SCENES:
+            with self.subTest(program=program):
+                text = self.good("--explain", program=program).decode()
+                self.assertIn("light 0: ", text)
+                self.assertIn("#version 100\n", text)
+        self.assertEqual(self.everything(), {})
+
+    def test_each_option_of_a_scene_has_its_range(self):
+        for program, said, *arguments in (
+                ("SpotLight", "0 to 90", "--cutoff", "91"),
+                ("SpotLight", "0 to 128", "--exponent", "-1"),
+                ("SmoothFlat", "3 to 64", "--slices", "2"),
+                ("SmoothFlat", "3 to 64", "--slices", "8.5"),
+                ("SmoothFlat", "2 to 32", "--stacks", "33"),
+                ("Materials", "0 to 128", "--shininess", "129"),
+                ("Materials", "0 to 1", "--diffuse", "0,0,1.1"),
+                ("Materials", "R,G,B or one number", "--specular", "0,0"),
+                ("Materials", "did you mean gold", "--preset", "golf"),
+                ("ShadingModels", "did you mean sphere", "--shape", "sphre"),
+                ("ShadingModels", "blinn-phong or phong", "--reflection", "lambert"),
+                ("FourLights", "on or off", "--red", "maybe"),
+                ("PhongBlinn", "1 to 30", "--shininess", "31"),
+                ("LightTypes", "vertex or end", "--clamp", "never"),
+                ("LightedCube", "no such option", "--explain")):
+            self.refused(2, f"^{program}: .*{said}", *arguments, program=program)
+
+    def test_options_change_the_picture(self):
+        for program, *arguments in (
+                ("ShadingModels", "--shape", "teapot"), ("ShadingModels", "--material", "ruby"),
+                ("ShadingModels", "--interpolation", "gouraud"),
+                ("ShadingModels", "--reflection", "blinn-phong"),
+                ("ShadingModels", "--fixed-light", "off"), ("ShadingModels", "--time", "1"),
+                ("ShadingModels", "--turning-kind", "directional"), ("ShadingModels", "--linear"),
+                ("ShadingModels", "--material", "pearl", "--show-clipped"),
+                ("NormalMatrix", "--normals", "on"), ("TwoSidedLighting", "--object", "cylinder"),
+                ("TwoSidedLighting", "--time", "6"), ("SpotLight", "--cutoff", "10"),
+                ("SpotLight", "--exponent", "30"), ("ShininessRow", "--reflection", "blinn-phong"),
+                ("Materials", "--sheet", "on"), ("Materials", "--preset", "gold"),
+                ("SmoothFlat", "--normals", "flat"), ("SmoothFlat", "--figure", "band"),
+                ("SmoothFlat", "--edges", "on"), ("FourLights", "--green", "off"),
+                ("FourLights", "--ambient", "off"), ("LightTypes", "--quadratic", "0"),
+                ("PhongBlinn", "--fit", "off")):
+            with self.subTest(program=program, arguments=arguments):
+                self.good("-s", "120x120", "-o", "plain.png", program=program)
+                self.good("-s", "120x120", "-o", "changed.png", *arguments, program=program)
+                self.assertNotEqual(self.png("plain.png").pixels, self.png("changed.png").pixels)
+
+
 class Gallery(Case):
     def gallery(self, *arguments, **more):
         return self.good(*arguments, program="gallery", **more)
@@ -506,10 +570,10 @@ class Gallery(Case):
     def test_every_picture_is_the_one_that_its_program_draws(self):
         self.assertEqual(self.gallery(*SMALL, "-o", "pictures"), b"pictures/index.html\n")
         self.assertEqual(sorted(os.listdir(self.path("pictures"))),
-                         sorted([name + ".png" for name in PROGRAMS] +
+                         sorted([name + ".png" for name in PROGRAMS + SCENES] +
                                 ["contact-sheet.png", "index.html"]))
         page = self.read("pictures/index.html").decode()
-        for program in PROGRAMS:
+        for program in PROGRAMS + SCENES:
             self.good(*SMALL, "-o", "one.png", program=program)
             self.assertEqual(self.png("one.png").pixels, self.png(f"pictures/{program}.png").pixels)
             self.assertIn(f"<code>examples/run {program} --size 40x40</code>", page)

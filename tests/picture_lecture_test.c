@@ -26,7 +26,7 @@
 
 /* The nine scenes. */
 
-typedef struct Scene {
+typedef struct Lesson {
     const Example *example;
     double half_side; /* of the cube; 0: the unit sphere */
     Vec3 color;       /* of the object */
@@ -39,7 +39,7 @@ typedef struct Scene {
     char axis;   /* of the turn: 'y' or 'z' */
     Vec3 offset; /* after the turn */
     bool per_fragment;
-} Scene;
+} Lesson;
 
 #define PROGRAMS(X)                                                                                \
     X(LightedCube)                                                                                 \
@@ -66,7 +66,7 @@ PROGRAMS(DECLARE)
     .color = {1, 1, 1}, .eye = {0, 0, 6}, .point = true, .light = {5, 8, 7}, .light_color = 0.8,   \
     .ambient = 0.2, .axis = 'y'
 
-static const Scene SCENES[] = {
+static const Lesson SCENES[] = {
     {.example = &LightedCube, SMALL_CUBE, .axis = 'y'},
     {.example = &LightedCube_animation, SMALL_CUBE, .axis = 'y', .turn_per_second = 30},
     {.example = &LightedCube_ambient, SMALL_CUBE, .axis = 'y', .ambient = 0.2},
@@ -186,7 +186,7 @@ static Vec3 turned(Vec3 v, double degrees, char axis)
 }
 
 /* The scene's shape where the moment has it, in the world. */
-static void place_shape(const Scene *scene, double seconds, Shape *shape)
+static void place_shape(const Lesson *scene, double seconds, Shape *shape)
 {
     const double degrees = scene->turn + scene->turn_per_second * seconds;
     memset(shape, 0, sizeof *shape);
@@ -208,13 +208,13 @@ static Vec3 unit(Vec3 v)
     return vec3_scale(v, 1 / sqrt(vec3_dot(v, v)));
 }
 
-static Vec3 towards_light(const Scene *scene, Vec3 position)
+static Vec3 towards_light(const Lesson *scene, Vec3 position)
 {
     return scene->point ? vec3_subtract(scene->light, position) : scene->light;
 }
 
 /* What the object's colour is multiplied by, before it is cut at 1. */
-static double shade(const Scene *scene, Vec3 position, Vec3 normal)
+static double shade(const Lesson *scene, Vec3 position, Vec3 normal)
 {
     const double cosine = vec3_dot(unit(towards_light(scene, position)), unit(normal));
     return scene->ambient + scene->light_color * fmax(cosine, 0);
@@ -269,7 +269,7 @@ static double vertex_shade_error(double shaded)
  *   (L * color) * dot + A * color: L, A and color are rounded, two products, one sum: at most 6 for
  *   each of the two terms, also when color or dot is taken out of the sum.
  */
-static double fragment_shade_error(const Scene *scene, Vec3 position, double normal_length,
+static double fragment_shade_error(const Lesson *scene, Vec3 position, double normal_length,
                                    double radius, double shaded)
 {
     const double distance = vec3_length(towards_light(scene, position));
@@ -318,7 +318,7 @@ static int find_snap(void **state)
 }
 
 typedef struct Exact {
-    const Scene *scene;
+    const Lesson *scene;
     int width, height;
     Pixel *pixels;
 } Exact;
@@ -331,7 +331,7 @@ typedef struct Seen {
     Vec3 world, normal;
 } Seen;
 
-static Seen seen(const Scene *scene, Size size, Vec3 position, Vec3 normal)
+static Seen seen(const Lesson *scene, Size size, Vec3 position, Vec3 normal)
 {
     const Vec3 up = {0, 1, 0};
     const Vec3 forward = unit(vec3_scale(scene->eye, -1));
@@ -376,7 +376,7 @@ typedef struct Surface {
 /* Interpolated over the triangle's plane in the world, which is what "perspective correct" means:
  * the parts of the area in the picture, divided by each corner's depth, then scaled to a sum of 1.
  */
-static Surface surface_at(const Scene *scene, const Seen *const corners[3], double x, double y)
+static Surface surface_at(const Lesson *scene, const Seen *const corners[3], double x, double y)
 {
     double parts[3], sum = 0;
     for (int k = 0; k < 3; k++) {
@@ -425,7 +425,7 @@ static int last_pixel(double to, int count)
 
 static void draw_triangle(Exact *exact, const Seen *const corners[3], double radius)
 {
-    const Scene *scene = exact->scene;
+    const Lesson *scene = exact->scene;
     const Seen *a = corners[0], *b = corners[1], *c = corners[2];
     const int left = first_pixel(least_of(a->x, b->x, c->x));
     const int right = last_pixel(most_of(a->x, b->x, c->x), exact->width);
@@ -472,7 +472,7 @@ static void leave_out_edge(Exact *exact, const Seen *a, const Seen *b)
 }
 
 /* Draws the exact picture into `exact`, whose pixels the caller frees. */
-static void draw_exact(const Scene *scene, Size size, double seconds, Exact *exact)
+static void draw_exact(const Lesson *scene, Size size, double seconds, Exact *exact)
 {
     static Shape shape;
     static Seen corners[MOST_CORNERS];
@@ -617,13 +617,13 @@ static void open_picture(Picture *picture, Size size)
     require(image_open(&picture->image, size.width, size.height, IMAGE_BYTE, &message), &message);
 }
 
-static void enter(const Scene *scene, const Options *options)
+static void enter(const Lesson *scene, const Options *options)
 {
     Message message = {0};
     require(stage_enter(scene->example, options, &message), &message);
 }
 
-static void draw(const Scene *scene, const Canvas *canvas, const Options *options, double seconds,
+static void draw(const Lesson *scene, const Canvas *canvas, const Options *options, double seconds,
                  Picture *picture)
 {
     Message message = {0};
@@ -631,7 +631,8 @@ static void draw(const Scene *scene, const Canvas *canvas, const Options *option
 }
 
 /* One picture, on a canvas of its own. */
-static void draw_alone(const Scene *scene, const Options *options, double seconds, Picture *picture)
+static void draw_alone(const Lesson *scene, const Options *options, double seconds,
+                       Picture *picture)
 {
     Canvas canvas;
     open_canvas(&canvas, options);
@@ -642,7 +643,7 @@ static void draw_alone(const Scene *scene, const Options *options, double second
     canvas_close(&canvas);
 }
 
-static void picture_name(char name[128], const Scene *scene, Size size, double seconds, bool half)
+static void picture_name(char name[128], const Lesson *scene, Size size, double seconds, bool half)
 {
     snprintf(name, 128, "%s-%dx%d-%gs-%s", scene->example->name, size.width, size.height, seconds,
              half ? "default" : "highp");
@@ -650,7 +651,7 @@ static void picture_name(char name[128], const Scene *scene, Size size, double s
 
 /* Every scene at every size and moment. */
 
-static bool moves(const Scene *scene)
+static bool moves(const Lesson *scene)
 {
     return scene->turn_per_second > 0;
 }
@@ -667,7 +668,7 @@ static void add_verdict(Verdict *sum, const Verdict *verdict)
     sum->worst_part = fmax(sum->worst_part, verdict->worst_part);
 }
 
-static void check_picture(const Scene *scene, Size size, double seconds, const Image *picture,
+static void check_picture(const Lesson *scene, Size size, double seconds, const Image *picture,
                           bool half, Verdict *sum)
 {
     Exact exact;
@@ -771,7 +772,7 @@ static void a_black_flipped_mirrored_or_mistimed_picture_is_refused(void **state
     for (int half = 0; half <= 1; half++) {
         const Options options = options_for(size, precision_of(half));
         for (int i = 0; i < SCENE_COUNT; i++) {
-            const Scene *scene = &SCENES[i];
+            const Lesson *scene = &SCENES[i];
             Picture picture;
             Exact exact;
             Image wrong;
@@ -798,7 +799,7 @@ static void a_black_flipped_mirrored_or_mistimed_picture_is_refused(void **state
 }
 
 /* At time 0 the animated cube lies as the still one does: the only two that are one picture. */
-static bool look_alike(const Scene *a, const Scene *b)
+static bool look_alike(const Lesson *a, const Lesson *b)
 {
     const bool small = a->example == &LightedCube || a->example == &LightedCube_animation;
     return a == b ||
@@ -884,7 +885,7 @@ static void drawing_twice_gives_the_same_bits(void **state)
     (void)state;
     const Options options = options_for(SIZES[0], NULL);
     for (int i = 0; i < SCENE_COUNT; i++) {
-        const Scene *scene = &SCENES[i];
+        const Lesson *scene = &SCENES[i];
         Picture alone, again;
         Canvas canvas;
         draw_alone(scene, &options, TIMES[2], &alone);

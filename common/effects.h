@@ -1,0 +1,66 @@
+/*
+ * effects: which effects a scene calls for, and why. No GL.
+ *
+ * effects_of is a pure function from data to a set. What is not in the set costs no uniform, no
+ * varying and no instruction: `lighting` makes the program from the set and from nothing else.
+ * Values, such as colours, are no part of it.
+ */
+#ifndef EFFECTS_H
+#define EFFECTS_H
+
+#include "scene.h"
+
+#include <stdio.h>
+
+enum { EFFECTS_MOST_LIGHTS = 32 };
+
+/* The terms that one light contributes. Lights with equal terms share code, in a loop. */
+typedef struct LightTerms {
+    LightKind kind;
+    bool ambient; /* that varies over the surface; a constant one is part of the base */
+    bool diffuse;
+    bool specular;
+    bool attenuation; /* depends on the distance */
+    bool exponent;    /* a spot's fall-off within its cone */
+    bool half_vector; /* specular, and the same everywhere: a uniform */
+    bool at_vertex;   /* computed at the vertices, whose interpolation is exact or wanted */
+    bool any;         /* in the full program: whatever kind, by its coefficients */
+} LightTerms;
+
+/* Lights that share their terms, by their numbers in the scene. */
+typedef struct LightGroup {
+    LightTerms terms;
+    int lights[EFFECTS_MOST_LIGHTS];
+    int count;
+} LightGroup;
+
+typedef struct Effects {
+    bool alpha; /* the surface is not opaque */
+    bool base;  /* a colour that is the same everywhere: emission and constant ambient */
+    LightGroup groups[EFFECTS_MOST_LIGHTS];
+    int group_count;
+    Reflection reflection; /* where any group is specular */
+    bool normals;          /* any light has a diffuse or specular term */
+    bool local_viewer;     /* V differs from point to point, and something depends on it */
+    bool two_sided;
+    bool normal_matrix;      /* a matrix of its own; else the model-view matrix serves */
+    bool normalize_vertex;   /* a transformed normal is not unit */
+    bool normalize_fragment; /* an interpolated normal is not unit */
+    bool clamp_vertex;
+    bool linear;
+    bool show_clipped;
+    bool cull; /* back faces are never seen */
+} Effects;
+
+/* The effects that an object in a scene calls for. The scene has passed scene_check. */
+Effects effects_of(const Scene *scene, const Object *object);
+
+/* Everything the model has, for comparison: the same picture from a program that leaves nothing out
+ * that can be computed with coefficients of zero. */
+Effects effects_full(const Scene *scene, const Object *object);
+
+/* Writes one line for each member and for each thing left out, with its reason: "specular of light
+ * 1: material and light both have it", "without light 2: it is off". */
+void effects_explain(const Scene *scene, const Object *object, FILE *file);
+
+#endif

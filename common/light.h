@@ -1,0 +1,32 @@
+/*
+ * light: where light comes from.
+ */
+#ifndef LIGHT_H
+#define LIGHT_H
+
+#include "matrix.h"
+
+#include <stdbool.h>
+
+typedef enum LightKind {
+    LIGHT_DIRECTIONAL, /* infinitely far away: its rays are parallel */
+    LIGHT_POINT,       /* at one place, in all directions */
+    LIGHT_SPOT,        /* at one place, within a cone */
+} LightKind;
+
+/* The light source of the OpenGL 1.1 specification, section 2.13.1, in world coordinates. */
+typedef struct Light {
+    bool off; /* a zeroed light is on */
+    LightKind kind;
+    Vec3 position;  /* point and spot */
+    Vec3 direction; /* directional: towards the light; spot: the axis of its cone, away from the
+                       light. Any length but 0 */
+    Vec3 ambient, diffuse, specular; /* intensities for red, green and blue, 0 or more */
+    double cutoff;                   /* spot: half the cone's angle in degrees, 0 to 90 */
+    double exponent;                 /* spot: the fall-off within the cone, 0 to 128 */
+    /* Point and spot: 1 / (constant + linear d + quadratic d^2) of the light arrives at distance d.
+     * Each 0 or more; all three 0 stands for no attenuation. */
+    double constant, linear, quadratic;
+} Light;
+
+#endif

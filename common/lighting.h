@@ -1,0 +1,50 @@
+/*
+ * lighting: draws a scene with programs made for its effects, and for nothing more.
+ *
+ * A program is put together from shaders/lighting.vert and lighting.frag by the effects of each
+ * object, and kept: another object, or the same one later, whose program would have the same text
+ * uses it again. Values are uniforms, so that changing a colour compiles nothing.
+ */
+#ifndef LIGHTING_H
+#define LIGHTING_H
+
+#include "effects.h"
+#include "shader.h"
+
+typedef struct Lighting Lighting;
+
+/* What has been spent. */
+typedef struct LightingCounts {
+    int programs;           /* compiled */
+    double compile_seconds; /* on them */
+} LightingCounts;
+
+/* `loader` is copied; its strings must outlive the Lighting. */
+bool lighting_open(Lighting **lighting, const ShaderLoader *loader, Message *message);
+
+/* Draws a scene that has passed scene_check into the current canvas, over what is there. `full`
+ * draws it with the program that has every effect, for comparison. A mesh's buffers are made at its
+ * first drawing and kept by its address: it must not change before lighting_forget or
+ * lighting_close. */
+bool lighting_draw(Lighting *lighting, const Scene *scene, double aspect, bool full,
+                   Message *message);
+
+/* Drops the buffers of a mesh that is about to change or to be closed. */
+void lighting_forget(Lighting *lighting, const Mesh *mesh);
+
+/* The program that draws this object, made if need be; 0, with a message, if that fails. For tests
+ * and tools that look into it. */
+GLuint lighting_program(Lighting *lighting, const Scene *scene, const Object *object, bool full,
+                        Message *message);
+
+/* The same program's text, by ShaderStage, as the driver is given it; close both with
+ * shader_source_close. Compiles nothing and needs no GL. Both are zeroed on failure. */
+bool lighting_sources(const Lighting *lighting, const Scene *scene, const Object *object, bool full,
+                      ShaderSource sources[2], Message *message);
+
+LightingCounts lighting_counts(const Lighting *lighting);
+
+/* NULL is fine. */
+void lighting_close(Lighting *lighting);
+
+#endif

@@ -1,0 +1,60 @@
+#include "shape.h"
+
+#include <math.h>
+
+const char *const SHAPE_NAMES[SHAPE_COUNT + 1] = {
+    "cube",        "sphere",     "teapot",       "torus",       "cone", "cylinder",
+    "tetrahedron", "octahedron", "dodecahedron", "icosahedron", NULL,
+};
+
+bool shape_open(Shape *shape, ShapeKind kind, Message *message)
+{
+    Mesh *mesh = &shape->mesh;
+    *shape = (Shape){.closed = true};
+    switch (kind) {
+    case SHAPE_CUBE:
+        shape->flat = true;
+        return mesh_cube(mesh, 1, message);
+    case SHAPE_SPHERE:
+        return mesh_sphere(mesh, 1, 20, 20, message);
+    case SHAPE_TEAPOT:
+        shape->closed = false; /* there is a gap under its lid */
+        return mesh_teapot(mesh, 1, 10, message);
+    case SHAPE_TORUS:
+        return mesh_torus(mesh, 0.5 / 1.5, 1 / 1.5, 32, 64, message);
+    case SHAPE_CONE:
+        return mesh_cone(mesh, 1, 2, 64, 16, message);
+    case SHAPE_CYLINDER:
+        return mesh_cylinder(mesh, 0.75, 1.5, 64, 16, MESH_CAP_BOTH, message);
+    case SHAPE_TETRAHEDRON:
+        shape->flat = true;
+        return mesh_tetrahedron(mesh, 1, message);
+    case SHAPE_OCTAHEDRON:
+        shape->flat = true;
+        return mesh_octahedron(mesh, 1, message);
+    case SHAPE_DODECAHEDRON:
+        shape->flat = true;
+        return mesh_dodecahedron(mesh, 1, message);
+    case SHAPE_ICOSAHEDRON:
+        shape->flat = true;
+        return mesh_icosahedron(mesh, 1, message);
+    case SHAPE_COUNT:
+        break;
+    }
+    return message_set(message, "shape %d: there is none", (int)kind);
+}
+
+Object shape_object(const Shape *shape, Mat4 world_from_object, Material material)
+{
+    return (Object){.mesh = &shape->mesh,
+                    .flat = shape->flat,
+                    .closed = shape->closed,
+                    .world_from_object = world_from_object,
+                    .front = material};
+}
+
+void shape_close(Shape *shape)
+{
+    if (shape)
+        mesh_close(&shape->mesh);
+}

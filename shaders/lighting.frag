@@ -1,0 +1,87 @@
+// lighting.frag: the full lighting model, as lighting.vert has it, at every fragment.
+
+precision highp float;
+
+#ifdef BASE
+uniform vec3 u_FrontBase;
+#ifdef TWO_SIDED
+uniform vec3 u_BackBase;
+#endif
+#endif
+#ifdef ALPHA
+uniform float u_FrontAlpha;
+#ifdef TWO_SIDED
+uniform float u_BackAlpha;
+#endif
+#endif
+
+#ifdef VERTEX_LIGHTS
+varying vec3 v_FrontColor;
+#ifdef TWO_SIDED
+varying vec3 v_BackColor;
+#endif
+#endif
+#ifdef FRAGMENT_NORMALS
+varying vec3 v_Normal;
+#endif
+#ifdef FRAGMENT_POSITION
+varying vec3 v_Position;
+#endif
+
+#include "lighting/common.glsl"
+#ifdef FRAGMENT_LIGHTS
+#include "lighting/fragment_groups.glsl"
+#endif
+
+#ifdef TWO_SIDED
+#define SIDE(front, back) (gl_FrontFacing ? front : back)
+#else
+#define SIDE(front, back) front
+#endif
+
+#ifdef LINEAR
+// IEC 61966-2-1.
+vec3 srgb_encode(vec3 linear) {
+    vec3 low = 12.92 * linear;
+    vec3 high = 1.055 * pow(max(linear, vec3(1e-6)), vec3(1.0 / 2.4)) - 0.055;
+    return mix(low, high, step(vec3(0.0031308), linear));
+}
+#endif
+
+void main() {
+    vec3 color = vec3(0.0);
+#ifdef VERTEX_LIGHTS
+    color = SIDE(v_FrontColor, v_BackColor); // with the base
+#elif defined(BASE)
+    color = SIDE(u_FrontBase, u_BackBase);
+#endif
+
+#ifdef FRAGMENT_LIGHTS
+    vec3 normal = vec3(0.0);
+    vec3 position = vec3(0.0);
+#ifdef FRAGMENT_NORMALS
+    normal = SIDE(v_Normal, BACK(v_Normal));
+#ifdef NORMALIZE_FRAGMENT
+    normal = safe_normalize(normal);
+#endif
+#endif
+#ifdef FRAGMENT_POSITION
+    position = v_Position;
+#endif
+    add_lights(normal, position, VIEWER(position), SIDE(true, false), color);
+#endif
+
+#ifdef SHOW_CLIPPED
+    if (max(max(color.r, color.g), color.b) > 1.0)
+        color = vec3(1.0, 0.0, 1.0);
+#endif
+#ifdef LINEAR
+    color = srgb_encode(clamp(color, 0.0, 1.0));
+#endif
+    // The sum is clamped once, here, by the framebuffer.
+#ifdef ALPHA
+    gl_FragColor = vec4(color, SIDE(u_FrontAlpha, u_BackAlpha));
+#else
+    gl_FragColor = vec4(color, 1.0);
+#endif
+}

@@ -1,0 +1,31 @@
+// common.glsl: what vertices and fragments share. Eye coordinates.
+
+// A vector of no length stays one, where normalize would give NaN.
+vec3 safe_normalize(vec3 v) {
+    return v * inversesqrt(max(dot(v, v), 1e-30));
+}
+
+// The direction to the viewer: to the eye, or along z if the viewer is infinitely far away.
+#ifdef FULL
+uniform float u_LocalViewer; // 0 or 1
+#define VIEWER(position) safe_normalize(mix(vec3(0.0, 0.0, 1.0), -position, u_LocalViewer))
+#elif defined(LOCAL_VIEWER)
+#define VIEWER(position) safe_normalize(-position)
+#else
+#define VIEWER(position) vec3(0.0, 0.0, 1.0)
+#endif
+
+// The normal that the back is lit with.
+#ifdef FULL
+uniform float u_BackNormal; // -1 with two-sided lighting, else 1
+#define BACK(normal) (u_BackNormal * (normal))
+#else
+#define BACK(normal) (-(normal))
+#endif
+
+#ifdef SHININESS
+uniform float u_FrontShininess;
+#ifdef TWO_SIDED
+uniform float u_BackShininess;
+#endif
+#endif

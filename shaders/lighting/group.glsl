@@ -1,0 +1,103 @@
+// group.glsl: the lights that share their terms. Included once for each such group, with GROUP (the
+// function's name), COUNT and the terms defined, and the uniforms renamed for it.
+// (OpenGL 1.1 specification, section 2.13.1; products of light and material come from the CPU)
+
+#ifdef ANY
+uniform vec4 u_Position[COUNT]; // w = 0: a direction
+#elif defined(DIRECTIONAL)
+uniform vec3 u_Direction[COUNT]; // towards the light, unit
+#else
+uniform vec3 u_Position[COUNT];
+#endif
+#ifdef AMBIENT
+uniform vec3 u_FrontAmbient[COUNT];
+#ifdef TWO_SIDED
+uniform vec3 u_BackAmbient[COUNT];
+#endif
+#endif
+#ifdef DIFFUSE
+uniform vec3 u_FrontDiffuse[COUNT];
+#ifdef TWO_SIDED
+uniform vec3 u_BackDiffuse[COUNT];
+#endif
+#endif
+#ifdef SPECULAR
+uniform vec3 u_FrontSpecular[COUNT];
+#ifdef TWO_SIDED
+uniform vec3 u_BackSpecular[COUNT];
+#endif
+#endif
+#ifdef HALF_VECTOR
+uniform vec3 u_Half[COUNT]; // unit
+#endif
+#ifdef ATTENUATION
+uniform vec3 u_Attenuation[COUNT]; // constant, linear, quadratic
+#endif
+#ifdef SPOT
+uniform vec4 u_Spot[COUNT]; // the cone's axis, away from the light, unit; the cosine of its cutoff
+#endif
+#ifdef EXPONENT
+uniform float u_Exponent[COUNT];
+#endif
+
+#ifdef TWO_SIDED
+#define PICK(front_value, back_value) (front ? front_value : back_value)
+#else
+#define PICK(front_value, back_value) front_value
+#endif
+
+void GROUP(vec3 normal, vec3 position, vec3 viewer, bool front, inout vec3 color) {
+    for (int i = 0; i < COUNT; i++) {
+        float share = 1.0; // of the light that arrives
+#ifdef DIRECTIONAL
+        vec3 to_light = u_Direction[i];
+#else
+#ifdef ANY
+        vec3 way = u_Position[i].xyz - u_Position[i].w * position;
+#else
+        vec3 way = u_Position[i] - position;
+#endif
+        float square = dot(way, way);
+        vec3 to_light = way * inversesqrt(max(square, 1e-30));
+#ifdef ATTENUATION
+        share = 1.0 / max(dot(u_Attenuation[i], vec3(1.0, sqrt(square), square)), 1e-6);
+#endif
+#endif
+#ifdef SPOT
+        float along = dot(-to_light, u_Spot[i].xyz);
+#ifdef EXPONENT
+        share *= along >= u_Spot[i].w ? pow(max(along, 1e-37), u_Exponent[i]) : 0.0;
+#else
+        share *= along >= u_Spot[i].w ? 1.0 : 0.0;
+#endif
+#endif
+
+        vec3 sum = vec3(0.0);
+#ifdef AMBIENT
+        sum += PICK(u_FrontAmbient[i], u_BackAmbient[i]);
+#endif
+#if defined(DIFFUSE) || defined(SPECULAR)
+        float n_dot_l = dot(normal, to_light);
+#endif
+#ifdef DIFFUSE
+        sum += PICK(u_FrontDiffuse[i], u_BackDiffuse[i]) * max(n_dot_l, 0.0);
+#endif
+#ifdef SPECULAR
+#ifdef PHONG
+        float cosine = dot(2.0 * n_dot_l * normal - to_light, viewer);
+#elif defined(HALF_VECTOR)
+        float cosine = dot(normal, u_Half[i]);
+#else
+        float cosine = dot(normal, safe_normalize(to_light + viewer));
+#endif
+        // Behind the surface there is no highlight. 0 to the power of 0 is 1, as OpenGL has it, and
+        // undefined in GLSL: 1e-37 to the power of any shininess that shows is as good as 0.
+        float shininess = PICK(u_FrontShininess, u_BackShininess);
+        float highlight = n_dot_l > 0.0 ? pow(max(cosine, 1e-37), shininess) : 0.0;
+        sum += PICK(u_FrontSpecular[i], u_BackSpecular[i]) * highlight;
+#endif
+        color += share * sum;
+    }
+}
+
+#undef PICK

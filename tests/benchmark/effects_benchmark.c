@@ -1,0 +1,341 @@
+/*
+ * What effects cost: a ladder of scenes, each with one effect more than the one before it, drawn
+ * by the programs made for them and by the full program; operations, frames and compiling. Then the
+ * simplest scene against a shader written by hand for just that, lights that are off, and changes
+ * of values, which must compile nothing: the only thing that fails.
+ *
+ * One sphere, lit at the fragments. The full program draws its far side too: what can be left out
+ * is part of what is measured. From "two-sided" on the sphere is open, and its own program does so
+ * as well.
+ */
+#include "canvas.h"
+#include "lighting.h"
+#include "measure.h"
+#include "mesh_buffer.h"
+#include "operations.h"
+#include "options.h"
+#include "progress.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+enum { SIZE = 400, ROUNDS = 21, FRAMES = 4, COMPILATIONS = 3, LIGHTS = 8 };
+
+typedef struct Step {
+    const char *name;
+    Light lights[LIGHTS];
+    Object object;
+    Scene scene;
+} Step;
+
+enum {
+    DIFFUSE,
+    AMBIENT,
+    POINT,
+    SPECULAR,
+    LOCAL_VIEWER,
+    PHONG,
+    ATTENUATION,
+    SPOT,
+    TWO_SIDED,
+    UNEVEN,
+    TWO_LIGHTS,
+    FOUR_LIGHTS,
+    EVERYTHING,
+    THREE_OFF, /* beside the ladder */
+    STEPS
+};
+
+static Step steps[STEPS];
+static Mesh sphere;
+static Canvas canvas;
+static Lighting *lighting;
+
+/* The scenes. */
+
+/* Points the scene at its own step's lights and object: a copy's are elsewhere. */
+static void settle(Step *step)
+{
+    step->object.mesh = &sphere;
+    step->scene.lights = step->lights;
+    step->scene.objects = &step->object;
+}
+
+static void make_steps(void)
+{
+    static const Vec3 grey = {0.3, 0.3, 0.3};
+    Step step = {
+        .lights = {{.kind = LIGHT_DIRECTIONAL, .direction = {1, 2, 3}, .diffuse = {1, 1, 0.9}}},
+        .object = {.world_from_object = mat4_identity(),
+                   .closed = true,
+                   .front = {.diffuse = {0.6, 0.4, 0.3}, .shininess = 30, .alpha = 1}},
+        .scene = {.camera = {{0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 30, 1, 20},
+                  .object_count = 1,
+                  .light_count = 1,
+                  .distant_viewer = true},
+    };
+    Light *light = &step.lights[0];
+    Material *front = &step.object.front;
+    for (int i = 0; i < STEPS; i++) {
+        switch (i) {
+        case DIFFUSE:
+            step.name = "diffuse, directional";
+            break;
+        case AMBIENT:
+            step.name = "+ ambient";
+            step.scene.global_ambient = front->ambient = grey;
+            break;
+        case POINT:
+            step.name = "point instead of directional";
+            light->kind = LIGHT_POINT;
+            light->position = (Vec3){1, 2, 3};
+            break;
+        case SPECULAR:
+            step.name = "+ specular, viewer at infinity";
+            light->specular = front->specular = grey;
+            break;
+        case LOCAL_VIEWER:
+            step.name = "+ local viewer";
+            step.scene.distant_viewer = false;
+            break;
+        case PHONG:
+            step.name = "Phong instead of Blinn-Phong";
+            step.scene.reflection = REFLECTION_PHONG;
+            break;
+        case ATTENUATION:
+            step.name = "+ attenuation";
+            light->constant = 1;
+            light->linear = light->quadratic = 0.05;
+            break;
+        case SPOT:
+            step.name = "+ spot";
+            light->kind = LIGHT_SPOT;
+            light->direction = (Vec3){-1, -2, -3};
+            light->cutoff = 60;
+            light->exponent = 2;
+            break;
+        case TWO_SIDED:
+            step.name = "+ two-sided";
+            step.object.closed = false;
+            step.object.two_sided = true;
+            step.object.back = *front;
+            break;
+        case UNEVEN:
+            step.name = "+ uneven scaling";
+            step.object.world_from_object = mat4_scale((Vec3){1, 0.9, 1.1});
+            break;
+        case TWO_LIGHTS:
+            step.name = "+ a second such light";
+            step.scene.light_count = 2;
+            break;
+        case FOUR_LIGHTS:
+            step.name = "+ a third and a fourth";
+            step.scene.light_count = 4;
+            break;
+        case EVERYTHING:
+            step.name = "everything, 8 lights";
+            step.scene.light_count = 8;
+            step.scene.linear = step.scene.show_clipped = true;
+            front->emission = grey;
+            front->alpha = 0.9;
+            break;
+        default:
+            step = steps[POINT];
+            step.name = "4 point lights, 3 of them off";
+            step.scene.light_count = 4;
+            break;
+        }
+        for (int k = 1; k < LIGHTS; k++) {
+            step.lights[k] = *light;
+            step.lights[k].position.x = light->position.x - 0.5 * k;
+            step.lights[k].off = i == THREE_OFF;
+            if (i == EVERYTHING) /* of all kinds */
+                step.lights[k].kind = (LightKind)(k % 3);
+        }
+        steps[i] = step;
+        settle(&steps[i]);
+    }
+}
+
+/* The simplest scene by hand: shaders of just that, and the GL calls that it takes. */
+
+static const ShaderText BY_HAND[] = {
+    {"hand.vert", "attribute vec4 a_Position;\n"
+                  "attribute vec3 a_Normal;\n"
+                  "uniform mat4 u_ClipFromObject;\n"
+                  "uniform mat4 u_EyeFromObject;\n"
+                  "varying vec3 v_Normal;\n"
+                  "void main() {\n"
+                  "    gl_Position = u_ClipFromObject * a_Position;\n"
+                  "    v_Normal = vec3(u_EyeFromObject * vec4(a_Normal, 0.0));\n"
+                  "}\n"},
+    {"hand.frag", "precision highp float;\n"
+                  "uniform vec3 u_Direction;\n"
+                  "uniform vec3 u_Diffuse;\n"
+                  "varying vec3 v_Normal;\n"
+                  "void main() {\n"
+                  "    float cosine = max(dot(normalize(v_Normal), u_Direction), 0.0);\n"
+                  "    gl_FragColor = vec4(u_Diffuse * cosine, 1.0);\n"
+                  "}\n"},
+    {NULL, NULL},
+};
+
+typedef struct Hand {
+    Shader shader;
+    MeshBuffer buffer;
+    GLint clip_from_object, eye_from_object, direction, diffuse, normal;
+} Hand;
+
+static Hand hand;
+
+static bool open_hand(Message *message)
+{
+    const ShaderLoader loader = {.texts = BY_HAND};
+    return shader_open(&hand.shader, &loader, "hand", message) &&
+           mesh_buffer_open(&hand.buffer, &sphere, message) &&
+           shader_uniform(&hand.shader, "u_ClipFromObject", &hand.clip_from_object, message) &&
+           shader_uniform(&hand.shader, "u_EyeFromObject", &hand.eye_from_object, message) &&
+           shader_uniform(&hand.shader, "u_Direction", &hand.direction, message) &&
+           shader_uniform(&hand.shader, "u_Diffuse", &hand.diffuse, message) &&
+           shader_attribute(&hand.shader, "a_Normal", &hand.normal, message);
+}
+
+static bool draw_hand(const Step *step, Message *message)
+{
+    const Light *light = &step->lights[0];
+    const Vec3 diffuse = step->object.front.diffuse;
+    Mat4 eye_from_world, clip_from_eye;
+    Vec3 direction;
+    if (!scene_camera(&step->scene.camera, 1, &eye_from_world, &clip_from_eye, message))
+        return false;
+    vec3_normalize(mat4_transform_direction(eye_from_world, light->direction), &direction);
+    glEnable(GL_DEPTH_TEST);
+    glEnable(GL_CULL_FACE);
+    glUseProgram(hand.shader.program);
+    shader_set_mat4(hand.clip_from_object, mat4_product(clip_from_eye, eye_from_world));
+    shader_set_mat4(hand.eye_from_object, eye_from_world);
+    shader_set_vec3(hand.direction, direction);
+    shader_set_vec3(hand.diffuse,
+                    (Vec3){light->diffuse.x * diffuse.x, light->diffuse.y * diffuse.y,
+                           light->diffuse.z * diffuse.z});
+    mesh_buffer_bind(&hand.buffer, 0, hand.normal);
+    glDrawElements(GL_TRIANGLES, hand.buffer.index_count, hand.buffer.index_type, NULL);
+    glDisable(GL_CULL_FACE);
+    return true;
+}
+
+/* Frames. */
+
+typedef enum Way { MINE, FULL, HAND } Way;
+
+typedef struct Run {
+    const Step *step;
+    Way way;
+} Run;
+
+static bool draw(const Run *run, Message *message)
+{
+    canvas_begin(&canvas);
+    glClearColor(0, 0, 0, 1);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    if (run->way == HAND ? !draw_hand(run->step, message)
+                         : !lighting_draw(lighting, &run->step->scene, 1, run->way == FULL,
+                                          message))
+        return false;
+    glFinish();
+    return true;
+}
+
+static bool draw_frames(void *argument)
+{
+    Message message = {0};
+    for (int i = 0; i < FRAMES; i++) {
+        if (!draw(argument, &message)) {
+            fprintf(stderr, "%s\n", message.text);
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Seconds from nothing to the first frame, over those of the second: what compiling takes, part of
+ * which the driver puts off until a program is drawn with. */
+static bool measure_compiling(const Run *run, double *seconds, Message *message)
+{
+    double samples[COMPILATIONS];
+    const ShaderLoader loader = {.folder = NULL};
+    const Step *unlit = &steps[DIFFUSE];
+    Scene dark = unlit->scene;
+    dark.light_count = 0;
+    for (int i = 0; i < COMPILATIONS; i++) {
+        lighting_close(lighting);
+        /* Uploads the mesh. */
+        if (!lighting_open(&lighting, &loader, message) ||
+            !lighting_draw(lighting, &dark, 1, false, message))
+            return false;
+        glFinish();
+        const double start = progress_now();
+        if (!draw(run, message))
+            return false;
+        const double first = progress_now();
+        if (!draw(run, message))
+            return false;
+        samples[i] = first - start - (progress_now() - first);
+    }
+    *seconds = measure_summary(samples, COMPILATIONS).median;
+    return true;
+}
+
+/* "30 (1)" for each stage: arithmetic and special operations; "?" where no tool counts them. */
+static void tell_operations(const Run *run, char told[2][16])
+{
+    static Message said; /* once */
+    ShaderSource sources[2];
+    Message message = {0};
+    if (!lighting_sources(lighting, &run->step->scene, &run->step->object, run->way == FULL,
+                          sources, &message))
+        return;
+    for (int stage = 0; stage < 2; stage++) {
+        Operations operations;
+        if (operations_count(sources[stage].text, (ShaderStage)stage, &operations, &message))
+            snprintf(told[stage], sizeof told[stage], "%d (%d)", operations.arithmetic,
+                     operations.special);
+        else
+            snprintf(told[stage], sizeof told[stage], "?");
+        shader_source_close(&sources[stage]);
+    }
+    if (message.text[0] && !said.text[0])
+        printf("%s\n", message.text);
+    if (message.text[0])
+        said = message;
+}
+
+static void print_ratio(const char *name, const Measured *a, const Measured *b)
+{
+    const Summary ratio = measure_ratio(a, b, 1, ROUNDS);
+    printf("%-60s %5.2f [%.2f, %.2f]\n", name, ratio.median, ratio.lower, ratio.upper);
+}
+
+/* Draws with every value of the simplest scene changed but none made zero. */
+static bool compiles_nothing(Message *message)
+{
+    Step step = steps[EVERYTHING];
+    settle(&step);
+    if (!draw(&(Run){&steps[EVERYTHING], MINE}, message))
+        return false;
+    const int before = lighting_counts(lighting).programs;
+    for (int i = 1; i <= 10; i++) {
+        const Vec3 color = {0.1 * i, 0.05 * i, 0.02 * i};
+        step.object.front = (Material){color, color, color, color, 0.05 * i, 10 * i};
+        step.object.back = step.object.front;
+        for (int k = 0; k < LIGHTS; k++) {
+            step.lights[k].ambient = step.lights[k].position = color;
+            step.lights[k].diffuse = step.lights[k].specular = color;
+        }
+        if (!draw(&(Run){&step, MINE}, message))
+            return false;
+    }
+    const int compiled = lighting_counts(lighting).programs - before;
+    printf("programs compiled by changing every colour ten times: %d\n", compiled);
+    return compiled == 0 ? true : message_set(message, "changing a colour compiles programs");
+}

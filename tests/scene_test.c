@@ -1,0 +1,330 @@
+/*
+ * Scenes and materials as data: what is refused, and under which name; coordinates relative to the
+ * eye; the table of materials. No GL.
+ */
+#include "material.h"
+#include "scene.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+#include <cmocka.h>
+
+/* A scene that has a meaning, all of it in one place, to be changed. */
+typedef struct World {
+    Light lights[3]; /* of each kind, by LightKind */
+    Mesh mesh;
+    Object object;
+    Scene scene;
+} World;
+
+static World world;
+
+static void fresh_world(void)
+{
+    const Material material = {.diffuse = {1, 1, 1}, .alpha = 1, .shininess = 16};
+    world = (World){
+        .lights =
+            {
+                {.kind = LIGHT_DIRECTIONAL, .direction = {0, 0, 1}},
+                {.kind = LIGHT_POINT, .position = {0, 0, 3}},
+                {.kind = LIGHT_SPOT, .direction = {0, 0, -1}, .cutoff = 30, .exponent = 2},
+            },
+        .mesh = {.index_count = 3},
+        .object = {.mesh = &world.mesh,
+                   .world_from_object = mat4_identity(),
+                   .front = material,
+                   .two_sided = true,
+                   .back = material},
+        .scene = {.camera = {{0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 45, 0.1, 100},
+                  .lights = world.lights,
+                  .light_count = 3,
+                  .objects = &world.object,
+                  .object_count = 1},
+    };
+}
+
+static int set_up(void **state)
+{
+    (void)state;
+    fresh_world();
+    return 0;
+}
+
+/* One number of the world set to a value without meaning there, and how the message begins. */
+typedef struct Refusal {
+    double *number;
+    double value;
+    const char *message;
+} Refusal;
+
+static void assert_refused(const char *beginning)
+{
+    Message message = {0};
+    if (scene_check(&world.scene, &message))
+        fail_msg("accepted, and not refused with \"%s\"", beginning);
+    if (strncmp(message.text, beginning, strlen(beginning)) != 0)
+        fail_msg("\"%s\" does not begin with \"%s\"", message.text, beginning);
+}
+
+static void each_number_outside_its_range_is_refused_by_name(void **state)
+{
+    Light *lights = world.lights;
+    Material *front = &world.object.front, *back = &world.object.back;
+    Camera *camera = &world.scene.camera;
+    const Refusal refusals[] = {
+        {&camera->eye.x, NAN, "camera: eye (nan, 0, 5): must be"},
+        {&camera->eye.z, 0, "camera: eye (0, 0, 0), center (0, 0, 0), up"},
+        {&camera->center.y, INFINITY, "camera: center (0, inf, 0): must be"},
+        {&camera->center.y, -1e300, "camera: center (0, -1e+300, 0): must be 1e+15 at most"},
+        {&camera->up.y, 0, "camera: eye (0, 0, 5), center (0, 0, 0), up (0, 0, 0): eye and"},
+        {&camera->up.z, NAN, "camera: up (0, 1, nan): must be"},
+        {&camera->fovy, 180, "camera: fovy 180, aspect 1, near 0.1, far 100: must be"},
+        {&camera->fovy, NAN, "camera: fovy nan"},
+        {&camera->near, 0, "camera: fovy 45, aspect 1, near 0,"},
+        {&camera->far, 0.1, "camera: fovy 45, aspect 1, near 0.1, far 0.1:"},
+        {&world.scene.background.x, 1.5, "scene: background 1.5: must be 0 to 1"},
+        {&world.scene.background.y, NAN, "scene: background nan: must be 0 to 1"},
+        {&world.scene.global_ambient.z, -0.1, "scene: global ambient -0.1: must be 0 to 1e+06"},
+        {&lights[0].ambient.x, -1, "light 0: ambient -1: must be 0 to 1e+06"},
+        {&lights[1].diffuse.y, NAN, "light 1: diffuse nan: must be"},
+        {&lights[2].specular.z, INFINITY, "light 2: specular inf: must be"},
+        {&lights[0].direction.z, 0, "light 0: direction (0, 0, 0): must be finite and not zero"},
+        {&lights[0].direction.x, NAN, "light 0: direction (nan, 0, 1): must be"},
+        {&lights[1].position.x, INFINITY, "light 1: position (inf, 0, 3): must be"},
+        {&lights[1].constant, -1, "light 1: constant -1: must be 0 to 1e+30"},
+        {&lights[1].linear, NAN, "light 1: linear nan: must be"},
+        {&lights[2].quadratic, 1e31, "light 2: quadratic 1e+31: must be"},
+        {&lights[2].direction.z, 0, "light 2: direction (0, 0, 0): must be"},
+        {&lights[2].cutoff, 95, "light 2: cutoff 95: must be 0 to 90"},
+        {&lights[2].cutoff, -1, "light 2: cutoff -1: must be 0 to 90"},
+        {&lights[2].exponent, 129, "light 2: exponent 129: must be 0 to 128"},
+        {&front->ambient.x, 1.01, "object 0: front: ambient 1.01: must be 0 to 1"},
+        {&front->diffuse.y, -0.5, "object 0: front: diffuse -0.5: must be 0 to 1"},
+        {&front->specular.z, 2, "object 0: front: specular 2: must be 0 to 1"},
+        {&front->emission.x, NAN, "object 0: front: emission nan: must be 0 to 1"},
+        {&front->alpha, 1.5, "object 0: front: alpha 1.5: must be 0 to 1"},
+        {&front->shininess, 128.5, "object 0: front: shininess 128.5: must be 0 to 128"},
+        {&back->shininess, -1, "object 0: back: shininess -1: must be 0 to 128"},
+        {&world.object.world_from_object.m[13], NAN, "object 0: its matrix is not finite"},
+        {&world.object.world_from_object.m[15], 2, "object 0: its matrix is not affine"},
+        {&world.object.world_from_object.m[3], 1, "object 0: its matrix is not affine"},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof refusals / sizeof refusals[0]; i++) {
+        Message message = {0};
+        fresh_world();
+        if (!scene_check(&world.scene, &message))
+            fail_msg("%s", message.text);
+        *refusals[i].number = refusals[i].value;
+        assert_refused(refusals[i].message);
+    }
+}
+
+static void kinds_that_do_not_exist_are_refused(void **state)
+{
+    (void)state;
+    world.lights[1].kind = (LightKind)3;
+    assert_refused("light 1: kind 3: must be 0 to 2");
+    fresh_world();
+    world.scene.reflection = (Reflection)2;
+    assert_refused("scene: reflection 2: must be 0 to 1");
+    fresh_world();
+    world.scene.interpolation = (Interpolation)3;
+    assert_refused("scene: interpolation 3: must be 0 to 2");
+}
+
+static void an_object_without_triangles_is_refused(void **state)
+{
+    (void)state;
+    world.mesh.index_count = 0;
+    assert_refused("object 0: has no triangles");
+    world.object.mesh = NULL;
+    assert_refused("object 0: has no triangles");
+}
+
+/* What a kind of light does not have, and the back of a one-sided object, may be anything. */
+static void what_has_no_effect_is_not_checked(void **state)
+{
+    Message message = {0};
+    (void)state;
+    world.lights[LIGHT_DIRECTIONAL].position.x = NAN;
+    world.lights[LIGHT_DIRECTIONAL].linear = -1;
+    world.lights[LIGHT_POINT].cutoff = 180;
+    world.lights[LIGHT_POINT].direction = (Vec3){0, 0, 0};
+    world.object.two_sided = false;
+    world.object.back.shininess = 1000;
+    assert_true(scene_check(&world.scene, &message));
+    assert_string_equal(message.text, "");
+}
+
+static void ends_of_ranges_are_accepted(void **state)
+{
+    (void)state;
+    world.lights[LIGHT_SPOT].cutoff = 0;
+    world.lights[LIGHT_SPOT].exponent = 128;
+    world.lights[LIGHT_POINT].diffuse = (Vec3){1e6, 0, 0};
+    world.object.front = (Material){{1, 1, 1}, {0, 0, 0}, {1, 1, 1}, {1, 1, 1}, 0, 128};
+    world.scene.camera.far = INFINITY;
+    assert_true(scene_check(&world.scene, NULL));
+    world.lights[LIGHT_SPOT].cutoff = 90;
+    assert_true(scene_check(&world.scene, NULL));
+}
+
+static void a_camera_without_aspect_is_refused(void **state)
+{
+    Mat4 eye_from_world, clip_from_eye;
+    Message message = {0};
+    (void)state;
+    assert_false(scene_camera(&world.scene.camera, 0, &eye_from_world, &clip_from_eye, &message));
+    assert_string_equal(message.text, "camera: fovy 45, aspect 0, near 0.1, far 100: must be 0 < "
+                                      "fovy < 180, aspect > 0, 0 < near < far");
+}
+
+/* Coordinates relative to the eye. */
+
+static Mat4 object_matrix(Vec3 place)
+{
+    Mat4 turn;
+    mat4_rotate(33, (Vec3){1, 2, 3}, &turn);
+    return mat4_product(mat4_translate(place),
+                        mat4_product(turn, mat4_scale((Vec3){0.5, 2, 1.25})));
+}
+
+static Mat4 eye_from_object_at(Vec3 offset, Vec3 *light_eye)
+{
+    Camera camera = world.scene.camera;
+    Mat4 eye_from_world, clip_from_eye;
+    camera.eye = vec3_add((Vec3){1.5, -2.25, 4}, offset);
+    camera.center = offset;
+    assert_true(scene_camera(&camera, 1, &eye_from_world, &clip_from_eye, NULL));
+    *light_eye = scene_eye_point(&camera, eye_from_world, vec3_add((Vec3){3, 0.5, -7}, offset));
+    return scene_eye_from_object(&camera, eye_from_world,
+                                 object_matrix(vec3_add((Vec3){-1, 0.25, 0.5}, offset)));
+}
+
+/* The places above, in binary, keep all their digits at these offsets; so the eye coordinates do,
+ * to the rounding of a few sums of numbers below 10: 1e-14, of which the promise is 1e-9. */
+static void a_scene_far_away_has_the_eye_coordinates_of_the_same_at_the_origin(void **state)
+{
+    static const Vec3 offsets[] = {
+        {1e6, 0, 0}, {-1e6, 1e6, 1e6}, {1e9, 0, 0}, {1e9, -1e9, 1e9}, {0, 0, -1e12}};
+    Vec3 light, light_there;
+    const Mat4 here = eye_from_object_at((Vec3){0, 0, 0}, &light);
+    (void)state;
+    for (size_t i = 0; i < sizeof offsets / sizeof offsets[0]; i++) {
+        const Mat4 there = eye_from_object_at(offsets[i], &light_there);
+        for (int k = 0; k < 16; k++)
+            assert_true(fabs(there.m[k] - here.m[k]) <= 1e-14);
+        assert_true(vec3_length(vec3_subtract(light_there, light)) <= 1e-14);
+    }
+}
+
+static void eye_coordinates_are_those_of_the_plain_product(void **state)
+{
+    Mat4 eye_from_world, clip_from_eye;
+    const Camera camera = {{1, 2, 3}, {-4, 0.5, 0}, {0.1, 1, 0}, 45, 0.1, 100};
+    const Mat4 world_from_object = object_matrix((Vec3){-1, 0.3, 0.7});
+    (void)state;
+    assert_true(scene_camera(&camera, 1, &eye_from_world, &clip_from_eye, NULL));
+    const Mat4 got = scene_eye_from_object(&camera, eye_from_world, world_from_object);
+    const Mat4 expected = mat4_product(eye_from_world, world_from_object);
+    /* Rounding of sums of numbers below 10. */
+    for (int k = 0; k < 16; k++)
+        assert_true(fabs(got.m[k] - expected.m[k]) <= 1e-14);
+    const Vec3 point = {3, -2, 5};
+    const Vec3 difference = vec3_subtract(scene_eye_point(&camera, eye_from_world, point),
+                                          mat4_transform_point(eye_from_world, point));
+    assert_true(vec3_length(difference) <= 1e-14);
+}
+
+/* Materials. */
+
+static void there_are_24_materials_and_each_is_found_by_its_name(void **state)
+{
+    (void)state;
+    assert_int_equal(MATERIAL_COUNT, 24);
+    for (int i = 0; i < MATERIAL_COUNT; i++)
+        assert_ptr_equal(material_find(MATERIALS[i].name), &MATERIALS[i].material);
+    assert_null(material_find("unobtainium"));
+    assert_null(material_find(""));
+    assert_null(material_find("Gold"));
+}
+
+static void every_material_may_stand_in_a_scene(void **state)
+{
+    Message message = {0};
+    (void)state;
+    for (int i = 0; i < MATERIAL_COUNT; i++) {
+        world.object.front = MATERIALS[i].material;
+        if (!scene_check(&world.scene, &message))
+            fail_msg("%s: %s", MATERIALS[i].name, message.text);
+        assert_true(MATERIALS[i].material.alpha == 1);
+    }
+}
+
+static void assert_material(const char *name, Material expected)
+{
+    const Material *got = material_find(name);
+    assert_non_null(got);
+    expected.alpha = 1;
+    expected.shininess *= 128; /* given as a fraction there */
+    assert_memory_equal(got, &expected, sizeof expected);
+}
+
+static void materials_are_those_of_the_published_table(void **state)
+{
+    const Vec3 zero = {0, 0, 0};
+    (void)state;
+    assert_material(
+        "emerald",
+        (Material){
+            {.0215, .1745, .0215}, {.07568, .61424, .07568}, {.633, .727811, .633}, zero, 1, .6});
+    assert_material(
+        "pearl",
+        (Material){
+            {.25, .20725, .20725}, {1, .829, .829}, {.296648, .296648, .296648}, zero, 1, .088});
+    assert_material("brass", (Material){{.329412, .223529, .027451},
+                                        {.780392, .568627, .113725},
+                                        {.992157, .941176, .807843},
+                                        zero,
+                                        1,
+                                        .21794872});
+    assert_material("gold", (Material){{.24725, .1995, .0745},
+                                       {.75164, .60648, .22648},
+                                       {.628281, .555802, .366065},
+                                       zero,
+                                       1,
+                                       .4});
+    assert_material("cyan_plastic", (Material){{0, .1, .06},
+                                               {0, .50980392, .50980392},
+                                               {.50196078, .50196078, .50196078},
+                                               zero,
+                                               1,
+                                               .25});
+    assert_material("yellow_rubber",
+                    (Material){{.05, .05, 0}, {.5, .5, .4}, {.7, .7, .04}, zero, 1, .078125});
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup(each_number_outside_its_range_is_refused_by_name, set_up),
+        cmocka_unit_test_setup(kinds_that_do_not_exist_are_refused, set_up),
+        cmocka_unit_test_setup(an_object_without_triangles_is_refused, set_up),
+        cmocka_unit_test_setup(what_has_no_effect_is_not_checked, set_up),
+        cmocka_unit_test_setup(ends_of_ranges_are_accepted, set_up),
+        cmocka_unit_test_setup(a_camera_without_aspect_is_refused, set_up),
+        cmocka_unit_test_setup(a_scene_far_away_has_the_eye_coordinates_of_the_same_at_the_origin,
+                               set_up),
+        cmocka_unit_test_setup(eye_coordinates_are_those_of_the_plain_product, set_up),
+        cmocka_unit_test(there_are_24_materials_and_each_is_found_by_its_name),
+        cmocka_unit_test_setup(every_material_may_stand_in_a_scene, set_up),
+        cmocka_unit_test(materials_are_those_of_the_published_table),
+    };
+    return cmocka_run_group_tests_name("scene", tests, NULL, NULL);
+}
