@@ -269,6 +269,7 @@ static bool read_pixels(const Canvas *canvas, Image *image, Message *message)
     if (canvas->samples > 0) {
         const int width = canvas->width * canvas->supersample;
         const int height = canvas->height * canvas->supersample;
+        glDisable(GL_SCISSOR_TEST); /* it would limit the copy, too */
         glBindFramebuffer(GL_DRAW_FRAMEBUFFER_ANGLE, canvas->resolve_framebuffer);
         glBindFramebuffer(GL_READ_FRAMEBUFFER_ANGLE, canvas->framebuffer);
         glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT,

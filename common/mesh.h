@@ -5,7 +5,7 @@
  * seen from outside and have an area, its normals are unit vectors that point outwards. A function
  * that makes a shape fails, with a message and a zeroed mesh, where an argument is out of its range
  * or memory runs out. A length is more than 0 and finite (as a float); so that triangles keep their
- * area, it should also be no less than 1e-30.
+ * area and coordinates stay finite, it should also be within 1e-30 and 1e38.
  */
 #ifndef MESH_H
 #define MESH_H

@@ -14,8 +14,9 @@ build=${LIGHTING_BUILD:-$root/build}
 
 # To build and draw; the rest of what EGL needs at run time comes with these.
 packages_to_draw="gcc g++ libc6-dev pkg-config meson ninja-build libegl-dev libgles-dev libegl1
-    libegl-mesa0 libgl1-mesa-dri libpng-dev libopenimageio-dev fonts-dejavu-core"
-packages_to_test="libcmocka-dev python3"
+    libegl-mesa0 libgl1-mesa-dri libpng-dev libopenimageio-dev libassimp-dev
+    fonts-dejavu-core"
+packages_to_test="libcmocka-dev libosmesa6-dev glslang-tools spirv-tools python3"
 
 say() {
     printf '%s: %s\n' "${self#"$root"/}" "$*" >&2

@@ -1,16 +1,36 @@
 #include "shape.h"
 
-#include <math.h>
+#include "model.h"
 
 const char *const SHAPE_NAMES[SHAPE_COUNT + 1] = {
     "cube",        "sphere",     "teapot",       "torus",       "cone", "cylinder",
     "tetrahedron", "octahedron", "dodecahedron", "icosahedron", NULL,
 };
 
-bool shape_open(Shape *shape, ShapeKind kind, Message *message)
+/* Moves the middle of the model's box to the origin, and scales its diagonal to 2. */
+static bool open_model(Mesh *mesh, const char *path, Message *message)
+{
+    Vec3 low, high;
+    if (!model_read(path, mesh, message))
+        return false;
+    mesh_bounds(mesh, &low, &high);
+    const Vec3 diagonal = vec3_subtract(high, low);
+    const Vec3 middle = vec3_add(low, vec3_scale(diagonal, 0.5));
+    const double scale = 2 / vec3_length(diagonal);
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
+        float *p = mesh->vertices[i].position;
+        const Vec3 at = {(double)p[0], (double)p[1], (double)p[2]};
+        vec3_to_float(vec3_scale(vec3_subtract(at, middle), scale), p);
+    }
+    return true;
+}
+
+bool shape_open(Shape *shape, ShapeKind kind, const char *model, Message *message)
 {
     Mesh *mesh = &shape->mesh;
-    *shape = (Shape){.closed = true};
+    *shape = (Shape){.closed = !model};
+    if (model)
+        return open_model(mesh, model, message);
     switch (kind) {
     case SHAPE_CUBE:
         shape->flat = true;

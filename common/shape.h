@@ -29,9 +29,10 @@ typedef struct Shape {
     bool flat, closed; /* as in Object */
 } Shape;
 
-/* Cut as finely as the originals have it: the sphere by 20, the torus 64 x 32, the cylinder by 64.
+/* A model file, where `model` is not NULL, moved and scaled into the unit sphere; else a solid. Cut
+ * as finely as the originals have it: the sphere by 20, the torus 64 x 32, the cylinder by 64.
  */
-bool shape_open(Shape *shape, ShapeKind kind, Message *message);
+bool shape_open(Shape *shape, ShapeKind kind, const char *model, Message *message);
 
 /* An object of this shape. It points at the shape's mesh. */
 Object shape_object(const Shape *shape, Mat4 world_from_object, Material material);

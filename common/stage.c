@@ -1,6 +1,7 @@
 #include "stage.h"
 
 #include "lighting.h"
+#include "model.h"
 #include "progress.h"
 
 #include <dlfcn.h>
@@ -293,6 +294,8 @@ int stage_doctor(void)
     }
     printf("pictures:\n");
     image_doctor();
+    printf("models:\n");
+    model_doctor();
     printf("libraries that nothing needs yet:\n");
     doctor_library("OSMesa", osmesa, "libosmesa6");
     doctor_library("GLFW", glfw, "libglfw3");

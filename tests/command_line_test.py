@@ -522,6 +522,16 @@ class Scenes(Case):
                 self.assertIn("#version 100\n", text)
         self.assertEqual(self.everything(), {})
 
+    def test_antialiasing_changes_edges_alone(self):
+        for program in SCENES:
+            with self.subTest(program=program):
+                self.good("-o", "plain.png", program=program)
+                self.good("--samples", "4", "-o", "smooth.png", program=program)
+                plain, smooth = self.png("plain.png").pixels, self.png("smooth.png").pixels
+                apart = sum(abs(a - b) > 8 for a, b in zip(plain, smooth))
+                # Edges, lines and the small spheres of a row are a few pixels in a hundred.
+                self.assertTrue(0 < apart < 0.06 * len(plain), apart / len(plain))
+
     def test_each_option_of_a_scene_has_its_range(self):
         for program, said, *arguments in (
                 ("SpotLight", "0 to 90", "--cutoff", "91"),

@@ -43,7 +43,7 @@ static bool init(const ShaderLoader *loader, Message *message)
     (void)loader;
     return mesh_disc(&state.disc, 3, 64, 16, message) &&
            mesh_sphere(&state.marker, 0.12, 16, 8, message) &&
-           shape_open(&state.teapot, SHAPE_TEAPOT, message);
+           shape_open(&state.teapot, SHAPE_TEAPOT, NULL, message);
 }
 
 static void colored_light(double seconds, int i)

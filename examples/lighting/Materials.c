@@ -11,6 +11,7 @@
 #include "shape.h"
 
 static int shape_kind = SHAPE_TEAPOT;
+static const char *model;
 static bool sheet;
 static int preset = MATERIAL_COUNT; /* none */
 static Vec3 diffuse = {0.6, 0.6, 0.6}, specular = {1, 1, 1};
@@ -22,6 +23,10 @@ static const Parameter parameters[] = {
      .kind = PARAMETER_CHOICE,
      .value = &shape_kind,
      .choices = SHAPE_NAMES},
+    {.name = "model",
+     .help = "a model file (OBJ, PLY, glTF, 3DS...) in the place of the solid",
+     .kind = PARAMETER_TEXT,
+     .value = &model},
     {.name = "preset",
      .help = "a named material, in the place of the colours",
      .kind = PARAMETER_CHOICE,
@@ -63,7 +68,7 @@ static struct {
 static bool init(const ShaderLoader *loader, Message *message)
 {
     (void)loader;
-    return shape_open(&state.shape, (ShapeKind)shape_kind, message);
+    return shape_open(&state.shape, (ShapeKind)shape_kind, model, message);
 }
 
 static Material material(int view)

@@ -28,7 +28,7 @@ static struct {
 static bool init(const ShaderLoader *loader, Message *message)
 {
     (void)loader;
-    return shape_open(&state.shape, SHAPE_SPHERE, message);
+    return shape_open(&state.shape, SHAPE_SPHERE, NULL, message);
 }
 
 static void scene(double seconds, int view, Scene *scene)

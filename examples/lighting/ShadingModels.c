@@ -14,6 +14,7 @@ static const Vec3 FIXED_LIGHT = {0, 1.5, 1.5}, TURNING_LIGHT = {1.5, 1.5, 0};
 
 /* The options, with their defaults. */
 static int shape_kind = SHAPE_SPHERE;
+static const char *model;
 static int material = 10; /* gold */
 static int reflection = REFLECTION_PHONG;
 static int interpolation = INTERPOLATION_PHONG;
@@ -31,6 +32,10 @@ static const Parameter parameters[] = {
      .kind = PARAMETER_CHOICE,
      .value = &shape_kind,
      .choices = SHAPE_NAMES},
+    {.name = "model",
+     .help = "a model file (OBJ, PLY, glTF, 3DS...) in the place of the solid",
+     .kind = PARAMETER_TEXT,
+     .value = &model},
     {.name = "material",
      .help = "what it is made of",
      .kind = PARAMETER_CHOICE,
@@ -80,7 +85,7 @@ static struct {
 static bool init(const ShaderLoader *loader, Message *message)
 {
     (void)loader;
-    return shape_open(&state.shape, (ShapeKind)shape_kind, message);
+    return shape_open(&state.shape, (ShapeKind)shape_kind, model, message);
 }
 
 static void scene(double seconds, int view, Scene *scene)

@@ -11,6 +11,7 @@
 #include "shape.h"
 
 static int shape_kind = SHAPE_SPHERE;
+static const char *model;
 static int interpolation = INTERPOLATION_PHONG;
 static double cutoff = 30, exponent = 0;
 
@@ -22,6 +23,10 @@ static const Parameter parameters[] = {
      .kind = PARAMETER_CHOICE,
      .value = &shape_kind,
      .choices = SHAPE_NAMES},
+    {.name = "model",
+     .help = "a model file (OBJ, PLY, glTF, 3DS...) in the place of the solid",
+     .kind = PARAMETER_TEXT,
+     .value = &model},
     {.name = "cutoff",
      .help = "half the cone's angle, in degrees",
      .kind = PARAMETER_NUMBER,
@@ -51,7 +56,7 @@ static struct {
 static bool init(const ShaderLoader *loader, Message *message)
 {
     (void)loader;
-    return shape_open(&state.shape, (ShapeKind)shape_kind, message);
+    return shape_open(&state.shape, (ShapeKind)shape_kind, model, message);
 }
 
 static void scene(double seconds, int view, Scene *scene)
