@@ -459,17 +459,16 @@ static void normals_follow_the_inverse_transpose(void **state)
 static void only_normals_that_are_missing_are_computed(void **state)
 {
     (void)state;
-    /* Two squares that meet at x = 1 as in a roof; the first has normals, all up, one of them zero.
-     */
+    /* Two squares that meet at x = 1 as in a roof; the second has normals, up but for one, zero. */
     Mesh mesh = read_sound("roof.obj", text("v 0 0 0\nv 1 0 1\nv 1 1 1\nv 0 1 0\nv 2 0 0\nv 2 1 0\n"
                                             "vn 0 0 1\nvn 0 0 0\n"
-                                            "g a\nf 1//1 2//1 3//1 4//2\ng b\nf 2 5 6 3\n"));
+                                            "g a\nf 2 5 6 3\ng b\nf 1//2 2//1 3//1 4//1\n"));
     const double half = sqrt(0.5);
     assert_counts(&mesh, 8, 4);
     for (size_t i = 0; i < mesh.vertex_count; i++) {
         const float *p = mesh.vertices[i].position;
         const Vec3 normal = vector(mesh.vertices[i].normal);
-        const bool zero = p[0] == 0 && p[1] == 1;
+        const bool zero = p[0] == 0 && p[1] == 0;
         const bool up = distance(normal, (Vec3){0, 0, 1}) == 0;
         const bool left = distance(normal, (Vec3){-half, 0, half}) <= FLT_EPSILON;
         const bool right = distance(normal, (Vec3){half, 0, half}) <= FLT_EPSILON;
