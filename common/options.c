@@ -475,8 +475,11 @@ int options_fail(const char *program, const Message *message, int code)
 int options_finish(const char *program, int code)
 {
     Message message = {0};
-    if (ferror(stdout) || fflush(stdout) != 0) {
-        message_set(&message, "standard output: cannot write: %s", strerror(errno));
+    errno = 0;
+    if (fflush(stdout) != 0 || ferror(stdout)) {
+        /* An earlier write may have failed, whose reason is gone. */
+        message_set(&message, "standard output: cannot write%s%s", errno ? ": " : "",
+                    errno ? strerror(errno) : "");
         return options_fail(program, &message, EXIT_FAILED);
     }
     return code;

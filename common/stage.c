@@ -2,6 +2,7 @@
 
 #include "lighting.h"
 #include "model.h"
+#include "operations.h"
 #include "progress.h"
 
 #include <dlfcn.h>
@@ -177,6 +178,27 @@ bool stage_draw(const Example *example, const Canvas *canvas, const Options *opt
     return true;
 }
 
+/* What an object's program computes, and beside it the full one; or why that is not known. */
+static void explain_operations(const Scene *scene, const Object *object)
+{
+    static const char *const names[] = {"operations", "in the full program"};
+    Message message = {0};
+    for (int full = 0; full < 2 && !message.text[0]; full++) {
+        ShaderSource sources[2];
+        Operations vertex, fragment;
+        if (lighting_sources(on_stage.lighting, scene, object, full, sources, &message) &&
+            operations_count(sources[SHADER_VERTEX].text, SHADER_VERTEX, &vertex, &message) &&
+            operations_count(sources[SHADER_FRAGMENT].text, SHADER_FRAGMENT, &fragment, &message))
+            printf("%s: %d per vertex (%d special), %d per fragment (%d special)\n", names[full],
+                   vertex.arithmetic + vertex.special, vertex.special,
+                   fragment.arithmetic + fragment.special, fragment.special);
+        shader_source_close(&sources[SHADER_VERTEX]);
+        shader_source_close(&sources[SHADER_FRAGMENT]);
+    }
+    if (message.text[0])
+        printf("%s\n", message.text);
+}
+
 bool stage_explain(const Example *example, const Options *options, Message *message)
 {
     if (!example->scene)
@@ -188,14 +210,20 @@ bool stage_explain(const Example *example, const Options *options, Message *mess
         for (int i = 0; i < scene.object_count; i++) {
             printf("# %s, view %d, object %d\n", example->name, view, i);
             effects_explain(&scene, &scene.objects[i], stdout);
+            const int programs = lighting_counts(on_stage.lighting).programs;
             if (!lighting_program(on_stage.lighting, &scene, &scene.objects[i], options->full,
                                   message))
                 return false;
+            if (lighting_counts(on_stage.lighting).programs > programs)
+                explain_operations(&scene, &scene.objects[i]);
+            else
+                printf("its program is one of those above\n");
             printf("\n");
         }
     }
     const LightingCounts counts = lighting_counts(on_stage.lighting);
-    printf("# %d programs, compiled in %.1f ms\n", counts.programs, 1e3 * counts.compile_seconds);
+    printf("# %d programs, compiled and linked in %.1f ms\n", counts.programs,
+           1e3 * counts.compile_seconds);
     return true;
 }
 
@@ -250,6 +278,11 @@ bool stage_picture(const Example *example, const Canvas *canvas, const Options *
     const bool averaged = canvas->samples || canvas->supersample > 1;
     if (options->alpha && averaged)
         divide_by_alpha(image);
+    if (options->verbose && example->scene) {
+        const LightingCounts counts = lighting_counts(on_stage.lighting);
+        fprintf(stderr, "%d programs so far, compiled and linked in %.1f ms\n", counts.programs,
+                1e3 * counts.compile_seconds);
+    }
     if (picture->image.type == IMAGE_BYTE) {
         if (example->retouch)
             example->retouch(&picture->image);

@@ -1,12 +1,11 @@
 /*
  * What effects cost: a ladder of scenes, each with one effect more than the one before it, drawn
- * by the programs made for them and by the full program; operations, frames and compiling. Then the
+ * by the programs made for them and by the full program: operations, compiling and frames. Then the
  * simplest scene against a shader written by hand for just that, lights that are off, and changes
- * of values, which must compile nothing: the only thing that fails.
+ * of values, which must compile nothing: only that can fail.
  *
- * One sphere, lit at the fragments. The full program draws its far side too: what can be left out
- * is part of what is measured. From "two-sided" on the sphere is open, and its own program does so
- * as well.
+ * One sphere, lit at the fragments. The full program always draws its far side too: culling is one
+ * of the things that a scene calls for, or not.
  */
 #include "canvas.h"
 #include "lighting.h"
@@ -29,14 +28,16 @@ typedef struct Step {
 } Step;
 
 enum {
+    UNLIT,
     DIFFUSE,
     AMBIENT,
-    POINT,
     SPECULAR,
     LOCAL_VIEWER,
+    POINT,
     PHONG,
     ATTENUATION,
     SPOT,
+    OPEN,
     TWO_SIDED,
     UNEVEN,
     TWO_LIGHTS,
@@ -71,32 +72,35 @@ static void make_steps(void)
                    .front = {.diffuse = {0.6, 0.4, 0.3}, .shininess = 30, .alpha = 1}},
         .scene = {.camera = {{0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 30, 1, 20},
                   .object_count = 1,
-                  .light_count = 1,
                   .distant_viewer = true},
     };
     Light *light = &step.lights[0];
     Material *front = &step.object.front;
     for (int i = 0; i < STEPS; i++) {
         switch (i) {
+        case UNLIT:
+            step.name = "unlit";
+            break;
         case DIFFUSE:
             step.name = "diffuse, directional";
+            step.scene.light_count = 1;
             break;
         case AMBIENT:
             step.name = "+ ambient";
-            step.scene.global_ambient = front->ambient = grey;
-            break;
-        case POINT:
-            step.name = "point instead of directional";
-            light->kind = LIGHT_POINT;
-            light->position = (Vec3){1, 2, 3};
+            light->ambient = front->ambient = grey;
             break;
         case SPECULAR:
-            step.name = "+ specular, viewer at infinity";
+            step.name = "+ specular, all at infinity";
             light->specular = front->specular = grey;
             break;
         case LOCAL_VIEWER:
             step.name = "+ local viewer";
             step.scene.distant_viewer = false;
+            break;
+        case POINT:
+            step.name = "point instead of directional";
+            light->kind = LIGHT_POINT;
+            light->position = (Vec3){1, 2, 3};
             break;
         case PHONG:
             step.name = "Phong instead of Blinn-Phong";
@@ -114,9 +118,12 @@ static void make_steps(void)
             light->cutoff = 60;
             light->exponent = 2;
             break;
+        case OPEN:
+            step.name = "open, the far side drawn too";
+            step.object.closed = false;
+            break;
         case TWO_SIDED:
             step.name = "+ two-sided";
-            step.object.closed = false;
             step.object.two_sided = true;
             step.object.back = *front;
             break;
@@ -151,6 +158,8 @@ static void make_steps(void)
             step.lights[k].off = i == THREE_OFF;
             if (i == EVERYTHING) /* of all kinds */
                 step.lights[k].kind = (LightKind)(k % 3);
+            if (step.lights[k].kind == LIGHT_DIRECTIONAL)
+                step.lights[k].direction = (Vec3){1, 2, 3};
         }
         steps[i] = step;
         settle(&steps[i]);
@@ -215,9 +224,8 @@ static bool draw_hand(const Step *step, Message *message)
     shader_set_mat4(hand.clip_from_object, mat4_product(clip_from_eye, eye_from_world));
     shader_set_mat4(hand.eye_from_object, eye_from_world);
     shader_set_vec3(hand.direction, direction);
-    shader_set_vec3(hand.diffuse,
-                    (Vec3){light->diffuse.x * diffuse.x, light->diffuse.y * diffuse.y,
-                           light->diffuse.z * diffuse.z});
+    shader_set_vec3(hand.diffuse, (Vec3){light->diffuse.x * diffuse.x, light->diffuse.y * diffuse.y,
+                                         light->diffuse.z * diffuse.z});
     mesh_buffer_bind(&hand.buffer, 0, hand.normal);
     glDrawElements(GL_TRIANGLES, hand.buffer.index_count, hand.buffer.index_type, NULL);
     glDisable(GL_CULL_FACE);
@@ -238,9 +246,9 @@ static bool draw(const Run *run, Message *message)
     canvas_begin(&canvas);
     glClearColor(0, 0, 0, 1);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    if (run->way == HAND ? !draw_hand(run->step, message)
-                         : !lighting_draw(lighting, &run->step->scene, 1, run->way == FULL,
-                                          message))
+    if (run->way == HAND
+            ? !draw_hand(run->step, message)
+            : !lighting_draw(lighting, &run->step->scene, 1, run->way == FULL, message))
         return false;
     glFinish();
     return true;
@@ -264,14 +272,11 @@ static bool measure_compiling(const Run *run, double *seconds, Message *message)
 {
     double samples[COMPILATIONS];
     const ShaderLoader loader = {.folder = NULL};
-    const Step *unlit = &steps[DIFFUSE];
-    Scene dark = unlit->scene;
-    dark.light_count = 0;
     for (int i = 0; i < COMPILATIONS; i++) {
         lighting_close(lighting);
         /* Uploads the mesh. */
         if (!lighting_open(&lighting, &loader, message) ||
-            !lighting_draw(lighting, &dark, 1, false, message))
+            !lighting_draw(lighting, &steps[UNLIT].scene, 1, false, message))
             return false;
         glFinish();
         const double start = progress_now();
@@ -286,7 +291,8 @@ static bool measure_compiling(const Run *run, double *seconds, Message *message)
     return true;
 }
 
-/* "30 (1)" for each stage: arithmetic and special operations; "?" where no tool counts them. */
+/* "30 (1)" for each stage: operations, and how many of them are special; "?" where no tool counts
+ * them. */
 static void tell_operations(const Run *run, char told[2][16])
 {
     static Message said; /* once */
@@ -298,8 +304,8 @@ static void tell_operations(const Run *run, char told[2][16])
     for (int stage = 0; stage < 2; stage++) {
         Operations operations;
         if (operations_count(sources[stage].text, (ShaderStage)stage, &operations, &message))
-            snprintf(told[stage], sizeof told[stage], "%d (%d)", operations.arithmetic,
-                     operations.special);
+            snprintf(told[stage], sizeof told[stage], "%d (%d)",
+                     operations.arithmetic + operations.special, operations.special);
         else
             snprintf(told[stage], sizeof told[stage], "?");
         shader_source_close(&sources[stage]);
@@ -310,13 +316,79 @@ static void tell_operations(const Run *run, char told[2][16])
         said = message;
 }
 
+/* What is timed: every step both ways, and beside them: */
+enum { AGAIN = 2 * STEPS, BY_HAND_TOO, MEASURED };
+
 static void print_ratio(const char *name, const Measured *a, const Measured *b)
 {
     const Summary ratio = measure_ratio(a, b, 1, ROUNDS);
-    printf("%-60s %5.2f [%.2f, %.2f]\n", name, ratio.median, ratio.lower, ratio.upper);
+    printf("%-58s %5.2f [%.2f, %.2f]\n", name, ratio.median, ratio.lower, ratio.upper);
 }
 
-/* Draws with every value of the simplest scene changed but none made zero. */
+static bool print_sizes(Message *message)
+{
+    printf("\n%-30s %10s %10s   %10s %10s   %10s %10s\n", "operations (of them special)",
+           "a vertex", "full", "a fragment", "full", "compile ms", "full");
+    for (int i = 0; i < STEPS; i++) {
+        char told[2][2][16] = {{"?", "?"}, {"?", "?"}}; /* by Way and ShaderStage */
+        double seconds[2];
+        for (int way = MINE; way <= FULL; way++) {
+            const Run run = {&steps[i], (Way)way};
+            if (!measure_compiling(&run, &seconds[way], message))
+                return false;
+            tell_operations(&run, told[way]);
+        }
+        printf("%-30s %10s %10s   %10s %10s   %10.1f %10.1f\n", steps[i].name,
+               told[MINE][SHADER_VERTEX], told[FULL][SHADER_VERTEX], told[MINE][SHADER_FRAGMENT],
+               told[FULL][SHADER_FRAGMENT], 1e3 * seconds[MINE], 1e3 * seconds[FULL]);
+    }
+    return true;
+}
+
+static void print_times(const Measured measured[MEASURED])
+{
+    printf("\n%-30s %21s %7s   %-18s   %s\n", "a frame of 400x400", "ms", "full", "over full",
+           "over the scene before");
+    for (int i = 0; i < STEPS; i++) {
+        const Measured *mine = &measured[2 * i + MINE], *full = &measured[2 * i + FULL];
+        const Summary time = measure_summary(mine->seconds, ROUNDS);
+        const Summary ratio = measure_ratio(mine, full, 1, ROUNDS);
+        printf("%-30s %5.2f [%5.2f, %5.2f] %7.2f   %4.2f [%4.2f, %4.2f]", steps[i].name,
+               1e3 * time.median / FRAMES, 1e3 * time.lower / FRAMES, 1e3 * time.upper / FRAMES,
+               1e3 * measure_summary(full->seconds, ROUNDS).median / FRAMES, ratio.median,
+               ratio.lower, ratio.upper);
+        const Summary more = measure_ratio(mine, mine - (i ? 2 : 0), 1, ROUNDS);
+        if (i > 0 && i < THREE_OFF)
+            printf("   %4.2f [%4.2f, %4.2f]", more.median, more.lower, more.upper);
+        printf("\n");
+    }
+    printf("\n");
+    print_ratio("the simplest lit scene over the same again (A/A)", &measured[2 * DIFFUSE],
+                &measured[AGAIN]);
+    print_ratio("the simplest lit scene over shaders written by hand for it",
+                &measured[2 * DIFFUSE], &measured[BY_HAND_TOO]);
+    print_ratio("4 point lights, 3 of them off, over one", &measured[2 * THREE_OFF],
+                &measured[2 * POINT]);
+}
+
+static bool measure_frames(Message *message)
+{
+    Run runs[MEASURED];
+    Measured measured[MEASURED];
+    for (int i = 0; i < MEASURED; i++) {
+        runs[i] = (Run){&steps[i < AGAIN ? i / 2 : DIFFUSE], i < AGAIN ? (Way)(i % 2) : MINE};
+        if (i == BY_HAND_TOO)
+            runs[i].way = HAND;
+        measured[i] = (Measured){runs[i].step->name, draw_frames, &runs[i], NULL};
+    }
+    const bool done = measure_rounds(measured, MEASURED, ROUNDS);
+    if (done)
+        print_times(measured);
+    measure_finish(measured, MEASURED);
+    return done ? true : message_set(message, "measuring failed");
+}
+
+/* Draws the last step with other values, of which none is zero. */
 static bool compiles_nothing(Message *message)
 {
     Step step = steps[EVERYTHING];
@@ -329,8 +401,8 @@ static bool compiles_nothing(Message *message)
         step.object.front = (Material){color, color, color, color, 0.05 * i, 10 * i};
         step.object.back = step.object.front;
         for (int k = 0; k < LIGHTS; k++) {
-            step.lights[k].ambient = step.lights[k].position = color;
-            step.lights[k].diffuse = step.lights[k].specular = color;
+            step.lights[k].ambient = step.lights[k].diffuse = color;
+            step.lights[k].specular = color;
         }
         if (!draw(&(Run){&step, MINE}, message))
             return false;
@@ -338,4 +410,26 @@ static bool compiles_nothing(Message *message)
     const int compiled = lighting_counts(lighting).programs - before;
     printf("programs compiled by changing every colour ten times: %d\n", compiled);
     return compiled == 0 ? true : message_set(message, "changing a colour compiles programs");
+}
+
+int main(void)
+{
+    Message message = {0};
+    const CanvasOptions size = {.width = SIZE, .height = SIZE};
+    setenv("LP_NUM_THREADS", "0", 0); /* other programs disturb one thread less than several */
+    setenv("MESA_SHADER_CACHE_DISABLE", "true", 1); /* or nothing is compiled the second time */
+    if (!canvas_open(&canvas, &size, &message))
+        return options_fail("effects_benchmark", &message, 77);
+    make_steps();
+    measure_print_machine();
+    printf("%s\n", canvas.renderer);
+    const bool done = mesh_sphere(&sphere, 1, 64, 32, &message) && open_hand(&message) &&
+                      print_sizes(&message) && measure_frames(&message) &&
+                      compiles_nothing(&message);
+    lighting_close(lighting);
+    shader_close(&hand.shader);
+    mesh_buffer_close(&hand.buffer);
+    mesh_close(&sphere);
+    canvas_close(&canvas);
+    return done ? 0 : options_fail("effects_benchmark", &message, 1);
 }
