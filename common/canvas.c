@@ -276,7 +276,10 @@ static bool read_pixels(const Canvas *canvas, Image *image, Message *message)
                           GL_NEAREST);
         glBindFramebuffer(GL_FRAMEBUFFER, canvas->resolve_framebuffer);
     }
+    const bool reverses = gl_has("GL_ANGLE_pack_reverse_row_order");
     glPixelStorei(GL_PACK_ALIGNMENT, 4);
+    if (reverses)
+        glPixelStorei(GL_PACK_REVERSE_ROW_ORDER_ANGLE, 1);
     glReadPixels(0, 0, image->width, image->height, GL_RGBA,
                  canvas->real ? GL_FLOAT : GL_UNSIGNED_BYTE, image->pixels);
     glBindFramebuffer(GL_FRAMEBUFFER, canvas->framebuffer);
@@ -284,7 +287,7 @@ static bool read_pixels(const Canvas *canvas, Image *image, Message *message)
     if (error != GL_NO_ERROR)
         return message_set(message, "canvas: drawing and reading back a %dx%d picture: %s",
                            image->width, image->height, gl_error_name(error));
-    return turn_rows(image, message);
+    return reverses || turn_rows(image, message);
 }
 
 bool canvas_read(const Canvas *canvas, Image *image, Message *message)

@@ -40,7 +40,7 @@ static bool picture_path(const Options *options, int number, char path[PATH_MAX]
     return true;
 }
 
-/* Draws every picture that the options ask for, and gives it to the thread that writes. */
+/* Draws every picture that the options ask for, and gives it to the threads that write. */
 static bool draw(const Example *example, const Canvas *canvas, const Options *options,
                  PictureQueue *queue, Message *message)
 {
@@ -71,7 +71,7 @@ static bool run(const Example *example, const Options *options, Message *message
         return false;
     if (drawing && (!picture_path(options, 0, first, message) || !output_check(first, message)))
         return false;
-    /* While a second thread encodes one picture after another, llvmpipe's own are in its way. */
+    /* While other threads encode one picture after another, llvmpipe's own are in their way. */
     if (options->frames > 1)
         setenv("LP_NUM_THREADS", "0", 0);
     if (!stage_open(&canvas, options, drawing ? first : "x.png", message))

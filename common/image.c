@@ -8,6 +8,7 @@
 #include <errno.h>
 #include <math.h>
 #include <png.h>
+#include <pthread.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -72,7 +73,11 @@ static bool image_file_append(ImageFile *file, const void *bytes, size_t size)
 
 /* The module. */
 
-static bool module_open(const ImageModule **module, Message *message)
+/* Pictures are written by several threads: the module is loaded by one of them, and the limit that
+ * module_encode lifts is the process's. */
+static pthread_mutex_t module_lock = PTHREAD_MUTEX_INITIALIZER;
+
+static bool module_find(const ImageModule **module, Message *message)
 {
     static const ModuleName name = {"image_oiio.so", IMAGE_MODULE_SYMBOL, "OpenImageIO",
                                     "libopenimageio-dev"};
@@ -85,6 +90,14 @@ static bool module_open(const ImageModule **module, Message *message)
     }
     *module = loaded;
     return true;
+}
+
+static bool module_open(const ImageModule **module, Message *message)
+{
+    pthread_mutex_lock(&module_lock);
+    const bool found = module_find(module, message);
+    pthread_mutex_unlock(&module_lock);
+    return found;
 }
 
 bool image_doctor(void)
@@ -213,9 +226,24 @@ static const unsigned char *png_row(const Image *image, int y, unsigned char *sp
     return spare;
 }
 
+/* Whether hardly any pixel differs from its left neighbour, as in a picture of few even faces. */
+static bool has_flat_colors(const Image *image)
+{
+    const size_t width = (size_t)image->width, height = (size_t)image->height;
+    const uint32_t *pixels = image->pixels;
+    size_t changes = 0;
+    if (image->type != IMAGE_BYTE)
+        return false;
+    for (size_t y = 0; y < height; y++)
+        for (size_t x = 1; x < width; x++)
+            changes += pixels[y * width + x] != pixels[y * width + x - 1];
+    return changes < width * height / 50;
+}
+
 static bool png_encode(const Image *image, const ImageOptions *options, ImageFile *file,
                        Message *message)
 {
+    const int level = options->compress >= 0 ? options->compress : has_flat_colors(image) ? 4 : 3;
     unsigned char *spare = malloc(4 * (size_t)image->width);
     png_structp png =
         png_create_write_struct(PNG_LIBPNG_VER_STRING, message, png_failed, png_warned);
@@ -232,11 +260,10 @@ static bool png_encode(const Image *image, const ImageOptions *options, ImageFil
     png_set_IHDR(png, info, (png_uint_32)image->width, (png_uint_32)image->height, 8,
                  options->alpha ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    png_set_compression_level(png, options->compress);
+    png_set_compression_level(png, level);
     /* Trying every filter on every row costs more than zlib's fast levels save by it. */
-    if (options->compress < 6)
-        png_set_filter(png, PNG_FILTER_TYPE_BASE,
-                       options->compress ? PNG_FILTER_UP : PNG_FILTER_NONE);
+    if (level < 6)
+        png_set_filter(png, PNG_FILTER_TYPE_BASE, level ? PNG_FILTER_SUB : PNG_FILTER_NONE);
     png_put_text(png, info, options->text);
     png_write_info(png, info);
     if (!options->alpha)
@@ -275,6 +302,7 @@ static bool module_encode(const Image *image, const char *format, const ImageOpt
     if (memory < 0)
         return message_set(message, "%s: %s", format, strerror(errno));
     char reason[1024] = "";
+    pthread_mutex_lock(&module_lock);
     const struct rlimit limit = lift_file_limit();
     bool done = module->can_write(format);
     if (!done) {
@@ -295,6 +323,7 @@ static bool module_encode(const Image *image, const char *format, const ImageOpt
     }
     close(memory);
     setrlimit(RLIMIT_FSIZE, &limit);
+    pthread_mutex_unlock(&module_lock);
     return done;
 }
 

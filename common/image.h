@@ -37,15 +37,15 @@ typedef struct ImageText {
 } ImageText;
 
 typedef struct ImageOptions {
-    int compress;          /* PNG: 0 (none, largest) to 9 (slowest, smallest) */
+    int compress;          /* PNG: 0 (none, largest) to 9 (slowest, smallest), or the default */
     bool alpha;            /* keep the alpha channel; else the picture is opaque and has none */
     const ImageText *text; /* ended by a NULL key; may be NULL */
 } ImageOptions;
 
-/* The level for pictures that are written often. With one fixed filter, zlib's level 4 takes a
- * quarter of the time of libpng's defaults, for 1.1 to 1.7 times their size on this chapter's
- * pictures; level 1 saves a little time more, and is 2.5 times as large where colours are flat. */
-enum { IMAGE_COMPRESS_DEFAULT = 4 };
+/* For pictures that are written often: with one fixed filter, zlib's level 3, or 4 where colours
+ * are flat and level 3 is wasteful. A fifth to a quarter of the time of libpng's defaults, for 1.1
+ * to 1.8 times their size on this chapter's pictures. */
+enum { IMAGE_COMPRESS_DEFAULT = -1 };
 
 /* Bytes of an encoded file. */
 typedef struct ImageFile {

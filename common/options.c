@@ -117,7 +117,7 @@ static void print_help(const Usage *usage)
         "      --print-shader[=vert|frag]\n"
         "                         print what the driver is given, and draw nothing\n"
         "      --alpha            keep the alpha channel: the background is transparent\n"
-        "      --compress 0..9    of PNG files: 0 is none, 4 is fast (default), 9 is small\n"
+        "      --compress 0..9    of PNG files: 0 is none, 9 is small; default fast\n"
         "  -v, --verbose          say what runs where, and how long it took\n"
         "      --doctor           say what this machine has for drawing, and what is missing\n"
         "  -h, --help             this text\n"

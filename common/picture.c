@@ -4,13 +4,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* One being drawn, one being written, and one between them to even out their times. */
-enum { MOST_SLOTS = 3 };
+/* Encoding a picture costs up to twice as much as drawing it, so two threads do it. One slot for
+ * each of them, one being drawn, and one between to even out their times. */
+enum { MOST_WRITERS = 2, MOST_SLOTS = MOST_WRITERS + 2 };
 
 typedef enum SlotState { SLOT_FREE, SLOT_TAKEN, SLOT_WAITING, SLOT_WRITING } SlotState;
 
 struct PictureQueue {
-    pthread_t thread;
+    pthread_t writers[MOST_WRITERS];
+    int writer_count;
     pthread_mutex_t lock;
     pthread_cond_t changed;
     int slots;
@@ -99,8 +101,12 @@ bool picture_queue_open(PictureQueue **opened, int width, int height, ImageType 
             return false;
         }
     }
-    const int error = pthread_create(&queue->thread, NULL, write_pictures, queue);
-    if (error) {
+    int error = 0;
+    for (int i = 0; i < MOST_WRITERS && i < queue->slots && !error; i++) {
+        error = pthread_create(&queue->writers[i], NULL, write_pictures, queue);
+        queue->writer_count += !error;
+    }
+    if (!queue->writer_count) {
         free_queue(queue);
         return message_set(message, "pictures: cannot start a thread: %s", strerror(error));
     }
@@ -139,7 +145,8 @@ bool picture_queue_close(PictureQueue *queue, Message *message)
     queue->ended = true;
     pthread_cond_broadcast(&queue->changed);
     pthread_mutex_unlock(&queue->lock);
-    pthread_join(queue->thread, NULL);
+    for (int i = 0; i < queue->writer_count; i++)
+        pthread_join(queue->writers[i], NULL);
     const bool written = !queue->failure.text[0];
     if (!written)
         message_set(message, "%s", queue->failure.text);

@@ -1,8 +1,8 @@
 /*
- * picture: a drawn image on its way to a file, on this thread or on a second one.
+ * picture: a drawn image on its way to a file, on this thread or on others.
  *
- * A queue keeps one thread encoding and writing while the caller draws: with two cores an animation
- * costs the longer of the two, not their sum.
+ * A queue has two threads that encode and write while the caller draws, so that drawing and writing
+ * share the cores there are.
  */
 #ifndef PICTURE_H
 #define PICTURE_H
@@ -28,18 +28,18 @@ bool picture_write(const Picture *picture, Message *message);
 
 typedef struct PictureQueue PictureQueue;
 
-/* Starts the second thread, for `count` pictures of this size and type. */
+/* Starts the threads, for `count` pictures of this size and type. */
 bool picture_queue_open(PictureQueue **queue, int width, int height, ImageType type, int count,
                         Message *message);
 
 /* A picture to draw into; waits while all are being written. */
 Picture *picture_queue_take(PictureQueue *queue);
 
-/* Gives it to the second thread. False, with its message, where an earlier picture could not be
+/* Gives it to the threads. False, with its message, where an earlier picture could not be
  * written: nothing more is written then. */
 bool picture_queue_give(PictureQueue *queue, Picture *picture, Message *message);
 
-/* Waits until all that was given is written, ends the thread and frees the queue. False, with the
+/* Waits until all that was given is written, ends the threads and frees the queue. False, with the
  * first failure's message, where a picture could not be written. NULL is fine. */
 bool picture_queue_close(PictureQueue *queue, Message *message);
 

@@ -2,7 +2,7 @@
  * gallery: every picture in one process and one context.
  *
  * Writes each example's picture, a contact sheet of them all, and index.html, a page with the
- * pictures, what each teaches, and the command that draws it. While a second thread encodes one
+ * pictures, what each teaches, and the command that draws it. While other threads encode one
  * picture the next is drawn.
  */
 #include "output.h"
@@ -263,7 +263,7 @@ static bool run(const Selection *selection, const Options *options, Message *mes
     Image sheet = {0};
     if (!shader_loader_check(&options->shaders, message))
         return false;
-    setenv("LP_NUM_THREADS", "0", 0); /* as in example.c: a second thread encodes */
+    setenv("LP_NUM_THREADS", "0", 0); /* as in example.c: other threads encode */
     bool done = stage_open(&canvas, options, "gallery.png", message);
     /* All of them once before anything is written: one that fails must not leave half a gallery. */
     for (int i = 0; i < selection->count && done; i++) {

@@ -59,7 +59,19 @@ int main(int argc, char *argv[])
     char *smallest[] = {argv[1], "--compress", "9", "-o", picture, NULL};
     char *floor_command[] = {argv[3], NULL};
     char *gallery_one[] = {argv[2], "-o", one, "LightedCube", NULL};
-    char *gallery_all[] = {argv[2], "-o", all, NULL};
+    char *gallery_all[] = {argv[2],
+                           "-o",
+                           all,
+                           "LightedCube",
+                           "LightedCube_animation",
+                           "LightedCube_ambient",
+                           "LightedTranslatedRotatedCube",
+                           "PointLightedCube",
+                           "PointLightedCube_animation",
+                           "PointLightedCube_perFragment",
+                           "PointLightedSphere",
+                           "PointLightedSphere_perFragment",
+                           NULL};
     enum { DRAW, DRAW_NULL, SMALLEST, FLOOR, FLOOR_AGAIN, ONE, ALL, COUNT };
     Measured measured[COUNT] = {
         [DRAW] = {"picture, -o x.png", run_command, draw, NULL},
