@@ -63,10 +63,14 @@ bool fixed_function_open(int width, int height, Message *message)
         library = dlopen(names[i], RTLD_NOW | RTLD_LOCAL);
     if (!library)
         return message_set(message, "no OSMesa here: install libosmesa6");
-    *(void **)&osmesa.CreateContextExt = osmesa_function("OSMesaCreateContextExt", message);
-    *(void **)&osmesa.MakeCurrent = osmesa_function("OSMesaMakeCurrent", message);
-    *(void **)&osmesa.GetProcAddress = osmesa_function("OSMesaGetProcAddress", message);
-    *(void **)&osmesa.DestroyContext = osmesa_function("OSMesaDestroyContext", message);
+    osmesa.CreateContextExt =
+        (__typeof__(osmesa.CreateContextExt))osmesa_function("OSMesaCreateContextExt", message);
+    osmesa.MakeCurrent =
+        (__typeof__(osmesa.MakeCurrent))osmesa_function("OSMesaMakeCurrent", message);
+    osmesa.GetProcAddress =
+        (__typeof__(osmesa.GetProcAddress))osmesa_function("OSMesaGetProcAddress", message);
+    osmesa.DestroyContext =
+        (__typeof__(osmesa.DestroyContext))osmesa_function("OSMesaDestroyContext", message);
     if (!osmesa.CreateContextExt || !osmesa.MakeCurrent || !osmesa.GetProcAddress ||
         !osmesa.DestroyContext)
         return false;
@@ -76,7 +80,7 @@ bool fixed_function_open(int width, int height, Message *message)
         !osmesa.MakeCurrent(context, pixels, GL_UNSIGNED_BYTE, width, height))
         return message_set(message, "OSMesa: no context with 24 bits of depth");
 #define LOAD(name)                                                                                 \
-    *(OSMESAproc *)&gl.name = osmesa.GetProcAddress("gl" #name);                                   \
+    gl.name = (__typeof__(gl.name))osmesa.GetProcAddress("gl" #name);                              \
     if (!gl.name)                                                                                  \
         return message_set(message, "OSMesa: no gl" #name);
     FUNCTIONS(LOAD)

@@ -20,7 +20,7 @@
 #include <unistd.h>
 #include <cmocka.h>
 
-enum { SIZE = 96, SCENES = 300, MOST_OBJECTS = 3, MOST_LIGHTS = 8, SHAPES = 6 };
+enum { SIZE = 96, SCENES = 200, MOST_OBJECTS = 3, MOST_LIGHTS = 8, SHAPES = 6 };
 
 /* Random scenes. */
 
@@ -92,8 +92,10 @@ static Material random_material(void)
     const Vec3 ambient = random_color(0.5), diffuse = random_color(1), specular = random_color(1);
     const Vec3 emission = chance(0.3) ? random_vector(0, 0.3) : (Vec3){0, 0, 0};
     const double alpha = chance(0.3) ? uniform(0, 1) : 1;
-    return (Material){ambient,  diffuse, specular,
-                      emission, alpha,   chance(0.1) ? 0 : pow(2, uniform(0, 7))};
+    /* Not 0: for 0 to the power of 0, behind the highlight, Mesa has 0; we have 1, as for any other
+     * number to the power of 0. */
+    const double shininess = pow(2, uniform(-3, 7));
+    return (Material){ambient, diffuse, specular, emission, alpha, shininess};
 }
 
 static Object random_object(void)
@@ -350,10 +352,12 @@ static void every_scene_is_drawn_as_opengl_1_1_draws_it(void **state)
     assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 0);
     assert_int_equal(i, SCENES);
     assert_int_equal(wrong, 0);
-    /* The comparison means something: a fifth of the pictures is objects. */
-    assert_true(tally.inner > (long long)SCENES * SIZE * SIZE / 5);
-    /* An edge decides otherwise only within rounding of a pixel's centre, 1e-4 of a pixel. */
-    assert_true(tally.edges_apart * 1000 <= tally.edges);
+    /* The comparison means something: a tenth of the pictures is objects. */
+    assert_true(tally.inner > (long long)SCENES * SIZE * SIZE / 10);
+    /* An edge falls on the other side of a pixel's centre only within rounding of it: matrices in
+     * float move it by some 1e-5 of a pixel, and rasterizers snap to 1/256. Measured: 1 in 10000.
+     */
+    assert_true(tally.edges_apart * 2000 <= tally.edges);
 }
 
 int main(int argc, char **argv)

@@ -1,0 +1,1148 @@
+/*
+ * Pictures of the lighting model, and the programs that draw them. For every combination of effects
+ * the program made for it draws what the full program draws, and asks for nothing that the set does
+ * not name; what the model means is checked against closed forms in double precision.
+ */
+#include "canvas.h"
+#include "lighting.h"
+#include "picture_check.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <cmocka.h>
+
+enum { SIZE = 64 };
+
+static const double RADIANS = 0.017453292519943295;
+static const Vec3 BACKGROUND = {0.2, 0.3, 0.4};
+
+static Canvas canvas;
+static Lighting *lighting;
+static Image specialised, full; /* or any two pictures to be compared */
+static Mesh sphere, smooth_sphere, cube, tube, quad;
+
+static int open_all(void **state)
+{
+    Message message = {0};
+    (void)state;
+    if (canvas_open(&canvas, &(CanvasOptions){.width = SIZE, .height = SIZE}, &message) &&
+        lighting_open(&lighting, &(ShaderLoader){0}, &message) &&
+        image_open(&specialised, SIZE, SIZE, IMAGE_BYTE, &message) &&
+        image_open(&full, SIZE, SIZE, IMAGE_BYTE, &message) &&
+        mesh_sphere(&sphere, 1, 24, 12, &message) &&
+        mesh_sphere(&smooth_sphere, 1, 320, 160, &message) && mesh_cube(&cube, 0.8, &message) &&
+        mesh_cylinder(&tube, 0.8, 1.5, 24, 4, MESH_CAP_NONE, &message) &&
+        mesh_quad(&quad, 4, &message))
+        return 0;
+    printf("%s\n", message.text);
+    return 1;
+}
+
+static int close_all(void **state)
+{
+    (void)state;
+    mesh_close(&quad);
+    mesh_close(&tube);
+    mesh_close(&cube);
+    mesh_close(&smooth_sphere);
+    mesh_close(&sphere);
+    image_close(&full);
+    image_close(&specialised);
+    lighting_close(lighting);
+    canvas_close(&canvas);
+    return 0;
+}
+
+static void draw(const Scene *scene, bool with_all, Image *picture)
+{
+    Message message = {0};
+    const Vec3 b = scene->background;
+    canvas_begin(&canvas);
+    glClearColor((float)b.x, (float)b.y, (float)b.z, 1);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    if (!scene_check(scene, &message) ||
+        !lighting_draw(lighting, scene, 1, with_all, &message) ||
+        !canvas_read(&canvas, picture, &message))
+        fail_msg("%s", message.text);
+}
+
+static unsigned char *pixel(const Image *image, int x, int y)
+{
+    return (unsigned char *)image->pixels + 4 * (y * SIZE + x);
+}
+
+static int levels_apart(const Image *a, const Image *b, int x, int y)
+{
+    int most = 0;
+    for (int c = 0; c < 4; c++) {
+        const int levels = abs(pixel(a, x, y)[c] - pixel(b, x, y)[c]);
+        most = levels > most ? levels : most;
+    }
+    return most;
+}
+
+/* Whether at most `exceptions` pixels are more than one level apart; keeps the pictures if not. */
+static bool pictures_agree(const char *name, const Image *a, const Image *b, int exceptions)
+{
+    int apart = 0;
+    for (int y = 0; y < SIZE; y++)
+        for (int x = 0; x < SIZE; x++)
+            apart += levels_apart(a, b, x, y) > 1;
+    if (apart <= exceptions)
+        return true;
+    printf("%s: %d pixels more than one level apart\n", name, apart);
+    picture_check_keep(name, a, b);
+    return false;
+}
+
+/* Scenes by their properties. */
+
+/* The colours that a light and the material both have, as bits. */
+enum { AMBIENT = 1, DIFFUSE = 2, SPECULAR = 4 };
+
+typedef enum Shape { SPHERE, CUBE, TUBE } Shape;
+typedef enum Turn { RIGID, EVEN, UNEVEN, SHEARED, MIRRORED, TURNS } Turn;
+
+/* A light's kind with what only that kind has. */
+typedef struct Kind {
+    LightKind kind;
+    double constant, linear, exponent;
+} Kind;
+
+static const Kind KINDS[] = {
+    {LIGHT_DIRECTIONAL, 0, 0, 0}, {LIGHT_POINT, 0, 0, 0}, {LIGHT_POINT, 1.25, 0, 0},
+    {LIGHT_POINT, 0.5, 0.2, 0},   {LIGHT_SPOT, 0, 0, 0},  {LIGHT_SPOT, 0.5, 0.2, 0},
+    {LIGHT_SPOT, 0, 0, 8},        {LIGHT_SPOT, 0.5, 0.2, 8},
+};
+enum { KIND_COUNT = sizeof KINDS / sizeof KINDS[0] };
+
+typedef struct Case {
+    int terms[3]; /* of each light */
+    int kinds[3];
+    int light_count;
+    Shape shape;
+    Turn turn;
+    Interpolation interpolation;
+    Reflection reflection;
+    bool distant_viewer, two_sided, base, alpha, clamp_vertex, linear, show_clipped;
+} Case;
+
+typedef struct World {
+    Light lights[32];
+    Object object;
+    Scene scene;
+} World;
+
+static Mat4 turn_matrix(Turn turn)
+{
+    Mat4 turned, turned_back;
+    mat4_rotate(40, (Vec3){1, 0.5, 0.2}, &turned);
+    mat4_rotate(-65, (Vec3){0.1, 1, 0.3}, &turned_back);
+    switch (turn) {
+    case EVEN:
+        return mat4_product(turned, mat4_scale((Vec3){0.7, 0.7, 0.7}));
+    case UNEVEN:
+        return mat4_product(turned, mat4_scale((Vec3){1.1, 0.6, 0.9}));
+    case SHEARED:
+        return mat4_product(mat4_scale((Vec3){1.1, 0.8, 0.6}),
+                            mat4_product(turned_back, mat4_scale((Vec3){0.6, 1, 1})));
+    case MIRRORED:
+        return mat4_product(turned, mat4_scale((Vec3){-1, 1, 1}));
+    default:
+        return turned;
+    }
+}
+
+static Light light_of(int number, int terms, Kind kind)
+{
+    static const Vec3 positions[3] = {{1.5, 1.25, 2.5}, {-2, 0.5, 1.75}, {0.5, -1.5, 3}};
+    static const Vec3 colors[3] = {{0.9, 0.7, 0.5}, {0.4, 0.6, 0.8}, {0.6, 0.3, 0.7}};
+    const Vec3 position = positions[number], color = colors[number], none = {0, 0, 0};
+    return (Light){
+        .kind = kind.kind,
+        .position = position,
+        .direction = kind.kind == LIGHT_SPOT ? vec3_scale(position, -1) : position,
+        .ambient = terms & AMBIENT ? vec3_scale(color, 0.4) : none,
+        .diffuse = terms & DIFFUSE ? color : none,
+        .specular = terms & SPECULAR ? color : none,
+        .cutoff = 13.7,
+        .exponent = kind.exponent,
+        .constant = kind.constant,
+        .linear = kind.linear,
+    };
+}
+
+static void make_world(World *world, const Case *c)
+{
+    static const Mesh *const meshes[] = {&sphere, &cube, &tube};
+    const Material front = {
+        {0.8, 0.6, 0.4}, {0.7, 0.8, 0.6}, {0.9, 0.5, 0.7}, {0, 0, 0}, c->alpha ? 0.6 : 1, 12};
+    const Material back = {
+        {0.3, 0.5, 0.9}, {0.5, 0.4, 0.9}, {0.4, 0.9, 0.3}, {0, 0, 0}, c->alpha ? 0.3 : 1, 30};
+    memset(world, 0, sizeof *world);
+    for (int i = 0; i < c->light_count; i++)
+        world->lights[i] = light_of(i, c->terms[i], KINDS[c->kinds[i]]);
+    world->object = (Object){.mesh = meshes[c->shape],
+                             .flat = c->shape == CUBE,
+                             .closed = c->shape != TUBE,
+                             .world_from_object = turn_matrix(c->turn),
+                             .front = front,
+                             .two_sided = c->two_sided,
+                             .back = back};
+    world->scene = (Scene){
+        .camera = {{0, 0.5, 4}, {0, 0, 0}, {0, 1, 0}, 40, 0.5, 20},
+        .background = BACKGROUND,
+        .global_ambient = c->base ? (Vec3){0.2, 0.15, 0.1} : (Vec3){0, 0, 0},
+        .lights = world->lights,
+        .light_count = c->light_count,
+        .objects = &world->object,
+        .object_count = 1,
+        .reflection = c->reflection,
+        .interpolation = c->interpolation,
+        .distant_viewer = c->distant_viewer,
+        .clamp_vertex = c->clamp_vertex,
+        .linear = c->linear,
+        .show_clipped = c->show_clipped,
+    };
+}
+
+static void describe(const Case *c, char text[128])
+{
+    int length = snprintf(text, 128, "shape%d-turn%d-interpolation%d-reflection%d", (int)c->shape,
+                          (int)c->turn, (int)c->interpolation, (int)c->reflection);
+    for (int i = 0; i < c->light_count; i++)
+        length += snprintf(text + length, 128 - (size_t)length, "-light%d:%d", c->kinds[i],
+                           c->terms[i]);
+    snprintf(text + length, 128 - (size_t)length, "%s%s%s%s%s%s%s",
+             c->distant_viewer ? "-distant" : "", c->two_sided ? "-two" : "",
+             c->base ? "-base" : "", c->alpha ? "-alpha" : "", c->clamp_vertex ? "-clamp" : "",
+             c->linear ? "-linear" : "", c->show_clipped ? "-clipped" : "");
+}
+
+/* What a program asks for: sets of names, as text sorted into lines. */
+
+typedef struct Names {
+    char name[64][32];
+    size_t count;
+} Names;
+
+static int by_name(const void *a, const void *b)
+{
+    return strcmp(a, b);
+}
+
+static void add_name(Names *names, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+static void add_name(Names *names, const char *format, ...)
+{
+    va_list arguments;
+    assert_true(names->count < 64);
+    va_start(arguments, format);
+    vsnprintf(names->name[names->count++], sizeof names->name[0], format, arguments);
+    va_end(arguments);
+}
+
+static void assert_same_names(const char *what, Names got, Names expected)
+{
+    qsort(got.name, got.count, sizeof got.name[0], by_name);
+    qsort(expected.name, expected.count, sizeof expected.name[0], by_name);
+    for (size_t i = 0; i < got.count || i < expected.count; i++) {
+        const char *left = i < got.count ? got.name[i] : "nothing";
+        const char *right = i < expected.count ? expected.name[i] : "nothing";
+        if (strcmp(left, right) != 0)
+            fail_msg("%s: %s where the set calls for %s", what, left, right);
+    }
+}
+
+/* A name for each side that is lit. */
+static void add_sides(Names *names, bool two_sided, const char *format, int group)
+{
+    static const char *const sides[] = {"Front", "Back"};
+    for (int i = 0; i < (two_sided ? 2 : 1); i++) {
+        char name[32];
+        snprintf(name, sizeof name, format, sides[i]);
+        if (group >= 0)
+            add_name(names, "%s%d", name, group);
+        else
+            add_name(names, "%s", name);
+    }
+}
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wformat-nonliteral"
+#pragma GCC diagnostic pop
+
+/* What the set calls for, and nothing else. */
+static void expected_names(const Effects *effects, Names *uniforms, Names *attributes,
+                           Names *varyings)
+{
+    const bool two = effects->two_sided;
+    bool place = false, specular = false, at_vertex = false, normal_there = false,
+         place_there = false;
+    add_name(attributes, "a_Position");
+    add_name(uniforms, "u_ClipFromObject");
+    for (int g = 0; g < effects->group_count; g++) {
+        const LightTerms *terms = &effects->groups[g].terms;
+        const bool near = terms->kind != LIGHT_DIRECTIONAL;
+        const bool from_place = near || (terms->specular && effects->local_viewer);
+        place |= from_place;
+        specular |= terms->specular;
+        at_vertex |= terms->at_vertex;
+        normal_there |= !terms->at_vertex && (terms->diffuse || terms->specular);
+        place_there |= !terms->at_vertex && from_place;
+        add_name(uniforms, near ? "u_Position%d" : "u_Direction%d", g);
+        if (terms->ambient)
+            add_sides(uniforms, two, "u_%sAmbient", g);
+        if (terms->diffuse)
+            add_sides(uniforms, two, "u_%sDiffuse", g);
+        if (terms->specular)
+            add_sides(uniforms, two, "u_%sSpecular", g);
+        if (terms->half_vector)
+            add_name(uniforms, "u_Half%d", g);
+        if (terms->attenuation)
+            add_name(uniforms, "u_Attenuation%d", g);
+        if (terms->kind == LIGHT_SPOT)
+            add_name(uniforms, "u_Spot%d", g);
+        if (terms->exponent)
+            add_name(uniforms, "u_Exponent%d", g);
+    }
+    if (effects->normals)
+        add_name(attributes, "a_Normal");
+    if (place || (effects->normals && !effects->normal_matrix))
+        add_name(uniforms, "u_EyeFromObject");
+    if (effects->normals && effects->normal_matrix)
+        add_name(uniforms, "u_NormalMatrix");
+    if (effects->base)
+        add_sides(uniforms, two, "u_%sBase", -1);
+    if (effects->alpha)
+        add_sides(uniforms, two, "u_%sAlpha", -1);
+    if (specular)
+        add_sides(uniforms, two, "u_%sShininess", -1);
+    if (at_vertex)
+        add_sides(varyings, two, "v_%sColor", -1);
+    if (normal_there)
+        add_name(varyings, "v_Normal");
+    if (place_there)
+        add_name(varyings, "v_Position");
+}
+
+static void active_names(GLuint program, Names *uniforms, Names *attributes)
+{
+    GLint uniform_count, attribute_count, size;
+    GLenum type;
+    char name[32];
+    glGetProgramiv(program, GL_ACTIVE_UNIFORMS, &uniform_count);
+    glGetProgramiv(program, GL_ACTIVE_ATTRIBUTES, &attribute_count);
+    for (GLuint i = 0; i < (GLuint)uniform_count; i++) {
+        glGetActiveUniform(program, i, sizeof name, NULL, &size, &type, name);
+        name[strcspn(name, "[")] = '\0';
+        add_name(uniforms, "%s", name);
+    }
+    for (GLuint i = 0; i < (GLuint)attribute_count; i++) {
+        glGetActiveAttrib(program, i, sizeof name, NULL, &size, &type, name);
+        add_name(attributes, "%s", name);
+    }
+}
+
+/* As much of GLSL's preprocessor as the shaders use: what is defined, and conditions of that. */
+
+typedef struct Defined {
+    char name[128][32];
+    size_t count;
+} Defined;
+
+static size_t find_define(const Defined *defined, const char *name)
+{
+    size_t i = 0;
+    while (i < defined->count && strcmp(defined->name[i], name) != 0)
+        i++;
+    return i;
+}
+
+static bool is_defined(const Defined *defined, const char *name)
+{
+    return find_define(defined, name) < defined->count;
+}
+
+/* "[!]defined(A)", joined by && and ||, without parentheses around them. */
+static bool condition(const Defined *defined, const char *text)
+{
+    bool any = false, all = true;
+    char name[32];
+    for (;;) {
+        const bool negated = *text == '!';
+        text += negated;
+        if (sscanf(text, "defined(%31[A-Z_a-z0-9])", name) != 1)
+            fail_msg("a condition that this test cannot read: %s", text);
+        all &= is_defined(defined, name) != negated;
+        text = strchr(text, ')') + 1;
+        const bool either = strncmp(text, " || ", 4) == 0;
+        if (!either && strncmp(text, " && ", 4) != 0)
+            return any || all;
+        any |= either && all;
+        all |= either;
+        text += 4;
+    }
+}
+
+static void declared_varyings(const char *source, Names *varyings)
+{
+    Defined defined = {.count = 0};
+    /* Of each #if that is open: whether its part is compiled, and whether one was. */
+    struct {
+        bool now, before;
+    } open[16] = {{true, true}};
+    int depth = 0;
+    char line[256], name[32];
+    for (const char *at = source; *at; at += strcspn(at, "\n"), at += *at == '\n') {
+        snprintf(line, sizeof line, "%.*s", (int)strcspn(at, "\n"), at);
+        const bool outer = depth == 0 || open[depth - 1].now;
+        const bool is_ifdef = sscanf(line, "#ifdef %31s", name) == 1;
+        if (is_ifdef || strncmp(line, "#if ", 4) == 0) {
+            const bool true_here =
+                open[depth].now && (is_ifdef ? is_defined(&defined, name)
+                                             : condition(&defined, line + 4));
+            assert_true(depth < 15);
+            depth++;
+            open[depth].now = open[depth].before = true_here;
+        } else if (strncmp(line, "#el", 3) == 0) {
+            open[depth].now = outer && !open[depth].before &&
+                              (line[3] == 's' || condition(&defined, line + 6));
+            open[depth].before |= open[depth].now;
+        } else if (strncmp(line, "#endif", 6) == 0) {
+            depth--;
+        } else if (!open[depth].now) {
+            continue;
+        } else if (sscanf(line, "#define %31[A-Z_a-z0-9]", name) == 1) {
+            if (is_defined(&defined, name))
+                continue;
+            assert_true(defined.count < 128);
+            strcpy(defined.name[defined.count++], name);
+        } else if (sscanf(line, "#undef %31s", name) == 1 && is_defined(&defined, name)) {
+            defined.count--;
+            memmove(defined.name[find_define(&defined, name)], defined.name[defined.count],
+                    sizeof defined.name[0]);
+        } else if (sscanf(line, "varying vec3 %31[A-Z_a-z0-9]", name) == 1) {
+            add_name(varyings, "%s", name);
+        } else {
+            assert_int_not_equal(strncmp(line, "varying", 7), 0);
+        }
+    }
+    assert_int_equal(depth, 0);
+}
+
+static void check_names(const Scene *scene, const Object *object, const char *name)
+{
+    char what[160];
+    Message message = {0};
+    ShaderSource sources[2];
+    Names uniforms = {.count = 0}, attributes = {.count = 0};
+    Names wanted_uniforms = {.count = 0}, wanted_attributes = {.count = 0};
+    Names wanted_varyings = {.count = 0};
+    const Effects effects = effects_of(scene, object);
+    expected_names(&effects, &wanted_uniforms, &wanted_attributes, &wanted_varyings);
+    const GLuint program = lighting_program(lighting, scene, object, false, &message);
+    if (!program || !lighting_sources(lighting, scene, object, false, sources, &message))
+        fail_msg("%s: %s", name, message.text);
+    active_names(program, &uniforms, &attributes);
+    snprintf(what, sizeof what, "%s: uniforms", name);
+    assert_same_names(what, uniforms, wanted_uniforms);
+    snprintf(what, sizeof what, "%s: attributes", name);
+    assert_same_names(what, attributes, wanted_attributes);
+    for (int stage = 0; stage < 2; stage++) {
+        Names varyings = {.count = 0};
+        declared_varyings(sources[stage].text, &varyings);
+        snprintf(what, sizeof what, "%s: varyings, stage %d", name, stage);
+        assert_same_names(what, varyings, wanted_varyings);
+        shader_source_close(&sources[stage]);
+    }
+}
+
+/* Both properties. */
+static void check_case(const Case *c)
+{
+    World world;
+    char name[128];
+    describe(c, name);
+    make_world(&world, c);
+    check_names(&world.scene, &world.object, name);
+    draw(&world.scene, false, &specialised);
+    draw(&world.scene, true, &full);
+    /* Where a picture jumps, at a spot's cone, at the end of the highlight and from one side of the
+     * surface to the other, rounding decides for a pixel that lies on the line: EXCEPTIONS. */
+    if (!pictures_agree(name, &specialised, &full, 4))
+        fail();
+}
+
+/* Every set of terms of every kind of light, at both frequencies. */
+static void each_light_has_only_its_terms_and_draws_as_the_full_program(void **state)
+{
+    int number = 0;
+    (void)state;
+    for (int bits = 0; bits < 2 * 2 * 2 * 2; bits++) {
+        for (int terms = 0; terms < 8; terms++) {
+            for (int kind = 0; kind < KIND_COUNT; kind++) {
+                const bool two_sided = bits & 1;
+                const Case c = {
+                    .terms = {terms},
+                    .kinds = {kind},
+                    .light_count = 1,
+                    .shape = two_sided ? TUBE : SPHERE,
+                    .turn = (Turn)(number++ % TURNS),
+                    .interpolation = bits & 2 ? INTERPOLATION_GOURAUD : INTERPOLATION_PHONG,
+                    .reflection = bits & 4 ? REFLECTION_PHONG : REFLECTION_BLINN_PHONG,
+                    .distant_viewer = bits & 8,
+                    .two_sided = two_sided,
+                };
+                if ((c.reflection == REFLECTION_BLINN_PHONG && !c.distant_viewer) ||
+                    (terms & SPECULAR))
+                    check_case(&c);
+            }
+        }
+    }
+}
+
+static void each_transform_has_only_the_normals_it_needs(void **state)
+{
+    static const int terms[] = {AMBIENT, DIFFUSE, DIFFUSE | SPECULAR};
+    (void)state;
+    for (int turn = 0; turn < TURNS; turn++)
+        for (int shape = SPHERE; shape <= TUBE; shape++)
+            for (int interpolation = 0; interpolation <= INTERPOLATION_FLAT; interpolation++)
+                for (int kind = 0; kind < 2; kind++)
+                    for (int distant = 0; distant < 2; distant++)
+                        for (int t = 0; t < 3; t++)
+                            check_case(&(Case){.terms = {terms[t]},
+                                               .kinds = {kind},
+                                               .light_count = 1,
+                                               .shape = (Shape)shape,
+                                               .turn = (Turn)turn,
+                                               .interpolation = (Interpolation)interpolation,
+                                               .distant_viewer = distant,
+                                               .two_sided = shape == TUBE});
+}
+
+static void each_way_of_output_has_only_what_it_needs(void **state)
+{
+    (void)state;
+    for (int bits = 0; bits < 1 << 6; bits++)
+        for (int interpolation = 0; interpolation < 2; interpolation++)
+            for (int lights = 0; lights < 3; lights += 2)
+                check_case(&(Case){.terms = {DIFFUSE, DIFFUSE | SPECULAR},
+                                   .kinds = {1, 0},
+                                   .light_count = lights,
+                                   .shape = TUBE,
+                                   .interpolation = (Interpolation)interpolation,
+                                   .two_sided = bits & 1,
+                                   .base = bits & 2,
+                                   .alpha = bits & 4,
+                                   .clamp_vertex = bits & 8,
+                                   .linear = bits & 16,
+                                   .show_clipped = bits & 32});
+}
+
+/* splitmix64: the same numbers everywhere. */
+static uint64_t random_state;
+
+static int random_below(int limit)
+{
+    uint64_t z = random_state += 0x9e3779b97f4a7c15U;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
+    return (int)((z ^ (z >> 31)) % (uint64_t)limit);
+}
+
+/* Everything together, on three lights that share code, or do not. */
+static void random_combinations_hold_as_well(void **state)
+{
+    const char *given = getenv("LIGHTING_TEST_SEED");
+    (void)state;
+    random_state = given ? strtoull(given, NULL, 10) : 20240611;
+    printf("LIGHTING_TEST_SEED=%llu\n", (unsigned long long)random_state);
+    for (int i = 0; i < 150; i++) {
+        Case c = {
+            .light_count = random_below(4),
+            .shape = (Shape)random_below(3),
+            .turn = (Turn)random_below(TURNS),
+            .interpolation = (Interpolation)random_below(3),
+            .reflection = (Reflection)random_below(2),
+            .distant_viewer = random_below(2),
+            .two_sided = random_below(2),
+            .base = random_below(2),
+            .alpha = random_below(2),
+            .clamp_vertex = random_below(2),
+            .linear = random_below(2),
+            .show_clipped = random_below(2),
+        };
+        for (int k = 0; k < c.light_count; k++) {
+            const bool again = k > 0 && random_below(2);
+            c.terms[k] = again ? c.terms[k - 1] : random_below(8);
+            c.kinds[k] = again ? c.kinds[k - 1] : random_below(KIND_COUNT);
+        }
+        check_case(&c);
+    }
+}
+
+/* Programs are shared. */
+
+static const Case RICH = {.terms = {7, 7, 7},
+                          .kinds = {0, 3, 7},
+                          .light_count = 3,
+                          .shape = TUBE,
+                          .turn = UNEVEN,
+                          .two_sided = true,
+                          .base = true,
+                          .alpha = true};
+
+static int programs(void)
+{
+    return lighting_counts(lighting).programs;
+}
+
+static void another_value_compiles_nothing(void **state)
+{
+    World world;
+    (void)state;
+    make_world(&world, &RICH);
+    draw(&world.scene, false, &specialised);
+    const int before = programs();
+    world.lights[0].diffuse = (Vec3){0.1, 0.9, 0};
+    world.lights[0].direction = (Vec3){-3, 1, 1};
+    world.lights[1].position.x = -1;
+    world.lights[1].quadratic = 0.3;
+    world.lights[2].cutoff = 20;
+    world.lights[2].exponent = 3;
+    world.object.front = (Material){{0.1, 0, 0}, {0, 0.1, 0}, {0, 0, 0.1}, {1, 0, 0}, 0.5, 99};
+    world.object.world_from_object.m[0] *= 1.25;
+    world.scene.camera.eye.x = 0.5;
+    world.scene.global_ambient = (Vec3){0, 0, 0};
+    draw(&world.scene, false, &full);
+    assert_int_equal(programs(), before);
+    assert_memory_not_equal(specialised.pixels, full.pixels, (size_t)SIZE * SIZE * 4);
+    world.lights[2].exponent = 0;
+    draw(&world.scene, false, &full);
+    assert_int_equal(programs(), before + 1);
+    world.lights[2].exponent = 2;
+    draw(&world.scene, false, &full);
+    assert_int_equal(programs(), before + 1);
+}
+
+static void a_light_that_is_off_draws_as_none_and_with_the_same_program(void **state)
+{
+    World world;
+    (void)state;
+    make_world(&world, &RICH);
+    world.scene.light_count = 2;
+    draw(&world.scene, false, &specialised);
+    const int before = programs();
+    world.scene.light_count = 3;
+    world.lights[2].off = true;
+    draw(&world.scene, false, &full);
+    assert_int_equal(programs(), before);
+    assert_memory_equal(specialised.pixels, full.pixels, (size_t)SIZE * SIZE * 4);
+    draw(&world.scene, true, &full);
+    assert_true(pictures_agree("light off", &specialised, &full, 4));
+}
+
+/* What must not matter. */
+
+static void the_order_of_lights_does_not_matter(void **state)
+{
+    World world;
+    (void)state;
+    for (int flip = 0; flip < 2; flip++) {
+        make_world(&world, &RICH);
+        world.scene.light_count = 8;
+        for (int i = 0; i < 8; i++) {
+            const int at = flip ? 7 - i : i;
+            world.lights[at] = light_of(i % 3, 7, KINDS[i]);
+            world.lights[at].position.x += 0.3 * i;
+            world.lights[at].diffuse = vec3_scale(world.lights[at].diffuse, 0.3);
+        }
+        draw(&world.scene, false, flip ? &full : &specialised);
+    }
+    /* Sums in another order. */
+    assert_true(pictures_agree("order", &specialised, &full, 0));
+}
+
+static Vec3 mirror(Vec3 v)
+{
+    return (Vec3){-v.x, v.y, v.z};
+}
+
+static void a_mirrored_scene_draws_the_mirrored_picture(void **state)
+{
+    World world;
+    (void)state;
+    for (int shape = SPHERE; shape <= TUBE; shape++) {
+        Case c = RICH;
+        c.shape = (Shape)shape;
+        make_world(&world, &c);
+        draw(&world.scene, false, &specialised);
+        for (int i = 0; i < 3; i++) {
+            world.lights[i].position = mirror(world.lights[i].position);
+            world.lights[i].direction = mirror(world.lights[i].direction);
+        }
+        world.object.world_from_object =
+            mat4_product(mat4_scale((Vec3){-1, 1, 1}), world.object.world_from_object);
+        draw(&world.scene, false, &full);
+        for (int y = 0; y < SIZE; y++) {
+            for (int x = 0; x < SIZE / 2; x++) {
+                unsigned char kept[4];
+                memcpy(kept, pixel(&full, x, y), 4);
+                memcpy(pixel(&full, x, y), pixel(&full, SIZE - 1 - x, y), 4);
+                memcpy(pixel(&full, SIZE - 1 - x, y), kept, 4);
+            }
+        }
+        /* Pixels on the cone's edge, and those whose centre is on the silhouette. */
+        assert_true(pictures_agree("mirror", &specialised, &full, 6));
+    }
+}
+
+static void a_scene_a_million_units_away_draws_the_same_picture(void **state)
+{
+    static const Vec3 offsets[] = {{1e6, 0, 0}, {-1e6, 1e6, 1e6}, {1e9, -1e9, 1e9}};
+    World world;
+    (void)state;
+    make_world(&world, &RICH);
+    draw(&world.scene, false, &specialised);
+    for (size_t i = 0; i < sizeof offsets / sizeof offsets[0]; i++) {
+        const Vec3 by = offsets[i];
+        make_world(&world, &RICH);
+        for (int k = 0; k < 3; k++)
+            world.lights[k].position = vec3_add(world.lights[k].position, by);
+        world.object.world_from_object =
+            mat4_product(mat4_translate(by), world.object.world_from_object);
+        world.scene.camera.eye = vec3_add(world.scene.camera.eye, by);
+        world.scene.camera.center = vec3_add(world.scene.camera.center, by);
+        draw(&world.scene, false, &full);
+        assert_true(pictures_agree("far away", &full, &specialised, 0));
+    }
+}
+
+/* Closed forms: the colour of each pixel, in double precision and in world coordinates, on shapes
+ * that have a formula. */
+
+typedef struct Hit {
+    Vec3 point, normal; /* world; the normal is the front's, unit */
+    bool front;         /* what the eye sees */
+    double steepness;   /* cosine between ray and normal */
+} Hit;
+
+static const Vec3 NOWHERE = {-1, -1, -1};
+
+/* Where the ray through a pixel's centre meets the unit sphere, or the square in z = 0, that is the
+ * object in its own coordinates. */
+static bool trace(const Scene *scene, int x, int y, Hit *hit)
+{
+    const Object *object = scene->objects;
+    const Camera *camera = &scene->camera;
+    Mat4 eye_from_world, clip_from_eye, world_from_eye, object_from_world;
+    scene_camera(camera, 1, &eye_from_world, &clip_from_eye, NULL);
+    mat4_inverse(eye_from_world, &world_from_eye);
+    mat4_inverse(object->world_from_object, &object_from_world);
+    const double tangent = tan(camera->fovy / 2 * RADIANS);
+    const Vec3 way_eye = {tangent * ((x + 0.5) / SIZE * 2 - 1), tangent * (1 - (y + 0.5) / SIZE * 2),
+                          -1};
+    const Vec3 way = mat4_transform_direction(world_from_eye, way_eye);
+    const Vec3 o = mat4_transform_point(object_from_world, camera->eye);
+    const Vec3 d = mat4_transform_direction(object_from_world, way);
+    const bool flat = object->mesh == &quad;
+    double t = -o.z / d.z;
+    if (!flat) {
+        const double a = vec3_dot(d, d), b = vec3_dot(o, d), c = vec3_dot(o, o) - 1;
+        if (b * b < a * c)
+            return false;
+        t = (-b - sqrt(b * b - a * c)) / a;
+    }
+    const Vec3 p = vec3_add(o, vec3_scale(d, t));
+    if (flat && (fabs(p.x) > 0.98 || fabs(p.y) > 0.98))
+        return false;
+    vec3_normalize(mat4_transform_direction(mat4_transpose(object_from_world),
+                                            flat ? (Vec3){0, 0, 1} : p),
+                   &hit->normal);
+    hit->point = mat4_transform_point(object->world_from_object, p);
+    hit->front = vec3_dot(hit->normal, way) < 0;
+    hit->steepness = fabs(vec3_dot(hit->normal, way)) / vec3_length(way);
+    return true;
+}
+
+static Vec3 multiply(Vec3 a, Vec3 b)
+{
+    return (Vec3){a.x * b.x, a.y * b.y, a.z * b.z};
+}
+
+/* The sum before it is clamped; NOWHERE within 1e-3 of where it jumps. */
+static Vec3 shade(const Scene *scene, const Hit *hit)
+{
+    const Object *object = scene->objects;
+    const bool back = object->two_sided && !hit->front;
+    const Material *m = back ? &object->back : &object->front;
+    const Vec3 n = vec3_scale(hit->normal, back ? -1 : 1);
+    Vec3 sum = vec3_add(m->emission, multiply(scene->global_ambient, m->ambient)), v, behind;
+    vec3_normalize(vec3_subtract(scene->camera.eye, hit->point), &v);
+    if (scene->distant_viewer) {
+        vec3_normalize(vec3_subtract(scene->camera.eye, scene->camera.center), &behind);
+        v = behind;
+    }
+    for (int i = 0; i < scene->light_count; i++) {
+        const Light *light = &scene->lights[i];
+        Vec3 l, h, axis, way = light->direction;
+        double share = 1;
+        if (light->kind != LIGHT_DIRECTIONAL) {
+            way = vec3_subtract(light->position, hit->point);
+            const double d = vec3_length(way);
+            const double fall = light->constant + light->linear * d + light->quadratic * d * d;
+            share = fall > 0 ? 1 / fall : 1;
+        }
+        vec3_normalize(way, &l);
+        if (light->kind == LIGHT_SPOT) {
+            vec3_normalize(light->direction, &axis);
+            const double along = -vec3_dot(l, axis), edge = cos(light->cutoff * RADIANS);
+            if (fabs(along - edge) < 1e-3)
+                return NOWHERE;
+            share *= along > edge ? pow(along, light->exponent) : 0;
+        }
+        const double n_l = vec3_dot(n, l);
+        vec3_normalize(vec3_add(l, v), &h);
+        const Vec3 r = vec3_subtract(vec3_scale(n, 2 * n_l), l);
+        const double cosine =
+            fmax(scene->reflection == REFLECTION_PHONG ? vec3_dot(r, v) : vec3_dot(n, h), 0);
+        const double highlight = n_l > 0 ? pow(cosine, m->shininess) : 0;
+        if (fabs(n_l) < 1e-3 && pow(cosine, m->shininess) > 1e-3)
+            return NOWHERE;
+        const Vec3 part =
+            vec3_add(multiply(light->ambient, m->ambient),
+                     vec3_add(vec3_scale(multiply(light->diffuse, m->diffuse), fmax(n_l, 0)),
+                              vec3_scale(multiply(light->specular, m->specular), highlight)));
+        sum = vec3_add(sum, vec3_scale(part, share));
+    }
+    return sum;
+}
+
+static double level(double value, bool linear)
+{
+    value = fmin(value, 1);
+    if (linear)
+        value = value <= 0.0031308 ? 12.92 * value : 1.055 * pow(value, 1 / 2.4) - 0.055;
+    return 255 * value;
+}
+
+/* Compares every pixel that has a closed form, and says how many. */
+static int assert_closed_form(const Scene *scene, const char *name)
+{
+    int compared = 0, wrong = 0;
+    draw(scene, false, &specialised);
+    memcpy(full.pixels, specialised.pixels, (size_t)SIZE * SIZE * 4);
+    for (int y = 0; y < SIZE; y++) {
+        for (int x = 0; x < SIZE; x++) {
+            Hit hit;
+            if (!trace(scene, x, y, &hit) || hit.steepness < 0.15)
+                continue; /* at the silhouette the mesh lies inside the sphere */
+            const Vec3 color = shade(scene, &hit);
+            if (color.x < 0)
+                continue;
+            double expected[3] = {level(color.x, scene->linear), level(color.y, scene->linear),
+                                  level(color.z, scene->linear)};
+            const double most = fmax(color.x, fmax(color.y, color.z));
+            if (scene->show_clipped && fabs(most - 1) < 1e-3)
+                continue;
+            if (scene->show_clipped && most > 1)
+                expected[0] = expected[2] = 255, expected[1] = 0;
+            compared++;
+            for (int c = 0; c < 3; c++) {
+                /* Half a level is rounding to bytes; the mesh of the sphere lies within 1e-4 of it,
+                 * which the steepest highlight here makes less than half a level of. */
+                wrong += fabs(pixel(&specialised, x, y)[c] - expected[c]) > 1;
+                pixel(&full, x, y)[c] = (unsigned char)lround(expected[c]);
+            }
+        }
+    }
+    if (wrong) {
+        picture_check_keep(name, &specialised, &full);
+        fail_msg("%s: %d values more than one level from the closed form", name, wrong);
+    }
+    return compared;
+}
+
+static const Material SHINY = {{0.3, 0.2, 0.1}, {0.6, 0.5, 0.3}, {0.5, 0.6, 0.7}, {0.05, 0, 0.02},
+                               1,               24};
+static const Material DULL = {{0.1, 0.2, 0.4}, {0.2, 0.5, 0.6}, {0.3, 0.1, 0.2}, {0, 0.05, 0.1},
+                              1,               6};
+
+static void closed_form_world(World *world, const Mesh *mesh, Turn turn)
+{
+    memset(world, 0, sizeof *world);
+    world->object = (Object){.mesh = mesh,
+                             .closed = mesh != &quad,
+                             .world_from_object = turn_matrix(turn),
+                             .front = SHINY,
+                             .back = DULL};
+    world->scene = (Scene){
+        .camera = {{0.25, 0.5, 4}, {0, 0, 0}, {0.1, 1, 0}, 32, 0.5, 20},
+        .background = BACKGROUND,
+        .global_ambient = {0.2, 0.15, 0.1},
+        .lights = world->lights,
+        .light_count = 1,
+        .objects = &world->object,
+        .object_count = 1,
+    };
+}
+
+static void each_light_reflection_and_viewer_has_its_closed_form(void **state)
+{
+    World world;
+    (void)state;
+    for (int flat = 0; flat < 2; flat++) {
+        for (int kind = 0; kind < KIND_COUNT; kind++) {
+            for (int bits = 0; bits < 4; bits++) {
+                char name[64];
+                snprintf(name, sizeof name, "closed-form-%s-light%d-%d", flat ? "quad" : "sphere",
+                         kind, bits);
+                closed_form_world(&world, flat ? &quad : &smooth_sphere,
+                                  (Turn)((kind + bits) % TURNS));
+                world.lights[0] = light_of(0, 7, KINDS[kind]);
+                world.scene.reflection = bits & 1 ? REFLECTION_PHONG : REFLECTION_BLINN_PHONG;
+                world.scene.distant_viewer = bits & 2;
+                assert_true(assert_closed_form(&world.scene, name) > SIZE * SIZE / 8);
+            }
+        }
+    }
+}
+
+static void several_lights_have_the_sum_of_their_closed_forms(void **state)
+{
+    World world;
+    (void)state;
+    for (int turn = 0; turn < TURNS; turn++) {
+        closed_form_world(&world, &smooth_sphere, (Turn)turn);
+        world.scene.light_count = 3;
+        for (int i = 0; i < 3; i++)
+            world.lights[i] = light_of(i, 7, KINDS[3 * i]);
+        assert_true(assert_closed_form(&world.scene, "closed-form-three") > SIZE * SIZE / 8);
+    }
+}
+
+static void attenuation_has_its_closed_form(void **state)
+{
+    static const Vec3 factors[] = {{0, 0, 0}, {2, 0, 0}, {0, 0.5, 0}, {0, 0, 0.2}, {0.3, 0.2, 0.1}};
+    World world;
+    (void)state;
+    for (size_t i = 0; i < sizeof factors / sizeof factors[0]; i++) {
+        closed_form_world(&world, &quad, RIGID);
+        world.lights[0] = light_of(1, 7, (Kind){LIGHT_POINT, factors[i].x, factors[i].y, 0});
+        world.lights[0].quadratic = factors[i].z;
+        assert_closed_form(&world.scene, "closed-form-attenuation");
+    }
+}
+
+/* The quad is seen from the front, from behind, and from behind with two sides. */
+static void both_sides_of_a_quad_have_their_closed_forms(void **state)
+{
+    World world;
+    (void)state;
+    for (int bits = 0; bits < 4; bits++) {
+        for (int turn = 0; turn < TURNS; turn++) {
+            Mat4 about;
+            closed_form_world(&world, &quad, (Turn)turn);
+            world.lights[0] = light_of(0, 7, KINDS[3]);
+            mat4_rotate(bits & 1 ? 180 : 0, (Vec3){0, 1, 0}, &about);
+            world.object.world_from_object = mat4_product(about, world.object.world_from_object);
+            world.object.two_sided = bits & 2;
+            world.scene.camera.up = (Vec3){0, 1, 0};
+            assert_true(assert_closed_form(&world.scene, "closed-form-side") > SIZE * SIZE / 16);
+        }
+    }
+}
+
+static void linear_light_and_clipping_have_their_closed_forms(void **state)
+{
+    World world;
+    (void)state;
+    for (int bits = 1; bits < 4; bits++) {
+        closed_form_world(&world, &smooth_sphere, RIGID);
+        world.lights[0] = light_of(0, 7, KINDS[0]);
+        world.lights[0].diffuse = (Vec3){1.5, 1.25, 1};
+        world.scene.linear = bits & 1;
+        world.scene.show_clipped = bits & 2;
+        assert_true(assert_closed_form(&world.scene, "closed-form-output") > SIZE * SIZE / 8);
+    }
+}
+
+/* On a plane that one light shines on from far away, light at the vertices is light everywhere; a
+ * sphere of many triangles has the closed form at its vertices, and little else between. */
+static void gouraud_has_the_closed_form_where_triangles_are_small(void **state)
+{
+    World world;
+    (void)state;
+    for (int kind = 0; kind < 4; kind++) {
+        closed_form_world(&world, &smooth_sphere, (Turn)kind);
+        world.lights[0] = light_of(0, 7, KINDS[kind]);
+        world.scene.interpolation = INTERPOLATION_GOURAUD;
+        assert_true(assert_closed_form(&world.scene, "closed-form-gouraud") > SIZE * SIZE / 8);
+    }
+}
+
+static void flat_is_gouraud_with_the_normals_of_triangles(void **state)
+{
+    World world;
+    Mesh flat;
+    (void)state;
+    assert_true(mesh_sphere(&flat, 1, 24, 12, NULL));
+    assert_true(mesh_flatten(&flat, NULL));
+    closed_form_world(&world, &sphere, UNEVEN);
+    world.lights[0] = light_of(0, 7, KINDS[1]);
+    world.scene.interpolation = INTERPOLATION_GOURAUD;
+    draw(&world.scene, false, &full);
+    world.scene.interpolation = INTERPOLATION_FLAT;
+    draw(&world.scene, false, &specialised);
+    assert_memory_not_equal(specialised.pixels, full.pixels, (size_t)SIZE * SIZE * 4);
+    world.scene.interpolation = INTERPOLATION_GOURAUD;
+    world.object.mesh = &flat;
+    world.object.flat = true;
+    draw(&world.scene, false, &full);
+    assert_true(pictures_agree("flat", &specialised, &full, 0));
+    lighting_forget(lighting, &flat);
+    mesh_close(&flat);
+}
+
+static void a_uniform_scale_of_any_size_is_lit_alike(void **state)
+{
+    static const double sizes[] = {1e-6, 1e-3, 1e3, 1e6};
+    World world;
+    (void)state;
+    closed_form_world(&world, &smooth_sphere, RIGID);
+    world.lights[0] = light_of(0, 7, KINDS[0]);
+    draw(&world.scene, false, &specialised);
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+        const double s = sizes[i];
+        closed_form_world(&world, &smooth_sphere, RIGID);
+        world.lights[0] = light_of(0, 7, KINDS[0]);
+        world.object.world_from_object =
+            mat4_product(mat4_scale((Vec3){s, s, s}), world.object.world_from_object);
+        Camera *camera = &world.scene.camera;
+        camera->eye = vec3_scale(camera->eye, s);
+        camera->near *= s;
+        camera->far *= s;
+        draw(&world.scene, false, &full);
+        assert_true(pictures_agree("scale", &full, &specialised, 0));
+    }
+}
+
+/* To show what goes wrong: the model-view matrix in the place of the normal matrix. */
+static void wrong_normals_differ_only_where_the_scale_is_uneven(void **state)
+{
+    World world;
+    (void)state;
+    for (int turn = 0; turn < TURNS; turn++) {
+        closed_form_world(&world, &sphere, (Turn)turn);
+        world.lights[0] = light_of(0, 7, KINDS[0]);
+        draw(&world.scene, false, &full);
+        world.object.wrong_normals = true;
+        draw(&world.scene, false, &specialised);
+        const bool same =
+            memcmp(specialised.pixels, full.pixels, (size_t)SIZE * SIZE * 4) == 0;
+        assert_int_equal(same, turn != UNEVEN && turn != SHEARED);
+        draw(&world.scene, true, &full);
+        assert_true(pictures_agree("wrong normals", &specialised, &full, 4));
+    }
+}
+
+static void nearer_objects_hide_those_behind(void **state)
+{
+    World world;
+    Object objects[2];
+    (void)state;
+    closed_form_world(&world, &smooth_sphere, RIGID);
+    world.scene.light_count = 0;
+    world.scene.objects = objects;
+    world.scene.object_count = 2;
+    for (int order = 0; order < 2; order++) {
+        objects[0] = objects[1] = world.object;
+        objects[order].front.emission = (Vec3){1, 0, 0};
+        objects[order].world_from_object = mat4_scale((Vec3){0.5, 0.5, 0.5});
+        objects[order].world_from_object.m[14] = 1.5;
+        draw(&world.scene, false, &specialised);
+        assert_int_equal(pixel(&specialised, SIZE / 2, SIZE / 2)[0], 255);
+        assert_int_not_equal(pixel(&specialised, SIZE / 2, SIZE / 8)[0], 255);
+    }
+}
+
+/* Limits and failures. */
+
+static void as_many_lights_as_fit_are_drawn_and_one_more_is_refused(void **state)
+{
+    World world;
+    Light lights[EFFECTS_MOST_LIGHTS + 1];
+    Message message = {0};
+    (void)state;
+    make_world(&world, &RICH);
+    world.scene.lights = lights;
+    for (int i = 0; i <= EFFECTS_MOST_LIGHTS; i++) {
+        lights[i] = light_of(i % 3, 7, KINDS[i % KIND_COUNT]);
+        lights[i].position.y += 0.1 * i;
+        lights[i].diffuse = vec3_scale(lights[i].diffuse, 0.1);
+        lights[i].specular = lights[i].ambient = vec3_scale(lights[i].ambient, 0.05);
+    }
+    world.scene.light_count = EFFECTS_MOST_LIGHTS;
+    draw(&world.scene, false, &specialised);
+    draw(&world.scene, true, &full);
+    assert_true(pictures_agree("most lights", &specialised, &full, 8));
+    world.scene.light_count++;
+    assert_false(lighting_draw(lighting, &world.scene, 1, false, &message));
+    assert_string_equal(message.text,
+                        "scene: 33 lights: at most 32 fit into one program");
+}
+
+static void a_broken_shader_is_said_with_its_line_and_drawing_goes_on(void **state)
+{
+    static const ShaderText texts[] = {{"lighting/group.glsl", "not glsl\n"}, {NULL, NULL}};
+    World world;
+    Lighting *broken;
+    Message message = {0};
+    (void)state;
+    (void)texts;
+    make_world(&world, &RICH);
+    assert_true(lighting_open(&broken, &(ShaderLoader){.defines = NULL, .folder = "/nowhere"},
+                              &message));
+    assert_int_equal(lighting_counts(broken).programs, 0);
+    lighting_close(broken);
+    lighting_close(NULL);
+    draw(&world.scene, false, &specialised);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_light_reflection_and_viewer_has_its_closed_form),
+        cmocka_unit_test(several_lights_have_the_sum_of_their_closed_forms),
+        cmocka_unit_test(attenuation_has_its_closed_form),
+        cmocka_unit_test(both_sides_of_a_quad_have_their_closed_forms),
+        cmocka_unit_test(linear_light_and_clipping_have_their_closed_forms),
+        cmocka_unit_test(gouraud_has_the_closed_form_where_triangles_are_small),
+        cmocka_unit_test(flat_is_gouraud_with_the_normals_of_triangles),
+        cmocka_unit_test(a_uniform_scale_of_any_size_is_lit_alike),
+        cmocka_unit_test(wrong_normals_differ_only_where_the_scale_is_uneven),
+        cmocka_unit_test(nearer_objects_hide_those_behind),
+        cmocka_unit_test(another_value_compiles_nothing),
+        cmocka_unit_test(a_light_that_is_off_draws_as_none_and_with_the_same_program),
+        cmocka_unit_test(the_order_of_lights_does_not_matter),
+        cmocka_unit_test(a_mirrored_scene_draws_the_mirrored_picture),
+        cmocka_unit_test(a_scene_a_million_units_away_draws_the_same_picture),
+        cmocka_unit_test(as_many_lights_as_fit_are_drawn_and_one_more_is_refused),
+        cmocka_unit_test(a_broken_shader_is_said_with_its_line_and_drawing_goes_on),
+        cmocka_unit_test(each_transform_has_only_the_normals_it_needs),
+        cmocka_unit_test(each_way_of_output_has_only_what_it_needs),
+        cmocka_unit_test(random_combinations_hold_as_well),
+        cmocka_unit_test(each_light_has_only_its_terms_and_draws_as_the_full_program),
+    };
+    if (!picture_check_driver("lighting"))
+        return EXIT_SKIPPED;
+    return cmocka_run_group_tests_name("lighting", tests, open_all, close_all);
+}
