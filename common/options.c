@@ -1,6 +1,7 @@
 #include "options.h"
 
 #include "output.h"
+#include "parse.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -130,84 +131,13 @@ static void print_help(const Usage *usage)
                usage->name, usage->name, usage->name);
 }
 
-bool options_size(const char *text, int *width, int *height)
-{
-    const char *p = text;
-    int sizes[2];
-    for (int i = 0; i < 2; i++) {
-        int value = 0, digits = 0;
-        for (; *p >= '0' && *p <= '9' && digits < 6; p++, digits++)
-            value = 10 * value + (*p - '0');
-        if (!digits || value < 1 || value > SIZE_MOST)
-            return false;
-        sizes[i] = value;
-        if (i == 0 && *p != 'x' && *p != 'X')
-            return false;
-        p += i == 0;
-    }
-    if (*p)
-        return false;
-    *width = sizes[0];
-    *height = sizes[1];
-    return true;
-}
-
-bool options_number(const char *text, double least, double most, double *number)
-{
-    char *end;
-    /* strtod takes blanks, hexadecimal and names too; a number here begins with a digit. */
-    const char *digits = text + (*text == '-' || *text == '+');
-    if (!((*digits >= '0' && *digits <= '9') || *digits == '.') || strpbrk(text, "xX"))
-        return false;
-    const double value = strtod(text, &end);
-    if (end == text || *end || !(value >= least && value <= most))
-        return false;
-    *number = value;
-    return true;
-}
-
 static bool whole_number(const char *text, int least, int most, int *number)
 {
     double value;
-    if (!options_number(text, least, most, &value) || value != floor(value))
+    if (!parse_number(text, least, most, &value) || value != floor(value))
         return false;
     *number = (int)value;
     return true;
-}
-
-/* Changes of one letter that turn a into b (Levenshtein), as far as 63 letters. */
-static int distance(const char *a, const char *b)
-{
-    enum { MOST = 63 };
-    int row[MOST + 1];
-    const int length = (int)strlen(b) < MOST ? (int)strlen(b) : MOST;
-    for (int j = 0; j <= length; j++)
-        row[j] = j;
-    for (int i = 1; i <= MOST && a[i - 1]; i++) {
-        int diagonal = row[0];
-        row[0] = i;
-        for (int j = 1; j <= length; j++) {
-            const int change = diagonal + (a[i - 1] != b[j - 1]);
-            diagonal = row[j];
-            const int other = 1 + (row[j] < row[j - 1] ? row[j] : row[j - 1]);
-            row[j] = change < other ? change : other;
-        }
-    }
-    return row[length];
-}
-
-const char *options_nearest(const char *word, const char *const *names)
-{
-    const char *nearest = NULL;
-    int least = 1 + (int)strlen(word) / 3; /* a third of the letters may be wrong */
-    for (; *names; names++) {
-        const int d = distance(word, *names);
-        if (d <= least && (!nearest || d < least)) {
-            nearest = *names;
-            least = d;
-        }
-    }
-    return nearest;
 }
 
 static bool unknown_option(const struct option *all, const char *given, Message *message)
@@ -227,7 +157,7 @@ static bool unknown_option(const struct option *all, const char *given, Message 
             return message_set(message, "%s: could be --%s or --%s", given, first, names[i]);
         first = names[i];
     }
-    const char *nearest = word[1] ? options_nearest(word, names) : NULL;
+    const char *nearest = word[1] ? parse_nearest(word, names) : NULL;
     if (nearest)
         return message_set(message, "%s: no such option; did you mean --%s?", given, nearest);
     return message_set(message, "%s: no such option; --help lists them", given);
@@ -279,17 +209,17 @@ static bool read_option(Options *options, int option, const char *value, Message
         options->output_given = true;
         return value[0] ? true : message_set(message, "--output: the name is empty");
     case 's':
-        if (!options_size(value, &options->width, &options->height))
+        if (!parse_size(value, &options->width, &options->height))
             return bad_value("--size", value, "WIDTHxHEIGHT, each 1 to 16384, as in 400x400",
                              message);
         options->size_given = true;
         return true;
     case 't':
-        if (!options_number(value, -1e9, 1e9, &options->seconds))
+        if (!parse_number(value, -1e9, 1e9, &options->seconds))
             return bad_value("--time", value, "seconds, -1e9 to 1e9", message);
         return true;
     case 'a':
-        if (!options_number(value, -3e10, 3e10, &options->seconds))
+        if (!parse_number(value, -3e10, 3e10, &options->seconds))
             return bad_value("--angle", value, "degrees, -3e10 to 3e10", message);
         options->seconds /= DEGREES_PER_SECOND;
         return true;
@@ -299,7 +229,7 @@ static bool read_option(Options *options, int option, const char *value, Message
         options->numbered = true;
         return true;
     case OPTION_FPS:
-        if (!options_number(value, 1e-3, 1e6, &options->fps))
+        if (!parse_number(value, 1e-3, 1e6, &options->fps))
             return bad_value("--fps", value, "pictures for each second, 0.001 to 1000000", message);
         return true;
     case OPTION_SAMPLES:

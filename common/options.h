@@ -14,7 +14,7 @@ enum {
     EXIT_USAGE = 2,  /* the command line is at fault */
 };
 
-enum { SIZE_MOST = 16384, FRAMES_MOST = 1000000 };
+enum { FRAMES_MOST = 1000000 };
 
 typedef struct Options {
     const char *output; /* a file, "-", a name with %d; for a gallery a folder */
@@ -59,15 +59,6 @@ typedef enum OptionsResult { OPTIONS_RUN, OPTIONS_ANSWERED, OPTIONS_BAD } Option
  * OPTIONS_BAD: a usage error, with its message. */
 OptionsResult options_read(Options *options, const Usage *usage, int argc, char *argv[],
                            Message *message);
-
-/* "WIDTHxHEIGHT", each 1 to SIZE_MOST, and nothing else. */
-bool options_size(const char *text, int *width, int *height);
-
-/* A finite decimal number within least..most, and nothing else. */
-bool options_number(const char *text, double least, double most, double *number);
-
-/* The name most like `word`, or NULL where none is near; `names` is NULL-terminated. */
-const char *options_nearest(const char *word, const char *const *names);
 
 /* The edge of a program: opens /dev/null in the place of closed standard streams (a picture must
  * not land in a file that took the number of standard output), and turns signals about broken pipes

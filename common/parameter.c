@@ -1,7 +1,7 @@
 #include "parameter.h"
 
 #include "matrix.h"
-#include "options.h"
+#include "parse.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -15,7 +15,7 @@ static bool read_choice(const Parameter *parameter, const char *text, Message *m
             return true;
         }
     }
-    const char *nearest = options_nearest(text, parameter->choices);
+    const char *nearest = parse_nearest(text, parameter->choices);
     if (nearest)
         return message_set(message, "--%s %s: there is none; did you mean %s?", parameter->name,
                            text, nearest);
@@ -37,7 +37,7 @@ static bool read_color(const Parameter *parameter, const char *text, Vec3 *color
     if (snprintf(copy, sizeof copy, "%s", text) >= (int)sizeof copy)
         return false;
     for (char *part; (part = strsep(&rest, ",")) != NULL; count++)
-        if (count == 3 || !options_number(part, parameter->least, parameter->most, &values[count]))
+        if (count == 3 || !parse_number(part, parameter->least, parameter->most, &values[count]))
             return false;
     if (count == 1)
         values[1] = values[2] = values[0];
@@ -51,12 +51,12 @@ bool parameter_read(const Parameter *parameter, const char *text, Message *messa
     double number;
     switch (parameter->kind) {
     case PARAMETER_NUMBER:
-        if (options_number(text, least, most, parameter->value))
+        if (parse_number(text, least, most, parameter->value))
             return true;
         return message_set(message, "--%s %s: must be a number, %g to %g", parameter->name, text,
                            least, most);
     case PARAMETER_WHOLE:
-        if (!options_number(text, least, most, &number) || number != floor(number))
+        if (!parse_number(text, least, most, &number) || number != floor(number))
             return message_set(message, "--%s %s: must be a whole number, %g to %g",
                                parameter->name, text, least, most);
         *(int *)parameter->value = (int)number;

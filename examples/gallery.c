@@ -6,6 +6,7 @@
  * picture the next is drawn.
  */
 #include "output.h"
+#include "parse.h"
 #include "progress.h"
 #include "stage.h"
 
@@ -49,7 +50,7 @@ static bool select_examples(Selection *selection, char *const *names, Message *m
             if (strcmp(*name, known[i]) == 0)
                 found = i;
         if (found < 0) {
-            const char *nearest = options_nearest(*name, known);
+            const char *nearest = parse_nearest(*name, known);
             return message_set(message, "%s: no such program; %s%s%s", *name,
                                nearest ? "did you mean " : "examples/run --list names them",
                                nearest ? nearest : "", nearest ? "?" : "");

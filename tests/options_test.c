@@ -8,6 +8,7 @@
 #include <cmocka.h>
 
 #include "options.h"
+#include "parse.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -262,7 +263,7 @@ static void a_size_is_two_whole_numbers(void **state)
         "1e2x1",   "1.0x1", "0x1x1", "1*1",  "1x1\n", "axb",  "4294967297x1"};
     int width = 11, height = 22;
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++)
-        if (options_size(bad[i], &width, &height))
+        if (parse_size(bad[i], &width, &height))
             fail_msg("accepted: \"%s\"", bad[i]);
     assert_int_equal(width, 11);
     assert_int_equal(height, 22);
@@ -272,7 +273,7 @@ static void a_size_is_two_whole_numbers(void **state)
     } good[] = {
         {"1x1", 1, 1}, {"16384x16384", 16384, 16384}, {"007x3", 7, 3}, {"640X480", 640, 480}};
     for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) {
-        assert_true(options_size(good[i].text, &width, &height));
+        assert_true(parse_size(good[i].text, &width, &height));
         assert_int_equal(width, good[i].width);
         assert_int_equal(height, good[i].height);
     }
@@ -287,7 +288,7 @@ static void a_number_is_finite_decimal_and_nothing_else(void **state)
         "1a",       "1e",  "--1",   "+-1",   "1.2.3",  "1,5", "1_000", "1f",  "\xC2\xB2"};
     double number = 42;
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++)
-        if (options_number(bad[i], -DBL_MAX, DBL_MAX, &number))
+        if (parse_number(bad[i], -DBL_MAX, DBL_MAX, &number))
             fail_msg("accepted: \"%s\"", bad[i]);
     assert_true(number == 42);
     static const struct {
@@ -296,7 +297,7 @@ static void a_number_is_finite_decimal_and_nothing_else(void **state)
     } good[] = {{"0", 0},      {"-1.5", -1.5}, {"+2", 2},      {".5", 0.5}, {"5.", 5},
                 {"1e3", 1000}, {"1E-2", 0.01}, {"-.25", -.25}, {"010", 10}, {"1e-400", 0}};
     for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) {
-        assert_true(options_number(good[i].text, -DBL_MAX, DBL_MAX, &number));
+        assert_true(parse_number(good[i].text, -DBL_MAX, DBL_MAX, &number));
         assert_true(number == good[i].value);
     }
 }
@@ -305,10 +306,10 @@ static void the_ends_of_a_range_belong_to_it(void **state)
 {
     (void)state;
     double number;
-    assert_true(options_number("-2", -2, 3, &number));
-    assert_true(options_number("3", -2, 3, &number));
-    assert_false(options_number("-2.0000001", -2, 3, &number));
-    assert_false(options_number("3.0000001", -2, 3, &number));
+    assert_true(parse_number("-2", -2, 3, &number));
+    assert_true(parse_number("3", -2, 3, &number));
+    assert_false(parse_number("-2.0000001", -2, 3, &number));
+    assert_false(parse_number("3.0000001", -2, 3, &number));
 }
 
 static void the_nearest_name_is_the_one_with_fewest_changes(void **state)
@@ -334,20 +335,20 @@ static void the_nearest_name_is_the_one_with_fewest_changes(void **state)
         {"xyz", NULL},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        const char *found = options_nearest(cases[i].word, names);
+        const char *found = parse_nearest(cases[i].word, names);
         if (!cases[i].nearest && found)
             fail_msg("%s: found %s", cases[i].word, found);
         if (cases[i].nearest)
             assert_string_equal(found ? found : "(none)", cases[i].nearest);
     }
-    assert_null(options_nearest("cube", none));
+    assert_null(parse_nearest("cube", none));
 
     char endless[5000];
     memset(endless, 'c', sizeof endless - 1);
     endless[sizeof endless - 1] = '\0';
     const char *const long_names[] = {endless, NULL};
-    assert_null(options_nearest("cube", long_names));
-    options_nearest(endless, names); /* whatever it finds, it must come back */
+    assert_null(parse_nearest("cube", long_names));
+    parse_nearest(endless, names); /* whatever it finds, it must come back */
 }
 
 static void the_default_output_is_named_for_the_program(void **state)

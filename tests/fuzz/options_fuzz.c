@@ -5,6 +5,7 @@
  * number, a name and a pattern on its own.
  */
 #include "options.h"
+#include "parse.h"
 #include "output.h"
 
 #include <limits.h>
@@ -24,12 +25,12 @@ static void read_one(const char *argument)
     double number = 0;
     char path[64];
     Message message = {0};
-    if (options_size(argument, &width, &height) &&
-        (width < 1 || width > SIZE_MOST || height < 1 || height > SIZE_MOST))
+    if (parse_size(argument, &width, &height) &&
+        (width < 1 || width > PARSE_SIZE_MOST || height < 1 || height > PARSE_SIZE_MOST))
         abort();
-    if (options_number(argument, -1e9, 1e9, &number) && !(fabs(number) <= 1e9))
+    if (parse_number(argument, -1e9, 1e9, &number) && !(fabs(number) <= 1e9))
         abort();
-    options_nearest(argument, NAMES);
+    parse_nearest(argument, NAMES);
     if (output_numbered(argument, 12345, path, sizeof path, &message) != !message.text[0])
         abort();
 }

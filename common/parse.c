@@ -1,0 +1,75 @@
+#include "parse.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+bool parse_size(const char *text, int *width, int *height)
+{
+    const char *p = text;
+    int sizes[2];
+    for (int i = 0; i < 2; i++) {
+        int value = 0, digits = 0;
+        for (; *p >= '0' && *p <= '9' && digits < 6; p++, digits++)
+            value = 10 * value + (*p - '0');
+        if (!digits || value < 1 || value > PARSE_SIZE_MOST)
+            return false;
+        sizes[i] = value;
+        if (i == 0 && *p != 'x' && *p != 'X')
+            return false;
+        p += i == 0;
+    }
+    if (*p)
+        return false;
+    *width = sizes[0];
+    *height = sizes[1];
+    return true;
+}
+
+bool parse_number(const char *text, double least, double most, double *number)
+{
+    char *end;
+    /* strtod takes blanks, hexadecimal and names too; a number here begins with a digit. */
+    const char *digits = text + (*text == '-' || *text == '+');
+    if (!((*digits >= '0' && *digits <= '9') || *digits == '.') || strpbrk(text, "xX"))
+        return false;
+    const double value = strtod(text, &end);
+    if (end == text || *end || !(value >= least && value <= most))
+        return false;
+    *number = value;
+    return true;
+}
+
+/* Changes of one letter that turn a into b (Levenshtein), as far as 63 letters. */
+static int distance(const char *a, const char *b)
+{
+    enum { MOST = 63 };
+    int row[MOST + 1];
+    const int length = (int)strlen(b) < MOST ? (int)strlen(b) : MOST;
+    for (int j = 0; j <= length; j++)
+        row[j] = j;
+    for (int i = 1; i <= MOST && a[i - 1]; i++) {
+        int diagonal = row[0];
+        row[0] = i;
+        for (int j = 1; j <= length; j++) {
+            const int change = diagonal + (a[i - 1] != b[j - 1]);
+            diagonal = row[j];
+            const int other = 1 + (row[j] < row[j - 1] ? row[j] : row[j - 1]);
+            row[j] = change < other ? change : other;
+        }
+    }
+    return row[length];
+}
+
+const char *parse_nearest(const char *word, const char *const *names)
+{
+    const char *nearest = NULL;
+    int least = 1 + (int)strlen(word) / 3; /* a third of the letters may be wrong */
+    for (; *names; names++) {
+        const int d = distance(word, *names);
+        if (d <= least && (!nearest || d < least)) {
+            nearest = *names;
+            least = d;
+        }
+    }
+    return nearest;
+}

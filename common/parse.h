@@ -1,0 +1,20 @@
+/*
+ * parse: values as one types them on a command line.
+ */
+#ifndef PARSE_H
+#define PARSE_H
+
+#include <stdbool.h>
+
+enum { PARSE_SIZE_MOST = 16384 };
+
+/* "WIDTHxHEIGHT", each 1 to PARSE_SIZE_MOST, and nothing else. */
+bool parse_size(const char *text, int *width, int *height);
+
+/* A finite decimal number within least..most, and nothing else. */
+bool parse_number(const char *text, double least, double most, double *number);
+
+/* The name most like `word`, or NULL where none is near; `names` is NULL-terminated. */
+const char *parse_nearest(const char *word, const char *const *names);
+
+#endif
