@@ -66,8 +66,7 @@ static void draw(const Scene *scene, bool with_all, Image *picture)
     canvas_begin(&canvas);
     glClearColor((float)b.x, (float)b.y, (float)b.z, 1);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    if (!scene_check(scene, &message) ||
-        !lighting_draw(lighting, scene, 1, with_all, &message) ||
+    if (!scene_check(scene, &message) || !lighting_draw(lighting, scene, 1, with_all, &message) ||
         !canvas_read(&canvas, picture, &message))
         fail_msg("%s", message.text);
 }
@@ -116,8 +115,8 @@ typedef struct Kind {
 } Kind;
 
 static const Kind KINDS[] = {
-    {LIGHT_DIRECTIONAL, 0, 0, 0}, {LIGHT_POINT, 0, 0, 0}, {LIGHT_POINT, 1.25, 0, 0},
-    {LIGHT_POINT, 0.5, 0.2, 0},   {LIGHT_SPOT, 0, 0, 0},  {LIGHT_SPOT, 0.5, 0.2, 0},
+    {LIGHT_DIRECTIONAL, 0, 0, 0}, {LIGHT_POINT, 0, 0, 0},    {LIGHT_POINT, 1.25, 0, 0},
+    {LIGHT_POINT, 0.5, 0.2, 0},   {LIGHT_SPOT, 0, 0, 0},     {LIGHT_SPOT, 0.5, 0.2, 0},
     {LIGHT_SPOT, 0, 0, 8},        {LIGHT_SPOT, 0.5, 0.2, 8},
 };
 enum { KIND_COUNT = sizeof KINDS / sizeof KINDS[0] };
@@ -131,6 +130,7 @@ typedef struct Case {
     Interpolation interpolation;
     Reflection reflection;
     bool distant_viewer, two_sided, base, alpha, clamp_vertex, linear, show_clipped;
+    bool bright; /* more than can be shown */
 } Case;
 
 typedef struct World {
@@ -181,13 +181,15 @@ static Light light_of(int number, int terms, Kind kind)
 static void make_world(World *world, const Case *c)
 {
     static const Mesh *const meshes[] = {&sphere, &cube, &tube};
-    const Material front = {
-        {0.8, 0.6, 0.4}, {0.7, 0.8, 0.6}, {0.9, 0.5, 0.7}, {0, 0, 0}, c->alpha ? 0.6 : 1, 12};
-    const Material back = {
-        {0.3, 0.5, 0.9}, {0.5, 0.4, 0.9}, {0.4, 0.9, 0.3}, {0, 0, 0}, c->alpha ? 0.3 : 1, 30};
+    const Material front = {{0.8, 0.6, 0.4}, {0.7, 0.8, 0.6},    {0.9, 0.5, 0.7},
+                            {0, 0, 0},       c->alpha ? 0.6 : 1, 12};
+    const Material back = {{0.3, 0.5, 0.9}, {0.5, 0.4, 0.9},    {0.4, 0.9, 0.3},
+                           {0, 0, 0},       c->alpha ? 0.3 : 1, 30};
     memset(world, 0, sizeof *world);
     for (int i = 0; i < c->light_count; i++)
         world->lights[i] = light_of(i, c->terms[i], KINDS[c->kinds[i]]);
+    for (int i = 0; c->bright && i < c->light_count; i++)
+        world->lights[i].diffuse = vec3_scale(world->lights[i].diffuse, 2.5);
     world->object = (Object){.mesh = meshes[c->shape],
                              .flat = c->shape == CUBE,
                              .closed = c->shape != TUBE,
@@ -217,12 +219,13 @@ static void describe(const Case *c, char text[128])
     int length = snprintf(text, 128, "shape%d-turn%d-interpolation%d-reflection%d", (int)c->shape,
                           (int)c->turn, (int)c->interpolation, (int)c->reflection);
     for (int i = 0; i < c->light_count; i++)
-        length += snprintf(text + length, 128 - (size_t)length, "-light%d:%d", c->kinds[i],
-                           c->terms[i]);
-    snprintf(text + length, 128 - (size_t)length, "%s%s%s%s%s%s%s",
+        length +=
+            snprintf(text + length, 128 - (size_t)length, "-light%d:%d", c->kinds[i], c->terms[i]);
+    snprintf(text + length, 128 - (size_t)length, "%s%s%s%s%s%s%s%s",
              c->distant_viewer ? "-distant" : "", c->two_sided ? "-two" : "",
              c->base ? "-base" : "", c->alpha ? "-alpha" : "", c->clamp_vertex ? "-clamp" : "",
-             c->linear ? "-linear" : "", c->show_clipped ? "-clipped" : "");
+             c->linear ? "-linear" : "", c->show_clipped ? "-clipped" : "",
+             c->bright ? "-bright" : "");
 }
 
 /* What a program asks for: sets of names, as text sorted into lines. */
@@ -260,23 +263,20 @@ static void assert_same_names(const char *what, Names got, Names expected)
     }
 }
 
-/* A name for each side that is lit. */
-static void add_sides(Names *names, bool two_sided, const char *format, int group)
+/* A name for each side that is lit, "u_Front" and "u_Back" with what follows. */
+static void add_sides(Names *names, bool two_sided, const char *prefix, const char *rest)
 {
-    static const char *const sides[] = {"Front", "Back"};
-    for (int i = 0; i < (two_sided ? 2 : 1); i++) {
-        char name[32];
-        snprintf(name, sizeof name, format, sides[i]);
-        if (group >= 0)
-            add_name(names, "%s%d", name, group);
-        else
-            add_name(names, "%s", name);
-    }
+    add_name(names, "%sFront%s", prefix, rest);
+    if (two_sided)
+        add_name(names, "%sBack%s", prefix, rest);
 }
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wformat-nonliteral"
-#pragma GCC diagnostic pop
+static void add_group_sides(Names *names, bool two_sided, const char *rest, int group)
+{
+    char name[32];
+    snprintf(name, sizeof name, "%s%d", rest, group);
+    add_sides(names, two_sided, "u_", name);
+}
 
 /* What the set calls for, and nothing else. */
 static void expected_names(const Effects *effects, Names *uniforms, Names *attributes,
@@ -298,11 +298,11 @@ static void expected_names(const Effects *effects, Names *uniforms, Names *attri
         place_there |= !terms->at_vertex && from_place;
         add_name(uniforms, near ? "u_Position%d" : "u_Direction%d", g);
         if (terms->ambient)
-            add_sides(uniforms, two, "u_%sAmbient", g);
+            add_group_sides(uniforms, two, "Ambient", g);
         if (terms->diffuse)
-            add_sides(uniforms, two, "u_%sDiffuse", g);
+            add_group_sides(uniforms, two, "Diffuse", g);
         if (terms->specular)
-            add_sides(uniforms, two, "u_%sSpecular", g);
+            add_group_sides(uniforms, two, "Specular", g);
         if (terms->half_vector)
             add_name(uniforms, "u_Half%d", g);
         if (terms->attenuation)
@@ -319,13 +319,13 @@ static void expected_names(const Effects *effects, Names *uniforms, Names *attri
     if (effects->normals && effects->normal_matrix)
         add_name(uniforms, "u_NormalMatrix");
     if (effects->base)
-        add_sides(uniforms, two, "u_%sBase", -1);
+        add_sides(uniforms, two, "u_", "Base");
     if (effects->alpha)
-        add_sides(uniforms, two, "u_%sAlpha", -1);
+        add_sides(uniforms, two, "u_", "Alpha");
     if (specular)
-        add_sides(uniforms, two, "u_%sShininess", -1);
+        add_sides(uniforms, two, "u_", "Shininess");
     if (at_vertex)
-        add_sides(varyings, two, "v_%sColor", -1);
+        add_sides(varyings, two, "v_", "Color");
     if (normal_there)
         add_name(varyings, "v_Normal");
     if (place_there)
@@ -405,15 +405,14 @@ static void declared_varyings(const char *source, Names *varyings)
         const bool outer = depth == 0 || open[depth - 1].now;
         const bool is_ifdef = sscanf(line, "#ifdef %31s", name) == 1;
         if (is_ifdef || strncmp(line, "#if ", 4) == 0) {
-            const bool true_here =
-                open[depth].now && (is_ifdef ? is_defined(&defined, name)
-                                             : condition(&defined, line + 4));
+            const bool true_here = open[depth].now && (is_ifdef ? is_defined(&defined, name)
+                                                                : condition(&defined, line + 4));
             assert_true(depth < 15);
             depth++;
             open[depth].now = open[depth].before = true_here;
         } else if (strncmp(line, "#el", 3) == 0) {
-            open[depth].now = outer && !open[depth].before &&
-                              (line[3] == 's' || condition(&defined, line + 6));
+            open[depth].now =
+                outer && !open[depth].before && (line[3] == 's' || condition(&defined, line + 6));
             open[depth].before |= open[depth].now;
         } else if (strncmp(line, "#endif", 6) == 0) {
             depth--;
@@ -475,8 +474,9 @@ static void check_case(const Case *c)
     draw(&world.scene, false, &specialised);
     draw(&world.scene, true, &full);
     /* Where a picture jumps, at a spot's cone, at the end of the highlight and from one side of the
-     * surface to the other, rounding decides for a pixel that lies on the line: EXCEPTIONS. */
-    if (!pictures_agree(name, &specialised, &full, 4))
+     * surface to the other, rounding decides for a pixel that lies on the line: here for 2 at most.
+     */
+    if (!pictures_agree(name, &specialised, &full, 2))
         fail();
 }
 
@@ -544,7 +544,8 @@ static void each_way_of_output_has_only_what_it_needs(void **state)
                                    .alpha = bits & 4,
                                    .clamp_vertex = bits & 8,
                                    .linear = bits & 16,
-                                   .show_clipped = bits & 32});
+                                   .show_clipped = bits & 32,
+                                   .bright = true});
 }
 
 /* splitmix64: the same numbers everywhere. */
@@ -579,6 +580,7 @@ static void random_combinations_hold_as_well(void **state)
             .clamp_vertex = random_below(2),
             .linear = random_below(2),
             .show_clipped = random_below(2),
+            .bright = random_below(2),
         };
         for (int k = 0; k < c.light_count; k++) {
             const bool again = k > 0 && random_below(2);
@@ -748,8 +750,8 @@ static bool trace(const Scene *scene, int x, int y, Hit *hit)
     mat4_inverse(eye_from_world, &world_from_eye);
     mat4_inverse(object->world_from_object, &object_from_world);
     const double tangent = tan(camera->fovy / 2 * RADIANS);
-    const Vec3 way_eye = {tangent * ((x + 0.5) / SIZE * 2 - 1), tangent * (1 - (y + 0.5) / SIZE * 2),
-                          -1};
+    const Vec3 way_eye = {tangent * ((x + 0.5) / SIZE * 2 - 1),
+                          tangent * (1 - (y + 0.5) / SIZE * 2), -1};
     const Vec3 way = mat4_transform_direction(world_from_eye, way_eye);
     const Vec3 o = mat4_transform_point(object_from_world, camera->eye);
     const Vec3 d = mat4_transform_direction(object_from_world, way);
@@ -764,9 +766,9 @@ static bool trace(const Scene *scene, int x, int y, Hit *hit)
     const Vec3 p = vec3_add(o, vec3_scale(d, t));
     if (flat && (fabs(p.x) > 0.98 || fabs(p.y) > 0.98))
         return false;
-    vec3_normalize(mat4_transform_direction(mat4_transpose(object_from_world),
-                                            flat ? (Vec3){0, 0, 1} : p),
-                   &hit->normal);
+    vec3_normalize(
+        mat4_transform_direction(mat4_transpose(object_from_world), flat ? (Vec3){0, 0, 1} : p),
+        &hit->normal);
     hit->point = mat4_transform_point(object->world_from_object, p);
     hit->front = vec3_dot(hit->normal, way) < 0;
     hit->steepness = fabs(vec3_dot(hit->normal, way)) / vec3_length(way);
@@ -871,10 +873,10 @@ static int assert_closed_form(const Scene *scene, const char *name)
     return compared;
 }
 
-static const Material SHINY = {{0.3, 0.2, 0.1}, {0.6, 0.5, 0.3}, {0.5, 0.6, 0.7}, {0.05, 0, 0.02},
-                               1,               24};
-static const Material DULL = {{0.1, 0.2, 0.4}, {0.2, 0.5, 0.6}, {0.3, 0.1, 0.2}, {0, 0.05, 0.1},
-                              1,               6};
+static const Material SHINY = {
+    {0.3, 0.2, 0.1}, {0.6, 0.5, 0.3}, {0.5, 0.6, 0.7}, {0.05, 0, 0.02}, 1, 24};
+static const Material DULL = {
+    {0.1, 0.2, 0.4}, {0.2, 0.5, 0.6}, {0.3, 0.1, 0.2}, {0, 0.05, 0.1}, 1, 6};
 
 static void closed_form_world(World *world, const Mesh *mesh, Turn turn)
 {
@@ -1046,8 +1048,7 @@ static void wrong_normals_differ_only_where_the_scale_is_uneven(void **state)
         draw(&world.scene, false, &full);
         world.object.wrong_normals = true;
         draw(&world.scene, false, &specialised);
-        const bool same =
-            memcmp(specialised.pixels, full.pixels, (size_t)SIZE * SIZE * 4) == 0;
+        const bool same = memcmp(specialised.pixels, full.pixels, (size_t)SIZE * SIZE * 4) == 0;
         assert_int_equal(same, turn != UNEVEN && turn != SHEARED);
         draw(&world.scene, true, &full);
         assert_true(pictures_agree("wrong normals", &specialised, &full, 4));
@@ -1096,25 +1097,37 @@ static void as_many_lights_as_fit_are_drawn_and_one_more_is_refused(void **state
     assert_true(pictures_agree("most lights", &specialised, &full, 8));
     world.scene.light_count++;
     assert_false(lighting_draw(lighting, &world.scene, 1, false, &message));
-    assert_string_equal(message.text,
-                        "scene: 33 lights: at most 32 fit into one program");
+    assert_string_equal(message.text, "scene: 33 lights: at most 32 fit into one program");
 }
 
-static void a_broken_shader_is_said_with_its_line_and_drawing_goes_on(void **state)
+static void write_file(const char *path, const char *text)
 {
-    static const ShaderText texts[] = {{"lighting/group.glsl", "not glsl\n"}, {NULL, NULL}};
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    assert_int_equal(fclose(file), 0);
+}
+
+static void a_broken_shader_is_said_with_its_line_and_counts_for_nothing(void **state)
+{
+    char folder[] = "/tmp/lighting_test_XXXXXX", path[64], beginning[80];
     World world;
     Lighting *broken;
     Message message = {0};
     (void)state;
-    (void)texts;
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/group.glsl", folder);
+    snprintf(beginning, sizeof beginning, "%s:3:", path);
+    write_file(path, "// One,\n// two,\nthree.\n");
     make_world(&world, &RICH);
-    assert_true(lighting_open(&broken, &(ShaderLoader){.defines = NULL, .folder = "/nowhere"},
-                              &message));
+    assert_true(lighting_open(&broken, &(ShaderLoader){.folder = folder}, &message));
+    assert_int_equal(lighting_program(broken, &world.scene, &world.object, false, &message), 0);
+    remove(path);
+    remove(folder);
+    if (strncmp(message.text, beginning, strlen(beginning)) != 0)
+        fail_msg("\"%s\" does not begin with \"%s\"", message.text, beginning);
     assert_int_equal(lighting_counts(broken).programs, 0);
     lighting_close(broken);
-    lighting_close(NULL);
-    draw(&world.scene, false, &specialised);
 }
 
 int main(void)
@@ -1136,7 +1149,7 @@ int main(void)
         cmocka_unit_test(a_mirrored_scene_draws_the_mirrored_picture),
         cmocka_unit_test(a_scene_a_million_units_away_draws_the_same_picture),
         cmocka_unit_test(as_many_lights_as_fit_are_drawn_and_one_more_is_refused),
-        cmocka_unit_test(a_broken_shader_is_said_with_its_line_and_drawing_goes_on),
+        cmocka_unit_test(a_broken_shader_is_said_with_its_line_and_counts_for_nothing),
         cmocka_unit_test(each_transform_has_only_the_normals_it_needs),
         cmocka_unit_test(each_way_of_output_has_only_what_it_needs),
         cmocka_unit_test(random_combinations_hold_as_well),

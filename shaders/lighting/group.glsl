@@ -60,7 +60,7 @@ void GROUP(vec3 normal, vec3 position, vec3 viewer, bool front, inout vec3 color
         float square = dot(way, way);
         vec3 to_light = way * inversesqrt(max(square, 1e-30));
 #ifdef ATTENUATION
-        share = 1.0 / max(dot(u_Attenuation[i], vec3(1.0, sqrt(square), square)), 1e-6);
+        share = 1.0 / max(dot(u_Attenuation[i], vec3(1.0, sqrt(square), square)), 1e-30);
 #endif
 #endif
 #ifdef SPOT
@@ -90,8 +90,8 @@ void GROUP(vec3 normal, vec3 position, vec3 viewer, bool front, inout vec3 color
 #else
         float cosine = dot(normal, safe_normalize(to_light + viewer));
 #endif
-        // Behind the surface there is no highlight. 0 to the power of 0 is 1, as OpenGL has it, and
-        // undefined in GLSL: 1e-37 to the power of any shininess that shows is as good as 0.
+        // Behind the surface there is no highlight. 0 to the power of 0 is undefined in GLSL, and 1
+        // here, as for any other number; 1e-37 to the power of a shininess that shows is 0.
         float shininess = PICK(u_FrontShininess, u_BackShininess);
         float highlight = n_dot_l > 0.0 ? pow(max(cosine, 1e-37), shininess) : 0.0;
         sum += PICK(u_FrontSpecular[i], u_BackSpecular[i]) * highlight;
