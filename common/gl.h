@@ -28,7 +28,6 @@
     X(COMPILESHADER, CompileShader)                                                                \
     X(CREATEPROGRAM, CreateProgram)                                                                \
     X(CREATESHADER, CreateShader)                                                                  \
-    X(CULLFACE, CullFace)                                                                          \
     X(DELETEBUFFERS, DeleteBuffers)                                                                \
     X(DELETEFRAMEBUFFERS, DeleteFramebuffers)                                                      \
     X(DELETEPROGRAM, DeleteProgram)                                                                \
@@ -48,7 +47,6 @@
     X(GENRENDERBUFFERS, GenRenderbuffers)                                                          \
     X(GETACTIVEATTRIB, GetActiveAttrib)                                                            \
     X(GETACTIVEUNIFORM, GetActiveUniform)                                                          \
-    X(GETATTACHEDSHADERS, GetAttachedShaders)                                                      \
     X(GETATTRIBLOCATION, GetAttribLocation)                                                        \
     X(GETERROR, GetError)                                                                          \
     X(GETINTEGERV, GetIntegerv)                                                                    \
@@ -57,7 +55,6 @@
     X(GETSHADERINFOLOG, GetShaderInfoLog)                                                          \
     X(GETSHADERIV, GetShaderiv)                                                                    \
     X(GETSHADERPRECISIONFORMAT, GetShaderPrecisionFormat)                                          \
-    X(GETSHADERSOURCE, GetShaderSource)                                                            \
     X(GETSTRING, GetString)                                                                        \
     X(GETUNIFORMLOCATION, GetUniformLocation)                                                      \
     X(LINKPROGRAM, LinkProgram)                                                                    \

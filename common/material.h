@@ -11,7 +11,7 @@
 typedef struct Material {
     Vec3 ambient, diffuse, specular;
     Vec3 emission;    /* light of its own, whatever shines on it */
-    double alpha;     /* of the diffuse colour: the surface's opacity */
+    double alpha;     /* of the diffuse colour: the opacity; 1 for an opaque surface, 0 if zeroed */
     double shininess; /* the exponent of the specular term, 0 to 128 */
 } Material;
 
