@@ -153,9 +153,9 @@ static bool light_terms(const Scene *scene, const Object *object, int number, Sp
     terms->kind = light->kind;
     terms->diffuse = reflected(light->diffuse, front->diffuse, back->diffuse, both);
     terms->specular = reflected(light->specular, front->specular, back->specular, both);
-    terms->attenuation = positional && (light->linear != 0 || light->quadratic != 0);
+    terms->attenuation = light_fades(light);
     terms->exponent = light->kind == LIGHT_SPOT && light->exponent != 0;
-    terms->ambient = (terms->attenuation || light->kind == LIGHT_SPOT) &&
+    terms->ambient = light_ambient_varies(light) &&
                      reflected(light->ambient, front->ambient, back->ambient, both);
     if (!terms->diffuse && !terms->specular && !terms->ambient) {
         say(file, "without light %d: it has no colour that the material reflects%s", number,
@@ -194,9 +194,7 @@ static bool has_base(const Scene *scene, const Object *object, bool both)
         return true;
     for (int i = 0; i < scene->light_count; i++) {
         const Light *light = &scene->lights[i];
-        const bool varies =
-            light->kind == LIGHT_SPOT || light->linear != 0 || light->quadratic != 0;
-        if (!light->off && (light->kind == LIGHT_DIRECTIONAL || !varies) &&
+        if (!light->off && !light_ambient_varies(light) &&
             reflected(light->ambient, front->ambient, back->ambient, both))
             return true;
     }

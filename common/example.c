@@ -9,8 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double DEGREES_PER_SECOND = 30;
-
 void example_annotate(double seconds, int view, const Scene *scene, Annotations *annotations)
 {
     (void)seconds, (void)view;
@@ -21,7 +19,7 @@ void example_annotate(double seconds, int view, const Scene *scene, Annotations 
 Mat4 example_turned(double seconds)
 {
     Mat4 turned;
-    mat4_rotate(DEGREES_PER_SECOND * seconds, (Vec3){0, 1, 0}, &turned);
+    mat4_rotate(OPTIONS_DEGREES_PER_SECOND * seconds, (Vec3){0, 1, 0}, &turned);
     return turned;
 }
 

@@ -29,4 +29,17 @@ typedef struct Light {
     double constant, linear, quadratic;
 } Light;
 
+/* Whether less of it arrives at a greater distance. */
+static inline bool light_fades(const Light *light)
+{
+    return light->kind != LIGHT_DIRECTIONAL && (light->linear != 0 || light->quadratic != 0);
+}
+
+/* Whether its ambient light differs from point to point. Else that is part of the base, a colour
+ * which is the same everywhere. */
+static inline bool light_ambient_varies(const Light *light)
+{
+    return light->kind == LIGHT_SPOT || light_fades(light);
+}
+
 #endif

@@ -219,12 +219,8 @@ static const Variant *find_variant(Lighting *lighting, const Effects *effects, M
 /* A copy with a normal for each triangle. */
 static bool flat_copy(const Mesh *mesh, Mesh *flat, Message *message)
 {
-    *flat = (Mesh){.vertices = malloc(mesh->vertex_count * sizeof *mesh->vertices),
-                   .indices = malloc(mesh->index_count * sizeof *mesh->indices),
-                   .vertex_count = mesh->vertex_count,
-                   .index_count = mesh->index_count};
-    if (!flat->vertices || !flat->indices)
-        return message_set(message, "lighting: not enough memory");
+    if (!mesh_open(flat, mesh->vertex_count, mesh->index_count, message))
+        return false;
     memcpy(flat->vertices, mesh->vertices, mesh->vertex_count * sizeof *mesh->vertices);
     memcpy(flat->indices, mesh->indices, mesh->index_count * sizeof *mesh->indices);
     return mesh_flatten(flat, message);
@@ -311,9 +307,8 @@ static Vec3 multiply(Vec3 a, Vec3 b)
 /* Where light is attenuated by the same factor everywhere, that is 1 / constant. */
 static double constant_share(const Light *light)
 {
-    const bool varies = light->linear != 0 || light->quadratic != 0;
-    return light->kind == LIGHT_DIRECTIONAL || varies || light->constant == 0 ? 1
-                                                                              : 1 / light->constant;
+    const bool shared = light->kind != LIGHT_DIRECTIONAL && !light_fades(light);
+    return shared && light->constant != 0 ? 1 / light->constant : 1;
 }
 
 /* Emission and ambient light that does not vary over the surface. In the full program every light
@@ -323,10 +318,7 @@ static Vec3 base_color(const Scene *scene, const Material *material, bool full)
     Vec3 sum = vec3_add(material->emission, multiply(scene->global_ambient, material->ambient));
     for (int i = 0; i < scene->light_count && !full; i++) {
         const Light *light = &scene->lights[i];
-        const bool varies =
-            light->kind == LIGHT_SPOT ||
-            (light->kind == LIGHT_POINT && (light->linear != 0 || light->quadratic != 0));
-        if (!light->off && !varies)
+        if (!light->off && !light_ambient_varies(light))
             sum = vec3_add(sum, vec3_scale(multiply(light->ambient, material->ambient),
                                            constant_share(light)));
     }

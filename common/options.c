@@ -13,9 +13,6 @@
 #include <string.h>
 #include <unistd.h>
 
-/* The lecture's animations turn by 30 degrees a second, so an angle is a time. */
-static const double DEGREES_PER_SECOND = 30;
-
 enum {
     OPTION_SAMPLES = 256,
     OPTION_FPS,
@@ -221,7 +218,7 @@ static bool read_option(Options *options, int option, const char *value, Message
     case 'a':
         if (!parse_number(value, -3e10, 3e10, &options->seconds))
             return bad_value("--angle", value, "degrees, -3e10 to 3e10", message);
-        options->seconds /= DEGREES_PER_SECOND;
+        options->seconds /= OPTIONS_DEGREES_PER_SECOND;
         return true;
     case 'n':
         if (!whole_number(value, 1, FRAMES_MOST, &options->frames))
