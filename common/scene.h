@@ -11,6 +11,7 @@
 #include "material.h"
 #include "matrix.h"
 #include "mesh.h"
+#include "solid.h"
 
 #include <stdbool.h>
 
@@ -33,6 +34,7 @@ typedef enum Interpolation {
 
 typedef struct Object {
     const Mesh *mesh;
+    Solid solid; /* what the mesh stands for; zeroed, the triangles themselves */
     bool flat;   /* every triangle's three normals are equal, as a cube's are */
     bool closed; /* a solid: no back face is ever seen from outside */
     Mat4 world_from_object;

@@ -1,0 +1,81 @@
+#include "solid.h"
+
+#include <math.h>
+
+static int at_least(int least, int count)
+{
+    return count > least ? count : least;
+}
+
+/* A cube whose faces are grids, in the order and with the corners of mesh_cube. */
+static bool box_mesh(double half_side, int divisions, Mesh *mesh, Message *message)
+{
+    const size_t side = (size_t)divisions + 1;
+    Mesh cube;
+    if (!mesh_cube(&cube, half_side, message))
+        return false;
+    if (!mesh_open(mesh, 6 * side * side,
+                   6 * mesh_grid_size(divisions, divisions, MESH_POLE_NONE), message)) {
+        mesh_close(&cube);
+        return false;
+    }
+    uint32_t *indices = mesh->indices;
+    MeshVertex *vertex = mesh->vertices;
+    for (size_t face = 0; face < 6; face++) {
+        /* Corners 0, 1, 2, 3 go round; rows lead from 0 to 1, columns from 0 to 3. */
+        const MeshVertex *corner = cube.vertices + 4 * face;
+        indices = mesh_grid(indices, (uint32_t)(vertex - mesh->vertices), divisions, divisions,
+                            MESH_POLE_NONE);
+        for (int row = 0; row <= divisions; row++) {
+            for (int column = 0; column <= divisions; column++, vertex++) {
+                const double down = (double)row / divisions, right = (double)column / divisions;
+                *vertex = corner[0];
+                for (int k = 0; k < 3; k++) {
+                    const double first = (double)corner[0].position[k];
+                    vertex->position[k] =
+                        (float)(first + down * ((double)corner[1].position[k] - first) +
+                                right * ((double)corner[3].position[k] - first));
+                }
+            }
+        }
+    }
+    mesh_close(&cube);
+    return true;
+}
+
+bool solid_mesh(const Solid *solid, int divisions, Mesh *mesh, Message *message)
+{
+    const double radius = solid->radius, height = solid->height;
+    *mesh = (Mesh){.vertices = NULL};
+    if (!mesh_check_count("solid", "divisions", divisions, SOLID_LEAST_DIVISIONS,
+                          SOLID_MOST_DIVISIONS, message))
+        return false;
+    const int quarter = at_least(1, divisions / 4);
+    switch (solid->kind) {
+    case SOLID_SPHERE:
+        return mesh_sphere(mesh, radius, divisions, divisions, message);
+    case SOLID_BOX:
+        return box_mesh(radius, divisions, mesh, message);
+    case SOLID_QUAD:
+        return mesh_quad(mesh, divisions, message);
+    case SOLID_DISC:
+        return mesh_disc(mesh, radius, divisions, quarter, message);
+    case SOLID_CYLINDER:
+        return mesh_cylinder(mesh, radius, height, divisions, quarter, solid->caps, message);
+    case SOLID_CONE:
+        return mesh_cone(mesh, radius, height, divisions, quarter, message);
+    case SOLID_TORUS:
+        return mesh_torus(mesh, solid->tube, radius, at_least(3, divisions / 2), divisions,
+                          message);
+    case SOLID_TEAPOT:
+        return mesh_teapot(mesh, radius, at_least(2, quarter), message);
+    case SOLID_NONE:
+        break;
+    }
+    return message_set(message, "solid: a shape without formula has the mesh that it has");
+}
+
+bool solid_flat(const Solid *solid)
+{
+    return solid->kind == SOLID_BOX || solid->kind == SOLID_QUAD || solid->kind == SOLID_DISC;
+}
