@@ -150,6 +150,17 @@ static bool make_framebuffers(Canvas *canvas, Message *message)
     return check_bits(canvas, message);
 }
 
+/* In the current context, whatever else a canvas is. */
+static bool make_canvas(Canvas *canvas, const CanvasOptions *options, Message *message)
+{
+    canvas->real = options->real && gl_version() >= 30 && gl_has("GL_EXT_color_buffer_float");
+    if (!choose_samples(canvas, options->samples, message) || !check_size(canvas, message) ||
+        !make_framebuffers(canvas, message))
+        return false;
+    canvas_begin(canvas);
+    return true;
+}
+
 bool canvas_open(Canvas *canvas, const CanvasOptions *options, Message *message)
 {
     *canvas = (Canvas){
@@ -167,17 +178,30 @@ bool canvas_open(Canvas *canvas, const CanvasOptions *options, Message *message)
         return false;
     }
     is_open = true;
-    if (!gl_load(canvas->backend->address, message))
-        goto fail;
-    canvas->renderer = (const char *)glGetString(GL_RENDERER);
-    canvas->version = (const char *)glGetString(GL_VERSION);
-    canvas->real = options->real && gl_version() >= 30 && gl_has("GL_EXT_color_buffer_float");
-    if (!choose_samples(canvas, options->samples, message) || !check_size(canvas, message) ||
-        !make_framebuffers(canvas, message))
-        goto fail;
-    canvas_begin(canvas);
-    return true;
-fail:
+    if (gl_load(canvas->backend->address, message)) {
+        canvas->renderer = (const char *)glGetString(GL_RENDERER);
+        canvas->version = (const char *)glGetString(GL_VERSION);
+        if (make_canvas(canvas, options, message))
+            return true;
+    }
+    canvas_close(canvas);
+    return false;
+}
+
+bool canvas_open_beside(Canvas *canvas, const Canvas *first, const CanvasOptions *options,
+                        Message *message)
+{
+    *canvas = (Canvas){.backend = first->backend,
+                       .context = first->context,
+                       .beside = true,
+                       .platform = first->platform,
+                       .renderer = first->renderer,
+                       .version = first->version,
+                       .width = options->width,
+                       .height = options->height,
+                       .supersample = options->supersample > 1 ? options->supersample : 1};
+    if (make_canvas(canvas, options, message))
+        return true;
     canvas_close(canvas);
     return false;
 }
@@ -199,16 +223,21 @@ void canvas_view(const Canvas *canvas, int x, int y, int width, int height)
     glScissor(x * side, bottom, width * side, height * side);
 }
 
-bool canvas_resize(Canvas *canvas, int width, int height, Message *message)
+static void delete_framebuffers(Canvas *canvas)
 {
-    if (canvas->width == width && canvas->height == height)
-        return true;
     const GLuint framebuffers[2] = {canvas->framebuffer, canvas->resolve_framebuffer};
     const GLuint buffers[3] = {canvas->color, canvas->depth, canvas->resolve_color};
     glDeleteFramebuffers(2, framebuffers); /* 0 is left alone */
     glDeleteRenderbuffers(3, buffers);
     canvas->framebuffer = canvas->resolve_framebuffer = 0;
     canvas->color = canvas->depth = canvas->resolve_color = 0;
+}
+
+bool canvas_resize(Canvas *canvas, int width, int height, Message *message)
+{
+    if (canvas->width == width && canvas->height == height)
+        return true;
+    delete_framebuffers(canvas);
     canvas->width = width;
     canvas->height = height;
     if (!check_size(canvas, message) || !make_framebuffers(canvas, message))
@@ -318,8 +347,12 @@ void canvas_close(Canvas *canvas)
             *canvas = (Canvas){0};
         return;
     }
-    /* The context owns its framebuffers and takes them along. */
-    canvas->backend->close(canvas->context);
-    is_open = false;
+    if (canvas->beside) {
+        delete_framebuffers(canvas);
+    } else {
+        /* The context owns its framebuffers and takes them along. */
+        canvas->backend->close(canvas->context);
+        is_open = false;
+    }
     *canvas = (Canvas){0};
 }

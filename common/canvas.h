@@ -41,6 +41,7 @@ typedef struct CanvasOptions {
 typedef struct Canvas {
     const CanvasBackend *backend;
     void *context;
+    bool beside; /* another canvas owns the context */
     const char *platform;
     const char *renderer, *version; /* GL_RENDERER, GL_VERSION */
     int width, height;
@@ -55,6 +56,11 @@ typedef struct Canvas {
 /* Opens a canvas with 8-bit RGBA (or float) colour and at least 24 bits of depth, and checks that
  * it got them. `canvas` is zeroed on failure. */
 bool canvas_open(Canvas *canvas, const CanvasOptions *options, Message *message);
+
+/* Opens another canvas in the context of `first`, of its own size and kind; options->backend does
+ * not count. It is to be closed before `first`. */
+bool canvas_open_beside(Canvas *canvas, const Canvas *first, const CanvasOptions *options,
+                        Message *message);
 
 /* Gives an open canvas another size, in the same context. On failure it can only be closed. */
 bool canvas_resize(Canvas *canvas, int width, int height, Message *message);

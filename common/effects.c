@@ -219,10 +219,10 @@ static void decide_normals(const Scene *scene, const Object *object, Effects *ef
         say(file, "without normal matrix: the scene asks for the wrong one, the model-view matrix");
     else
         say(file, "without normal matrix: the model-view matrix is orthogonal, and serves");
-    effects->normalize_fragment = at_fragments && !object->flat;
+    effects->normalize_fragment = at_fragments && !object->flat && !scene->skip_renormalization;
     /* Where fragments make the normal unit, equal lengths at the vertices do no harm. */
     const bool equal_lengths = transform != GENERAL;
-    bool at_vertices = object->flat;
+    bool at_vertices = object->flat || scene->skip_renormalization;
     for (int i = 0; i < effects->group_count; i++)
         at_vertices |= effects->groups[i].terms.at_vertex;
     effects->normalize_vertex = transform != ORTHONORMAL && (at_vertices || !equal_lengths);
@@ -236,7 +236,9 @@ static void decide_normals(const Scene *scene, const Object *object, Effects *ef
         effects->normalize_fragment
             ? "normals made unit at the fragments: interpolated ones are shorter"
             : "normals not made unit at the fragments: %s",
-        at_fragments ? "they are the same all over a triangle" : "no light is computed there");
+        !at_fragments  ? "no light is computed there"
+        : object->flat ? "they are the same all over a triangle"
+                       : "the scene asks so");
 }
 
 /* Whether the object is a solid that is seen from outside, and not cut by the near plane. */
@@ -328,7 +330,8 @@ Effects effects_full(const Scene *scene, const Object *object)
     memset(&full, 0, sizeof full);
     full.alpha = full.base = full.normals = true;
     full.local_viewer = full.two_sided = true;
-    full.normal_matrix = full.normalize_vertex = full.normalize_fragment = true;
+    full.normal_matrix = full.normalize_vertex = true;
+    full.normalize_fragment = !scene->skip_renormalization;
     full.reflection = scene->reflection;
     decide_output(scene, &full, scene->light_count > 0, NULL);
     (void)object;

@@ -34,7 +34,15 @@ struct Lighting {
     Variant *variants;
     Buffered *buffers;
     LightingCounts counts;
+    LightingTransforms transforms;
 };
+
+static const LightingTransforms USUAL = {scene_eye_from_object, scene_eye_point, mat4_product};
+
+void lighting_use_transforms(Lighting *lighting, const LightingTransforms *transforms)
+{
+    lighting->transforms = transforms ? *transforms : USUAL;
+}
 
 /* Recipes. */
 
@@ -345,8 +353,8 @@ static void set_colors(GLuint program, const Scene *scene, const LightGroup *gro
         set_array(program, names[k], g, 3, group->count, values[k]);
 }
 
-static void set_group(GLuint program, const Scene *scene, Mat4 eye_from_world,
-                      const LightGroup *group, int g)
+static void set_group(GLuint program, const LightingTransforms *transforms, const Scene *scene,
+                      Mat4 eye_from_world, const LightGroup *group, int g)
 {
     float position[4 * EFFECTS_MOST_LIGHTS], direction[3 * EFFECTS_MOST_LIGHTS];
     float half[3 * EFFECTS_MOST_LIGHTS], attenuation[3 * EFFECTS_MOST_LIGHTS];
@@ -359,9 +367,9 @@ static void set_group(GLuint program, const Scene *scene, Mat4 eye_from_world,
         Vec3 unit, half_eye;
         vec3_normalize(light->direction, &unit);
         const Vec3 direction_eye = mat4_transform_direction(eye_from_world, unit);
-        const Vec3 place = directional
-                               ? direction_eye
-                               : scene_eye_point(&scene->camera, eye_from_world, light->position);
+        const Vec3 place =
+            directional ? direction_eye
+                        : transforms->eye_point(&scene->camera, eye_from_world, light->position);
         vec3_to_float(place, &position[size * i]);
         if (size == 4)
             position[4 * i + 3] = directional ? 0 : 1;
@@ -422,21 +430,22 @@ static bool draw_object(Lighting *lighting, const Scene *scene, const Object *ob
         return false;
 
     const GLuint program = variant->shader.program;
+    const LightingTransforms *transforms = &lighting->transforms;
     const Mat4 eye_from_object =
-        scene_eye_from_object(&scene->camera, eye_from_world, object->world_from_object);
+        transforms->eye_from_object(&scene->camera, eye_from_world, object->world_from_object);
     Mat4 normal_matrix;
     if (object->wrong_normals)
         normal_matrix = eye_from_object;
     else
         mat4_normal(eye_from_object, &normal_matrix); /* zero where there is none: unlit */
     glUseProgram(program);
-    set_mat4(program, "u_ClipFromObject", mat4_product(clip_from_eye, eye_from_object));
+    set_mat4(program, "u_ClipFromObject", transforms->product(clip_from_eye, eye_from_object));
     set_mat4(program, "u_EyeFromObject", eye_from_object);
     set_mat4(program, "u_NormalMatrix", normal_matrix);
     set_float(program, "u_LocalViewer", scene->distant_viewer ? 0 : 1);
     set_materials(program, scene, object, &effects, full);
     for (int g = 0; g < effects.group_count; g++)
-        set_group(program, scene, eye_from_world, &effects.groups[g], g);
+        set_group(program, transforms, scene, eye_from_world, &effects.groups[g], g);
 
     /* A mirror turns what was counter-clockwise. */
     glFrontFace(mat4_determinant(eye_from_object) < 0 ? GL_CW : GL_CCW);
@@ -479,6 +488,7 @@ bool lighting_open(Lighting **opened, const ShaderLoader *loader, Message *messa
     if (!lighting)
         return message_set(message, "lighting: not enough memory");
     lighting->loader = *loader;
+    lighting->transforms = USUAL;
     return true;
 }
 

@@ -60,8 +60,9 @@ typedef struct Scene {
     bool distant_viewer; /* V = (0, 0, 1) in eye coordinates everywhere, as OpenGL 1.1's default */
     bool clamp_vertex; /* clamp each vertex's colour before it is interpolated, as OpenGL 1.1 does;
                           without effect where fragments are lit */
-    bool linear;       /* take colours for linear and encode the sum as sRGB */
-    bool show_clipped; /* paint magenta where a channel exceeds 1 */
+    bool skip_renormalization; /* leave interpolated normals as they are, shorter than unit */
+    bool linear;               /* take colours for linear and encode the sum as sRGB */
+    bool show_clipped;         /* paint magenta where a channel exceeds 1 */
 } Scene;
 
 /* Whether a scene has a meaning: every number finite and in its range, a camera that looks

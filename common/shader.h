@@ -22,6 +22,11 @@ typedef struct ShaderText {
     const char *name, *text;
 } ShaderText;
 
+/* A file that stands in for another wherever that is included. */
+typedef struct ShaderReplacement {
+    const char *name, *by;
+} ShaderReplacement;
+
 /* Where and how shaders are loaded: the same for every shader of a program. Zero means default. */
 typedef struct ShaderLoader {
     const char *folder;         /* --shaders: looked in first; NULL for none */
@@ -29,8 +34,9 @@ typedef struct ShaderLoader {
                                    highp; NULL: as the file says */
     const char *const *defines; /* "NAME" or "NAME value", ended by NULL; may be NULL */
     const ShaderText *texts;    /* looked in before any folder; ended by a NULL name; may be NULL */
-    int print;                  /* what to print on standard output, as below */
-    bool verbose;               /* report compile times on standard error */
+    const ShaderReplacement *replacements; /* ended by a NULL name; may be NULL */
+    int print;                             /* what to print on standard output, as below */
+    bool verbose;                          /* report compile times on standard error */
 } ShaderLoader;
 
 enum { SHADER_PRINT_VERTEX = 1, SHADER_PRINT_FRAGMENT = 2 };

@@ -190,6 +190,12 @@ static bool try_file(const char *path, char **text, size_t *size, char *tried, s
 static bool find_file(const ShaderLoader *loader, const char *name, const char *from,
                       char path[PATH_MAX], char **text, size_t *size, Message *message)
 {
+    for (const ShaderReplacement *r = loader->replacements; r && r->name; r++) {
+        if (strcmp(r->name, name) == 0) {
+            name = r->by;
+            break;
+        }
+    }
     for (const ShaderText *made = loader->texts; made && made->name; made++) {
         if (strcmp(made->name, name) != 0)
             continue;

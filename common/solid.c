@@ -14,8 +14,8 @@ static bool box_mesh(double half_side, int divisions, Mesh *mesh, Message *messa
     Mesh cube;
     if (!mesh_cube(&cube, half_side, message))
         return false;
-    if (!mesh_open(mesh, 6 * side * side,
-                   6 * mesh_grid_size(divisions, divisions, MESH_POLE_NONE), message)) {
+    if (!mesh_open(mesh, 6 * side * side, 6 * mesh_grid_size(divisions, divisions, MESH_POLE_NONE),
+                   message)) {
         mesh_close(&cube);
         return false;
     }

@@ -29,6 +29,7 @@ varying vec3 v_Position;
 #endif
 
 #include "lighting/common.glsl"
+#include "lighting/output.glsl"
 #ifdef FRAGMENT_LIGHTS
 #include "lighting/fragment_groups.glsl"
 #endif
@@ -80,8 +81,8 @@ void main() {
 #endif
     // The sum is clamped once, here, by the framebuffer.
 #ifdef ALPHA
-    gl_FragColor = vec4(color, SIDE(u_FrontAlpha, u_BackAlpha));
+    gl_FragColor = vec4(output_color(color), SIDE(u_FrontAlpha, u_BackAlpha));
 #else
-    gl_FragColor = vec4(color, 1.0);
+    gl_FragColor = vec4(output_color(color), 1.0);
 #endif
 }

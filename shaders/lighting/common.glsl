@@ -1,9 +1,6 @@
 // common.glsl: what vertices and fragments share. Eye coordinates.
 
-// A vector of no length stays one, where normalize would give NaN.
-vec3 safe_normalize(vec3 v) {
-    return v * inversesqrt(max(dot(v, v), 1e-30));
-}
+#include "lighting/guards.glsl"
 
 // The direction to the viewer: to the eye, or along z if the viewer is infinitely far away.
 #ifdef FULL
@@ -24,6 +21,7 @@ uniform float u_BackNormal; // -1 with two-sided lighting, else 1
 #endif
 
 #ifdef SHININESS
+#include "lighting/highlight.glsl"
 uniform float u_FrontShininess;
 #ifdef TWO_SIDED
 uniform float u_BackShininess;

@@ -58,15 +58,15 @@ void GROUP(vec3 normal, vec3 position, vec3 viewer, bool front, inout vec3 color
         vec3 way = u_Position[i] - position;
 #endif
         float square = dot(way, way);
-        vec3 to_light = way * inversesqrt(max(square, 1e-30));
+        vec3 to_light = way * safe_inversesqrt(square);
 #ifdef ATTENUATION
-        share = 1.0 / max(dot(u_Attenuation[i], vec3(1.0, sqrt(square), square)), 1e-30);
+        share = safe_inverse(dot(u_Attenuation[i], vec3(1.0, sqrt(square), square)));
 #endif
 #endif
 #ifdef SPOT
         float along = dot(-to_light, u_Spot[i].xyz);
 #ifdef EXPONENT
-        share *= along >= u_Spot[i].w ? pow(max(along, 1e-37), u_Exponent[i]) : 0.0;
+        share *= along >= u_Spot[i].w ? safe_pow(along, u_Exponent[i]) : 0.0;
 #else
         share *= along >= u_Spot[i].w ? 1.0 : 0.0;
 #endif
@@ -83,18 +83,15 @@ void GROUP(vec3 normal, vec3 position, vec3 viewer, bool front, inout vec3 color
         sum += PICK(u_FrontDiffuse[i], u_BackDiffuse[i]) * max(n_dot_l, 0.0);
 #endif
 #ifdef SPECULAR
-#ifdef PHONG
-        float cosine = dot(2.0 * n_dot_l * normal - to_light, viewer);
-#elif defined(HALF_VECTOR)
-        float cosine = dot(normal, u_Half[i]);
-#else
-        float cosine = dot(normal, safe_normalize(to_light + viewer));
-#endif
-        // Behind the surface there is no highlight. 0 to the power of 0 is undefined in GLSL, and 1
-        // here, as for any other number; 1e-37 to the power of a shininess that shows is 0.
         float shininess = PICK(u_FrontShininess, u_BackShininess);
-        float highlight = n_dot_l > 0.0 ? pow(max(cosine, 1e-37), shininess) : 0.0;
-        sum += PICK(u_FrontSpecular[i], u_BackSpecular[i]) * highlight;
+#ifdef PHONG
+        float power = highlight(2.0 * n_dot_l * normal - to_light, viewer, shininess);
+#elif defined(HALF_VECTOR)
+        float power = highlight(normal, u_Half[i], shininess);
+#else
+        float power = highlight(normal, safe_normalize(to_light + viewer), shininess);
+#endif
+        sum += PICK(u_FrontSpecular[i], u_BackSpecular[i]) * facing(n_dot_l, power);
 #endif
         color += share * sum;
     }

@@ -1,0 +1,28 @@
+// guards.glsl: what keeps the cases finite in which a formula of the book divides by zero or leaves
+// its domain.
+
+// The inverse of a length, of its square. Of no length: large, where inversesqrt gives infinity.
+float safe_inversesqrt(float square) {
+    return inversesqrt(max(square, 1e-30));
+}
+
+// A vector of no length stays one, where normalize would give NaN.
+vec3 safe_normalize(vec3 v) {
+    return v * safe_inversesqrt(dot(v, v));
+}
+
+// The share of light that arrives.
+float safe_inverse(float denominator) {
+    return 1.0 / max(denominator, 1e-30);
+}
+
+// 0 to the power of 0 is undefined in GLSL, and 1 here, as for any other number; 1e-37 to the power
+// of a shininess that shows is 0.
+float safe_pow(float base, float exponent) {
+    return pow(max(base, 1e-37), exponent);
+}
+
+// Behind the surface there is no highlight.
+float facing(float n_dot_l, float highlight) {
+    return n_dot_l > 0.0 ? highlight : 0.0;
+}

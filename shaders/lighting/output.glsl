@@ -1,0 +1,6 @@
+// output.glsl: the last step before the framebuffer, which clamps and rounds to the nearest of its
+// values.
+
+vec3 output_color(vec3 color) {
+    return color;
+}
