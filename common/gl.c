@@ -6,6 +6,10 @@
 
 #define GL_DEFINE(TYPE, name) PFNGL##TYPE##PROC gl##name;
 GL_FUNCTIONS(GL_DEFINE)
+#undef GL_DEFINE
+#define GL_DEFINE(TYPE, name) PFNGL##TYPE##EXTPROC gl##name##EXT;
+GL_TIMER_FUNCTIONS(GL_DEFINE)
+#undef GL_DEFINE
 GlRenderbufferStorageMultisample glRenderbufferStorageMultisample;
 GlBlitFramebuffer glBlitFramebuffer;
 
@@ -33,6 +37,11 @@ bool gl_load(GlFunction (*address)(const char *name), Message *message)
             (GlRenderbufferStorageMultisample)address("glRenderbufferStorageMultisampleANGLE");
         glBlitFramebuffer = (GlBlitFramebuffer)address("glBlitFramebufferANGLE");
     }
+    const bool timer = gl_has("GL_EXT_disjoint_timer_query");
+#define GL_LOAD(TYPE, name)                                                                        \
+    gl##name##EXT = timer ? (PFNGL##TYPE##EXTPROC)address("gl" #name "EXT") : NULL;
+    GL_TIMER_FUNCTIONS(GL_LOAD)
+#undef GL_LOAD
     return true;
 }
 

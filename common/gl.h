@@ -77,10 +77,22 @@ typedef void(GL_APIENTRYP GlRenderbufferStorageMultisample)(GLenum, GLsizei, GLe
 typedef void(GL_APIENTRYP GlBlitFramebuffer)(GLint, GLint, GLint, GLint, GLint, GLint, GLint, GLint,
                                              GLbitfield, GLenum);
 
+/* Of GL_EXT_disjoint_timer_query; NULL where the context lacks it. */
+#define GL_TIMER_FUNCTIONS(X)                                                                      \
+    X(BEGINQUERY, BeginQuery)                                                                      \
+    X(DELETEQUERIES, DeleteQueries)                                                                \
+    X(ENDQUERY, EndQuery)                                                                          \
+    X(GENQUERIES, GenQueries)                                                                      \
+    X(GETQUERYIV, GetQueryiv)                                                                      \
+    X(GETQUERYOBJECTUI64V, GetQueryObjectui64v)
+
 /* Hidden, so that no driver that is loaded later can take these variables for its functions. */
 #pragma GCC visibility push(hidden)
 #define GL_DECLARE(TYPE, name) extern PFNGL##TYPE##PROC gl##name;
 GL_FUNCTIONS(GL_DECLARE)
+#undef GL_DECLARE
+#define GL_DECLARE(TYPE, name) extern PFNGL##TYPE##EXTPROC gl##name##EXT;
+GL_TIMER_FUNCTIONS(GL_DECLARE)
 #undef GL_DECLARE
 extern GlRenderbufferStorageMultisample glRenderbufferStorageMultisample;
 extern GlBlitFramebuffer glBlitFramebuffer;

@@ -37,7 +37,14 @@ struct Lighting {
     LightingTransforms transforms;
 };
 
-static const LightingTransforms USUAL = {scene_eye_from_object, scene_eye_point, mat4_product};
+static Mat4 clip_from_object(Mat4 clip_from_eye, Mat4 eye_from_world, Mat4 world_from_object,
+                             Mat4 eye_from_object)
+{
+    (void)eye_from_world, (void)world_from_object;
+    return mat4_product(clip_from_eye, eye_from_object);
+}
+
+static const LightingTransforms USUAL = {scene_eye_from_object, scene_eye_point, clip_from_object};
 
 void lighting_use_transforms(Lighting *lighting, const LightingTransforms *transforms)
 {
@@ -439,7 +446,9 @@ static bool draw_object(Lighting *lighting, const Scene *scene, const Object *ob
     else
         mat4_normal(eye_from_object, &normal_matrix); /* zero where there is none: unlit */
     glUseProgram(program);
-    set_mat4(program, "u_ClipFromObject", transforms->product(clip_from_eye, eye_from_object));
+    set_mat4(program, "u_ClipFromObject",
+             transforms->clip_from_object(clip_from_eye, eye_from_world, object->world_from_object,
+                                          eye_from_object));
     set_mat4(program, "u_EyeFromObject", eye_from_object);
     set_mat4(program, "u_NormalMatrix", normal_matrix);
     set_float(program, "u_LocalViewer", scene->distant_viewer ? 0 : 1);

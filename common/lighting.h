@@ -26,11 +26,12 @@ bool lighting_open(Lighting **lighting, const ShaderLoader *loader, Message *mes
 typedef struct LightingTransforms {
     Mat4 (*eye_from_object)(const Camera *camera, Mat4 eye_from_world, Mat4 world_from_object);
     Vec3 (*eye_point)(const Camera *camera, Mat4 eye_from_world, Vec3 point_world);
-    Mat4 (*product)(Mat4 a, Mat4 b); /* clip_from_eye * eye_from_object */
+    Mat4 (*clip_from_object)(Mat4 clip_from_eye, Mat4 eye_from_world, Mat4 world_from_object,
+                             Mat4 eye_from_object);
 } LightingTransforms;
 
-/* In the place of scene_eye_from_object, scene_eye_point and mat4_product, from now on. NULL: those
- * again. */
+/* In the place of scene_eye_from_object, scene_eye_point and clip_from_eye * eye_from_object, from
+ * now on. NULL: those again. */
 void lighting_use_transforms(Lighting *lighting, const LightingTransforms *transforms);
 
 /* Draws a scene that has passed scene_check into the current canvas, over what is there. `full`

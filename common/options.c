@@ -28,6 +28,7 @@ enum {
     OPTION_CLAMP,
     OPTION_LINEAR,
     OPTION_SHOW_CLIPPED,
+    OPTION_ERROR,
     OPTION_PARAMETER, /* the first of the program's own */
 };
 
@@ -57,6 +58,7 @@ static const struct option SCENE_OPTIONS[] = {
     {"clamp", required_argument, NULL, OPTION_CLAMP},
     {"linear", no_argument, NULL, OPTION_LINEAR},
     {"show-clipped", no_argument, NULL, OPTION_SHOW_CLIPPED},
+    {"error", required_argument, NULL, OPTION_ERROR},
 };
 
 enum {
@@ -65,27 +67,84 @@ enum {
     MOST_OPTIONS = LONG_COUNT + SCENE_COUNT + OPTIONS_MOST_PARAMETERS + 1,
 };
 
+/* Whether a study has this one of LONG_OPTIONS. */
+static bool is_of_study(int option)
+{
+    static const int OF_STUDY[] = {'o',           's', 'b', OPTION_SHADERS,
+                                   OPTION_DOCTOR, 'v', 'h', OPTION_VERSION};
+    for (size_t i = 0; i < sizeof OF_STUDY / sizeof OF_STUDY[0]; i++)
+        if (option == OF_STUDY[i])
+            return true;
+    return false;
+}
+
 /* Every option that a program has, as getopt_long wants them. */
 static void gather_options(const Usage *usage, struct option all[MOST_OPTIONS])
 {
-    int count = LONG_COUNT;
-    memcpy(all, LONG_OPTIONS, sizeof LONG_OPTIONS);
+    int count = 0;
+    for (int i = 0; i < LONG_COUNT; i++)
+        if (!usage->study || is_of_study(LONG_OPTIONS[i].val))
+            all[count++] = LONG_OPTIONS[i];
     for (int i = 0; i < SCENE_COUNT && usage->scene; i++)
         all[count++] = SCENE_OPTIONS[i];
     const Parameter *parameter = usage->parameters;
     for (int i = 0; parameter && parameter[i].name && i < OPTIONS_MOST_PARAMETERS; i++)
         all[count++] =
-            (struct option){parameter[i].name, required_argument, NULL, OPTION_PARAMETER + i};
+            (struct option){parameter[i].name,
+                            parameter[i].kind == PARAMETER_FLAG ? no_argument : required_argument,
+                            NULL, OPTION_PARAMETER + i};
     all[count] = (struct option){NULL, 0, NULL, 0};
 }
 
-static void print_help(const Usage *usage)
+/* What --help says of the options, each part on its own lines. */
+static const char HELP_DRAW[] =
+    "  -t, --time SECONDS     the moment to draw; default 0\n"
+    "  -a, --angle DEG        the moment at which an animation that turns by 30 degrees a\n"
+    "                         second has this angle\n";
+static const char HELP_FRAMES[] =
+    "  -n, --frames N         N pictures from --time on; the name needs a number, as in\n"
+    "                         -o turn%03d.png; default 1\n"
+    "      --fps F            pictures for each second of time; default 30\n";
+static const char HELP_SAMPLES[] =
+    "      --samples N        antialiasing with N samples a pixel; default 0, none\n";
+static const char HELP_WHERE[] =
+    "  -b, --backend egl      what draws; egl is headless\n"
+    "      --shaders DIR      look for shader files here first: edit a copy of a shader and\n"
+    "                         see what changes (also: LIGHTING_SHADERS in the environment)\n";
+static const char HELP_PICTURE[] =
+    "      --precision highp|mediump\n"
+    "                         of fragment shaders; default: as the shader says\n"
+    "      --print-shader[=vert|frag]\n"
+    "                         print what the driver is given, and draw nothing\n"
+    "      --alpha            keep the alpha channel: the background is transparent\n"
+    "      --compress 0..9    of PNG files: 0 is none, 9 is small; default fast\n";
+static const char HELP_SCENE[] =
+    "      --explain          say which effects the scene calls for, which it does not, why,\n"
+    "                         and what they cost; draw nothing\n"
+    "      --full             draw with the program that has every effect\n"
+    "      --error E          draw as cheaply as an error of E steps of 1/255 allows\n"
+    "      --clamp end|vertex where colours are clamped; default end; vertex is as\n"
+    "                         OpenGL 1.1 does\n"
+    "      --linear           light in linear space, and encode sRGB at the end\n"
+    "      --show-clipped     paint over-exposed pixels magenta\n";
+static const char HELP_REST[] =
+    "  -v, --verbose          say what runs where, and how long it took\n"
+    "      --doctor           say what this machine has for drawing, and what is missing\n"
+    "  -h, --help             this text\n"
+    "      --version          the version\n";
+
+static void print_output_help(const Usage *usage)
 {
     if (usage->gallery)
         printf("Usage: %s [options] [NAME...]\n\n%s\n\n"
                "  -o, --output DIR       the folder for the pictures, the contact sheet and\n"
                "                         index.html; made if need be; default gallery\n",
                usage->name, usage->summary);
+    else if (usage->study)
+        printf("Usage: %s [options]\n\n%s\n\n"
+               "  -o, --output DIR       the folder for what it finds; made if need be; default\n"
+               "                         %s\n",
+               usage->name, usage->summary, usage->name);
     else
         printf("Usage: %s [options]\n\n%s\n\n"
                "Draws one picture without a window or a display.\n\n"
@@ -93,35 +152,26 @@ static void print_help(const Usage *usage)
                "                         format (.png, .exr, .tif, .jpg, .webp...); - writes PNG\n"
                "                         to standard output\n",
                usage->name, usage->summary, usage->name);
-    const int width = usage->width ? usage->width : 400;
-    const int height = usage->height ? usage->height : 400;
-    printf("  -s, --size WxH         in pixels; default %dx%d\n"
-           "  -t, --time SECONDS     the moment to draw; default 0\n"
-           "  -a, --angle DEG        the moment at which an animation that turns by 30 degrees a\n"
-           "                         second has this angle\n",
-           width, height);
-    if (!usage->gallery)
-        printf(
-            "  -n, --frames N         N pictures from --time on; the name needs a number, as in\n"
-            "                         -o turn%%03d.png; default 1\n"
-            "      --fps F            pictures for each second of time; default 30\n");
-    printf(
-        "      --samples N        antialiasing with N samples a pixel; default 0, none\n"
-        "  -b, --backend egl      what draws; egl is headless\n"
-        "      --shaders DIR      look for shader files here first: edit a copy of a shader and\n"
-        "                         see what changes (also: LIGHTING_SHADERS in the environment)\n"
-        "      --precision highp|mediump\n"
-        "                         of fragment shaders; default: as the shader says\n"
-        "      --print-shader[=vert|frag]\n"
-        "                         print what the driver is given, and draw nothing\n"
-        "      --alpha            keep the alpha channel: the background is transparent\n"
-        "      --compress 0..9    of PNG files: 0 is none, 9 is small; default fast\n"
-        "  -v, --verbose          say what runs where, and how long it took\n"
-        "      --doctor           say what this machine has for drawing, and what is missing\n"
-        "  -h, --help             this text\n"
-        "      --version          the version\n\n"
-        "Exit status: 0, 1 if something failed, 2 if the command line is wrong.\n");
-    if (!usage->gallery)
+}
+
+static void print_help(const Usage *usage)
+{
+    const Parameter *parameter = usage->parameters;
+    const bool draws = !usage->study;
+    print_output_help(usage);
+    printf("  -s, --size WxH         in pixels; default %dx%d\n", usage->width ? usage->width : 400,
+           usage->height ? usage->height : 400);
+    printf("%s%s%s%s%s%s%s", draws ? HELP_DRAW : "", draws && !usage->gallery ? HELP_FRAMES : "",
+           draws ? HELP_SAMPLES : "", HELP_WHERE, draws ? HELP_PICTURE : "",
+           usage->scene ? HELP_SCENE : "", HELP_REST);
+    if (parameter && parameter->name)
+        printf("\nOf this program:\n");
+    for (; parameter && parameter->name; parameter++)
+        parameter_help(parameter, stdout);
+    printf("\nExit status: 0, 1 if something failed, 2 if the command line is wrong.\n");
+    if (usage->details)
+        printf("\n%s", usage->details);
+    else if (!usage->gallery)
         printf("\nTry:  %s --size 800x800 --samples 4\n"
                "      %s --frames 90 -o turn%%03d.png\n"
                "      %s --precision highp --print-shader=frag\n",
@@ -280,6 +330,10 @@ static bool read_option(Options *options, int option, const char *value, Message
     case OPTION_SHOW_CLIPPED:
         options->show_clipped = true;
         return true;
+    case OPTION_ERROR:
+        if (!parse_number(value, 0, 255, &options->error))
+            return bad_value("--error", value, "steps of 1/255, 0 to 255", message);
+        return true;
     default: /* 'v' */
         options->verbose = true;
         options->shaders.verbose = true;
@@ -294,10 +348,11 @@ static bool check_output(Options *options, const Usage *usage, Message *message)
     const char *output = options->output;
     if (options->doctor || options->shaders.print || options->explain)
         return true;
-    if (usage->gallery)
+    if (usage->gallery || usage->study)
         return strcmp(output, "-") != 0
                    ? true
-                   : message_set(message, "--output -: a gallery is a folder, not one picture");
+                   : message_set(message, "--output -: a %s is a folder, not one picture",
+                                 usage->gallery ? "gallery" : "study");
     if (strcmp(output, "-") == 0) {
         options->numbered = false;
         if (options->frames > 1)
@@ -332,13 +387,15 @@ OptionsResult options_read(Options *options, const Usage *usage, int argc, char 
                          .height = usage->height ? usage->height : 400,
                          .frames = 1,
                          .fps = 30,
+                         .error = -1,
                          .compress = IMAGE_COMPRESS_DEFAULT};
     optind = 0; /* from the beginning, however often this is called */
     opterr = 0;
     struct option all[MOST_OPTIONS];
     int option;
     gather_options(usage, all);
-    while ((option = getopt_long(argc, argv, ":o:s:t:a:n:b:vh", all, NULL)) != -1) {
+    const char *letters = usage->study ? ":o:s:b:vh" : ":o:s:t:a:n:b:vh";
+    while ((option = getopt_long(argc, argv, letters, all, NULL)) != -1) {
         if (option == 'h') {
             print_help(usage);
             return OPTIONS_ANSWERED;
@@ -363,13 +420,13 @@ OptionsResult options_read(Options *options, const Usage *usage, int argc, char 
     }
     options->names = argv + optind;
     if (!usage->gallery && optind < argc) {
-        message_set(message, "%s: not an option; --help lists them, -o FILE names the picture",
-                    argv[optind]);
+        message_set(message, "%s: not an option; --help lists them, -o %s", argv[optind],
+                    usage->study ? "DIR names the folder" : "FILE names the picture");
         return OPTIONS_BAD;
     }
     if (!options->output_given) {
-        if (usage->gallery)
-            snprintf(options->default_output, sizeof options->default_output, "gallery");
+        if (usage->gallery || usage->study)
+            snprintf(options->default_output, sizeof options->default_output, "%s", usage->name);
         else
             snprintf(options->default_output, sizeof options->default_output, "%s%s.png",
                      usage->name, options->frames > 1 ? "%04d" : "");

@@ -40,6 +40,8 @@ typedef struct Options {
     bool clamp_vertex; /* see scene.h */
     bool linear;
     bool show_clipped;
+    double error; /* draw as cheaply as an error of so many steps of 1/255 allows; negative: as the
+                     example says */
     char *const *names; /* arguments that are no options; NULL-terminated */
     char default_output[128];
 } Options;
@@ -48,7 +50,10 @@ typedef struct Options {
 typedef struct Usage {
     const char *name;
     const char *summary;
+    const char *details;         /* what --help says last; NULL: what there is to try */
     bool gallery;                /* -o names a folder, names may follow the options, no --frames */
+    bool study;                  /* -o names a folder; measures, so that one moment is drawn as its
+                                    own options say: none of those that change a picture */
     bool scene;                  /* the options of programs that draw scenes */
     int width, height;           /* of the picture where --size says nothing; zero: 400 */
     const Parameter *parameters; /* the program's own options; ended by a NULL name; may be NULL */

@@ -291,3 +291,15 @@ bool output_numbered(const char *pattern, int number, char *path, size_t path_si
                            pattern);
     return true;
 }
+
+bool output_folder(const char *path, Message *message)
+{
+    struct stat status;
+    if (strlen(path) > PATH_MAX - 128)
+        return message_set(message, "%s: %s", path, strerror(ENAMETOOLONG));
+    if (mkdir(path, 0777) != 0 && errno != EEXIST)
+        return message_set(message, "%s: cannot make the folder: %s", path, strerror(errno));
+    if (stat(path, &status) != 0 || !S_ISDIR(status.st_mode))
+        return message_set(message, "%s: is there already and no folder", path);
+    return true;
+}

@@ -22,6 +22,9 @@ bool output_write(const char *path, const void *bytes, size_t size, Message *mes
  * written, the path is no folder. Writes nothing. */
 bool output_check(const char *path, Message *message);
 
+/* Makes a folder if it is not there. Its path is short enough for what will stand in it. */
+bool output_folder(const char *path, Message *message);
+
 /* The path of picture `number`: `pattern` has one conversion of the form %d, %4d or %04d, and "%%"
  * for a percent sign. False where it has none, several or another, or the result is too long. */
 bool output_numbered(const char *pattern, int number, char *path, size_t path_size,

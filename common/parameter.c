@@ -68,6 +68,9 @@ bool parameter_read(const Parameter *parameter, const char *text, Message *messa
             return message_set(message, "--%s %s: must be on or off", parameter->name, text);
         *(bool *)parameter->value = text[1] == 'n';
         return true;
+    case PARAMETER_FLAG:
+        *(bool *)parameter->value = true;
+        return true;
     case PARAMETER_COLOR:
         if (read_color(parameter, text, parameter->value))
             return true;
@@ -95,9 +98,10 @@ void parameter_help(const Parameter *parameter, FILE *file)
     case PARAMETER_CHOICE:
         fprintf(file, "      --%s ", parameter->name);
         for (int i = 0, column = 0; parameter->choices[i]; i++) {
-            column += fprintf(file, "%s%s", i ? "|" : "", parameter->choices[i]);
+            column += fprintf(file, "%s%s", parameter->choices[i],
+                              parameter->choices[i + 1] ? "|" : "");
             if (column > 60 && parameter->choices[i + 1])
-                column = fprintf(file, "|\n%14s", "") - 16;
+                column = fprintf(file, "\n%14s", "") - 15;
         }
         fprintf(file, "\n%25s%s; default %s\n", "", parameter->help,
                 parameter->choices[*(const int *)value]);
@@ -106,6 +110,9 @@ void parameter_help(const Parameter *parameter, FILE *file)
         fprintf(file, "      --%s on|off\n", parameter->name);
         fprintf(file, "%25s%s; default %s\n", "", parameter->help,
                 *(const bool *)value ? "on" : "off");
+        break;
+    case PARAMETER_FLAG:
+        fprintf(file, "      --%s\n%25s%s\n", parameter->name, "", parameter->help);
         break;
     case PARAMETER_COLOR: {
         const Vec3 *color = value;

@@ -14,6 +14,7 @@ typedef enum ParameterKind {
     PARAMETER_WHOLE,  /* int */
     PARAMETER_CHOICE, /* int: the number of one of `choices` */
     PARAMETER_SWITCH, /* bool: "on" or "off" */
+    PARAMETER_FLAG,   /* bool: --NAME alone makes it true */
     PARAMETER_COLOR,  /* Vec3: "R,G,B", each least..most, or one number for grey */
     PARAMETER_TEXT,   /* const char *: any text, a file's name */
 } ParameterKind;
@@ -27,7 +28,7 @@ typedef struct Parameter {
     const char *const *choices; /* NULL-terminated */
 } Parameter;
 
-/* Sets a parameter from the command line. The message names it and its range, or for a choice the
+/* Sets a parameter from the command line; `text` does not count for a flag. The message names it and its range, or for a choice the
  * nearest of those there are. */
 bool parameter_read(const Parameter *parameter, const char *text, Message *message);
 

@@ -15,7 +15,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 /* The build gives every example's name, as X(LightedCube) X(LightedCube_animation)... */
 #define X(name) extern const Example name;
@@ -60,19 +59,6 @@ static bool select_examples(Selection *selection, char *const *names, Message *m
     for (int i = 0; i < COUNT; i++)
         if (!*names || chosen[i])
             selection->examples[selection->count++] = ALL[i];
-    return true;
-}
-
-/* The folder, made if it is not there. Its path is short enough for what will stand in it. */
-static bool make_folder(const char *folder, Message *message)
-{
-    struct stat status;
-    if (strlen(folder) > PATH_MAX - 128)
-        return message_set(message, "%s: %s", folder, strerror(ENAMETOOLONG));
-    if (mkdir(folder, 0777) != 0 && errno != EEXIST)
-        return message_set(message, "%s: cannot make the folder: %s", folder, strerror(errno));
-    if (stat(folder, &status) != 0 || !S_ISDIR(status.st_mode))
-        return message_set(message, "%s: is there already and no folder", folder);
     return true;
 }
 
@@ -273,7 +259,7 @@ static bool run(const Selection *selection, const Options *options, Message *mes
             stage_leave(selection->examples[i]);
     }
     if (done && !options->shaders.print) {
-        done = make_folder(options->output, message) &&
+        done = output_folder(options->output, message) &&
                sheet_open(&sheet, selection->count, message) &&
                draw_all(selection, &canvas, options, &sheet, message);
         if (done) {

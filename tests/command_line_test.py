@@ -8,6 +8,7 @@ the command line is at fault. Whoever fails says so in one line, writes nothing,
 there. Exit code of the test: 77 where nothing can be drawn.
 """
 import os
+import re
 import shutil
 import struct
 import subprocess
@@ -25,6 +26,16 @@ NO_DRIVER = {"__EGL_VENDOR_LIBRARY_DIRS": "/nonexistent", "LIBGL_DRIVERS_PATH": 
 # Somebody whom permissions bind. No test writes to a device as root, who would lose it to a fault.
 SOMEBODY = {"user": 65534, "group": 65534, "extra_groups": []} if os.getuid() == 0 else {}
 SMALL = ("-s", "40x40")
+
+
+def own_options(program):
+    """The names of the options that a scene's program alone has, from its source."""
+    path = os.path.join(SOURCE, "examples/lighting", program + ".c")
+    if not os.path.exists(path):
+        return []
+    with open(path) as file:
+        found = re.search(r"Parameter parameters\[\] = {(.*?)\n};", file.read(), re.DOTALL)
+    return re.findall(r'\.name = "([\w-]+)"', found[1]) if found else []
 
 
 class Png:
@@ -150,6 +161,9 @@ class Options(Case):
                 text = self.good("--help", program=program).decode()
                 self.assertTrue(text.startswith(f"Usage: {program} [options]"))
                 self.assertEqual(text, self.good("-h", "--bogus", program=program).decode())
+                self.assertEqual("--explain" in text, program in SCENES)
+                for option in own_options(program):
+                    self.assertIn(f"  --{option}", text)
         self.assertEqual(self.everything(), {})
 
     def test_every_program_draws_its_picture(self):

@@ -1,0 +1,391 @@
+#include "studio.h"
+
+#include "mesh_buffer.h"
+#include "operations.h"
+#include "progress.h"
+#include "transforms.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_CANVASES = 16, MOST_LIGHTINGS = 16, MOST_COUNTED = 512 };
+
+/* The operations of a shader that has been counted once. */
+typedef struct Counted {
+    char *text;
+    int operations;
+} Counted;
+
+struct Studio {
+    ShaderLoader loader;
+    int width, height;
+    Canvas first; /* owns the context; floats, for the surface that is seen */
+    struct {
+        CanvasOptions options;
+        Canvas canvas;
+    } canvases[MOST_CANVASES];
+    int canvas_count;
+    struct {
+        SettingLoader loader;
+        Lighting *lighting;
+    } lightings[MOST_LIGHTINGS];
+    int lighting_count;
+    Shader surface;
+    Image seen; /* object from 1, depth */
+    GLuint timer;
+    Counted counted[2][MOST_COUNTED]; /* by ShaderStage */
+    int counted_count[2];
+};
+
+bool studio_open(Studio **opened, const ShaderLoader *loader, const CanvasBackend *backend,
+                 int width, int height, Message *message)
+{
+    Studio *studio = calloc(1, sizeof *studio);
+    *opened = studio;
+    if (!studio)
+        return message_set(message, "study: not enough memory");
+    const CanvasOptions options = {
+        .backend = backend, .width = width, .height = height, .real = true};
+    studio->loader = *loader;
+    studio->width = width;
+    studio->height = height;
+    if (!canvas_open(&studio->first, &options, message) ||
+        !shader_open(&studio->surface, loader, "study/surface", message) ||
+        !image_open(&studio->seen, width, height, IMAGE_FLOAT, message))
+        goto fail;
+    if (!studio->first.real) {
+        message_set(message,
+                    "study: %s cannot draw to floats (GL_EXT_color_buffer_float), which "
+                    "telling the objects' insides takes",
+                    studio->first.renderer);
+        goto fail;
+    }
+    if (glGenQueriesEXT) {
+        GLint bits = 0;
+        glGetQueryivEXT(GL_TIME_ELAPSED_EXT, GL_QUERY_COUNTER_BITS_EXT, &bits);
+        if (bits > 0)
+            glGenQueriesEXT(1, &studio->timer);
+    }
+    return true;
+fail:
+    studio_close(studio);
+    *opened = NULL;
+    return false;
+}
+
+const char *studio_renderer(const Studio *studio)
+{
+    return studio->first.renderer;
+}
+
+const char *studio_version(const Studio *studio)
+{
+    return studio->first.version;
+}
+
+static const Canvas *find_canvas(Studio *studio, const Setting *setting, Message *message)
+{
+    const CanvasOptions wanted = setting_canvas(setting, studio->width, studio->height);
+    for (int i = 0; i < studio->canvas_count; i++) {
+        const CanvasOptions *have = &studio->canvases[i].options;
+        if (have->samples == wanted.samples && have->supersample == wanted.supersample &&
+            have->real == wanted.real)
+            return &studio->canvases[i].canvas;
+    }
+    if (studio->canvas_count == MOST_CANVASES) {
+        message_set(message, "study: more than %d kinds of framebuffers", MOST_CANVASES);
+        return NULL;
+    }
+    Canvas *canvas = &studio->canvases[studio->canvas_count].canvas;
+    if (!canvas_open_beside(canvas, &studio->first, &wanted, message))
+        return NULL;
+    studio->canvases[studio->canvas_count++].options = wanted;
+    return canvas;
+}
+
+static Lighting *find_lighting(Studio *studio, const Setting *setting, Message *message)
+{
+    SettingLoader loader;
+    setting_loader(&loader, &studio->loader, setting);
+    for (int i = 0; i < studio->lighting_count; i++) {
+        const SettingLoader *have = &studio->lightings[i].loader;
+        if (have->loader.precision == loader.loader.precision &&
+            memcmp(have->replacements, loader.replacements, sizeof loader.replacements) == 0)
+            return studio->lightings[i].lighting;
+    }
+    if (studio->lighting_count == MOST_LIGHTINGS) {
+        message_set(message, "study: more than %d kinds of programs", MOST_LIGHTINGS);
+        return NULL;
+    }
+    /* The loader points into itself: made where it stays. */
+    SettingLoader *place = &studio->lightings[studio->lighting_count].loader;
+    Lighting **lighting = &studio->lightings[studio->lighting_count].lighting;
+    setting_loader(place, &studio->loader, setting);
+    if (!lighting_open(lighting, &place->loader, message))
+        return NULL;
+    studio->lighting_count++;
+    return *lighting;
+}
+
+static void clear(const Drawing *drawing)
+{
+    const Vec3 color = drawing->made.scene.background;
+    canvas_begin(drawing->canvas);
+    glClearColor((float)color.x, (float)color.y, (float)color.z, 1);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
+static double aspect_of(const Studio *studio)
+{
+    return (double)studio->width / studio->height;
+}
+
+bool drawing_open(Drawing *drawing, Studio *studio, const Scene *scene, const Setting *setting,
+                  Message *message)
+{
+    double wall, gpu;
+    *drawing = (Drawing){.setting = *setting};
+    if (!setting_scene_open(&drawing->made, scene, setting, message))
+        return false;
+    drawing->canvas = find_canvas(studio, setting, message);
+    drawing->lighting = drawing->canvas ? find_lighting(studio, setting, message) : NULL;
+    if (!drawing->lighting || !scene_check(&drawing->made.scene, message) ||
+        !image_open(&drawing->image, studio->width, studio->height,
+                    drawing->canvas->real ? IMAGE_FLOAT : IMAGE_BYTE, message) ||
+        !drawing_frame(drawing, studio, &wall, &gpu, message)) {
+        drawing_close(drawing, studio);
+        return false;
+    }
+    return true;
+}
+
+bool drawing_frame(Drawing *drawing, Studio *studio, double *wall, double *gpu, Message *message)
+{
+    lighting_use_transforms(drawing->lighting, transforms_of(&drawing->setting));
+    glFinish();
+    const double start = progress_now();
+    if (studio->timer)
+        glBeginQueryEXT(GL_TIME_ELAPSED_EXT, studio->timer);
+    clear(drawing);
+    if (!lighting_draw(drawing->lighting, &drawing->made.scene, aspect_of(studio), false, message))
+        return false;
+    if (studio->timer)
+        glEndQueryEXT(GL_TIME_ELAPSED_EXT);
+    glFinish();
+    if (!canvas_read(drawing->canvas, &drawing->image, message))
+        return false;
+    *wall = progress_now() - start;
+    *gpu = NAN;
+    if (studio->timer) {
+        GLuint64 nanoseconds = 0;
+        GLint disjoint = 0;
+        glGetQueryObjectui64vEXT(studio->timer, GL_QUERY_RESULT_EXT, &nanoseconds);
+        glGetIntegerv(GL_GPU_DISJOINT_EXT, &disjoint);
+        if (!disjoint && nanoseconds > 0)
+            *gpu = 1e-9 * (double)nanoseconds;
+    }
+    return true;
+}
+
+bool drawing_empty(Drawing *drawing, Studio *studio, double *wall, Message *message)
+{
+    (void)studio;
+    glFinish();
+    const double start = progress_now();
+    clear(drawing);
+    glFinish();
+    if (!canvas_read(drawing->canvas, &drawing->image, message))
+        return false;
+    *wall = progress_now() - start;
+    return true;
+}
+
+/* Draws each object's number and depth, where the setting's transforms put it. */
+static bool see(Drawing *drawing, Studio *studio, Message *message)
+{
+    const Scene *scene = &drawing->made.scene;
+    const LightingTransforms *transforms = transforms_of(&drawing->setting);
+    const Shader *shader = &studio->surface;
+    Mat4 eye_from_world, clip_from_eye;
+    GLint number, clip_from_object;
+    if (!scene_camera(&scene->camera, aspect_of(studio), &eye_from_world, &clip_from_eye,
+                      message) ||
+        !shader_uniform(shader, "u_Object", &number, message) ||
+        !shader_uniform(shader, "u_ClipFromObject", &clip_from_object, message))
+        return false;
+    canvas_begin(&studio->first);
+    glClearColor(0, 0, 0, 0);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    glEnable(GL_DEPTH_TEST);
+    glUseProgram(shader->program);
+    for (int i = 0; i < scene->object_count; i++) {
+        const Object *object = &scene->objects[i];
+        const Mat4 world_from_object = object->world_from_object;
+        const Mat4 eye_from_object =
+            (transforms ? transforms->eye_from_object
+                        : scene_eye_from_object)(&scene->camera, eye_from_world, world_from_object);
+        const float one_more = (float)(i + 1);
+        MeshBuffer buffer;
+        if (!mesh_buffer_open(&buffer, object->mesh, message))
+            return false;
+        shader_set_mat4(clip_from_object,
+                        transforms
+                            ? transforms->clip_from_object(clip_from_eye, eye_from_world,
+                                                           world_from_object, eye_from_object)
+                            : mat4_product(clip_from_eye, eye_from_object));
+        glUniform1fv(number, 1, &one_more);
+        mesh_buffer_bind(&buffer, 0, -1);
+        glDrawElements(GL_TRIANGLES, buffer.index_count, buffer.index_type, NULL);
+        mesh_buffer_close(&buffer);
+    }
+    return canvas_read(&studio->first, &studio->seen, message);
+}
+
+/* Whether the pixel and its neighbours in the drawn mesh are the exact picture's object, and the
+ * pixel itself about as far away. */
+static bool same_surface(const Studio *studio, const Reference *exact, int x, int y)
+{
+    static const double DEPTH = 0.05;
+    const int width = studio->width, height = studio->height;
+    const size_t here = (size_t)y * (size_t)width + (size_t)x;
+    const float *seen = studio->seen.pixels;
+    for (int j = y - 1; j <= y + 1; j++) {
+        for (int i = x - 1; i <= x + 1; i++) {
+            if (i < 0 || i >= width || j < 0 || j >= height)
+                continue;
+            const size_t there = (size_t)j * (size_t)width + (size_t)i;
+            if ((int)lroundf(seen[4 * there]) - 1 != exact->object[here])
+                return false;
+        }
+    }
+    const double depth = (double)seen[4 * here + 1];
+    return fabs(depth - exact->depth[here]) <= DEPTH * exact->depth[here];
+}
+
+/* The largest of the three channels' errors, in steps of 1/255; the sum of their squares is added
+ * to *squares. */
+static double pixel_error(const Image *image, const float *exact, size_t pixel, double *squares)
+{
+    double largest = 0;
+    for (size_t c = 0; c < 3; c++) {
+        double value = image->type == IMAGE_FLOAT
+                           ? (double)((const float *)image->pixels)[4 * pixel + c]
+                           : ((const unsigned char *)image->pixels)[4 * pixel + c] / 255.0;
+        double error = 255;
+        if (isfinite(value)) {
+            value = value < 0 ? 0 : value > 1 ? 1 : value;
+            error = 255 * fabs(value - (double)exact[3 * pixel + c]);
+        }
+        largest = error > largest ? error : largest;
+        *squares += error * error;
+    }
+    return largest;
+}
+
+bool drawing_error(Drawing *drawing, Studio *studio, const Reference *exact, DrawingError *error,
+                   Message *message)
+{
+    double interior_squares = 0, all_squares = 0;
+    *error = (DrawingError){.interior_pixels = 0};
+    if (!see(drawing, studio, message))
+        return false;
+    for (int y = 0; y < studio->height; y++) {
+        for (int x = 0; x < studio->width; x++) {
+            const size_t pixel = (size_t)y * (size_t)studio->width + (size_t)x;
+            double squares = 0;
+            const double largest = pixel_error(&drawing->image, exact->color, pixel, &squares);
+            all_squares += squares;
+            error->all_maximum = fmax(error->all_maximum, largest);
+            if (exact->interior[pixel] && same_surface(studio, exact, x, y)) {
+                error->interior_pixels++;
+                interior_squares += squares;
+                error->interior_maximum = fmax(error->interior_maximum, largest);
+            }
+        }
+    }
+    const double count = 3.0 * studio->width * studio->height;
+    error->all_rms = sqrt(all_squares / count);
+    error->interior_rms =
+        error->interior_pixels ? sqrt(interior_squares / (3.0 * error->interior_pixels)) : NAN;
+    if (!error->interior_pixels)
+        error->interior_maximum = NAN;
+    return true;
+}
+
+/* Each text is counted once: counting starts three programs. */
+static int count_operations(Studio *studio, const char *text, ShaderStage stage)
+{
+    Counted *all = studio->counted[stage];
+    int *count = &studio->counted_count[stage];
+    Operations operations;
+    for (int i = 0; i < *count; i++)
+        if (strcmp(all[i].text, text) == 0)
+            return all[i].operations;
+    const int counted = operations_count(text, stage, &operations, NULL)
+                            ? operations.arithmetic + operations.special
+                            : -1;
+    if (*count < MOST_COUNTED && (all[*count].text = strdup(text)))
+        all[(*count)++].operations = counted;
+    return counted;
+}
+
+bool drawing_counts(const Drawing *drawing, Studio *studio, DrawingCounts *counts, Message *message)
+{
+    const Scene *scene = &drawing->made.scene;
+    const int side = drawing->canvas->supersample;
+    *counts = (DrawingCounts){.vertex_operations = -1, .fragment_operations = -1};
+    for (int i = 0; i < scene->object_count; i++) {
+        ShaderSource sources[2];
+        const Object *object = &scene->objects[i];
+        const bool flattened = scene->interpolation == INTERPOLATION_FLAT && !object->flat;
+        counts->vertices +=
+            (long long)(flattened ? object->mesh->index_count : object->mesh->vertex_count);
+        if (!lighting_sources(drawing->lighting, scene, object, false, sources, message))
+            return false;
+        const int vertex = count_operations(studio, sources[SHADER_VERTEX].text, SHADER_VERTEX);
+        const int fragment =
+            count_operations(studio, sources[SHADER_FRAGMENT].text, SHADER_FRAGMENT);
+        shader_source_close(&sources[SHADER_VERTEX]);
+        shader_source_close(&sources[SHADER_FRAGMENT]);
+        if (vertex > counts->vertex_operations)
+            counts->vertex_operations = vertex;
+        if (fragment > counts->fragment_operations)
+            counts->fragment_operations = fragment;
+    }
+    const float *seen = studio->seen.pixels;
+    for (size_t i = 0; i < (size_t)studio->width * (size_t)studio->height; i++)
+        counts->fragments += seen[4 * i] > 0 ? side * side : 0;
+    return true;
+}
+
+void drawing_close(Drawing *drawing, Studio *studio)
+{
+    (void)studio;
+    if (!drawing)
+        return;
+    for (int i = 0; drawing->lighting && i < drawing->made.scene.object_count; i++)
+        lighting_forget(drawing->lighting, drawing->made.scene.objects[i].mesh);
+    setting_scene_close(&drawing->made);
+    image_close(&drawing->image);
+    *drawing = (Drawing){.lighting = NULL};
+}
+
+void studio_close(Studio *studio)
+{
+    if (!studio)
+        return;
+    for (int i = 0; i < studio->lighting_count; i++)
+        lighting_close(studio->lightings[i].lighting);
+    for (int i = 0; i < studio->canvas_count; i++)
+        canvas_close(&studio->canvases[i].canvas);
+    if (studio->timer)
+        glDeleteQueriesEXT(1, &studio->timer);
+    shader_close(&studio->surface);
+    canvas_close(&studio->first);
+    image_close(&studio->seen);
+    for (int stage = 0; stage < 2; stage++)
+        for (int i = 0; i < studio->counted_count[stage]; i++)
+            free(studio->counted[stage][i].text);
+    free(studio);
+}

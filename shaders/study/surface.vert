@@ -1,0 +1,10 @@
+// surface.vert: for surface.frag: the distance along the view.
+
+attribute vec4 a_Position;
+uniform mat4 u_ClipFromObject;
+varying float v_Depth;
+
+void main() {
+    gl_Position = u_ClipFromObject * a_Position;
+    v_Depth = gl_Position.w; // of a perspective: -z in eye coordinates
+}
