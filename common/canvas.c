@@ -264,33 +264,46 @@ static bool turn_rows(Image *image, Message *message)
     return true;
 }
 
-/* Each pixel of `image` is the mean of `side` x `side` of `large`. */
-static void average(Image *image, const Image *large, int side)
+/* Adds row `y` of `large` to `sums`, `side` pixels to each. */
+static void add_row(const Image *large, size_t y, size_t side, double *sums)
 {
-    const size_t channels = 4, stride = (size_t)large->width * channels;
-    const double count = side * side;
-    for (int y = 0; y < image->height; y++) {
-        for (int x = 0; x < image->width; x++) {
-            for (size_t c = 0; c < channels; c++) {
-                const size_t first =
-                    (size_t)(y * side) * stride + (size_t)(x * side) * channels + c;
-                const size_t to = ((size_t)y * (size_t)image->width + (size_t)x) * channels + c;
-                double sum = 0;
-                for (size_t j = 0; j < (size_t)side; j++) {
-                    for (size_t i = 0; i < (size_t)side; i++) {
-                        const size_t from = first + j * stride + i * channels;
-                        sum += image->type == IMAGE_FLOAT
-                                   ? (double)((const float *)large->pixels)[from]
-                                   : (double)((const unsigned char *)large->pixels)[from];
-                    }
-                }
-                if (image->type == IMAGE_FLOAT)
-                    ((float *)image->pixels)[to] = (float)(sum / count);
-                else
-                    ((unsigned char *)image->pixels)[to] = (unsigned char)lrint(sum / count);
-            }
+    const size_t channels = 4, width = (size_t)large->width / side;
+    const size_t first = y * (size_t)large->width * channels;
+    const unsigned char *bytes = (const unsigned char *)large->pixels + first;
+    const float *floats = (const float *)large->pixels + first;
+    for (size_t x = 0; x < width; x++) {
+        for (size_t i = 0; i < side; i++) {
+            const size_t from = (x * side + i) * channels;
+            for (size_t c = 0; c < channels; c++)
+                sums[x * channels + c] +=
+                    large->type == IMAGE_FLOAT ? (double)floats[from + c] : bytes[from + c];
         }
     }
+}
+
+/* Each pixel of `image` is the mean of `side` x `side` of `large`. */
+static bool average(Image *image, const Image *large, int side, Message *message)
+{
+    const size_t count = 4 * (size_t)image->width;
+    const double squares = side * side;
+    double *sums = malloc(count * sizeof *sums);
+    if (!sums)
+        return message_set(message, "canvas: not enough memory for a row of pixels");
+    for (size_t y = 0; y < (size_t)image->height; y++) {
+        for (size_t i = 0; i < count; i++)
+            sums[i] = 0;
+        for (size_t j = 0; j < (size_t)side; j++)
+            add_row(large, y * (size_t)side + j, (size_t)side, sums);
+        for (size_t i = 0; i < count; i++) {
+            const double mean = sums[i] / squares;
+            if (image->type == IMAGE_FLOAT)
+                ((float *)image->pixels)[y * count + i] = (float)mean;
+            else
+                ((unsigned char *)image->pixels)[y * count + i] = (unsigned char)lrint(mean);
+        }
+    }
+    free(sums);
+    return true;
 }
 
 static bool read_pixels(const Canvas *canvas, Image *image, Message *message)
@@ -333,11 +346,10 @@ bool canvas_read(const Canvas *canvas, Image *image, Message *message)
     if (!image_open(&large, canvas->width * canvas->supersample,
                     canvas->height * canvas->supersample, image->type, message))
         return false;
-    const bool read = read_pixels(canvas, &large, message);
-    if (read)
-        average(image, &large, canvas->supersample);
+    const bool done = read_pixels(canvas, &large, message) &&
+                      average(image, &large, canvas->supersample, message);
     image_close(&large);
-    return read;
+    return done;
 }
 
 void canvas_close(Canvas *canvas)

@@ -1,5 +1,6 @@
 #include "material.h"
 
+#include <math.h>
 #include <string.h>
 
 /* Ambient, diffuse, specular, emission, alpha, shininess. */
@@ -127,4 +128,33 @@ const Material *material_find(const char *name)
         if (strcmp(MATERIALS[i].name, name) == 0)
             return &MATERIALS[i].material;
     return NULL;
+}
+
+/* The squared difference of the two highlights over the angle t of the normal from the half vector:
+ * V.R = cos 2t, N.H = cos t. */
+static double highlights_apart(double phong, double blinn_phong)
+{
+    enum { STEPS = 1000 };
+    double sum = 0;
+    for (int i = 0; i < STEPS; i++) {
+        const double t = acos(0) * (i + 0.5) / STEPS;
+        const double apart = pow(fmax(cos(2 * t), 0), phong) - pow(cos(t), blinn_phong);
+        sum += apart * apart;
+    }
+    return sum / STEPS;
+}
+
+/* By golden section; there is one minimum. */
+double material_fitted_shininess(double phong)
+{
+    const double ratio = (sqrt(5) - 1) / 2;
+    double low = phong, high = 8 * phong;
+    while (high - low > 1e-6 * high) {
+        const double a = high - ratio * (high - low), b = low + ratio * (high - low);
+        if (highlights_apart(phong, a) < highlights_apart(phong, b))
+            high = b;
+        else
+            low = a;
+    }
+    return (low + high) / 2;
 }

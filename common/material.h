@@ -31,4 +31,9 @@ extern const char *const MATERIAL_NAMES[MATERIAL_COUNT + 1];
 /* NULL where there is none of that name. */
 const Material *material_find(const char *name);
 
+/* The shininess with which Blinn-Phong's highlight is most like Phong's with this one (more than
+ * 0), where light and viewer lie opposite each other: the least squared difference over all normals
+ * in their plane. About 4 times as large. */
+double material_fitted_shininess(double phong);
+
 #endif

@@ -333,6 +333,7 @@ static bool read_option(Options *options, int option, const char *value, Message
     case OPTION_ERROR:
         if (!parse_number(value, 0, 255, &options->error))
             return bad_value("--error", value, "steps of 1/255, 0 to 255", message);
+        options->cheap = true;
         return true;
     default: /* 'v' */
         options->verbose = true;
@@ -387,7 +388,6 @@ OptionsResult options_read(Options *options, const Usage *usage, int argc, char 
                          .height = usage->height ? usage->height : 400,
                          .frames = 1,
                          .fps = 30,
-                         .error = -1,
                          .compress = IMAGE_COMPRESS_DEFAULT};
     optind = 0; /* from the beginning, however often this is called */
     opterr = 0;

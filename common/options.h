@@ -40,8 +40,8 @@ typedef struct Options {
     bool clamp_vertex; /* see scene.h */
     bool linear;
     bool show_clipped;
-    double error; /* draw as cheaply as an error of so many steps of 1/255 allows; negative: as the
-                     example says */
+    bool cheap; /* --error: draw as cheaply as an error of `error` steps of 1/255 allows */
+    double error;
     char *const *names; /* arguments that are no options; NULL-terminated */
     char default_output[128];
 } Options;

@@ -186,21 +186,14 @@ static Light at_infinity(const Light *light, Vec3 center)
     return far;
 }
 
-static bool same_solid(const Solid *a, const Solid *b)
-{
-    return a->kind == b->kind && a->radius == b->radius && a->height == b->height &&
-           a->tube == b->tube && a->caps == b->caps;
-}
-
 bool setting_scene_open(SettingScene *made, const Scene *scene, const Setting *setting,
-                        Message *message)
+                        SolidMeshes *meshes, Message *message)
 {
     const size_t lights = (size_t)scene->light_count, objects = (size_t)scene->object_count;
     *made = (SettingScene){.scene = *scene,
                            .lights = calloc(lights + 1, sizeof *made->lights),
-                           .objects = calloc(objects + 1, sizeof *made->objects),
-                           .meshes = calloc(objects + 1, sizeof *made->meshes)};
-    if (!made->lights || !made->objects || !made->meshes) {
+                           .objects = calloc(objects + 1, sizeof *made->objects)};
+    if (!made->lights || !made->objects) {
         setting_scene_close(made);
         return message_set(message, "setting: not enough memory for a scene");
     }
@@ -209,19 +202,15 @@ bool setting_scene_open(SettingScene *made, const Scene *scene, const Setting *s
                               ? at_infinity(&scene->lights[i], scene->camera.center)
                               : scene->lights[i];
     for (size_t i = 0; i < objects; i++) {
-        made->objects[i] = scene->objects[i];
-        /* Equal solids share a mesh. */
-        for (size_t k = 0; k < i && scene->objects[i].solid.kind; k++)
-            if (same_solid(&scene->objects[k].solid, &scene->objects[i].solid))
-                made->objects[i].mesh = made->objects[k].mesh;
-        if (!scene->objects[i].solid.kind || made->objects[i].mesh != scene->objects[i].mesh)
-            continue;
-        if (!solid_mesh(&scene->objects[i].solid, setting_divisions(setting), &made->meshes[i],
-                        message)) {
+        Object *object = &made->objects[i];
+        *object = scene->objects[i];
+        if (object->solid.kind)
+            object->mesh =
+                solid_meshes_find(meshes, &object->solid, setting_divisions(setting), message);
+        if (object->solid.kind && !object->mesh) {
             setting_scene_close(made);
             return false;
         }
-        made->objects[i].mesh = &made->meshes[i];
     }
     made->scene.lights = made->lights;
     made->scene.objects = made->objects;
@@ -235,11 +224,8 @@ void setting_scene_close(SettingScene *made)
 {
     if (!made)
         return;
-    for (int i = 0; made->meshes && i < made->scene.object_count; i++)
-        mesh_close(&made->meshes[i]);
     free(made->lights);
     free(made->objects);
-    free(made->meshes);
     *made = (SettingScene){.lights = NULL};
 }
 

@@ -78,19 +78,19 @@ bool setting_choose(Setting *setting, const char *axis, const char *choice, Mess
 /* Reads what setting_text writes. */
 bool setting_parse(Setting *setting, const char *text, Message *message);
 
-/* A scene as a setting has it: lights, objects and meshes of its own, the rest the scene's. */
+/* A scene as a setting has it: lights and objects of its own, the rest the scene's. */
 typedef struct SettingScene {
     Scene scene;
     Light *lights;
     Object *objects;
-    Mesh *meshes; /* one for each object that stands for a solid; else empty */
 } SettingScene;
 
-/* `scene` has passed scene_check, but its objects may lack meshes where they have solids; these get
- * the setting's divisions, the others stay as they are. Lights at infinity shine from where they
- * are towards the camera's centre; what they lose by distance there they lose everywhere. */
+/* `scene` would pass scene_check, but objects that stand for solids may lack meshes: these get
+ * those of the setting's divisions, from `meshes`; the others stay as they are. Lights at infinity
+ * shine from where they are towards the camera's centre; what they lose by distance there they lose
+ * everywhere. */
 bool setting_scene_open(SettingScene *made, const Scene *scene, const Setting *setting,
-                        Message *message);
+                        SolidMeshes *meshes, Message *message);
 void setting_scene_close(SettingScene *made);
 
 /* The loader for a setting's shaders: precision, and the files that stand in for those of the

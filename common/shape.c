@@ -33,18 +33,25 @@ bool shape_open(Shape *shape, ShapeKind kind, const char *model, Message *messag
         return open_model(mesh, model, message);
     switch (kind) {
     case SHAPE_CUBE:
+        shape->solid = (Solid){.kind = SOLID_BOX, .radius = 1};
         shape->flat = true;
         return mesh_cube(mesh, 1, message);
     case SHAPE_SPHERE:
+        shape->solid = (Solid){.kind = SOLID_SPHERE, .radius = 1};
         return mesh_sphere(mesh, 1, 20, 20, message);
     case SHAPE_TEAPOT:
+        shape->solid = (Solid){.kind = SOLID_TEAPOT, .radius = 1};
         shape->closed = false; /* there is a gap under its lid */
         return mesh_teapot(mesh, 1, 10, message);
     case SHAPE_TORUS:
+        shape->solid = (Solid){.kind = SOLID_TORUS, .radius = 1 / 1.5, .tube = 0.5 / 1.5};
         return mesh_torus(mesh, 0.5 / 1.5, 1 / 1.5, 32, 64, message);
     case SHAPE_CONE:
+        shape->solid = (Solid){.kind = SOLID_CONE, .radius = 1, .height = 2};
         return mesh_cone(mesh, 1, 2, 64, 16, message);
     case SHAPE_CYLINDER:
+        shape->solid =
+            (Solid){.kind = SOLID_CYLINDER, .radius = 0.75, .height = 1.5, .caps = MESH_CAP_BOTH};
         return mesh_cylinder(mesh, 0.75, 1.5, 64, 16, MESH_CAP_BOTH, message);
     case SHAPE_TETRAHEDRON:
         shape->flat = true;
@@ -67,6 +74,7 @@ bool shape_open(Shape *shape, ShapeKind kind, const char *model, Message *messag
 Object shape_object(const Shape *shape, Mat4 world_from_object, Material material)
 {
     return (Object){.mesh = &shape->mesh,
+                    .solid = shape->solid,
                     .flat = shape->flat,
                     .closed = shape->closed,
                     .world_from_object = world_from_object,

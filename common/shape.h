@@ -26,6 +26,7 @@ extern const char *const SHAPE_NAMES[SHAPE_COUNT + 1];
 /* A mesh and what is known of it. */
 typedef struct Shape {
     Mesh mesh;
+    Solid solid;
     bool flat, closed; /* as in Object */
 } Shape;
 

@@ -1,6 +1,6 @@
 #include "solid.h"
 
-#include <math.h>
+#include <stdlib.h>
 
 static int at_least(int least, int count)
 {
@@ -78,4 +78,42 @@ bool solid_mesh(const Solid *solid, int divisions, Mesh *mesh, Message *message)
 bool solid_flat(const Solid *solid)
 {
     return solid->kind == SOLID_BOX || solid->kind == SOLID_QUAD || solid->kind == SOLID_DISC;
+}
+
+static bool same_solid(const Solid *a, const Solid *b)
+{
+    return a->kind == b->kind && a->radius == b->radius && a->height == b->height &&
+           a->tube == b->tube && a->caps == b->caps;
+}
+
+const Mesh *solid_meshes_find(SolidMeshes *meshes, const Solid *solid, int divisions,
+                              Message *message)
+{
+    for (const SolidMesh *have = meshes->first; have; have = have->next)
+        if (have->divisions == divisions && same_solid(&have->solid, solid))
+            return &have->mesh;
+    SolidMesh *made = calloc(1, sizeof *made);
+    if (!made) {
+        message_set(message, "solid: not enough memory");
+        return NULL;
+    }
+    if (!solid_mesh(solid, divisions, &made->mesh, message)) {
+        free(made);
+        return NULL;
+    }
+    made->solid = *solid;
+    made->divisions = divisions;
+    made->next = meshes->first;
+    meshes->first = made;
+    return &made->mesh;
+}
+
+void solid_meshes_close(SolidMeshes *meshes)
+{
+    while (meshes->first) {
+        SolidMesh *made = meshes->first;
+        meshes->first = made->next;
+        mesh_close(&made->mesh);
+        free(made);
+    }
 }

@@ -42,6 +42,23 @@ enum { SOLID_LEAST_DIVISIONS = 3, SOLID_MOST_DIVISIONS = 1024 };
  * Fails as the functions of mesh.h do, and where `divisions` is out of its range. */
 bool solid_mesh(const Solid *solid, int divisions, Mesh *mesh, Message *message);
 
+/* Meshes that have been made, one for each solid and number of divisions. Zeroed: none. */
+typedef struct SolidMesh {
+    Solid solid;
+    int divisions;
+    Mesh mesh;
+    struct SolidMesh *next;
+} SolidMesh;
+typedef struct SolidMeshes {
+    SolidMesh *first;
+} SolidMeshes;
+
+/* The mesh, made if it is not there; it lasts until solid_meshes_close. NULL where solid_mesh
+ * fails. */
+const Mesh *solid_meshes_find(SolidMeshes *meshes, const Solid *solid, int divisions,
+                              Message *message);
+void solid_meshes_close(SolidMeshes *meshes);
+
 /* Whether every triangle of such a mesh has one normal: a box, a quad, a disc. */
 bool solid_flat(const Solid *solid);
 

@@ -1,5 +1,6 @@
 #include "stage.h"
 
+#include "efficient.h"
 #include "lighting.h"
 #include "model.h"
 #include "operations.h"
@@ -7,6 +8,7 @@
 
 #include <dlfcn.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 bool stage_open(Canvas *canvas, const Options *options, const char *output, Message *message)
 {
@@ -42,18 +44,36 @@ bool stage_open(Canvas *canvas, const Options *options, const char *output, Mess
 
 /* What draws the example on the stage, if that is a scene. */
 static struct {
-    Lighting *lighting;
+    Lighting
+        *lightings[2];    /* as the options say; in mediump, where the table of settings says so */
+    Efficient *efficient; /* with --error */
+    SolidMeshes meshes;   /* of the settings */
     Marks marks;
 } on_stage;
+
+static bool open_lightings(const Options *options, Message *message)
+{
+    ShaderLoader loader = options->shaders;
+    if (!lighting_open(&on_stage.lightings[PRECISION_HIGHP], &loader, message))
+        return false;
+    if (!options->cheap)
+        return true;
+    if (!loader.precision)
+        loader.precision = "mediump";
+    on_stage.efficient = malloc(sizeof *on_stage.efficient);
+    if (!on_stage.efficient)
+        return message_set(message, "not enough memory");
+    return efficient_read(on_stage.efficient, message) &&
+           lighting_open(&on_stage.lightings[PRECISION_MEDIUMP], &loader, message);
+}
 
 bool stage_enter(const Example *example, const Options *options, Message *message)
 {
     const double start = progress_now();
-    const bool done =
-        example->init(&options->shaders, message) &&
-        (!example->scene || lighting_open(&on_stage.lighting, &options->shaders, message)) &&
-        (!example->annotate || options->shaders.print ||
-         marks_open(&on_stage.marks, &options->shaders, message));
+    const bool done = example->init(&options->shaders, message) &&
+                      (!example->scene || open_lightings(options, message)) &&
+                      (!example->annotate || options->shaders.print ||
+                       marks_open(&on_stage.marks, &options->shaders, message));
     if (!done) {
         stage_leave(example);
         return false;
@@ -67,8 +87,13 @@ void stage_leave(const Example *example)
 {
     GLint attributes = 0;
     example->finish();
-    lighting_close(on_stage.lighting);
-    on_stage.lighting = NULL;
+    for (int i = 0; i < 2; i++) {
+        lighting_close(on_stage.lightings[i]);
+        on_stage.lightings[i] = NULL;
+    }
+    free(on_stage.efficient);
+    on_stage.efficient = NULL;
+    solid_meshes_close(&on_stage.meshes);
     marks_close(&on_stage.marks);
     glUseProgram(0);
     glDisable(GL_DEPTH_TEST);
@@ -105,36 +130,73 @@ static void view_place(const Example *example, int view, int width, int height, 
     place[3] = (row + 1) * height / rows - place[1];
 }
 
-/* The scene of a view, as the example and the options want it. */
-static bool view_scene(const Example *example, const Options *options, double seconds, int view,
-                       Scene *scene, Message *message)
+/* The scene of a view, as the example and the options want it, and what draws it. */
+typedef struct View {
+    Scene scene;
+    SettingScene made; /* with --error */
+    Lighting *lighting;
+} View;
+
+/* Draws as the cheapest setting does that is exact enough for scenes of this class. */
+static bool choose_setting(View *view, int number, const Options *options, Message *message)
 {
-    *scene = (Scene){.object_count = 0};
-    example->scene(seconds, view, scene);
-    scene->clamp_vertex |= options->clamp_vertex;
-    scene->linear |= options->linear;
-    scene->show_clipped |= options->show_clipped;
-    return scene_check(scene, message);
+    const SceneClass class = scene_class(&view->scene);
+    const EfficientRow *row = efficient_choose(on_stage.efficient, class, options->error, message);
+    if (!row ||
+        !setting_scene_open(&view->made, &view->scene, &row->setting, &on_stage.meshes, message))
+        return false;
+    view->scene = view->made.scene;
+    view->lighting = on_stage.lightings[row->setting.choice[AXIS_PRECISION]];
+    if (options->verbose) {
+        char text[SETTING_TEXT_SIZE];
+        setting_text(&row->setting, text);
+        fprintf(stderr, "view %d: class %s: %s; error at most %.2f steps of 1/255 in %s\n", number,
+                SCENE_CLASS_NAMES[class], text, row->maximum, on_stage.efficient->path);
+    }
+    return true;
 }
 
-static bool draw_view(const Example *example, const Options *options, double seconds, int view,
-                      double aspect, Message *message)
+static bool view_open(View *view, const Example *example, const Options *options, double seconds,
+                      int number, Message *message)
 {
-    Scene scene;
-    if (!view_scene(example, options, seconds, view, &scene, message) ||
-        !lighting_draw(on_stage.lighting, &scene, aspect, options->full, message))
-        return false;
-    if (!example->annotate || !on_stage.marks.buffer)
-        return true;
+    *view = (View){.lighting = on_stage.lightings[PRECISION_HIGHP]};
+    example->scene(seconds, number, &view->scene);
+    view->scene.clamp_vertex |= options->clamp_vertex;
+    view->scene.linear |= options->linear;
+    view->scene.show_clipped |= options->show_clipped;
+    return scene_check(&view->scene, message) &&
+           (!options->cheap || choose_setting(view, number, options, message));
+}
+
+static void view_close(View *view)
+{
+    setting_scene_close(&view->made);
+}
+
+static bool draw_marks(const Example *example, double seconds, int number, const Scene *scene,
+                       double aspect, Message *message)
+{
     static const double POINT_SIZE = 10;
     Annotations annotations = {{.count = 0}, {.count = 0}};
-    example->annotate(seconds, view, &scene, &annotations);
+    example->annotate(seconds, number, scene, &annotations);
     const bool done =
-        marks_draw(&on_stage.marks, &annotations.lines, GL_LINES, 1, &scene, aspect, message) &&
-        marks_draw(&on_stage.marks, &annotations.points, GL_POINTS, POINT_SIZE, &scene, aspect,
+        marks_draw(&on_stage.marks, &annotations.lines, GL_LINES, 1, scene, aspect, message) &&
+        marks_draw(&on_stage.marks, &annotations.points, GL_POINTS, POINT_SIZE, scene, aspect,
                    message);
     marks_list_close(&annotations.lines);
     marks_list_close(&annotations.points);
+    return done;
+}
+
+static bool draw_view(const Example *example, const Options *options, double seconds, int number,
+                      double aspect, Message *message)
+{
+    View view;
+    const bool done = view_open(&view, example, options, seconds, number, message) &&
+                      lighting_draw(view.lighting, &view.scene, aspect, options->full, message) &&
+                      (!example->annotate || !on_stage.marks.buffer ||
+                       draw_marks(example, seconds, number, &view.scene, aspect, message));
+    view_close(&view);
     return done;
 }
 
@@ -178,15 +240,27 @@ bool stage_draw(const Example *example, const Canvas *canvas, const Options *opt
     return true;
 }
 
+/* On all programs so far. */
+static LightingCounts spent(void)
+{
+    LightingCounts sum = {.programs = 0};
+    for (int i = 0; i < 2 && on_stage.lightings[i]; i++) {
+        const LightingCounts counts = lighting_counts(on_stage.lightings[i]);
+        sum.programs += counts.programs;
+        sum.compile_seconds += counts.compile_seconds;
+    }
+    return sum;
+}
+
 /* What an object's program computes, and beside it the full one; or why that is not known. */
-static void explain_operations(const Scene *scene, const Object *object)
+static void explain_operations(const Lighting *lighting, const Scene *scene, const Object *object)
 {
     static const char *const names[] = {"operations", "in the full program"};
     Message message = {0};
     for (int full = 0; full < 2 && !message.text[0]; full++) {
         ShaderSource sources[2];
         Operations vertex, fragment;
-        if (lighting_sources(on_stage.lighting, scene, object, full, sources, &message) &&
+        if (lighting_sources(lighting, scene, object, full, sources, &message) &&
             operations_count(sources[SHADER_VERTEX].text, SHADER_VERTEX, &vertex, &message) &&
             operations_count(sources[SHADER_FRAGMENT].text, SHADER_FRAGMENT, &fragment, &message))
             printf("%s: %d per vertex (%d special), %d per fragment (%d special)\n", names[full],
@@ -199,29 +273,35 @@ static void explain_operations(const Scene *scene, const Object *object)
         printf("%s\n", message.text);
 }
 
+static bool explain_view(const Example *example, const Options *options, int number,
+                         Message *message)
+{
+    View view;
+    bool done = view_open(&view, example, options, options->seconds, number, message);
+    for (int i = 0; i < view.scene.object_count && done; i++) {
+        const Object *object = &view.scene.objects[i];
+        printf("# %s, view %d, object %d\n", example->name, number, i);
+        effects_explain(&view.scene, object, stdout);
+        const int programs = lighting_counts(view.lighting).programs;
+        done = lighting_program(view.lighting, &view.scene, object, options->full, message) != 0;
+        if (done && lighting_counts(view.lighting).programs > programs)
+            explain_operations(view.lighting, &view.scene, object);
+        else if (done)
+            printf("its program is one of those above\n");
+        printf("\n");
+    }
+    view_close(&view);
+    return done;
+}
+
 bool stage_explain(const Example *example, const Options *options, Message *message)
 {
     if (!example->scene)
         return message_set(message, "--explain: this program's shaders are written by hand");
-    for (int view = 0; view < view_count(example); view++) {
-        Scene scene;
-        if (!view_scene(example, options, options->seconds, view, &scene, message))
+    for (int number = 0; number < view_count(example); number++)
+        if (!explain_view(example, options, number, message))
             return false;
-        for (int i = 0; i < scene.object_count; i++) {
-            printf("# %s, view %d, object %d\n", example->name, view, i);
-            effects_explain(&scene, &scene.objects[i], stdout);
-            const int programs = lighting_counts(on_stage.lighting).programs;
-            if (!lighting_program(on_stage.lighting, &scene, &scene.objects[i], options->full,
-                                  message))
-                return false;
-            if (lighting_counts(on_stage.lighting).programs > programs)
-                explain_operations(&scene, &scene.objects[i]);
-            else
-                printf("its program is one of those above\n");
-            printf("\n");
-        }
-    }
-    const LightingCounts counts = lighting_counts(on_stage.lighting);
+    const LightingCounts counts = spent();
     printf("# %d programs, compiled and linked in %.1f ms\n", counts.programs,
            1e3 * counts.compile_seconds);
     return true;
@@ -279,7 +359,7 @@ bool stage_picture(const Example *example, const Canvas *canvas, const Options *
     if (options->alpha && averaged)
         divide_by_alpha(image);
     if (options->verbose && example->scene) {
-        const LightingCounts counts = lighting_counts(on_stage.lighting);
+        const LightingCounts counts = spent();
         fprintf(stderr, "%d programs so far, compiled and linked in %.1f ms\n", counts.programs,
                 1e3 * counts.compile_seconds);
     }

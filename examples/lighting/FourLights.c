@@ -59,6 +59,7 @@ static void colored_light(double seconds, int i)
                                   .diffuse = vec3_scale(colors[i], 0.5),
                                   .specular = vec3_scale(colors[i], 0.5)};
     state.objects[2 + i] = (Object){.mesh = &state.marker,
+                                    .solid = {.kind = SOLID_SPHERE, .radius = 0.12},
                                     .closed = true,
                                     .world_from_object = mat4_translate(place),
                                     .front = {.emission = on[i] ? colors[i] : (Vec3){0, 0, 0},
@@ -79,6 +80,7 @@ static void scene(double seconds, int view, Scene *scene)
                               .specular = {0.5, 0.5, 0.5}};
     state.objects[0] =
         (Object){.mesh = &state.disc,
+                 .solid = {.kind = SOLID_DISC, .radius = 3},
                  .flat = true,
                  .world_from_object = lying,
                  .front = {.ambient = {0.8, 0.8, 0.8}, .diffuse = {0.8, 0.8, 0.8}, .alpha = 1}};

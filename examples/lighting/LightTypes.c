@@ -77,11 +77,13 @@ static void scene(double seconds, int view, Scene *scene)
     const Mat4 large = mat4_scale((Vec3){4, 4, 4});
     state.light = light(seconds, view);
     state.objects[0] = (Object){.mesh = &state.sphere,
+                                .solid = {.kind = SOLID_SPHERE, .radius = 1},
                                 .closed = true,
                                 .world_from_object = mat4_identity(),
                                 .front = *material_find("red_plastic")};
     state.objects[1] =
         (Object){.mesh = &state.floor,
+                 .solid = {.kind = SOLID_QUAD},
                  .flat = true,
                  .world_from_object = mat4_product(below, mat4_product(lying, large)),
                  .front = {.ambient = {0.6, 0.6, 0.6}, .diffuse = {0.6, 0.6, 0.6}, .alpha = 1}};

@@ -48,40 +48,10 @@ static struct {
     double fitted;
 } state;
 
-/* The squared difference of the two highlights over the angle t of the normal from the half vector,
- * where light and viewer lie on opposite sides of it and in its plane: V.R = cos 2t, N.H = cos t.
- */
-static double difference(double s)
-{
-    enum { STEPS = 1000 };
-    double sum = 0;
-    for (int i = 0; i < STEPS; i++) {
-        const double t = acos(0) * (i + 0.5) / STEPS;
-        const double apart = pow(fmax(cos(2 * t), 0), shininess) - pow(cos(t), s);
-        sum += apart * apart;
-    }
-    return sum / STEPS;
-}
-
-/* The least difference, by golden section; it has one minimum, near 4 shininess. */
-static double fitted_shininess(void)
-{
-    const double ratio = (sqrt(5) - 1) / 2;
-    double low = shininess, high = 8 * shininess;
-    while (high - low > 1e-6 * high) {
-        const double a = high - ratio * (high - low), b = low + ratio * (high - low);
-        if (difference(a) < difference(b))
-            high = b;
-        else
-            low = a;
-    }
-    return (low + high) / 2;
-}
-
 static bool init(const ShaderLoader *loader, Message *message)
 {
     (void)loader;
-    state.fitted = fit ? fitted_shininess() : shininess;
+    state.fitted = fit ? material_fitted_shininess(shininess) : shininess;
     return mesh_sphere(&state.sphere, 1, 64, 32, message);
 }
 
@@ -89,6 +59,7 @@ static void scene(double seconds, int view, Scene *scene)
 {
     (void)seconds;
     state.object = (Object){.mesh = &state.sphere,
+                            .solid = {.kind = SOLID_SPHERE, .radius = 1},
                             .closed = true,
                             .world_from_object = mat4_identity(),
                             .front = {.ambient = {0.2, 0.2, 0.4},

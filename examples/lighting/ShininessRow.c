@@ -45,6 +45,7 @@ static void scene(double seconds, int view, Scene *scene)
     for (int i = 0; i < SPHERES; i++) {
         const Vec3 place = {SPACING * (i - 0.5 * (SPHERES - 1)), 0, 0};
         state.objects[i] = (Object){.mesh = &state.sphere,
+                                    .solid = {.kind = SOLID_SPHERE, .radius = 1},
                                     .closed = true,
                                     .world_from_object = mat4_translate(place),
                                     .front = {.diffuse = {0.8, 0.8, 0},

@@ -81,6 +81,9 @@ static void scene(double seconds, int view, Scene *scene)
 {
     (void)view;
     state.object = (Object){.mesh = &state.mesh, .two_sided = two_sided};
+    state.object.solid =
+        object ? (Solid){.kind = SOLID_CYLINDER, .radius = 1, .height = 2, .caps = MESH_CAP_BOTTOM}
+               : (Solid){.kind = SOLID_QUAD};
     *scene = (Scene){.background = {0.5, 0.5, 0.5},
                      .lights = &state.light,
                      .light_count = 1,

@@ -89,14 +89,14 @@ static void spot(StudyScene *made)
                               .exponent = 40,
                               .constant = 0.5,
                               .quadratic = 0.1,
-                              .diffuse = {1, 1, 0.9},
+                              .diffuse = {1.5, 1.5, 1.3},
                               .specular = {1, 1, 0.9}};
     made->objects[0] =
         (Object){.solid = {.kind = SOLID_QUAD},
                  .flat = true,
                  .world_from_object = mat4_product(lying, mat4_scale((Vec3){2, 2, 1})),
-                 .front = {.ambient = {0.5, 0.5, 0.6},
-                           .diffuse = {0.5, 0.5, 0.6},
+                 .front = {.ambient = {0.6, 0.6, 0.7},
+                           .diffuse = {0.6, 0.6, 0.7},
                            .specular = {0.4, 0.4, 0.4},
                            .alpha = 1,
                            .shininess = 20}};
@@ -196,8 +196,8 @@ const StudySceneInfo STUDY_SCENES[STUDY_SCENE_COUNT] = {
     {"sphere", "the lecture's sphere, diffuse, a point light", lecture_sphere},
     {"cube", "the lecture's cube, diffuse, a point light", lecture_cube},
     {"shiny8", "a sphere with Phong's highlight, shininess 8", shiny8},
-    {"shiny32", "the same, shininess 32", shiny32},
-    {"shiny128", "the same, shininess 128", shiny128},
+    {"shiny32", "a sphere with Phong's highlight, shininess 32", shiny32},
+    {"shiny128", "a sphere with Phong's highlight, shininess 128", shiny128},
     {"spot", "a soft spot on a plane, fading with the distance", spot},
     {"four-lights", "a torus on a disc, four lights", four_lights},
     {"teapot", "a teapot of gold, two lights", teapot},

@@ -31,6 +31,7 @@ struct Studio {
         Lighting *lighting;
     } lightings[MOST_LIGHTINGS];
     int lighting_count;
+    SolidMeshes meshes;
     Shader surface;
     Image seen; /* object from 1, depth */
     GLuint timer;
@@ -79,9 +80,12 @@ const char *studio_renderer(const Studio *studio)
     return studio->first.renderer;
 }
 
-const char *studio_version(const Studio *studio)
+void studio_forget(Studio *studio)
 {
-    return studio->first.version;
+    for (const SolidMesh *made = studio->meshes.first; made; made = made->next)
+        for (int i = 0; i < studio->lighting_count; i++)
+            lighting_forget(studio->lightings[i].lighting, &made->mesh);
+    solid_meshes_close(&studio->meshes);
 }
 
 static const Canvas *find_canvas(Studio *studio, const Setting *setting, Message *message)
@@ -146,7 +150,7 @@ bool drawing_open(Drawing *drawing, Studio *studio, const Scene *scene, const Se
 {
     double wall, gpu;
     *drawing = (Drawing){.setting = *setting};
-    if (!setting_scene_open(&drawing->made, scene, setting, message))
+    if (!setting_scene_open(&drawing->made, scene, setting, &studio->meshes, message))
         return false;
     drawing->canvas = find_canvas(studio, setting, message);
     drawing->lighting = drawing->canvas ? find_lighting(studio, setting, message) : NULL;
@@ -154,7 +158,7 @@ bool drawing_open(Drawing *drawing, Studio *studio, const Scene *scene, const Se
         !image_open(&drawing->image, studio->width, studio->height,
                     drawing->canvas->real ? IMAGE_FLOAT : IMAGE_BYTE, message) ||
         !drawing_frame(drawing, studio, &wall, &gpu, message)) {
-        drawing_close(drawing, studio);
+        drawing_close(drawing);
         return false;
     }
     return true;
@@ -359,13 +363,10 @@ bool drawing_counts(const Drawing *drawing, Studio *studio, DrawingCounts *count
     return true;
 }
 
-void drawing_close(Drawing *drawing, Studio *studio)
+void drawing_close(Drawing *drawing)
 {
-    (void)studio;
     if (!drawing)
         return;
-    for (int i = 0; drawing->lighting && i < drawing->made.scene.object_count; i++)
-        lighting_forget(drawing->lighting, drawing->made.scene.objects[i].mesh);
     setting_scene_close(&drawing->made);
     image_close(&drawing->image);
     *drawing = (Drawing){.lighting = NULL};
@@ -375,6 +376,7 @@ void studio_close(Studio *studio)
 {
     if (!studio)
         return;
+    studio_forget(studio);
     for (int i = 0; i < studio->lighting_count; i++)
         lighting_close(studio->lightings[i].lighting);
     for (int i = 0; i < studio->canvas_count; i++)

@@ -17,7 +17,9 @@ typedef struct Studio Studio;
 bool studio_open(Studio **studio, const ShaderLoader *loader, const CanvasBackend *backend,
                  int width, int height, Message *message);
 const char *studio_renderer(const Studio *studio);
-const char *studio_version(const Studio *studio);
+
+/* Drops the meshes that were made for the drawings so far, none of which is open. */
+void studio_forget(Studio *studio);
 
 /* A setting of a scene, ready to be drawn: its meshes made and uploaded, its programs compiled, one
  * frame drawn. */
@@ -60,7 +62,7 @@ typedef struct DrawingCounts {
 bool drawing_counts(const Drawing *drawing, Studio *studio, DrawingCounts *counts,
                     Message *message);
 
-void drawing_close(Drawing *drawing, Studio *studio);
+void drawing_close(Drawing *drawing);
 
 /* NULL is fine. After every drawing has been closed. */
 void studio_close(Studio *studio);

@@ -1,0 +1,330 @@
+#include "findings.h"
+
+#include "front.h"
+#include "progress.h"
+#include "report.h"
+#include "report_gnuplot.h"
+#include "scenes.h"
+#include "statistics.h"
+#include "transforms.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The row of a scene with this setting; NULL where there is none. */
+static const ResultRow *row_of(const Results *results, const char *scene, const char *text)
+{
+    Setting setting;
+    return setting_parse(&setting, text, NULL) ? results_find(results, scene, &setting) : NULL;
+}
+
+/* Error over time as one axis goes through its choices. */
+
+typedef struct Curve {
+    double x[SETTING_MOST_CHOICES], y[SETTING_MOST_CHOICES];
+    int count;
+} Curve;
+
+static void follow(const Results *results, const char *scene, Setting setting, SettingAxis axis,
+                   ErrorKind kind, Curve *curve)
+{
+    for (int choice = 0; choice < SETTING_AXES[axis].count; choice++) {
+        setting = setting_with(setting, axis, choice);
+        const ResultRow *row = results_find(results, scene, &setting);
+        if (!row)
+            continue;
+        curve->x[curve->count] = row->time;
+        curve->y[curve->count++] = row_error(row, kind);
+    }
+}
+
+static bool plot_interpolation(const Results *results, const char *folder, Message *message)
+{
+    static const char *const names[] = {"Phong", "Gouraud", "flat"};
+    static const ReportAxes axes = {
+        .title = "Interpolation: shiny32, with 6, 8, 12 ... 512 divisions from left to right",
+        .x = "time of a frame in ms",
+        .y = "largest error inside, in steps of 1/255",
+        .log_x = true,
+        .log_y = true,
+    };
+    Curve curves[3] = {{.count = 0}};
+    ReportSeries series[3];
+    int points = 0;
+    for (int i = 0; i < 3; i++) {
+        const Setting setting = setting_with(setting_usual(), AXIS_INTERPOLATION, i);
+        follow(results, "shiny32", setting, AXIS_DIVISIONS, ERROR_INTERIOR_MAXIMUM, &curves[i]);
+        series[i] = (ReportSeries){names[i], curves[i].x, curves[i].y, curves[i].count};
+        points += curves[i].count;
+    }
+    return points == 0 || report_curves(&axes, series, 3, folder, "finding-interpolation", message);
+}
+
+static bool plot_antialiasing(const Results *results, const char *folder, Message *message)
+{
+    static const ReportAxes axes = {
+        .title = "Antialiasing: shiny32",
+        .x = "time of a frame in ms",
+        .y = "root mean square error of all pixels, in steps of 1/255",
+        .log_x = true,
+        .log_y = true,
+    };
+    Setting fine = setting_usual();
+    setting_choose(&fine, "divisions", "128", NULL);
+    const struct {
+        const char *name;
+        Setting setting;
+        SettingAxis axis;
+    } kinds[] = {
+        {"0 and 4 samples, 64 divisions", setting_usual(), AXIS_SAMPLES},
+        {"1, 2x2, 3x3, 4x4 supersampling, 64 divisions", setting_usual(), AXIS_SUPERSAMPLE},
+        {"0 and 4 samples, 128 divisions", fine, AXIS_SAMPLES},
+        {"1, 2x2, 3x3, 4x4 supersampling, 128 divisions", fine, AXIS_SUPERSAMPLE},
+    };
+    Curve curves[4] = {{.count = 0}};
+    ReportSeries series[4];
+    int points = 0;
+    for (int i = 0; i < 4; i++) {
+        follow(results, "shiny32", kinds[i].setting, kinds[i].axis, ERROR_ALL_RMS, &curves[i]);
+        series[i] = (ReportSeries){kinds[i].name, curves[i].x, curves[i].y, curves[i].count};
+        points += curves[i].count;
+    }
+    return points == 0 || report_curves(&axes, series, 4, folder, "finding-antialiasing", message);
+}
+
+/* Bars: a value, or two, for each of some categories, and a line of text below each. */
+
+enum { MOST_BARS = 12 };
+
+typedef struct Bars {
+    const char *title, *y;
+    const char *names[2]; /* of the values; the second may be NULL */
+    double floor;         /* where bars begin; more than 0: a logarithmic axis */
+    struct {
+        char name[48], note[48];
+        double values[2];
+    } bars[MOST_BARS];
+    int count;
+} Bars;
+
+static bool draw_bars(const Bars *bars, const char *folder, const char *name, Message *message)
+{
+    char *script = NULL;
+    size_t size = 0;
+    double most = bars->floor;
+    const int values = bars->names[1] ? 2 : 1;
+    FILE *file = bars->count ? open_memstream(&script, &size) : NULL;
+    if (!file)
+        return bars->count == 0 || message_set(message, "%s: not enough memory", name);
+    fputs("set encoding utf8\nset border 3 lc rgb '#444444'\nset title ", file);
+    gnuplot_string(file, bars->title);
+    fputs(" font ',16'\nset grid y lc rgb '#dddddd' lw 0.6 lt 1\nset ylabel ", file);
+    gnuplot_string(file, bars->y);
+    fprintf(file,
+            "\nset key top %s samplen 1.5\nset style fill solid 0.9 noborder\n"
+            "set xrange [-0.6:%g]\n$bars << EOD\n",
+            bars->names[1] ? "left" : "right", bars->count - 0.4);
+    for (int i = 0; i < bars->count; i++) {
+        for (int k = 0; k < values; k++) {
+            const double value = bars->bars[i].values[k];
+            fprintf(file, "%.9g ", value > bars->floor ? value : bars->floor);
+            if (isfinite(value) && value > most)
+                most = value;
+        }
+        fputc('\n', file);
+    }
+    fputs("EOD\n", file);
+    const bool log = bars->floor > 0;
+    gnuplot_axis(file, 'y', bars->floor, log ? most * 2 : most * 1.15, log);
+    fputs("set xtics nomirror out scale 0 (", file);
+    for (int i = 0; i < bars->count; i++) {
+        char label[128];
+        snprintf(label, sizeof label, "%s", bars->bars[i].name);
+        fputs(i ? ", " : "", file);
+        gnuplot_string(file, label);
+        fprintf(file, " %d", i);
+    }
+    fputs(")\nset bmargin 5\n", file);
+    for (int i = 0; i < bars->count; i++) {
+        fputs("set label ", file);
+        gnuplot_string(file, bars->bars[i].note);
+        fprintf(file, " at first %d, graph -0.085 center font ',10' textcolor rgb '#666666'\n", i);
+    }
+    const double width = 0.7 / values;
+    fprintf(file, "set boxwidth %g\nplot ", width);
+    for (int k = 0; k < values; k++) {
+        fprintf(file, "%s$bars using ($0 + %g):%d with boxes lc rgb '%s' title ",
+                k ? ", \\\n  " : "", width * (k - 0.5 * (values - 1)), k + 1, GNUPLOT_PALETTE[k]);
+        gnuplot_string(file, bars->names[k]);
+    }
+    fputc('\n', file);
+    const bool done = fclose(file) == 0 ? gnuplot_draw(script, size, folder, name, message)
+                                        : message_set(message, "%s: not enough memory", name);
+    free(script);
+    return done;
+}
+
+/* A bar for each scene that has both the usual row and one with this setting. */
+typedef void FillBar(const ResultRow *usual, const ResultRow *other, double values[2],
+                     char note[48]);
+
+static bool plot_by_scene(const Results *results, Bars *bars, const char *setting, FillBar *fill,
+                          const char *folder, const char *name, Message *message)
+{
+    for (int i = 0; i < STUDY_SCENE_COUNT; i++) {
+        const char *scene = STUDY_SCENES[i].name;
+        const ResultRow *usual = row_of(results, scene, "usual");
+        const ResultRow *other = row_of(results, scene, setting);
+        if (!usual || !other)
+            continue;
+        snprintf(bars->bars[bars->count].name, sizeof bars->bars[0].name, "%s", scene);
+        fill(usual, other, bars->bars[bars->count].values, bars->bars[bars->count].note);
+        bars->count++;
+    }
+    return draw_bars(bars, folder, name, message);
+}
+
+/* The time of one row over that of another, and what noise hides of it. */
+static void note_time(const ResultRow *row, const ResultRow *over, char note[48])
+{
+    if (row_faster(row, over) || row_faster(over, row))
+        snprintf(note, 48, "time x %.2f", row->time / over->time);
+    else
+        snprintf(note, 48, "time the same");
+}
+
+static void fill_errors(const ResultRow *usual, const ResultRow *other, double values[2],
+                        char note[48])
+{
+    values[0] = usual->interior_maximum;
+    values[1] = other->interior_maximum;
+    note_time(other, usual, note);
+}
+
+static void fill_guards(const ResultRow *usual, const ResultRow *other, double values[2],
+                        char note[48])
+{
+    values[0] = usual->time / other->time;
+    values[1] = NAN;
+    snprintf(note, 48, "error off: %.3g", other->interior_maximum);
+}
+
+static bool plot_by_scenes(const Results *results, const char *folder, Message *message)
+{
+    Bars precision = {.title = "Precision of fragment shaders: the largest error inside",
+                      .y = "steps of 1/255",
+                      .names = {"highp", "mediump"},
+                      .floor = 0.1};
+    Bars guards = {.title = "Guards: the time of a frame with them, over that without",
+                   .y = "ratio of times",
+                   .names = {"with guards over without", NULL}};
+    Bars viewer = {.title = "A viewer at infinity: the largest error inside",
+                   .y = "steps of 1/255",
+                   .names = {"local viewer", "infinite viewer"},
+                   .floor = 0.1};
+    return plot_by_scene(results, &precision, "precision=mediump", fill_errors, folder,
+                         "finding-precision", message) &&
+           plot_by_scene(results, &guards, "guards=off", fill_guards, folder, "finding-guards",
+                         message) &&
+           plot_by_scene(results, &viewer, "viewer=infinite", fill_errors, folder, "finding-viewer",
+                         message);
+}
+
+/* Matrices. */
+
+static const char *const COMPOSITIONS[] = {
+    "usual",
+    "matrices=float",
+    "matrices=compensated",
+    "order=lecture",
+    "matrices=float order=lecture",
+    "matrices=compensated order=lecture",
+};
+enum { COMPOSITION_COUNT = sizeof COMPOSITIONS / sizeof COMPOSITIONS[0] };
+
+/* What lighting does where no others are asked for. */
+static Mat4 usual_clip_from_object(Mat4 clip_from_eye, Mat4 eye_from_world, Mat4 world_from_object,
+                                   Mat4 eye_from_object)
+{
+    (void)eye_from_world, (void)world_from_object;
+    return mat4_product(clip_from_eye, eye_from_object);
+}
+
+/* Nanoseconds of one object's matrices and one light's place: the median of some runs. */
+static double time_composition(const char *text)
+{
+    enum { RUNS = 15, TIMES = 2000 };
+    static const LightingTransforms USUAL = {scene_eye_from_object, scene_eye_point,
+                                             usual_clip_from_object};
+    double nanoseconds[RUNS];
+    volatile double kept = 0; /* so that nothing is left out */
+    StudyScene made;
+    Setting setting;
+    Mat4 eye_from_world, clip_from_eye;
+    study_scene(8, &made);
+    if (!setting_parse(&setting, text, NULL) ||
+        !scene_camera(&made.scene.camera, 1, &eye_from_world, &clip_from_eye, NULL))
+        return NAN;
+    const LightingTransforms *transforms = transforms_of(&setting);
+    transforms = transforms ? transforms : &USUAL;
+    Mat4 world_from_object = made.objects[0].world_from_object;
+    for (int run = 0; run < RUNS; run++) {
+        const double start = progress_now();
+        for (int i = 0; i < TIMES; i++) {
+            world_from_object.m[12] += 1;
+            const Mat4 eye_from_object =
+                transforms->eye_from_object(&made.scene.camera, eye_from_world, world_from_object);
+            const Mat4 clip_from_object = transforms->clip_from_object(
+                clip_from_eye, eye_from_world, world_from_object, eye_from_object);
+            const Vec3 light =
+                transforms->eye_point(&made.scene.camera, eye_from_world, made.lights[0].position);
+            kept = kept + clip_from_object.m[12] + light.x;
+        }
+        nanoseconds[run] = 1e9 * (progress_now() - start) / TIMES;
+    }
+    return statistics_quantile(nanoseconds, RUNS, 0.5);
+}
+
+void findings_matrices(const Results *results, FILE *file)
+{
+    fprintf(file,
+            "\nMatrices of one object and place of one light; scene far, a million units from "
+            "the origin\n  %-38s %10s  %s\n",
+            "setting", "ns", "largest error inside, steps of 1/255");
+    for (int i = 0; i < COMPOSITION_COUNT; i++) {
+        const ResultRow *row = row_of(results, "far", COMPOSITIONS[i]);
+        fprintf(file, "  %-38s %10.0f", COMPOSITIONS[i], time_composition(COMPOSITIONS[i]));
+        if (row)
+            fprintf(file, "  %.2f\n", row->interior_maximum);
+        else
+            fprintf(file, "  not measured\n");
+    }
+}
+
+static bool plot_matrices(const Results *results, const char *folder, Message *message)
+{
+    static const char *const names[COMPOSITION_COUNT] = {
+        "double", "float", "compensated", "double, lect.", "float, lect.", "comp., lect."};
+    Bars bars = {.title = "Matrices, a million units from the origin: the largest error inside",
+                 .y = "steps of 1/255",
+                 .names = {"relative to the eye; lect.: in the lecture's order", NULL},
+                 .floor = 0.1};
+    for (int i = 0; i < COMPOSITION_COUNT; i++) {
+        const ResultRow *row = row_of(results, "far", COMPOSITIONS[i]);
+        if (!row)
+            continue;
+        snprintf(bars.bars[bars.count].name, sizeof bars.bars[0].name, "%s", names[i]);
+        snprintf(bars.bars[bars.count].note, sizeof bars.bars[0].note, "%.0f ns",
+                 time_composition(COMPOSITIONS[i]));
+        bars.bars[bars.count++].values[0] = row->interior_maximum;
+    }
+    return draw_bars(&bars, folder, "finding-matrices", message);
+}
+
+bool findings_plot(const Results *results, const char *folder, Message *message)
+{
+    return plot_interpolation(results, folder, message) &&
+           plot_by_scenes(results, folder, message) &&
+           plot_antialiasing(results, folder, message) && plot_matrices(results, folder, message);
+}

@@ -1,0 +1,202 @@
+#include "front.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+double row_error(const ResultRow *row, ErrorKind kind)
+{
+    switch (kind) {
+    case ERROR_INTERIOR_MAXIMUM:
+        return row->interior_maximum;
+    case ERROR_INTERIOR_RMS:
+        return row->interior_rms;
+    case ERROR_ALL_RMS:
+        return row->all_rms;
+    }
+    return NAN;
+}
+
+bool row_faster(const ResultRow *a, const ResultRow *b)
+{
+    if (!isfinite(a->noise) || !isfinite(b->noise))
+        return false;
+    if (!(b->time > a->time * (1 + fmax(a->noise, b->noise))))
+        return false;
+    for (int run = 0; run < RESULT_RUNS; run++)
+        if (!(a->run_times[run] < b->run_times[run]))
+            return false;
+    return true;
+}
+
+bool row_beats(const ResultRow *a, const ResultRow *b, ErrorKind kind)
+{
+    return !row_faster(b, a) && row_error(a, kind) < row_error(b, kind) + FRONT_EQUAL_ERROR;
+}
+
+static int unusual(const ResultRow *row)
+{
+    int count = 0;
+    for (int axis = 0; axis < AXIS_COUNT; axis++)
+        count += row->setting.choice[axis] != SETTING_AXES[axis].usual;
+    return count;
+}
+
+/* One that takes part. */
+typedef struct Entry {
+    const ResultRow *row;
+    double error;
+    int unusual;
+} Entry;
+
+/* The most exact first, then the fastest; then whatever, but the same each time. */
+static int by_error(const void *first, const void *second)
+{
+    const Entry *a = first, *b = second;
+    if (a->error != b->error)
+        return a->error < b->error ? -1 : 1;
+    if (a->row->time != b->row->time)
+        return a->row->time < b->row->time ? -1 : 1;
+    if (a->unusual != b->unusual)
+        return a->unusual - b->unusual;
+    return memcmp(a->row->setting.choice, b->row->setting.choice, sizeof a->row->setting.choice);
+}
+
+/* Those that are neither slower than a more exact one nor tied with it. It is enough to compare
+ * with the last one taken, which is the fastest of them. */
+static int take_faster(const Entry *entries, int count, const ResultRow **rows)
+{
+    int taken = 0;
+    for (int i = 0; i < count; i++)
+        if (taken == 0 || row_faster(entries[i].row, rows[taken - 1]))
+            rows[taken++] = entries[i].row;
+    return taken;
+}
+
+/* Drops each that a faster one equals in exactness; the fastest comes first afterwards. */
+static int take_more_exact(const ResultRow **rows, int count, ErrorKind kind)
+{
+    int taken = 0;
+    for (int i = 0; i < count / 2; i++) {
+        const ResultRow *swapped = rows[i];
+        rows[i] = rows[count - 1 - i];
+        rows[count - 1 - i] = swapped;
+    }
+    for (int i = 0; i < count; i++)
+        if (taken == 0 || !row_beats(rows[taken - 1], rows[i], kind))
+            rows[taken++] = rows[i];
+    return taken;
+}
+
+/* Whether what the header promises holds. */
+static bool is_front(const Front *front, const Entry *entries, int count, ErrorKind kind)
+{
+    for (int i = 0; i + 1 < front->count; i++)
+        if (!row_faster(front->rows[i], front->rows[i + 1]) ||
+            row_beats(front->rows[i], front->rows[i + 1], kind))
+            return false;
+    for (int i = 0; i < count; i++) {
+        bool beaten = false;
+        for (int j = 0; j < front->count && !beaten; j++)
+            beaten = row_beats(front->rows[j], entries[i].row, kind);
+        if (!beaten)
+            return false;
+    }
+    return true;
+}
+
+/* In the place of an efficient row, one that cannot be told apart from it and has fewer choices
+ * that are not usual, where the rest allows it. */
+static void prefer_usual(Front *front, const Entry *entries, int count, ErrorKind kind)
+{
+    for (int i = 0; i < front->count; i++) {
+        int fewest = unusual(front->rows[i]);
+        for (int j = 0; j < count; j++) {
+            const ResultRow *before = front->rows[i], *row = entries[j].row;
+            if (entries[j].unusual >= fewest || !row_beats(row, before, kind) ||
+                !row_beats(before, row, kind))
+                continue;
+            front->rows[i] = row;
+            if (is_front(front, entries, count, kind))
+                fewest = entries[j].unusual;
+            else
+                front->rows[i] = before;
+        }
+    }
+}
+
+/* Those of `count` rows that take part. */
+static int select_entries(Entry *entries, const ResultRow *const *rows, int count, ErrorKind kind)
+{
+    int selected = 0;
+    for (int i = 0; i < count; i++) {
+        const double error = row_error(rows[i], kind);
+        if (isfinite(error) && isfinite(rows[i]->time))
+            entries[selected++] = (Entry){rows[i], error, unusual(rows[i])};
+    }
+    qsort(entries, (size_t)selected, sizeof *entries, by_error);
+    return selected;
+}
+
+bool front_open(Front *front, const Results *results, const char *scene, ErrorKind kind,
+                Message *message)
+{
+    const ResultRow **rows;
+    int count;
+    *front = (Front){0};
+    if (!results_latest(results, scene, &rows, &count, message))
+        return false;
+    Entry *entries = malloc(((size_t)count + 1) * sizeof *entries);
+    front->rows = malloc(((size_t)count + 1) * sizeof *front->rows);
+    front->tied = malloc(((size_t)count + 1) * sizeof *front->tied);
+    const bool done = entries && front->rows && front->tied;
+    if (done) {
+        count = select_entries(entries, rows, count, kind);
+        front->count = take_faster(entries, count, front->rows);
+        front->count = take_more_exact(front->rows, front->count, kind);
+        prefer_usual(front, entries, count, kind);
+        for (int i = 0; i < front->count; i++)
+            front->tied[i] =
+                i + 1 < front->count && !row_faster(front->rows[i], front->rows[i + 1]);
+    }
+    free(entries);
+    free(rows);
+    if (done)
+        return true;
+    front_close(front);
+    return message_set(message, "the efficient settings of %s: %s", scene, strerror(ENOMEM));
+}
+
+bool front_has(const Front *front, const ResultRow *row)
+{
+    for (int i = 0; i < front->count; i++)
+        if (front->rows[i] == row)
+            return true;
+    return false;
+}
+
+const ResultRow *front_cheapest(const Front *front, ErrorKind kind, double error)
+{
+    for (int i = 0; i < front->count; i++)
+        if (row_error(front->rows[i], kind) <= error)
+            return front->rows[i];
+    return NULL;
+}
+
+const ResultRow *front_most_exact(const Front *front, double time)
+{
+    for (int i = front->count - 1; i >= 0; i--)
+        if (front->rows[i]->time <= time)
+            return front->rows[i];
+    return NULL;
+}
+
+void front_close(Front *front)
+{
+    if (!front)
+        return;
+    free(front->rows);
+    free(front->tied);
+    *front = (Front){0};
+}

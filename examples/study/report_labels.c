@@ -1,0 +1,169 @@
+#include "report_labels.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Adds a word to the last line, or to a new one; false where all are full. */
+static bool add_word(Label *label, const char *word)
+{
+    enum { WIDTH = 24 };
+    char *line = label->lines[label->line_count - 1];
+    size_t used = strlen(line);
+    if (used && used + 2 + strlen(word) > WIDTH) {
+        if (label->line_count == LABEL_LINES)
+            return false;
+        snprintf(line + used, LABEL_LINE_SIZE - used, ",");
+        line = label->lines[label->line_count++];
+        line[0] = '\0';
+        used = 0;
+    }
+    snprintf(line + used, LABEL_LINE_SIZE - used, "%s%s", used ? ", " : "", word);
+    return true;
+}
+
+void label_name(Label *label, const Setting *setting)
+{
+    int left_out = 0;
+    label->line_count = 1;
+    label->lines[0][0] = '\0';
+    for (int axis = 0; axis < AXIS_COUNT; axis++) {
+        const SettingAxisInfo *info = &SETTING_AXES[axis];
+        const char *choice = info->choices[setting->choice[axis]];
+        char word[LABEL_LINE_SIZE - 12];
+        if (setting->choice[axis] == info->usual)
+            continue;
+        if (axis == AXIS_INTERPOLATION || axis == AXIS_PRECISION)
+            snprintf(word, sizeof word, "%s", choice);
+        else
+            snprintf(word, sizeof word, "%s %s", info->name, choice);
+        left_out += left_out > 0 || !add_word(label, word);
+    }
+    char *last = label->lines[label->line_count - 1];
+    const size_t used = strlen(last);
+    if (left_out)
+        snprintf(last + used, LABEL_LINE_SIZE - used, ", %d more", left_out);
+    else if (!used)
+        snprintf(last, LABEL_LINE_SIZE, "usual");
+}
+
+static double overlap(Place least, Place most, Place other_least, Place other_most)
+{
+    const double width = fmin(most.x, other_most.x) - fmax(least.x, other_least.x);
+    const double height = fmin(most.y, other_most.y) - fmax(least.y, other_least.y);
+    return width > 0 && height > 0 ? width * height : 0;
+}
+
+/* Whether a line from a to b comes into a box. */
+static bool crosses(Place a, Place b, Place least, Place most)
+{
+    double from = 0, to = 1;
+    const double starts[2] = {a.x, a.y}, ways[2] = {b.x - a.x, b.y - a.y};
+    const double lows[2] = {least.x, least.y}, highs[2] = {most.x, most.y};
+    for (int i = 0; i < 2; i++) {
+        if (fabs(ways[i]) < 1e-9) {
+            if (starts[i] < lows[i] || starts[i] > highs[i])
+                return false;
+            continue;
+        }
+        const double first = (lows[i] - starts[i]) / ways[i];
+        const double second = (highs[i] - starts[i]) / ways[i];
+        from = fmax(from, fmin(first, second));
+        to = fmin(to, fmax(first, second));
+    }
+    return from <= to;
+}
+
+/* The place of a box that is nearest to a point. */
+static Place nearest_in(Place point, Place least, Place most)
+{
+    return (Place){fmin(fmax(point.x, least.x), most.x), fmin(fmax(point.y, least.y), most.y)};
+}
+
+/* Whether a point other than a is nearly on the line from a to b. */
+static bool near_line(Place point, Place a, Place b)
+{
+    const double x = b.x - a.x, y = b.y - a.y, square = x * x + y * y;
+    const double t = ((point.x - a.x) * x + (point.y - a.y) * y) / fmax(square, 1e-9);
+    const double s = fmin(fmax(t, 0), 1);
+    return hypot(point.x - a.x, point.y - a.y) > 1 &&
+           hypot(point.x - a.x - s * x, point.y - a.y - s * y) < 9;
+}
+
+/* How bad a place is, besides being far away. */
+static double cost(const Label *label, Place least, Place most, const Label *labels, int count,
+                   const LabelGround *ground)
+{
+    static const double gap = 4, mark = 9;
+    double sum = overlap(least, most, ground->taken_least, ground->taken_most) > 0 ? 1e4 : 0;
+    const Place low = {least.x - gap, least.y - gap}, high = {most.x + gap, most.y + gap};
+    const Place wide_low = {least.x - mark, least.y - mark};
+    const Place wide_high = {most.x + mark, most.y + mark};
+    const Place end = nearest_in(label->point, least, most);
+    for (int i = 0; i < count; i++) {
+        const Label *other = &labels[i];
+        const bool before = other < label && other->placed;
+        if (before && overlap(low, high, other->least, other->most) > 0)
+            sum += 1e6;
+        if (before && crosses(label->point, end, other->least, other->most))
+            sum += 1e4;
+        if (before &&
+            crosses(other->point, nearest_in(other->point, other->least, other->most), low, high))
+            sum += 1e4;
+    }
+    for (int i = 0; i < ground->path_count; i++) {
+        const Place at = ground->path[i];
+        if (overlap(wide_low, wide_high, (Place){at.x - 1, at.y - 1}, (Place){at.x + 1, at.y + 1}) >
+            0)
+            sum += 5000;
+        if (i + 1 < ground->path_count && crosses(at, ground->path[i + 1], low, high))
+            sum += 1000;
+        if (near_line(at, label->point, end))
+            sum += 800;
+    }
+    for (int i = 0; i < ground->point_count; i++) {
+        const Place at = ground->points[i];
+        if (at.x > low.x && at.x < high.x && at.y > low.y && at.y < high.y)
+            sum += 60;
+    }
+    return sum;
+}
+
+static void place(Label *label, const Label *labels, int count, const LabelGround *ground)
+{
+    static const double directions[][2] = {{-1, -1}, {-1, -0.4}, {-1, 0},  {-0.5, -1},
+                                           {0, -1},  {1, 1},     {1, 0.4}, {0.5, 1},
+                                           {0, 1},   {1, 0},     {-1, 1},  {1, -1}};
+    static const double distances[] = {11, 18, 28, 42, 60, 80, 105, 135};
+    double best = INFINITY, width = 0;
+    const double height = ground->line * label->line_count;
+    for (int i = 0; i < label->line_count; i++)
+        width = fmax(width, ground->letter * (double)strlen(label->lines[i]));
+    label->placed = false;
+    for (size_t i = 0; i < sizeof distances / sizeof distances[0]; i++) {
+        for (size_t j = 0; j < sizeof directions / sizeof directions[0]; j++) {
+            const double x = directions[j][0], y = directions[j][1];
+            const Place least = {label->point.x + x * distances[i] - (1 - x) / 2 * width,
+                                 label->point.y + y * distances[i] - (1 - y) / 2 * height};
+            const Place most = {least.x + width, least.y + height};
+            if (least.x < ground->least.x || least.y < ground->least.y || most.x > ground->most.x ||
+                most.y > ground->most.y)
+                continue;
+            const double bad =
+                cost(label, least, most, labels, count, ground) + 1.5 * distances[i] + (double)j;
+            if (bad >= best)
+                continue;
+            best = bad;
+            label->least = least;
+            label->most = most;
+            label->led = distances[i] > 18;
+            label->placed = bad < 400; /* else better none */
+        }
+    }
+}
+
+void labels_place(Label *labels, int count, const LabelGround *ground)
+{
+    for (int i = 0; i < count; i++)
+        place(&labels[i], labels, count, ground);
+}
