@@ -258,12 +258,15 @@ static bool in_tangent_planes(const Sample *a, const Sample *b)
     return out * out <= 0.0025 * vec3_dot(chord, chord);
 }
 
-/* Whether triangles hang together: by an edge; by a corner where they are not folded there. */
-static bool joined(const TraceObject *ready, const Sample *a, const Sample *b)
+/* Whether triangles hang together smoothly: by an edge; else, where no crease is near, by a corner
+ * at which they are not folded, or as far as their planes tell. */
+static bool joined(const Triangle *a, const Triangle *b, const Sample *at_a, const Sample *at_b)
 {
-    const int corners = triangles_shared(&ready->triangles.triangles[a->triangle],
-                                         &ready->triangles.triangles[b->triangle]);
-    return corners >= 2 || (corners == 1 && vec3_dot(a->normal, b->normal) > 0.7);
+    const int corners = triangles_shared(a, b);
+    if (corners >= 2 || a->creased || b->creased)
+        return corners >= 2;
+    return vec3_dot(at_a->normal, at_b->normal) > 0.7 &&
+           (corners == 1 || in_tangent_planes(at_a, at_b));
 }
 
 static bool like_colors(const Sample *a, const Sample *b)
@@ -288,8 +291,11 @@ bool trace_agree(const Trace *trace, const Sample *a, const Sample *b)
     if (a->object < 0)
         return true;
     const TraceObject *ready = &trace->objects[a->object];
+    if (!like_colors(a, b))
+        return false;
+    if (!ready->exact)
+        return joined(&ready->triangles.triangles[a->triangle],
+                      &ready->triangles.triangles[b->triangle], a, b);
     /* Of all solids only a torus lies before itself with the same side outwards. */
-    const bool folded = !ready->exact || ready->object->solid.kind == SOLID_TORUS;
-    return like_colors(a, b) && (!folded || (!ready->exact && joined(ready, a, b)) ||
-                                 (vec3_dot(a->normal, b->normal) > 0.7 && in_tangent_planes(a, b)));
+    return ready->object->solid.kind != SOLID_TORUS || in_tangent_planes(a, b);
 }

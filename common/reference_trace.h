@@ -7,6 +7,7 @@
 #ifndef REFERENCE_TRACE_H
 #define REFERENCE_TRACE_H
 
+#include "reference_real.h"
 #include "scene.h"
 
 #include <stdint.h>

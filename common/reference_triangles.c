@@ -25,17 +25,24 @@ static uint32_t hash_position(const float position[3])
     return hash ^ hash >> 15;
 }
 
-static bool equal_vertices(const MeshVertex *a, const MeshVertex *b)
+static bool equal_positions(const MeshVertex *a, const MeshVertex *b)
 {
-    for (int k = 0; k < 3; k++)
-        if (a->position[k] != b->position[k] || fabsf(a->normal[k] - b->normal[k]) > 1e-3F)
-            return false;
-    return true;
+    return a->position[0] == b->position[0] && a->position[1] == b->position[1] &&
+           a->position[2] == b->position[2];
 }
 
-/* Fills `first`: for each vertex the first that equals it. */
-static bool find_equal(const Mesh *mesh, uint32_t *first)
+static bool equal_normals(const MeshVertex *a, const MeshVertex *b)
 {
+    return fabsf(a->normal[0] - b->normal[0]) <= 1e-3F &&
+           fabsf(a->normal[1] - b->normal[1]) <= 1e-3F &&
+           fabsf(a->normal[2] - b->normal[2]) <= 1e-3F;
+}
+
+/* Fills `first`: for each vertex the first that equals it; `creased`: whether there are others in
+ * the same place. */
+static bool find_equal(const Mesh *mesh, uint32_t *first, bool *creased)
+{
+    const MeshVertex *vertices = mesh->vertices;
     Places places = {NULL, NULL, 15};
     while (places.mask < mesh->vertex_count)
         places.mask = 2 * places.mask + 1;
@@ -45,15 +52,23 @@ static bool find_equal(const Mesh *mesh, uint32_t *first)
     if (done)
         memset(places.heads, 0xFF, ((size_t)places.mask + 1) * sizeof *places.heads);
     for (uint32_t i = 0; done && i < mesh->vertex_count; i++) {
-        const uint32_t place = hash_position(mesh->vertices[i].position) & places.mask;
-        uint32_t other = places.heads[place];
-        while (other != NONE && !equal_vertices(&mesh->vertices[i], &mesh->vertices[other]))
-            other = places.next[other];
-        first[i] = other == NONE ? i : other;
-        if (other == NONE) {
-            places.next[i] = places.heads[place];
-            places.heads[place] = i;
+        const uint32_t place = hash_position(vertices[i].position) & places.mask;
+        uint32_t other = places.heads[place], same_place = NONE;
+        first[i] = i;
+        creased[i] = false;
+        for (; other != NONE && first[i] == i; other = places.next[other]) {
+            if (!equal_positions(&vertices[i], &vertices[other]))
+                continue;
+            if (equal_normals(&vertices[i], &vertices[other]))
+                first[i] = other;
+            same_place = other;
         }
+        if (first[i] != i)
+            continue;
+        if (same_place != NONE)
+            creased[i] = creased[same_place] = true;
+        places.next[i] = places.heads[place];
+        places.heads[place] = i;
     }
     free(places.heads);
     free(places.next);
@@ -113,6 +128,7 @@ static bool has_area(Real3 normal)
 /* What is needed while triangles are opened. */
 typedef struct Work {
     uint32_t *first, *parents;
+    bool *creased;
     Triangle *unordered;
     Real (*boxes)[2][3];
 } Work;
@@ -121,8 +137,8 @@ static bool fill(Triangles *triangles, const Mesh *mesh, const Real3 *points, bo
                  const Work *work)
 {
     const size_t most = mesh->index_count / 3;
-    if (!work->first || !work->parents || !work->unordered || !work->boxes ||
-        !triangles->triangles || !find_equal(mesh, work->first))
+    if (!work->first || !work->parents || !work->creased || !work->unordered || !work->boxes ||
+        !triangles->triangles || !find_equal(mesh, work->first, work->creased))
         return false;
     for (uint32_t i = 0; i < mesh->vertex_count; i++)
         work->parents[i] = i;
@@ -142,6 +158,8 @@ static bool fill(Triangles *triangles, const Mesh *mesh, const Real3 *points, bo
         Triangle *triangle = &triangles->triangles[i];
         *triangle = work->unordered[triangles->bounds.order[i]];
         triangle->piece = apart ? triangle->number : root_of(work->parents, triangle->corners[0]);
+        for (int k = 0; k < 3; k++)
+            triangle->creased |= work->creased[triangle->corners[k]];
     }
     return true;
 }
@@ -151,12 +169,14 @@ bool triangles_open(Triangles *triangles, const Mesh *mesh, const Real3 *points,
     const size_t most = mesh->index_count / 3;
     const Work work = {malloc((mesh->vertex_count + 1) * sizeof *work.first),
                        malloc((mesh->vertex_count + 1) * sizeof *work.parents),
+                       malloc((mesh->vertex_count + 1) * sizeof *work.creased),
                        malloc((most + 1) * sizeof *work.unordered),
                        malloc((most + 1) * sizeof *work.boxes)};
     *triangles = (Triangles){.triangles = malloc((most + 1) * sizeof *triangles->triangles)};
     const bool done = fill(triangles, mesh, points, apart, &work);
     free(work.first);
     free(work.parents);
+    free(work.creased);
     free(work.unordered);
     free(work.boxes);
     if (!done)

@@ -17,6 +17,7 @@ typedef struct Triangle {
     uint32_t number; /* in the mesh */
     uint32_t corners[3]; /* vertices; of those that are equal the first */
     uint32_t piece;      /* a triangle of it: pieces are what hangs together by equal corners */
+    bool creased;        /* at one of its corners there are vertices with different normals */
 } Triangle;
 
 typedef struct Triangles {

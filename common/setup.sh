@@ -16,7 +16,9 @@ build=${LIGHTING_BUILD:-$root/build}
 packages_to_draw="gcc g++ libc6-dev pkg-config meson ninja-build libegl-dev libgles-dev libegl1
     libegl-mesa0 libgl1-mesa-dri libpng-dev libopenimageio-dev libassimp-dev
     fonts-dejavu-core"
-packages_to_test="libcmocka-dev libosmesa6-dev glslang-tools spirv-tools python3"
+# Of the programs in examples/study: plots, and counts of operations.
+packages_to_study="gnuplot-nox glslang-tools spirv-tools"
+packages_to_test="libcmocka-dev libosmesa6-dev python3"
 
 say() {
     printf '%s: %s\n' "${self#"$root"/}" "$*" >&2

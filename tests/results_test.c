@@ -621,7 +621,9 @@ static void front_is(const double *errors)
             fail_msg("%g is not number %d of %d", errors[count], count, front.count);
     assert_int_equal(front.count, count);
     for (int i = 0; i < front.count; i++)
-        assert_false(front.tied[i]);
+        assert_false(front_ties(&front, front.rows[i]));
+    for (int i = 0; i < front.tied_count; i++)
+        assert_false(front_has(&front, front.tied[i]));
     front_close(&front);
     results_close(&results);
 }
@@ -681,6 +683,15 @@ static void among_tied_rows_the_most_exact_counts(void **state)
     /* A chain: each is tied with its neighbours, the first faster than the last. */
     add(0, 3, 1.00), add(1, 2, 1.04), add(2, 1, 1.08);
     FRONT_IS(3, 1);
+    /* Those that the medians alone would take are called tied. */
+    Front front;
+    add(0, 3, 1.00), add(1, 2, 1.02), add(2, 1, 1.04), add(3, 2.5, 1.03);
+    assert_true(front_open(&front, &results, "s", ERROR_INTERIOR_MAXIMUM, &message));
+    assert_int_equal(front.count, 1);
+    assert_int_equal(front.tied_count, 2);
+    assert_true(front.tied[0]->interior_maximum == 2 && front.tied[1]->interior_maximum == 3);
+    front_close(&front);
+    results_close(&results);
     /* One run disagrees. */
     add(0, 3, 1), add(1, 2, 2);
     results.rows[0].run_times[1] = 2.5;

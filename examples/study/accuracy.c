@@ -168,6 +168,14 @@ static bool write_sheets(Survey *survey, const Options *options, int number, con
     return done;
 }
 
+static bool any_row(const Results *results, const char *scene_name)
+{
+    for (int i = 0; i < results->count; i++)
+        if (strcmp(results->rows[i].scene, scene_name) == 0)
+            return true;
+    return false;
+}
+
 /* All tables, whole, to a file. */
 static bool write_tables(const Survey *survey, const Options *options, Message *message)
 {
@@ -176,8 +184,9 @@ static bool write_tables(const Survey *survey, const Options *options, Message *
     FILE *file = open_memstream(&text, &size);
     bool done = file || message_set(message, "table.txt: not enough memory");
     for (int i = 0; i < STUDY_SCENE_COUNT && done; i++)
-        done = report_table(&survey->results, STUDY_SCENES[i].name, ERROR_INTERIOR_MAXIMUM, false,
-                            file, message);
+        if (any_row(&survey->results, STUDY_SCENES[i].name))
+            done = report_table(&survey->results, STUDY_SCENES[i].name, ERROR_INTERIOR_MAXIMUM,
+                                false, file, message);
     if (file && fclose(file) != 0 && done)
         done = message_set(message, "table.txt: not enough memory");
     done = done && output_write(in_folder(options, "table.txt", path), text, size, message);
@@ -287,8 +296,8 @@ static bool check(Message *message)
                            budget >= 0        ? "--budget"
                            : time_budget >= 0 ? "--time-budget"
                                               : "--setting");
-    if (calibrate && (one || budget >= 0 || time_budget >= 0 || setting_asked || quick))
-        return message_set(message, "--calibrate: takes all scenes and settings, not some");
+    if (calibrate && (one || budget >= 0 || time_budget >= 0 || setting_asked))
+        return message_set(message, "--calibrate: takes all scenes and settings, not one");
     if (setting_asked && (budget >= 0 || time_budget >= 0))
         return message_set(message, "--setting: measures one; there is nothing to choose");
     if (by_rms && budget < 0 && time_budget < 0)
@@ -296,15 +305,16 @@ static bool check(Message *message)
     return true;
 }
 
+static const Usage usage = {
+    .name = "accuracy",
+    .summary = "what accuracy costs in time, scene by scene and setting by setting",
+    .details = details,
+    .study = true,
+    .parameters = parameters,
+};
+
 int main(int argc, char *argv[])
 {
-    static const Usage usage = {
-        .name = "accuracy",
-        .summary = "Measures what accuracy costs in time, scene by scene and setting by setting.",
-        .details = details,
-        .study = true,
-        .parameters = parameters,
-    };
     Options options;
     Setting setting;
     Message message = {0};

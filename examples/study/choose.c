@@ -62,8 +62,6 @@ bool choose_by_error(Survey *survey, int scene, double error, bool rms, Message 
             say("the next cheaper", front.rows[place - 1], kind);
         else
             printf("there is none that is cheaper\n");
-        if (place > 0 && front.tied[place - 1])
-            printf("  tied: in time the two cannot be told apart\n");
         say_measured_with(survey);
         if (row_error(&again, kind) > error)
             done = message_set(message, "measured again, the error is %.3f, over the budget of %g",
@@ -100,8 +98,6 @@ bool choose_by_time(Survey *survey, int scene, double milliseconds, bool rms, Me
             say("the next slower", front.rows[place + 1], kind);
         else
             printf("there is none that is more exact\n");
-        if (place + 1 < front.count && front.tied[place])
-            printf("  tied: in time the two cannot be told apart\n");
         if (again.time > milliseconds * (1 + again.noise))
             printf("measured again it took longer than %g ms: the machine is busier, or noisy "
                    "(%.0f%%)\n",

@@ -139,6 +139,19 @@ static int select_entries(Entry *entries, const ResultRow *const *rows, int coun
     return selected;
 }
 
+/* From the most exact one on, each that is faster by its median than all before it. */
+static void take_tied(Front *front, const Entry *entries, int count)
+{
+    double fastest = INFINITY;
+    for (int i = 0; i < count; i++) {
+        if (entries[i].row->time >= fastest)
+            continue;
+        fastest = entries[i].row->time;
+        if (!front_has(front, entries[i].row))
+            front->tied[front->tied_count++] = entries[i].row;
+    }
+}
+
 bool front_open(Front *front, const Results *results, const char *scene, ErrorKind kind,
                 Message *message)
 {
@@ -156,9 +169,7 @@ bool front_open(Front *front, const Results *results, const char *scene, ErrorKi
         front->count = take_faster(entries, count, front->rows);
         front->count = take_more_exact(front->rows, front->count, kind);
         prefer_usual(front, entries, count, kind);
-        for (int i = 0; i < front->count; i++)
-            front->tied[i] =
-                i + 1 < front->count && !row_faster(front->rows[i], front->rows[i + 1]);
+        take_tied(front, entries, count);
     }
     free(entries);
     free(rows);
@@ -190,6 +201,14 @@ const ResultRow *front_most_exact(const Front *front, double time)
         if (front->rows[i]->time <= time)
             return front->rows[i];
     return NULL;
+}
+
+bool front_ties(const Front *front, const ResultRow *row)
+{
+    for (int i = 0; i < front->tied_count; i++)
+        if (front->tied[i] == row)
+            return true;
+    return false;
 }
 
 void front_close(Front *front)

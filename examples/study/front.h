@@ -32,18 +32,21 @@ bool row_beats(const ResultRow *a, const ResultRow *b, ErrorKind kind);
  * FRONT_EQUAL_ERROR or more: no two that are tied are among them. Every other row is beaten by one
  * of them; among tied rows that is the most exact one, and among those that are tied and equally
  * exact the one with the fewest choices that are not usual. Rows whose time or error is not known
- * do not take part; of several with one setting the latest does. */
+ * do not take part; of several with one setting the latest does.
+ *
+ * Tied are the others that the medians of their times, taken at their word, would make efficient:
+ * what is measured does not tell whether they are. */
 typedef struct Front {
-    const ResultRow **rows;
-    bool *tied; /* whether rows[i] is tied with rows[i + 1]: with this rule, none is */
-    int count;
+    const ResultRow **rows, **tied;
+    int count, tied_count;
 } Front;
 
 bool front_open(Front *front, const Results *results, const char *scene, ErrorKind kind,
                 Message *message);
 
-/* Whether a row is one of the efficient ones. */
+/* Whether a row is one of the efficient ones; whether it is one of the tied. */
 bool front_has(const Front *front, const ResultRow *row);
+bool front_ties(const Front *front, const ResultRow *row);
 
 /* The cheapest row whose error is at most `error`; NULL where none is. The most exact row whose
  * time is at most `time` milliseconds; NULL where none is. */

@@ -85,11 +85,6 @@ static int by_time(const void *first, const void *second)
     return memcmp(a->setting.choice, b->setting.choice, sizeof a->setting.choice);
 }
 
-static bool is_tied(const ResultRow *a, const ResultRow *b)
-{
-    return isfinite(a->time) && isfinite(b->time) && !row_faster(a, b) && !row_faster(b, a);
-}
-
 static void put_head(FILE *file, const ResultRow *const *rows, int count, ErrorKind kind)
 {
     static const char *const kinds[] = {
@@ -113,7 +108,7 @@ static void put_head(FILE *file, const ResultRow *const *rows, int count, ErrorK
         fprintf(file, "noise %.1f to %.1f %%\n", 100 * least, 100 * most);
     fprintf(file,
             "Errors in steps of 1/255. * efficient by the %s.\n"
-            "= tied with the next: their times cannot be told apart.\n\n",
+            "= tied: its median would make it efficient too, but that is within the noise.\n\n",
             kinds[kind]);
 }
 
@@ -159,10 +154,10 @@ static void put_lines(FILE *file, const ResultRow *const *rows, const Line *line
     for (int j = 0; j < count; j++) {
         char text[SETTING_TEXT_SIZE];
         const bool efficient = front_has(front, rows[j]);
-        if (only_efficient && !efficient)
+        const bool tied = front_ties(front, rows[j]);
+        if (only_efficient && !efficient && !tied)
             continue;
-        const bool tied = !only_efficient && j + 1 < count && is_tied(rows[j], rows[j + 1]);
-        fprintf(file, "%c%c", efficient ? '*' : ' ', tied ? '=' : ' ');
+        fprintf(file, "%c ", efficient ? '*' : tied ? '=' : ' ');
         for (int i = 0; i < COLUMNS; i++)
             if (widths[i])
                 fprintf(file, " %*s", widths[i], lines[j].cells[i]);

@@ -90,6 +90,17 @@ static bool near_line(Place point, Place a, Place b)
            hypot(point.x - a.x - s * x, point.y - a.y - s * y) < 9;
 }
 
+/* Which side of the line from a to b a point is on. */
+static bool left_of(Place point, Place a, Place b)
+{
+    return (b.x - a.x) * (point.y - a.y) > (b.y - a.y) * (point.x - a.x);
+}
+
+static bool lines_cross(Place a, Place b, Place c, Place d)
+{
+    return left_of(c, a, b) != left_of(d, a, b) && left_of(a, c, d) != left_of(b, c, d);
+}
+
 /* How bad a place is, besides being far away. */
 static double cost(const Label *label, Place least, Place most, const Label *labels, int count,
                    const LabelGround *ground)
@@ -107,9 +118,13 @@ static double cost(const Label *label, Place least, Place most, const Label *lab
             sum += 1e6;
         if (before && crosses(label->point, end, other->least, other->most))
             sum += 1e4;
-        if (before &&
-            crosses(other->point, nearest_in(other->point, other->least, other->most), low, high))
+        if (!before)
+            continue;
+        const Place other_end = nearest_in(other->point, other->least, other->most);
+        if (crosses(other->point, other_end, low, high))
             sum += 1e4;
+        if (lines_cross(label->point, end, other->point, other_end))
+            sum += 1000;
     }
     for (int i = 0; i < ground->path_count; i++) {
         const Place at = ground->path[i];
