@@ -38,9 +38,8 @@ static bool equal_normals(const MeshVertex *a, const MeshVertex *b)
            fabsf(a->normal[2] - b->normal[2]) <= 1e-3F;
 }
 
-/* Fills `first`: for each vertex the first that equals it; `creased`: whether there are others in
- * the same place. */
-static bool find_equal(const Mesh *mesh, uint32_t *first, bool *creased)
+/* Fills, for each vertex, the first that equals it, and the first in its place. */
+static bool find_equal(const Mesh *mesh, uint32_t *equal, uint32_t *in_place)
 {
     const MeshVertex *vertices = mesh->vertices;
     Places places = {NULL, NULL, 15};
@@ -53,20 +52,17 @@ static bool find_equal(const Mesh *mesh, uint32_t *first, bool *creased)
         memset(places.heads, 0xFF, ((size_t)places.mask + 1) * sizeof *places.heads);
     for (uint32_t i = 0; done && i < mesh->vertex_count; i++) {
         const uint32_t place = hash_position(vertices[i].position) & places.mask;
-        uint32_t other = places.heads[place], same_place = NONE;
-        first[i] = i;
-        creased[i] = false;
-        for (; other != NONE && first[i] == i; other = places.next[other]) {
+        uint32_t other = places.heads[place];
+        equal[i] = in_place[i] = i;
+        for (; other != NONE && equal[i] == i; other = places.next[other]) {
             if (!equal_positions(&vertices[i], &vertices[other]))
                 continue;
+            in_place[i] = in_place[other];
             if (equal_normals(&vertices[i], &vertices[other]))
-                first[i] = other;
-            same_place = other;
+                equal[i] = other;
         }
-        if (first[i] != i)
+        if (equal[i] != i)
             continue;
-        if (same_place != NONE)
-            creased[i] = creased[same_place] = true;
         places.next[i] = places.heads[place];
         places.heads[place] = i;
     }
@@ -127,8 +123,7 @@ static bool has_area(Real3 normal)
 
 /* What is needed while triangles are opened. */
 typedef struct Work {
-    uint32_t *first, *parents;
-    bool *creased;
+    uint32_t *equal, *in_place, *parents;
     Triangle *unordered;
     Real (*boxes)[2][3];
 } Work;
@@ -137,14 +132,14 @@ static bool fill(Triangles *triangles, const Mesh *mesh, const Real3 *points, bo
                  const Work *work)
 {
     const size_t most = mesh->index_count / 3;
-    if (!work->first || !work->parents || !work->creased || !work->unordered || !work->boxes ||
-        !triangles->triangles || !find_equal(mesh, work->first, work->creased))
+    if (!work->equal || !work->parents || !work->in_place || !work->unordered || !work->boxes ||
+        !triangles->triangles || !find_equal(mesh, work->equal, work->in_place))
         return false;
     for (uint32_t i = 0; i < mesh->vertex_count; i++)
         work->parents[i] = i;
     for (uint32_t i = 0; i < most; i++) {
         const uint32_t *indices = mesh->indices + 3 * (size_t)i;
-        const Triangle triangle = make_triangle(indices, i, points, work->first);
+        const Triangle triangle = make_triangle(indices, i, points, work->equal);
         if (!has_area(triangle.normal))
             continue;
         unite(work->parents, triangle.corners[0], triangle.corners[1]);
@@ -158,8 +153,6 @@ static bool fill(Triangles *triangles, const Mesh *mesh, const Real3 *points, bo
         Triangle *triangle = &triangles->triangles[i];
         *triangle = work->unordered[triangles->bounds.order[i]];
         triangle->piece = apart ? triangle->number : root_of(work->parents, triangle->corners[0]);
-        for (int k = 0; k < 3; k++)
-            triangle->creased |= work->creased[triangle->corners[k]];
     }
     return true;
 }
@@ -167,16 +160,16 @@ static bool fill(Triangles *triangles, const Mesh *mesh, const Real3 *points, bo
 bool triangles_open(Triangles *triangles, const Mesh *mesh, const Real3 *points, bool apart)
 {
     const size_t most = mesh->index_count / 3;
-    const Work work = {malloc((mesh->vertex_count + 1) * sizeof *work.first),
+    const Work work = {malloc((mesh->vertex_count + 1) * sizeof *work.equal),
                        malloc((mesh->vertex_count + 1) * sizeof *work.parents),
-                       malloc((mesh->vertex_count + 1) * sizeof *work.creased),
+                       malloc((mesh->vertex_count + 1) * sizeof *work.in_place),
                        malloc((most + 1) * sizeof *work.unordered),
                        malloc((most + 1) * sizeof *work.boxes)};
     *triangles = (Triangles){.triangles = malloc((most + 1) * sizeof *triangles->triangles)};
     const bool done = fill(triangles, mesh, points, apart, &work);
-    free(work.first);
+    free(work.equal);
     free(work.parents);
-    free(work.creased);
+    free(work.in_place);
     free(work.unordered);
     free(work.boxes);
     if (!done)
@@ -273,11 +266,13 @@ bool triangles_ray(const Triangles *triangles, Real3 direction, Real near, Real 
     return number != NONE;
 }
 
-int triangles_shared(const Triangle *a, const Triangle *b)
+TrianglesShare triangles_share(const Triangle *a, const Triangle *b)
 {
-    int shared = 0;
+    TrianglesShare share = {0, 0};
     for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            shared += a->corners[i] == b->corners[j];
-    return shared;
+        for (int j = 0; j < 3; j++) {
+            share.corners += a->corners[i] == b->corners[j];
+            share.places += a->places[i] == b->places[j];
+        }
+    return share;
 }

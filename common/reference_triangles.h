@@ -16,8 +16,8 @@ typedef struct Triangle {
     Real offset;     /* normal . v0 */
     uint32_t number; /* in the mesh */
     uint32_t corners[3]; /* vertices; of those that are equal the first */
+    uint32_t places[3];  /* vertices; of those in one place the first */
     uint32_t piece;      /* a triangle of it: pieces are what hangs together by equal corners */
-    bool creased;        /* at one of its corners there are vertices with different normals */
 } Triangle;
 
 typedef struct Triangles {
@@ -44,7 +44,11 @@ typedef struct TriangleHit {
 bool triangles_ray(const Triangles *triangles, Real3 direction, Real near, Real far,
                    TriangleHit *hit);
 
-/* How many corners two triangles share: 3 for one with itself. */
-int triangles_shared(const Triangle *a, const Triangle *b);
+/* How many corners two triangles have in common, 3 for one with itself; and how many places. More
+ * places than corners make a crease between them. */
+typedef struct TrianglesShare {
+    int corners, places;
+} TrianglesShare;
+TrianglesShare triangles_share(const Triangle *a, const Triangle *b);
 
 #endif

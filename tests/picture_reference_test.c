@@ -9,6 +9,7 @@
  */
 #include "picture_check.h"
 
+#include "efficient.h"
 #include "lighting.h"
 #include "reference.h"
 #include "stage.h"
@@ -21,6 +22,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const double MOST = 1; /* step of 1/255 */
@@ -305,11 +307,106 @@ static void scenes_are_drawn_as_the_reference_has_them(void **state)
     assert_true(all);
 }
 
+/* Settings that were chosen by an error. */
+
+/* The largest error inside objects, where the exact picture and that of the mesh as drawn show the
+ * same object at about the same depth. */
+static double largest_error(const Image *image, const Reference *exact, const Reference *drawn)
+{
+    static const double DEPTH = 0.05;
+    const unsigned char *pixels = image->pixels;
+    double worst = 0;
+    for (size_t i = 0; i < (size_t)image->width * (size_t)image->height; i++) {
+        if (!exact->interior[i] || !drawn->interior[i] || exact->object[i] != drawn->object[i] ||
+            fabs(exact->depth[i] - drawn->depth[i]) > DEPTH * exact->depth[i])
+            continue;
+        for (size_t c = 0; c < 3; c++)
+            worst = fmax(worst,
+                         fabs((double)pixels[4 * i + c] - 255 * (double)exact->color[3 * i + c]));
+    }
+    return worst;
+}
+
+/* Draws a view with the setting that the committed table has for an error, and gives its own. */
+static double error_of_choice(const Canvas *canvas, Lighting *lighting, const Scene *scene,
+                              const Efficient *table, double allowed, Image *image)
+{
+    Message message = {0};
+    SolidMeshes meshes = {NULL};
+    SettingScene made;
+    Reference exact, drawn;
+    const EfficientRow *row = efficient_choose(table, scene_class(scene), allowed, &message);
+    require(row != NULL, &message);
+    assert_int_equal(row->setting.choice[AXIS_PRECISION], PRECISION_HIGHP);
+    require(setting_scene_open(&made, scene, &row->setting, &meshes, &message), &message);
+    draw(canvas, lighting, &made.scene, image);
+    open_exact(&exact, scene, canvas->width, canvas->height, false);
+    open_exact(&drawn, &made.scene, canvas->width, canvas->height, true);
+    const double error = largest_error(image, &exact, &drawn);
+    reference_close(&exact);
+    reference_close(&drawn);
+    for (const SolidMesh *mesh = meshes.first; mesh; mesh = mesh->next)
+        lighting_forget(lighting, &mesh->mesh);
+    setting_scene_close(&made);
+    solid_meshes_close(&meshes);
+    return error;
+}
+
+static void programs_keep_the_error_they_are_given(void **state)
+{
+    static const double allowed[] = {1, 2, 4, 16};
+    const ShaderLoader loader = {.precision = "highp"};
+    const CanvasOptions options = {.width = 240, .height = 200};
+    Efficient *table = calloc(1, sizeof *table);
+    Message message = {0};
+    Canvas canvas;
+    Image image;
+    Lighting *lighting;
+    char path[4096];
+    (void)state;
+    bool all = true;
+    snprintf(path, sizeof path, "%s/../common/efficient.csv", SHADERS_SOURCE);
+    setenv("LIGHTING_EFFICIENT", path, 1);
+    require(efficient_read(table, &message), &message);
+    require(canvas_open(&canvas, &options, &message), &message);
+    require(image_open(&image, canvas.width, canvas.height, IMAGE_BYTE, &message), &message);
+    require(lighting_open(&lighting, &loader, &message), &message);
+    for (int i = 0; i < EXAMPLE_COUNT; i++) {
+        int columns = 1, rows = 1;
+        require(EXAMPLES[i]->init(&loader, &message), &message);
+        if (EXAMPLES[i]->layout)
+            EXAMPLES[i]->layout(&columns, &rows);
+        for (int view = 0; view < columns * rows; view++) {
+            Scene scene = {.object_count = 0};
+            EXAMPLES[i]->scene(0, view, &scene);
+            if (scene.object_count == 0)
+                continue;
+            print_message("%-18s view %d, class %-8s:", EXAMPLES[i]->name, view,
+                          SCENE_CLASS_NAMES[scene_class(&scene)]);
+            for (size_t e = 0; e < sizeof allowed / sizeof allowed[0]; e++) {
+                const double error =
+                    error_of_choice(&canvas, lighting, &scene, table, allowed[e], &image);
+                print_message("  allowed %g, is %.2f", allowed[e], error);
+                all &= error <= allowed[e];
+            }
+            print_message("\n");
+        }
+        EXAMPLES[i]->finish();
+    }
+    lighting_close(lighting);
+    image_close(&image);
+    canvas_close(&canvas);
+    unsetenv("LIGHTING_EFFICIENT");
+    free(table);
+    assert_true(all);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lecture_programs_draw_the_reference),
         cmocka_unit_test(scenes_are_drawn_as_the_reference_has_them),
+        cmocka_unit_test(programs_keep_the_error_they_are_given),
     };
     if (!picture_check_driver("picture_reference_test"))
         return EXIT_SKIPPED;

@@ -1,0 +1,186 @@
+#include "hard.h"
+
+#include "picture_check.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static void require(bool done, const Message *message)
+{
+    if (!done)
+        fail_msg("%s", message->text);
+}
+
+void hard_open(Hard *hard, int width, int height)
+{
+    static const char *const precisions[] = {"highp", "mediump"};
+    const CanvasOptions bytes = {.width = width, .height = height};
+    const CanvasOptions floats = {.width = width, .height = height, .real = true};
+    Message message = {0};
+    memset(hard, 0, sizeof *hard);
+    require(canvas_open(&hard->bytes, &bytes, &message), &message);
+    require(canvas_open_beside(&hard->floats, &hard->bytes, &floats, &message), &message);
+    require(image_open(&hard->image, width, height, IMAGE_BYTE, &message), &message);
+    require(image_open(&hard->real, width, height, hard->floats.real ? IMAGE_FLOAT : IMAGE_BYTE,
+                       &message),
+            &message);
+    for (int i = 0; i < 2; i++) {
+        const ShaderLoader loader = {.precision = precisions[i]};
+        require(lighting_open(&hard->lightings[i], &loader, &message), &message);
+    }
+}
+
+void hard_close(Hard *hard)
+{
+    for (int i = 0; i < 2; i++)
+        lighting_close(hard->lightings[i]);
+    image_close(&hard->image);
+    image_close(&hard->real);
+    canvas_close(&hard->floats);
+    canvas_close(&hard->bytes);
+}
+
+void hard_forget(Hard *hard, const Mesh *mesh)
+{
+    for (int i = 0; i < 2; i++)
+        lighting_forget(hard->lightings[i], mesh);
+}
+
+void hard_exact(const Hard *hard, const Scene *scene, bool solids, Reference *exact)
+{
+    Message message = {0};
+    const ReferenceOptions options = {
+        .width = hard->bytes.width, .height = hard->bytes.height, .meshes = !solids};
+    require(scene_check(scene, &message), &message);
+    require(reference_open(exact, scene, &options, &message), &message);
+}
+
+static void draw(const Canvas *canvas, Lighting *lighting, const Scene *scene, Image *image)
+{
+    Message message = {0};
+    canvas_begin(canvas);
+    glClearColor((float)scene->background.x, (float)scene->background.y, (float)scene->background.z,
+                 1);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    require(lighting_draw(lighting, scene, (double)canvas->width / canvas->height, false, &message),
+            &message);
+    require(canvas_read(canvas, image, &message), &message);
+}
+
+static double clamped(double value)
+{
+    return !isfinite(value) ? value : value < 0 ? 0 : value > 1 ? 1 : value;
+}
+
+/* Of channel `c`, counted over all pixels' four, from 0 to 1. */
+static double value_of(const Image *image, size_t c)
+{
+    return image->type == IMAGE_FLOAT ? (double)((const float *)image->pixels)[c]
+                                      : ((const unsigned char *)image->pixels)[c] / 255.0;
+}
+
+static void compare_pixel(const Hard *hard, const Reference *exact, size_t pixel,
+                          HardResult *result)
+{
+    result->interior_pixels++;
+    for (size_t c = 0; c < 3; c++) {
+        const double right = (double)exact->color[3 * pixel + c];
+        const double byte = 255 * fabs(value_of(&hard->image, 4 * pixel + c) - right);
+        const double real = clamped(value_of(&hard->real, 4 * pixel + c));
+        const double real_error = isfinite(real) ? 255 * fabs(real - right) : 255;
+        result->float_error = fmax(result->float_error, real_error);
+        if (byte <= result->byte_error)
+            continue;
+        result->byte_error = byte;
+        result->x = (int)(pixel % (size_t)hard->image.width);
+        result->y = (int)(pixel / (size_t)hard->image.width);
+    }
+}
+
+HardResult hard_draw(Hard *hard, const Scene *scene, HardPrecision precision,
+                     const Reference *exact)
+{
+    HardResult result = {.interior_pixels = 0};
+    Reference own = {.width = 0};
+    Message message = {0};
+    const size_t count = (size_t)hard->image.width * (size_t)hard->image.height;
+    require(scene_check(scene, &message), &message);
+    if (!exact)
+        hard_exact(hard, scene, false, &own);
+    draw(&hard->bytes, hard->lightings[precision], scene, &hard->image);
+    draw(&hard->floats, hard->lightings[precision], scene, &hard->real);
+    for (size_t i = 0; i < count; i++) {
+        for (size_t c = 0; c < 4; c++)
+            result.not_finite += !isfinite(value_of(&hard->real, 4 * i + c));
+        if ((exact ? exact : &own)->interior[i])
+            compare_pixel(hard, exact ? exact : &own, i, &result);
+    }
+    reference_close(&own);
+    return result;
+}
+
+static void keep(const Hard *hard, const char *name, const Reference *exact)
+{
+    Image expected;
+    if (!image_open(&expected, exact->width, exact->height, IMAGE_BYTE, NULL))
+        return;
+    unsigned char *to = expected.pixels;
+    for (size_t i = 0; i < (size_t)exact->width * (size_t)exact->height; i++) {
+        for (size_t c = 0; c < 3; c++)
+            to[4 * i + c] = (unsigned char)lrintf(255 * exact->color[3 * i + c]);
+        to[4 * i + 3] = 255;
+    }
+    picture_check_keep(name, &hard->image, &expected);
+    image_close(&expected);
+}
+
+void hard_check(Hard *hard, const char *name, const Scene *scene, HardPrecision precision,
+                double most, int least_pixels)
+{
+    Reference exact;
+    hard_exact(hard, scene, false, &exact);
+    const HardResult result = hard_draw(hard, scene, precision, &exact);
+    const bool right = result.not_finite == 0 && result.byte_error <= most &&
+                       result.interior_pixels >= least_pixels;
+    if (!right)
+        keep(hard, name, &exact);
+    reference_close(&exact);
+    if (!right)
+        fail_msg(
+            "%s, %s: largest error %.3f of %.3f at (%d, %d), %d pixels inside, %lld values not "
+            "finite",
+            name, precision == HARD_HIGHP ? "highp" : "mediump", result.byte_error, most, result.x,
+            result.y, result.interior_pixels, result.not_finite);
+}
+
+static unsigned long long next(HardRandom *random)
+{
+    unsigned long long z = random->state += 0x9E3779B97F4A7C15ULL;
+    z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9ULL;
+    z = (z ^ z >> 27) * 0x94D049BB133111EBULL;
+    return z ^ z >> 31;
+}
+
+double hard_random(HardRandom *random, double least, double most)
+{
+    return least + (most - least) * ((double)(next(random) >> 11) * 0x1p-53);
+}
+
+int hard_random_below(HardRandom *random, int limit)
+{
+    return (int)(next(random) % (unsigned long long)limit);
+}
+
+Vec3 hard_random_direction(HardRandom *random)
+{
+    const double z = hard_random(random, -1, 1), a = hard_random(random, 0, 2 * acos(-1));
+    const double r = sqrt(1 - z * z);
+    return (Vec3){r * cos(a), r * sin(a), z};
+}
