@@ -33,26 +33,95 @@ static bool reflected(Vec3 light, Vec3 front, Vec3 back, bool two_sided)
     return !black(f) || (two_sided && !black(b));
 }
 
-/* A sphere around the object, in the world: that around its box. */
+static Vec3 of_floats(const float v[3])
+{
+    return (Vec3){(double)v[0], (double)v[1], (double)v[2]};
+}
+
+MeshFacts mesh_facts(const Mesh *mesh)
+{
+    MeshFacts facts = {.low = {INFINITY, INFINITY, INFINITY},
+                       .high = {-INFINITY, -INFINITY, -INFINITY},
+                       .least_normal = INFINITY,
+                       .most_normal = 0,
+                       .least_cosine = 1};
+    Vec3 *low = &facts.low, *high = &facts.high;
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
+        const Vec3 p = of_floats(mesh->vertices[i].position);
+        const double length = vec3_length(of_floats(mesh->vertices[i].normal));
+        *low = (Vec3){fmin(low->x, p.x), fmin(low->y, p.y), fmin(low->z, p.z)};
+        *high = (Vec3){fmax(high->x, p.x), fmax(high->y, p.y), fmax(high->z, p.z)};
+        /* One that is no number has no length. */
+        facts.least_normal = length >= 0 ? fmin(facts.least_normal, length) : 0;
+        facts.most_normal = fmax(facts.most_normal, length);
+    }
+    for (size_t i = 0; i + 2 < mesh->index_count; i += 3) {
+        Vec3 n[3];
+        for (size_t k = 0; k < 3; k++)
+            n[k] = of_floats(mesh->vertices[mesh->indices[i + k]].normal);
+        for (int k = 0; k < 3; k++) {
+            const Vec3 a = n[k], b = n[(k + 1) % 3];
+            const double cosine = vec3_dot(a, b) / sqrt(vec3_dot(a, a) * vec3_dot(b, b));
+            facts.least_cosine = fmin(facts.least_cosine, cosine);
+        }
+    }
+    return facts;
+}
+
+/* What an object is within, in the world: its mesh's box, transformed, as a sphere around that and
+ * as the slabs between its opposite faces. */
 typedef struct Sphere {
     Vec3 center;
     double radius;
 } Sphere;
 
-static Sphere bounding_sphere(const Object *object)
+typedef struct Bounds {
+    Sphere sphere;
+    Vec3 normals[3]; /* unit; zero where the slab has none */
+    double halves[3];
+} Bounds;
+
+static Bounds bounds_of(const Object *object, const MeshFacts *facts)
 {
-    const Mesh *mesh = object->mesh;
-    Vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
-    for (size_t i = 0; i < mesh->vertex_count; i++) {
-        const float *p = mesh->vertices[i].position;
-        const Vec3 world = mat4_transform_point(object->world_from_object,
-                                                (Vec3){(double)p[0], (double)p[1], (double)p[2]});
-        low = (Vec3){fmin(low.x, world.x), fmin(low.y, world.y), fmin(low.z, world.z)};
-        high = (Vec3){fmax(high.x, world.x), fmax(high.y, world.y), fmax(high.z, world.z)};
+    const double *m = object->world_from_object.m;
+    const Vec3 half = vec3_scale(vec3_subtract(facts->high, facts->low), 0.5);
+    const Vec3 edges[3] = {vec3_scale((Vec3){m[0], m[1], m[2]}, half.x),
+                           vec3_scale((Vec3){m[4], m[5], m[6]}, half.y),
+                           vec3_scale((Vec3){m[8], m[9], m[10]}, half.z)};
+    Bounds bounds = {.sphere.center = mat4_transform_point(object->world_from_object,
+                                                           vec3_add(facts->low, half))};
+    for (int corner = 0; corner < 4; corner++) { /* the other four lie opposite */
+        const Vec3 to_corner =
+            vec3_add(edges[0], vec3_add(vec3_scale(edges[1], corner & 1 ? -1 : 1),
+                                        vec3_scale(edges[2], corner & 2 ? -1 : 1)));
+        bounds.sphere.radius = fmax(bounds.sphere.radius, vec3_length(to_corner));
     }
-    const Vec3 diagonal = vec3_subtract(high, low);
-    return (Sphere){.center = vec3_add(low, vec3_scale(diagonal, 0.5)),
-                    .radius = 0.5 * vec3_length(diagonal)};
+    for (int i = 0; i < 3; i++) {
+        const double *a = &m[4 * ((i + 1) % 3)], *b = &m[4 * ((i + 2) % 3)];
+        vec3_normalize(vec3_cross((Vec3){a[0], a[1], a[2]}, (Vec3){b[0], b[1], b[2]}),
+                       &bounds.normals[i]);
+        for (int k = 0; k < 3; k++)
+            bounds.halves[i] += fabs(vec3_dot(bounds.normals[i], edges[k]));
+    }
+    return bounds;
+}
+
+/* The least distance that a segment has from the object, or less; negative where they may meet. */
+static double gap_of(const Bounds *bounds, Vec3 from, Vec3 to)
+{
+    const Vec3 center = bounds->sphere.center;
+    const Vec3 way = vec3_subtract(to, from), a = vec3_subtract(from, center);
+    const Vec3 b = vec3_subtract(to, center);
+    const double square = vec3_dot(way, way);
+    const double share = square > 0 ? fmin(fmax(-vec3_dot(a, way) / square, 0), 1) : 0;
+    double gap = vec3_length(vec3_add(a, vec3_scale(way, share))) - bounds->sphere.radius;
+    for (int i = 0; i < 3; i++) {
+        const double at_a = vec3_dot(a, bounds->normals[i]);
+        const double at_b = vec3_dot(b, bounds->normals[i]);
+        gap = fmax(gap, fmin(at_a, at_b) - bounds->halves[i]);
+        gap = fmax(gap, fmin(-at_a, -at_b) - bounds->halves[i]);
+    }
+    return gap;
 }
 
 /* Whether a spot's cone and a sphere have no point in common: the centre lies farther than the
@@ -94,6 +163,148 @@ static Transform transform_of(Mat4 m)
             if (fabs(dots[i][j] - (i == j ? square : 0)) > 1e-7 * square)
                 return GENERAL;
     return fabs(square - 1) <= 1e-7 ? ORTHONORMAL : ORTHOGONAL;
+}
+
+/* Guards. One is left out where its bound is never reached, so that it would change nothing. Each
+ * proof leaves a margin for what rounding and interpolation in floats add. */
+
+/* How far anything must stay away from an object: a hundredth of its farthest point's distance from
+ * the eye, and of that of the light as much as its rounding. */
+static double margin_of(const Scene *scene, const Bounds *bounds, Vec3 light)
+{
+    const Vec3 eye = scene->camera.eye;
+    return 1e-14 +
+           0.01 * (vec3_length(vec3_subtract(bounds->sphere.center, eye)) + bounds->sphere.radius) +
+           1e-6 * vec3_length(vec3_subtract(light, eye));
+}
+
+/* Whether light and viewer may be opposite each other at a point of the object. They are where it
+ * lies between them: on the segment from the eye to the light, or on the ray from the one that is
+ * near towards the one at infinity. Off it by a share of its distance, L + V has at least that
+ * share for its length. */
+static bool opposite(const Scene *scene, const Light *light, const Bounds *bounds)
+{
+    static const double FAR = 1e18; /* no coordinate is so large */
+    const Camera *camera = &scene->camera;
+    const bool positional = light->kind != LIGHT_DIRECTIONAL;
+    Vec3 from = camera->eye, to = light->position, unit;
+    if (scene->distant_viewer || !positional) {
+        from = positional ? light->position : camera->eye;
+        if (!vec3_normalize(
+                positional ? vec3_subtract(camera->eye, camera->center) : light->direction, &unit))
+            return true;
+        to = vec3_add(from, vec3_scale(unit, FAR));
+    }
+    const double margin = margin_of(scene, bounds, positional ? light->position : camera->eye);
+    return !(gap_of(bounds, from, to) > margin);
+}
+
+static LightGuards light_guards(const Scene *scene, const Light *light, const Bounds *bounds,
+                                const LightTerms *terms, FILE *file)
+{
+    LightGuards guards = {false, false, false};
+    if (light->kind != LIGHT_DIRECTIONAL) {
+        /* Outside the bounds there is a distance to divide by. */
+        const double gap = gap_of(bounds, light->position, light->position);
+        guards.distance = !(gap > margin_of(scene, bounds, light->position));
+        say(file, guards.distance ? "  guard of the distance: the light may touch the object"
+                                  : "  without guard of the distance: the light is outside the "
+                                    "object");
+        /* The denominator is least where the light is nearest. */
+        const double least = guards.distance ? 0 : gap;
+        guards.attenuation =
+            terms->attenuation &&
+            !(light->constant + least * (light->linear + least * light->quadratic) > 1e-29);
+    }
+    if (terms->attenuation)
+        say(file, guards.attenuation
+                      ? "  guard of the attenuation: without constant, where the light touches"
+                      : "  without guard of the attenuation: its denominator is never 0");
+    if (terms->specular && scene->reflection == REFLECTION_BLINN_PHONG && !terms->half_vector) {
+        guards.half_vector = opposite(scene, light, bounds);
+        say(file, guards.half_vector
+                      ? "  guard of the half vector: the object may lie between light and viewer"
+                      : "  without guard of the half vector: the object does not lie between light "
+                        "and viewer");
+    }
+    return guards;
+}
+
+/* How many times as far a matrix's upper left 3x3 part may stretch one direction as another. For
+ * singular values a >= b >= c that is a / c = a (a b) / (a b c), the last the determinant, and a b
+ * is at most half the sum of all their squares, which is that of the entries. */
+static double stretch_of(Mat4 m, double *size)
+{
+    double squares = 0;
+    for (int column = 0; column < 3; column++)
+        for (int row = 0; row < 3; row++)
+            squares += m.m[4 * column + row] * m.m[4 * column + row];
+    m.m[12] = m.m[13] = m.m[14] = 0;
+    *size = sqrt(squares);
+    return *size * squares / (2 * fabs(mat4_determinant(m)));
+}
+
+/* Where normals made unit may have no length. */
+static void guard_normals(const MeshFacts *facts, Transform transform, Mat4 matrix,
+                          Effects *effects, FILE *file)
+{
+    double size, stretch = stretch_of(matrix, &size);
+    if (transform != GENERAL) /* it is 1, but for rounding */
+        stretch = 1;
+    /* About unit normals, and no direction shrunk to rounding. */
+    const bool sound = facts->least_normal > 0.5 && facts->most_normal < 2 && size > 1e-9 &&
+                       size < 1e9 && stretch < 1e4;
+    /* If all angles between vectors are less than 90 degrees, the square of their weighted mean is
+     * at least a third of the least of theirs. A matrix makes of the angle a at most b, where
+     * tan(b / 2) = stretch tan(a / 2) (Wielandt's inequality). */
+    const double cosine = facts->least_cosine;
+    const bool together = stretch * sqrt((1 - cosine) / (1 + cosine)) < 0.9;
+    effects->guard_vertex = effects->normalize_vertex && !sound;
+    effects->guard_fragment = effects->normalize_fragment && !(sound && together);
+    if (effects->normalize_vertex)
+        say(file, effects->guard_vertex
+                      ? "guard of normals at the vertices: one may have no length"
+                      : "without guard of normals at the vertices: all have a length");
+    if (effects->normalize_fragment)
+        say(file,
+            !effects->guard_fragment ? "without guard of normals at the fragments: those of a "
+                                       "triangle cannot cancel"
+            : sound ? "guard of normals at the fragments: those of a triangle may cancel"
+                    : "guard of normals at the fragments: one at a vertex may have no length");
+}
+
+/* What is seen is beyond the near plane; vertices may be anywhere. */
+static void guard_viewer(const Scene *scene, const Bounds *bounds, Effects *effects, FILE *file)
+{
+    const Vec3 eye = scene->camera.eye;
+    const bool away = gap_of(bounds, eye, eye) > margin_of(scene, bounds, eye);
+    bool at_vertex = false;
+    for (int g = 0; g < effects->group_count; g++)
+        at_vertex |= effects->groups[g].terms.at_vertex && effects->groups[g].terms.specular;
+    effects->guard_viewer =
+        effects->local_viewer && !(scene->camera.near > 1e-14 && (away || !at_vertex));
+    if (effects->local_viewer)
+        say(file, effects->guard_viewer ? "guard of the viewer's direction: a vertex may be at the "
+                                          "eye"
+                  : at_vertex ? "without guard of the viewer's direction: the eye is outside the "
+                                "object"
+                              : "without guard of the viewer's direction: nearer than the near "
+                                "plane nothing is seen");
+}
+
+void effects_guard(Effects *effects)
+{
+    effects->guard_vertex = effects->normalize_vertex;
+    effects->guard_fragment = effects->normalize_fragment;
+    effects->guard_viewer = effects->local_viewer;
+    for (int g = 0; g < effects->group_count; g++) {
+        const LightTerms *terms = &effects->groups[g].terms;
+        effects->groups[g].guards =
+            (LightGuards){.distance = terms->kind != LIGHT_DIRECTIONAL,
+                          .attenuation = terms->attenuation,
+                          .half_vector = terms->specular && !terms->half_vector &&
+                                         effects->reflection == REFLECTION_BLINN_PHONG};
+    }
 }
 
 static void explain_light(FILE *file, const Scene *scene, int number, const LightTerms *terms)
@@ -173,7 +384,7 @@ static bool light_terms(const Scene *scene, const Object *object, int number, Sp
     return true;
 }
 
-static void add_light(Effects *effects, int number, const LightTerms *terms)
+static void add_light(Effects *effects, int number, const LightTerms *terms, LightGuards guards)
 {
     LightGroup *group = effects->groups, *end = group + effects->group_count;
     while (group < end && memcmp(&group->terms, terms, sizeof *terms) != 0)
@@ -182,6 +393,9 @@ static void add_light(Effects *effects, int number, const LightTerms *terms)
         effects->group_count++;
         group->terms = *terms;
     }
+    group->guards.distance |= guards.distance;
+    group->guards.attenuation |= guards.attenuation;
+    group->guards.half_vector |= guards.half_vector;
     group->lights[group->count++] = number;
 }
 
@@ -201,8 +415,8 @@ static bool has_base(const Scene *scene, const Object *object, bool both)
     return false;
 }
 
-static void decide_normals(const Scene *scene, const Object *object, Effects *effects,
-                           bool at_fragments, FILE *file)
+static void decide_normals(const Scene *scene, const Object *object, const MeshFacts *facts,
+                           Effects *effects, bool at_fragments, FILE *file)
 {
     Mat4 eye_from_world, clip_from_eye;
     if (!effects->normals) {
@@ -210,8 +424,9 @@ static void decide_normals(const Scene *scene, const Object *object, Effects *ef
         return;
     }
     scene_camera(&scene->camera, 1, &eye_from_world, &clip_from_eye, NULL);
-    const Transform transform = transform_of(
-        scene_eye_from_object(&scene->camera, eye_from_world, object->world_from_object));
+    const Mat4 eye_from_object =
+        scene_eye_from_object(&scene->camera, eye_from_world, object->world_from_object);
+    const Transform transform = transform_of(eye_from_object);
     effects->normal_matrix = transform == GENERAL && !object->wrong_normals;
     if (effects->normal_matrix)
         say(file, "normal matrix: the model-view matrix scales unevenly or shears");
@@ -239,6 +454,10 @@ static void decide_normals(const Scene *scene, const Object *object, Effects *ef
         !at_fragments  ? "no light is computed there"
         : object->flat ? "they are the same all over a triangle"
                        : "the scene asks so");
+    Mat4 matrix = eye_from_object;
+    if (effects->normal_matrix)
+        mat4_normal(eye_from_object, &matrix);
+    guard_normals(facts, transform, matrix, effects, file);
 }
 
 /* Whether the object is a solid that is seen from outside, and not cut by the near plane. */
@@ -274,13 +493,13 @@ static void decide_output(const Scene *scene, Effects *effects, bool at_vertices
                               : "without sRGB encoding: not asked for");
 }
 
-static Effects decide(const Scene *scene, const Object *object, FILE *file)
+static Effects decide(const Scene *scene, const Object *object, const MeshFacts *facts, FILE *file)
 {
     Effects effects;
     bool at_vertices = false, at_fragments = false;
-    const Sphere sphere = bounding_sphere(object);
+    const Bounds bounds = bounds_of(object, facts);
     memset(&effects, 0, sizeof effects);
-    effects.cull = outside_of(scene, object, sphere, file);
+    effects.cull = outside_of(scene, object, bounds.sphere, file);
     effects.two_sided = object->two_sided && !effects.cull;
     say(file,
         effects.two_sided ? "two-sided: the back has its own material and the reversed normal"
@@ -294,9 +513,10 @@ static Effects decide(const Scene *scene, const Object *object, FILE *file)
                             : "without alpha: the surface is opaque");
     for (int i = 0; i < scene->light_count && i < EFFECTS_MOST_LIGHTS; i++) {
         LightTerms terms;
-        if (!light_terms(scene, object, i, sphere, effects.two_sided, &terms, file))
+        if (!light_terms(scene, object, i, bounds.sphere, effects.two_sided, &terms, file))
             continue;
-        add_light(&effects, i, &terms);
+        add_light(&effects, i, &terms,
+                  light_guards(scene, &scene->lights[i], &bounds, &terms, file));
         effects.normals |= terms.diffuse || terms.specular;
         /* R.V and N.H alike depend on V, but for a half vector that holds it. */
         effects.local_viewer |= terms.specular && !scene->distant_viewer;
@@ -309,19 +529,27 @@ static Effects decide(const Scene *scene, const Object *object, FILE *file)
         effects.local_viewer ? "local viewer: the direction to the eye differs from point to point"
                              : "without local viewer: %s",
         scene->distant_viewer ? "it is at infinity" : "nothing is specular");
-    decide_normals(scene, object, &effects, at_fragments, file);
+    guard_viewer(scene, &bounds, &effects, file);
+    decide_normals(scene, object, facts, &effects, at_fragments, file);
     decide_output(scene, &effects, at_vertices, file);
     return effects;
 }
 
+Effects effects_of_facts(const Scene *scene, const Object *object, const MeshFacts *facts)
+{
+    return decide(scene, object, facts, NULL);
+}
+
 Effects effects_of(const Scene *scene, const Object *object)
 {
-    return decide(scene, object, NULL);
+    const MeshFacts facts = mesh_facts(object->mesh);
+    return decide(scene, object, &facts, NULL);
 }
 
 void effects_explain(const Scene *scene, const Object *object, FILE *file)
 {
-    decide(scene, object, file);
+    const MeshFacts facts = mesh_facts(object->mesh);
+    decide(scene, object, &facts, file);
 }
 
 Effects effects_full(const Scene *scene, const Object *object)
@@ -335,8 +563,10 @@ Effects effects_full(const Scene *scene, const Object *object)
     full.reflection = scene->reflection;
     decide_output(scene, &full, scene->light_count > 0, NULL);
     (void)object;
-    if (scene->light_count == 0)
+    if (scene->light_count == 0) {
+        effects_guard(&full);
         return full;
+    }
     LightGroup *group = &full.groups[0];
     full.group_count = 1;
     group->terms.kind = LIGHT_SPOT;
@@ -345,5 +575,6 @@ Effects effects_full(const Scene *scene, const Object *object)
     group->terms.at_vertex = scene->interpolation != INTERPOLATION_PHONG;
     for (int i = 0; i < scene->light_count && i < EFFECTS_MOST_LIGHTS; i++)
         group->lights[group->count++] = i;
+    effects_guard(&full);
     return full;
 }

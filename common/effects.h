@@ -27,9 +27,17 @@ typedef struct LightTerms {
     bool any;         /* in the full program: whatever kind, by its coefficients */
 } LightTerms;
 
+/* The divisions by zero that a light may come to. What cannot is not guarded. */
+typedef struct LightGuards {
+    bool distance;    /* a point of the object may be where the light is */
+    bool attenuation; /* its denominator may be 0 there */
+    bool half_vector; /* light and viewer may be opposite each other */
+} LightGuards;
+
 /* Lights that share their terms, by their numbers in the scene. */
 typedef struct LightGroup {
     LightTerms terms;
+    LightGuards guards; /* those that any of them needs */
     int lights[EFFECTS_MOST_LIGHTS];
     int count;
 } LightGroup;
@@ -49,15 +57,34 @@ typedef struct Effects {
     bool clamp_vertex;
     bool linear;
     bool show_clipped;
-    bool cull; /* back faces are never seen */
+    bool cull;           /* back faces are never seen */
+    bool guard_vertex;   /* a normal that is made unit at the vertices may have no length */
+    bool guard_fragment; /* or at the fragments */
+    bool guard_viewer;   /* a vertex may be at the eye */
 } Effects;
+
+/* What counts of a mesh as a whole. */
+typedef struct MeshFacts {
+    Vec3 low, high;      /* its box */
+    double least_normal; /* the lengths of its normals */
+    double most_normal;
+    double least_cosine; /* of the angles between the normals of a triangle */
+} MeshFacts;
+MeshFacts mesh_facts(const Mesh *mesh);
 
 /* The effects that an object in a scene calls for. The scene has passed scene_check. */
 Effects effects_of(const Scene *scene, const Object *object);
 
+/* The same where the facts of its mesh are known: those take time. */
+Effects effects_of_facts(const Scene *scene, const Object *object, const MeshFacts *facts);
+
 /* Everything the model has, for comparison: the same picture from a program that leaves nothing out
  * that can be computed with coefficients of zero. */
 Effects effects_full(const Scene *scene, const Object *object);
+
+/* Adds every guard. What is left out by effects_of is proved for the points of the object;
+ * multisampling may shade the centre of a pixel beside it. */
+void effects_guard(Effects *effects);
 
 /* Writes one line for each member and for each thing left out, with its reason: "specular of light
  * 1: material and light both have it", "without light 2: it is off". */

@@ -25,6 +25,7 @@ typedef struct Variant {
 typedef struct Buffered {
     const Mesh *mesh;
     bool flattened;
+    MeshFacts facts; /* of the mesh as it is */
     MeshBuffer buffer;
     struct Buffered *next;
 } Buffered;
@@ -61,9 +62,12 @@ static const char *const GROUP_UNIFORMS[] = {
 };
 enum { GROUP_UNIFORM_COUNT = sizeof GROUP_UNIFORMS / sizeof GROUP_UNIFORMS[0] };
 
-/* The terms of a group as the defines of group.glsl. */
-static int group_defines(const LightTerms *terms, const char *defines[10])
+/* The terms and guards of a group as the defines of group.glsl. */
+enum { MOST_GROUP_DEFINES = 12 };
+static int group_defines(const LightGroup *group, const char *defines[MOST_GROUP_DEFINES])
 {
+    const LightTerms *terms = &group->terms;
+    const LightGuards *guards = &group->guards;
     const struct {
         bool there;
         const char *name;
@@ -77,6 +81,9 @@ static int group_defines(const LightTerms *terms, const char *defines[10])
         {terms->half_vector, "HALF_VECTOR"},
         {terms->attenuation, "ATTENUATION"},
         {terms->exponent, "EXPONENT"},
+        {guards->distance, "GUARD_DISTANCE"},
+        {guards->attenuation, "GUARD_ATTENUATION"},
+        {guards->half_vector, "GUARD_HALF_VECTOR"},
     };
     int count = 0;
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
@@ -96,8 +103,8 @@ static char *groups_text(const Effects *effects, bool at_vertex)
         return NULL;
     for (int g = 0; g < effects->group_count; g++) {
         const LightGroup *group = &effects->groups[g];
-        const char *defines[10];
-        const int count = group_defines(&group->terms, defines);
+        const char *defines[MOST_GROUP_DEFINES];
+        const int count = group_defines(group, defines);
         if (group->terms.at_vertex != at_vertex)
             continue;
         fprintf(file, "#define GROUP group%d\n#define COUNT %d\n", g, group->count);
@@ -125,8 +132,10 @@ static bool recipe_open(Recipe *recipe, const Effects *effects, Message *message
 {
     bool lights[2] = {false}, position[2] = {false}, normals[2] = {false}; /* by ShaderStage */
     bool specular = false, full = false;
+    bool guards = effects->guard_vertex || effects->guard_fragment || effects->guard_viewer;
     for (int g = 0; g < effects->group_count; g++) {
         const LightTerms *terms = &effects->groups[g].terms;
+        const LightGuards *of_group = &effects->groups[g].guards;
         const int stage = terms->at_vertex ? SHADER_VERTEX : SHADER_FRAGMENT;
         lights[stage] = true;
         position[stage] |=
@@ -134,6 +143,7 @@ static bool recipe_open(Recipe *recipe, const Effects *effects, Message *message
         normals[stage] |= terms->diffuse || terms->specular;
         specular |= terms->specular;
         full |= terms->any;
+        guards |= of_group->distance || of_group->attenuation || of_group->half_vector;
     }
     const struct {
         bool there;
@@ -158,6 +168,10 @@ static bool recipe_open(Recipe *recipe, const Effects *effects, Message *message
         {effects->clamp_vertex, "CLAMP_VERTEX"},
         {effects->linear, "LINEAR"},
         {effects->show_clipped, "SHOW_CLIPPED"},
+        {guards, "GUARDS"},
+        {effects->guard_vertex, "GUARD_VERTEX"},
+        {effects->guard_fragment, "GUARD_FRAGMENT"},
+        {effects->guard_viewer, "GUARD_VIEWER"},
     };
     int count = 0;
     *recipe = (Recipe){{NULL}, {NULL}};
@@ -241,12 +255,12 @@ static bool flat_copy(const Mesh *mesh, Mesh *flat, Message *message)
     return mesh_flatten(flat, message);
 }
 
-static const MeshBuffer *find_buffer(Lighting *lighting, const Mesh *mesh, bool flatten,
-                                     Message *message)
+static const Buffered *find_buffer(Lighting *lighting, const Mesh *mesh, bool flatten,
+                                   Message *message)
 {
     for (const Buffered *buffered = lighting->buffers; buffered; buffered = buffered->next)
         if (buffered->mesh == mesh && buffered->flattened == flatten)
-            return &buffered->buffer;
+            return buffered;
     Buffered *buffered = calloc(1, sizeof *buffered);
     Mesh flat = {0};
     if (!buffered) {
@@ -262,9 +276,10 @@ static const MeshBuffer *find_buffer(Lighting *lighting, const Mesh *mesh, bool 
     }
     buffered->mesh = mesh;
     buffered->flattened = flatten;
+    buffered->facts = mesh_facts(mesh);
     buffered->next = lighting->buffers;
     lighting->buffers = buffered;
-    return &buffered->buffer;
+    return buffered;
 }
 
 void lighting_forget(Lighting *lighting, const Mesh *mesh)
@@ -428,12 +443,18 @@ static void set_materials(GLuint program, const Scene *scene, const Object *obje
 static bool draw_object(Lighting *lighting, const Scene *scene, const Object *object,
                         Mat4 eye_from_world, Mat4 clip_from_eye, bool full, Message *message)
 {
-    const Effects effects = full ? effects_full(scene, object) : effects_of(scene, object);
-    const Variant *variant = find_variant(lighting, &effects, message);
     const bool flatten = scene->interpolation == INTERPOLATION_FLAT && !object->flat;
-    const MeshBuffer *buffer =
-        variant ? find_buffer(lighting, object->mesh, flatten, message) : NULL;
-    if (!buffer)
+    const Buffered *buffered = find_buffer(lighting, object->mesh, flatten, message);
+    if (!buffered)
+        return false;
+    Effects effects =
+        full ? effects_full(scene, object) : effects_of_facts(scene, object, &buffered->facts);
+    GLint samples = 0;
+    glGetIntegerv(GL_SAMPLES, &samples);
+    if (samples > 1)
+        effects_guard(&effects);
+    const Variant *variant = find_variant(lighting, &effects, message);
+    if (!variant)
         return false;
 
     const GLuint program = variant->shader.program;
@@ -464,8 +485,8 @@ static bool draw_object(Lighting *lighting, const Scene *scene, const Object *ob
         glDisable(GL_CULL_FACE);
     const GLint position = glGetAttribLocation(program, "a_Position");
     const GLint normal = glGetAttribLocation(program, "a_Normal");
-    mesh_buffer_bind(buffer, position, normal);
-    glDrawElements(GL_TRIANGLES, buffer->index_count, buffer->index_type, NULL);
+    mesh_buffer_bind(&buffered->buffer, position, normal);
+    glDrawElements(GL_TRIANGLES, buffered->buffer.index_count, buffered->buffer.index_type, NULL);
     if (normal >= 0)
         glDisableVertexAttribArray((GLuint)normal);
     return true;

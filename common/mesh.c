@@ -191,6 +191,30 @@ bool mesh_face(const Mesh *mesh, size_t triangle, Vec3 *normal)
     return vec3_normalize(vec3_cross(vec3_subtract(b, a), vec3_subtract(c, a)), normal);
 }
 
+/* 0 times what is finite is 0, times anything else no number. */
+static bool finite_vector(const float v[3])
+{
+    return 0 * v[0] + 0 * v[1] + 0 * v[2] == 0;
+}
+
+bool mesh_check(const Mesh *mesh, Message *message)
+{
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
+        const MeshVertex *vertex = &mesh->vertices[i];
+        const bool placed = finite_vector(vertex->position);
+        const float *v = placed ? vertex->normal : vertex->position;
+        if (!placed || !finite_vector(vertex->normal))
+            return message_set(message, "mesh: vertex %zu: %s (%g, %g, %g): must be finite", i,
+                               placed ? "normal" : "position", (double)v[0], (double)v[1],
+                               (double)v[2]);
+    }
+    for (size_t i = 0; i < mesh->index_count; i++)
+        if (mesh->indices[i] >= mesh->vertex_count)
+            return message_set(message, "mesh: triangle %zu: vertex %lu: there are %zu", i / 3,
+                               (unsigned long)mesh->indices[i], mesh->vertex_count);
+    return true;
+}
+
 bool mesh_flatten(Mesh *mesh, Message *message)
 {
     Mesh flat;

@@ -113,6 +113,10 @@ void mesh_bounds(const Mesh *mesh, Vec3 *low, Vec3 *high);
  * False, and a zero vector, where it has no area. */
 bool mesh_face(const Mesh *mesh, size_t triangle, Vec3 *normal);
 
+/* Whether every position and normal is finite, and every index that of a vertex: "mesh: vertex 7:
+ * position (nan, 0, 1): must be finite". */
+bool mesh_check(const Mesh *mesh, Message *message);
+
 /* Gives every triangle three vertices of its own, with the triangle's normal, for flat shading;
  * leaves out triangles without area. On failure (memory) the mesh is as before. */
 bool mesh_flatten(Mesh *mesh, Message *message);

@@ -2,6 +2,7 @@
 
 #include <limits.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { MOST_SHORT_VERTICES = 65536 };
 
@@ -19,9 +20,47 @@ static bool upload_short_indices(const Mesh *mesh, Message *message)
     return true;
 }
 
+/* But for rounding. */
+static bool is_unit(const float v[3])
+{
+    const float square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    return square > 1 - 4e-6F && square < 1 + 4e-6F;
+}
+
+/* From lengths that a float cannot square nothing is left in a shader. */
+static void make_unit(float v[3])
+{
+    Vec3 unit;
+    if (!is_unit(v) && vec3_normalize((Vec3){(double)v[0], (double)v[1], (double)v[2]}, &unit))
+        vec3_to_float(unit, v);
+}
+
+static bool upload_vertices(const Mesh *mesh, Message *message)
+{
+    const size_t size = mesh->vertex_count * sizeof *mesh->vertices;
+    MeshVertex *copy = NULL;
+    size_t first = 0;
+    while (first < mesh->vertex_count && is_unit(mesh->vertices[first].normal))
+        first++;
+    if (first < mesh->vertex_count) {
+        copy = malloc(size);
+        if (!copy)
+            return message_set(message, "mesh: not enough memory for %zu vertices",
+                               mesh->vertex_count);
+        memcpy(copy, mesh->vertices, size);
+        for (size_t i = first; i < mesh->vertex_count; i++)
+            make_unit(copy[i].normal);
+    }
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)size, copy ? copy : mesh->vertices, GL_STATIC_DRAW);
+    free(copy);
+    return true;
+}
+
 bool mesh_buffer_open(MeshBuffer *buffer, const Mesh *mesh, Message *message)
 {
     *buffer = (MeshBuffer){.index_type = GL_UNSIGNED_SHORT};
+    if (!mesh_check(mesh, message))
+        return false;
     if (mesh->index_count > INT_MAX)
         return message_set(message, "mesh: %zu indices: OpenGL draws at most %d in one call",
                            mesh->index_count, INT_MAX);
@@ -37,9 +76,11 @@ bool mesh_buffer_open(MeshBuffer *buffer, const Mesh *mesh, Message *message)
     glGenBuffers(1, &buffer->vertices);
     glGenBuffers(1, &buffer->indices);
     glBindBuffer(GL_ARRAY_BUFFER, buffer->vertices);
-    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(mesh->vertex_count * sizeof *mesh->vertices),
-                 mesh->vertices, GL_STATIC_DRAW);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffer->indices);
+    if (!upload_vertices(mesh, message)) {
+        mesh_buffer_close(buffer);
+        return false;
+    }
     if (buffer->index_type == GL_UNSIGNED_INT) {
         glBufferData(GL_ELEMENT_ARRAY_BUFFER,
                      (GLsizeiptr)(mesh->index_count * sizeof *mesh->indices), mesh->indices,

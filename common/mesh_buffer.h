@@ -13,8 +13,9 @@ typedef struct MeshBuffer {
     GLenum index_type; /* GL_UNSIGNED_SHORT, or GL_UNSIGNED_INT for over 65536 vertices */
 } MeshBuffer;
 
-/* Uploads a mesh, which may be closed afterwards. False where it has more vertices than the driver
- * can index (65536 without GL_OES_element_index_uint) or memory runs out. */
+/* Uploads a mesh, which may be closed afterwards, with normals of any length made unit; those of no
+ * length stay as they are. False where mesh_check is, where the mesh has more vertices than the
+ * driver can index (65536 without GL_OES_element_index_uint) or memory runs out. */
 bool mesh_buffer_open(MeshBuffer *buffer, const Mesh *mesh, Message *message);
 
 /* Binds the buffers and points the attributes of position and normal at them; an attribute of -1 is

@@ -7,7 +7,14 @@
  * corners. There the model's equation is evaluated (OpenGL 1.1 specification, section 2.13.1, and
  * Phong's reflection). Where an edge runs through a pixel, of an object, of one of its faces or of
  * light, the pixel is its mean over a square of one pixel, by squares that are divided where they
- * differ.
+ * differ: see reference_pixel.h, which also says what may be overlooked.
+ *
+ * At a point, rounding makes less than 1e-9 of a step of 1/255 (tests/reference_quad_test.c). Two
+ * shapes are triangles all the same:
+ *   a teapot is its mesh of 64 divisions, 262,000 triangles; of one that is 250 pixels wide, with a
+ *     highlight of shininess 40, 1 interior pixel in 600 is more than half a step from the mesh of
+ *     256 divisions, the worst 0.9, and the outline moves by 2 pixels' area in all;
+ *   a solid whose world_from_object is singular is the mesh as given.
  */
 #ifndef REFERENCE_H
 #define REFERENCE_H
@@ -21,8 +28,10 @@ typedef struct ReferenceOptions {
      * at every point; or light at the corners, with their normals or with the triangle's, and
      * colours between them. */
     bool meshes;
-    double edge_error; /* what an edge may add to a pixel's colour, in steps of 1/255; 0 for 0.5 */
-    int threads;       /* 0: as many as there are cores. The picture does not depend on it */
+    /* What an edge may add to a pixel's colour and 255 times its coverage, in steps of 1/255: 0 to
+     * 255, 0 for 0.5. Kept down to 0.1; the worst found where 0.5 was asked for is 0.19. */
+    double edge_error;
+    int threads; /* 0: as many as there are cores. The picture does not depend on it */
 } ReferenceOptions;
 
 /* Row 0 at the top. A pixel's object, depth and face are those at its centre. */
@@ -40,7 +49,7 @@ typedef struct Reference {
 } Reference;
 
 /* Draws a scene that has passed scene_check. False, with a message and a zeroed reference, where
- * memory or threads cannot be had. */
+ * memory cannot be had, or an option is out of its range. Where threads cannot be had fewer do. */
 bool reference_open(Reference *reference, const Scene *scene, const ReferenceOptions *options,
                     Message *message);
 

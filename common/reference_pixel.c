@@ -10,6 +10,10 @@ typedef struct Square {
 
 static const double CORNERS[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
 
+/* The side of a square whose samples differ although nothing tells them apart: then that is an
+ * edge, too, however large an error is allowed. */
+static const double SMALLEST = 1.0 / 128;
+
 typedef struct Work {
     const Trace *trace;
     double error; /* E */
@@ -48,20 +52,20 @@ static double bend(const Sample *middle, const Sample *const *around, int count)
     return most;
 }
 
-/* What a wrong share of the square would add to the pixel; 1 where it is not known yet whether
- * there is an edge at all. */
-static double contrast(const Work *work, const Square *square)
+/* What a wrong share of the square would add to the pixel; `known` says whether there is an edge
+ * for certain. */
+static double contrast(const Work *work, const Square *square, bool *known)
 {
     double most = 0;
-    bool surfaces = false;
+    *known = work->edge;
     for (int i = 0; i < 4; i++) {
         const Sample *corner = square->corners[i];
-        if (corner->object != square->center->object)
-            return 1;
-        surfaces |= !trace_same_side(corner, square->center);
-        most = fmax(most, color_distance(corner, square->center));
+        *known |= !trace_same_side(corner, square->center);
+        most = corner->object != square->center->object
+                   ? 1
+                   : fmax(most, color_distance(corner, square->center));
     }
-    return surfaces || work->edge ? most : 1;
+    return most;
 }
 
 /* The two parts of a square. */
@@ -196,7 +200,8 @@ static bool straight(const Work *work, const Square *square, const Part parts[2]
 /* Adds a square that one nearly straight edge parts in two; false where it is not such. */
 static bool add_parted(Work *work, const Square *square, double difference)
 {
-    const double width = fmin(fmax(work->error / (2 * difference), 0x1p-24), square->side / 8);
+    const double width =
+        fmin(fmax(work->error / (2 * fmax(difference, 1e-3)), 0x1p-24), square->side / 8);
     Part parts[2];
     Point ends[2];
     Sample found[4], middles[2];
@@ -234,7 +239,7 @@ static bool add_parted(Work *work, const Square *square, double difference)
         trace_sample(work->trace, part->middle.x, part->middle.y, &middles[i]);
         if (!agrees(work, part, &middles[i]) ||
             bend(&middles[i], part->members, part->member_count) * part->area >
-                2 * work->error * square->side)
+                work->error * square->side)
             return false;
     }
     add(work, &middles[0], parts[0].area);
@@ -244,6 +249,15 @@ static bool add_parted(Work *work, const Square *square, double difference)
 }
 
 /* Squares. */
+
+/* By Simpson's rule, as far as four corners have it: right for colours that bend like parabolas. */
+static void add_smooth(Work *work, const Square *square)
+{
+    const double area = square->side * square->side;
+    add(work, square->center, area * 2 / 3);
+    for (int i = 0; i < 4; i++)
+        add(work, square->corners[i], area / 12);
+}
 
 static void add_unresolved(Work *work, const Square *square)
 {
@@ -267,14 +281,16 @@ static void add_quarters(Work *work, const Square *square, const Sample *const m
 
 static void add_square(Work *work, const Square *square)
 {
-    const double difference = contrast(work, square);
-    const bool small = difference * square->side <= 4 * work->error;
+    bool known;
+    const double difference = contrast(work, square, &known);
+    const bool small =
+        known ? difference * square->side <= 4 * work->error : square->side <= SMALLEST;
     if (smooth(work, square)) {
         /* Where the colour bends, as it does towards an object's outline, its middle is not its
          * mean. */
         if (square->side * square->side < work->error ||
             bend(square->center, square->corners, 4) <= 2 * work->error) {
-            add(work, square->center, square->side * square->side);
+            add_smooth(work, square);
             return;
         }
     } else if (small) {

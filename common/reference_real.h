@@ -31,7 +31,7 @@ typedef __float128 Real;
 #define shade_point quad_shade_point
 #define triangles_open quad_triangles_open
 #define triangles_ray quad_triangles_ray
-#define triangles_shared quad_triangles_shared
+#define triangles_share quad_triangles_share
 #define triangles_close quad_triangles_close
 #define bounds_build quad_bounds_build
 #define bounds_close quad_bounds_close

@@ -258,15 +258,16 @@ static bool in_tangent_planes(const Sample *a, const Sample *b)
     return out * out <= 0.0025 * vec3_dot(chord, chord);
 }
 
-/* Whether triangles hang together smoothly: by an edge; else, where no crease is near, by a corner
- * at which they are not folded, or as far as their planes tell. */
+/* Whether triangles hang together smoothly: by an edge, with its normals; else not where a crease
+ * is between them; else by a corner at which they are not folded, or as far as their planes tell.
+ */
 static bool joined(const Triangle *a, const Triangle *b, const Sample *at_a, const Sample *at_b)
 {
-    const int corners = triangles_shared(a, b);
-    if (corners >= 2 || a->creased || b->creased)
-        return corners >= 2;
+    const TrianglesShare share = triangles_share(a, b);
+    if (share.corners >= 2 || share.places > share.corners)
+        return share.corners >= 2;
     return vec3_dot(at_a->normal, at_b->normal) > 0.7 &&
-           (corners == 1 || in_tangent_planes(at_a, at_b));
+           (share.corners == 1 || in_tangent_planes(at_a, at_b));
 }
 
 static bool like_colors(const Sample *a, const Sample *b)

@@ -91,7 +91,7 @@ static void unite(uint32_t *parents, uint32_t a, uint32_t b)
 /* Triangles. */
 
 static Triangle make_triangle(const uint32_t *indices, uint32_t number, const Real3 *points,
-                              const uint32_t *first)
+                              const uint32_t *equal, const uint32_t *in_place)
 {
     Triangle triangle = {.number = number};
     const Real3 v0 = points[indices[0]], v1 = points[indices[1]], v2 = points[indices[2]];
@@ -100,8 +100,10 @@ static Triangle make_triangle(const uint32_t *indices, uint32_t number, const Re
     triangle.edges[2] = real3_cross(v0, v1);
     triangle.normal = real3_cross(real3_subtract(v1, v0), real3_subtract(v2, v0));
     triangle.offset = real3_dot(triangle.normal, v0);
-    for (int k = 0; k < 3; k++)
-        triangle.corners[k] = first[indices[k]];
+    for (int k = 0; k < 3; k++) {
+        triangle.corners[k] = equal[indices[k]];
+        triangle.places[k] = in_place[indices[k]];
+    }
     return triangle;
 }
 
@@ -139,7 +141,7 @@ static bool fill(Triangles *triangles, const Mesh *mesh, const Real3 *points, bo
         work->parents[i] = i;
     for (uint32_t i = 0; i < most; i++) {
         const uint32_t *indices = mesh->indices + 3 * (size_t)i;
-        const Triangle triangle = make_triangle(indices, i, points, work->equal);
+        const Triangle triangle = make_triangle(indices, i, points, work->equal, work->in_place);
         if (!has_area(triangle.normal))
             continue;
         unite(work->parents, triangle.corners[0], triangle.corners[1]);
@@ -161,8 +163,8 @@ bool triangles_open(Triangles *triangles, const Mesh *mesh, const Real3 *points,
 {
     const size_t most = mesh->index_count / 3;
     const Work work = {malloc((mesh->vertex_count + 1) * sizeof *work.equal),
-                       malloc((mesh->vertex_count + 1) * sizeof *work.parents),
                        malloc((mesh->vertex_count + 1) * sizeof *work.in_place),
+                       malloc((mesh->vertex_count + 1) * sizeof *work.parents),
                        malloc((most + 1) * sizeof *work.unordered),
                        malloc((most + 1) * sizeof *work.boxes)};
     *triangles = (Triangles){.triangles = malloc((most + 1) * sizeof *triangles->triangles)};

@@ -63,7 +63,11 @@ void main() {
 #ifdef FRAGMENT_NORMALS
     normal = SIDE(v_Normal, BACK(v_Normal));
 #ifdef NORMALIZE_FRAGMENT
+#ifdef GUARD_FRAGMENT
     normal = safe_normalize(normal);
+#else
+    normal = normalize(normal);
+#endif
 #endif
 #endif
 #ifdef FRAGMENT_POSITION

@@ -55,7 +55,11 @@ void main() {
     normal = vec3(u_EyeFromObject * vec4(a_Normal, 0.0));
 #endif
 #ifdef NORMALIZE_VERTEX
+#ifdef GUARD_VERTEX
     normal = safe_normalize(normal);
+#else
+    normal = normalize(normal);
+#endif
 #endif
 #endif
 

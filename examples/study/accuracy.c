@@ -26,9 +26,8 @@ static bool by_rms, quick, calibrate, fresh, all_rows;
 static const char *setting_asked;
 static int seed = 1;
 
-static const char *const SCENES[] = {"sphere",   "cube", "shiny8",      "shiny32",
-                                     "shiny128", "spot", "four-lights", "teapot",
-                                     "far",      "wide", "all",         NULL};
+/* The names of the study's scenes, and the last: all of them. */
+static const char *SCENES[STUDY_SCENE_COUNT + 2];
 
 static const Parameter parameters[] = {
     {.name = "scene",
@@ -318,6 +317,9 @@ int main(int argc, char *argv[])
     Options options;
     Setting setting;
     Message message = {0};
+    for (int i = 0; i < STUDY_SCENE_COUNT; i++)
+        SCENES[i] = STUDY_SCENES[i].name;
+    SCENES[STUDY_SCENE_COUNT] = "all";
     make_details();
     options_prepare_process();
     switch (options_read(&options, &usage, argc, argv, &message)) {

@@ -110,8 +110,7 @@ bool choose_by_time(Survey *survey, int scene, double milliseconds, bool rms, Me
 
 /* Calibration. */
 
-/* Whether a setting differs from the usual one only where the table may. */
-static bool allowed(const Setting *setting)
+bool choose_allows(const Setting *setting)
 {
     static const SettingAxis free_axes[] = {AXIS_INTERPOLATION, AXIS_DIVISIONS, AXIS_PRECISION,
                                             AXIS_NORMALS};
@@ -167,7 +166,7 @@ static bool calibrate_class(const Survey *survey, SceneClass class, Efficient *t
     for (int i = 0; i < survey->results.count && done; i++) {
         const Setting *setting = &survey->results.rows[i].setting;
         ResultRow row;
-        if (allowed(setting) && !results_find(&merged, SCENE_CLASS_NAMES[class], setting) &&
+        if (choose_allows(setting) && !results_find(&merged, SCENE_CLASS_NAMES[class], setting) &&
             merge(&survey->results, class, setting, &row))
             done = results_add(&merged, &row, message);
     }

@@ -16,9 +16,12 @@ bool choose_by_error(Survey *survey, int scene, double error, bool rms, Message 
  * milliseconds, and what the next slower one would gain. */
 bool choose_by_time(Survey *survey, int scene, double milliseconds, bool rms, Message *message);
 
+/* Whether the table of efficient settings may have a setting: it differs from the usual one only on
+ * axes whose error does not depend on where the lights and the viewer are. */
+bool choose_allows(const Setting *setting);
+
 /* Writes the table of efficient settings for each class of scenes, and says where. All scenes have
- * been surveyed. A setting's error for a class is the largest in any of its scenes. The table has
- * only the axes whose error does not depend on where the lights and the viewer are. */
+ * been surveyed. A setting's error for a class is the largest in any of its scenes. */
 bool choose_calibrate(Survey *survey, Message *message);
 
 #endif

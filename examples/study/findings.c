@@ -64,7 +64,7 @@ static bool plot_interpolation(const Results *results, const char *folder, Messa
 static bool plot_antialiasing(const Results *results, const char *folder, Message *message)
 {
     static const ReportAxes axes = {
-        .title = "Antialiasing: shiny32",
+        .title = "Antialiasing: sphere",
         .x = "time of a frame in ms",
         .y = "root mean square error of all pixels, in steps of 1/255",
         .log_x = true,
@@ -86,7 +86,7 @@ static bool plot_antialiasing(const Results *results, const char *folder, Messag
     ReportSeries series[4];
     int points = 0;
     for (int i = 0; i < 4; i++) {
-        follow(results, "shiny32", kinds[i].setting, kinds[i].axis, ERROR_ALL_RMS, &curves[i]);
+        follow(results, "sphere", kinds[i].setting, kinds[i].axis, ERROR_ALL_RMS, &curves[i]);
         series[i] = (ReportSeries){kinds[i].name, curves[i].x, curves[i].y, curves[i].count};
         points += curves[i].count;
     }
@@ -207,7 +207,10 @@ static void fill_guards(const ResultRow *usual, const ResultRow *other, double v
 {
     values[0] = usual->time / other->time;
     values[1] = NAN;
-    snprintf(note, 48, "error off: %.3g", other->interior_maximum);
+    if (row_faster(usual, other) || row_faster(other, usual))
+        snprintf(note, 48, "x %.2f", values[0]);
+    else
+        snprintf(note, 48, "within noise");
 }
 
 static bool plot_by_scenes(const Results *results, const char *folder, Message *message)
@@ -262,7 +265,7 @@ static double time_composition(const char *text)
     StudyScene made;
     Setting setting;
     Mat4 eye_from_world, clip_from_eye;
-    study_scene(8, &made);
+    study_scene(study_scene_number("far"), &made);
     if (!setting_parse(&setting, text, NULL) ||
         !scene_camera(&made.scene.camera, 1, &eye_from_world, &clip_from_eye, NULL))
         return NAN;

@@ -106,6 +106,26 @@ static void spot(StudyScene *made)
     settle(made, 1, 1);
 }
 
+/* SpotLight, from nearer: a hard edge on a sphere that has to be where it belongs. */
+static void spot_sphere(StudyScene *made)
+{
+    made->lights[0] = (Light){.kind = LIGHT_SPOT,
+                              .position = {0, 0, 1.5},
+                              .direction = {0, 0, -1},
+                              .cutoff = 30,
+                              .diffuse = {1, 1, 1},
+                              .specular = {1, 1, 1}};
+    made->objects[0] = (Object){.solid = {.kind = SOLID_SPHERE, .radius = 1},
+                                .closed = true,
+                                .world_from_object = mat4_identity(),
+                                .front = *material_find("silver")};
+    made->scene.camera = (Camera){{3, 3, 3}, {0, 0, 0}, Y, 30, 1, 100};
+    made->scene.background = (Vec3){0.2, 0.2, 0.2};
+    made->scene.global_ambient = (Vec3){0.3, 0.3, 0.3};
+    made->scene.reflection = REFLECTION_PHONG;
+    settle(made, 1, 1);
+}
+
 /* FourLights with a torus for its teapot: a dim light at the viewer, three coloured ones around. */
 static void four_lights(StudyScene *made)
 {
@@ -166,17 +186,30 @@ static void teapot(StudyScene *made)
     settle(made, 2, 1);
 }
 
-/* shiny32, with the object turned, so that its matrix is not trivial, all of it moved. */
+/* A teapot in four_lights' light. */
+static void teapot_lights(StudyScene *made)
+{
+    four_lights(made);
+    made->objects[1].solid = (Solid){.kind = SOLID_TEAPOT, .radius = 1};
+    made->objects[1].closed = false;
+    made->objects[1].world_from_object = mat4_translate((Vec3){0, 0.75, 0});
+}
+
+/* shiny32, turned as a whole, so that no coordinate axis is special, and moved. (Seen along an
+ * axis, rounding errors of the eye's place and of the object's are equal, and cancel.) */
 static void far_away(StudyScene *made)
 {
     static const Vec3 offset = {1000000.3, 200000.7, -500000.1};
     Mat4 turned;
     study_shiny(made, 32, REFLECTION_PHONG);
-    mat4_rotate(25, (Vec3){1, 2, 3}, &turned);
-    made->objects[0].world_from_object = mat4_product(mat4_translate(offset), turned);
-    made->lights[0].position = vec3_add(made->lights[0].position, offset);
-    made->scene.camera.eye = vec3_add(made->scene.camera.eye, offset);
-    made->scene.camera.center = vec3_add(made->scene.camera.center, offset);
+    mat4_rotate(50, (Vec3){1, 2, 3}, &turned);
+    const Mat4 moved = mat4_product(mat4_translate(offset), turned);
+    Camera *camera = &made->scene.camera;
+    made->objects[0].world_from_object = moved;
+    made->lights[0].position = mat4_transform_point(moved, made->lights[0].position);
+    camera->eye = mat4_transform_point(moved, camera->eye);
+    camera->center = mat4_transform_point(moved, camera->center);
+    camera->up = mat4_transform_direction(moved, camera->up);
 }
 
 /* shiny32, all of it 150 times as large: the sphere is 300 units wide. */
@@ -193,21 +226,27 @@ static void wide(StudyScene *made)
 }
 
 const StudySceneInfo STUDY_SCENES[STUDY_SCENE_COUNT] = {
-    {"sphere", "the lecture's sphere, diffuse, a point light", lecture_sphere},
-    {"cube", "the lecture's cube, diffuse, a point light", lecture_cube},
-    {"shiny8", "a sphere with Phong's highlight, shininess 8", shiny8},
-    {"shiny32", "a sphere with Phong's highlight, shininess 32", shiny32},
-    {"shiny128", "a sphere with Phong's highlight, shininess 128", shiny128},
-    {"spot", "a soft spot on a plane, fading with the distance", spot},
-    {"four-lights", "a torus on a disc, four lights", four_lights},
-    {"teapot", "a teapot of gold, two lights", teapot},
-    {"far", "shiny32, a million units from the origin", far_away},
-    {"wide", "shiny32, 300 units wide", wide},
+    {"sphere", "the lecture's sphere, diffuse, a point light", lecture_sphere, false},
+    {"cube", "the lecture's cube, diffuse, a point light", lecture_cube, false},
+    {"shiny8", "a sphere with Phong's highlight, shininess 8", shiny8, false},
+    {"shiny32", "a sphere with Phong's highlight, shininess 32", shiny32, false},
+    {"shiny128", "a sphere with Phong's highlight, shininess 128", shiny128, false},
+    {"spot", "a soft spot on a plane, fading with the distance", spot, false},
+    {"four-lights", "a torus on a disc, four lights", four_lights, false},
+    {"teapot", "a teapot of gold, two lights", teapot, false},
+    {"far", "shiny32, a million units from the origin", far_away, false},
+    {"wide", "shiny32, 300 units wide", wide, false},
+    {"spot-sphere", "a spot with a hard edge on a sphere", spot_sphere, true},
+    {"teapot-lights", "a teapot on a disc, four lights", teapot_lights, true},
 };
 
-const char *const STUDY_SCENE_NAMES[STUDY_SCENE_COUNT + 1] = {
-    "sphere",      "cube",   "shiny8", "shiny32", "shiny128", "spot",
-    "four-lights", "teapot", "far",    "wide",    NULL};
+int study_scene_number(const char *name)
+{
+    int number = 0;
+    while (strcmp(STUDY_SCENES[number].name, name) != 0)
+        number++;
+    return number;
+}
 
 void study_scene(int number, StudyScene *made)
 {

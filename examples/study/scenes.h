@@ -20,16 +20,15 @@ typedef struct StudySceneInfo {
     const char *name; /* "shiny32" */
     const char *what; /* in a few words */
     void (*make)(StudyScene *made);
+    bool few; /* only for the table of efficient settings: measured with the settings of that */
 } StudySceneInfo;
 
-enum { STUDY_SCENE_COUNT = 10 };
+enum { STUDY_SCENE_COUNT = 12 };
 extern const StudySceneInfo STUDY_SCENES[STUDY_SCENE_COUNT];
 
-/* Their names, NULL-terminated, for a PARAMETER_CHOICE. */
-extern const char *const STUDY_SCENE_NAMES[STUDY_SCENE_COUNT + 1];
-
-/* The scene of that number. */
+/* The scene of that number; the number of a name among them. */
 void study_scene(int number, StudyScene *made);
+int study_scene_number(const char *name);
 
 /* A sphere of this shininess: Phong's reflection, or Blinn-Phong's. */
 void study_shiny(StudyScene *made, double shininess, Reflection reflection);

@@ -1,5 +1,6 @@
 #include "survey.h"
 
+#include "choose.h"
 #include "output.h"
 #include "progress.h"
 #include "scenes.h"
@@ -57,13 +58,15 @@ bool survey_exact(const Survey *survey, const Scene *scene, Reference *exact, Me
 }
 
 /* The settings of a scene that have no rows. */
-static bool missing(const Survey *survey, const char *scene, SettingList *list, Message *message)
+static bool missing(const Survey *survey, int scene, SettingList *list, Message *message)
 {
+    const StudySceneInfo *info = &STUDY_SCENES[scene];
     SettingList plan;
     bool done = trials_plan(survey->quick, &plan, message);
     *list = (SettingList){.settings = NULL};
     for (int i = 0; i < plan.count && done; i++)
-        if (!results_find(&survey->results, scene, &plan.settings[i]))
+        if ((!info->few || choose_allows(&plan.settings[i])) &&
+            !results_find(&survey->results, info->name, &plan.settings[i]))
             done = setting_list_add(list, &plan.settings[i], message);
     setting_list_close(&plan);
     return done;
@@ -117,7 +120,7 @@ static bool survey_scene(Survey *survey, int scene, Work *work, Message *message
     SettingList list;
     StudyScene made;
     Reference exact;
-    if (!missing(survey, STUDY_SCENES[scene].name, &list, message) || list.count == 0) {
+    if (!missing(survey, scene, &list, message) || list.count == 0) {
         setting_list_close(&list);
         return list.count == 0 && !message->text[0];
     }
@@ -142,7 +145,7 @@ bool survey_run(Survey *survey, const int *scenes, int count, Message *message)
     bool done = true;
     for (int i = 0; i < count && done; i++) {
         SettingList list;
-        done = missing(survey, STUDY_SCENES[scenes[i]].name, &list, message);
+        done = missing(survey, scenes[i], &list, message);
         work.total += list.count;
         setting_list_close(&list);
     }

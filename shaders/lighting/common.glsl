@@ -6,8 +6,10 @@
 #ifdef FULL
 uniform float u_LocalViewer; // 0 or 1
 #define VIEWER(position) safe_normalize(mix(vec3(0.0, 0.0, 1.0), -position, u_LocalViewer))
-#elif defined(LOCAL_VIEWER)
+#elif defined(GUARD_VIEWER)
 #define VIEWER(position) safe_normalize(-position)
+#elif defined(LOCAL_VIEWER)
+#define VIEWER(position) normalize(-position)
 #else
 #define VIEWER(position) vec3(0.0, 0.0, 1.0)
 #endif

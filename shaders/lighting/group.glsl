@@ -58,15 +58,27 @@ void GROUP(vec3 normal, vec3 position, vec3 viewer, bool front, inout vec3 color
         vec3 way = u_Position[i] - position;
 #endif
         float square = dot(way, way);
+#ifdef GUARD_DISTANCE
         vec3 to_light = way * safe_inversesqrt(square);
+#else
+        vec3 to_light = way * inversesqrt(square);
+#endif
 #ifdef ATTENUATION
-        share = safe_inverse(dot(u_Attenuation[i], vec3(1.0, sqrt(square), square)));
+        float denominator = dot(u_Attenuation[i], vec3(1.0, sqrt(square), square));
+#ifdef GUARD_ATTENUATION
+        share = safe_inverse(denominator);
+#else
+        share = 1.0 / denominator;
+#endif
 #endif
 #endif
 #ifdef SPOT
         float along = dot(-to_light, u_Spot[i].xyz);
-#ifdef EXPONENT
+#ifdef ANY
         share *= along >= u_Spot[i].w ? safe_pow(along, u_Exponent[i]) : 0.0;
+#elif defined(EXPONENT)
+        // Within the cone the cosine is more than 0, for no cutoff exceeds 90 degrees.
+        share *= along >= u_Spot[i].w ? pow(along, u_Exponent[i]) : 0.0;
 #else
         share *= along >= u_Spot[i].w ? 1.0 : 0.0;
 #endif
@@ -88,8 +100,10 @@ void GROUP(vec3 normal, vec3 position, vec3 viewer, bool front, inout vec3 color
         float power = highlight(2.0 * n_dot_l * normal - to_light, viewer, shininess);
 #elif defined(HALF_VECTOR)
         float power = highlight(normal, u_Half[i], shininess);
-#else
+#elif defined(GUARD_HALF_VECTOR)
         float power = highlight(normal, safe_normalize(to_light + viewer), shininess);
+#else
+        float power = highlight(normal, normalize(to_light + viewer), shininess);
 #endif
         sum += PICK(u_FrontSpecular[i], u_BackSpecular[i]) * facing(n_dot_l, power);
 #endif

@@ -1,6 +1,7 @@
 // guards.glsl: what keeps the cases finite in which a formula of the book divides by zero or leaves
-// its domain.
+// its domain. Compiled in where the scene may come to such a case.
 
+#ifdef GUARDS
 // The inverse of a length, of its square. Of no length: large, where inversesqrt gives infinity.
 float safe_inversesqrt(float square) {
     return inversesqrt(max(square, 1e-30));
@@ -15,14 +16,17 @@ vec3 safe_normalize(vec3 v) {
 float safe_inverse(float denominator) {
     return 1.0 / max(denominator, 1e-30);
 }
+#endif
 
-// 0 to the power of 0 is undefined in GLSL, and 1 here, as for any other number; 1e-37 to the power
-// of a shininess that shows is 0.
+// Two that are terms of the equation, and always there:
+
+// max(N.H, 0), to a power. 0 to the power of 0 is undefined in GLSL, and 1 here, as for any other
+// number; 1e-37 to the power of a shininess that shows is 0.
 float safe_pow(float base, float exponent) {
     return pow(max(base, 1e-37), exponent);
 }
 
-// Behind the surface there is no highlight.
+// Behind the surface there is no highlight: the equation's factor f.
 float facing(float n_dot_l, float highlight) {
     return n_dot_l > 0.0 ? highlight : 0.0;
 }

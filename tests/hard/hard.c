@@ -47,6 +47,19 @@ void hard_close(Hard *hard)
     canvas_close(&hard->bytes);
 }
 
+void hard_resize(Hard *hard, int width, int height)
+{
+    Message message = {0};
+    image_close(&hard->image);
+    image_close(&hard->real);
+    require(canvas_resize(&hard->bytes, width, height, &message) &&
+                canvas_resize(&hard->floats, width, height, &message) &&
+                image_open(&hard->image, width, height, IMAGE_BYTE, &message) &&
+                image_open(&hard->real, width, height, hard->floats.real ? IMAGE_FLOAT : IMAGE_BYTE,
+                           &message),
+            &message);
+}
+
 void hard_forget(Hard *hard, const Mesh *mesh)
 {
     for (int i = 0; i < 2; i++)
@@ -152,12 +165,105 @@ void hard_check(Hard *hard, const char *name, const Scene *scene, HardPrecision 
     if (!right)
         keep(hard, name, &exact);
     reference_close(&exact);
+    hard->worst[precision] = fmax(hard->worst[precision], result.byte_error);
+    hard->most[precision] = fmax(hard->most[precision], most);
+    hard->checked++;
     if (!right)
         fail_msg(
             "%s, %s: largest error %.3f of %.3f at (%d, %d), %d pixels inside, %lld values not "
             "finite",
             name, precision == HARD_HIGHP ? "highp" : "mediump", result.byte_error, most, result.x,
             result.y, result.interior_pixels, result.not_finite);
+}
+
+void hard_report(Hard *hard, const char *name)
+{
+    print_message("%s: %d pictures, largest error %.2f of %.2f in highp, %.2f of %.2f in mediump\n",
+                  name, hard->checked, hard->worst[HARD_HIGHP], hard->most[HARD_HIGHP],
+                  hard->worst[HARD_MEDIUMP], hard->most[HARD_MEDIUMP]);
+    for (int i = 0; i < 2; i++)
+        hard->worst[i] = hard->most[i] = 0;
+    hard->checked = 0;
+}
+
+void hard_world(HardWorld *world, const Mesh *mesh)
+{
+    memset(world, 0, sizeof *world);
+    world->lights[0] = (Light){.kind = LIGHT_POINT,
+                               .position = {1.5, 2, 3.5},
+                               .ambient = {0.1, 0.1, 0.1},
+                               .diffuse = {1, 0.9, 0.8},
+                               .specular = {1, 1, 1}};
+    world->objects[0] =
+        (Object){.mesh = mesh,
+                 .world_from_object = mat4_identity(),
+                 .front = {{0.5, 0.5, 0.5}, {0.5, 0.4, 0.3}, {0.4, 0.4, 0.3}, {0, 0, 0}, 1, 8},
+                 .back = {{0.5, 0.5, 0.5}, {0.2, 0.4, 0.5}, {0.3, 0.4, 0.4}, {0, 0, 0}, 1, 4}};
+    world->scene = (Scene){.camera = {{0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 40, 0.5, 20},
+                           .background = {0.2, 0.3, 0.4},
+                           .global_ambient = {0.1, 0.1, 0.1},
+                           .lights = world->lights,
+                           .light_count = 1,
+                           .objects = world->objects,
+                           .object_count = 1};
+}
+
+/* With 11 significant bits every result is off by u = 2^-11 of itself at most. To first order, with
+ * all vectors but those of the light about unit, and errors as lengths of vectors:
+ *   a vector made unit     3.5 u: its square 3 u, halved by the root; the root, the product, u each
+ *   normal, viewer         4.5 u: rounded as a varying, then made unit
+ *   direction to a light   (reach + 3.5) u: light, point and difference rounded, over d; made unit
+ *   a dot product          the errors of both, and 3 u
+ *   half vector            the errors of light and viewer, over |L + V|, at least 1.58 where they
+ *                          lie at most 75 degrees apart; 4.5 u for the sum and to make it unit
+ *   reflection             2 (N.L) N - L: twice those of N.L and N, that of L, and 3 u
+ * The power s of a cosine that is 1 + e is off by exp(s e) - 1 at most. The power function itself,
+ * exp2(s log2(x)), adds less than 2 u. Products with colours, shares and sums: 4 u for each light.
+ * Where N.L turns negative the highlight stops: a pixel for which the signs differ is off by all of
+ * it, sin(37.5 degrees)^s for Blinn and nothing for Phong. Rounding to bytes makes 0.5. */
+double hard_mediump_most(const Scene *scene, double reach)
+{
+    static const double U = 0x1p-11;
+    const bool phong = scene->reflection == REFLECTION_PHONG;
+    const double normal = 4.5 * U, viewer = 4.5 * U, light = (reach + 3.5) * U;
+    const double cosine = normal + light + 3 * U;
+    const double half = (light + viewer) / 1.58 + 4.5 * U;
+    const double reflected = 2 * (cosine + normal) + light + 3 * U;
+    const double angle = (phong ? reflected + viewer : half + normal) + 3 * U;
+    double most = 0;
+    for (int i = 0; i < 2 * scene->object_count; i++) {
+        const Object *object = &scene->objects[i / 2];
+        const Material *material = i % 2 ? &object->back : &object->front;
+        double sum = 0;
+        for (int k = 0; k < scene->light_count; k++) {
+            const Light *from = &scene->lights[k];
+            const double diffuse = fmax(
+                from->diffuse.x * material->diffuse.x,
+                fmax(from->diffuse.y * material->diffuse.y, from->diffuse.z * material->diffuse.z));
+            const double specular = fmax(from->specular.x * material->specular.x,
+                                         fmax(from->specular.y * material->specular.y,
+                                              from->specular.z * material->specular.z));
+            const double stops = phong ? 0 : pow(sin(37.5 * acos(-1) / 180), material->shininess);
+            if (!from->off)
+                sum += diffuse * cosine + 4 * U +
+                       specular * fmax(expm1(material->shininess * angle) + 2 * U, stops);
+        }
+        most = fmax(most, sum);
+    }
+    return fmin(0.5 + 255 * (most + U), 255);
+}
+
+void hard_check_ways(Hard *hard, const char *name, const Scene *scene, double reach,
+                     int least_pixels)
+{
+    static const double COLORS_ONLY = 1.5;
+    Scene way = *scene;
+    way.interpolation = INTERPOLATION_PHONG;
+    hard_check(hard, name, &way, HARD_HIGHP, 1, least_pixels);
+    hard_check(hard, name, &way, HARD_MEDIUMP, hard_mediump_most(scene, reach), least_pixels);
+    way.interpolation = INTERPOLATION_GOURAUD;
+    hard_check(hard, name, &way, HARD_HIGHP, 1, least_pixels);
+    hard_check(hard, name, &way, HARD_MEDIUMP, COLORS_ONLY, least_pixels);
 }
 
 static unsigned long long next(HardRandom *random)

@@ -5,13 +5,17 @@
 #ifndef HARD_H
 #define HARD_H
 
+#include "canvas.h"
 #include "lighting.h"
 #include "reference.h"
 
 typedef struct Hard {
-    Canvas bytes, floats;   /* of one size, in one context */
-    Lighting *lightings[2]; /* by HardPrecision */
-    Image image, real;      /* the last pictures */
+    Canvas bytes, floats;     /* of one size, in one context */
+    Lighting *lightings[2];   /* by HardPrecision */
+    Image image, real;        /* the last pictures */
+    double worst[2], most[2]; /* by HardPrecision, since hard_report: the largest error of
+                                 hard_check, and the loosest bound that it had to keep */
+    int checked;              /* how many pictures hard_check has seen since */
 } Hard;
 
 typedef enum HardPrecision { HARD_HIGHP, HARD_MEDIUMP } HardPrecision;
@@ -19,6 +23,9 @@ typedef enum HardPrecision { HARD_HIGHP, HARD_MEDIUMP } HardPrecision;
 /* Opens the default backend. Fails the test that runs where it cannot. */
 void hard_open(Hard *hard, int width, int height);
 void hard_close(Hard *hard);
+
+/* Gives the pictures another size. */
+void hard_resize(Hard *hard, int width, int height);
 
 /* How the pictures of a scene came out. Errors in steps of 1/255. */
 typedef struct HardResult {
@@ -44,6 +51,32 @@ void hard_exact(const Hard *hard, const Scene *scene, bool solids, Reference *ex
  * the exact picture; keeps the pictures then (see picture_check.h). */
 void hard_check(Hard *hard, const char *name, const Scene *scene, HardPrecision precision,
                 double most, int least_pixels);
+
+/* Prints one line: how many pictures hard_check has seen since the last report, and their largest
+ * errors. */
+void hard_report(Hard *hard, const char *name);
+
+/* One object and one point light, from which hard cases are made. The scene points into the world.
+ * Nothing is brighter than can be shown, and from no point of a unit sphere do light and viewer lie
+ * farther than 75 degrees apart. */
+typedef struct HardWorld {
+    Light lights[32];
+    Object objects[8];
+    Scene scene;
+} HardWorld;
+void hard_world(HardWorld *world, const Mesh *mesh);
+
+/* How far, in steps of 1/255, a picture in mediump may lie from the exact one where light is
+ * computed at the fragments; the derivation is in hard.c. `reach` says how far eye and light are
+ * for the distance between light and surface: the largest (|light| + |point| + d) / d, in eye
+ * coordinates, 1 for directional lights. 255 at most, which says nothing any more. */
+double hard_mediump_most(const Scene *scene, double reach);
+
+/* hard_check in both precisions with light at the fragments and at the vertices: within 1 step in
+ * highp, within hard_mediump_most in mediump at the fragments; at the vertices, which are highp
+ * always, mediump has colours only, and 1.5 steps. */
+void hard_check_ways(Hard *hard, const char *name, const Scene *scene, double reach,
+                     int least_pixels);
 
 /* Numbers that look random, the same for the same seed: splitmix64 (Steele, Lea and Flood, Fast
  * splittable pseudorandom number generators, OOPSLA 2014). */

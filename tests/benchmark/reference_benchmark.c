@@ -1,0 +1,114 @@
+/*
+ * What the exact picture costs: the solids and the teapot's mesh at the lecture's size, and how
+ * that falls with the threads.
+ */
+#include "measure.h"
+#include "options.h"
+#include "reference.h"
+
+#include <stdio.h>
+
+enum { SIZE = 400, ROUNDS = 7, CASES = 11 };
+
+typedef struct Case {
+    const char *name;
+    Solid solid;
+    int divisions; /* of its mesh */
+    ReferenceOptions options;
+    Interpolation interpolation;
+    Mesh mesh;
+} Case;
+
+#define EXACT(threads_)                                                                            \
+    {                                                                                              \
+        .width = SIZE, .height = SIZE, .threads = threads_                                         \
+    }
+#define AS_MESH                                                                                    \
+    {                                                                                              \
+        .width = SIZE, .height = SIZE, .meshes = true                                              \
+    }
+
+static Case cases[CASES] = {
+    {"sphere", {.kind = SOLID_SPHERE, .radius = 1}, 24, EXACT(0), 0, {0}},
+    {"sphere, one thread", {.kind = SOLID_SPHERE, .radius = 1}, 24, EXACT(1), 0, {0}},
+    {"cube", {.kind = SOLID_BOX, .radius = 0.7}, 24, EXACT(0), 0, {0}},
+    {"cylinder",
+     {.kind = SOLID_CYLINDER, .radius = 0.7, .height = 1, .caps = MESH_CAP_BOTH},
+     24,
+     EXACT(0),
+     0,
+     {0}},
+    {"cone", {.kind = SOLID_CONE, .radius = 0.8, .height = 1.2}, 24, EXACT(0), 0, {0}},
+    {"torus", {.kind = SOLID_TORUS, .radius = 0.8, .tube = 0.3}, 24, EXACT(0), 0, {0}},
+    {"teapot, of 262,000 triangles", {.kind = SOLID_TEAPOT, .radius = 0.7}, 36, EXACT(0), 0, {0}},
+    {"teapot's mesh, 5,000 triangles", {.kind = SOLID_TEAPOT, .radius = 0.7}, 36, AS_MESH, 0, {0}},
+    {"the same, lit at its corners",
+     {.kind = SOLID_TEAPOT, .radius = 0.7},
+     36,
+     AS_MESH,
+     INTERPOLATION_GOURAUD,
+     {0}},
+    {"the same, flat", {.kind = SOLID_TEAPOT, .radius = 0.7}, 36, AS_MESH, INTERPOLATION_FLAT, {0}},
+    {"sphere's mesh, 1,100 triangles", {.kind = SOLID_SPHERE, .radius = 1}, 24, AS_MESH, 0, {0}},
+};
+
+static bool draw(void *argument)
+{
+    const Case *drawn = argument;
+    const Light lights[2] = {
+        {.kind = LIGHT_POINT, .position = {3, 3, 2}, .diffuse = {1, 1, 1}, .specular = {1, 1, 1}},
+        {.kind = LIGHT_SPOT,
+         .position = {-2, 1, 3},
+         .direction = {2, -1, -3},
+         .cutoff = 12,
+         .exponent = 2,
+         .diffuse = {0.5, 0.2, 0.2}},
+    };
+    Object object = {.mesh = &drawn->mesh,
+                     .solid = drawn->solid,
+                     .flat = solid_flat(&drawn->solid),
+                     .front = {.ambient = {0.2, 0.2, 0.2},
+                               .diffuse = {0.4, 0.6, 0.8},
+                               .specular = {0.6, 0.6, 0.6},
+                               .alpha = 1,
+                               .shininess = 40}};
+    const Scene scene = {.camera = {{0.5, 1, 4}, {0, 0, 0}, {0, 1, 0}, 40, 0.5, 20},
+                         .global_ambient = {0.3, 0.3, 0.3},
+                         .lights = lights,
+                         .light_count = 2,
+                         .objects = &object,
+                         .object_count = 1,
+                         .interpolation = drawn->interpolation};
+    Reference reference;
+    Message message = {0};
+    mat4_rotate(drawn->solid.kind == SOLID_TEAPOT ? 0 : -60, (Vec3){1, 0.3, 0},
+                &object.world_from_object);
+    const bool done = reference_open(&reference, &scene, &drawn->options, &message);
+    if (!done)
+        fprintf(stderr, "%s\n", message.text);
+    reference_close(&reference);
+    return done;
+}
+
+int main(void)
+{
+    Measured measured[CASES];
+    Message message = {0};
+    for (int i = 0; i < CASES; i++) {
+        if (!solid_mesh(&cases[i].solid, cases[i].divisions, &cases[i].mesh, &message))
+            return options_fail("reference_benchmark", &message, 1);
+        measured[i] = (Measured){cases[i].name, draw, &cases[i], NULL};
+    }
+    measure_print_machine();
+    const bool done = measure_rounds(measured, CASES, ROUNDS);
+    printf("%-32s %s\n", "a picture of 400x400", "ms");
+    for (int i = 0; i < CASES && done; i++) {
+        const Summary time = measure_summary(measured[i].seconds, ROUNDS);
+        printf("%-32s %6.1f [%.1f, %.1f]\n", cases[i].name, 1e3 * time.median, 1e3 * time.lower,
+               1e3 * time.upper);
+    }
+    measure_finish(measured, CASES);
+    for (int i = 0; i < CASES; i++)
+        mesh_close(&cases[i].mesh);
+    return done ? 0 : 1;
+}

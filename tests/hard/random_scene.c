@@ -1,0 +1,524 @@
+#include "random_scene.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+static const double RADIANS = 0.017453292519943295;
+
+/* Scenes. */
+
+static bool chance(HardRandom *random, double probability)
+{
+    return hard_random(random, 0, 1) < probability;
+}
+
+static Vec3 vector(HardRandom *random, double least, double most)
+{
+    const double x = hard_random(random, least, most), y = hard_random(random, least, most);
+    return (Vec3){x, y, hard_random(random, least, most)};
+}
+
+static Vec3 on_grid(Vec3 v)
+{
+    return (Vec3){rint(v.x * 0x1p20) * 0x1p-20, rint(v.y * 0x1p20) * 0x1p-20,
+                  rint(v.z * 0x1p20) * 0x1p-20};
+}
+
+/* Whether it is there follows from the kind, its values from the numbers. */
+static Vec3 color(HardRandom *kind, HardRandom *numbers, double most)
+{
+    const Vec3 c = vector(numbers, 0, most);
+    return chance(kind, 0.2) ? (Vec3){0, 0, 0} : c;
+}
+
+static Material random_material(HardRandom *kind, HardRandom *numbers)
+{
+    const Vec3 ambient = color(kind, numbers, 0.5), diffuse = color(kind, numbers, 1);
+    const Vec3 specular = color(kind, numbers, 1), emission = color(kind, numbers, 0.2);
+    const double power = pow(2, hard_random(numbers, -2, 7));
+    return (Material){.ambient = ambient,
+                      .diffuse = diffuse,
+                      .specular = specular,
+                      .emission = chance(kind, 0.3) ? emission : (Vec3){0, 0, 0},
+                      .alpha = 1,
+                      .shininess = chance(kind, 0.05)  ? 0
+                                   : chance(kind, 0.1) ? 128
+                                                       : power};
+}
+
+static Light random_light(HardRandom *kind, HardRandom *numbers, double most)
+{
+    Light light = {.off = chance(kind, 0.05),
+                   .kind = (LightKind)hard_random_below(kind, 3),
+                   .position = on_grid(vector(numbers, -4, 4)),
+                   .direction = hard_random_direction(numbers)};
+    const Vec3 aim = vector(numbers, -1, 1);
+    light.ambient = color(kind, numbers, most / 2);
+    light.diffuse = color(kind, numbers, most);
+    light.specular = color(kind, numbers, most);
+    const double cutoff = hard_random(numbers, 5, 60), exponent = hard_random(numbers, 0.5, 128);
+    const double constant = hard_random(numbers, 0.5, 2), linear = hard_random(numbers, 0.05, 0.5);
+    const double quadratic = hard_random(numbers, 0.05, 0.3);
+    if (light.kind == LIGHT_SPOT) {
+        light.direction = vec3_subtract(aim, light.position);
+        light.cutoff = chance(kind, 0.1) ? 90 : cutoff;
+        light.exponent = chance(kind, 0.4) ? 0 : exponent;
+    }
+    if (light.kind != LIGHT_DIRECTIONAL && chance(kind, 0.6)) {
+        light.constant = chance(kind, 0.2) ? 0 : constant;
+        light.linear = chance(kind, 0.4) ? 0 : linear;
+        light.quadratic = chance(kind, 0.4) ? 0 : quadratic;
+    }
+    return light;
+}
+
+static Mat4 random_transform(HardRandom *kind, HardRandom *numbers)
+{
+    Mat4 turn, other_turn;
+    const double size = hard_random(numbers, 0.5, 1.1);
+    const Vec3 uneven = vector(numbers, 0.4, 1.3), then = vector(numbers, 0.6, 1.2);
+    const Vec3 place = on_grid(vector(numbers, -1.2, 1.2));
+    mat4_rotate(hard_random(numbers, 0, 360), hard_random_direction(numbers), &turn);
+    mat4_rotate(hard_random(numbers, 0, 360), hard_random_direction(numbers), &other_turn);
+    const bool even = chance(kind, 0.5), rigid = even && chance(kind, 0.5);
+    const bool mirrored = chance(kind, 0.2), sheared = !even && chance(kind, 0.5);
+    Vec3 scale = rigid ? (Vec3){1, 1, 1} : even ? (Vec3){size, size, size} : uneven;
+    if (mirrored)
+        scale.y = -scale.y;
+    Mat4 matrix = mat4_product(turn, mat4_scale(scale));
+    if (sheared)
+        matrix = mat4_product(mat4_scale(then), mat4_product(other_turn, matrix));
+    return mat4_product(mat4_translate(place), matrix);
+}
+
+/* Few different ones, so that meshes are found again. */
+static RandomShape random_shape(HardRandom *kind)
+{
+    static const Solid solids[] = {
+        {.kind = SOLID_SPHERE, .radius = 1},
+        {.kind = SOLID_BOX, .radius = 0.75},
+        {.kind = SOLID_QUAD},
+        {.kind = SOLID_DISC, .radius = 1.25},
+        {.kind = SOLID_CYLINDER, .radius = 0.75, .height = 1.25, .caps = MESH_CAP_BOTH},
+        {.kind = SOLID_CYLINDER, .radius = 0.75, .height = 1.25},
+        {.kind = SOLID_CYLINDER, .radius = 0.75, .height = 1.25, .caps = MESH_CAP_TOP},
+        {.kind = SOLID_CONE, .radius = 1, .height = 1.5},
+        {.kind = SOLID_TORUS, .radius = 1, .tube = 0.375},
+        {.kind = SOLID_TEAPOT, .radius = 0.75},
+    };
+    static const int divisions[] = {5, 12, 24};
+    RandomShape shape = {.divisions = divisions[hard_random_below(kind, 3)]};
+    if (chance(kind, 0.25)) {
+        shape.form = (RandomForm)(1 + hard_random_below(kind, FORM_COUNT - 1));
+        shape.solid.radius = 1;
+    } else {
+        shape.solid = solids[hard_random_below(kind, sizeof solids / sizeof solids[0])];
+    }
+    return shape;
+}
+
+void random_scene_make(RandomScene *made, unsigned long long kind_seed,
+                       unsigned long long number_seed)
+{
+    HardRandom kind = {kind_seed * 0xD1342543DE82EF95ULL + 1};
+    HardRandom numbers = {kind.state ^ number_seed * 0xAF251AF3B0F025B5ULL};
+    *made = (RandomScene){
+        .scene = {.reflection = chance(&kind, 0.5) ? REFLECTION_PHONG : REFLECTION_BLINN_PHONG}};
+    Scene *scene = &made->scene;
+    scene->interpolation =
+        chance(&kind, 0.5) ? INTERPOLATION_PHONG : (Interpolation)(1 + hard_random_below(&kind, 2));
+    scene->distant_viewer = chance(&kind, 0.3);
+    scene->clamp_vertex = chance(&kind, 0.3);
+    scene->linear = chance(&kind, 0.3);
+    scene->show_clipped = chance(&kind, 0.1);
+    scene->light_count = 1 + hard_random_below(&kind, 4);
+    scene->object_count = 1 + hard_random_below(&kind, 3);
+    scene->background = vector(&numbers, 0, 1);
+    scene->global_ambient = color(&kind, &numbers, 0.3);
+    const Vec3 from = vec3_scale(hard_random_direction(&numbers), hard_random(&numbers, 4.5, 7));
+    const Vec3 center = on_grid(vector(&numbers, -0.4, 0.4)), up = hard_random_direction(&numbers);
+    scene->camera = (Camera){.eye = on_grid(vec3_add(center, from)),
+                             .center = center,
+                             .up = up,
+                             .fovy = hard_random(&numbers, 25, 45),
+                             .near = 0.5,
+                             .far = 32};
+    /* Bright enough to be clamped in places, and not everywhere. */
+    for (int i = 0; i < scene->light_count; i++)
+        made->lights[i] = random_light(&kind, &numbers, 0.5 + 1.5 / scene->light_count);
+    for (int i = 0; i < scene->object_count; i++) {
+        Object *object = &made->objects[i];
+        made->shapes[i] = random_shape(&kind);
+        object->world_from_object = random_transform(&kind, &numbers);
+        object->front = random_material(&kind, &numbers);
+        object->back = random_material(&kind, &numbers);
+        object->two_sided = chance(&kind, 0.4);
+        object->wrong_normals = chance(&kind, 0.05);
+    }
+}
+
+/* Meshes. */
+
+static bool same_shape(const RandomShape *a, const RandomShape *b)
+{
+    return a->form == b->form && a->divisions == b->divisions && a->solid.kind == b->solid.kind &&
+           a->solid.radius == b->solid.radius && a->solid.height == b->solid.height &&
+           a->solid.tube == b->solid.tube && a->solid.caps == b->solid.caps;
+}
+
+static bool make_mesh(const RandomShape *shape, Mesh *mesh, Message *message)
+{
+    const double radius = shape->solid.radius;
+    switch (shape->form) {
+    case FORM_TETRAHEDRON:
+        return mesh_tetrahedron(mesh, radius, message);
+    case FORM_OCTAHEDRON:
+        return mesh_octahedron(mesh, radius, message);
+    case FORM_DODECAHEDRON:
+        return mesh_dodecahedron(mesh, radius, message);
+    case FORM_ICOSAHEDRON:
+        return mesh_icosahedron(mesh, radius, message);
+    case FORM_LECTURE_SPHERE:
+        return mesh_sphere_lecture(mesh, shape->divisions, message);
+    default:
+        return solid_mesh(&shape->solid, shape->divisions, mesh, message);
+    }
+}
+
+static const Mesh *find_mesh(RandomMeshes *meshes, const RandomShape *shape, Message *message)
+{
+    for (const RandomMesh *have = meshes->first; have; have = have->next)
+        if (same_shape(&have->shape, shape))
+            return &have->mesh;
+    RandomMesh *made = calloc(1, sizeof *made);
+    if (!made || !make_mesh(shape, &made->mesh, message)) {
+        message_set(message, "random scene: not enough memory");
+        free(made);
+        return NULL;
+    }
+    made->shape = *shape;
+    made->next = meshes->first;
+    meshes->first = made;
+    meshes->count++;
+    return &made->mesh;
+}
+
+void random_meshes_close(RandomMeshes *meshes)
+{
+    while (meshes->first) {
+        RandomMesh *made = meshes->first;
+        meshes->first = made->next;
+        mesh_close(&made->mesh);
+        free(made);
+    }
+    meshes->count = 0;
+}
+
+static bool shape_closed(const RandomShape *shape)
+{
+    switch (shape->solid.kind) {
+    case SOLID_QUAD:
+    case SOLID_DISC:
+    case SOLID_TEAPOT:
+        return false;
+    case SOLID_CYLINDER:
+        return shape->solid.caps == MESH_CAP_BOTH;
+    default:
+        return true;
+    }
+}
+
+bool random_scene_ready(RandomScene *made, RandomMeshes *meshes, Message *message)
+{
+    made->scene.lights = made->lights;
+    made->scene.objects = made->objects;
+    for (int i = 0; i < made->scene.object_count; i++) {
+        const RandomShape *shape = &made->shapes[i];
+        Object *object = &made->objects[i];
+        object->mesh = find_mesh(meshes, shape, message);
+        if (!object->mesh)
+            return false;
+        object->solid = shape->form == FORM_SOLID ? shape->solid : (Solid){.kind = SOLID_NONE};
+        object->flat = shape->form == FORM_SOLID ? solid_flat(&shape->solid)
+                                                 : shape->form != FORM_LECTURE_SPHERE;
+        object->closed = shape_closed(shape);
+    }
+    return true;
+}
+
+bool random_scene_draw(const RandomScene *made, const Canvas *canvas, Lighting *lighting,
+                       Image *image, Message *message)
+{
+    const Vec3 background = made->scene.background;
+    canvas_begin(canvas);
+    glClearColor((float)background.x, (float)background.y, (float)background.z, 1);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    return lighting_draw(lighting, &made->scene, (double)canvas->width / canvas->height, false,
+                         message) &&
+           canvas_read(canvas, image, message);
+}
+
+/* Jumps. */
+
+static Vec3 to_vec3(const float v[3])
+{
+    return (Vec3){(double)v[0], (double)v[1], (double)v[2]};
+}
+
+static bool black(Vec3 a, Vec3 b)
+{
+    return a.x * b.x == 0 && a.y * b.y == 0 && a.z * b.z == 0;
+}
+
+static bool light_grazes(const Light *light, const Object *object, Vec3 place, Vec3 normal)
+{
+    /* A cosine from floats is wrong by a few parts in 1e7; not where the way itself is a difference
+     * of far longer ones. */
+    static const double NEAR = 1e-5;
+    Vec3 to_light, axis;
+    const bool highlight = !black(light->specular, object->front.specular) ||
+                           (object->two_sided && !black(light->specular, object->back.specular));
+    vec3_normalize(light->kind == LIGHT_DIRECTIONAL ? light->direction
+                                                    : vec3_subtract(light->position, place),
+                   &to_light);
+    if (highlight && fabs(vec3_dot(normal, to_light)) < NEAR)
+        return true;
+    if (light->kind != LIGHT_SPOT)
+        return false;
+    vec3_normalize(light->direction, &axis);
+    return fabs(vec3_dot(axis, to_light) + cos(light->cutoff * RADIANS)) < NEAR;
+}
+
+bool random_scene_grazes(const RandomScene *made)
+{
+    const Scene *scene = &made->scene;
+    for (int i = 0; i < scene->object_count; i++) {
+        const Object *object = &scene->objects[i];
+        const Mesh *mesh = object->mesh;
+        Mat4 normal_matrix = object->world_from_object;
+        if (!object->wrong_normals)
+            mat4_normal(object->world_from_object, &normal_matrix);
+        for (size_t k = 0; k < mesh->index_count; k++) {
+            const MeshVertex *vertex = &mesh->vertices[mesh->indices[k]];
+            Vec3 normal = to_vec3(vertex->normal);
+            if (scene->interpolation == INTERPOLATION_FLAT && !object->flat)
+                mesh_face(mesh, k / 3, &normal);
+            vec3_normalize(mat4_transform_direction(normal_matrix, normal), &normal);
+            const Vec3 place =
+                mat4_transform_point(object->world_from_object, to_vec3(vertex->position));
+            for (int j = 0; j < scene->light_count; j++)
+                if (!scene->lights[j].off && light_grazes(&scene->lights[j], object, place, normal))
+                    return true;
+        }
+    }
+    return false;
+}
+
+/* Numbers. */
+
+typedef struct Numbers {
+    RandomNumber *numbers;
+    int count;
+} Numbers;
+
+static void add(Numbers *to, double *value, double least, double most)
+{
+    to->numbers[to->count++] = (RandomNumber){value, least, most};
+}
+
+static void add_vector(Numbers *to, Vec3 *v, double least, double most)
+{
+    add(to, &v->x, least, most);
+    add(to, &v->y, least, most);
+    add(to, &v->z, least, most);
+}
+
+static void add_light(Numbers *to, Light *light)
+{
+    add_vector(to, &light->ambient, 0, 1e6);
+    add_vector(to, &light->diffuse, 0, 1e6);
+    add_vector(to, &light->specular, 0, 1e6);
+    if (light->kind != LIGHT_POINT)
+        add_vector(to, &light->direction, -DBL_MAX, DBL_MAX);
+    if (light->kind == LIGHT_DIRECTIONAL)
+        return;
+    add_vector(to, &light->position, -1e15, 1e15);
+    add(to, &light->constant, 0, 1e30);
+    add(to, &light->linear, 0, 1e30);
+    add(to, &light->quadratic, 0, 1e30);
+    if (light->kind == LIGHT_POINT)
+        return;
+    add(to, &light->cutoff, 0, 90);
+    add(to, &light->exponent, 0, 128);
+}
+
+static void add_material(Numbers *to, Material *material)
+{
+    add_vector(to, &material->ambient, 0, 1);
+    add_vector(to, &material->diffuse, 0, 1);
+    add_vector(to, &material->specular, 0, 1);
+    add_vector(to, &material->emission, 0, 1);
+    add(to, &material->shininess, 0, 128);
+}
+
+int random_scene_numbers(RandomScene *made, RandomNumber numbers[RANDOM_MOST_NUMBERS])
+{
+    Numbers to = {numbers, 0};
+    Camera *camera = &made->scene.camera;
+    add_vector(&to, &camera->eye, -1e15, 1e15);
+    add_vector(&to, &camera->center, -1e15, 1e15);
+    add_vector(&to, &camera->up, -1e15, 1e15);
+    add(&to, &camera->fovy, DBL_MIN, 180);
+    add(&to, &camera->near, DBL_MIN, DBL_MAX);
+    add(&to, &camera->far, DBL_MIN, INFINITY);
+    add_vector(&to, &made->scene.global_ambient, 0, 1e6);
+    for (int i = 0; i < made->scene.light_count; i++)
+        add_light(&to, &made->lights[i]);
+    for (int i = 0; i < made->scene.object_count; i++) {
+        Object *object = &made->objects[i];
+        Solid *solid = &made->shapes[i].solid;
+        for (int k = 0; k < 15; k++)
+            if (k % 4 < 3)
+                add(&to, &object->world_from_object.m[k], -DBL_MAX, DBL_MAX);
+        add_material(&to, &object->front);
+        if (object->two_sided)
+            add_material(&to, &object->back);
+        if (solid->radius != 0)
+            add(&to, &solid->radius, 1e-30, 1e30);
+        if (solid->height != 0)
+            add(&to, &solid->height, 1e-30, 1e30);
+        if (solid->tube != 0)
+            add(&to, &solid->tube, 1e-30, 1e30);
+    }
+    return to.count;
+}
+
+/* Text. What is zero is left out. */
+
+static void print_number(FILE *file, const char *name, double value)
+{
+    if (isinf(value))
+        fprintf(file, "%s = %sINFINITY, ", name, value < 0 ? "-" : "");
+    else if (value != 0)
+        fprintf(file, "%s = %.17g, ", name, value);
+}
+
+static void print_vector(FILE *file, const char *name, Vec3 v)
+{
+    if (v.x != 0 || v.y != 0 || v.z != 0)
+        fprintf(file, "%s = {%.17g, %.17g, %.17g}, ", name, v.x, v.y, v.z);
+}
+
+static void print_choice(FILE *file, const char *name, int value, const char *const texts[])
+{
+    if (value != 0)
+        fprintf(file, "%s = %s, ", name, texts[value]);
+}
+
+static void print_flag(FILE *file, const char *name, bool value)
+{
+    if (value)
+        fprintf(file, "%s = true, ", name);
+}
+
+static void print_light(FILE *file, int number, const Light *light)
+{
+    static const char *const kinds[] = {"LIGHT_DIRECTIONAL", "LIGHT_POINT", "LIGHT_SPOT"};
+    fprintf(file, ".lights[%d] = {", number);
+    print_flag(file, ".off", light->off);
+    fprintf(file, ".kind = %s, ", kinds[light->kind]);
+    print_vector(file, ".position", light->position);
+    print_vector(file, ".direction", light->direction);
+    print_vector(file, ".ambient", light->ambient);
+    print_vector(file, ".diffuse", light->diffuse);
+    print_vector(file, ".specular", light->specular);
+    print_number(file, ".cutoff", light->cutoff);
+    print_number(file, ".exponent", light->exponent);
+    print_number(file, ".constant", light->constant);
+    print_number(file, ".linear", light->linear);
+    print_number(file, ".quadratic", light->quadratic);
+    fprintf(file, "},\n");
+}
+
+static void print_material(FILE *file, const char *name, const Material *material)
+{
+    fprintf(file, "%s = {", name);
+    print_vector(file, ".ambient", material->ambient);
+    print_vector(file, ".diffuse", material->diffuse);
+    print_vector(file, ".specular", material->specular);
+    print_vector(file, ".emission", material->emission);
+    fprintf(file, ".alpha = %.17g, ", material->alpha);
+    print_number(file, ".shininess", material->shininess);
+    fprintf(file, "},\n");
+}
+
+static void print_object(FILE *file, int number, const Object *object)
+{
+    fprintf(file, ".objects[%d] = {.world_from_object = {{", number);
+    for (int k = 0; k < 16; k++)
+        fprintf(file, "%.17g, ", object->world_from_object.m[k]);
+    fprintf(file, "}},\n");
+    print_material(file, ".front", &object->front);
+    if (object->two_sided) {
+        print_flag(file, ".two_sided", true);
+        print_material(file, ".back", &object->back);
+    }
+    print_flag(file, ".wrong_normals", object->wrong_normals);
+    fprintf(file, "},\n");
+}
+
+static void print_shape(FILE *file, int number, const RandomShape *shape)
+{
+    static const char *const forms[FORM_COUNT] = {"FORM_SOLID",       "FORM_TETRAHEDRON",
+                                                  "FORM_OCTAHEDRON",  "FORM_DODECAHEDRON",
+                                                  "FORM_ICOSAHEDRON", "FORM_LECTURE_SPHERE"};
+    static const char *const kinds[] = {"SOLID_NONE", "SOLID_SPHERE", "SOLID_BOX",
+                                        "SOLID_QUAD", "SOLID_DISC",   "SOLID_CYLINDER",
+                                        "SOLID_CONE", "SOLID_TORUS",  "SOLID_TEAPOT"};
+    static const char *const caps[] = {"MESH_CAP_NONE", "MESH_CAP_BOTTOM", "MESH_CAP_TOP",
+                                       "MESH_CAP_BOTH"};
+    fprintf(file, ".shapes[%d] = {", number);
+    print_choice(file, ".form", (int)shape->form, forms);
+    fprintf(file, ".solid = {");
+    print_choice(file, ".kind", (int)shape->solid.kind, kinds);
+    print_number(file, ".radius", shape->solid.radius);
+    print_number(file, ".height", shape->solid.height);
+    print_number(file, ".tube", shape->solid.tube);
+    print_choice(file, ".caps", (int)shape->solid.caps, caps);
+    fprintf(file, "}, .divisions = %d},\n", shape->divisions);
+}
+
+void random_scene_print(const RandomScene *made, const char *name, FILE *file)
+{
+    static const char *const interpolations[] = {"INTERPOLATION_PHONG", "INTERPOLATION_GOURAUD",
+                                                 "INTERPOLATION_FLAT"};
+    static const char *const reflections[] = {"REFLECTION_BLINN_PHONG", "REFLECTION_PHONG"};
+    const Scene *scene = &made->scene;
+    fprintf(file, "static const RandomScene %s = {\n.scene = {.camera = {", name);
+    print_vector(file, ".eye", scene->camera.eye);
+    print_vector(file, ".center", scene->camera.center);
+    print_vector(file, ".up", scene->camera.up);
+    print_number(file, ".fovy", scene->camera.fovy);
+    print_number(file, ".near", scene->camera.near);
+    print_number(file, ".far", scene->camera.far);
+    fprintf(file, "},\n");
+    print_vector(file, ".background", scene->background);
+    print_vector(file, ".global_ambient", scene->global_ambient);
+    fprintf(file, ".light_count = %d, .object_count = %d, ", scene->light_count,
+            scene->object_count);
+    print_choice(file, ".reflection", (int)scene->reflection, reflections);
+    print_choice(file, ".interpolation", (int)scene->interpolation, interpolations);
+    print_flag(file, ".distant_viewer", scene->distant_viewer);
+    print_flag(file, ".clamp_vertex", scene->clamp_vertex);
+    print_flag(file, ".linear", scene->linear);
+    print_flag(file, ".show_clipped", scene->show_clipped);
+    fprintf(file, "},\n");
+    for (int i = 0; i < scene->light_count; i++)
+        print_light(file, i, &made->lights[i]);
+    for (int i = 0; i < scene->object_count; i++)
+        print_object(file, i, &made->objects[i]);
+    for (int i = 0; i < scene->object_count; i++)
+        print_shape(file, i, &made->shapes[i]);
+    fprintf(file, "};\n");
+}

@@ -1,0 +1,375 @@
+#include "search.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+enum { STALE = 60, MOST_MESHES = 64 };
+
+/* Errors. */
+
+static void forget_meshes(Search *search)
+{
+    for (const RandomMesh *made = search->meshes.first; made; made = made->next)
+        hard_forget(&search->hard, &made->mesh);
+    random_meshes_close(&search->meshes);
+}
+
+void search_open(Search *search, int size, unsigned long long seed)
+{
+    *search = (Search){.random = {seed}, .error = -1};
+    hard_open(&search->hard, size, size);
+}
+
+void search_close(Search *search)
+{
+    forget_meshes(search);
+    hard_close(&search->hard);
+}
+
+/* Whether 24 bits of depth can tell places apart: from far on, depth is that of the background. */
+static bool depth_suffices(const Camera *camera)
+{
+    return camera->far <= 1e6 * camera->near;
+}
+
+/* The largest error of the last picture inside objects; -1 where nothing is. */
+static double largest_error(const Search *search, const Reference *exact)
+{
+    const float *real = search->hard.real.pixels;
+    double most = -1;
+    for (size_t i = 0; i < (size_t)exact->width * (size_t)exact->height; i++) {
+        for (size_t c = 0; c < 3; c++) {
+            const double value = (double)real[4 * i + c];
+            if (!isfinite(value))
+                return INFINITY;
+            if (exact->interior[i])
+                most = fmax(most,
+                            255 * fabs(fmax(0, fmin(1, value)) - (double)exact->color[3 * i + c]));
+        }
+    }
+    return most;
+}
+
+double search_error(Search *search, RandomScene *scene)
+{
+    Reference exact;
+    Hard *hard = &search->hard;
+    Message message = {0};
+    /* Edges need not be exact, only known. */
+    const ReferenceOptions options = {.width = hard->floats.width,
+                                      .height = hard->floats.height,
+                                      .meshes = true,
+                                      .edge_error = 255,
+                                      .threads = 1};
+    if (search->meshes.count > MOST_MESHES)
+        forget_meshes(search);
+    if (!random_scene_ready(scene, &search->meshes, NULL) || !scene_check(&scene->scene, NULL) ||
+        !depth_suffices(&scene->scene.camera) || random_scene_grazes(scene))
+        return -1;
+    search->judged++;
+    if (!reference_open(&exact, &scene->scene, &options, &message) ||
+        !random_scene_draw(scene, &hard->floats, hard->lightings[search->precision], &hard->real,
+                           &message))
+        fail_msg("%s", message.text);
+    const double error = largest_error(search, &exact);
+    reference_close(&exact);
+    return error;
+}
+
+/* Changes. */
+
+static double special(HardRandom *random, const RandomNumber *number)
+{
+    const double values[] = {0,      1,       -1,    0.5,   1e-30,   1e30,
+                             5e-324, DBL_MIN, 1e-15, 1e-38, FLT_MIN, number->least,
+                             90,     128,     1e15,  1e-7,  0x1p-24, number->most};
+    return values[hard_random_below(random, sizeof values / sizeof values[0])];
+}
+
+static double changed(HardRandom *random, const RandomNumber *number)
+{
+    const double value = *number->value, size = pow(10, hard_random(random, -8, 1));
+    switch (hard_random_below(random, 8)) {
+    case 0:
+        return special(random, number);
+    case 1:
+        return -value;
+    case 2:
+        return value * pow(10, hard_random(random, -3, 3));
+    case 3:
+        return value * pow(2, hard_random_below(random, 41) - 20);
+    case 4:
+        return value + size;
+    case 5:
+        return value - size;
+    default:
+        return value * (1 + hard_random(random, -1, 1) * size);
+    }
+}
+
+/* What a scene of a few units has. */
+static double tamed(double value, const RandomNumber *number)
+{
+    const double most = fmin(number->most, number->most == 1e6 ? 4 : 100);
+    const double least = number->least == DBL_MIN ? 1e-3 : fmax(number->least, -100);
+    return fmax(least, fmin(most, value));
+}
+
+static void change_number(Search *search, RandomScene *scene)
+{
+    RandomNumber numbers[RANDOM_MOST_NUMBERS];
+    const int count = random_scene_numbers(scene, numbers);
+    const int i = hard_random_below(&search->random, count);
+    double value = changed(&search->random, &numbers[i]);
+    if (hard_random_below(&search->random, 12) == 0)
+        value = *numbers[hard_random_below(&search->random, count)].value;
+    value = fmax(numbers[i].least, fmin(numbers[i].most, value));
+    *numbers[i].value = search->tame ? tamed(value, &numbers[i]) : value;
+}
+
+static Vec3 random_corner(Search *search, const RandomScene *scene, Vec3 *normal)
+{
+    const Object *object =
+        &scene->objects[hard_random_below(&search->random, scene->scene.object_count)];
+    const Mesh *mesh = object->mesh;
+    const size_t triangle =
+        (size_t)hard_random_below(&search->random, (int)(mesh->index_count / 3));
+    const float *p = mesh->vertices[mesh->indices[3 * triangle]].position;
+    Mat4 matrix;
+    mat4_normal(object->world_from_object, &matrix);
+    mesh_face(mesh, triangle, normal);
+    vec3_normalize(mat4_transform_direction(matrix, *normal), normal);
+    return mat4_transform_point(object->world_from_object,
+                                (Vec3){(double)p[0], (double)p[1], (double)p[2]});
+}
+
+/* Where two things are exactly in one place, plane or direction. */
+static void coincide(Search *search, RandomScene *scene)
+{
+    HardRandom *random = &search->random;
+    Vec3 normal;
+    const Vec3 corner = random_corner(search, scene, &normal);
+    Camera *camera = &scene->scene.camera;
+    Light *light = scene->scene.light_count > 0
+                       ? &scene->lights[hard_random_below(random, scene->scene.light_count)]
+                       : &(Light){.off = true};
+    const Vec3 to_eye = vec3_subtract(camera->eye, corner);
+    const Vec3 to_light = vec3_subtract(light->position, corner);
+    switch (hard_random_below(random, 10)) {
+    case 0:
+        light->position = corner;
+        break;
+    case 1: /* in the plane of a face */
+        light->position =
+            vec3_subtract(light->position, vec3_scale(normal, vec3_dot(to_light, normal)));
+        break;
+    case 2:
+        camera->eye = vec3_subtract(camera->eye, vec3_scale(normal, vec3_dot(to_eye, normal)));
+        break;
+    case 3:
+        light->position = camera->eye;
+        break;
+    case 4:
+        light->direction = vec3_subtract(corner, light->position);
+        break;
+    case 5:
+        light->direction = normal;
+        break;
+    case 6: /* mirrored at the face, so that the highlight is there */
+        light->direction = vec3_subtract(vec3_scale(normal, 2 * vec3_dot(to_eye, normal)), to_eye);
+        light->position = vec3_add(corner, light->direction);
+        break;
+    case 7:
+        camera->center = corner;
+        break;
+    case 8: /* towards the light, just before it */
+        light->position =
+            vec3_add(corner, vec3_scale(to_light, pow(10, hard_random(random, -8, 0))));
+        break;
+    default: /* a close look */
+        camera->eye = vec3_add(corner, vec3_scale(to_eye, pow(10, hard_random(random, -4, 0))));
+        camera->center = corner;
+        break;
+    }
+}
+
+static void change_choice(Search *search, RandomScene *scene)
+{
+    HardRandom *random = &search->random;
+    const int i = hard_random_below(random, scene->scene.object_count);
+    switch (hard_random_below(random, 4)) {
+    case 0:
+        scene->scene.interpolation = (Interpolation)hard_random_below(random, 3);
+        break;
+    case 1:
+        scene->scene.reflection = (Reflection)hard_random_below(random, 2);
+        break;
+    case 2:
+        scene->scene.distant_viewer = !scene->scene.distant_viewer;
+        break;
+    default:
+        scene->shapes[i].divisions = 3 + hard_random_below(random, 30);
+        break;
+    }
+}
+
+bool search_step(Search *search)
+{
+    HardRandom *random = &search->random;
+    search->steps++;
+    if (search->error < 0 || search->stale >= STALE) {
+        const int kind = hard_random_below(random, 1000000);
+        random_scene_make(&search->current, (unsigned long long)kind,
+                          (unsigned long long)search->steps);
+        search->error = search_error(search, &search->current);
+        search->stale = 0;
+        search->climbs++;
+        return false;
+    }
+    RandomScene next = search->current;
+    random_scene_ready(&next, &search->meshes, NULL);
+    if (hard_random_below(random, 50) == 0)
+        change_choice(search, &next);
+    if (hard_random_below(random, 5) == 0)
+        coincide(search, &next);
+    for (int i = hard_random_below(random, 4); i >= 0; i--)
+        change_number(search, &next);
+    const double error = search_error(search, &next);
+    search->stale++;
+    if (error > search->error) {
+        search->current = next;
+        search->error = error;
+        search->stale = 0;
+    }
+    return search->stale >= STALE || isinf(search->error);
+}
+
+/* Shrinking. */
+
+/* Keeps a simpler scene if its error is still there. */
+static bool take(Search *search, RandomScene *scene, RandomScene simpler, double least)
+{
+    if (!(search_error(search, &simpler) >= least))
+        return false;
+    *scene = simpler;
+    return true;
+}
+
+static bool drop_things(Search *search, RandomScene *scene, double least)
+{
+    bool any = false;
+    for (int i = scene->scene.light_count - 1; i >= 0; i--) {
+        RandomScene simpler = *scene;
+        for (int k = i; k + 1 < simpler.scene.light_count; k++)
+            simpler.lights[k] = simpler.lights[k + 1];
+        simpler.scene.light_count--;
+        any |= take(search, scene, simpler, least);
+    }
+    for (int i = scene->scene.object_count - 1; i >= 0 && scene->scene.object_count > 1; i--) {
+        RandomScene simpler = *scene;
+        for (int k = i; k + 1 < simpler.scene.object_count; k++) {
+            simpler.objects[k] = simpler.objects[k + 1];
+            simpler.shapes[k] = simpler.shapes[k + 1];
+        }
+        simpler.scene.object_count--;
+        any |= take(search, scene, simpler, least);
+    }
+    return any;
+}
+
+static bool drop_choices(Search *search, RandomScene *scene, double least)
+{
+    bool any = false;
+    for (int i = 0; i < 8 + 2 * scene->scene.object_count; i++) {
+        RandomScene simpler = *scene;
+        Scene *to = &simpler.scene;
+        const int n = i / 2 - 4; /* of an object, from the 8th case on */
+        switch (i) {
+        case 0:
+            to->linear = false;
+            break;
+        case 1:
+            to->show_clipped = false;
+            break;
+        case 2:
+            to->clamp_vertex = false;
+            break;
+        case 3:
+            to->distant_viewer = false;
+            break;
+        case 4:
+            to->interpolation = INTERPOLATION_PHONG;
+            break;
+        case 5:
+            to->reflection = REFLECTION_BLINN_PHONG;
+            break;
+        case 6:
+            for (int k = 0; k < to->object_count; k++)
+                simpler.objects[k].two_sided = simpler.objects[k].wrong_normals = false;
+            break;
+        case 7:
+            to->background = (Vec3){0, 0, 0};
+            break;
+        default:
+            if (i % 2 == 0)
+                simpler.shapes[n] = (RandomShape){.solid = {.kind = SOLID_QUAD}, .divisions = 3};
+            else
+                simpler.shapes[n].divisions = 3;
+        }
+        const bool same = scene->scene.linear == to->linear &&
+                          scene->scene.show_clipped == to->show_clipped &&
+                          scene->scene.clamp_vertex == to->clamp_vertex &&
+                          scene->scene.distant_viewer == to->distant_viewer &&
+                          scene->scene.interpolation == to->interpolation &&
+                          scene->scene.reflection == to->reflection && i < 6;
+        if (!same)
+            take(search, scene, simpler, least);
+        any |= false;
+    }
+    return any;
+}
+
+static bool round_numbers(Search *search, RandomScene *scene, double least)
+{
+    RandomNumber numbers[RANDOM_MOST_NUMBERS], simpler_numbers[RANDOM_MOST_NUMBERS];
+    const int count = random_scene_numbers(scene, numbers);
+    bool any = false;
+    for (int i = 0; i < count; i++) {
+        const double value = *numbers[i].value;
+        for (int digits = -1; digits <= 12; digits += digits > 3 ? 3 : 1) {
+            char text[40];
+            RandomScene simpler = *scene;
+            random_scene_numbers(&simpler, simpler_numbers);
+            snprintf(text, sizeof text, "%.*g", digits, value);
+            const double rounded = digits < 0 ? 0 : digits == 0 ? 1 : strtod(text, NULL);
+            if (rounded == value)
+                break;
+            *simpler_numbers[i].value = rounded;
+            if (take(search, scene, simpler, least)) {
+                any = true;
+                break;
+            }
+        }
+    }
+    return any;
+}
+
+void search_shrink(Search *search, RandomScene *scene, double least)
+{
+    for (int pass = 0; pass < 6; pass++) {
+        bool any = drop_things(search, scene, least);
+        any |= drop_choices(search, scene, least);
+        any |= round_numbers(search, scene, least);
+        if (!any)
+            break;
+    }
+    random_scene_ready(scene, &search->meshes, NULL);
+}

@@ -1,0 +1,42 @@
+/*
+ * search: hunts for the scene whose picture is farthest from the exact one.
+ *
+ * From a random scene, numbers are changed, a few at a time: by factors, to special values, to
+ * exact coincidences of lights, eye and corners; what makes the error larger is kept. Where nothing
+ * does for long, another scene is begun with.
+ */
+#ifndef SEARCH_H
+#define SEARCH_H
+
+#include "random_scene.h"
+
+typedef struct Search {
+    Hard hard;
+    HardPrecision precision;
+    bool tame; /* numbers stay where a scene of a few units' size has them */
+    RandomMeshes meshes;
+    HardRandom random;
+    RandomScene current; /* the climb under way */
+    double error;        /* its error */
+    int stale;           /* steps since that grew */
+    long long steps, judged, climbs;
+} Search;
+
+/* Opens a canvas of this size. */
+void search_open(Search *search, int size, unsigned long long seed);
+void search_close(Search *search);
+
+/* The largest error inside the objects of a float picture, in steps of 1/255; INFINITY where a
+ * value is not finite. -1 where a scene is not judged: it has no meaning, or rounding may decide on
+ * which side of a jump light lies. */
+double search_error(Search *search, RandomScene *scene);
+
+/* One change, kept if the error grows. True where nothing has helped for long: search->current is
+ * then as bad as this climb gets, and the next step begins another. */
+bool search_step(Search *search);
+
+/* Makes a scene simpler, while its error stays at least `least`: fewer lights, objects, colours;
+ * rounder numbers. */
+void search_shrink(Search *search, RandomScene *scene, double least);
+
+#endif
