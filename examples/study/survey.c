@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 /* What a whole survey may take, in seconds, with something left for tables and plots. */
-static const double WHOLE = 260, QUICK = 17;
+static const double WHOLE = 260, QUICK = 13;
 
 static volatile sig_atomic_t interrupted;
 
