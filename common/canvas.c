@@ -8,7 +8,31 @@
 /* The functions of gl.h, and EGL's display, are those of one canvas. */
 static bool is_open;
 
-const CanvasBackend *const CANVAS_BACKENDS[] = {&CANVAS_EGL, NULL};
+const CanvasBackend *const CANVAS_BACKENDS[] = {&CANVAS_EGL, &CANVAS_OSMESA, NULL};
+
+const CanvasBackend *canvas_backend(const char *name, Message *message)
+{
+    char known[128] = "";
+    for (int i = 0; CANVAS_BACKENDS[i]; i++) {
+        if (strcmp(name, CANVAS_BACKENDS[i]->name) == 0)
+            return CANVAS_BACKENDS[i];
+        const size_t used = strlen(known);
+        snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "",
+                 CANVAS_BACKENDS[i]->name);
+    }
+    message_set(message, "%s: no such backend; there is %s", name, known);
+    return NULL;
+}
+
+const CanvasBackend *canvas_default_backend(Message *message)
+{
+    const char *name = getenv("LIGHTING_BACKEND");
+    Message why = {0};
+    const CanvasBackend *found = name && name[0] ? canvas_backend(name, &why) : &CANVAS_EGL;
+    if (!found)
+        message_set(message, "LIGHTING_BACKEND: %s", why.text);
+    return found;
+}
 
 /* With a format of 8 bits that clamps to 0..1, or of 32 that does not. */
 static GLenum color_format(const Canvas *canvas)
@@ -153,7 +177,7 @@ static bool make_framebuffers(Canvas *canvas, Message *message)
 /* In the current context, whatever else a canvas is. */
 static bool make_canvas(Canvas *canvas, const CanvasOptions *options, Message *message)
 {
-    canvas->real = options->real && gl_version() >= 30 && gl_has("GL_EXT_color_buffer_float");
+    canvas->real = options->real && gl_draws_floats();
     if (!choose_samples(canvas, options->samples, message) || !check_size(canvas, message) ||
         !make_framebuffers(canvas, message))
         return false;
@@ -164,11 +188,15 @@ static bool make_canvas(Canvas *canvas, const CanvasOptions *options, Message *m
 bool canvas_open(Canvas *canvas, const CanvasOptions *options, Message *message)
 {
     *canvas = (Canvas){
-        .backend = options->backend ? options->backend : &CANVAS_EGL,
+        .backend = options->backend ? options->backend : canvas_default_backend(message),
         .width = options->width,
         .height = options->height,
         .supersample = options->supersample > 1 ? options->supersample : 1,
     };
+    if (!canvas->backend) {
+        *canvas = (Canvas){0};
+        return false;
+    }
     if (is_open) {
         *canvas = (Canvas){0};
         return message_set(message, "canvas: another one is open; close it first");

@@ -24,13 +24,20 @@ typedef struct CanvasBackend {
     bool (*doctor)(void);
 } CanvasBackend;
 
-extern const CanvasBackend CANVAS_EGL;
+extern const CanvasBackend CANVAS_EGL, CANVAS_OSMESA;
 
 /* NULL-terminated: every backend there is. */
 extern const CanvasBackend *const CANVAS_BACKENDS[];
 
+/* The backend of that name; NULL, with a message that names those there are. */
+const CanvasBackend *canvas_backend(const char *name, Message *message);
+
+/* The one that the environment's LIGHTING_BACKEND names, or EGL; NULL, with a message, where there
+ * is none of that name. */
+const CanvasBackend *canvas_default_backend(Message *message);
+
 typedef struct CanvasOptions {
-    const CanvasBackend *backend; /* NULL: EGL */
+    const CanvasBackend *backend; /* NULL: the default one */
     int width, height;            /* 1.. what the driver allows */
     int samples;     /* 0 or 1: none. More: a multisampled framebuffer that is resolved,
                         or supersampling where the driver has none */

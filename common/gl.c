@@ -49,9 +49,22 @@ int gl_version(void)
 {
     const char *text = (const char *)glGetString(GL_VERSION);
     int major = 0, minor = 0;
-    if (!text || sscanf(text, "OpenGL ES %d.%d", &major, &minor) != 2)
+    if (!text)
         return 0;
-    return 10 * major + minor;
+    if (sscanf(text, "OpenGL ES %d.%d", &major, &minor) == 2)
+        return 10 * major + minor;
+    return sscanf(text, "%d.%d", &major, &minor) == 2 && major >= 3 ? 30 : 20;
+}
+
+bool gl_desktop(void)
+{
+    const char *text = (const char *)glGetString(GL_VERSION);
+    return text && strncmp(text, "OpenGL ES", 9) != 0;
+}
+
+bool gl_draws_floats(void)
+{
+    return gl_version() >= 30 && (gl_desktop() || gl_has("GL_EXT_color_buffer_float"));
 }
 
 bool gl_has(const char *extension)

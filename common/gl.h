@@ -104,8 +104,15 @@ typedef void (*GlFunction)(void);
  * False, naming the function, where the driver lacks one of OpenGL ES 2's. */
 bool gl_load(GlFunction (*address)(const char *name), Message *message);
 
-/* The context's version as 10 * major + minor: 20 for OpenGL ES 2.0. */
+/* The context's version of OpenGL ES as 10 * major + minor: 20 for OpenGL ES 2.0. One of desktop
+ * OpenGL 3.0 or more counts as 30: it has what is asked of that here, under the same names. */
 int gl_version(void);
+
+/* Whether the context is one of desktop OpenGL. */
+bool gl_desktop(void);
+
+/* Whether framebuffers can be of 32-bit floats. */
+bool gl_draws_floats(void);
 
 /* Whether the context lists the extension ("GL_OES_element_index_uint"). */
 bool gl_has(const char *extension);

@@ -108,7 +108,9 @@ static const char HELP_FRAMES[] =
 static const char HELP_SAMPLES[] =
     "      --samples N        antialiasing with N samples a pixel; default 0, none\n";
 static const char HELP_WHERE[] =
-    "  -b, --backend egl      what draws; egl is headless\n"
+    "  -b, --backend egl|osmesa\n"
+    "                         what draws, headless both; default egl (also: LIGHTING_BACKEND\n"
+    "                         in the environment)\n"
     "      --shaders DIR      look for shader files here first: edit a copy of a shader and\n"
     "                         see what changes (also: LIGHTING_SHADERS in the environment)\n";
 static const char HELP_PICTURE[] =
@@ -235,17 +237,9 @@ static bool bad_value(const char *option, const char *value, const char *wanted,
 
 static bool read_backend(Options *options, const char *name, Message *message)
 {
-    char known[128] = "";
-    for (int i = 0; CANVAS_BACKENDS[i]; i++) {
-        if (strcmp(name, CANVAS_BACKENDS[i]->name) == 0) {
-            options->canvas.backend = CANVAS_BACKENDS[i];
-            return true;
-        }
-        const size_t used = strlen(known);
-        snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "",
-                 CANVAS_BACKENDS[i]->name);
-    }
-    return message_set(message, "--backend %s: no such backend; there is %s", name, known);
+    Message why = {0};
+    options->canvas.backend = canvas_backend(name, &why);
+    return options->canvas.backend || message_set(message, "--backend %s", why.text);
 }
 
 static bool read_option(Options *options, int option, const char *value, Message *message)
@@ -431,6 +425,11 @@ OptionsResult options_read(Options *options, const Usage *usage, int argc, char 
             snprintf(options->default_output, sizeof options->default_output, "%s%s.png",
                      usage->name, options->frames > 1 ? "%04d" : "");
         options->output = options->default_output;
+    }
+    if (options->cheap && options->shaders.precision) {
+        message_set(message, "--error and --precision: one of them, for --error chooses the "
+                             "precision, too");
+        return OPTIONS_BAD;
     }
     return check_output(options, usage, message) ? OPTIONS_RUN : OPTIONS_BAD;
 }

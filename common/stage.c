@@ -58,8 +58,7 @@ static bool open_lightings(const Options *options, Message *message)
         return false;
     if (!options->cheap)
         return true;
-    if (!loader.precision)
-        loader.precision = "mediump";
+    loader.precision = "mediump"; /* --precision does not go with --error */
     on_stage.efficient = malloc(sizeof *on_stage.efficient);
     if (!on_stage.efficient)
         return message_set(message, "not enough memory");
@@ -398,7 +397,6 @@ static void doctor_library(const char *what, const char *const *names, const cha
 
 int stage_doctor(void)
 {
-    static const char *const osmesa[] = {"libOSMesa.so.8", "libOSMesa.so.6", NULL};
     static const char *const glfw[] = {"libglfw.so.3", NULL};
     bool works = false;
     for (int i = 0; CANVAS_BACKENDS[i]; i++) {
@@ -410,7 +408,6 @@ int stage_doctor(void)
     printf("models:\n");
     model_doctor();
     printf("libraries that nothing needs yet:\n");
-    doctor_library("OSMesa", osmesa, "libosmesa6");
     doctor_library("GLFW", glfw, "libglfw3");
     printf(works ? "This machine can draw.\n" : "This machine cannot draw yet.\n");
     return works ? 0 : EXIT_FAILED;

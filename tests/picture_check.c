@@ -15,11 +15,12 @@ bool picture_check_driver(const char *test)
     void *context;
     const char *platform;
     Message message = {0};
-    if (!CANVAS_EGL.open(&context, &platform, &message)) {
+    const CanvasBackend *backend = canvas_default_backend(&message);
+    if (!backend || !backend->open(&context, &platform, &message)) {
         printf("%s: skipped, no driver can be had: %s\n", test, message.text);
         return false;
     }
-    CANVAS_EGL.close(context);
+    backend->close(context);
     return true;
 }
 
