@@ -68,6 +68,11 @@ MeshFacts mesh_facts(const Mesh *mesh)
     return facts;
 }
 
+static Vec3 column_of(Mat4 m, int column)
+{
+    return (Vec3){m.m[4 * column], m.m[4 * column + 1], m.m[4 * column + 2]};
+}
+
 /* What an object is within, in the world: its mesh's box, transformed, as a sphere around that and
  * as the slabs between its opposite faces. */
 typedef struct Sphere {
@@ -83,13 +88,12 @@ typedef struct Bounds {
 
 static Bounds bounds_of(const Object *object, const MeshFacts *facts)
 {
-    const double *m = object->world_from_object.m;
+    const Mat4 m = object->world_from_object;
+    const Vec3 axes[3] = {column_of(m, 0), column_of(m, 1), column_of(m, 2)};
     const Vec3 half = vec3_scale(vec3_subtract(facts->high, facts->low), 0.5);
-    const Vec3 edges[3] = {vec3_scale((Vec3){m[0], m[1], m[2]}, half.x),
-                           vec3_scale((Vec3){m[4], m[5], m[6]}, half.y),
-                           vec3_scale((Vec3){m[8], m[9], m[10]}, half.z)};
-    Bounds bounds = {.sphere.center = mat4_transform_point(object->world_from_object,
-                                                           vec3_add(facts->low, half))};
+    const Vec3 edges[3] = {vec3_scale(axes[0], half.x), vec3_scale(axes[1], half.y),
+                           vec3_scale(axes[2], half.z)};
+    Bounds bounds = {.sphere.center = mat4_transform_point(m, vec3_add(facts->low, half))};
     for (int corner = 0; corner < 4; corner++) { /* the other four lie opposite */
         const Vec3 to_corner =
             vec3_add(edges[0], vec3_add(vec3_scale(edges[1], corner & 1 ? -1 : 1),
@@ -97,9 +101,7 @@ static Bounds bounds_of(const Object *object, const MeshFacts *facts)
         bounds.sphere.radius = fmax(bounds.sphere.radius, vec3_length(to_corner));
     }
     for (int i = 0; i < 3; i++) {
-        const double *a = &m[4 * ((i + 1) % 3)], *b = &m[4 * ((i + 2) % 3)];
-        vec3_normalize(vec3_cross((Vec3){a[0], a[1], a[2]}, (Vec3){b[0], b[1], b[2]}),
-                       &bounds.normals[i]);
+        vec3_normalize(vec3_cross(axes[(i + 1) % 3], axes[(i + 2) % 3]), &bounds.normals[i]);
         for (int k = 0; k < 3; k++)
             bounds.halves[i] += fabs(vec3_dot(bounds.normals[i], edges[k]));
     }
@@ -230,27 +232,29 @@ static LightGuards light_guards(const Scene *scene, const Light *light, const Bo
     return guards;
 }
 
-/* How many times as far a matrix's upper left 3x3 part may stretch one direction as another. For
- * singular values a >= b >= c that is a / c = a (a b) / (a b c), the last the determinant, and a b
- * is at most half the sum of all their squares, which is that of the entries. */
+/* How many times as far a matrix's upper left 3x3 part may stretch one direction as another, its
+ * condition k. The square roots of the sums of squares of its entries, the size, and of those of
+ * its inverse have a product of at least k + 1 + 1 / k. */
 static double stretch_of(Mat4 m, double *size)
 {
-    double squares = 0;
-    for (int column = 0; column < 3; column++)
-        for (int row = 0; row < 3; row++)
-            squares += m.m[4 * column + row] * m.m[4 * column + row];
-    m.m[12] = m.m[13] = m.m[14] = 0;
+    double squares = 0, of_cofactors = 0, determinant = 0;
+    for (int i = 0; i < 3; i++) {
+        const Vec3 a = column_of(m, i);
+        const Vec3 cofactor = vec3_cross(column_of(m, (i + 1) % 3), column_of(m, (i + 2) % 3));
+        squares += vec3_dot(a, a);
+        of_cofactors += vec3_dot(cofactor, cofactor);
+        determinant = vec3_dot(a, cofactor);
+    }
     *size = sqrt(squares);
-    return *size * squares / (2 * fabs(mat4_determinant(m)));
+    const double sum = sqrt(squares * of_cofactors) / fabs(determinant) - 1;
+    return 0.5 * (sum + sqrt(fmax(sum * sum - 4, 0)));
 }
 
 /* Where normals made unit may have no length. */
-static void guard_normals(const MeshFacts *facts, Transform transform, Mat4 matrix,
-                          Effects *effects, FILE *file)
+static void guard_normals(const MeshFacts *facts, Mat4 matrix, Effects *effects, FILE *file)
 {
-    double size, stretch = stretch_of(matrix, &size);
-    if (transform != GENERAL) /* it is 1, but for rounding */
-        stretch = 1;
+    double size;
+    const double stretch = stretch_of(matrix, &size);
     /* About unit normals, and no direction shrunk to rounding. */
     const bool sound = facts->least_normal > 0.5 && facts->most_normal < 2 && size > 1e-9 &&
                        size < 1e9 && stretch < 1e4;
@@ -457,7 +461,7 @@ static void decide_normals(const Scene *scene, const Object *object, const MeshF
     Mat4 matrix = eye_from_object;
     if (effects->normal_matrix)
         mat4_normal(eye_from_object, &matrix);
-    guard_normals(facts, transform, matrix, effects, file);
+    guard_normals(facts, matrix, effects, file);
 }
 
 /* Whether the object is a solid that is seen from outside, and not cut by the near plane. */

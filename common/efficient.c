@@ -42,6 +42,17 @@ SceneClass scene_class(const Scene *scene)
     return curved ? SCENE_CURVED : SCENE_FLAT;
 }
 
+bool efficient_allows(const Setting *setting)
+{
+    static const SettingAxis free_axes[] = {AXIS_INTERPOLATION, AXIS_DIVISIONS, AXIS_PRECISION,
+                                            AXIS_NORMALS};
+    Setting rest = *setting;
+    const Setting usual = setting_usual();
+    for (size_t i = 0; i < sizeof free_axes / sizeof free_axes[0]; i++)
+        rest = setting_with(rest, free_axes[i], usual.choice[free_axes[i]]);
+    return setting_equal(&rest, &usual);
+}
+
 /* The table. A line is CLASS,SETTING,MAXIMUM,RMS,MILLISECONDS; # begins a comment. */
 
 static bool parse_row(EfficientRow *row, char *line, Message *message)
@@ -61,6 +72,11 @@ static bool parse_row(EfficientRow *row, char *line, Message *message)
     row->class = (SceneClass) class;
     if (!setting_parse(&row->setting, fields[1], message))
         return false;
+    if (!efficient_allows(&row->setting))
+        return message_set(message,
+                           "%s: only interpolation, divisions, precision and normals may differ "
+                           "from the usual",
+                           fields[1]);
     if (!parse_number(fields[2], 0, 255, &row->maximum) ||
         !parse_number(fields[3], 0, 255, &row->rms) ||
         !parse_number(fields[4], 0, 1e6, &row->milliseconds))
@@ -114,6 +130,11 @@ static bool own_path(char path[PATH_MAX], char folder[PATH_MAX])
 static bool read_file(Efficient *table, const char *path, Message *message)
 {
     enum { MOST = 1 << 20 };
+    struct stat status;
+    /* Before it is opened, which waits where it is a pipe. */
+    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode))
+        return message_set(message, "%s: is %s; the table of settings is a file", path,
+                           S_ISDIR(status.st_mode) ? "a folder" : "no regular file");
     FILE *file = fopen(path, "rb");
     char *text = file ? malloc(MOST + 1) : NULL;
     if (!file || !text) {

@@ -25,6 +25,11 @@ extern const char *const SCENE_CLASS_NAMES[SCENE_CLASS_COUNT + 1];
 
 SceneClass scene_class(const Scene *scene);
 
+/* Whether the table may have a setting: it differs from the usual one only on axes whose error does
+ * not depend on where the lights and the viewer are, and which are the scene's, not the canvas's.
+ */
+bool efficient_allows(const Setting *setting);
+
 typedef struct EfficientRow {
     SceneClass class;
     Setting setting;

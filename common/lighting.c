@@ -36,6 +36,7 @@ struct Lighting {
     Buffered *buffers;
     LightingCounts counts;
     LightingTransforms transforms;
+    LightingNormalMatrix *normal_matrix; /* NULL: the usual one */
 };
 
 static Mat4 clip_from_object(Mat4 clip_from_eye, Mat4 eye_from_world, Mat4 world_from_object,
@@ -50,6 +51,11 @@ static const LightingTransforms USUAL = {scene_eye_from_object, scene_eye_point,
 void lighting_use_transforms(Lighting *lighting, const LightingTransforms *transforms)
 {
     lighting->transforms = transforms ? *transforms : USUAL;
+}
+
+void lighting_use_normal_matrix(Lighting *lighting, LightingNormalMatrix *normal_matrix)
+{
+    lighting->normal_matrix = normal_matrix;
 }
 
 /* Recipes. */
@@ -453,6 +459,8 @@ static bool draw_object(Lighting *lighting, const Scene *scene, const Object *ob
     glGetIntegerv(GL_SAMPLES, &samples);
     if (samples > 1)
         effects_guard(&effects);
+    if (lighting->normal_matrix && effects.normals)
+        effects.normal_matrix = effects.normalize_vertex = true;
     const Variant *variant = find_variant(lighting, &effects, message);
     if (!variant)
         return false;
@@ -462,7 +470,9 @@ static bool draw_object(Lighting *lighting, const Scene *scene, const Object *ob
     const Mat4 eye_from_object =
         transforms->eye_from_object(&scene->camera, eye_from_world, object->world_from_object);
     Mat4 normal_matrix;
-    if (object->wrong_normals)
+    if (lighting->normal_matrix)
+        normal_matrix = lighting->normal_matrix(eye_from_object);
+    else if (object->wrong_normals)
         normal_matrix = eye_from_object;
     else
         mat4_normal(eye_from_object, &normal_matrix); /* zero where there is none: unlit */

@@ -34,6 +34,11 @@ typedef struct LightingTransforms {
  * now on. NULL: those again. */
 void lighting_use_transforms(Lighting *lighting, const LightingTransforms *transforms);
 
+/* In the place of mat4_normal, from now on, and for every object with normals. NULL: that again,
+ * where it is needed. To see what goes wrong. */
+typedef Mat4 LightingNormalMatrix(Mat4 eye_from_object);
+void lighting_use_normal_matrix(Lighting *lighting, LightingNormalMatrix *normal_matrix);
+
 /* Draws a scene that has passed scene_check into the current canvas, over what is there. `full`
  * draws it with the program that has every effect, for comparison. A mesh's buffers are made at its
  * first drawing and kept by its address: it must not change before lighting_forget or

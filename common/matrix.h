@@ -93,8 +93,12 @@ Vec4 mat4_transform(Mat4 a, Vec4 v);
 Vec3 mat4_transform_point(Mat4 a, Vec3 point);
 Vec3 mat4_transform_direction(Mat4 a, Vec3 direction);
 
-/* Determinant by Gaussian elimination with partial pivoting. Nothing overflows or underflows on
- * the way, the result only where the value does. Not a number where `a` is not finite. */
+/* Determinant: of an affine matrix (bottom row exactly 0 0 0 1) by the cofactors of its 3x3 part,
+ * and exactly 0 where that is singular but for the rounding of a product of matrices (a condition,
+ * with rows and columns scaled alike, of 1e13 or more), so that its sign says whether `a` mirrors,
+ * as that of mat4_normal does; of any other by Gaussian elimination with partial pivoting. Nothing
+ * overflows or underflows on the way, the result only where the value does. Not a number where `a`
+ * is not finite. */
 double mat4_determinant(Mat4 a);
 
 /* The inverse. An affine matrix (bottom row exactly 0 0 0 1) goes through its 3x3 part, by
@@ -115,7 +119,7 @@ bool mat4_inverse(Mat4 a, Mat4 *inverse);
  * division and so exists for singular matrices too (Turkowski, Graphics Gems, 1990), and divided by
  * a power of two that brings its largest entry into [0.5, 1). The result must be normalized.
  * False, with a zero 3x3 part, where no surface keeps a normal (rank below 2) or any entry of `a`
- * is not finite. Where the determinant is zero its sign counts as +1. */
+ * is not finite. Where mat4_determinant is zero its sign counts as +1. */
 bool mat4_normal(Mat4 a, Mat4 *normal_matrix);
 
 /* For upload to a uniform: rounds to nearest, column by column. A value beyond a float's range

@@ -118,7 +118,7 @@ bool mesh_face(const Mesh *mesh, size_t triangle, Vec3 *normal);
 bool mesh_check(const Mesh *mesh, Message *message);
 
 /* Gives every triangle three vertices of its own, with the triangle's normal, for flat shading;
- * leaves out triangles without area. On failure (memory) the mesh is as before. */
+ * leaves out triangles without area. On failure (mesh_check, memory) the mesh is as before. */
 bool mesh_flatten(Mesh *mesh, Message *message);
 
 /* How much a triangle's unit normal counts at one of its corners, where a and b are the edges that

@@ -35,7 +35,8 @@ varying vec3 v_Position;
 #endif
 
 #ifdef TWO_SIDED
-#define SIDE(front, back) (gl_FrontFacing ? front : back)
+#include "lighting/side.glsl"
+#define SIDE(front, back) (is_front() ? front : back)
 #else
 #define SIDE(front, back) front
 #endif

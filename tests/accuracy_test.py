@@ -86,6 +86,8 @@ class Surveys(Study):
     def test_broken_rows_are_named_and_measured_again(self):
         self.accuracy("--scene", "cube", *QUICK)
         lines = self.read("accuracy/results.csv").splitlines(keepends=True)
+        taken = self.rows()[0]["time"].encode()  # by the usual setting, the measure of all
+        lines[1] = lines[1].replace(b"," + taken + b",", b",,", 1)
         lines[3] = lines[3].replace(b",", b";")
         lines[-1] = lines[-1][:40]  # cut, as by a full disk
         self.make("accuracy/results.csv", b"".join(lines))
@@ -98,7 +100,8 @@ class Surveys(Study):
         now = self.read("accuracy/results.csv")
         for line in lines[:3] + lines[4:-1]:
             self.assertIn(line, now)
-        self.assertEqual(len(json.loads(self.read("accuracy/results.json"))["rows"]), 15)
+        rows = json.loads(self.read("accuracy/results.json"))["rows"]
+        self.assertEqual([row["time"] is None for row in rows], [True] + 15 * [False])
 
     def test_an_interrupted_survey_goes_on(self):
         command = [os.path.join(base.EXAMPLES, "accuracy"), "--scene", "shiny8", "-s", "32x32"]
@@ -150,6 +153,10 @@ class Surveys(Study):
                 (r"--budget and --time-budget: one of them", "--scene", "cube", "--budget", "1",
                  "--time-budget", "1"),
                 (r"--budget -2: must be a number", "--scene", "cube", "--budget=-2"),
+                (r"--budget -0\.5: must be 0 or more, or -1", "--scene", "cube", "--budget=-0.5"),
+                (r"--time-budget -0\.5: must be", "--scene", "cube", "--time-budget=-0.5"),
+                (r"--fresh: --setting keeps no rows", "--scene", "cube", "--setting", "usual",
+                 "--fresh"),
                 (r"--rms: goes with", "--scene", "cube", "--rms"),
                 (r"--calibrate: takes all", "--calibrate", "--scene", "cube"),
                 (r"--output -: a study is a folder", "-o", "-"),
@@ -203,6 +210,13 @@ class Choices(Study):
         self.assertEqual(result.returncode, 1)
         self.assertRegex(result.stderr.decode(), r"no setting of sphere is so fast; the best takes")
 
+    def test_calibration_asks_first_where_its_table_can_be(self):
+        self.own = {"XDG_CONFIG_HOME": "", "HOME": "", "LIGHTING_EFFICIENT": ""}
+        self.wrong(1, "nowhere to keep the table: neither HOME", "--calibrate", "--quick")
+        self.own["LIGHTING_EFFICIENT"] = self.path("none/table.csv")
+        self.wrong(1, r".*none/table\.csv: ", "--calibrate", "--quick")
+        self.assertEqual(self.everything(), {})
+
     def test_calibration_makes_the_table_that_error_chooses_from(self):
         text = self.accuracy("--calibrate", "--quick", "-s", "32x32")
         self.assertRegex(text, r"^.*config/lighting/efficient\.csv: \d+ settings for 6 classes")
@@ -228,6 +242,11 @@ class Choices(Study):
         self.assertRegex(result.stderr.decode(), r"--error 0\.001: no setting is so exact for "
                                                  r"scenes of the class shiny128; the least is")
         self.wrong(2, "--error -1: must be", "--error=-1", program="ShadingModels")
+        self.wrong(2, "--error and --precision: one of them", "--error", "1", "--precision",
+                   "mediump", program="ShadingModels")
+        os.mkfifo(self.path("pipe"))
+        self.own["LIGHTING_EFFICIENT"] = self.path("pipe")
+        self.wrong(1, r".*pipe: is no regular file", "--error", "1", program="ShadingModels")
         self.wrong(2, "--error: no such option", "--error", "1", program="LightedCube",
                    lines=1)
 

@@ -21,14 +21,17 @@ typedef struct World {
 } World;
 
 static World world;
-static Mesh cube, sphere;
+static Mesh cube, sphere, fine;
 
 static const Vec3 BLACK = {0, 0, 0}, WHITE = {1, 1, 1}, RED = {1, 0, 0}, GREEN = {0, 1, 0};
 
 static int open_meshes(void **state)
 {
     (void)state;
-    return mesh_cube(&cube, 1, NULL) && mesh_sphere(&sphere, 1, 8, 4, NULL) ? 0 : 1;
+    return mesh_cube(&cube, 1, NULL) && mesh_sphere(&sphere, 1, 8, 4, NULL) &&
+                   mesh_sphere(&fine, 1, 24, 12, NULL)
+               ? 0
+               : 1;
 }
 
 static int close_meshes(void **state)
@@ -36,6 +39,7 @@ static int close_meshes(void **state)
     (void)state;
     mesh_close(&cube);
     mesh_close(&sphere);
+    mesh_close(&fine);
     return 0;
 }
 
@@ -609,6 +613,193 @@ static void the_full_set_has_everything_that_is_not_a_question_of_how_to_draw(vo
                               "exponent at_vertex");
 }
 
+/* Guards. */
+
+/* The guards of a set: of the first group's light, then of all. */
+static void assert_guards(const char *expected)
+{
+    char text[256] = "";
+    Message message = {0};
+    if (!scene_check(&world.scene, &message))
+        fail_msg("%s", message.text);
+    const Effects effects = effects_of(&world.scene, &world.object);
+    const LightGuards *guards = &effects.groups[0].guards;
+    put(text, guards->distance, "distance");
+    put(text, guards->attenuation, "attenuation");
+    put(text, guards->half_vector, "half");
+    put(text, effects.guard_vertex, "vertex");
+    put(text, effects.guard_fragment, "fragment");
+    put(text, effects.guard_viewer, "viewer");
+    assert_string_equal(text, expected);
+}
+
+static void a_finer_sphere_shines(void)
+{
+    world.object.mesh = &fine;
+    shine_specular();
+}
+
+static void no_guard_is_there_where_nothing_can_go_wrong(void **state)
+{
+    Light *light = &world.lights[0];
+    (void)state;
+    a_finer_sphere_shines();
+    assert_guards("");
+    assert_said("without guard of the half vector: the object does not lie between");
+    assert_said("without guard of the viewer's direction: nearer than the near plane nothing");
+    assert_said("without guard of normals at the fragments: those of a triangle cannot cancel");
+    *light = (Light){.kind = LIGHT_POINT,
+                     .position = {-3, 2, 2},
+                     .diffuse = WHITE,
+                     .specular = WHITE,
+                     .quadratic = 1};
+    assert_guards("");
+    assert_said("without guard of the distance: the light is outside the object");
+    assert_said("without guard of the attenuation: its denominator is never 0");
+    transform_by(mat4_product(turned(), scaled(1, 0.9, 1.2)));
+    assert_guards("");
+    assert_said("without guard of normals at the vertices: all have a length");
+    world.scene.interpolation = INTERPOLATION_GOURAUD;
+    assert_guards("");
+    assert_said("without guard of the viewer's direction: the eye is outside the object");
+}
+
+static void a_light_that_may_touch_the_object_is_guarded(void **state)
+{
+    Light *light = &world.lights[0];
+    (void)state;
+    a_finer_sphere_shines();
+    world.object.front.specular = BLACK;
+    *light = (Light){.kind = LIGHT_POINT, .position = {0, 1, 0}, .diffuse = WHITE, .linear = 1};
+    assert_guards("distance attenuation");
+    assert_said("guard of the distance: the light may touch the object");
+    assert_said("guard of the attenuation: without constant, where the light touches");
+    light->constant = 1e-3;
+    assert_guards("distance");
+    light->constant = 1e-30;
+    assert_guards("distance attenuation");
+    light->position.y = 1.5;
+    assert_guards("");
+    light->position.y = 1.01; /* nearer than the margin */
+    assert_guards("distance attenuation");
+    light->linear = 0; /* the same at every distance */
+    assert_guards("distance");
+    world.object.mesh = &cube; /* a box is told from the sphere around it */
+    world.object.flat = true;
+    light->position = (Vec3){0, 0, 1.3};
+    assert_guards("");
+    transform_by(scaled(1, 1, 0)); /* which has no inverse */
+    light->position = (Vec3){0, 0, 0.5};
+    assert_guards("vertex");
+}
+
+static void a_group_has_the_guards_of_all_its_lights(void **state)
+{
+    (void)state;
+    a_finer_sphere_shines();
+    world.lights[0] = (Light){.kind = LIGHT_POINT, .position = {0, 5, 0}, .diffuse = WHITE};
+    world.lights[1] = world.lights[0];
+    world.scene.light_count = 2;
+    assert_guards("");
+    world.lights[1].position.y = 1;
+    assert_set("normals unit_fragment | 0 1 point diffuse");
+    assert_guards("distance");
+}
+
+static void an_object_between_light_and_viewer_is_guarded(void **state)
+{
+    static const Vec3 behind = {-3, -2, -5}, before = {3.3, 2.2, 5.5};
+    Light *light = &world.lights[0];
+    (void)state;
+    a_finer_sphere_shines();
+    for (int kind = LIGHT_DIRECTIONAL; kind <= LIGHT_POINT; kind++) {
+        for (int distant = 0; distant < 2 - (kind == LIGHT_DIRECTIONAL); distant++) {
+            world.scene.distant_viewer = distant;
+            light->kind = (LightKind)kind;
+            light->direction = light->position = behind;
+            assert_guards("half");
+            assert_said("guard of the half vector: the object may lie between light and viewer");
+            light->direction = light->position = before; /* beyond the eye */
+            assert_guards("");
+            light->direction = light->position = (Vec3){-3, 2, 5};
+            assert_guards("");
+        }
+    }
+    world.scene.distant_viewer = false;
+    world.scene.reflection = REFLECTION_PHONG; /* has no half vector */
+    light->position = behind;
+    assert_guards("");
+    world.scene.reflection = REFLECTION_BLINN_PHONG;
+    world.object.mesh = &cube; /* from below its bottom to above its top, but beside it */
+    light->kind = LIGHT_POINT;
+    world.scene.camera.eye = (Vec3){1.5, -6, 0};
+    light->position = (Vec3){1.5, 6, 0};
+    assert_guards("");
+    light->position = (Vec3){-1.5, 6, 0};
+    assert_guards("half");
+}
+
+static void normals_that_may_cancel_are_guarded(void **state)
+{
+    Mesh bent;
+    (void)state;
+    assert_true(mesh_sphere(&bent, 1, 24, 12, NULL));
+    world.object.mesh = &bent;
+    assert_guards("");
+    for (int i = 0; i < 3; i++) /* a pole's */
+        bent.vertices[1].normal[i] *= -1;
+    assert_guards("fragment");
+    assert_said("guard of normals at the fragments: those of a triangle may cancel");
+    for (int i = 0; i < 3; i++)
+        bent.vertices[1].normal[i] = 0;
+    assert_guards("fragment");
+    assert_said("guard of normals at the fragments: one at a vertex may have no length");
+    transform_by(scaled(1, 2, 1));
+    assert_guards("vertex fragment");
+    assert_said("guard of normals at the vertices: one may have no length");
+    bent.vertices[1].normal[1] = NAN;
+    assert_guards("vertex fragment");
+    bent.vertices[1].normal[1] = 1;
+    assert_guards("");
+    transform_by(scaled(1, 1e-3, 1)); /* steeper by far */
+    assert_guards("fragment");
+    transform_by(scaled(1, 1, 0));
+    assert_guards("vertex fragment");
+    world.scene.skip_renormalization = true;
+    assert_guards("vertex");
+    mesh_close(&bent);
+}
+
+static void a_vertex_may_be_at_the_eye_but_no_fragment_is(void **state)
+{
+    (void)state;
+    a_finer_sphere_shines();
+    world.scene.camera.eye = (Vec3){0, 0, 1};
+    world.scene.camera.near = 1e-3;
+    world.scene.reflection = REFLECTION_PHONG;
+    assert_guards("");
+    world.scene.interpolation = INTERPOLATION_GOURAUD;
+    assert_guards("viewer");
+    assert_said("guard of the viewer's direction: a vertex may be at the eye");
+    world.scene.distant_viewer = true;
+    assert_guards("");
+}
+
+static void the_full_set_has_every_guard(void **state)
+{
+    (void)state;
+    a_finer_sphere_shines();
+    const Effects full = effects_full(&world.scene, &world.object);
+    assert_true(full.guard_vertex && full.guard_fragment && full.guard_viewer);
+    assert_true(full.groups[0].guards.distance && full.groups[0].guards.attenuation &&
+                full.groups[0].guards.half_vector);
+    Effects effects = effects_of(&world.scene, &world.object);
+    effects_guard(&effects); /* as far as it has what is guarded */
+    assert_true(!effects.guard_vertex && effects.guard_fragment && effects.guard_viewer);
+    assert_true(!effects.groups[0].guards.distance && !effects.groups[0].guards.attenuation &&
+                effects.groups[0].guards.half_vector);
+}
+
 int main(void)
 {
 #define TEST(name) cmocka_unit_test_setup(name, set_up)
@@ -639,6 +830,13 @@ int main(void)
         TEST(linear_light_is_only_there_when_asked_for),
         TEST(values_do_not_change_the_set),
         TEST(the_full_set_has_everything_that_is_not_a_question_of_how_to_draw),
+        TEST(no_guard_is_there_where_nothing_can_go_wrong),
+        TEST(a_light_that_may_touch_the_object_is_guarded),
+        TEST(a_group_has_the_guards_of_all_its_lights),
+        TEST(an_object_between_light_and_viewer_is_guarded),
+        TEST(normals_that_may_cancel_are_guarded),
+        TEST(a_vertex_may_be_at_the_eye_but_no_fragment_is),
+        TEST(the_full_set_has_every_guard),
     };
     return cmocka_run_group_tests_name("effects", tests, open_meshes, close_meshes);
 }

@@ -591,6 +591,120 @@ static void random_combinations_hold_as_well(void **state)
     }
 }
 
+/* Guards. */
+
+/* Whether the program has any. Where it has none those functions are not declared, so that a call
+ * of one would not compile. */
+static bool has_guards(const Scene *scene, bool with_all)
+{
+    ShaderSource sources[2];
+    Message message = {0};
+    if (!lighting_sources(lighting, scene, scene->objects, with_all, sources, &message))
+        fail_msg("%s", message.text);
+    bool found = false;
+    for (int stage = 0; stage < 2; stage++) {
+        found |= strstr(sources[stage].text, "#define GUARD") != NULL;
+        shader_source_close(&sources[stage]);
+    }
+    return found;
+}
+
+static double random_between(double least, double most)
+{
+    return least + (most - least) * random_below(1 << 20) / (1 << 20);
+}
+
+static Vec3 random_direction(void)
+{
+    Vec3 unit = {0, 0, 0};
+    while (!vec3_normalize(
+        (Vec3){random_between(-1, 1), random_between(-1, 1), random_between(-1, 1)}, &unit))
+        ;
+    return unit;
+}
+
+/* Lights on and about the object, the object between light and eye, the eye beside the object. */
+static void what_is_not_guarded_draws_as_the_guarded(void **state)
+{
+    int guarded = 0, free_of_guards = 0;
+    (void)state;
+    random_state = 20240612;
+    for (int i = 0; i < 150; i++) {
+        World world;
+        Case c = {.terms = {7},
+                  .kinds = {random_below(KIND_COUNT)},
+                  .light_count = 1,
+                  .shape = (Shape)random_below(3),
+                  .turn = (Turn)random_below(TURNS),
+                  .interpolation = (Interpolation)random_below(2),
+                  .distant_viewer = random_below(2)};
+        make_world(&world, &c);
+        Camera *camera = &world.scene.camera;
+        Light *light = &world.lights[0];
+        camera->eye = vec3_scale(random_direction(), random_between(1.4, 5));
+        camera->near = 0.01;
+        light->position = vec3_scale(random_direction(), random_between(0.6, 3));
+        if (random_below(3) == 0)
+            light->position = vec3_scale(camera->eye, -random_between(0.4, 2));
+        light->direction = vec3_scale(light->position, light->kind == LIGHT_SPOT ? -1 : 1);
+        light->cutoff = 60;
+        light->constant = random_below(2);
+        /* Bounded, so that one pixel's rounding is no other picture. */
+        light->diffuse = light->specular = (Vec3){0.3, 0.3, 0.3};
+        if (has_guards(&world.scene, false))
+            guarded++;
+        else
+            free_of_guards++;
+        draw(&world.scene, false, &specialised);
+        draw(&world.scene, true, &full);
+        if (!pictures_agree("guards", &specialised, &full, 4))
+            fail_msg("scene %d", i);
+    }
+    print_message("%d guarded, %d free of guards\n", guarded, free_of_guards);
+    assert_true(guarded > 30 && free_of_guards > 30);
+}
+
+static void a_scene_that_needs_no_guard_has_none_in_its_program(void **state)
+{
+    World world;
+    (void)state;
+    const Case c = {.terms = {7, 7},
+                    .kinds = {0, 7},
+                    .light_count = 2,
+                    .turn = UNEVEN,
+                    .base = true,
+                    .alpha = true};
+    make_world(&world, &c);
+    assert_false(has_guards(&world.scene, false));
+    assert_true(has_guards(&world.scene, true));
+    check_case(&c);
+    world.lights[1].position = (Vec3){0, 0.5, 0}; /* within the sphere */
+    world.lights[1].direction = (Vec3){0, 1, 0};
+    assert_true(has_guards(&world.scene, false));
+}
+
+/* There a pixel's centre, where it is lit, may lie beside the triangle. */
+static void multisampling_has_every_guard(void **state)
+{
+    Canvas samples;
+    World world;
+    Message message = {0};
+    const CanvasOptions options = {.width = SIZE, .height = SIZE, .samples = 4};
+    (void)state;
+    if (!canvas_open_beside(&samples, &canvas, &options, &message)) {
+        print_message("%s\n", message.text);
+        skip();
+    }
+    make_world(&world, &(Case){.terms = {7}, .kinds = {7}, .light_count = 1});
+    assert_false(has_guards(&world.scene, false));
+    draw(&world.scene, false, &specialised);
+    const int before = lighting_counts(lighting).programs;
+    canvas_begin(&samples);
+    assert_true(lighting_draw(lighting, &world.scene, 1, false, &message));
+    assert_int_equal(lighting_counts(lighting).programs, before + 1);
+    canvas_close(&samples);
+}
+
 /* Programs are shared. */
 
 static const Case RICH = {.terms = {7, 7, 7},
@@ -1153,6 +1267,9 @@ int main(void)
         cmocka_unit_test(each_transform_has_only_the_normals_it_needs),
         cmocka_unit_test(each_way_of_output_has_only_what_it_needs),
         cmocka_unit_test(random_combinations_hold_as_well),
+        cmocka_unit_test(what_is_not_guarded_draws_as_the_guarded),
+        cmocka_unit_test(a_scene_that_needs_no_guard_has_none_in_its_program),
+        cmocka_unit_test(multisampling_has_every_guard),
         cmocka_unit_test(each_light_has_only_its_terms_and_draws_as_the_full_program),
     };
     if (!picture_check_driver("lighting"))

@@ -315,6 +315,7 @@ static void broken_tables_are_refused_by_file_and_line(void **state)
         {"curved,usual,1,1,1,1\n", "t.csv:1: must have 5 fields"},
         {"#\nround,usual,1,1,1\n", "t.csv:2: round: no such class"},
         {"curved,divisions=5,1,1,1\n", "t.csv:1: divisions=5: must be one of"},
+        {"curved,supersample=2,1,1,1\n", "t.csv:1: supersample=2: only interpolation"},
         {"curved,usual,-1,1,1\n", "t.csv:1: errors must be"},
         {"curved,usual,nan,1,1\n", "t.csv:1: errors must be"},
         {"curved,usual,1,1,1e9\n", "t.csv:1: errors must be"},
@@ -358,6 +359,10 @@ static void the_committed_table_serves_every_class(void **state)
     message = (Message){0};
     assert_false(efficient_read(table, &message));
     assert_says(message, "/nonexistent/table.csv: No such file");
+    setenv("LIGHTING_EFFICIENT", "/", 1);
+    message = (Message){0};
+    assert_false(efficient_read(table, &message));
+    assert_says(message, "/: is a folder");
     unsetenv("LIGHTING_EFFICIENT");
     free(table);
 }

@@ -6,6 +6,7 @@
  * that is, which no other beats in both error and time. --budget and --time-budget choose one.
  */
 #include "choose.h"
+#include "efficient.h"
 #include "findings.h"
 #include "models.h"
 #include "report.h"
@@ -17,6 +18,7 @@
 #include "output.h"
 #include "progress.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -62,7 +64,7 @@ static const Parameter parameters[] = {
      .kind = PARAMETER_FLAG,
      .value = &quick},
     {.name = "fresh",
-     .help = "measure anew what the folder has from before",
+     .help = "drop all rows that the folder has from before, and measure anew",
      .kind = PARAMETER_FLAG,
      .value = &fresh},
     {.name = "all-rows",
@@ -167,10 +169,13 @@ static bool write_sheets(Survey *survey, const Options *options, int number, con
     return done;
 }
 
-static bool any_row(const Results *results, const char *scene_name)
+/* Whether there is anything to show of a scene. (Its objects may be too small to have an inside.)
+ */
+static bool anything_to_show(const Results *results, const char *scene_name)
 {
     for (int i = 0; i < results->count; i++)
-        if (strcmp(results->rows[i].scene, scene_name) == 0)
+        if (strcmp(results->rows[i].scene, scene_name) == 0 &&
+            isfinite(results->rows[i].interior_maximum))
             return true;
     return false;
 }
@@ -183,7 +188,7 @@ static bool write_tables(const Survey *survey, const Options *options, Message *
     FILE *file = open_memstream(&text, &size);
     bool done = file || message_set(message, "table.txt: not enough memory");
     for (int i = 0; i < STUDY_SCENE_COUNT && done; i++)
-        if (any_row(&survey->results, STUDY_SCENES[i].name))
+        if (anything_to_show(&survey->results, STUDY_SCENES[i].name))
             done = report_table(&survey->results, STUDY_SCENES[i].name, ERROR_INTERIOR_MAXIMUM,
                                 false, file, message);
     if (file && fclose(file) != 0 && done)
@@ -200,7 +205,8 @@ static void draw_plots(const Survey *survey, const Options *options, const int *
     Message message = {0};
     for (int i = 0; i < count; i++) {
         const StudySceneInfo *info = &STUDY_SCENES[scenes[i]];
-        if (!report_plot(&survey->results, info->name, info->what, ERROR_INTERIOR_MAXIMUM,
+        if (anything_to_show(&survey->results, info->name) &&
+            !report_plot(&survey->results, info->name, info->what, ERROR_INTERIOR_MAXIMUM,
                          options->output, &message))
             break;
         progress_update(progress, i + 1, 2 * count);
@@ -262,10 +268,14 @@ static bool measure_one(Survey *survey, const Options *options, const Setting *s
 static bool run(const Options *options, const Setting *setting, Message *message)
 {
     Survey survey;
+    char path[PATH_MAX];
     int scenes[STUDY_SCENE_COUNT], count = 0;
     for (int i = 0; i < STUDY_SCENE_COUNT; i++)
         if (scene == STUDY_SCENE_COUNT || scene == i)
             scenes[count++] = i;
+    /* Before minutes of measuring, whether the table has a place. */
+    if (calibrate && (!efficient_path_to_write(path, message) || !output_check(path, message)))
+        return false;
     if (!survey_open(&survey, options, (unsigned)seed, quick, fresh, message))
         return false;
     if (options->verbose)
@@ -288,6 +298,10 @@ static bool run(const Options *options, const Setting *setting, Message *message
 static bool check(Message *message)
 {
     const bool one = scene < STUDY_SCENE_COUNT;
+    if ((budget < 0 && budget != -1) || (time_budget < 0 && time_budget != -1))
+        return message_set(message, "--%s %g: must be 0 or more, or -1 for none",
+                           budget < 0 && budget != -1 ? "budget" : "time-budget",
+                           budget < 0 && budget != -1 ? budget : time_budget);
     if (budget >= 0 && time_budget >= 0)
         return message_set(message, "--budget and --time-budget: one of them");
     if ((budget >= 0 || time_budget >= 0 || setting_asked) && !one)
@@ -299,6 +313,8 @@ static bool check(Message *message)
         return message_set(message, "--calibrate: takes all scenes and settings, not one");
     if (setting_asked && (budget >= 0 || time_budget >= 0))
         return message_set(message, "--setting: measures one; there is nothing to choose");
+    if (setting_asked && fresh)
+        return message_set(message, "--fresh: --setting keeps no rows, and needs none dropped");
     if (by_rms && budget < 0 && time_budget < 0)
         return message_set(message, "--rms: goes with --budget or --time-budget");
     return true;

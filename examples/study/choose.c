@@ -12,9 +12,10 @@ static void say(const char *what, const ResultRow *row, ErrorKind kind)
 {
     char text[SETTING_TEXT_SIZE];
     setting_text(&row->setting, text);
+    /* Rounded up, so that it serves as a budget. */
     printf("%s: %s\n  %s error %.3f steps of 1/255, %.3f ms [%.3f, %.3f]\n", what, text,
-           kind == ERROR_INTERIOR_RMS ? "rms" : "largest", row_error(row, kind), row->time,
-           row->time_lower, row->time_upper);
+           kind == ERROR_INTERIOR_RMS ? "rms" : "largest", ceil(1e3 * row_error(row, kind)) / 1e3,
+           row->time, row->time_lower, row->time_upper);
 }
 
 static ErrorKind kind_of(bool rms)
@@ -99,8 +100,7 @@ bool choose_by_time(Survey *survey, int scene, double milliseconds, bool rms, Me
         else
             printf("there is none that is more exact\n");
         if (again.time > milliseconds * (1 + again.noise))
-            printf("measured again it took longer than %g ms: the machine is busier, or noisy "
-                   "(%.0f%%)\n",
+            printf("measured again it took longer than %g ms, by more than the noise (%.0f%%)\n",
                    milliseconds, 100 * again.noise);
         say_measured_with(survey);
     }
@@ -110,17 +110,6 @@ bool choose_by_time(Survey *survey, int scene, double milliseconds, bool rms, Me
 
 /* Calibration. */
 
-bool choose_allows(const Setting *setting)
-{
-    static const SettingAxis free_axes[] = {AXIS_INTERPOLATION, AXIS_DIVISIONS, AXIS_PRECISION,
-                                            AXIS_NORMALS};
-    Setting rest = *setting;
-    const Setting usual = setting_usual();
-    for (size_t i = 0; i < sizeof free_axes / sizeof free_axes[0]; i++)
-        rest = setting_with(rest, free_axes[i], usual.choice[free_axes[i]]);
-    return setting_equal(&rest, &usual);
-}
-
 static SceneClass class_of(int number)
 {
     StudyScene made;
@@ -129,7 +118,7 @@ static SceneClass class_of(int number)
 }
 
 /* A setting's row for a class: the largest errors and the mean times of all scenes of the class.
- * False where one of them lacks it. */
+ * False where one of them lacks it, or does not know them. */
 static bool merge(const Results *results, SceneClass class, const Setting *setting, ResultRow *row)
 {
     int scenes = 0;
@@ -137,7 +126,7 @@ static bool merge(const Results *results, SceneClass class, const Setting *setti
         if (class_of(i) != class)
             continue;
         const ResultRow *one = results_find(results, STUDY_SCENES[i].name, setting);
-        if (!one)
+        if (!one || !isfinite(one->interior_maximum) || !isfinite(one->time))
             return false;
         if (scenes++ == 0) {
             *row = *one;
@@ -166,13 +155,19 @@ static bool calibrate_class(const Survey *survey, SceneClass class, Efficient *t
     for (int i = 0; i < survey->results.count && done; i++) {
         const Setting *setting = &survey->results.rows[i].setting;
         ResultRow row;
-        if (choose_allows(setting) && !results_find(&merged, SCENE_CLASS_NAMES[class], setting) &&
+        if (efficient_allows(setting) &&
+            !results_find(&merged, SCENE_CLASS_NAMES[class], setting) &&
             merge(&survey->results, class, setting, &row))
             done = results_add(&merged, &row, message);
     }
     done = done &&
            front_open(&front, &merged, SCENE_CLASS_NAMES[class], ERROR_INTERIOR_MAXIMUM, message);
     if (done) {
+        if (front.count == 0)
+            done = message_set(message,
+                               "--calibrate: at %dx%d no setting is measured for scenes of the "
+                               "class %s, for no pixel lies inside an object; draw larger",
+                               survey->like.width, survey->like.height, SCENE_CLASS_NAMES[class]);
         for (int i = 0; i < front.count && table->count < EFFICIENT_MOST_ROWS; i++)
             table->rows[table->count++] = (EfficientRow){.class = class,
                                                          .setting = front.rows[i]->setting,

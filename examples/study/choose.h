@@ -13,12 +13,9 @@
 bool choose_by_error(Survey *survey, int scene, double error, bool rms, Message *message);
 
 /* The same the other way round: the most exact setting whose frame takes at most so many
- * milliseconds, and what the next slower one would gain. */
+ * milliseconds, and what the next slower one would gain. Where the second measurement takes longer,
+ * it says so: time is no property of a setting alone. */
 bool choose_by_time(Survey *survey, int scene, double milliseconds, bool rms, Message *message);
-
-/* Whether the table of efficient settings may have a setting: it differs from the usual one only on
- * axes whose error does not depend on where the lights and the viewer are. */
-bool choose_allows(const Setting *setting);
 
 /* Writes the table of efficient settings for each class of scenes, and says where. All scenes have
  * been surveyed. A setting's error for a class is the largest in any of its scenes. */

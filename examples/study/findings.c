@@ -165,7 +165,9 @@ static bool draw_bars(const Bars *bars, const char *folder, const char *name, Me
     return done;
 }
 
-/* A bar for each scene that has both the usual row and one with this setting. */
+_Static_assert((int)STUDY_SCENE_COUNT <= (int)MOST_BARS, "a bar for each scene");
+
+/* A bar for each scene that has both the usual row and one with this setting, and their values. */
 typedef void FillBar(const ResultRow *usual, const ResultRow *other, double values[2],
                      char note[48]);
 
@@ -179,8 +181,10 @@ static bool plot_by_scene(const Results *results, Bars *bars, const char *settin
         if (!usual || !other)
             continue;
         snprintf(bars->bars[bars->count].name, sizeof bars->bars[0].name, "%s", scene);
-        fill(usual, other, bars->bars[bars->count].values, bars->bars[bars->count].note);
-        bars->count++;
+        double *values = bars->bars[bars->count].values;
+        fill(usual, other, values, bars->bars[bars->count].note);
+        if (isfinite(values[0]) && (!bars->names[1] || isfinite(values[1])))
+            bars->count++;
     }
     return draw_bars(bars, folder, name, message);
 }
@@ -315,7 +319,7 @@ static bool plot_matrices(const Results *results, const char *folder, Message *m
                  .floor = 0.1};
     for (int i = 0; i < COMPOSITION_COUNT; i++) {
         const ResultRow *row = row_of(results, "far", COMPOSITIONS[i]);
-        if (!row)
+        if (!row || !isfinite(row->interior_maximum))
             continue;
         snprintf(bars.bars[bars.count].name, sizeof bars.bars[0].name, "%s", names[i]);
         snprintf(bars.bars[bars.count].note, sizeof bars.bars[0].note, "%.0f ns",

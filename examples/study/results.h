@@ -23,7 +23,7 @@ typedef struct ResultRow {
     int interior_pixels;
     double time, time_lower, time_upper; /* of a frame, drawn and read back: median, quartiles */
     double run_times[RESULT_RUNS];       /* the medians of the three runs */
-    double net_time;                     /* without what a frame takes that draws nothing */
+    double net_time;                     /* without what a usual frame takes that draws nothing */
     double gpu_time;                     /* as the driver's timer has it */
     double noise; /* of the times, as a fraction: how far a setting and itself came out apart */
     long long vertices, fragments;              /* of a frame; fragments are those that are seen */

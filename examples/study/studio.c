@@ -75,6 +75,11 @@ fail:
     return false;
 }
 
+const char *studio_version(const Studio *studio)
+{
+    return studio->first.version;
+}
+
 const char *studio_renderer(const Studio *studio)
 {
     return studio->first.renderer;

@@ -16,7 +16,8 @@ typedef struct Studio Studio;
 /* Width and height are those of every picture. `loader` is for where shaders are looked for. */
 bool studio_open(Studio **studio, const ShaderLoader *loader, const CanvasBackend *backend,
                  int width, int height, Message *message);
-const char *studio_renderer(const Studio *studio);
+const char *studio_renderer(const Studio *studio); /* "llvmpipe (LLVM 15.0.6, 256 bits)" */
+const char *studio_version(const Studio *studio);  /* "OpenGL ES 3.2 Mesa 22.3.6" */
 
 /* Drops the meshes that were made for the drawings so far, none of which is open. */
 void studio_forget(Studio *studio);

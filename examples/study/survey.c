@@ -1,6 +1,6 @@
 #include "survey.h"
 
-#include "choose.h"
+#include "efficient.h"
 #include "output.h"
 #include "progress.h"
 #include "scenes.h"
@@ -36,8 +36,8 @@ bool survey_open(Survey *survey, const Options *options, unsigned seed, bool qui
                      options->height, message))
         return false;
     snprintf(survey->path, sizeof survey->path, "%s/results.csv", options->output);
-    snprintf(survey->like.renderer, sizeof survey->like.renderer, "%s",
-             studio_renderer(survey->studio));
+    snprintf(survey->like.renderer, sizeof survey->like.renderer, "%s; %s",
+             studio_renderer(survey->studio), studio_version(survey->studio));
     snprintf(survey->like.threads, sizeof survey->like.threads, "%s",
              threads && threads[0] ? threads : "default");
     if (fresh && unlink(survey->path) != 0 && errno != ENOENT) {
@@ -57,16 +57,26 @@ bool survey_exact(const Survey *survey, const Scene *scene, Reference *exact, Me
     return reference_open(exact, scene, &options, message);
 }
 
-/* The settings of a scene that have no rows. */
+/* What is known of a setting; NULL where that has no time, and must be measured anew. */
+static const ResultRow *find_timed(const Survey *survey, const char *scene, const Setting *setting)
+{
+    const ResultRow *row = results_find(&survey->results, scene, setting);
+    return row && row->time > 0 ? row : NULL;
+}
+
+/* The settings of a scene that have no rows: all of them where the usual one has none, for times
+ * are told in terms of its own. */
 static bool missing(const Survey *survey, int scene, SettingList *list, Message *message)
 {
     const StudySceneInfo *info = &STUDY_SCENES[scene];
+    const Setting usual = setting_usual();
+    const bool based = find_timed(survey, info->name, &usual) != NULL;
     SettingList plan;
     bool done = trials_plan(survey->quick, &plan, message);
     *list = (SettingList){.settings = NULL};
     for (int i = 0; i < plan.count && done; i++)
-        if ((!info->few || choose_allows(&plan.settings[i])) &&
-            !results_find(&survey->results, info->name, &plan.settings[i]))
+        if ((!info->few || efficient_allows(&plan.settings[i])) &&
+            !(based && find_timed(survey, info->name, &plan.settings[i])))
             done = setting_list_add(list, &plan.settings[i], message);
     setting_list_close(&plan);
     return done;
@@ -88,7 +98,7 @@ static Trials trials_of(Survey *survey, int scene, const StudyScene *made, const
                      .like = survey->like,
                      .interrupted = &interrupted};
     snprintf(trials.like.scene, sizeof trials.like.scene, "%s", STUDY_SCENES[scene].name);
-    const ResultRow *known = results_find(&survey->results, trials.like.scene, &usual);
+    const ResultRow *known = find_timed(survey, trials.like.scene, &usual);
     if (known)
         trials.usual = known->time;
     return trials;
@@ -158,8 +168,9 @@ bool survey_run(Survey *survey, const int *scenes, int count, Message *message)
     sigaction(SIGTERM, &old[1], NULL);
     progress_end(&work.progress);
     if (interrupted && !message->text[0])
-        message_set(message, "interrupted; %d of %d rows are in %s; the same command goes on",
-                    work.done, work.total, survey->path);
+        done =
+            message_set(message, "interrupted; %d of %d rows are in %s; the same command goes on",
+                        work.done, work.total, survey->path);
     return done;
 }
 

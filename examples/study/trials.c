@@ -259,13 +259,13 @@ static double median_ratio(const Batch *batch, int number, double *lower, double
 }
 
 /* The usual setting against itself: how far from 1 the median of the ratios came out, and the
- * standard error of such a median (0.93 interquartile ranges over the root of their number, for
- * errors of a normal distribution). */
-static double noise_of(const Batch *batch)
+ * standard error of the median of as many ratios as a setting has (0.93 interquartile ranges over
+ * the root of their number, for errors of a normal distribution). */
+static double noise_of(const Batch *batch, int number)
 {
     double lower, upper;
     const double median = median_ratio(batch, AGAIN, &lower, &upper);
-    const int count = RESULT_RUNS * batch->timed[AGAIN].rounds;
+    const int count = RESULT_RUNS * batch->timed[number].rounds;
     return fabs(median - 1) + 0.93 * (upper - lower) / sqrt(count);
 }
 
@@ -310,7 +310,7 @@ static void fill_times(const Trials *trials, Batch *batch, int number, ResultRow
     row->net_time =
         row->time - trials->usual * median_ratio(batch, EMPTY, &ignored[0], &ignored[1]);
     row->gpu_time = gpu_milliseconds(batch, number);
-    row->noise = noise_of(batch);
+    row->noise = noise_of(batch, from);
 }
 
 /* Everything of a row but times; and how long a frame takes, about. */

@@ -1,6 +1,7 @@
 // common.glsl: what vertices and fragments share. Eye coordinates.
 
 #include "lighting/guards.glsl"
+#include "lighting/cone.glsl"
 
 // The direction to the viewer: to the eye, or along z if the viewer is infinitely far away.
 #ifdef FULL

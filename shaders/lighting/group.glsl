@@ -75,12 +75,12 @@ void GROUP(vec3 normal, vec3 position, vec3 viewer, bool front, inout vec3 color
 #ifdef SPOT
         float along = dot(-to_light, u_Spot[i].xyz);
 #ifdef ANY
-        share *= along >= u_Spot[i].w ? safe_pow(along, u_Exponent[i]) : 0.0;
+        share *= in_cone(along, u_Spot[i].w) ? safe_pow(along, u_Exponent[i]) : 0.0;
 #elif defined(EXPONENT)
         // Within the cone the cosine is more than 0, for no cutoff exceeds 90 degrees.
-        share *= along >= u_Spot[i].w ? pow(along, u_Exponent[i]) : 0.0;
+        share *= in_cone(along, u_Spot[i].w) ? pow(along, u_Exponent[i]) : 0.0;
 #else
-        share *= along >= u_Spot[i].w ? 1.0 : 0.0;
+        share *= in_cone(along, u_Spot[i].w) ? 1.0 : 0.0;
 #endif
 #endif
 

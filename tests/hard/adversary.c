@@ -41,7 +41,7 @@ static void report(Search *search, int number)
     const double error = search->error;
     search_shrink(search, &worst, 0.75 * error);
     snprintf(name, sizeof name, "FOUND_%d", number);
-    printf("\n/* %.4g levels; as found %.4g */\n", search_error(search, &worst), error);
+    printf("\n/* %.4g levels; as found %.4g */\n", search_error(search, &worst, 0), error);
     random_scene_print(&worst, name, stdout);
     fflush(stdout);
 }

@@ -220,7 +220,7 @@ void hard_world(HardWorld *world, const Mesh *mesh)
  * The power s of a cosine that is 1 + e is off by exp(s e) - 1 at most. The power function itself,
  * exp2(s log2(x)), adds less than 2 u. Products with colours, shares and sums: 4 u for each light.
  * Where N.L turns negative the highlight stops: a pixel for which the signs differ is off by all of
- * it, sin(37.5 degrees)^s for Blinn and nothing for Phong. Rounding to bytes makes 0.5. */
+ * it, sin(37.5 degrees)^s for Blinn and 0^s for Phong. Rounding to bytes makes 0.5. */
 double hard_mediump_most(const Scene *scene, double reach)
 {
     static const double U = 0x1p-11;
@@ -243,7 +243,7 @@ double hard_mediump_most(const Scene *scene, double reach)
             const double specular = fmax(from->specular.x * material->specular.x,
                                          fmax(from->specular.y * material->specular.y,
                                               from->specular.z * material->specular.z));
-            const double stops = phong ? 0 : pow(sin(37.5 * acos(-1) / 180), material->shininess);
+            const double stops = pow(phong ? 0 : sin(37.5 * acos(-1) / 180), material->shininess);
             if (!from->off)
                 sum += diffuse * cosine + 4 * U +
                        specular * fmax(expm1(material->shininess * angle) + 2 * U, stops);

@@ -26,10 +26,11 @@ typedef struct Search {
 void search_open(Search *search, int size, unsigned long long seed);
 void search_close(Search *search);
 
-/* The largest error inside the objects of a float picture, in steps of 1/255; INFINITY where a
- * value is not finite. -1 where a scene is not judged: it has no meaning, or rounding may decide on
- * which side of a jump light lies. */
-double search_error(Search *search, RandomScene *scene);
+/* The largest error inside the objects of a float picture, in steps of 1/255, beyond twice what
+ * changes of the scene's numbers in the 7th digit do to the exact picture; INFINITY where a value
+ * is not finite. Where it cannot be more than `enough`, without that allowance. -1 where a scene is
+ * not judged: it has no meaning, shows nothing, or wants more digits of depth than there are. */
+double search_error(Search *search, RandomScene *scene, double enough);
 
 /* One change, kept if the error grows. True where nothing has helped for long: search->current is
  * then as bad as this climb gets, and the next step begins another. */

@@ -1,0 +1,9 @@
+// unguarded_inversesqrt.glsl: lighting/guards.glsl with one function as the book has it.
+
+#define safe_inversesqrt guarded_inversesqrt
+#include "../lighting/guards.glsl"
+#undef safe_inversesqrt
+
+float safe_inversesqrt(float square) {
+    return inversesqrt(square);
+}

@@ -1,0 +1,397 @@
+/*
+ * Ways to invert a matrix, and to get the matrix for normals: what each costs, and what it keeps of
+ * its digits. The matrices are R1 S R2, rotations about a scale whose largest and smallest factors
+ * are `condition` apart, and are compared with arithmetic of 113 bits. Beside the project's own
+ * stand cglm and GLM, where they are installed (Debian: libcglm-dev, libglm-dev).
+ */
+#include "matrix.h"
+#include "matrix_benchmark.h"
+#include "measure.h"
+
+#ifdef HAVE_CGLM
+#include <cglm/cglm.h>
+#endif
+
+#include <math.h>
+#include <stdalign.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#if defined(__SIZEOF_FLOAT128__)
+__extension__ typedef __float128 Quad;
+#else
+typedef long double Quad; /* of 113 bits on those machines that have no other */
+#endif
+
+enum { ROUNDS = 101, COUNT = 1000, REPEATS = 4, DECADES = 7 };
+
+static uint64_t random_state = 20240607;
+static double doubles[COUNT][16], double_results[COUNT][16];
+static alignas(64) float floats[COUNT][16], float_results[COUNT][16];
+static float normals[COUNT][3]; /* what the matrices for normals are applied to */
+static const Batch BATCH = {COUNT, (const double (*)[16])doubles, (const float (*)[16])floats,
+                            double_results, float_results};
+
+/* Matrices. */
+
+/* Evenly in 0..1: splitmix64 (Steele, Lea and Flood, OOPSLA 2014). */
+static double uniform(void)
+{
+    random_state += 0x9e3779b97f4a7c15u;
+    uint64_t z = random_state;
+    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
+    return (double)((z ^ z >> 31) >> 11) * 0x1p-53;
+}
+
+static Vec3 random_direction(void)
+{
+    const double z = 2 * uniform() - 1, angle = 2 * acos(-1) * uniform(), r = sqrt(1 - z * z);
+    return (Vec3){r * cos(angle), r * sin(angle), z};
+}
+
+static Mat4 random_rotation(void)
+{
+    Mat4 rotation;
+    const double degrees = 360 * uniform();
+    mat4_rotate(degrees, random_direction(), &rotation);
+    return rotation;
+}
+
+/* Fills the batch with matrices of one condition, or for 0 of 1 to 1e12. */
+static void fill(double condition)
+{
+    for (int i = 0; i < COUNT; i++) {
+        const double k = condition > 0 ? condition : pow(10, 12 * uniform());
+        const Mat4 first = random_rotation(), last = random_rotation();
+        const Mat4 scale = mat4_scale((Vec3){1, pow(k, -uniform()), 1 / k});
+        const Mat4 a = mat4_product(first, mat4_product(scale, last));
+        memcpy(doubles[i], a.m, sizeof a.m);
+        mat4_to_float(a, floats[i]);
+        vec3_to_float(random_direction(), normals[i]);
+    }
+}
+
+/* Algorithms. */
+
+static void own_affine(const Batch *batch)
+{
+    for (int i = 0; i < batch->count; i++) {
+        Mat4 a;
+        memcpy(a.m, batch->doubles[i], sizeof a.m);
+        mat4_inverse(a, &a);
+        memcpy(batch->double_results[i], a.m, sizeof a.m);
+    }
+}
+
+/* Twice the matrix has the bottom row 0 0 0 2: not affine, so eliminated. */
+static void own_general(const Batch *batch)
+{
+    for (int i = 0; i < batch->count; i++) {
+        Mat4 a;
+        for (int j = 0; j < 16; j++)
+            a.m[j] = 2 * batch->doubles[i][j];
+        mat4_inverse(a, &a);
+        for (int j = 0; j < 16; j++)
+            batch->double_results[i][j] = 2 * a.m[j];
+    }
+}
+
+/* The adjugate over the determinant, by products of 2x2 determinants of the upper and the lower
+ * half, as libraries have it. */
+static void plain_inverse(const double m[16], double out[16])
+{
+    double s[6], c[6]; /* of rows 0 and 1, and 2 and 3, for columns 01 02 03 12 13 23 */
+    static const int first[6] = {0, 0, 0, 1, 1, 2}, second[6] = {1, 2, 3, 2, 3, 3};
+    for (int k = 0; k < 6; k++) {
+        const double *p = &m[4 * first[k]], *q = &m[4 * second[k]];
+        s[k] = p[0] * q[1] - q[0] * p[1];
+        c[k] = p[2] * q[3] - q[2] * p[3];
+    }
+    const double determinant =
+        s[0] * c[5] - s[1] * c[4] + s[2] * c[3] + s[3] * c[2] - s[4] * c[1] + s[5] * c[0];
+    const double over = 1 / determinant;
+    const double *a = m, *b = m + 4, *d = m + 8, *e = m + 12; /* columns */
+    out[0] = (b[1] * c[5] - d[1] * c[4] + e[1] * c[3]) * over;
+    out[4] = (-b[0] * c[5] + d[0] * c[4] - e[0] * c[3]) * over;
+    out[8] = (b[3] * s[5] - d[3] * s[4] + e[3] * s[3]) * over;
+    out[12] = (-b[2] * s[5] + d[2] * s[4] - e[2] * s[3]) * over;
+    out[1] = (-a[1] * c[5] + d[1] * c[2] - e[1] * c[1]) * over;
+    out[5] = (a[0] * c[5] - d[0] * c[2] + e[0] * c[1]) * over;
+    out[9] = (-a[3] * s[5] + d[3] * s[2] - e[3] * s[1]) * over;
+    out[13] = (a[2] * s[5] - d[2] * s[2] + e[2] * s[1]) * over;
+    out[2] = (a[1] * c[4] - b[1] * c[2] + e[1] * c[0]) * over;
+    out[6] = (-a[0] * c[4] + b[0] * c[2] - e[0] * c[0]) * over;
+    out[10] = (a[3] * s[4] - b[3] * s[2] + e[3] * s[0]) * over;
+    out[14] = (-a[2] * s[4] + b[2] * s[2] - e[2] * s[0]) * over;
+    out[3] = (-a[1] * c[3] + b[1] * c[1] - d[1] * c[0]) * over;
+    out[7] = (a[0] * c[3] - b[0] * c[1] + d[0] * c[0]) * over;
+    out[11] = (-a[3] * s[3] + b[3] * s[1] - d[3] * s[0]) * over;
+    out[15] = (a[2] * s[3] - b[2] * s[1] + d[2] * s[0]) * over;
+}
+
+static void plain_cofactor(const Batch *batch)
+{
+    for (int i = 0; i < batch->count; i++)
+        plain_inverse(batch->doubles[i], batch->double_results[i]);
+}
+
+static void own_normal(const Batch *batch)
+{
+    for (int i = 0; i < batch->count; i++) {
+        Mat4 a;
+        memcpy(a.m, batch->doubles[i], sizeof a.m);
+        mat4_normal(a, &a);
+        mat4_to_float(a, batch->float_results[i]);
+    }
+}
+
+#ifdef HAVE_CGLM
+static void cglm_inverse(const Batch *batch)
+{
+    for (int i = 0; i < batch->count; i++) {
+        mat4 a;
+        memcpy(a, batch->floats[i], sizeof a);
+        glm_mat4_inv(a, a);
+        memcpy(batch->float_results[i], a, sizeof a);
+    }
+}
+
+static void cglm_inverse_precise(const Batch *batch)
+{
+    for (int i = 0; i < batch->count; i++) {
+        mat4 a;
+        memcpy(a, batch->floats[i], sizeof a);
+        glm_mat4_inv_precise(a, a);
+        memcpy(batch->float_results[i], a, sizeof a);
+    }
+}
+
+static void cglm_normal(const Batch *batch)
+{
+    for (int i = 0; i < batch->count; i++) {
+        mat4 a;
+        mat3 n;
+        memcpy(a, batch->floats[i], sizeof a);
+        glm_mat4_pick3(a, n);
+        glm_mat3_inv(n, n);
+        glm_mat3_transpose(n);
+        glm_mat4_ins3(n, a);
+        memcpy(batch->float_results[i], a, sizeof a);
+    }
+}
+#else
+#define cglm_inverse NULL
+#define cglm_inverse_precise NULL
+#define cglm_normal NULL
+#endif
+
+#ifndef HAVE_GLM
+#define glm_inverse NULL
+#define glm_inverse_double NULL
+#define glm_normal NULL
+#endif
+
+typedef struct Algorithm {
+    const char *name;
+    void (*run)(const Batch *batch); /* NULL: the library is missing */
+    bool real;                       /* its results are floats */
+    bool again;                      /* the algorithm before it, to compare with itself */
+} Algorithm;
+
+static const Algorithm INVERSES[] = {
+    {"cglm glm_mat4_inv, float", cglm_inverse, true, false},
+    {"cglm glm_mat4_inv_precise, float", cglm_inverse_precise, true, false},
+    {"GLM inverse, float", glm_inverse, true, false},
+    {"GLM inverse, double", glm_inverse_double, false, false},
+    {"plain cofactors, double", plain_cofactor, false, false},
+    {"mat4_inverse, affine (FMA)", own_affine, false, false},
+    {"the same again (A/A)", own_affine, false, true},
+    {"mat4_inverse, general (LU)", own_general, false, false},
+};
+
+static const Algorithm NORMALS[] = {
+    {"cglm inverse transpose, float", cglm_normal, true, false},
+    {"GLM inverseTranspose, float", glm_normal, true, false},
+    {"mat4_normal", own_normal, true, false},
+    {"the same again (A/A)", own_normal, true, true},
+};
+
+enum { INVERSE_COUNT = sizeof INVERSES / sizeof *INVERSES };
+enum { NORMAL_COUNT = sizeof NORMALS / sizeof *NORMALS };
+
+/* Errors. */
+
+/* Of the upper left 3x3 part: cofactors and determinant, of which 1e-34 * condition is lost. */
+static Quad quad_cofactors(const double m[16], Quad cofactor[3][3])
+{
+    Quad determinant = 0;
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) {
+            const int p = (i + 1) % 3, q = (i + 2) % 3, r = (j + 1) % 3, s = (j + 2) % 3;
+            cofactor[i][j] =
+                (Quad)m[4 * r + p] * (Quad)m[4 * s + q] - (Quad)m[4 * s + p] * (Quad)m[4 * r + q];
+        }
+    }
+    for (int j = 0; j < 3; j++)
+        determinant += (Quad)m[4 * j] * cofactor[0][j];
+    return determinant;
+}
+
+/* || X - A^-1 || / || A^-1 ||, Frobenius; 1, no digit right, where it is more or no number. */
+static double inverse_error(int i, bool real)
+{
+    Quad cofactor[3][3], error = 0, norm = 1;
+    const Quad determinant = quad_cofactors(doubles[i], cofactor);
+    for (int row = 0; row < 4; row++) {
+        for (int column = 0; column < 4; column++) {
+            const int k = 4 * column + row;
+            const Quad got = real ? (Quad)float_results[i][k] : (Quad)double_results[i][k];
+            const Quad right =
+                row < 3 && column < 3 ? cofactor[column][row] / determinant : (Quad)(row == column);
+            error += (got - right) * (got - right);
+            norm += row < 3 && column < 3 ? right * right : 0;
+        }
+    }
+    const double relative = sqrt((double)(error / norm));
+    return relative < 1 ? relative : 1;
+}
+
+/* The angle between the exact normal and what a vertex shader makes of a matrix of floats: up to
+ * pi, and that too where it is no number. */
+static double normal_error(int i, bool real)
+{
+    Quad cofactor[3][3], dot = 0, cross = 0, right[3];
+    const Quad sign = quad_cofactors(doubles[i], cofactor) < 0 ? -1 : 1;
+    const float *m = float_results[i], *n = normals[i];
+    float got[3];
+    (void)real;
+    for (int k = 0; k < 3; k++) {
+        got[k] = m[k] * n[0] + m[4 + k] * n[1] + m[8 + k] * n[2];
+        right[k] = 0;
+        for (int j = 0; j < 3; j++)
+            right[k] += sign * cofactor[k][j] * (Quad)n[j];
+        dot += right[k] * (Quad)got[k];
+    }
+    for (int k = 0; k < 3; k++) {
+        const int p = (k + 1) % 3, q = (k + 2) % 3;
+        const Quad part = right[p] * (Quad)got[q] - right[q] * (Quad)got[p];
+        cross += part * part;
+    }
+    const double pi = acos(-1), angle = atan2(sqrt((double)cross), (double)dot);
+    return isfinite(angle) && (cross > 0 || dot > 0) ? angle : pi;
+}
+
+static int compare(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+typedef struct Table {
+    const char *title;
+    const Algorithm *algorithms;
+    int count;
+    double (*error)(int i, bool real);
+    double (*errors)[DECADES][2]; /* by algorithm: median and worst */
+} Table;
+
+static void find_errors(const Table *table)
+{
+    static double errors[COUNT];
+    for (int decade = 0; decade < DECADES; decade++) {
+        fill(pow(10, 2 * decade));
+        for (int k = 0; k < table->count; k++) {
+            const Algorithm *algorithm = &table->algorithms[k];
+            if (!algorithm->run)
+                continue;
+            algorithm->run(&BATCH);
+            for (int i = 0; i < COUNT; i++)
+                errors[i] = table->error(i, algorithm->real);
+            qsort(errors, COUNT, sizeof *errors, compare);
+            table->errors[k][decade][0] = errors[COUNT / 2];
+            table->errors[k][decade][1] = errors[COUNT - 1];
+        }
+    }
+}
+
+/* Times. */
+
+static bool run(void *argument)
+{
+    const Algorithm *const *algorithm = argument;
+    for (int i = 0; i < REPEATS; i++)
+        (*algorithm)->run(&BATCH);
+    return true;
+}
+
+static void print_row(const Table *table, int k, const Measured *measured)
+{
+    const Algorithm *algorithm = &table->algorithms[k];
+    printf("%-33s", algorithm->name);
+    if (!measured) {
+        printf(" missing\n");
+        return;
+    }
+    const Summary time = measure_summary(measured->seconds, ROUNDS);
+    const double scale = 1e9 / (COUNT * REPEATS);
+    for (int decade = 0; decade < DECADES && !algorithm->again; decade++)
+        printf(" %5.0e/%-5.0e", table->errors[k][decade][0], table->errors[k][decade][1]);
+    if (algorithm->again)
+        printf("%*s", 12 * DECADES, "");
+    printf(" %6.1f [%.1f, %.1f]\n", scale * time.median, scale * time.lower, scale * time.upper);
+}
+
+/* False only where there is no memory. */
+static bool print_table(const Table *table)
+{
+    const Algorithm *timed[INVERSE_COUNT];
+    Measured measured[INVERSE_COUNT];
+    int rows[INVERSE_COUNT], count = 0;
+    find_errors(table);
+    fill(0);
+    for (int k = 0; k < table->count; k++) {
+        rows[k] = -1;
+        if (!table->algorithms[k].run)
+            continue;
+        rows[k] = count;
+        timed[count] = &table->algorithms[k];
+        measured[count] = (Measured){timed[count]->name, run, &timed[count], NULL};
+        count++;
+    }
+    if (!measure_rounds(measured, count, ROUNDS)) {
+        measure_finish(measured, count);
+        return false;
+    }
+    printf("\n%s\n%-33s", table->title, "");
+    for (int decade = 0; decade < DECADES; decade++)
+        printf(" 1e%-9d", 2 * decade);
+    printf(" ns a call\n");
+    for (int k = 0; k < table->count; k++)
+        print_row(table, k, rows[k] < 0 ? NULL : &measured[rows[k]]);
+    for (int k = 1; k < table->count; k++) {
+        if (!table->algorithms[k].again)
+            continue;
+        const Summary ratio = measure_ratio(&measured[rows[k]], &measured[rows[k] - 1], 1, ROUNDS);
+        printf("A/A %.3f [%.3f, %.3f]\n", ratio.median, ratio.lower, ratio.upper);
+    }
+    measure_finish(measured, count);
+    return true;
+}
+
+int main(void)
+{
+    static double inverse_errors[INVERSE_COUNT][DECADES][2],
+        normal_errors[NORMAL_COUNT][DECADES][2];
+    const Table inverses = {
+        "Inverse of R1 S R2: relative error (Frobenius norms), median/worst of 1000, by condition",
+        INVERSES, INVERSE_COUNT, inverse_error, inverse_errors};
+    const Table normal_matrices = {
+        "Matrix for normals of R1 S R2: error of a normal in radians, applied in float, "
+        "median/worst of 1000, by condition",
+        NORMALS, NORMAL_COUNT, normal_error, normal_errors};
+    measure_print_machine();
+    return print_table(&inverses) && print_table(&normal_matrices) ? 0 : 1;
+}

@@ -1,0 +1,147 @@
+/*
+ * scene_fuzz: no scene may do harm, whatever its numbers.
+ *
+ * The first bytes are the seeds of a random scene, for what there is in it; then come changes: the
+ * number of a number, what it becomes, and where that is "these bits", eight bytes. What
+ * scene_check accepts has effects that can be explained and an exact picture, as solids and as
+ * meshes, all of whose colours are colours.
+ */
+#include "effects.h"
+#include "random_scene.h"
+#include "reference.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+static RandomMeshes meshes;
+
+typedef struct Input {
+    const uint8_t *data;
+    size_t size;
+} Input;
+
+/* Zeros beyond the end. */
+static uint64_t take(Input *input, size_t count)
+{
+    uint64_t value = 0;
+    for (size_t i = 0; i < count && input->size > 0; i++, input->data++, input->size--)
+        value |= (uint64_t)*input->data << (8 * i);
+    return value;
+}
+
+static double taken_number(Input *input, double old)
+{
+    static const double values[] = {0,       1,    -1,    0.5,   1e-30,   1e30,     5e-324,
+                                    DBL_MIN, 1e15, 1e-15, 90,    128,     FLT_MIN,  FLT_MAX,
+                                    1e-7,    180,  1e6,   1e-38, DBL_MAX, INFINITY, NAN};
+    enum { COUNT = sizeof values / sizeof values[0] };
+    const uint64_t choice = take(input, 1), bits = choice >= 200 ? take(input, 8) : 0;
+    double number;
+    memcpy(&number, &bits, sizeof number);
+    return choice < COUNT ? values[choice]
+           : choice < 40  ? -old
+           : choice < 120 ? ldexp(old, (int)choice - 80)
+           : choice < 200 ? old + ldexp(1, (int)choice - 180)
+                          : number;
+}
+
+static bool seen(const Reference *picture)
+{
+    for (int i = 0; i < picture->width * picture->height; i++) {
+        for (int c = 0; c < 3; c++)
+            if (!(picture->color[3 * i + c] >= 0 && picture->color[3 * i + c] <= 1))
+                return false;
+        if (!(picture->depth[i] > 0) || !(picture->coverage[i] >= 0 && picture->coverage[i] <= 1))
+            return false;
+    }
+    return true;
+}
+
+static void draw(const Scene *scene, bool as_meshes)
+{
+    Reference picture;
+    Message message = {0};
+    const ReferenceOptions options = {
+        .width = 2, .height = 1, .meshes = as_meshes, .edge_error = 255, .threads = 1};
+    if (!reference_open(&picture, scene, &options, &message) || !seen(&picture))
+        abort();
+    reference_close(&picture);
+}
+
+/* No light is in two groups, and every decision has something to say. */
+static void decide(const Scene *scene)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *file = open_memstream(&text, &size);
+    if (!file)
+        return;
+    for (int i = 0; i < scene->object_count; i++) {
+        const Effects one = effects_of(scene, &scene->objects[i]);
+        int lights = 0;
+        for (int g = 0; g < one.group_count; g++)
+            lights += one.groups[g].count;
+        if (lights > scene->light_count)
+            abort();
+        effects_explain(scene, &scene->objects[i], file);
+    }
+    fclose(file);
+    if (scene->object_count > 0 && size == 0)
+        abort();
+    free(text);
+}
+
+static void change_choices(RandomScene *made, uint64_t bits)
+{
+    made->scene.object_count = made->scene.object_count > 1 ? 2 : 1;
+    for (int i = 0; i < made->scene.object_count; i++) {
+        RandomShape *shape = &made->shapes[i];
+        /* Few triangles, many executions; of a teapot the exact picture has very many. */
+        shape->divisions = 3 + (int)(bits >> (4 * i) & 1);
+        if (shape->solid.kind == SOLID_TEAPOT)
+            shape->solid.kind = SOLID_SPHERE;
+        if (bits >> (30 + i) & 1)
+            made->objects[i].wrong_normals = true;
+    }
+    if (bits >> 40 & 1)
+        made->scene.light_count = 0;
+    if (bits >> 41 & 1)
+        made->scene.interpolation = (Interpolation)(int)(bits >> 42 & 3); /* one too many */
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    Input input = {data, size};
+    RandomScene made;
+    RandomNumber numbers[RANDOM_MOST_NUMBERS];
+    Message message = {0};
+    const uint64_t kind = take(&input, 2), values = take(&input, 1);
+    random_scene_make(&made, kind, values);
+    const uint64_t choices = take(&input, 6);
+    change_choices(&made, choices);
+    const int count = random_scene_numbers(&made, numbers);
+    while (input.size > 0) {
+        double *value = numbers[take(&input, 2) % (uint64_t)count].value;
+        *value = taken_number(&input, *value);
+    }
+    if (meshes.count > 64)
+        random_meshes_close(&meshes);
+    if (!random_scene_ready(&made, &meshes, &message)) {
+        if (!message.text[0])
+            abort();
+        return 0;
+    }
+    const bool sound = scene_check(&made.scene, &message);
+    if (sound != !message.text[0])
+        abort();
+    if (!sound)
+        return 0;
+    decide(&made.scene);
+    draw(&made.scene, choices >> 44 & 1);
+    return 0;
+}

@@ -1,0 +1,220 @@
+/*
+ * What the precision of the fragment shader makes of highlights, and of scenes of any size. Highp
+ * is right everywhere. Mediump, 11 significant bits from 6.1e-5 to 65504, is bounded and never
+ * pinned: which operations are computed in it depends on the driver's compiler.
+ */
+#include "hard.h"
+
+#include "picture_check.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { SIZE = 128 };
+
+static const double REACH = 4; /* see normals_test.c */
+
+static Hard hard;
+static HardWorld world;
+static Mesh sphere;
+static Lighting *cosine[2]; /* as hard_open made them */
+
+static int open_all(void **state)
+{
+    Message message = {0};
+    (void)state;
+    hard_open(&hard, SIZE, SIZE);
+    memcpy(cosine, hard.lightings, sizeof cosine);
+    if (mesh_sphere(&sphere, 1, 96, 48, &message))
+        return 0;
+    printf("%s\n", message.text);
+    return 1;
+}
+
+static int close_all(void **state)
+{
+    (void)state;
+    mesh_close(&sphere);
+    hard_close(&hard);
+    return 0;
+}
+
+/* Only a highlight, of the light's whole range. */
+static void highlight_world(double shininess, Reflection reflection)
+{
+    hard_world(&world, &sphere);
+    world.scene.global_ambient = (Vec3){0, 0, 0};
+    world.scene.reflection = reflection;
+    world.lights[0].ambient = world.lights[0].diffuse = (Vec3){0, 0, 0};
+    world.objects[0].front.specular = (Vec3){1, 1, 1};
+    world.objects[0].front.shininess = shininess;
+}
+
+static double worst_of(double shininess, Reflection reflection, HardPrecision precision)
+{
+    highlight_world(shininess, reflection);
+    const HardResult result = hard_draw(&hard, &world.scene, precision, NULL);
+    assert_int_equal(result.not_finite, 0);
+    assert_true(result.interior_pixels > SIZE * SIZE / 8);
+    return result.byte_error;
+}
+
+/* The largest error in steps of 1/255, by reflection: measured 3, 12, 37 and 8, 25, 82 elsewhere,
+ * and no more than a third above that here. That of hard_mediump_most, with every rounding at its
+ * worst, is several times as large. */
+static void a_highlight_loses_digits_in_mediump_as_its_shininess_grows(void **state)
+{
+    static const struct {
+        double shininess, most[2];
+    } rows[] = {{8, {4, 10.6}}, {32, {16, 33.3}}, {128, {49.3, 109.3}}};
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        for (int reflection = 0; reflection < 2; reflection++) {
+            const double shininess = rows[i].shininess;
+            const double high = worst_of(shininess, (Reflection)reflection, HARD_HIGHP);
+            const double medium = worst_of(shininess, (Reflection)reflection, HARD_MEDIUMP);
+            const double derived = hard_mediump_most(&world.scene, REACH);
+            printf("shininess %g, %s: %.2f in highp, %.2f in mediump (derived: at most %.0f)\n",
+                   shininess, reflection ? "Phong" : "Blinn-Phong", high, medium, derived);
+            assert_true(high <= 1);
+            assert_true(medium <= rows[i].most[reflection]);
+            assert_true(medium <= derived);
+        }
+    }
+}
+
+/* Lagrange's identity: (1 - q^2)^(s / 2), where q is the length of a cross product. With u = 2^-11
+ * and the errors of hard_mediump_most, those of the two vectors are e = 17 u for normal and half
+ * vector, 54 u for reflection and viewer, and q's is no larger. The power's slope over q is at most
+ * s / sqrt(s - 1) ((s - 2) / (s - 1))^(s / 2 - 1), about sqrt(s); beside it, 1 - q^2 is rounded by
+ * u / 2 near 1, which makes s u / 4, and the square, the power and the product with a colour make 9
+ * u. For s below 2 the slope has no bound where the cosine is 0; a power of 1 / 2 or so of the
+ * error does. The cosine's own form has s e in the place of sqrt(s) e. */
+static double cross_most(double s, bool phong)
+{
+    const double u = 0x1p-11, e = (phong ? 54 : 17) * u;
+    const double moved = s < 2
+                             ? pow(2 * e + 4 * u, s / 2)
+                             : s / sqrt(s - 1) * pow((s - 2) / (s - 1), s / 2 - 1) * e + s * u / 4;
+    return 0.5 + 255 * (moved + 9 * u);
+}
+
+static void the_cross_product_keeps_the_digits_of_a_highlight(void **state)
+{
+    static const ShaderReplacement replacements[] = {
+        {"lighting/highlight.glsl", "study/highlight_cross.glsl"}, {NULL, NULL}};
+    static const char *const precisions[] = {"highp", "mediump"};
+    static const double shininesses[] = {1, 8, 32, 128};
+    Message message = {0};
+    Lighting *cross[2];
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        const ShaderLoader loader = {.precision = precisions[i], .replacements = replacements};
+        assert_true(lighting_open(&cross[i], &loader, &message));
+    }
+    for (size_t i = 0; i < sizeof shininesses / sizeof shininesses[0]; i++) {
+        const double s = shininesses[i];
+        for (int reflection = 0; reflection < 2; reflection++) {
+            const double derived = cross_most(s, reflection);
+            const double by_cosine = worst_of(s, (Reflection)reflection, HARD_MEDIUMP);
+            memcpy(hard.lightings, cross, sizeof cross);
+            const double medium = worst_of(s, (Reflection)reflection, HARD_MEDIUMP);
+            const double high = worst_of(s, (Reflection)reflection, HARD_HIGHP);
+            memcpy(hard.lightings, cosine, sizeof cosine);
+            printf("shininess %g, %s, by the cross product: %.2f in highp, %.2f in mediump "
+                   "(derived: at most %.1f), by the cosine %.2f\n",
+                   s, reflection ? "Phong" : "Blinn-Phong", high, medium, derived, by_cosine);
+            if (high > 1 || medium > derived || medium > 15)
+                fail_msg("shininess %g, reflection %d", s, reflection);
+        }
+    }
+    for (int i = 0; i < 2; i++)
+        lighting_close(cross[i]);
+}
+
+static void scale_scene(double size)
+{
+    hard_world(&world, &sphere);
+    world.objects[0].world_from_object = mat4_scale((Vec3){size, size, size});
+    world.lights[0].position = vec3_scale(world.lights[0].position, size);
+    world.scene.camera.eye = vec3_scale(world.scene.camera.eye, size);
+    world.scene.camera.near *= size;
+    world.scene.camera.far *= size;
+}
+
+static void highp_is_right_in_scenes_up_to_1e8_and_as_far_away(void **state)
+{
+    (void)state;
+    for (int exponent = 0; exponent <= 8; exponent += 2) {
+        for (int reflection = 0; reflection < 2; reflection++) {
+            char name[64];
+            snprintf(name, sizeof name, "scene of size 1e%d", exponent);
+            scale_scene(pow(10, exponent));
+            world.scene.reflection = (Reflection)reflection;
+            world.objects[0].front.shininess = 128;
+            hard_check(&hard, name, &world.scene, HARD_HIGHP, 1, SIZE * SIZE / 8);
+
+            const Vec3 away = vec3_scale((Vec3){1, -2, 3}, pow(10, exponent));
+            snprintf(name, sizeof name, "scene at 1e%d", exponent);
+            scale_scene(1);
+            world.scene.reflection = (Reflection)reflection;
+            world.objects[0].front.shininess = 128;
+            world.objects[0].world_from_object = mat4_translate(away);
+            world.lights[0].position = vec3_add(world.lights[0].position, away);
+            world.scene.camera.eye = vec3_add(world.scene.camera.eye, away);
+            world.scene.camera.center = vec3_add(world.scene.camera.center, away);
+            hard_check(&hard, name, &world.scene, HARD_HIGHP, 1, SIZE * SIZE / 8);
+        }
+    }
+    hard_report(&hard, "scenes of sizes up to 1e8");
+}
+
+/* In mediump a vector's square must lie from 6.1e-5 to 65504, where it has all its digits, and its
+ * length from 7.8e-3 to 255.9. Here the shortest is that to the light, 1.4 to 4 sizes long, and the
+ * longest that to the eye, 5 with the light's: sizes of .0056 to 51. Beyond, there is no bound, and
+ * the picture is only said to be one. At the vertices light is highp, and right. */
+static void mediump_has_room_for_small_scenes_only(void **state)
+{
+    static const double sizes[] = {0.006, 0.01, 0.1, 1, 10, 50};
+    static const double beyond[] = {1e-6, 1e-3, 75, 300, 1e5};
+    (void)state;
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+        char name[64];
+        snprintf(name, sizeof name, "scene of size %g", sizes[i]);
+        scale_scene(sizes[i]);
+        hard_check_ways(&hard, name, &world.scene, REACH, SIZE * SIZE / 8);
+    }
+    hard_report(&hard, "scenes of sizes .006 to 50");
+    for (size_t i = 0; i < sizeof beyond / sizeof beyond[0]; i++) {
+        char name[64];
+        scale_scene(beyond[i]);
+        const HardResult result = hard_draw(&hard, &world.scene, HARD_MEDIUMP, NULL);
+        printf("scene of size %g: %.1f in mediump, %lld values not finite\n", beyond[i],
+               result.byte_error, result.not_finite);
+        snprintf(name, sizeof name, "scene of size %g", beyond[i]);
+        hard_check(&hard, name, &world.scene, HARD_HIGHP, 1, SIZE * SIZE / 8);
+        world.scene.interpolation = INTERPOLATION_GOURAUD;
+        hard_check(&hard, name, &world.scene, HARD_MEDIUMP, 1.5, SIZE * SIZE / 8);
+    }
+    hard_report(&hard, "scenes that mediump has no room for, at the vertices");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_highlight_loses_digits_in_mediump_as_its_shininess_grows),
+        cmocka_unit_test(the_cross_product_keeps_the_digits_of_a_highlight),
+        cmocka_unit_test(highp_is_right_in_scenes_up_to_1e8_and_as_far_away),
+        cmocka_unit_test(mediump_has_room_for_small_scenes_only),
+    };
+    if (!picture_check_driver("hard precision"))
+        return EXIT_SKIPPED;
+    return cmocka_run_group_tests_name("hard precision", tests, open_all, close_all);
+}
