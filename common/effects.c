@@ -156,9 +156,9 @@ static Transform transform_of(Mat4 m)
             dots[i][j] =
                 a[4 * i] * a[4 * j] + a[4 * i + 1] * a[4 * j + 1] + a[4 * i + 2] * a[4 * j + 2];
     const double square = dots[0][0];
-    /* Lengths beyond this lose digits, or everything, when a float squares them; the normal matrix
-     * comes scaled. */
-    if (!(square > 1e-20 && square < 1e20))
+    /* Lengths beyond this lose digits, or everything, when a float squares them, which at fragments
+     * may have 16 bits; the normal matrix comes scaled. */
+    if (!(square > 1e-4 && square < 1e4))
         return GENERAL;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
@@ -204,6 +204,7 @@ static bool opposite(const Scene *scene, const Light *light, const Bounds *bound
 static LightGuards light_guards(const Scene *scene, const Light *light, const Bounds *bounds,
                                 const LightTerms *terms, FILE *file)
 {
+    static const double FAR = 1e18; /* its square is a float */
     LightGuards guards = {false, false, false};
     if (light->kind != LIGHT_DIRECTIONAL) {
         /* Outside the bounds there is a distance to divide by. */
@@ -216,11 +217,14 @@ static LightGuards light_guards(const Scene *scene, const Light *light, const Bo
         const double least = guards.distance ? 0 : gap;
         guards.attenuation =
             terms->attenuation &&
-            !(light->constant + least * (light->linear + least * light->quadratic) > 1e-29);
+            (!(light->constant + least * (light->linear + least * light->quadratic) > 1e-29) ||
+             !(vec3_length(vec3_subtract(bounds->sphere.center, light->position)) +
+                   bounds->sphere.radius <
+               FAR));
     }
     if (terms->attenuation)
         say(file, guards.attenuation
-                      ? "  guard of the attenuation: without constant, where the light touches"
+                      ? "  guard of the attenuation: its denominator may be 0, or too large"
                       : "  without guard of the attenuation: its denominator is never 0");
     if (terms->specular && scene->reflection == REFLECTION_BLINN_PHONG && !terms->half_vector) {
         guards.half_vector = opposite(scene, light, bounds);

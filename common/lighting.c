@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_DEFINES = 24 };
+enum { MOST_DEFINES = 32 };
 
 /* What a program is made from. Equal recipes, equal programs. */
 typedef struct Recipe {
@@ -134,8 +134,15 @@ static char *groups_text(const Effects *effects, bool at_vertex)
     return text;
 }
 
-static bool recipe_open(Recipe *recipe, const Effects *effects, Message *message)
+/* In 16 bits, where effects' proofs of what cannot be do not hold, every guard is compiled in. */
+static bool recipe_open(Recipe *recipe, const Effects *wanted, const ShaderLoader *loader,
+                        Message *message)
 {
+    const bool mediump = loader->precision && strcmp(loader->precision, "mediump") == 0;
+    Effects guarded = *wanted;
+    if (mediump)
+        effects_guard(&guarded);
+    const Effects *effects = &guarded;
     bool lights[2] = {false}, position[2] = {false}, normals[2] = {false}; /* by ShaderStage */
     bool specular = false, full = false;
     bool guards = effects->guard_vertex || effects->guard_fragment || effects->guard_viewer;
@@ -156,6 +163,7 @@ static bool recipe_open(Recipe *recipe, const Effects *effects, Message *message
         const char *define;
     } all[] = {
         {full, "FULL"},
+        {mediump, "MEDIUMP"},
         {effects->base, "BASE"},
         {effects->alpha, "ALPHA"},
         {effects->two_sided, "TWO_SIDED"},
@@ -224,7 +232,7 @@ static const Variant *find_variant(Lighting *lighting, const Effects *effects, M
 {
     Recipe recipe;
     ShaderText texts[3];
-    if (!recipe_open(&recipe, effects, message)) {
+    if (!recipe_open(&recipe, effects, &lighting->loader, message)) {
         recipe_close(&recipe);
         return NULL;
     }
@@ -344,7 +352,8 @@ static Vec3 multiply(Vec3 a, Vec3 b)
 static double constant_share(const Light *light)
 {
     const bool shared = light->kind != LIGHT_DIRECTIONAL && !light_fades(light);
-    return shared && light->constant != 0 ? 1 / light->constant : 1;
+    /* No more than a float holds. */
+    return shared && light->constant != 0 ? 1 / fmax(light->constant, 1e-30) : 1;
 }
 
 /* Emission and ambient light that does not vary over the surface. In the full program every light
@@ -432,6 +441,7 @@ static void set_materials(GLuint program, const Scene *scene, const Object *obje
     set_vec3(program, "u_FrontBase", base_color(scene, &object->front, full));
     set_float(program, "u_FrontAlpha", object->front.alpha);
     set_float(program, "u_FrontShininess", object->front.shininess);
+    set_float(program, "u_VertexFrontShininess", object->front.shininess);
     for (int g = 0; g < effects->group_count; g++)
         set_colors(program, scene, &effects->groups[g], g, &object->front, front);
     if (!effects->two_sided)
@@ -439,7 +449,9 @@ static void set_materials(GLuint program, const Scene *scene, const Object *obje
     set_vec3(program, "u_BackBase", base_color(scene, behind, full));
     set_float(program, "u_BackAlpha", behind->alpha);
     set_float(program, "u_BackShininess", behind->shininess);
+    set_float(program, "u_VertexBackShininess", behind->shininess);
     set_float(program, "u_BackNormal", object->two_sided ? -1 : 1);
+    set_float(program, "u_VertexBackNormal", object->two_sided ? -1 : 1);
     for (int g = 0; g < effects->group_count; g++)
         set_colors(program, scene, &effects->groups[g], g, behind, back);
 }
@@ -483,6 +495,7 @@ static bool draw_object(Lighting *lighting, const Scene *scene, const Object *ob
     set_mat4(program, "u_EyeFromObject", eye_from_object);
     set_mat4(program, "u_NormalMatrix", normal_matrix);
     set_float(program, "u_LocalViewer", scene->distant_viewer ? 0 : 1);
+    set_float(program, "u_VertexLocalViewer", scene->distant_viewer ? 0 : 1);
     set_materials(program, scene, object, &effects, full);
     for (int g = 0; g < effects.group_count; g++)
         set_group(program, transforms, scene, eye_from_world, &effects.groups[g], g);
@@ -513,9 +526,15 @@ bool lighting_draw(Lighting *lighting, const Scene *scene, double aspect, bool f
                            scene->light_count, EFFECTS_MOST_LIGHTS);
     glEnable(GL_DEPTH_TEST);
     bool done = true;
-    for (int i = 0; i < scene->object_count && done; i++)
+    for (int i = 0; i < scene->object_count && done; i++) {
+        Message why = {.located = false};
         done = draw_object(lighting, scene, &scene->objects[i], eye_from_world, clip_from_eye, full,
-                           message);
+                           &why);
+        if (!done && why.located && message)
+            *message = why; /* a shader's, which begins with its place */
+        else if (!done)
+            message_set(message, "object %d: %s", i, why.text);
+    }
     glDisable(GL_CULL_FACE);
     glFrontFace(GL_CCW);
     return done;
@@ -546,7 +565,7 @@ bool lighting_sources(const Lighting *lighting, const Scene *scene, const Object
     const Effects effects = full ? effects_full(scene, object) : effects_of(scene, object);
     Recipe recipe;
     ShaderText texts[3];
-    bool done = recipe_open(&recipe, &effects, message);
+    bool done = recipe_open(&recipe, &effects, &lighting->loader, message);
     const ShaderLoader loader = recipe_loader(&recipe, &lighting->loader, texts);
     sources[SHADER_VERTEX] = sources[SHADER_FRAGMENT] = (ShaderSource){0};
     done = done &&

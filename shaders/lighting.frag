@@ -2,7 +2,7 @@
 
 precision highp float;
 
-#ifdef BASE
+#if defined(BASE) && !defined(VERTEX_LIGHTS)
 uniform vec3 u_FrontBase;
 #ifdef TWO_SIDED
 uniform vec3 u_BackBase;
@@ -28,6 +28,13 @@ varying vec3 v_Normal;
 varying vec3 v_Position;
 #endif
 
+#ifdef MEDIUMP // 16 bits, perhaps: 6.1e-5 to 65504
+#define LEAST 6.2e-5
+#define MOST 6e4
+#else
+#define LEAST 1e-37
+#define MOST 1e37
+#endif
 #include "lighting/common.glsl"
 #include "lighting/output.glsl"
 #ifdef FRAGMENT_LIGHTS

@@ -16,6 +16,13 @@ uniform mat4 u_EyeFromObject;
 uniform mat4 u_NormalMatrix;
 #endif
 
+#define LEAST 1e-37
+#define MOST 1e37
+// The fragment shader has uniforms of the same kind, perhaps of another precision.
+#define u_LocalViewer u_VertexLocalViewer
+#define u_BackNormal u_VertexBackNormal
+#define u_FrontShininess u_VertexFrontShininess
+#define u_BackShininess u_VertexBackShininess
 #include "lighting/common.glsl"
 
 #ifdef FRAGMENT_NORMALS

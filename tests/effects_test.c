@@ -673,7 +673,7 @@ static void a_light_that_may_touch_the_object_is_guarded(void **state)
     *light = (Light){.kind = LIGHT_POINT, .position = {0, 1, 0}, .diffuse = WHITE, .linear = 1};
     assert_guards("distance attenuation");
     assert_said("guard of the distance: the light may touch the object");
-    assert_said("guard of the attenuation: without constant, where the light touches");
+    assert_said("guard of the attenuation: its denominator may be 0, or too large");
     light->constant = 1e-3;
     assert_guards("distance");
     light->constant = 1e-30;

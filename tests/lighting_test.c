@@ -283,8 +283,8 @@ static void expected_names(const Effects *effects, Names *uniforms, Names *attri
                            Names *varyings)
 {
     const bool two = effects->two_sided;
-    bool place = false, specular = false, at_vertex = false, normal_there = false,
-         place_there = false;
+    bool place = false, at_vertex = false, normal_there = false, place_there = false;
+    bool specular_there = false, specular_at_vertex = false;
     add_name(attributes, "a_Position");
     add_name(uniforms, "u_ClipFromObject");
     for (int g = 0; g < effects->group_count; g++) {
@@ -292,7 +292,8 @@ static void expected_names(const Effects *effects, Names *uniforms, Names *attri
         const bool near = terms->kind != LIGHT_DIRECTIONAL;
         const bool from_place = near || (terms->specular && effects->local_viewer);
         place |= from_place;
-        specular |= terms->specular;
+        specular_there |= terms->specular && !terms->at_vertex;
+        specular_at_vertex |= terms->specular && terms->at_vertex;
         at_vertex |= terms->at_vertex;
         normal_there |= !terms->at_vertex && (terms->diffuse || terms->specular);
         place_there |= !terms->at_vertex && from_place;
@@ -322,8 +323,10 @@ static void expected_names(const Effects *effects, Names *uniforms, Names *attri
         add_sides(uniforms, two, "u_", "Base");
     if (effects->alpha)
         add_sides(uniforms, two, "u_", "Alpha");
-    if (specular)
+    if (specular_there)
         add_sides(uniforms, two, "u_", "Shininess");
+    if (specular_at_vertex)
+        add_sides(uniforms, two, "u_Vertex", "Shininess");
     if (at_vertex)
         add_sides(varyings, two, "v_", "Color");
     if (normal_there)

@@ -15,6 +15,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { WIDTH = 280, HEIGHT = 216, LEAST_ROUNDS = 7, MOST_ROUNDS = 99, MOST_FRAMES = 8 };
 
@@ -110,7 +111,6 @@ static HardError error_of(const Image *image, const Reference *exact)
 
 static bool draw_ways(Way *naive, Way *stable, HardResult *result, Message *message)
 {
-    const HardCase *of = result->of;
     const Canvas *canvas = naive->canvas;
     const ReferenceOptions options = {
         .width = canvas->width, .height = canvas->height, .meshes = true};
@@ -118,14 +118,30 @@ static bool draw_ways(Way *naive, Way *stable, HardResult *result, Message *mess
         !image_open(&result->stable, canvas->width, canvas->height, IMAGE_BYTE, message) ||
         !reference_open(&result->exact, stable->scene, &options, message))
         return false;
-    lighting_use_normal_matrix(naive->lighting, of->normal_matrix);
-    lighting_use_transforms(naive->lighting, of->transforms ? of->transforms() : NULL);
     if (!draw(naive, message) || !canvas_read(canvas, &result->naive, message) ||
         !draw(stable, message) || !canvas_read(canvas, &result->stable, message))
         return false;
     result->naive_error = error_of(&result->naive, &result->exact);
     result->stable_error = error_of(&result->stable, &result->exact);
-    return measure(naive, stable, result, message);
+    return true;
+}
+
+/* As the case has it; with `first`, only the first of the files is replaced. */
+static bool open_naive(Lighting **lighting, const HardCase *of, const ShaderLoader *stable,
+                       ShaderReplacement replaced[3], bool first, Message *message)
+{
+    ShaderLoader loader = *stable;
+    memcpy(replaced, of->replaced, sizeof of->replaced);
+    if (first)
+        replaced[1] = (ShaderReplacement){NULL, NULL};
+    loader.replacements = replaced;
+    if (of->precision)
+        loader.precision = of->precision;
+    if (!lighting_open(lighting, &loader, message))
+        return false;
+    lighting_use_normal_matrix(*lighting, of->normal_matrix);
+    lighting_use_transforms(*lighting, of->transforms ? of->transforms() : NULL);
+    return true;
 }
 
 static bool draw_case(const HardCase *of, const Canvas *first, const Options *options,
@@ -137,21 +153,20 @@ static bool draw_case(const HardCase *of, const Canvas *first, const Options *op
     const CanvasOptions size = {.width = own ? of->width : options->width,
                                 .height = own ? of->height : options->height};
     const ShaderLoader loader = {.folder = options->shaders.folder, .precision = "highp"};
-    ShaderLoader naive_loader = loader;
-    if (of->precision)
-        naive_loader.precision = of->precision;
-    if (of->replaced[0].name)
-        naive_loader.replacements = of->replaced;
+    ShaderReplacement replaced[2][3];
     result->of = of;
     if (!canvas_open_beside(&canvas, first, &size, message))
         return false;
     Way naive = {.scene = &made.naive, .canvas = &canvas};
-    Way stable = {.scene = &made.scene, .canvas = &canvas};
+    Way timed = naive, stable = {.scene = &made.scene, .canvas = &canvas};
     const bool done = hard_scene_open(&made, of, message) &&
-                      lighting_open(&naive.lighting, &naive_loader, message) &&
+                      open_naive(&naive.lighting, of, &loader, replaced[0], false, message) &&
+                      open_naive(&timed.lighting, of, &loader, replaced[1], true, message) &&
                       lighting_open(&stable.lighting, &loader, message) &&
-                      draw_ways(&naive, &stable, result, message);
+                      draw_ways(&naive, &stable, result, message) &&
+                      measure(&timed, &stable, result, message);
     lighting_close(naive.lighting);
+    lighting_close(timed.lighting);
     lighting_close(stable.lighting);
     hard_scene_close(&made);
     canvas_close(&canvas);

@@ -21,7 +21,8 @@ typedef struct HardCase {
     bool (*make)(HardScene *made, Message *message);
     /* How the plain formula differs, each NULL where it does not: */
     void (*spoil)(HardScene *made);
-    ShaderReplacement replaced[3]; /* ended by a NULL name */
+    ShaderReplacement replaced[3]; /* ended by a NULL name. Times are those with the first alone:
+                                      the second lets its result be seen */
     const char *precision;
     LightingNormalMatrix *normal_matrix;
     const LightingTransforms *(*transforms)(void);

@@ -64,11 +64,11 @@ void GROUP(vec3 normal, vec3 position, vec3 viewer, bool front, inout vec3 color
         vec3 to_light = way * inversesqrt(square);
 #endif
 #ifdef ATTENUATION
-        float denominator = dot(u_Attenuation[i], vec3(1.0, sqrt(square), square));
 #ifdef GUARD_ATTENUATION
-        share = safe_inverse(denominator);
+        float held = min(square, MOST); // 0 times infinity is no number
+        share = safe_inverse(dot(u_Attenuation[i], vec3(1.0, sqrt(held), held)));
 #else
-        share = 1.0 / denominator;
+        share = 1.0 / dot(u_Attenuation[i], vec3(1.0, sqrt(square), square));
 #endif
 #endif
 #endif
