@@ -18,7 +18,7 @@ packages_to_draw="gcc g++ libc6-dev pkg-config meson ninja-build libegl-dev libg
     fonts-dejavu-core"
 # Of the programs in examples/study: plots, and counts of operations.
 packages_to_study="gnuplot-nox glslang-tools spirv-tools"
-packages_to_test="libcmocka-dev libosmesa6-dev python3"
+packages_to_test="libcmocka-dev libosmesa6-dev libcglm-dev libglm-dev python3"
 
 say() {
     printf '%s: %s\n' "${self#"$root"/}" "$*" >&2
