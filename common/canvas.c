@@ -209,6 +209,10 @@ bool canvas_open(Canvas *canvas, const CanvasOptions *options, Message *message)
     if (gl_load(canvas->backend->address, message)) {
         canvas->renderer = (const char *)glGetString(GL_RENDERER);
         canvas->version = (const char *)glGetString(GL_VERSION);
+        /* Desktop OpenGL lets a shader say how large a point is only where it is told to. */
+        enum { PROGRAM_POINT_SIZE = 0x8642 };
+        if (gl_desktop())
+            glEnable(PROGRAM_POINT_SIZE);
         if (make_canvas(canvas, options, message))
             return true;
     }

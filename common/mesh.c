@@ -218,9 +218,12 @@ bool mesh_check(const Mesh *mesh, Message *message)
 bool mesh_flatten(Mesh *mesh, Message *message)
 {
     Mesh flat;
-    if (!mesh_check(mesh, message) ||
-        !mesh_open(&flat, mesh->index_count, mesh->index_count, message))
+    if (!mesh_open(&flat, mesh->index_count, mesh->index_count, message))
         return false;
+    if (!mesh_check(mesh, message)) {
+        mesh_close(&flat);
+        return false;
+    }
     uint32_t count = 0;
     for (size_t triangle = 0; triangle < mesh->index_count / 3; triangle++) {
         Vec3 normal;

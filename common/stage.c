@@ -398,10 +398,11 @@ static void doctor_library(const char *what, const char *const *names, const cha
 int stage_doctor(void)
 {
     static const char *const glfw[] = {"libglfw.so.3", NULL};
-    bool works = false;
+    const CanvasBackend *usual = canvas_default_backend(NULL), *works = NULL;
     for (int i = 0; CANVAS_BACKENDS[i]; i++) {
         printf("%s: %s\n", CANVAS_BACKENDS[i]->name, CANVAS_BACKENDS[i]->summary);
-        works |= CANVAS_BACKENDS[i]->doctor();
+        if (CANVAS_BACKENDS[i]->doctor() && (!works || CANVAS_BACKENDS[i] == usual))
+            works = CANVAS_BACKENDS[i];
     }
     printf("pictures:\n");
     image_doctor();
@@ -409,6 +410,11 @@ int stage_doctor(void)
     model_doctor();
     printf("libraries that nothing needs yet:\n");
     doctor_library("GLFW", glfw, "libglfw3");
-    printf(works ? "This machine can draw.\n" : "This machine cannot draw yet.\n");
+    if (works && works == usual)
+        printf("This machine can draw.\n");
+    else if (works)
+        printf("This machine can draw with --backend %s.\n", works->name);
+    else
+        printf("This machine cannot draw yet.\n");
     return works ? 0 : EXIT_FAILED;
 }
