@@ -1,6 +1,7 @@
 #include "marks.h"
 
 #include <stddef.h>
+#include <math.h>
 #include <stdlib.h>
 
 static void add(MarkList *list, Vec3 position, Vec3 color)
@@ -98,6 +99,18 @@ bool marks_open(Marks *marks, const ShaderLoader *loader, Message *message)
     return true;
 }
 
+/* Those whose middle is seen: drivers differ in whether they draw what of another reaches into the
+ * picture. */
+static void draw_points(const MarkList *list, Mat4 clip_from_world)
+{
+    for (int i = 0; i < list->count; i++) {
+        const Vec3 place = to_vec3(list->vertices[i].position);
+        const Vec4 clip = mat4_transform(clip_from_world, (Vec4){place.x, place.y, place.z, 1});
+        if (fabs(clip.x) <= clip.w && fabs(clip.y) <= clip.w && fabs(clip.z) <= clip.w)
+            glDrawArrays(GL_POINTS, i, 1);
+    }
+}
+
 bool marks_draw(const Marks *marks, const MarkList *list, GLenum mode, double size,
                 const Scene *scene, double aspect, Message *message)
 {
@@ -111,8 +124,9 @@ bool marks_draw(const Marks *marks, const MarkList *list, GLenum mode, double si
     const GLuint position = (GLuint)marks->a_Position, color = (GLuint)marks->a_Color;
     const GLsizei stride = (GLsizei)sizeof(MarkVertex);
     const float point_size = (float)size;
+    const Mat4 clip_from_world = mat4_product(clip_from_eye, eye_from_world);
     glUseProgram(marks->shader.program);
-    shader_set_mat4(marks->u_ClipFromWorld, mat4_product(clip_from_eye, eye_from_world));
+    shader_set_mat4(marks->u_ClipFromWorld, clip_from_world);
     glUniform1fv(marks->u_PointSize, 1, &point_size);
     glBindBuffer(GL_ARRAY_BUFFER, marks->buffer);
     glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)((size_t)list->count * sizeof *list->vertices),
@@ -123,7 +137,10 @@ bool marks_draw(const Marks *marks, const MarkList *list, GLenum mode, double si
                           (const void *)offsetof(MarkVertex, position));
     glVertexAttribPointer(color, 3, GL_FLOAT, GL_FALSE, stride,
                           (const void *)offsetof(MarkVertex, color));
-    glDrawArrays(mode, 0, list->count);
+    if (mode == GL_POINTS)
+        draw_points(list, clip_from_world);
+    else
+        glDrawArrays(mode, 0, list->count);
     glDisableVertexAttribArray(color);
     return true;
 }
