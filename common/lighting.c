@@ -134,11 +134,17 @@ static char *groups_text(const Effects *effects, bool at_vertex)
     return text;
 }
 
+/* Whether fragments may be computed in 16 bits. */
+static bool is_mediump(const ShaderLoader *loader)
+{
+    return loader->precision && strcmp(loader->precision, "mediump") == 0;
+}
+
 /* In 16 bits, where effects' proofs of what cannot be do not hold, every guard is compiled in. */
 static bool recipe_open(Recipe *recipe, const Effects *wanted, const ShaderLoader *loader,
                         Message *message)
 {
-    const bool mediump = loader->precision && strcmp(loader->precision, "mediump") == 0;
+    const bool mediump = is_mediump(loader);
     Effects guarded = *wanted;
     if (mediump)
         effects_guard(&guarded);
@@ -370,21 +376,28 @@ static Vec3 base_color(const Scene *scene, const Material *material, bool full)
     return sum;
 }
 
+static Vec3 at_most(Vec3 a, double most)
+{
+    return (Vec3){fmin(a.x, most), fmin(a.y, most), fmin(a.z, most)};
+}
+
 /* The products of a group's lights with a material, in the six colour uniforms. */
 static void set_colors(GLuint program, const Scene *scene, const LightGroup *group, int g,
-                       const Material *material, const char *const names[3])
+                       const Material *material, bool mediump, const char *const names[3])
 {
+    /* In 16 bits more than 65504 is infinite, and infinity times a share of 0 no number. The three
+     * terms are added before they are multiplied. */
+    const double most = mediump && !group->terms.at_vertex ? 2e4 : INFINITY;
     float values[3][3 * EFFECTS_MOST_LIGHTS];
     for (int i = 0; i < group->count; i++) {
         const Light *light = &scene->lights[group->lights[i]];
         /* In the full program a light that is off is black, and attenuation has its own uniform. */
         const double share = light->off ? 0 : group->terms.any ? 1 : constant_share(light);
-        vec3_to_float(vec3_scale(multiply(light->ambient, material->ambient), share),
-                      &values[0][3 * i]);
-        vec3_to_float(vec3_scale(multiply(light->diffuse, material->diffuse), share),
-                      &values[1][3 * i]);
-        vec3_to_float(vec3_scale(multiply(light->specular, material->specular), share),
-                      &values[2][3 * i]);
+        const Vec3 products[3] = {multiply(light->ambient, material->ambient),
+                                  multiply(light->diffuse, material->diffuse),
+                                  multiply(light->specular, material->specular)};
+        for (int k = 0; k < 3; k++)
+            vec3_to_float(at_most(vec3_scale(products[k], share), most), &values[k][3 * i]);
     }
     for (int k = 0; k < 3; k++)
         set_array(program, names[k], g, 3, group->count, values[k]);
@@ -432,7 +445,7 @@ static void set_group(GLuint program, const LightingTransforms *transforms, cons
 }
 
 static void set_materials(GLuint program, const Scene *scene, const Object *object,
-                          const Effects *effects, bool full)
+                          const Effects *effects, bool full, bool mediump)
 {
     static const char *const front[3] = {"u_FrontAmbient", "u_FrontDiffuse", "u_FrontSpecular"};
     static const char *const back[3] = {"u_BackAmbient", "u_BackDiffuse", "u_BackSpecular"};
@@ -443,7 +456,7 @@ static void set_materials(GLuint program, const Scene *scene, const Object *obje
     set_float(program, "u_FrontShininess", object->front.shininess);
     set_float(program, "u_VertexFrontShininess", object->front.shininess);
     for (int g = 0; g < effects->group_count; g++)
-        set_colors(program, scene, &effects->groups[g], g, &object->front, front);
+        set_colors(program, scene, &effects->groups[g], g, &object->front, mediump, front);
     if (!effects->two_sided)
         return;
     set_vec3(program, "u_BackBase", base_color(scene, behind, full));
@@ -453,7 +466,7 @@ static void set_materials(GLuint program, const Scene *scene, const Object *obje
     set_float(program, "u_BackNormal", object->two_sided ? -1 : 1);
     set_float(program, "u_VertexBackNormal", object->two_sided ? -1 : 1);
     for (int g = 0; g < effects->group_count; g++)
-        set_colors(program, scene, &effects->groups[g], g, behind, back);
+        set_colors(program, scene, &effects->groups[g], g, behind, mediump, back);
 }
 
 /* Drawing. */
@@ -496,7 +509,7 @@ static bool draw_object(Lighting *lighting, const Scene *scene, const Object *ob
     set_mat4(program, "u_NormalMatrix", normal_matrix);
     set_float(program, "u_LocalViewer", scene->distant_viewer ? 0 : 1);
     set_float(program, "u_VertexLocalViewer", scene->distant_viewer ? 0 : 1);
-    set_materials(program, scene, object, &effects, full);
+    set_materials(program, scene, object, &effects, full, is_mediump(&lighting->loader));
     for (int g = 0; g < effects.group_count; g++)
         set_group(program, transforms, scene, eye_from_world, &effects.groups[g], g);
 

@@ -25,7 +25,7 @@
 #include <cmocka.h>
 
 /* Scenes of one kind share programs, of which each costs more than many pictures. */
-enum { SIZE = 32, PER_KIND = 60, SCENES = 1000, HASHED = 24 };
+enum { SIZE = 32, PER_KIND = 60, SCENES = 2500, HASHED = 24 };
 
 static Hard hard;
 static Canvas wide;
