@@ -254,12 +254,13 @@ static void curves_leave_out_what_is_not_known(void **state)
     static const double nothing[] = {NAN, NAN, NAN, NAN, NAN};
     const ReportSeries series[] = {{"one", x, y, 5}, {"none's", x, nothing, 5}, {"empty", x, y, 0}};
     for (int i = 0; i < 4; i++) {
-        const ReportAxes axes = {"title", "x", "y", i % 2 == 1, i / 2 == 1};
+        const ReportAxes axes = {"title", "x", "y", i % 2 == 1, i / 2 == 1, i ? "a foot" : NULL};
         message = (Message){0};
         if (!report_curves(&axes, series, 3, "out", "curves", &message))
             fail_msg("%s", message.text);
         char *svg = drawn("curves");
         assert_non_null(strstr(svg, "none's"));
+        assert_int_equal(strstr(svg, "a foot") != NULL, i > 0);
         assert_int_equal(strstr(svg, "drawn at the lower end") != NULL, i / 2 == 1);
         free(svg);
     }
@@ -313,8 +314,8 @@ static void a_plot_without_a_folder_says_so(void **state)
     assert_false(report_plot(&results, "sphere", "", ERROR_ALL_RMS, "nowhere", &message));
     assert_non_null(strstr(message.text, "nowhere/sphere.svg: the folder nowhere/ does not exist"));
     message = (Message){0};
-    assert_false(
-        report_curves(&(ReportAxes){"", "", "", false, false}, NULL, 0, "out", "../x", &message));
+    assert_false(report_curves(&(ReportAxes){"", "", "", false, false, NULL}, NULL, 0, "out",
+                               "../x", &message));
     assert_non_null(strstr(message.text, "../x: cannot be a file's name"));
 }
 

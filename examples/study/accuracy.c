@@ -131,14 +131,15 @@ static bool write_sheet(Survey *survey, const char *name, const Scene *drawn,
 {
     Drawing drawing;
     DrawingError error;
-    char text[SETTING_TEXT_SIZE], caption[SETTING_TEXT_SIZE + 160];
+    char text[SETTING_TEXT_SIZE], caption[SETTING_TEXT_SIZE + 320];
     if (!drawing_open(&drawing, survey->studio, drawn, setting, message))
         return false;
     bool done = drawing_error(&drawing, survey->studio, exact, &error, message);
     setting_text(setting, text);
     snprintf(caption, sizeof caption,
-             "%s: %s. Interior: largest error %.2f, rms %.3f; all: rms %.2f", name, text,
-             error.interior_maximum, error.interior_rms, error.all_rms);
+             "%s: %s. Interior: largest error %.2f, rms %.3f; all: rms %.2f. %s, LP_NUM_THREADS %s",
+             name, text, error.interior_maximum, error.interior_rms, error.all_rms,
+             survey->like.renderer, survey->like.threads);
     done = done && report_sheet(&drawing.image, exact, caption, path, message);
     drawing_close(&drawing);
     return done;

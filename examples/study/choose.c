@@ -33,8 +33,9 @@ static int place_of(const Front *front, const ResultRow *row)
 
 static void say_measured_with(const Survey *survey)
 {
-    printf("measured with %s, LP_NUM_THREADS %s, %dx%d, seed %u\n", survey->like.renderer,
-           survey->like.threads, survey->like.width, survey->like.height, survey->like.seed);
+    char with[RESULT_WITH_SIZE];
+    results_measured_with(&survey->like, with);
+    printf("measured with %s\n", with);
 }
 
 bool choose_by_error(Survey *survey, int scene, double error, bool rms, Message *message)

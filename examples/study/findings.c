@@ -39,10 +39,12 @@ static void follow(const Results *results, const char *scene, Setting setting, S
     }
 }
 
-static bool plot_interpolation(const Results *results, const char *folder, Message *message)
+static bool plot_interpolation(const Results *results, const char *foot, const char *folder,
+                               Message *message)
 {
     static const char *const names[] = {"Phong", "Gouraud", "flat"};
-    static const ReportAxes axes = {
+    const ReportAxes axes = {
+        .foot = foot,
         .title = "Interpolation: shiny32, with 6, 8, 12 ... 512 divisions from left to right",
         .x = "time of a frame in ms",
         .y = "largest error inside, in steps of 1/255",
@@ -61,9 +63,11 @@ static bool plot_interpolation(const Results *results, const char *folder, Messa
     return points == 0 || report_curves(&axes, series, 3, folder, "finding-interpolation", message);
 }
 
-static bool plot_antialiasing(const Results *results, const char *folder, Message *message)
+static bool plot_antialiasing(const Results *results, const char *foot, const char *folder,
+                              Message *message)
 {
-    static const ReportAxes axes = {
+    const ReportAxes axes = {
+        .foot = foot,
         .title = "Antialiasing: sphere",
         .x = "time of a frame in ms",
         .y = "root mean square error of all pixels, in steps of 1/255",
@@ -100,6 +104,7 @@ enum { MOST_BARS = 12 };
 typedef struct Bars {
     const char *title, *y;
     const char *names[2]; /* of the values; the second may be NULL */
+    const char *foot;     /* as in ReportAxes */
     double floor;         /* where bars begin; more than 0: a logarithmic axis */
     struct {
         char name[48], note[48];
@@ -117,6 +122,7 @@ static bool draw_bars(const Bars *bars, const char *folder, const char *name, Me
     FILE *file = bars->count ? open_memstream(&script, &size) : NULL;
     if (!file)
         return bars->count == 0 || message_set(message, "%s: not enough memory", name);
+    gnuplot_foot(file, bars->foot);
     fputs("set encoding utf8\nset border 3 lc rgb '#444444'\nset title ", file);
     gnuplot_string(file, bars->title);
     fputs(" font ',16'\nset grid y lc rgb '#dddddd' lw 0.6 lt 1\nset ylabel ", file);
@@ -137,7 +143,7 @@ static bool draw_bars(const Bars *bars, const char *folder, const char *name, Me
     fputs("EOD\n", file);
     const bool log = bars->floor > 0;
     gnuplot_axis(file, 'y', bars->floor, log ? most * 2 : most * 1.15, log);
-    fputs("set xtics nomirror out scale 0 (", file);
+    fputs("set xtics nomirror out scale 0 font ',10' (", file);
     for (int i = 0; i < bars->count; i++) {
         char label[128];
         snprintf(label, sizeof label, "%s", bars->bars[i].name);
@@ -217,16 +223,20 @@ static void fill_guards(const ResultRow *usual, const ResultRow *other, double v
         snprintf(note, 48, "within noise");
 }
 
-static bool plot_by_scenes(const Results *results, const char *folder, Message *message)
+static bool plot_by_scenes(const Results *results, const char *foot, const char *folder,
+                           Message *message)
 {
-    Bars precision = {.title = "Precision of fragment shaders: the largest error inside",
+    Bars precision = {.foot = foot,
+                      .title = "Precision of fragment shaders: the largest error inside",
                       .y = "steps of 1/255",
                       .names = {"highp", "mediump"},
                       .floor = 0.1};
-    Bars guards = {.title = "Guards: the time of a frame with them, over that without",
+    Bars guards = {.foot = foot,
+                   .title = "Guards: the time of a frame with them, over that without",
                    .y = "ratio of times",
                    .names = {"with guards over without", NULL}};
-    Bars viewer = {.title = "A viewer at infinity: the largest error inside",
+    Bars viewer = {.foot = foot,
+                   .title = "A viewer at infinity: the largest error inside",
                    .y = "steps of 1/255",
                    .names = {"local viewer", "infinite viewer"},
                    .floor = 0.1};
@@ -295,10 +305,13 @@ static double time_composition(const char *text)
 
 void findings_matrices(const Results *results, FILE *file)
 {
+    char with[RESULT_WITH_SIZE] = "";
+    if (results->count)
+        results_measured_with(&results->rows[results->count - 1], with);
     fprintf(file,
             "\nMatrices of one object and place of one light; scene far, a million units from "
-            "the origin\n  %-38s %10s  %s\n",
-            "setting", "ns", "largest error inside, steps of 1/255");
+            "the origin\n%s\n  %-38s %10s  %s\n",
+            with, "setting", "ns", "largest error inside, steps of 1/255");
     for (int i = 0; i < COMPOSITION_COUNT; i++) {
         const ResultRow *row = row_of(results, "far", COMPOSITIONS[i]);
         fprintf(file, "  %-38s %10.0f", COMPOSITIONS[i], time_composition(COMPOSITIONS[i]));
@@ -309,11 +322,13 @@ void findings_matrices(const Results *results, FILE *file)
     }
 }
 
-static bool plot_matrices(const Results *results, const char *folder, Message *message)
+static bool plot_matrices(const Results *results, const char *foot, const char *folder,
+                          Message *message)
 {
     static const char *const names[COMPOSITION_COUNT] = {
         "double", "float", "compensated", "double, lect.", "float, lect.", "comp., lect."};
-    Bars bars = {.title = "Matrices, a million units from the origin: the largest error inside",
+    Bars bars = {.foot = foot,
+                 .title = "Matrices, a million units from the origin: the largest error inside",
                  .y = "steps of 1/255",
                  .names = {"relative to the eye; lect.: in the lecture's order", NULL},
                  .floor = 0.1};
@@ -326,12 +341,18 @@ static bool plot_matrices(const Results *results, const char *folder, Message *m
                  time_composition(COMPOSITIONS[i]));
         bars.bars[bars.count++].values[0] = row->interior_maximum;
     }
+    if (bars.count < 2)
+        return true; /* nothing to compare */
     return draw_bars(&bars, folder, "finding-matrices", message);
 }
 
 bool findings_plot(const Results *results, const char *folder, Message *message)
 {
-    return plot_interpolation(results, folder, message) &&
-           plot_by_scenes(results, folder, message) &&
-           plot_antialiasing(results, folder, message) && plot_matrices(results, folder, message);
+    char foot[RESULT_WITH_SIZE] = "";
+    if (results->count)
+        results_measured_with(&results->rows[results->count - 1], foot);
+    return plot_interpolation(results, foot, folder, message) &&
+           plot_by_scenes(results, foot, folder, message) &&
+           plot_antialiasing(results, foot, folder, message) &&
+           plot_matrices(results, foot, folder, message);
 }

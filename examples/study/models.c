@@ -78,7 +78,8 @@ static bool measure(Survey *survey, Model models[MODELS], Message *message)
     return true;
 }
 
-static void print_models(const Model models[MODELS], double phong, FILE *table, FILE *csv)
+static void print_models(const Model models[MODELS], double phong, const ResultRow *like,
+                         FILE *table, FILE *csv)
 {
     for (int i = 0; i < MODELS; i++) {
         const Model *model = &models[i];
@@ -96,10 +97,10 @@ static void print_models(const Model models[MODELS], double phong, FILE *table, 
                 phong, NAMES[i], model->shininess, model->error.interior_maximum,
                 model->error.interior_rms, model->apart_maximum, model->apart_rms, time, ratio,
                 lower, upper, model->operations);
-        fprintf(csv, "%g,\"%s\",%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%d\n", phong, NAMES[i],
-                model->shininess, model->error.interior_maximum, model->error.interior_rms,
-                model->apart_maximum, model->apart_rms, time, ratio, lower, upper,
-                model->operations);
+        fprintf(csv, "%g,\"%s\",%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%d,\"%s\",\"%s\"\n",
+                phong, NAMES[i], model->shininess, model->error.interior_maximum,
+                model->error.interior_rms, model->apart_maximum, model->apart_rms, time, ratio,
+                lower, upper, model->operations, like->renderer, like->threads);
     }
 }
 
@@ -114,7 +115,7 @@ static bool report_shininess(Survey *survey, double shininess, FILE *table, FILE
         compare(&models[i], &models[PHONG].exact);
     done = done && measure(survey, models, message);
     if (done)
-        print_models(models, shininess, table, csv);
+        print_models(models, shininess, &survey->like, table, csv);
     for (int i = 0; i < MODELS && models; i++) {
         drawing_close(&models[i].drawing);
         reference_close(&models[i].exact);
@@ -130,15 +131,19 @@ bool models_report(Survey *survey, const char *folder, FILE *table, Message *mes
     size_t size = 0;
     FILE *csv = open_memstream(&text, &size);
     bool done = csv || message_set(message, "models.csv: not enough memory");
+    char with[RESULT_WITH_SIZE];
+    results_measured_with(&survey->like, with);
     fprintf(table,
             "\nPhong and Blinn-Phong: a sphere; each against its own exact picture, and its exact "
             "picture\nagainst Phong's (steps of 1/255, interior); milliseconds, and over Phong's "
-            "[quartiles]\n"
+            "[quartiles]\n%s\n"
             "    s  model                shininess  largest     rms  largest     rms       ms  "
-            "ratio                ops\n");
+            "ratio                ops\n",
+            with);
     if (done)
         fprintf(csv, "s,model,shininess,error_maximum,error_rms,apart_maximum,apart_rms,"
-                     "milliseconds,ratio,ratio_lower,ratio_upper,fragment_operations\n");
+                     "milliseconds,ratio,ratio_lower,ratio_upper,fragment_operations,"
+                     "renderer,threads\n");
     for (int i = 0; i < SHININESS_COUNT && done; i++)
         done = report_shininess(survey, SHININESSES[i], table, csv, message);
     if (csv && fclose(csv) != 0 && done)

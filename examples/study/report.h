@@ -32,6 +32,7 @@ typedef struct ReportSeries {
 typedef struct ReportAxes {
     const char *title, *x, *y; /* labels with units */
     bool log_x, log_y;
+    const char *foot; /* a line in small letters at the foot; NULL: none */
 } ReportAxes;
 bool report_curves(const ReportAxes *axes, const ReportSeries *series, int count,
                    const char *folder, const char *name, Message *message);

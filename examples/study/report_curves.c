@@ -98,6 +98,7 @@ bool report_curves(const ReportAxes *axes, const ReportSeries *series, int count
     if (!file)
         return message_set(message, "%s: the plot: %s", name, strerror(ENOMEM));
     const int lines = key_lines(series, count);
+    gnuplot_foot(file, axes->foot);
     fputs("set encoding utf8\nset border 3 lc rgb '#444444'\nset title ", file);
     gnuplot_string(file, axes->title);
     fprintf(file,

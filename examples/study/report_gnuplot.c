@@ -161,6 +161,15 @@ void gnuplot_string(FILE *script, const char *text)
     fputc('\'', script);
 }
 
+void gnuplot_foot(FILE *script, const char *text)
+{
+    if (!text)
+        return;
+    fputs("set label ", script);
+    gnuplot_string(script, text);
+    fputs(" at screen 0.995,0.012 right font ',9' textcolor rgb '#888888'\n", script);
+}
+
 /* Writes the numbers from least to most that are a power of ten times one of these; how many. */
 static int put_decades(FILE *script, double least, double most, const double *factors, int count)
 {

@@ -32,6 +32,9 @@ bool gnuplot_finish(FILE *file, char **script, const size_t *size, bool done, co
 /* Text as a string of a script, in quotes. */
 void gnuplot_string(FILE *script, const char *text);
 
+/* A line in small letters at the foot of a plot: what it was measured with. NULL: none. */
+void gnuplot_foot(FILE *script, const char *text);
+
 /* The range of an axis ('x' or 'y') and its numbers: at 1, 2 and 5 times powers of ten, or as many
  * others as give a few. 0 < least < most where `log`. */
 void gnuplot_axis(FILE *script, char axis, double least, double most, bool log);

@@ -223,6 +223,9 @@ static void put_axes(FILE *script, const Plot *plot, const char *title)
         [ERROR_ALL_RMS] = "RMS error of all pixels",
     };
     char label[160];
+    char with[RESULT_WITH_SIZE];
+    results_measured_with(plot->rows[0], with);
+    gnuplot_foot(script, with);
     fputs("set encoding utf8\nset border 3 lc rgb '#444444'\nset title ", script);
     gnuplot_string(script, title);
     fputs(" font ',17' offset 0,1.6\n", script);

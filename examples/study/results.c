@@ -3,6 +3,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
@@ -10,6 +11,12 @@
 #include <unistd.h>
 
 enum { MOST_LINES = 10 }; /* about broken rows */
+
+void results_measured_with(const ResultRow *row, char text[RESULT_WITH_SIZE])
+{
+    snprintf(text, RESULT_WITH_SIZE, "%s, LP_NUM_THREADS %s, %dx%d, seed %u", row->renderer,
+             row->threads, row->width, row->height, row->seed);
+}
 
 bool results_add(Results *results, const ResultRow *row, Message *message)
 {

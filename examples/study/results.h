@@ -38,6 +38,10 @@ typedef struct Results {
     int count, capacity;
 } Results;
 
+/* What a row was measured with, in one line: renderer, LP_NUM_THREADS, size, seed. */
+enum { RESULT_WITH_SIZE = 256 };
+void results_measured_with(const ResultRow *row, char text[RESULT_WITH_SIZE]);
+
 /* Adds a row. */
 bool results_add(Results *results, const ResultRow *row, Message *message);
 
