@@ -98,8 +98,8 @@ void parameter_help(const Parameter *parameter, FILE *file)
     case PARAMETER_CHOICE:
         fprintf(file, "      --%s ", parameter->name);
         for (int i = 0, column = 0; parameter->choices[i]; i++) {
-            column += fprintf(file, "%s%s", parameter->choices[i],
-                              parameter->choices[i + 1] ? "|" : "");
+            column +=
+                fprintf(file, "%s%s", parameter->choices[i], parameter->choices[i + 1] ? "|" : "");
             if (column > 60 && parameter->choices[i + 1])
                 column = fprintf(file, "\n%14s", "") - 15;
         }
