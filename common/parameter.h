@@ -28,8 +28,8 @@ typedef struct Parameter {
     const char *const *choices; /* NULL-terminated */
 } Parameter;
 
-/* Sets a parameter from the command line; `text` does not count for a flag. The message names it and its range, or for a choice the
- * nearest of those there are. */
+/* Sets a parameter from the command line; `text` does not count for a flag. The message names it
+ * and its range, or for a choice the nearest of those there are. */
 bool parameter_read(const Parameter *parameter, const char *text, Message *message);
 
 /* Writes the parameter's lines of --help: name, range, meaning, default. */
