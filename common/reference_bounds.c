@@ -49,8 +49,10 @@ typedef struct Bin {
 
 static int bin_of(Real value, Real low, Real high)
 {
-    const int bin = (int)(BINS * (value - low) / (high - low));
-    return bin < 0 ? 0 : bin >= BINS ? BINS - 1 : bin;
+    /* No number, or infinite, where the box is too small or too large to be divided. */
+    const Real share = (value - low) / (high - low);
+    const int bin = share > 0 && share < 1 ? (int)(BINS * share) : share >= 1 ? BINS - 1 : 0;
+    return bin < BINS ? bin : BINS - 1;
 }
 
 /* Whether cutting between two bins beats a leaf; where. */
