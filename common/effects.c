@@ -19,23 +19,13 @@ static void say(FILE *file, const char *format, ...)
     fputc('\n', file);
 }
 
-static bool black(Vec3 color)
-{
-    return color.x == 0 && color.y == 0 && color.z == 0;
-}
-
 /* Whether light of this colour is reflected by reflectivity `front`, or `back` where that counts.
  */
 static bool reflected(Vec3 light, Vec3 front, Vec3 back, bool two_sided)
 {
     const Vec3 f = {light.x * front.x, light.y * front.y, light.z * front.z};
     const Vec3 b = {light.x * back.x, light.y * back.y, light.z * back.z};
-    return !black(f) || (two_sided && !black(b));
-}
-
-static Vec3 of_floats(const float v[3])
-{
-    return (Vec3){(double)v[0], (double)v[1], (double)v[2]};
+    return !color_is_black(f) || (two_sided && !color_is_black(b));
 }
 
 MeshFacts mesh_facts(const Mesh *mesh)
@@ -47,8 +37,8 @@ MeshFacts mesh_facts(const Mesh *mesh)
                        .least_cosine = 1};
     Vec3 *low = &facts.low, *high = &facts.high;
     for (size_t i = 0; i < mesh->vertex_count; i++) {
-        const Vec3 p = of_floats(mesh->vertices[i].position);
-        const double length = vec3_length(of_floats(mesh->vertices[i].normal));
+        const Vec3 p = vec3_from_float(mesh->vertices[i].position);
+        const double length = vec3_length(vec3_from_float(mesh->vertices[i].normal));
         *low = (Vec3){fmin(low->x, p.x), fmin(low->y, p.y), fmin(low->z, p.z)};
         *high = (Vec3){fmax(high->x, p.x), fmax(high->y, p.y), fmax(high->z, p.z)};
         /* One that is no number has no length. */
@@ -58,7 +48,7 @@ MeshFacts mesh_facts(const Mesh *mesh)
     for (size_t i = 0; i + 2 < mesh->index_count; i += 3) {
         Vec3 n[3];
         for (size_t k = 0; k < 3; k++)
-            n[k] = of_floats(mesh->vertices[mesh->indices[i + k]].normal);
+            n[k] = vec3_from_float(mesh->vertices[mesh->indices[i + k]].normal);
         for (int k = 0; k < 3; k++) {
             const Vec3 a = n[k], b = n[(k + 1) % 3];
             const double cosine = vec3_dot(a, b) / sqrt(vec3_dot(a, a) * vec3_dot(b, b));
@@ -411,7 +401,7 @@ static void add_light(Effects *effects, int number, const LightTerms *terms, Lig
 static bool has_base(const Scene *scene, const Object *object, bool both)
 {
     const Material *front = &object->front, *back = &object->back;
-    if (!black(front->emission) || (both && !black(back->emission)) ||
+    if (!color_is_black(front->emission) || (both && !color_is_black(back->emission)) ||
         reflected(scene->global_ambient, front->ambient, back->ambient, both))
         return true;
     for (int i = 0; i < scene->light_count; i++) {

@@ -1,5 +1,6 @@
 #include "efficient.h"
 
+#include "module.h"
 #include "output.h"
 #include "parse.h"
 
@@ -13,11 +14,6 @@ const char *const SCENE_CLASS_NAMES[SCENE_CLASS_COUNT + 1] = {
     "spot", "shiny128", "shiny32", "shiny8", "curved", "flat", NULL,
 };
 
-static bool black(Vec3 color)
-{
-    return color.x == 0 && color.y == 0 && color.z == 0;
-}
-
 SceneClass scene_class(const Scene *scene)
 {
     bool curved = false, specular = false;
@@ -26,14 +22,15 @@ SceneClass scene_class(const Scene *scene)
         const Light *light = &scene->lights[i];
         if (!light->off && light->kind == LIGHT_SPOT)
             return SCENE_SPOT;
-        specular |= !light->off && !black(light->specular);
+        specular |= !light->off && !color_is_black(light->specular);
     }
     for (int i = 0; i < scene->object_count; i++) {
         const Object *object = &scene->objects[i];
         curved |= !object->flat;
-        if (specular && !black(object->front.specular) && object->front.shininess > shininess)
+        if (specular && !color_is_black(object->front.specular) &&
+            object->front.shininess > shininess)
             shininess = object->front.shininess;
-        if (specular && object->two_sided && !black(object->back.specular) &&
+        if (specular && object->two_sided && !color_is_black(object->back.specular) &&
             object->back.shininess > shininess)
             shininess = object->back.shininess;
     }
@@ -159,16 +156,9 @@ static bool read_file(Efficient *table, const char *path, Message *message)
 /* The installation's, beside the program: PREFIX/bin, PREFIX/share. */
 static bool installed_path(char path[PATH_MAX])
 {
-    char program[PATH_MAX];
-    const ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
-    if (length < 0)
-        return false;
-    program[length] = '\0';
-    char *slash = strrchr(program, '/');
-    if (!slash)
-        return false;
-    *slash = '\0';
-    return snprintf(path, PATH_MAX, "%s/%s", program, EFFICIENT_RELATIVE) < PATH_MAX;
+    char folder[4096];
+    module_program_folder(folder);
+    return folder[0] && snprintf(path, PATH_MAX, "%s/%s", folder, EFFICIENT_RELATIVE) < PATH_MAX;
 }
 
 bool efficient_read(Efficient *table, Message *message)

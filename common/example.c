@@ -100,6 +100,7 @@ static bool run(const Example *example, const Options *options, Message *message
 int example_main(const Example *example, int argc, char *argv[])
 {
     Options options;
+    int code;
     Message message = {0};
     const Usage usage = {.name = example->name,
                          .summary = example->summary,
@@ -107,15 +108,8 @@ int example_main(const Example *example, int argc, char *argv[])
                          .width = example->width,
                          .height = example->height,
                          .parameters = example->parameters};
-    options_prepare_process();
-    switch (options_read(&options, &usage, argc, argv, &message)) {
-    case OPTIONS_ANSWERED:
-        return options_finish(example->name, 0);
-    case OPTIONS_BAD:
-        return options_fail(example->name, &message, EXIT_USAGE);
-    case OPTIONS_RUN:
-        break;
-    }
+    if (!options_begin(&options, &usage, argc, argv, &code))
+        return code;
     if (options.explain) /* with the shaders, as the driver is given them */
         options.shaders.print = SHADER_PRINT_VERTEX | SHADER_PRINT_FRAGMENT;
     if (options.doctor)

@@ -29,6 +29,12 @@ typedef struct Light {
     double constant, linear, quadratic;
 } Light;
 
+/* Whether a light of this colour, or what reflects it, gives nothing. */
+static inline bool color_is_black(Vec3 color)
+{
+    return color.x == 0 && color.y == 0 && color.z == 0;
+}
+
 /* Whether less of it arrives at a greater distance. */
 static inline bool light_fades(const Light *light)
 {

@@ -472,7 +472,8 @@ static void set_materials(GLuint program, const Scene *scene, const Object *obje
 /* Drawing. */
 
 static bool draw_object(Lighting *lighting, const Scene *scene, const Object *object,
-                        Mat4 eye_from_world, Mat4 clip_from_eye, bool full, Message *message)
+                        Mat4 eye_from_world, Mat4 clip_from_eye, bool full, bool samples,
+                        Message *message)
 {
     const bool flatten = scene->interpolation == INTERPOLATION_FLAT && !object->flat;
     const Buffered *buffered = find_buffer(lighting, object->mesh, flatten, message);
@@ -480,9 +481,7 @@ static bool draw_object(Lighting *lighting, const Scene *scene, const Object *ob
         return false;
     Effects effects =
         full ? effects_full(scene, object) : effects_of_facts(scene, object, &buffered->facts);
-    GLint samples = 0;
-    glGetIntegerv(GL_SAMPLES, &samples);
-    if (samples > 1)
+    if (samples)
         effects_guard(&effects);
     if (lighting->normal_matrix && effects.normals)
         effects.normal_matrix = effects.normalize_vertex = true;
@@ -537,12 +536,14 @@ bool lighting_draw(Lighting *lighting, const Scene *scene, double aspect, bool f
     if (scene->light_count > EFFECTS_MOST_LIGHTS)
         return message_set(message, "scene: %d lights: at most %d fit into one program",
                            scene->light_count, EFFECTS_MOST_LIGHTS);
+    GLint samples = 0;
+    glGetIntegerv(GL_SAMPLES, &samples);
     glEnable(GL_DEPTH_TEST);
     bool done = true;
     for (int i = 0; i < scene->object_count && done; i++) {
         Message why = {.located = false};
         done = draw_object(lighting, scene, &scene->objects[i], eye_from_world, clip_from_eye, full,
-                           &why);
+                           samples > 1, &why);
         if (!done && why.located && message)
             *message = why; /* a shader's, which begins with its place */
         else if (!done)

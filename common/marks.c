@@ -39,19 +39,16 @@ void marks_add_axes(MarkList *list, double length)
         marks_add_line(list, (Vec3){0, 0, 0}, vec3_scale(axes[i], length), axes[i]);
 }
 
-static Vec3 to_vec3(const float v[3])
-{
-    return (Vec3){(double)v[0], (double)v[1], (double)v[2]};
-}
-
 void marks_add_normals(MarkList *list, const Mesh *mesh, Mat4 world_from_object, Mat4 normal_matrix,
                        double length, Vec3 color)
 {
     for (size_t i = 0; i < mesh->vertex_count; i++) {
         const MeshVertex *vertex = &mesh->vertices[i];
-        const Vec3 foot = mat4_transform_point(world_from_object, to_vec3(vertex->position));
+        const Vec3 foot =
+            mat4_transform_point(world_from_object, vec3_from_float(vertex->position));
         Vec3 unit;
-        vec3_normalize(mat4_transform_direction(normal_matrix, to_vec3(vertex->normal)), &unit);
+        vec3_normalize(mat4_transform_direction(normal_matrix, vec3_from_float(vertex->normal)),
+                       &unit);
         marks_add_line(list, foot, vec3_add(foot, vec3_scale(unit, length)), color);
     }
 }
@@ -62,7 +59,7 @@ void marks_add_edges(MarkList *list, const Mesh *mesh, Mat4 world_from_object, V
         Vec3 corners[3];
         for (size_t k = 0; k < 3; k++)
             corners[k] = mat4_transform_point(
-                world_from_object, to_vec3(mesh->vertices[mesh->indices[i + k]].position));
+                world_from_object, vec3_from_float(mesh->vertices[mesh->indices[i + k]].position));
         for (int k = 0; k < 3; k++)
             marks_add_line(list, corners[k], corners[(k + 1) % 3], color);
     }
@@ -104,7 +101,7 @@ bool marks_open(Marks *marks, const ShaderLoader *loader, Message *message)
 static void draw_points(const MarkList *list, Mat4 clip_from_world)
 {
     for (int i = 0; i < list->count; i++) {
-        const Vec3 place = to_vec3(list->vertices[i].position);
+        const Vec3 place = vec3_from_float(list->vertices[i].position);
         const Vec4 clip = mat4_transform(clip_from_world, (Vec4){place.x, place.y, place.z, 1});
         if (fabs(clip.x) <= clip.w && fabs(clip.y) <= clip.w && fabs(clip.z) <= clip.w)
             glDrawArrays(GL_POINTS, i, 1);

@@ -503,3 +503,8 @@ void vec3_to_float(Vec3 a, float out[3])
     out[1] = (float)a.y;
     out[2] = (float)a.z;
 }
+
+Vec3 vec3_from_float(const float v[3])
+{
+    return (Vec3){(double)v[0], (double)v[1], (double)v[2]};
+}

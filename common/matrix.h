@@ -127,4 +127,7 @@ bool mat4_normal(Mat4 a, Mat4 *normal_matrix);
 void mat4_to_float(Mat4 a, float out[16]);
 void vec3_to_float(Vec3 a, float out[3]);
 
+/* The vector of three floats, exactly. */
+Vec3 vec3_from_float(const float v[3]);
+
 #endif

@@ -31,7 +31,7 @@ static bool is_unit(const float v[3])
 static void make_unit(float v[3])
 {
     Vec3 unit;
-    if (!is_unit(v) && vec3_normalize((Vec3){(double)v[0], (double)v[1], (double)v[2]}, &unit))
+    if (!is_unit(v) && vec3_normalize(vec3_from_float(v), &unit))
         vec3_to_float(unit, v);
 }
 

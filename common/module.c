@@ -5,8 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* The folder that the program is in. */
-static void program_folder(char folder[4096])
+void module_program_folder(char folder[4096])
 {
     const ssize_t length = readlink("/proc/self/exe", folder, 4095);
     folder[length > 0 ? length : 0] = '\0';
@@ -28,7 +27,7 @@ void *module_entry(const ModuleName *name, Message *message)
     char folder[4096], path[2][8192], reason[1024] = "";
     void *library = NULL;
     int count = 1;
-    program_folder(folder);
+    module_program_folder(folder);
     if (is_in(folder, BUILD_ROOT)) {
         snprintf(path[0], sizeof path[0], "%s/%s", MODULES_BUILT, name->file);
     } else {

@@ -19,4 +19,7 @@ typedef struct ModuleName {
  * cannot; the message names the package. */
 void *module_entry(const ModuleName *name, Message *message);
 
+/* The folder that the program is in; empty where that is not known. */
+void module_program_folder(char folder[4096]);
+
 #endif

@@ -467,3 +467,20 @@ int options_finish(const char *program, int code)
     }
     return code;
 }
+
+bool options_begin(Options *options, const Usage *usage, int argc, char *argv[], int *code)
+{
+    Message message = {0};
+    options_prepare_process();
+    switch (options_read(options, usage, argc, argv, &message)) {
+    case OPTIONS_ANSWERED:
+        *code = options_finish(usage->name, 0);
+        return false;
+    case OPTIONS_BAD:
+        *code = options_fail(usage->name, &message, EXIT_USAGE);
+        return false;
+    case OPTIONS_RUN:
+        break;
+    }
+    return true;
+}

@@ -73,6 +73,10 @@ OptionsResult options_read(Options *options, const Usage *usage, int argc, char 
  * and file sizes into errors of the write. */
 void options_prepare_process(void);
 
+/* The beginning of a program: options_prepare_process and options_read, with what those have to
+ * say. False where it is to return *code at once. */
+bool options_begin(Options *options, const Usage *usage, int argc, char *argv[], int *code);
+
 /* Says a message on standard error and returns `code`. */
 int options_fail(const char *program, const Message *message, int code);
 

@@ -6,6 +6,13 @@
 /* Each check leaves a message that begins with its subject, "light 2: cutoff". */
 
 /* Squares of distances must fit into a float. */
+const char *const REFLECTION_NAMES[] = {
+    [REFLECTION_BLINN_PHONG] = "blinn-phong", [REFLECTION_PHONG] = "phong", NULL};
+const char *const INTERPOLATION_NAMES[] = {[INTERPOLATION_PHONG] = "phong",
+                                           [INTERPOLATION_GOURAUD] = "gouraud",
+                                           [INTERPOLATION_FLAT] = "flat",
+                                           NULL};
+
 static const double MOST_POSITION = 1e15;
 
 static bool in_range(Vec3 v)

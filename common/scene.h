@@ -32,6 +32,10 @@ typedef enum Interpolation {
     INTERPOLATION_FLAT,    /* one normal for each triangle, light at its vertices */
 } Interpolation;
 
+/* Their names by number, NULL-terminated, for a PARAMETER_CHOICE. */
+extern const char *const REFLECTION_NAMES[];    /* "blinn-phong", "phong" */
+extern const char *const INTERPOLATION_NAMES[]; /* "phong", "gouraud", "flat" */
+
 typedef struct Object {
     const Mesh *mesh;
     Solid solid; /* what the mesh stands for; zeroed, the triangles themselves */

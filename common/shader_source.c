@@ -4,6 +4,8 @@
  */
 #include "shader.h"
 
+#include "module.h"
+
 #include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -145,15 +147,11 @@ static int find_places(const ShaderLoader *loader, Place places[5])
     snprintf(places[count].folder, PATH_MAX, "%s", SHADERS_SOURCE);
     places[count++].by_name = false;
     /* An installation that was moved as a whole, then where it was to be. */
-    char self[PATH_MAX];
-    const ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
-    self[length > 0 ? length : 0] = '\0';
-    char *slash = strrchr(self, '/');
-    if (slash) {
-        *slash = '\0';
-        if (snprintf(places[count].folder, PATH_MAX, "%s/%s", self, SHADERS_RELATIVE) < PATH_MAX)
-            places[count++].by_name = false;
-    }
+    char self[4096];
+    module_program_folder(self);
+    if (self[0] &&
+        snprintf(places[count].folder, PATH_MAX, "%s/%s", self, SHADERS_RELATIVE) < PATH_MAX)
+        places[count++].by_name = false;
     snprintf(places[count].folder, PATH_MAX, "%s", SHADERS_INSTALLED);
     places[count++].by_name = false;
     return count;

@@ -282,17 +282,11 @@ int main(int argc, char *argv[])
         .gallery = true,
     };
     Options options;
+    int code;
     Message message = {0};
     Selection selection = {.count = 0};
-    options_prepare_process();
-    switch (options_read(&options, &usage, argc, argv, &message)) {
-    case OPTIONS_ANSWERED:
-        return options_finish(usage.name, 0);
-    case OPTIONS_BAD:
-        return options_fail(usage.name, &message, EXIT_USAGE);
-    case OPTIONS_RUN:
-        break;
-    }
+    if (!options_begin(&options, &usage, argc, argv, &code))
+        return code;
     if (!select_examples(&selection, options.names, &message))
         return options_fail(usage.name, &message, EXIT_USAGE);
     if (options.doctor)

@@ -22,8 +22,6 @@ static int kinds[2] = {LIGHT_POINT, LIGHT_POINT};
 static bool lights_on[2] = {true, true};
 static bool rotating;
 
-static const char *const REFLECTIONS[] = {"blinn-phong", "phong", NULL};
-static const char *const INTERPOLATIONS[] = {"phong", "gouraud", "flat", NULL};
 static const char *const LIGHT_KINDS[] = {"directional", "point", NULL};
 
 static const Parameter parameters[] = {
@@ -45,12 +43,12 @@ static const Parameter parameters[] = {
      .help = "the model of the highlight",
      .kind = PARAMETER_CHOICE,
      .value = &reflection,
-     .choices = REFLECTIONS},
+     .choices = REFLECTION_NAMES},
     {.name = "interpolation",
      .help = "of normals, of colours, or neither",
      .kind = PARAMETER_CHOICE,
      .value = &interpolation,
-     .choices = INTERPOLATIONS},
+     .choices = INTERPOLATION_NAMES},
     {.name = "fixed-light",
      .help = "the light that stands still",
      .kind = PARAMETER_SWITCH,

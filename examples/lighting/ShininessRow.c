@@ -10,14 +10,12 @@ enum { SPHERES = 8, STEP = 16 };
 
 static int reflection = REFLECTION_PHONG;
 
-static const char *const REFLECTIONS[] = {"blinn-phong", "phong", NULL};
-
 static const Parameter parameters[] = {
     {.name = "reflection",
      .help = "the model of the highlight",
      .kind = PARAMETER_CHOICE,
      .value = &reflection,
-     .choices = REFLECTIONS},
+     .choices = REFLECTION_NAMES},
     {.name = NULL},
 };
 

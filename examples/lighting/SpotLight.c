@@ -15,8 +15,6 @@ static const char *model;
 static int interpolation = INTERPOLATION_PHONG;
 static double cutoff = 30, exponent = 0;
 
-static const char *const INTERPOLATIONS[] = {"phong", "gouraud", "flat", NULL};
-
 static const Parameter parameters[] = {
     {.name = "shape",
      .help = "what is lit",
@@ -43,7 +41,7 @@ static const Parameter parameters[] = {
      .help = "of normals, of colours, or neither",
      .kind = PARAMETER_CHOICE,
      .value = &interpolation,
-     .choices = INTERPOLATIONS},
+     .choices = INTERPOLATION_NAMES},
     {.name = NULL},
 };
 

@@ -332,21 +332,15 @@ static const Usage usage = {
 int main(int argc, char *argv[])
 {
     Options options;
+    int code;
     Setting setting;
     Message message = {0};
     for (int i = 0; i < STUDY_SCENE_COUNT; i++)
         SCENES[i] = STUDY_SCENES[i].name;
     SCENES[STUDY_SCENE_COUNT] = "all";
     make_details();
-    options_prepare_process();
-    switch (options_read(&options, &usage, argc, argv, &message)) {
-    case OPTIONS_ANSWERED:
-        return options_finish(usage.name, 0);
-    case OPTIONS_BAD:
-        return options_fail(usage.name, &message, EXIT_USAGE);
-    case OPTIONS_RUN:
-        break;
-    }
+    if (!options_begin(&options, &usage, argc, argv, &code))
+        return code;
     if (options.doctor)
         return options_finish(usage.name, stage_doctor());
     if (!check(&message))

@@ -63,10 +63,7 @@ static int forget_made(void **state)
 
 static void check(const char *name, double reach, int least_pixels)
 {
-    for (int reflection = 0; reflection < 2; reflection++) {
-        world.scene.reflection = (Reflection)reflection;
-        hard_check_ways(&hard, name, &world.scene, reach, least_pixels);
-    }
+    hard_check_reflections(&hard, name, &world, reach, least_pixels);
 }
 
 /* Rows `first` to `last` of a wavy sheet of 256 x 256 cells over -1.6..1.6, with its normals. */

@@ -266,6 +266,15 @@ void hard_check_ways(Hard *hard, const char *name, const Scene *scene, double re
     hard_check(hard, name, &way, HARD_MEDIUMP, COLORS_ONLY, least_pixels);
 }
 
+void hard_check_reflections(Hard *hard, const char *name, HardWorld *world, double reach,
+                            int least_pixels)
+{
+    for (int reflection = 0; reflection < 2; reflection++) {
+        world->scene.reflection = (Reflection)reflection;
+        hard_check_ways(hard, name, &world->scene, reach, least_pixels);
+    }
+}
+
 static unsigned long long next(HardRandom *random)
 {
     unsigned long long z = random->state += 0x9E3779B97F4A7C15ULL;

@@ -78,6 +78,10 @@ double hard_mediump_most(const Scene *scene, double reach);
 void hard_check_ways(Hard *hard, const char *name, const Scene *scene, double reach,
                      int least_pixels);
 
+/* hard_check_ways with each reflection, of the world's scene, which keeps the last. */
+void hard_check_reflections(Hard *hard, const char *name, HardWorld *world, double reach,
+                            int least_pixels);
+
 /* Numbers that look random, the same for the same seed: splitmix64 (Steele, Lea and Flood, Fast
  * splittable pseudorandom number generators, OOPSLA 2014). */
 typedef struct HardRandom {

@@ -82,10 +82,7 @@ static void scale_normals(float factor)
 
 static void check(const char *name, int least_pixels)
 {
-    for (int reflection = 0; reflection < 2; reflection++) {
-        world.scene.reflection = (Reflection)reflection;
-        hard_check_ways(&hard, name, &world.scene, REACH, least_pixels);
-    }
+    hard_check_reflections(&hard, name, &world, REACH, least_pixels);
 }
 
 static void a_normal_of_no_length_gives_ambient_light_exactly(void **state)

@@ -49,10 +49,7 @@ static int close_all(void **state)
 
 static void check(const char *name, double reach)
 {
-    for (int reflection = 0; reflection < 2; reflection++) {
-        world.scene.reflection = (Reflection)reflection;
-        hard_check_ways(&hard, name, &world.scene, reach, SIZE * SIZE / 8);
-    }
+    hard_check_reflections(&hard, name, &world, reach, SIZE * SIZE / 8);
 }
 
 static const unsigned char *pixel(int x, int y)
