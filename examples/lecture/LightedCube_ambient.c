@@ -65,7 +65,7 @@ static bool draw(const Frame *frame)
     Mat4 clip_from_eye, eye_from_world;
     Vec3 light_direction;
     if (!mat4_perspective(FOVY, frame->aspect, NEAR, FAR, &clip_from_eye) ||
-        !mat4_look_at(EYE, CENTER, UP, &eye_from_world) ||
+        !frame_look_at(frame, EYE, CENTER, UP, &eye_from_world) ||
         !vec3_normalize(LIGHT_DIRECTION, &light_direction))
         return false;
     /* The cube is not moved: its own coordinates are the world's. */

@@ -67,7 +67,7 @@ static bool draw(const Frame *frame)
     Mat4 normal_matrix;
     Vec3 light_direction;
     if (!mat4_perspective(FOVY, frame->aspect, NEAR, FAR, &clip_from_eye) ||
-        !mat4_look_at(EYE, CENTER, UP, &eye_from_world) ||
+        !frame_look_at(frame, EYE, CENTER, UP, &eye_from_world) ||
         !mat4_rotate(TURN * frame->seconds, AXIS, &world_from_model) ||
         !vec3_normalize(LIGHT_DIRECTION, &light_direction))
         return false;

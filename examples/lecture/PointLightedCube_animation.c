@@ -71,7 +71,7 @@ static bool draw(const Frame *frame)
     Mat4 clip_from_eye, eye_from_world, world_from_model;
     Mat4 normal_matrix;
     if (!mat4_perspective(FOVY, frame->aspect, NEAR, FAR, &clip_from_eye) ||
-        !mat4_look_at(EYE, CENTER, UP, &eye_from_world) ||
+        !frame_look_at(frame, EYE, CENTER, UP, &eye_from_world) ||
         !mat4_rotate(TURN * frame->seconds, AXIS, &world_from_model))
         return false;
     const Mat4 clip_from_world = mat4_product(clip_from_eye, eye_from_world);

@@ -1,0 +1,20 @@
+/*
+ * orbit: a camera moved about the point that it looks at.
+ */
+#ifndef ORBIT_H
+#define ORBIT_H
+
+#include "matrix.h"
+
+/* Degrees, and a factor. Zeroed, the camera stays where it is. */
+typedef struct Orbit {
+    double azimuth;   /* to the camera's right, about its up direction */
+    double elevation; /* from there towards up, -90 to 90 */
+    double distance;  /* times that from eye to center; 0: 1 */
+} Orbit;
+
+/* Moves the eye, and `up` with it. An orbit that moves nothing changes no bit. Where the camera
+ * looks along `up`, there is no right and no higher: only the distance changes. */
+void orbit_move(Orbit orbit, Vec3 *eye, Vec3 center, Vec3 *up);
+
+#endif
