@@ -8,7 +8,7 @@
 /* The functions of gl.h, and EGL's display, are those of one canvas. */
 static bool is_open;
 
-const CanvasBackend *const CANVAS_BACKENDS[] = {&CANVAS_EGL, &CANVAS_OSMESA, NULL};
+const CanvasBackend *const CANVAS_BACKENDS[] = {&CANVAS_EGL, &CANVAS_OSMESA, &CANVAS_WINDOW, NULL};
 
 const CanvasBackend *canvas_backend(const char *name, Message *message)
 {
@@ -185,6 +185,16 @@ static bool make_canvas(Canvas *canvas, const CanvasOptions *options, Message *m
     return true;
 }
 
+/* What is drawn reaches a window by a copy. */
+static bool check_window(const Canvas *canvas, Message *message)
+{
+    return canvas->backend != &CANVAS_WINDOW || glBlitFramebuffer ||
+           message_set(message,
+                       "window: %s cannot copy to it (OpenGL ES 3 or GL_ANGLE_framebuffer_blit); "
+                       "leave out --window to draw to a file",
+                       canvas->renderer);
+}
+
 bool canvas_open(Canvas *canvas, const CanvasOptions *options, Message *message)
 {
     *canvas = (Canvas){
@@ -201,7 +211,7 @@ bool canvas_open(Canvas *canvas, const CanvasOptions *options, Message *message)
         *canvas = (Canvas){0};
         return message_set(message, "canvas: another one is open; close it first");
     }
-    if (!canvas->backend->open(&canvas->context, &canvas->platform, message)) {
+    if (!canvas->backend->open(&canvas->context, options, &canvas->platform, message)) {
         *canvas = (Canvas){0};
         return false;
     }
@@ -213,7 +223,7 @@ bool canvas_open(Canvas *canvas, const CanvasOptions *options, Message *message)
         enum { PROGRAM_POINT_SIZE = 0x8642 };
         if (gl_desktop())
             glEnable(PROGRAM_POINT_SIZE);
-        if (make_canvas(canvas, options, message))
+        if (check_window(canvas, message) && make_canvas(canvas, options, message))
             return true;
     }
     canvas_close(canvas);
@@ -338,18 +348,23 @@ static bool average(Image *image, const Image *large, int side, Message *message
     return true;
 }
 
+/* One colour for the samples of each pixel. Leaves the framebuffer bound that has it. */
+static void resolve(const Canvas *canvas)
+{
+    const int width = canvas->width * canvas->supersample;
+    const int height = canvas->height * canvas->supersample;
+    if (!canvas->samples)
+        return glBindFramebuffer(GL_FRAMEBUFFER, canvas->framebuffer);
+    glDisable(GL_SCISSOR_TEST); /* it would limit the copy, too */
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER_ANGLE, canvas->resolve_framebuffer);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER_ANGLE, canvas->framebuffer);
+    glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBindFramebuffer(GL_FRAMEBUFFER, canvas->resolve_framebuffer);
+}
+
 static bool read_pixels(const Canvas *canvas, Image *image, Message *message)
 {
-    if (canvas->samples > 0) {
-        const int width = canvas->width * canvas->supersample;
-        const int height = canvas->height * canvas->supersample;
-        glDisable(GL_SCISSOR_TEST); /* it would limit the copy, too */
-        glBindFramebuffer(GL_DRAW_FRAMEBUFFER_ANGLE, canvas->resolve_framebuffer);
-        glBindFramebuffer(GL_READ_FRAMEBUFFER_ANGLE, canvas->framebuffer);
-        glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT,
-                          GL_NEAREST);
-        glBindFramebuffer(GL_FRAMEBUFFER, canvas->resolve_framebuffer);
-    }
+    resolve(canvas);
     const bool reverses = gl_has("GL_ANGLE_pack_reverse_row_order");
     glPixelStorei(GL_PACK_ALIGNMENT, 4);
     if (reverses)
@@ -364,8 +379,66 @@ static bool read_pixels(const Canvas *canvas, Image *image, Message *message)
     return reverses || turn_rows(image, message);
 }
 
+bool canvas_check(const Canvas *canvas, Message *message)
+{
+    if (!canvas->backend->current(canvas->context))
+        return message_set(message, "canvas: its context is no longer the current one; what was "
+                                    "drawn is lost");
+    const GLenum reset = glGetGraphicsResetStatus ? glGetGraphicsResetStatus() : GL_NO_ERROR;
+    return reset == GL_NO_ERROR ||
+           message_set(message, "canvas: %s was reset (%s), and what was drawn is lost; try again",
+                       canvas->renderer,
+                       reset == GL_GUILTY_CONTEXT_RESET_EXT     ? "by this program"
+                       : reset == GL_INNOCENT_CONTEXT_RESET_EXT ? "by another program"
+                                                                : "nobody knows by whom");
+}
+
+void canvas_present(const Canvas *canvas, int width, int height)
+{
+    const int drawn_width = canvas->width * canvas->supersample;
+    const int drawn_height = canvas->height * canvas->supersample;
+    const bool equal = width == drawn_width && height == drawn_height;
+    const GLuint drawn = canvas->samples ? canvas->resolve_framebuffer : canvas->framebuffer;
+    resolve(canvas);
+    glDisable(GL_SCISSOR_TEST);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER_ANGLE, drawn);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER_ANGLE, 0);
+    glBlitFramebuffer(0, 0, drawn_width, drawn_height, 0, 0, width, height, GL_COLOR_BUFFER_BIT,
+                      equal ? GL_NEAREST : GL_LINEAR);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glViewport(0, 0, width, height);
+}
+
+bool canvas_present_image(const Image *image, int width, int height, Message *message)
+{
+    GLuint texture = 0, framebuffer = 0;
+    glGenTextures(1, &texture);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, image->width, image->height, 0, GL_RGBA,
+                 GL_UNSIGNED_BYTE, image->pixels);
+    glBindTexture(GL_TEXTURE_2D, 0);
+    glGenFramebuffers(1, &framebuffer);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER_ANGLE, framebuffer);
+    glFramebufferTexture2D(GL_READ_FRAMEBUFFER_ANGLE, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture,
+                           0);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER_ANGLE, 0);
+    glDisable(GL_SCISSOR_TEST);
+    /* Its first row is the upper one. */
+    glBlitFramebuffer(0, 0, image->width, image->height, 0, height, width, 0, GL_COLOR_BUFFER_BIT,
+                      GL_NEAREST);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glViewport(0, 0, width, height);
+    glDeleteFramebuffers(1, &framebuffer);
+    glDeleteTextures(1, &texture);
+    const GLenum error = glGetError();
+    return error == GL_NO_ERROR || message_set(message, "window: showing a %dx%d picture: %s",
+                                               image->width, image->height, gl_error_name(error));
+}
+
 bool canvas_read(const Canvas *canvas, Image *image, Message *message)
 {
+    if (!canvas_check(canvas, message))
+        return false;
     if (image->width != canvas->width || image->height != canvas->height ||
         image->type != (canvas->real ? IMAGE_FLOAT : IMAGE_BYTE))
         return message_set(message, "canvas: a %dx%d %s image cannot take a %dx%d %s picture",

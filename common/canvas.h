@@ -11,20 +11,24 @@
 #include "gl.h"
 #include "image.h"
 
+typedef struct CanvasOptions CanvasOptions;
+
 /* What a backend is: one table of functions. `open` leaves a context current, loads nothing else,
- * and puts what it holds in *backend; `platform` is for --verbose ("surfaceless"). */
+ * and puts what it holds in *context; `platform` is for --verbose ("surfaceless"). */
 typedef struct CanvasBackend {
     const char *name;
     const char *summary;
-    bool (*open)(void **context, const char **platform, Message *message);
+    bool (*open)(void **context, const CanvasOptions *options, const char **platform,
+                 Message *message);
     GlFunction (*address)(const char *name);
+    bool (*current)(void *context); /* whether it is still the one that GL functions act on */
     void (*close)(void *context);
     /* Says on standard output what each platform and library answers and what to install; true
      * where the backend works. For --doctor. */
     bool (*doctor)(void);
 } CanvasBackend;
 
-extern const CanvasBackend CANVAS_EGL, CANVAS_OSMESA;
+extern const CanvasBackend CANVAS_EGL, CANVAS_OSMESA, CANVAS_WINDOW;
 
 /* NULL-terminated: every backend there is. */
 extern const CanvasBackend *const CANVAS_BACKENDS[];
@@ -36,14 +40,15 @@ const CanvasBackend *canvas_backend(const char *name, Message *message);
  * is none of that name. */
 const CanvasBackend *canvas_default_backend(Message *message);
 
-typedef struct CanvasOptions {
+struct CanvasOptions {
     const CanvasBackend *backend; /* NULL: the default one */
     int width, height;            /* 1.. what the driver allows */
-    int samples;     /* 0 or 1: none. More: a multisampled framebuffer that is resolved,
-                        or supersampling where the driver has none */
-    int supersample; /* 0 or 1: none. K: K x K pixels for each, averaged */
-    bool real;       /* colours as floats, not clamped, where the driver can */
-} CanvasOptions;
+    int samples;       /* 0 or 1: none. More: a multisampled framebuffer that is resolved,
+                          or supersampling where the driver has none */
+    int supersample;   /* 0 or 1: none. K: K x K pixels for each, averaged */
+    bool real;         /* colours as floats, not clamped, where the driver can */
+    const char *title; /* of a window */
+};
 
 typedef struct Canvas {
     const CanvasBackend *backend;
@@ -79,6 +84,16 @@ void canvas_begin(const Canvas *canvas);
 /* Limits drawing, until canvas_begin, to the rectangle whose upper left pixel is (x, y), row 0
  * being the top. */
 void canvas_view(const Canvas *canvas, int x, int y, int width, int height);
+
+/* Whether GL functions still act on the canvas's context, and the driver has not lost it: the
+ * latter where a driver tells, which GLFW cannot have it do for a window. */
+bool canvas_check(const Canvas *canvas, Message *message);
+
+/* Copies what was drawn, or an image of bytes, to framebuffer 0, that of a window, whose size is
+ * given, and leaves that bound. With supersampling, and where the sizes differ, pixels are
+ * interpolated. */
+void canvas_present(const Canvas *canvas, int width, int height);
+bool canvas_present_image(const Image *image, int width, int height, Message *message);
 
 /* Resolves, reads back and turns the rows the right way up: row 0 is the top. `image` must have the
  * canvas's size; its type must be IMAGE_FLOAT for a real canvas, else IMAGE_BYTE. Reports any GL

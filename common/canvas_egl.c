@@ -24,6 +24,7 @@
     X(DESTROYCONTEXT, DestroyContext)                                                              \
     X(DESTROYSURFACE, DestroySurface)                                                              \
     X(GETCONFIGATTRIB, GetConfigAttrib)                                                            \
+    X(GETCURRENTCONTEXT, GetCurrentContext)                                                        \
     X(GETDISPLAY, GetDisplay)                                                                      \
     X(GETERROR, GetError)                                                                          \
     X(GETPROCADDRESS, GetProcAddress)                                                              \
@@ -193,6 +194,9 @@ static void route_close(EglContext *context)
 static bool route_open(const Route *route, EglContext *context, Message *message)
 {
     static const EGLint version_2[] = {EGL_CONTEXT_CLIENT_VERSION, 2, EGL_NONE};
+    static const EGLint told_of_resets[] = {EGL_CONTEXT_CLIENT_VERSION, 2,
+                                            EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY_EXT,
+                                            EGL_LOSE_CONTEXT_ON_RESET_EXT, EGL_NONE};
     static const EGLint tiny[] = {EGL_WIDTH, 1, EGL_HEIGHT, 1, EGL_NONE};
     *context = (EglContext){
         .display = EGL_NO_DISPLAY, .context = EGL_NO_CONTEXT, .surface = EGL_NO_SURFACE};
@@ -212,12 +216,16 @@ static bool route_open(const Route *route, EglContext *context, Message *message
         message_set(message, "eglBindAPI: %s", egl_error());
         goto fail;
     }
-    context->context = egl.CreateContext(display, config, EGL_NO_CONTEXT, version_2);
+    const char *extensions = egl.QueryString(display, EGL_EXTENSIONS);
+    if (lists(extensions, "EGL_EXT_create_context_robustness"))
+        context->context = egl.CreateContext(display, config, EGL_NO_CONTEXT, told_of_resets);
+    if (context->context == EGL_NO_CONTEXT)
+        context->context = egl.CreateContext(display, config, EGL_NO_CONTEXT, version_2);
     if (context->context == EGL_NO_CONTEXT) {
         message_set(message, "eglCreateContext for OpenGL ES 2: %s", egl_error());
         goto fail;
     }
-    if (!lists(egl.QueryString(display, EGL_EXTENSIONS), "EGL_KHR_surfaceless_context")) {
+    if (!lists(extensions, "EGL_KHR_surfaceless_context")) {
         context->surface = egl.CreatePbufferSurface(display, config, tiny);
         if (context->surface == EGL_NO_SURFACE) {
             message_set(message, "eglCreatePbufferSurface: %s", egl_error());
@@ -239,8 +247,10 @@ static GlFunction egl_address(const char *name)
     return (GlFunction)egl.GetProcAddress(name);
 }
 
-static bool egl_open(void **opened, const char **platform, Message *message)
+static bool egl_open(void **opened, const CanvasOptions *options, const char **platform,
+                     Message *message)
 {
+    (void)options;
     if (!egl_load(message))
         return false;
     EglContext *context = malloc(sizeof *context);
@@ -264,6 +274,12 @@ static bool egl_open(void **opened, const char **platform, Message *message)
         "EGL: no platform gives an OpenGL ES 2 context (%s); install the packages " EGL_PACKAGES
         ", or see --doctor",
         reasons.text);
+}
+
+static bool egl_current(void *opened)
+{
+    const EglContext *context = opened;
+    return egl.GetCurrentContext() == context->context;
 }
 
 static void egl_close(void *opened)
@@ -326,6 +342,7 @@ const CanvasBackend CANVAS_EGL = {
     .summary = "headless, on EGL and Mesa",
     .open = egl_open,
     .address = egl_address,
+    .current = egl_current,
     .close = egl_close,
     .doctor = egl_doctor,
 };

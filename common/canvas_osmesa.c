@@ -28,6 +28,7 @@ static struct {
     OsmesaHandle (*CreateContextAttribs)(const int *attributes, OsmesaHandle shared);
     unsigned char (*MakeCurrent)(OsmesaHandle context, void *buffer, GLenum type, GLsizei width,
                                  GLsizei height);
+    OsmesaHandle (*GetCurrentContext)(void);
     GlFunction (*GetProcAddress)(const char *name);
     void (*DestroyContext)(OsmesaHandle context);
 } osmesa;
@@ -55,6 +56,7 @@ static bool osmesa_load(Message *message)
                                     "; install a newer " OSMESA_PACKAGE);
     LOAD(CreateContextAttribs)
     LOAD(MakeCurrent)
+    LOAD(GetCurrentContext)
     LOAD(GetProcAddress)
     LOAD(DestroyContext)
 #undef LOAD
@@ -70,7 +72,8 @@ static void osmesa_close(void *opened)
     free(context);
 }
 
-static bool osmesa_open(void **opened, const char **platform, Message *message)
+static bool osmesa_open(void **opened, const CanvasOptions *options, const char **platform,
+                        Message *message)
 {
     static const int attributes[] = {OSMESA_FORMAT,
                                      GL_RGBA,
@@ -83,6 +86,7 @@ static bool osmesa_open(void **opened, const char **platform, Message *message)
                                      OSMESA_CONTEXT_MINOR_VERSION,
                                      0,
                                      0};
+    (void)options;
     if (!osmesa_load(message))
         return false;
     OsmesaContext *context = calloc(1, sizeof *context);
@@ -108,12 +112,18 @@ static GlFunction osmesa_address(const char *name)
     return osmesa.GetProcAddress(name);
 }
 
+static bool osmesa_current(void *opened)
+{
+    const OsmesaContext *context = opened;
+    return osmesa.GetCurrentContext() == context->handle;
+}
+
 static bool osmesa_doctor(void)
 {
     Message message = {0};
     const char *platform;
     void *context;
-    if (!osmesa_open(&context, &platform, &message)) {
+    if (!osmesa_open(&context, NULL, &platform, &message)) {
         printf("  library    missing: %s\n", message.text);
         return false;
     }
@@ -132,6 +142,7 @@ const CanvasBackend CANVAS_OSMESA = {
     .summary = "headless, Mesa's off-screen renderer without EGL",
     .open = osmesa_open,
     .address = osmesa_address,
+    .current = osmesa_current,
     .close = osmesa_close,
     .doctor = osmesa_doctor,
 };

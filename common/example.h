@@ -12,6 +12,7 @@
 #include "gl.h"
 #include "image.h"
 #include "marks.h"
+#include "orbit.h"
 #include "parameter.h"
 #include "scene.h"
 #include "shader.h"
@@ -20,6 +21,7 @@
 typedef struct Frame {
     double seconds; /* the moment, from the animation's beginning */
     double aspect;  /* width / height of the picture */
+    Orbit orbit;    /* how the camera has been moved */
 } Frame;
 
 /* The lines and points that explain a scene, in the world. */
@@ -56,6 +58,9 @@ typedef struct Example {
 
 /* What the lecture's pages show: the axes, of length 2, and the lights as points. */
 void example_annotate(double seconds, int view, const Scene *scene, Annotations *annotations);
+
+/* mat4_look_at from where the frame's orbit has moved the eye. */
+bool frame_look_at(const Frame *frame, Vec3 eye, Vec3 center, Vec3 up, Mat4 *eye_from_world);
 
 /* A point, or an object, turned about the y axis at the pace of 30 degrees a second. */
 Vec3 example_turn(Vec3 point, double seconds);

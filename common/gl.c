@@ -12,6 +12,7 @@ GL_TIMER_FUNCTIONS(GL_DEFINE)
 #undef GL_DEFINE
 GlRenderbufferStorageMultisample glRenderbufferStorageMultisample;
 GlBlitFramebuffer glBlitFramebuffer;
+PFNGLGETGRAPHICSRESETSTATUSEXTPROC glGetGraphicsResetStatus;
 
 bool gl_load(GlFunction (*address)(const char *name), Message *message)
 {
@@ -37,6 +38,11 @@ bool gl_load(GlFunction (*address)(const char *name), Message *message)
             (GlRenderbufferStorageMultisample)address("glRenderbufferStorageMultisampleANGLE");
         glBlitFramebuffer = (GlBlitFramebuffer)address("glBlitFramebufferANGLE");
     }
+    const char *reset = gl_has("GL_EXT_robustness")    ? "glGetGraphicsResetStatusEXT"
+                        : !gl_has("GL_KHR_robustness") ? NULL
+                        : gl_desktop()                 ? "glGetGraphicsResetStatus"
+                                                       : "glGetGraphicsResetStatusKHR";
+    glGetGraphicsResetStatus = reset ? (PFNGLGETGRAPHICSRESETSTATUSEXTPROC)address(reset) : NULL;
     const bool timer = gl_has("GL_EXT_disjoint_timer_query");
 #define GL_LOAD(TYPE, name)                                                                        \
     gl##name##EXT = timer ? (PFNGL##TYPE##EXTPROC)address("gl" #name "EXT") : NULL;

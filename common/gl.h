@@ -16,15 +16,22 @@
 #include <GLES2/gl2ext.h>
 
 #define GL_FUNCTIONS(X)                                                                            \
+    X(ACTIVETEXTURE, ActiveTexture)                                                                \
     X(ATTACHSHADER, AttachShader)                                                                  \
     X(BINDATTRIBLOCATION, BindAttribLocation)                                                      \
     X(BINDBUFFER, BindBuffer)                                                                      \
     X(BINDFRAMEBUFFER, BindFramebuffer)                                                            \
     X(BINDRENDERBUFFER, BindRenderbuffer)                                                          \
+    X(BINDTEXTURE, BindTexture)                                                                    \
+    X(BLENDEQUATIONSEPARATE, BlendEquationSeparate)                                                \
+    X(BLENDFUNC, BlendFunc)                                                                        \
+    X(BLENDFUNCSEPARATE, BlendFuncSeparate)                                                        \
     X(BUFFERDATA, BufferData)                                                                      \
+    X(BUFFERSUBDATA, BufferSubData)                                                                \
     X(CHECKFRAMEBUFFERSTATUS, CheckFramebufferStatus)                                              \
     X(CLEAR, Clear)                                                                                \
     X(CLEARCOLOR, ClearColor)                                                                      \
+    X(COLORMASK, ColorMask)                                                                        \
     X(COMPILESHADER, CompileShader)                                                                \
     X(CREATEPROGRAM, CreateProgram)                                                                \
     X(CREATESHADER, CreateShader)                                                                  \
@@ -33,6 +40,7 @@
     X(DELETEPROGRAM, DeleteProgram)                                                                \
     X(DELETERENDERBUFFERS, DeleteRenderbuffers)                                                    \
     X(DELETESHADER, DeleteShader)                                                                  \
+    X(DELETETEXTURES, DeleteTextures)                                                              \
     X(DISABLE, Disable)                                                                            \
     X(DISABLEVERTEXATTRIBARRAY, DisableVertexAttribArray)                                          \
     X(DRAWARRAYS, DrawArrays)                                                                      \
@@ -41,13 +49,16 @@
     X(ENABLEVERTEXATTRIBARRAY, EnableVertexAttribArray)                                            \
     X(FINISH, Finish)                                                                              \
     X(FRAMEBUFFERRENDERBUFFER, FramebufferRenderbuffer)                                            \
+    X(FRAMEBUFFERTEXTURE2D, FramebufferTexture2D)                                                  \
     X(FRONTFACE, FrontFace)                                                                        \
     X(GENBUFFERS, GenBuffers)                                                                      \
     X(GENFRAMEBUFFERS, GenFramebuffers)                                                            \
     X(GENRENDERBUFFERS, GenRenderbuffers)                                                          \
+    X(GENTEXTURES, GenTextures)                                                                    \
     X(GETACTIVEATTRIB, GetActiveAttrib)                                                            \
     X(GETACTIVEUNIFORM, GetActiveUniform)                                                          \
     X(GETATTRIBLOCATION, GetAttribLocation)                                                        \
+    X(GETBOOLEANV, GetBooleanv)                                                                    \
     X(GETERROR, GetError)                                                                          \
     X(GETINTEGERV, GetIntegerv)                                                                    \
     X(GETPROGRAMINFOLOG, GetProgramInfoLog)                                                        \
@@ -57,18 +68,28 @@
     X(GETSHADERPRECISIONFORMAT, GetShaderPrecisionFormat)                                          \
     X(GETSTRING, GetString)                                                                        \
     X(GETUNIFORMLOCATION, GetUniformLocation)                                                      \
+    X(GETVERTEXATTRIBFV, GetVertexAttribfv)                                                        \
+    X(GETVERTEXATTRIBIV, GetVertexAttribiv)                                                        \
+    X(GETVERTEXATTRIBPOINTERV, GetVertexAttribPointerv)                                            \
+    X(ISENABLED, IsEnabled)                                                                        \
     X(LINKPROGRAM, LinkProgram)                                                                    \
     X(PIXELSTOREI, PixelStorei)                                                                    \
     X(READPIXELS, ReadPixels)                                                                      \
     X(RENDERBUFFERSTORAGE, RenderbufferStorage)                                                    \
     X(SCISSOR, Scissor)                                                                            \
     X(SHADERSOURCE, ShaderSource)                                                                  \
+    X(TEXIMAGE2D, TexImage2D)                                                                      \
+    X(TEXPARAMETERI, TexParameteri)                                                                \
     X(UNIFORM1FV, Uniform1fv)                                                                      \
+    X(UNIFORM1I, Uniform1i)                                                                        \
+    X(UNIFORM2FV, Uniform2fv)                                                                      \
     X(UNIFORM3FV, Uniform3fv)                                                                      \
     X(UNIFORM4FV, Uniform4fv)                                                                      \
+    X(UNIFORMMATRIX3FV, UniformMatrix3fv)                                                          \
     X(UNIFORMMATRIX4FV, UniformMatrix4fv)                                                          \
     X(USEPROGRAM, UseProgram)                                                                      \
     X(VERTEXATTRIB3FV, VertexAttrib3fv)                                                            \
+    X(VERTEXATTRIB4FV, VertexAttrib4fv)                                                            \
     X(VERTEXATTRIBPOINTER, VertexAttribPointer)                                                    \
     X(VIEWPORT, Viewport)
 
@@ -96,6 +117,8 @@ GL_TIMER_FUNCTIONS(GL_DECLARE)
 #undef GL_DECLARE
 extern GlRenderbufferStorageMultisample glRenderbufferStorageMultisample;
 extern GlBlitFramebuffer glBlitFramebuffer;
+/* Of GL_EXT_robustness or GL_KHR_robustness; NULL where the context has neither. */
+extern PFNGLGETGRAPHICSRESETSTATUSEXTPROC glGetGraphicsResetStatus;
 #pragma GCC visibility pop
 
 typedef void (*GlFunction)(void);

@@ -92,7 +92,7 @@ static bool module_find(const ImageModule **module, Message *message)
     return true;
 }
 
-static bool module_open(const ImageModule **module, Message *message)
+bool image_module_open(const ImageModule **module, Message *message)
 {
     pthread_mutex_lock(&module_lock);
     const bool found = module_find(module, message);
@@ -105,7 +105,7 @@ bool image_doctor(void)
     Message message = {0};
     const ImageModule *module;
     printf("  PNG        libpng %s: found\n", png_get_libpng_ver(NULL));
-    if (!module_open(&module, &message)) {
+    if (!image_module_open(&module, &message)) {
         printf("  OpenImageIO (all other formats) missing: %s\n", message.text);
         return false;
     }
@@ -125,8 +125,8 @@ static bool is_one_of(const char *format, const char *const *list)
 
 /* What is written through OpenImageIO: it names more formats, but some write nothing, or to the
  * terminal. */
-static const char *const MODULE_FORMATS[] = {"exr", "tif", "tiff", "jpg", "jpeg", "webp",
-                                             "bmp", "tga", "ppm",  "hdr", "dpx",  NULL};
+static const char *const MODULE_FORMATS[] = {"exr", "tif", "tiff", "jpg", "jpeg", "webp", "bmp",
+                                             "tga", "ppm", "hdr",  "dpx", "gif",  NULL};
 
 bool image_format(const char *path, char format[16], Message *message)
 {
@@ -148,10 +148,11 @@ bool image_format(const char *path, char format[16], Message *message)
         return true;
     if (is_one_of(format, MODULE_FORMATS))
         return true;
-    return message_set(message,
-                       "%s: no picture format is named .%s; .png, .exr, .tif, .jpg and .webp are "
-                       "written here",
-                       path, format);
+    return message_set(
+        message,
+        "%s: no picture format is named .%s; .png, .exr, .tif, .jpg, .webp and .gif are "
+        "written here",
+        path, format);
 }
 
 bool image_format_is_float(const char *format)
@@ -162,7 +163,7 @@ bool image_format_is_float(const char *format)
 
 bool image_format_has_alpha(const char *format)
 {
-    static const char *const opaque[] = {"jpg", "jpeg", "ppm", "hdr", NULL};
+    static const char *const opaque[] = {"jpg", "jpeg", "ppm", "hdr", "gif", NULL};
     return !is_one_of(format, opaque);
 }
 
@@ -296,7 +297,7 @@ static bool module_encode(const Image *image, const char *format, const ImageOpt
                           ImageFile *file, Message *message)
 {
     const ImageModule *module;
-    if (!module_open(&module, message))
+    if (!image_module_open(&module, message))
         return false;
     const int memory = memfd_create("picture", MFD_CLOEXEC);
     if (memory < 0)
@@ -359,7 +360,7 @@ bool image_read(Image *image, const char *path, Message *message)
     const ImageModule *module;
     char reason[1024] = "";
     *image = (Image){0};
-    if (!module_open(&module, message))
+    if (!image_module_open(&module, message))
         return false;
     if (!module->read(path, image, reason, sizeof reason)) {
         image_close(image);
@@ -382,7 +383,7 @@ bool image_compare(const Image *a, const Image *b, ImageDifference *difference, 
     const ImageModule *module;
     char reason[1024] = "";
     *difference = (ImageDifference){0};
-    if (!alike(a, b, message) || !module_open(&module, message))
+    if (!alike(a, b, message) || !image_module_open(&module, message))
         return false;
     if (!module->compare(a, b, difference, reason, sizeof reason))
         return message_set(message, "comparing pictures: %s", reason);
@@ -395,7 +396,7 @@ bool image_difference(const Image *a, const Image *b, double gain, Image *differ
     const ImageModule *module;
     char reason[1024] = "";
     *difference = (Image){0};
-    if (!alike(a, b, message) || !module_open(&module, message) ||
+    if (!alike(a, b, message) || !image_module_open(&module, message) ||
         !image_open(difference, a->width, a->height, IMAGE_BYTE, message))
         return false;
     if (!module->difference(a, b, gain, difference, reason, sizeof reason)) {
@@ -409,7 +410,7 @@ bool image_label(Image *image, int x, int y, int size, const char *text, Message
 {
     const ImageModule *module;
     char reason[1024] = "";
-    if (!module_open(&module, message))
+    if (!image_module_open(&module, message))
         return false;
     if (!module->label(image, x, y, size, text, reason, sizeof reason))
         return message_set(message, "label \"%s\": %s", text, reason);

@@ -1,17 +1,31 @@
-// What image.c asks of OpenImageIO: the one C++ file. Built as a module, loaded at the first need.
+// What image.c asks of OpenImageIO, in C++. Built as a module, loaded at the first need.
 // No exception leaves a function: each returns false with a reason.
 
 #include "image_module.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <memory>
 #include <string>
+#include <unistd.h>
+#include <vector>
+
+// The module's side of a GIF that is being written.
+struct ModuleGif {
+    std::FILE *file = nullptr;
+    std::unique_ptr<OIIO::Filesystem::IOFile> proxy;
+    std::unique_ptr<OIIO::ImageOutput> output; // writes to the proxy as long as it is there
+    OIIO::ImageSpec spec;
+    int added = 0;
+};
 
 namespace
 {
@@ -111,6 +125,73 @@ bool encode(const Image *image, const char *format, const ImageOptions *options,
     });
 }
 
+// What the library writes is buffered, and it does not look whether that arrives.
+std::string gif_error(const ModuleGif *gif)
+{
+    errno = 0;
+    if (std::fflush(gif->file) == 0 && !std::ferror(gif->file))
+        return "";
+    return errno ? std::strerror(errno) : "cannot write";
+}
+
+bool gif_open(ModuleGif **opened, int file, int width, int height, int count, char *reason,
+              size_t reason_size)
+{
+    return guarded(reason, reason_size, [&]() -> std::string {
+        ModuleGif *gif = *opened = new ModuleGif;
+        const int own = dup(file);
+        gif->file = own < 0 ? nullptr : fdopen(own, "wb");
+        if (!gif->file) {
+            const std::string error = std::strerror(errno);
+            if (own >= 0)
+                close(own);
+            return error;
+        }
+        gif->proxy = std::make_unique<Filesystem::IOFile>(gif->file, Filesystem::IOProxy::Write);
+        gif->output = ImageOutput::create("picture.gif");
+        if (!gif->output)
+            return or_unknown(geterror());
+        gif->spec = ImageSpec(width, height, CHANNELS - 1, TypeDesc::UINT8);
+        gif->spec.attribute("FramesPerSecond", 10.0f); // without one, it does not repeat
+        const std::vector<ImageSpec> specs(size_t(count), gif->spec);
+        if (!gif->output->set_ioproxy(gif->proxy.get()) ||
+            !gif->output->open("picture.gif", count, specs.data()))
+            return or_unknown(gif->output->geterror());
+        return "";
+    });
+}
+
+bool gif_add(ModuleGif *gif, const Image *image, char *reason, size_t reason_size)
+{
+    return guarded(reason, reason_size, [&]() -> std::string {
+        if ((gif->added++ > 0 &&
+             !gif->output->open("picture.gif", gif->spec, ImageOutput::AppendSubimage)) ||
+            !gif->output->write_image(TypeDesc::UINT8, image->pixels, CHANNELS))
+            return or_unknown(gif->output->geterror());
+        return gif_error(gif);
+    });
+}
+
+bool gif_close(ModuleGif *gif, char *reason, size_t reason_size)
+{
+    if (!gif)
+        return true;
+    const bool done = guarded(reason, reason_size, [&]() -> std::string {
+        if (!gif->output || !gif->output->close())
+            return or_unknown(gif->output ? gif->output->geterror() : "");
+        return gif_error(gif);
+    });
+    try {
+        gif->output.reset();
+        gif->proxy.reset();
+    } catch (...) {
+    }
+    if (gif->file)
+        std::fclose(gif->file);
+    delete gif;
+    return done;
+}
+
 bool read(const char *path, Image *image, char *reason, size_t reason_size)
 {
     return guarded(reason, reason_size, [&]() -> std::string {
@@ -206,7 +287,8 @@ bool label(Image *image, int x, int y, int size, const char *text, char *reason,
 extern "C" __attribute__((visibility("default"))) const ImageModule *image_module(void)
 {
     static const ImageModule module = {
-        OIIO_VERSION_STRING, can_write, encode, read, compare, make_difference, label,
+        OIIO_VERSION_STRING, can_write, encode,  gif_open,        gif_add,
+        gif_close,           read,      compare, make_difference, label,
     };
     return &module;
 }

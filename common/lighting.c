@@ -306,7 +306,7 @@ void lighting_forget(Lighting *lighting, const Mesh *mesh)
 {
     for (Buffered **link = &lighting->buffers; *link;) {
         Buffered *buffered = *link;
-        if (buffered->mesh != mesh) {
+        if (mesh && buffered->mesh != mesh) {
             link = &buffered->next;
             continue;
         }

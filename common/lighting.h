@@ -46,7 +46,7 @@ void lighting_use_normal_matrix(Lighting *lighting, LightingNormalMatrix *normal
 bool lighting_draw(Lighting *lighting, const Scene *scene, double aspect, bool full,
                    Message *message);
 
-/* Drops the buffers of a mesh that is about to change or to be closed. */
+/* Drops the buffers of a mesh that is about to change or to be closed; NULL: of all meshes. */
 void lighting_forget(Lighting *lighting, const Mesh *mesh);
 
 /* The program that draws this object, made if need be; 0, with a message, if that fails. For tests

@@ -12,6 +12,7 @@
 
 #include "matrix.h"
 #include "message.h"
+#include "stop.h"
 
 #include <stddef.h>
 #include <stdint.h>
@@ -103,6 +104,10 @@ bool mesh_icosahedron(Mesh *mesh, double radius, Message *message);
  * are the limit. The lid does not touch the rim: the pot is not closed. */
 enum { MESH_TEAPOT_MOST = 512, MESH_TEAPOT_PATCHES = 32 };
 bool mesh_teapot(Mesh *mesh, double size, int divisions, Message *message);
+
+/* The same, which fails soon after another thread has made *stop true. */
+bool mesh_teapot_until(Mesh *mesh, double size, int divisions, const atomic_bool *stop,
+                       Message *message);
 
 /* Any mesh whose indices are in range. */
 

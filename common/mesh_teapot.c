@@ -134,13 +134,17 @@ static void patch_vertex(MeshVertex *vertex, const Vec3 control[4][4], const Bas
     set_vertex(vertex, patch_at(control, down->value, around->value), normal, size);
 }
 
-static void part_vertices(MeshVertex *vertices, const Part *part, double size, int divisions)
+/* False where it was stopped. */
+static bool part_vertices(MeshVertex *vertices, const Part *part, double size, int divisions,
+                          const atomic_bool *stop)
 {
     const size_t row = (size_t)(part->patches_around * divisions) + 1;
     const int rows = part->patches_down * divisions;
     for (int patch = 0; patch < part->patches_down * part->patches_around; patch++) {
         const int across = patch % part->patches_around, down = patch / part->patches_around;
         Vec3 control[4][4];
+        if (stop_asked(stop))
+            return false;
         for (int i = 0; i < 4; i++)
             part->control(part->lines[3 * down + i], across, control[i]);
         for (int j = 0; j <= divisions; j++) {
@@ -160,9 +164,16 @@ static void part_vertices(MeshVertex *vertices, const Part *part, double size, i
         for (size_t i = pole ? 1 : row - 1; i < row; i++)
             first[i] = first[0];
     }
+    return true;
 }
 
 bool mesh_teapot(Mesh *mesh, double size, int divisions, Message *message)
+{
+    return mesh_teapot_until(mesh, size, divisions, NULL, message);
+}
+
+bool mesh_teapot_until(Mesh *mesh, double size, int divisions, const atomic_bool *stop,
+                       Message *message)
 {
     size_t vertex_count = 0, index_count = 0;
     *mesh = (Mesh){0};
@@ -181,7 +192,10 @@ bool mesh_teapot(Mesh *mesh, double size, int divisions, Message *message)
     for (int i = 0; i < PART_COUNT; i++) {
         const int rows = PARTS[i].patches_down * divisions;
         const int columns = PARTS[i].patches_around * divisions;
-        part_vertices(mesh->vertices + first, &PARTS[i], size, divisions);
+        if (!part_vertices(mesh->vertices + first, &PARTS[i], size, divisions, stop)) {
+            mesh_close(mesh);
+            return message_set(message, "teapot: stopped");
+        }
         indices = mesh_grid(indices, first, rows, columns, PARTS[i].poles);
         first += (uint32_t)(rows + 1) * (uint32_t)(columns + 1);
     }

@@ -1,5 +1,6 @@
 #include "options.h"
 
+#include "animation.h"
 #include "output.h"
 #include "parse.h"
 
@@ -16,6 +17,7 @@
 enum {
     OPTION_SAMPLES = 256,
     OPTION_FPS,
+    OPTION_FORMAT,
     OPTION_SHADERS,
     OPTION_PRECISION,
     OPTION_PRINT_SHADER,
@@ -29,6 +31,8 @@ enum {
     OPTION_LINEAR,
     OPTION_SHOW_CLIPPED,
     OPTION_ERROR,
+    OPTION_ORBIT,
+    OPTION_WATCH,
     OPTION_PARAMETER, /* the first of the program's own */
 };
 
@@ -39,8 +43,12 @@ static const struct option LONG_OPTIONS[] = {
     {"angle", required_argument, NULL, 'a'},
     {"frames", required_argument, NULL, 'n'},
     {"fps", required_argument, NULL, OPTION_FPS},
+    {"format", required_argument, NULL, OPTION_FORMAT},
     {"samples", required_argument, NULL, OPTION_SAMPLES},
+    {"orbit", required_argument, NULL, OPTION_ORBIT},
     {"backend", required_argument, NULL, 'b'},
+    {"window", no_argument, NULL, 'w'},
+    {"watch", no_argument, NULL, OPTION_WATCH},
     {"shaders", required_argument, NULL, OPTION_SHADERS},
     {"precision", required_argument, NULL, OPTION_PRECISION},
     {"print-shader", optional_argument, NULL, OPTION_PRINT_SHADER},
@@ -102,15 +110,26 @@ static const char HELP_DRAW[] =
     "  -a, --angle DEG        the moment at which an animation that turns by 30 degrees a\n"
     "                         second has this angle\n";
 static const char HELP_FRAMES[] =
-    "  -n, --frames N         N pictures from --time on; the name needs a number, as in\n"
-    "                         -o turn%03d.png; default 1\n"
-    "      --fps F            pictures for each second of time; default 30\n";
+    "  -n, --frames N         N pictures from --time on, default 1: all in one file that is an\n"
+    "                         animation, .gif, .webp, .apng, .mp4 or .webm; or each in its own,\n"
+    "                         whose name has a number, as in -o turn%03d.png\n"
+    "      --fps F            pictures for each second of time; default 30\n"
+    "      --format png|y4m|rgb\n"
+    "                         what -o - writes: one PNG, the default; a film of all the pictures\n"
+    "                         (YUV4MPEG2); or their bytes, red, green, blue, and nothing else\n";
 static const char HELP_SAMPLES[] =
     "      --samples N        antialiasing with N samples a pixel; default 0, none\n";
+static const char HELP_WINDOW[] =
+    "  -w, --window           show it in a window, in which time runs; h tells the keys\n"
+    "      --watch            draw again whenever a shader's file changes, until Ctrl-C\n";
+static const char HELP_ORBIT[] =
+    "      --orbit AZIMUTH,ELEVATION[,DISTANCE]\n"
+    "                         move the camera about what it looks at: so many degrees to its\n"
+    "                         right and up, and to so many times its distance\n";
 static const char HELP_WHERE[] =
-    "  -b, --backend egl|osmesa\n"
-    "                         what draws, headless both; default egl (also: LIGHTING_BACKEND\n"
-    "                         in the environment)\n"
+    "  -b, --backend egl|osmesa|window\n"
+    "                         what draws, the first two headless; default egl (also:\n"
+    "                         LIGHTING_BACKEND in the environment)\n"
     "      --shaders DIR      look for shader files here first: edit a copy of a shader and\n"
     "                         see what changes (also: LIGHTING_SHADERS in the environment)\n";
 static const char HELP_PICTURE[] =
@@ -143,17 +162,19 @@ static void print_output_help(const Usage *usage)
                "                         index.html; made if need be; default gallery\n",
                usage->name, usage->summary);
     else if (usage->study)
-        printf("Usage: %s [options]\n\n%s\n\n"
+        printf("Usage: %s [options]%s%s\n\n%s\n\n"
                "  -o, --output DIR       the folder for what it finds; made if need be; default\n"
                "                         %s\n",
-               usage->name, usage->summary, usage->name);
+               usage->name, usage->names ? " " : "", usage->names ? usage->names : "",
+               usage->summary, usage->name);
     else
-        printf("Usage: %s [options]\n\n%s\n\n"
-               "Draws one picture without a window or a display.\n\n"
-               "  -o, --output FILE      the picture; default %s.png. The extension names the\n"
-               "                         format (.png, .exr, .tif, .jpg, .webp...); - writes PNG\n"
-               "                         to standard output\n",
-               usage->name, usage->summary, usage->name);
+        printf(
+            "Usage: %s [options]\n\n%s\n\n"
+            "Draws one picture without a window or a display.\n\n"
+            "  -o, --output FILE      the picture; default %s.png. The extension names the\n"
+            "                         format (.png, .exr, .tif, .jpg, .webp, .mp4...); - writes\n"
+            "                         to standard output\n",
+            usage->name, usage->summary, usage->name);
 }
 
 static void print_help(const Usage *usage)
@@ -163,9 +184,10 @@ static void print_help(const Usage *usage)
     print_output_help(usage);
     printf("  -s, --size WxH         in pixels; default %dx%d\n", usage->width ? usage->width : 400,
            usage->height ? usage->height : 400);
-    printf("%s%s%s%s%s%s%s", draws ? HELP_DRAW : "", draws && !usage->gallery ? HELP_FRAMES : "",
-           draws ? HELP_SAMPLES : "", HELP_WHERE, draws ? HELP_PICTURE : "",
-           usage->scene ? HELP_SCENE : "", HELP_REST);
+    const bool one = draws && !usage->gallery;
+    printf("%s%s%s%s%s%s%s%s%s", draws ? HELP_DRAW : "", one ? HELP_FRAMES : "",
+           draws ? HELP_SAMPLES : "", draws ? HELP_ORBIT : "", one ? HELP_WINDOW : "", HELP_WHERE,
+           draws ? HELP_PICTURE : "", usage->scene ? HELP_SCENE : "", HELP_REST);
     if (parameter && parameter->name)
         printf("\nOf this program:\n");
     for (; parameter && parameter->name; parameter++)
@@ -235,6 +257,22 @@ static bool bad_value(const char *option, const char *value, const char *wanted,
     return message_set(message, "%s %s: must be %s", option, value, wanted);
 }
 
+/* "30,-10" or "30,-10,0.5". */
+static bool read_orbit(const char *text, Orbit *orbit)
+{
+    static const double least[] = {-36000, -90, 0.01}, most[] = {36000, 90, 100};
+    double values[3] = {0, 0, 1};
+    char copy[128], *rest = copy;
+    int count = 0;
+    if (snprintf(copy, sizeof copy, "%s", text) >= (int)sizeof copy)
+        return false;
+    for (char *part; (part = strsep(&rest, ",")) != NULL; count++)
+        if (count == 3 || !parse_number(part, least[count], most[count], &values[count]))
+            return false;
+    *orbit = (Orbit){values[0], values[1], values[2]};
+    return count >= 2;
+}
+
 static bool read_backend(Options *options, const char *name, Message *message)
 {
     Message why = {0};
@@ -273,12 +311,30 @@ static bool read_option(Options *options, int option, const char *value, Message
         if (!parse_number(value, 1e-3, 1e6, &options->fps))
             return bad_value("--fps", value, "pictures for each second, 0.001 to 1000000", message);
         return true;
+    case OPTION_FORMAT:
+        if (strcmp(value, "png") != 0 && strcmp(value, "y4m") != 0 && strcmp(value, "rgb") != 0)
+            return bad_value("--format", value, "png, y4m or rgb", message);
+        options->format = value;
+        return true;
     case OPTION_SAMPLES:
         if (!whole_number(value, 0, 65536, &options->canvas.samples))
             return bad_value("--samples", value, "a whole number, 0 to 65536", message);
         return true;
+    case OPTION_ORBIT:
+        if (!read_orbit(value, &options->orbit))
+            return bad_value("--orbit", value,
+                             "AZIMUTH,ELEVATION or AZIMUTH,ELEVATION,DISTANCE: degrees, -90 to 90 "
+                             "for the elevation, and a factor of 0.01 to 100",
+                             message);
+        return true;
     case 'b':
         return read_backend(options, value, message);
+    case 'w':
+        options->canvas.backend = &CANVAS_WINDOW;
+        return true;
+    case OPTION_WATCH:
+        options->watch = true;
+        return true;
     case OPTION_SHADERS:
         options->shaders.folder = value;
         return value[0] ? true : message_set(message, "--shaders: the name is empty");
@@ -336,10 +392,60 @@ static bool read_option(Options *options, int option, const char *value, Message
     }
 }
 
+static bool in_window(const Options *options)
+{
+    const CanvasBackend *given = options->canvas.backend;
+    return (given ? given : canvas_default_backend(NULL)) == &CANVAS_WINDOW;
+}
+
+/* Standard output: one picture, or a stream of them. */
+static bool check_stream(Options *options, Message *message)
+{
+    options->numbered = false;
+    if (options->watch)
+        return message_set(message, "--output -: standard output takes one picture, and --watch "
+                                    "draws many; name a file");
+    if (options->format && strcmp(options->format, "png") != 0)
+        options->animation = options->format;
+    else if (options->frames > 1)
+        return message_set(message,
+                           "--output -: standard output takes one picture as PNG, not %d; "
+                           "--format y4m or rgb takes them all",
+                           options->frames);
+    if (isatty(STDOUT_FILENO))
+        return message_set(message, "--output -: standard output is a terminal; send it to a "
+                                    "file or a pipe");
+    return true;
+}
+
+/* Whether the pictures go to one file that is an animation, or each to its own. */
+static bool find_animation(Options *options, Message *message)
+{
+    char first[PATH_MAX];
+    const char *output = options->output;
+    const char *animation = in_window(options) ? NULL : animation_format(output, options->frames);
+    /* One picture needs no number, and nor does an animation. */
+    if (options->numbered && (options->frames == 1 || animation))
+        options->numbered = output_numbered(output, 0, first, sizeof first, NULL);
+    if (!options->numbered)
+        options->animation = animation;
+    else if (animation_format(output, 1))
+        return message_set(message, "%s: a .%s holds all the pictures; leave the number out",
+                           output, animation_format(output, 1));
+    return !options->numbered || output_numbered(output, 0, first, sizeof first, message);
+}
+
+static bool check_animation(const Options *options, Message *message)
+{
+    const AnimationOptions animation = {
+        .format = options->animation, .fps = options->fps, .alpha = options->alpha};
+    return animation_check(&animation, message);
+}
+
 /* What the command line alone shows to be wrong about the output. */
 static bool check_output(Options *options, const Usage *usage, Message *message)
 {
-    char format[16], first[PATH_MAX];
+    char format[16];
     const char *output = options->output;
     if (options->doctor || options->shaders.print || options->explain)
         return true;
@@ -348,24 +454,27 @@ static bool check_output(Options *options, const Usage *usage, Message *message)
                    ? true
                    : message_set(message, "--output -: a %s is a folder, not one picture",
                                  usage->gallery ? "gallery" : "study");
-    if (strcmp(output, "-") == 0) {
-        options->numbered = false;
-        if (options->frames > 1)
-            return message_set(message, "--output -: standard output takes one picture, not %d",
-                               options->frames);
-        if (isatty(STDOUT_FILENO))
-            return message_set(message, "--output -: standard output is a terminal; send it to a "
-                                        "file or a pipe");
-        return true;
-    }
+    if (in_window(options) && options->numbered)
+        return message_set(message, "--frames: in a window time runs without end; leave out "
+                                    "--window to draw pictures to files");
+    if (in_window(options) && strcmp(output, "-") == 0)
+        return message_set(message, "--output -: in a window the key s saves a picture, as often "
+                                    "as it is pressed; name a file");
+    if (strcmp(output, "-") == 0)
+        return check_stream(options, message) &&
+               (!options->animation || check_animation(options, message));
+    if (options->format)
+        return message_set(message,
+                           "--format %s: is of standard output, -o -; the extension names the "
+                           "format of a file",
+                           options->format);
     const size_t length = strlen(output);
     if (output[length - 1] == '/')
         return message_set(message, "%s: is a folder; name a file in it", output);
-    /* One picture needs no number. */
-    if (options->frames == 1 && options->numbered)
-        options->numbered = output_numbered(output, 0, first, sizeof first, NULL);
-    if (options->numbered && !output_numbered(output, 0, first, sizeof first, message))
+    if (!find_animation(options, message))
         return false;
+    if (options->animation)
+        return check_animation(options, message);
     if (!image_format(output, format, message))
         return false;
     if (options->alpha && !image_format_has_alpha(format))
@@ -373,6 +482,26 @@ static bool check_output(Options *options, const Usage *usage, Message *message)
                            "%s: .%s has no alpha channel; leave out --alpha, or name a .png",
                            output, format);
     return true;
+}
+
+/* Whether a gallery, which draws every program once, has no use for an option. */
+static bool refuse_for_gallery(int option, Message *message)
+{
+    static const struct {
+        int option;
+        const char *name;
+    } refused[] = {{'n', "--frames"},
+                   {OPTION_FPS, "--fps"},
+                   {OPTION_FORMAT, "--format"},
+                   {'w', "--window"},
+                   {OPTION_WATCH, "--watch"}};
+    for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++) {
+        if (refused[i].option == option) {
+            message_set(message, "%s: a gallery has one picture of each program", refused[i].name);
+            return true;
+        }
+    }
+    return false;
 }
 
 OptionsResult options_read(Options *options, const Usage *usage, int argc, char *argv[],
@@ -388,7 +517,7 @@ OptionsResult options_read(Options *options, const Usage *usage, int argc, char 
     struct option all[MOST_OPTIONS];
     int option;
     gather_options(usage, all);
-    const char *letters = usage->study ? ":o:s:b:vh" : ":o:s:t:a:n:b:vh";
+    const char *letters = usage->study ? ":o:s:b:vh" : ":o:s:t:a:n:b:wvh";
     while ((option = getopt_long(argc, argv, letters, all, NULL)) != -1) {
         if (option == 'h') {
             print_help(usage);
@@ -402,18 +531,15 @@ OptionsResult options_read(Options *options, const Usage *usage, int argc, char 
             bad_option(all, option, argc, argv, message);
             return OPTIONS_BAD;
         }
-        if (usage->gallery && (option == 'n' || option == OPTION_FPS)) {
-            message_set(message, "%s: a gallery has one picture of each program",
-                        option == 'n' ? "--frames" : "--fps");
+        if (usage->gallery && refuse_for_gallery(option, message))
             return OPTIONS_BAD;
-        }
         if (option >= OPTION_PARAMETER
                 ? !parameter_read(&usage->parameters[option - OPTION_PARAMETER], optarg, message)
                 : !read_option(options, option, optarg, message))
             return OPTIONS_BAD;
     }
     options->names = argv + optind;
-    if (!usage->gallery && optind < argc) {
+    if (!usage->gallery && !usage->names && optind < argc) {
         message_set(message, "%s: not an option; --help lists them, -o %s", argv[optind],
                     usage->study ? "DIR names the folder" : "FILE names the picture");
         return OPTIONS_BAD;
@@ -431,11 +557,26 @@ OptionsResult options_read(Options *options, const Usage *usage, int argc, char 
                              "precision, too");
         return OPTIONS_BAD;
     }
+    if (options->watch && !options->doctor && (options->shaders.print || options->explain)) {
+        const char *other = options->explain ? "--explain" : "--print-shader";
+        message_set(message, "--watch and %s: one of them, for %s draws nothing", other, other);
+        return OPTIONS_BAD;
+    }
     return check_output(options, usage, message) ? OPTIONS_RUN : OPTIONS_BAD;
+}
+
+/* Ends the process as the signal does by itself, but for names of files that are not whole. */
+static void end_by_signal(int number)
+{
+    const struct sigaction standard = {.sa_handler = SIG_DFL};
+    output_unlink_temporaries();
+    sigaction(number, &standard, NULL);
+    raise(number); /* delivered when this returns */
 }
 
 void options_prepare_process(void)
 {
+    static const int ending[] = {SIGINT, SIGTERM, SIGHUP};
     for (int file = 0; file <= 2; file++) {
         /* Read-only for the outputs too, so that writing to what was closed fails. */
         if (fcntl(file, F_GETFD) < 0 && errno == EBADF)
@@ -443,6 +584,13 @@ void options_prepare_process(void)
     }
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);
+    for (size_t i = 0; i < sizeof ending / sizeof ending[0]; i++) {
+        const struct sigaction action = {.sa_handler = end_by_signal, .sa_flags = SA_RESTART};
+        struct sigaction before;
+        /* What whoever started this had ignored stays so: nohup, a shell's background. */
+        if (sigaction(ending[i], NULL, &before) == 0 && before.sa_handler != SIG_IGN)
+            sigaction(ending[i], &action, NULL);
+    }
 }
 
 int options_fail(const char *program, const Message *message, int code)

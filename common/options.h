@@ -5,6 +5,7 @@
 #define OPTIONS_H
 
 #include "canvas.h"
+#include "orbit.h"
 #include "parameter.h"
 #include "shader.h"
 
@@ -28,6 +29,11 @@ typedef struct Options {
     int frames;
     bool numbered; /* --frames was given, and the output's name has a number */
     double fps;
+    const char *format;    /* of standard output: "png", "y4m", "rgb"; NULL: it was not said */
+    const char *animation; /* the format of the one file or stream of all pictures, as animation.h
+                              has it; NULL: each has its own file */
+    Orbit orbit;
+    bool watch;           /* draw again when a shader changes */
     CanvasOptions canvas; /* without size and real */
     ShaderLoader shaders;
     bool alpha;
@@ -55,6 +61,8 @@ typedef struct Usage {
     bool study;                  /* -o names a folder; measures, so that one moment is drawn as its
                                     own options say: none of those that change a picture */
     bool scene;                  /* the options of programs that draw scenes */
+    const char *names;           /* of a study: what arguments that are no options stand for,
+                                    "LAB PATH"; NULL: there are none */
     int width, height;           /* of the picture where --size says nothing; zero: 400 */
     const Parameter *parameters; /* the program's own options; ended by a NULL name; may be NULL */
 } Usage;
@@ -69,8 +77,9 @@ OptionsResult options_read(Options *options, const Usage *usage, int argc, char 
                            Message *message);
 
 /* The edge of a program: opens /dev/null in the place of closed standard streams (a picture must
- * not land in a file that took the number of standard output), and turns signals about broken pipes
- * and file sizes into errors of the write. */
+ * not land in a file that took the number of standard output), turns signals about broken pipes and
+ * file sizes into errors of the write, and has those that end the process remove what is
+ * half-written first. */
 void options_prepare_process(void);
 
 /* The beginning of a program: options_prepare_process and options_read, with what those have to

@@ -5,10 +5,15 @@
 #include <fcntl.h>
 #include <limits.h>
 #include <poll.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 /* How a path is written. */
@@ -98,7 +103,7 @@ static bool find_target(const char *path, Target *target, Message *message)
     return true;
 }
 
-static bool write_all(int file, const void *bytes, size_t size)
+bool output_append(int file, const void *bytes, size_t size)
 {
     const char *next = bytes;
     while (size > 0) {
@@ -118,7 +123,7 @@ static bool write_all(int file, const void *bytes, size_t size)
     return true;
 }
 
-static bool fail(const char *path, int error, Message *message)
+bool output_failed(const char *path, int error, Message *message)
 {
     const char *advice = error == ENOSPC || error == EDQUOT ? "; make room and run again" : "";
     return message_set(message, "%s: cannot write: %s%s", path, strerror(error), advice);
@@ -147,104 +152,226 @@ static bool write_through(const char *path, const Target *target, const void *by
     const int file = number >= 0 ? fcntl(number, F_DUPFD_CLOEXEC, 3)
                                  : open(target->path, O_WRONLY | O_CLOEXEC | O_TRUNC);
     if (file < 0)
-        return fail(path, errno, message);
-    const bool written = write_all(file, bytes, size);
+        return output_failed(path, errno, message);
+    const bool written = output_append(file, bytes, size);
     const int error = errno;
     const bool closed = close(file) == 0;
     if (!written || !closed)
-        return fail(path, written ? errno : error, message);
+        return output_failed(path, written ? errno : error, message);
     return true;
 }
 
-/* A file that gets its name only when it is whole. */
-typedef struct Temporary {
-    int file;
-    bool named;
-    char name[PATH_MAX + 32];
-} Temporary;
+/* The names of temporary files, which a signal that ends the process must not leave behind. While
+ * a thread gives one (NAME_CHANGING), such signals pass it by, so that whoever ends the process can
+ * wait until the name stands or not. */
+typedef enum NameState { NAME_FREE, NAME_CHANGING, NAME_STANDS } NameState;
+enum { MOST_NAMES = 16 };
 
-/* A name beside the target that nothing else has. */
-static void temporary_try(Temporary *temporary, const char *folder, int number)
+typedef struct Name {
+    atomic_int state; /* a NameState */
+    char path[PATH_MAX + 32];
+} Name;
+
+static Name names[MOST_NAMES];
+static atomic_bool ending;
+
+static Name *name_claim(sigset_t *before)
 {
-    snprintf(temporary->name, sizeof temporary->name, "%s.lighting-%ld-%d", folder, (long)getpid(),
-             number);
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, before);
+    for (int i = 0; i < MOST_NAMES; i++) {
+        int expected = NAME_FREE;
+        if (!atomic_compare_exchange_strong(&names[i].state, &expected, NAME_CHANGING))
+            continue;
+        if (atomic_load(&ending)) { /* too late for new names: another thread ends the process */
+            atomic_store(&names[i].state, NAME_FREE);
+            for (;;)
+                pause();
+        }
+        return &names[i];
+    }
+    pthread_sigmask(SIG_SETMASK, before, NULL);
+    errno = EMFILE;
+    return NULL;
 }
 
-enum { MOST_TRIES = 1000 };
+static void name_settle(Name *name, NameState state, const sigset_t *before)
+{
+    const int error = errno;
+    atomic_store(&name->state, state);
+    pthread_sigmask(SIG_SETMASK, before, NULL);
+    errno = error;
+}
+
+void output_unlink_temporaries(void)
+{
+    static const struct timespec moment = {.tv_nsec = 1000000};
+    const int error = errno;
+    atomic_store(&ending, true);
+    for (int i = 0; i < MOST_NAMES; i++) {
+        while (atomic_load(&names[i].state) == NAME_CHANGING)
+            nanosleep(&moment, NULL);
+        if (atomic_load(&names[i].state) == NAME_STANDS)
+            unlink(names[i].path);
+    }
+    errno = error;
+}
+
+struct Output {
+    const char *path; /* as it was given, for messages */
+    Target target;
+    int file;
+    Name *name; /* of the temporary file; NULL: it has none yet */
+};
+
+/* Gives the temporary file a name beside the target that nothing else has: links the file that is
+ * open, or opens one of that name. */
+static bool output_name(Output *output)
+{
+    enum { MOST_TRIES = 1000 };
+    errno = EEXIST;
+    for (int i = 0; i < MOST_TRIES && !output->name && errno == EEXIST; i++) {
+        char self[64];
+        sigset_t before;
+        Name *name = name_claim(&before);
+        if (!name)
+            return false;
+        snprintf(name->path, sizeof name->path, "%s.lighting-%ld-%d", output->target.folder,
+                 (long)getpid(), i);
+        snprintf(self, sizeof self, "/proc/self/fd/%d", output->file);
+        if (output->file < 0)
+            output->file = open(name->path, O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, 0666);
+        else if (linkat(AT_FDCWD, self, AT_FDCWD, name->path, AT_SYMLINK_FOLLOW) != 0) {
+            name_settle(name, NAME_FREE, &before);
+            continue;
+        }
+        name_settle(name, output->file < 0 ? NAME_FREE : NAME_STANDS, &before);
+        output->name = output->file < 0 ? NULL : name;
+    }
+    return output->name != NULL;
+}
 
 /* Without any name where the file system has such files, so that not even a crash leaves one. The
  * process's mask decides on the permissions, as for any new file. */
-static bool temporary_open(Temporary *temporary, const char *folder)
+static bool output_open(Output *output)
 {
+    if (output->target.through) {
+        output->file = memfd_create("output", MFD_CLOEXEC);
+        return output->file >= 0;
+    }
     /* It is named through /proc. */
-    temporary->file = access("/proc/self/fd", X_OK) == 0
-                          ? open(folder, O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666)
-                          : -1;
-    temporary->named = temporary->file < 0;
-    for (int i = 0; i < MOST_TRIES && temporary->file < 0; i++) {
-        temporary_try(temporary, folder, i);
-        temporary->file = open(temporary->name, O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
-        if (temporary->file < 0 && errno != EEXIST)
-            break;
-    }
-    return temporary->file >= 0;
+    output->file = access("/proc/self/fd", X_OK) == 0
+                       ? open(output->target.folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0666)
+                       : -1;
+    return output->file >= 0 || output_name(output);
 }
 
-/* linkat cannot replace a file and rename needs a name: give one first, beside the target. */
-static bool temporary_name(Temporary *temporary, const char *folder)
+static void output_free(Output *output)
 {
-    char self[64];
-    if (temporary->named)
-        return true;
-    snprintf(self, sizeof self, "/proc/self/fd/%d", temporary->file);
-    for (int i = 0; i < MOST_TRIES && !temporary->named; i++) {
-        temporary_try(temporary, folder, i);
-        temporary->named =
-            linkat(AT_FDCWD, self, AT_FDCWD, temporary->name, AT_SYMLINK_FOLLOW) == 0;
-        if (!temporary->named && errno != EEXIST)
-            break;
+    if (output->file >= 0)
+        close(output->file);
+    if (output->name) {
+        unlink(output->name->path);
+        atomic_store(&output->name->state, NAME_FREE);
     }
-    return temporary->named;
+    free(output);
 }
 
-static bool replace(const char *path, const Target *target, const void *bytes, size_t size,
-                    Message *message)
+static Output *begin(const char *path, const Target *target, Message *message)
 {
-    Temporary temporary;
-    if (!temporary_open(&temporary, target->folder))
-        return fail(path, errno, message);
-    bool done =
-        write_all(temporary.file, bytes, size) && temporary_name(&temporary, target->folder);
-    int error = errno;
+    Output *output = malloc(sizeof *output);
+    if (!output) {
+        message_set(message, "%s: not enough memory", path);
+        return NULL;
+    }
+    *output = (Output){.path = path, .target = *target, .file = -1};
+    if (output_open(output))
+        return output;
+    output_failed(path, errno, message);
+    output_free(output);
+    return NULL;
+}
+
+Output *output_begin(const char *path, Message *message)
+{
+    Target target;
+    return find_target(path, &target, message) ? begin(path, &target, message) : NULL;
+}
+
+int output_file(const Output *output)
+{
+    return output->file;
+}
+
+/* What was kept in memory goes to its device or pipe. */
+static bool copy_through(const Output *output, Message *message)
+{
+    struct stat status;
+    if (fstat(output->file, &status) != 0)
+        return output_failed(output->path, errno, message);
+    const size_t size = (size_t)status.st_size;
+    void *bytes = size ? mmap(NULL, size, PROT_READ, MAP_SHARED, output->file, 0) : NULL;
+    if (bytes == MAP_FAILED)
+        return output_failed(output->path, errno, message);
+    const bool done = write_through(output->path, &output->target, bytes, size, message);
+    if (bytes)
+        munmap(bytes, size);
+    return done;
+}
+
+/* linkat cannot replace a file and rename needs a name: the file gets one first. */
+static bool replace(Output *output, Message *message)
+{
+    if (!output->name && !output_name(output))
+        return output_failed(output->path, errno, message);
     /* Where a file system does not let the mode be kept, the picture is worth more than the mode.
      */
-    if (done && target->replaces)
-        (void)!fchmod(temporary.file, target->mode);
-    if (close(temporary.file) != 0 && done) { /* some file systems report a full disk only here */
-        done = false;
-        error = errno;
-    }
-    if (done && rename(temporary.name, target->path) != 0) {
-        done = false;
-        error = errno;
-    }
-    if (!done && temporary.named)
-        unlink(temporary.name);
-    return done ? true : fail(path, error, message);
+    if (output->target.replaces)
+        (void)!fchmod(output->file, output->target.mode);
+    const bool closed = close(output->file) == 0; /* where some report that a disk is full */
+    output->file = -1;
+    if (!closed || rename(output->name->path, output->target.path) != 0)
+        return output_failed(output->path, errno, message);
+    atomic_store(&output->name->state, NAME_FREE);
+    output->name = NULL;
+    return true;
+}
+
+bool output_commit(Output *output, Message *message)
+{
+    const bool done =
+        output->target.through ? copy_through(output, message) : replace(output, message);
+    output_free(output);
+    return done;
+}
+
+void output_abort(Output *output)
+{
+    if (output)
+        output_free(output);
 }
 
 bool output_write(const char *path, const void *bytes, size_t size, Message *message)
 {
     if (strcmp(path, "-") == 0) {
-        if (write_all(STDOUT_FILENO, bytes, size))
+        if (output_append(STDOUT_FILENO, bytes, size))
             return true;
-        return fail("standard output", errno, message);
+        return output_failed("standard output", errno, message);
     }
     Target target;
     if (!find_target(path, &target, message))
         return false;
-    return target.through ? write_through(path, &target, bytes, size, message)
-                          : replace(path, &target, bytes, size, message);
+    if (target.through)
+        return write_through(path, &target, bytes, size, message);
+    Output *output = begin(path, &target, message);
+    if (!output)
+        return false;
+    if (output_append(output->file, bytes, size))
+        return output_commit(output, message);
+    output_failed(path, errno, message);
+    output_abort(output);
+    return false;
 }
 
 bool output_check(const char *path, Message *message)
@@ -287,7 +414,8 @@ bool output_numbered(const char *pattern, int number, char *path, size_t path_si
     if (!found)
         return message_set(message,
                            "%s: several pictures need a number in the name, as in "
-                           "picture%%03d.png",
+                           "picture%%03d.png, or a file that holds them all: .gif, .webp, .apng, "
+                           ".mp4, .webm",
                            pattern);
     return true;
 }

@@ -1,6 +1,5 @@
 #include "parameter.h"
 
-#include "matrix.h"
 #include "parse.h"
 
 #include <math.h>
@@ -81,6 +80,132 @@ bool parameter_read(const Parameter *parameter, const char *text, Message *messa
         return true;
     }
     return false;
+}
+
+ParameterValue parameter_save(const Parameter *parameter)
+{
+    const void *value = parameter->value;
+    switch (parameter->kind) {
+    case PARAMETER_NUMBER:
+        return (ParameterValue){.number = *(const double *)value};
+    case PARAMETER_WHOLE:
+    case PARAMETER_CHOICE:
+        return (ParameterValue){.whole = *(const int *)value};
+    case PARAMETER_SWITCH:
+    case PARAMETER_FLAG:
+        return (ParameterValue){.on = *(const bool *)value};
+    case PARAMETER_COLOR:
+        return (ParameterValue){.color = *(const Vec3 *)value};
+    case PARAMETER_TEXT:
+        return (ParameterValue){.text = *(const char *const *)value};
+    }
+    return (ParameterValue){0};
+}
+
+void parameter_restore(const Parameter *parameter, ParameterValue value)
+{
+    switch (parameter->kind) {
+    case PARAMETER_NUMBER:
+        *(double *)parameter->value = value.number;
+        break;
+    case PARAMETER_WHOLE:
+    case PARAMETER_CHOICE:
+        *(int *)parameter->value = value.whole;
+        break;
+    case PARAMETER_SWITCH:
+    case PARAMETER_FLAG:
+        *(bool *)parameter->value = value.on;
+        break;
+    case PARAMETER_COLOR:
+        *(Vec3 *)parameter->value = value.color;
+        break;
+    case PARAMETER_TEXT:
+        *(const char **)parameter->value = value.text;
+        break;
+    }
+}
+
+bool parameter_equal(const Parameter *parameter, const ParameterValue *value)
+{
+    const ParameterValue own = parameter_save(parameter);
+    switch (parameter->kind) {
+    case PARAMETER_NUMBER:
+        return own.number == value->number;
+    case PARAMETER_WHOLE:
+    case PARAMETER_CHOICE:
+        return own.whole == value->whole;
+    case PARAMETER_SWITCH:
+    case PARAMETER_FLAG:
+        return own.on == value->on;
+    case PARAMETER_COLOR:
+        return own.color.x == value->color.x && own.color.y == value->color.y &&
+               own.color.z == value->color.z;
+    case PARAMETER_TEXT:
+        return own.text == value->text ||
+               (own.text && value->text && strcmp(own.text, value->text) == 0);
+    }
+    return false;
+}
+
+/* 15 digits tell all decimals of as many apart, 17 all doubles. */
+static bool write_number(double number, char text[32])
+{
+    for (int digits = 15; digits <= 17; digits++) {
+        snprintf(text, 32, "%.*g", digits, number);
+        if (strtod(text, NULL) == number)
+            return isfinite(number);
+    }
+    return false;
+}
+
+static bool write_color(Vec3 color, char *text, size_t size)
+{
+    char r[32], g[32], b[32];
+    if (!write_number(color.x, r) || !write_number(color.y, g) || !write_number(color.z, b))
+        return false;
+    const bool grey = strcmp(r, g) == 0 && strcmp(g, b) == 0;
+    return snprintf(text, size, grey ? "%s" : "%s,%s,%s", r, g, b) < (int)size;
+}
+
+static bool write_value(const Parameter *parameter, char *text, size_t size)
+{
+    const ParameterValue value = parameter_save(parameter);
+    const char *word = NULL;
+    char number[32];
+    switch (parameter->kind) {
+    case PARAMETER_NUMBER:
+        word = write_number(value.number, number) ? number : NULL;
+        break;
+    case PARAMETER_WHOLE:
+        snprintf(number, sizeof number, "%d", value.whole);
+        word = number;
+        break;
+    case PARAMETER_CHOICE:
+        for (int i = 0; parameter->choices[i]; i++)
+            if (i == value.whole)
+                word = parameter->choices[i];
+        break;
+    case PARAMETER_SWITCH:
+        word = value.on ? "on" : "off";
+        break;
+    case PARAMETER_FLAG:
+        word = value.on ? "" : NULL;
+        break;
+    case PARAMETER_COLOR:
+        return write_color(value.color, text, size);
+    case PARAMETER_TEXT:
+        word = value.text;
+        break;
+    }
+    return word && snprintf(text, size, "%s", word) < (int)size;
+}
+
+bool parameter_write(const Parameter *parameter, char *text, size_t size)
+{
+    const bool written = write_value(parameter, text, size);
+    if (!written && size > 0)
+        text[0] = '\0';
+    return written;
 }
 
 void parameter_help(const Parameter *parameter, FILE *file)

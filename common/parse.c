@@ -1,5 +1,6 @@
 #include "parse.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -37,6 +38,16 @@ bool parse_number(const char *text, double least, double most, double *number)
         return false;
     *number = value;
     return true;
+}
+
+void parse_number_text(double number, char text[32])
+{
+    /* 15 digits tell all decimals of as many apart, 17 all doubles. */
+    for (int digits = 15; digits <= 17; digits++) {
+        snprintf(text, 32, "%.*g", digits, number);
+        if (strtod(text, NULL) == number)
+            return;
+    }
 }
 
 /* Changes of one letter that turn a into b (Levenshtein), as far as 63 letters. */

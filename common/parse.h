@@ -14,6 +14,10 @@ bool parse_size(const char *text, int *width, int *height);
 /* A finite decimal number within least..most, and nothing else. */
 bool parse_number(const char *text, double least, double most, double *number);
 
+/* Writes a finite number in the fewest digits, 15 to 17, from which parse_number makes the very
+ * same one. */
+void parse_number_text(double number, char text[32]);
+
 /* The name most like `word`, or NULL where none is near; `names` is NULL-terminated. */
 const char *parse_nearest(const char *word, const char *const *names);
 

@@ -4,13 +4,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Encoding a picture costs up to twice as much as drawing it, so two threads do it. One slot for
- * each of them, one being drawn, and one between to even out their times. */
+/* Encoding a picture costs up to twice as much as drawing it, so that two threads do it where the
+ * files are apart. One slot for each of them, one being drawn, and one between to even out their
+ * times. */
 enum { MOST_WRITERS = 2, MOST_SLOTS = MOST_WRITERS + 2 };
 
 typedef enum SlotState { SLOT_FREE, SLOT_TAKEN, SLOT_WAITING, SLOT_WRITING } SlotState;
 
 struct PictureQueue {
+    PictureSink sink;
     pthread_t writers[MOST_WRITERS];
     int writer_count;
     pthread_mutex_t lock;
@@ -21,6 +23,7 @@ struct PictureQueue {
     unsigned long order[MOST_SLOTS]; /* of giving, so that pictures are written in that order */
     unsigned long given;
     bool ended;
+    bool failed;
     Message failure; /* of the first picture that could not be written */
 };
 
@@ -37,6 +40,14 @@ bool picture_write(const Picture *picture, Message *message)
         .compress = picture->compress, .alpha = picture->alpha, .text = text};
     return image_write(&picture->image, picture->path, &options, message);
 }
+
+static bool write_file(void *data, const Picture *picture, Message *message)
+{
+    (void)data;
+    return picture_write(picture, message);
+}
+
+static const PictureSink FILES = {.write = write_file, .threads = MOST_WRITERS};
 
 /* The slot in `state` that was given first, or -1. */
 static int oldest(const PictureQueue *queue, SlotState state)
@@ -61,13 +72,16 @@ static void *write_pictures(void *argument)
             continue;
         }
         queue->states[slot] = SLOT_WRITING;
-        if (!queue->failure.text[0]) {
+        if (!queue->failed) {
             Message message = {0};
             pthread_mutex_unlock(&queue->lock);
-            const bool written = picture_write(&queue->pictures[slot], &message);
+            const bool written =
+                queue->sink.write(queue->sink.data, &queue->pictures[slot], &message);
             pthread_mutex_lock(&queue->lock);
-            if (!written)
+            if (!written && !queue->failed) {
+                queue->failed = true;
                 queue->failure = message;
+            }
         }
         queue->states[slot] = SLOT_FREE;
         pthread_cond_broadcast(&queue->changed);
@@ -86,12 +100,13 @@ static void free_queue(PictureQueue *queue)
 }
 
 bool picture_queue_open(PictureQueue **opened, int width, int height, ImageType type, int count,
-                        Message *message)
+                        const PictureSink *sink, Message *message)
 {
     PictureQueue *queue = calloc(1, sizeof *queue);
     *opened = NULL;
     if (!queue)
         return message_set(message, "pictures: not enough memory");
+    queue->sink = sink ? *sink : FILES;
     queue->slots = count < MOST_SLOTS ? count : MOST_SLOTS;
     pthread_mutex_init(&queue->lock, NULL);
     pthread_cond_init(&queue->changed, NULL);
@@ -102,7 +117,8 @@ bool picture_queue_open(PictureQueue **opened, int width, int height, ImageType 
         }
     }
     int error = 0;
-    for (int i = 0; i < MOST_WRITERS && i < queue->slots && !error; i++) {
+    for (int i = 0; i < MOST_WRITERS && i < queue->sink.threads && i < queue->slots && !error;
+         i++) {
         error = pthread_create(&queue->writers[i], NULL, write_pictures, queue);
         queue->writer_count += !error;
     }
@@ -131,10 +147,12 @@ bool picture_queue_give(PictureQueue *queue, Picture *picture, Message *message)
     pthread_mutex_lock(&queue->lock);
     queue->states[slot] = SLOT_WAITING;
     queue->order[slot] = queue->given++;
-    const Message failure = queue->failure;
+    const bool written = !queue->failed;
+    if (!written)
+        message_set(message, "%s", queue->failure.text);
     pthread_cond_broadcast(&queue->changed);
     pthread_mutex_unlock(&queue->lock);
-    return failure.text[0] ? message_set(message, "%s", failure.text) : true;
+    return written;
 }
 
 bool picture_queue_close(PictureQueue *queue, Message *message)
@@ -147,7 +165,7 @@ bool picture_queue_close(PictureQueue *queue, Message *message)
     pthread_mutex_unlock(&queue->lock);
     for (int i = 0; i < queue->writer_count; i++)
         pthread_join(queue->writers[i], NULL);
-    const bool written = !queue->failure.text[0];
+    const bool written = !queue->failed;
     if (!written)
         message_set(message, "%s", queue->failure.text);
     free_queue(queue);

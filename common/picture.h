@@ -1,7 +1,7 @@
 /*
  * picture: a drawn image on its way to a file, on this thread or on others.
  *
- * A queue has two threads that encode and write while the caller draws, so that drawing and writing
+ * A queue has threads that encode and write while the caller draws, so that drawing and writing
  * share the cores there are.
  */
 #ifndef PICTURE_H
@@ -26,17 +26,27 @@ typedef struct Picture {
 /* Encodes and writes; see output.h for what becomes of an existing file. */
 bool picture_write(const Picture *picture, Message *message);
 
+/* What becomes of the pictures of a queue. */
+typedef struct PictureSink {
+    /* False stops the queue; without a message, nothing is to be said of it. */
+    bool (*write)(void *data, const Picture *picture, Message *message);
+    void *data;
+    int threads; /* that call it, 1 or 2; one gets the pictures in the order in which they are given
+                  */
+} PictureSink;
+
 typedef struct PictureQueue PictureQueue;
 
-/* Starts the threads, for `count` pictures of this size and type. */
+/* Starts the threads, for `count` pictures of this size and type. Where `sink` is NULL, two threads
+ * write each picture to its own file. */
 bool picture_queue_open(PictureQueue **queue, int width, int height, ImageType type, int count,
-                        Message *message);
+                        const PictureSink *sink, Message *message);
 
 /* A picture to draw into; waits while all are being written. */
 Picture *picture_queue_take(PictureQueue *queue);
 
 /* Gives it to the threads. False, with its message, where an earlier picture could not be
- * written: nothing more is written then. */
+ * written: none that is given later is written then. */
 bool picture_queue_give(PictureQueue *queue, Picture *picture, Message *message);
 
 /* Waits until all that was given is written, ends the threads and frees the queue. False, with the

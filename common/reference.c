@@ -15,6 +15,7 @@ typedef struct Job {
     Reference *reference;
     const Trace *trace;
     double edge_error;
+    const atomic_bool *stop;
     atomic_int next; /* band */
 } Job;
 
@@ -50,6 +51,8 @@ static void draw_band(const Worker *worker, int band)
     const int first = band * BAND;
     sample_row(job, 2 * first, top);
     for (int y = first; y < first + BAND && y < reference->height; y++) {
+        if (stop_asked(job->stop))
+            return;
         sample_row(job, 2 * y + 1, middle);
         sample_row(job, 2 * y + 2, bottom);
         for (int x = 0; x < reference->width; x++) {
@@ -68,7 +71,7 @@ static void *work(void *argument)
     const Worker *worker = argument;
     Job *job = worker->job;
     const int count = (job->reference->height + BAND - 1) / BAND;
-    for (int band = atomic_fetch_add(&job->next, 1); band < count;
+    for (int band = atomic_fetch_add(&job->next, 1); band < count && !stop_asked(job->stop);
          band = atomic_fetch_add(&job->next, 1))
         draw_band(worker, band);
     return NULL;
@@ -137,18 +140,22 @@ bool reference_open(Reference *reference, const Scene *scene, const ReferenceOpt
 {
     Trace *trace = NULL;
     *reference = (Reference){0};
-    if (!check(options, message) ||
-        !trace_open(&trace, scene, options->meshes, options->width, options->height, message))
+    if (!check(options, message) || !trace_open(&trace, scene, options->meshes, options->width,
+                                                options->height, options->stop, message))
         return false;
     *reference = (Reference){.width = options->width, .height = options->height};
     Job job = {.reference = reference,
                .trace = trace,
-               .edge_error = options->edge_error > 0 ? options->edge_error : EDGE_ERROR};
+               .edge_error = options->edge_error > 0 ? options->edge_error : EDGE_ERROR,
+               .stop = options->stop};
     const bool done = open_pixels(reference) && draw(&job, thread_count(options));
     trace_close(trace);
-    if (done)
+    const bool stopped = stop_asked(options->stop);
+    if (done && !stopped)
         return true;
     reference_close(reference);
+    if (stopped)
+        return message_set(message, "reference: stopped");
     return message_set(message, "reference: %dx%d pixels: not enough memory", options->width,
                        options->height);
 }

@@ -19,6 +19,7 @@
 #ifndef REFERENCE_H
 #define REFERENCE_H
 
+#include "stop.h"
 #include "scene.h"
 
 typedef struct ReferenceOptions {
@@ -31,7 +32,8 @@ typedef struct ReferenceOptions {
     /* What an edge may add to a pixel's colour and 255 times its coverage, in steps of 1/255: 0 to
      * 255, 0 for 0.5. Kept down to 0.1; the worst found where 0.5 was asked for is 0.19. */
     double edge_error;
-    int threads; /* 0: as many as there are cores. The picture does not depend on it */
+    int threads;             /* 0: as many as there are cores. The picture does not depend on it */
+    const atomic_bool *stop; /* NULL, or what another thread makes true to have no picture */
 } ReferenceOptions;
 
 /* Row 0 at the top. A pixel's object, depth and face are those at its centre. */
@@ -49,7 +51,9 @@ typedef struct Reference {
 } Reference;
 
 /* Draws a scene that has passed scene_check. False, with a message and a zeroed reference, where
- * memory cannot be had, or an option is out of its range. Where threads cannot be had fewer do. */
+ * memory cannot be had, an option is out of its range, or it was stopped. Where threads cannot be
+ * had fewer do. Stopped, it returns after some 10 ms of computing, more where a mesh has
+ * millions of triangles. */
 bool reference_open(Reference *reference, const Scene *scene, const ReferenceOptions *options,
                     Message *message);
 

@@ -15,6 +15,7 @@ typedef struct Builder {
     Bounds *bounds;
     const Real (*boxes)[2][3];
     uint32_t node_count;
+    const atomic_bool *stop;
 } Builder;
 
 static Box empty_box(void)
@@ -131,7 +132,7 @@ static void build(Builder *builder, uint32_t number, uint32_t first, uint32_t co
     }
     node->first = first;
     node->count = count;
-    if (count <= LEAF)
+    if (count <= LEAF || stop_asked(builder->stop))
         return;
     const uint32_t below = separate(builder, items, count, depth);
     node->first = builder->node_count;
@@ -142,7 +143,7 @@ static void build(Builder *builder, uint32_t number, uint32_t first, uint32_t co
     build(builder, children + 1, first + below, count - below, depth + 1);
 }
 
-bool bounds_build(Bounds *bounds, const Real (*boxes)[2][3], size_t count)
+bool bounds_build(Bounds *bounds, const Real (*boxes)[2][3], size_t count, const atomic_bool *stop)
 {
     *bounds = (Bounds){NULL, NULL};
     if (count == 0)
@@ -157,9 +158,12 @@ bool bounds_build(Bounds *bounds, const Real (*boxes)[2][3], size_t count)
     }
     for (size_t i = 0; i < count; i++)
         bounds->order[i] = (uint32_t)i;
-    Builder builder = {bounds, boxes, 1};
+    Builder builder = {bounds, boxes, 1, stop};
     build(&builder, 0, 0, (uint32_t)count, 0);
-    return true;
+    if (!stop_asked(stop))
+        return true;
+    bounds_close(bounds);
+    return false;
 }
 
 void bounds_close(Bounds *bounds)

@@ -5,6 +5,7 @@
 #define REFERENCE_BOUNDS_H
 
 #include "reference_real.h"
+#include "stop.h"
 
 #include <stddef.h>
 #include <stdint.h>
@@ -24,8 +25,9 @@ typedef struct Bounds {
     uint32_t *order;   /* the items, those of a leaf together */
 } Bounds;
 
-/* Builds it over `count` boxes, lows and highs in turn. False where memory runs out. */
-bool bounds_build(Bounds *bounds, const Real (*boxes)[2][3], size_t count);
+/* Builds it over `count` boxes, lows and highs in turn. False where memory runs out, or it was
+ * stopped. */
+bool bounds_build(Bounds *bounds, const Real (*boxes)[2][3], size_t count, const atomic_bool *stop);
 void bounds_close(Bounds *bounds);
 
 #endif

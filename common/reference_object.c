@@ -105,7 +105,7 @@ static bool light_corners(TraceObject *ready, const Scene *scene, const Shading 
 }
 
 static bool open_triangles(TraceObject *ready, const Scene *scene, const Shading *shading,
-                           bool meshes)
+                           bool meshes, const atomic_bool *stop)
 {
     const Mesh *mesh = ready->mesh;
     const bool at_corners = meshes && scene->interpolation != INTERPOLATION_PHONG;
@@ -119,14 +119,14 @@ static bool open_triangles(TraceObject *ready, const Scene *scene, const Shading
         points[i] = real3_add(transform(ready->columns, to_real3(vertex->position)), ready->offset);
         ready->normals[i] = trace_object_normal(ready, to_real3(vertex->normal));
     }
-    done = done && triangles_open(&ready->triangles, mesh, points, ready->flat_corners) &&
+    done = done && triangles_open(&ready->triangles, mesh, points, ready->flat_corners, stop) &&
            (!at_corners || light_corners(ready, scene, shading, points));
     free(points);
     return done;
 }
 
 bool trace_object_open(TraceObject *ready, const Object *object, const Scene *scene,
-                       const Shading *shading, bool meshes)
+                       const Shading *shading, bool meshes, const atomic_bool *stop)
 {
     const double *m = object->world_from_object.m;
     Real3 rows[3];
@@ -150,11 +150,11 @@ bool trace_object_open(TraceObject *ready, const Object *object, const Scene *sc
         return true;
     }
     if (!meshes && !flattened && object->solid.kind == SOLID_TEAPOT) {
-        if (!mesh_teapot(&ready->own, object->solid.radius, TEAPOT_DIVISIONS, NULL))
+        if (!mesh_teapot_until(&ready->own, object->solid.radius, TEAPOT_DIVISIONS, stop, NULL))
             return false;
         ready->mesh = &ready->own;
     }
-    return open_triangles(ready, scene, shading, meshes);
+    return open_triangles(ready, scene, shading, meshes, stop);
 }
 
 void trace_object_close(TraceObject *ready)

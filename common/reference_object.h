@@ -31,9 +31,9 @@ typedef struct TraceObject {
     bool flat_corners;
 } TraceObject;
 
-/* False where memory runs out. */
+/* False where memory runs out, or it was stopped; to be closed all the same. */
 bool trace_object_open(TraceObject *ready, const Object *object, const Scene *scene,
-                       const Shading *shading, bool meshes);
+                       const Shading *shading, bool meshes, const atomic_bool *stop);
 void trace_object_close(TraceObject *ready);
 
 /* The unit normal that light sees, from one in object coordinates; zero where there is none. */

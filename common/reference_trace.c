@@ -40,7 +40,7 @@ static ShadeLight prepare_light(const Light *light, Vec3 eye)
     return ready;
 }
 
-static bool fill(Trace *trace, const Scene *scene, bool meshes)
+static bool fill(Trace *trace, const Scene *scene, bool meshes, const atomic_bool *stop)
 {
     trace->lights = calloc((size_t)scene->light_count + 1, sizeof *trace->lights);
     trace->objects = calloc((size_t)scene->object_count + 1, sizeof *trace->objects);
@@ -53,13 +53,13 @@ static bool fill(Trace *trace, const Scene *scene, bool meshes)
     trace->shading.lights = trace->lights;
     for (int i = 0; i < scene->object_count; i++)
         if (!trace_object_open(&trace->objects[i], &scene->objects[i], scene, &trace->shading,
-                               meshes))
+                               meshes, stop))
             return false;
     return true;
 }
 
 bool trace_open(Trace **opened, const Scene *scene, bool meshes, int width, int height,
-                Message *message)
+                const atomic_bool *stop, Message *message)
 {
     Mat4 eye_from_world, clip_from_eye;
     *opened = NULL;
@@ -76,9 +76,10 @@ bool trace_open(Trace **opened, const Scene *scene, bool meshes, int width, int 
     trace->shading.reflection_phong = scene->reflection == REFLECTION_PHONG;
     trace->shading.distant_viewer = scene->distant_viewer;
     set_camera(trace, &scene->camera, eye_from_world, width, height);
-    if (!fill(trace, scene, meshes)) {
+    if (!fill(trace, scene, meshes, stop)) {
         trace_close(trace);
-        return message_set(message, "reference: not enough memory for the scene");
+        return message_set(message, "reference: %s",
+                           stop_asked(stop) ? "stopped" : "not enough memory for the scene");
     }
     *opened = trace;
     return true;

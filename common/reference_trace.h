@@ -8,6 +8,7 @@
 #define REFERENCE_TRACE_H
 
 #include "reference_real.h"
+#include "stop.h"
 #include "scene.h"
 
 #include <stdint.h>
@@ -15,9 +16,9 @@
 typedef struct Trace Trace;
 
 /* Prepares a scene that has passed scene_check, for a picture of so many pixels; `meshes` as in
- * ReferenceOptions. A trace may be used by several threads. */
+ * ReferenceOptions, as is `stop`. A trace may be used by several threads. */
 bool trace_open(Trace **trace, const Scene *scene, bool meshes, int width, int height,
-                Message *message);
+                const atomic_bool *stop, Message *message);
 void trace_close(Trace *trace); /* NULL is fine */
 
 /* What is seen at one point. Space: the axes are the world's, the origin is the eye. */

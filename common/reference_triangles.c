@@ -13,6 +13,9 @@ typedef struct Places {
 
 enum { NONE = 0xFFFFFFFF };
 
+/* So many vertices or triangles are a few milliseconds' work. */
+enum { STRIDE = 16384 };
+
 static uint32_t hash_position(const float position[3])
 {
     uint32_t hash = 2166136261U; /* FNV-1a, by words */
@@ -39,7 +42,8 @@ static bool equal_normals(const MeshVertex *a, const MeshVertex *b)
 }
 
 /* Fills, for each vertex, the first that equals it, and the first in its place. */
-static bool find_equal(const Mesh *mesh, uint32_t *equal, uint32_t *in_place)
+static bool find_equal(const Mesh *mesh, uint32_t *equal, uint32_t *in_place,
+                       const atomic_bool *stop)
 {
     const MeshVertex *vertices = mesh->vertices;
     Places places = {NULL, NULL, 15};
@@ -47,10 +51,11 @@ static bool find_equal(const Mesh *mesh, uint32_t *equal, uint32_t *in_place)
         places.mask = 2 * places.mask + 1;
     places.heads = malloc(((size_t)places.mask + 1) * sizeof *places.heads);
     places.next = malloc((mesh->vertex_count + 1) * sizeof *places.next);
-    const bool done = places.heads && places.next;
+    bool done = places.heads && places.next;
     if (done)
         memset(places.heads, 0xFF, ((size_t)places.mask + 1) * sizeof *places.heads);
     for (uint32_t i = 0; done && i < mesh->vertex_count; i++) {
+        done = i % STRIDE != 0 || !stop_asked(stop);
         const uint32_t place = hash_position(vertices[i].position) & places.mask;
         uint32_t other = places.heads[place];
         equal[i] = in_place[i] = i;
@@ -131,15 +136,17 @@ typedef struct Work {
 } Work;
 
 static bool fill(Triangles *triangles, const Mesh *mesh, const Real3 *points, bool apart,
-                 const Work *work)
+                 const Work *work, const atomic_bool *stop)
 {
     const size_t most = mesh->index_count / 3;
     if (!work->equal || !work->parents || !work->in_place || !work->unordered || !work->boxes ||
-        !triangles->triangles || !find_equal(mesh, work->equal, work->in_place))
+        !triangles->triangles || !find_equal(mesh, work->equal, work->in_place, stop))
         return false;
     for (uint32_t i = 0; i < mesh->vertex_count; i++)
         work->parents[i] = i;
     for (uint32_t i = 0; i < most; i++) {
+        if (i % STRIDE == 0 && stop_asked(stop))
+            return false;
         const uint32_t *indices = mesh->indices + 3 * (size_t)i;
         const Triangle triangle = make_triangle(indices, i, points, work->equal, work->in_place);
         if (!has_area(triangle.normal))
@@ -149,7 +156,7 @@ static bool fill(Triangles *triangles, const Mesh *mesh, const Real3 *points, bo
         set_box(work->boxes[triangles->count], indices, points);
         work->unordered[triangles->count++] = triangle;
     }
-    if (!bounds_build(&triangles->bounds, (const Real(*)[2][3])work->boxes, triangles->count))
+    if (!bounds_build(&triangles->bounds, (const Real(*)[2][3])work->boxes, triangles->count, stop))
         return false;
     for (size_t i = 0; i < triangles->count; i++) {
         Triangle *triangle = &triangles->triangles[i];
@@ -159,7 +166,8 @@ static bool fill(Triangles *triangles, const Mesh *mesh, const Real3 *points, bo
     return true;
 }
 
-bool triangles_open(Triangles *triangles, const Mesh *mesh, const Real3 *points, bool apart)
+bool triangles_open(Triangles *triangles, const Mesh *mesh, const Real3 *points, bool apart,
+                    const atomic_bool *stop)
 {
     const size_t most = mesh->index_count / 3;
     const Work work = {malloc((mesh->vertex_count + 1) * sizeof *work.equal),
@@ -168,7 +176,7 @@ bool triangles_open(Triangles *triangles, const Mesh *mesh, const Real3 *points,
                        malloc((most + 1) * sizeof *work.unordered),
                        malloc((most + 1) * sizeof *work.boxes)};
     *triangles = (Triangles){.triangles = malloc((most + 1) * sizeof *triangles->triangles)};
-    const bool done = fill(triangles, mesh, points, apart, &work);
+    const bool done = fill(triangles, mesh, points, apart, &work, stop);
     free(work.equal);
     free(work.parents);
     free(work.in_place);

@@ -28,8 +28,9 @@ typedef struct Triangles {
 
 /* The triangles of a mesh with its vertices at `points`; without those that have no area. Vertices
  * are equal where position and normal are, the normal but for 1e-3. Where `apart` is set no two
- * triangles hang together. False where memory runs out. */
-bool triangles_open(Triangles *triangles, const Mesh *mesh, const Real3 *points, bool apart);
+ * triangles hang together. False where memory runs out, or it was stopped. */
+bool triangles_open(Triangles *triangles, const Mesh *mesh, const Real3 *points, bool apart,
+                    const atomic_bool *stop);
 void triangles_close(Triangles *triangles);
 
 typedef struct TriangleHit {

@@ -2,6 +2,8 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 /* Each check leaves a message that begins with its subject, "light 2: cutoff". */
 
@@ -172,4 +174,69 @@ Mat4 scene_eye_from_object(const Camera *camera, Mat4 eye_from_world, Mat4 world
 Vec3 scene_eye_point(const Camera *camera, Mat4 eye_from_world, Vec3 point_world)
 {
     return mat4_transform_direction(eye_from_world, vec3_subtract(point_world, camera->eye));
+}
+
+/* Copies. */
+
+static bool copy_mesh(Mesh *copy, const Mesh *mesh)
+{
+    if (!mesh_open(copy, mesh->vertex_count, mesh->index_count, NULL))
+        return false;
+    memcpy(copy->vertices, mesh->vertices, mesh->vertex_count * sizeof *mesh->vertices);
+    memcpy(copy->indices, mesh->indices, mesh->index_count * sizeof *mesh->indices);
+    return true;
+}
+
+/* The first object with the same mesh. */
+static int first_with_mesh(const Scene *scene, int number)
+{
+    int i = 0;
+    while (scene->objects[i].mesh != scene->objects[number].mesh)
+        i++;
+    return i;
+}
+
+static bool copy_objects(SceneCopy *copy, const Scene *scene)
+{
+    for (int i = 0; i < scene->object_count; i++) {
+        const Mesh *mesh = scene->objects[i].mesh;
+        const int first = first_with_mesh(scene, i);
+        copy->objects[i] = scene->objects[i];
+        if (!mesh)
+            continue;
+        if (first == i && !copy_mesh(&copy->meshes[i], mesh))
+            return false;
+        copy->objects[i].mesh = &copy->meshes[first];
+    }
+    return true;
+}
+
+bool scene_copy_open(SceneCopy *copy, const Scene *scene, Message *message)
+{
+    const size_t lights = (size_t)scene->light_count, objects = (size_t)scene->object_count;
+    *copy = (SceneCopy){.scene = *scene,
+                        .lights = calloc(lights + 1, sizeof *copy->lights),
+                        .objects = calloc(objects + 1, sizeof *copy->objects),
+                        .meshes = calloc(objects + 1, sizeof *copy->meshes)};
+    if (!copy->lights || !copy->objects || !copy->meshes || !copy_objects(copy, scene)) {
+        scene_copy_close(copy);
+        return message_set(message, "scene: not enough memory for a copy");
+    }
+    for (size_t i = 0; i < lights; i++)
+        copy->lights[i] = scene->lights[i];
+    copy->scene.lights = copy->lights;
+    copy->scene.objects = copy->objects;
+    return true;
+}
+
+void scene_copy_close(SceneCopy *copy)
+{
+    if (!copy)
+        return;
+    for (int i = 0; copy->meshes && i < copy->scene.object_count; i++)
+        mesh_close(&copy->meshes[i]);
+    free(copy->meshes);
+    free(copy->objects);
+    free(copy->lights);
+    *copy = (SceneCopy){.lights = NULL};
 }

@@ -69,6 +69,19 @@ typedef struct Scene {
     bool show_clipped;         /* paint magenta where a channel exceeds 1 */
 } Scene;
 
+/* A scene that shares nothing with the one it was copied from. */
+typedef struct SceneCopy {
+    Scene scene;
+    Light *lights;
+    Object *objects;
+    Mesh *meshes; /* for each object; empty where an earlier one has the same */
+} SceneCopy;
+
+/* Copies lights, objects and meshes; a mesh that several objects share is still one. False, with a
+ * message and a zeroed copy, where memory runs out. */
+bool scene_copy_open(SceneCopy *copy, const Scene *scene, Message *message);
+void scene_copy_close(SceneCopy *copy); /* NULL or a zeroed copy is fine */
+
 /* Whether a scene has a meaning: every number finite and in its range, a camera that looks
  * somewhere, directions that are not zero. The message names the parameter: "light 2: cutoff 95:
  * must be 0 to 90 degrees". */

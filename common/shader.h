@@ -13,6 +13,7 @@
 
 #include "gl.h"
 #include "matrix.h"
+#include "shader_files.h"
 
 #include <limits.h>
 #include <stddef.h>
@@ -34,9 +35,11 @@ typedef struct ShaderLoader {
                                    highp; NULL: as the file says */
     const char *const *defines; /* "NAME" or "NAME value", ended by NULL; may be NULL */
     const ShaderText *texts;    /* looked in before any folder; ended by a NULL name; may be NULL */
+    bool only_texts;            /* there is nothing else: no file is read */
     const ShaderReplacement *replacements; /* ended by a NULL name; may be NULL */
-    int print;                             /* what to print on standard output, as below */
-    bool verbose;                          /* report compile times on standard error */
+    ShaderFiles *files; /* where files are read, once, and kept; NULL: each time from disk */
+    int print;          /* what to print on standard output, as below */
+    bool verbose;       /* report compile times on standard error */
 } ShaderLoader;
 
 enum { SHADER_PRINT_VERTEX = 1, SHADER_PRINT_FRAGMENT = 2 };
@@ -50,9 +53,6 @@ typedef struct ShaderSource {
 } ShaderSource;
 
 typedef enum ShaderStage { SHADER_VERTEX, SHADER_FRAGMENT } ShaderStage;
-
-/* Files larger than this are refused: no shader is. */
-enum { SHADER_FILE_MOST = 999999 };
 
 /* Whether the loader's folders are usable: --shaders and the environment's LIGHTING_SHADERS, where
  * set, must name folders that exist. */

@@ -7,13 +7,10 @@
 #include "module.h"
 
 #include <ctype.h>
-#include <errno.h>
-#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 enum {
     MOST_INCLUDES = 1000,
@@ -87,46 +84,27 @@ static int file_number(Assembly *assembly, const char *path)
 
 /* Files. */
 
-/* Reads a regular file of text. On failure *text is NULL; a file that is not there is no error yet:
- * then *missing is true. */
-static bool read_file(const char *path, char **text, size_t *size, bool *missing, Message *message)
+/* A copy of the text that is at a path. On failure *text is NULL; a file that is not there is no
+ * error yet: then *missing is true. */
+static bool read_file(ShaderFiles *files, const char *path, char **text, size_t *size,
+                      bool *missing, Message *message)
 {
-    struct stat status;
     *text = NULL;
     *missing = false;
-    /* Not to wait for a pipe that nobody writes to. */
-    const int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (file < 0) {
-        *missing = errno == ENOENT || errno == ENOTDIR;
-        return *missing ? false : message_set(message, "%s: %s", path, strerror(errno));
-    }
-    bool done = false;
-    if (fstat(file, &status) != 0) {
-        message_set(message, "%s: %s", path, strerror(errno));
-    } else if (!S_ISREG(status.st_mode)) {
-        message_set(message, "%s: is not a regular file", path);
-    } else if (status.st_size > SHADER_FILE_MOST) {
-        message_set(message, "%s: has %lld bytes; a shader file has at most %d", path,
-                    (long long)status.st_size, SHADER_FILE_MOST);
-    } else if (!(*text = malloc((size_t)status.st_size + 1))) {
-        message_set(message, "%s: not enough memory", path);
-    } else {
-        size_t used = 0;
-        ssize_t got = 0;
-        while (used < (size_t)status.st_size &&
-               (got = read(file, *text + used, (size_t)status.st_size - used)) > 0)
-            used += (size_t)got;
-        done = got >= 0;
-        *size = used;
-        if (!done)
-            message_set(message, "%s: %s", path, strerror(errno));
-    }
-    close(file);
-    if (!done) {
-        free(*text);
-        *text = NULL;
-    }
-    return done;
+    const ShaderFile *file = shader_files_get(files, path, message);
+    if (!file)
+        return false;
+    if (file->problem)
+        return message_set(message, "%s", file->problem);
+    *missing = !file->text;
+    if (*missing)
+        return false;
+    *size = file->size;
+    *text = malloc(file->size + 1);
+    if (!*text)
+        return message_set(message, "%s: not enough memory", path);
+    memcpy(*text, file->text, file->size + 1);
+    return true;
 }
 
 /* One entry of the search order. */
@@ -157,14 +135,20 @@ static int find_places(const ShaderLoader *loader, Place places[5])
     return count;
 }
 
-bool shader_loader_check(const ShaderLoader *loader, Message *message)
+static bool is_folder(const ShaderLoader *loader, const char *path)
 {
     struct stat status;
+    if (loader->files) /* whose owner wants to know when it comes or goes */
+        shader_files_get(loader->files, path, NULL);
+    return stat(path, &status) == 0 && S_ISDIR(status.st_mode);
+}
+
+bool shader_loader_check(const ShaderLoader *loader, Message *message)
+{
     const char *environment = getenv("LIGHTING_SHADERS");
-    if (loader->folder && (stat(loader->folder, &status) != 0 || !S_ISDIR(status.st_mode)))
+    if (loader->folder && !is_folder(loader, loader->folder))
         return message_set(message, "--shaders %s: there is no such folder", loader->folder);
-    if (environment && environment[0] &&
-        (stat(environment, &status) != 0 || !S_ISDIR(status.st_mode)))
+    if (environment && environment[0] && !is_folder(loader, environment))
         return message_set(message,
                            "LIGHTING_SHADERS=%s: there is no such folder; correct or unset it",
                            environment);
@@ -172,11 +156,11 @@ bool shader_loader_check(const ShaderLoader *loader, Message *message)
 }
 
 /* Tries one path; lists it in `tried` where it is not there. */
-static bool try_file(const char *path, char **text, size_t *size, char *tried, size_t tried_size,
-                     Message *message)
+static bool try_file(ShaderFiles *files, const char *path, char **text, size_t *size, char *tried,
+                     size_t tried_size, Message *message)
 {
     bool missing;
-    if (read_file(path, text, size, &missing, message))
+    if (read_file(files, path, text, size, &missing, message))
         return true;
     const size_t used = strlen(tried);
     if (missing)
@@ -202,6 +186,8 @@ static bool find_file(const ShaderLoader *loader, const char *name, const char *
         snprintf(path, PATH_MAX, "%s", name);
         return *text ? true : message_set(message, "%s: not enough memory", name);
     }
+    if (loader->only_texts)
+        return message_set(message, "%s: no such file beside it", name);
 
     char tried[3000] = "";
     Message own = {0};
@@ -215,14 +201,14 @@ static bool find_file(const ShaderLoader *loader, const char *name, const char *
     if (from || name[0] == '/') {
         const int folder = slash && name[0] != '/' ? (int)(slash - from) + 1 : 0;
         if (snprintf(path, PATH_MAX, "%.*s%s", folder, from ? from : "", name) < PATH_MAX)
-            found = try_file(path, text, size, tried, sizeof tried, &own);
+            found = try_file(loader->files, path, text, size, tried, sizeof tried, &own);
     }
     for (int i = 0; i < count && !found && !own.text[0]; i++) {
         if (snprintf(path, PATH_MAX, "%s/%s", places[i].folder, name) < PATH_MAX)
-            found = try_file(path, text, size, tried, sizeof tried, &own);
+            found = try_file(loader->files, path, text, size, tried, sizeof tried, &own);
         if (!found && !own.text[0] && places[i].by_name && last &&
             snprintf(path, PATH_MAX, "%s/%s", places[i].folder, last + 1) < PATH_MAX)
-            found = try_file(path, text, size, tried, sizeof tried, &own);
+            found = try_file(loader->files, path, text, size, tried, sizeof tried, &own);
     }
     if (found)
         return true;
@@ -313,21 +299,14 @@ static const char *directive(const char *line, size_t length, const char *name, 
 
 static bool assemble(Assembly *assembly, const char *path, const char *text, size_t size);
 
-static bool same_file(const char *a, const char *b)
-{
-    struct stat first, second;
-    if (strcmp(a, b) == 0)
-        return true;
-    return stat(a, &first) == 0 && stat(b, &second) == 0 && first.st_dev == second.st_dev &&
-           first.st_ino == second.st_ino;
-}
-
 /* Whether a file may be included by the files that are being read. */
 static bool check_chain(const Assembly *assembly, const char *path, Message *message)
 {
     char **files = assembly->source->files;
     for (int i = 0; i < assembly->depth; i++) {
-        if (!same_file(files[assembly->chain[i]], path))
+        const char *reading = files[assembly->chain[i]];
+        if (strcmp(reading, path) != 0 &&
+            !shader_files_same(assembly->loader->files, reading, path))
             continue;
         message_set(message, "%s: includes itself", path);
         for (int j = i + 1; j < assembly->depth; j++)
@@ -433,8 +412,9 @@ static bool append_header(Assembly *assembly, ShaderStage stage)
     return true;
 }
 
-bool shader_source_parse(ShaderSource *source, const ShaderLoader *loader, const char *path,
-                         const char *text, size_t size, ShaderStage stage, Message *message)
+/* With a loader that keeps files. */
+static bool parse(ShaderSource *source, const ShaderLoader *loader, const char *path,
+                  const char *text, size_t size, ShaderStage stage, Message *message)
 {
     *source = (ShaderSource){0};
     Assembly assembly = {.loader = loader, .source = source, .message = message};
@@ -450,16 +430,40 @@ bool shader_source_parse(ShaderSource *source, const ShaderLoader *loader, const
     return done;
 }
 
+/* The loader, or one that keeps files for this shader alone. */
+static ShaderLoader keeping(const ShaderLoader *loader, ShaderFiles *own)
+{
+    ShaderLoader keeps = *loader;
+    *own = (ShaderFiles){0};
+    if (!keeps.files)
+        keeps.files = own;
+    return keeps;
+}
+
+bool shader_source_parse(ShaderSource *source, const ShaderLoader *loader, const char *path,
+                         const char *text, size_t size, ShaderStage stage, Message *message)
+{
+    ShaderFiles own;
+    const ShaderLoader keeps = keeping(loader, &own);
+    const bool done = parse(source, &keeps, path, text, size, stage, message);
+    shader_files_close(&own);
+    return done;
+}
+
 bool shader_source_open(ShaderSource *source, const ShaderLoader *loader, const char *name,
                         ShaderStage stage, Message *message)
 {
     char path[PATH_MAX], *text;
     size_t size;
+    ShaderFiles own;
+    const ShaderLoader keeps = keeping(loader, &own);
     *source = (ShaderSource){0};
-    if (!find_file(loader, name, NULL, path, &text, &size, message))
-        return false;
-    const bool done = shader_source_parse(source, loader, path, text, size, stage, message);
-    free(text);
+    bool done = find_file(&keeps, name, NULL, path, &text, &size, message);
+    if (done) {
+        done = parse(source, &keeps, path, text, size, stage, message);
+        free(text);
+    }
+    shader_files_close(&own);
     return done;
 }
 

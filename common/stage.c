@@ -1,12 +1,14 @@
 #include "stage.h"
 
+#include "animation.h"
 #include "efficient.h"
 #include "lighting.h"
 #include "model.h"
 #include "operations.h"
+#include "panel.h"
+#include "parse.h"
 #include "progress.h"
 
-#include <dlfcn.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -131,8 +133,8 @@ static void view_place(const Example *example, int view, int width, int height, 
 
 /* The scene of a view, as the example and the options want it, and what draws it. */
 typedef struct View {
-    Scene scene;
-    SettingScene made; /* with --error */
+    Scene asked, scene; /* before and after --error */
+    SettingScene made;
     Lighting *lighting;
 } View;
 
@@ -155,16 +157,28 @@ static bool choose_setting(View *view, int number, const Options *options, Messa
     return true;
 }
 
+/* What is to be seen, however it is drawn. */
+static bool view_scene(Scene *scene, const Example *example, const Options *options, double seconds,
+                       int number, Message *message)
+{
+    *scene = (Scene){.object_count = 0};
+    example->scene(seconds, number, scene);
+    Camera *camera = &scene->camera;
+    orbit_move(options->orbit, &camera->eye, camera->center, &camera->up);
+    scene->clamp_vertex |= options->clamp_vertex;
+    scene->linear |= options->linear;
+    scene->show_clipped |= options->show_clipped;
+    return scene_check(scene, message);
+}
+
 static bool view_open(View *view, const Example *example, const Options *options, double seconds,
                       int number, Message *message)
 {
     *view = (View){.lighting = on_stage.lightings[PRECISION_HIGHP]};
-    example->scene(seconds, number, &view->scene);
-    view->scene.clamp_vertex |= options->clamp_vertex;
-    view->scene.linear |= options->linear;
-    view->scene.show_clipped |= options->show_clipped;
-    return scene_check(&view->scene, message) &&
-           (!options->cheap || choose_setting(view, number, options, message));
+    if (!view_scene(&view->asked, example, options, seconds, number, message))
+        return false;
+    view->scene = view->asked;
+    return !options->cheap || choose_setting(view, number, options, message);
 }
 
 static void view_close(View *view)
@@ -188,12 +202,12 @@ static bool draw_marks(const Example *example, double seconds, int number, const
 }
 
 static bool draw_view(const Example *example, const Options *options, double seconds, int number,
-                      double aspect, Message *message)
+                      double aspect, bool bare, Message *message)
 {
     View view;
     const bool done = view_open(&view, example, options, seconds, number, message) &&
                       lighting_draw(view.lighting, &view.scene, aspect, options->full, message) &&
-                      (!example->annotate || !on_stage.marks.buffer ||
+                      (bare || !example->annotate || !on_stage.marks.buffer ||
                        draw_marks(example, seconds, number, &view.scene, aspect, message));
     view_close(&view);
     return done;
@@ -215,13 +229,16 @@ static void clear(const Example *example, const Options *options, double seconds
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
-bool stage_draw(const Example *example, const Canvas *canvas, const Options *options,
-                double seconds, Message *message)
+/* `bare`: without marks. */
+static bool draw(const Example *example, const Canvas *canvas, const Options *options,
+                 double seconds, bool bare, Message *message)
 {
     canvas_begin(canvas);
     clear(example, options, seconds);
     if (!example->scene) {
-        const Frame frame = {.seconds = seconds, .aspect = (double)canvas->width / canvas->height};
+        const Frame frame = {.seconds = seconds,
+                             .aspect = (double)canvas->width / canvas->height,
+                             .orbit = options->orbit};
         if (example->draw(&frame))
             return true;
         return message_set(message, "no matrix can be made for time %g s at %dx%d", seconds,
@@ -233,10 +250,55 @@ bool stage_draw(const Example *example, const Canvas *canvas, const Options *opt
         if (place[2] < 1 || place[3] < 1)
             continue; /* less than a pixel */
         canvas_view(canvas, place[0], place[1], place[2], place[3]);
-        if (!draw_view(example, options, seconds, view, (double)place[2] / place[3], message))
+        if (!draw_view(example, options, seconds, view, (double)place[2] / place[3], bare, message))
             return false;
     }
     return true;
+}
+
+bool stage_draw(const Example *example, const Canvas *canvas, const Options *options,
+                double seconds, Message *message)
+{
+    return draw(example, canvas, options, seconds, false, message);
+}
+
+/* Gives a picture to appraise its views; those without objects are not drawn, but made of others.
+ */
+static bool add_views(const Example *example, const Options *options, AppraisePicture *picture,
+                      Message *message)
+{
+    bool done = true;
+    for (int number = 0; number < view_count(example) && done; number++) {
+        View view;
+        int place[4];
+        view_place(example, number, picture->image.width, picture->image.height, place);
+        if (place[2] < 1 || place[3] < 1)
+            continue;
+        done = view_open(&view, example, options, picture->seconds, number, message) &&
+               (view.asked.object_count == 0 ||
+                appraise_picture_add(picture, place, &view.asked,
+                                     options->cheap ? &view.scene : NULL, message));
+        view_close(&view);
+    }
+    return done;
+}
+
+bool stage_appraise(const Example *example, const Canvas *canvas, const Options *options,
+                    double seconds, AppraisePicture *picture, Message *message)
+{
+    Options bare = *options;
+    bare.alpha = bare.verbose = false; /* the exact picture has a background */
+    if (!appraise_picture_open(picture, canvas->width, canvas->height,
+                               canvas->real ? IMAGE_FLOAT : IMAGE_BYTE, view_count(example),
+                               message))
+        return false;
+    picture->seconds = seconds;
+    if (draw(example, canvas, &bare, seconds, true, message) &&
+        canvas_read(canvas, &picture->image, message) &&
+        add_views(example, &bare, picture, message))
+        return true;
+    appraise_picture_close(picture);
+    return false;
 }
 
 /* On all programs so far. */
@@ -270,6 +332,33 @@ static void explain_operations(const Lighting *lighting, const Scene *scene, con
     }
     if (message.text[0])
         printf("%s\n", message.text);
+}
+
+bool stage_renew(const Example *example, const Options *options, Message *message)
+{
+    example->finish();
+    for (int i = 0; i < 2; i++)
+        if (on_stage.lightings[i])
+            lighting_forget(on_stage.lightings[i], NULL);
+    return example->init(&options->shaders, message);
+}
+
+static void write_effects(const Example *example, int number, const Scene *scene, FILE *file)
+{
+    for (int i = 0; i < scene->object_count; i++) {
+        fprintf(file, "# %s, view %d, object %d\n", example->name, number, i);
+        effects_explain(scene, &scene->objects[i], file);
+    }
+}
+
+void stage_effects(const Example *example, const Options *options, FILE *file)
+{
+    for (int number = 0; number < view_count(example); number++) {
+        View view;
+        if (view_open(&view, example, options, options->seconds, number, NULL))
+            write_effects(example, number, &view.scene, file);
+        view_close(&view);
+    }
 }
 
 static bool explain_view(const Example *example, const Options *options, int number,
@@ -341,9 +430,23 @@ static void divide_by_alpha(Image *image)
     }
 }
 
+/* " --orbit 30,-10,0.5"; nothing where the camera was not moved. */
+static void orbit_text(Orbit orbit, char text[128])
+{
+    char azimuth[32], elevation[32], distance[32];
+    text[0] = '\0';
+    if (orbit.azimuth == 0 && orbit.elevation == 0 && (orbit.distance <= 0 || orbit.distance == 1))
+        return;
+    parse_number_text(orbit.azimuth, azimuth);
+    parse_number_text(orbit.elevation, elevation);
+    parse_number_text(orbit.distance > 0 ? orbit.distance : 1, distance);
+    snprintf(text, 128, " --orbit %s,%s,%s", azimuth, elevation, distance);
+}
+
 bool stage_picture(const Example *example, const Canvas *canvas, const Options *options,
                    double seconds, Picture *picture, Message *message)
 {
+    char number[32], orbit[128];
     Image *image = &picture->image;
     if (image->width != canvas->width || image->height != canvas->height) {
         const ImageType type = image->type;
@@ -371,33 +474,20 @@ bool stage_picture(const Example *example, const Canvas *canvas, const Options *
     picture->compress = options->compress;
     picture->alpha = options->alpha;
     snprintf(picture->title, sizeof picture->title, "%s", example->name);
-    snprintf(picture->moment, sizeof picture->moment, "%.15g s", seconds);
+    parse_number_text(seconds, number);
+    snprintf(picture->moment, sizeof picture->moment, "%s s", number);
+    orbit_text(options->orbit, orbit);
     snprintf(picture->settings, sizeof picture->settings,
-             "--size %dx%d --samples %d%s%s%s; backend %s, %s; %s", canvas->width, canvas->height,
-             options->canvas.samples, options->shaders.precision ? " --precision " : "",
+             "--size %dx%d --samples %d%s%s%s%s; backend %s, %s; %s", canvas->width, canvas->height,
+             options->canvas.samples, orbit, options->shaders.precision ? " --precision " : "",
              options->shaders.precision ? options->shaders.precision : "",
              options->alpha ? " --alpha" : "", canvas->backend->name, canvas->platform,
              canvas->renderer);
     return true;
 }
 
-/* Libraries that other backends load; each is optional. */
-static void doctor_library(const char *what, const char *const *names, const char *package)
-{
-    for (; *names; names++) {
-        void *library = dlopen(*names, RTLD_LAZY | RTLD_LOCAL);
-        if (library) {
-            printf("  %-10s %s: found\n", what, *names);
-            dlclose(library);
-            return;
-        }
-    }
-    printf("  %-10s missing; install the package %s if you want it\n", what, package);
-}
-
 int stage_doctor(void)
 {
-    static const char *const glfw[] = {"libglfw.so.3", NULL};
     const CanvasBackend *usual = canvas_default_backend(NULL), *works = NULL;
     for (int i = 0; CANVAS_BACKENDS[i]; i++) {
         printf("%s: %s\n", CANVAS_BACKENDS[i]->name, CANVAS_BACKENDS[i]->summary);
@@ -406,10 +496,12 @@ int stage_doctor(void)
     }
     printf("pictures:\n");
     image_doctor();
+    printf("animations:\n");
+    animation_doctor();
     printf("models:\n");
     model_doctor();
-    printf("libraries that nothing needs yet:\n");
-    doctor_library("GLFW", glfw, "libglfw3");
+    printf("the panel of windows:\n");
+    panel_doctor();
     if (works && works == usual)
         printf("This machine can draw.\n");
     else if (works)

@@ -5,6 +5,7 @@
 #ifndef STAGE_H
 #define STAGE_H
 
+#include "appraise.h"
 #include "canvas.h"
 #include "example.h"
 #include "options.h"
@@ -27,6 +28,19 @@ bool stage_draw(const Example *example, const Canvas *canvas, const Options *opt
  * path is set by the caller. */
 bool stage_picture(const Example *example, const Canvas *canvas, const Options *options,
                    double seconds, Picture *picture, Message *message);
+
+/* Draws one frame of an example that is a scene without anything over it, marks, labels or
+ * retouches, and copies the scenes that it is of as they were before an --error simplified them:
+ * what appraise_start wants. The canvas then holds that frame. */
+bool stage_appraise(const Example *example, const Canvas *canvas, const Options *options,
+                    double seconds, AppraisePicture *picture, Message *message);
+
+/* Makes anew what an example on the stage has made of its parameters, which are others now. What
+ * was compiled stays. After a failure the example can only be taken off. */
+bool stage_renew(const Example *example, const Options *options, Message *message);
+
+/* Writes which effects a scene calls for at the options' moment, view by view, object by object. */
+void stage_effects(const Example *example, const Options *options, FILE *file);
 
 /* --explain: says on standard output, for each view and object, which effects the scene calls for,
  * and prints the shaders of its program. */

@@ -8,6 +8,7 @@
 #include "shader.h"
 
 #include <dirent.h>
+#include <dlfcn.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -594,6 +595,7 @@ static void an_error_that_a_program_made_is_reported_by_the_next_reading_alone(v
 static struct {
     const char *version, *extensions; /* NULL: as they are */
     GLenum integer;                   /* the name of a number to be told as 16 */
+    GLenum reset;                     /* what the driver says of its context; 0: as it is */
     const char *missing;              /* a function's name, or its beginning */
 } hidden;
 
@@ -613,8 +615,15 @@ static void GL_APIENTRY hiding_get_integers(GLenum name, GLint *values)
         *values = 16;
 }
 
+static GLenum GL_APIENTRY hiding_get_reset_status(void)
+{
+    return hidden.reset;
+}
+
 static GlFunction hiding_address(const char *name)
 {
+    if (hidden.reset && strncmp(name, "glGetGraphicsResetStatus", 24) == 0)
+        return (GlFunction)hiding_get_reset_status;
     if (hidden.missing && strncmp(name, hidden.missing, strlen(hidden.missing)) == 0)
         return NULL;
     if (strcmp(name, "glGetString") == 0)
@@ -684,6 +693,100 @@ static void a_driver_of_opengl_es_2_alone_draws_with_what_it_has(void **state)
     message = (Message){0};
     assert_false(canvas_open(&canvas, &options, &message));
     assert_non_null(strstr(message.text, "cannot draw to 8-bit RGBA (GL_OES_rgb8_rgba8)"));
+}
+
+/* Software never resets: a driver that says so stands for one that does. */
+static void a_driver_that_was_reset_is_said_and_nothing_is_read(void **state)
+{
+    (void)state;
+    static const struct {
+        GLenum status;
+        const char *said;
+    } resets[] = {{GL_GUILTY_CONTEXT_RESET_EXT, "was reset (by this program)"},
+                  {GL_INNOCENT_CONTEXT_RESET_EXT, "was reset (by another program)"},
+                  {GL_UNKNOWN_CONTEXT_RESET_EXT, "was reset (nobody knows by whom)"}};
+    const CanvasBackend hiding = hiding_backend();
+    for (size_t i = 0; i < sizeof resets / sizeof resets[0]; i++) {
+        Message message = {0};
+        hidden.reset = resets[i].status;
+        Canvas canvas = open_canvas((CanvasOptions){.backend = &hiding, .width = 4, .height = 4});
+        Image image = new_image(&canvas);
+        assert_false(canvas_read(&canvas, &image, &message));
+        assert_non_null(strstr(message.text, resets[i].said));
+        assert_non_null(strstr(message.text, canvas.renderer));
+        image_close(&image);
+        canvas_close(&canvas);
+    }
+}
+
+/* Of other code in the process: takes the context from the canvas. */
+static void unbind(void)
+{
+    if (backend == &CANVAS_OSMESA) {
+        unsigned char (*make)(void *, void *, GLenum, GLsizei, GLsizei);
+        void *library = dlopen("libOSMesa.so.8", RTLD_LAZY | RTLD_NOLOAD);
+        assert_non_null(library);
+        *(void **)&make = dlsym(library, "OSMesaMakeCurrent");
+        make(NULL, NULL, 0, 0, 0);
+        dlclose(library);
+    } else {
+        typedef void *(*Get)(void);
+        typedef unsigned (*Make)(void *, void *, void *, void *);
+        void *display = ((Get)backend->address("eglGetCurrentDisplay"))();
+        assert_int_equal(((Make)backend->address("eglMakeCurrent"))(display, NULL, NULL, NULL), 1);
+    }
+}
+
+static void assert_lost(const Canvas *canvas)
+{
+    Message message = {0};
+    Image image = new_image(canvas);
+    assert_false(canvas_check(canvas, NULL));
+    assert_false(canvas_read(canvas, &image, &message));
+    assert_string_equal(message.text, "canvas: its context is no longer the current one; what was "
+                                      "drawn is lost");
+    image_close(&image);
+}
+
+static void a_context_that_others_unbind_is_said_and_can_be_closed(void **state)
+{
+    (void)state;
+    Canvas canvas = open_canvas((CanvasOptions){.width = 4, .height = 4, .samples = 4});
+    assert_true(canvas_check(&canvas, NULL));
+    unbind();
+    assert_lost(&canvas);
+    /* To draw is no crash. */
+    clear(1, 0, 0, 1);
+    canvas_begin(&canvas);
+    if (backend == &CANVAS_WINDOW)
+        canvas_present(&canvas, 4, 4);
+    assert_lost(&canvas);
+    canvas_close(&canvas);
+    canvas = open_canvas((CanvasOptions){.width = 4, .height = 4});
+    assert_true(canvas_check(&canvas, NULL));
+    canvas_close(&canvas);
+}
+
+/* The other one's end takes EGL's display along, and with that every context. */
+static void a_context_that_others_replace_or_destroy_is_said_and_can_be_closed(void **state)
+{
+    (void)state;
+    Message message = {0};
+    void *other;
+    const char *platform;
+    Canvas canvas = open_canvas((CanvasOptions){.width = 4, .height = 4});
+    assert_true(
+        backend->open(&other, &(CanvasOptions){.width = 1, .height = 1}, &platform, &message));
+    assert_lost(&canvas);
+    backend->close(other);
+    assert_lost(&canvas);
+    canvas_close(&canvas);
+    canvas = open_canvas((CanvasOptions){.width = 4, .height = 4});
+    clear(0, 1, 0, 1);
+    Image image = read_canvas(&canvas);
+    assert_int_equal(pixel(&image, 3, 3)[1], 255);
+    image_close(&image);
+    canvas_close(&canvas);
 }
 
 static void more_samples_than_there_are_is_refused_and_the_most_named(void **state)
@@ -1038,6 +1141,9 @@ int main(void)
         cmocka_unit_test(a_driver_without_a_function_is_refused_and_the_function_named),
         cmocka_unit_test(a_driver_that_gives_fewer_bits_than_asked_is_refused_and_they_are_named),
         cmocka_unit_test(a_driver_of_opengl_es_2_alone_draws_with_what_it_has),
+        cmocka_unit_test(a_driver_that_was_reset_is_said_and_nothing_is_read),
+        cmocka_unit_test(a_context_that_others_unbind_is_said_and_can_be_closed),
+        cmocka_unit_test(a_context_that_others_replace_or_destroy_is_said_and_can_be_closed),
         cmocka_unit_test(more_samples_than_there_are_is_refused_and_the_most_named),
         cmocka_unit_test(a_driver_without_samples_takes_more_pixels_instead_up_to_4_by_4),
         cmocka_unit_test(a_mesh_of_more_than_65536_vertices_is_drawn_whole_with_longer_indices),
@@ -1051,7 +1157,8 @@ int main(void)
         const char *platform;
         Message message = {0};
         backend = CANVAS_BACKENDS[i];
-        if (!backend->open(&context, &platform, &message)) {
+        if (!backend->open(&context, &(CanvasOptions){.width = 1, .height = 1}, &platform,
+                           &message)) {
             printf("canvas_test: %s skipped: %s\n", backend->name, message.text);
             continue;
         }

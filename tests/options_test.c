@@ -371,7 +371,8 @@ static void an_output_that_cannot_be_a_picture_is_refused(void **state)
     refuse("-o folder.png/picture", "folder.png/picture: the extension");
     refuse("-o .png", "the extension");
     refuse("-o picture.", "the extension");
-    refuse("-o - -n 2", "standard output takes one picture, not 2");
+    refuse("-o - -n 2", "standard output takes one picture as PNG, not 2; --format y4m or rgb");
+    refuse("-o - -n 2 --format png", "standard output takes one picture as PNG");
     accept("-o picture.PNG");
     accept("-o /dev/null");
     accept("-o 100%.png"); /* one picture's name is taken as it is */
@@ -391,7 +392,46 @@ static void several_pictures_need_exactly_one_number_in_the_name(void **state)
     accept("--frames 2 -o a%04d.png");
     accept("--frames 2 -o 100%%_%3d.png");
     accept("--frames 1 -o a.png");
+    assert_null(options.animation);
     accept("-o a.png --print-shader --frames 2"); /* nothing is written, so no name is wrong */
+}
+
+static void takes(const char *line, const char *animation, bool numbered)
+{
+    accept(line);
+    if (!animation != !options.animation ||
+        (animation && strcmp(options.animation, animation) != 0))
+        fail_msg("%s: %s", line, options.animation ? options.animation : "no animation");
+    assert_int_equal(options.numbered, numbered);
+}
+
+static void pictures_go_to_one_animation_or_each_to_its_file(void **state)
+{
+    (void)state;
+    takes("-o a.gif", NULL, false);
+    takes("-o a.webp", NULL, false);
+    takes("-o a.gif -n 1", NULL, false);
+    takes("-o a.gif -n 2", "gif", false);
+    takes("-o a.WEBP -n 2", "webp", false);
+    takes("-o a.mp4", "mp4", false);
+    takes("-o a.apng -n 2", "apng", false);
+    takes("-o 100%.webm -n 2", "webm", false);
+    takes("-o a%d.gif -n 2", NULL, true);
+    takes("-o a%d.webp -n 1", NULL, true);
+    takes("-o a.webp -n 2 --alpha", "webp", false);
+    refuse("-o a%d.mp4 -n 2", "a%d.mp4: a .mp4 holds all the pictures; leave the number out");
+    refuse("-o a%d.apng -n 1", "leave the number out");
+    refuse("-o a.gif --alpha", ".gif has no alpha channel");
+    refuse("-o a.gif -n 2 --alpha", "gif has no alpha channel");
+    refuse("-o a.mp4 --alpha", "mp4 has no alpha channel");
+    refuse("-o a.gif -n 2 --fps 101", "gif has 0.001526 to 100 pictures a second");
+    refuse("-o a.webm --fps 1001", "webm has 0.001 to 1000 pictures a second");
+    refuse("-o a.png --format y4m", "--format y4m: is of standard output, -o -");
+    refuse("--format png", "--format png: is of standard output, -o -");
+    refuse("-o - --format gif", "--format gif: must be png, y4m or rgb");
+    refuse("-o - --format y4m --alpha", "y4m has no alpha channel");
+    refuse_as(&GALLERY, "--format y4m", "--format: a gallery");
+    takes("-o a.mp4 --print-shader --format y4m", NULL, false);
 }
 
 static void a_gallery_takes_names_and_a_folder_but_no_frames(void **state)
@@ -608,6 +648,7 @@ int main(void)
         cmocka_unit_test(the_ends_of_a_range_belong_to_it),
         cmocka_unit_test(the_nearest_name_is_the_one_with_fewest_changes),
         cmocka_unit_test(the_default_output_is_named_for_the_program),
+        cmocka_unit_test(pictures_go_to_one_animation_or_each_to_its_file),
         cmocka_unit_test(an_output_that_cannot_be_a_picture_is_refused),
         cmocka_unit_test(several_pictures_need_exactly_one_number_in_the_name),
         cmocka_unit_test(a_gallery_takes_names_and_a_folder_but_no_frames),

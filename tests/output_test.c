@@ -7,11 +7,13 @@
 #include <stdint.h>
 #include <cmocka.h>
 
+#include "options.h"
 #include "output.h"
 
 #include <dirent.h>
 #include <fcntl.h>
 #include <limits.h>
+#include <pthread.h>
 #include <sched.h>
 #include <signal.h>
 #include <stdio.h>
@@ -399,6 +401,97 @@ static void a_write_that_fails_midway_leaves_the_old_file(void **state)
     assert_int_equal(in_child(write_beyond_a_limit), 0);
 }
 
+static void pieces_are_a_file_when_they_are_committed(void **state)
+{
+    (void)state;
+    make("old.png", "old");
+    assert_int_equal(chmod("old.png", 0640), 0);
+    for (int whole = 0; whole < 2; whole++) {
+        Output *output = output_begin("old.png", &message);
+        assert_non_null(output);
+        const int file = output_file(output);
+        assert_true(output_append(file, "xyz and", 7) && output_append(file, " more", 5));
+        assert_int_equal(pwrite(file, "bit", 3, 0), 3);
+        char back[4] = "";
+        assert_int_equal(pread(file, back, 3, 4), 3);
+        assert_string_equal(back, "and");
+        assert_true(holds("old.png", "old"));
+        if (whole)
+            assert_true(output_commit(output, &message));
+        else
+            output_abort(output);
+        assert_true(holds("old.png", whole ? "bit and more" : "old"));
+        assert_int_equal(mode_of("old.png") & 07777, 0640);
+        assert_int_equal(entries("."), 1);
+    }
+    output_abort(NULL);
+    message = (Message){0};
+    assert_null(output_begin("missing/a.png", &message));
+    assert_non_null(strstr(message.text, "the folder missing/ does not exist"));
+}
+
+static void pieces_go_through_when_they_are_committed(void **state)
+{
+    (void)state;
+    char path[32];
+    const int file = open("open.png", O_RDWR | O_CREAT | O_TRUNC, 0600);
+    snprintf(path, sizeof path, "/dev/fd/%d", file);
+    for (int whole = 0; whole < 2; whole++) {
+        Output *output = output_begin(path, &message);
+        assert_non_null(output);
+        assert_true(output_append(output_file(output), large, LARGE));
+        assert_true(holds("open.png", ""));
+        if (whole)
+            assert_true(output_commit(output, &message));
+        else
+            output_abort(output);
+        assert_true(holds("open.png", whole ? large : ""));
+    }
+    close(file);
+    assert_int_equal(entries("."), 1);
+}
+
+static void *replace_for_ever(void *path)
+{
+    while (write_text(path, large))
+        ;
+    return NULL;
+}
+
+static int replace_two_for_ever(void)
+{
+    pthread_t thread;
+    options_prepare_process();
+    if (pthread_create(&thread, NULL, replace_for_ever, (char[]){"b.png"}) == 0)
+        replace_for_ever((char[]){"a.png"});
+    return 1;
+}
+
+/* A signal at a random moment of one of two threads that do nothing but write: the moment at which
+ * a temporary file has a name is a large part of all. */
+static void a_signal_leaves_whole_files_alone(void **state)
+{
+    (void)state;
+    static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
+    srandom(1);
+    for (int attempt = 0; attempt < 150; attempt++) {
+        int status = 0;
+        fflush(NULL);
+        const pid_t child = fork();
+        assert_true(child >= 0);
+        if (child == 0)
+            _exit(replace_two_for_ever());
+        usleep(2000 + (unsigned)random() % 8000);
+        assert_int_equal(kill(child, numbers[attempt % 3]), 0);
+        assert_int_equal(waitpid(child, &status, 0), child);
+        assert_true(WIFSIGNALED(status));
+        assert_int_equal(WTERMSIG(status), numbers[attempt % 3]);
+        const int a = access("a.png", F_OK) == 0, b = access("b.png", F_OK) == 0;
+        assert_int_equal(entries("."), a + b);
+        assert_true((!a || holds("a.png", large)) && (!b || holds("b.png", large)));
+    }
+}
+
 /* A file system of 100 kB, for this process alone; false where that is not permitted. */
 static bool mount_small(const char *path)
 {
@@ -446,6 +539,19 @@ static int write_without_proc(void)
     return holds("small/new.png", "new") && entries("small") == 1 ? 0 : 3;
 }
 
+/* Where the temporary file has a name all the time. */
+static int end_without_proc(void)
+{
+    if (!mount_small("small") || mount("none", "/proc", "tmpfs", 0, NULL) != 0)
+        return NOT_PERMITTED;
+    options_prepare_process();
+    Output *output = output_begin("small/new.png", &message);
+    if (!output || entries("small") != 1)
+        return 1;
+    output_unlink_temporaries();
+    return entries("small") == 0 ? 0 : 2;
+}
+
 static void check_mounted(int (*body)(void))
 {
     const int result = in_child(body);
@@ -465,6 +571,12 @@ static void a_file_can_be_written_where_proc_is_not_mounted(void **state)
 {
     (void)state;
     check_mounted(write_without_proc);
+}
+
+static void a_name_that_stands_is_removed_at_the_end(void **state)
+{
+    (void)state;
+    check_mounted(end_without_proc);
 }
 
 static int write_what_is_protected(void)
@@ -596,9 +708,13 @@ int main(void)
         TEST(names_of_open_files_are_written_through),
         TEST(a_new_file_in_shared_memory_is_a_file_like_any_other),
         TEST(a_dash_is_standard_output),
+        TEST(pieces_are_a_file_when_they_are_committed),
+        TEST(pieces_go_through_when_they_are_committed),
+        TEST(a_signal_leaves_whole_files_alone),
         TEST(a_write_that_fails_midway_leaves_the_old_file),
         TEST(a_full_disk_leaves_the_old_file),
         TEST(a_file_can_be_written_where_proc_is_not_mounted),
+        TEST(a_name_that_stands_is_removed_at_the_end),
         TEST(what_is_protected_is_refused),
         TEST(looking_beforehand_writes_nothing),
         TEST(a_pattern_gives_numbered_names),

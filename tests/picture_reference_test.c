@@ -11,7 +11,7 @@
 
 #include "efficient.h"
 #include "lighting.h"
-#include "reference.h"
+#include "reference_error.h"
 #include "stage.h"
 
 #include <stdarg.h>
@@ -81,28 +81,17 @@ static void set_pixel(Image *image, size_t pixel, const float *color)
  * are such pixels at all, with more than one colour. Where not, says so and keeps the pictures. */
 static bool check(const char *name, const Image *image, const Reference *exact, double most)
 {
-    const unsigned char *pixels = image->pixels;
     const size_t count = (size_t)image->width * (size_t)image->height;
-    double worst = 0;
-    size_t where = 0, inside = 0;
-    for (size_t i = 0; i < count; i++) {
-        if (!exact->interior[i])
-            continue;
-        inside++;
-        for (size_t c = 0; c < 3; c++) {
-            const double apart =
-                fabs((double)pixels[4 * i + c] - 255 * (double)exact->color[3 * i + c]);
-            if (apart > worst) {
-                worst = apart;
-                where = i;
-            }
-        }
-    }
-    print_message("%-40s %6zu pixels inside, largest error %.3f\n", name, inside, worst);
-    if (inside > count / 100 && worst <= most)
+    ReferenceError error = {.all = {0}};
+    reference_error_add(&error, image, 0, 0, exact, NULL);
+    const ErrorSum *inside = &error.interior;
+    print_message("%-40s %6lld pixels inside, largest error %.3f\n", name, inside->pixels,
+                  inside->maximum);
+    if (inside->pixels > (long long)count / 100 && inside->maximum <= most)
         return true;
-    printf("%s: %zu pixels inside; at column %zu, row %zu the error is %.3f\n", name, inside,
-           where % (size_t)image->width, where / (size_t)image->width, worst);
+    printf("%s: %lld pixels inside; at column %zu, row %zu the error is %.3f\n", name,
+           inside->pixels, inside->worst % (size_t)image->width,
+           inside->worst / (size_t)image->width, inside->maximum);
     Image expected;
     if (!image_open(&expected, image->width, image->height, IMAGE_BYTE, NULL))
         return false;
@@ -309,24 +298,6 @@ static void scenes_are_drawn_as_the_reference_has_them(void **state)
 
 /* Settings that were chosen by an error. */
 
-/* The largest error inside objects, where the exact picture and that of the mesh as drawn show the
- * same object at about the same depth. */
-static double largest_error(const Image *image, const Reference *exact, const Reference *drawn)
-{
-    static const double DEPTH = 0.05;
-    const unsigned char *pixels = image->pixels;
-    double worst = 0;
-    for (size_t i = 0; i < (size_t)image->width * (size_t)image->height; i++) {
-        if (!exact->interior[i] || !drawn->interior[i] || exact->object[i] != drawn->object[i] ||
-            fabs(exact->depth[i] - drawn->depth[i]) > DEPTH * exact->depth[i])
-            continue;
-        for (size_t c = 0; c < 3; c++)
-            worst = fmax(worst,
-                         fabs((double)pixels[4 * i + c] - 255 * (double)exact->color[3 * i + c]));
-    }
-    return worst;
-}
-
 /* Draws a view with the setting that the committed table has for an error, and gives its own. */
 static double error_of_choice(const Canvas *canvas, Lighting *lighting, const Scene *scene,
                               const Efficient *table, double allowed, Image *image)
@@ -342,14 +313,15 @@ static double error_of_choice(const Canvas *canvas, Lighting *lighting, const Sc
     draw(canvas, lighting, &made.scene, image);
     open_exact(&exact, scene, canvas->width, canvas->height, false);
     open_exact(&drawn, &made.scene, canvas->width, canvas->height, true);
-    const double error = largest_error(image, &exact, &drawn);
+    ReferenceError error = {.all = {0}};
+    reference_error_add(&error, image, 0, 0, &exact, &drawn);
     reference_close(&exact);
     reference_close(&drawn);
     for (const SolidMesh *mesh = meshes.first; mesh; mesh = mesh->next)
         lighting_forget(lighting, &mesh->mesh);
     setting_scene_close(&made);
     solid_meshes_close(&meshes);
-    return error;
+    return error.interior.maximum;
 }
 
 static void programs_keep_the_error_they_are_given(void **state)

@@ -218,7 +218,7 @@ static Triangles open_mesh(const Mesh *mesh, Real3 offset, Real3 **points)
         const float *p = mesh->vertices[i].position;
         (*points)[i] = real3_add((Real3){(Real)p[0], (Real)p[1], (Real)p[2]}, offset);
     }
-    assert_true(triangles_open(&triangles, mesh, *points, false));
+    assert_true(triangles_open(&triangles, mesh, *points, false, NULL));
     return triangles;
 }
 

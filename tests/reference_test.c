@@ -6,6 +6,7 @@
 #include "solid.h"
 
 #include <math.h>
+#include <pthread.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,6 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
+#include <time.h>
 #include <cmocka.h>
 
 #if defined(__SANITIZE_ADDRESS__)
@@ -690,7 +692,7 @@ static void edges_are_the_means_of_their_pixels(void **state)
     Trace *trace;
     open_edge_scene();
     Reference picture = draw((ReferenceOptions){0});
-    assert_true(trace_open(&trace, &world.scene, false, SIZE, SIZE, NULL));
+    assert_true(trace_open(&trace, &world.scene, false, SIZE, SIZE, NULL, NULL));
     for (size_t i = 0; i < pixel_count(&picture); i++) {
         double sums[3] = {0, 0, 0};
         const bool mixed = picture.object[i] < 0 ? picture.coverage[i] < 1 : !picture.interior[i];
@@ -758,6 +760,59 @@ static void any_number_of_threads_makes_the_same_bits(void **state)
         }
         reference_close(&one);
     }
+}
+
+/* Makes a flag true after some time. */
+typedef struct Stopper {
+    atomic_bool stop;
+    long nanoseconds;
+} Stopper;
+
+static void *stop_later(void *argument)
+{
+    Stopper *stopper = argument;
+    nanosleep(&(struct timespec){0, stopper->nanoseconds}, NULL);
+    atomic_store(&stopper->stop, true);
+    return NULL;
+}
+
+/* At whatever moment it is stopped: the whole picture, or none. */
+static void a_stopped_picture_is_none(void **state)
+{
+    static const long milliseconds[] = {0, 1, 3, 10, 20, 30, 50, 80, 120, 180, 250, 350};
+    (void)state;
+    add_object((Solid){.kind = SOLID_TEAPOT, .radius = 1}, 16);
+    int stopped = 0;
+    for (int meshes = 0; meshes < 2; meshes++) {
+        Reference whole = draw((ReferenceOptions){.meshes = meshes});
+        for (size_t i = 0; i < sizeof milliseconds / sizeof milliseconds[0]; i++) {
+            Stopper stopper = {.nanoseconds = 1000000 * milliseconds[i]};
+            const ReferenceOptions options = {.width = whole.width,
+                                              .height = whole.height,
+                                              .meshes = meshes,
+                                              .threads = 1 + (int)i % 3,
+                                              .stop = &stopper.stop};
+            pthread_t thread;
+            Reference picture;
+            Message message = {0};
+            atomic_init(&stopper.stop, false);
+            assert_int_equal(pthread_create(&thread, NULL, stop_later, &stopper), 0);
+            if (i == 0)
+                pthread_join(thread, NULL);
+            if (reference_open(&picture, &world.scene, &options, &message)) {
+                assert_same(&whole, &picture);
+            } else {
+                assert_string_equal(message.text, "reference: stopped");
+                assert_null(picture.color);
+                stopped++;
+            }
+            if (i != 0)
+                pthread_join(thread, NULL);
+            reference_close(&picture);
+        }
+        reference_close(&whole);
+    }
+    assert_true(stopped >= 2); /* at least where it was stopped before it began */
 }
 
 static void far_from_the_origin_a_scene_is_what_it_is_there(void **state)
@@ -910,6 +965,7 @@ int main(void)
         TEST(edges_are_the_means_of_their_pixels),
         TEST(an_object_smaller_than_a_pixel_counts_where_a_sample_meets_it),
         TEST(any_number_of_threads_makes_the_same_bits),
+        TEST(a_stopped_picture_is_none),
         TEST(far_from_the_origin_a_scene_is_what_it_is_there),
         TEST(pictures_have_any_shape),
         TEST(what_is_not_in_view_leaves_the_background),

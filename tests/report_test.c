@@ -414,6 +414,15 @@ static void a_sheet_shows_what_is_different(void **state)
                     ((float *)image.pixels)[4 * i + c] = 100.0f / 255;
             }
         }
+        /* As bright as can be shown, and brighter: the same to the eye. */
+        const size_t bright = SIDE * SIDE - 1;
+        for (size_t c = 0; c < 3; c++) {
+            colors[3 * bright + c] = 1;
+            if (type == IMAGE_BYTE)
+                ((unsigned char *)image.pixels)[4 * bright + c] = 255;
+            else
+                ((float *)image.pixels)[4 * bright + c] = 1.5f;
+        }
         if (type == IMAGE_FLOAT)
             ((float *)image.pixels)[4 * 15] = NAN;
         if (!sheet(&image, &exact,
@@ -432,6 +441,7 @@ static void a_sheet_shows_what_is_different(void **state)
         const unsigned char *neutral = shown(&read, 2, 0, 0);
         for (int x = 1; x <= 2; x++)
             assert_memory_equal(shown(&read, 2, x, 0), neutral, 3);
+        assert_memory_equal(shown(&read, 2, SIDE - 1, SIDE - 1), neutral, 3);
         for (int x = 3; x < 14; x++) {
             assert_memory_not_equal(shown(&read, 2, x, 0), neutral, 3);
             assert_true(brightness(shown(&read, 2, x, 0)) < brightness(shown(&read, 2, x + 1, 0)));

@@ -310,6 +310,53 @@ static void materials_are_those_of_the_published_table(void **state)
                     (Material){{.05, .05, 0}, {.5, .5, .4}, {.7, .7, .04}, zero, 1, .078125});
 }
 
+/* Of the copy every number is the same, and every place its own. */
+static void a_copy_shares_nothing(void **state)
+{
+    (void)state;
+    Mesh quad, cube;
+    Object objects[4];
+    SceneCopy copy;
+    Message message = {0};
+    assert_true(mesh_quad(&quad, 3, &message) && mesh_cube(&cube, 1, &message));
+    for (int i = 0; i < 4; i++) {
+        objects[i] = world.object;
+        objects[i].front.shininess = i;
+        objects[i].mesh = i % 2 ? &cube : &quad;
+    }
+    objects[3].mesh = NULL;
+    world.scene.objects = objects;
+    world.scene.object_count = 4;
+    assert_true(scene_copy_open(&copy, &world.scene, &message));
+    assert_memory_equal(&copy.scene.camera, &world.scene.camera, sizeof(Camera));
+    assert_int_equal(copy.scene.light_count, 3);
+    assert_memory_equal(copy.scene.lights, world.lights, sizeof world.lights);
+    assert_ptr_not_equal(copy.scene.lights, world.lights);
+    assert_int_equal(copy.scene.object_count, 4);
+    for (int i = 0; i < 4; i++)
+        assert_true(copy.scene.objects[i].front.shininess == i);
+    for (int i = 0; i < 2; i++) {
+        const Mesh *mine = copy.scene.objects[i].mesh, *its = i ? &cube : &quad;
+        assert_ptr_not_equal(mine, its);
+        assert_int_equal(mine->vertex_count, its->vertex_count);
+        assert_int_equal(mine->index_count, its->index_count);
+        assert_ptr_not_equal(mine->vertices, its->vertices);
+        assert_memory_equal(mine->vertices, its->vertices,
+                            its->vertex_count * sizeof *its->vertices);
+        assert_memory_equal(mine->indices, its->indices, its->index_count * sizeof *its->indices);
+    }
+    assert_ptr_equal(copy.scene.objects[2].mesh, copy.scene.objects[0].mesh); /* one copy */
+    assert_null(copy.scene.objects[3].mesh);
+    scene_copy_close(&copy);
+    scene_copy_close(&copy);
+    scene_copy_close(NULL);
+    world.scene = (Scene){.lights = NULL};
+    assert_true(scene_copy_open(&copy, &world.scene, &message)); /* empty */
+    scene_copy_close(&copy);
+    mesh_close(&quad);
+    mesh_close(&cube);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -322,6 +369,7 @@ int main(void)
         cmocka_unit_test_setup(a_scene_far_away_has_the_eye_coordinates_of_the_same_at_the_origin,
                                set_up),
         cmocka_unit_test_setup(eye_coordinates_are_those_of_the_plain_product, set_up),
+        cmocka_unit_test_setup(a_copy_shares_nothing, set_up),
         cmocka_unit_test(there_are_24_materials_and_each_is_found_by_its_name),
         cmocka_unit_test_setup(every_material_may_stand_in_a_scene, set_up),
         cmocka_unit_test(materials_are_those_of_the_published_table),

@@ -24,6 +24,7 @@ static char folder[] = "/tmp/shader_test-XXXXXX";
 static unsigned seed;
 
 static ShaderLoader loader;
+static ShaderFiles kept; /* what the loader reads, where a test wants that */
 static ShaderSource source;
 static Message message;
 
@@ -41,6 +42,7 @@ static int leave_folder(void **state)
     (void)state;
     char command[128];
     shader_source_close(&source);
+    shader_files_close(&kept);
     snprintf(command, sizeof command, "rm -rf %s", folder);
     return chdir("/") == 0 ? system(command) : -1;
 }
@@ -885,6 +887,176 @@ static void every_precision_and_define_reaches_the_driver(void **state)
     }
 }
 
+/* Files that are kept. */
+
+/* The paths that have been asked for so far. */
+static void asked_for(const char *const *paths, int count)
+{
+    for (int i = 0; i < count && i < kept.count; i++)
+        assert_string_equal(kept.files[i].path, paths[i]);
+    assert_int_equal(kept.count, count);
+}
+
+static void changed(const char *path)
+{
+    const char *found_path = shader_files_changed(&kept);
+    if (!found_path)
+        fail_msg("%s has not changed", path);
+    assert_string_equal(found_path, path);
+}
+
+static void what_was_read_and_missed_stays_so(void **state)
+{
+    (void)state;
+    static const char *const asked[] = {"one/a/main.vert", "one/main.vert", "one/part.glsl",
+                                        "two/part.glsl", "one/more.glsl"};
+    assert_int_equal(system("mkdir -p one/a two"), 0);
+    make("one/main.vert", "#include \"part.glsl\"\nint a;\n");
+    make("two/part.glsl", "int b;\n");
+    loader.folder = "one";
+    loader.files = &kept;
+    setenv("LIGHTING_SHADERS", "two", 1);
+    found("a/main.vert", "one/main.vert");
+    text_is("#version 100\nint b;\nint a;\n");
+    asked_for(asked, 4);
+    assert_null(shader_files_changed(&kept));
+
+    /* Edited, removed, and put where it would be found earlier. */
+    make("one/main.vert", "int c;\n");
+    assert_int_equal(unlink("two/part.glsl"), 0);
+    make("one/a/main.vert", "int d;\n");
+    for (int i = 0; i < 2; i++) {
+        found("a/main.vert", "one/main.vert");
+        text_is("#version 100\nint b;\nint a;\n");
+        asked_for(asked, 4);
+    }
+    loader.files = NULL;
+    found("a/main.vert", "one/a/main.vert");
+    text_is("#version 100\nint d;\n");
+
+    /* What was never asked for comes from disk. */
+    loader.files = &kept;
+    make("one/more.glsl", "int e;\n");
+    found("more.glsl", "one/more.glsl");
+    asked_for(asked, 5);
+    shader_files_close(&kept);
+    assert_int_equal(kept.count, 0);
+}
+
+static void what_changes_is_told_by_its_contents(void **state)
+{
+    (void)state;
+    make("main.vert", "#include \"part.glsl\"\n");
+    make("part.glsl", "int b;\n");
+    assert_int_equal(mkdir("sub", 0777), 0);
+    loader.folder = "sub";
+    loader.files = &kept;
+    setenv("LIGHTING_SHADERS", ".", 1);
+    found("main.vert", "./main.vert");
+    static const char *const asked[] = {"sub/main.vert", "./main.vert", "./part.glsl"};
+    asked_for(asked, 3);
+
+    make("part.glsl", "int c;\n");
+    changed("./part.glsl");
+    make("main.vert", "int c;\n");
+    changed("./main.vert");
+    make("main.vert", "#include \"part.glsl\"\n");
+    changed("./part.glsl");
+    /* Written again with the same text, by another file, with another date: nothing. */
+    make("new", "int b;\n");
+    assert_int_equal(rename("new", "part.glsl"), 0);
+    assert_int_equal(chmod("part.glsl", 0600), 0);
+    assert_null(shader_files_changed(&kept));
+    make("part.glsl", "int b;\n ");
+    changed("./part.glsl");
+    make_bytes("part.glsl", "int b;\n\0", 8);
+    changed("./part.glsl");
+    assert_int_equal(unlink("part.glsl"), 0);
+    changed("./part.glsl");
+    assert_int_equal(mkdir("part.glsl", 0777), 0);
+    changed("./part.glsl");
+    assert_int_equal(rmdir("part.glsl"), 0);
+    make("part.glsl", "int b;\n");
+    assert_null(shader_files_changed(&kept));
+    make("sub/main.vert", "");
+    changed("sub/main.vert");
+    assert_int_equal(unlink("sub/main.vert"), 0);
+    assert_int_equal(symlink("../main.vert", "sub/main.vert"), 0);
+    changed("sub/main.vert");
+    assert_int_equal(system("rm -r sub"), 0);
+    assert_null(shader_files_changed(&kept)); /* it was not there before either */
+    shader_files_close(&kept);
+
+    /* What could not be read is the same as long as the reason is. */
+    assert_int_equal(mkdir("folder.vert", 0777), 0);
+    refused("folder.vert", "./folder.vert: is not a regular file", "");
+    assert_null(shader_files_changed(&kept));
+    assert_int_equal(rmdir("folder.vert"), 0);
+    changed("./folder.vert");
+    refused("folder.vert", "./folder.vert: is not a regular file", "");
+    shader_files_close(&kept);
+}
+
+static void replacements_are_kept_and_made_texts_are_none(void **state)
+{
+    (void)state;
+    static const ShaderText texts[] = {{"made.glsl", "int m;\n"}, {NULL, NULL}};
+    static const ShaderReplacement replacements[] = {{"old.glsl", "new.glsl"}, {NULL, NULL}};
+    static const char *const asked[] = {"./main.vert", "./new.glsl"};
+    make("main.vert", "#include \"made.glsl\"\n#include \"old.glsl\"\n");
+    make("made.glsl", "int o;\n");
+    make("old.glsl", "int o;\n");
+    make("new.glsl", "int n;\n");
+    loader.texts = texts;
+    loader.replacements = replacements;
+    loader.files = &kept;
+    for (int i = 0; i < 2; i++) {
+        found("main.vert", "./main.vert");
+        text_is("#version 100\nint m;\nint n;\n");
+        asked_for(asked, 2);
+        make("made.glsl", "int x;\n");
+        make("old.glsl", "int x;\n");
+        assert_null(shader_files_changed(&kept));
+        make("new.glsl", "int x;\n");
+        changed("./new.glsl");
+        make("new.glsl", "int n;\n");
+    }
+    shader_files_close(&kept);
+}
+
+static void a_cycle_that_comes_later_does_no_harm_to_what_was_read(void **state)
+{
+    (void)state;
+    make("a.vert", "#include \"b.glsl\"\n");
+    make("b.glsl", "int b;\n");
+    loader.files = &kept;
+    found("a.vert", "./a.vert");
+    assert_int_equal(unlink("b.glsl"), 0);
+    assert_int_equal(symlink("a.vert", "b.glsl"), 0);
+    changed("./b.glsl");
+    found("a.vert", "./a.vert");
+    text_is("#version 100\nint b;\n");
+    shader_files_close(&kept);
+    refused("a.vert", "./", "includes itself");
+    shader_files_close(&kept);
+}
+
+static void a_folder_that_comes_or_goes_is_a_change(void **state)
+{
+    (void)state;
+    loader = (ShaderLoader){.folder = "mine", .files = &kept};
+    assert_false(shader_loader_check(&loader, NULL));
+    assert_null(shader_files_changed(&kept));
+    assert_int_equal(mkdir("mine", 0777), 0);
+    changed("mine");
+    shader_files_close(&kept);
+    assert_true(shader_loader_check(&loader, NULL));
+    assert_null(shader_files_changed(&kept));
+    assert_int_equal(rmdir("mine"), 0);
+    changed("mine");
+    shader_files_close(&kept);
+}
+
 static void closing_nothing_is_fine(void **state)
 {
     (void)state;
@@ -894,6 +1066,8 @@ static void closing_nothing_is_fine(void **state)
     shader_close(&zeroed);
     shader_source_close(NULL);
     shader_source_close(&empty);
+    shader_files_close(NULL);
+    shader_files_close(&(ShaderFiles){0});
 }
 
 #define TEST(name) cmocka_unit_test_setup_teardown(name, enter_folder, leave_folder)
@@ -930,6 +1104,11 @@ int main(void)
         TEST(a_message_that_is_there_already_stays),
         TEST(long_lines_and_logs_are_cut),
         TEST(a_line_of_a_large_shader_is_found_soon),
+        TEST(what_was_read_and_missed_stays_so),
+        TEST(what_changes_is_told_by_its_contents),
+        TEST(replacements_are_kept_and_made_texts_are_none),
+        TEST(a_cycle_that_comes_later_does_no_harm_to_what_was_read),
+        TEST(a_folder_that_comes_or_goes_is_a_change),
         TEST(closing_nothing_is_fine),
     };
     const struct CMUnitTest driver[] = {

@@ -10,6 +10,7 @@
 #include "options.h"
 #include "output.h"
 #include "progress.h"
+#include "reference_error.h"
 #include "stage.h"
 
 #include <math.h>
@@ -92,21 +93,13 @@ static bool measure(const Way *naive, const Way *stable, HardResult *result, Mes
 
 static HardError error_of(const Image *image, const Reference *exact)
 {
-    HardError error = {0, 0};
-    int inside = 0, wrong = 0;
-    for (size_t i = 0; i < (size_t)exact->width * (size_t)exact->height; i++) {
-        double apart = 0;
-        for (size_t c = 0; c < 3; c++)
-            apart = fmax(apart, fabs(((unsigned char *)image->pixels)[4 * i + c] -
-                                     255 * (double)exact->color[3 * i + c]));
-        if (!exact->interior[i])
-            continue;
-        inside++;
-        wrong += apart > 1;
-        error.maximum = fmax(error.maximum, apart);
-    }
-    error.wrong = inside ? (double)wrong / inside : 0;
-    return error;
+    ReferenceError error = {.all = {0}};
+    reference_error_add(&error, image, 0, 0, exact, NULL);
+    const ErrorSum *inside = &error.interior;
+    return (HardError){
+        .maximum = inside->maximum,
+        .wrong = inside->pixels ? (double)inside->wrong / (double)inside->pixels : 0,
+    };
 }
 
 static bool draw_ways(Way *naive, Way *stable, HardResult *result, Message *message)

@@ -1,5 +1,7 @@
 #include "report.h"
 
+#include "reference_error.h"
+
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -58,8 +60,6 @@ static double scale_of(double difference)
 
 static Color color_of(double difference)
 {
-    if (isnan(difference))
-        return UNDEFINED;
     /* A hair more than half a step is what rounding makes of a float. */
     return difference <= ROUNDING + 1e-3 ? NEUTRAL : viridis(scale_of(difference));
 }
@@ -75,19 +75,23 @@ static unsigned char to_byte(double value)
     return (unsigned char)(value > 0 ? lround(255 * fmin(value, 1)) : 0);
 }
 
+/* Whether every channel is a number. */
+static bool is_finite(const Image *image, size_t pixel)
+{
+    return isfinite(channel(image, 4 * pixel)) && isfinite(channel(image, 4 * pixel + 1)) &&
+           isfinite(channel(image, 4 * pixel + 2));
+}
+
 /* The colour of a panel's pixel. */
 static Color panel_color(int panel, const Image *drawn, const Reference *exact, size_t pixel)
 {
-    double first[3], second[3], difference = 0;
-    for (size_t i = 0; i < 3; i++) {
-        first[i] = channel(drawn, 4 * pixel + i);
-        second[i] = (double)exact->color[3 * pixel + i];
-        const double apart = fabs(first[i] - second[i]) * 255;
-        difference = isnan(apart) || isnan(difference) ? NAN : fmax(difference, apart);
-    }
+    double shown[3];
     if (panel == 2)
-        return color_of(difference);
-    const double *shown = panel == 0 ? first : second;
+        return is_finite(drawn, pixel)
+                   ? color_of(reference_pixel_error(drawn, pixel, exact, pixel).largest)
+                   : UNDEFINED;
+    for (size_t i = 0; i < 3; i++)
+        shown[i] = panel == 0 ? channel(drawn, 4 * pixel + i) : (double)exact->color[3 * pixel + i];
     return (Color){to_byte(shown[0]), to_byte(shown[1]), to_byte(shown[2])};
 }
 

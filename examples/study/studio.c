@@ -3,6 +3,7 @@
 #include "mesh_buffer.h"
 #include "operations.h"
 #include "progress.h"
+#include "reference_error.h"
 #include "transforms.h"
 
 #include <math.h>
@@ -272,53 +273,27 @@ static bool same_surface(const Studio *studio, const Reference *exact, int x, in
     return fabs(depth - exact->depth[here]) <= DEPTH * exact->depth[here];
 }
 
-/* The largest of the three channels' errors, in steps of 1/255; the sum of their squares is added
- * to *squares. */
-static double pixel_error(const Image *image, const float *exact, size_t pixel, double *squares)
-{
-    double largest = 0;
-    for (size_t c = 0; c < 3; c++) {
-        double value = image->type == IMAGE_FLOAT
-                           ? (double)((const float *)image->pixels)[4 * pixel + c]
-                           : ((const unsigned char *)image->pixels)[4 * pixel + c] / 255.0;
-        double error = 255;
-        if (isfinite(value)) {
-            value = value < 0 ? 0 : value > 1 ? 1 : value;
-            error = 255 * fabs(value - (double)exact[3 * pixel + c]);
-        }
-        largest = error > largest ? error : largest;
-        *squares += error * error;
-    }
-    return largest;
-}
-
 bool drawing_error(Drawing *drawing, Studio *studio, const Reference *exact, DrawingError *error,
                    Message *message)
 {
-    double interior_squares = 0, all_squares = 0;
+    ErrorSum interior = {0}, all = {0};
     *error = (DrawingError){.interior_pixels = 0};
     if (!see(drawing, studio, message))
         return false;
     for (int y = 0; y < studio->height; y++) {
         for (int x = 0; x < studio->width; x++) {
             const size_t pixel = (size_t)y * (size_t)studio->width + (size_t)x;
-            double squares = 0;
-            const double largest = pixel_error(&drawing->image, exact->color, pixel, &squares);
-            all_squares += squares;
-            error->all_maximum = fmax(error->all_maximum, largest);
-            if (exact->interior[pixel] && same_surface(studio, exact, x, y)) {
-                error->interior_pixels++;
-                interior_squares += squares;
-                error->interior_maximum = fmax(error->interior_maximum, largest);
-            }
+            const PixelError found = reference_pixel_error(&drawing->image, pixel, exact, pixel);
+            error_sum_add(&all, found, pixel);
+            if (exact->interior[pixel] && same_surface(studio, exact, x, y))
+                error_sum_add(&interior, found, pixel);
         }
     }
-    const double count = 3.0 * studio->width * studio->height;
-    error->all_rms = sqrt(all_squares / count);
-    error->interior_rms =
-        error->interior_pixels ? sqrt(interior_squares / (3.0 * error->interior_pixels)) : NAN;
-    if (!error->interior_pixels)
-        error->interior_maximum = NAN;
+    *error = (DrawingError){.interior_rms = error_sum_rms(&interior),
+                            .interior_maximum = interior.pixels ? interior.maximum : NAN,
+                            .all_rms = error_sum_rms(&all),
+                            .all_maximum = all.maximum,
+                            .interior_pixels = (int)interior.pixels};
     return true;
 }
 

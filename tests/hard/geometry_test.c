@@ -280,7 +280,7 @@ static void check_centres(double most)
     Message message = {0};
     Trace *trace;
     const int width = hard.bytes.width, height = hard.bytes.height;
-    if (!trace_open(&trace, &world.scene, true, width, height, &message))
+    if (!trace_open(&trace, &world.scene, true, width, height, NULL, &message))
         fail_msg("%s", message.text);
     for (int i = 0; i < width * height; i++) {
         Sample sample;

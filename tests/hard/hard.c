@@ -1,6 +1,7 @@
 #include "hard.h"
 
 #include "picture_check.h"
+#include "reference_error.h"
 
 #include <stdarg.h>
 #include <stddef.h>
@@ -87,34 +88,11 @@ static void draw(const Canvas *canvas, Lighting *lighting, const Scene *scene, I
     require(canvas_read(canvas, image, &message), &message);
 }
 
-static double clamped(double value)
-{
-    return !isfinite(value) ? value : value < 0 ? 0 : value > 1 ? 1 : value;
-}
-
 /* Of channel `c`, counted over all pixels' four, from 0 to 1. */
 static double value_of(const Image *image, size_t c)
 {
     return image->type == IMAGE_FLOAT ? (double)((const float *)image->pixels)[c]
                                       : ((const unsigned char *)image->pixels)[c] / 255.0;
-}
-
-static void compare_pixel(const Hard *hard, const Reference *exact, size_t pixel,
-                          HardResult *result)
-{
-    result->interior_pixels++;
-    for (size_t c = 0; c < 3; c++) {
-        const double right = (double)exact->color[3 * pixel + c];
-        const double byte = 255 * fabs(value_of(&hard->image, 4 * pixel + c) - right);
-        const double real = clamped(value_of(&hard->real, 4 * pixel + c));
-        const double real_error = isfinite(real) ? 255 * fabs(real - right) : 255;
-        result->float_error = fmax(result->float_error, real_error);
-        if (byte <= result->byte_error)
-            continue;
-        result->byte_error = byte;
-        result->x = (int)(pixel % (size_t)hard->image.width);
-        result->y = (int)(pixel / (size_t)hard->image.width);
-    }
 }
 
 HardResult hard_draw(Hard *hard, const Scene *scene, HardPrecision precision,
@@ -129,12 +107,16 @@ HardResult hard_draw(Hard *hard, const Scene *scene, HardPrecision precision,
         hard_exact(hard, scene, false, &own);
     draw(&hard->bytes, hard->lightings[precision], scene, &hard->image);
     draw(&hard->floats, hard->lightings[precision], scene, &hard->real);
-    for (size_t i = 0; i < count; i++) {
-        for (size_t c = 0; c < 4; c++)
-            result.not_finite += !isfinite(value_of(&hard->real, 4 * i + c));
-        if ((exact ? exact : &own)->interior[i])
-            compare_pixel(hard, exact ? exact : &own, i, &result);
-    }
+    for (size_t i = 0; i < 4 * count; i++)
+        result.not_finite += !isfinite(value_of(&hard->real, i));
+    ReferenceError bytes = {.all = {0}}, floats = bytes;
+    reference_error_add(&bytes, &hard->image, 0, 0, exact ? exact : &own, NULL);
+    reference_error_add(&floats, &hard->real, 0, 0, exact ? exact : &own, NULL);
+    result.interior_pixels = (int)bytes.interior.pixels;
+    result.byte_error = bytes.interior.maximum;
+    result.float_error = floats.interior.maximum;
+    result.x = (int)(bytes.interior.worst % (size_t)hard->image.width);
+    result.y = (int)(bytes.interior.worst / (size_t)hard->image.width);
     reference_close(&own);
     return result;
 }

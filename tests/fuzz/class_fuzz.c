@@ -1,0 +1,101 @@
+/*
+ * class_fuzz: no name, stream, picture or archive may do harm.
+ *
+ * The first byte says what the rest is.
+ */
+#include "bundle.h"
+#include "class_find.h"
+#include "png_copy.h"
+#include "source.h"
+#include "unpack.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+static Bundle bundle;
+
+static void check_bundle(void)
+{
+    size_t size = 0;
+    for (int i = 0; i < bundle.count; i++) {
+        if (!bundle_name_is_safe(bundle.files[i].name))
+            abort();
+        size += bundle.files[i].size;
+    }
+    if (size != bundle.size || size > BUNDLE_BYTES_MOST)
+        abort();
+}
+
+static void read_stream(const uint8_t *data, size_t size)
+{
+    Message message = {.text = ""};
+    if (bundle_read(&bundle, data, size, &message) != (message.text[0] == '\0'))
+        abort();
+    check_bundle();
+    for (int lab = 1; lab <= 2; lab++)
+        source_choose(&bundle, lab, NULL);
+    check_bundle();
+    bundle_close(&bundle);
+}
+
+static void read_name(const uint8_t *data, size_t size)
+{
+    ClassName name;
+    char entry[256], folder[CLASS_FOLDER_SIZE];
+    const size_t length = size < sizeof entry ? size : sizeof entry - 1;
+    memcpy(entry, data, length);
+    entry[length] = '\0';
+    if (strchr(entry, '/'))
+        return;
+    for (int is_folder = 0; is_folder < 2; is_folder++) {
+        if (!class_name_read(entry, is_folder, &name))
+            continue;
+        class_name_folder(&name, folder);
+        if (!name.student[0] || !bundle_name_is_safe(folder) || strchr(folder, '/') ||
+            folder[0] == '.' || folder[0] == '-')
+            abort();
+    }
+}
+
+static void read_picture(const uint8_t *data, size_t size)
+{
+    unsigned char *copy = malloc(size + 1);
+    size_t kept = size, again;
+    if (!copy)
+        return;
+    memcpy(copy, data, size);
+    if (png_copy(copy, &kept, NULL)) {
+        again = kept;
+        if (kept > size || !png_copy(copy, &again, NULL) || again != kept)
+            abort();
+    }
+    free(copy);
+}
+
+static void read_archive(const uint8_t *data, size_t size)
+{
+    Message message = {.text = ""};
+    const int file = memfd_create("archive", MFD_CLOEXEC);
+    if (file >= 0 && write(file, data, size) == (ssize_t)size && lseek(file, 0, SEEK_SET) == 0) {
+        if (unpack_sources(&bundle, file, &message) != (message.text[0] == '\0'))
+            abort();
+        check_bundle();
+        bundle_close(&bundle);
+    }
+    if (file >= 0)
+        close(file);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    static void (*const readers[])(const uint8_t *, size_t) = {read_stream, read_name, read_picture,
+                                                               read_archive};
+    if (size > 0)
+        readers[data[0] % 4](data + 1, size - 1);
+    return 0;
+}

@@ -1,0 +1,67 @@
+/*
+ * verdict_fuzz: no verdict may do harm, whoever wrote it.
+ *
+ * The input is read as JSON; what is taken is written, read again and the same, and it is what
+ * pages and tables rely on: text in UTF-8 without control characters, numbers in their ranges.
+ */
+#include "verdict_read.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+static void check_text(const char *text, size_t size, bool lines)
+{
+    if (strnlen(text, size) == size)
+        abort();
+    for (const char *at = text; *at; at++)
+        if (((unsigned char)*at < ' ' && !(lines && *at == '\n')) || *at == 0x7F)
+            abort();
+    json_t *value = json_string(text); /* refuses what is not UTF-8 */
+    if (!value)
+        abort();
+    json_decref(value);
+}
+
+static void check(const Verdict *verdict)
+{
+    if (!(verdict->points >= 0 && verdict->points <= VERDICT_MOST_POINTS) ||
+        verdict->kind > VERDICT_TIMEOUT || verdict->mistake_count > VERDICT_MOST_MISTAKES ||
+        verdict->symptom_count > VERDICT_MOST_SYMPTOMS ||
+        verdict->probe_count > VERDICT_MOST_PROBES || strchr(verdict->picture, '/') ||
+        verdict->picture[0] == '.')
+        abort();
+    check_text(verdict->message, sizeof verdict->message, false);
+    check_text(verdict->details, sizeof verdict->details, true);
+    for (int i = 0; i < verdict->mistake_count; i++) {
+        check_text(verdict->mistakes[i].name, sizeof verdict->mistakes[i].name, false);
+        check_text(verdict->mistakes[i].look, VERDICT_SENTENCE_SIZE, false);
+        check_text(verdict->mistakes[i].sentence, VERDICT_SENTENCE_SIZE, false);
+    }
+    for (int i = 0; i < verdict->symptom_count; i++)
+        check_text(verdict->symptoms[i], VERDICT_SENTENCE_SIZE, false);
+    for (int i = 0; i < verdict->probe_count; i++)
+        check_text(verdict->probes[i].name, sizeof verdict->probes[i].name, false);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    static Verdict verdict, again;
+    char lab[64], lab_again[64];
+    Message message = {.text = ""};
+    if (!verdict_read(data, size, lab, &verdict, &message)) {
+        if (!message.text[0])
+            abort();
+        return 0;
+    }
+    check(&verdict);
+    json_t *object = verdict_to_json(&verdict, lab);
+    if (!object || !verdict_from_json(object, lab_again, &again, &message) ||
+        strcmp(lab, lab_again) != 0 || memcmp(&verdict, &again, sizeof verdict) != 0)
+        abort();
+    json_decref(object);
+    return 0;
+}
