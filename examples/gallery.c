@@ -221,7 +221,7 @@ static bool draw_all(const Selection *selection, Canvas *canvas, const Options *
     PictureQueue *queue;
     Progress progress = progress_start("gallery");
     if (!picture_queue_open(&queue, canvas->width, canvas->height, IMAGE_BYTE, selection->count,
-                            message))
+                            NULL, message))
         return false;
     bool done = true;
     for (int i = 0; i < selection->count && done; i++) {

@@ -291,7 +291,7 @@ class Options(Case):
         self.assertEqual(self.read("a.png"), self.read("b.png"))
         self.good(*SMALL, "-o", "c.png", environment={"LIGHTING_BACKEND": "egl"})
         self.assertEqual(self.read("a.png"), self.read("c.png"))
-        self.refused(2, "^LightedCube: --backend glut: no such backend; there is egl, osmesa$",
+        self.refused(2, "^LightedCube: --backend glut: no such backend; there is egl, osmesa, window$",
                      "-b", "glut")
         self.refused(1, "^LightedCube: LIGHTING_BACKEND: glut: no such backend; there is egl",
                      environment={"LIGHTING_BACKEND": "glut"})
