@@ -30,7 +30,9 @@ typedef struct Viewer {
     /* Frames since the title was last changed. */
     double title_time;
     int frames;
+    const char *state; /* that it says */
     ViewerPanel panel;
+    bool panel_had_pointer; /* in the frame before: a press may be older than where it is now */
     Live live;
     Message broken;  /* what is wrong with the shaders on disk */
     Picture picture; /* read back, to be saved or to be shown with what is added on the CPU */
@@ -148,6 +150,8 @@ static bool use_keys(Viewer *viewer, Message *message)
     const WindowInput *input = &viewer->input;
     if (viewer->panel.result.wants_keys)
         return true;
+    if (input->typed_count)
+        viewer_panel_notice(&viewer->panel, NULL); /* it has been read */
     for (int i = 0; i < input->typed_count; i++)
         if (!type(viewer, input->typed[i], message))
             return false;
@@ -163,7 +167,7 @@ static void use_pointer(Viewer *viewer)
 {
     const WindowInput *input = &viewer->input;
     Orbit *orbit = &viewer->options.orbit;
-    if (viewer->panel.result.wants_pointer)
+    if (viewer->panel.result.wants_pointer || viewer->panel_had_pointer)
         return;
     const double degrees = DEGREES_PER_PIXEL / input->scale;
     orbit->azimuth = fmod(orbit->azimuth - degrees * input->drag_x, 360);
@@ -219,28 +223,33 @@ static bool show(Viewer *viewer, Message *message)
         return false;
     if (viewer->panel.view == PANEL_OPEN)
         glFinish(); /* else only the driver knows what the picture took */
-    viewer_panel_measured(&viewer->panel, progress_now() - start, 0);
+    viewer_panel_measured(&viewer->panel, progress_now() - start);
     return canvas_check(viewer->canvas, message) &&
            viewer_panel_draw(&viewer->panel, input->width, input->height, message);
 }
 
+/* Name, rate and state: twice a second, and at once where the state is another one. */
 static void update_title(Viewer *viewer)
 {
     enum { SIZE = 200 };
+    static const char *const states[] = {"", ", paused", ", no picture", ", broken shader"};
     char title[SIZE];
     const double now = progress_now(), elapsed = now - viewer->title_time;
+    const char *state = states[viewer->broken.text[0]    ? 3
+                               : viewer->trouble.text[0] ? 2
+                                                         : viewer->paused];
     viewer->frames++;
-    if (elapsed < 0.5)
+    if (elapsed >= 0.5) {
+        viewer->panel.rate = viewer->frames / elapsed;
+        viewer->title_time = now;
+        viewer->frames = 0;
+    } else if (state == viewer->state) {
         return;
-    viewer_panel_measured(&viewer->panel, viewer->panel.seconds, viewer->frames / elapsed);
-    snprintf(title, SIZE, "%s, %.0f frames per second%s%s", viewer->example->name,
-             viewer->frames / elapsed, viewer->paused ? ", paused" : "",
-             viewer->broken.text[0]    ? ", broken shader"
-             : viewer->trouble.text[0] ? ", no picture"
-                                       : "");
+    }
+    const double rate = viewer->panel.rate > 0 ? viewer->panel.rate : viewer->frames / elapsed;
+    viewer->state = state;
+    snprintf(title, SIZE, "%s, %.0f frames per second%s", viewer->example->name, rate, state);
     window_title(viewer->window, title);
-    viewer->title_time = now;
-    viewer->frames = 0;
 }
 
 /* Where the screen does not make the program wait, this does: nobody sees more pictures. */
@@ -277,6 +286,7 @@ static bool load(Viewer *viewer, Message *message)
 static bool use_panel(Viewer *viewer, double elapsed, Message *message)
 {
     ViewerPanel *panel = &viewer->panel;
+    viewer->panel_had_pointer = panel->result.wants_pointer;
     const Message *trouble = viewer->broken.text[0] ? &viewer->broken : &viewer->trouble;
     return viewer_panel_frame(panel, &viewer->input, elapsed, viewer->canvas, &viewer->options,
                               viewer->live.on_stage, trouble, message) &&
@@ -331,9 +341,9 @@ bool viewer_run(const Example *example, Canvas *canvas, const Options *options,
     viewer_panel_open(&viewer.panel, example, viewer.window, options, defaults);
     window_show(viewer.window);
     viewer.last = viewer.title_time = progress_now();
-    bool done = true;
+    bool done = frame(&viewer, 0, message);
     while (done && !viewer.left) {
-        const bool hidden = viewer.frames > 0 && viewer.input.width == 0;
+        const bool hidden = viewer.input.width == 0 || viewer.input.height == 0;
         done = frame(&viewer, hidden ? HIDDEN : spare_time(&viewer), message);
     }
     viewer_panel_close(&viewer.panel);

@@ -125,7 +125,7 @@ bool viewer_panel_frame(ViewerPanel *panel, const WindowInput *input, double sec
         command_write(panel->example, options, panel->defaults, panel->command,
                       sizeof panel->command);
     }
-    const bool notice = progress_now() - panel->notice_time < NOTICE_SECONDS;
+    const bool notice = panel->notice[0] && progress_now() - panel->notice_time < NOTICE_SECONDS;
     const PanelInput in = {.window = input,
                            .seconds = seconds,
                            .clipboard = panel->window,
@@ -159,17 +159,15 @@ bool viewer_panel_draw(ViewerPanel *panel, int width, int height, Message *messa
            panel_draw(&panel->draw, &panel->result.drawing, width, height, message);
 }
 
-void viewer_panel_measured(ViewerPanel *panel, double seconds, double rate)
+void viewer_panel_measured(ViewerPanel *panel, double seconds)
 {
     static const double SHARE = 0.1; /* of the newest frame */
     panel->seconds = panel->seconds > 0 ? (1 - SHARE) * panel->seconds + SHARE * seconds : seconds;
-    if (rate > 0)
-        panel->rate = rate;
 }
 
 void viewer_panel_notice(ViewerPanel *panel, const char *text)
 {
-    snprintf(panel->notice, sizeof panel->notice, "%s", text);
+    snprintf(panel->notice, sizeof panel->notice, "%s", text ? text : "");
     panel->notice_time = progress_now();
 }
 

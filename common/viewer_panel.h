@@ -26,7 +26,7 @@ typedef struct ViewerPanel {
     bool help;
     ParameterValue defaults[OPTIONS_MOST_PARAMETERS];
     double seconds; /* that a frame takes, smoothed; 0: not known */
-    double rate;    /* frames a second */
+    double rate;    /* frames a second; 0: not known */
     Appraise *appraise;
     /* The picture that was last given to it. */
     double appraised_time; /* when, as progress_now tells it */
@@ -54,10 +54,10 @@ bool viewer_panel_frame(ViewerPanel *panel, const WindowInput *input, double sec
 /* Draws it into the framebuffer that is bound, of the window's size. */
 bool viewer_panel_draw(ViewerPanel *panel, int width, int height, Message *message);
 
-/* A frame took so long to draw, and there are so many a second (0: as before). */
-void viewer_panel_measured(ViewerPanel *panel, double seconds, double rate);
+/* A frame took so long to draw. */
+void viewer_panel_measured(ViewerPanel *panel, double seconds);
 
-/* Says something for a few seconds. */
+/* Says something for a few seconds; NULL: nothing any more. */
 void viewer_panel_notice(ViewerPanel *panel, const char *text);
 
 void viewer_panel_toggle(ViewerPanel *panel);

@@ -13,6 +13,7 @@ import os
 import random
 import re
 import resource
+import shlex
 import shutil
 import signal
 import struct
@@ -153,7 +154,8 @@ class Shown:
     def find(self):
         if self.process.poll() is not None:
             raise AssertionError(f"{self.program} has ended: {self.said()}")
-        found = self.server.xdotool("search", "--onlyvisible", "--class", "^lighting$", check=False)
+        found = self.server.xdotool("search", "--all", "--onlyvisible", "--pid", self.process.pid,
+                                    "--class", "^lighting$", check=False)
         return int(found.split()[0]) if found else None
 
     def kill(self):
@@ -185,9 +187,11 @@ class Shown:
         self.key("s")
         said = wait_for(lambda: self.said()[len(before):].endswith("\n") and self.said(),
                         "a saved picture")[len(before):]
-        found = re.fullmatch(rf"{self.program}: saved (.*)\n", said)
+        found = re.fullmatch(rf"{self.program}: saved (.*); the same without a window: (.*)\n", said)
         self.case.assertTrue(found, said)
-        return self.case.png(found[1])
+        picture = self.case.png(found[1])
+        picture.command = shlex.split(found[2])
+        return picture
 
     def resize(self, width, height):
         self.server.xdotool("windowsize", self.window, width, height)
@@ -216,13 +220,12 @@ def seconds_of(picture):
     return float(picture.texts["Time"].removesuffix(" s"))
 
 
-def command_of(picture):
-    return picture.texts["Settings"].split(";")[0]
-
-
 def orbit_of(picture):
-    found = re.search(r"--orbit (\S+?)[ ;]", command_of(picture) + " ")
-    return tuple(float(number) for number in found[1].split(",")) if found else None
+    """Azimuth, elevation and distance in its command; None where the camera is as it was."""
+    if "--orbit" not in picture.command:
+        return None
+    numbers = picture.command[picture.command.index("--orbit") + 1].split(",")
+    return tuple(float(number) for number in (*numbers, "1")[:3])
 
 
 class Case(base.Case):
@@ -240,10 +243,10 @@ class Case(base.Case):
         return Shown(self, "--window", *arguments, **more)
 
     def assert_headless(self, picture, program, *arguments):
-        """The picture is, to the last bit, the one that its texts' command draws headless."""
-        command = command_of(picture).split()
-        self.good(*command, "--time=" + picture.texts["Time"].removesuffix(" s"), *arguments, "-o",
-                  "headless.png", program=program)
+        """The picture is, to the last bit, the one that the command said with it draws headless."""
+        name, *command = picture.command
+        self.assertEqual(name, program)
+        self.good(*command, *arguments, "-o", "headless.png", program=program)
         headless = self.png("headless.png")
         self.assertTrue(picture.pixels == headless.pixels, f"{program} {command}")
         self.assertEqual({**picture.texts, "Settings": ""}, {**headless.texts, "Settings": ""})
@@ -257,6 +260,7 @@ class Case(base.Case):
     def assert_shown(self, shown, program=MOVING):
         """What stands on the screen, what is saved and what is drawn headless is the same to the
         last bit. The screen comes first, for it says afterwards that a picture was saved."""
+        shown.key("x")  # does nothing, but that an older notice has been read
         x, y, width, height = shown.place()
         screen = wait_for(lambda: self.still(shown), "a picture that stands still")
         picture = shown.save()
@@ -316,12 +320,13 @@ class Pictures(Case):
         for _ in range(2):
             shown.save()
         shown.leave()
-        self.assertIn(f"saved {MOVING}0001.png\n{MOVING}: saved {MOVING}0002.png\n", shown.said())
+        self.assertEqual(re.findall(r"saved (.*?);", shown.said()),
+                         [f"{MOVING}0001.png", f"{MOVING}0002.png"])
         shown = self.show("-s", "50x50", "-o", "turn%03d.png")
         self.make("turn001.png")
         shown.save()
         shown.leave()
-        self.assertIn("saved turn002.png\n", shown.said())
+        self.assertIn("saved turn002.png;", shown.said())
         self.assertEqual(self.read("turn001.png"), b"old")
         shown = self.show("-s", "50x50", "-o", "one.png")
         first, second = shown.save(), shown.save()
@@ -487,8 +492,7 @@ class Sizes(Case):
         shown = self.show("-s", "200x150")
         for _ in range(3):
             self.manager.set_icon(shown.window, True)
-            wait_for(lambda: not self.server.xdotool("search", "--onlyvisible", "--class",
-                                                     "^lighting$", check=False), "an icon")
+            wait_for(lambda: not shown.find(), "an icon")
             self.manager.set_icon(shown.window, False)
             wait_for(shown.find, "a window again")
         self.server.xdotool("windowfocus", "--sync", shown.window)

@@ -103,20 +103,25 @@ HardResult hard_draw(Hard *hard, const Scene *scene, HardPrecision precision,
     Message message = {0};
     const size_t count = (size_t)hard->image.width * (size_t)hard->image.height;
     require(scene_check(scene, &message), &message);
+    const Reference *right = exact ? exact : &own;
     if (!exact)
         hard_exact(hard, scene, false, &own);
     draw(&hard->bytes, hard->lightings[precision], scene, &hard->image);
     draw(&hard->floats, hard->lightings[precision], scene, &hard->real);
     for (size_t i = 0; i < 4 * count; i++)
         result.not_finite += !isfinite(value_of(&hard->real, i));
-    ReferenceError bytes = {.all = {0}}, floats = bytes;
-    reference_error_add(&bytes, &hard->image, 0, 0, exact ? exact : &own, NULL);
-    reference_error_add(&floats, &hard->real, 0, 0, exact ? exact : &own, NULL);
-    result.interior_pixels = (int)bytes.interior.pixels;
-    result.byte_error = bytes.interior.maximum;
-    result.float_error = floats.interior.maximum;
-    result.x = (int)(bytes.interior.worst % (size_t)hard->image.width);
-    result.y = (int)(bytes.interior.worst / (size_t)hard->image.width);
+    ErrorSum bytes = {0}, floats = {0};
+    for (size_t i = 0; i < count; i++) {
+        if (!right->interior[i]) /* a test may have no other part of the picture */
+            continue;
+        error_sum_add(&bytes, reference_pixel_error(&hard->image, i, right, i), i);
+        error_sum_add(&floats, reference_pixel_error(&hard->real, i, right, i), i);
+    }
+    result.interior_pixels = (int)bytes.pixels;
+    result.byte_error = bytes.maximum;
+    result.float_error = floats.maximum;
+    result.x = (int)(bytes.worst % (size_t)hard->image.width);
+    result.y = (int)(bytes.worst / (size_t)hard->image.width);
     reference_close(&own);
     return result;
 }
