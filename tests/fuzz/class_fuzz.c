@@ -9,6 +9,7 @@
 #include "source.h"
 #include "unpack.h"
 
+#include <jansson.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -59,6 +60,10 @@ static void read_name(const uint8_t *data, size_t size)
         if (!name.student[0] || !bundle_name_is_safe(folder) || strchr(folder, '/') ||
             folder[0] == '.' || folder[0] == '-')
             abort();
+        json_t *text = json_string(name.student); /* refuses what is not UTF-8 */
+        if (!text)
+            abort();
+        json_decref(text);
     }
 }
 

@@ -1,0 +1,132 @@
+#include "bundle.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+bool bundle_name_is_safe(const char *name)
+{
+    int depth = 1;
+    if (!name[0] || strlen(name) >= BUNDLE_NAME_SIZE)
+        return false;
+    for (const char *part = name;; depth++) {
+        const size_t length = strcspn(part, "/");
+        if (length == 0 || (length == 1 && part[0] == '.') ||
+            (length == 2 && part[0] == '.' && part[1] == '.'))
+            return false;
+        if (!part[length])
+            break;
+        part += length + 1;
+    }
+    for (const char *at = name; *at; at++)
+        if ((unsigned char)*at < ' ' || *at == 0x7F)
+            return false;
+    return depth <= BUNDLE_DEPTH_MOST;
+}
+
+bool bundle_add(Bundle *bundle, const char *name, const void *bytes, size_t size, Message *message)
+{
+    if (!bundle_name_is_safe(name))
+        return message_set(message, "a file's name is not usable: empty, too long, or it leaves "
+                                    "its folder");
+    if (bundle->count == BUNDLE_FILES_MOST)
+        return message_set(message, "%s: one of more than %d files", name, BUNDLE_FILES_MOST);
+    if (size > BUNDLE_BYTES_MOST - bundle->size)
+        return message_set(message, "%s: more than %d MB in all", name, BUNDLE_BYTES_MOST >> 20);
+    if (bundle_find(bundle, name))
+        return message_set(message, "%s: is there twice", name);
+    unsigned char *copy = malloc(size + 1);
+    if (!copy)
+        return message_set(message, "%s: %s", name, strerror(ENOMEM));
+    if (size)
+        memcpy(copy, bytes, size);
+    copy[size] = '\0'; /* text ends, whatever it holds */
+    BundleFile *file = &bundle->files[bundle->count++];
+    memcpy(file->name, name, strlen(name) + 1);
+    file->bytes = copy;
+    file->size = size;
+    bundle->size += size;
+    return true;
+}
+
+const BundleFile *bundle_find(const Bundle *bundle, const char *name)
+{
+    for (int i = 0; i < bundle->count; i++)
+        if (strcmp(bundle->files[i].name, name) == 0)
+            return &bundle->files[i];
+    return NULL;
+}
+
+static bool write_all(int file, const void *bytes, size_t size)
+{
+    for (const char *next = bytes; size > 0;) {
+        const ssize_t written = write(file, next, size);
+        if (written < 0 && errno != EINTR)
+            return false;
+        if (written > 0) {
+            next += written;
+            size -= (size_t)written;
+        }
+    }
+    return true;
+}
+
+bool bundle_write(const Bundle *bundle, int file, Message *message)
+{
+    bool done = true;
+    for (int i = 0; i < bundle->count && done; i++) {
+        const BundleFile *of = &bundle->files[i];
+        char line[BUNDLE_NAME_SIZE + 32];
+        const int length = snprintf(line, sizeof line, "%zu %s\n", of->size, of->name);
+        done = write_all(file, line, (size_t)length) && write_all(file, of->bytes, of->size);
+    }
+    if (!done || !write_all(file, "end\n", 4))
+        return message_set(message, "files that were to be passed on: %s", strerror(errno));
+    return true;
+}
+
+/* "SIZE NAME" up to its line break; moves *text behind it. */
+static bool read_line(const char **text, const char *end, size_t *size, char name[BUNDLE_NAME_SIZE])
+{
+    const char *at = *text;
+    const char *line_end = memchr(at, '\n', (size_t)(end - at));
+    int digits = 0;
+    *size = 0;
+    for (; line_end && at < line_end && *at >= '0' && *at <= '9' && digits < 9; at++, digits++)
+        *size = *size * 10 + (size_t)(*at - '0');
+    if (!line_end || digits == 0 || at == line_end || *at++ != ' ')
+        return false;
+    const size_t length = (size_t)(line_end - at);
+    if (length >= BUNDLE_NAME_SIZE || memchr(at, '\0', length))
+        return false;
+    memcpy(name, at, length);
+    name[length] = '\0';
+    *text = line_end + 1;
+    return true;
+}
+
+bool bundle_read(Bundle *bundle, const void *bytes, size_t size, Message *message)
+{
+    const char *text = bytes, *end = text + size;
+    while (end - text != 4 || memcmp(text, "end\n", 4) != 0) {
+        char name[BUNDLE_NAME_SIZE];
+        size_t length;
+        if (text == end || !read_line(&text, end, &length, name) || length > (size_t)(end - text))
+            return message_set(message, "what it passed on is cut or broken");
+        if (!bundle_add(bundle, name, text, length, message))
+            return false;
+        text += length;
+    }
+    return true;
+}
+
+void bundle_close(Bundle *bundle)
+{
+    if (!bundle)
+        return;
+    for (int i = 0; i < bundle->count; i++)
+        free(bundle->files[i].bytes);
+    *bundle = (Bundle){.count = 0};
+}

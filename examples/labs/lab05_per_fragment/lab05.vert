@@ -1,0 +1,17 @@
+// Lab 5: at each vertex, pass on what the fragments need for their light.
+
+attribute vec4 a_Position;
+attribute vec4 a_Color;
+attribute vec4 a_Normal;
+
+uniform mat4 u_MvpMatrix;
+uniform mat4 u_ModelMatrix;
+uniform mat4 u_NormalMatrix;
+
+varying vec4 v_Color;
+
+void main() {
+    gl_Position = u_MvpMatrix * a_Position;
+    // To do: pass on position and normal, in the world.
+    v_Color = a_Color;
+}

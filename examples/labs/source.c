@@ -1,0 +1,256 @@
+#include "source.h"
+
+#include <ctype.h>
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static bool part_is_junk(const char *part, size_t length)
+{
+    static const char MACOS[] = "__MACOSX";
+    return part[0] == '.' || (length == sizeof MACOS - 1 && memcmp(part, MACOS, length) == 0);
+}
+
+bool source_is_wanted(const char *path)
+{
+    static const char *const endings[] = {".vert", ".frag", ".glsl", ".vs", ".fs", ".c", ".h"};
+    const char *part = path;
+    for (;;) {
+        const size_t length = strcspn(part, "/");
+        if (part_is_junk(part, length))
+            return false;
+        if (!part[length])
+            break;
+        part += length + 1;
+    }
+    const char *ending = strrchr(part, '.');
+    for (size_t i = 0; ending && i < sizeof endings / sizeof endings[0]; i++)
+        if (strcasecmp(ending, endings[i]) == 0)
+            return true;
+    return false;
+}
+
+bool source_too_large(const char *name, double size, Message *message)
+{
+    return message_set(message, "%s: %.1f MB; at most %d KB", name, size / (1 << 20),
+                       SOURCE_FILE_MOST >> 10);
+}
+
+static const char *kind_of(mode_t mode)
+{
+    return S_ISLNK(mode)    ? "a link"
+           : S_ISDIR(mode)  ? "a folder"
+           : S_ISFIFO(mode) ? "a pipe"
+           : S_ISSOCK(mode) ? "a socket"
+                            : "a device";
+}
+
+/* Reads what is open as `file`, which is closed. */
+static bool read_open(Bundle *bundle, int file, const char *name, Message *message)
+{
+    struct stat status;
+    bool done = false;
+    unsigned char *bytes = malloc(SOURCE_FILE_MOST + 1);
+    if (!bytes || fstat(file, &status) != 0) {
+        message_set(message, "%s: %s", name, strerror(bytes ? errno : ENOMEM));
+    } else if (!S_ISREG(status.st_mode)) {
+        message_set(message, "%s: is %s; hand in the file itself", name, kind_of(status.st_mode));
+    } else if (status.st_size > SOURCE_FILE_MOST) {
+        source_too_large(name, (double)status.st_size, message);
+    } else {
+        size_t size = 0;
+        ssize_t count = 1;
+        while (size <= SOURCE_FILE_MOST && count > 0) {
+            count = read(file, bytes + size, SOURCE_FILE_MOST + 1 - size);
+            size += count > 0 ? (size_t)count : 0;
+        }
+        if (count < 0)
+            message_set(message, "%s: %s", name, strerror(errno));
+        else if (size > SOURCE_FILE_MOST)
+            source_too_large(name, (double)size, message);
+        else
+            done = bundle_add(bundle, name, bytes, size, message);
+    }
+    free(bytes);
+    close(file);
+    return done;
+}
+
+/* Without O_NONBLOCK, opening a pipe would wait for somebody to write. */
+enum { OPEN_FLAGS = O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC };
+
+static bool read_at(Bundle *bundle, int folder, const char *entry, const char *name,
+                    Message *message)
+{
+    const int file = openat(folder, entry, OPEN_FLAGS);
+    if (file >= 0)
+        return read_open(bundle, file, name, message);
+    if (errno == ELOOP)
+        return message_set(message, "%s: is a link; hand in the file itself", name);
+    if (errno == ENXIO)
+        return message_set(message, "%s: is a socket; hand in the file itself", name);
+    return message_set(message, "%s: %s", name, strerror(errno));
+}
+
+bool source_read_file(Bundle *bundle, const char *path, const char *name, Message *message)
+{
+    return read_at(bundle, AT_FDCWD, path, name, message);
+}
+
+enum { ENTRIES_MOST = 4096 };
+
+/* Takes over `folder`. `path` is its name in the submission, "" for its top. */
+static bool read_folder(Bundle *bundle, int folder, const char *path, int depth, int *entries,
+                        Message *message)
+{
+    DIR *stream = fdopendir(folder);
+    if (!stream) {
+        close(folder);
+        return message_set(message, "%s: %s", path[0] ? path : ".", strerror(errno));
+    }
+    bool done = true;
+    for (struct dirent *entry; done && (entry = readdir(stream)) != NULL;) {
+        char name[BUNDLE_NAME_SIZE];
+        struct stat status;
+        if (part_is_junk(entry->d_name, strlen(entry->d_name)))
+            continue;
+        if (++*entries > ENTRIES_MOST) {
+            done = message_set(message, "more than %d files", ENTRIES_MOST);
+        } else if (snprintf(name, sizeof name, "%s%s%s", path, path[0] ? "/" : "", entry->d_name) >=
+                   (int)sizeof name) {
+            done = message_set(message, "%.40s...: the path is too long", path);
+        } else if (fstatat(folder, entry->d_name, &status, AT_SYMLINK_NOFOLLOW) != 0) {
+            done = message_set(message, "%s: %s", name, strerror(errno));
+        } else if (S_ISDIR(status.st_mode) && depth < BUNDLE_DEPTH_MOST) {
+            const int below =
+                openat(folder, entry->d_name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+            done = below >= 0 ? read_folder(bundle, below, name, depth + 1, entries, message)
+                              : message_set(message, "%s: %s", name, strerror(errno));
+        } else if (source_is_wanted(name)) {
+            done = read_at(bundle, folder, entry->d_name, name, message);
+        }
+    }
+    closedir(stream);
+    return done;
+}
+
+static int by_name(const void *a, const void *b)
+{
+    return strcmp(((const BundleFile *)a)->name, ((const BundleFile *)b)->name);
+}
+
+bool source_read_folder(Bundle *bundle, const char *path, Message *message)
+{
+    int entries = 0;
+    const int folder = open(path, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    if (folder < 0)
+        return message_set(message, "cannot be read: %s", strerror(errno));
+    const bool done = read_folder(bundle, folder, "", 1, &entries, message);
+    /* The order of a folder's entries says nothing. */
+    qsort(bundle->files, (size_t)bundle->count, sizeof bundle->files[0], by_name);
+    return done;
+}
+
+uint64_t source_hash_bytes(uint64_t hash, const void *bytes, size_t size)
+{
+    const unsigned char *at = bytes;
+    for (size_t i = 0; i < size; i++)
+        hash = (hash ^ at[i]) * 1099511628211ULL;
+    return hash;
+}
+
+uint64_t source_hash(const Bundle *bundle)
+{
+    uint64_t hash = SOURCE_HASH_START;
+    for (int i = 0; i < bundle->count; i++) {
+        const BundleFile *file = &bundle->files[i];
+        char line[BUNDLE_NAME_SIZE + 32];
+        const int length = snprintf(line, sizeof line, "%zu %s\n", file->size, file->name);
+        hash = source_hash_bytes(hash, line, (size_t)length);
+        hash = source_hash_bytes(hash, file->bytes, file->size);
+    }
+    return hash;
+}
+
+static size_t folder_length(const char *name)
+{
+    const char *slash = strrchr(name, '/');
+    return slash ? (size_t)(slash - name) : 0;
+}
+
+static int folder_depth(const char *name)
+{
+    int depth = 0;
+    for (; *name; name++)
+        depth += *name == '/';
+    return depth;
+}
+
+/* Whether the last part of a folder's path begins with "lab05", or "lab5", and no digit follows. */
+static bool folder_is_of_lab(const char *folder, size_t length, int lab)
+{
+    size_t start = length;
+    while (start > 0 && folder[start - 1] != '/')
+        start--;
+    if (length - start < 4 || strncasecmp(folder + start, "lab", 3) != 0)
+        return false;
+    char *end;
+    return isdigit((unsigned char)folder[start + 3]) && strtol(folder + start + 3, &end, 10) == lab;
+}
+
+/* Files below `folder` stay, with names that begin there. */
+static void keep_folder(Bundle *bundle, const char *folder, size_t length)
+{
+    int kept = 0;
+    for (int i = 0; i < bundle->count; i++) {
+        BundleFile file = bundle->files[i];
+        if (length && (strncmp(file.name, folder, length) != 0 || file.name[length] != '/')) {
+            bundle->size -= file.size;
+            free(file.bytes);
+            continue;
+        }
+        const size_t start = length ? length + 1 : 0;
+        memmove(file.name, file.name + start, strlen(file.name + start) + 1);
+        bundle->files[kept++] = file;
+    }
+    bundle->count = kept;
+}
+
+bool source_choose(Bundle *bundle, int lab, Message *message)
+{
+    char chosen[BUNDLE_NAME_SIZE] = "", other[BUNDLE_NAME_SIZE] = "";
+    int nearest = BUNDLE_DEPTH_MOST + 1;
+    bool several = false;
+    if (bundle->count == 0)
+        return message_set(message, "no source files: nothing ends in .vert, .frag or .c");
+    for (int i = 0; i < bundle->count; i++)
+        if (folder_depth(bundle->files[i].name) < nearest)
+            nearest = folder_depth(bundle->files[i].name);
+    for (int i = 0; i < bundle->count; i++) {
+        const char *name = bundle->files[i].name;
+        const size_t length = folder_length(name);
+        if (folder_depth(name) != nearest ||
+            (chosen[0] && strlen(chosen) == length && strncmp(name, chosen, length) == 0))
+            continue;
+        const bool first = !chosen[0], ours = folder_is_of_lab(name, length, lab);
+        const bool chosen_ours = folder_is_of_lab(chosen, strlen(chosen), lab);
+        if (!first && ours == chosen_ours) {
+            snprintf(other, sizeof other, "%.*s", (int)length, name);
+            several = true;
+        } else if (first || ours) {
+            snprintf(chosen, sizeof chosen, "%.*s", (int)length, name);
+            several = false;
+        }
+    }
+    if (several)
+        return message_set(message, "source files in both %s and %s; hand in one folder", chosen,
+                           other);
+    keep_folder(bundle, chosen, strlen(chosen));
+    return true;
+}

@@ -1,0 +1,217 @@
+#include "verdict.h"
+
+#include "json.h"
+#include "output.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+
+const char *const VERDICT_NAMES[] = {"error", "right", "wrong", "refused", "timeout", NULL};
+
+void verdict_add_symptom(Verdict *verdict, const char *format, ...)
+{
+    va_list arguments;
+    if (verdict->symptom_count == VERDICT_MOST_SYMPTOMS)
+        return;
+    va_start(arguments, format);
+    vsnprintf(verdict->symptoms[verdict->symptom_count++], VERDICT_SENTENCE_SIZE, format,
+              arguments);
+    va_end(arguments);
+}
+
+void verdict_add_mistake(Verdict *verdict, const char *name, const char *sentence, const char *look,
+                         double sure)
+{
+    if (verdict->mistake_count == VERDICT_MOST_MISTAKES)
+        return;
+    VerdictMistake *mistake = &verdict->mistakes[verdict->mistake_count++];
+    snprintf(mistake->name, sizeof mistake->name, "%s", name);
+    snprintf(mistake->sentence, sizeof mistake->sentence, "%s", sentence);
+    snprintf(mistake->look, sizeof mistake->look, "%s", look);
+    mistake->sure = sure;
+}
+
+static int passed(const Verdict *verdict)
+{
+    int count = 0;
+    for (int i = 0; i < verdict->probe_count; i++)
+        count += verdict->probes[i].passed;
+    return count;
+}
+
+void verdict_score(Verdict *verdict)
+{
+    verdict->points = 0;
+    if (verdict->kind == VERDICT_RIGHT)
+        verdict->points = VERDICT_MOST_POINTS;
+    else if (verdict->kind == VERDICT_WRONG && verdict->probe_count > 0)
+        verdict->points = 1 + floor(2.0 * 8 * passed(verdict) / verdict->probe_count) / 2;
+}
+
+/* Text. */
+
+static void print_mistakes(const Verdict *verdict, FILE *file)
+{
+    if (verdict->mistake_count == 0)
+        return;
+    if (verdict->mistake_count > 1)
+        fprintf(file, "%s\n",
+                verdict->one_of ? "One of these, which look alike in every scene that was tried:"
+                                : "Both of these:");
+    for (int i = 0; i < verdict->mistake_count; i++) {
+        const VerdictMistake *mistake = &verdict->mistakes[i];
+        fprintf(file, "  %s (%.0f%% sure)\n  %s\n  Look at %s.\n", mistake->name,
+                100 * mistake->sure, mistake->sentence, mistake->look);
+    }
+}
+
+static void print_probes(const Verdict *verdict, FILE *file)
+{
+    for (int i = 0; i < verdict->probe_count; i++) {
+        const VerdictProbe *probe = &verdict->probes[i];
+        fprintf(file, "  scene %s, %s, %3dx%-3d at %6.3f s: largest error %6.2f steps, %s\n",
+                probe->name, probe->known ? "known    " : "of a seed", probe->width, probe->height,
+                probe->seconds, probe->maximum, probe->passed ? "right" : "wrong");
+    }
+}
+
+void verdict_print(const Verdict *verdict, const Lab *lab, const char *pictures, FILE *file)
+{
+    fprintf(file, "%s: %s, %g of %d points\n%s\n", lab->name, VERDICT_NAMES[verdict->kind],
+            verdict->points, VERDICT_MOST_POINTS, verdict->message);
+    if (verdict->details[0])
+        fprintf(file, "%s\n", verdict->details);
+    print_mistakes(verdict, file);
+    for (int i = 0; i < verdict->symptom_count; i++)
+        fprintf(file, "  - %s\n", verdict->symptoms[i]);
+    print_probes(verdict, file);
+    if (verdict->cost.known)
+        fprintf(file, "cost: error %.2f steps, %.2f of the chapter's own program's time\n",
+                verdict->cost.error, verdict->cost.time_ratio);
+    if (verdict->cost.known && verdict->cost.operations >= 0)
+        fprintf(file, "operations of a picture: %ld\n", verdict->cost.operations);
+    if (verdict->picture[0] && pictures)
+        fprintf(file, "%s/%s: submission, right, difference\n", pictures, verdict->picture);
+    fprintf(file, "seed %llu; %.2f s\n", (unsigned long long)verdict->seed, verdict->seconds);
+}
+
+/* JSON. */
+
+static void put_text(FILE *file, const char *name, const char *text)
+{
+    fprintf(file, "\"%s\": ", name);
+    json_put_string(file, text);
+}
+
+/* JSON has neither infinities nor what is no number. */
+static void put_number(FILE *file, const char *name, double number)
+{
+    if (isfinite(number))
+        fprintf(file, "\"%s\": %.9g", name, number);
+    else
+        fprintf(file, "\"%s\": null", name);
+}
+
+static void put_mistakes(FILE *file, const Verdict *verdict)
+{
+    fprintf(file, "  \"mistakes\": [");
+    for (int i = 0; i < verdict->mistake_count; i++) {
+        const VerdictMistake *mistake = &verdict->mistakes[i];
+        fprintf(file, "%s\n    {", i ? "," : "");
+        put_text(file, "name", mistake->name);
+        fputs(", ", file);
+        put_text(file, "sentence", mistake->sentence);
+        fputs(", ", file);
+        put_text(file, "look", mistake->look);
+        fputs(", ", file);
+        put_number(file, "sure", mistake->sure);
+        fputs("}", file);
+    }
+    fprintf(file, "],\n  \"one_of\": %s,\n  \"symptoms\": [", verdict->one_of ? "true" : "false");
+    for (int i = 0; i < verdict->symptom_count; i++) {
+        fputs(i ? ", " : "", file);
+        json_put_string(file, verdict->symptoms[i]);
+    }
+    fputs("],\n", file);
+}
+
+static void put_probes(FILE *file, const Verdict *verdict)
+{
+    fprintf(file, "  \"probes\": [");
+    for (int i = 0; i < verdict->probe_count; i++) {
+        const VerdictProbe *probe = &verdict->probes[i];
+        fprintf(file, "%s\n    {", i ? "," : "");
+        put_text(file, "name", probe->name);
+        fputs(", ", file);
+        put_text(file, "set", probe->known ? "known" : "seed");
+        fprintf(file, ", \"width\": %d, \"height\": %d, ", probe->width, probe->height);
+        put_number(file, "seconds", probe->seconds);
+        fputs(", ", file);
+        put_number(file, "maximum", probe->maximum);
+        fputs(", ", file);
+        put_number(file, "rms", probe->rms);
+        fprintf(file, ", \"passed\": %s}", probe->passed ? "true" : "false");
+    }
+    fputs("],\n", file);
+}
+
+static void put_rest(FILE *file, const Verdict *verdict)
+{
+    fputs("  \"pictures\": [", file);
+    if (verdict->picture[0])
+        json_put_string(file, verdict->picture);
+    fputs("],\n  ", file);
+    put_number(file, "seconds", verdict->seconds);
+    fputs(",\n  \"cost\": ", file);
+    if (verdict->cost.known) {
+        fputs("{", file);
+        put_number(file, "error", verdict->cost.error);
+        fputs(", ", file);
+        put_number(file, "time_ratio", verdict->cost.time_ratio);
+        if (verdict->cost.operations < 0)
+            fputs(", \"operations\": null}", file);
+        else
+            fprintf(file, ", \"operations\": %ld}", verdict->cost.operations);
+    } else {
+        fputs("null", file);
+    }
+    fputs("\n}\n", file);
+}
+
+static void put(FILE *file, const Verdict *verdict, const Lab *lab, const char *submission)
+{
+    fputs("{\n  ", file);
+    put_text(file, "lab", lab->name);
+    fputs(",\n  ", file);
+    put_text(file, "path", submission);
+    fprintf(file, ",\n  \"student\": null,\n  \"seed\": %llu,\n  ",
+            (unsigned long long)verdict->seed);
+    put_number(file, "points", verdict->points);
+    fprintf(file, ",\n  \"most\": %d,\n  ", VERDICT_MOST_POINTS);
+    put_text(file, "verdict", VERDICT_NAMES[verdict->kind]);
+    fputs(",\n  ", file);
+    put_text(file, "message", verdict->message);
+    fputs(",\n  ", file);
+    put_text(file, "details", verdict->details);
+    fputs(",\n", file);
+    put_mistakes(file, verdict);
+    put_probes(file, verdict);
+    put_rest(file, verdict);
+}
+
+bool verdict_write(const Verdict *verdict, const Lab *lab, const char *submission, const char *path,
+                   Message *message)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *file = open_memstream(&text, &size);
+    if (file)
+        put(file, verdict, lab, submission);
+    bool done = file && fclose(file) == 0;
+    if (!done)
+        message_set(message, "%s: not enough memory", path);
+    done = done && output_write(path, text, size, message);
+    free(text);
+    return done;
+}

@@ -1,0 +1,29 @@
+// catalogue: a lab's right picture, or what it becomes by mistakes. All that can be settled on the
+// CPU is: which matrices, which colours; see examples/labs/wrong_program.h.
+
+attribute vec4 a_Position;
+attribute vec4 a_Normal;
+
+uniform mat4 u_Clip;
+uniform mat4 u_Place;
+uniform mat4 u_Normal; // its last column is added: that of a normal with w = 1
+
+varying vec3 v_Place;
+varying vec3 v_Normal;
+varying vec3 v_Toward[2];
+varying vec3 v_Color;
+
+#include "catalogue_light.glsl"
+
+void main() {
+    gl_Position = u_Clip * a_Position;
+    v_Place = vec3(u_Place * a_Position);
+    vec3 normal = vec3(u_Normal * vec4(a_Normal.xyz, 1.0));
+    v_Normal = u_NormalUnit == 1 || u_NormalUnit == 3 ? normalize(normal) : normal;
+    v_Toward[0] = normalize(u_Light[0] - u_FromPlace * v_Place);
+    v_Toward[1] = normalize(u_Light[1] - u_FromPlace * v_Place);
+    v_Color = vec3(0.0);
+    if (u_AtVertices == 1)
+        v_Color = shade(v_Place, u_NormalUnit == 0 ? normal : normalize(normal), v_Toward[0],
+                        v_Toward[1], 0);
+}

@@ -1,0 +1,37 @@
+// Lab 6: light each fragment, with Phong's highlight.
+
+#ifdef GL_FRAGMENT_PRECISION_HIGH
+precision highp float;
+#else
+precision mediump float;
+#endif
+
+uniform vec3 u_LightColor[2];
+uniform vec3 u_LightPosition[2]; // in the world
+uniform vec3 u_AmbientLight;
+uniform vec3 u_SpecularColor;
+uniform float u_Shininess;
+uniform vec3 u_EyePosition; // in the world
+
+varying vec4 v_Color;
+varying vec3 v_Normal;
+varying vec3 v_Position; // in the world
+
+void main() {
+    vec3 normal = normalize(v_Normal);
+    vec3 viewDirection = normalize(u_EyePosition - v_Position);
+    vec3 color = u_AmbientLight * v_Color.rgb;
+    for (int i = 0; i < 2; i++) {
+        vec3 direccionLuz = normalize(u_LightPosition[i] - v_Position);
+        float nDotL = dot(normal, direccionLuz);
+        // el brillo sólo donde llega la luz
+        if (nDotL > 0.0) {
+            color += u_LightColor[i] * v_Color.rgb * nDotL;
+            // reflect() wants the direction in which the light travels.
+            vec3 reflejado = reflect(-direccionLuz, normal);
+            float rDotV = max(dot(reflejado, viewDirection), 0.0);
+            color += u_LightColor[i] * u_SpecularColor * pow(rDotV, u_Shininess);
+        }
+    }
+    gl_FragColor = vec4(color, v_Color.a);
+}

@@ -1,0 +1,605 @@
+/*
+ * class: names that people and learning platforms give, what comes out of a sandbox, which result
+ * stays, and that what students write stays text.
+ */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "bundle.h"
+#include "class_find.h"
+#include "class_front.h"
+#include "class_options.h"
+#include "class_judge.h"
+#include "class_store.h"
+#include "class_table.h"
+#include "confine.h"
+#include "png_copy.h"
+#include "source.h"
+#include "unpack.h"
+#include "verdict_read.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <ftw.h>
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+static char folder[] = "/tmp/class_test-XXXXXX";
+static Message message;
+static Bundle bundle;
+
+static int start(void **state)
+{
+    (void)state;
+    message.text[0] = '\0';
+    bundle_close(&bundle);
+    return 0;
+}
+
+/* Names. */
+
+static void assert_name(const char *entry, bool is_folder, const char *student, const char *id,
+                        const char *file)
+{
+    ClassName name;
+    if (!class_name_read(entry, is_folder, &name))
+        fail_msg("%s is taken for no submission", entry);
+    assert_string_equal(name.student, student);
+    assert_string_equal(name.id, id);
+    assert_string_equal(name.file, file);
+}
+
+static void names_of_people_and_platforms_are_read(void **state)
+{
+    (void)state;
+    assert_name("mueller_anna", true, "mueller_anna", "", "");
+    assert_name("4711", true, "4711", "4711", "");
+    assert_name("mueller_anna_123456", true, "mueller_anna", "123456", "");
+    assert_name("Anna M\xC3\xBCller_123456_assignsubmission_file_", true, "Anna M\xC3\xBCller",
+                "123456", "");
+    assert_name("Anna M\xC3\xBCller_123456_assignsubmission_file", true, "Anna M\xC3\xBCller",
+                "123456", "");
+    assert_name("Anna_12_assignsubmission_file_lab05.frag", false, "Anna", "12", "lab05.frag");
+    assert_name("muelleranna_123_456_lab05.frag", false, "muelleranna", "123", "lab05.frag");
+    assert_name("muelleranna_LATE_123_456_lab05-2.frag", false, "muelleranna", "123", "lab05.frag");
+    assert_name("muelleranna_123_456_my_lab.zip", false, "muelleranna", "123", "");
+    assert_name("mueller_anna.zip", false, "mueller_anna", "", "");
+    assert_name("mueller_anna.tar.gz", false, "mueller_anna", "", "");
+    assert_name("mueller_anna_lab05.frag", false, "mueller_anna", "", "lab05.frag");
+    assert_name("a\xFF_b", true, "a?_b", "", ""); /* not UTF-8 */
+}
+
+static void what_is_no_submission_is_passed_over(void **state)
+{
+    static const char *const files[] = {".DS_Store", "grades.csv", "lab05.frag",
+                                        "Thumbs.db", "notes.txt",  "._mueller.zip"};
+    ClassName name;
+    (void)state;
+    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++)
+        if (class_name_read(files[i], false, &name))
+            fail_msg("%s is taken for a submission", files[i]);
+    assert_false(class_name_read("__MACOSX", true, &name));
+    assert_false(class_name_read(".git", true, &name));
+    assert_false(class_name_read("Anna_12_assignsubmission_onlinetext_", true, &name));
+}
+
+/* Names for files: safe, and another one for each student. */
+static void folders_are_safe_and_distinct(void **state)
+{
+    static const ClassName names[] = {{.student = "a b"},
+                                      {.student = "a_b"},
+                                      {.student = "a/b"},
+                                      {.student = "../b"},
+                                      {.student = "-rf"},
+                                      {.student = "a", .id = "12"},
+                                      {.student = "a_1", .id = "2"},
+                                      {.student = "\xC3\xBC"},
+                                      {.student = "\xC3\xB6"}};
+    enum { COUNT = sizeof names / sizeof names[0] };
+    char folders[COUNT][CLASS_FOLDER_SIZE];
+    (void)state;
+    for (int i = 0; i < COUNT; i++) {
+        class_name_folder(&names[i], folders[i]);
+        assert_true(bundle_name_is_safe(folders[i]));
+        assert_null(strchr(folders[i], '/'));
+        assert_true(folders[i][0] != '.' && folders[i][0] != '-');
+        for (int j = 0; j < i; j++)
+            assert_string_not_equal(folders[i], folders[j]);
+    }
+    assert_string_equal(folders[1], "a_b");
+}
+
+/* Streams. */
+
+static void names_that_leave_a_folder_are_refused(void **state)
+{
+    static const char *const bad[] = {"",     "/a", "..",  "a/../b", "a/..",  ".",
+                                      "a//b", "a/", "./a", "a\nb",   "a\x7F", "1/2/3/4/5/6/7/8/9"};
+    (void)state;
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        assert_false(bundle_name_is_safe(bad[i]));
+        assert_false(bundle_add(&bundle, bad[i], "x", 1, &message));
+    }
+    assert_true(bundle_name_is_safe("a/b..c/.d"));
+}
+
+static void a_stream_comes_back_as_it_was(void **state)
+{
+    static char bytes[4096];
+    Bundle back = {.count = 0};
+    int ends[2];
+    (void)state;
+    assert_true(bundle_add(&bundle, "lab05.frag", "line\nend\n\0more", 14, &message));
+    assert_true(bundle_add(&bundle, "a/empty.h", "", 0, &message));
+    assert_false(bundle_add(&bundle, "a/empty.h", "", 0, &message)); /* twice */
+    assert_int_equal(pipe(ends), 0);
+    assert_true(bundle_write(&bundle, ends[1], &message));
+    const ssize_t size = read(ends[0], bytes, sizeof bytes);
+    close(ends[0]);
+    close(ends[1]);
+    assert_true(size > 0);
+    message.text[0] = '\0';
+    assert_true(bundle_read(&back, bytes, (size_t)size, &message));
+    assert_int_equal(back.count, 2);
+    assert_int_equal(back.files[0].size, 14);
+    assert_memory_equal(back.files[0].bytes, "line\nend\n\0more", 14);
+    bundle_close(&back);
+    /* No part of it is a stream. */
+    for (size_t cut = 0; cut < (size_t)size; cut++) {
+        assert_false(bundle_read(&back, bytes, cut, NULL));
+        bundle_close(&back);
+    }
+}
+
+static void streams_of_others_are_refused(void **state)
+{
+    static const char *const bad[] = {
+        "3 a\nabc",           "3 a\nabcend\nx",   "99 a\nabcend\n",
+        "x a\nabcend\n",      "3 ../a\nabcend\n", "3 /a\nabcend\n",
+        "-1 a\nabcend\n",     "3a\nabcend\n",     "3 a\nabc3 a\nabcend\n",
+        "999999999 a\nend\n", " a\nend\n",        ""};
+    (void)state;
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        if (bundle_read(&bundle, bad[i], strlen(bad[i]), NULL))
+            fail_msg("taken: %s", bad[i]);
+        bundle_close(&bundle);
+    }
+}
+
+/* The folder of the submission. */
+
+static void add(const char *name)
+{
+    assert_true(bundle_add(&bundle, name, "x", 1, &message));
+}
+
+static void the_folder_nearest_to_the_top_counts(void **state)
+{
+    (void)state;
+    add("deep/er/lab05.frag");
+    add("deep/lab05.frag");
+    add("deep/lab05.vert");
+    assert_true(source_choose(&bundle, 5, &message));
+    assert_int_equal(bundle.count, 3);
+    assert_non_null(bundle_find(&bundle, "lab05.frag"));
+    assert_non_null(bundle_find(&bundle, "er/lab05.frag"));
+}
+
+static void of_several_folders_the_one_of_the_lab_counts(void **state)
+{
+    (void)state;
+    add("all/lab04/lab04.frag");
+    add("all/lab05_mine/lab05.frag");
+    add("all/lab06/lab06.frag");
+    assert_true(source_choose(&bundle, 5, &message));
+    assert_int_equal(bundle.count, 1);
+    assert_string_equal(bundle.files[0].name, "lab05.frag");
+    bundle_close(&bundle);
+    add("old/lab05.frag");
+    add("new/lab05.frag");
+    assert_false(source_choose(&bundle, 5, &message));
+    assert_non_null(strstr(message.text, "old"));
+    assert_non_null(strstr(message.text, "new"));
+}
+
+static void the_hash_changes_with_names_and_bytes(void **state)
+{
+    uint64_t hashes[3];
+    (void)state;
+    add("lab05.frag");
+    hashes[0] = source_hash(&bundle);
+    add("lab05.vert");
+    hashes[1] = source_hash(&bundle);
+    bundle.files[1].bytes[0] = 'y';
+    hashes[2] = source_hash(&bundle);
+    assert_true(hashes[0] != hashes[1] && hashes[1] != hashes[2] && hashes[0] != hashes[2]);
+}
+
+static void only_sources_are_wanted(void **state)
+{
+    (void)state;
+    assert_true(source_is_wanted("a/LAB05.FRAG"));
+    assert_true(source_is_wanted("matrices.c"));
+    assert_false(source_is_wanted("report.pdf"));
+    assert_false(source_is_wanted("__MACOSX/lab05.frag"));
+    assert_false(source_is_wanted("a/._lab05.frag"));
+    assert_false(source_is_wanted(".git/x.c"));
+    assert_false(source_is_wanted("frag"));
+}
+
+/* Verdicts. */
+
+static const char GOOD[] =
+    "{\"lab\":\"lab05_per_fragment\",\"seed\":7,\"points\":7.5,\"most\":10,\"verdict\":\"wrong\","
+    "\"message\":\"one\\u0007 line\\nmore\",\"details\":\"a\\nb\",\"one_of\":false,\"mistakes\":"
+    "[{\"name\":\"n\",\"sentence\":\"s\",\"look\":\"l\",\"sure\":0.5}],\"symptoms\":[\"x\"],"
+    "\"probes\":[{\"name\":\"C\",\"set\":\"seed\",\"width\":96,\"height\":64,\"seconds\":1,"
+    "\"maximum\":null,\"rms\":0.4,\"passed\":false}],\"pictures\":[\"worst.png\"],\"seconds\":0.4,"
+    "\"cost\":null,\"new\":[1,2]}";
+
+static void a_verdict_is_read(void **state)
+{
+    static Verdict verdict;
+    char lab[64];
+    (void)state;
+    assert_true(verdict_read(GOOD, strlen(GOOD), lab, &verdict, &message));
+    assert_string_equal(lab, "lab05_per_fragment");
+    assert_int_equal(verdict.kind, VERDICT_WRONG);
+    assert_true(verdict.points == 7.5 && verdict.seed == 7);
+    assert_string_equal(verdict.message, "one  line more"); /* one line, whatever it was */
+    assert_string_equal(verdict.details, "a\nb");
+    assert_true(isinf(verdict.probes[0].maximum));
+    assert_string_equal(verdict.picture, "worst.png");
+}
+
+static void what_is_no_verdict_is_refused(void **state)
+{
+    static const char *const changes[][2] = {
+        {"7.5", "11"},
+        {"7.5", "-1"},
+        {"7.5", "\"7.5\""},
+        {"7.5", "1e999"},
+        {"7.5", "NaN"},
+        {"\"wrong\"", "\"excellent\""},
+        {"\"worst.png\"", "\"../../x.png\""},
+        {"\"worst.png\"", "\".png\""},
+        {"\"worst.png\"", "\"a b.png\""},
+        {"\"worst.png\"", "\"worst.svg\""},
+        {"\"sure\":0.5", "\"sure\":2"},
+        {"\"x\"", "5"},
+        {"\"seed\":7", "\"seed\":7,\"seed\":7"},
+        {"\"seed\":7", "\"seed\":-7"},
+        {"\"cost\":null", "\"cost\":[]"},
+        {"\"one\\u0007", "\"\\u0000"},
+        {"\"new\":[1,2]}", "\"new\":[1,2]}}"},
+        {"96", "1e6"},
+        {"\"details\":\"a\\nb\",", ""},
+    };
+    static Verdict verdict;
+    char lab[64], text[2048];
+    (void)state;
+    for (size_t i = 0; i < sizeof changes / sizeof changes[0]; i++) {
+        const char *at = strstr(GOOD, changes[i][0]);
+        assert_non_null(at);
+        snprintf(text, sizeof text, "%.*s%s%s", (int)(at - GOOD), GOOD, changes[i][1],
+                 at + strlen(changes[i][0]));
+        message.text[0] = '\0';
+        if (verdict_read(text, strlen(text), lab, &verdict, &message))
+            fail_msg("taken: %s", changes[i][1]);
+        assert_true(message.text[0] != '\0');
+    }
+    for (size_t cut = 0; cut < strlen(GOOD); cut++)
+        assert_false(verdict_read(GOOD, cut, lab, &verdict, NULL));
+    char *large = calloc(1, VERDICT_JSON_MOST + 2);
+    assert_non_null(large);
+    memset(large, '[', VERDICT_JSON_MOST + 1);
+    assert_false(verdict_read(large, VERDICT_JSON_MOST + 1, lab, &verdict, NULL));
+    assert_false(verdict_read(large, VERDICT_JSON_MOST, lab, &verdict, NULL)); /* deep */
+    free(large);
+}
+
+static void text_is_cut_between_characters(void **state)
+{
+    char text[6];
+    (void)state;
+    verdict_clean(text, sizeof text, "abcd\xC3\xBC", false);
+    assert_string_equal(text, "abcd");
+    verdict_clean(text, sizeof text,
+                  "a\xE2\x80\xAE"
+                  "b",
+                  false); /* right to left from here */
+    assert_string_equal(text, "ab");
+}
+
+/* Pictures: one pixel, as zlib and libpng write it. */
+static const unsigned char PIXEL[] = {
+    0x89, 0x50, 0x4E, 0x47, 0x0D, 0x0A, 0x1A, 0x0A, 0x00, 0x00, 0x00, 0x0D, 0x49, 0x48,
+    0x44, 0x52, 0x00, 0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0x08, 0x02, 0x00, 0x00,
+    0x00, 0x90, 0x77, 0x53, 0xDE, 0x00, 0x00, 0x00, 0x0C, 0x49, 0x44, 0x41, 0x54, 0x78,
+    0x9C, 0x63, 0xF8, 0xCF, 0xC0, 0x00, 0x00, 0x03, 0x01, 0x01, 0x00, 0xC9, 0xFE, 0x92,
+    0xEF, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4E, 0x44, 0xAE, 0x42, 0x60, 0x82};
+
+static void only_the_picture_of_a_png_is_kept(void **state)
+{
+    unsigned char bytes[sizeof PIXEL + 64];
+    /* A text chunk of no length, with its sum. */
+    static const unsigned char text[] = {0x00, 0x00, 0x00, 0x00, 0x74, 0x45,
+                                         0x58, 0x74, 0x96, 0x42, 0xC5, 0x85};
+    size_t size = sizeof PIXEL;
+    (void)state;
+    memcpy(bytes, PIXEL, size);
+    assert_true(png_copy(bytes, &size, &message));
+    assert_int_equal(size, sizeof PIXEL);
+    for (size_t i = 0; i < sizeof PIXEL; i++) {
+        memcpy(bytes, PIXEL, sizeof PIXEL);
+        bytes[i] ^= 0x10;
+        size = sizeof PIXEL;
+        assert_false(png_copy(bytes, &size, NULL)); /* every byte has a sum over it */
+        size = i;
+        memcpy(bytes, PIXEL, sizeof PIXEL);
+        assert_false(png_copy(bytes, &size, NULL));
+    }
+    memcpy(bytes, PIXEL, 33);
+    memcpy(bytes + 33, text, sizeof text);
+    memcpy(bytes + 33 + sizeof text, PIXEL + 33, sizeof PIXEL - 33);
+    memcpy(bytes + sizeof PIXEL + sizeof text, "<script>", 8); /* behind the end */
+    size = sizeof PIXEL + sizeof text + 8;
+    if (png_copy(bytes, &size, NULL)) { /* without the text, if its sum is right */
+        assert_int_equal(size, sizeof PIXEL);
+        assert_memory_equal(bytes, PIXEL, sizeof PIXEL);
+    } else {
+        fail_msg("refused: %zu", size);
+    }
+}
+
+/* Tables. */
+
+static void assert_put(void (*put)(FILE *, const char *), const char *text, const char *wanted)
+{
+    char *got = NULL;
+    size_t size;
+    FILE *file = open_memstream(&got, &size);
+    assert_non_null(file);
+    put(file, text);
+    fclose(file);
+    assert_string_equal(got, wanted);
+    free(got);
+}
+
+static void text_stays_text(void **state)
+{
+    (void)state;
+    assert_put(class_table_csv_field, "=1+1", "\"'=1+1\"");
+    assert_put(class_table_csv_field, "@SUM(A1)", "\"'@SUM(A1)\"");
+    assert_put(class_table_csv_field, "-cmd", "\"'-cmd\"");
+    assert_put(class_table_csv_field, "\t=1", "\"'\t=1\"");
+    assert_put(class_table_csv_field, "a\"b,c", "\"a\"\"b,c\"");
+    assert_put(class_table_markup, "<b a='1'>&\"\x01", "&lt;b a=&#39;1&#39;&gt;&amp;&quot;");
+}
+
+/* Results. */
+
+static ClassResult result_of(const char *name, uint64_t hash, bool finished, double points)
+{
+    ClassResult result = {.hash = hash, .finished = finished, .limit = 10, .lab = "lab05"};
+    snprintf(result.student, sizeof result.student, "%s", name);
+    snprintf(result.folder, sizeof result.folder, "%s", name);
+    result.verdict.kind = finished ? VERDICT_WRONG : VERDICT_TIMEOUT;
+    result.verdict.points = points;
+    return result;
+}
+
+static void a_worse_result_replaces_none(void **state)
+{
+    (void)state;
+    const ClassResult good = result_of("a", 1, true, 8), worse = result_of("a", 1, true, 7),
+                      cut = result_of("a", 1, false, 0), other = result_of("a", 2, false, 0);
+    assert_true(class_result_is_worse(&worse, &good));
+    assert_true(class_result_is_worse(&cut, &good));
+    assert_false(class_result_is_worse(&good, &worse));
+    assert_false(class_result_is_worse(&good, &cut));
+    assert_false(class_result_is_worse(&good, &good));
+    assert_false(class_result_is_worse(&other, &good)); /* handed in anew */
+}
+
+static void only_what_may_come_out_otherwise_is_judged_again(void **state)
+{
+    (void)state;
+    const ClassResult good = result_of("a", 1, true, 8), cut = result_of("a", 1, false, 0);
+    assert_true(class_result_stands(&good, "lab05", 1, 10));
+    assert_false(class_result_stands(&good, "lab05", 2, 10));
+    assert_false(class_result_stands(&good, "lab06", 1, 10));
+    assert_true(class_result_stands(&cut, "lab05", 1, 10));
+    assert_false(class_result_stands(&cut, "lab05", 1, 20)); /* with more time */
+    assert_false(class_result_stands(NULL, "lab05", 1, 10));
+}
+
+static void results_are_kept_and_merged(void **state)
+{
+    static ClassStore store, other;
+    char out[64], part[64];
+    bool kept;
+    (void)state;
+    snprintf(out, sizeof out, "%s/out", folder);
+    snprintf(part, sizeof part, "%s/part", folder);
+    const ClassResult b = result_of("b", 1, true, 8), a = result_of("a", 1, true, 3),
+                      better = result_of("a", 1, true, 4), cut = result_of("b", 1, false, 0);
+    assert_true(class_store_open(&store, out, NULL, &message));
+    assert_false(class_store_open(&other, out, NULL, &message)); /* somebody is in there */
+    assert_non_null(strstr(message.text, "another run"));
+    message.text[0] = '\0';
+    assert_true(class_store_put(&store, &b, NULL, &kept, &message) && kept);
+    assert_true(class_store_put(&store, &a, NULL, &kept, &message) && kept);
+    assert_true(class_store_put(&store, &cut, NULL, &kept, &message) && !kept);
+    class_store_close(&store);
+
+    assert_true(class_store_open(&other, part, NULL, &message));
+    assert_true(class_store_put(&other, &better, NULL, &kept, &message));
+    assert_true(class_store_put(&other, &cut, NULL, &kept, &message));
+    class_store_close(&other);
+
+    assert_true(class_store_open(&store, out, NULL, &message));
+    assert_int_equal(store.count, 2);
+    assert_true(class_store_read(&other, part, NULL, &message));
+    assert_true(class_store_merge(&store, &other, &message));
+    class_store_close(&other);
+    assert_true(class_store_find(&store, "a")->verdict.points == 4);
+    assert_true(class_store_find(&store, "b")->finished);
+    class_store_close(&store);
+}
+
+static void a_broken_result_is_passed_over(void **state)
+{
+    static ClassStore store;
+    char out[64], path[128];
+    Message notes = {.text = ""};
+    (void)state;
+    snprintf(out, sizeof out, "%s/broken", folder);
+    const ClassResult result = result_of("a", 1, true, 8);
+    assert_true(class_store_open(&store, out, NULL, &message));
+    assert_true(class_store_put(&store, &result, NULL, NULL, &message));
+    class_store_close(&store);
+    snprintf(path, sizeof path, "%s/students/a/result.json", out);
+    assert_int_equal(truncate(path, 100), 0);
+    assert_true(class_store_open(&store, out, &notes, &message));
+    assert_int_equal(store.count, 0);
+    assert_non_null(strstr(notes.text, "result.json"));
+    class_store_close(&store);
+}
+
+static void every_submission_is_in_one_part(void **state)
+{
+    (void)state;
+    for (int student = 0; student < 200; student++) {
+        char name[16];
+        int found = 0;
+        snprintf(name, sizeof name, "student%d", student);
+        for (int part = 1; part <= 7; part++) {
+            const ClassOptions options = {.part = part, .parts = 7};
+            found += class_in_part(&options, name);
+        }
+        assert_int_equal(found, 1);
+    }
+}
+
+static ClassResult with_cost(const char *name, double error, double time)
+{
+    ClassResult result = result_of(name, 1, true, 8);
+    result.verdict.cost = (VerdictCost){.known = true, .error = error, .time_ratio = time};
+    return result;
+}
+
+static void the_front_has_those_that_none_beats_in_both(void **state)
+{
+    ClassResult results[] = {with_cost("a", 1, 0.5), with_cost("b", 0.5, 1), with_cost("c", 1, 1),
+                             with_cost("d", 0.5, 1), result_of("e", 1, true, 8)};
+    static const bool efficient[] = {true, true, false, true, false};
+    const ClassStore store = {.results = results, .count = 5};
+    (void)state;
+    for (int i = 0; i < 5; i++)
+        assert_int_equal(class_front_has(&store, &results[i]), efficient[i]);
+}
+
+/* What a process can do that is confined: bits, as its exit code. */
+enum { FORKED = 1, WROTE = 2, CONNECTED = 4, SIGNALLED = 8, EMPTIED = 16, UNREAD = 32 };
+
+static int try_everything(const char *path)
+{
+    int done = 0;
+    char byte;
+    Message own = {.text = ""};
+    if (!confine_process(&own))
+        return 255;
+    const pid_t child = fork();
+    if (child == 0)
+        _exit(0);
+    done |= child > 0 ? FORKED : 0;
+    done |= open(path, O_WRONLY | O_CREAT, 0600) >= 0 ? WROTE : 0;
+    done |= open(path, O_RDONLY | O_TRUNC) >= 0 ? EMPTIED : 0;
+    done |= socket(AF_INET, SOCK_STREAM, 0) >= 0 ? CONNECTED : 0;
+    done |= kill(getppid(), 0) == 0 ? SIGNALLED : 0;
+    const int file = open(path, O_RDONLY);
+    done |= file < 0 || read(file, &byte, 1) != 1 ? UNREAD : 0;
+    return done;
+}
+
+/* Root, too: a fork bomb makes no second process. The bomb is one call of fork. */
+static void a_confined_process_can_only_compute(void **state)
+{
+    char path[64];
+    int status;
+    (void)state;
+    snprintf(path, sizeof path, "%s/file", folder);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs("x", file);
+    fclose(file);
+    const pid_t child = fork();
+    if (child == 0)
+        _exit(try_everything(path));
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status));
+    if (WEXITSTATUS(status) == 255)
+        skip();
+    assert_int_equal(WEXITSTATUS(status), 0);
+}
+
+static int make_folder(void **state)
+{
+    (void)state;
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static int remove_one(const char *path, const struct stat *status, int kind, struct FTW *walk)
+{
+    (void)status;
+    (void)kind;
+    (void)walk;
+    return remove(path);
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    bundle_close(&bundle);
+    return nftw(folder, remove_one, 16, FTW_DEPTH | FTW_PHYS);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup(names_of_people_and_platforms_are_read, start),
+        cmocka_unit_test_setup(what_is_no_submission_is_passed_over, start),
+        cmocka_unit_test_setup(folders_are_safe_and_distinct, start),
+        cmocka_unit_test_setup(names_that_leave_a_folder_are_refused, start),
+        cmocka_unit_test_setup(a_stream_comes_back_as_it_was, start),
+        cmocka_unit_test_setup(streams_of_others_are_refused, start),
+        cmocka_unit_test_setup(the_folder_nearest_to_the_top_counts, start),
+        cmocka_unit_test_setup(of_several_folders_the_one_of_the_lab_counts, start),
+        cmocka_unit_test_setup(the_hash_changes_with_names_and_bytes, start),
+        cmocka_unit_test_setup(only_sources_are_wanted, start),
+        cmocka_unit_test_setup(a_verdict_is_read, start),
+        cmocka_unit_test_setup(what_is_no_verdict_is_refused, start),
+        cmocka_unit_test_setup(text_is_cut_between_characters, start),
+        cmocka_unit_test_setup(only_the_picture_of_a_png_is_kept, start),
+        cmocka_unit_test_setup(text_stays_text, start),
+        cmocka_unit_test_setup(a_worse_result_replaces_none, start),
+        cmocka_unit_test_setup(only_what_may_come_out_otherwise_is_judged_again, start),
+        cmocka_unit_test_setup(results_are_kept_and_merged, start),
+        cmocka_unit_test_setup(a_broken_result_is_passed_over, start),
+        cmocka_unit_test_setup(every_submission_is_in_one_part, start),
+        cmocka_unit_test_setup(the_front_has_those_that_none_beats_in_both, start),
+        cmocka_unit_test_setup(a_confined_process_can_only_compute, start),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

@@ -1,0 +1,738 @@
+#!/usr/bin/env python3
+"""`check --class` as a teaching assistant uses it, and as somebody would like to abuse it.
+
+usage: class_test.py EXAMPLES_FOLDER_OF_THE_BUILD SOURCE_FOLDER [unittest's arguments]
+       class_test.py EXAMPLES_FOLDER_OF_THE_BUILD SOURCE_FOLDER --time [N]
+
+The second judges a class of N submissions of lab 5 (60), a third of them wrong, and says how long it
+takes. The first has no test that depends on how long anything takes.
+Exit code: 77 where nothing can be drawn.
+"""
+import csv
+import fcntl
+import html.parser
+import io
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tarfile
+import time
+import unittest
+import xml.etree.ElementTree
+import zipfile
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.dont_write_bytecode = True
+sys.path[:0] = [os.path.dirname(HERE), HERE]
+import command_line_test as base
+
+PROGRAM = "check"
+SOLUTIONS = os.path.join(HERE, "solutions")
+SOLUTION = os.path.join(SOLUTIONS, "lab05_per_fragment")
+STARTER = os.path.join(base.SOURCE, "examples/labs/lab05_per_fragment")
+VERT, FRAG = "lab05.vert", "lab05.frag"
+SANDBOXED = r"each submission runs in bubblewrap: no network, no files but its own, "
+# A loop that no compiler finds the end of, heavy enough that the driver's own limit on the number of
+# turns does not end it in time.
+ENDLESS = (
+    "float z = v_Position.x; while (z < 1.0e30) { "
+    + " ".join(f"z = fract(sin(z * {i}.5) * 43758.5) * 0.5;" for i in range(1, 60))
+    + " }"
+)
+
+
+def read(*path, mode="r"):
+    with open(os.path.join(*path), mode) as file:
+        return file.read()
+
+
+class Page(html.parser.HTMLParser):
+    """What a page holds: that its elements are closed, its addresses, its elements' names."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.names, self.addresses, self.text = [], set(), [], ""
+        self.feed(text)
+        assert not self.open, self.open
+
+    def handle_starttag(self, tag, attrs):
+        self.names.add(tag)
+        self.addresses += [value for key, value in attrs if key in ("href", "src")]
+        assert not [key for key, value in attrs if key.startswith("on")], attrs
+        if tag not in ("meta", "img", "br"):
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open and self.open.pop() == tag, tag
+
+    def handle_data(self, data):
+        self.text += data
+
+
+class Class(base.Case):
+    def setUp(self):
+        super().setUp()
+        os.makedirs(self.path("class"))
+        self.environment = {}
+
+    # Submissions.
+
+    def submit(self, name, source=SOLUTION, **changed):
+        """A folder with the files of `source`; `changed` are others by name, "_" for ".": None is
+        to leave one out."""
+        folder = self.path("class", name)
+        shutil.copytree(source, folder, ignore=shutil.ignore_patterns("*.md", "*.png"))
+        for key, text in changed.items():
+            path = os.path.join(folder, key.replace("_", "."))
+            if os.path.exists(path):
+                os.remove(path)
+            if text is not None:
+                self.make(path, text)
+        return folder
+
+    def frag(self, before="", replace=()):
+        text = before + read(SOLUTION, FRAG)
+        for old, new in replace:
+            self.assertIn(old, text)
+            text = text.replace(old, new, 1)
+        return text
+
+    # Runs.
+
+    def check_class(self, *arguments, out="out", code=0, **more):
+        """Standard error without the line about the sandbox, as lines."""
+        result = self.run_it("--class", "class", "-o", out, *arguments, program=PROGRAM, **more)
+        error = result.stderr.decode()
+        self.assertEqual(result.returncode, code, error)
+        lines = error.splitlines()
+        for line in lines:
+            self.assertTrue(line.startswith("check: "), error)
+        self.assertIn("each submission runs ", lines[0] if lines else "")
+        return lines[1:]
+
+    def lab5(self, *arguments, **more):
+        return self.check_class("--lab", "5", *arguments, **more)
+
+    def table(self, out="out"):
+        with open(self.path(out, "class.csv"), newline="", encoding="utf-8") as file:
+            return {row["student"]: row for row in csv.DictReader(file)}
+
+    def verdicts(self, out="out"):
+        return {name: row["verdict"] for name, row in self.table(out).items()}
+
+    def assert_one_line(self, lines, student, verdict, said):
+        about = [line for line in lines if line.startswith(f"check: {student}: ")]
+        self.assertEqual(len(about), 1, (student, lines))
+        self.assertRegex(about[0], rf"^check: {re.escape(student)}: {verdict}: .*(?:{said})")
+
+
+class Names(Class):
+    def test_submissions_are_found_under_the_names_of_people_and_platforms(self):
+        self.submit("mueller_anna")
+        self.submit("123456")
+        self.submit("Zoë O'Brien_7788_assignsubmission_file_/nested")
+        self.make("class/Zoë O'Brien_7788_assignsubmission_onlinetext_/onlinetext.html", "see file")
+        for name in (VERT, FRAG):
+            shutil.copy(
+                os.path.join(SOLUTION, name),
+                self.path("class", f"canvas_LATE_12_34_{name[:5]}-1{name[5:]}"),
+            )
+            shutil.copy(os.path.join(SOLUTION, name), self.path("class", f"flat_fred_{name}"))
+        shutil.make_archive(self.path("class", "zip_zoe"), "zip", SOLUTIONS, "lab05_per_fragment")
+        shutil.make_archive(self.path("class", "tar_tom"), "gztar", SOLUTION)
+        os.makedirs(self.path("class/archive_in_folder/deep"))
+        shutil.make_archive(self.path("class/archive_in_folder/deep/mine"), "xztar", SOLUTION)
+        self.submit("all_labs/lab05_mine")
+        shutil.copytree(
+            os.path.join(SOLUTIONS, "lab06_phong"), self.path("class/all_labs/lab06_mine")
+        )
+        # What lies about is nobody's submission.
+        for name in (
+            ".DS_Store",
+            "__MACOSX/x",
+            "grades.csv",
+            "Thumbs.db",
+            "mueller_anna/._lab05.frag",
+            "mueller_anna/report.pdf",
+        ):
+            self.make(f"class/{name}", b"\0junk")
+        self.assertEqual(self.lab5(), [])
+        self.assertEqual(
+            self.verdicts(),
+            dict.fromkeys(
+                (
+                    "mueller_anna",
+                    "123456",
+                    "Zoë O'Brien",
+                    "canvas",
+                    "flat_fred",
+                    "zip_zoe",
+                    "tar_tom",
+                    "archive_in_folder",
+                    "all_labs",
+                ),
+                "right",
+            ),
+        )
+        self.assertEqual(self.table()["Zoë O'Brien"]["id"], "7788")
+
+    def test_the_lab_is_told_by_names(self):
+        self.submit("a")
+        self.assertEqual(self.check_class(), [])
+        os.rename(self.path("class"), self.path("lab05 (handed in)"))
+        result = self.run_it("--class", "lab05 (handed in)", "-o", "second", program=PROGRAM)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(self.verdicts("second"), {"a": "right"})
+
+    def test_of_several_submissions_of_a_student_one_is_judged(self):
+        self.submit("twice")
+        shutil.make_archive(self.path("class", "twice"), "zip", STARTER)
+        lines = (
+            self.run_it("--class", "class", "-o", "out", "--lab", "5", program=PROGRAM)
+            .stderr.decode()
+            .splitlines()
+        )
+        self.assertIn("twice: more than one submission; the folder is judged", lines[0])
+        self.assertEqual(self.verdicts(), {"twice": "right"})
+
+    def test_results_may_stand_among_the_submissions(self):
+        self.submit("a")
+        for out in ("results", "parts/1", "parts/1"):
+            result = self.run_it(
+                "--class", ".", "-o", out, "--lab", "5", program=PROGRAM, cwd=self.path("class")
+            )
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual(self.verdicts(f"class/{out}"), {"a": "right"})
+            if out == "results":
+                shutil.rmtree(self.path("class/results"))
+                os.makedirs(self.path("class/parts"))
+
+    def test_faults_of_the_command_line(self):
+        self.submit("a")
+        os.makedirs(self.path("nothing"))
+        for code, said, *arguments in (
+            (2, r"--jobs 0: must be", "--class", "class", "--jobs", "0"),
+            (2, r"--part 3/2: must be", "--class", "class", "--part", "3/2"),
+            (2, r"--part 0/2: must be", "--class", "class", "--part", "0/2"),
+            (2, r"--part x: must be", "--class", "class", "--part", "x"),
+            (2, r"--limit 0: must be", "--class", "class", "--limit", "0"),
+            (2, r"--seed -1: must be", "--class", "class", "--seed", "-1"),
+            (2, r"--job: ", "--class", "class", "--job"),
+            (2, r"did you mean --part", "--class", "class", "--prat", "1/2"),
+            (2, r"one of them", "--class", "class", "--merge"),
+            (2, r"needs the folders", "--merge"),
+            (2, r"--class: needs a value", "--class"),
+            (2, r"not an option", "--class", "class", "more"),
+            (2, r"lab77", "--class", "class", "--lab", "lab77"),
+            (1, r"missing: No such file", "--class", "missing", "--lab", "5"),
+            (1, r"nothing: no submissions", "--class", "nothing", "--lab", "5"),
+            (1, r"missing/out: cannot make", "--class", "class", "-o", "missing/out", "--lab", "5"),
+        ):
+            self.refused(code, "^check: .*" + said, *arguments, program=PROGRAM)
+        self.assertIn("--part K/N", self.good("--class", "x", "--help", program=PROGRAM).decode())
+
+
+class Abuse(Class):
+    """Each costs the one submission, and one line."""
+
+    def archive(self, name, *entries):
+        """A .tar of entries: (name, content), or a TarInfo."""
+        with tarfile.open(self.path("class", name), "w:gz") as tar:
+            for entry in entries:
+                if isinstance(entry, tarfile.TarInfo):
+                    tar.addfile(entry)
+                else:
+                    info = tarfile.TarInfo(entry[0])
+                    info.size = len(entry[1])
+                    tar.addfile(info, io.BytesIO(entry[1]))
+
+    def link(self, name, target, kind=tarfile.SYMTYPE):
+        info = tarfile.TarInfo(name)
+        info.type, info.linkname = kind, target
+        return info
+
+    def test_what_is_meant_to_harm_costs_the_one_submission(self):
+        secret = "the teacher's secret"
+        self.make("secret.frag", "#error " + secret)
+        self.submit("good")
+        self.submit("ten_megabytes", lab05_frag=self.frag() + " " * 10_000_000)
+        self.submit("another_file", lab05_frag=self.frag('#include "../good/lab05.frag"\n'))
+        self.submit("absolute", lab05_frag=self.frag(f'#include "{self.path("secret.frag")}"\n'))
+        self.submit("device", lab05_frag=self.frag('#include "/dev/zero"\n'))
+        self.submit("itself", lab05_frag=self.frag('#include "lab05.frag"\n'))
+        self.submit("link", lab05_frag=None)
+        os.symlink(self.path("secret.frag"), self.path("class/link", FRAG))
+        self.submit("linked_device", lab05_frag=None)
+        os.symlink("/dev/zero", self.path("class/linked_device", FRAG))
+        os.symlink(self.path("class/good"), self.path("class/linked_folder"))
+        self.submit("pipe", lab05_frag=None)
+        os.mkfifo(self.path("class/pipe", FRAG))
+        self.submit("zeros", lab05_frag=b"\0" * 1000)
+        self.submit("nothing", lab05_frag=None, lab05_vert=None)
+        self.submit(
+            "endless",
+            lab05_frag=self.frag(replace=(("gl_FragColor = ", ENDLESS + " gl_FragColor = z * "),)),
+        )
+        files = [(name, read(SOLUTION, name, mode="rb")) for name in (VERT, FRAG)]
+        self.archive("climbs.tar.gz", *files, ("../../climbed.frag", b"x"))
+        self.archive("absolute_path.tar.gz", *files, ("/tmp/climbed.frag", b"x"))
+        self.archive("link_in_archive.tar.gz", files[0], self.link(FRAG, "/etc/passwd"))
+        self.archive("hard_link.tar.gz", files[0], self.link(FRAG, "/etc/passwd", tarfile.LNKTYPE))
+        # A link to a folder, and a file through it: nothing is written, so nothing is reached.
+        self.archive(
+            "through_link.tar.gz", *files, self.link("x", self.folder), ("x/climbed.frag", b"x")
+        )
+        self.archive("many.tar.gz", *[(f"{i}.frag", b"") for i in range(5000)])
+        with zipfile.ZipFile(self.path("class/bomb.zip"), "w", zipfile.ZIP_DEFLATED) as bomb:
+            bomb.writestr(VERT, read(SOLUTION, VERT))
+            bomb.writestr(FRAG, b" " * 300_000_000)
+        with zipfile.ZipFile(self.path("class/climbing_zip.zip"), "w") as archive:
+            archive.writestr("..\\..\\climbed.frag", "x")
+        self.archive("solid_bomb.tar.gz", ("large.bin", bytes(400_000_000)), *files)
+        self.make("class/no_archive.zip", b"PK\3\4 and then something else")
+        before = sorted(os.listdir(self.folder))
+
+        lines = self.lab5("--limit", "3")
+        for student, verdict, said in (
+            ("ten_megabytes", "refused", "9.5 MB; at most"),
+            ("another_file", "refused|error", r"lab05\.frag"),
+            ("absolute", "refused|error", r"secret\.frag"),
+            ("device", "refused|error", "/dev/zero"),
+            ("itself", "refused|error", "include"),
+            ("link", "refused", "is a link"),
+            ("linked_device", "refused", "is a link"),
+            ("linked_folder", "refused", "a link"),
+            ("pipe", "refused", "is a pipe"),
+            ("zeros", "refused|error", "."),
+            ("nothing", "refused", "no source files"),
+            ("endless", "timeout", "loop"),
+            ("climbs", "refused", r"leaves its folder: \.\./\.\./climbed"),
+            ("absolute_path", "refused", "leaves its folder: /tmp/climbed"),
+            ("climbing_zip", "refused", r"leaves its folder: \.\./\.\./climbed"),
+            ("link_in_archive", "refused", "is a link"),
+            ("hard_link", "refused", "is a link"),
+            ("many", "refused", "more than"),
+            ("bomb", "refused", "unpacks to more than"),
+            ("solid_bomb", "refused", "unpacks to more than"),
+            ("no_archive", "refused", "cannot be read"),
+        ):
+            with self.subTest(student=student):
+                self.assert_one_line(lines, student, f"(?:{verdict})", said)
+        self.assertEqual(
+            {name: verdict for name, verdict in self.verdicts().items() if verdict == "right"},
+            {"good": "right", "through_link": "right"},
+        )
+        self.assertEqual(sorted(os.listdir(self.folder)), sorted(before + ["out"]))
+        for folder, _, names in os.walk(self.path("out")):
+            for name in names:
+                text = read(folder, name, mode="rb")
+                self.assertNotIn(secret.encode(), text)
+                self.assertNotIn(b"root:", text)
+
+    def test_c_runs_only_where_it_is_shut_in(self):
+        """The fork bomb is lit only after the program has proven that its limits hold, in this very
+        folder and for this very user."""
+        solution = os.path.join(SOLUTIONS, "lab03_normal_matrix")
+        code = read(solution, "matrices.c")
+        start = code.index("{", code.index("lab_matrices("))
+        self.submit("good", solution)
+
+        def with_code(name, before, inside):
+            self.submit(
+                name, solution, matrices_c=before + code[: start + 1] + inside + code[start + 1 :]
+            )
+
+        result = self.run_it("--class", "class", "-o", "first", "--lab", "3", program=PROGRAM)
+        error = result.stderr.decode()
+        if "install the package bubblewrap" in error:
+            self.assertEqual(result.returncode, 1)
+            self.skipTest("no bubblewrap that works")
+        self.assertRegex(error, SANDBOXED)
+        self.assertEqual(self.verdicts("first"), {"good": "right"}, error)
+
+        self.make("secret.h", "#error the secret\n")
+        # The text may include nothing that declares these; whoever wants them declares them.
+        declared = (
+            "int fork(void); int pause(void); unsigned sleep(unsigned); int kill(int, int); "
+            "int getppid(void); void *malloc(size_t); void abort(void); struct file; "
+            "struct file *fopen(const char *, const char *); "
+            "int fputs(const char *, struct file *); int fclose(struct file *);\n"
+        )
+        declared = "#include <stddef.h>\n#include <string.h>\n" + declared
+        with_code("bomb", declared, " for (;;) fork(); ")
+        with_code("patient_bomb", declared, " while (fork() >= 0) ; for (;;) pause(); ")
+        with_code(
+            "early_bomb",
+            declared + "__attribute__((constructor)) static void early(void) "
+            "{ for (;;) fork(); }\n",
+            "",
+        )
+        with_code("endless", "", " for (;;) ; ")
+        with_code("sleeper", declared, " sleep(1000); ")
+        with_code(
+            "eater",
+            declared,
+            " for (;;) { char *p = malloc(1 << 20); if (p) memset(p, 1, 1 << 20); } ",
+        )
+        with_code("crash", "", " *(volatile int *)8 = 1; ")
+        with_code(
+            "writer",
+            declared,
+            f' struct file *f = fopen("{self.path("written")}", "w"); '
+            'if (f) { fputs("x", f); fclose(f); } ',
+        )
+        with_code("killer", declared, " kill(getppid(), 9); ")
+        with_code("include_device", '#include "/dev/zero"\n', "")
+        with_code("include_secret", f'#include "{self.path("secret.h")}"\n', "")
+        with_code("include_system", "#include <unistd.h>\n", "")
+        # Its own result, in every place where that might be looked for.
+        forged = json.dumps({"lab": "lab03_normal_matrix", "points": 10, "verdict": "right"})
+        with_code(
+            "forger",
+            declared,
+            "".join(
+                f' {{ struct file *f = fopen("{path}", "w"); if (f) {{ '
+                f"fputs({json.dumps(forged)}, f); fclose(f); }} }}"
+                for path in ("/tmp/out/verdict.json", "out/verdict.json", "../out/verdict.json")
+            )
+            + " abort(); ",
+        )
+        lines = self.check_class("--lab", "3", "--limit", "3")
+        verdicts = self.verdicts()
+        self.assertEqual(verdicts.pop("good"), "right")
+        # What these calls are refused does not keep the rest from being right.
+        for name in ("writer", "killer"):
+            self.assertIn(verdicts.pop(name), ("right", "error", "refused"))
+        for name, verdict in verdicts.items():
+            with self.subTest(student=name):
+                self.assertIn(verdict, ("timeout", "error", "refused"), lines)
+                self.assert_one_line(lines, name, verdict, ".")
+        self.assertFalse(os.path.exists(self.path("written")))
+        for folder, _, names in os.walk(self.path("out")):
+            for name in names:
+                self.assertNotIn(b"the secret", read(folder, name, mode="rb"))
+
+    def test_text_that_students_choose_stays_text(self):
+        names = ["<script>alert(1)<", "=1+cmd|' ", 'a"b,c', "-rf", "%s%n", "' onload='x", "a&b;"]
+        for name in names:
+            self.submit(name, lab05_frag="#error <script>=1+1</script>\n" + self.frag())
+        self.assertEqual(len(self.lab5()), len(names))
+        self.assertEqual(len(self.table()), len(names))
+        with open(self.path("out/class.csv"), newline="", encoding="utf-8") as file:
+            for row in csv.reader(file):
+                for field in row:
+                    self.assertFalse(field[:1] and field[0] in "=+-@\t\r", row)
+        suites = xml.etree.ElementTree.parse(self.path("out/junit.xml")).getroot()
+        self.assertEqual(
+            sorted(case.get("name") for case in suites.iter("testcase")), sorted(names)
+        )
+        for folder, _, files in os.walk(self.path("out")):
+            for file in files:
+                if file.endswith(".html"):
+                    self.assertNotIn("script", Page(read(folder, file)).names)
+
+
+class Results(Class):
+    def judged(self, out="out"):
+        """When each result was written."""
+        folder = self.path(out, "students")
+        return {
+            name: os.stat(os.path.join(folder, name, "result.json")).st_mtime_ns
+            for name in os.listdir(folder)
+            if os.path.exists(os.path.join(folder, name, "result.json"))
+        }
+
+    def test_tables_and_pages(self):
+        self.submit("right")
+        self.submit("wrong", STARTER)
+        self.submit("broken", lab05_frag="void main() { gl_FragColor = vec4(1.0) }\n")
+        self.lab5()
+        out = self.path("out")
+        self.assertEqual(self.verdicts(), {"right": "right", "wrong": "wrong", "broken": "error"})
+        everything = json.loads(read(out, "class.json"))
+        self.assertEqual(
+            [entry["student"] for entry in everything["students"]], ["broken", "right", "wrong"]
+        )
+        suites = xml.etree.ElementTree.parse(os.path.join(out, "junit.xml")).getroot()
+        self.assertEqual(
+            (suites.get("tests"), suites.get("failures"), suites.get("errors")), ("3", "1", "1")
+        )
+        self.assertEqual(
+            {case.get("name"): [child.tag for child in case] for case in suites.iter("testcase")},
+            {"right": [], "wrong": ["failure"], "broken": ["error"]},
+        )
+        for student, row in self.table().items():
+            results = json.loads(read(out, "students", student, "results.json"))
+            self.assertEqual(results["score"], float(row["points"]))
+            self.assertEqual(results["output_format"], "text")
+            for test in results["tests"]:
+                self.assertIn(test["status"], ("passed", "failed"))
+                self.assertTrue(test["name"])
+            page = Page(read(out, "students", student, "index.html"))
+            self.assertIn(f"{float(row['points']):g} of 10 points", page.text)
+            # Nobody else's name, and nothing outside its folder.
+            self.assertFalse(
+                set(self.table()) - {student} & set(page.text.split()) - {student, "right", "wrong"}
+            )
+            self.assertFalse([path for path in page.addresses if "/" in path])
+        page = Page(read(out, "index.html"))
+        for path in page.addresses:
+            self.assertTrue(os.path.exists(os.path.join(out, path)), path)
+            self.assertNotIn(":", path)
+        self.assertNotIn("script", page.names)
+        picture = base.Png(read(out, "students/wrong/worst.png", mode="rb"))
+        self.assertGreater(picture.width, picture.height)
+        self.assertEqual(picture.texts, {})
+
+    def test_a_run_goes_on_where_another_stopped(self):
+        count = 12
+        for i in range(count):
+            self.submit(f"student{i:02}")
+        command = [
+            os.path.join(base.EXAMPLES, PROGRAM),
+            "--class",
+            "class",
+            "--lab",
+            "5",
+            "-o",
+            "out",
+            "--jobs",
+            "1",
+        ]
+        with subprocess.Popen(
+            command, cwd=self.folder, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL
+        ) as process:
+            while process.poll() is None:
+                if os.path.exists(self.path("out/students/student01/result.json")):
+                    process.send_signal(signal.SIGINT)
+                    break
+                time.sleep(0.01)
+            error = process.communicate(timeout=60)[1].decode()
+        self.assertEqual(process.returncode, 1, error)
+        self.assertIn("interrupted; the same command goes on", error)
+        first = self.judged()
+        self.assertTrue(2 <= len(first) < count, first)
+        self.assertEqual(set(self.verdicts().values()), {"right"})
+        self.assertEqual(self.lab5(), [])
+        second = self.judged()
+        self.assertEqual(len(second), count)
+        self.assertEqual({name: second[name] for name in first}, first)
+        # Killed without a word, it leaves whole results alone.
+        self.lab5("--again")
+        third = self.judged()
+        self.assertTrue(all(third[name] > second[name] for name in second))
+
+    def state(self, process):
+        """Its parent's number, and its state's letter; (0, "Z") where it is no more."""
+        try:
+            words = read("/proc", str(process), "stat").rpartition(")")[2].split()
+        except OSError:
+            return 0, "Z"
+        return int(words[1]), words[0]
+
+    def descendants(self, process):
+        """The processes that it has started and those have."""
+        parents = {int(name): self.state(name)[0] for name in os.listdir("/proc") if name.isdigit()}
+        found = []
+        more = [process]
+        while more:
+            more = [child for child, parent in parents.items() if parent in more]
+            found += more
+        return found
+
+    def test_what_was_started_ends_with_the_program(self):
+        for i in range(4):
+            self.submit(
+                f"endless{i}",
+                lab05_frag=self.frag(
+                    replace=(("gl_FragColor = ", ENDLESS + " gl_FragColor = z * "),)
+                ),
+            )
+        command = [
+            os.path.join(base.EXAMPLES, PROGRAM),
+            "--class",
+            "class",
+            "--lab",
+            "5",
+            "-o",
+            "out",
+            "--jobs",
+            "4",
+            "--limit",
+            "1000",
+        ]
+        for end in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
+            with self.subTest(signal=end), subprocess.Popen(
+                command, cwd=self.folder, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL
+            ) as process:
+                started = []
+                while process.poll() is None and len(started) < 4 * 3:
+                    time.sleep(0.05)
+                    started = self.descendants(process.pid)
+                process.send_signal(end)
+                process.wait(timeout=60)
+                # Whose parent is killed is ended by the system, a moment later.
+                for _ in range(200):
+                    left = [pid for pid in started if self.state(pid)[1] != "Z"]
+                    if not left:
+                        break
+                    time.sleep(0.05)
+                self.assertEqual(left, [])
+
+    def test_what_has_changed_is_judged_anew(self):
+        self.submit("a", STARTER)
+        self.submit("b")
+        self.lab5()
+        before = self.judged()
+        self.assertEqual(self.verdicts(), {"a": "wrong", "b": "right"})
+        shutil.copy(os.path.join(SOLUTION, FRAG), self.path("class/a"))
+        shutil.copy(os.path.join(SOLUTION, VERT), self.path("class/a"))
+        self.lab5()
+        self.assertEqual(self.verdicts(), {"a": "right", "b": "right"})
+        self.assertGreater(self.judged()["a"], before["a"])
+        self.assertEqual(self.judged()["b"], before["b"])
+
+    def test_a_finished_result_stays_when_the_next_is_worse(self):
+        """The same submission, which the second time has too little time: a loop long enough."""
+        self.submit(
+            "slow",
+            lab05_frag=self.frag(
+                replace=(
+                    (
+                        "gl_FragColor = ",
+                        ENDLESS.replace("z < 1.0e30", "z < 1.0e30 && n++ < 150").replace(
+                            "float z", "int n = 0; float z"
+                        )
+                        + " gl_FragColor = 1.0e-30 * vec4(z) + ",
+                    ),
+                )
+            ),
+        )
+        self.lab5("--limit", "300")
+        before = self.table()["slow"]
+        if float(before["seconds"]) < 2:
+            self.skipTest("this machine is too fast for the test's loop")
+        lines = self.lab5("--again", "--limit", "1")
+        self.assertRegex(lines[0], "slow: timeout: .*the better result from before stays")
+        self.assertEqual(self.table()["slow"], before)
+
+    def test_two_runs_do_not_write_into_one_folder(self):
+        self.submit("a")
+        os.makedirs(self.path("out/students"))
+        with open(self.path("out/.lock"), "w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            for arguments in (("--class", "class", "--lab", "5"), ("--merge", "out")):
+                self.refused(
+                    1,
+                    "^check: out: another run writes there",
+                    *arguments,
+                    "-o",
+                    "out",
+                    program=PROGRAM,
+                )
+        self.lab5()
+
+    def test_parts_are_merged_to_the_whole(self):
+        for i in range(7):
+            self.submit(f"student{i}", STARTER if i % 3 == 0 else SOLUTION)
+        self.lab5(out="whole")
+        for part in (1, 2, 3):
+            self.lab5("--part", f"{part}/3", out=f"part{part}")
+        merged = self.good("--merge", "part1", "part2", "part3", "-o", "merged", program=PROGRAM)
+        self.assertEqual(merged, b"merged/index.html\n")
+        self.assertEqual(
+            sum(
+                len(self.verdicts(f"part{part}"))
+                for part in (1, 2, 3)
+                if os.path.exists(self.path(f"part{part}/class.csv"))
+            ),
+            7,
+        )
+
+        def without_times(out):
+            return {
+                name: {key: value for key, value in row.items() if key != "seconds"}
+                for name, row in self.table(out).items()
+            }
+
+        self.assertEqual(without_times("merged"), without_times("whole"))
+        picture = "students/student0/worst.png"
+        self.assertEqual(self.read(f"merged/{picture}"), self.read(f"whole/{picture}"))
+        self.refused(
+            1,
+            "^check: missing/students: No such file",
+            "--merge",
+            "missing",
+            "-o",
+            "merged",
+            program=PROGRAM,
+        )
+
+    def test_results_of_another_lab_are_left_alone(self):
+        self.submit("a")
+        self.lab5()
+        self.refused(
+            1,
+            "^check: out: has results of lab05_per_fragment",
+            "--class",
+            "class",
+            "--lab",
+            "6",
+            "-o",
+            "out",
+            program=PROGRAM,
+        )
+
+    def test_who_is_not_root_judges_too(self):
+        self.submit("a")
+        self.submit("evil", lab05_frag=self.frag('#include "/etc/passwd"\n'))
+        os.makedirs(self.path("theirs"))
+        os.chmod(self.path("theirs"), 0o777)
+        lines = self.lab5(out="theirs/out", **base.SOMEBODY)
+        self.assertEqual(len(lines), 1)
+        self.assertEqual(self.verdicts("theirs/out")["a"], "right")
+
+    def test_without_bubblewrap_limits_remain(self):
+        """And C does not run."""
+        self.submit("a")
+        self.submit(
+            "endless",
+            lab05_frag=self.frag(replace=(("gl_FragColor = ", ENDLESS + " gl_FragColor = z * "),)),
+        )
+        os.makedirs(self.path("tmp"))
+        nothing = {"PATH": self.folder, "TMPDIR": self.path("tmp")}
+        lines = self.lab5("--limit", "2", environment=nothing)
+        self.assertIn("bubblewrap: bwrap: No such file", lines[0])
+        self.assertEqual(self.verdicts(), {"a": "right", "endless": "timeout"})
+        self.assertEqual(os.listdir(self.path("tmp")), [])
+        shutil.rmtree(self.path("class"))
+        self.submit("c", os.path.join(SOLUTIONS, "lab03_normal_matrix"))
+        result = self.run_it(
+            "--class", "class", "--lab", "3", "-o", "c", program=PROGRAM, environment=nothing
+        )
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("has C, which runs only where it can be shut in", result.stderr.decode())
+        self.assertFalse(os.listdir(self.path("c/students")))
+
+
+def take_time(count):
+    case = Class()
+    case.setUp()
+    for i in range(count):
+        case.submit(f"student{i:02}", STARTER if i % 3 == 0 else SOLUTION)
+    start = time.monotonic()
+    case.lab5()
+    print(f"{count} submissions: {time.monotonic() - start:.1f} s on {os.cpu_count()} processors")
+    case.doCleanups()
+
+
+if __name__ == "__main__":
+    base.unittest = unittest
+    if "--time" in sys.argv:
+        take_time(int((sys.argv[sys.argv.index("--time") + 1 :] + [60])[0]))
+        sys.exit()
+    sys.exit(base.main())

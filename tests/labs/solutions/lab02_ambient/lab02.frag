@@ -1,0 +1,9 @@
+// Lab 2: the colour comes from the vertices, interpolated.
+
+precision mediump float;
+
+varying vec4 v_Color;
+
+void main() {
+    gl_FragColor = v_Color;
+}

@@ -1,0 +1,39 @@
+// Lab 7: light each fragment, with Blinn's highlight, made as wide as Phong's.
+
+#ifdef GL_FRAGMENT_PRECISION_HIGH
+precision highp float;
+#else
+precision mediump float;
+#endif
+
+uniform vec3 u_LightColor[2];
+uniform vec3 u_LightPosition[2]; // in the world
+uniform vec3 u_AmbientLight;
+uniform vec3 u_SpecularColor;
+uniform float u_Shininess;  // Phong's
+uniform vec3 u_EyePosition; // in the world
+
+varying vec4 v_Color;
+varying vec3 v_Normal;
+varying vec3 v_Position; // in the world
+
+void main() {
+    vec3 normal = normalize(v_Normal);
+    vec3 viewDirection = normalize(u_EyePosition - v_Position);
+    // N and H lie half as far apart as R and V: to fall off alike, the exponent must be four times
+    // as large, and a little more for wide highlights.
+    float shininess = 4.0 * u_Shininess + 1.3;
+    vec3 color = u_AmbientLight * v_Color.rgb;
+    for (int i = 0; i < 2; i++) {
+        vec3 lightDirection = normalize(u_LightPosition[i] - v_Position);
+        float nDotL = dot(normal, lightDirection);
+        // The highlight is there only where the light is.
+        if (nDotL > 0.0) {
+            color += u_LightColor[i] * v_Color.rgb * nDotL;
+            vec3 halfway = normalize(lightDirection + viewDirection);
+            float nDotH = max(dot(normal, halfway), 0.0);
+            color += u_LightColor[i] * u_SpecularColor * pow(nDotH, shininess);
+        }
+    }
+    gl_FragColor = vec4(color, v_Color.a);
+}

@@ -1,0 +1,45 @@
+// Lab 8: light each fragment with a spot that falls off towards its edge and with the distance.
+
+#ifdef GL_FRAGMENT_PRECISION_HIGH
+precision highp float;
+#else
+precision mediump float;
+#endif
+
+uniform vec3 u_LightColor;
+uniform vec3 u_LightPosition; // in the world
+uniform vec3 u_SpotDirection; // in the world, away from the light, unit
+uniform float u_SpotCutoff;   // half the cone's angle, in degrees
+uniform float u_SpotExponent;
+uniform vec3 u_Attenuation; // constant, linear, quadratic
+uniform vec3 u_AmbientLight;
+uniform vec3 u_SpecularColor;
+uniform float u_Shininess;
+uniform vec3 u_EyePosition; // in the world
+
+varying vec4 v_Color;
+varying vec3 v_Normal;
+varying vec3 v_Position; // in the world
+
+void main() {
+    vec3 normal = normalize(v_Normal);
+    vec3 toLight = u_LightPosition - v_Position;
+    float distance = length(toLight);
+    vec3 lightDirection = toLight / distance;
+    float nDotL = dot(normal, lightDirection);
+    vec3 color = u_AmbientLight * v_Color.rgb;
+
+    // Within the cone? Cosines are compared: the smaller the angle, the larger its cosine.
+    float cosine = dot(-lightDirection, u_SpotDirection);
+    if (nDotL > 0.0 && cosine >= cos(radians(u_SpotCutoff))) {
+        float spot = pow(max(cosine, 0.0), u_SpotExponent);
+        float attenuation = 1.0 / (u_Attenuation.x + u_Attenuation.y * distance +
+                                   u_Attenuation.z * distance * distance);
+        vec3 viewDirection = normalize(u_EyePosition - v_Position);
+        vec3 reflected = reflect(-lightDirection, normal);
+        float rDotV = max(dot(reflected, viewDirection), 0.0);
+        vec3 reflectance = v_Color.rgb * nDotL + u_SpecularColor * pow(rDotV, u_Shininess);
+        color += attenuation * spot * u_LightColor * reflectance;
+    }
+    gl_FragColor = vec4(color, v_Color.a);
+}
