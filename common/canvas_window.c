@@ -282,8 +282,8 @@ static bool window_open(void **opened, const CanvasOptions *options, const char 
     glfw.SetCursorPosCallback(window->handle, on_pointer);
     glfw.SetMouseButtonCallback(window->handle, on_button);
     glfw.SetScrollCallback(window->handle, on_scroll);
-    window_wait_for_screen(window, true);
     snprintf(window->platform, sizeof window->platform, "GLFW %s", glfw.GetVersionString());
+    window_wait_for_screen(window, true);
     *opened = window;
     *platform = window->platform;
     return true;
@@ -361,8 +361,9 @@ void window_swap(Window *window)
 
 void window_wait_for_screen(Window *window, bool wait)
 {
-    (void)window; /* of the context that is current */
-    glfw.SwapInterval(wait ? 1 : 0);
+    /* On Wayland nothing tears, and a window that is out of sight would wait for ever. */
+    const bool wayland = strstr(window->platform, "Wayland") && !strstr(window->platform, "X11");
+    glfw.SwapInterval(wait && !wayland ? 1 : 0); /* of the context that is current */
 }
 
 static const GLFWvidmode *video_mode(GLFWmonitor **monitor)

@@ -117,7 +117,7 @@ const Mistake MISTAKES[] = {
      "Far surfaces cover near ones: all have the same depth.",
      "the z of gl_Position: it is to be what u_MvpMatrix gives"},
     {"depth reversed",
-     SHADED,
+     SHADED & ~L(10),
      {{{SLOT_CLIP, CLIP_REVERSED}}},
      "Far surfaces cover near ones: the depth is reversed.",
      "the sign of z in gl_Position"},
@@ -646,7 +646,9 @@ bool catalogue_pair(const Suspect *a, const Suspect *b, Suspect *pair)
 bool catalogue_moves(const Suspect *suspect)
 {
     const int *of = suspect->choices.of;
-    return of[SLOT_WORLD] || of[SLOT_CLIP];
+    /* Another depth leaves the outline. */
+    return of[SLOT_WORLD] ||
+           (of[SLOT_CLIP] && of[SLOT_CLIP] != CLIP_FLAT && of[SLOT_CLIP] != CLIP_REVERSED);
 }
 
 int catalogue_find(const char *name)

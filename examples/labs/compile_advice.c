@@ -81,6 +81,9 @@ static const struct {
     {"no such file beside it", "",
      "A submission may include only files that are handed in with it, in the same folder."},
     {"is empty", "", "There is nothing in this file."},
+    {"lacks `main'", "", "Each of the two files needs a function `void main()`."},
+    {"static recursion", "", "A function of GLSL must not call itself: write a loop."},
+    {"memory exhausted", "", "An expression is nested too deeply."},
     {"linking", "", "The two shaders do not go together: look at what both declare."},
 };
 

@@ -12,7 +12,7 @@ enum { MOST_FURTHER = 15 };
 static const uint64_t FURTHER_SEED = 0x0F0E0D0C0B0A0908u;
 
 /* More than these are no finding. */
-enum { MOST_ALIKE = 3 };
+enum { MOST_ALIKE = VERDICT_MOST_MISTAKES };
 
 static const double SURE = 0.99, LESS_SURE = 0.9;
 

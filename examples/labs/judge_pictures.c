@@ -26,14 +26,18 @@ bool judge_exact_image(const Reference *exact, Image *image, Message *message)
 
 /* |a - b|, brightened: image_difference is in a module that takes longer to load than a whole
  * check. */
-static bool make_difference(const Image *a, const Image *b, Image *difference, Message *message)
+static bool make_difference(const Image *a, const Image *b, const Reference *exact,
+                            Image *difference, Message *message)
 {
     if (!image_open(difference, a->width, a->height, IMAGE_BYTE, message))
         return false;
     const unsigned char *p = a->pixels, *q = b->pixels;
     unsigned char *out = difference->pixels;
-    for (size_t i = 0; i < 4 * (size_t)a->width * (size_t)a->height; i++)
-        out[i] = i % 4 == 3 ? 255 : (unsigned char)fmin(GAIN * abs(p[i] - q[i]), 255);
+    for (size_t i = 0; i < 4 * (size_t)a->width * (size_t)a->height; i++) {
+        const bool counts =
+            exact->interior[i / 4] || (exact->object[i / 4] < 0 && exact->coverage[i / 4] >= 1);
+        out[i] = i % 4 == 3 ? 255 : counts ? (unsigned char)fmin(GAIN * abs(p[i] - q[i]), 255) : 0;
+    }
     return true;
 }
 
@@ -59,7 +63,7 @@ bool judge_worst(const Shots *shots, int number, const char *folder, Message *me
     const int times = width < 100 ? 3 : width < 200 ? 2 : 1;
     bool done =
         judge_exact_image(&shot->truths[shots->truth], &exact, message) &&
-        make_difference(&shot->image, &exact, &difference, message) &&
+        make_difference(&shot->image, &exact, &shot->truths[shots->truth], &difference, message) &&
         image_open(&sheet, 3 * times * width + 2 * SPACE, times * height, IMAGE_BYTE, message);
     if (done) {
         memset(sheet.pixels, 255, image_row_size(&sheet) * (size_t)sheet.height);

@@ -252,7 +252,8 @@ static bool open_plain(Probe *probe, const Lab *lab, double seconds, Message *me
     case 3:
         set_light(probe, 0, (Vec3){0.5, 3, 4}, (Vec3){0.8, 0.75, 0.7});
         world = probe_world_from_model(seconds);
-        camera->eye = (Vec3){3, 3, 9};
+        camera->center = (Vec3){0.5, 0.3, -0.8};
+        camera->eye = (Vec3){4.5, 4.3, 11};
         break;
     case 4:
         camera->eye = (Vec3){6, 6, 14};
@@ -454,7 +455,7 @@ static bool open_random(Probe *probe, const Lab *lab, Random *random, Message *m
     choose_size(probe, random);
     probe->seconds = floor(random_between(random, 1, 12) * 8) / 8;
     const Vec3 view = choose_view(kind, random);
-    const double distance = lab->given ? 9 : lab->budget ? 6 : kind == PROBE_CROWD ? 8.5 : 7;
+    const double distance = lab->given ? 12.5 : lab->budget ? 6 : kind == PROBE_CROWD ? 8.5 : 7;
     scene->camera.center = lab->budget  ? (Vec3){0, 0, 0}
                            : lab->given ? (Vec3){0.5, 0.3, -0.8}
                                         : (Vec3){0.05, -0.05, 0.1};

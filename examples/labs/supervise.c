@@ -23,7 +23,7 @@ typedef struct Report {
 } Report;
 
 /* Address space: the driver's compiler alone asks for more than 1 GB of it. */
-static const rlim_t MOST_MEMORY = (rlim_t)4 << 30;
+static const rlim_t MOST_MEMORY = (rlim_t)2 << 30;
 
 static void send_report(int pipe_end, const Report *report)
 {
@@ -87,8 +87,11 @@ static void explain_end(Verdict *verdict, bool late, double limit, int status)
     verdict->kind = late ? VERDICT_TIMEOUT : VERDICT_ERROR;
     if (late || (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)) {
         verdict->kind = VERDICT_TIMEOUT;
-        snprintf(verdict->message, sizeof verdict->message,
-                 "It was not drawn within %g s: look for a loop that does not end.", limit);
+        snprintf(
+            verdict->message, sizeof verdict->message,
+            "It was not drawn within %g s: look for a loop that does not end, or for an array or a "
+            "macro that is far too large.",
+            limit);
     } else if (WIFSIGNALED(status)) {
         snprintf(verdict->message, sizeof verdict->message,
                  "The driver broke down on it (signal %d, %s): it is too large or too deeply "

@@ -61,7 +61,7 @@ static bool find_outline(Lineup *lineup, Message *message)
 {
     const Choices right = {{0}};
     const Vec3 green = {0, 1, 0};
-    for (int k = 0; k < 3 && k < lineup->shots->count && !lineup->moved; k++) {
+    for (int k = 0; k < lineup->shots->count && !lineup->moved; k++) {
         const int i = lineup->order[k];
         Probe probe = lineup->shots->shots[i].probe; /* its scene's arrays are the original's */
         const SubmissionGeometry geometry = shots_geometry(lineup->shots, i);

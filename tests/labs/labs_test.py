@@ -325,8 +325,8 @@ class Faults(Labs):
         head = '#include "lab_code.h"\nvoid lab_matrices(double s, Mat4 *w, Mat4 *n)\n{\n'
         for name, text, said in (
             ("semicolon", head + "    *w = mat4_identity()\n}\n", r"matrices\.c:4"),
-            ("missing", '#include "lab_code.h"\nstatic int unused;\n', r"lab_matrices"),
-            ("forbidden", "#include <stdio.h>\n" + head + '    puts("x");\n}\n', r"stdio\.h"),
+            ("missing", '#include "lab_code.h"\nstatic int unused;\n', r"function|lab_matrices"),
+            ("forbidden", "#include <stdio.h>\n" + head + '    puts("x");\n}\n', r"may be included"),
             ("crash", head + "    *(volatile int *)8 = 1;\n}\n", r"."),
         ):
             self.make(f"{name}/matrices.c", text)
