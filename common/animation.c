@@ -5,6 +5,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <math.h>
 #include <signal.h>
 #include <spawn.h>
@@ -36,6 +37,7 @@ typedef struct Format {
     double slowest, fastest; /* pictures a second; 0: as --fps */
     const char *limit;       /* why */
     int most;                /* of numerator and denominator of the rate; 0: MOST_RATE */
+    int most_side;           /* pixels; 0: as many as there are */
     /* Of ffmpeg. Lossless codecs make files as small as they do without taking longer than GIF; the
      * others so large that no difference is seen. */
     const char *codec;
@@ -52,6 +54,7 @@ static const Format FORMATS[] = {
     {.name = "webp",
      .fastest = 1000,
      .limit = "its times are milliseconds",
+     .most_side = 16383,
      .codec = "-c:v libwebp_anim -lossless 1 -compression_level 0 -quality 20 "
               "-enc_time_base 1/1000 -loop 0",
      .pixels = "bgra",
@@ -97,6 +100,27 @@ const char *animation_format(const char *path, int frames)
     return file && (frames > 1 || format->single) ? format->name : NULL;
 }
 
+/* Whether ffmpeg takes pictures of this size: av_image_check_size2 of libavutil, which allows for 8
+ * bytes a pixel. */
+static bool fits_ffmpeg(int width, int height)
+{
+    return (8 * (int64_t)width + 8 * 128) * ((int64_t)height + 128) < INT_MAX;
+}
+
+static bool check_size(const Format *format, int width, int height, Message *message)
+{
+    const int most = format->most_side;
+    if (most > 0 && (width > most || height > most))
+        return message_set(message, "--size %dx%d: %s has at most %d pixels a side", width, height,
+                           format->name, most);
+    if (format->writer == WRITER_FFMPEG && !fits_ffmpeg(width, height))
+        return message_set(message,
+                           "--size %dx%d: more than ffmpeg takes, which writes .%s; name numbered "
+                           "files, as in picture%%03d.png",
+                           width, height, format->name);
+    return true;
+}
+
 bool animation_check(const AnimationOptions *options, Message *message)
 {
     const Format *format = find_format(options->format);
@@ -109,7 +133,7 @@ bool animation_check(const AnimationOptions *options, Message *message)
         return message_set(message, "--fps %.15g: %s has %.4g to %.15g pictures a second, for %s",
                            options->fps, format->name, fmax(format->slowest, 1e-3), format->fastest,
                            format->limit);
-    return true;
+    return check_size(format, options->width, options->height, message);
 }
 
 /* Pictures a second. */

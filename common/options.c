@@ -294,7 +294,7 @@ static bool read_option(Options *options, int option, const char *value, Message
         options->size_given = true;
         return true;
     case 't':
-        if (!parse_number(value, -1e9, 1e9, &options->seconds))
+        if (!parse_number(value, -OPTIONS_MOST_SECONDS, OPTIONS_MOST_SECONDS, &options->seconds))
             return bad_value("--time", value, "seconds, -1e9 to 1e9", message);
         return true;
     case 'a':
@@ -437,8 +437,11 @@ static bool find_animation(Options *options, Message *message)
 
 static bool check_animation(const Options *options, Message *message)
 {
-    const AnimationOptions animation = {
-        .format = options->animation, .fps = options->fps, .alpha = options->alpha};
+    const AnimationOptions animation = {.format = options->animation,
+                                        .width = options->width,
+                                        .height = options->height,
+                                        .fps = options->fps,
+                                        .alpha = options->alpha};
     return animation_check(&animation, message);
 }
 

@@ -20,6 +20,9 @@ enum { FRAMES_MOST = 1000000 };
 /* The lecture's animations turn at this pace, so an angle is a time. */
 enum { OPTIONS_DEGREES_PER_SECOND = 30 };
 
+/* Of a moment, before and after 0. */
+enum { OPTIONS_MOST_SECONDS = 1000000000 };
+
 typedef struct Options {
     const char *output; /* a file, "-", a name with %d; for a gallery a folder */
     bool output_given;

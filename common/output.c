@@ -175,6 +175,14 @@ typedef struct Name {
 static Name names[MOST_NAMES];
 static atomic_bool ending;
 
+/* Where another thread ends the process, this one must not: it would say that a file is missing
+ * which that thread has removed, and end with another exit code. */
+static void leave_the_end_to_others(void)
+{
+    while (atomic_load(&ending))
+        pause();
+}
+
 static Name *name_claim(sigset_t *before)
 {
     sigset_t all;
@@ -184,12 +192,10 @@ static Name *name_claim(sigset_t *before)
         int expected = NAME_FREE;
         if (!atomic_compare_exchange_strong(&names[i].state, &expected, NAME_CHANGING))
             continue;
-        if (atomic_load(&ending)) { /* too late for new names: another thread ends the process */
-            atomic_store(&names[i].state, NAME_FREE);
-            for (;;)
-                pause();
-        }
-        return &names[i];
+        if (!atomic_load(&ending))
+            return &names[i];
+        atomic_store(&names[i].state, NAME_FREE);
+        leave_the_end_to_others();
     }
     pthread_sigmask(SIG_SETMASK, before, NULL);
     errno = EMFILE;
@@ -331,8 +337,11 @@ static bool replace(Output *output, Message *message)
         (void)!fchmod(output->file, output->target.mode);
     const bool closed = close(output->file) == 0; /* where some report that a disk is full */
     output->file = -1;
-    if (!closed || rename(output->name->path, output->target.path) != 0)
-        return output_failed(output->path, errno, message);
+    if (!closed || rename(output->name->path, output->target.path) != 0) {
+        const int error = errno;
+        leave_the_end_to_others();
+        return output_failed(output->path, error, message);
+    }
     atomic_store(&output->name->state, NAME_FREE);
     output->name = NULL;
     return true;

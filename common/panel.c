@@ -12,9 +12,6 @@ struct Panel {
     void *context;
 };
 
-/* Below this width, in pixels of an ordinary screen, the panel would hide most of the picture. */
-static const double LEAST_WIDTH_OPEN = 700;
-
 static const double LEAST_SCALE = 0.5, MOST_SCALE = 4, LONGEST_FRAME = 1;
 static const double OUTSIDE = -1e6, MOST_PLACE = 1e6, MOST_SCROLL = 100;
 
@@ -97,12 +94,6 @@ void panel_close(Panel *panel)
         return;
     panel->module->close(panel->context);
     free(panel);
-}
-
-PanelView panel_first_view(int width, double scale)
-{
-    return width < LEAST_WIDTH_OPEN * within(scale, LEAST_SCALE, MOST_SCALE, 1) ? PANEL_FOLDED
-                                                                                : PANEL_OPEN;
 }
 
 PanelView panel_next_view(PanelView view)

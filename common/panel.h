@@ -36,7 +36,7 @@ typedef struct PanelHelp {
 /* How far the picture lies from the exact one. */
 typedef struct PanelError {
     bool known, computing; /* both: what is known is of another moment or another choice */
-    double rms, maximum;   /* in steps of 1/255 */
+    double rms, maximum;   /* in steps of 1/255; rms NaN: no object is seen */
     double seconds;        /* the moment at which it is so */
 } PanelError;
 
@@ -102,10 +102,6 @@ bool panel_frame(Panel *panel, const PanelInput *input, const PanelContent *cont
 
 /* NULL is fine. */
 void panel_close(Panel *panel);
-
-/* How it is to begin: folded where it would hide most of the picture. Width in pixels; `scale` as
- * that of WindowInput. */
-PanelView panel_first_view(int width, double scale);
 
 /* What the key for the panel makes of a view: open unless it is open already. */
 PanelView panel_next_view(PanelView view);

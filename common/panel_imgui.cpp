@@ -266,19 +266,25 @@ void tooltip(const Parameter &parameter)
 
 // Numbers.
 
-// A thousand steps from end to end, in decimal digits; over several decades three digits.
-double rounded(double value, double least, double most, bool logarithmic, bool whole)
+// How a slider's values are written: a thousand steps from end to end, in decimal digits; over
+// several decades three digits.
+void step_format(double least, double most, bool logarithmic, bool whole, char format[16])
+{
+    const double decimals = std::ceil(-std::log10((most - least) / 1000) - 1e-9);
+    if (whole)
+        std::snprintf(format, 16, "%%.0f");
+    else if (logarithmic || !(decimals < 18))
+        std::snprintf(format, 16, "%%.3g");
+    else
+        std::snprintf(format, 16, "%%.%df", int(std::max(decimals, 0.0)));
+}
+
+double rounded(double value, const char *format)
 {
     char text[64];
-    if (whole)
-        return std::round(value);
     if (std::fabs(value) > 1e15)
         return value;
-    const double decimals = std::ceil(-std::log10((most - least) / 1000) - 1e-9);
-    if (logarithmic || !(decimals < 18))
-        std::snprintf(text, sizeof text, "%.3g", value);
-    else
-        std::snprintf(text, sizeof text, "%.*f", int(std::max(decimals, 0.0)), value);
+    std::snprintf(text, sizeof text, format, value);
     return std::strtod(text, nullptr);
 }
 
@@ -320,10 +326,13 @@ bool slide(Context &context, const char *label, double *number, const Parameter 
     const ImGuiID field = ImGui::GetID(label);
     const bool was_typing = context.typing.field == field;
     double value = was_typing ? context.typing.value : *number;
-    char format[16];
+    char step[16], format[16];
     if (!std::isfinite(value))
         value = least;
+    step_format(least, most, logarithmic, whole, step);
     number_format(value, whole, narrow, format);
+    if (ImGui::GetActiveID() == field && !was_typing)
+        std::memcpy(format, step, sizeof format); // it is dragged, and will be rounded to this
     const bool moved =
         ImGui::SliderScalar(label, ImGuiDataType_Double, &value, &least, &most, format,
                             ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat |
@@ -341,8 +350,7 @@ bool slide(Context &context, const char *label, double *number, const Parameter 
                set_number(number, whole ? std::round(value) : value, parameter.least,
                           parameter.most);
     }
-    return moved && set_number(number, rounded(value, least, most, logarithmic, whole),
-                               parameter.least, parameter.most);
+    return moved && set_number(number, rounded(value, step), parameter.least, parameter.most);
 }
 
 // One control for each kind of parameter. Each returns whether it set the value.
@@ -441,8 +449,8 @@ bool pick_color(double *const parts[3], const Parameter &parameter)
             ImGuiColorEditFlags_NoInputs | (parameter.most > 1 ? ImGuiColorEditFlags_HDR : 0));
     for (int i = 0; i < 3 && picked; i++)
         if (color[i] != before[i])
-            changed |= set_number(parts[i], rounded(double(color[i]), 0, 1, false, false),
-                                  parameter.least, parameter.most);
+            changed |= set_number(parts[i], rounded(double(color[i]), "%.3f"), parameter.least,
+                                  parameter.most);
     return changed;
 }
 
@@ -613,20 +621,22 @@ void cost_section(const PanelContent &content)
         return;
     ImGui::TextUnformatted("Error");
     ImGui::SameLine(left);
-    if (error.known) {
+    // Two lines always, so that what is below stays where it is. Dim: of an earlier picture, while
+    // this one's is computed.
+    if (error.known && std::isnan(error.rms)) {
+        ImGui::TextDisabled("there is no object to be seen");
+        ImGui::NewLine();
+    } else if (error.known) {
         ImGui::PushStyleColor(ImGuiCol_Text, error.computing ? DIM : PLAIN);
         ImGui::Text("rms %.3g, at most %.3g", error.rms, error.maximum);
         ImGui::NewLine();
         ImGui::SameLine(left);
         ImGui::Text("steps of 1/255, at %.2f s", error.seconds);
         ImGui::PopStyleColor();
-    }
-    if (error.known && error.computing) {
-        ImGui::NewLine();
-        ImGui::SameLine(left);
-    }
-    if (error.computing)
+    } else {
         ImGui::TextDisabled("computing the exact picture");
+        ImGui::NewLine();
+    }
 }
 
 // What is left out is dim; what it is the list of, a heading.

@@ -147,15 +147,12 @@ bool parameter_equal(const Parameter *parameter, const ParameterValue *value)
     return false;
 }
 
-/* 15 digits tell all decimals of as many apart, 17 all doubles. */
 static bool write_number(double number, char text[32])
 {
-    for (int digits = 15; digits <= 17; digits++) {
-        snprintf(text, 32, "%.*g", digits, number);
-        if (strtod(text, NULL) == number)
-            return isfinite(number);
-    }
-    return false;
+    if (!isfinite(number))
+        return false;
+    parse_number_text(number, text);
+    return true;
 }
 
 static bool write_color(Vec3 color, char *text, size_t size)

@@ -36,7 +36,8 @@ bool stage_appraise(const Example *example, const Canvas *canvas, const Options 
                     double seconds, AppraisePicture *picture, Message *message);
 
 /* Makes anew what an example on the stage has made of its parameters, which are others now. What
- * was compiled stays. After a failure the example can only be taken off. */
+ * was compiled stays. After a failure there is nothing to draw: it can be made anew again, or
+ * taken off. */
 bool stage_renew(const Example *example, const Options *options, Message *message);
 
 /* Writes which effects a scene calls for at the options' moment, view by view, object by object. */

@@ -35,6 +35,7 @@ typedef struct Viewer {
     bool panel_had_pointer; /* in the frame before: a press may be older than where it is now */
     Live live;
     Message broken;  /* what is wrong with the shaders on disk */
+    Message unmade;  /* why the example could not be made of its parameters */
     Picture picture; /* read back, to be saved or to be shown with what is added on the CPU */
     Message trouble; /* why there is no picture of this moment */
 } Viewer;
@@ -82,13 +83,21 @@ static void say_saved(Viewer *viewer)
     viewer_panel_notice(&viewer->panel, notice);
 }
 
+/* Whether the example is there to be drawn. */
+static bool is_made(const Viewer *viewer)
+{
+    return viewer->live.on_stage && !viewer->unmade.text[0];
+}
+
 static void save(Viewer *viewer)
 {
     Message message = {0};
-    if (save_path(viewer, viewer->picture.path, &message) &&
-        stage_picture(viewer->example, viewer->canvas, &viewer->options, viewer->options.seconds,
-                      &viewer->picture, &message) &&
-        picture_write(&viewer->picture, &message)) {
+    if (!is_made(viewer))
+        message_set(&message, "s: there is no picture to save until the error is mended");
+    else if (save_path(viewer, viewer->picture.path, &message) &&
+             stage_picture(viewer->example, viewer->canvas, &viewer->options,
+                           viewer->options.seconds, &viewer->picture, &message) &&
+             picture_write(&viewer->picture, &message)) {
         say_saved(viewer);
         return;
     }
@@ -96,19 +105,33 @@ static void save(Viewer *viewer)
     viewer_panel_notice(&viewer->panel, message.text);
 }
 
+/* Within what the command line takes, so that every moment can be drawn again. */
+static void pass_time(Viewer *viewer, double seconds)
+{
+    const double now = viewer->options.seconds + seconds;
+    viewer->options.seconds = fmin(fmax(now, -OPTIONS_MOST_SECONDS), OPTIONS_MOST_SECONDS);
+}
+
 static void step(Viewer *viewer, double seconds)
 {
     viewer->paused = true;
-    viewer->options.seconds += seconds;
+    pass_time(viewer, seconds);
 }
 
-/* What the example made of its parameters is made again. */
-static bool renew(Viewer *viewer, Message *message)
+/* What the example made of its parameters is made again. Where it cannot be (a model's file is
+ * gone), there is no picture until they change, which is said once. */
+static void renew(Viewer *viewer)
 {
-    return !viewer->live.on_stage || stage_renew(viewer->example, &viewer->options, message);
+    const Message before = viewer->unmade;
+    viewer->panel.stale = true;
+    viewer->unmade = (Message){0};
+    if (!viewer->live.on_stage || stage_renew(viewer->example, &viewer->options, &viewer->unmade) ||
+        strcmp(viewer->unmade.text, before.text) == 0)
+        return;
+    options_fail(viewer->example->name, &viewer->unmade, EXIT_FAILED);
 }
 
-static bool reset(Viewer *viewer, Message *message)
+static void reset(Viewer *viewer)
 {
     const Parameter *parameters = viewer->example->parameters;
     viewer->options.seconds = viewer->first->seconds;
@@ -116,51 +139,50 @@ static bool reset(Viewer *viewer, Message *message)
     viewer->paused = false;
     for (int i = 0; parameters && parameters[i].name; i++)
         parameter_restore(&parameters[i], viewer->first_values[i]);
-    return renew(viewer, message);
+    renew(viewer);
 }
 
-static bool type(Viewer *viewer, unsigned character, Message *message)
+static void type(Viewer *viewer, unsigned character)
 {
     switch (character < 128 ? tolower((int)character) : 0) {
     case ' ':
         viewer->paused = !viewer->paused;
-        return true;
+        break;
     case 's':
         save(viewer);
-        return true;
+        break;
     case 'r':
-        return reset(viewer, message);
+        reset(viewer);
+        break;
     case 'f':
         viewer->full_screen = !viewer->full_screen;
         window_full_screen(viewer->window, viewer->full_screen);
-        return true;
+        break;
     case 'p':
         viewer_panel_toggle(&viewer->panel);
-        return true;
+        break;
     case 'h':
         viewer_panel_toggle_help(&viewer->panel);
-        return true;
+        break;
     default:
-        return true;
+        break;
     }
 }
 
-static bool use_keys(Viewer *viewer, Message *message)
+static void use_keys(Viewer *viewer)
 {
     const WindowInput *input = &viewer->input;
     if (viewer->panel.result.wants_keys)
-        return true;
+        return;
     if (input->typed_count)
         viewer_panel_notice(&viewer->panel, NULL); /* it has been read */
     for (int i = 0; i < input->typed_count; i++)
-        if (!type(viewer, input->typed[i], message))
-            return false;
+        type(viewer, input->typed[i]);
     const int frames = input->pressed[WINDOW_KEY_RIGHT] - input->pressed[WINDOW_KEY_LEFT];
     const int seconds = input->pressed[WINDOW_KEY_UP] - input->pressed[WINDOW_KEY_DOWN];
     if (frames || seconds)
         step(viewer, frames / viewer->options.fps + seconds);
     viewer->left |= input->pressed[WINDOW_KEY_ESCAPE] > 0;
-    return true;
 }
 
 static void use_pointer(Viewer *viewer)
@@ -175,49 +197,70 @@ static void use_pointer(Viewer *viewer)
     orbit->elevation = fmin(fmax(orbit->elevation, -90), 90);
     if (input->scroll != 0) {
         const double distance = orbit->distance > 0 ? orbit->distance : 1;
+        /* --orbit may have begun beyond these limits. */
+        const double least = fmin(NEAREST, distance), most = fmax(FARTHEST, distance);
         orbit->distance = distance * pow(NEARER_PER_NOTCH, input->scroll);
-        orbit->distance = fmin(fmax(orbit->distance, NEAREST), FARTHEST);
+        orbit->distance = fmin(fmax(orbit->distance, least), most);
     }
 }
 
-/* Draws the moment as a headless program does, and copies it to the window. Trouble with the
- * picture is no end: the moment, the size or the values may change. */
-static bool show_picture(Viewer *viewer, Message *message)
+/* What is added to a picture on the CPU takes it there and back. */
+static bool is_retouched(const Viewer *viewer)
 {
-    const Example *example = viewer->example;
-    const WindowInput *input = &viewer->input;
-    const double seconds = viewer->options.seconds;
-    const bool retouched = example->retouch || example->label;
-    Message *trouble = &viewer->trouble;
-    *trouble = (Message){0};
-    if (viewer->picture.image.type == IMAGE_BYTE && retouched)
-        return !stage_picture(example, viewer->canvas, &viewer->options, seconds, &viewer->picture,
-                              trouble) ||
-               canvas_present_image(&viewer->picture.image, input->width, input->height, message);
-    /* A program that this moment needs may not compile though those before it did. */
-    if (!stage_draw(example, viewer->canvas, &viewer->options, seconds, trouble) &&
-        live_revert(&viewer->live, trouble)) {
-        viewer->broken = *trouble;
-        *trouble = (Message){0};
-        stage_draw(example, viewer->canvas, &viewer->options, seconds, trouble);
-    }
-    canvas_present(viewer->canvas, input->width, input->height);
-    return true;
+    return viewer->picture.image.type == IMAGE_BYTE &&
+           (viewer->example->retouch || viewer->example->label);
+}
+
+/* Draws the moment as a headless program does. */
+static bool draw(Viewer *viewer)
+{
+    const Options *options = &viewer->options;
+    viewer->trouble = (Message){0};
+    if (is_retouched(viewer))
+        return stage_picture(viewer->example, viewer->canvas, options, options->seconds,
+                             &viewer->picture, &viewer->trouble);
+    return stage_draw(viewer->example, viewer->canvas, options, options->seconds, &viewer->trouble);
 }
 
 static void show_nothing(const Viewer *viewer)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glDisable(GL_SCISSOR_TEST);
     glViewport(0, 0, viewer->input.width, viewer->input.height);
     glClearColor(0, 0, 0, 1);
     glClear(GL_COLOR_BUFFER_BIT);
+}
+
+/* Draws, and copies to the window. Trouble with the picture is no end: the moment, the size or the
+ * values may change. */
+static bool show_picture(Viewer *viewer, Message *message)
+{
+    const WindowInput *input = &viewer->input;
+    const bool had_trouble = viewer->trouble.text[0];
+    bool drawn = draw(viewer);
+    /* A program that this moment needs may not compile though those before it did. */
+    if (!drawn && live_revert(&viewer->live, &viewer->trouble)) {
+        viewer->broken = viewer->trouble;
+        options_fail(viewer->example->name, &viewer->broken, EXIT_FAILED);
+        drawn = draw(viewer);
+    }
+    if (!drawn) {
+        if (!had_trouble)
+            options_fail(viewer->example->name, &viewer->trouble, EXIT_FAILED);
+        show_nothing(viewer);
+        return true;
+    }
+    if (is_retouched(viewer))
+        return canvas_present_image(&viewer->picture.image, input->width, input->height, message);
+    canvas_present(viewer->canvas, input->width, input->height);
+    return true;
 }
 
 static bool show(Viewer *viewer, Message *message)
 {
     const WindowInput *input = &viewer->input;
     const double start = progress_now();
-    if (!viewer->live.on_stage)
+    if (!is_made(viewer))
         show_nothing(viewer);
     else if (!show_picture(viewer, message))
         return false;
@@ -235,9 +278,8 @@ static void update_title(Viewer *viewer)
     static const char *const states[] = {"", ", paused", ", no picture", ", broken shader"};
     char title[SIZE];
     const double now = progress_now(), elapsed = now - viewer->title_time;
-    const char *state = states[viewer->broken.text[0]    ? 3
-                               : viewer->trouble.text[0] ? 2
-                                                         : viewer->paused];
+    const bool trouble = viewer->unmade.text[0] || viewer->trouble.text[0];
+    const char *state = states[viewer->broken.text[0] ? 3 : trouble ? 2 : viewer->paused];
     viewer->frames++;
     if (elapsed >= 0.5) {
         viewer->panel.rate = viewer->frames / elapsed;
@@ -269,11 +311,12 @@ static bool load(Viewer *viewer, Message *message)
     case LIVE_BROKEN:
         options_fail(viewer->example->name, &error, EXIT_FAILED);
         viewer->broken = error;
+        viewer->unmade = (Message){0}; /* what is on the stage, if anything, is new */
         return true;
     case LIVE_LOADED:
         if (viewer->live.changed[0])
             viewer_panel_notice(&viewer->panel, "shaders loaded");
-        viewer->broken = (Message){0};
+        viewer->broken = viewer->unmade = (Message){0};
         viewer->panel.stale = true;
         return true;
     case LIVE_UNCHANGED:
@@ -287,10 +330,15 @@ static bool use_panel(Viewer *viewer, double elapsed, Message *message)
 {
     ViewerPanel *panel = &viewer->panel;
     viewer->panel_had_pointer = panel->result.wants_pointer;
-    const Message *trouble = viewer->broken.text[0] ? &viewer->broken : &viewer->trouble;
-    return viewer_panel_frame(panel, &viewer->input, elapsed, viewer->canvas, &viewer->options,
-                              viewer->live.on_stage, trouble, message) &&
-           (!panel->result.changed || renew(viewer, message));
+    const Message *trouble = viewer->broken.text[0]   ? &viewer->broken
+                             : viewer->unmade.text[0] ? &viewer->unmade
+                                                      : &viewer->trouble;
+    if (!viewer_panel_frame(panel, &viewer->input, elapsed, viewer->canvas, &viewer->options,
+                            is_made(viewer), trouble, message))
+        return false;
+    if (panel->result.changed)
+        renew(viewer);
+    return true;
 }
 
 /* One turn of the loop. */
@@ -301,7 +349,7 @@ static bool frame(Viewer *viewer, double wait, Message *message)
     const double now = progress_now(), elapsed = now - viewer->last;
     viewer->last = now;
     if (!viewer->paused)
-        viewer->options.seconds += elapsed;
+        pass_time(viewer, elapsed);
     if (input->width > 0 && input->height > 0) {
         if (!canvas_resize(viewer->canvas, input->width, input->height, message))
             return false;
@@ -311,8 +359,7 @@ static bool frame(Viewer *viewer, double wait, Message *message)
     if (!load(viewer, message) || !use_panel(viewer, elapsed, message))
         return false;
     use_pointer(viewer);
-    if (!use_keys(viewer, message))
-        return false;
+    use_keys(viewer);
     viewer->left |= input->closed;
     if (viewer->left || input->width == 0 || input->height == 0)
         return true;
@@ -339,6 +386,7 @@ bool viewer_run(const Example *example, Canvas *canvas, const Options *options,
     if (!live_open(&viewer.live, example, canvas, &viewer.options, message))
         return false;
     viewer_panel_open(&viewer.panel, example, viewer.window, options, defaults);
+    viewer_panel_notice(&viewer.panel, "p: panel   h: help");
     window_show(viewer.window);
     viewer.last = viewer.title_time = progress_now();
     bool done = frame(&viewer, 0, message);

@@ -139,7 +139,7 @@ bool viewer_panel_frame(ViewerPanel *panel, const WindowInput *input, double sec
                                   .frames_per_second = panel->rate,
                                   .error = known_error(panel),
                                   .effects = panel->effects,
-                                  .command = panel->command,
+                                  .command = panel->command[0] ? panel->command : NULL,
                                   .help = panel->help ? HELP : NULL,
                                   .errors = trouble->text[0] ? trouble->text : NULL,
                                   .notice = notice ? panel->notice : NULL};

@@ -274,6 +274,8 @@ class Formats(Animations):
                 ("webp has 0.001 to 1000", "-n", "2", "-o", "a.webp", "--fps", "1001"),
                 ("webm has 0.001 to 1000", "-o", "a.webm", "--fps", "1e6"),
                 ("apng has 0.001 to 65535", "-o", "a.apng", "--fps", "65536"),
+                ("webp has at most 16383", "-n", "2", "-o", "a.webp", "-s", "16384x1"),
+                ("more than ffmpeg takes", "-o", "a.mp4", "-s", "16384x16129"),
                 ("png, y4m or rgb", "-o", "-", "--format", "gif"),
                 ("of standard output", "-o", "a.gif", "--format", "y4m"),
                 ("of standard output", "--format", "png"),
@@ -425,8 +427,9 @@ class Encoders(Animations):
                              "-s", "100x100", environment=environment)
 
     def test_a_real_refusal_is_said_in_one_line(self):
-        self.refused(1, r"^LightedCube: a\.webp: cannot write: ffmpeg: ", "-s", "16384x1", "-n", "2",
-                     "-o", "a.webp")  # libwebp has at most 16383
+        environment = self.fake(f"exec {shutil.which('ffmpeg')} -i no-such-file a.webm\n")
+        self.refused(1, r"^LightedCube: a\.webp: cannot write: ffmpeg: no-such-file: No such file",
+                     "-n", "2", "-o", "a.webp", environment=environment)
 
     def children(self, process):
         found = []

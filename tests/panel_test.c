@@ -616,9 +616,6 @@ static void test_the_title_folds_it(void **state)
     click(30, 27);
     assert_int_equal(content.view, PANEL_OPEN);
     frames(2);
-    assert_int_equal(panel_first_view(400, 1), PANEL_FOLDED);
-    assert_int_equal(panel_first_view(1000, 1), PANEL_OPEN);
-    assert_int_equal(panel_first_view(1000, 2), PANEL_FOLDED);
     assert_int_equal(panel_next_view(PANEL_OPEN), PANEL_HIDDEN);
     assert_int_equal(panel_next_view(PANEL_FOLDED), PANEL_OPEN);
     assert_int_equal(panel_next_view(PANEL_HIDDEN), PANEL_OPEN);

@@ -16,7 +16,8 @@ bool picture_check_driver(const char *test)
     const char *platform;
     Message message = {0};
     const CanvasBackend *backend = canvas_default_backend(&message);
-    if (!backend || !backend->open(&context, &(CanvasOptions){.width = 1, .height = 1}, &platform, &message)) {
+    if (!backend ||
+        !backend->open(&context, &(CanvasOptions){.width = 1, .height = 1}, &platform, &message)) {
         printf("%s: skipped, no driver can be had: %s\n", test, message.text);
         return false;
     }

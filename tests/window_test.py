@@ -607,6 +607,8 @@ class Shaders(Case):
         shown = self.show("-s", "160x160", "--shaders", "mine", program="LightedCube")
         wait_for(lambda: "broken" in shown.title(), "a title that says broken")
         self.assertRegex(shown.said(), rf"^{self.FRAGMENT}:\d+: .*v_Colour")
+        shown.key("s")
+        wait_for(lambda: "there is no picture to save" in shown.said(), "a refusal")
         self.edit(self.original, True)
         wait_for(lambda: "broken" not in shown.title(), "a title that no longer says so")
         self.assert_drawn(shown, self.original)
@@ -616,10 +618,9 @@ class Shaders(Case):
         self.edit(self.original, False)
         shown = self.show("-s", "160x160", "--shaders", "mine", program="LightedCube")
         shutil.rmtree(self.path("mine"))
-        self.assert_drawn(shown, self.original)
+        plain = self.assert_drawn(shown, self.original).pixels
         os.mkdir(self.path("mine"))
         self.edit(self.dark, True)
-        plain = shown.save().pixels
         wait_for(lambda: shown.save().pixels != plain, "the new shader")
         self.assert_drawn(shown, self.dark)
         shown.leave()
@@ -659,6 +660,24 @@ class Ends(Case):
         os.mkdir(self.path("there"))
         shown.save()
         self.assertEqual(os.listdir(self.path("there")), ["a.png"])
+        shown.leave()
+
+    def test_a_model_that_vanishes_is_said_and_no_end(self):
+        model = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
+        self.make("model.obj", model)
+        shown = self.show("-s", "60x60", "--model", "model.obj", program=SCENE)
+        os.remove(self.path("model.obj"))
+        shown.key("r")  # makes all anew, as a change in the panel does
+        wait_for(lambda: shown.title().endswith("no picture"), "a title that says so")
+        shown.key("r", "s")
+        wait_for(lambda: "no picture to save" in shown.said(), "a refusal")
+        said = f"{SCENE}: model.obj: No such file or directory\n"  # once
+        self.assertRegex(shown.said(), rf"^{said}{SCENE}: s: there is no picture to save[^\n]*\n$")
+        self.make("model.obj", model)
+        shown.key("r")
+        wait_for(lambda: "no picture" not in shown.title(), "a picture again")
+        shown.pause()
+        self.assert_headless(shown.save(), SCENE)
         shown.leave()
 
     def test_a_full_disk_is_said_and_no_end(self):
