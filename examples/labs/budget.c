@@ -6,9 +6,15 @@
 #include "statistics.h"
 
 #include <math.h>
-#include <stdlib.h>
+#include <stdio.h>
 
 enum { SIZE = 400, ROUNDS = 15 };
+
+/* Of the plain program's operations, for all of the points. */
+static const double CHEAP = 0.6;
+
+/* No round begins after so long: a mesh may have half a million triangles. */
+static const double MOST_SECONDS = 0.5;
 
 /* What is drawn in turn: the submission, or the scene by the chapter's own program. */
 typedef struct Way {
@@ -54,14 +60,16 @@ static bool measure(const Way *way, const Way *plain, const Lab *lab, const Prob
                     const Canvas *canvas, double *ratio, Message *message)
 {
     double ratios[ROUNDS], first, second;
-    for (int i = -1; i < ROUNDS; i++) {
+    int count = 0;
+    const double start = progress_now();
+    for (int i = -1; i < ROUNDS && (count == 0 || progress_now() < start + MOST_SECONDS); i++) {
         if (!frame(way, lab, probe, canvas, &first, message) ||
             !frame(plain, lab, probe, canvas, &second, message))
             return false;
         if (i >= 0)
-            ratios[i] = first / second;
+            ratios[count++] = first / second;
     }
-    *ratio = statistics_quantile(ratios, ROUNDS, 0.5);
+    *ratio = statistics_quantile(ratios, count, 0.5);
     return true;
 }
 
@@ -82,31 +90,75 @@ static bool count_pixels(const Way *way, const Lab *lab, const Probe *probe, con
     return done;
 }
 
-/* -1 where no tool counts them. */
-static long operations_of(const SubmissionFiles *files, const char *name, ShaderStage stage)
+/* -1, with a message, where no tool counts them. */
+static long operations_of(const char *text, ShaderStage stage, Message *message)
 {
-    const ShaderLoader loader = {.texts = files->texts, .only_texts = true};
-    ShaderSource source;
     Operations counted;
-    if (!shader_source_open(&source, &loader, name, stage, NULL))
-        return -1;
-    const bool done = operations_count(source.text, stage, &counted, NULL);
-    shader_source_close(&source);
-    return done ? counted.arithmetic + counted.special : -1;
+    return operations_count(text, stage, &counted, message) ? counted.arithmetic + counted.special
+                                                            : -1;
 }
 
-static void count(const Way *way, const SubmissionFiles *files, long pixels, VerdictCost *cost)
+/* Of a picture. A sphere's outside and inside both cover all of its pixels. */
+static long count(const Way *way, const ShaderSource sources[2], long pixels, Message *message)
 {
-    const long vertex = operations_of(files, "lab10.vert", SHADER_VERTEX);
-    const long fragment = vertex < 0 ? -1 : operations_of(files, "lab10.frag", SHADER_FRAGMENT);
-    cost->operations = vertex < 0 || fragment < 0 ? -1 : way->vertices * vertex + pixels * fragment;
+    const long fragments = way->cull ? pixels : 2 * pixels;
+    const long vertex = operations_of(sources[SHADER_VERTEX].text, SHADER_VERTEX, message);
+    const long fragment =
+        vertex < 0 ? -1 : operations_of(sources[SHADER_FRAGMENT].text, SHADER_FRAGMENT, message);
+    return fragment < 0 ? -1 : way->vertices * vertex + fragments * fragment;
+}
+
+static long count_submission(const Way *way, const SubmissionFiles *files, long pixels,
+                             Message *message)
+{
+    const ShaderLoader loader = {.texts = files->texts, .only_texts = true};
+    ShaderSource sources[2] = {{0}};
+    const bool done = shader_source_open(&sources[SHADER_VERTEX], &loader, "lab10.vert",
+                                         SHADER_VERTEX, message) &&
+                      shader_source_open(&sources[SHADER_FRAGMENT], &loader, "lab10.frag",
+                                         SHADER_FRAGMENT, message);
+    const long operations = done ? count(way, sources, pixels, message) : -1;
+    shader_source_close(&sources[SHADER_VERTEX]);
+    shader_source_close(&sources[SHADER_FRAGMENT]);
+    return operations;
+}
+
+static long count_plain(const Way *plain, const Scene *scene, long pixels, Message *message)
+{
+    ShaderSource sources[2];
+    if (!lighting_sources(plain->lighting, scene, &scene->objects[0], false, sources, message))
+        return -1;
+    const long operations = count(plain, sources, pixels, message);
+    shader_source_close(&sources[SHADER_VERTEX]);
+    shader_source_close(&sources[SHADER_FRAGMENT]);
+    return operations;
+}
+
+/* Where they cannot be counted the verdict says why; what is right has its first five points. */
+static void count_both(const Way *way, const Way *plain, const Probe *probe,
+                       const SubmissionFiles *files, long pixels, Verdict *verdict)
+{
+    VerdictCost *cost = &verdict->cost;
+    Message message = {0};
+    cost->operations = count_submission(way, files, pixels, &message);
+    const long whole =
+        cost->operations < 0 ? -1 : count_plain(plain, &probe->scene, pixels, &message);
+    cost->operations_ratio = whole > 0 ? (double)cost->operations / (double)whole : -1;
+    if (whole <= 0) {
+        cost->operations = -1;
+        snprintf(verdict->details, sizeof verdict->details,
+                 "There are no points for the cost, for it was not counted: %.1000s", message.text);
+    }
 }
 
 static void give_points(Verdict *verdict)
 {
-    const double ratio = verdict->cost.time_ratio;
-    if (verdict->kind == VERDICT_RIGHT)
-        verdict->points = 5 + floor(2 * 5 * fmin(fmax(2 * (1 - ratio), 0), 1)) / 2;
+    const double ratio = verdict->cost.operations_ratio;
+    if (verdict->kind != VERDICT_RIGHT)
+        return;
+    verdict->points = 5;
+    if (verdict->cost.operations >= 0)
+        verdict->points += floor(2 * 5 * fmin(fmax((1 - ratio) / (1 - CHEAP), 0), 1)) / 2;
 }
 
 bool budget_score(const LabBudget *budget, GLuint program, Canvas *canvas,
@@ -125,7 +177,8 @@ bool budget_score(const LabBudget *budget, GLuint program, Canvas *canvas,
     done = done && measure(&way, &plain, lab, &probe, canvas, &cost->time_ratio, message) &&
            count_pixels(&way, lab, &probe, canvas, &pixels, message);
     if (done) {
-        count(&way, files, pixels, cost);
+        plain.vertices = (long)probe.meshes[0].vertex_count;
+        count_both(&way, &plain, &probe, files, pixels, verdict);
         for (int i = 0; i < verdict->probe_count; i++)
             cost->error = fmax(cost->error, verdict->probes[i].maximum);
         cost->known = true;

@@ -9,11 +9,12 @@
 #include "submission.h"
 #include "verdict.h"
 
-/* Measures the submission's program against the chapter's own (common/lighting, a sphere of 64 x
- * 64: the usual setting of `accuracy`), frames of both in turn, and counts operations where the
- * tools for it are there. Fills in the verdict's cost, and its points: of what is right 5, and up
- * to 5 more for time: all where it takes half of the plain program's or less, none where it takes
- * as long. */
+/* Counts the operations of a picture, those of a vertex times vertices and those of a fragment
+ * times fragments, and the same for the chapter's own program (common/lighting, a sphere of 64 x
+ * 64: the usual setting of `accuracy`); also measures both, frames in turn. Fills in the verdict's
+ * cost, and its points: of what is right 5, and up to 5 more for its operations: all where they are
+ * 0.6 of the plain program's or fewer, none where they are as many. The counts are the same on
+ * every machine; times are not, so they give no points. */
 bool budget_score(const LabBudget *budget, GLuint program, Canvas *canvas,
                   const SubmissionFiles *files, Verdict *verdict, Message *message);
 

@@ -6,40 +6,45 @@
 #include <stdlib.h>
 #include <string.h>
 
+static bool counted(const ClassResult *result)
+{
+    return result->verdict.cost.known && result->verdict.cost.operations >= 0;
+}
+
 bool class_front_has(const ClassStore *store, const ClassResult *result)
 {
     const VerdictCost *cost = &result->verdict.cost;
-    if (!cost->known)
+    if (!counted(result))
         return false;
     for (int i = 0; i < store->count; i++) {
         const VerdictCost *other = &store->results[i].verdict.cost;
-        if (other->known && other->error <= cost->error && other->time_ratio <= cost->time_ratio &&
-            (other->error < cost->error || other->time_ratio < cost->time_ratio))
+        if (counted(&store->results[i]) && other->error <= cost->error &&
+            other->operations <= cost->operations &&
+            (other->error < cost->error || other->operations < cost->operations))
             return false;
     }
     return true;
 }
 
-static int by_time(const void *a, const void *b)
+static int by_operations(const void *a, const void *b)
 {
     const VerdictCost *const *first = a, *const *second = b;
-    return ((*first)->time_ratio > (*second)->time_ratio) -
-           ((*first)->time_ratio < (*second)->time_ratio);
+    return ((*first)->operations > (*second)->operations) -
+           ((*first)->operations < (*second)->operations);
 }
 
-/* "ERROR TIME" a line: the efficient ones, from the fastest on, or the others. */
+/* "OPERATIONS ERROR" a line: the efficient ones, from the cheapest on, or the others. */
 static int put_points(const ClassStore *store, bool efficient, FILE *file)
 {
     int count = 0;
     const VerdictCost **costs = calloc((size_t)store->count + 1, sizeof *costs);
     for (int i = 0; costs && i < store->count; i++)
-        if (store->results[i].verdict.cost.known &&
-            class_front_has(store, &store->results[i]) == efficient)
+        if (counted(&store->results[i]) && class_front_has(store, &store->results[i]) == efficient)
             costs[count++] = &store->results[i].verdict.cost;
     if (costs)
-        qsort(costs, (size_t)count, sizeof *costs, by_time);
+        qsort(costs, (size_t)count, sizeof *costs, by_operations);
     for (int i = 0; i < count; i++)
-        fprintf(file, "%.9g %.9g\n", costs[i]->time_ratio, costs[i]->error);
+        fprintf(file, "%.9g %.9g\n", costs[i]->operations_ratio, costs[i]->error);
     free(costs);
     return count;
 }
@@ -59,7 +64,7 @@ static void put_data(const ClassStore *store, FILE *script)
     fprintf(script,
             "$front using 1:2 with steps lw 2 lc rgb '%s' notitle, "
             "$front using 1:2 with points pt 5 lc rgb '%s' title 'efficient: none is both "
-            "faster and more exact'\n",
+            "cheaper and more exact'\n",
             GNUPLOT_PALETTE[1], GNUPLOT_PALETTE[1]);
 }
 
@@ -69,14 +74,14 @@ bool class_front_draw(const ClassStore *store, bool *drawn, Message *message)
     size_t size = 0;
     *drawn = false;
     for (int i = 0; i < store->count && !*drawn; i++)
-        *drawn = store->results[i].verdict.cost.known;
+        *drawn = counted(&store->results[i]);
     if (!*drawn)
         return true;
     FILE *file = open_memstream(&script, &size);
     if (!file)
         return message_set(message, "the plot: %s", strerror(errno));
     fputs("set title 'What the class made of the budget'\n"
-          "set xlabel 'time, as a part of that of the plain program'\n"
+          "set xlabel 'operations of a picture, as a part of those of the plain program'\n"
           "set ylabel 'largest error, steps of 1/255'\n"
           "set xrange [0:*]\nset yrange [0:*]\nset key top right\n"
           "set grid lc rgb '#dddddd'\nset offsets graph 0.02, graph 0.05, graph 0.1, 0\n"

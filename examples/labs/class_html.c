@@ -185,8 +185,10 @@ static bool write_student(const ClassStore *store, const ClassResult *result, Me
     fputs("</p>\n", out.file);
     if (verdict->cost.known)
         fprintf(out.file,
-                "<p>Error: %.2f steps. Time: %.2f of the plain program's. Operations: %ld.</p>\n",
-                verdict->cost.error, verdict->cost.time_ratio, verdict->cost.operations);
+                "<p>Error: %.2f steps. Operations: %ld, %.3f of the plain program's. Time: %.2f "
+                "of the plain program's.</p>\n",
+                verdict->cost.error, verdict->cost.operations, verdict->cost.operations_ratio,
+                verdict->cost.time_ratio);
     put_mistakes(out.file, verdict);
     put_symptoms(out.file, verdict);
     put_picture(out.file, verdict);
@@ -345,15 +347,16 @@ static void put_thumbnails(FILE *file, const ClassStore *store)
 static void put_front(FILE *file, const ClassStore *store)
 {
     fputs("<h2>The efficient front</h2>\n<figure><img class=\"plot\" src=\"front.svg\" alt=\"Each "
-          "submission by its time and its error\">\n<figcaption>Efficient: ",
+          "submission by its operations and its error\">\n<figcaption>Efficient: ",
           file);
     for (int i = 0, count = 0; i < store->count; i++) {
         if (!class_front_has(store, &store->results[i]))
             continue;
         fputs(count++ ? ", " : "", file);
         put_link(file, &store->results[i]);
-        fprintf(file, " (%.2f of the time, %.2f steps)", store->results[i].verdict.cost.time_ratio,
-                store->results[i].verdict.cost.error);
+        const VerdictCost *cost = &store->results[i].verdict.cost;
+        fprintf(file, " (%.3f of the operations, %.2f of the time, %.2f steps)",
+                cost->operations_ratio, cost->time_ratio, cost->error);
     }
     fputs(".</figcaption></figure>\n", file);
 }

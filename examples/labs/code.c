@@ -2,6 +2,7 @@
 
 #include "confine.h"
 #include "module.h"
+#include "sanitized.h"
 
 #include <ctype.h>
 #include <dlfcn.h>
@@ -165,7 +166,7 @@ static void limit(rlim_t seconds, rlim_t memory, rlim_t written)
     setrlimit(RLIMIT_CPU, &(struct rlimit){seconds, seconds + 1});
     setrlimit(RLIMIT_CORE, &(struct rlimit){0, 0});
     setrlimit(RLIMIT_FSIZE, &(struct rlimit){written, written});
-#ifndef __SANITIZE_ADDRESS__
+#ifndef ADDRESS_SANITIZER
     setrlimit(RLIMIT_AS, &(struct rlimit){memory, memory});
 #else
     (void)memory;

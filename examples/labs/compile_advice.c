@@ -1,13 +1,14 @@
 #include "compile_advice.h"
 
 #include <stddef.h>
+#include <stdio.h>
 #include <string.h>
 
-/* Both parts are in the message, in this order. What is more special comes first. */
+/* Both parts are in the line, in this order. What is more special comes first. */
 static const struct {
     const char *part, *then, *advice;
 } ADVICE[] = {
-    {"no precision specified", "",
+    {"No precision specified", "",
      "A fragment shader has no default precision of floats: write `precision highp float;` at its "
      "top."},
     {"has no declared precision", "",
@@ -24,17 +25,29 @@ static const struct {
      "one, or vec4(..., 1.0) of the shorter."},
     {"vector", "mismatch",
      "Vectors of different sizes: take .xyz of the longer one, or vec4(..., 1.0) of the shorter."},
-    {"matrix", "mismatch",
+    {"size mismatch for matrix", "",
      "A mat4 takes a vec4: write vec4(position, 1.0), or vec4(normal, 0.0) for a direction."},
-    {"no matching function for call to", "vec",
-     "No function of this name takes these arguments: count the components, and write 1.0 for 1."},
     {"no matching function for call to `max(", "",
      "max takes two numbers of the same kind: write max(x, 0.0), not max(x, 0)."},
     {"no matching function for call to `pow(", "",
      "pow takes two floats: write pow(x, 2.0), not pow(x, 2)."},
+    {"no matching function for call to", "vec",
+     "No function of this name takes these arguments: count the components, and write 1.0 for 1."},
     {"no matching function", "",
      "No function of this name takes arguments of these types: a float is written 0.0, not 0, and "
      "vectors must be equally long."},
+    {"too few components", "",
+     "Count the components: a vec4 is made of four numbers, vec4(rgb, 1.0) of a vec3 and one."},
+    {"too many components", "",
+     "Count the components: a vec3 is made of three numbers, or of one vec3; take .xyz or .rgb."},
+    {"cannot construct", "", "What is in the brackets is no number: look at each name in them."},
+    {"cannot access field", "",
+     "Only a vector has components, .xyzw or .rgba, and only as many as it has."},
+    {"illegal use of reserved word", "",
+     "This word is of C or of another GLSL: GLSL ES 1.00 has float, int, bool, vec, mat."},
+    {"must be declared at global scope", "",
+     "Attributes, uniforms and varyings are declared outside of all functions, above main."},
+    {"no function with name 'texture'", "", "This lab has no textures."},
     {"no function with name", "", "There is no such function: look at its spelling."},
     {"undeclared", "",
      "This name is not declared here: look at its spelling and its case; a varying or uniform is "
@@ -68,6 +81,10 @@ static const struct {
     {"syntax error", "",
      "Look at the line before, too: most often a semicolon, a bracket or an operator is missing."},
     {"not linked", "declared", "Vertex and fragment shader must declare it alike."},
+    {"linking", "but fragment shader input declared",
+     "A varying is to be declared in both shaders with the same name and type."},
+    {"linking", "has no matching output",
+     "The vertex shader has no varying of this name: compare the names in both files."},
     {"linking", "varying",
      "A varying is to be declared in both shaders with the same name and type, and set by the "
      "vertex shader."},
@@ -87,10 +104,23 @@ static const struct {
     {"linking", "", "The two shaders do not go together: look at what both declare."},
 };
 
+/* The line of the first error: what follows it, candidates and what depends on it, says less. */
+static void first_error(const char *message, char *line, size_t size)
+{
+    const char *start = strstr(message, "error: ");
+    while (start && start > message && start[-1] != '\n')
+        start--;
+    if (!start)
+        start = message;
+    snprintf(line, size, "%.*s", (int)strcspn(start, "\n"), start);
+}
+
 const char *compile_advice(const char *message)
 {
+    char line[1024];
+    first_error(message, line, sizeof line);
     for (size_t i = 0; i < sizeof ADVICE / sizeof ADVICE[0]; i++) {
-        const char *part = strstr(message, ADVICE[i].part);
+        const char *part = strstr(line, ADVICE[i].part);
         if (part && strstr(part, ADVICE[i].then))
             return ADVICE[i].advice;
     }

@@ -2,6 +2,7 @@
 
 #include "bundle.h"
 #include "sandbox.h"
+#include "sanitized.h"
 #include "source.h"
 #include "unpack.h"
 
@@ -27,14 +28,6 @@ const char *const INSIDE_READABLE[] = {SHADERS_SOURCE, SHADERS_INSTALLED, HEADER
                                        MODULES_BUILT,  MODULES_INSTALLED, NULL};
 
 const char *const INSIDE_READABLE_RELATIVE[] = {"../share/lighting", MODULES_RELATIVE, NULL};
-
-#if defined(__SANITIZE_ADDRESS__)
-#define ADDRESS_SANITIZER 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define ADDRESS_SANITIZER 1
-#endif
-#endif
 
 static bool set_limit(__rlimit_resource_t which, rlim_t soft, rlim_t hard, Message *message)
 {
@@ -68,7 +61,7 @@ static bool become_user(long user, Message *message)
 static bool take_limits(rlim_t seconds, Message *message)
 {
     const rlim_t megabyte = 1 << 20;
-#ifndef ADDRESS_SANITIZER /* which takes terabytes of addresses */
+#ifndef ADDRESS_SANITIZER
     if (!set_limit(RLIMIT_AS, SANDBOX_MEMORY * megabyte, SANDBOX_MEMORY * megabyte, message))
         return false;
 #endif

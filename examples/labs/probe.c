@@ -240,7 +240,8 @@ static bool open_plain(Probe *probe, const Lab *lab, double seconds, Message *me
     Vec3 color = {1, 0.5, 0.2}, specular = {0.5, 0.5, 0.5}, back = {0.6, 0.6, 0.7};
     double shininess = 20;
     probe->seconds = seconds;
-    camera->eye = (Vec3){3, 3, 7};
+    /* Of a cube turned by 30 degrees three faces are seen. */
+    camera->eye = (Vec3){-3, 3, 7};
     switch (lab->number) {
     case 1:
         set_light(probe, 0, (Vec3){0.5, 3, 4}, (Vec3){1, 0.95, 0.8});
@@ -256,7 +257,7 @@ static bool open_plain(Probe *probe, const Lab *lab, double seconds, Message *me
         camera->eye = (Vec3){4.5, 4.3, 11};
         break;
     case 4:
-        camera->eye = (Vec3){6, 6, 14};
+        camera->eye = (Vec3){-6, 6, 14};
         world = mat4_product(turned, mat4_scale((Vec3){2, 2, 2}));
         set_light(probe, 0, (Vec3){2.3, 4, 3.5}, (Vec3){0.6, 0.55, 0.5});
         set_light(probe, 1, (Vec3){-4, 3, 5}, (Vec3){0.15, 0.2, 0.4});
@@ -272,7 +273,7 @@ static bool open_plain(Probe *probe, const Lab *lab, double seconds, Message *me
     case 8:
         world = mat4_product(turned, mat4_scale((Vec3){1.1, 1.1, 1.1}));
         set_light(probe, 0, (Vec3){1.5, 3, 3}, (Vec3){0.9, 0.85, 0.8});
-        set_spot(probe, (Vec3){0, 0.2, 0.2}, 25, 8);
+        set_spot(probe, (Vec3){-0.2, 0.3, 0.4}, 14, 40);
         probe->lights[0].constant = 0.7;
         probe->lights[0].linear = 0.05;
         probe->lights[0].quadratic = 0.02;

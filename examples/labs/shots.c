@@ -7,6 +7,9 @@
  * it in the few pixels of a highlight (README, hard cases); an overflow blackens or whitens. */
 static const double MEDIUMP_TOLERANCE = 100;
 
+/* Without a highlight: places are rounded by 1/1000, directions by as much, colours by a step. */
+static const double MEDIUMP_MATTE_TOLERANCE = 12;
+
 Scene shots_truth_scene(const Lab *lab, const Probe *probe, int truth,
                         Object objects[PROBE_MOST_OBJECTS])
 {
@@ -110,7 +113,7 @@ bool shots_draw(Shots *shots, const Painter *painter, Canvas *canvas, Message *m
 double shots_tolerance(const Shots *shots, int i)
 {
     if (shots->shots[i].probe.kind == PROBE_HUGE)
-        return MEDIUMP_TOLERANCE;
+        return shots->lab->specular ? MEDIUMP_TOLERANCE : MEDIUMP_MATTE_TOLERANCE;
     return shots->lab->budget ? 1 : COMPARE_TOLERANCE;
 }
 

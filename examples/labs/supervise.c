@@ -1,6 +1,7 @@
 #include "supervise.h"
 
 #include "progress.h"
+#include "sanitized.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -47,7 +48,7 @@ static _Noreturn void judge_apart(const JudgeOptions *options, double limit, int
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     setrlimit(RLIMIT_CPU, &(struct rlimit){seconds, seconds + 1});
     setrlimit(RLIMIT_CORE, &(struct rlimit){0, 0});
-#ifndef __SANITIZE_ADDRESS__
+#ifndef ADDRESS_SANITIZER
     setrlimit(RLIMIT_AS, &(struct rlimit){MOST_MEMORY, MOST_MEMORY});
 #endif
     /* One thread draws: what is drawn is small. */

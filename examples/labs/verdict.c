@@ -90,7 +90,8 @@ void verdict_print(const Verdict *verdict, const Lab *lab, const char *pictures,
         fprintf(file, "cost: error %.2f steps, %.2f of the chapter's own program's time\n",
                 verdict->cost.error, verdict->cost.time_ratio);
     if (verdict->cost.known && verdict->cost.operations >= 0)
-        fprintf(file, "operations of a picture: %ld\n", verdict->cost.operations);
+        fprintf(file, "operations of a picture: %ld, %.3f of those of the chapter's own program\n",
+                verdict->cost.operations, verdict->cost.operations_ratio);
     if (verdict->picture[0] && pictures)
         fprintf(file, "%s/%s: submission, right, difference\n", pictures, verdict->picture);
     fprintf(file, "seed %llu; %.2f s\n", (unsigned long long)verdict->seed, verdict->seconds);
@@ -170,9 +171,10 @@ static void put_rest(FILE *file, const Verdict *verdict)
         fputs(", ", file);
         put_number(file, "time_ratio", verdict->cost.time_ratio);
         if (verdict->cost.operations < 0)
-            fputs(", \"operations\": null}", file);
+            fputs(", \"operations\": null, \"operations_ratio\": null}", file);
         else
-            fprintf(file, ", \"operations\": %ld}", verdict->cost.operations);
+            fprintf(file, ", \"operations\": %ld, \"operations_ratio\": %.9g}",
+                    verdict->cost.operations, verdict->cost.operations_ratio);
     } else {
         fputs("null", file);
     }

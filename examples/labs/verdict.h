@@ -57,6 +57,7 @@ typedef struct VerdictCost {
     double time_ratio; /* over the time of the chapter's own program, `accuracy`'s usual setting */
     long operations;   /* of one picture: vertices and fragments, each times its operations; -1:
                           no tool counts them */
+    double operations_ratio; /* over those of that program; -1: not counted */
 } VerdictCost;
 
 typedef struct Verdict {

@@ -172,21 +172,32 @@ static bool read_probes(const json_t *object, Verdict *verdict, Message *message
     return true;
 }
 
+/* Operations are null where no tool counted them. */
+static bool read_operations(const json_t *from, VerdictCost *cost, Message *message)
+{
+    double operations;
+    cost->operations = -1;
+    cost->operations_ratio = -1;
+    if (json_is_null(json_object_get(from, "operations")))
+        return true;
+    if (!verdict_number(from, "operations", 0, 1e15, &operations, message) ||
+        !verdict_number(from, "operations_ratio", 0, 1e9, &cost->operations_ratio, message))
+        return false;
+    cost->operations = (long)operations;
+    return true;
+}
+
 static bool read_cost(const json_t *object, VerdictCost *cost, Message *message)
 {
     const json_t *from = json_object_get(object, "cost");
-    double operations = 0;
     if (json_is_null(from))
         return true;
     if (!json_is_object(from))
         return message_set(message, "\"cost\": must be an object or null");
-    if (!verdict_number(from, "error", 0, 1e9, &cost->error, message) ||
-        !verdict_number(from, "time_ratio", 0, 1e9, &cost->time_ratio, message) ||
-        !verdict_number(from, "operations", 0, 1e15, &operations, message))
-        return false;
-    cost->operations = (long)operations;
-    cost->known = true;
-    return true;
+    cost->known = verdict_number(from, "error", 0, 1e9, &cost->error, message) &&
+                  verdict_number(from, "time_ratio", 0, 1e9, &cost->time_ratio, message) &&
+                  read_operations(from, cost, message);
+    return cost->known;
 }
 
 /* A file's name, and nothing that a shell, a page or a file system could take for more. */
@@ -287,9 +298,14 @@ static json_t *symptoms_to_json(const Verdict *verdict)
 
 static json_t *cost_to_json(const VerdictCost *cost)
 {
-    return cost->known ? json_pack("{s:f, s:f, s:I}", "error", cost->error, "time_ratio",
-                                   cost->time_ratio, "operations", (json_int_t)cost->operations)
-                       : json_null();
+    if (!cost->known)
+        return json_null();
+    if (cost->operations < 0)
+        return json_pack("{s:f, s:f, s:n, s:n}", "error", cost->error, "time_ratio",
+                         cost->time_ratio, "operations", "operations_ratio");
+    return json_pack("{s:f, s:f, s:I, s:f}", "error", cost->error, "time_ratio", cost->time_ratio,
+                     "operations", (json_int_t)cost->operations, "operations_ratio",
+                     cost->operations_ratio);
 }
 
 json_t *verdict_to_json(const Verdict *verdict, const char *lab)

@@ -4,19 +4,15 @@
 #include <string.h>
 
 /* The uniforms, by number in `locations`. */
-#define UNIFORMS(X)                                                                                \
-    X(u_Clip)                                                                                      \
-    X(u_Place)                                                                                     \
-    X(u_Normal)                                                                                    \
-    X(u_AtVertices)                                                                                \
-    X(u_NormalUnit)                                                                                \
-    X(u_Light)                                                                                     \
-    X(u_FromPlace)                                                                                 \
-    X(u_LightUnit) X(u_LightSign) X(u_Cosine) X(u_Base) X(u_AmbientMode) X(u_Diffuse)              \
-        X(u_Highlight) X(u_Exponent) X(u_Reflection) X(u_Gate) X(u_Power) X(u_View) X(u_ViewPlace) \
-            X(u_ViewUnit) X(u_Fade) X(u_FadeMode) X(u_FadeOn) X(u_SpotAxis) X(u_SpotCosine)        \
-                X(u_SpotExponent) X(u_SpotOutside) X(u_SpotOn) X(u_Facing) X(u_Mirrored)           \
-                    X(u_BackNormal) X(u_Discard) X(u_Lights) X(u_Gamma)
+/* clang-format off */
+#define UNIFORMS(X)                                                                               \
+    X(u_Clip) X(u_Place) X(u_Normal) X(u_AtVertices) X(u_NormalUnit) X(u_Light) X(u_FromPlace)    \
+    X(u_LightUnit) X(u_LightSign) X(u_Cosine) X(u_Base) X(u_AmbientMode) X(u_Diffuse)             \
+    X(u_Highlight) X(u_Exponent) X(u_Reflection) X(u_Gate) X(u_Power) X(u_View) X(u_ViewPlace)    \
+    X(u_ViewUnit) X(u_Fade) X(u_FadeMode) X(u_FadeOn) X(u_SpotAxis) X(u_SpotCosine)               \
+    X(u_SpotExponent) X(u_SpotOutside) X(u_SpotOn) X(u_Facing) X(u_Mirrored) X(u_BackNormal)      \
+    X(u_Discard) X(u_Lights) X(u_Gamma)
+/* clang-format on */
 
 #define NUMBER(name) U_##name,
 enum { UNIFORMS(NUMBER) UNIFORM_COUNT };

@@ -73,8 +73,8 @@ static bool draw(const Frame *frame)
     Mat4 normal_matrix;
     Vec3 light_direction;
     if (!mat4_perspective(FOVY, frame->aspect, NEAR, FAR, &clip_from_eye) ||
-        !frame_look_at(frame, EYE, CENTER, UP, &eye_from_world) || !mat4_rotate(TURN, AXIS, &rotation) ||
-        !vec3_normalize(LIGHT_DIRECTION, &light_direction))
+        !frame_look_at(frame, EYE, CENTER, UP, &eye_from_world) ||
+        !mat4_rotate(TURN, AXIS, &rotation) || !vec3_normalize(LIGHT_DIRECTION, &light_direction))
         return false;
     const Mat4 world_from_model = mat4_product(mat4_translate(MOVE), rotation);
     const Mat4 clip_from_world = mat4_product(clip_from_eye, eye_from_world);

@@ -57,15 +57,9 @@ Column column_at(int number)
 
 static void real_text(double value, char text[32])
 {
-    double again;
     text[0] = '\0';
-    if (!isfinite(value))
-        return;
-    for (int digits = 6; digits <= 17; digits++) {
-        snprintf(text, 32, "%.*g", digits, value);
-        if (parse_number(text, -HUGE_VAL, HUGE_VAL, &again) && again == value)
-            return;
-    }
+    if (isfinite(value))
+        parse_number_text(value, text);
 }
 
 void column_text(const ResultRow *row, const Column *column, char text[RESULTS_FIELD_SIZE])

@@ -262,6 +262,36 @@ static void a_verdict_is_read(void **state)
     assert_string_equal(verdict.picture, "worst.png");
 }
 
+/* GOOD with another cost. */
+static bool read_with_cost(const char *cost, Verdict *verdict)
+{
+    char lab[64], text[2048];
+    const char *at = strstr(GOOD, "null,\"new\"");
+    assert_non_null(at);
+    snprintf(text, sizeof text, "%.*s%s%s", (int)(at - GOOD), GOOD, cost, at + strlen("null"));
+    return verdict_read(text, strlen(text), lab, verdict, NULL);
+}
+
+static void a_cost_is_read_with_counts_or_without(void **state)
+{
+    static Verdict verdict;
+    (void)state;
+    assert_true(read_with_cost("{\"error\":0.5,\"time_ratio\":1.5,\"operations\":1000,"
+                               "\"operations_ratio\":0.75}",
+                               &verdict));
+    assert_true(verdict.cost.known && verdict.cost.operations == 1000);
+    assert_true(verdict.cost.operations_ratio == 0.75);
+    assert_true(read_with_cost("{\"error\":0.5,\"time_ratio\":1.5,\"operations\":null,"
+                               "\"operations_ratio\":null}",
+                               &verdict));
+    assert_true(verdict.cost.known && verdict.cost.operations == -1);
+    assert_false(
+        read_with_cost("{\"error\":0.5,\"time_ratio\":1.5,\"operations\":1000}", &verdict));
+    assert_false(read_with_cost("{\"error\":0.5,\"time_ratio\":1.5,\"operations\":-1,"
+                                "\"operations_ratio\":1}",
+                                &verdict));
+}
+
 static void what_is_no_verdict_is_refused(void **state)
 {
     static const char *const changes[][2] = {
@@ -492,21 +522,27 @@ static void every_submission_is_in_one_part(void **state)
     }
 }
 
-static ClassResult with_cost(const char *name, double error, double time)
+static ClassResult with_cost(const char *name, double error, double ratio)
 {
     ClassResult result = result_of(name, 1, true, 8);
-    result.verdict.cost = (VerdictCost){.known = true, .error = error, .time_ratio = time};
+    result.verdict.cost = (VerdictCost){.known = true,
+                                        .error = error,
+                                        .time_ratio = 1 - ratio,
+                                        .operations = (long)(1e6 * ratio),
+                                        .operations_ratio = ratio};
     return result;
 }
 
 static void the_front_has_those_that_none_beats_in_both(void **state)
 {
-    ClassResult results[] = {with_cost("a", 1, 0.5), with_cost("b", 0.5, 1), with_cost("c", 1, 1),
-                             with_cost("d", 0.5, 1), result_of("e", 1, true, 8)};
-    static const bool efficient[] = {true, true, false, true, false};
-    const ClassStore store = {.results = results, .count = 5};
+    ClassResult results[] = {with_cost("a", 1, 0.5),     with_cost("b", 0.5, 1),
+                             with_cost("c", 1, 1),       with_cost("d", 0.5, 1),
+                             result_of("e", 1, true, 8), with_cost("uncounted", 0.1, 0.1)};
+    static const bool efficient[] = {true, true, false, true, false, false};
+    const ClassStore store = {.results = results, .count = 6};
+    results[5].verdict.cost.operations = -1;
     (void)state;
-    for (int i = 0; i < 5; i++)
+    for (int i = 0; i < 6; i++)
         assert_int_equal(class_front_has(&store, &results[i]), efficient[i]);
 }
 
@@ -589,6 +625,7 @@ int main(void)
         cmocka_unit_test_setup(the_hash_changes_with_names_and_bytes, start),
         cmocka_unit_test_setup(only_sources_are_wanted, start),
         cmocka_unit_test_setup(a_verdict_is_read, start),
+        cmocka_unit_test_setup(a_cost_is_read_with_counts_or_without, start),
         cmocka_unit_test_setup(what_is_no_verdict_is_refused, start),
         cmocka_unit_test_setup(text_is_cut_between_characters, start),
         cmocka_unit_test_setup(only_the_picture_of_a_png_is_kept, start),

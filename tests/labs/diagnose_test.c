@@ -3,7 +3,7 @@
  * program that has them all, is to be found again. What others write wrongly is in labs_test.py.
  *
  * LABS_SEEDS and LABS_PAIRS in the environment: how many seeds for each mistake, and how many pairs
- * for each lab.
+ * for each lab. Without them a sample: every fourth form of a mistake in one seed, and 3 pairs.
  */
 #include "diagnose.h"
 #include "wrong_program.h"
@@ -114,7 +114,7 @@ static void test_singles(void **unused)
 {
     (void)unused;
     static Verdict verdict;
-    const int seeds = number_of("LABS_SEEDS", 1);
+    const int seeds = number_of("LABS_SEEDS", 1), step = getenv("LABS_SEEDS") ? 1 : 4;
     for (int l = 0; l < LAB_COUNT; l++) {
         const Lab *lab = &LABS[l];
         int count = 0, tried = 0, misnamed = 0;
@@ -126,7 +126,7 @@ static void test_singles(void **unused)
             kinds += (i == 0 || singles[i].mistakes[0] != singles[i - 1].mistakes[0]) &&
                      !singles[i].choices.of[SLOT_FIT] &&
                      singles[i].choices.of[SLOT_STAGE] != STAGE_OTHER;
-            for (int seed = 1; seed <= seeds; seed++) {
+            for (int seed = 1; seed <= seeds && i % step == l % step; seed++) {
                 const Outcome outcome = try(lab, &singles[i], (uint64_t)seed, &verdict);
                 tried++;
                 named += outcome == NAMED || outcome == ONE_OF;
@@ -149,7 +149,7 @@ static void test_pairs(void **unused)
 {
     (void)unused;
     static Verdict verdict;
-    const int pairs = number_of("LABS_PAIRS", 4);
+    const int pairs = number_of("LABS_PAIRS", 3);
     Random random = {7};
     for (int l = 0; l < LAB_COUNT; l++) {
         const Lab *lab = &LABS[l];

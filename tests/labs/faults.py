@@ -109,7 +109,7 @@ FAULTS = {
         "vert",
         r"read",
     ),
-    "no main": (fault(1, ("frag", "void main()", "void mian()")), "frag", r"main"),
+    "no main": (fault(1, ("frag", "void main()", "void mian()")), None, r"function `void main"),
     "brace missing": (fault(5, ("frag", "v_Color.a);\n}\n", "v_Color.a);\n")), "frag", r"brace|\}"),
     "texture": (
         fault(

@@ -266,6 +266,13 @@ class Faults(Labs):
         shutil.copytree(self.folder_of(lab), self.path(name))
         return self.path(name)
 
+    def edit(self, path, old, new):
+        with open(path) as file:
+            text = file.read()
+        self.assertIn(old, text)
+        with open(path, "w") as file:
+            file.write(text.replace(old, new))
+
     def test_what_is_no_submission(self):
         empty = self.path("empty")
         os.mkdir(empty)
@@ -376,6 +383,27 @@ class Faults(Labs):
         self.assertEqual(len(result["pictures"]), 1)
         sheet = self.png(os.path.join("found", result["pictures"][0]))
         self.assertGreaterEqual(sheet.width, 3 * 64)
+
+    def test_points_for_cost_hang_on_counts_and_not_on_time(self):
+        folder = self.folder_of(10)
+        first, second = (run_check(10, folder)[1] for _ in range(2))
+        cost = first["cost"]
+        for name in ("operations", "operations_ratio"):
+            self.assertEqual(cost[name], second["cost"][name], name)
+        self.assertEqual(first["points"], second["points"])
+        if cost["operations"] is None:
+            self.skipTest(first["details"])
+        self.assertGreater(cost["time_ratio"], 0)
+        # All five points at 0.6 of the plain program's operations, none at as many; in halves.
+        share = min(max((1 - cost["operations_ratio"]) / 0.4, 0), 1)
+        self.assertEqual(first["points"], 5 + int(10 * share) / 2)
+        # One that draws the insides, too, costs more.
+        mine = self.copy(10)
+        self.edit(os.path.join(mine, "budget.c"), "cull = true", "cull = false")
+        uncut = run_check(10, mine)[1]
+        self.assertGreater(uncut["cost"]["operations"], cost["operations"])
+        self.assertEqual(uncut["verdict"], "right")
+        self.assertLess(uncut["points"], first["points"])
 
     def test_what_a_seed_gives_is_always_the_same(self):
         wrong = mistakes.single(6, "reflect's sign")

@@ -14,7 +14,8 @@ static void set_column(Mat4 *m, int i, Vec3 v)
     m->m[4 * i + 2] = v.z;
 }
 
-/* The images of two edges of a face span the transformed face: their cross product is its normal. */
+/* The images of two edges of a face span the transformed face: their cross product is its normal.
+ */
 void lab_matrices(double seconds, Mat4 *world_from_model, Mat4 *normal_matrix)
 {
     Vec3 axis = {1.0, 2.0, 0.5};
