@@ -394,8 +394,8 @@ class Faults(Labs):
         if cost["operations"] is None:
             self.skipTest(first["details"])
         self.assertGreater(cost["time_ratio"], 0)
-        # All five points at 0.6 of the plain program's operations, none at as many; in halves.
-        share = min(max((1 - cost["operations_ratio"]) / 0.4, 0), 1)
+        # All five points at 0.72 of the plain program's operations, none at as many; in halves.
+        share = min(max((1 - cost["operations_ratio"]) / 0.28, 0), 1)
         self.assertEqual(first["points"], 5 + int(10 * share) / 2)
         # One that draws the insides, too, costs more.
         mine = self.copy(10)
