@@ -10,6 +10,7 @@ there. Exit code of the test: 77 where nothing can be drawn.
 import os
 import re
 import shutil
+import signal
 import struct
 import subprocess
 import sys
@@ -17,6 +18,12 @@ import tempfile
 import threading
 import unittest
 import zlib
+
+# Programs are ended by signals here. Whoever started the tests may have had them ignored, as nohup
+# does, and what is started inherits that.
+for number in (signal.SIGINT, signal.SIGHUP):
+    if signal.getsignal(number) == signal.SIG_IGN:
+        signal.signal(number, signal.SIG_DFL)
 
 EXAMPLES, SOURCE = (os.path.abspath(path) for path in sys.argv[1:3])
 PROGRAMS = sorted(name[:-2] for name in os.listdir(os.path.join(SOURCE, "examples/lecture")))
