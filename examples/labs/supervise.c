@@ -23,9 +23,6 @@ typedef struct Report {
     Verdict verdict;
 } Report;
 
-/* Address space: the driver's compiler alone asks for more than 1 GB of it. */
-static const rlim_t MOST_MEMORY = (rlim_t)2 << 30;
-
 static void send_report(int pipe_end, const Report *report)
 {
     const char *bytes = (const char *)report;
@@ -49,7 +46,9 @@ static _Noreturn void judge_apart(const JudgeOptions *options, double limit, int
     setrlimit(RLIMIT_CPU, &(struct rlimit){seconds, seconds + 1});
     setrlimit(RLIMIT_CORE, &(struct rlimit){0, 0});
 #ifndef ADDRESS_SANITIZER
-    setrlimit(RLIMIT_AS, &(struct rlimit){MOST_MEMORY, MOST_MEMORY});
+    /* Address space: the driver's compiler alone asks for more than 1 GB of it. */
+    const rlim_t most = (rlim_t)2 << 30;
+    setrlimit(RLIMIT_AS, &(struct rlimit){most, most});
 #endif
     /* One thread draws: what is drawn is small. */
     setenv("LP_NUM_THREADS", "0", 0);
