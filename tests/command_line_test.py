@@ -158,6 +158,12 @@ class Case(unittest.TestCase):
             self.assertEqual(self.everything(), before)
         return error
 
+    def need_somebody(self):
+        try:
+            self.good("--version", **SOMEBODY)
+        except (OSError, AssertionError):
+            self.skipTest("nobody may not enter the build's folder")
+
 
 class Options(Case):
     def test_every_program_answers_help_and_version(self):
@@ -343,12 +349,6 @@ class Outputs(Case):
                              ("n" * 300 + ".png", "too long")):
             self.refused(1, "^LightedCube: .*" + said, *SMALL, "-o", output)
         self.refused(1, "folder missing0/ does not exist", "-n", "2", "-o", "missing%d/a.png")
-
-    def need_somebody(self):
-        try:
-            self.good("--version", **SOMEBODY)
-        except (OSError, AssertionError):
-            self.skipTest("nobody may not enter the build's folder")
 
     def test_devices_are_written_through(self):
         self.need_somebody()

@@ -308,6 +308,7 @@ class Pictures(Watched):
             most = int(file.read())
         if os.getuid() != 0 or most > 500:
             self.skipTest("needs root, to be another user, and a limit within reach")
+        self.need_somebody()
         self.copy_cube()
         os.chown(self.folder, base.SOMEBODY["user"], base.SOMEBODY["group"])
         library = ctypes.CDLL(None)

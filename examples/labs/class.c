@@ -115,8 +115,7 @@ static bool open_sandbox(const ClassOptions *options, const Lab *lab, Sandbox *s
     if (!realpath(options->folder, hidden))
         return message_set(message, "%s: %s", options->folder, strerror(errno));
     if (!sandbox_open(sandbox, folder, options->limit, hidden, &why))
-        return message_set(message, "no submission is judged, for limits cannot be set: %s",
-                           why.text);
+        return message_set(message, "no submission is judged: %s", why.text);
     sandbox_describe(sandbox, text);
     fprintf(stderr, "%s: %s\n", PROGRAM, text);
     if (!sandbox->bubblewrap)

@@ -41,6 +41,13 @@ static bool set_limit(__rlimit_resource_t which, rlim_t soft, rlim_t hard, Messa
                                          : message_set(message, "setrlimit: %s", strerror(errno));
 }
 
+static bool own_path(char program[PATH_MAX], Message *message)
+{
+    const ssize_t length = readlink("/proc/self/exe", program, PATH_MAX - 1);
+    program[length > 0 ? length : 0] = '\0';
+    return length > 0 ? true : message_set(message, "/proc/self/exe: %s", strerror(errno));
+}
+
 /* Somebody who owns nothing, and stays that. */
 static bool become_user(long user, Message *message)
 {
@@ -165,9 +172,32 @@ static bool can_write(const char *folder)
     return true;
 }
 
-static bool prove(Bundle *bundle, const char *hidden, const char *port, Message *message)
+/* False where other users may not use what judging needs; names the folder that is closed. */
+static bool may_use(const char *path, int mode, Message *message)
 {
-    char text[16];
+    char closed[PATH_MAX];
+    if (access(path, mode) == 0 || errno != EACCES)
+        return true;
+    snprintf(closed, sizeof closed, "%s", path);
+    for (char *slash = strchr(closed + 1, '/'); slash; slash = strchr(slash + 1, '/')) {
+        *slash = '\0';
+        if (access(closed, X_OK) != 0)
+            break;
+        *slash = '/';
+    }
+    return message_set(message,
+                       "%s: is closed to other users, and submissions are judged as user %ld, not "
+                       "as root; open it (chmod o+rx), or install the package bubblewrap",
+                       closed, (long)getuid());
+}
+
+static bool prove(Bundle *bundle, const char *hidden, const char *port, const char *labs,
+                  Message *message)
+{
+    char text[16], program[PATH_MAX];
+    if (!own_path(program, message) || !may_use(program, X_OK, message) ||
+        !may_use(labs, R_OK | X_OK, message))
+        return false;
     const int processes = count_processes();
     if (processes < 5)
         return message_set(message,
@@ -279,15 +309,11 @@ static int run_check(const char *lab, const char *seed, const char *seconds, Mes
 {
     int status = -1;
     char program[PATH_MAX], limit[32];
-    const ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
+    if (!own_path(program, message))
+        return -1;
     /* The check itself ends what takes too long, and has a verdict then: before this run is ended.
      */
     snprintf(limit, sizeof limit, "%.0f", sandbox_patience(strtod(seconds, NULL)));
-    if (length <= 0) {
-        message_set(message, "/proc/self/exe: %s", strerror(errno));
-        return -1;
-    }
-    program[length] = '\0';
     const pid_t child = fork();
     if (child == 0) {
         const int null = open("/dev/null", O_RDWR);
@@ -349,8 +375,9 @@ int inside_main(int count, char *arguments[])
         ;
     } else if (chdir(arguments[2]) != 0) {
         message_set(&message, "%s: %s", arguments[2], strerror(errno));
-    } else if (strcmp(step, "prove") == 0 && count == 6) {
-        code = prove(bundle, arguments[4], arguments[5], &message) ? 0 : INSIDE_BROKEN;
+    } else if (strcmp(step, "prove") == 0 && count == 7) {
+        code =
+            prove(bundle, arguments[4], arguments[5], arguments[6], &message) ? 0 : INSIDE_BROKEN;
     } else if (strcmp(step, "unpack") == 0 && count == 4) {
         code = unpack_sources(bundle, STDIN_FILENO, &message) ? 0 : INSIDE_REFUSED;
     } else if (strcmp(step, "judge") == 0 && count == 6) {

@@ -19,9 +19,10 @@ extern const char *const INSIDE_READABLE_RELATIVE[];
 
 /* PROGRAM --inside USER SECONDS FOLDER STEP...: becomes that user (if root), takes on the limits,
  * and with FOLDER for its files does one of
- *   prove HIDDEN PORT   tries what must be impossible, and says which was
- *   unpack              the archive on standard input -> its source files
- *   judge LAB SEED      the submission on standard input -> verdict.json and pictures
+ *   prove HIDDEN PORT LABS  tries what must be impossible, and says which was; fails where it may
+ *                           not read the folder LABS, or not run this program
+ *   unpack                  the archive on standard input -> its source files
+ *   judge LAB SEED          the submission on standard input -> verdict.json and pictures
  * What it finds goes to standard output as a bundle. Returns the exit code. */
 int inside_main(int count, char *arguments[]);
 

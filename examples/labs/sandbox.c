@@ -453,8 +453,10 @@ static bool prove(Sandbox *sandbox, const char *hidden, Message *message)
     bool done = bundle && server >= 0 && input >= 0;
     if (!done)
         message_set(message, "%s", strerror(errno));
-    done = done && sandbox_start(sandbox, &run, 0, input,
-                                 (const char *const[]){"prove", hidden, port, NULL}, message);
+    done =
+        done &&
+        sandbox_start(sandbox, &run, 0, input,
+                      (const char *const[]){"prove", hidden, port, sandbox->folder, NULL}, message);
     while (run.running)
         sandbox_wait(runs, 1, 1);
     if (done && sandbox_end(&run) != SANDBOX_DONE) {

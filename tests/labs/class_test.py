@@ -688,6 +688,7 @@ class Results(Class):
         )
 
     def test_who_is_not_root_judges_too(self):
+        self.need_somebody()
         self.submit("a")
         self.submit("evil", lab05_frag=self.frag('#include "/etc/passwd"\n'))
         os.makedirs(self.path("theirs"))
@@ -695,6 +696,25 @@ class Results(Class):
         lines = self.lab5(out="theirs/out", **base.SOMEBODY)
         self.assertEqual(len(lines), 1)
         self.assertEqual(self.verdicts("theirs/out")["a"], "right")
+
+    @unittest.skipIf(os.getuid() != 0, "who is not root judges as himself")
+    def test_root_without_bubblewrap_is_told_what_is_closed(self):
+        self.submit("a")
+        os.mkdir(self.path("closed"), 0o700)
+        copy = shutil.copy(os.path.join(base.EXAMPLES, PROGRAM), self.path("closed"))
+        result = self.run_it(
+            *("--class", "class", "--lab", "5", "-o", "out"),
+            program=copy,
+            environment={"PATH": self.folder},
+        )
+        self.assertEqual(result.returncode, 1)
+        self.assertRegex(
+            result.stderr.decode(),
+            r"^check: no submission is judged: bubblewrap: bwrap: No such file or directory; and "
+            r"without it .*/closed: is closed to other users, .*; open it \(chmod o\+rx\), or "
+            r"install the package bubblewrap\n$",
+        )
+        self.assertFalse(os.path.exists(self.path("out/class.csv")))
 
     def test_without_bubblewrap_limits_remain(self):
         """And C does not run."""
@@ -705,6 +725,7 @@ class Results(Class):
         )
         os.makedirs(self.path("tmp"))
         nothing = {"PATH": self.folder, "TMPDIR": self.path("tmp")}
+        self.need_somebody()
         lines = self.lab5("--limit", "2", environment=nothing)
         self.assertIn("bubblewrap: bwrap: No such file", lines[0])
         self.assertEqual(self.verdicts(), {"a": "right", "endless": "timeout"})
