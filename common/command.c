@@ -71,25 +71,11 @@ static void put_number(Line *line, const char *name, double number)
     put_option(line, name, text);
 }
 
-static void put_orbit(Line *line, Orbit orbit)
-{
-    char azimuth[32], elevation[32], distance[32], text[100];
-    const bool near = orbit.distance <= 0 || orbit.distance == 1;
-    if (orbit.azimuth == 0 && orbit.elevation == 0 && near)
-        return;
-    parse_number_text(orbit.azimuth, azimuth);
-    parse_number_text(orbit.elevation, elevation);
-    parse_number_text(orbit.distance, distance);
-    snprintf(text, sizeof text, "%s,%s%s%s", azimuth, elevation, near ? "" : ",",
-             near ? "" : distance);
-    put_option(line, "orbit", text);
-}
-
 static void put_size(Line *line, const Example *example, const Options *options)
 {
     char text[32];
-    const int width = example->width ? example->width : 400;
-    const int height = example->height ? example->height : 400;
+    const int width = example->width ? example->width : OPTIONS_SIDE;
+    const int height = example->height ? example->height : OPTIONS_SIDE;
     if (options->width == width && options->height == height)
         return;
     snprintf(text, sizeof text, "%dx%d", options->width, options->height);
@@ -118,6 +104,7 @@ static void put_backend(Line *line, const CanvasBackend *backend)
 /* Those of every program. */
 static void put_options(Line *line, const Example *example, const Options *options)
 {
+    char orbit[96];
     if (options->output_given)
         put_option(line, "output", options->output);
     put_size(line, example, options);
@@ -125,13 +112,14 @@ static void put_options(Line *line, const Example *example, const Options *optio
         put_number(line, "time", options->seconds);
     if (options->frames != 1 || options->numbered)
         put_whole(line, "frames", options->frames);
-    if (options->fps != 30)
+    if (options->fps != OPTIONS_FPS)
         put_number(line, "fps", options->fps);
     if (options->format)
         put_option(line, "format", options->format);
     if (options->canvas.samples != 0)
         put_whole(line, "samples", options->canvas.samples);
-    put_orbit(line, options->orbit);
+    if (orbit_text(options->orbit, orbit))
+        put_option(line, "orbit", orbit);
     put_backend(line, options->canvas.backend);
     if (options->shaders.folder)
         put_option(line, "shaders", options->shaders.folder);
@@ -186,7 +174,7 @@ bool command_write(const Example *example, const Options *options, const Paramet
     put_options(&line, example, options);
     if (example->scene)
         put_scene_options(&line, options);
-    for (int i = 0; done && parameters && parameters[i].name; i++)
+    for (int i = 0; done && defaults && parameters && parameters[i].name; i++)
         done =
             parameter_equal(&parameters[i], &defaults[i]) || put_parameter(&line, &parameters[i]);
     put(&line, '\0');

@@ -14,8 +14,9 @@
  * whatever a file's name has in it.
  *
  * `defaults` has a value for each of the example's own parameters, as parameter_save had them
- * before options_read. False, and an empty text, where `size` bytes are too few, or where a
- * parameter has a value that no option gives it: no number, no text, a flag that is no longer set.
+ * before options_read; NULL: they have these still. False, and an empty text, where `size` bytes
+ * are too few, or where a parameter has a value that no option gives it: no number, no text, a flag
+ * that is no longer set.
  */
 bool command_write(const Example *example, const Options *options, const ParameterValue *defaults,
                    char *text, size_t size);

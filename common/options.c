@@ -7,7 +7,6 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <getopt.h>
-#include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -182,8 +181,9 @@ static void print_help(const Usage *usage)
     const Parameter *parameter = usage->parameters;
     const bool draws = !usage->study;
     print_output_help(usage);
-    printf("  -s, --size WxH         in pixels; default %dx%d\n", usage->width ? usage->width : 400,
-           usage->height ? usage->height : 400);
+    printf("  -s, --size WxH         in pixels; default %dx%d\n",
+           usage->width ? usage->width : OPTIONS_SIDE,
+           usage->height ? usage->height : OPTIONS_SIDE);
     const bool one = draws && !usage->gallery;
     printf("%s%s%s%s%s%s%s%s%s", draws ? HELP_DRAW : "", one ? HELP_FRAMES : "",
            draws ? HELP_SAMPLES : "", draws ? HELP_ORBIT : "", one ? HELP_WINDOW : "", HELP_WHERE,
@@ -200,15 +200,6 @@ static void print_help(const Usage *usage)
                "      %s --frames 90 -o turn%%03d.png\n"
                "      %s --precision highp --print-shader=frag\n",
                usage->name, usage->name, usage->name);
-}
-
-static bool whole_number(const char *text, int least, int most, int *number)
-{
-    double value;
-    if (!parse_number(text, least, most, &value) || value != floor(value))
-        return false;
-    *number = (int)value;
-    return true;
 }
 
 static bool unknown_option(const struct option *all, const char *given, Message *message)
@@ -234,9 +225,7 @@ static bool unknown_option(const struct option *all, const char *given, Message 
     return message_set(message, "%s: no such option; --help lists them", given);
 }
 
-/* getopt_long's '?' and ':' as a message. */
-static bool bad_option(const struct option *all, int result, int argc, char *argv[],
-                       Message *message)
+bool options_refuse(const struct option *all, int result, int argc, char *argv[], Message *message)
 {
     const char *last = argv[optind - 1 < argc ? optind - 1 : argc - 1];
     char shown[3] = {'-', (char)optopt, '\0'};
@@ -262,15 +251,10 @@ static bool read_orbit(const char *text, Orbit *orbit)
 {
     static const double least[] = {-36000, -90, 0.01}, most[] = {36000, 90, 100};
     double values[3] = {0, 0, 1};
-    char copy[128], *rest = copy;
-    int count = 0;
-    if (snprintf(copy, sizeof copy, "%s", text) >= (int)sizeof copy)
+    if (parse_numbers(text, least, most, values) < 2)
         return false;
-    for (char *part; (part = strsep(&rest, ",")) != NULL; count++)
-        if (count == 3 || !parse_number(part, least[count], most[count], &values[count]))
-            return false;
     *orbit = (Orbit){values[0], values[1], values[2]};
-    return count >= 2;
+    return true;
 }
 
 static bool read_backend(Options *options, const char *name, Message *message)
@@ -303,7 +287,7 @@ static bool read_option(Options *options, int option, const char *value, Message
         options->seconds /= OPTIONS_DEGREES_PER_SECOND;
         return true;
     case 'n':
-        if (!whole_number(value, 1, FRAMES_MOST, &options->frames))
+        if (!parse_whole(value, 1, FRAMES_MOST, &options->frames))
             return bad_value("--frames", value, "a whole number, 1 to 1000000", message);
         options->numbered = true;
         return true;
@@ -317,7 +301,7 @@ static bool read_option(Options *options, int option, const char *value, Message
         options->format = value;
         return true;
     case OPTION_SAMPLES:
-        if (!whole_number(value, 0, 65536, &options->canvas.samples))
+        if (!parse_whole(value, 0, 65536, &options->canvas.samples))
             return bad_value("--samples", value, "a whole number, 0 to 65536", message);
         return true;
     case OPTION_ORBIT:
@@ -357,7 +341,7 @@ static bool read_option(Options *options, int option, const char *value, Message
         options->alpha = true;
         return true;
     case OPTION_COMPRESS:
-        if (!whole_number(value, 0, 9, &options->compress))
+        if (!parse_whole(value, 0, 9, &options->compress))
             return bad_value("--compress", value, "a whole number, 0 to 9", message);
         return true;
     case OPTION_DOCTOR:
@@ -510,10 +494,10 @@ static bool refuse_for_gallery(int option, Message *message)
 OptionsResult options_read(Options *options, const Usage *usage, int argc, char *argv[],
                            Message *message)
 {
-    *options = (Options){.width = usage->width ? usage->width : 400,
-                         .height = usage->height ? usage->height : 400,
+    *options = (Options){.width = usage->width ? usage->width : OPTIONS_SIDE,
+                         .height = usage->height ? usage->height : OPTIONS_SIDE,
                          .frames = 1,
-                         .fps = 30,
+                         .fps = OPTIONS_FPS,
                          .compress = IMAGE_COMPRESS_DEFAULT};
     optind = 0; /* from the beginning, however often this is called */
     opterr = 0;
@@ -531,7 +515,7 @@ OptionsResult options_read(Options *options, const Usage *usage, int argc, char 
             return OPTIONS_ANSWERED;
         }
         if (option == '?' || option == ':') {
-            bad_option(all, option, argc, argv, message);
+            options_refuse(all, option, argc, argv, message);
             return OPTIONS_BAD;
         }
         if (usage->gallery && refuse_for_gallery(option, message))
@@ -577,9 +561,18 @@ static void end_by_signal(int number)
     raise(number); /* delivered when this returns */
 }
 
-void options_prepare_process(void)
+void options_catch_signals(void (*handler)(int), int flags)
 {
     static const int ending[] = {SIGINT, SIGTERM, SIGHUP};
+    const struct sigaction action = {.sa_handler = handler, .sa_flags = flags};
+    struct sigaction before;
+    for (size_t i = 0; i < sizeof ending / sizeof ending[0]; i++)
+        if (sigaction(ending[i], NULL, &before) == 0 && before.sa_handler != SIG_IGN)
+            sigaction(ending[i], &action, NULL);
+}
+
+void options_prepare_process(void)
+{
     for (int file = 0; file <= 2; file++) {
         /* Read-only for the outputs too, so that writing to what was closed fails. */
         if (fcntl(file, F_GETFD) < 0 && errno == EBADF)
@@ -587,13 +580,7 @@ void options_prepare_process(void)
     }
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);
-    for (size_t i = 0; i < sizeof ending / sizeof ending[0]; i++) {
-        const struct sigaction action = {.sa_handler = end_by_signal, .sa_flags = SA_RESTART};
-        struct sigaction before;
-        /* What whoever started this had ignored stays so: nohup, a shell's background. */
-        if (sigaction(ending[i], NULL, &before) == 0 && before.sa_handler != SIG_IGN)
-            sigaction(ending[i], &action, NULL);
-    }
+    options_catch_signals(end_by_signal, SA_RESTART);
 }
 
 int options_fail(const char *program, const Message *message, int code)

@@ -17,6 +17,9 @@ enum {
 
 enum { FRAMES_MOST = 1000000 };
 
+/* Of a picture in pixels, where neither --size nor the program says more; and without --fps. */
+enum { OPTIONS_SIDE = 400, OPTIONS_FPS = 30 };
+
 /* The lecture's animations turn at this pace, so an angle is a time. */
 enum { OPTIONS_DEGREES_PER_SECOND = 30 };
 
@@ -78,6 +81,15 @@ typedef enum OptionsResult { OPTIONS_RUN, OPTIONS_ANSWERED, OPTIONS_BAD } Option
  * OPTIONS_BAD: a usage error, with its message. */
 OptionsResult options_read(Options *options, const Usage *usage, int argc, char *argv[],
                            Message *message);
+
+/* getopt_long's '?' and ':' as a message, with the option that was meant, perhaps; false. `all` has
+ * at most as many options as a program here can have. */
+struct option;
+bool options_refuse(const struct option *all, int result, int argc, char *argv[], Message *message);
+
+/* Has a handler, with sigaction's flags, for the signals by which people and systems end a process.
+ * What whoever started it had ignored stays so: nohup, a shell's background. */
+void options_catch_signals(void (*handler)(int), int flags);
 
 /* The edge of a program: opens /dev/null in the place of closed standard streams (a picture must
  * not land in a file that took the number of standard output), turns signals about broken pipes and

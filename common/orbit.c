@@ -1,5 +1,20 @@
 #include "orbit.h"
 
+#include "parse.h"
+
+#include <stdio.h>
+
+/* Times that from eye to center. */
+static double distance_of(Orbit orbit)
+{
+    return orbit.distance > 0 ? orbit.distance : 1;
+}
+
+static bool moves(Orbit orbit)
+{
+    return orbit.azimuth != 0 || orbit.elevation != 0 || distance_of(orbit) != 1;
+}
+
 /* `axis` need not be unit. */
 static Vec3 turn(Vec3 vector, double degrees, Vec3 axis)
 {
@@ -10,10 +25,9 @@ static Vec3 turn(Vec3 vector, double degrees, Vec3 axis)
 
 void orbit_move(Orbit orbit, Vec3 *eye, Vec3 center, Vec3 *up)
 {
-    const double distance = orbit.distance > 0 ? orbit.distance : 1;
-    if (orbit.azimuth == 0 && orbit.elevation == 0 && distance == 1)
+    if (!moves(orbit))
         return;
-    Vec3 back = vec3_scale(vec3_subtract(*eye, center), distance), right;
+    Vec3 back = vec3_scale(vec3_subtract(*eye, center), distance_of(orbit)), right;
     if (vec3_normalize(vec3_cross(*up, back), &right)) {
         const Vec3 axis = *up;
         if (orbit.elevation != 0) {
@@ -24,4 +38,18 @@ void orbit_move(Orbit orbit, Vec3 *eye, Vec3 center, Vec3 *up)
         *up = turn(*up, orbit.azimuth, axis);
     }
     *eye = vec3_add(center, back);
+}
+
+bool orbit_text(Orbit orbit, char text[96])
+{
+    char azimuth[32], elevation[32], distance[32];
+    const bool near = distance_of(orbit) == 1;
+    text[0] = '\0';
+    if (!moves(orbit))
+        return false;
+    parse_number_text(orbit.azimuth, azimuth);
+    parse_number_text(orbit.elevation, elevation);
+    parse_number_text(distance_of(orbit), distance);
+    snprintf(text, 96, "%s,%s%s%s", azimuth, elevation, near ? "" : ",", near ? "" : distance);
+    return true;
 }

@@ -17,4 +17,8 @@ typedef struct Orbit {
  * looks along `up`, there is no right and no higher: only the distance changes. */
 void orbit_move(Orbit orbit, Vec3 *eye, Vec3 center, Vec3 *up);
 
+/* Writes it as --orbit takes it, "30,-10" or "30,-10,0.5". False, and an empty text, where it moves
+ * nothing. */
+bool orbit_text(Orbit orbit, char text[96]);
+
 #endif

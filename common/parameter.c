@@ -30,24 +30,21 @@ static bool read_choice(const Parameter *parameter, const char *text, Message *m
 
 static bool read_color(const Parameter *parameter, const char *text, Vec3 *color)
 {
-    char copy[128], *rest = copy;
+    const double least[] = {parameter->least, parameter->least, parameter->least};
+    const double most[] = {parameter->most, parameter->most, parameter->most};
     double values[3];
-    int count = 0;
-    if (snprintf(copy, sizeof copy, "%s", text) >= (int)sizeof copy)
+    const int count = parse_numbers(text, least, most, values);
+    if (count != 1 && count != 3)
         return false;
-    for (char *part; (part = strsep(&rest, ",")) != NULL; count++)
-        if (count == 3 || !parse_number(part, parameter->least, parameter->most, &values[count]))
-            return false;
     if (count == 1)
         values[1] = values[2] = values[0];
     *color = (Vec3){values[0], values[1], values[2]};
-    return count == 1 || count == 3;
+    return true;
 }
 
 bool parameter_read(const Parameter *parameter, const char *text, Message *message)
 {
     const double least = parameter->least, most = parameter->most;
-    double number;
     switch (parameter->kind) {
     case PARAMETER_NUMBER:
         if (parse_number(text, least, most, parameter->value))
@@ -55,11 +52,10 @@ bool parameter_read(const Parameter *parameter, const char *text, Message *messa
         return message_set(message, "--%s %s: must be a number, %g to %g", parameter->name, text,
                            least, most);
     case PARAMETER_WHOLE:
-        if (!parse_number(text, least, most, &number) || number != floor(number))
-            return message_set(message, "--%s %s: must be a whole number, %g to %g",
-                               parameter->name, text, least, most);
-        *(int *)parameter->value = (int)number;
-        return true;
+        if (parse_whole(text, (int)least, (int)most, parameter->value))
+            return true;
+        return message_set(message, "--%s %s: must be a whole number, %g to %g", parameter->name,
+                           text, least, most);
     case PARAMETER_CHOICE:
         return read_choice(parameter, text, message);
     case PARAMETER_SWITCH:

@@ -1,5 +1,6 @@
 #include "parse.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -38,6 +39,27 @@ bool parse_number(const char *text, double least, double most, double *number)
         return false;
     *number = value;
     return true;
+}
+
+bool parse_whole(const char *text, int least, int most, int *number)
+{
+    double value;
+    if (!parse_number(text, least, most, &value) || value != floor(value))
+        return false;
+    *number = (int)value;
+    return true;
+}
+
+int parse_numbers(const char *text, const double least[3], const double most[3], double numbers[3])
+{
+    char copy[128], *rest = copy;
+    int count = 0;
+    if (snprintf(copy, sizeof copy, "%s", text) >= (int)sizeof copy)
+        return 0;
+    for (char *part; (part = strsep(&rest, ",")) != NULL; count++)
+        if (count == 3 || !parse_number(part, least[count], most[count], &numbers[count]))
+            return 0;
+    return count;
 }
 
 void parse_number_text(double number, char text[32])

@@ -14,6 +14,13 @@ bool parse_size(const char *text, int *width, int *height);
 /* A finite decimal number within least..most, and nothing else. */
 bool parse_number(const char *text, double least, double most, double *number);
 
+/* A whole number within least..most, and nothing else. */
+bool parse_whole(const char *text, int least, int most, int *number);
+
+/* One to three numbers with commas between, the i-th within least[i]..most[i]; returns how many, 0
+ * where it is anything else. */
+int parse_numbers(const char *text, const double least[3], const double most[3], double numbers[3]);
+
 /* Writes a finite number in the fewest digits, 15 to 17, from which parse_number makes the very
  * same one. */
 void parse_number_text(double number, char text[32]);

@@ -5,9 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Each check leaves a message that begins with its subject, "light 2: cutoff". */
-
-/* Squares of distances must fit into a float. */
 const char *const REFLECTION_NAMES[] = {
     [REFLECTION_BLINN_PHONG] = "blinn-phong", [REFLECTION_PHONG] = "phong", NULL};
 const char *const INTERPOLATION_NAMES[] = {[INTERPOLATION_PHONG] = "phong",
@@ -15,6 +12,9 @@ const char *const INTERPOLATION_NAMES[] = {[INTERPOLATION_PHONG] = "phong",
                                            [INTERPOLATION_FLAT] = "flat",
                                            NULL};
 
+/* Each check leaves a message that begins with its subject, "light 2: cutoff". */
+
+/* Squares of distances must fit into a float. */
 static const double MOST_POSITION = 1e15;
 
 static bool in_range(Vec3 v)

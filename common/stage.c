@@ -343,12 +343,11 @@ bool stage_renew(const Example *example, const Options *options, Message *messag
     return example->init(&options->shaders, message);
 }
 
-static void write_effects(const Example *example, int number, const Scene *scene, FILE *file)
+static void write_effects(const Example *example, int view, const Scene *scene, int object,
+                          FILE *file)
 {
-    for (int i = 0; i < scene->object_count; i++) {
-        fprintf(file, "# %s, view %d, object %d\n", example->name, number, i);
-        effects_explain(scene, &scene->objects[i], file);
-    }
+    fprintf(file, "# %s, view %d, object %d\n", example->name, view, object);
+    effects_explain(scene, &scene->objects[object], file);
 }
 
 void stage_effects(const Example *example, const Options *options, FILE *file)
@@ -356,7 +355,8 @@ void stage_effects(const Example *example, const Options *options, FILE *file)
     for (int number = 0; number < view_count(example); number++) {
         View view;
         if (view_open(&view, example, options, options->seconds, number, NULL))
-            write_effects(example, number, &view.scene, file);
+            for (int i = 0; i < view.scene.object_count; i++)
+                write_effects(example, number, &view.scene, i, file);
         view_close(&view);
     }
 }
@@ -368,8 +368,7 @@ static bool explain_view(const Example *example, const Options *options, int num
     bool done = view_open(&view, example, options, options->seconds, number, message);
     for (int i = 0; i < view.scene.object_count && done; i++) {
         const Object *object = &view.scene.objects[i];
-        printf("# %s, view %d, object %d\n", example->name, number, i);
-        effects_explain(&view.scene, object, stdout);
+        write_effects(example, number, &view.scene, i, stdout);
         const int programs = lighting_counts(view.lighting).programs;
         done = lighting_program(view.lighting, &view.scene, object, options->full, message) != 0;
         if (done && lighting_counts(view.lighting).programs > programs)
@@ -430,23 +429,10 @@ static void divide_by_alpha(Image *image)
     }
 }
 
-/* " --orbit 30,-10,0.5"; nothing where the camera was not moved. */
-static void orbit_text(Orbit orbit, char text[128])
-{
-    char azimuth[32], elevation[32], distance[32];
-    text[0] = '\0';
-    if (orbit.azimuth == 0 && orbit.elevation == 0 && (orbit.distance <= 0 || orbit.distance == 1))
-        return;
-    parse_number_text(orbit.azimuth, azimuth);
-    parse_number_text(orbit.elevation, elevation);
-    parse_number_text(orbit.distance > 0 ? orbit.distance : 1, distance);
-    snprintf(text, 128, " --orbit %s,%s,%s", azimuth, elevation, distance);
-}
-
 bool stage_picture(const Example *example, const Canvas *canvas, const Options *options,
                    double seconds, Picture *picture, Message *message)
 {
-    char number[32], orbit[128];
+    char number[32], orbit[96];
     Image *image = &picture->image;
     if (image->width != canvas->width || image->height != canvas->height) {
         const ImageType type = image->type;
@@ -476,10 +462,11 @@ bool stage_picture(const Example *example, const Canvas *canvas, const Options *
     snprintf(picture->title, sizeof picture->title, "%s", example->name);
     parse_number_text(seconds, number);
     snprintf(picture->moment, sizeof picture->moment, "%s s", number);
-    orbit_text(options->orbit, orbit);
+    const bool moved = orbit_text(options->orbit, orbit);
     snprintf(picture->settings, sizeof picture->settings,
-             "--size %dx%d --samples %d%s%s%s%s; backend %s, %s; %s", canvas->width, canvas->height,
-             options->canvas.samples, orbit, options->shaders.precision ? " --precision " : "",
+             "--size %dx%d --samples %d%s%s%s%s%s; backend %s, %s; %s", canvas->width,
+             canvas->height, options->canvas.samples, moved ? " --orbit " : "", orbit,
+             options->shaders.precision ? " --precision " : "",
              options->shaders.precision ? options->shaders.precision : "",
              options->alpha ? " --alpha" : "", canvas->backend->name, canvas->platform,
              canvas->renderer);

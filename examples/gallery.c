@@ -5,6 +5,7 @@
  * pictures, what each teaches, and the command that draws it. While other threads encode one
  * picture the next is drawn.
  */
+#include "command.h"
 #include "output.h"
 #include "parse.h"
 #include "progress.h"
@@ -139,21 +140,26 @@ static void sheet_label(Image *sheet, const Selection *selection, const char *pr
     }
 }
 
-/* The options that make a difference to a picture, as one types them. */
-static void print_options(FILE *file, const Options *options)
+/* The options for one example: its picture has the size that is asked for, or the example's own. */
+static Options options_of(const Example *example, const Options *options)
 {
-    if (options->width != 400 || options->height != 400)
-        fprintf(file, " --size %dx%d", options->width, options->height);
-    if (options->seconds != 0)
-        fprintf(file, " --time %.15g", options->seconds);
-    if (options->canvas.samples)
-        fprintf(file, " --samples %d", options->canvas.samples);
-    if (options->shaders.precision)
-        fprintf(file, " --precision %s", options->shaders.precision);
-    if (options->shaders.folder)
-        fprintf(file, " --shaders ...");
-    if (options->alpha)
-        fprintf(file, " --alpha");
+    Options own = *options;
+    if (!options->size_given && example->width)
+        own.width = example->width;
+    if (!options->size_given && example->height)
+        own.height = example->height;
+    return own;
+}
+
+/* The command that draws its picture, to a file of its own. A folder of shaders may be anywhere. */
+static void print_command(FILE *file, const Example *example, const Options *options)
+{
+    char command[512]; /* none is longer */
+    Options own = options_of(example, options);
+    own.output_given = false;
+    own.shaders.folder = own.shaders.folder ? "..." : NULL;
+    command_write(example, &own, NULL, command, sizeof command);
+    fprintf(file, "examples/run %s", command);
 }
 
 static bool write_page(const char *folder, const Selection *selection, const Options *options,
@@ -180,10 +186,9 @@ static bool write_page(const char *folder, const Selection *selection, const Opt
         fprintf(
             file,
             "<figure>\n<a href=\"%s.png\"><img src=\"%s.png\" alt=\"%s\" loading=\"lazy\"></a>\n"
-            "<figcaption><strong>%s</strong><br>%s<br><code>examples/run %s",
-            example->name, example->name, example->name, example->name, example->summary,
-            example->name);
-        print_options(file, options);
+            "<figcaption><strong>%s</strong><br>%s<br><code>",
+            example->name, example->name, example->name, example->name, example->summary);
+        print_command(file, example, options);
         fputs("</code></figcaption>\n</figure>\n", file);
     }
     fputs("</main>\n</body>\n</html>\n", file);
@@ -199,10 +204,8 @@ static bool write_page(const char *folder, const Selection *selection, const Opt
 static bool draw(const Example *example, int index, Canvas *canvas, const Options *options,
                  PictureQueue *queue, Image *sheet, Message *message)
 {
-    /* The size that is asked for, or the example's own. */
-    const bool own = !options->size_given && example->width;
-    if (!canvas_resize(canvas, own ? example->width : options->width,
-                       own ? example->height : options->height, message) ||
+    const Options own = options_of(example, options);
+    if (!canvas_resize(canvas, own.width, own.height, message) ||
         !stage_enter(example, options, message))
         return false;
     Picture *picture = picture_queue_take(queue);

@@ -629,6 +629,21 @@ class Gallery(Case):
             self.assertEqual(self.png("one.png").pixels, self.png(f"pictures/{program}.png").pixels)
             self.assertIn(f"<code>examples/run {program} --size 40x40</code>", page)
 
+    def test_the_page_has_the_commands_that_draw_its_pictures(self):
+        # The second one's own size is not that of most.
+        self.gallery("LightedCube", "ShininessRow", "--orbit", "30,-10", "--samples", "4",
+                     "--alpha", "-t", "0.1", "--shaders", os.path.join(SOURCE, "shaders"))
+        page = self.read("gallery/index.html").decode()
+        for program in "LightedCube", "ShininessRow":
+            said = f"{program} --time 0.1 --samples 4 --orbit 30,-10 --shaders ... --alpha"
+            self.assertIn(f"<code>examples/run {said}</code>", page)
+            words = said.replace("--shaders ...", "").split()[1:]
+            self.good(*words, "-o", "one.png", program=program)
+            self.assertEqual(self.png("one.png").pixels, self.png(f"gallery/{program}.png").pixels)
+        self.gallery("ShininessRow", "-s", "400x400")
+        self.assertIn("<code>examples/run ShininessRow --size 400x400</code>",
+                      self.read("gallery/index.html").decode())
+
     def test_those_named_are_drawn_into_the_default_folder(self):
         self.gallery("PointLightedCube", *SMALL, "LightedCube")
         self.assertEqual(sorted(os.listdir(self.path("gallery"))),
