@@ -186,9 +186,9 @@ static bool make_canvas(Canvas *canvas, const CanvasOptions *options, Message *m
 }
 
 /* What is drawn reaches a window by a copy. */
-static bool check_window(const Canvas *canvas, Message *message)
+static bool check_presents(const Canvas *canvas, Message *message)
 {
-    return canvas->backend != &CANVAS_WINDOW || glBlitFramebuffer ||
+    return !canvas->backend->presents || glBlitFramebuffer ||
            message_set(message,
                        "window: %s cannot copy to it (OpenGL ES 3 or GL_ANGLE_framebuffer_blit); "
                        "leave out --window to draw to a file",
@@ -223,7 +223,7 @@ bool canvas_open(Canvas *canvas, const CanvasOptions *options, Message *message)
         enum { PROGRAM_POINT_SIZE = 0x8642 };
         if (gl_desktop())
             glEnable(PROGRAM_POINT_SIZE);
-        if (check_window(canvas, message) && make_canvas(canvas, options, message))
+        if (check_presents(canvas, message) && make_canvas(canvas, options, message))
             return true;
     }
     canvas_close(canvas);
@@ -253,6 +253,13 @@ void canvas_begin(const Canvas *canvas)
     glBindFramebuffer(GL_FRAMEBUFFER, canvas->framebuffer);
     glDisable(GL_SCISSOR_TEST);
     glViewport(0, 0, canvas->width * canvas->supersample, canvas->height * canvas->supersample);
+}
+
+void canvas_clear(const Canvas *canvas, Vec3 color, double alpha)
+{
+    canvas_begin(canvas);
+    glClearColor((float)color.x, (float)color.y, (float)color.z, (float)alpha);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
 void canvas_view(const Canvas *canvas, int x, int y, int width, int height)
@@ -393,20 +400,24 @@ bool canvas_check(const Canvas *canvas, Message *message)
                                                                 : "nobody knows by whom");
 }
 
-void canvas_present(const Canvas *canvas, int width, int height)
+/* Copies the framebuffer that is bound to framebuffer 0. `turned`: its first row is the upper one.
+ */
+static void present(int from_width, int from_height, int width, int height, bool turned)
 {
-    const int drawn_width = canvas->width * canvas->supersample;
-    const int drawn_height = canvas->height * canvas->supersample;
-    const bool equal = width == drawn_width && height == drawn_height;
-    const GLuint drawn = canvas->samples ? canvas->resolve_framebuffer : canvas->framebuffer;
-    resolve(canvas);
+    const bool equal = width == from_width && height == from_height;
     glDisable(GL_SCISSOR_TEST);
-    glBindFramebuffer(GL_READ_FRAMEBUFFER_ANGLE, drawn);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER_ANGLE, 0);
-    glBlitFramebuffer(0, 0, drawn_width, drawn_height, 0, 0, width, height, GL_COLOR_BUFFER_BIT,
-                      equal ? GL_NEAREST : GL_LINEAR);
+    glBlitFramebuffer(0, 0, from_width, from_height, 0, turned ? height : 0, width,
+                      turned ? 0 : height, GL_COLOR_BUFFER_BIT, equal ? GL_NEAREST : GL_LINEAR);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glViewport(0, 0, width, height);
+}
+
+void canvas_present(const Canvas *canvas, int width, int height)
+{
+    const int side = canvas->supersample;
+    resolve(canvas);
+    present(canvas->width * side, canvas->height * side, width, height, false);
 }
 
 bool canvas_present_image(const Image *image, int width, int height, Message *message)
@@ -418,16 +429,9 @@ bool canvas_present_image(const Image *image, int width, int height, Message *me
                  GL_UNSIGNED_BYTE, image->pixels);
     glBindTexture(GL_TEXTURE_2D, 0);
     glGenFramebuffers(1, &framebuffer);
-    glBindFramebuffer(GL_READ_FRAMEBUFFER_ANGLE, framebuffer);
-    glFramebufferTexture2D(GL_READ_FRAMEBUFFER_ANGLE, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture,
-                           0);
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER_ANGLE, 0);
-    glDisable(GL_SCISSOR_TEST);
-    /* Its first row is the upper one. */
-    glBlitFramebuffer(0, 0, image->width, image->height, 0, height, width, 0, GL_COLOR_BUFFER_BIT,
-                      GL_NEAREST);
-    glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    glViewport(0, 0, width, height);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
+    present(image->width, image->height, width, height, true);
     glDeleteFramebuffers(1, &framebuffer);
     glDeleteTextures(1, &texture);
     const GLenum error = glGetError();

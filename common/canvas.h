@@ -1,15 +1,16 @@
 /*
  * canvas: a place to draw, and the way to read back what was drawn.
  *
- * A backend (EGL now; others join the table in canvas.c) makes an OpenGL ES 2 context current; the
- * canvas draws into framebuffer objects of its own, so that every backend has the same formats,
- * size and antialiasing. One canvas is open at a time.
+ * A backend makes an OpenGL ES 2 context current; the canvas draws into framebuffer objects of its
+ * own, so that every backend has the same formats, size and antialiasing. One canvas is open at a
+ * time.
  */
 #ifndef CANVAS_H
 #define CANVAS_H
 
 #include "gl.h"
 #include "image.h"
+#include "matrix.h"
 
 typedef struct CanvasOptions CanvasOptions;
 
@@ -18,6 +19,7 @@ typedef struct CanvasOptions CanvasOptions;
 typedef struct CanvasBackend {
     const char *name;
     const char *summary;
+    bool presents; /* framebuffer 0 is a window's, for canvas_present */
     bool (*open)(void **context, const CanvasOptions *options, const char **platform,
                  Message *message);
     GlFunction (*address)(const char *name);
@@ -81,6 +83,9 @@ bool canvas_resize(Canvas *canvas, int width, int height, Message *message);
  */
 void canvas_begin(const Canvas *canvas);
 
+/* The same, and clears all of it to a colour, and to the depth that is farthest away. */
+void canvas_clear(const Canvas *canvas, Vec3 color, double alpha);
+
 /* Limits drawing, until canvas_begin, to the rectangle whose upper left pixel is (x, y), row 0
  * being the top. */
 void canvas_view(const Canvas *canvas, int x, int y, int width, int height);
@@ -90,7 +95,7 @@ void canvas_view(const Canvas *canvas, int x, int y, int width, int height);
 bool canvas_check(const Canvas *canvas, Message *message);
 
 /* Copies what was drawn, or an image of bytes, to framebuffer 0, that of a window, whose size is
- * given, and leaves that bound. With supersampling, and where the sizes differ, pixels are
+ * given, and leaves that bound. Where the sizes differ, as with supersampling, pixels are
  * interpolated. */
 void canvas_present(const Canvas *canvas, int width, int height);
 bool canvas_present_image(const Image *image, int width, int height, Message *message);

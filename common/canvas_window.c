@@ -446,6 +446,7 @@ static bool window_doctor(void)
 const CanvasBackend CANVAS_WINDOW = {
     .name = "window",
     .summary = "on a display, in a window of GLFW",
+    .presents = true,
     .open = window_open,
     .address = window_address,
     .current = window_current,

@@ -24,7 +24,6 @@
     X(BINDRENDERBUFFER, BindRenderbuffer)                                                          \
     X(BINDTEXTURE, BindTexture)                                                                    \
     X(BLENDEQUATIONSEPARATE, BlendEquationSeparate)                                                \
-    X(BLENDFUNC, BlendFunc)                                                                        \
     X(BLENDFUNCSEPARATE, BlendFuncSeparate)                                                        \
     X(BUFFERDATA, BufferData)                                                                      \
     X(BUFFERSUBDATA, BufferSubData)                                                                \

@@ -85,7 +85,6 @@ typedef struct PanelDrawing {
 typedef struct PanelResult {
     PanelView view;       /* after a click on the title another one */
     uint32_t changed;     /* bit i: parameter number i was given another value */
-    bool copied;          /* the command, to the clipboard */
     bool wants_pointer;   /* pointer and scroll wheel are the panel's, in this frame */
     bool wants_keys;      /* and so are keys and characters */
     PanelDrawing drawing; /* lasts until the next frame */

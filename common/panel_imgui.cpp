@@ -686,17 +686,15 @@ float effects_section(const Context &context, const PanelContent &content, float
     return height;
 }
 
-bool command_section(Context &context, const PanelContent &content)
+void command_section(Context &context, const PanelContent &content)
 {
     if (!content.command || !ImGui::CollapsingHeader("Command", ImGuiTreeNodeFlags_DefaultOpen))
-        return false;
+        return;
     ImGui::PushFont(context.mono);
     put_wrapped(content.command);
     ImGui::PopFont();
-    if (!ImGui::Button("Copy"))
-        return false;
-    ImGui::SetClipboardText(content.command);
-    return true;
+    if (ImGui::Button("Copy"))
+        ImGui::SetClipboardText(content.command);
 }
 
 // The windows.
@@ -718,7 +716,7 @@ void sections(Context &context, const PanelContent &content, float most, PanelRe
     result.changed = parameters_section(context, content);
     cost_section(content);
     const float effects = effects_section(context, content, most);
-    result.copied = command_section(context, content);
+    command_section(context, content);
     const float height = ImGui::GetCursorPosY() + ImGui::GetScrollY() +
                          ImGui::GetStyle().WindowPadding.y - ImGui::GetStyle().ItemSpacing.y;
     context.other_height = height - effects;

@@ -19,8 +19,8 @@
 #ifndef REFERENCE_H
 #define REFERENCE_H
 
-#include "stop.h"
 #include "scene.h"
+#include "stop.h"
 
 typedef struct ReferenceOptions {
     int width, height; /* 1 and more */

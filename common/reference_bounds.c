@@ -52,7 +52,7 @@ static int bin_of(Real value, Real low, Real high)
 {
     /* No number, or infinite, where the box is too small or too large to be divided. */
     const Real share = (value - low) / (high - low);
-    const int bin = share > 0 && share < 1 ? (int)(BINS * share) : share >= 1 ? BINS - 1 : 0;
+    const int bin = share > 0 ? (int)(BINS * (share < 1 ? share : 1)) : 0;
     return bin < BINS ? bin : BINS - 1;
 }
 

@@ -10,7 +10,7 @@
 #include "image.h"
 #include "reference.h"
 
-/* One pixel. Bytes and floats have no rounding error that a double could not hold. */
+/* Of one pixel. */
 typedef struct PixelError {
     double largest; /* of the channels, 0..255 */
     double squares; /* their sum */

@@ -8,8 +8,8 @@
 #define REFERENCE_TRACE_H
 
 #include "reference_real.h"
-#include "stop.h"
 #include "scene.h"
+#include "stop.h"
 
 #include <stdint.h>
 

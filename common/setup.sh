@@ -15,7 +15,8 @@ build=${LIGHTING_BUILD:-$root/build}
 # To build and draw; the rest of what EGL needs at run time comes with these.
 packages_to_draw="gcc g++ libc6-dev pkg-config meson ninja-build libegl-dev libgles-dev libegl1
     libegl-mesa0 libglfw3-dev libgl1-mesa-dri libpng-dev libopenimageio-dev libassimp-dev
-    libimgui-dev fonts-dejavu-core libarchive-dev libjansson-dev libseccomp-dev"
+    libimgui-dev fonts-dejavu-core libarchive-dev libjansson-dev libseccomp-dev
+    zlib1g-dev"
 # Of the programs in examples/study: plots, and counts of operations.
 packages_to_study="gnuplot-nox glslang-tools spirv-tools"
 # Of `check`: each submission of a class in a sandbox.

@@ -213,28 +213,25 @@ static bool draw_view(const Example *example, const Options *options, double sec
     return done;
 }
 
-static void clear(const Example *example, const Options *options, double seconds)
+/* The colour behind everything. */
+static Vec3 background(const Example *example, double seconds)
 {
-    Vec3 color = {(double)example->clear_color[0], (double)example->clear_color[1],
-                  (double)example->clear_color[2]};
-    if (example->scene) {
-        Scene scene = {.object_count = 0};
-        example->scene(seconds, 0, &scene);
-        color = scene.background;
-    }
-    if (options->alpha)
-        glClearColor(0, 0, 0, 0);
-    else
-        glClearColor((float)color.x, (float)color.y, (float)color.z, 1);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    Scene scene = {.object_count = 0};
+    if (!example->scene)
+        return (Vec3){(double)example->clear_color[0], (double)example->clear_color[1],
+                      (double)example->clear_color[2]};
+    example->scene(seconds, 0, &scene);
+    return scene.background;
 }
 
 /* `bare`: without marks. */
 static bool draw(const Example *example, const Canvas *canvas, const Options *options,
                  double seconds, bool bare, Message *message)
 {
-    canvas_begin(canvas);
-    clear(example, options, seconds);
+    if (options->alpha)
+        canvas_clear(canvas, (Vec3){0, 0, 0}, 0);
+    else
+        canvas_clear(canvas, background(example, seconds), 1);
     if (!example->scene) {
         const Frame frame = {.seconds = seconds,
                              .aspect = (double)canvas->width / canvas->height,

@@ -224,11 +224,8 @@ static bool draw(Viewer *viewer)
 
 static void show_nothing(const Viewer *viewer)
 {
-    glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    glDisable(GL_SCISSOR_TEST);
-    glViewport(0, 0, viewer->input.width, viewer->input.height);
-    glClearColor(0, 0, 0, 1);
-    glClear(GL_COLOR_BUFFER_BIT);
+    canvas_clear(viewer->canvas, (Vec3){0, 0, 0}, 1);
+    canvas_present(viewer->canvas, viewer->input.width, viewer->input.height);
 }
 
 /* Draws, and copies to the window. Trouble with the picture is no end: the moment, the size or the

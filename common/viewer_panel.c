@@ -76,25 +76,24 @@ static bool same_picture(const Options *a, const Options *b)
 
 /* Has the error computed of a picture that is another one by now: at once where somebody has
  * changed a parameter, and twice a second as time goes on. */
-static bool appraise(ViewerPanel *panel, const Canvas *canvas, const Options *options,
-                     Message *message)
+static void appraise(ViewerPanel *panel, const Canvas *canvas, const Options *options)
 {
     AppraisePicture picture;
     const double now = progress_now();
     if (!panel->example->scene || (!panel->stale && same_picture(&panel->appraised, options)))
-        return true;
+        return;
     if (!panel->stale &&
         (appraise_busy(panel->appraise) || now - panel->appraised_time < APPRAISE_SECONDS))
-        return true;
+        return;
     if (panel->stale)
         appraise_cancel(panel->appraise);
-    if (!stage_appraise(panel->example, canvas, options, options->seconds, &picture, message))
-        return false;
+    /* Where it cannot be drawn the frame itself says why. */
+    if (!stage_appraise(panel->example, canvas, options, options->seconds, &picture, NULL))
+        return;
     appraise_start(panel->appraise, &picture);
     panel->appraised = *options;
     panel->appraised_time = now;
     panel->stale = false;
-    return true;
 }
 
 static PanelError known_error(const ViewerPanel *panel)
@@ -117,10 +116,8 @@ bool viewer_panel_frame(ViewerPanel *panel, const WindowInput *input, double sec
     panel->result = (PanelResult){.view = panel->view};
     if (!panel->panel)
         return true;
-    const bool wanted = panel->view == PANEL_OPEN && on_stage && !trouble->text[0];
-    if (wanted && !appraise(panel, canvas, options, message))
-        return true; /* the frame itself says why, and may go on */
-    if (wanted) {
+    if (panel->view == PANEL_OPEN && on_stage && !trouble->text[0]) {
+        appraise(panel, canvas, options);
         explain(panel, options);
         command_write(panel->example, options, panel->defaults, panel->command,
                       sizeof panel->command);

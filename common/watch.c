@@ -231,23 +231,22 @@ static bool follow(Way *way, const char *path)
 
 /* Watches for every name on the way to a path, as far as there is a way. Each folder is watched
  * before it is looked into, so that no change falls between. */
-static bool watch_path(Watch *watch, const char *path)
+static void watch_path(Watch *watch, const char *path)
 {
     enum { MOST_STEPS = 1000 }; /* links can lead in circles */
     Way way;
     char name[NAME_MAX + 1], next[PATH_MAX + NAME_MAX + 2];
     snprintf(way.folder, sizeof way.folder, "%s", path[0] == '/' ? "/" : ".");
     if (snprintf(way.rest, sizeof way.rest, "%s", path) >= PATH_MAX)
-        return true; /* no file has such a name */
+        return; /* no file has such a name */
     for (int i = 0; i < MOST_STEPS && next_name(&way, name); i++) {
         const bool last = !way.rest[strspn(way.rest, "/")];
         if (!watch_name(watch, way.folder, name, last))
-            return false;
+            break;
         snprintf(next, sizeof next, "%s/%s", strcmp(way.folder, "/") == 0 ? "" : way.folder, name);
         if (strlen(next) >= PATH_MAX || !follow(&way, next))
             break;
     }
-    return true;
 }
 
 static bool is_watched(const Place *places, int count, int folder)

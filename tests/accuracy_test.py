@@ -253,5 +253,4 @@ class Choices(Study):
 
 
 if __name__ == "__main__":
-    base.unittest = unittest
     sys.exit(base.main())

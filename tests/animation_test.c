@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "animation.h"
+#include "testing.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -23,7 +24,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-static char folder[] = "/tmp/animation_test-XXXXXX";
 static Message message;
 
 static int entries(void)
@@ -316,22 +316,7 @@ static void a_sink_that_fails_gets_no_more_pictures(void **state)
     }
 }
 
-static int enter_folder(void **state)
-{
-    (void)state;
-    memcpy(folder + sizeof folder - 7, "XXXXXX", 6);
-    return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    char command[128];
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    return chdir("/") == 0 ? system(command) : -1;
-}
-
-#define TEST(name) cmocka_unit_test_setup_teardown(name, enter_folder, remove_folder)
+#define TEST(name) cmocka_unit_test_setup_teardown(name, testing_enter_folder, testing_leave_folder)
 
 int main(void)
 {

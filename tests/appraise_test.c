@@ -9,6 +9,7 @@
 #include "picture_check.h"
 #include "progress.h"
 #include "stage.h"
+#include "testing.h"
 
 #include <stdarg.h>
 #include <stddef.h>
@@ -22,25 +23,13 @@
 #include <string.h>
 #include <time.h>
 
-#define SCENES(X)                                                                                  \
-    X(ShadingModels)                                                                               \
-    X(NormalMatrix)                                                                                \
-    X(TwoSidedLighting)                                                                            \
-    X(SpotLight)                                                                                   \
-    X(ShininessRow)                                                                                \
-    X(Materials)                                                                                   \
-    X(SmoothFlat)                                                                                  \
-    X(FourLights)                                                                                  \
-    X(LightTypes)                                                                                  \
-    X(PhongBlinn)
+#define X(NAME) extern const Example NAME;
+LIGHTING_EXAMPLES
+#undef X
 
-#define DECLARE(NAME) extern const Example NAME;
-SCENES(DECLARE)
-#undef DECLARE
-
-#define POINT_AT(NAME) &NAME,
-static const Example *const EXAMPLES[] = {SCENES(POINT_AT)};
-#undef POINT_AT
+#define X(NAME) &NAME,
+static const Example *const EXAMPLES[] = {LIGHTING_EXAMPLES};
+#undef X
 
 enum { EXAMPLE_COUNT = sizeof EXAMPLES / sizeof EXAMPLES[0], WIDTH = 200, HEIGHT = 150 };
 
@@ -83,12 +72,6 @@ static bool is_drawn(int way, int example)
 {
     const bool teapot = EXAMPLES[example] == &Materials || EXAMPLES[example] == &FourLights;
     return WAYS[way].teapots || !teapot;
-}
-
-static void require(bool done, const Message *message)
-{
-    if (!done)
-        fail_msg("%s", message->text);
 }
 
 /* The scene of a view from the example itself, changed as the options say. */

@@ -5,9 +5,10 @@
 #include "canvas.h"
 #include "mesh_buffer.h"
 #include "picture_check.h"
+#include "sanitized.h"
 #include "shader.h"
+#include "testing.h"
 
-#include <dirent.h>
 #include <dlfcn.h>
 #include <math.h>
 #include <setjmp.h>
@@ -18,17 +19,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <cmocka.h>
-
-#if defined(__SANITIZE_ADDRESS__)
-#define ADDRESS_SANITIZER true
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define ADDRESS_SANITIZER true
-#endif
-#endif
-#ifndef ADDRESS_SANITIZER
-#define ADDRESS_SANITIZER false
-#endif
 
 static const double PI = 3.14159265358979323846;
 static const Vec3 WHITE = {1, 1, 1}, RED = {1, 0, 0}, GREEN = {0, 1, 0}, BLUE = {0, 0, 1};
@@ -456,29 +446,6 @@ static void a_size_beyond_the_driver_is_refused_and_the_limit_named(void **state
 
 /* Opening, closing, and what is reported. */
 
-static int open_files(void)
-{
-    int count = 0;
-    DIR *folder = opendir("/proc/self/fd");
-    assert_non_null(folder);
-    while (readdir(folder))
-        count++;
-    closedir(folder);
-    return count;
-}
-
-static long resident_kib(void)
-{
-    char line[256];
-    long kib = 0;
-    FILE *file = fopen("/proc/self/status", "r");
-    assert_non_null(file);
-    while (!kib && fgets(line, sizeof line, file))
-        sscanf(line, "VmRSS: %ld kB", &kib);
-    fclose(file);
-    return kib;
-}
-
 static void a_canvas_opened_200_times_keeps_no_file_and_no_memory(void **state)
 {
     (void)state;
@@ -487,8 +454,8 @@ static void a_canvas_opened_200_times_keeps_no_file_and_no_memory(void **state)
     long memory = 0;
     for (int i = 0; i < WARM + TIMES; i++) {
         if (i == WARM) {
-            files = open_files();
-            memory = resident_kib();
+            files = testing_open_files();
+            memory = testing_resident_kib();
         }
         Canvas canvas = open_canvas((CanvasOptions){.width = SIDE, .height = SIDE});
         clear(1, 0, 0, 1);
@@ -497,9 +464,9 @@ static void a_canvas_opened_200_times_keeps_no_file_and_no_memory(void **state)
         image_close(&image);
         canvas_close(&canvas);
     }
-    const long grown = resident_kib() - memory;
+    const long grown = testing_resident_kib() - memory;
     print_message("%d openings: %ld KiB more\n", TIMES, grown);
-    assert_int_equal(open_files(), files);
+    assert_int_equal(testing_open_files(), files);
     /* Colour and depth of one canvas are 512 KiB, of all of them 100 MiB. The driver and the heap
      * keep some kilobytes for each context; one canvas in ten would be seen. The address
      * sanitizer's quarantine grows by itself, and leaks are told by it. */
@@ -638,6 +605,7 @@ static CanvasBackend hiding_backend(void)
     CanvasBackend hiding = *backend;
     memset(&hidden, 0, sizeof hidden);
     hiding.address = hiding_address;
+    hiding.presents = false; /* a window wants more than drawing does */
     return hiding;
 }
 
@@ -669,7 +637,7 @@ static void a_driver_that_gives_fewer_bits_than_asked_is_refused_and_they_are_na
 static void a_driver_of_opengl_es_2_alone_draws_with_what_it_has(void **state)
 {
     (void)state;
-    const CanvasBackend hiding = hiding_backend();
+    CanvasBackend hiding = hiding_backend();
     CanvasOptions options = {
         .backend = &hiding, .width = 8, .height = 8, .samples = 4, .real = true};
     hidden.version = "OpenGL ES 2.0 hidden";
@@ -693,6 +661,12 @@ static void a_driver_of_opengl_es_2_alone_draws_with_what_it_has(void **state)
     message = (Message){0};
     assert_false(canvas_open(&canvas, &options, &message));
     assert_non_null(strstr(message.text, "cannot draw to 8-bit RGBA (GL_OES_rgb8_rgba8)"));
+
+    hiding.presents = true;
+    message = (Message){0};
+    assert_false(canvas_open(&canvas, &options, &message));
+    assert_non_null(strstr(message.text, "cannot copy to it (OpenGL ES 3 or "
+                                         "GL_ANGLE_framebuffer_blit); leave out --window"));
 }
 
 /* Software never resets: a driver that says so stands for one that does. */

@@ -214,10 +214,7 @@ static bool draw_ours(int count, Message *message)
         return false;
     for (int i = 0; i < count; i++) {
         random_world(&world);
-        const Vec3 background = world.scene.background;
-        canvas_begin(&canvas);
-        glClearColor((float)background.x, (float)background.y, (float)background.z, 1);
-        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+        canvas_clear(&canvas, world.scene.background, 1);
         if (!scene_check(&world.scene, message) ||
             !lighting_draw(lighting, &world.scene, 1, false, message) ||
             !canvas_read(&canvas, &picture, message))

@@ -136,5 +136,4 @@ class Cases(Study):
 
 
 if __name__ == "__main__":
-    base.unittest = unittest
     sys.exit(base.main())

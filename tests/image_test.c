@@ -6,8 +6,8 @@
 
 #include "picture_check.h"
 #include "stage.h"
+#include "testing.h"
 
-#include <dirent.h>
 #include <fcntl.h>
 #include <float.h>
 #include <math.h>
@@ -533,17 +533,6 @@ static void an_unknown_extension_is_refused_and_nothing_is_written(void **state)
 
 /* Damaged files. */
 
-static int open_files(void)
-{
-    int count = 0;
-    DIR *files = opendir("/proc/self/fd");
-    assert_non_null(files);
-    while (readdir(files))
-        count++;
-    closedir(files);
-    return count;
-}
-
 static void write_bytes(const char *path, const void *bytes, size_t size)
 {
     FILE *file = fopen(path, "wb");
@@ -604,7 +593,7 @@ static void a_damaged_png_is_refused_or_read_right(void **state)
     Image image = random_bytes(41, 31, true);
     ImageFile file = encode_png(&image, &(ImageOptions){.compress = 1, .text = text});
     assert_false(refused_or_same(file.bytes, file.size, &image));
-    const int files = open_files();
+    const int files = testing_open_files();
     int refused = 0;
     /* The last 12 bytes, the end's chunk, have no part in the pixels. */
     for (size_t size = 0; size < file.size - 12; size += 64)
@@ -617,7 +606,7 @@ static void a_damaged_png_is_refused_or_read_right(void **state)
     }
     print_message("%d of %d files with one wrong bit are refused\n", refused, FLIPS);
     assert_true(refused > FLIPS * 9 / 10); /* nearly all of the file is pixels, guarded by sums */
-    assert_int_equal(open_files(), files);
+    assert_int_equal(testing_open_files(), files);
     image_file_close(&file);
     image_close(&image);
 }

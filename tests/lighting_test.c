@@ -62,10 +62,7 @@ static int close_all(void **state)
 static void draw(const Scene *scene, bool with_all, Image *picture)
 {
     Message message = {0};
-    const Vec3 b = scene->background;
-    canvas_begin(&canvas);
-    glClearColor((float)b.x, (float)b.y, (float)b.z, 1);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    canvas_clear(&canvas, scene->background, 1);
     if (!scene_check(scene, &message) || !lighting_draw(lighting, scene, 1, with_all, &message) ||
         !canvas_read(&canvas, picture, &message))
         fail_msg("%s", message.text);

@@ -5,7 +5,9 @@
 #include "live.h"
 #include "picture_check.h"
 #include "progress.h"
+#include "sanitized.h"
 #include "shape.h"
+#include "testing.h"
 
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,7 +15,6 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include <dirent.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,18 +22,6 @@
 #include <unistd.h>
 
 enum { SIZE = 48 };
-
-/* AddressSanitizer keeps what was freed. */
-#if defined(__SANITIZE_ADDRESS__)
-#define ADDRESS_SANITIZER true
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define ADDRESS_SANITIZER true
-#endif
-#endif
-#ifndef ADDRESS_SANITIZER
-#define ADDRESS_SANITIZER false
-#endif
 
 static const double PATIENCE = 20; /* seconds, after which a change is not told at all */
 
@@ -79,7 +68,6 @@ static const Example later = {
 
 /* Each test has a folder with a copy of the shaders, mine, and a canvas. */
 
-static char folder[] = "/tmp/live_test-XXXXXX";
 static Canvas canvas;
 static Options options;
 static Live live;
@@ -94,10 +82,8 @@ static void shell(const char *command)
 
 static int enter_folder(void **state)
 {
-    (void)state;
     unsetenv("LIGHTING_SHADERS");
-    memcpy(folder + sizeof folder - 7, "XXXXXX", 6);
-    if (!mkdtemp(folder) || chdir(folder) != 0)
+    if (testing_enter_folder(state) != 0)
         return -1;
     shell("cp -r " SHADERS_SOURCE " mine");
     options = (Options){.width = SIZE, .height = SIZE, .fps = 30, .shaders.folder = "mine"};
@@ -107,14 +93,11 @@ static int enter_folder(void **state)
 
 static int leave_folder(void **state)
 {
-    (void)state;
-    char command[128];
     live_close(&live);
     canvas_close(&canvas);
     image_close(&picture.image);
     image_close(&before.image);
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    return chdir("/") == 0 ? system(command) : -1;
+    return testing_leave_folder(state);
 }
 
 static void open_live(const Example *example)
@@ -338,27 +321,6 @@ static void what_no_shader_mends_is_a_failure(void **state)
     assert_string_equal(error.text, "no model");
 }
 
-static int open_files(void)
-{
-    int count = 0;
-    DIR *files = opendir("/proc/self/fd");
-    assert_non_null(files);
-    while (readdir(files))
-        count++;
-    closedir(files);
-    return count;
-}
-
-static long resident_kilobytes(void)
-{
-    long pages = 0;
-    FILE *file = fopen("/proc/self/statm", "r");
-    assert_non_null(file);
-    assert_int_equal(fscanf(file, "%*d %ld", &pages), 1);
-    fclose(file);
-    return pages * (sysconf(_SC_PAGESIZE) / 1024);
-}
-
 /* Every other one is refused. The leak checker sees the rest. */
 static void two_hundred_loads_pile_nothing_up(void **state)
 {
@@ -379,15 +341,16 @@ static void two_hundred_loads_pile_nothing_up(void **state)
             assert_int_equal(next(), i % 2 ? LIVE_LOADED : LIVE_BROKEN);
             draw(&picture);
             if (i == 49) {
-                files = open_files();
-                kilobytes = resident_kilobytes();
+                files = testing_open_files();
+                kilobytes = testing_resident_kib();
             }
         }
-        assert_true(open_files() <= files + 3); /* the driver's cache opens some for a moment */
-        const long grown = resident_kilobytes() - kilobytes;
+        /* The driver's cache opens some for a moment. */
+        assert_true(testing_open_files() <= files + 3);
+        const long grown = testing_resident_kib() - kilobytes;
         printf("%s: %ld kB more after 150 loads\n", examples[e]->name, grown);
         /* One program that stays costs the driver more than 100 kB; 0.1 MB was found for all. */
-        if (!ADDRESS_SANITIZER)
+        if (!ADDRESS_SANITIZER) /* which keeps what was freed */
             assert_true(grown < 4096);
         live_close(&live);
     }

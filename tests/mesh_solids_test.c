@@ -2,6 +2,7 @@
  * The solids, the teapot, and what can be done to any mesh: faces, bounds, normals. No GL.
  */
 #include "mesh.h"
+#include "testing.h"
 
 #include <float.h>
 #include <math.h>
@@ -186,12 +187,6 @@ enum { TESSELLATION_COUNT = sizeof TESSELLATIONS / sizeof TESSELLATIONS[0] };
 static const double SIZES[] = {1, 0.1, 3, 1e-18, 1e20};
 enum { SIZE_COUNT = sizeof SIZES / sizeof SIZES[0] };
 
-static void need(bool opened, const Message *message)
-{
-    if (!opened)
-        fail_msg("%s", message->text);
-}
-
 /* The area of the regular polygon with n corners in a circle of radius 1. */
 static double polygon(int n)
 {
@@ -210,7 +205,7 @@ static void a_cone_lies_on_its_surface_with_the_normals_of_it(void **state)
             const size_t row = (size_t)t.around + 1, side = row * ((size_t)t.along + 1);
             Mesh mesh;
             Message message = {0};
-            need(mesh_cone(&mesh, r, h, t.around, t.along, &message), &message);
+            require(mesh_cone(&mesh, r, h, t.around, t.along, &message), &message);
             assert_int_equal(mesh.vertex_count, side + 2 * row);
             assert_seam(mesh.vertices, (size_t)t.along + 3, row - 1);
             for (size_t i = row; i < side; i++) {
@@ -268,7 +263,8 @@ static void a_cylinder_lies_on_its_surface_with_the_normals_of_it(void **state)
             const size_t row = (size_t)t.around + 1, side = row * ((size_t)t.along + 1);
             Mesh mesh;
             Message message = {0};
-            need(mesh_cylinder(&mesh, r, h, t.around, t.along, MESH_CAP_BOTH, &message), &message);
+            require(mesh_cylinder(&mesh, r, h, t.around, t.along, MESH_CAP_BOTH, &message),
+                    &message);
             assert_int_equal(mesh.vertex_count, side + 4 * row);
             assert_seam(mesh.vertices, (size_t)t.along + 5, row - 1);
             for (size_t i = 0; i < side; i++) {
@@ -325,7 +321,7 @@ static void a_torus_lies_on_its_surface_with_the_normals_of_it(void **state)
             const double ring = SIZES[s], tube = thickness[s % 3] * ring;
             Mesh mesh;
             Message message = {0};
-            need(mesh_torus(&mesh, tube, ring, sides, rings, &message), &message);
+            require(mesh_torus(&mesh, tube, ring, sides, rings, &message), &message);
             assert_int_equal(mesh.vertex_count, (rings + 1) * (sides + 1));
             assert_int_equal(mesh.index_count, 6 * rings * sides);
             assert_seam(mesh.vertices, (size_t)sides + 1, (size_t)rings);
@@ -387,7 +383,7 @@ static void a_disc_is_a_polygon_that_faces_up(void **state)
             const double r = SIZES[s];
             Mesh mesh;
             Message message = {0};
-            need(mesh_disc(&mesh, r, t.around, t.along, &message), &message);
+            require(mesh_disc(&mesh, r, t.around, t.along, &message), &message);
             assert_int_equal(mesh.vertex_count, (t.around + 1) * (t.along + 1));
             assert_int_equal(mesh.index_count, 3 * t.around * (2 * t.along - 1));
             assert_seam(mesh.vertices, (size_t)t.along + 1, (size_t)t.around);
@@ -475,7 +471,7 @@ static void regular_solids_are_regular(void **state)
             const size_t sides = (size_t)REGULAR[n].sides, faces = (size_t)REGULAR[n].faces;
             Mesh mesh;
             Message message = {0};
-            need(REGULAR[n].open(&mesh, r, &message), &message);
+            require(REGULAR[n].open(&mesh, r, &message), &message);
             assert_int_equal(mesh.vertex_count, faces * sides);
             assert_int_equal(mesh.index_count, 3 * faces * (sides - 2));
             assert_sound(&mesh, 0);
@@ -516,7 +512,7 @@ static Mesh teapot(double size, int divisions)
 {
     Mesh mesh;
     Message message = {0};
-    need(mesh_teapot(&mesh, size, divisions, &message), &message);
+    require(mesh_teapot(&mesh, size, divisions, &message), &message);
     return mesh;
 }
 

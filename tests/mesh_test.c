@@ -2,6 +2,7 @@
  * The shapes: every vertex, every triangle, and what they enclose. No GL.
  */
 #include "mesh.h"
+#include "sanitized.h"
 
 #include <float.h>
 #include <math.h>
@@ -14,17 +15,6 @@
 #include <string.h>
 #include <sys/resource.h>
 #include <cmocka.h>
-
-#if defined(__SANITIZE_ADDRESS__)
-#define ADDRESS_SANITIZER true
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define ADDRESS_SANITIZER true
-#endif
-#endif
-#ifndef ADDRESS_SANITIZER
-#define ADDRESS_SANITIZER false
-#endif
 
 static const double PI = 3.14159265358979323846;
 

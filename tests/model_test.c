@@ -5,8 +5,8 @@
 #include "model.h"
 
 #include "module.h"
+#include "testing.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <float.h>
 #include <math.h>
@@ -22,8 +22,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 #include <cmocka.h>
-
-enum { EXIT_SKIPPED = 77 };
 
 static char folder[] = "/tmp/model_test_XXXXXX";
 static unsigned short seed[3];
@@ -623,17 +621,6 @@ static void models_that_are_too_large_are_refused(void **state)
 
 /* Damage. */
 
-static int open_files(void)
-{
-    int count = 0;
-    DIR *files = opendir("/proc/self/fd");
-    assert_non_null(files);
-    while (readdir(files))
-        count++;
-    closedir(files);
-    return count;
-}
-
 /* A damaged file is refused, or what is left of it is a sound mesh. True: refused. */
 static bool refused_or_sound(const char *name, const Bytes *bytes)
 {
@@ -663,7 +650,7 @@ static void no_damage_does_harm(void **state)
     struct rlimit before, after;
     assert_int_equal(getrlimit(RLIMIT_AS, &before), 0);
     assert_false(refused_or_sound(files[0].name, &files[0].bytes));
-    const int open_before = open_files();
+    const int open_before = testing_open_files();
     for (int f = 0; f < FILES; f++) {
         int refused_cuts = 0, refused_flips = 0;
         for (int i = 0; i < CUTS; i++) {
@@ -682,7 +669,7 @@ static void no_damage_does_harm(void **state)
         assert_true(refused_cuts > 0);
     }
     /* Nothing is left open, no process is left, and the readers' limits are not ours. */
-    assert_int_equal(open_files(), open_before);
+    assert_int_equal(testing_open_files(), open_before);
     assert_int_equal(waitpid(-1, NULL, 0), -1);
     assert_int_equal(errno, ECHILD);
     assert_int_equal(getrlimit(RLIMIT_AS, &after), 0);

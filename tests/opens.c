@@ -64,8 +64,7 @@ static bool draw(const CanvasBackend *backend, Message *message)
         .backend = backend, .width = SIZE, .height = SIZE, .title = "opens"};
     if (!canvas_open(&canvas, &options, message))
         return false;
-    glClearColor(1, 0, 0, 1);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    canvas_clear(&canvas, (Vec3){1, 0, 0}, 1);
     bool done = image_open(&image, SIZE, SIZE, IMAGE_BYTE, message) &&
                 canvas_read(&canvas, &image, message);
     if (done && memcmp(image.pixels, "\xff\0\0\xff", 4) != 0)

@@ -4,6 +4,7 @@
  */
 #include "lighting.h"
 #include "operations.h"
+#include "testing.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -279,7 +280,7 @@ int main(void)
                           &message) &&
         strstr(message.text, "not found")) {
         printf("skipped: %s\n", message.text);
-        return 77;
+        return EXIT_SKIPPED;
     }
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

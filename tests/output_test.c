@@ -9,6 +9,7 @@
 
 #include "options.h"
 #include "output.h"
+#include "testing.h"
 
 #include <dirent.h>
 #include <fcntl.h>
@@ -28,7 +29,6 @@
 /* More than a pipe holds, and than the limits that are set below. */
 enum { LARGE = 300000 };
 
-static char folder[] = "/tmp/output_test-XXXXXX";
 static char large[LARGE + 1];
 static Message message;
 
@@ -173,7 +173,7 @@ static void every_form_of_a_path_works(void **state)
     (void)state;
     char absolute[128], longest[256];
     assert_int_equal(mkdir("sub", 0777), 0);
-    snprintf(absolute, sizeof absolute, "%s/absolute.png", folder);
+    snprintf(absolute, sizeof absolute, "%s/absolute.png", testing_folder);
     memset(longest, 'n', 255); /* the longest name that Linux has */
     longest[255] = '\0';
     const char *const paths[] = {"a.png",        "./b.png", "sub/c.png",     "sub//d.png",
@@ -236,7 +236,7 @@ static void a_link_to_a_file_that_is_not_there_makes_it(void **state)
 {
     (void)state;
     char target[128];
-    snprintf(target, sizeof target, "%s/made.png", folder);
+    snprintf(target, sizeof target, "%s/made.png", testing_folder);
     assert_int_equal(symlink(target, "dangling.png"), 0);
     assert_int_equal(symlink("missing/a.png", "lost.png"), 0);
     written("dangling.png", "new");
@@ -677,22 +677,7 @@ static void a_numbered_name_that_is_too_long_is_refused(void **state)
     assert_int_equal(path[14], 'z');
 }
 
-static int enter_folder(void **state)
-{
-    (void)state;
-    memcpy(folder + sizeof folder - 7, "XXXXXX", 6);
-    return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    char command[128];
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    return chdir("/") == 0 ? system(command) : -1;
-}
-
-#define TEST(name) cmocka_unit_test_setup_teardown(name, enter_folder, remove_folder)
+#define TEST(name) cmocka_unit_test_setup_teardown(name, testing_enter_folder, testing_leave_folder)
 
 int main(void)
 {

@@ -6,6 +6,7 @@
 
 #include "picture_check.h"
 #include "stage.h"
+#include "testing.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -23,12 +24,6 @@ static Canvas canvas;
 static Panel *panel;
 static PanelDraw draw;
 static Options options;
-
-static void require(bool done, const Message *message)
-{
-    if (!done)
-        fail_msg("%s", message->text);
-}
 
 static void open_all(int width, int height)
 {
@@ -228,9 +223,7 @@ static void test_it_is_drawn_where_it_is(void **state)
     content.help = NULL;
     content.errors = content.notice = NULL;
     open_all(1000, 700);
-    canvas_begin(&canvas);
-    glClearColor(1, 1, 1, 1);
-    glClear(GL_COLOR_BUFFER_BIT);
+    canvas_clear(&canvas, (Vec3){1, 1, 1}, 1);
     draw_panel(&content, 1);
     Image image = read_picture();
     for (int y = 0; y < 700; y++) {
@@ -303,9 +296,7 @@ static void test_nothing_to_show_draws_nothing(void **state)
     const PanelContent content = {.name = "nothing"};
     (void)state;
     open_all(64, 64);
-    canvas_begin(&canvas);
-    glClearColor(0.2F, 0.4F, 0.6F, 1);
-    glClear(GL_COLOR_BUFFER_BIT);
+    canvas_clear(&canvas, (Vec3){0.2, 0.4, 0.6}, 1);
     Image before = read_picture();
     draw_panel(&content, 1);
     Image after = read_picture();

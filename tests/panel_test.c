@@ -3,6 +3,7 @@
  * values. Where a control lies is found with the pointer, by the tooltip that it shows there.
  */
 #include "panel.h"
+#include "testing.h"
 
 #include <float.h>
 #include <math.h>
@@ -15,7 +16,7 @@
 #include <unistd.h>
 #include <cmocka.h>
 
-enum { EXIT_SKIPPED = 77, MOST_ROWS = 32 };
+enum { MOST_ROWS = 32 };
 static const double LABEL_X = 20; /* in the names of the parameters */
 
 static Panel *panel;
@@ -633,7 +634,7 @@ static void test_the_command_is_copied(void **state)
         frame();
         window.buttons[0] = false;
         frame();
-        copied = result.copied;
+        copied = clipboard[0] != '\0';
         if (!copied && click(30, y) == 0)
             frame(); /* a section that was folded is unfolded again */
     }

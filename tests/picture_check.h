@@ -6,9 +6,7 @@
 #define PICTURE_CHECK_H
 
 #include "image.h"
-
-/* What a test exits with where the machine lacks what it needs. */
-enum { EXIT_SKIPPED = 77 };
+#include "testing.h"
 
 /* Whether a driver can be had; where none can, says so in one line. */
 bool picture_check_driver(const char *test);

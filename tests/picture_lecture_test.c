@@ -12,6 +12,7 @@
 
 #include "matrix.h"
 #include "stage.h"
+#include "testing.h"
 
 #include <stdarg.h>
 #include <stddef.h>
@@ -588,12 +589,6 @@ static void exact_image(const Exact *exact, Image *image)
 }
 
 /* Drawing. */
-
-static void require(bool done, const Message *message)
-{
-    if (!done)
-        fail_msg("%s", message->text);
-}
 
 static Options options_for(Size size, const char *precision)
 {

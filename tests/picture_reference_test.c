@@ -13,6 +13,7 @@
 #include "lighting.h"
 #include "reference_error.h"
 #include "stage.h"
+#include "testing.h"
 
 #include <stdarg.h>
 #include <stddef.h>
@@ -27,45 +28,16 @@
 
 static const double MOST = 1; /* step of 1/255 */
 
-#define LECTURE(X)                                                                                 \
-    X(LightedCube)                                                                                 \
-    X(LightedCube_animation)                                                                       \
-    X(LightedCube_ambient)                                                                         \
-    X(LightedTranslatedRotatedCube)                                                                \
-    X(PointLightedCube)                                                                            \
-    X(PointLightedCube_animation)                                                                  \
-    X(PointLightedCube_perFragment)                                                                \
-    X(PointLightedSphere)                                                                          \
-    X(PointLightedSphere_perFragment)
+#define X(NAME) extern const Example NAME;
+LECTURE_EXAMPLES
+LIGHTING_EXAMPLES
+#undef X
 
-#define SCENES(X)                                                                                  \
-    X(ShadingModels)                                                                               \
-    X(NormalMatrix)                                                                                \
-    X(TwoSidedLighting)                                                                            \
-    X(SpotLight)                                                                                   \
-    X(ShininessRow)                                                                                \
-    X(Materials)                                                                                   \
-    X(SmoothFlat)                                                                                  \
-    X(FourLights)                                                                                  \
-    X(LightTypes)                                                                                  \
-    X(PhongBlinn)
-
-#define DECLARE(NAME) extern const Example NAME;
-LECTURE(DECLARE)
-SCENES(DECLARE)
-#undef DECLARE
-
-#define POINT_AT(NAME) &NAME,
-static const Example *const EXAMPLES[] = {SCENES(POINT_AT)};
-#undef POINT_AT
+#define X(NAME) &NAME,
+static const Example *const EXAMPLES[] = {LIGHTING_EXAMPLES};
+#undef X
 
 enum { EXAMPLE_COUNT = sizeof EXAMPLES / sizeof EXAMPLES[0] };
-
-static void require(bool done, const Message *message)
-{
-    if (!done)
-        fail_msg("%s", message->text);
-}
 
 /* Comparing. */
 
@@ -244,10 +216,7 @@ static void lecture_programs_draw_the_reference(void **state)
 static void draw(const Canvas *canvas, Lighting *lighting, const Scene *scene, Image *image)
 {
     Message message = {0};
-    canvas_begin(canvas);
-    glClearColor((float)scene->background.x, (float)scene->background.y, (float)scene->background.z,
-                 1);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    canvas_clear(canvas, scene->background, 1);
     require(lighting_draw(lighting, scene, (double)canvas->width / canvas->height, false, &message),
             &message);
     require(canvas_read(canvas, image, &message), &message);

@@ -3,6 +3,7 @@
  */
 #include "reference.h"
 #include "reference_trace.h"
+#include "sanitized.h"
 #include "solid.h"
 
 #include <math.h>
@@ -17,17 +18,6 @@
 #include <sys/resource.h>
 #include <time.h>
 #include <cmocka.h>
-
-#if defined(__SANITIZE_ADDRESS__)
-#define ADDRESS_SANITIZER true
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define ADDRESS_SANITIZER true
-#endif
-#endif
-#ifndef ADDRESS_SANITIZER
-#define ADDRESS_SANITIZER false
-#endif
 
 static const double PI = 3.14159265358979323846;
 

@@ -10,6 +10,7 @@
 
 #include "canvas.h"
 #include "shader.h"
+#include "testing.h"
 
 #include <fcntl.h>
 #include <stdio.h>
@@ -20,7 +21,6 @@
 #include <time.h>
 #include <unistd.h>
 
-static char folder[] = "/tmp/shader_test-XXXXXX";
 static unsigned seed;
 
 static ShaderLoader loader;
@@ -30,21 +30,16 @@ static Message message;
 
 static int enter_folder(void **state)
 {
-    (void)state;
     unsetenv("LIGHTING_SHADERS");
     loader = (ShaderLoader){.folder = "."};
-    memcpy(folder + sizeof folder - 7, "XXXXXX", 6);
-    return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
+    return testing_enter_folder(state);
 }
 
 static int leave_folder(void **state)
 {
-    (void)state;
-    char command[128];
     shader_source_close(&source);
     shader_files_close(&kept);
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    return chdir("/") == 0 ? system(command) : -1;
+    return testing_leave_folder(state);
 }
 
 static void make_bytes(const char *path, const char *bytes, size_t size)
@@ -188,7 +183,7 @@ static void an_absolute_path_is_tried_alone(void **state)
 {
     (void)state;
     char path[128];
-    snprintf(path, sizeof path, "%s/here.vert", folder);
+    snprintf(path, sizeof path, "%s/here.vert", testing_folder);
     make("here.vert", "int a;\n");
     found(path, path);
     refused("/missing/a.vert", "/missing/a.vert: no such shader file",

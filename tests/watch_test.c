@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include "progress.h"
+#include "testing.h"
 #include "watch.h"
 
 #include <dirent.h>
@@ -29,7 +30,6 @@ static const double PATIENCE = 20; /* seconds */
 /* Longer than the longest delay; and than a period of looking. */
 static const double QUIET = 0.12, QUIET_WITHOUT = 0.25;
 
-static char folder[] = "/tmp/watch_test-XXXXXX";
 static bool without_inotify; /* in this group of tests */
 static Watch *watch;
 static Message message;
@@ -47,30 +47,28 @@ static void limit_files(struct rlimit *before)
     assert_int_equal(setrlimit(RLIMIT_NOFILE, &limit), 0);
 }
 
+static bool open_without_inotify(void)
+{
+    struct rlimit before;
+    limit_files(&before);
+    const bool opened = watch_open(&watch, &message);
+    assert_int_equal(setrlimit(RLIMIT_NOFILE, &before), 0);
+    return opened;
+}
+
 static int enter_folder(void **state)
 {
-    (void)state;
-    struct rlimit before;
     message = (Message){0};
-    memcpy(folder + sizeof folder - 7, "XXXXXX", 6);
-    if (!mkdtemp(folder) || chdir(folder) != 0)
+    if (testing_enter_folder(state) != 0)
         return -1;
-    if (without_inotify)
-        limit_files(&before);
-    const bool opened = watch_open(&watch, &message);
-    if (without_inotify)
-        assert_int_equal(setrlimit(RLIMIT_NOFILE, &before), 0);
-    return opened ? 0 : -1;
+    return (without_inotify ? open_without_inotify() : watch_open(&watch, &message)) ? 0 : -1;
 }
 
 static int leave_folder(void **state)
 {
-    (void)state;
-    char command[128];
     watch_close(watch);
     watch = NULL;
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    return chdir("/") == 0 ? system(command) : -1;
+    return testing_leave_folder(state);
 }
 
 /* What is done to files. */
@@ -199,7 +197,7 @@ static void folders_that_come_one_by_one_are_followed(void **state)
 {
     (void)state;
     char path[128];
-    snprintf(path, sizeof path, "%s/one/two/a.vert", folder);
+    snprintf(path, sizeof path, "%s/one/two/a.vert", testing_folder);
     for (int absolute = 0; absolute < 2; absolute++) {
         watch_one(absolute ? path : "one/two/a.vert");
         shell("mkdir one; mkdir one/two");
@@ -265,7 +263,7 @@ static void an_absolute_link_is_followed(void **state)
     char command[256];
     snprintf(command, sizeof command,
              "mkdir far; echo > far/a.vert; ln -s %s/far/a.vert a.vert; ln -s %s/./far//. door",
-             folder, folder);
+             testing_folder, testing_folder);
     shell(command);
     static const char *const paths[] = {"a.vert", "door/b.vert"};
     watch_paths(paths, 2);
@@ -419,19 +417,13 @@ static void closing_nothing_is_fine(void **state)
     watch_close(NULL);
 }
 
-/* Without inotify it is said why; which needs nothing else of this file. */
+/* At once: nothing needs to be watched first. */
 static void a_lack_of_instances_is_named(void **state)
 {
     (void)state;
     assert_null(watch_polls(watch));
     watch_close(watch);
-    without_inotify = true;
-    struct rlimit before;
-    limit_files(&before);
-    const bool opened = watch_open(&watch, &message);
-    assert_int_equal(setrlimit(RLIMIT_NOFILE, &before), 0);
-    without_inotify = false;
-    assert_true(opened);
+    assert_true(open_without_inotify());
     assert_string_equal(watch_polls(watch), "inotify: Too many open files");
 }
 

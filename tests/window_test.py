@@ -257,7 +257,7 @@ class Case(base.Case):
         x, y, width, height = shown.place()
         return self.server.pixels(x, y, min(width, SCREEN[0] - x), min(height, SCREEN[1] - y))
 
-    def assert_shown(self, shown, program=MOVING):
+    def assert_shown(self, shown):
         """What stands on the screen, what is saved and what is drawn headless is the same to the
         last bit. The screen comes first, for it says afterwards that a picture was saved."""
         shown.key("x")  # does nothing, but that an older notice has been read
@@ -272,7 +272,7 @@ class Case(base.Case):
         if screen != visible:
             wait_for(lambda: self.visible(shown) == visible,
                      f"the screen to show the {width}x{height} picture")
-        self.assert_headless(picture, program)
+        self.assert_headless(picture, shown.program)
         return picture
 
     def still(self, shown):
@@ -295,7 +295,7 @@ class Pictures(Case):
             with self.subTest(program=program):
                 shown = self.show("-s", "120x90", program=program)
                 shown.pause()
-                self.assert_shown(shown, program)
+                self.assert_shown(shown)
                 shown.leave()
 
     def test_scenes_do_so_too(self):
@@ -303,7 +303,7 @@ class Pictures(Case):
             with self.subTest(program=program):
                 shown = self.show("-s", "240x180", program=program)
                 shown.pause()
-                self.assert_shown(shown, program)
+                self.assert_shown(shown)
                 shown.leave()
 
     def test_options_hold_in_a_window(self):
@@ -407,12 +407,12 @@ class Keys(Case):
             self.assertIsNone(orbit_of(shown.save()))
             # To the left the camera goes right, by 0.4 degrees a pixel.
             shown.drag((200, 100), (170, 110), (120, 150), (100, 150))
-            picture = self.assert_shown(shown, program)
+            picture = self.assert_shown(shown)
             for got, wanted in zip(orbit_of(picture), (40, 20, 1)):
                 self.assertAlmostEqual(got, wanted, places=9)
             self.server.xdotool("mousemove", 150, 150, "click", 4, "click", 4, "click", 5,
                                 "click", 4, "mousemove", *AWAY)
-            picture = self.assert_shown(shown, program)
+            picture = self.assert_shown(shown)
             for got, wanted in zip(orbit_of(picture), (40, 20, 0.9**2)):
                 self.assertAlmostEqual(got, wanted, places=9)
             shown.leave()
@@ -806,5 +806,4 @@ def main():
 
 
 if __name__ == "__main__":
-    base.unittest = unittest
     sys.exit(main())

@@ -41,9 +41,7 @@ static bool frame(const Way *way, const Lab *lab, const Probe *probe, const Canv
 {
     const Drawn drawn = {.scene = &probe->scene, .aspect = 1};
     const double start = progress_now();
-    canvas_begin(canvas);
-    glClearColor(0, 0, 0, 1);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    canvas_clear(canvas, (Vec3){0, 0, 0}, 1);
     glEnable(GL_DEPTH_TEST);
     if (way->cull)
         glEnable(GL_CULL_FACE);

@@ -166,12 +166,9 @@ static bool paint(const Painter *painter, const Probe *probe, const SubmissionGe
 bool painter_draw(const Painter *painter, const Probe *probe, const SubmissionGeometry *geometry,
                   Canvas *canvas, Image *image, Message *message)
 {
-    const Vec3 color = probe->scene.background;
     if (!canvas_resize(canvas, probe->width, probe->height, message))
         return false;
-    canvas_begin(canvas);
-    glClearColor((float)color.x, (float)color.y, (float)color.z, 1);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    canvas_clear(canvas, probe->scene.background, 1);
     glEnable(GL_DEPTH_TEST);
     if (geometry->cull)
         glEnable(GL_CULL_FACE);

@@ -22,20 +22,13 @@ static bool fit_images(Lineup *lineup, int width, int height, Message *message)
            image_open(&lineup->drawn, width, height, IMAGE_BYTE, message);
 }
 
-static void clear(Vec3 color)
-{
-    glClearColor((float)color.x, (float)color.y, (float)color.z, 1);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-}
-
 /* What a suspect draws of a whole scene. */
 static bool draw_whole(Lineup *lineup, const Probe *probe, const ProbeBuffers *buffers,
                        const Choices *choices, Image *image, Message *message)
 {
     if (!canvas_resize(lineup->canvas, probe->width, probe->height, message))
         return false;
-    canvas_begin(lineup->canvas);
-    clear(probe->scene.background);
+    canvas_clear(lineup->canvas, probe->scene.background, 1);
     wrong_program_draw(&lineup->wrong, lineup->shots->lab, probe, buffers, choices);
     return canvas_read(lineup->canvas, image, message);
 }
@@ -171,8 +164,7 @@ static bool screen_shot(Lineup *lineup, int shot, Image *sheet, Suspect *suspect
                 painter_draw(lineup->painter, &probe, &geometry, lineup->canvas, &wanted, message);
     for (int from = 0; from < *count && done; from += TILES * TILES) {
         const int part = *count - from < TILES * TILES ? *count - from : TILES * TILES;
-        canvas_begin(&lineup->sheet);
-        clear(probe.scene.background);
+        canvas_clear(&lineup->sheet, probe.scene.background, 1);
         for (int i = 0; i < part; i++) {
             view_tile(lineup, i);
             wrong_program_draw(&lineup->wrong, lineup->shots->lab, &probe, &buffers,

@@ -19,6 +19,14 @@ static const ResultRow *row_of(const Results *results, const char *scene, const 
     return setting_parse(&setting, text, NULL) ? results_find(results, scene, &setting) : NULL;
 }
 
+/* Of the newest row; nothing where there is none. */
+static void measured_with(const Results *results, char text[RESULT_WITH_SIZE])
+{
+    text[0] = '\0';
+    if (results->count)
+        results_measured_with(&results->rows[results->count - 1], text);
+}
+
 /* Error over time as one axis goes through its choices. */
 
 typedef struct Curve {
@@ -305,9 +313,8 @@ static double time_composition(const char *text)
 
 void findings_matrices(const Results *results, FILE *file)
 {
-    char with[RESULT_WITH_SIZE] = "";
-    if (results->count)
-        results_measured_with(&results->rows[results->count - 1], with);
+    char with[RESULT_WITH_SIZE];
+    measured_with(results, with);
     fprintf(file,
             "\nMatrices of one object and place of one light; scene far, a million units from "
             "the origin\n%s\n  %-38s %10s  %s\n",
@@ -348,9 +355,8 @@ static bool plot_matrices(const Results *results, const char *foot, const char *
 
 bool findings_plot(const Results *results, const char *folder, Message *message)
 {
-    char foot[RESULT_WITH_SIZE] = "";
-    if (results->count)
-        results_measured_with(&results->rows[results->count - 1], foot);
+    char foot[RESULT_WITH_SIZE];
+    measured_with(results, foot);
     return plot_interpolation(results, foot, folder, message) &&
            plot_by_scenes(results, foot, folder, message) &&
            plot_antialiasing(results, foot, folder, message) &&

@@ -42,10 +42,7 @@ typedef struct Way {
 
 static bool draw(const Way *way, Message *message)
 {
-    const Vec3 color = way->scene->background;
-    canvas_begin(way->canvas);
-    glClearColor((float)color.x, (float)color.y, (float)color.z, 1);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    canvas_clear(way->canvas, way->scene->background, 1);
     if (!lighting_draw(way->lighting, way->scene, (double)way->canvas->width / way->canvas->height,
                        false, message))
         return false;

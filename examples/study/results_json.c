@@ -1,7 +1,6 @@
 #include "results_row.h"
 
 #include "json.h"
-
 #include "output.h"
 
 #include <errno.h>

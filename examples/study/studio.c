@@ -140,10 +140,7 @@ static Lighting *find_lighting(Studio *studio, const Setting *setting, Message *
 
 static void clear(const Drawing *drawing)
 {
-    const Vec3 color = drawing->made.scene.background;
-    canvas_begin(drawing->canvas);
-    glClearColor((float)color.x, (float)color.y, (float)color.z, 1);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    canvas_clear(drawing->canvas, drawing->made.scene.background, 1);
 }
 
 static double aspect_of(const Studio *studio)
@@ -224,9 +221,7 @@ static bool see(Drawing *drawing, Studio *studio, Message *message)
         !shader_uniform(shader, "u_Object", &number, message) ||
         !shader_uniform(shader, "u_ClipFromObject", &clip_from_object, message))
         return false;
-    canvas_begin(&studio->first);
-    glClearColor(0, 0, 0, 0);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    canvas_clear(&studio->first, (Vec3){0, 0, 0}, 0);
     glEnable(GL_DEPTH_TEST);
     glUseProgram(shader->program);
     for (int i = 0; i < scene->object_count; i++) {

@@ -243,9 +243,7 @@ typedef struct Run {
 
 static bool draw(const Run *run, Message *message)
 {
-    canvas_begin(&canvas);
-    glClearColor(0, 0, 0, 1);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    canvas_clear(&canvas, (Vec3){0, 0, 0}, 1);
     if (run->way == HAND
             ? !draw_hand(run->step, message)
             : !lighting_draw(lighting, &run->step->scene, 1, run->way == FULL, message))

@@ -32,9 +32,7 @@ static bool draw_frames(void *argument)
     Message message = {0};
     for (int i = 0; i < FRAMES; i++) {
         if (!run->example) {
-            canvas_begin(run->canvas);
-            glClearColor(0, 0, 0, 1);
-            glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+            canvas_clear(run->canvas, (Vec3){0, 0, 0}, 1);
         } else if (!stage_draw(run->example, run->canvas, run->options, 0.1 * i, &message)) {
             return false;
         }

@@ -7,6 +7,7 @@
 #include "matrix.h"
 #include "matrix_benchmark.h"
 #include "measure.h"
+#include "statistics.h"
 
 #ifdef HAVE_CGLM
 #include <cglm/cglm.h>
@@ -16,7 +17,6 @@
 #include <stdalign.h>
 #include <stdint.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #if defined(__SIZEOF_FLOAT128__)
@@ -284,12 +284,6 @@ static double normal_error(int i, bool real)
     return isfinite(angle) && (cross > 0 || dot > 0) ? angle : pi;
 }
 
-static int compare(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 typedef struct Table {
     const char *title;
     const Algorithm *algorithms;
@@ -310,9 +304,8 @@ static void find_errors(const Table *table)
             algorithm->run(&BATCH);
             for (int i = 0; i < COUNT; i++)
                 errors[i] = table->error(i, algorithm->real);
-            qsort(errors, COUNT, sizeof *errors, compare);
-            table->errors[k][decade][0] = errors[COUNT / 2];
-            table->errors[k][decade][1] = errors[COUNT - 1];
+            table->errors[k][decade][0] = statistics_quantile(errors, COUNT, 0.5);
+            table->errors[k][decade][1] = statistics_quantile(errors, COUNT, 1);
         }
     }
 }

@@ -1,6 +1,7 @@
 #include "measure.h"
 
 #include "progress.h"
+#include "statistics.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -38,22 +39,15 @@ void measure_finish(Measured *measured, int count)
         free(measured[i].seconds);
 }
 
-static int compare(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 Summary measure_summary(const double *values, int count)
 {
     double *sorted = malloc((size_t)count * sizeof *sorted);
     if (!sorted)
         return (Summary){0};
     memcpy(sorted, values, (size_t)count * sizeof *sorted);
-    qsort(sorted, (size_t)count, sizeof *sorted, compare);
-    const Summary summary = {.median = 0.5 * (sorted[(count - 1) / 2] + sorted[count / 2]),
-                             .lower = sorted[count / 4],
-                             .upper = sorted[(3 * count - 1) / 4]};
+    const Summary summary = {.median = statistics_quantile(sorted, count, 0.5),
+                             .lower = statistics_quantile(sorted, count, 0.25),
+                             .upper = statistics_quantile(sorted, count, 0.75)};
     free(sorted);
     return summary;
 }

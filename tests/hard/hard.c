@@ -2,6 +2,7 @@
 
 #include "picture_check.h"
 #include "reference_error.h"
+#include "testing.h"
 
 #include <stdarg.h>
 #include <stddef.h>
@@ -12,12 +13,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-static void require(bool done, const Message *message)
-{
-    if (!done)
-        fail_msg("%s", message->text);
-}
 
 void hard_open(Hard *hard, int width, int height)
 {
@@ -79,10 +74,7 @@ void hard_exact(const Hard *hard, const Scene *scene, bool solids, Reference *ex
 static void draw(const Canvas *canvas, Lighting *lighting, const Scene *scene, Image *image)
 {
     Message message = {0};
-    canvas_begin(canvas);
-    glClearColor((float)scene->background.x, (float)scene->background.y, (float)scene->background.z,
-                 1);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    canvas_clear(canvas, scene->background, 1);
     require(lighting_draw(lighting, scene, (double)canvas->width / canvas->height, false, &message),
             &message);
     require(canvas_read(canvas, image, &message), &message);

@@ -11,6 +11,7 @@
  */
 #include "picture_check.h"
 #include "random_scene.h"
+#include "testing.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -33,12 +34,6 @@ static Image wide_image, picture, other;
 static RandomMeshes meshes;
 static unsigned long long seed = 20260101;
 static int scene_count = SCENES;
-
-static void require(bool done, const Message *message)
-{
-    if (!done)
-        fail_msg("%s", message->text);
-}
 
 static int open_all(void **state)
 {

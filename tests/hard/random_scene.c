@@ -250,10 +250,7 @@ bool random_scene_ready(RandomScene *made, RandomMeshes *meshes, Message *messag
 bool random_scene_draw(const RandomScene *made, const Canvas *canvas, Lighting *lighting,
                        Image *image, Message *message)
 {
-    const Vec3 background = made->scene.background;
-    canvas_begin(canvas);
-    glClearColor((float)background.x, (float)background.y, (float)background.z, 1);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    canvas_clear(canvas, made->scene.background, 1);
     return lighting_draw(lighting, &made->scene, (double)canvas->width / canvas->height, false,
                          message) &&
            canvas_read(canvas, image, message);
