@@ -80,15 +80,14 @@ static void add_lights(Values *values, const Lab *lab, const Scene *scene)
                (Vec3){spot->constant, spot->linear, spot->quadratic});
 }
 
-bool binding_normal_matrix(Mat4 matrix, Mat4 *normal_matrix)
+Mat4 binding_normal_matrix(Mat4 matrix)
 {
-    Mat4 inverse, linear = matrix;
+    Mat4 inverse;
     for (int k = 0; k < 3; k++)
-        linear.m[12 + k] = linear.m[4 * k + 3] = 0;
-    linear.m[15] = 1;
-    const bool regular = mat4_inverse(linear, &inverse);
-    *normal_matrix = mat4_transpose(inverse);
-    return regular;
+        matrix.m[12 + k] = matrix.m[4 * k + 3] = 0;
+    matrix.m[15] = 1;
+    mat4_inverse(matrix, &inverse);
+    return mat4_transpose(inverse);
 }
 
 /* Without a drawing the names and kinds alone. */
@@ -103,10 +102,8 @@ static bool gather(Values *values, const Lab *lab, const Drawn *drawn, Message *
         world = drawn->world_from_object ? *drawn->world_from_object : object->world_from_object;
         if (!scene_camera(&scene->camera, drawn->aspect, &eye_from_world, &clip_from_eye, message))
             return false;
-        binding_normal_matrix(world, &normal);
-        binding_normal_matrix(mat4_product(eye_from_world, world), &eye_normal);
-        if (drawn->normal_matrix)
-            normal = *drawn->normal_matrix;
+        normal = drawn->normal_matrix ? *drawn->normal_matrix : binding_normal_matrix(world);
+        eye_normal = binding_normal_matrix(mat4_product(eye_from_world, world));
     }
     const Mat4 eye_from_model = mat4_product(eye_from_world, world);
     values->count = 0;
@@ -155,15 +152,22 @@ static const char *type_of(const Value *value)
     return NAMES[value->kind];
 }
 
-/* An array's active name ends in [0]. */
-static void active_uniform(GLuint program, GLuint i, char name[MOST_NAME], GLint *size,
-                           GLenum *type)
+/* A uniform of a program; `value` is NULL where the interface has none of its name. */
+typedef struct Uniform {
+    char name[MOST_NAME];
+    GLint size;
+    GLenum type;
+    const Value *value;
+} Uniform;
+
+static Uniform uniform_at(GLuint program, GLint i, const Values *values)
 {
-    name[0] = '\0';
-    glGetActiveUniform(program, i, MOST_NAME, NULL, size, type, name);
-    char *bracket = strchr(name, '[');
-    if (bracket)
-        *bracket = '\0';
+    Uniform uniform = {.size = 0};
+    glGetActiveUniform(program, (GLuint)i, sizeof uniform.name, NULL, &uniform.size, &uniform.type,
+                       uniform.name);
+    uniform.name[strcspn(uniform.name, "[")] = '\0'; /* an array's ends in [0] */
+    uniform.value = find(values, uniform.name);
+    return uniform;
 }
 
 static bool unknown(const char *kind, const char *name, const char *const *names, Message *message)
@@ -211,18 +215,14 @@ bool binding_check(const Lab *lab, GLuint program, Message *message)
         names[i] = values.values[i].name;
     glGetProgramiv(program, GL_ACTIVE_UNIFORMS, &count);
     for (GLint i = 0; i < count; i++) {
-        char name[MOST_NAME];
-        GLint size = 0;
-        GLenum type = 0;
-        active_uniform(program, (GLuint)i, name, &size, &type);
-        const Value *value = find(&values, name);
-        if (strncmp(name, "gl_", 3) == 0)
+        const Uniform uniform = uniform_at(program, i, &values);
+        if (strncmp(uniform.name, "gl_", 3) == 0)
             continue;
-        if (!value)
-            return unknown("uniform", name, names, message);
-        if (!suits(value, type))
-            return message_set(message, "uniform %s: this lab has it as %s; declare it so", name,
-                               type_of(value));
+        if (!uniform.value)
+            return unknown("uniform", uniform.name, names, message);
+        if (!suits(uniform.value, uniform.type))
+            return message_set(message, "uniform %s: this lab has it as %s; declare it so",
+                               uniform.name, type_of(uniform.value));
     }
     return check_attributes(program, message);
 }
@@ -237,9 +237,11 @@ static void set_matrix(GLint location, GLenum type, const float m[16])
     glUniformMatrix3fv(location, 1, GL_FALSE, upper);
 }
 
-static void set_value(GLint location, GLenum type, GLint size, const Value *value)
+static void set_value(GLint location, const Uniform *uniform)
 {
-    const GLsizei count = size < value->count ? size : value->count;
+    const Value *value = uniform->value;
+    const GLenum type = uniform->type;
+    const GLsizei count = uniform->size < value->count ? uniform->size : value->count;
     float packed[3 * LAB_MOST_LIGHTS];
     if (!suits(value, type))
         return;
@@ -263,14 +265,10 @@ static void set_uniforms(GLuint program, const Values *values)
     GLint count = 0;
     glGetProgramiv(program, GL_ACTIVE_UNIFORMS, &count);
     for (GLint i = 0; i < count; i++) {
-        char name[MOST_NAME];
-        GLint size = 0;
-        GLenum type = 0;
-        active_uniform(program, (GLuint)i, name, &size, &type);
-        const Value *value = find(values, name);
-        const GLint location = glGetUniformLocation(program, name);
-        if (value && location >= 0)
-            set_value(location, type, size, value);
+        const Uniform uniform = uniform_at(program, i, values);
+        const GLint location = glGetUniformLocation(program, uniform.name);
+        if (uniform.value && location >= 0)
+            set_value(location, &uniform);
     }
 }
 

@@ -32,7 +32,7 @@ bool binding_draw(const Lab *lab, GLuint program, const MeshBuffer *mesh, const 
                   Message *message);
 
 /* The inverse of the transpose of the matrix's 3x3 part, in a matrix that is the identity's
- * otherwise. False where it is singular. */
-bool binding_normal_matrix(Mat4 matrix, Mat4 *normal_matrix);
+ * otherwise; the identity where it is singular. Its length counts, as mat4_normal's does not. */
+Mat4 binding_normal_matrix(Mat4 matrix);
 
 #endif

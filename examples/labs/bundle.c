@@ -1,10 +1,11 @@
 #include "bundle.h"
 
+#include "output.h"
+
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 bool bundle_name_is_safe(const char *name)
 {
@@ -59,20 +60,6 @@ const BundleFile *bundle_find(const Bundle *bundle, const char *name)
     return NULL;
 }
 
-static bool write_all(int file, const void *bytes, size_t size)
-{
-    for (const char *next = bytes; size > 0;) {
-        const ssize_t written = write(file, next, size);
-        if (written < 0 && errno != EINTR)
-            return false;
-        if (written > 0) {
-            next += written;
-            size -= (size_t)written;
-        }
-    }
-    return true;
-}
-
 bool bundle_write(const Bundle *bundle, int file, Message *message)
 {
     bool done = true;
@@ -80,9 +67,10 @@ bool bundle_write(const Bundle *bundle, int file, Message *message)
         const BundleFile *of = &bundle->files[i];
         char line[BUNDLE_NAME_SIZE + 32];
         const int length = snprintf(line, sizeof line, "%zu %s\n", of->size, of->name);
-        done = write_all(file, line, (size_t)length) && write_all(file, of->bytes, of->size);
+        done =
+            output_append(file, line, (size_t)length) && output_append(file, of->bytes, of->size);
     }
-    if (!done || !write_all(file, "end\n", 4))
+    if (!done || !output_append(file, "end\n", 4))
         return message_set(message, "files that were to be passed on: %s", strerror(errno));
     return true;
 }

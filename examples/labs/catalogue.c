@@ -5,7 +5,6 @@
 
 #define L(n) (1u << (n))
 enum {
-
     SHADED = L(1) | L(2) | L(4) | L(5) | L(6) | L(7) | L(8) | L(9) | L(10),
     AMBIENT = L(2) | L(4) | L(5) | L(6) | L(7) | L(8) | L(9) | L(10),
     SEVERAL = L(2) | L(4) | L(5) | L(6) | L(7),
@@ -603,14 +602,14 @@ static Choices with_changes(Choices choices, const Change *form)
 
 Suspect *catalogue_singles(const Lab *lab, int *count)
 {
-    const bool fitted = lab->specular && lab->reflection == REFLECTION_BLINN_PHONG;
-    const int truths = lab->either ? 2 : fitted ? 3 : 1;
+    const int truths = lab->either ? 2 : lab->fitted ? 3 : 1;
     Suspect *suspects =
         malloc((size_t)(truths * MISTAKE_COUNT * MISTAKE_MOST_FORMS) * sizeof *suspects);
     *count = 0;
     for (int truth = 0; suspects && truth < truths; truth++) {
         Choices right = {{0}};
-        right.of[fitted ? SLOT_FIT : SLOT_STAGE] = truth; /* STAGE_OTHER; FIT_LEAST, FIT_FOUR */
+        right.of[lab->fitted ? SLOT_FIT : SLOT_STAGE] =
+            truth; /* STAGE_OTHER; FIT_LEAST, FIT_FOUR */
         for (int i = 0; i < MISTAKE_COUNT; i++) {
             if (!(MISTAKES[i].labs & L(lab->number)))
                 continue;

@@ -93,7 +93,6 @@ enum {
     NORMAL_EYE,
     NORMAL_TURN,
     NORMAL_UNTURNED,
-    NORMAL_MVP,
 
     UNIT_NEVER = 1,
     UNIT_AT_VERTICES,
@@ -168,7 +167,6 @@ enum {
 
     ON_AMBIENT = 1,
     ON_NO_HIGHLIGHT,
-    ON_NO_DIFFUSE,
 
     CONE_DEGREES = 1,
     CONE_ANGLE,

@@ -11,6 +11,7 @@
 #include "output.h"
 #include "stage.h"
 #include "supervise.h"
+#include "verdict_json.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -7,8 +7,6 @@
 #include "class_table.h"
 #include "inside.h"
 #include "options.h"
-#include "progress.h"
-#include "source.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -16,7 +14,6 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 static const char PROGRAM[] = "check";
 
@@ -25,15 +22,6 @@ static volatile sig_atomic_t interrupted;
 static void interrupt(int signal)
 {
     interrupted = signal;
-}
-
-/* Two of them end the program at once. */
-static void catch_signals(void)
-{
-    const struct sigaction action = {.sa_handler = interrupt, .sa_flags = (int)SA_RESETHAND};
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
-    sigaction(SIGHUP, &action, NULL);
 }
 
 static void say(const Message *notes)
@@ -146,7 +134,7 @@ static bool judge_class(const ClassOptions *options, const FoundList *list, cons
     done = done && class_store_open(&store, options->output, &notes, message) &&
            same_lab(&store, lab, message) && open_sandbox(options, lab, sandbox, message);
     say(&notes);
-    catch_signals();
+    options_catch_signals(interrupt, (int)SA_RESETHAND); /* two of them end it at once */
     done = done && class_judge(options, lab, list, sandbox, &store, &interrupted, message);
     /* What is known is worth a page, whatever came after it. */
     if (store.lock >= 0 && store.count > 0 && !report(&store, message))
@@ -238,15 +226,10 @@ bool class_main(int argc, char *argv[], int *code)
     if (!class_options_read(&options, argc, argv, &message)) {
         *code = options_fail(PROGRAM, &message, EXIT_USAGE);
     } else if (options.help) {
-        class_help(stdout);
+        class_options_help(stdout);
         *code = options_finish(PROGRAM, 0);
     } else {
         *code = options.folder ? run_class(&options, &message) : run_merge(&options, &message);
     }
     return true;
-}
-
-void class_help(FILE *file)
-{
-    class_options_help(file);
 }

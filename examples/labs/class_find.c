@@ -150,10 +150,9 @@ void class_name_folder(const ClassName *name, char folder[CLASS_FOLDER_SIZE])
         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-";
     const bool number = name->id[0] && strcmp(name->id, name->student) != 0;
     char text[CLASS_FOLDER_SIZE - 16];
-    bool same = true;
     snprintf(text, sizeof text, "%.90s%s%.31s", name->student, number ? "_" : "",
              number ? name->id : "");
-    same = strlen(name->student) <= 90;
+    bool same = strlen(name->student) <= 90;
     for (char *at = text; *at; at++) {
         if (!strchr(allowed, *at) || (at == text && (*at == '.' || *at == '-'))) {
             *at = '_';
@@ -212,6 +211,7 @@ static bool add_file(Found *found, const char *path, const char *name, Message *
 static bool add_entry(FoundList *list, const char *folder, const char *entry, Message *notes,
                       Message *message)
 {
+    static const char *const kinds[] = {"files", "archive", "folder", "link or device"};
     struct stat status;
     ClassName name;
     char path[PATH_MAX], key[CLASS_FOLDER_SIZE];
@@ -229,7 +229,7 @@ static bool add_entry(FoundList *list, const char *folder, const char *entry, Me
     if (again && notes)
         message_add(notes, "%s%s: more than one submission; the %s is judged",
                     notes->text[0] ? "\n" : "", name.student,
-                    found->kind == FOUND_FOLDER || kind == FOUND_FOLDER ? "folder" : "archive");
+                    kinds[kind > found->kind ? kind : found->kind]);
     if (again && kind <= found->kind)
         return true;
     if (!found && !(found = add_found(list, message)))

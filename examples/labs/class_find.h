@@ -36,6 +36,7 @@ bool class_name_read(const char *entry, bool is_folder, ClassName *name);
  * each student and number. */
 void class_name_folder(const ClassName *name, char folder[CLASS_FOLDER_SIZE]);
 
+/* Of two of one student's, the later here counts. */
 typedef enum FoundKind { FOUND_FILES, FOUND_ARCHIVE, FOUND_FOLDER, FOUND_OTHER } FoundKind;
 
 /* One student's submission. */
@@ -57,8 +58,8 @@ typedef struct FoundList {
 } FoundList;
 
 /* Finds the submissions in a folder, without the entry `skipped` (NULL: none). Of a student's
- * folder, archive and files the first there is of these counts, and `notes`, if not NULL, gets a
- * line. False where there is none, or the folder cannot be read. */
+ * link or device, folder, archive and files the first there is of these counts, and `notes`, if not
+ * NULL, gets a line. False where there is none, or the folder cannot be read. */
 bool class_find(const char *folder, const char *skipped, FoundList *list, Message *notes,
                 Message *message);
 

@@ -2,11 +2,10 @@
 
 #include "class_front.h"
 #include "class_table.h"
+#include "statistics.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 #include <time.h>
 
 /* No page loads anything but its own pictures, whatever text may have slipped into it. */
@@ -166,10 +165,8 @@ static bool write_student(const ClassStore *store, const ClassResult *result, Me
     ClassFile out;
     char folder[PATH_MAX];
     const Verdict *verdict = &result->verdict;
-    if (snprintf(folder, sizeof folder, "%s/students/%s", store->folder, result->folder) >=
-        (int)sizeof folder)
-        return message_set(message, "%s: %s", store->folder, strerror(ENAMETOOLONG));
-    if (!class_file_open(&out, message))
+    if (!class_store_path(store->folder, result->folder, NULL, folder, message) ||
+        !class_file_open(&out, message))
         return false;
     put_head(out.file, result->student, result->lab);
     fputs("<h1>", out.file);
@@ -200,23 +197,14 @@ static bool write_student(const ClassStore *store, const ClassResult *result, Me
 
 /* The class's page. */
 
-static int by_number(const void *a, const void *b)
-{
-    const double first = *(const double *)a, second = *(const double *)b;
-    return (first > second) - (first < second);
-}
-
 static double median(const ClassStore *store)
 {
+    double middle = 0;
     double *points = calloc((size_t)store->count + 1, sizeof *points);
-    if (!points || store->count == 0) {
-        free(points);
-        return 0;
-    }
-    for (int i = 0; i < store->count; i++)
+    for (int i = 0; points && i < store->count; i++)
         points[i] = store->results[i].verdict.points;
-    qsort(points, (size_t)store->count, sizeof *points, by_number);
-    const double middle = (points[(store->count - 1) / 2] + points[store->count / 2]) / 2;
+    if (points && store->count > 0)
+        middle = statistics_quantile(points, store->count, 0.5);
     free(points);
     return middle;
 }

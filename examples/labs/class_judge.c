@@ -3,7 +3,7 @@
 #include "progress.h"
 #include "source.h"
 #include "unpack.h"
-#include "verdict_read.h"
+#include "verdict_json.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -1,10 +1,10 @@
 #include "class_options.h"
 
+#include "options.h"
 #include "parse.h"
 #include "sandbox.h"
 
 #include <getopt.h>
-#include <math.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -59,30 +59,22 @@ static bool bad(const char *option, const char *value, const char *wanted, Messa
     return message_set(message, "--%s %s: must be %s", option, value, wanted);
 }
 
-static bool read_whole(const char *text, double least, double most, double *number)
-{
-    return parse_number(text, least, most, number) && *number == floor(*number);
-}
-
 /* "3/8". */
 static bool read_part(const char *text, ClassOptions *options, Message *message)
 {
-    double part = 0, parts = 0;
     char first[16];
     const char *slash = strchr(text, '/');
     const size_t length = slash ? (size_t)(slash - text) : 0;
     snprintf(first, sizeof first, "%.*s", (int)(length < 15 ? length : 15), text);
-    if (!slash || length > 14 || !read_whole(slash + 1, 1, CLASS_PARTS_MOST, &parts) ||
-        !read_whole(first, 1, parts, &part))
+    if (!slash || length > 14 || !parse_whole(slash + 1, 1, CLASS_PARTS_MOST, &options->parts) ||
+        !parse_whole(first, 1, options->parts, &options->part))
         return bad("part", text, "K/N, 1/N to N/N, as in 3/8", message);
-    options->part = (int)part;
-    options->parts = (int)parts;
     return true;
 }
 
 static bool read_option(ClassOptions *options, int option, const char *value, Message *message)
 {
-    double number = 0;
+    int number = 0;
     switch (option) {
     case OPTION_CLASS:
         options->folder = value;
@@ -94,44 +86,30 @@ static bool read_option(ClassOptions *options, int option, const char *value, Me
         options->output = value;
         return value[0] ? true : message_set(message, "--output: the name is empty");
     case OPTION_JOBS:
-        if (!read_whole(value, 1, CLASS_JOBS_MOST, &number))
+        if (!parse_whole(value, 1, CLASS_JOBS_MOST, &options->jobs))
             return bad("jobs", value, "a whole number, 1 to 256", message);
-        options->jobs = (int)number;
         return true;
     case OPTION_PART:
         return read_part(value, options, message);
     case OPTION_LIMIT:
-        if (!read_whole(value, 1, SANDBOX_SECONDS_MOST, &number))
+        if (!parse_whole(value, 1, SANDBOX_SECONDS_MOST, &number))
             return bad("limit", value, "whole seconds, 1 to 3600", message);
         options->limit = number;
         return true;
     case OPTION_SEED:
-        if (!read_whole(value, 0, 2147483647, &number))
+        if (!parse_whole(value, 0, 2147483647, &number))
             return bad("seed", value, "a whole number, 0 to 2147483647", message);
         options->seed = (uint64_t)number;
         return true;
     case OPTION_AGAIN:
         options->again = true;
         return true;
-    default: /* OPTION_MERGE, 'h' */
-        options->help = options->help || option == 'h';
+    case 'h':
+        options->help = true;
+        return true;
+    default: /* OPTION_MERGE */
         return true;
     }
-}
-
-static bool bad_option(int result, char *argv[], Message *message)
-{
-    const char *given = argv[optind - 1];
-    const char *names[sizeof LONG_OPTIONS / sizeof LONG_OPTIONS[0]] = {NULL};
-    char word[64];
-    if (result == ':')
-        return message_set(message, "%s: needs a value; see --help", given);
-    for (int i = 0; LONG_OPTIONS[i].name; i++)
-        names[i] = LONG_OPTIONS[i].name;
-    snprintf(word, sizeof word, "%s", given + strspn(given, "-"));
-    const char *nearest = word[0] ? parse_nearest(word, names) : NULL;
-    return nearest ? message_set(message, "%s: no such option; did you mean --%s?", given, nearest)
-                   : message_set(message, "%s: no option for a class; --help lists them", given);
 }
 
 bool class_options_read(ClassOptions *options, int argc, char *argv[], Message *message)
@@ -150,7 +128,7 @@ bool class_options_read(ClassOptions *options, int argc, char *argv[], Message *
     opterr = 0;
     for (int option; (option = getopt_long(argc, argv, ":o:h", LONG_OPTIONS, NULL)) != -1;) {
         if (option == '?' || option == ':')
-            return bad_option(option, argv, message);
+            return options_refuse(LONG_OPTIONS, option, argc, argv, message);
         merge = merge || option == OPTION_MERGE;
         if (!read_option(options, option, optarg, message))
             return false;

@@ -2,7 +2,7 @@
 
 #include "output.h"
 #include "png_copy.h"
-#include "verdict_read.h"
+#include "verdict_json.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -14,10 +14,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { FILE_MOST = 4 << 20 };
+enum { FILE_MOST = 4 << 20 }; /* bytes */
 
-static bool join(char path[PATH_MAX], const char *store, const char *folder, const char *name,
-                 Message *message)
+bool class_store_path(const char *store, const char *folder, const char *name, char path[PATH_MAX],
+                      Message *message)
 {
     if (snprintf(path, PATH_MAX, "%s/students%s%s%s%s", store, folder ? "/" : "",
                  folder ? folder : "", name ? "/" : "", name ? name : "") >= PATH_MAX)
@@ -101,7 +101,7 @@ static bool read_one(ClassStore *store, const char *name, Message *notes, Messag
     char path[PATH_MAX];
     Message why = {.text = ""};
     ClassResult *result = calloc(1, sizeof *result);
-    bool done = result && join(path, store->folder, name, "result.json", message);
+    bool done = result && class_store_path(store->folder, name, "result.json", path, message);
     if (!result)
         message_set(message, "%s", strerror(ENOMEM));
     if (done && access(path, F_OK) == 0) {
@@ -123,7 +123,7 @@ bool class_store_read(ClassStore *store, const char *folder, Message *notes, Mes
     if (strlen(folder) >= sizeof store->folder)
         return message_set(message, "%s: %s", folder, strerror(ENAMETOOLONG));
     memcpy(store->folder, folder, strlen(folder) + 1);
-    if (!join(path, folder, NULL, NULL, message))
+    if (!class_store_path(folder, NULL, NULL, path, message))
         return false;
     const int count = scandir(path, &entries, NULL, alphasort);
     if (count < 0)
@@ -145,7 +145,7 @@ bool class_store_open(ClassStore *store, const char *folder, Message *notes, Mes
 {
     char path[PATH_MAX];
     *store = (ClassStore){.lock = -1};
-    if (!join(path, folder, NULL, NULL, message) || !output_folder(folder, message) ||
+    if (!class_store_path(folder, NULL, NULL, path, message) || !output_folder(folder, message) ||
         !output_folder(path, message))
         return false;
     if (snprintf(path, sizeof path, "%s/.lock", folder) >= (int)sizeof path)
@@ -171,12 +171,17 @@ bool class_store_open(ClassStore *store, const char *folder, Message *notes, Mes
     return true;
 }
 
-const ClassResult *class_store_find(const ClassStore *store, const char *folder)
+static ClassResult *find(const ClassStore *store, const char *folder)
 {
     for (int i = 0; i < store->count; i++)
         if (strcmp(store->results[i].folder, folder) == 0)
             return &store->results[i];
     return NULL;
+}
+
+const ClassResult *class_store_find(const ClassStore *store, const char *folder)
+{
+    return find(store, folder);
 }
 
 bool class_result_stands(const ClassResult *result, const char *lab, uint64_t hash, double limit)
@@ -231,7 +236,7 @@ static bool write_picture(const ClassStore *store, ClassResult *result, const Bu
         verdict->picture[0] = '\0';
         return true;
     }
-    return join(path, store->folder, result->folder, verdict->picture, message) &&
+    return class_store_path(store->folder, result->folder, verdict->picture, path, message) &&
            output_write(path, file->bytes, size, message);
 }
 
@@ -239,18 +244,15 @@ bool class_store_put(ClassStore *store, const ClassResult *result, const Bundle 
                      Message *message)
 {
     char path[PATH_MAX];
-    ClassResult *old = NULL, *next = malloc(sizeof *next);
+    ClassResult *old = find(store, result->folder), *next = malloc(sizeof *next);
     if (!next)
         return message_set(message, "%s", strerror(ENOMEM));
     *next = *result;
-    for (int i = 0; i < store->count && !old; i++)
-        if (strcmp(store->results[i].folder, result->folder) == 0)
-            old = &store->results[i];
     const bool keep = !old || !class_result_is_worse(next, old);
     bool done =
-        !keep || (join(path, store->folder, next->folder, NULL, message) &&
+        !keep || (class_store_path(store->folder, next->folder, NULL, path, message) &&
                   output_folder(path, message) && write_picture(store, next, files, message) &&
-                  join(path, store->folder, next->folder, "result.json", message) &&
+                  class_store_path(store->folder, next->folder, "result.json", path, message) &&
                   write_result(path, next, message));
     if (done && keep && old)
         *old = *next;
@@ -270,7 +272,7 @@ static bool read_picture(const ClassStore *from, const ClassResult *result, Bund
     size_t size;
     if (!result->verdict.picture[0])
         return true;
-    if (!join(path, from->folder, result->folder, result->verdict.picture, message))
+    if (!class_store_path(from->folder, result->folder, result->verdict.picture, path, message))
         return false;
     unsigned char *bytes = read_file(path, &size, NULL);
     const bool done = !bytes || bundle_add(files, result->verdict.picture, bytes, size, message);

@@ -37,6 +37,11 @@ bool class_store_open(ClassStore *store, const char *folder, Message *notes, Mes
 /* Reads the results of a folder that another run wrote, without keeping anybody out. */
 bool class_store_read(ClassStore *store, const char *folder, Message *notes, Message *message);
 
+/* The path of all students' results in OUT, `store`; of one's where `folder` is not NULL; of a file
+ * among them where `name` is not, either. False where it is too long. */
+bool class_store_path(const char *store, const char *folder, const char *name, char path[PATH_MAX],
+                      Message *message);
+
 /* The result of that name; NULL: none. Valid until the next is put. */
 const ClassResult *class_store_find(const ClassStore *store, const char *folder);
 

@@ -1,7 +1,7 @@
 #include "class_table.h"
 
 #include "output.h"
-#include "verdict_read.h"
+#include "verdict_json.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -15,16 +15,21 @@ bool class_file_open(ClassFile *file, Message *message)
     return file->file ? true : message_set(message, "%s", strerror(errno));
 }
 
-bool class_file_write(ClassFile *file, const char *folder, const char *name, Message *message)
+static bool write_text(const char *text, size_t size, const char *folder, const char *name,
+                       Message *message)
 {
     char path[PATH_MAX];
+    return snprintf(path, sizeof path, "%s/%s", folder, name) < (int)sizeof path
+               ? output_write(path, text, size, message)
+               : message_set(message, "%s: %s", folder, strerror(ENAMETOOLONG));
+}
+
+bool class_file_write(ClassFile *file, const char *folder, const char *name, Message *message)
+{
     const bool good = !ferror(file->file);
-    bool done = fclose(file->file) == 0 && good;
-    if (!done)
-        message_set(message, "%s: %s", name, strerror(ENOMEM));
-    if (done && snprintf(path, sizeof path, "%s/%s", folder, name) >= (int)sizeof path)
-        done = message_set(message, "%s: %s", folder, strerror(ENAMETOOLONG));
-    done = done && output_write(path, file->text, file->size, message);
+    const bool done = fclose(file->file) == 0 && good
+                          ? write_text(file->text, file->size, folder, name, message)
+                          : message_set(message, "%s: %s", name, strerror(ENOMEM));
     free(file->text);
     return done;
 }
@@ -117,14 +122,10 @@ bool class_table_csv(const ClassStore *store, Message *message)
 /* Takes over `object`. */
 static bool write_json(json_t *object, const char *folder, const char *name, Message *message)
 {
-    char path[PATH_MAX];
     char *text = object ? json_dumps(object, JSON_INDENT(2) | JSON_REAL_PRECISION(9)) : NULL;
     json_decref(object);
-    if (!text)
-        return message_set(message, "%s: %s", name, strerror(ENOMEM));
-    bool done = snprintf(path, sizeof path, "%s/%s", folder, name) < (int)sizeof path
-                    ? output_write(path, text, strlen(text), message)
-                    : message_set(message, "%s: %s", folder, strerror(ENAMETOOLONG));
+    const bool done = text ? write_text(text, strlen(text), folder, name, message)
+                           : message_set(message, "%s: %s", name, strerror(ENOMEM));
     free(text);
     return done;
 }
@@ -272,12 +273,13 @@ static bool write_gradescope(const ClassStore *store, const ClassResult *result,
     char *text = NULL;
     size_t size = 0;
     const Verdict *verdict = &result->verdict;
+    if (!class_store_path(store->folder, result->folder, NULL, folder, message))
+        return false;
     FILE *file = open_memstream(&text, &size);
     if (!file)
         return message_set(message, "%s", strerror(errno));
     put_lines(file, verdict, put_plain);
-    if (fclose(file) != 0 || snprintf(folder, sizeof folder, "%s/students/%s", store->folder,
-                                      result->folder) >= (int)sizeof folder) {
+    if (fclose(file) != 0) {
         free(text);
         return message_set(message, "%s: %s", result->folder, strerror(ENOMEM));
     }

@@ -1,7 +1,8 @@
 #include "code.h"
 
+#include "child.h"
 #include "confine.h"
-#include "module.h"
+#include "output.h"
 #include "sanitized.h"
 
 #include <ctype.h>
@@ -63,8 +64,7 @@ static char *without_comments(const char *text)
 
 static bool refuse(const char *name, int line, const char *what, Message *message)
 {
-    message_set(message, "%s:%d: %s", name, line, what);
-    return false;
+    return message_set(message, "%s:%d: %s", name, line, what);
 }
 
 /* A line that begins with #, without that. */
@@ -102,7 +102,8 @@ static bool check_directive(const char *name, int number, const char *line, Mess
                : refuse(name, number, "a submission may not use this directive", message);
 }
 
-bool code_check(const char *name, const char *text, Message *message)
+/* Whether it may be compiled; the message, "matrices.c:3: ...", says why not. */
+static bool check_text(const char *name, const char *text, Message *message)
 {
     static const char *const FORBIDDEN[] = {"asm",     "__asm",         "__asm__",
                                             "_Pragma", "__has_include", "__has_embed"};
@@ -141,24 +142,25 @@ bool code_check(const char *name, const char *text, Message *message)
 
 /* Building. */
 
-/* The folders of lab_code.h and of matrix.h: in the source tree, or installed. */
-static bool find_headers(char labs[PATH_MAX], char common[PATH_MAX], Message *message)
+/* The folders of lab_code.h and of matrix.h, from a lab's: one where they are installed, two in the
+ * source tree. */
+static bool find_headers(const Lab *lab, char labs[PATH_MAX], char common[PATH_MAX],
+                         Message *message)
 {
-    char self[4096], places[3][2 * PATH_MAX], path[2 * PATH_MAX + 16];
-    module_program_folder(self);
-    snprintf(places[0], sizeof places[0], "%s", LABS_SOURCE);
-    snprintf(places[1], sizeof places[1], "%s/%s/include", self, LABS_RELATIVE);
-    snprintf(places[2], sizeof places[2], "%s/include", LABS_INSTALLED);
-    for (int i = 0; i < 3; i++) {
-        if (snprintf(labs, PATH_MAX, "%s", places[i]) >= PATH_MAX ||
-            snprintf(common, PATH_MAX, "%s%s", places[i], i == 0 ? "/../../common" : "") >=
-                PATH_MAX)
+    static const char *const PLACES[][2] = {{"../include", "../include"},
+                                            {"..", "../../../common"}};
+    char folder[PATH_MAX], path[PATH_MAX + 16];
+    if (!lab_folder(lab, folder, message))
+        return false;
+    for (size_t i = 0; i < sizeof PLACES / sizeof PLACES[0]; i++) {
+        if (snprintf(labs, PATH_MAX, "%s/%s", folder, PLACES[i][0]) >= PATH_MAX ||
+            snprintf(common, PATH_MAX, "%s/%s", folder, PLACES[i][1]) >= PATH_MAX)
             continue;
         snprintf(path, sizeof path, "%s/matrix.c", common);
         if (access(path, R_OK) == 0)
             return true;
     }
-    return message_set(message, "matrix.c: neither in %s nor in %s", LABS_SOURCE, LABS_INSTALLED);
+    return message_set(message, "matrix.c: neither beside %s nor in %s", folder, common);
 }
 
 static void limit(rlim_t seconds, rlim_t memory, rlim_t written)
@@ -166,19 +168,8 @@ static void limit(rlim_t seconds, rlim_t memory, rlim_t written)
     setrlimit(RLIMIT_CPU, &(struct rlimit){seconds, seconds + 1});
     setrlimit(RLIMIT_CORE, &(struct rlimit){0, 0});
     setrlimit(RLIMIT_FSIZE, &(struct rlimit){written, written});
-#ifndef ADDRESS_SANITIZER
-    setrlimit(RLIMIT_AS, &(struct rlimit){memory, memory});
-#else
-    (void)memory;
-#endif
-}
-
-static bool write_text(const char *path, const char *text, Message *message)
-{
-    FILE *file = fopen(path, "w");
-    const bool written = file && fputs(text, file) >= 0;
-    const bool closed = file && fclose(file) == 0;
-    return written && closed ? true : message_set(message, "%s: %s", path, strerror(errno));
+    if (!ADDRESS_SANITIZER)
+        setrlimit(RLIMIT_AS, &(struct rlimit){memory, memory});
 }
 
 /* In the child: the compiler, its messages going to a pipe. */
@@ -219,14 +210,6 @@ static size_t read_all(int from, char *bytes, size_t size)
     return got;
 }
 
-static int wait_for(pid_t child)
-{
-    int status = 0;
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
-    return status;
-}
-
 static bool blame(Verdict *verdict, VerdictKind kind, const char *format, const char *text)
 {
     verdict->kind = kind;
@@ -251,25 +234,23 @@ static bool build(const Lab *lab, const char *text, const char *folder, Verdict 
 {
     char path[PATH_MAX], labs[PATH_MAX], common[PATH_MAX], said[VERDICT_DETAILS_SIZE];
     Message own = {0};
-    int ends[2];
-    if (!code_check(lab->code, text, &own))
+    int end;
+    if (!check_text(lab->code, text, &own))
         return blame_text(verdict, VERDICT_REFUSED, own.text);
     if (snprintf(path, sizeof path, "%s/%s", folder, lab->code) >= (int)sizeof path)
         return message_set(message, "%s: the path is too long", folder);
-    if (!find_headers(labs, common, message) || !write_text(path, text, message))
+    if (!find_headers(lab, labs, common, message) ||
+        !output_write(path, text, strlen(text), message))
         return false;
-    if (pipe(ends) != 0)
-        return message_set(message, "a pipe: %s", strerror(errno));
-    const pid_t child = fork();
-    if (child == 0)
-        compile(lab, folder, labs, common, ends[1]);
-    close(ends[1]);
-    const size_t size = child > 0 ? read_all(ends[0], said, sizeof said - 1) : 0;
-    close(ends[0]);
-    said[size] = '\0';
+    const pid_t child = child_start(&end, message);
     if (child < 0)
-        return message_set(message, "a second process: %s", strerror(errno));
-    const int status = wait_for(child);
+        return false;
+    if (child == 0)
+        compile(lab, folder, labs, common, end);
+    const size_t size = read_all(end, said, sizeof said - 1);
+    close(end);
+    said[size] = '\0';
+    const int status = child_wait(child);
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
         return true;
     if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
@@ -333,26 +314,20 @@ static bool run(const Lab *lab, const char *folder, Call *wanted, Verdict *verdi
                 Message *message)
 {
     char module[PATH_MAX];
-    int ends[2];
+    int end;
     const size_t each = wanted->matrices ? sizeof *wanted->matrices : sizeof wanted->budget;
     const size_t size = each * (size_t)wanted->count;
     if (snprintf(module, sizeof module, "%s/module.so", folder) >= (int)sizeof module)
         return message_set(message, "%s: the path is too long", folder);
-    if (pipe(ends) != 0)
-        return message_set(message, "a pipe: %s", strerror(errno));
-    const pid_t child = fork();
-    if (child == 0)
-        call(module, wanted, ends[1]);
-    close(ends[1]);
-    const size_t got =
-        child > 0
-            ? read_all(ends[0],
-                       wanted->matrices ? (char *)wanted->matrices : (char *)&wanted->budget, size)
-            : 0;
-    close(ends[0]);
+    const pid_t child = child_start(&end, message);
     if (child < 0)
-        return message_set(message, "a second process: %s", strerror(errno));
-    const int status = wait_for(child);
+        return false;
+    if (child == 0)
+        call(module, wanted, end);
+    const size_t got =
+        read_all(end, wanted->matrices ? (char *)wanted->matrices : (char *)&wanted->budget, size);
+    close(end);
+    const int status = child_wait(child);
     if (WIFEXITED(status) && WEXITSTATUS(status) == 3)
         return message_set(message,
                            "this kernel cannot confine a process: the C of a submission is "

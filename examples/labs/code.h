@@ -18,15 +18,11 @@ typedef struct CodeMatrices {
 } CodeMatrices;
 
 /* Both build `text`, whose file is called lab->code, in a folder that is there and empty. True
- * where there are numbers, all finite and in their ranges; false with a verdict where the
- * submission is at fault, and with a message where this machine is. `verdict->kind` is
- * VERDICT_RIGHT then only where it is the machine. */
+ * where there are numbers, all finite and in their ranges; false with a verdict, and no message,
+ * where the submission is at fault, and with a message where this machine is. */
 bool code_matrices(const Lab *lab, const char *text, const char *folder, const double *seconds,
                    int count, CodeMatrices *matrices, Verdict *verdict, Message *message);
 bool code_budget(const Lab *lab, const char *text, const char *folder, LabBudget *budget,
                  Verdict *verdict, Message *message);
-
-/* Whether a text may be compiled; the message, "matrices.c:3: ...", says why not. */
-bool code_check(const char *name, const char *text, Message *message);
 
 #endif

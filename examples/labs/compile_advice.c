@@ -52,8 +52,7 @@ static const struct {
     {"undeclared", "",
      "This name is not declared here: look at its spelling and its case; a varying or uniform is "
      "to be declared in each of the two shaders that uses it."},
-    {"redeclared", "", "This name is declared twice: leave out one, or only its type."},
-    {"redeclaration", "", "This name is declared twice: leave out one, or only its type."},
+    {"redeclar", "", "This name is declared twice: leave out one, or only its type."},
     {"value of type", "cannot be assigned",
      "The value is of another type than the variable: a vec4 does not fit into a vec3; take .xyz "
      "or .rgb."},
@@ -70,7 +69,6 @@ static const struct {
     {"swizzle", "", "This vector has no such component: .xyzw or .rgba, as many as it has."},
     {"does not write to", "gl_Position",
      "The vertex shader has to set gl_Position, and the fragment shader gl_FragColor."},
-    {"unexpected end of file", "", "A closing brace } is missing."},
     {"unexpected $end", "", "A closing brace } is missing."},
     {"unexpected end", "", "A closing brace } is missing."},
     {"unexpected NEW_IDENTIFIER", "",

@@ -1,6 +1,8 @@
 #include "inside.h"
 
 #include "bundle.h"
+#include "child.h"
+#include "output.h"
 #include "sandbox.h"
 #include "sanitized.h"
 #include "source.h"
@@ -41,7 +43,7 @@ static bool set_limit(__rlimit_resource_t which, rlim_t soft, rlim_t hard, Messa
                                          : message_set(message, "setrlimit: %s", strerror(errno));
 }
 
-static bool own_path(char program[PATH_MAX], Message *message)
+bool inside_program(char program[PATH_MAX], Message *message)
 {
     const ssize_t length = readlink("/proc/self/exe", program, PATH_MAX - 1);
     program[length > 0 ? length : 0] = '\0';
@@ -68,10 +70,9 @@ static bool become_user(long user, Message *message)
 static bool take_limits(rlim_t seconds, Message *message)
 {
     const rlim_t megabyte = 1 << 20;
-#ifndef ADDRESS_SANITIZER
-    if (!set_limit(RLIMIT_AS, SANDBOX_MEMORY * megabyte, SANDBOX_MEMORY * megabyte, message))
+    if (!ADDRESS_SANITIZER &&
+        !set_limit(RLIMIT_AS, SANDBOX_MEMORY * megabyte, SANDBOX_MEMORY * megabyte, message))
         return false;
-#endif
     return set_limit(RLIMIT_CPU, seconds, seconds + 1, message) &&
            set_limit(RLIMIT_FSIZE, SANDBOX_FILE * megabyte, SANDBOX_FILE * megabyte, message) &&
            set_limit(RLIMIT_NPROC, SANDBOX_PROCESSES, SANDBOX_PROCESSES, message) &&
@@ -122,16 +123,14 @@ static int count_processes(void)
 
 static bool memory_is_limited(void)
 {
-#ifdef ADDRESS_SANITIZER
-    return true; /* as far as it can be in such a build */
-#else
+    if (ADDRESS_SANITIZER)
+        return true; /* as far as it can be in such a build */
     const size_t size = ((size_t)SANDBOX_MEMORY + 1) << 20;
     void *memory = mmap(NULL, size, PROT_READ | PROT_WRITE,
                         MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (memory != MAP_FAILED)
         munmap(memory, size);
     return memory == MAP_FAILED;
-#endif
 }
 
 static bool files_are_limited(void)
@@ -195,7 +194,7 @@ static bool prove(Bundle *bundle, const char *hidden, const char *port, const ch
                   Message *message)
 {
     char text[16], program[PATH_MAX];
-    if (!own_path(program, message) || !may_use(program, X_OK, message) ||
+    if (!inside_program(program, message) || !may_use(program, X_OK, message) ||
         !may_use(labs, R_OK | X_OK, message))
         return false;
     const int processes = count_processes();
@@ -236,7 +235,7 @@ static bool read_input(Bundle *bundle, Message *message)
 static bool write_file(const char *path, const BundleFile *from, Message *message)
 {
     const int file = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-    const bool done = file >= 0 && write(file, from->bytes, from->size) == (ssize_t)from->size;
+    const bool done = file >= 0 && output_append(file, from->bytes, from->size);
     if (!done)
         message_set(message, "%s: %s", from->name, strerror(errno));
     if (file >= 0)
@@ -307,9 +306,8 @@ static bool take_results(Bundle *bundle, const char *folder, Message *message)
 /* Runs this program for the submission; its exit status as waitpid has it, or -1. */
 static int run_check(const char *lab, const char *seed, const char *seconds, Message *message)
 {
-    int status = -1;
     char program[PATH_MAX], limit[32];
-    if (!own_path(program, message))
+    if (!inside_program(program, message))
         return -1;
     /* The check itself ends what takes too long, and has a verdict then: before this run is ended.
      */
@@ -328,9 +326,7 @@ static int run_check(const char *lab, const char *seed, const char *seconds, Mes
         message_set(message, "a process: %s", strerror(errno));
         return -1;
     }
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR)
-        ;
-    return status;
+    return child_wait(child);
 }
 
 /* Exit code of the step. */

@@ -4,6 +4,10 @@
 #ifndef INSIDE_H
 #define INSIDE_H
 
+#include "message.h"
+
+#include <limits.h>
+
 /* Exit codes besides 0. */
 enum {
     INSIDE_REFUSED = 3, /* one line on standard error says why */
@@ -16,6 +20,9 @@ extern const char *const INSIDE_READABLE[];
 
 /* The same, from the program's folder on, for a program that was installed and moved. */
 extern const char *const INSIDE_READABLE_RELATIVE[];
+
+/* The path of the program that runs. */
+bool inside_program(char program[PATH_MAX], Message *message);
 
 /* PROGRAM --inside USER SECONDS FOLDER STEP...: becomes that user (if root), takes on the limits,
  * and with FOLDER for its files does one of

@@ -37,14 +37,14 @@ static bool settle(Verdict *verdict, VerdictKind kind, const Message *message, c
     return true;
 }
 
-static bool open_files(Session *session, bool *settled)
+/* False, with a verdict, where they are not what a submission may hold. */
+static bool open_files(Session *session)
 {
-    Message message = {0};
-    *settled =
-        !submission_files_open(&session->files, session->lab, session->options->folder, &message);
-    if (*settled)
-        settle(session->verdict, VERDICT_REFUSED, &message, NULL);
-    return true;
+    Message own = {0};
+    if (submission_files_open(&session->files, session->lab, session->options->folder, &own))
+        return true;
+    settle(session->verdict, VERDICT_REFUSED, &own, NULL);
+    return false;
 }
 
 /* The given shaders are the lab's own. */
@@ -199,7 +199,7 @@ static bool judge_submission(Session *session, Message *message)
 {
     bool settled = false;
     const CanvasOptions canvas = {.backend = session->options->backend, .width = 96, .height = 96};
-    if (!open_files(session, &settled) || settled)
+    if (!open_files(session))
         return true;
     if (!shots_open(&session->shots, session->lab, session->options->seed, message) ||
         !take_code(session, &settled, message))

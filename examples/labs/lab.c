@@ -86,6 +86,7 @@ const Lab LABS[LAB_COUNT] = {
         .lights = 2,
         .ambient = true,
         .specular = true,
+        .fitted = true,
         .reflection = REFLECTION_BLINN_PHONG,
     },
     {

@@ -24,6 +24,7 @@ typedef struct Lab {
     int lights;     /* how many there are: with 2, their uniforms are arrays */
     bool ambient;   /* else there is none */
     bool specular;  /* has a highlight */
+    bool fitted;    /* its exponent is Blinn-Phong's, to be fitted to Phong's, which is given */
     bool flat;      /* flat shapes only, whose interpolated normals stay unit */
     bool rigid;     /* objects are turned and moved, and never scaled */
     bool either;    /* light at the vertices is as right as at the fragments */

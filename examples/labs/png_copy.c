@@ -2,24 +2,13 @@
 
 #include <stdint.h>
 #include <string.h>
+#include <zlib.h>
 
 enum { CHUNK_FRAME = 12, HEADER_SIZE = 13 }; /* length, kind and sum; IHDR's content */
 
 static uint32_t read_number(const unsigned char *bytes)
 {
     return (uint32_t)bytes[0] << 24 | (uint32_t)bytes[1] << 16 | (uint32_t)bytes[2] << 8 | bytes[3];
-}
-
-/* PNG's sum, bit by bit (its annex D): pictures here are small. */
-static uint32_t checksum(const unsigned char *bytes, size_t size)
-{
-    uint32_t sum = 0xFFFFFFFF;
-    for (size_t i = 0; i < size; i++) {
-        sum ^= bytes[i];
-        for (int bit = 0; bit < 8; bit++)
-            sum = sum & 1 ? 0xEDB88320 ^ sum >> 1 : sum >> 1;
-    }
-    return ~sum;
 }
 
 static bool header_is_good(const unsigned char *header, size_t length)
@@ -43,7 +32,7 @@ bool png_copy(unsigned char *bytes, size_t *size, Message *message)
         const unsigned char *kind = bytes + at + 4;
         const bool first = at == sizeof signature;
         if (length > *size - at - CHUNK_FRAME ||
-            checksum(kind, length + 4) != read_number(kind + 4 + length))
+            crc32_z(0, kind, length + 4) != read_number(kind + 4 + length))
             break;
         if (first != (memcmp(kind, "IHDR", 4) == 0) || (first && !header_is_good(kind + 4, length)))
             return message_set(message,

@@ -7,8 +7,6 @@ const char *const PROBE_NAMES[PROBE_KIND_COUNT] = {"A", "B", "C", "D", "E", "F",
 /* The factor of PROBE_HUGE. The square of a distance then exceeds what 16 bits hold, 65504. */
 static const double HUGE_FACTOR = 300;
 
-static const double DEGREES_PER_SECOND = 30;
-
 /* Random numbers. */
 
 static uint64_t random_next(Random *random)
@@ -79,15 +77,16 @@ static Mat4 placed(Vec3 offset, Mat4 turn, Vec3 factors)
 }
 
 const Vec3 PROBE_AXIS = {1, 2, 0.5};
+const double PROBE_DEGREES_PER_SECOND = 30;
 
 void probe_world_parts(double seconds, Mat4 *move, Mat4 *turn, Mat4 *scale)
 {
     *move = mat4_translate((Vec3){0.5, 0.3, -0.8});
-    *turn = rotated(DEGREES_PER_SECOND * seconds, PROBE_AXIS);
+    *turn = rotated(PROBE_DEGREES_PER_SECOND * seconds, PROBE_AXIS);
     *scale = mat4_scale((Vec3){2, 0.7, 1.2});
 }
 
-Mat4 probe_world_from_model(double seconds)
+static Mat4 world_from_model(double seconds)
 {
     Mat4 move, turn, scale;
     probe_world_parts(seconds, &move, &turn, &scale);
@@ -104,6 +103,7 @@ static Material matte(Vec3 color)
 /* Shapes by what a lab can tell apart. */
 typedef enum ProbeShape {
     SHAPE_OF_CUBE,
+    SHAPE_OF_CUBE_ON_CORNER, /* lab 3's: scaling along the axes tilts its faces */
     SHAPE_OF_ICOSAHEDRON,
     SHAPE_OF_DODECAHEDRON,
     SHAPE_OF_OCTAHEDRON,
@@ -112,6 +112,7 @@ typedef enum ProbeShape {
     SHAPE_OF_BALL,
     SHAPE_OF_COARSE_BALL,
     SHAPE_OF_TORUS,
+    SHAPE_OF_SPHERE, /* lab 10's: exact is the sphere itself, of radius 1 */
 } ProbeShape;
 
 static bool open_tube(Mesh *mesh, Message *message)
@@ -126,11 +127,28 @@ static bool open_tube(Mesh *mesh, Message *message)
     return false;
 }
 
+static bool open_cube_on_corner(Mesh *mesh, Message *message)
+{
+    const Mat4 turn = mat4_product(rotated(35, (Vec3){1, 0, 0}), rotated(45, (Vec3){0, 0, 1}));
+    if (!mesh_cube(mesh, 1, message))
+        return false;
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
+        MeshVertex *vertex = &mesh->vertices[i];
+        vec3_to_float(mat4_transform_point(turn, vec3_from_float(vertex->position)),
+                      vertex->position);
+        vec3_to_float(mat4_transform_direction(turn, vec3_from_float(vertex->normal)),
+                      vertex->normal);
+    }
+    return true;
+}
+
 static bool open_shape(Mesh *mesh, ProbeShape shape, Message *message)
 {
     switch (shape) {
     case SHAPE_OF_CUBE:
         return mesh_cube(mesh, 1, message);
+    case SHAPE_OF_CUBE_ON_CORNER:
+        return open_cube_on_corner(mesh, message);
     case SHAPE_OF_ICOSAHEDRON:
         return mesh_icosahedron(mesh, 1.3, message);
     case SHAPE_OF_DODECAHEDRON:
@@ -145,21 +163,10 @@ static bool open_shape(Mesh *mesh, ProbeShape shape, Message *message)
         return mesh_sphere(mesh, 1.2, 20, 16, message);
     case SHAPE_OF_COARSE_BALL:
         return mesh_sphere(mesh, 1.2, 8, 6, message);
+    case SHAPE_OF_SPHERE:
+        return mesh_sphere(mesh, 1, 64, 64, message);
     default: /* SHAPE_OF_TORUS */
         return mesh_torus(mesh, 0.45, 0.9, 10, 18, message);
-    }
-}
-
-/* Lab 3's: a cube that stands on a corner, so that scaling along the axes tilts its faces. */
-static void put_on_corner(Mesh *mesh)
-{
-    const Mat4 turn = mat4_product(rotated(35, (Vec3){1, 0, 0}), rotated(45, (Vec3){0, 0, 1}));
-    for (size_t i = 0; i < mesh->vertex_count; i++) {
-        MeshVertex *vertex = &mesh->vertices[i];
-        vec3_to_float(mat4_transform_point(turn, vec3_from_float(vertex->position)),
-                      vertex->position);
-        vec3_to_float(mat4_transform_direction(turn, vec3_from_float(vertex->normal)),
-                      vertex->normal);
     }
 }
 
@@ -173,6 +180,8 @@ static bool add_object(Probe *probe, ProbeShape shape, Mat4 world_from_object, M
                                  .flat = shape < SHAPE_OF_BALL,
                                  .closed = !open,
                                  .world_from_object = world_from_object};
+    if (shape == SHAPE_OF_SPHERE)
+        probe->objects[i].solid = (Solid){.kind = SOLID_SPHERE, .radius = 1};
     probe->scene.object_count++;
     return true;
 }
@@ -222,7 +231,7 @@ static void set_material(Probe *probe, const Lab *lab, int i, Vec3 color, Vec3 s
         object->front.specular = specular;
         object->front.shininess = shininess;
     }
-    if (lab->specular && lab->reflection == REFLECTION_BLINN_PHONG)
+    if (lab->fitted)
         probe->fitted[i] = material_fitted_shininess(shininess);
     object->two_sided = lab->two_sided;
     object->back = matte(back);
@@ -233,7 +242,7 @@ static void set_material(Probe *probe, const Lab *lab, int i, Vec3 color, Vec3 s
 static bool open_plain(Probe *probe, const Lab *lab, double seconds, Message *message)
 {
     const Vec3 WHITE = {0.8, 0.8, 0.8};
-    const Mat4 turned = rotated(DEGREES_PER_SECOND * seconds, (Vec3){0, 1, 0});
+    const Mat4 turned = rotated(PROBE_DEGREES_PER_SECOND * seconds, (Vec3){0, 1, 0});
     Camera *camera = &probe->scene.camera;
     ProbeShape shape = SHAPE_OF_CUBE;
     Mat4 world = turned;
@@ -252,7 +261,8 @@ static bool open_plain(Probe *probe, const Lab *lab, double seconds, Message *me
         break;
     case 3:
         set_light(probe, 0, (Vec3){0.5, 3, 4}, (Vec3){0.8, 0.75, 0.7});
-        world = probe_world_from_model(seconds);
+        shape = SHAPE_OF_CUBE_ON_CORNER;
+        world = world_from_model(seconds);
         camera->center = (Vec3){0.5, 0.3, -0.8};
         camera->eye = (Vec3){4.5, 4.3, 11};
         break;
@@ -288,6 +298,7 @@ static bool open_plain(Probe *probe, const Lab *lab, double seconds, Message *me
         set_light(probe, 0, (Vec3){1, 2.5, 3}, WHITE);
         break;
     default:
+        shape = SHAPE_OF_SPHERE;
         camera->eye = (Vec3){0, 0, 6};
         world = mat4_identity();
         set_light(probe, 0, (Vec3){5, 8, 7}, WHITE);
@@ -296,14 +307,6 @@ static bool open_plain(Probe *probe, const Lab *lab, double seconds, Message *me
     }
     if (!add_object(probe, shape, world, message))
         return false;
-    if (lab->given)
-        put_on_corner(&probe->meshes[0]);
-    if (lab->budget) {
-        mesh_close(&probe->meshes[0]);
-        probe->objects[0].solid = (Solid){.kind = SOLID_SPHERE, .radius = 1};
-        if (!mesh_sphere(&probe->meshes[0], 1, 64, 64, message))
-            return false;
-    }
     set_material(probe, lab, 0, color, specular, shininess, back);
     return true;
 }
@@ -324,7 +327,7 @@ static ProbeShape choose_shape(const Lab *lab, ProbeKind kind, int number, Rando
     const ProbeShape flat[] = {SHAPE_OF_CUBE, SHAPE_OF_ICOSAHEDRON, SHAPE_OF_DODECAHEDRON,
                                SHAPE_OF_OCTAHEDRON};
     if (lab->given || lab->budget)
-        return lab->given ? SHAPE_OF_CUBE : SHAPE_OF_BALL;
+        return lab->given ? SHAPE_OF_CUBE_ON_CORNER : SHAPE_OF_SPHERE;
     if (lab->two_sided)
         return kind == PROBE_PLAIN || kind == PROBE_COARSE || number == 1 ? SHAPE_OF_TUBE
                                                                           : SHAPE_OF_QUAD;
@@ -353,7 +356,7 @@ static Mat4 choose_world(const Lab *lab, ProbeKind kind, bool flat, double secon
     offset.y = random_between(random, 0.2, 0.45) * (random_chance(random) ? 1 : -1);
     offset.z = random_between(random, 0.2, 0.6) * (random_chance(random) ? 1 : -1);
     if (lab->given)
-        return probe_world_from_model(seconds);
+        return world_from_model(seconds);
     if (lab->budget)
         return mat4_identity();
     if (!lab->rigid && !flat)
@@ -416,7 +419,7 @@ static double choose_shininess(ProbeKind kind, const Lab *lab, Random *random)
     if (lab->budget)
         return random_between(random, 24, 32);
     /* What fits Phong's 8 is Blinn-Phong's 33, and 4 times 8 nearly as good; below they part. */
-    if (lab->number == 7 && kind == PROBE_BEHIND)
+    if (lab->fitted && kind == PROBE_BEHIND)
         return random_between(random, 8, 10);
     return random_between(random, least[kind], most[kind]);
 }
@@ -474,18 +477,10 @@ static bool open_random(Probe *probe, const Lab *lab, Random *random, Message *m
                 mat4_translate(vec3_add(vec3_scale(view, -1.6), (Vec3){0.9, 0.35, 0})), world);
         if (!add_object(probe, shape, world, message))
             return false;
-        if (lab->given)
-            put_on_corner(&probe->meshes[i]);
         const Vec3 color = random_color(random, 0.35, 0.95);
         const Vec3 specular = random_color(random, 0.25, 0.5);
         const double shininess = choose_shininess(kind, lab, random);
         set_material(probe, lab, i, color, specular, shininess, random_color(random, 0.3, 0.95));
-    }
-    if (lab->budget) {
-        mesh_close(&probe->meshes[0]);
-        probe->objects[0].solid = (Solid){.kind = SOLID_SPHERE, .radius = 1};
-        if (!mesh_sphere(&probe->meshes[0], 1, 64, 64, message))
-            return false;
     }
     if (kind == PROBE_HUGE && !lab->given && !lab->budget)
         enlarge(probe);

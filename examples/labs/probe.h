@@ -60,7 +60,7 @@ bool probe_open_usual(Probe *probe, const Lab *lab, double seconds, Message *mes
 
 /* Where lab 3 wants its cube: move * turn * scale, the turn about PROBE_AXIS. */
 extern const Vec3 PROBE_AXIS;
-Mat4 probe_world_from_model(double seconds);
+extern const double PROBE_DEGREES_PER_SECOND;
 void probe_world_parts(double seconds, Mat4 *move, Mat4 *turn, Mat4 *scale);
 
 /* NULL or zeroed is fine. */

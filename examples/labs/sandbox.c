@@ -1,13 +1,14 @@
 #include "sandbox.h"
 
 #include "bundle.h"
+#include "child.h"
 #include "inside.h"
 #include "progress.h"
+#include "scratch.h"
 
 #include <arpa/inet.h>
 #include <errno.h>
 #include <fcntl.h>
-#include <ftw.h>
 #include <netinet/in.h>
 #include <poll.h>
 #include <sched.h>
@@ -210,14 +211,8 @@ failed:
 /* Without bubblewrap there is no folder in memory: one on disk, for this run alone. */
 static bool make_folder(SandboxRun *run, uid_t user, Message *message)
 {
-    const char *above = getenv("TMPDIR");
-    snprintf(run->folder, sizeof run->folder, "%s/check-XXXXXX",
-             above && above[0] ? above : "/tmp");
-    if (!mkdtemp(run->folder)) {
-        const int error = errno;
-        run->folder[0] = '\0';
-        return message_set(message, "a temporary folder: %s", strerror(error));
-    }
+    if (!scratch_open(run->folder, message))
+        return false;
     if (getuid() == 0 && chown(run->folder, user, user) != 0)
         return message_set(message, "%s: %s", run->folder, strerror(errno));
     return true;
@@ -273,8 +268,7 @@ static void reap(SandboxRun *run)
 {
     /* Its pipes are closed: it ends, or wants to be waited for without end. */
     kill(-run->pid, SIGKILL);
-    while (waitpid(run->pid, &run->status, 0) < 0 && errno == EINTR)
-        ;
+    run->status = child_wait(run->pid);
     run->running = false;
 }
 
@@ -308,20 +302,19 @@ static void keep_said(SandboxRun *run, const unsigned char *bytes, size_t size)
     run->said_size = kept + size;
 }
 
-/* Reads what is there; false at the end. */
-static bool read_pipe(SandboxRun *run, int *file)
+/* Reads what is there; closes it at the end. */
+static void read_pipe(SandboxRun *run, int *file)
 {
     unsigned char block[65536];
     const ssize_t count = read(*file, block, sizeof block);
     if (count < 0 && (errno == EAGAIN || errno == EINTR))
-        return true;
+        return;
     if (count <= 0)
         close_file(file);
     else if (file == &run->errors)
         keep_said(run, block, (size_t)count);
     else if (!keep_output(run, block, (size_t)count))
         run->too_much = true;
-    return count > 0;
 }
 
 /* True when it has ended. */
@@ -406,15 +399,6 @@ void sandbox_last_line(const SandboxRun *run, char text[1024])
             *at = ' ';
 }
 
-static int remove_one(const char *path, const struct stat *status, int kind, struct FTW *walk)
-{
-    (void)status;
-    (void)kind;
-    (void)walk;
-    remove(path);
-    return 0;
-}
-
 void sandbox_close(SandboxRun *run)
 {
     if (!run)
@@ -423,8 +407,7 @@ void sandbox_close(SandboxRun *run)
         kill_run(run);
         reap(run);
     }
-    if (run->folder[0])
-        nftw(run->folder, remove_one, 16, FTW_DEPTH | FTW_PHYS | FTW_MOUNT);
+    scratch_close(run->folder);
     free(run->bytes);
     *run = (SandboxRun){.output = -1, .errors = -1};
 }
@@ -482,9 +465,8 @@ bool sandbox_open(Sandbox *sandbox, const char *folder, double seconds, const ch
     Message why = {.text = ""};
     *sandbox = (Sandbox){.bubblewrap = true, .seconds = seconds};
     snprintf(sandbox->folder, sizeof sandbox->folder, "%s", folder ? folder : "");
-    const ssize_t length = readlink("/proc/self/exe", sandbox->program, PATH_MAX - 1);
-    if (length <= 0)
-        return message_set(message, "/proc/self/exe: %s", strerror(errno));
+    if (!inside_program(sandbox->program, message))
+        return false;
     if (prove(sandbox, hidden, &why) && (sandbox->proven & SANDBOX_LIMITS))
         return true;
     message_set(message, "bubblewrap: %s", why.text[0] ? why.text : "the limits do not hold");

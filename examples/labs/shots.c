@@ -20,25 +20,38 @@ Scene shots_truth_scene(const Lab *lab, const Probe *probe, int truth,
         scene.interpolation = INTERPOLATION_GOURAUD;
     for (int i = 0; i < scene.object_count; i++) {
         double *shininess = &objects[i].front.shininess;
-        if (lab->specular && lab->reflection == REFLECTION_BLINN_PHONG)
+        if (lab->fitted)
             *shininess = truth == 0 ? probe->fitted[i] : 4 * *shininess;
     }
     return scene;
 }
 
-static bool open_truths(Shots *shots, Shot *shot, Message *message)
+static bool open_exact(Reference *exact, const Probe *probe, const Scene *scene, bool meshes,
+                       Message *message)
 {
     /* Others may be judged at the same time: one thread for each. */
-    const ReferenceOptions options = {.width = shot->probe.width,
-                                      .height = shot->probe.height,
-                                      .meshes = !shots->lab->budget,
+    const ReferenceOptions options = {.width = probe->width,
+                                      .height = probe->height,
+                                      .meshes = meshes,
                                       .edge_error = 255, /* edges are not compared */
                                       .threads = 1};
+    return reference_open(exact, scene, &options, message);
+}
+
+/* The scene, known or of the seed, its exact pictures, and room for what is drawn. */
+static bool add_shot(Shots *shots, ProbeKind kind, bool known, uint64_t seed, Message *message)
+{
+    const Lab *lab = shots->lab;
+    Shot *shot = &shots->shots[shots->count];
+    if (known ? !probe_open_known(&shot->probe, lab, kind, message)
+              : !probe_open_seed(&shot->probe, lab, kind, seed, message))
+        return false;
+    shots->count++;
     for (int i = 0; i < shots->truth_count; i++) {
         Object objects[PROBE_MOST_OBJECTS];
-        const Scene scene = shots_truth_scene(shots->lab, &shot->probe, i, objects);
+        const Scene scene = shots_truth_scene(lab, &shot->probe, i, objects);
         if (!scene_check(&scene, message) ||
-            !reference_open(&shot->truths[i], &scene, &options, message))
+            !open_exact(&shot->truths[i], &shot->probe, &scene, !lab->budget, message))
             return false;
     }
     return image_open(&shot->image, shot->probe.width, shot->probe.height, IMAGE_BYTE, message);
@@ -47,24 +60,16 @@ static bool open_truths(Shots *shots, Shot *shot, Message *message)
 /* G is apart: it is about precision alone. */
 static bool open_all(Shots *shots, uint64_t seed, Message *message)
 {
-    for (int set = 0; set < 2; set++) {
-        for (ProbeKind kind = PROBE_PLAIN; kind < PROBE_HUGE; kind++) {
-            Shot *shot = &shots->shots[shots->count];
-            if (set == 0 ? !probe_open_known(&shot->probe, shots->lab, kind, message)
-                         : !probe_open_seed(&shot->probe, shots->lab, kind, seed, message))
+    for (int set = 0; set < 2; set++)
+        for (ProbeKind kind = PROBE_PLAIN; kind < PROBE_HUGE; kind++)
+            if (!add_shot(shots, kind, set == 0, seed, message))
                 return false;
-            shots->count++;
-            if (!open_truths(shots, shot, message))
-                return false;
-        }
-    }
     return true;
 }
 
 bool shots_open(Shots *shots, const Lab *lab, uint64_t seed, Message *message)
 {
-    const bool fitted = lab->specular && lab->reflection == REFLECTION_BLINN_PHONG;
-    *shots = (Shots){.lab = lab, .truth_count = lab->either || fitted ? 2 : 1};
+    *shots = (Shots){.lab = lab, .truth_count = lab->either || lab->fitted ? 2 : 1};
     if (open_all(shots, seed, message))
         return true;
     shots_close(shots);
@@ -123,11 +128,7 @@ bool shots_draw_huge(Shots *shots, uint64_t seed, const Painter *painter, Canvas
     for (int set = 0; set < 2; set++) {
         Shot *shot = &shots->shots[shots->count];
         const SubmissionGeometry geometry = {.mesh = NULL};
-        if (set == 0 ? !probe_open_known(&shot->probe, shots->lab, PROBE_HUGE, message)
-                     : !probe_open_seed(&shot->probe, shots->lab, PROBE_HUGE, seed, message))
-            return false;
-        shots->count++;
-        if (!open_truths(shots, shot, message) ||
+        if (!add_shot(shots, PROBE_HUGE, set == 0, seed, message) ||
             !painter_draw(painter, &shot->probe, &geometry, canvas, &shot->image, message))
             return false;
     }
@@ -144,13 +145,8 @@ bool shots_use_sphere(Shots *shots, int slices, int stacks, Message *message)
         Shot *shot = &shots->shots[i];
         Object objects[PROBE_MOST_OBJECTS];
         Scene scene = shots_truth_scene(shots->lab, &shot->probe, 0, objects);
-        const ReferenceOptions options = {.width = shot->probe.width,
-                                          .height = shot->probe.height,
-                                          .meshes = true,
-                                          .edge_error = 255,
-                                          .threads = 1};
         objects[0].mesh = &shots->mesh;
-        if (!reference_open(&shot->mask, &scene, &options, message))
+        if (!open_exact(&shot->mask, &shot->probe, &scene, true, message))
             return false;
     }
     return true;

@@ -36,7 +36,7 @@ bool source_is_wanted(const char *path)
     return false;
 }
 
-bool source_too_large(const char *name, double size, Message *message)
+static bool too_large(const char *name, double size, Message *message)
 {
     return message_set(message, "%s: %.1f MB; at most %d KB", name, size / (1 << 20),
                        SOURCE_FILE_MOST >> 10);
@@ -62,7 +62,7 @@ static bool read_open(Bundle *bundle, int file, const char *name, Message *messa
     } else if (!S_ISREG(status.st_mode)) {
         message_set(message, "%s: is %s; hand in the file itself", name, kind_of(status.st_mode));
     } else if (status.st_size > SOURCE_FILE_MOST) {
-        source_too_large(name, (double)status.st_size, message);
+        too_large(name, (double)status.st_size, message);
     } else {
         size_t size = 0;
         ssize_t count = 1;
@@ -73,7 +73,7 @@ static bool read_open(Bundle *bundle, int file, const char *name, Message *messa
         if (count < 0)
             message_set(message, "%s: %s", name, strerror(errno));
         else if (size > SOURCE_FILE_MOST)
-            source_too_large(name, (double)size, message);
+            too_large(name, (double)size, message);
         else
             done = bundle_add(bundle, name, bytes, size, message);
     }

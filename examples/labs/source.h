@@ -14,9 +14,6 @@ enum { SOURCE_FILE_MOST = 256 << 10 }; /* bytes; the largest of the labs' own ha
  * case, and no part of it hidden or of what macOS packs along ("__MACOSX", "._lab05.frag"). */
 bool source_is_wanted(const char *path);
 
-/* Says that a file is larger than SOURCE_FILE_MOST. */
-bool source_too_large(const char *name, double size, Message *message);
-
 /* Adds the source files of a folder and of those in it. No link is followed. Refused, in one
  * sentence: a source file that is a link, a device, too large, and too many of them. */
 bool source_read_folder(Bundle *bundle, const char *folder, Message *message);

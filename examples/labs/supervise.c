@@ -1,7 +1,10 @@
 #include "supervise.h"
 
+#include "child.h"
+#include "output.h"
 #include "progress.h"
 #include "sanitized.h"
+#include "scratch.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -23,19 +26,6 @@ typedef struct Report {
     Verdict verdict;
 } Report;
 
-static void send_report(int pipe_end, const Report *report)
-{
-    const char *bytes = (const char *)report;
-    for (size_t sent = 0; sent < sizeof *report;) {
-        const ssize_t part = write(pipe_end, bytes + sent, sizeof *report - sent);
-        if (part < 0 && errno == EINTR)
-            continue;
-        if (part <= 0)
-            return;
-        sent += (size_t)part;
-    }
-}
-
 /* In the second process. The group is for what it starts; it ends with its parent. */
 static _Noreturn void judge_apart(const JudgeOptions *options, double limit, int pipe_end)
 {
@@ -45,15 +35,14 @@ static _Noreturn void judge_apart(const JudgeOptions *options, double limit, int
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     setrlimit(RLIMIT_CPU, &(struct rlimit){seconds, seconds + 1});
     setrlimit(RLIMIT_CORE, &(struct rlimit){0, 0});
-#ifndef ADDRESS_SANITIZER
     /* Address space: the driver's compiler alone asks for more than 1 GB of it. */
     const rlim_t most = (rlim_t)2 << 30;
-    setrlimit(RLIMIT_AS, &(struct rlimit){most, most});
-#endif
+    if (!ADDRESS_SANITIZER)
+        setrlimit(RLIMIT_AS, &(struct rlimit){most, most});
     /* One thread draws: what is drawn is small. */
     setenv("LP_NUM_THREADS", "0", 0);
     report.done = judge(options, &report.verdict, &report.message);
-    send_report(pipe_end, &report);
+    output_append(pipe_end, &report, sizeof report);
     _exit(0);
 }
 
@@ -104,54 +93,25 @@ static void explain_end(Verdict *verdict, bool late, double limit, int status)
     }
 }
 
-/* Where the C of a submission is built; removed with the few files that may be in it. */
-static bool open_scratch(char folder[PATH_MAX], Message *message)
-{
-    const char *place = getenv("TMPDIR");
-    if (snprintf(folder, PATH_MAX, "%s/check-XXXXXX", place && place[0] ? place : "/tmp") >=
-        PATH_MAX)
-        return message_set(message, "%s: the path is too long", place);
-    return mkdtemp(folder) ? true : message_set(message, "%s: %s", folder, strerror(errno));
-}
-
-static void close_scratch(const char *folder)
-{
-    DIR *list = opendir(folder);
-    struct dirent *entry;
-    while (list && (entry = readdir(list)))
-        unlinkat(dirfd(list), entry->d_name, 0);
-    if (list)
-        closedir(list);
-    rmdir(folder);
-}
-
 static bool supervise_in(const JudgeOptions *options, double limit, Verdict *verdict,
                          Message *message)
 {
     static Report report;
-    int ends[2], status = 0;
+    int end;
     bool late = false;
     const double start = progress_now();
     fflush(NULL);
-    if (pipe(ends) != 0)
-        return message_set(message, "a pipe: %s", strerror(errno));
-    const pid_t child = fork();
-    if (child == 0) {
-        close(ends[0]);
-        judge_apart(options, limit, ends[1]);
-    }
-    close(ends[1]);
-    if (child < 0) {
-        close(ends[0]);
-        return message_set(message, "a second process: %s", strerror(errno));
-    }
+    const pid_t child = child_start(&end, message);
+    if (child < 0)
+        return false;
+    if (child == 0)
+        judge_apart(options, limit, end);
     setpgid(child, child);
-    const bool received = receive(ends[0], start + limit, &report, &late);
-    close(ends[0]);
+    const bool received = receive(end, start + limit, &report, &late);
+    close(end);
     kill(-child, SIGKILL);
     kill(child, SIGKILL);
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
+    const int status = child_wait(child);
     if (received) {
         *verdict = report.verdict;
         return report.done ? true : message_set(message, "%s", report.message.text);
@@ -167,10 +127,10 @@ bool supervise(const JudgeOptions *options, double limit, Verdict *verdict, Mess
     JudgeOptions own = *options;
     if (!options->lab->code)
         return supervise_in(options, limit, verdict, message);
-    if (!open_scratch(folder, message))
+    if (!scratch_open(folder, message))
         return false;
     own.scratch = folder;
     const bool done = supervise_in(&own, limit, verdict, message);
-    close_scratch(folder);
+    scratch_close(folder);
     return done;
 }

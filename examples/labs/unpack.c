@@ -76,6 +76,11 @@ static bool read_data(Bundle *bundle, struct archive *archive, const char *name,
     return done;
 }
 
+static bool too_much(Message *message)
+{
+    return message_set(message, "the archive unpacks to more than %d MB", UNPACK_BYTES_MOST >> 20);
+}
+
 /* Unpacks an entry that is not wanted, to see how much it is; of a .zip it can be passed over. */
 static bool skip_data(struct archive *archive, size_t *unpacked, Message *message)
 {
@@ -86,8 +91,7 @@ static bool skip_data(struct archive *archive, size_t *unpacked, Message *messag
         return true;
     while (archive_read_data_block(archive, &block, &size, &offset) == ARCHIVE_OK)
         if (offset < 0 || (*unpacked += size) > UNPACK_BYTES_MOST)
-            return message_set(message, "the archive unpacks to more than %d MB",
-                               UNPACK_BYTES_MOST >> 20);
+            return too_much(message);
     return true;
 }
 
@@ -126,8 +130,7 @@ static bool read_entries(Bundle *bundle, struct archive *archive, Message *messa
             return false;
         /* What is compressed as a whole counts as a whole. */
         if (archive_filter_bytes(archive, 0) > UNPACK_BYTES_MOST)
-            return message_set(message, "the archive unpacks to more than %d MB",
-                               UNPACK_BYTES_MOST >> 20);
+            return too_much(message);
     }
 }
 

@@ -85,14 +85,10 @@ void verdict_add_mistake(Verdict *verdict, const char *name, const char *sentenc
                          double sure);
 
 /* Gives points: all for what is right; else one for what compiles and draws, and up to eight for
- * the share of scenes that it passes, in halves. In lab 10, see judge_budget. */
+ * the share of scenes that it passes, in halves. In lab 10, see budget_score. */
 void verdict_score(Verdict *verdict);
 
 /* For a terminal. */
 void verdict_print(const Verdict *verdict, const Lab *lab, const char *pictures, FILE *file);
-
-/* As JSON, to a file or "-"; whole or not at all. */
-bool verdict_write(const Verdict *verdict, const Lab *lab, const char *submission, const char *path,
-                   Message *message);
 
 #endif

@@ -17,6 +17,7 @@
 #define NUMBER(name) U_##name,
 enum { UNIFORMS(NUMBER) UNIFORM_COUNT };
 #undef NUMBER
+_Static_assert((int)UNIFORM_COUNT == (int)WRONG_PROGRAM_UNIFORMS, "a location for each");
 
 #define NAME(name) #name,
 static const char *const NAMES[UNIFORM_COUNT] = {UNIFORMS(NAME)};
@@ -101,17 +102,10 @@ static void set_vectors(const WrongProgram *program, int uniform, const Vec3 *va
 
 /* Places. */
 
-static Mat4 rotated(double degrees, Vec3 axis)
-{
-    Mat4 rotation;
-    mat4_rotate(degrees, axis, &rotation);
-    return rotation;
-}
-
 /* Where lab 3's mistakes put the cube. */
 static Mat4 model_matrix(const Made *made)
 {
-    const double degrees = 30 * made->probe->seconds, radian = 180 / acos(-1);
+    const double degrees = PROBE_DEGREES_PER_SECOND * made->probe->seconds, radian = 180 / acos(-1);
     Mat4 inverse, move, scale, turn;
     const Mat4 right = made->object->world_from_object;
     if (!made->of[SLOT_WORLD])
@@ -125,10 +119,10 @@ static Mat4 model_matrix(const Made *made)
     case WORLD_REVERSED:
         return mat4_product(scale, mat4_product(turn, move));
     case WORLD_RADIANS:
-        turn = rotated(degrees / radian, PROBE_AXIS);
+        mat4_rotate(degrees / radian, PROBE_AXIS, &turn);
         break;
     case WORLD_DEGREES:
-        turn = rotated(degrees * radian, PROBE_AXIS);
+        mat4_rotate(degrees * radian, PROBE_AXIS, &turn);
         break;
     case WORLD_BACKWARDS:
         turn = mat4_transpose(turn);
@@ -151,13 +145,13 @@ static Mat4 model_matrix(const Made *made)
         mat4_inverse(scale, &scale);
         break;
     case WORLD_ABOUT_X:
-        turn = rotated(degrees, (Vec3){1, 0, 0});
+        mat4_rotate(degrees, (Vec3){1, 0, 0}, &turn);
         break;
     case WORLD_ABOUT_Y:
-        turn = rotated(degrees, (Vec3){0, 1, 0});
+        mat4_rotate(degrees, (Vec3){0, 1, 0}, &turn);
         break;
     case WORLD_ABOUT_Z:
-        turn = rotated(degrees, (Vec3){0, 0, 1});
+        mat4_rotate(degrees, (Vec3){0, 0, 1}, &turn);
         break;
     default: /* WORLD_INVERSE */
         mat4_inverse(right, &inverse);
@@ -191,61 +185,53 @@ static Mat4 clip_matrix(const Made *made)
     }
 }
 
-/* Only what a direction sees. */
-static Mat4 linear_part(Mat4 matrix)
+static Mat4 without_translation(Mat4 matrix)
 {
-    for (int k = 0; k < 3; k++)
-        matrix.m[12 + k] = matrix.m[4 * k + 3] = 0;
-    matrix.m[15] = 1;
+    matrix.m[12] = matrix.m[13] = matrix.m[14] = 0;
     return matrix;
 }
 
 static Mat4 place_matrix(const Made *made)
 {
-    Mat4 place = made->world;
     switch (made->of[SLOT_PLACE]) {
     case PLACE_OBJECT:
         return mat4_identity();
     case PLACE_W_0:
-        place.m[12] = place.m[13] = place.m[14] = 0;
-        return place;
+        return without_translation(made->world);
     case PLACE_EYE:
         return mat4_product(made->eye_from_world, made->world);
     case PLACE_TRANSPOSED:
         return mat4_transpose(made->world);
     default:
-        return place;
+        return made->world;
     }
 }
 
+/* Its last column is added to a normal. */
 static Mat4 normal_matrix(const Made *made)
 {
-    Mat4 normal, move, turn, scale;
+    Mat4 move, turn, scale;
     switch (made->of[SLOT_NORMAL]) {
     case NORMAL_OBJECT:
         return mat4_identity();
     case NORMAL_MODEL:
-        return linear_part(made->world);
+        return without_translation(made->world);
     case NORMAL_MODEL_W_1:
-        return made->world; /* its last column is the translation */
+        return made->world;
     case NORMAL_INVERSE:
-        binding_normal_matrix(made->world, &normal);
-        return mat4_transpose(normal);
+        return mat4_transpose(binding_normal_matrix(made->world));
     case NORMAL_TRANSPOSE:
-        return mat4_transpose(linear_part(made->world));
+        return mat4_transpose(made->world);
     case NORMAL_EYE:
-        binding_normal_matrix(mat4_product(made->eye_from_world, made->world), &normal);
-        return normal;
+        return binding_normal_matrix(mat4_product(made->eye_from_world, made->world));
     case NORMAL_TURN:
         probe_world_parts(made->probe->seconds, &move, &turn, &scale);
         return turn;
     case NORMAL_UNTURNED:
         probe_world_parts(made->probe->seconds, &move, &turn, &scale);
-        binding_normal_matrix(scale, &normal);
-        return normal;
+        return binding_normal_matrix(scale);
     default:
-        binding_normal_matrix(made->world, &normal);
-        return normal;
+        return binding_normal_matrix(made->world);
     }
 }
 
@@ -253,8 +239,6 @@ static void set_matrices(const WrongProgram *program, const Made *made)
 {
     const GLint *at = program->locations;
     Mat4 normal = normal_matrix(made);
-    if (made->of[SLOT_NORMAL] != NORMAL_MODEL_W_1)
-        normal = linear_part(normal); /* whose last column adds nothing */
     if (made->of[SLOT_NORMAL_SIGN])
         normal = mat4_product(mat4_scale((Vec3){-1, -1, -1}), normal);
     shader_set_mat4(at[U_u_Clip], clip_matrix(made));
@@ -385,7 +369,7 @@ static void set_colors(const WrongProgram *program, const Made *made)
 static double exponent(const Made *made, bool blinn_phong)
 {
     const double shininess = made->object->front.shininess;
-    const bool fitted = made->lab->reflection == REFLECTION_BLINN_PHONG;
+    const double fitted = made->probe->fitted[made->object - made->probe->objects];
     switch (made->of[SLOT_EXPONENT]) {
     case EXPONENT_PLAIN:
         return shininess;
@@ -402,10 +386,8 @@ static double exponent(const Made *made, bool blinn_phong)
     if (made->of[SLOT_FIT] == FIT_FOUR)
         return 4 * shininess;
     if (made->of[SLOT_FIT] == FIT_LEAST)
-        return made->probe->fitted[made->object - made->probe->objects];
-    if (fitted)
-        return (4 * shininess + made->probe->fitted[made->object - made->probe->objects]) / 2;
-    return shininess;
+        return fitted;
+    return made->lab->fitted ? (4 * shininess + fitted) / 2 : shininess;
 }
 
 static void set_reflection(const WrongProgram *program, const Made *made)
@@ -486,7 +468,7 @@ static void set_fade(const WrongProgram *program, const Made *made)
         c = l = 0, q = 1;
     set_vec3(program, U_u_Fade, c, l, q);
     set_int(program, U_u_FadeMode, of == FADE_INVERTED ? 1 : of == FADE_SQUARED ? 2 : 0);
-    set_vec3(program, U_u_FadeOn, on != ON_NO_DIFFUSE, on != ON_NO_HIGHLIGHT, on == ON_AMBIENT);
+    set_vec3(program, U_u_FadeOn, 1, on != ON_NO_HIGHLIGHT, on == ON_AMBIENT);
 }
 
 static void set_cone(const WrongProgram *program, const Made *made)

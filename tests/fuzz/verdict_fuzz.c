@@ -4,7 +4,7 @@
  * The input is read as JSON; what is taken is written, read again and the same, and it is what
  * pages and tables rely on: text in UTF-8 without control characters, numbers in their ranges.
  */
-#include "verdict_read.h"
+#include "verdict_json.h"
 
 #include <math.h>
 #include <stdint.h>

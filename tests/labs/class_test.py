@@ -77,7 +77,6 @@ class Class(base.Case):
     def setUp(self):
         super().setUp()
         os.makedirs(self.path("class"))
-        self.environment = {}
 
     # Submissions.
 
@@ -101,7 +100,22 @@ class Class(base.Case):
             text = text.replace(old, new, 1)
         return text
 
+    def submit_endless(self, name):
+        draw = "gl_FragColor = "
+        text = self.frag(replace=((draw, f"{ENDLESS} {draw}z * "),))
+        return self.submit(name, lab05_frag=text)
+
     # Runs.
+
+    def start_class(self, *arguments, **more):
+        """The program as a process, on lab 5 with results in "out"."""
+        command = [os.path.join(base.EXAMPLES, PROGRAM), "--class", "class", "--lab", "5"]
+        return subprocess.Popen(
+            [*command, "-o", "out", *arguments],
+            cwd=self.folder,
+            stdout=subprocess.DEVNULL,
+            **more,
+        )
 
     def check_class(self, *arguments, out="out", code=0, **more):
         """Standard error without the line about the sandbox, as lines."""
@@ -116,6 +130,12 @@ class Class(base.Case):
 
     def lab5(self, *arguments, **more):
         return self.check_class("--lab", "5", *arguments, **more)
+
+    def results(self):
+        """The paths of all files that were written, and their bytes."""
+        for folder, _, names in os.walk(self.path("out")):
+            for name in names:
+                yield os.path.join(folder, name), read(folder, name, mode="rb")
 
     def table(self, out="out"):
         with open(self.path(out, "class.csv"), newline="", encoding="utf-8") as file:
@@ -273,10 +293,7 @@ class Abuse(Class):
         os.mkfifo(self.path("class/pipe", FRAG))
         self.submit("zeros", lab05_frag=b"\0" * 1000)
         self.submit("nothing", lab05_frag=None, lab05_vert=None)
-        self.submit(
-            "endless",
-            lab05_frag=self.frag(replace=(("gl_FragColor = ", ENDLESS + " gl_FragColor = z * "),)),
-        )
+        self.submit_endless("endless")
         files = [(name, read(SOLUTION, name, mode="rb")) for name in (VERT, FRAG)]
         self.archive("climbs.tar.gz", *files, ("../../climbed.frag", b"x"))
         self.archive("absolute_path.tar.gz", *files, ("/tmp/climbed.frag", b"x"))
@@ -327,11 +344,9 @@ class Abuse(Class):
             {"good": "right", "through_link": "right"},
         )
         self.assertEqual(sorted(os.listdir(self.folder)), sorted(before + ["out"]))
-        for folder, _, names in os.walk(self.path("out")):
-            for name in names:
-                text = read(folder, name, mode="rb")
-                self.assertNotIn(secret.encode(), text)
-                self.assertNotIn(b"root:", text)
+        for path, content in self.results():
+            self.assertNotIn(secret.encode(), content, path)
+            self.assertNotIn(b"root:", content, path)
 
     def test_c_runs_only_where_it_is_shut_in(self):
         """The fork bomb is lit only after the program has proven that its limits hold, in this very
@@ -357,12 +372,12 @@ class Abuse(Class):
         self.make("secret.h", "#error the secret\n")
         # The text may include nothing that declares these; whoever wants them declares them.
         declared = (
+            "#include <stddef.h>\n#include <string.h>\n"
             "int fork(void); int pause(void); unsigned sleep(unsigned); int kill(int, int); "
             "int getppid(void); void *malloc(size_t); void abort(void); struct file; "
             "struct file *fopen(const char *, const char *); "
             "int fputs(const char *, struct file *); int fclose(struct file *);\n"
         )
-        declared = "#include <stddef.h>\n#include <string.h>\n" + declared
         with_code("bomb", declared, " for (;;) fork(); ")
         with_code("patient_bomb", declared, " while (fork() >= 0) ; for (;;) pause(); ")
         with_code(
@@ -412,9 +427,8 @@ class Abuse(Class):
                 self.assertIn(verdict, ("timeout", "error", "refused"), lines)
                 self.assert_one_line(lines, name, verdict, ".")
         self.assertFalse(os.path.exists(self.path("written")))
-        for folder, _, names in os.walk(self.path("out")):
-            for name in names:
-                self.assertNotIn(b"the secret", read(folder, name, mode="rb"))
+        for path, content in self.results():
+            self.assertNotIn(b"the secret", content, path)
 
     def test_text_that_students_choose_stays_text(self):
         names = ["<script>alert(1)<", "=1+cmd|' ", 'a"b,c', "-rf", "%s%n", "' onload='x", "a&b;"]
@@ -430,10 +444,9 @@ class Abuse(Class):
         self.assertEqual(
             sorted(case.get("name") for case in suites.iter("testcase")), sorted(names)
         )
-        for folder, _, files in os.walk(self.path("out")):
-            for file in files:
-                if file.endswith(".html"):
-                    self.assertNotIn("script", Page(read(folder, file)).names)
+        for path, content in self.results():
+            if path.endswith(".html"):
+                self.assertNotIn("script", Page(content.decode()).names)
 
 
 class Results(Class):
@@ -445,6 +458,11 @@ class Results(Class):
             for name in os.listdir(folder)
             if os.path.exists(os.path.join(folder, name, "result.json"))
         }
+
+    def wait_for_result(self, process, student):
+        path = self.path("out/students", student, "result.json")
+        while process.poll() is None and not os.path.exists(path):
+            time.sleep(0.01)
 
     def test_tables_and_pages(self):
         self.submit("right")
@@ -492,25 +510,9 @@ class Results(Class):
         count = 12
         for i in range(count):
             self.submit(f"student{i:02}")
-        command = [
-            os.path.join(base.EXAMPLES, PROGRAM),
-            "--class",
-            "class",
-            "--lab",
-            "5",
-            "-o",
-            "out",
-            "--jobs",
-            "1",
-        ]
-        with subprocess.Popen(
-            command, cwd=self.folder, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL
-        ) as process:
-            while process.poll() is None:
-                if os.path.exists(self.path("out/students/student01/result.json")):
-                    process.send_signal(signal.SIGINT)
-                    break
-                time.sleep(0.01)
+        with self.start_class("--jobs", "1", stderr=subprocess.PIPE) as process:
+            self.wait_for_result(process, "student01")
+            process.send_signal(signal.SIGINT)
             error = process.communicate(timeout=60)[1].decode()
         self.assertEqual(process.returncode, 1, error)
         self.assertIn("interrupted; the same command goes on", error)
@@ -521,10 +523,25 @@ class Results(Class):
         second = self.judged()
         self.assertEqual(len(second), count)
         self.assertEqual({name: second[name] for name in first}, first)
-        # Killed without a word, it leaves whole results alone.
+        # Unless it is told to begin again.
         self.lab5("--again")
         third = self.judged()
         self.assertTrue(all(third[name] > second[name] for name in second))
+
+    def test_signals_that_are_ignored_do_not_interrupt(self):
+        """As nohup has SIGHUP."""
+        for i in range(4):
+            self.submit(f"student{i}")
+        with self.start_class(
+            *("--jobs", "1"),
+            stderr=subprocess.PIPE,
+            preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN),
+        ) as process:
+            self.wait_for_result(process, "student0")
+            process.send_signal(signal.SIGHUP)
+            error = process.communicate(timeout=60)[1].decode()
+        self.assertEqual(process.returncode, 0, error)
+        self.assertEqual(len(self.judged()), 4)
 
     def state(self, process):
         """Its parent's number, and its state's letter; (0, "Z") where it is no more."""
@@ -546,28 +563,11 @@ class Results(Class):
 
     def test_what_was_started_ends_with_the_program(self):
         for i in range(4):
-            self.submit(
-                f"endless{i}",
-                lab05_frag=self.frag(
-                    replace=(("gl_FragColor = ", ENDLESS + " gl_FragColor = z * "),)
-                ),
-            )
-        command = [
-            os.path.join(base.EXAMPLES, PROGRAM),
-            "--class",
-            "class",
-            "--lab",
-            "5",
-            "-o",
-            "out",
-            "--jobs",
-            "4",
-            "--limit",
-            "1000",
-        ]
+            self.submit_endless(f"endless{i}")
+        arguments = ("--jobs", "4", "--limit", "1000")
         for end in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
-            with self.subTest(signal=end), subprocess.Popen(
-                command, cwd=self.folder, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL
+            with self.subTest(signal=end), self.start_class(
+                *arguments, stderr=subprocess.DEVNULL
             ) as process:
                 started = []
                 while process.poll() is None and len(started) < 4 * 3:
@@ -719,10 +719,7 @@ class Results(Class):
     def test_without_bubblewrap_limits_remain(self):
         """And C does not run."""
         self.submit("a")
-        self.submit(
-            "endless",
-            lab05_frag=self.frag(replace=(("gl_FragColor = ", ENDLESS + " gl_FragColor = z * "),)),
-        )
+        self.submit_endless("endless")
         os.makedirs(self.path("tmp"))
         nothing = {"PATH": self.folder, "TMPDIR": self.path("tmp")}
         self.need_somebody()
@@ -752,7 +749,6 @@ def take_time(count):
 
 
 if __name__ == "__main__":
-    base.unittest = unittest
     if "--time" in sys.argv:
         take_time(int((sys.argv[sys.argv.index("--time") + 1 :] + [60])[0]))
         sys.exit()

@@ -1,6 +1,10 @@
-#include "verdict_read.h"
+#include "verdict_json.h"
+
+#include "json.h"
+#include "output.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* U+202A to U+202E and U+2066 to U+2069: they make a line read otherwise than it is written. */
@@ -256,9 +260,27 @@ bool verdict_read(const void *bytes, size_t size, char lab[64], Verdict *verdict
     return done;
 }
 
+/* JSON has neither infinities nor what is no number. */
 static json_t *number(double value)
 {
     return isfinite(value) ? json_real(value) : json_null();
+}
+
+/* A driver or compiler may quote bytes that are not UTF-8, and what is cut may end within a
+ * character. */
+static json_t *text(const char *bytes)
+{
+    json_t *string = json_string(bytes);
+    char *quoted = NULL;
+    size_t size = 0;
+    FILE *file = string ? NULL : open_memstream(&quoted, &size);
+    if (!file)
+        return string;
+    json_put_string(file, bytes);
+    if (fclose(file) == 0)
+        string = json_loadb(quoted, size, JSON_DECODE_ANY, NULL);
+    free(quoted);
+    return string;
 }
 
 static json_t *mistakes_to_json(const Verdict *verdict)
@@ -266,9 +288,9 @@ static json_t *mistakes_to_json(const Verdict *verdict)
     json_t *list = json_array();
     for (int i = 0; i < verdict->mistake_count; i++) {
         const VerdictMistake *mistake = &verdict->mistakes[i];
-        json_array_append_new(list, json_pack("{s:s, s:s, s:s, s:f}", "name", mistake->name,
-                                              "sentence", mistake->sentence, "look", mistake->look,
-                                              "sure", mistake->sure));
+        json_array_append_new(list, json_pack("{s:o, s:o, s:o, s:o}", "name", text(mistake->name),
+                                              "sentence", text(mistake->sentence), "look",
+                                              text(mistake->look), "sure", number(mistake->sure)));
     }
     return list;
 }
@@ -279,11 +301,11 @@ static json_t *probes_to_json(const Verdict *verdict)
     for (int i = 0; i < verdict->probe_count; i++) {
         const VerdictProbe *probe = &verdict->probes[i];
         json_array_append_new(list,
-                              json_pack("{s:s, s:s, s:i, s:i, s:f, s:o, s:o, s:b}", "name",
-                                        probe->name, "set", probe->known ? "known" : "seed",
+                              json_pack("{s:o, s:s, s:i, s:i, s:o, s:o, s:o, s:b}", "name",
+                                        text(probe->name), "set", probe->known ? "known" : "seed",
                                         "width", probe->width, "height", probe->height, "seconds",
-                                        probe->seconds, "maximum", number(probe->maximum), "rms",
-                                        number(probe->rms), "passed", (int)probe->passed));
+                                        number(probe->seconds), "maximum", number(probe->maximum),
+                                        "rms", number(probe->rms), "passed", (int)probe->passed));
     }
     return list;
 }
@@ -292,32 +314,49 @@ static json_t *symptoms_to_json(const Verdict *verdict)
 {
     json_t *list = json_array();
     for (int i = 0; i < verdict->symptom_count; i++)
-        json_array_append_new(list, json_string(verdict->symptoms[i]));
+        json_array_append_new(list, text(verdict->symptoms[i]));
     return list;
 }
 
 static json_t *cost_to_json(const VerdictCost *cost)
 {
+    const bool counted = cost->operations >= 0;
     if (!cost->known)
         return json_null();
-    if (cost->operations < 0)
-        return json_pack("{s:f, s:f, s:n, s:n}", "error", cost->error, "time_ratio",
-                         cost->time_ratio, "operations", "operations_ratio");
-    return json_pack("{s:f, s:f, s:I, s:f}", "error", cost->error, "time_ratio", cost->time_ratio,
-                     "operations", (json_int_t)cost->operations, "operations_ratio",
-                     cost->operations_ratio);
+    return json_pack("{s:o, s:o, s:o, s:o}", "error", number(cost->error), "time_ratio",
+                     number(cost->time_ratio), "operations",
+                     counted ? json_integer(cost->operations) : json_null(), "operations_ratio",
+                     counted ? number(cost->operations_ratio) : json_null());
 }
 
 json_t *verdict_to_json(const Verdict *verdict, const char *lab)
 {
     json_t *pictures = json_array();
     if (verdict->picture[0])
-        json_array_append_new(pictures, json_string(verdict->picture));
-    return json_pack("{s:s, s:I, s:f, s:i, s:s, s:s, s:s, s:o, s:b, s:o, s:o, s:o, s:f, s:o}",
-                     "lab", lab, "seed", (json_int_t)verdict->seed, "points", verdict->points,
-                     "most", VERDICT_MOST_POINTS, "verdict", VERDICT_NAMES[verdict->kind],
-                     "message", verdict->message, "details", verdict->details, "mistakes",
-                     mistakes_to_json(verdict), "one_of", (int)verdict->one_of, "symptoms",
-                     symptoms_to_json(verdict), "probes", probes_to_json(verdict), "pictures",
-                     pictures, "seconds", verdict->seconds, "cost", cost_to_json(&verdict->cost));
+        json_array_append_new(pictures, text(verdict->picture));
+    return json_pack("{s:s, s:I, s:o, s:i, s:s, s:o, s:o, s:o, s:b, s:o, s:o, s:o, s:o, s:o}",
+                     "lab", lab, "seed", (json_int_t)verdict->seed, "points",
+                     number(verdict->points), "most", VERDICT_MOST_POINTS, "verdict",
+                     VERDICT_NAMES[verdict->kind], "message", text(verdict->message), "details",
+                     text(verdict->details), "mistakes", mistakes_to_json(verdict), "one_of",
+                     (int)verdict->one_of, "symptoms", symptoms_to_json(verdict), "probes",
+                     probes_to_json(verdict), "pictures", pictures, "seconds",
+                     number(verdict->seconds), "cost", cost_to_json(&verdict->cost));
+}
+
+bool verdict_write(const Verdict *verdict, const Lab *lab, const char *submission, const char *path,
+                   Message *message)
+{
+    json_t *object = verdict_to_json(verdict, lab->name);
+    json_object_set_new(object, "path", text(submission));
+    json_object_set_new(object, "student", json_null());
+    char *file = json_dumps(object, JSON_INDENT(2) | JSON_REAL_PRECISION(9));
+    size_t size = file ? strlen(file) : 0;
+    json_decref(object);
+    if (!file)
+        return message_set(message, "%s: not enough memory", path);
+    file[size++] = '\n'; /* in the place of its end */
+    const bool done = output_write(path, file, size, message);
+    free(file);
+    return done;
 }
