@@ -618,6 +618,8 @@ class Shaders(Case):
         self.edit(self.original, False)
         shown = self.show("-s", "160x160", "--shaders", "mine", program="LightedCube")
         shutil.rmtree(self.path("mine"))
+        wait_for(lambda: shown.said().endswith("--shaders mine: there is no such folder\n"),
+                 "a complaint")
         plain = self.assert_drawn(shown, self.original).pixels
         os.mkdir(self.path("mine"))
         self.edit(self.dark, True)
