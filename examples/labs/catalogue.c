@@ -21,46 +21,46 @@ const Mistake MISTAKES[] = {
     /* Where the model lies: lab 3. */
     {"moved before it is turned",
      L(3),
-     {{{SLOT_WORLD, WORLD_MOVED_FIRST}}},
+     {{{SLOT_ORDER, ORDER_MOVED_FIRST}}},
      "The cube circles about the origin: it is moved first and turned afterwards.",
      "the order of the product in lab_matrices: the last factor is done first, so it is move * turn "
      "* scale"},
     {"turned before it is scaled",
      L(3),
-     {{{SLOT_WORLD, WORLD_SCALED_LAST}}},
+     {{{SLOT_ORDER, ORDER_SCALED_LAST}}},
      "The cube changes its shape while it turns: it is turned first and scaled afterwards.",
      "the order of the product in lab_matrices: the last factor is done first, so it is move * turn "
      "* scale"},
     {"product in the reverse order",
      L(3),
-     {{{SLOT_WORLD, WORLD_REVERSED}}},
+     {{{SLOT_ORDER, ORDER_REVERSED}}},
      "Scale, turn and move are done in the reverse order.",
      "the order of the product in lab_matrices: vectors are columns, and the last factor is done "
      "first"},
     {"degrees for radians",
      L(3) | L(8),
-     {{{SLOT_WORLD, WORLD_RADIANS}}, {{SLOT_WORLD, WORLD_DEGREES}}, {{SLOT_CONE, CONE_DEGREES}}},
+     {{{SLOT_TURN, TURN_RADIANS}}, {{SLOT_TURN, TURN_DEGREES}}, {{SLOT_CONE, CONE_DEGREES}}},
      "An angle in degrees is taken for one in radians, or the reverse.",
      "every sine, cosine or turn: mat4_rotate takes degrees, GLSL's cos takes radians(...)"},
     {"turned the wrong way",
      L(3),
-     {{{SLOT_WORLD, WORLD_BACKWARDS}}},
+     {{{SLOT_TURN_SIGN, SIGN_REVERSED}}},
      "The cube turns in the opposite direction.",
      "the sign of the angle and of the axis: positive is counter-clockwise, seen from the axis's "
      "tip"},
     {"not turned",
      L(3),
-     {{{SLOT_WORLD, WORLD_NOT_TURNED}}},
+     {{{SLOT_TURN, PART_MISSING}}},
      "The cube does not turn.",
      "the product in lab_matrices, for the rotation, and its angle, for the time"},
     {"not moved",
      L(3),
-     {{{SLOT_WORLD, WORLD_NOT_MOVED}}},
+     {{{SLOT_MOVE, PART_MISSING}}},
      "The cube is not moved.",
      "the product in lab_matrices, for the translation"},
     {"not scaled",
      L(3),
-     {{{SLOT_WORLD, WORLD_NOT_SCALED}}},
+     {{{SLOT_SCALE, PART_MISSING}}},
      "The cube is not scaled.",
      "the product in lab_matrices, for the scale"},
     {"rows for columns in the model matrix",
@@ -70,17 +70,17 @@ const Mistake MISTAKES[] = {
      "the order of matrix and vector, u_ModelMatrix * a_Position, and in C at m[4 * column + row]"},
     {"moved the wrong way",
      L(3),
-     {{{SLOT_WORLD, WORLD_MOVED_BACK}}},
+     {{{SLOT_MOVE, PART_INVERSE}}},
      "The cube is moved in the opposite direction.",
      "the signs of the translation"},
     {"scaled inversely",
      L(3),
-     {{{SLOT_WORLD, WORLD_SCALED_INVERSELY}}},
+     {{{SLOT_SCALE, PART_INVERSE}}},
      "The cube is divided by the scale, not multiplied.",
      "the scale's factors, and at what is inverted: only the normal matrix is made of the inverse"},
     {"turned about another axis",
      L(3),
-     {{{SLOT_WORLD, WORLD_ABOUT_X}}, {{SLOT_WORLD, WORLD_ABOUT_Y}}, {{SLOT_WORLD, WORLD_ABOUT_Z}}},
+     {{{SLOT_AXIS, AXIS_X}}, {{SLOT_AXIS, AXIS_Y}}, {{SLOT_AXIS, AXIS_Z}}},
      "The cube turns about a coordinate axis, not about the task's.",
      "the axis of mat4_rotate"},
     {"inverse of the model matrix",
@@ -584,7 +584,8 @@ static bool form_applies(const Lab *lab, const Change *form)
 {
     for (int i = 0; i < MISTAKE_MOST_CHANGES && form[i].choice; i++) {
         const Slot slot = form[i].slot;
-        if ((slot == SLOT_WORLD && !lab->given) || (slot == SLOT_VIEW && !lab->specular) ||
+        if ((slot >= SLOT_ORDER && slot <= SLOT_WORLD && !lab->given) ||
+            (slot == SLOT_VIEW && !lab->specular) ||
             (slot == SLOT_PLACE && (lab->given || lab->light == LIGHT_DIRECTIONAL)) ||
             (slot == SLOT_LIGHT_SPACE && lab->given) ||
             (slot == SLOT_CONE && lab->light != LIGHT_SPOT))
@@ -646,8 +647,7 @@ bool catalogue_moves(const Suspect *suspect)
 {
     const int *of = suspect->choices.of;
     /* Another depth leaves the outline. */
-    return of[SLOT_WORLD] ||
-           (of[SLOT_CLIP] && of[SLOT_CLIP] != CLIP_FLAT && of[SLOT_CLIP] != CLIP_REVERSED);
+    return of[SLOT_CLIP] && of[SLOT_CLIP] != CLIP_FLAT && of[SLOT_CLIP] != CLIP_REVERSED;
 }
 
 int catalogue_find(const char *name)

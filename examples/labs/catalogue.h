@@ -11,9 +11,15 @@
 #include "lab.h"
 
 typedef enum Slot {
-    SLOT_STAGE,  /* where light is computed */
-    SLOT_FIT,    /* which exponent, lab 7: that between the two that are right, or one of them */
-    SLOT_WORLD,  /* where the model lies, lab 3 */
+    SLOT_STAGE, /* where light is computed */
+    SLOT_FIT,   /* which exponent, lab 7: that between the two that are right, or one of them */
+    SLOT_ORDER, /* lab 3's model matrix: the product, */
+    SLOT_MOVE,  /* its parts, */
+    SLOT_TURN,
+    SLOT_TURN_SIGN,
+    SLOT_AXIS,
+    SLOT_SCALE,
+    SLOT_WORLD,  /* and what becomes of it */
     SLOT_CLIP,   /* where it is drawn */
     SLOT_PLACE,  /* the point that is lit, in the world */
     SLOT_NORMAL, /* the normal's matrix */
@@ -55,21 +61,20 @@ enum {
     FIT_LEAST = 1, /* the fitted one */
     FIT_FOUR,      /* four times Phong's */
 
-    WORLD_MOVED_FIRST = 1,
-    WORLD_SCALED_LAST,
-    WORLD_REVERSED,
-    WORLD_RADIANS,
-    WORLD_DEGREES,
-    WORLD_BACKWARDS,
-    WORLD_NOT_TURNED,
-    WORLD_NOT_MOVED,
-    WORLD_NOT_SCALED,
-    WORLD_TRANSPOSED,
-    WORLD_MOVED_BACK,
-    WORLD_SCALED_INVERSELY,
-    WORLD_ABOUT_X,
-    WORLD_ABOUT_Y,
-    WORLD_ABOUT_Z,
+    ORDER_MOVED_FIRST = 1,
+    ORDER_SCALED_LAST,
+    ORDER_REVERSED,
+
+    PART_MISSING = 1, /* of move, turn and scale */
+    PART_INVERSE,
+    TURN_RADIANS,
+    TURN_DEGREES,
+
+    AXIS_X = 1,
+    AXIS_Y,
+    AXIS_Z,
+
+    WORLD_TRANSPOSED = 1,
     WORLD_INVERSE,
 
     CLIP_UPSIDE_DOWN = 1,
@@ -228,7 +233,8 @@ Suspect *catalogue_singles(const Lab *lab, int *count);
  */
 bool catalogue_pair(const Suspect *a, const Suspect *b, Suspect *pair);
 
-/* Whether the suspect draws the object elsewhere: its outline differs. */
+/* Whether the suspect draws the object elsewhere: its outline differs. Not for lab 3, where the
+ * outline also follows the submission's C. */
 bool catalogue_moves(const Suspect *suspect);
 
 /* -1 where there is none of that name. */

@@ -7,8 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Further scenes that are tried to tell suspects apart, and their seeds. */
-enum { MOST_FURTHER = 15 };
+/* Further scenes, the first of which what is named has to match, too, and the others tell suspects
+ * apart; and their seeds. */
+enum { ALWAYS_FURTHER = 2, MOST_FURTHER = 17, NEAR_FURTHER = 7 };
 static const uint64_t FURTHER_SEED = 0x0F0E0D0C0B0A0908u;
 
 /* More than these are no finding. */
@@ -44,20 +45,21 @@ static bool all_same(const Suspect *suspects, int count)
     return true;
 }
 
-/* Where several match, or one nearly does: further scenes. */
+/* In further scenes: two, and more where several match, or one nearly does. */
 static bool tell_apart(Lineup *lineup, uint64_t seed, Suspect *suspects, int *count, bool near,
                        Message *message)
 {
-    static const ProbeKind kinds[] = {PROBE_MOVED, PROBE_CROWD, PROBE_BEHIND, PROBE_COARSE,
-                                      PROBE_WIDE};
+    static const ProbeKind kinds[] = {PROBE_ALONG,  PROBE_AGAINST, PROBE_MOVED, PROBE_CROWD,
+                                      PROBE_BEHIND, PROBE_COARSE,  PROBE_WIDE};
+    enum { KINDS = sizeof kinds / sizeof kinds[0] };
     /* The submission's C gave no matrices for other moments. */
     if (lineup->shots->lab->given)
         return true;
-    for (int i = 0; i < MOST_FURTHER && (near || !all_same(suspects, *count)); i++) {
+    for (int i = 0; i < MOST_FURTHER; i++) {
         Probe probe;
-        if (near && i == 5)
-            near = false;
-        if (!probe_open_seed(&probe, lineup->shots->lab, kinds[i % 5],
+        if (i >= ALWAYS_FURTHER && (!near || i >= NEAR_FURTHER) && all_same(suspects, *count))
+            break;
+        if (!probe_open_seed(&probe, lineup->shots->lab, kinds[i % KINDS],
                              (seed ^ FURTHER_SEED) + (uint64_t)i, message))
             return false;
         const bool done = lineup_confront(lineup, &probe, suspects, count, message);

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-const char *const PROBE_NAMES[PROBE_KIND_COUNT] = {"A", "B", "C", "D", "E", "F", "G"};
+const char *const PROBE_NAMES[PROBE_KIND_COUNT] = {"A", "B", "C", "D", "E", "F", "G", "H", "I"};
 
 /* The factor of PROBE_HUGE. The square of a distance then exceeds what 16 bits hold, 65504. */
 static const double HUGE_FACTOR = 300;
@@ -329,8 +329,9 @@ static ProbeShape choose_shape(const Lab *lab, ProbeKind kind, int number, Rando
     if (lab->given || lab->budget)
         return lab->given ? SHAPE_OF_CUBE_ON_CORNER : SHAPE_OF_SPHERE;
     if (lab->two_sided)
-        return kind == PROBE_PLAIN || kind == PROBE_COARSE || number == 1 ? SHAPE_OF_TUBE
-                                                                          : SHAPE_OF_QUAD;
+        return kind == PROBE_PLAIN || kind == PROBE_COARSE || kind == PROBE_HUGE || number == 1
+                   ? SHAPE_OF_TUBE /* some of it is always lit */
+                   : SHAPE_OF_QUAD;
     if (lab->flat)
         return kind == PROBE_COARSE ? SHAPE_OF_DODECAHEDRON
                                     : flat[(int)random_between(random, 0, 3.999)];
@@ -375,6 +376,8 @@ static Mat4 choose_world(const Lab *lab, ProbeKind kind, bool flat, double secon
 static Vec3 choose_view(ProbeKind kind, Random *random)
 {
     const double spread = kind == PROBE_PLAIN ? 20 : 60;
+    if (kind == PROBE_ALONG || kind == PROBE_AGAINST)
+        return (Vec3){0, 0, 1};
     return random_near(random, (Vec3){0, 0.2, 1}, 5, spread);
 }
 
@@ -386,10 +389,12 @@ static void choose_lights(Probe *probe, const Lab *lab, Vec3 view, Random *rando
         /* From the side, so that there is light and shade; or from behind. */
         const bool behind = probe->kind == PROBE_BEHIND && (i == 0 || random_chance(random));
         /* In C the first one is near the eye, where half vectors are nearly unit. */
-        const bool beside = probe->kind == PROBE_COARSE && i == 0;
+        const bool beside = probe->kind == PROBE_ALONG || (probe->kind == PROBE_COARSE && i == 0);
+        const bool beyond = probe->kind == PROBE_AGAINST;
         const double most_behind = lab->budget ? 170 : 140;
         const Vec3 towards = behind
                                  ? random_near(random, view, lab->budget ? 155 : 105, most_behind)
+                             : beyond ? random_near(random, vec3_scale(view, -1), 8, 22)
                              : beside ? random_near(random, view, 8, 22)
                                       : random_near(random, view, 25, 75);
         const double distance = probe->kind == PROBE_WIDE ? random_between(random, 1.9, 2.3)
@@ -415,7 +420,8 @@ static void choose_lights(Probe *probe, const Lab *lab, Vec3 view, Random *rando
 
 static double choose_shininess(ProbeKind kind, const Lab *lab, Random *random)
 {
-    static const double least[] = {12, 8, 26, 2, 14, 8, 10}, most[] = {24, 14, 30, 4, 24, 14, 16};
+    static const double least[PROBE_KIND_COUNT] = {12, 8, 26, 2, 14, 8, 10, 8, 2};
+    static const double most[PROBE_KIND_COUNT] = {24, 14, 30, 4, 24, 14, 16, 10, 3};
     if (lab->budget)
         return random_between(random, 24, 32);
     /* What fits Phong's 8 is Blinn-Phong's 33, and 4 times 8 nearly as good; below they part. */
@@ -451,6 +457,21 @@ static void enlarge(Probe *probe)
     }
 }
 
+/* Moves everything so that the eye is at the world's origin. */
+static void look_from_origin(Probe *probe)
+{
+    Scene *scene = &probe->scene;
+    Camera *camera = &scene->camera;
+    const Vec3 way = vec3_scale(camera->eye, -1);
+    camera->eye = (Vec3){0, 0, 0};
+    camera->center = vec3_add(camera->center, way);
+    for (int i = 0; i < scene->object_count; i++)
+        probe->objects[i].world_from_object =
+            mat4_product(mat4_translate(way), probe->objects[i].world_from_object);
+    for (int i = 0; i < scene->light_count; i++)
+        probe->lights[i].position = vec3_add(probe->lights[i].position, way);
+}
+
 static bool open_random(Probe *probe, const Lab *lab, Random *random, Message *message)
 {
     const ProbeKind kind = probe->kind;
@@ -484,6 +505,8 @@ static bool open_random(Probe *probe, const Lab *lab, Random *random, Message *m
     }
     if (kind == PROBE_HUGE && !lab->given && !lab->budget)
         enlarge(probe);
+    if (kind == PROBE_ALONG && !lab->given && !lab->budget)
+        look_from_origin(probe);
     return true;
 }
 

@@ -8,7 +8,10 @@
  *   E  objects that cover each other, the far one drawn last
  *   F  a picture twice as wide as high, the light near the surface
  *   G  all of it 300 times as large: what 16 bits cannot hold
+ *   H  the lights beside the eye, which is the world's origin and looks along -z
+ *   I  the lights beyond the object, the eye on the z axis, a wide highlight
  *
+ * H and I only tell mistakes apart: near the line of sight highlights show that are nowhere else.
  * Each has a form that is always the same, which students may know, and one for every seed: other
  * colours, places, turns, sizes and times. In lab 3 the object lies where the moment says; in
  * lab 10 it is always the unit sphere.
@@ -28,10 +31,12 @@ typedef enum ProbeKind {
     PROBE_CROWD,
     PROBE_WIDE,
     PROBE_HUGE,
+    PROBE_ALONG,
+    PROBE_AGAINST,
     PROBE_KIND_COUNT,
 } ProbeKind;
 
-/* "A" to "G". */
+/* "A" to "I". */
 extern const char *const PROBE_NAMES[PROBE_KIND_COUNT];
 
 enum { PROBE_MOST_OBJECTS = 2 };

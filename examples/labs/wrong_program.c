@@ -102,62 +102,57 @@ static void set_vectors(const WrongProgram *program, int uniform, const Vec3 *va
 
 /* Places. */
 
-/* Where lab 3's mistakes put the cube. */
-static Mat4 model_matrix(const Made *made)
+static Mat4 part(Mat4 right, int choice)
 {
-    const double degrees = PROBE_DEGREES_PER_SECOND * made->probe->seconds, radian = 180 / acos(-1);
-    Mat4 inverse, move, scale, turn;
-    const Mat4 right = made->object->world_from_object;
-    if (!made->of[SLOT_WORLD])
-        return right;
-    probe_world_parts(made->probe->seconds, &move, &turn, &scale);
-    switch (made->of[SLOT_WORLD]) {
-    case WORLD_MOVED_FIRST:
-        return mat4_product(turn, mat4_product(move, scale));
-    case WORLD_SCALED_LAST:
-        return mat4_product(move, mat4_product(scale, turn));
-    case WORLD_REVERSED:
-        return mat4_product(scale, mat4_product(turn, move));
-    case WORLD_RADIANS:
-        mat4_rotate(degrees / radian, PROBE_AXIS, &turn);
-        break;
-    case WORLD_DEGREES:
-        mat4_rotate(degrees * radian, PROBE_AXIS, &turn);
-        break;
-    case WORLD_BACKWARDS:
-        turn = mat4_transpose(turn);
-        break;
-    case WORLD_NOT_TURNED:
-        turn = mat4_identity();
-        break;
-    case WORLD_NOT_MOVED:
-        move = mat4_identity();
-        break;
-    case WORLD_NOT_SCALED:
-        scale = mat4_identity();
-        break;
-    case WORLD_TRANSPOSED:
-        return mat4_transpose(right);
-    case WORLD_MOVED_BACK:
-        mat4_inverse(move, &move);
-        break;
-    case WORLD_SCALED_INVERSELY:
-        mat4_inverse(scale, &scale);
-        break;
-    case WORLD_ABOUT_X:
-        mat4_rotate(degrees, (Vec3){1, 0, 0}, &turn);
-        break;
-    case WORLD_ABOUT_Y:
-        mat4_rotate(degrees, (Vec3){0, 1, 0}, &turn);
-        break;
-    case WORLD_ABOUT_Z:
-        mat4_rotate(degrees, (Vec3){0, 0, 1}, &turn);
-        break;
-    default: /* WORLD_INVERSE */
+    Mat4 inverse;
+    if (choice == PART_MISSING)
+        return mat4_identity();
+    if (choice == PART_INVERSE) {
         mat4_inverse(right, &inverse);
         return inverse;
     }
-    return mat4_product(move, mat4_product(turn, scale));
+    return right;
+}
+
+/* What lab 3's mistakes move, turn and scale by. */
+static void world_parts(const Made *made, Mat4 *move, Mat4 *turn, Mat4 *scale)
+{
+    static const Vec3 AXES[] = {[AXIS_X] = {1, 0, 0}, [AXIS_Y] = {0, 1, 0}, [AXIS_Z] = {0, 0, 1}};
+    const double degrees = PROBE_DEGREES_PER_SECOND * made->probe->seconds, radian = 180 / acos(-1);
+    const double angles[] = {degrees, [PART_MISSING] = 0, [TURN_RADIANS] = degrees / radian,
+                             [TURN_DEGREES] = degrees * radian};
+    const int *of = made->of;
+    const double angle = angles[of[SLOT_TURN]];
+    probe_world_parts(made->probe->seconds, move, turn, scale);
+    *move = part(*move, of[SLOT_MOVE]);
+    *scale = part(*scale, of[SLOT_SCALE]);
+    mat4_rotate(of[SLOT_TURN_SIGN] ? -angle : angle,
+                of[SLOT_AXIS] ? AXES[of[SLOT_AXIS]] : PROBE_AXIS, turn);
+}
+
+/* Where lab 3's mistakes put the cube; the other labs make none. */
+static Mat4 model_matrix(const Made *made)
+{
+    Mat4 move, turn, scale, world;
+    if (!made->lab->given)
+        return made->object->world_from_object;
+    world_parts(made, &move, &turn, &scale);
+    switch (made->of[SLOT_ORDER]) {
+    case ORDER_MOVED_FIRST:
+        world = mat4_product(turn, mat4_product(move, scale));
+        break;
+    case ORDER_SCALED_LAST:
+        world = mat4_product(move, mat4_product(scale, turn));
+        break;
+    case ORDER_REVERSED:
+        world = mat4_product(scale, mat4_product(turn, move));
+        break;
+    default:
+        world = mat4_product(move, mat4_product(turn, scale));
+    }
+    return made->of[SLOT_WORLD] == WORLD_TRANSPOSED ? mat4_transpose(world)
+           : made->of[SLOT_WORLD] == WORLD_INVERSE  ? part(world, PART_INVERSE)
+                                                    : world;
 }
 
 static Mat4 clip_matrix(const Made *made)
@@ -225,10 +220,10 @@ static Mat4 normal_matrix(const Made *made)
     case NORMAL_EYE:
         return binding_normal_matrix(mat4_product(made->eye_from_world, made->world));
     case NORMAL_TURN:
-        probe_world_parts(made->probe->seconds, &move, &turn, &scale);
+        world_parts(made, &move, &turn, &scale);
         return turn;
     case NORMAL_UNTURNED:
-        probe_world_parts(made->probe->seconds, &move, &turn, &scale);
+        world_parts(made, &move, &turn, &scale);
         return binding_normal_matrix(scale);
     default:
         return binding_normal_matrix(made->world);

@@ -509,11 +509,42 @@ MISTAKES = {
             )
         ]
     },
+    "product in the reverse order": {
+        3: [
+            (
+                "c",
+                PRODUCT,
+                "mat4_product(mat4_scale(SCALE), mat4_product(rotation, mat4_translate(PLACE)))",
+            )
+        ]
+    },
+    "not turned": {3: [("c", "DEGREES_PER_SECOND = 30", "DEGREES_PER_SECOND = 0")]},
+    "not moved": {3: [("c", "PLACE = {0.5, 0.3, -0.8}", "PLACE = {0, 0, 0}")]},
+    "not scaled": {3: [("c", "SCALE = {2, 0.7, 1.2}", "SCALE = {1, 1, 1}")]},
+    "moved the wrong way": {3: [("c", "PLACE = {0.5, 0.3, -0.8}", "PLACE = {-0.5, -0.3, 0.8}")]},
+    "scaled inversely": {3: [("c", "SCALE = {2, 0.7, 1.2}", "SCALE = {0.5, 1 / 0.7, 1 / 1.2}")]},
+    "turned about another axis": {3: [("c", "AXIS = {1, 2, 0.5}", "AXIS = {0, 1, 0}")]},
+    "inverse of the model matrix": {
+        3: [
+            (
+                "c",
+                "    Mat4 inverse;",
+                "    Mat4 world = *world_from_model;\n"
+                "    mat4_inverse(world, world_from_model);\n    Mat4 inverse;",
+            )
+        ]
+    },
 }
 
 # The same at once: two of these, where both can be made in one text. What hides the other is left
 # out: `pairs` makes them, and whoever checks decides by the pictures.
 ALONE = {"light at the vertices"}  # the whole text is another
+
+# Two that make the very program of a third, whose name is then right.
+THIRD = {
+    ("light direction reversed", "reflect's sign"): "normal reversed",
+    ("the back's normal not reversed", "the back's colour missing"): "back not lit",
+}
 
 
 # What `check` may call them: its own names, and several where the pictures are the same.
