@@ -160,6 +160,19 @@ static void put_when(FILE *file, const ClassResult *result)
             (unsigned long long)result->verdict.seed);
 }
 
+static void put_cost(FILE *file, const VerdictCost *cost)
+{
+    if (!cost->known)
+        return;
+    fprintf(file, "<p>Error: %.2f steps. ", cost->error);
+    if (cost->operations >= 0)
+        fprintf(file, "Operations: %ld, %.3f of the plain program's. ", cost->operations,
+                cost->operations_ratio);
+    else
+        fputs("Operations: not counted. ", file);
+    fprintf(file, "Time: %.2f of the plain program's.</p>\n", cost->time_ratio);
+}
+
 static bool write_student(const ClassStore *store, const ClassResult *result, Message *message)
 {
     ClassFile out;
@@ -180,12 +193,7 @@ static bool write_student(const ClassStore *store, const ClassResult *result, Me
             VERDICT_NAMES[verdict->kind]);
     put(out.file, verdict->message);
     fputs("</p>\n", out.file);
-    if (verdict->cost.known)
-        fprintf(out.file,
-                "<p>Error: %.2f steps. Operations: %ld, %.3f of the plain program's. Time: %.2f "
-                "of the plain program's.</p>\n",
-                verdict->cost.error, verdict->cost.operations, verdict->cost.operations_ratio,
-                verdict->cost.time_ratio);
+    put_cost(out.file, &verdict->cost);
     put_mistakes(out.file, verdict);
     put_symptoms(out.file, verdict);
     put_picture(out.file, verdict);

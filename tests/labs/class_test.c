@@ -11,6 +11,7 @@
 #include "bundle.h"
 #include "class_find.h"
 #include "class_front.h"
+#include "class_html.h"
 #include "class_options.h"
 #include "class_judge.h"
 #include "class_store.h"
@@ -533,6 +534,33 @@ static void the_front_has_those_that_none_beats_in_both(void **state)
         assert_int_equal(class_front_has(&store, &results[i]), efficient[i]);
 }
 
+static bool page_has(const char *path, const char *wanted)
+{
+    static char page[1 << 16];
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    page[fread(page, 1, sizeof page - 1, file)] = '\0';
+    fclose(file);
+    return strstr(page, wanted);
+}
+
+static void a_page_has_counts_only_where_there_are_some(void **state)
+{
+    static ClassStore store;
+    const ClassResult counted = with_cost("counted", 0.5, 0.75);
+    ClassResult uncounted = with_cost("uncounted", 0.5, 0.75);
+    (void)state;
+    uncounted.verdict.cost.operations = -1;
+    uncounted.verdict.cost.operations_ratio = -1;
+    assert_true(class_store_open(&store, "pages", NULL, &message));
+    assert_true(class_store_put(&store, &counted, NULL, NULL, &message));
+    assert_true(class_store_put(&store, &uncounted, NULL, NULL, &message));
+    require(class_html_write(&store, false, &message), &message);
+    class_store_close(&store);
+    assert_true(page_has("pages/students/counted/index.html", "Operations: 750000, 0.750 of"));
+    assert_true(page_has("pages/students/uncounted/index.html", "Operations: not counted. Time"));
+}
+
 /* What a process can do that is confined: bits, as its exit code. */
 enum { FORKED = 1, WROTE = 2, CONNECTED = 4, SIGNALLED = 8, EMPTIED = 16, UNREAD = 32 };
 
@@ -601,6 +629,7 @@ int main(void)
         cmocka_unit_test_setup(a_broken_result_is_passed_over, start),
         cmocka_unit_test_setup(every_submission_is_in_one_part, start),
         cmocka_unit_test_setup(the_front_has_those_that_none_beats_in_both, start),
+        cmocka_unit_test_setup(a_page_has_counts_only_where_there_are_some, start),
         cmocka_unit_test_setup(a_confined_process_can_only_compute, start),
     };
     return cmocka_run_group_tests(tests, testing_enter_folder, testing_leave_folder);
