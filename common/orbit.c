@@ -4,15 +4,14 @@
 
 #include <stdio.h>
 
-/* Times that from eye to center. */
-static double distance_of(Orbit orbit)
+double orbit_distance(Orbit orbit)
 {
     return orbit.distance > 0 ? orbit.distance : 1;
 }
 
 static bool moves(Orbit orbit)
 {
-    return orbit.azimuth != 0 || orbit.elevation != 0 || distance_of(orbit) != 1;
+    return orbit.azimuth != 0 || orbit.elevation != 0 || orbit_distance(orbit) != 1;
 }
 
 /* `axis` need not be unit. */
@@ -27,7 +26,7 @@ void orbit_move(Orbit orbit, Vec3 *eye, Vec3 center, Vec3 *up)
 {
     if (!moves(orbit))
         return;
-    Vec3 back = vec3_scale(vec3_subtract(*eye, center), distance_of(orbit)), right;
+    Vec3 back = vec3_scale(vec3_subtract(*eye, center), orbit_distance(orbit)), right;
     if (vec3_normalize(vec3_cross(*up, back), &right)) {
         const Vec3 axis = *up;
         if (orbit.elevation != 0) {
@@ -43,13 +42,13 @@ void orbit_move(Orbit orbit, Vec3 *eye, Vec3 center, Vec3 *up)
 bool orbit_text(Orbit orbit, char text[96])
 {
     char azimuth[32], elevation[32], distance[32];
-    const bool near = distance_of(orbit) == 1;
+    const bool near = orbit_distance(orbit) == 1;
     text[0] = '\0';
     if (!moves(orbit))
         return false;
     parse_number_text(orbit.azimuth, azimuth);
     parse_number_text(orbit.elevation, elevation);
-    parse_number_text(distance_of(orbit), distance);
+    parse_number_text(orbit_distance(orbit), distance);
     snprintf(text, 96, "%s,%s%s%s", azimuth, elevation, near ? "" : ",", near ? "" : distance);
     return true;
 }

@@ -13,6 +13,9 @@ typedef struct Orbit {
     double distance;  /* times that from eye to center; 0: 1 */
 } Orbit;
 
+/* Its distance, 1 where it says nothing. */
+double orbit_distance(Orbit orbit);
+
 /* Moves the eye, and `up` with it. An orbit that moves nothing changes no bit. Where the camera
  * looks along `up`, there is no right and no higher: only the distance changes. */
 void orbit_move(Orbit orbit, Vec3 *eye, Vec3 center, Vec3 *up);

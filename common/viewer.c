@@ -196,7 +196,7 @@ static void use_pointer(Viewer *viewer)
     orbit->elevation += degrees * input->drag_y;
     orbit->elevation = fmin(fmax(orbit->elevation, -90), 90);
     if (input->scroll != 0) {
-        const double distance = orbit->distance > 0 ? orbit->distance : 1;
+        const double distance = orbit_distance(*orbit);
         /* --orbit may have begun beyond these limits. */
         const double least = fmin(NEAREST, distance), most = fmax(FARTHEST, distance);
         orbit->distance = distance * pow(NEARER_PER_NOTCH, input->scroll);

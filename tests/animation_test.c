@@ -12,7 +12,6 @@
 #include "animation.h"
 #include "testing.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
@@ -25,17 +24,6 @@
 #include <unistd.h>
 
 static Message message;
-
-static int entries(void)
-{
-    int count = -2; /* . and .. */
-    DIR *listing = opendir(".");
-    assert_non_null(listing);
-    while (readdir(listing))
-        count++;
-    closedir(listing);
-    return count;
-}
 
 static AnimationOptions wanted(const char *format, const char *path)
 {
@@ -224,7 +212,7 @@ static void add_and_close(const char *format, int count, bool whole)
     image_close(&picture.image);
     errno = 0;
     assert_true(waitpid(-1, NULL, WNOHANG) < 0 && errno == ECHILD);
-    assert_int_equal(entries(), whole);
+    assert_int_equal(testing_entries("."), whole);
     struct stat status;
     if (whole) {
         assert_int_equal(stat(path, &status), 0);
@@ -258,7 +246,7 @@ static void what_cannot_be_made_is_not_opened(void **state)
         assert_null(animation);
         assert_non_null(strstr(message.text, "the folder missing/ does not exist"));
     }
-    assert_int_equal(entries(), 0);
+    assert_int_equal(testing_entries("."), 0);
 }
 
 /* Queues with a sink. */

@@ -11,7 +11,6 @@
 #include "output.h"
 #include "testing.h"
 
-#include <dirent.h>
 #include <fcntl.h>
 #include <limits.h>
 #include <pthread.h>
@@ -55,18 +54,6 @@ static bool holds(const char *path, const char *text)
     return strcmp(found, text) == 0;
 }
 
-/* Every name in a folder, hidden ones too. */
-static int entries(const char *path)
-{
-    int count = -2; /* . and .. */
-    DIR *listing = opendir(path);
-    assert_non_null(listing);
-    while (readdir(listing))
-        count++;
-    closedir(listing);
-    return count;
-}
-
 static mode_t mode_of(const char *path)
 {
     struct stat status;
@@ -91,7 +78,7 @@ static void written(const char *path, const char *text)
 /* Refused beforehand and when written, in one line that says `said`; nothing appears. */
 static void refused(const char *path, const char *said)
 {
-    const int before = entries(".");
+    const int before = testing_entries(".");
     for (int attempt = 0; attempt < 2; attempt++) {
         message = (Message){0};
         if (attempt ? write_text(path, "new") : output_check(path, &message))
@@ -99,7 +86,7 @@ static void refused(const char *path, const char *said)
         if (!strstr(message.text, said) || strchr(message.text, '\n'))
             fail_msg("%.100s: expected \"%s\" in \"%s\"", path, said, message.text);
     }
-    assert_int_equal(entries("."), before);
+    assert_int_equal(testing_entries("."), before);
 }
 
 /* Runs `body` in a child, which may give away what it has; 0 where all was as it should be. */
@@ -136,7 +123,7 @@ static void a_new_file_gets_the_bytes_and_the_umask(void **state)
     struct stat status;
     assert_int_equal(stat("zeros.png", &status), 0);
     assert_int_equal(status.st_size, 3);
-    assert_int_equal(entries("."), 3);
+    assert_int_equal(testing_entries("."), 3);
 }
 
 static void an_existing_file_is_replaced_and_keeps_its_permissions(void **state)
@@ -150,7 +137,7 @@ static void an_existing_file_is_replaced_and_keeps_its_permissions(void **state)
         assert_true(holds("old.png", "short"));
         assert_int_equal(mode_of("old.png") & 07777, modes[i]);
     }
-    assert_int_equal(entries("."), 1);
+    assert_int_equal(testing_entries("."), 1);
 }
 
 static void whoever_reads_the_old_file_keeps_it_whole(void **state)
@@ -183,8 +170,8 @@ static void every_form_of_a_path_works(void **state)
         written(paths[i], "bytes");
         assert_true(holds(paths[i], "bytes"));
     }
-    assert_int_equal(entries("sub"), 2);
-    assert_int_equal(entries("."), 11);
+    assert_int_equal(testing_entries("sub"), 2);
+    assert_int_equal(testing_entries("."), 11);
 }
 
 static void what_cannot_be_written_is_refused_beforehand(void **state)
@@ -228,8 +215,8 @@ static void a_link_stays_and_what_it_points_to_is_replaced(void **state)
     assert_int_equal(mode_of("far/target.png"), S_IFREG | 0600);
     assert_true(S_ISLNK(mode_of("link.png")));
     assert_true(S_ISLNK(mode_of("far/beside.png")));
-    assert_int_equal(entries("far"), 2);
-    assert_int_equal(entries("."), 2);
+    assert_int_equal(testing_entries("far"), 2);
+    assert_int_equal(testing_entries("."), 2);
 }
 
 static void a_link_to_a_file_that_is_not_there_makes_it(void **state)
@@ -281,7 +268,7 @@ static void devices_are_written_through(void **state)
     assert_true(S_ISCHR(mode_of("/dev/null")));
     assert_true(S_ISCHR(mode_of("/dev/full")));
     assert_true(S_ISLNK(mode_of("null.png")));
-    assert_int_equal(entries("."), 2);
+    assert_int_equal(testing_entries("."), 2);
 }
 
 static void a_pipe_with_a_reader_gets_every_byte(void **state)
@@ -308,7 +295,7 @@ static void a_pipe_with_a_reader_gets_every_byte(void **state)
         assert_int_equal(status, 0);
         assert_true(S_ISFIFO(mode_of("pipe.png")));
     }
-    assert_int_equal(entries("."), 2);
+    assert_int_equal(testing_entries("."), 2);
 }
 
 static void a_reader_that_goes_away_is_an_error(void **state)
@@ -378,7 +365,7 @@ static void a_dash_is_standard_output(void **state)
         assert_non_null(strstr(message.text, cases[i].said));
     }
     assert_true(holds("out", large));
-    assert_int_equal(entries("."), 1);
+    assert_int_equal(testing_entries("."), 1);
 }
 
 /* With files limited to 100000 bytes, as a quota would have it. */
@@ -392,7 +379,7 @@ static int write_beyond_a_limit(void)
         return 2;
     if (!strstr(message.text, "new.png: cannot write: File too large"))
         return 3;
-    return holds("old.png", "old") && entries(".") == 1 ? 0 : 4;
+    return holds("old.png", "old") && testing_entries(".") == 1 ? 0 : 4;
 }
 
 static void a_write_that_fails_midway_leaves_the_old_file(void **state)
@@ -422,7 +409,7 @@ static void pieces_are_a_file_when_they_are_committed(void **state)
             output_abort(output);
         assert_true(holds("old.png", whole ? "bit and more" : "old"));
         assert_int_equal(mode_of("old.png") & 07777, 0640);
-        assert_int_equal(entries("."), 1);
+        assert_int_equal(testing_entries("."), 1);
     }
     output_abort(NULL);
     message = (Message){0};
@@ -448,7 +435,7 @@ static void pieces_go_through_when_they_are_committed(void **state)
         assert_true(holds("open.png", whole ? large : ""));
     }
     close(file);
-    assert_int_equal(entries("."), 1);
+    assert_int_equal(testing_entries("."), 1);
 }
 
 static void *replace_for_ever(void *path)
@@ -490,7 +477,7 @@ static void a_signal_leaves_whole_files_alone(void **state)
         assert_true(WIFSIGNALED(status));
         assert_int_equal(WTERMSIG(status), numbers[attempt % 3]);
         const int a = access("a.png", F_OK) == 0, b = access("b.png", F_OK) == 0;
-        assert_int_equal(entries("."), a + b);
+        assert_int_equal(testing_entries("."), a + b);
         assert_true((!a || holds("a.png", large)) && (!b || holds("b.png", large)));
     }
 }
@@ -527,7 +514,7 @@ static int write_to_a_full_disk(void)
         return 2;
     if (!strstr(message.text, "No space left on device; make room and run again"))
         return 3;
-    return holds("small/old.png", "newer") && entries("small") == 1 ? 0 : 4;
+    return holds("small/old.png", "newer") && testing_entries("small") == 1 ? 0 : 4;
 }
 
 static int write_without_proc(void)
@@ -539,7 +526,7 @@ static int write_without_proc(void)
     /* Here the temporary file has a name from the beginning, and must lose it. */
     if (write_text("small/new.png", large) || write_text("small/other.png", large))
         return 2;
-    return holds("small/new.png", "new") && entries("small") == 1 ? 0 : 3;
+    return holds("small/new.png", "new") && testing_entries("small") == 1 ? 0 : 3;
 }
 
 /* Where the temporary file has a name all the time. */
@@ -549,10 +536,10 @@ static int end_without_proc(void)
         return NOT_PERMITTED;
     options_prepare_process();
     Output *output = output_begin("small/new.png", &message);
-    if (!output || entries("small") != 1)
+    if (!output || testing_entries("small") != 1)
         return 1;
     output_unlink_temporaries();
-    return entries("small") == 0 ? 0 : 2;
+    return testing_entries("small") == 0 ? 0 : 2;
 }
 
 static void check_mounted(int (*body)(void))
@@ -622,7 +609,7 @@ static void looking_beforehand_writes_nothing(void **state)
     assert_true(output_check("-", NULL));
     assert_false(output_check("missing/a.png", NULL));
     assert_true(holds("old.png", "old"));
-    assert_int_equal(entries("."), 1);
+    assert_int_equal(testing_entries("."), 1);
 }
 
 static void a_pattern_gives_numbered_names(void **state)

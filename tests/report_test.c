@@ -9,8 +9,8 @@
 
 #include "report.h"
 #include "report_labels.h"
+#include "testing.h"
 
-#include <dirent.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -150,17 +150,6 @@ static void no_rows_and_full_disks_are_said(void **state)
 
 /* Plots. */
 
-static int entries(const char *path)
-{
-    int count = -2; /* . and .. */
-    DIR *listing = opendir(path);
-    assert_non_null(listing);
-    while (readdir(listing))
-        count++;
-    closedir(listing);
-    return count;
-}
-
 static char *get_file(const char *path, size_t *size)
 {
     FILE *file = fopen(path, "r");
@@ -192,7 +181,7 @@ static char *drawn(const char *name)
     snprintf(path, sizeof path, "out/%s.svg", name);
     char *svg = get_file(path, &size);
     assert_non_null(strstr(svg, "</svg>"));
-    assert_int_equal(entries("out"), 2);
+    assert_int_equal(testing_entries("out"), 2);
     return svg;
 }
 
@@ -299,7 +288,7 @@ static void what_gnuplot_says_is_passed_on(void **state)
         setenv("PATH", before, 1);
         assert_false(done);
         assert_string_equal(message.text, cases[i][1]);
-        assert_int_equal(entries("out"), 0);
+        assert_int_equal(testing_entries("out"), 0);
     }
     free(before);
 }

@@ -35,15 +35,20 @@ int testing_leave_folder(void **state)
     return chdir("/") == 0 ? system(command) : -1;
 }
 
+int testing_entries(const char *folder)
+{
+    int count = -2; /* . and .. */
+    DIR *listing = opendir(folder);
+    assert_non_null(listing);
+    while (readdir(listing))
+        count++;
+    closedir(listing);
+    return count;
+}
+
 int testing_open_files(void)
 {
-    int count = 0;
-    DIR *files = opendir("/proc/self/fd");
-    assert_non_null(files);
-    while (readdir(files))
-        count++;
-    closedir(files);
-    return count;
+    return testing_entries("/proc/self/fd");
 }
 
 long testing_resident_kib(void)

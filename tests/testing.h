@@ -18,8 +18,11 @@ extern char testing_folder[];
 int testing_enter_folder(void **state);
 int testing_leave_folder(void **state);
 
-/* To find what is not given back: the entries of the list of open files, and the memory that
- * this process has, in units of 1024 bytes. */
+/* How many names a folder has, hidden ones too. */
+int testing_entries(const char *folder);
+
+/* To find what is not given back: the open files, with that by which they are counted, and the
+ * memory that this process has, in units of 1024 bytes. */
 int testing_open_files(void);
 long testing_resident_kib(void);
 

@@ -55,7 +55,7 @@ static bool tell_apart(Lineup *lineup, uint64_t seed, Suspect *suspects, int *co
     /* The submission's C gave no matrices for other moments. */
     if (lineup->shots->lab->given)
         return true;
-    for (int i = 0; i < MOST_FURTHER; i++) {
+    for (int i = 0; i<MOST_FURTHER && * count> 0; i++) {
         Probe probe;
         if (i >= ALWAYS_FURTHER && (!near || i >= NEAR_FURTHER) && all_same(suspects, *count))
             break;

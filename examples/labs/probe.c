@@ -1,5 +1,8 @@
 #include "probe.h"
 
+#include "example.h"
+#include "options.h"
+
 #include <math.h>
 
 const char *const PROBE_NAMES[PROBE_KIND_COUNT] = {"A", "B", "C", "D", "E", "F", "G", "H", "I"};
@@ -77,12 +80,11 @@ static Mat4 placed(Vec3 offset, Mat4 turn, Vec3 factors)
 }
 
 const Vec3 PROBE_AXIS = {1, 2, 0.5};
-const double PROBE_DEGREES_PER_SECOND = 30;
 
 void probe_world_parts(double seconds, Mat4 *move, Mat4 *turn, Mat4 *scale)
 {
     *move = mat4_translate((Vec3){0.5, 0.3, -0.8});
-    *turn = rotated(PROBE_DEGREES_PER_SECOND * seconds, PROBE_AXIS);
+    *turn = rotated(OPTIONS_DEGREES_PER_SECOND * seconds, PROBE_AXIS);
     *scale = mat4_scale((Vec3){2, 0.7, 1.2});
 }
 
@@ -242,7 +244,7 @@ static void set_material(Probe *probe, const Lab *lab, int i, Vec3 color, Vec3 s
 static bool open_plain(Probe *probe, const Lab *lab, double seconds, Message *message)
 {
     const Vec3 WHITE = {0.8, 0.8, 0.8};
-    const Mat4 turned = rotated(PROBE_DEGREES_PER_SECOND * seconds, (Vec3){0, 1, 0});
+    const Mat4 turned = example_turned(seconds);
     Camera *camera = &probe->scene.camera;
     ProbeShape shape = SHAPE_OF_CUBE;
     Mat4 world = turned;
@@ -505,7 +507,7 @@ static bool open_random(Probe *probe, const Lab *lab, Random *random, Message *m
     }
     if (kind == PROBE_HUGE && !lab->given && !lab->budget)
         enlarge(probe);
-    if (kind == PROBE_ALONG && !lab->given && !lab->budget)
+    if (kind == PROBE_ALONG && !lab->budget)
         look_from_origin(probe);
     return true;
 }

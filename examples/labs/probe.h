@@ -63,9 +63,9 @@ bool probe_open_seed(Probe *probe, const Lab *lab, ProbeKind kind, uint64_t seed
 /* What the lab's program shows at a moment. */
 bool probe_open_usual(Probe *probe, const Lab *lab, double seconds, Message *message);
 
-/* Where lab 3 wants its cube: move * turn * scale, the turn about PROBE_AXIS. */
+/* Where lab 3 wants its cube: move * turn * scale, the turn about PROBE_AXIS, by
+ * OPTIONS_DEGREES_PER_SECOND. */
 extern const Vec3 PROBE_AXIS;
-extern const double PROBE_DEGREES_PER_SECOND;
 void probe_world_parts(double seconds, Mat4 *move, Mat4 *turn, Mat4 *scale);
 
 /* NULL or zeroed is fine. */

@@ -6,7 +6,6 @@
 #include "sanitized.h"
 #include "scratch.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <math.h>
 #include <poll.h>

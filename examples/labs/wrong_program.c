@@ -1,5 +1,7 @@
 #include "wrong_program.h"
 
+#include "options.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -118,7 +120,8 @@ static Mat4 part(Mat4 right, int choice)
 static void world_parts(const Made *made, Mat4 *move, Mat4 *turn, Mat4 *scale)
 {
     static const Vec3 AXES[] = {[AXIS_X] = {1, 0, 0}, [AXIS_Y] = {0, 1, 0}, [AXIS_Z] = {0, 0, 1}};
-    const double degrees = PROBE_DEGREES_PER_SECOND * made->probe->seconds, radian = 180 / acos(-1);
+    const double degrees = OPTIONS_DEGREES_PER_SECOND * made->probe->seconds,
+                 radian = 180 / acos(-1);
     const double angles[] = {degrees, [PART_MISSING] = 0, [TURN_RADIANS] = degrees / radian,
                              [TURN_DEGREES] = degrees * radian};
     const int *of = made->of;
