@@ -1,7 +1,7 @@
 /*
- * keep_loaded: only in builds with AddressSanitizer. Drivers are unloaded before the process ends;
- * what their globals still point to then looks like a leak, from a library that has no name any
- * more. This dlclose stands before the C library's and unloads nothing.
+ * keep_loaded: a dlclose that unloads nothing, for builds with AddressSanitizer alone. Drivers are
+ * unloaded before the leak check, which then reports what their globals point to as leaks of an
+ * unnamed library.
  */
 int dlclose(void *handle);
 

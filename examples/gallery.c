@@ -1,15 +1,17 @@
 /*
- * gallery: every picture in one process and one context.
+ * gallery: every example's picture from one process and one context.
  *
- * Writes each example's picture, a contact sheet of them all, and index.html, a page with the
- * pictures, what each teaches, and the command that draws it. While other threads encode one
- * picture the next is drawn.
+ * Also writes a contact sheet, and index.html with each picture, its summary and its command. Other
+ * threads encode a picture while the next is drawn.
  */
-#include "command.h"
-#include "output.h"
-#include "parse.h"
-#include "progress.h"
-#include "stage.h"
+#include "app/command.h"
+#include "app/doctor.h"
+#include "app/stage.h"
+#include "base/clock.h"
+#include "base/output.h"
+#include "base/parse.h"
+#include "base/progress.h"
+#include "images/label.h"
 
 #include <errno.h>
 #include <math.h>
@@ -17,7 +19,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The build gives every example's name, as X(LightedCube) X(LightedCube_animation)... */
+/* From the build: X(LightedCube) X(LightedCube_animation)... */
 #define X(name) extern const Example name;
 EXAMPLES
 #undef X
@@ -29,7 +31,7 @@ static const Example *const ALL[] = {
 };
 enum { COUNT = sizeof ALL / sizeof ALL[0] };
 
-/* The contact sheet: thumbnails in rows, a label under each. In pixels. */
+/* The contact sheet: thumbnails in rows, with labels below. In pixels. */
 enum { COLUMNS = 5, THUMBNAIL = 200, MARGIN = 10, LABEL = 22, LABEL_SIZE = 12 };
 
 /* The examples to draw, in the order of ALL. */
@@ -63,26 +65,34 @@ static bool select_examples(Selection *selection, char *const *names, Message *m
     return true;
 }
 
-/* The mean of the pixels that one pixel of a thumbnail covers: whole pixels, at least one. */
+/* Each pixel of a thumbnail is the mean of the whole pixels that it covers, at least one. */
 static void shrink(const Image *image, unsigned char *to, size_t stride, int width, int height)
 {
-    const unsigned char *from = image->pixels;
+    const size_t row_size = image_row_size(image);
     for (int y = 0; y < height; y++) {
         const int y0 = y * image->height / height;
         const int y1 = (y + 1) * image->height / height;
-        for (int x = 0; x < width; x++) {
-            const int x0 = x * image->width / width, x1 = (x + 1) * image->width / width;
-            unsigned sum[3] = {0, 0, 0}, count = 0;
-            for (int j = y0; j < y1 || j == y0; j++) {
-                for (int i = x0; i < x1 || i == x0; i++, count++)
-                    for (int c = 0; c < 3; c++)
-                        sum[c] +=
-                            from[4 * ((size_t)j * (size_t)image->width + (size_t)i) + (size_t)c];
+        const int rows = y1 > y0 ? y1 - y0 : 1;
+        unsigned char *pixel = to + (size_t)y * stride;
+        for (int x = 0, x0 = 0; x < width; x++, pixel += 4) {
+            const int x1 = (x + 1) * image->width / width;
+            const int columns = x1 > x0 ? x1 - x0 : 1;
+            const unsigned count = (unsigned)(rows * columns);
+            unsigned red = count / 2, green = count / 2, blue = count / 2;
+            const unsigned char *row =
+                (unsigned char *)image->pixels + (size_t)y0 * row_size + 4 * (size_t)x0;
+            for (int j = 0; j < rows; j++, row += row_size) {
+                for (int i = 0; i < columns; i++) {
+                    red += row[4 * i];
+                    green += row[4 * i + 1];
+                    blue += row[4 * i + 2];
+                }
             }
-            unsigned char *pixel = to + (size_t)y * stride + 4 * (size_t)x;
-            for (int c = 0; c < 3; c++)
-                pixel[c] = (unsigned char)((sum[c] + count / 2) / count);
+            pixel[0] = (unsigned char)(red / count);
+            pixel[1] = (unsigned char)(green / count);
+            pixel[2] = (unsigned char)(blue / count);
             pixel[3] = 255;
+            x0 = x1;
         }
     }
 }
@@ -102,7 +112,6 @@ static bool sheet_open(Image *sheet, int count, Message *message)
     return true;
 }
 
-/* Where picture `index` has its place on the sheet. */
 static void sheet_place(int index, int *x, int *y)
 {
     *x = MARGIN + index % COLUMNS * (THUMBNAIL + MARGIN);
@@ -125,7 +134,7 @@ static void sheet_put(Image *sheet, int index, const Image *image)
     shrink(image, to, stride, width, height);
 }
 
-/* Names under the thumbnails; a sheet without them, where there is no font, is still a sheet. */
+/* A sheet without a font is complete but for its labels. */
 static void sheet_label(Image *sheet, const Selection *selection, const char *program)
 {
     for (int i = 0; i < selection->count; i++) {
@@ -140,21 +149,20 @@ static void sheet_label(Image *sheet, const Selection *selection, const char *pr
     }
 }
 
-/* The options for one example: its picture has the size that is asked for, or the example's own. */
+/* Without --size a picture has the example's own size. */
 static Options options_of(const Example *example, const Options *options)
 {
     Options own = *options;
-    if (!options->size_given && example->width)
-        own.width = example->width;
-    if (!options->size_given && example->height)
-        own.height = example->height;
+    const Usage usage = options_usage(example);
+    if (!options->size_given)
+        options_size(&usage, &own.width, &own.height);
     return own;
 }
 
-/* The command that draws its picture, to a file of its own. A folder of shaders may be anywhere. */
+/* The command that draws the picture; --shaders is cut because its folder is private. */
 static void print_command(FILE *file, const Example *example, const Options *options)
 {
-    char command[512]; /* none is longer */
+    char command[512]; /* longer than any */
     Options own = options_of(example, options);
     own.output_given = false;
     own.shaders.folder = own.shaders.folder ? "..." : NULL;
@@ -200,18 +208,19 @@ static bool write_page(const char *folder, const Selection *selection, const Opt
     return written;
 }
 
-/* Draws one example into a picture of the queue, and into the sheet. */
-static bool draw(const Example *example, int index, Canvas *canvas, const Options *options,
-                 PictureQueue *queue, Image *sheet, Message *message)
+static bool draw_one(const Example *example, int index, Canvas *canvas, const Options *options,
+                     PictureQueue *queue, Image *sheet, Message *message)
 {
+    Stage stage;
     const Options own = options_of(example, options);
     if (!canvas_resize(canvas, own.width, own.height, message) ||
-        !stage_enter(example, options, message))
+        !stage_open(&stage, example, canvas, options, message))
         return false;
+    stage_warn(&stage);
     Picture *picture = picture_queue_take(queue);
     snprintf(picture->path, sizeof picture->path, "%s/%s.png", options->output, example->name);
-    const bool drawn = stage_picture(example, canvas, options, options->seconds, picture, message);
-    stage_leave(example);
+    const bool drawn = stage_picture(&stage, &own, options->seconds, picture, message);
+    stage_close(&stage);
     if (!drawn)
         return false;
     sheet_put(sheet, index, &picture->image);
@@ -228,11 +237,11 @@ static bool draw_all(const Selection *selection, Canvas *canvas, const Options *
         return false;
     bool done = true;
     for (int i = 0; i < selection->count && done; i++) {
-        const double start = progress_now();
-        done = draw(selection->examples[i], i, canvas, options, queue, sheet, message);
+        const double start = clock_now();
+        done = draw_one(selection->examples[i], i, canvas, options, queue, sheet, message);
         if (options->verbose)
             fprintf(stderr, "%s took %.1f ms\n", selection->examples[i]->name,
-                    1e3 * (progress_now() - start));
+                    1e3 * (clock_now() - start));
         progress_update(&progress, i + 1, selection->count);
     }
     progress_end(&progress);
@@ -247,19 +256,20 @@ static bool write_sheet(const Image *sheet, const Options *options, Message *mes
     return image_write(sheet, path, &image_options, message);
 }
 
-static bool run(const Selection *selection, const Options *options, Message *message)
+static bool write_gallery(const Selection *selection, const Options *options, Message *message)
 {
     Canvas canvas = {0};
+    Stage stage;
     Image sheet = {0};
     if (!shader_loader_check(&options->shaders, message))
         return false;
-    setenv("LP_NUM_THREADS", "0", 0); /* as in example.c: other threads encode */
-    bool done = stage_open(&canvas, options, "gallery.png", message);
-    /* All of them once before anything is written: one that fails must not leave half a gallery. */
+    setenv("LP_NUM_THREADS", "0", 0); /* as in run.c: other threads encode */
+    bool done = stage_open_canvas(&canvas, options, "gallery.png", message);
+    /* Each is opened once before anything is written: a failure must not leave half a gallery. */
     for (int i = 0; i < selection->count && done; i++) {
-        done = stage_enter(selection->examples[i], options, message);
+        done = stage_open(&stage, selection->examples[i], &canvas, options, message);
         if (done)
-            stage_leave(selection->examples[i]);
+            stage_close(&stage);
     }
     if (done && !options->shaders.print) {
         done = output_folder(options->output, message) &&
@@ -280,8 +290,7 @@ int main(int argc, char *argv[])
 {
     static const Usage usage = {
         .name = "gallery",
-        .summary = "Draws every example, or those named, into a folder, with a contact sheet and a "
-                   "page.",
+        .summary = "draws all programs, or those named, with a contact sheet and an HTML page",
         .gallery = true,
     };
     Options options;
@@ -293,8 +302,8 @@ int main(int argc, char *argv[])
     if (!select_examples(&selection, options.names, &message))
         return options_fail(usage.name, &message, EXIT_USAGE);
     if (options.doctor)
-        return options_finish(usage.name, stage_doctor());
-    if (!run(&selection, &options, &message))
+        return options_finish(usage.name, doctor_run());
+    if (!write_gallery(&selection, &options, &message))
         return options_fail(usage.name, &message, EXIT_FAILED);
     if (!options.shaders.print)
         printf("%s/index.html\n", options.output);

@@ -1,12 +1,12 @@
-// lighting.frag: the full lighting model, as lighting.vert has it, at every fragment.
+// lighting.frag: the lighting model of lighting.vert, per fragment.
 
 precision highp float;
 
 #if defined(BASE) && !defined(VERTEX_LIGHTS)
-uniform vec3 u_FrontBase;
-#ifdef TWO_SIDED
-uniform vec3 u_BackBase;
+#define FRAGMENT_BASE
 #endif
+#ifdef FRAGMENT_COLOR
+varying vec3 v_Color;
 #endif
 #ifdef ALPHA
 uniform float u_FrontAlpha;
@@ -37,6 +37,9 @@ varying vec3 v_Position;
 #endif
 #include "lighting/common.glsl"
 #include "lighting/output.glsl"
+#ifdef FRAGMENT_BASE
+#include "lighting/base.glsl"
+#endif
 #ifdef FRAGMENT_LIGHTS
 #include "lighting/fragment_groups.glsl"
 #endif
@@ -58,11 +61,14 @@ vec3 srgb_encode(vec3 linear) {
 #endif
 
 void main() {
+#ifdef FRAGMENT_COLOR
+    surface_color = v_Color;
+#endif
     vec3 color = vec3(0.0);
 #ifdef VERTEX_LIGHTS
     color = SIDE(v_FrontColor, v_BackColor); // with the base
-#elif defined(BASE)
-    color = SIDE(u_FrontBase, u_BackBase);
+#elif defined(FRAGMENT_BASE)
+    color = SIDE(FRONT_BASE, BACK_BASE);
 #endif
 
 #ifdef FRAGMENT_LIGHTS
@@ -71,11 +77,7 @@ void main() {
 #ifdef FRAGMENT_NORMALS
     normal = SIDE(v_Normal, BACK(v_Normal));
 #ifdef NORMALIZE_FRAGMENT
-#ifdef GUARD_FRAGMENT
     normal = safe_normalize(normal);
-#else
-    normal = normalize(normal);
-#endif
 #endif
 #endif
 #ifdef FRAGMENT_POSITION

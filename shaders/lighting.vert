@@ -1,10 +1,23 @@
-// lighting.vert: the full lighting model, of which a scene gets only what it calls for. The defines
-// and the groups of lights are put together by common/lighting.c from the scene's effects.
+// lighting.vert: the whole lighting model; common/scene/lighting.c selects by defines what the
+// effects of an object need, and generates the groups of lights.
 //
-// All lighting is in eye coordinates: the eye at the origin, looking along -z.
+// Lighting is in eye coordinates: the eye at the origin, looking along -z.
 
 attribute vec4 a_Position;
 uniform mat4 u_ClipFromObject;
+
+#ifdef VERTEX_COLOR
+attribute vec3 a_Color;
+#ifdef FRAGMENT_COLOR
+varying vec3 v_Color;
+#endif
+#endif
+#ifdef LIT_POSITION
+attribute vec3 a_LitPosition; // of the triangle's last vertex
+#define LIT_POSITION_OBJECT vec4(a_LitPosition, 1.0)
+#else
+#define LIT_POSITION_OBJECT a_Position
+#endif
 
 #ifdef NORMALS
 attribute vec3 a_Normal;
@@ -38,10 +51,7 @@ varying vec3 v_FrontColor;
 varying vec3 v_BackColor;
 #endif
 #ifdef BASE
-uniform vec3 u_FrontBase;
-#ifdef TWO_SIDED
-uniform vec3 u_BackBase;
-#endif
+#include "lighting/base.glsl"
 #endif
 
 #include "lighting/vertex_groups.glsl"
@@ -50,10 +60,16 @@ uniform vec3 u_BackBase;
 void main() {
     gl_Position = u_ClipFromObject * a_Position;
 
+#ifdef VERTEX_COLOR
+    surface_color = a_Color;
+#ifdef FRAGMENT_COLOR
+    v_Color = a_Color;
+#endif
+#endif
     vec3 position = vec3(0.0);
     vec3 normal = vec3(0.0);
 #ifdef POSITION
-    position = vec3(u_EyeFromObject * a_Position);
+    position = vec3(u_EyeFromObject * LIT_POSITION_OBJECT);
 #endif
 #ifdef NORMALS
 #ifdef NORMAL_MATRIX
@@ -62,11 +78,7 @@ void main() {
     normal = vec3(u_EyeFromObject * vec4(a_Normal, 0.0));
 #endif
 #ifdef NORMALIZE_VERTEX
-#ifdef GUARD_VERTEX
     normal = safe_normalize(normal);
-#else
-    normal = normalize(normal);
-#endif
 #endif
 #endif
 
@@ -81,7 +93,7 @@ void main() {
     vec3 viewer = VIEWER(position);
     v_FrontColor = vec3(0.0);
 #ifdef BASE
-    v_FrontColor = u_FrontBase;
+    v_FrontColor = FRONT_BASE;
 #endif
     add_lights(normal, position, viewer, true, v_FrontColor);
 #ifdef CLAMP_VERTEX
@@ -90,7 +102,7 @@ void main() {
 #ifdef TWO_SIDED
     v_BackColor = vec3(0.0);
 #ifdef BASE
-    v_BackColor = u_BackBase;
+    v_BackColor = BACK_BASE;
 #endif
     add_lights(BACK(normal), position, viewer, false, v_BackColor);
 #ifdef CLAMP_VERTEX

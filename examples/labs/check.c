@@ -1,64 +1,53 @@
 /*
- * check: what is wrong with a lab's submission, within a second.
+ * check: says what is wrong with a lab's submission, within a second.
  *
- * Draws it in scenes that show mistakes, compares with the exact pictures, and names the mistake
- * whose pictures match. The judging is done by a second process, which may hang or crash as the
- * driver does with somebody's shaders.
+ * Draws it in scenes that reveal mistakes, compares with the exact pictures, and names the mistake
+ * whose pictures match. A second process judges, because submitted shaders may hang or crash the
+ * driver.
  */
-#include "class.h"
-#include "judge.h"
-#include "options.h"
-#include "output.h"
-#include "stage.h"
-#include "supervise.h"
-#include "verdict_json.h"
+#include "app/doctor.h"
+#include "app/options.h"
+#include "base/output.h"
+#include "labs/check/judge.h"
+#include "labs/class/alone.h"
+#include "labs/class/class.h"
+#include "labs/submission/verdict_json.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/random.h>
+#include <sys/stat.h>
 
 static int seed = -1;
 static double limit = 10;
 static const char *json, *pictures, *expected;
 
 static const Parameter parameters[] = {
-    {.name = "seed",
-     .help = "of the second set of scenes; -1: another one each time",
-     .kind = PARAMETER_WHOLE,
-     .value = &seed,
-     .least = -1,
-     .most = 2147483647},
-    {.name = "json",
-     .help = "a file for the result as JSON; - is standard output",
-     .kind = PARAMETER_TEXT,
-     .value = &json},
-    {.name = "pictures",
-     .help = "a folder for the worst scene: as drawn, as it should be, and the difference",
-     .kind = PARAMETER_TEXT,
-     .value = &pictures},
-    {.name = "limit",
-     .help = "seconds that the judging may take",
-     .kind = PARAMETER_NUMBER,
-     .value = &limit,
-     .least = 0.1,
-     .most = 3600},
-    {.name = "expected",
-     .help = "draws the exact picture of a LAB's own scene into this file, and checks nothing",
-     .kind = PARAMETER_TEXT,
-     .value = &expected},
+    {"seed", "seed of the second set of scenes; -1: random", PARAMETER_WHOLE, .value = &seed,
+     .min = -1, .max = 2147483647},
+    {"json", "the result as JSON; - is standard output", PARAMETER_TEXT, .value = &json,
+     .placeholder = "FILE"},
+    {"pictures", "for a picture of the worst scene: drawn, right, difference", PARAMETER_TEXT,
+     .value = &pictures, .placeholder = "DIR"},
+    {"limit", "processor time for the submission, in seconds", PARAMETER_NUMBER, .value = &limit,
+     .min = 0.1, .max = 3600},
+    {"expected", "only write the exact picture of LAB's own scene to this file", PARAMETER_TEXT,
+     .value = &expected, .placeholder = "FILE"},
     {.name = NULL},
 };
 
 static const Usage usage = {
     .name = "check",
-    .summary = "says what is wrong with a submission of a lab, and where to look",
+    .summary = "says what is wrong with a lab's submission, and where to look",
     .names = "LAB PATH",
-    .details = "LAB is 5, lab05 or lab05_per_fragment; PATH is the folder with its files. The\n"
-               "exit status is 0 where it is right.\n"
+    .details = "LAB is 5, lab05 or lab05_per_fragment; PATH is the folder with the files. The\n"
+               "exit status is 0 if the submission is right.\n"
                "\nTry:  check lab05 mine\n"
                "      check lab05 mine --pictures found --json found/result.json\n"
                "      check --class DIR --lab 5 -o results\n"
-               "The last is for a whole class; check --class DIR --help tells more.\n",
+               "The last judges a whole class: see check --class DIR --help.\n",
     .study = true,
     .parameters = parameters,
 };
@@ -81,9 +70,14 @@ static int check(const Options *options, const Lab *lab, const char *folder, Mes
                                  .seed = choose_seed(),
                                  .backend = options->canvas.backend,
                                  .pictures = pictures};
+    struct stat status;
+    if (stat(folder, &status) != 0) {
+        message_set(message, "%s: %s", folder, strerror(errno));
+        return options_fail(usage.name, message, EXIT_USAGE);
+    }
     if (json && !output_check(json, message))
         return options_fail(usage.name, message, EXIT_FAILED);
-    if (!supervise(&judged, limit, &verdict, message))
+    if (!alone_judge(&judged, limit, &verdict, message))
         return options_fail(usage.name, message, EXIT_FAILED);
     const bool quiet = json && json[0] == '-' && !json[1];
     if (!quiet)
@@ -103,11 +97,11 @@ int main(int argc, char *argv[])
     if (!options_begin(&options, &usage, argc, argv, &code))
         return code;
     if (options.doctor)
-        return options_finish(usage.name, stage_doctor());
+        return options_finish(usage.name, doctor_run());
     char *const *names = options.names;
     if (!names[0] || (expected ? names[1] != NULL : !names[1] || names[2])) {
-        message_set(&message, expected ? "--expected FILE goes with LAB alone"
-                                       : "names a lab and a folder: check lab05 mine");
+        message_set(&message, expected ? "--expected FILE takes only LAB"
+                                       : "needs a lab and a folder: check lab05 mine");
         return options_fail(usage.name, &message, EXIT_USAGE);
     }
     const Lab *lab = lab_find(names[0], &message);

@@ -1,16 +1,17 @@
 /*
- * lab_program: shows a lab's usual scene with somebody's shaders, by default the starter's. The
- * build compiles this file once for each lab, with LAB as its number.
+ * lab_program: shows a lab's usual scene with a student's shaders, by default the starter's.
+ * Compiled once for each lab, with LAB as its number.
  *
- * To do a lab, copy its folder, edit the copy, and keep the picture in sight:
+ * To do a lab, copy its folder, edit the copy, and watch the picture:
  *   examples/run lab05_per_fragment --shaders mine --watch
  */
-#include "binding.h"
-#include "example.h"
-#include "probe.h"
+#include "app/run.h"
+#include "core/example.h"
+#include "labs/program/binding.h"
+#include "labs/program/probe.h"
 
 #if LAB == 3 || LAB == 10
-#include "lab_code.h"
+#include "labs/program/lab_code.h"
 #endif
 
 static struct {
@@ -32,10 +33,10 @@ static bool init(const ShaderLoader *loader, Message *message)
            binding_check(state.lab, state.shader.program, message);
 }
 
-/* Lab 3: the places that the student's C gives; lab 10: its sphere. */
-static bool choose(Probe *probe, Drawn *drawn, double seconds)
+/* Lab 3: the matrices from the student's C; lab 10: the sphere. */
+static bool choose(Probe *probe, Drawn *drawn, double seconds, Message *message)
 {
-    (void)probe, (void)drawn, (void)seconds;
+    (void)probe, (void)drawn, (void)seconds, (void)message;
 #if LAB == 3
     static Mat4 world_from_model, normal_matrix;
     world_from_model = normal_matrix = mat4_identity();
@@ -46,7 +47,7 @@ static bool choose(Probe *probe, Drawn *drawn, double seconds)
     LabBudget budget = {.slices = 16, .stacks = 16};
     lab_budget(&budget);
     mesh_close(&probe->meshes[0]);
-    if (!mesh_sphere(&probe->meshes[0], 1, budget.slices, budget.stacks, NULL))
+    if (!mesh_sphere(&probe->meshes[0], 1, budget.slices, budget.stacks, message))
         return false;
     if (budget.cull)
         glEnable(GL_CULL_FACE);
@@ -54,19 +55,19 @@ static bool choose(Probe *probe, Drawn *drawn, double seconds)
     return true;
 }
 
-static bool draw(const Frame *frame)
+static bool draw_lab(const Frame *frame, Message *message)
 {
     Probe probe;
     MeshBuffer mesh = {0};
     Drawn drawn = {.scene = &probe.scene, .aspect = frame->aspect};
-    if (!probe_open_usual(&probe, state.lab, frame->seconds, NULL))
+    if (!probe_open_usual(&probe, state.lab, frame->seconds, message))
         return false;
     Camera *camera = &probe.scene.camera;
     orbit_move(frame->orbit, &camera->eye, camera->center, &camera->up);
     glEnable(GL_DEPTH_TEST);
-    const bool done = choose(&probe, &drawn, frame->seconds) &&
-                      mesh_buffer_open(&mesh, &probe.meshes[0], NULL) &&
-                      binding_draw(state.lab, state.shader.program, &mesh, &drawn, NULL);
+    const bool done = choose(&probe, &drawn, frame->seconds, message) &&
+                      mesh_buffer_open(&mesh, &probe.meshes[0], message) &&
+                      binding_draw(state.lab, state.shader.program, &mesh, &drawn, message);
     mesh_buffer_close(&mesh);
     probe_close(&probe);
     return done;
@@ -80,7 +81,10 @@ static void finish(void)
 int main(int argc, char *argv[])
 {
     const Lab *lab = &LABS[LAB - 1];
-    const Example example = {
-        .name = lab->name, .summary = lab->summary, .init = init, .draw = draw, .finish = finish};
+    const Example example = {.name = lab->name,
+                             .summary = lab->summary,
+                             .init = init,
+                             .try_draw = draw_lab,
+                             .finish = finish};
     return example_main(&example, argc, argv);
 }

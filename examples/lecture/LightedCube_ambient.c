@@ -1,29 +1,30 @@
 /*
  * LightedCube_ambient: LightedCube with ambient light.
  *
- * New: ambient reflection, which is added to the diffuse one and depends on neither normal nor
- * light. It stands for the light that has been scattered so often that it comes from everywhere.
+ * New since LightedCube: ambient reflection, which is added to the diffuse term and depends on
+ * neither normal nor light direction. It approximates light that arrives from all directions after
+ * many reflections.
  *
- * Look at how the whole cube is lighter by the same amount.
+ * Look at the whole cube: each face is lighter by the same amount.
  */
-#include "example.h"
-#include "matrix.h"
-#include "mesh_buffer.h"
+#include "core/example.h"
+#include "core/matrix.h"
+#include "core/mesh_buffer.h"
 
-/* The camera, in world coordinates, and its lens: degrees, and distances along the view. */
+/* Camera, in world coordinates; field of view in degrees, distances along the view. */
 static const Vec3 EYE = {3, 3, 7}, CENTER = {0, 0, 0}, UP = {0, 1, 0};
 static const double FOVY = 30, NEAR = 1, FAR = 100;
 
-/* A directional light: its rays are parallel. The direction, in the world, leads towards it. */
+/* Directional light: parallel rays. The direction points to the light, in world coordinates. */
 static const Vec3 LIGHT_COLOR = {1, 1, 1};
-static const Vec3 LIGHT_DIRECTION = {0.5, 3, 4}; /* made unit below */
+static const Vec3 LIGHT_DIRECTION = {0.5, 3, 4}; /* normalized in draw */
 
-/* Light from everywhere, so that what no light reaches is not black. */
+/* Ambient light, so that surfaces away from the light are not black. */
 static const Vec3 AMBIENT_LIGHT = {0.2, 0.2, 0.2};
 
-/* The object: a red cube, 2 wide. */
+/* A red cube of side 2. */
 static const double HALF_SIDE = 1;
-static const float CUBE_COLOR[3] = {1, 0, 0};
+static const Vec3 CUBE_COLOR = {1, 0, 0};
 
 static struct {
     Shader shader;
@@ -35,49 +36,47 @@ static struct {
 
 static bool init(const ShaderLoader *loader, Message *message)
 {
+    const ShaderLocation locations[] = {
+        {"a_Position", &state.a_Position},
+        {"a_Color", &state.a_Color},
+        {"a_Normal", &state.a_Normal},
+        {"u_MvpMatrix", &state.u_MvpMatrix},
+        {"u_LightColor", &state.u_LightColor},
+        {"u_LightDirection", &state.u_LightDirection},
+        {"u_AmbientLight", &state.u_AmbientLight},
+        {NULL, NULL},
+    };
     Mesh mesh;
     if (!shader_open(&state.shader, loader, "lecture/LightedCube_ambient", message) ||
-        !shader_attribute(&state.shader, "a_Position", &state.a_Position, message) ||
-        !shader_attribute(&state.shader, "a_Color", &state.a_Color, message) ||
-        !shader_attribute(&state.shader, "a_Normal", &state.a_Normal, message) ||
-        !shader_uniform(&state.shader, "u_MvpMatrix", &state.u_MvpMatrix, message) ||
-        !shader_uniform(&state.shader, "u_LightColor", &state.u_LightColor, message) ||
-        !shader_uniform(&state.shader, "u_LightDirection", &state.u_LightDirection, message) ||
-        !shader_uniform(&state.shader, "u_AmbientLight", &state.u_AmbientLight, message))
-        return false;
-
-    if (!mesh_cube(&mesh, HALF_SIDE, message))
+        !shader_locations(&state.shader, locations, message) ||
+        !mesh_cube(&mesh, HALF_SIDE, message))
         return false;
     const bool uploaded = mesh_buffer_open(&state.cube, &mesh, message);
     mesh_close(&mesh);
     if (!uploaded)
         return false;
 
-    /* Position and normal come from the buffer, one for each vertex; the colour is one for all. */
+    /* Position and normal are per vertex, from the buffer; the colour is the same for all. */
     mesh_buffer_bind(&state.cube, state.a_Position, state.a_Normal);
-    glVertexAttrib3fv((GLuint)state.a_Color, CUBE_COLOR);
+    shader_set_attribute(state.a_Color, CUBE_COLOR);
     glEnable(GL_DEPTH_TEST);
     return true;
 }
 
-static bool draw(const Frame *frame)
+static void draw(const Frame *frame)
 {
-    Mat4 clip_from_eye, eye_from_world;
-    Vec3 light_direction;
-    if (!mat4_perspective(FOVY, frame->aspect, NEAR, FAR, &clip_from_eye) ||
-        !frame_look_at(frame, EYE, CENTER, UP, &eye_from_world) ||
-        !vec3_normalize(LIGHT_DIRECTION, &light_direction))
-        return false;
-    /* The cube is not moved: its own coordinates are the world's. */
+    const Mat4 clip_from_eye = mat4_perspective(FOVY, frame->aspect, NEAR, FAR);
+    /* mat4_look_at, with the eye moved as --orbit or the mouse says. */
+    const Mat4 eye_from_world = frame_look_at(frame, EYE, CENTER, UP);
+    /* The cube is not transformed: model coordinates equal world coordinates. */
     const Mat4 clip_from_model = mat4_product(clip_from_eye, eye_from_world);
 
     glUseProgram(state.shader.program);
     shader_set_mat4(state.u_MvpMatrix, clip_from_model);
     shader_set_vec3(state.u_LightColor, LIGHT_COLOR);
-    shader_set_vec3(state.u_LightDirection, light_direction);
+    shader_set_vec3(state.u_LightDirection, vec3_unit(LIGHT_DIRECTION));
     shader_set_vec3(state.u_AmbientLight, AMBIENT_LIGHT);
     glDrawElements(GL_TRIANGLES, state.cube.index_count, state.cube.index_type, NULL);
-    return true;
 }
 
 static void finish(void)

@@ -1,28 +1,29 @@
 /*
  * LightedCube_animation: the cube of LightedCube turns.
  *
- * New: a model matrix, made anew for each moment, and with it the normal matrix. The light stands
- * still in the world, so the normals have to be brought there before they meet it.
+ * New since LightedCube: a model matrix, computed for each frame, and with it the normal matrix.
+ * The light is fixed in world coordinates, so the normals are transformed to world coordinates as
+ * well.
  *
- * Look at the faces that turn away from the light: they are black to the last detail.
+ * Look at the faces that turn away from the light: they are completely black.
  */
-#include "example.h"
-#include "matrix.h"
-#include "mesh_buffer.h"
+#include "core/example.h"
+#include "core/matrix.h"
+#include "core/mesh_buffer.h"
 
-/* The camera, in world coordinates, and its lens: degrees, and distances along the view. */
+/* Camera, in world coordinates; field of view in degrees, distances along the view. */
 static const Vec3 EYE = {3, 3, 7}, CENTER = {0, 0, 0}, UP = {0, 1, 0};
 static const double FOVY = 30, NEAR = 1, FAR = 100;
 
-/* A directional light: its rays are parallel. The direction, in the world, leads towards it. */
+/* Directional light: parallel rays. The direction points to the light, in world coordinates. */
 static const Vec3 LIGHT_COLOR = {1, 1, 1};
-static const Vec3 LIGHT_DIRECTION = {0.5, 3, 4}; /* made unit below */
+static const Vec3 LIGHT_DIRECTION = {0.5, 3, 4}; /* normalized in draw */
 
-/* The object: a red cube, 2 wide. */
+/* A red cube of side 2. */
 static const double HALF_SIDE = 1;
-static const float CUBE_COLOR[3] = {1, 0, 0};
+static const Vec3 CUBE_COLOR = {1, 0, 0};
 
-/* The model turns about the y axis, by so many degrees a second. */
+/* Rotation about the y axis, in degrees per second. */
 static const double TURN = 30;
 static const Vec3 AXIS = {0, 1, 0};
 
@@ -36,54 +37,50 @@ static struct {
 
 static bool init(const ShaderLoader *loader, Message *message)
 {
+    const ShaderLocation locations[] = {
+        {"a_Position", &state.a_Position},
+        {"a_Color", &state.a_Color},
+        {"a_Normal", &state.a_Normal},
+        {"u_MvpMatrix", &state.u_MvpMatrix},
+        {"u_NormalMatrix", &state.u_NormalMatrix},
+        {"u_LightColor", &state.u_LightColor},
+        {"u_LightDirection", &state.u_LightDirection},
+        {NULL, NULL},
+    };
     Mesh mesh;
     if (!shader_open(&state.shader, loader, "lecture/LightedCube_animation", message) ||
-        !shader_attribute(&state.shader, "a_Position", &state.a_Position, message) ||
-        !shader_attribute(&state.shader, "a_Color", &state.a_Color, message) ||
-        !shader_attribute(&state.shader, "a_Normal", &state.a_Normal, message) ||
-        !shader_uniform(&state.shader, "u_MvpMatrix", &state.u_MvpMatrix, message) ||
-        !shader_uniform(&state.shader, "u_NormalMatrix", &state.u_NormalMatrix, message) ||
-        !shader_uniform(&state.shader, "u_LightColor", &state.u_LightColor, message) ||
-        !shader_uniform(&state.shader, "u_LightDirection", &state.u_LightDirection, message))
-        return false;
-
-    if (!mesh_cube(&mesh, HALF_SIDE, message))
+        !shader_locations(&state.shader, locations, message) ||
+        !mesh_cube(&mesh, HALF_SIDE, message))
         return false;
     const bool uploaded = mesh_buffer_open(&state.cube, &mesh, message);
     mesh_close(&mesh);
     if (!uploaded)
         return false;
 
-    /* Position and normal come from the buffer, one for each vertex; the colour is one for all. */
+    /* Position and normal are per vertex, from the buffer; the colour is the same for all. */
     mesh_buffer_bind(&state.cube, state.a_Position, state.a_Normal);
-    glVertexAttrib3fv((GLuint)state.a_Color, CUBE_COLOR);
+    shader_set_attribute(state.a_Color, CUBE_COLOR);
     glEnable(GL_DEPTH_TEST);
     return true;
 }
 
-static bool draw(const Frame *frame)
+static void draw(const Frame *frame)
 {
-    Mat4 clip_from_eye, eye_from_world, world_from_model;
-    Mat4 normal_matrix;
-    Vec3 light_direction;
-    if (!mat4_perspective(FOVY, frame->aspect, NEAR, FAR, &clip_from_eye) ||
-        !frame_look_at(frame, EYE, CENTER, UP, &eye_from_world) ||
-        !mat4_rotate(TURN * frame->seconds, AXIS, &world_from_model) ||
-        !vec3_normalize(LIGHT_DIRECTION, &light_direction))
-        return false;
+    const Mat4 clip_from_eye = mat4_perspective(FOVY, frame->aspect, NEAR, FAR);
+    /* mat4_look_at, with the eye moved as --orbit or the mouse says. */
+    const Mat4 eye_from_world = frame_look_at(frame, EYE, CENTER, UP);
+    const Mat4 world_from_model = mat4_rotate(TURN * frame->seconds, AXIS);
     const Mat4 clip_from_world = mat4_product(clip_from_eye, eye_from_world);
     const Mat4 clip_from_model = mat4_product(clip_from_world, world_from_model);
     /* The inverse transpose of the model matrix keeps normals perpendicular to the surface. */
-    if (!mat4_normal(world_from_model, &normal_matrix))
-        return false;
+    const Mat4 normal_matrix = mat4_normal(world_from_model);
 
     glUseProgram(state.shader.program);
     shader_set_mat4(state.u_MvpMatrix, clip_from_model);
     shader_set_mat4(state.u_NormalMatrix, normal_matrix);
     shader_set_vec3(state.u_LightColor, LIGHT_COLOR);
-    shader_set_vec3(state.u_LightDirection, light_direction);
+    shader_set_vec3(state.u_LightDirection, vec3_unit(LIGHT_DIRECTION));
     glDrawElements(GL_TRIANGLES, state.cube.index_count, state.cube.index_type, NULL);
-    return true;
 }
 
 static void finish(void)
@@ -95,6 +92,7 @@ static void finish(void)
 const Example LightedCube_animation = {
     .name = "LightedCube_animation",
     .summary = "LightedCube turning: a model matrix, and normals that follow it",
+    .tries = {"--angle 45", "--angle 200", "--angle 45 --orbit 180,0"},
     .init = init,
     .draw = draw,
     .finish = finish,

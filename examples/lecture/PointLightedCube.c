@@ -1,32 +1,34 @@
 /*
- * PointLightedCube: a cube in the light of a point.
+ * PointLightedCube: a cube lit by a point light.
  *
- * New since LightedTranslatedRotatedCube: the light has a place, and its direction is that from
- * the vertex to the light, both in world coordinates. So the model matrix goes to the shader too.
+ * New since LightedTranslatedRotatedCube: the light has a position, and its direction is that from
+ * the vertex to the light, in world coordinates. So the shader needs the model matrix too. The cube
+ * is twice as large and seen from twice as far away, turned about y, and not translated.
  *
- * Look at the large faces: the light varies over them, but along straight edges between the two
- * triangles of each, for only the corners are lit and the rest is interpolated (Gouraud).
+ * Look at the large faces: the light varies over them, with a visible diagonal between the two
+ * triangles, because only the corners are lit and the rest is interpolated (Gouraud).
  */
-#include "example.h"
-#include "matrix.h"
-#include "mesh_buffer.h"
+#include "core/example.h"
+#include "core/matrix.h"
+#include "core/mesh_buffer.h"
 
-/* The camera, in world coordinates, and its lens: degrees, and distances along the view. */
+/* Camera, in world coordinates; field of view in degrees, distances along the view. */
 static const Vec3 EYE = {6, 6, 14}, CENTER = {0, 0, 0}, UP = {0, 1, 0};
 static const double FOVY = 30, NEAR = 1, FAR = 100;
 
-/* A point light: its rays leave one place in the world, so their direction differs everywhere. */
+/* Point light, in world coordinates: the light direction differs at each point of the surface. */
 static const Vec3 LIGHT_COLOR = {1, 1, 1};
 static const Vec3 LIGHT_POSITION = {2.3, 4, 3.5};
 
-/* Light from everywhere, so that what no light reaches is not black. */
+/* Ambient light, so that surfaces away from the light are not black. */
 static const Vec3 AMBIENT_LIGHT = {0.2, 0.2, 0.2};
 
-/* The object: a red cube, 4 wide. */
+/* A red cube of side 4. */
 static const double HALF_SIDE = 2;
-static const float CUBE_COLOR[3] = {1, 0, 0};
+static const Vec3 CUBE_COLOR = {1, 0, 0};
 
-/* The model is turned about the y axis, by so many degrees. */
+/* Rotation about the y axis, in degrees: a quarter turn. The cube looks the same after it, and each
+ * face gets the light of its new place only if positions and normals are both transformed. */
 static const double TURN = 90;
 static const Vec3 AXIS = {0, 1, 0};
 
@@ -40,46 +42,45 @@ static struct {
 
 static bool init(const ShaderLoader *loader, Message *message)
 {
+    const ShaderLocation locations[] = {
+        {"a_Position", &state.a_Position},
+        {"a_Color", &state.a_Color},
+        {"a_Normal", &state.a_Normal},
+        {"u_MvpMatrix", &state.u_MvpMatrix},
+        {"u_ModelMatrix", &state.u_ModelMatrix},
+        {"u_NormalMatrix", &state.u_NormalMatrix},
+        {"u_LightColor", &state.u_LightColor},
+        {"u_LightPosition", &state.u_LightPosition},
+        {"u_AmbientLight", &state.u_AmbientLight},
+        {NULL, NULL},
+    };
     Mesh mesh;
     if (!shader_open(&state.shader, loader, "lecture/PointLightedCube", message) ||
-        !shader_attribute(&state.shader, "a_Position", &state.a_Position, message) ||
-        !shader_attribute(&state.shader, "a_Color", &state.a_Color, message) ||
-        !shader_attribute(&state.shader, "a_Normal", &state.a_Normal, message) ||
-        !shader_uniform(&state.shader, "u_MvpMatrix", &state.u_MvpMatrix, message) ||
-        !shader_uniform(&state.shader, "u_ModelMatrix", &state.u_ModelMatrix, message) ||
-        !shader_uniform(&state.shader, "u_NormalMatrix", &state.u_NormalMatrix, message) ||
-        !shader_uniform(&state.shader, "u_LightColor", &state.u_LightColor, message) ||
-        !shader_uniform(&state.shader, "u_LightPosition", &state.u_LightPosition, message) ||
-        !shader_uniform(&state.shader, "u_AmbientLight", &state.u_AmbientLight, message))
-        return false;
-
-    if (!mesh_cube(&mesh, HALF_SIDE, message))
+        !shader_locations(&state.shader, locations, message) ||
+        !mesh_cube(&mesh, HALF_SIDE, message))
         return false;
     const bool uploaded = mesh_buffer_open(&state.cube, &mesh, message);
     mesh_close(&mesh);
     if (!uploaded)
         return false;
 
-    /* Position and normal come from the buffer, one for each vertex; the colour is one for all. */
+    /* Position and normal are per vertex, from the buffer; the colour is the same for all. */
     mesh_buffer_bind(&state.cube, state.a_Position, state.a_Normal);
-    glVertexAttrib3fv((GLuint)state.a_Color, CUBE_COLOR);
+    shader_set_attribute(state.a_Color, CUBE_COLOR);
     glEnable(GL_DEPTH_TEST);
     return true;
 }
 
-static bool draw(const Frame *frame)
+static void draw(const Frame *frame)
 {
-    Mat4 clip_from_eye, eye_from_world, world_from_model;
-    Mat4 normal_matrix;
-    if (!mat4_perspective(FOVY, frame->aspect, NEAR, FAR, &clip_from_eye) ||
-        !frame_look_at(frame, EYE, CENTER, UP, &eye_from_world) ||
-        !mat4_rotate(TURN, AXIS, &world_from_model))
-        return false;
+    const Mat4 clip_from_eye = mat4_perspective(FOVY, frame->aspect, NEAR, FAR);
+    /* mat4_look_at, with the eye moved as --orbit or the mouse says. */
+    const Mat4 eye_from_world = frame_look_at(frame, EYE, CENTER, UP);
+    const Mat4 world_from_model = mat4_rotate(TURN, AXIS);
     const Mat4 clip_from_world = mat4_product(clip_from_eye, eye_from_world);
     const Mat4 clip_from_model = mat4_product(clip_from_world, world_from_model);
     /* The inverse transpose of the model matrix keeps normals perpendicular to the surface. */
-    if (!mat4_normal(world_from_model, &normal_matrix))
-        return false;
+    const Mat4 normal_matrix = mat4_normal(world_from_model);
 
     glUseProgram(state.shader.program);
     shader_set_mat4(state.u_MvpMatrix, clip_from_model);
@@ -89,7 +90,6 @@ static bool draw(const Frame *frame)
     shader_set_vec3(state.u_LightPosition, LIGHT_POSITION);
     shader_set_vec3(state.u_AmbientLight, AMBIENT_LIGHT);
     glDrawElements(GL_TRIANGLES, state.cube.index_count, state.cube.index_type, NULL);
-    return true;
 }
 
 static void finish(void)

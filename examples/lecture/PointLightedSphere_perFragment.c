@@ -1,31 +1,32 @@
 /*
- * PointLightedSphere_perFragment: the sphere of PointLightedSphere, lit at every fragment.
+ * PointLightedSphere_perFragment: the sphere of PointLightedSphere, lit per fragment.
  *
- * New: position and normal are interpolated and the fragment shader computes the light. The sphere
- * is turned, so that the mesh lies differently; its light does not show it.
+ * New since PointLightedSphere: position and normal are interpolated and the fragment shader
+ * computes the light. The sphere is rotated, so its mesh lies differently, but the shading does not
+ * change.
  *
- * Look at the border of light and shade: it is smooth. Only the silhouette still shows the mesh.
+ * Look at the border between light and shade: it is smooth. Only the silhouette shows the mesh.
  */
-#include "example.h"
-#include "matrix.h"
-#include "mesh_buffer.h"
+#include "core/example.h"
+#include "core/matrix.h"
+#include "core/mesh_buffer.h"
 
-/* The camera, in world coordinates, and its lens: degrees, and distances along the view. */
+/* Camera, in world coordinates; field of view in degrees, distances along the view. */
 static const Vec3 EYE = {0, 0, 6}, CENTER = {0, 0, 0}, UP = {0, 1, 0};
 static const double FOVY = 30, NEAR = 1, FAR = 100;
 
-/* A point light: its rays leave one place in the world, so their direction differs everywhere. */
+/* Point light, in world coordinates: the light direction differs at each point of the surface. */
 static const Vec3 LIGHT_COLOR = {0.8, 0.8, 0.8};
 static const Vec3 LIGHT_POSITION = {5, 8, 7};
 
-/* Light from everywhere, so that what no light reaches is not black. */
+/* Ambient light, so that surfaces away from the light are not black. */
 static const Vec3 AMBIENT_LIGHT = {0.2, 0.2, 0.2};
 
-/* The object: a white unit sphere, cut into 13 slices and 13 stacks. */
+/* A white unit sphere of 13 slices and 13 stacks. */
 static const int DIVISIONS = 13;
-static const float SPHERE_COLOR[3] = {1, 1, 1};
+static const Vec3 SPHERE_COLOR = {1, 1, 1};
 
-/* The model is turned about the y axis, by so many degrees. */
+/* Rotation about the y axis, in degrees. */
 static const double TURN = 90;
 static const Vec3 AXIS = {0, 1, 0};
 
@@ -39,46 +40,45 @@ static struct {
 
 static bool init(const ShaderLoader *loader, Message *message)
 {
+    const ShaderLocation locations[] = {
+        {"a_Position", &state.a_Position},
+        {"a_Color", &state.a_Color},
+        {"a_Normal", &state.a_Normal},
+        {"u_MvpMatrix", &state.u_MvpMatrix},
+        {"u_ModelMatrix", &state.u_ModelMatrix},
+        {"u_NormalMatrix", &state.u_NormalMatrix},
+        {"u_LightColor", &state.u_LightColor},
+        {"u_LightPosition", &state.u_LightPosition},
+        {"u_AmbientLight", &state.u_AmbientLight},
+        {NULL, NULL},
+    };
     Mesh mesh;
     if (!shader_open(&state.shader, loader, "lecture/PointLightedSphere_perFragment", message) ||
-        !shader_attribute(&state.shader, "a_Position", &state.a_Position, message) ||
-        !shader_attribute(&state.shader, "a_Color", &state.a_Color, message) ||
-        !shader_attribute(&state.shader, "a_Normal", &state.a_Normal, message) ||
-        !shader_uniform(&state.shader, "u_MvpMatrix", &state.u_MvpMatrix, message) ||
-        !shader_uniform(&state.shader, "u_ModelMatrix", &state.u_ModelMatrix, message) ||
-        !shader_uniform(&state.shader, "u_NormalMatrix", &state.u_NormalMatrix, message) ||
-        !shader_uniform(&state.shader, "u_LightColor", &state.u_LightColor, message) ||
-        !shader_uniform(&state.shader, "u_LightPosition", &state.u_LightPosition, message) ||
-        !shader_uniform(&state.shader, "u_AmbientLight", &state.u_AmbientLight, message))
-        return false;
-
-    if (!mesh_sphere(&mesh, 1, DIVISIONS, DIVISIONS, message))
+        !shader_locations(&state.shader, locations, message) ||
+        !mesh_sphere(&mesh, 1, DIVISIONS, DIVISIONS, message))
         return false;
     const bool uploaded = mesh_buffer_open(&state.sphere, &mesh, message);
     mesh_close(&mesh);
     if (!uploaded)
         return false;
 
-    /* Position and normal come from the buffer, one for each vertex; the colour is one for all. */
+    /* Position and normal are per vertex, from the buffer; the colour is the same for all. */
     mesh_buffer_bind(&state.sphere, state.a_Position, state.a_Normal);
-    glVertexAttrib3fv((GLuint)state.a_Color, SPHERE_COLOR);
+    shader_set_attribute(state.a_Color, SPHERE_COLOR);
     glEnable(GL_DEPTH_TEST);
     return true;
 }
 
-static bool draw(const Frame *frame)
+static void draw(const Frame *frame)
 {
-    Mat4 clip_from_eye, eye_from_world, world_from_model;
-    Mat4 normal_matrix;
-    if (!mat4_perspective(FOVY, frame->aspect, NEAR, FAR, &clip_from_eye) ||
-        !frame_look_at(frame, EYE, CENTER, UP, &eye_from_world) ||
-        !mat4_rotate(TURN, AXIS, &world_from_model))
-        return false;
+    const Mat4 clip_from_eye = mat4_perspective(FOVY, frame->aspect, NEAR, FAR);
+    /* mat4_look_at, with the eye moved as --orbit or the mouse says. */
+    const Mat4 eye_from_world = frame_look_at(frame, EYE, CENTER, UP);
+    const Mat4 world_from_model = mat4_rotate(TURN, AXIS);
     const Mat4 clip_from_world = mat4_product(clip_from_eye, eye_from_world);
     const Mat4 clip_from_model = mat4_product(clip_from_world, world_from_model);
     /* The inverse transpose of the model matrix keeps normals perpendicular to the surface. */
-    if (!mat4_normal(world_from_model, &normal_matrix))
-        return false;
+    const Mat4 normal_matrix = mat4_normal(world_from_model);
 
     glUseProgram(state.shader.program);
     shader_set_mat4(state.u_MvpMatrix, clip_from_model);
@@ -88,7 +88,6 @@ static bool draw(const Frame *frame)
     shader_set_vec3(state.u_LightPosition, LIGHT_POSITION);
     shader_set_vec3(state.u_AmbientLight, AMBIENT_LIGHT);
     glDrawElements(GL_TRIANGLES, state.sphere.index_count, state.sphere.index_type, NULL);
-    return true;
 }
 
 static void finish(void)

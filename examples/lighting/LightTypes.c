@@ -1,41 +1,34 @@
 /*
  * LightTypes: the kinds of light on the same sphere and floor.
  *
- * Directional, point and spot; below, the latter two fading with the distance, and a spot whose
- * light falls off within its cone.
+ * Directional, point and spot; below, point and spot with attenuation, and a spot with an exponent.
  *
- * Look at: the floor: evenly lit by parallel rays, in a pool under a point, in a circle under a
+ * Look at the floor: evenly lit by parallel rays, brightest below a point, in a circle below a
  * spot.
  */
-#include "example.h"
+#include "scene/scene_example.h"
+#include "shapes/mesh_solids.h"
 
 static double linear = 0.2, quadratic = 0.2, cutoff = 25, exponent = 40;
 
+static Surface surface = {
+    .name = MATERIAL_COUNT, /* that of red_plastic */
+    .material = {.diffuse = {0.5, 0, 0}, .specular = {0.7, 0.6, 0.6}, .alpha = 1, .shininess = 32}};
+static LightColors light_colors = {.diffuse = {1, 1, 1}, .specular = {0.6, 0.6, 0.6}};
+static Vec3 global_ambient = {0.2, 0.2, 0.2};
+static SceneShading shading = {REFLECTION_BLINN_PHONG, INTERPOLATION_PHONG, VIEWER_LOCAL};
+
 static const Parameter parameters[] = {
-    {.name = "linear",
-     .help = "attenuation by the distance",
-     .kind = PARAMETER_NUMBER,
-     .value = &linear,
-     .least = 0,
-     .most = 10},
-    {.name = "quadratic",
-     .help = "attenuation by its square",
-     .kind = PARAMETER_NUMBER,
-     .value = &quadratic,
-     .least = 0,
-     .most = 10},
-    {.name = "cutoff",
-     .help = "half the spot's angle, in degrees",
-     .kind = PARAMETER_NUMBER,
-     .value = &cutoff,
-     .least = 0,
-     .most = 90},
-    {.name = "exponent",
-     .help = "the spot's fall-off",
-     .kind = PARAMETER_NUMBER,
-     .value = &exponent,
-     .least = 0,
-     .most = 128},
+    {"linear", "attenuation by the distance", PARAMETER_NUMBER, .value = &linear, .min = 0,
+     .max = 10},
+    {"quadratic", "attenuation by its square", PARAMETER_NUMBER, .value = &quadratic, .min = 0,
+     .max = 10},
+    {"cutoff", "half the spot's angle, in degrees", PARAMETER_NUMBER, .value = &cutoff, .min = 0,
+     .max = 90},
+    {"exponent", "the spot's falloff", PARAMETER_NUMBER, .value = &exponent, .min = 0, .max = 128},
+    MATERIAL_PARAMETER(surface),
+    SHADING_PARAMETERS(shading),
+    LIGHT_PARAMETERS(light_colors, global_ambient),
     {.name = NULL},
 };
 
@@ -54,8 +47,8 @@ static bool init(const ShaderLoader *loader, Message *message)
 static Light light(double seconds, int view)
 {
     const Vec3 place = example_turn((Vec3){1, 3, 1.5}, seconds);
-    Light made = {
-        .position = place, .diffuse = {1, 1, 1}, .specular = {0.6, 0.6, 0.6}, .cutoff = cutoff};
+    Light made = {.position = place, .cutoff = cutoff};
+    light_colors_apply(&light_colors, &made);
     const bool fading = view == 3 || view == 4;
     made.kind = view == 0 ? LIGHT_DIRECTIONAL : view == 1 || view == 3 ? LIGHT_POINT : LIGHT_SPOT;
     made.direction = made.kind == LIGHT_DIRECTIONAL ? place : vec3_scale(place, -1);
@@ -71,8 +64,7 @@ static Light light(double seconds, int view)
 
 static void scene(double seconds, int view, Scene *scene)
 {
-    Mat4 lying;
-    mat4_rotate(-90, (Vec3){1, 0, 0}, &lying);
+    const Mat4 lying = mat4_rotate(-90, (Vec3){1, 0, 0});
     const Mat4 below = mat4_translate((Vec3){0, -1, 0});
     const Mat4 large = mat4_scale((Vec3){4, 4, 4});
     state.light = light(seconds, view);
@@ -80,7 +72,7 @@ static void scene(double seconds, int view, Scene *scene)
                                 .solid = {.kind = SOLID_SPHERE, .radius = 1},
                                 .closed = true,
                                 .world_from_object = mat4_identity(),
-                                .front = *material_find("red_plastic")};
+                                .front = surface.material};
     state.objects[1] =
         (Object){.mesh = &state.floor,
                  .solid = {.kind = SOLID_QUAD},
@@ -89,17 +81,18 @@ static void scene(double seconds, int view, Scene *scene)
                  .front = {.ambient = {0.6, 0.6, 0.6}, .diffuse = {0.6, 0.6, 0.6}, .alpha = 1}};
     *scene =
         (Scene){.camera = {.eye = {0, 4, 10}, .up = {0, 1, 0}, .fovy = 42, .near = 1, .far = 100},
-                .global_ambient = {0.2, 0.2, 0.2},
+                .global_ambient = global_ambient,
                 .lights = &state.light,
                 .light_count = 1,
                 .objects = state.objects,
                 .object_count = 2};
+    scene_shading_apply(&shading, scene);
 }
 
 static void annotate(double seconds, int view, const Scene *scene, Annotations *annotations)
 {
     (void)seconds, (void)view;
-    marks_add_lights(&annotations->points, scene);
+    overlay_add_lights(&annotations->points, scene);
 }
 
 static void layout(int *columns, int *rows)
@@ -110,8 +103,9 @@ static void layout(int *columns, int *rows)
 
 static const char *label(int view)
 {
-    static const char *const labels[] = {"directional",   "point",        "spot",
-                                         "point, fading", "spot, fading", "spot with an exponent"};
+    static const char *const labels[] = {
+        "directional",          "point", "spot", "point, attenuated", "spot, attenuated",
+        "spot with an exponent"};
     return labels[view];
 }
 
@@ -126,11 +120,12 @@ const Example LightTypes = {
     .summary = "directional, point and spot, with and without attenuation",
     .width = 750,
     .height = 500,
+    .tries = {"--linear 0 --quadratic 1", "--cutoff 60 --exponent 128", "--terms specular"},
     .init = init,
     .finish = finish,
-    .scene = scene,
-    .annotate = annotate,
-    .layout = layout,
-    .label = label,
-    .parameters = parameters,
+    .scene = &(const SceneExample){.make = scene,
+                                   .annotate = annotate,
+                                   .layout = layout,
+                                   .label = label,
+                                   .parameters = parameters},
 };

@@ -1,108 +1,101 @@
 /*
- * Materials: what diffuse colour, specular colour and shininess make of an object.
+ * Materials: the effect of diffuse colour, specular colour and shininess.
  *
- * One white light at the viewer. The colours are the options', or those of a named material
- * (--preset); --sheet on shows all 24 of these.
+ * The textbook's demo: a white light at the viewer, lit at the vertices. --material starts from a
+ * named material, whose colours the other options change; --sheet on shows all 24.
  *
- * Look at: metals, whose highlights have the colour of the metal, and plastics, whose highlights
- * are white.
+ * Look at the highlights: metals reflect in their own colour, plastics in white.
  */
-#include "example.h"
-#include "shape.h"
+#include "scene/scene_example.h"
+#include "scene/shape.h"
+
+#include <math.h>
 
 static int shape_kind = SHAPE_TEAPOT;
-static const char *model;
+static ShapeModel model;
 static bool sheet;
-static int preset = MATERIAL_COUNT; /* none */
-static Vec3 diffuse = {0.6, 0.6, 0.6}, specular = {1, 1, 1};
-static double shininess = 16;
+static Surface surface = {.name = MATERIAL_COUNT,
+                          .material = {.ambient = {0.6, 0.6, 0.6},
+                                       .diffuse = {0.6, 0.6, 0.6},
+                                       .specular = {1, 1, 1},
+                                       .alpha = 1,
+                                       .shininess = 16}};
+static LightColors light_colors = {.diffuse = {1, 1, 1}, .specular = {0.4, 0.4, 0.4}};
+static Vec3 global_ambient = {0.2, 0.2, 0.2};
+static SceneShading shading = {REFLECTION_PHONG, INTERPOLATION_GOURAUD, VIEWER_INFINITE};
+
+/* The demo sets ambient and diffuse colour together, and shininess in whole numbers. */
+static void diffuse_changed(const Parameter *parameter)
+{
+    (void)parameter;
+    surface.material.ambient = surface.material.diffuse;
+}
+
+static void material_changed(const Parameter *parameter)
+{
+    scene_surface_named(parameter);
+    surface.material.shininess = round(surface.material.shininess);
+    diffuse_changed(parameter);
+}
 
 static const Parameter parameters[] = {
-    {.name = "object",
-     .help = "what is lit",
-     .kind = PARAMETER_CHOICE,
-     .value = &shape_kind,
-     .choices = SHAPE_NAMES},
-    {.name = "model",
-     .help = "a model file (OBJ, PLY, glTF, 3DS...) in the place of the solid",
-     .kind = PARAMETER_TEXT,
-     .value = &model},
-    {.name = "preset",
-     .help = "a named material, in the place of the colours",
-     .kind = PARAMETER_CHOICE,
-     .value = &preset,
-     .choices = MATERIAL_NAMES},
-    {.name = "diffuse",
-     .help = "its colour",
-     .kind = PARAMETER_COLOR,
-     .value = &diffuse,
-     .least = 0,
-     .most = 1},
-    {.name = "specular",
-     .help = "its highlight's colour",
-     .kind = PARAMETER_COLOR,
-     .value = &specular,
-     .least = 0,
-     .most = 1},
-    {.name = "shininess",
-     .help = "the highlight's exponent",
-     .kind = PARAMETER_NUMBER,
-     .value = &shininess,
-     .least = 0,
-     .most = 128},
-    {.name = "sheet", .help = "all named materials", .kind = PARAMETER_SWITCH, .value = &sheet},
+    SHAPE_PARAMETERS(shape_kind, model),
+    {"material", "a named material, with its diffuse colour as the ambient one", PARAMETER_CHOICE,
+     .value = &surface.name, .choices = MATERIAL_NAMES, .changed = material_changed},
+    {"diffuse", "diffuse and ambient colour", PARAMETER_COLOR, .value = &surface.material.diffuse,
+     .min = 0, .max = 1, .changed = diffuse_changed},
+    COLOR_PARAMETER("ambient", "ambient colour alone", surface.material.ambient),
+    COLOR_PARAMETER("specular", "specular colour", surface.material.specular),
+    COLOR_PARAMETER("emission", "what it emits", surface.material.emission),
+    {"shininess", "the highlight's exponent", PARAMETER_NUMBER,
+     .value = &surface.material.shininess, .min = 0, .max = 128},
+    OPACITY_PARAMETER(surface),
+    {"sheet", "all named materials instead, as they are", PARAMETER_SWITCH, .value = &sheet},
+    SHADING_PARAMETERS(shading),
+    LIGHT_PARAMETERS(light_colors, global_ambient),
     {.name = NULL},
 };
 
-static const Light LIGHT = {.kind = LIGHT_POINT,
-                            .position = {0, 1, 4},
-                            .ambient = {0.1, 0.1, 0.1},
-                            .diffuse = {1, 1, 1},
-                            .specular = {0.4, 0.4, 0.4}};
-
 static struct {
     Shape shape;
+    Light light;
     Object object;
 } state;
 
 static bool init(const ShaderLoader *loader, Message *message)
 {
     (void)loader;
-    return shape_open(&state.shape, (ShapeKind)shape_kind, model, message);
-}
-
-static Material material(int view)
-{
-    if (sheet)
-        return MATERIALS[view].material;
-    if (preset < MATERIAL_COUNT)
-        return MATERIALS[preset].material;
-    return (Material){.ambient = diffuse,
-                      .diffuse = diffuse,
-                      .specular = specular,
-                      .alpha = 1,
-                      .shininess = shininess};
+    return shape_open(&state.shape, (ShapeKind)shape_kind, SHAPE_TEXTBOOK, &model, message);
 }
 
 static void scene(double seconds, int view, Scene *scene)
 {
-    state.object = shape_object(&state.shape, example_turned(seconds), material(view));
-    *scene =
-        (Scene){.camera = {.eye = {0, 1, 4}, .up = {0, 1, 0}, .fovy = 40, .near = 1, .far = 100},
-                .background = {1, 1, 1},
-                .lights = &LIGHT,
-                .light_count = 1,
-                .objects = &state.object,
-                .object_count = 1,
-                .reflection = REFLECTION_PHONG};
+    const Material material = sheet ? MATERIALS[view].material : surface.material;
+    state.light = (Light){.kind = LIGHT_DIRECTIONAL, .space = LIGHT_EYE, .direction = {0, 0, 1}};
+    light_colors_apply(&light_colors, &state.light);
+    state.object = shape_object(&state.shape, example_turned(seconds), material);
+    *scene = (Scene){.camera = example_camera((Vec3){2, 2, 5}, 0.8),
+                     .background = {1, 1, 1},
+                     .global_ambient = global_ambient,
+                     .lights = &state.light,
+                     .light_count = 1,
+                     .objects = &state.object,
+                     .object_count = 1};
+    scene_shading_apply(&shading, scene);
     if (sheet)
-        scene->background = (Vec3){0.2, 0.2, 0.2}; /* for the labels, which are white */
+        scene->background = (Vec3){0.2, 0.2, 0.2}; /* the labels are white */
 }
 
 static void layout(int *columns, int *rows)
 {
     *columns = sheet ? 6 : 1;
     *rows = sheet ? 4 : 1;
+}
+
+static void size(int *width, int *height)
+{
+    *width = sheet ? 900 : 300;
+    *height = sheet ? 600 : 300;
 }
 
 static const char *label(int view)
@@ -118,12 +111,13 @@ static void finish(void)
 const Example Materials = {
     .name = "Materials",
     .summary = "diffuse and specular colour and shininess, and 24 named materials",
-    .width = 600,
-    .height = 400,
+    .tries = {"--diffuse 1,0,0 --specular 0,1,0", "--shape torus --orbit 0,40",
+              "--diffuse 0.5,0,0 --shininess 0"},
     .init = init,
     .finish = finish,
-    .scene = scene,
-    .layout = layout,
-    .label = label,
-    .parameters = parameters,
+    .scene = &(const SceneExample){.make = scene,
+                                   .layout = layout,
+                                   .size = size,
+                                   .label = label,
+                                   .parameters = parameters},
 };

@@ -1,21 +1,32 @@
 /*
  * NormalMatrix: a sphere scaled unevenly, with the right normals and with the wrong ones.
  *
- * On the left normals go through the inverse transpose of the model-view matrix, on the right
- * through that matrix itself, as if they were directions on the surface.
+ * The right ones are transformed by the inverse transpose of the model-view matrix, the wrong ones
+ * by the matrix itself. --matrix both shows them side by side.
  *
- * Look at: --normals on: the wrong ones lean towards the long axis, and the light with them.
+ * Look at --matrix both --normals on: the wrong normals lean towards the long axis, and the light
+ * follows them.
  */
-#include "example.h"
-#include "shape.h"
+#include "scene/scene_example.h"
+#include "scene/shape.h"
 
+enum { RIGHT, WRONG, BOTH };
+static const char *const MATRICES[] = {"right", "wrong", "both", NULL};
+
+static int matrix = RIGHT;
 static bool normals;
+static Surface surface = {.name = MATERIAL_GOLD_INDEX, .material = MATERIAL_GOLD};
+static LightColors light_colors = {{0.5, 0.5, 0.5}, {1, 1, 1}, {1, 1, 1}};
+static Vec3 global_ambient = {0, 0, 0};
+static SceneShading shading = {REFLECTION_PHONG, INTERPOLATION_PHONG, VIEWER_LOCAL};
 
 static const Parameter parameters[] = {
-    {.name = "normals",
-     .help = "draw normals as lines",
-     .kind = PARAMETER_SWITCH,
-     .value = &normals},
+    {"matrix", "by which normals are transformed", PARAMETER_CHOICE, .value = &matrix,
+     .choices = MATRICES},
+    {"normals", "draw normals as lines", PARAMETER_SWITCH, .value = &normals},
+    SURFACE_PARAMETERS(surface),
+    SHADING_PARAMETERS(shading),
+    LIGHT_PARAMETERS(light_colors, global_ambient),
     {.name = NULL},
 };
 
@@ -28,50 +39,57 @@ static struct {
 static bool init(const ShaderLoader *loader, Message *message)
 {
     (void)loader;
-    return shape_open(&state.shape, SHAPE_SPHERE, NULL, message);
+    return shape_open(&state.shape, SHAPE_SPHERE, SHAPE_LECTURE, NULL, message);
+}
+
+static bool is_wrong(int view)
+{
+    return matrix == WRONG || view == 1;
 }
 
 static void scene(double seconds, int view, Scene *scene)
 {
-    state.light = (Light){.kind = LIGHT_POINT,
-                          .position = example_turn((Vec3){1.5, 1, 0}, seconds),
-                          .ambient = {0.5, 0.5, 0.5},
-                          .diffuse = {1, 1, 1},
-                          .specular = {1, 1, 1}};
-    state.object =
-        shape_object(&state.shape, mat4_scale((Vec3){2, 0.7, 0.7}), *material_find("jade"));
-    state.object.wrong_normals = view == 1;
+    state.light =
+        (Light){.kind = LIGHT_POINT, .position = example_turn((Vec3){1.5, 1, 0}, seconds)};
+    light_colors_apply(&light_colors, &state.light);
+    state.object = shape_object(&state.shape, mat4_scale((Vec3){2, 0.7, 0.7}), surface.material);
+    state.object.wrong_normals = is_wrong(view);
     *scene =
         (Scene){.camera = {.eye = {3, 2, 3}, .up = {0, 1, 0}, .fovy = 60, .near = 1, .far = 100},
                 .background = {0.2, 0.2, 0.2},
+                .global_ambient = global_ambient,
                 .lights = &state.light,
                 .light_count = 1,
                 .objects = &state.object,
-                .object_count = 1,
-                .reflection = REFLECTION_PHONG};
+                .object_count = 1};
+    scene_shading_apply(&shading, scene);
 }
 
 static void annotate(double seconds, int view, const Scene *scene, Annotations *annotations)
 {
     const Mat4 world_from_object = state.object.world_from_object;
-    Mat4 normal_matrix = world_from_object;
+    const Mat4 normal_matrix = is_wrong(view) ? world_from_object : mat4_normal(world_from_object);
     example_annotate(seconds, view, scene, annotations);
-    if (view == 0)
-        mat4_normal(world_from_object, &normal_matrix);
     if (normals)
-        marks_add_normals(&annotations->lines, &state.shape.mesh, world_from_object, normal_matrix,
-                          0.2, (Vec3){1, 1, 0});
+        overlay_add_normals(&annotations->lines, &state.shape.mesh, world_from_object,
+                            normal_matrix, 0.2, (Vec3){1, 1, 0});
 }
 
 static void layout(int *columns, int *rows)
 {
-    *columns = 2;
+    *columns = matrix == BOTH ? 2 : 1;
     *rows = 1;
+}
+
+static void size(int *width, int *height)
+{
+    *width = matrix == BOTH ? 1024 : 512;
+    *height = 512;
 }
 
 static const char *label(int view)
 {
-    return view == 0 ? "right: the inverse transpose" : "wrong: the matrix itself";
+    return matrix != BOTH ? NULL : view == 0 ? "inverse transpose" : "model-view matrix";
 }
 
 static void finish(void)
@@ -81,14 +99,15 @@ static void finish(void)
 
 const Example NormalMatrix = {
     .name = "NormalMatrix",
-    .summary = "normals under uneven scaling, right and wrong side by side",
-    .width = 800,
-    .height = 400,
+    .summary = "normals of a scaled sphere, transformed rightly and wrongly",
+    .tries = {"--matrix both --normals on", "--matrix wrong --terms diffuse",
+              "--terms specular --matrix both"},
     .init = init,
     .finish = finish,
-    .scene = scene,
-    .layout = layout,
-    .annotate = annotate,
-    .label = label,
-    .parameters = parameters,
+    .scene = &(const SceneExample){.make = scene,
+                                   .annotate = annotate,
+                                   .layout = layout,
+                                   .size = size,
+                                   .label = label,
+                                   .parameters = parameters},
 };

@@ -1,49 +1,43 @@
 /*
- * PhongBlinn: how far Phong's and Blinn-Phong's highlights lie apart.
+ * PhongBlinn: the difference between Phong's and Blinn-Phong's highlights.
  *
- * On the left Phong's, in the middle Blinn-Phong's with its shininess fitted so that the two
- * highlights are as alike as they can be where light and viewer are opposite each other; on the
- * right their difference, made --gain times as bright.
+ * Phong on the left; in the middle Blinn-Phong, its shininess fitted for the closest match where
+ * light and viewer are opposite; on the right their difference, --gain times as bright.
  *
- * Look at: --fit off: with equal shininess Blinn-Phong's highlight is about twice as wide.
+ * Look at --fit off: with equal shininess, Blinn-Phong's highlight is about twice as wide.
  */
-#include "example.h"
+#include "scene/scene_example.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 static double shininess = 16, gain = 4;
 static bool fit = true;
 
+static Surface surface = {.material = {.ambient = {0.2, 0.2, 0.4},
+                                       .diffuse = {0.2, 0.2, 0.4},
+                                       .specular = {0.6, 0.6, 0.6},
+                                       .alpha = 1}};
+static LightColors light_colors = {{0.1, 0.1, 0.1}, {1, 1, 1}, {1, 1, 1}};
+static Vec3 global_ambient = {0, 0, 0};
+static SceneShading shading = {REFLECTION_PHONG, INTERPOLATION_PHONG, VIEWER_LOCAL};
+
 /* Above a quarter of 128 the fitted shininess would be above 128. */
 static const Parameter parameters[] = {
-    {.name = "shininess",
-     .help = "of Phong's highlight",
-     .kind = PARAMETER_NUMBER,
-     .value = &shininess,
-     .least = 1,
-     .most = 30},
-    {.name = "fit",
-     .help = "fit Blinn-Phong's shininess to it",
-     .kind = PARAMETER_SWITCH,
-     .value = &fit},
-    {.name = "gain",
-     .help = "of the difference",
-     .kind = PARAMETER_NUMBER,
-     .value = &gain,
-     .least = 1,
-     .most = 255},
+    {"shininess", "of Phong's highlight; above 30 the fitted one would be above 128",
+     PARAMETER_NUMBER, .value = &shininess, .min = 1, .max = 30},
+    {"fit", "fit Blinn-Phong's shininess to it", PARAMETER_SWITCH, .value = &fit},
+    {"gain", "of the difference", PARAMETER_NUMBER, .value = &gain, .min = 1, .max = 255},
+    COLOR_PARAMETERS(surface),
+    INTERPOLATION_PARAMETERS(shading),
+    LIGHT_PARAMETERS(light_colors, global_ambient),
     {.name = NULL},
 };
 
-static const Light LIGHT = {.kind = LIGHT_POINT,
-                            .position = {3, 4, 5},
-                            .ambient = {0.1, 0.1, 0.1},
-                            .diffuse = {1, 1, 1},
-                            .specular = {1, 1, 1}};
-
 static struct {
     Mesh sphere;
+    Light light;
     Object object;
     double fitted;
 } state;
@@ -62,18 +56,19 @@ static void scene(double seconds, int view, Scene *scene)
                             .solid = {.kind = SOLID_SPHERE, .radius = 1},
                             .closed = true,
                             .world_from_object = mat4_identity(),
-                            .front = {.ambient = {0.2, 0.2, 0.4},
-                                      .diffuse = {0.2, 0.2, 0.4},
-                                      .specular = {0.6, 0.6, 0.6},
-                                      .alpha = 1,
-                                      .shininess = view == 1 ? state.fitted : shininess}};
+                            .front = surface.material};
+    state.object.front.shininess = view == 1 ? state.fitted : shininess;
+    state.light = (Light){.kind = LIGHT_POINT, .position = {3, 4, 5}};
+    light_colors_apply(&light_colors, &state.light);
     *scene =
         (Scene){.camera = {.eye = {0, 0, 5}, .up = {0, 1, 0}, .fovy = 30, .near = 1, .far = 100},
-                .lights = &LIGHT,
+                .global_ambient = global_ambient,
+                .lights = &state.light,
                 .light_count = 1,
                 .objects = &state.object,
-                .object_count = view < 2,
-                .reflection = view == 1 ? REFLECTION_BLINN_PHONG : REFLECTION_PHONG};
+                .object_count = view < 2};
+    scene_shading_apply(&shading, scene);
+    scene->reflection = view == 1 ? REFLECTION_BLINN_PHONG : REFLECTION_PHONG;
 }
 
 static void layout(int *columns, int *rows)
@@ -84,8 +79,12 @@ static void layout(int *columns, int *rows)
 
 static const char *label(int view)
 {
-    static const char *const labels[] = {"Phong", "Blinn-Phong", "difference"};
-    return labels[view];
+    static char text[64];
+    if (view == 2)
+        return "difference";
+    snprintf(text, sizeof text, "%s, shininess %.4g", view == 0 ? "Phong" : "Blinn-Phong",
+             view == 0 ? shininess : state.fitted);
+    return text;
 }
 
 /* Fills the third view with the difference of the first two. */
@@ -114,11 +113,12 @@ const Example PhongBlinn = {
     .summary = "Phong and Blinn-Phong with fitted shininess, and their difference",
     .width = 900,
     .height = 300,
+    .tries = {"--fit off --gain 1", "--shininess 1 --gain 8", "--viewer infinite --gain 16"},
     .init = init,
     .finish = finish,
-    .scene = scene,
-    .layout = layout,
-    .label = label,
-    .retouch = retouch,
-    .parameters = parameters,
+    .scene = &(const SceneExample){.make = scene,
+                                   .layout = layout,
+                                   .label = label,
+                                   .retouch = retouch,
+                                   .parameters = parameters},
 };

@@ -1,70 +1,92 @@
 /*
- * SmoothFlat: the same triangles with the normals of the surface they stand for, and with their
- * own.
+ * SmoothFlat: the same triangles with the normals of the curved surface, and with their own.
  *
- * A sphere of few slices and stacks; or, with --figure band, the same strip of rectangles twice:
- * above with the normals of a smooth surface, below with those of the rectangles.
+ * The textbook's demo: a sphere of few slices and stacks. --shape band is its figure, half a ring
+ * of rectangles twice: above with smooth normals, below with flat ones. --shape square is a flat
+ * square whose smooth normals are those of a sphere: normals are whatever you say they are.
  *
- * Look at: the silhouette, which no normal can make round.
+ * Look at the silhouette: no normal makes it round.
  */
-#include "example.h"
+#include "scene/scene_example.h"
+#include "shapes/mesh_solids.h"
 
-static int figure, normals, slices = 8, stacks = 4;
-static bool edges;
+#include <math.h>
 
-static const char *const FIGURES[] = {"sphere", "band", NULL};
+enum { SPHERE, BAND, SQUARE };
+static const char *const SHAPES[] = {"sphere", "band", "square", NULL};
 static const char *const NORMALS[] = {"smooth", "flat", NULL};
 
+static int shape, normals, slices = 8, stacks = 4;
+static bool edges;
+static Surface surface = {.name = MATERIAL_COUNT,
+                          .material = {.ambient = {0.7, 0.7, 0.7},
+                                       .diffuse = {0.7, 0.7, 0.7},
+                                       .specular = {0.2, 0.2, 0.2},
+                                       .alpha = 1,
+                                       .shininess = 16}};
+static LightColors light_colors = {.diffuse = {1, 1, 1}, .specular = {1, 1, 1}};
+static Vec3 global_ambient = {0.2, 0.2, 0.2};
+static SceneShading shading = {REFLECTION_PHONG, INTERPOLATION_GOURAUD, VIEWER_INFINITE};
+
+/* The textbook's band is yellow. */
+static void shape_changed(const Parameter *parameter)
+{
+    (void)parameter;
+    if (shape == BAND)
+        surface.material.ambient = surface.material.diffuse = (Vec3){0.75, 0.75, 0};
+}
+
 static const Parameter parameters[] = {
-    {.name = "figure",
-     .help = "what is drawn",
-     .kind = PARAMETER_CHOICE,
-     .value = &figure,
-     .choices = FIGURES},
-    {.name = "normals",
-     .help = "of the sphere",
-     .kind = PARAMETER_CHOICE,
-     .value = &normals,
-     .choices = NORMALS},
-    {.name = "slices",
-     .help = "of the sphere, around its axis",
-     .kind = PARAMETER_WHOLE,
-     .value = &slices,
-     .least = 3,
-     .most = 64},
-    {.name = "stacks",
-     .help = "of the sphere, along its axis",
-     .kind = PARAMETER_WHOLE,
-     .value = &stacks,
-     .least = 2,
-     .most = 32},
-    {.name = "edges",
-     .help = "draw the edges of the triangles",
-     .kind = PARAMETER_SWITCH,
-     .value = &edges},
+    {"shape", "what is drawn", PARAMETER_CHOICE, .value = &shape, .choices = SHAPES,
+     .changed = shape_changed},
+    {"normals", "of the sphere and the square; the band has both", PARAMETER_CHOICE,
+     .value = &normals, .choices = NORMALS},
+    {"slices", "around the axis of the sphere, or along the square", PARAMETER_WHOLE,
+     .value = &slices, .min = 3, .max = 64},
+    {"stacks", "of the sphere, along its axis", PARAMETER_WHOLE, .value = &stacks, .min = 2,
+     .max = 32},
+    {"edges", "draw the edges of the faces", PARAMETER_SWITCH, .value = &edges},
+    SURFACE_PARAMETERS(surface),
+    SHADING_PARAMETERS(shading),
+    LIGHT_PARAMETERS(light_colors, global_ambient),
     {.name = NULL},
 };
 
-static const Light LIGHT = {.kind = LIGHT_DIRECTIONAL,
-                            .direction = {-1, 1, 2},
-                            .diffuse = {1, 1, 1},
-                            .specular = {1, 1, 1}};
-static const Material MATERIAL = {.ambient = {0.7, 0.7, 0.7},
-                                  .diffuse = {0.7, 0.7, 0.7},
-                                  .specular = {0.2, 0.2, 0.2},
-                                  .alpha = 1,
-                                  .shininess = 16};
-
 static struct {
     Mesh smooth, flat; /* the same triangles */
+    Light light;
     Object objects[2];
 } state;
 
-/* The band is half of an open cylinder that is cut into 12. */
+/* The square, with the normals of a sphere that bulges through it. */
+static bool open_square(Mesh *mesh, Message *message)
+{
+    if (!mesh_quad(mesh, slices, message))
+        return false;
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
+        const Vec3 place = vec3_from_float(mesh->vertices[i].position);
+        Vec3 unit;
+        const double square = place.x * place.x + place.y * place.y; /* 2 at the corners */
+        vec3_normalize((Vec3){place.x, place.y, sqrt(2.05 - square)}, &unit);
+        vec3_to_float(unit, mesh->vertices[i].normal);
+    }
+    return true;
+}
+
+/* The band is the half of an open cylinder that is cut into 16. */
+static bool open_band(Mesh *mesh, Message *message)
+{
+    if (!mesh_cylinder(mesh, 4, 2.5, 16, 1, MESH_CAP_NONE, message))
+        return false;
+    mesh->index_count /= 2;
+    return true;
+}
+
 static bool open_mesh(Mesh *mesh, Message *message)
 {
-    return figure ? mesh_cylinder(mesh, 1, 0.8, 12, 1, MESH_CAP_NONE, message)
-                  : mesh_sphere(mesh, 1, slices, stacks, message);
+    return shape == BAND     ? open_band(mesh, message)
+           : shape == SQUARE ? open_square(mesh, message)
+                             : mesh_sphere(mesh, 4, slices, stacks, message);
 }
 
 static bool init(const ShaderLoader *loader, Message *message)
@@ -78,37 +100,50 @@ static Object make_object(bool flat, Mat4 world_from_object)
 {
     return (Object){.mesh = flat ? &state.flat : &state.smooth,
                     .flat = flat,
-                    .closed = !figure,
+                    .closed = shape == SPHERE,
+                    .behind_lines = edges,
                     .world_from_object = world_from_object,
-                    .front = MATERIAL};
+                    .front = surface.material,
+                    .two_sided = shape == BAND,
+                    .back = surface.material};
 }
 
 static void scene(double seconds, int view, Scene *scene)
 {
-    Mat4 upright;
     const Mat4 turned = example_turned(seconds);
     (void)view;
-    mat4_rotate(-90, (Vec3){1, 0, 0}, &upright);
-    state.objects[0] = make_object(normals == 1, turned);
-    for (int i = 0; i < 2 && figure; i++) {
-        const Mat4 raised = mat4_translate((Vec3){0, i == 0 ? 0.15 : -0.95, 0});
-        state.objects[i] = make_object(i == 1, mat4_product(raised, mat4_product(turned, upright)));
+    /* Slices begin at +x. */
+    Mat4 world_from_object = mat4_product(turned, mat4_rotate(90, (Vec3){0, 1, 0}));
+    if (shape == SQUARE)
+        world_from_object = mat4_product(turned, mat4_scale((Vec3){3.5, 3.5, 1}));
+    state.objects[0] = make_object(normals == 1, world_from_object);
+    for (int i = 0; i < 2 && shape == BAND; i++) {
+        const Mat4 raised = mat4_translate((Vec3){0, i == 0 ? 0.4 : -2.9, 0});
+        /* Upright, about its centroid, its inside half hidden by its outside. */
+        const Mat4 upright =
+            mat4_product(mat4_rotate(-90, (Vec3){1, 0, 0}), mat4_translate((Vec3){0, -2.5, 0}));
+        const Mat4 open = mat4_product(mat4_rotate(-50, (Vec3){0, 1, 0}), upright);
+        state.objects[i] = make_object(i == 1, mat4_product(raised, mat4_product(turned, open)));
     }
-    *scene =
-        (Scene){.camera = {.eye = {0, 1, 5}, .up = {0, 1, 0}, .fovy = 30, .near = 1, .far = 100},
-                .global_ambient = {0.2, 0.2, 0.2},
-                .lights = &LIGHT,
-                .light_count = 1,
-                .objects = state.objects,
-                .object_count = figure ? 2 : 1};
+    state.light = (Light){.kind = LIGHT_DIRECTIONAL, .space = LIGHT_EYE, .direction = {0, 0, 1}};
+    light_colors_apply(&light_colors, &state.light);
+    *scene = (Scene){.camera = example_camera((Vec3){0, 0, 30}, 5),
+                     .global_ambient = global_ambient,
+                     .lights = &state.light,
+                     .light_count = 1,
+                     .objects = state.objects,
+                     .object_count = shape == BAND ? 2 : 1};
+    if (shape == BAND) /* from above, to see outside and inside */
+        scene->camera = example_camera((Vec3){0, 9, 28}, 5.5);
+    scene_shading_apply(&shading, scene);
 }
 
 static void annotate(double seconds, int view, const Scene *scene, Annotations *annotations)
 {
     (void)seconds, (void)view;
     for (int i = 0; i < scene->object_count && edges; i++)
-        marks_add_edges(&annotations->lines, scene->objects[i].mesh,
-                        scene->objects[i].world_from_object, (Vec3){0, 0, 0});
+        overlay_add_edges(&annotations->lines, scene->objects[i].mesh,
+                          scene->objects[i].world_from_object, (Vec3){0, 0, 0});
 }
 
 static void finish(void)
@@ -120,9 +155,11 @@ static void finish(void)
 const Example SmoothFlat = {
     .name = "SmoothFlat",
     .summary = "smooth and flat normals on the same triangles",
+    .width = 300,
+    .height = 300,
+    .tries = {"--slices 3 --stacks 32", "--shape square --orbit 60,20",
+              "--slices 12 --stacks 6 --normals flat --edges on"},
     .init = init,
     .finish = finish,
-    .scene = scene,
-    .annotate = annotate,
-    .parameters = parameters,
+    .scene = &(const SceneExample){.make = scene, .annotate = annotate, .parameters = parameters},
 };

@@ -1,47 +1,32 @@
 /*
  * SpotLight: a light that shines only within a cone.
  *
- * The light turns about the object, aimed at it. Its cone is half as wide as --cutoff says twice;
- * --exponent makes it weaker from its axis outwards.
+ * The light turns about the object and aims at it. --cutoff is half the cone's angle; --exponent
+ * makes the light weaker away from the axis.
  *
- * Look at: the hard edge of the cone, and how --exponent softens it; --interpolation gouraud, where
- * the edge can only follow the mesh.
+ * Look at the hard edge of the cone and how --exponent softens it, and at --interpolation gouraud,
+ * where the edge follows the mesh.
  */
-#include "example.h"
-#include "shape.h"
+#include "scene/scene_example.h"
+#include "scene/shape.h"
 
 static int shape_kind = SHAPE_SPHERE;
-static const char *model;
-static int interpolation = INTERPOLATION_PHONG;
+static ShapeModel model;
 static double cutoff = 30, exponent = 0;
+static Surface surface = {.name = MATERIAL_GOLD_INDEX, .material = MATERIAL_GOLD};
+static LightColors light_colors = {{0.1, 0.1, 0.1}, {1, 1, 1}, {1, 1, 1}};
+static Vec3 global_ambient = {0, 0, 0};
+static SceneShading shading = {REFLECTION_PHONG, INTERPOLATION_PHONG, VIEWER_LOCAL};
 
 static const Parameter parameters[] = {
-    {.name = "shape",
-     .help = "what is lit",
-     .kind = PARAMETER_CHOICE,
-     .value = &shape_kind,
-     .choices = SHAPE_NAMES},
-    {.name = "model",
-     .help = "a model file (OBJ, PLY, glTF, 3DS...) in the place of the solid",
-     .kind = PARAMETER_TEXT,
-     .value = &model},
-    {.name = "cutoff",
-     .help = "half the cone's angle, in degrees",
-     .kind = PARAMETER_NUMBER,
-     .value = &cutoff,
-     .least = 0,
-     .most = 90},
-    {.name = "exponent",
-     .help = "how fast it falls off within the cone",
-     .kind = PARAMETER_NUMBER,
-     .value = &exponent,
-     .least = 0,
-     .most = 128},
-    {.name = "interpolation",
-     .help = "of normals, of colours, or neither",
-     .kind = PARAMETER_CHOICE,
-     .value = &interpolation,
-     .choices = INTERPOLATION_NAMES},
+    SHAPE_PARAMETERS(shape_kind, model),
+    {"cutoff", "half the cone's angle, in degrees", PARAMETER_NUMBER, .value = &cutoff, .min = 0,
+     .max = 90},
+    {"exponent", "how fast it falls off within the cone", PARAMETER_NUMBER, .value = &exponent,
+     .min = 0, .max = 128},
+    SURFACE_PARAMETERS(surface),
+    SHADING_PARAMETERS(shading),
+    LIGHT_PARAMETERS(light_colors, global_ambient),
     {.name = NULL},
 };
 
@@ -54,7 +39,7 @@ static struct {
 static bool init(const ShaderLoader *loader, Message *message)
 {
     (void)loader;
-    return shape_open(&state.shape, (ShapeKind)shape_kind, model, message);
+    return shape_open(&state.shape, (ShapeKind)shape_kind, SHAPE_LECTURE, &model, message);
 }
 
 static void scene(double seconds, int view, Scene *scene)
@@ -65,20 +50,18 @@ static void scene(double seconds, int view, Scene *scene)
                           .position = place,
                           .direction = vec3_scale(place, -1),
                           .cutoff = cutoff,
-                          .exponent = exponent,
-                          .diffuse = {1, 1, 1},
-                          .specular = {1, 1, 1}};
-    state.object = shape_object(&state.shape, mat4_identity(), *material_find("silver"));
+                          .exponent = exponent};
+    light_colors_apply(&light_colors, &state.light);
+    state.object = shape_object(&state.shape, mat4_identity(), surface.material);
     *scene =
         (Scene){.camera = {.eye = {3, 3, 3}, .up = {0, 1, 0}, .fovy = 60, .near = 1, .far = 100},
                 .background = {0.2, 0.2, 0.2},
-                .global_ambient = {0.3, 0.3, 0.3},
+                .global_ambient = global_ambient,
                 .lights = &state.light,
                 .light_count = 1,
                 .objects = &state.object,
-                .object_count = 1,
-                .reflection = REFLECTION_PHONG,
-                .interpolation = (Interpolation)interpolation};
+                .object_count = 1};
+    scene_shading_apply(&shading, scene);
 }
 
 static void finish(void)
@@ -88,10 +71,14 @@ static void finish(void)
 
 const Example SpotLight = {
     .name = "SpotLight",
-    .summary = "a light with a cone, its cutoff and its fall-off",
+    .summary = "a light with a cone, its cutoff and its falloff",
+    .width = 512,
+    .height = 512,
+    .tries = {"--shape cube --interpolation gouraud --global-ambient 0.3",
+              "--exponent 60 --cutoff 60 --global-ambient 0.3",
+              "--shape teapot --cutoff 90 --time 2"},
     .init = init,
     .finish = finish,
-    .scene = scene,
-    .annotate = example_annotate,
-    .parameters = parameters,
+    .scene = &(
+        const SceneExample){.make = scene, .annotate = example_annotate, .parameters = parameters},
 };

@@ -1,29 +1,49 @@
 /*
- * TwoSidedLighting: the back of a surface, with its own material and its normal reversed.
+ * TwoSidedLighting: the back of a surface has its own material and the reversed normal.
  *
- * The lecture's turning quad, gold in front and silver behind; or, with --object cylinder, the
+ * The lecture's turning quad, gold in front and silver behind; or, with --shape cylinder, the
  * textbook's open cylinder, purple outside and yellow inside, with a bottom.
  *
- * Look at: the back when --two-sided is off: it is lit as if it were the front, from the wrong
- * side.
+ * Look at the back with --two-sided off: it is lit with the front's normal, as if from the wrong
+ * side. With --front-face cw front and back change places.
  */
-#include "example.h"
+#include "scene/scene_example.h"
+#include "shapes/mesh_solids.h"
 
-static int object = 0;
+enum { QUAD, CYLINDER };
+static const char *const SHAPES[] = {"quad", "cylinder", NULL};
+static const char *const WINDINGS[] = {"ccw", "cw", NULL};
+
+static int shape, winding;
+static int front_name = MATERIAL_COUNT, back_name = MATERIAL_COUNT;
 static bool two_sided = true;
+static LightColors light_colors = {{0.2, 0.2, 0.2}, {1, 1, 1}, {1, 1, 1}};
+static Vec3 global_ambient = {0, 0, 0};
+static SceneShading shading = {REFLECTION_PHONG, INTERPOLATION_PHONG, VIEWER_LOCAL};
 
-static const char *const OBJECTS[] = {"quad", "cylinder", NULL};
+/* The textbook's demos are lit at the vertices, and only the scene has ambient light. */
+static void shape_changed(const Parameter *parameter)
+{
+    (void)parameter;
+    const double scene_ambient = shape == CYLINDER ? 0.15 : 0;
+    const double light_ambient = shape == CYLINDER ? 0 : 0.2;
+    shading.interpolation = shape == CYLINDER ? INTERPOLATION_GOURAUD : INTERPOLATION_PHONG;
+    global_ambient = (Vec3){scene_ambient, scene_ambient, scene_ambient};
+    light_colors.ambient = (Vec3){light_ambient, light_ambient, light_ambient};
+}
 
 static const Parameter parameters[] = {
-    {.name = "object",
-     .help = "the lecture's or the textbook's",
-     .kind = PARAMETER_CHOICE,
-     .value = &object,
-     .choices = OBJECTS},
-    {.name = "two-sided",
-     .help = "light the back as a back",
-     .kind = PARAMETER_SWITCH,
-     .value = &two_sided},
+    {"shape", "the lecture's quad, or the textbook's cylinder", PARAMETER_CHOICE, .value = &shape,
+     .choices = SHAPES, .changed = shape_changed},
+    {"two-sided", "light the back as a back", PARAMETER_SWITCH, .value = &two_sided},
+    {"front-face", "the order of the corners of a front face, as in glFrontFace", PARAMETER_CHOICE,
+     .value = &winding, .choices = WINDINGS},
+    {"material", "of the front; none: the original's", PARAMETER_CHOICE, .value = &front_name,
+     .choices = MATERIAL_NAMES},
+    {"back-material", "of the back; none: the original's", PARAMETER_CHOICE, .value = &back_name,
+     .choices = MATERIAL_NAMES},
+    SHADING_PARAMETERS(shading),
+    LIGHT_PARAMETERS(light_colors, global_ambient),
     {.name = NULL},
 };
 
@@ -43,63 +63,64 @@ static struct {
 static bool init(const ShaderLoader *loader, Message *message)
 {
     (void)loader;
-    return object ? mesh_cylinder(&state.mesh, 1, 2, 64, 16, MESH_CAP_BOTTOM, message)
-                  : mesh_quad(&state.mesh, 1, message);
+    return shape == CYLINDER ? mesh_cylinder(&state.mesh, 1, 2, 64, 1, MESH_CAP_BOTTOM, message)
+                             : mesh_quad(&state.mesh, 1, message);
 }
 
-/* The textbook's cylinder: upright, its opening tilted to the viewer, whose light it stands in. */
+/* Lit from the viewer, who looks into it. */
 static void cylinder_scene(double seconds, Scene *scene)
 {
-    Mat4 upright;
-    mat4_rotate(-90, (Vec3){1, 0, 0}, &upright);
-    state.light = (Light){.kind = LIGHT_DIRECTIONAL,
-                          .direction = {0, 3, 4},
-                          .diffuse = {1, 1, 1},
-                          .specular = {1, 1, 1}};
-    state.object.world_from_object = mat4_product(mat4_product(example_turned(seconds), upright),
-                                                  mat4_translate((Vec3){0, 0, -1}));
+    const Mat4 lying = mat4_rotate(-90, (Vec3){1, 0, 0});
+    const Mat4 low = mat4_product(mat4_scale((Vec3){1, 1, 0.3}), mat4_translate((Vec3){0, 0, -1}));
+    state.light = (Light){.kind = LIGHT_DIRECTIONAL, .space = LIGHT_EYE, .direction = {0, 0, 1}};
+    state.object.solid =
+        (Solid){.kind = SOLID_CYLINDER, .radius = 1, .height = 2, .caps = MESH_CAP_BOTTOM};
+    state.object.world_from_object =
+        mat4_product(example_turned(seconds), mat4_product(lying, low));
     state.object.front = PURPLE;
     state.object.back = YELLOW;
-    scene->camera = (Camera){.eye = {0, 3, 4}, .up = {0, 1, 0}, .fovy = 40, .near = 1, .far = 100};
-    scene->global_ambient = (Vec3){0.15, 0.15, 0.15};
+    scene->camera = example_camera((Vec3){5, 10, 20}, 1.5);
 }
 
 static void quad_scene(double seconds, Scene *scene)
 {
-    state.light = (Light){.kind = LIGHT_POINT,
-                          .position = {0, 0.5, 0.5},
-                          .ambient = {0.2, 0.2, 0.2},
-                          .diffuse = {1, 1, 1},
-                          .specular = {1, 1, 1}};
+    state.light = (Light){.kind = LIGHT_POINT, .position = {0, 0.5, 0.5}};
+    state.object.solid = (Solid){.kind = SOLID_QUAD};
     state.object.world_from_object = example_turned(seconds);
     state.object.front = *material_find("gold");
     state.object.back = *material_find("silver");
     scene->camera = (Camera){.eye = {3, 2, 3}, .up = {0, 1, 0}, .fovy = 60, .near = 1, .far = 100};
+    scene->background = (Vec3){0.5, 0.5, 0.5};
 }
 
 static void scene(double seconds, int view, Scene *scene)
 {
     (void)view;
-    state.object = (Object){.mesh = &state.mesh, .two_sided = two_sided};
-    state.object.solid =
-        object ? (Solid){.kind = SOLID_CYLINDER, .radius = 1, .height = 2, .caps = MESH_CAP_BOTTOM}
-               : (Solid){.kind = SOLID_QUAD};
-    *scene = (Scene){.background = {0.5, 0.5, 0.5},
-                     .lights = &state.light,
-                     .light_count = 1,
-                     .objects = &state.object,
-                     .object_count = 1,
-                     .reflection = REFLECTION_PHONG};
-    if (object)
+    state.object = (Object){.mesh = &state.mesh, .two_sided = two_sided, .clockwise = winding == 1};
+    *scene = (Scene){
+        .lights = &state.light, .light_count = 1, .objects = &state.object, .object_count = 1};
+    if (shape == CYLINDER)
         cylinder_scene(seconds, scene);
     else
         quad_scene(seconds, scene);
+    light_colors_apply(&light_colors, &state.light);
+    scene->global_ambient = global_ambient;
+    if (front_name < MATERIAL_COUNT)
+        state.object.front = MATERIALS[front_name].material;
+    if (back_name < MATERIAL_COUNT)
+        state.object.back = MATERIALS[back_name].material;
+    scene_shading_apply(&shading, scene);
 }
 
 static void annotate(double seconds, int view, const Scene *scene, Annotations *annotations)
 {
-    if (!object)
+    if (shape == QUAD)
         example_annotate(seconds, view, scene, annotations);
+}
+
+static void size(int *width, int *height)
+{
+    *width = *height = shape == CYLINDER ? 350 : 512;
 }
 
 static void finish(void)
@@ -110,9 +131,10 @@ static void finish(void)
 const Example TwoSidedLighting = {
     .name = "TwoSidedLighting",
     .summary = "a material for the back, and its normal reversed",
+    .tries = {"--time 6 --two-sided off", "--front-face cw", "--shape cylinder --two-sided off"},
     .init = init,
     .finish = finish,
-    .scene = scene,
-    .annotate = annotate,
-    .parameters = parameters,
+    .scene =
+        &(const SceneExample){
+            .make = scene, .annotate = annotate, .size = size, .parameters = parameters},
 };

@@ -1,22 +1,20 @@
 /*
  * accuracy: what accuracy costs in time.
  *
- * Draws scenes with many settings, each as often as its share of the time allows, and compares
- * every picture with the exact one. What comes out: for each scene, which settings are efficient,
- * that is, which no other beats in both error and time. --budget and --time-budget choose one.
+ * Draws scenes with many settings and compares every picture with the exact one. The result is, for
+ * each scene, which settings are efficient: no other beats them in both error and time. --budget
+ * and --time-budget choose one.
  */
-#include "choose.h"
-#include "efficient.h"
-#include "findings.h"
-#include "models.h"
-#include "report.h"
-#include "scenes.h"
-#include "stage.h"
-#include "survey.h"
-#include "transforms.h"
-
-#include "output.h"
-#include "progress.h"
+#include "app/doctor.h"
+#include "base/output.h"
+#include "base/progress.h"
+#include "study/measure/choose.h"
+#include "study/measure/models.h"
+#include "study/measure/scenes.h"
+#include "study/measure/survey.h"
+#include "study/report/findings.h"
+#include "study/report/report.h"
+#include "study/results/table.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -24,67 +22,40 @@
 
 static int scene = STUDY_SCENE_COUNT; /* all */
 static double budget = -1, time_budget = -1;
-static bool by_rms, quick, calibrate, fresh, all_rows;
-static const char *setting_asked;
+static bool by_rms, quick, fresh, all_rows, markdown;
+static const char *quality_asked;
 static int seed = 1;
 
 /* The names of the study's scenes, and the last: all of them. */
 static const char *SCENES[STUDY_SCENE_COUNT + 2];
 
 static const Parameter parameters[] = {
-    {.name = "scene",
-     .help = "what is drawn",
-     .kind = PARAMETER_CHOICE,
-     .value = &scene,
-     .choices = SCENES},
-    {.name = "budget",
-     .help = "name the cheapest setting of --scene with at most this error, in steps of 1/255;\n"
-             "                         -1: none is asked for",
-     .kind = PARAMETER_NUMBER,
-     .value = &budget,
-     .least = -1,
-     .most = 255},
-    {.name = "rms",
-     .help = "of --budget: of the root mean square error, in the place of the largest",
-     .kind = PARAMETER_FLAG,
+    {"scene", "what is drawn", PARAMETER_CHOICE, .value = &scene, .choices = SCENES},
+    {"budget",
+     "name the cheapest setting of --scene with at most this error, in steps of 1/255; "
+     "-1: off",
+     PARAMETER_NUMBER, .value = &budget, .min = -1, .max = 255},
+    {"rms", "budgets are of the root mean square error instead of the largest", PARAMETER_FLAG,
      .value = &by_rms},
-    {.name = "time-budget",
-     .help = "name the most exact setting of --scene with at most this time, in milliseconds;\n"
-             "                         -1: none is asked for",
-     .kind = PARAMETER_NUMBER,
-     .value = &time_budget,
-     .least = -1,
-     .most = 1e6},
-    {.name = "setting",
-     .help = "measure only this setting of --scene: \"AXIS=CHOICE ...\", or \"usual\"",
-     .kind = PARAMETER_TEXT,
-     .value = &setting_asked},
-    {.name = "quick",
-     .help = "a tenth of the settings, in half a minute",
-     .kind = PARAMETER_FLAG,
-     .value = &quick},
-    {.name = "fresh",
-     .help = "drop all rows that the folder has from before, and measure anew",
-     .kind = PARAMETER_FLAG,
+    {"time-budget",
+     "name the most exact setting of --scene with at most this time, in milliseconds; "
+     "-1: off",
+     PARAMETER_NUMBER, .value = &time_budget, .min = -1, .max = 1e6},
+    {"setting", "measure only this setting of --scene: \"AXIS=CHOICE ...\", or \"usual\"",
+     PARAMETER_TEXT, .value = &quality_asked},
+    {"quick", "a tenth of the settings, in half a minute", PARAMETER_FLAG, .value = &quick},
+    {"fresh", "drop the folder's earlier rows, and measure them again", PARAMETER_FLAG,
      .value = &fresh},
-    {.name = "all-rows",
-     .help = "print every setting, not only the efficient ones",
-     .kind = PARAMETER_FLAG,
+    {"all-rows", "print every setting, not only the efficient ones", PARAMETER_FLAG,
      .value = &all_rows},
-    {.name = "calibrate",
-     .help = "renew the table that the option --error of the scenes' programs chooses from",
-     .kind = PARAMETER_FLAG,
-     .value = &calibrate},
-    {.name = "seed",
-     .help = "of the order in which settings are measured",
-     .kind = PARAMETER_WHOLE,
-     .value = &seed,
-     .least = 0,
-     .most = 1e9},
+    {"markdown", "print tables of the findings as Markdown, with processor, driver and compiler",
+     PARAMETER_FLAG, .value = &markdown},
+    {"seed", "of the order in which settings are measured", PARAMETER_WHOLE, .value = &seed,
+     .min = 0, .max = 1e9},
     {.name = NULL},
 };
 
-/* What --help says last: the scenes, and the axes. */
+/* The end of --help: the scenes and the axes. */
 static char details[6000];
 
 static void make_details(void)
@@ -93,22 +64,23 @@ static void make_details(void)
     if (!file)
         return;
     fprintf(file,
-            "Errors are in steps of 1/255 of the exact picture: interior, of the pixels wholly "
-            "inside\nan object; or of all pixels. Times are of a frame, drawn and read back.\n"
+            "Errors are in steps of 1/255, against the exact picture of the shapes (solids) or of "
+            "the\nmesh as given (models): of the pixels inside an object (interior) or of all "
+            "pixels. Times are of a frame, drawn and read back.\n"
             "\nScenes:\n");
     for (int i = 0; i < STUDY_SCENE_COUNT; i++)
         fprintf(file, "  %-14s %s\n", STUDY_SCENES[i].name, STUDY_SCENES[i].what);
-    fprintf(file, "\nA setting is a choice on each of these axes, the usual one in brackets:\n");
+    fprintf(file, "\nA setting is one choice on each of these axes; the default is in brackets:\n");
     for (int axis = 0; axis < AXIS_COUNT; axis++) {
-        const SettingAxisInfo *info = &SETTING_AXES[axis];
+        const QualityAxisInfo *info = &QUALITY_AXES[axis];
         fprintf(file, "  %-14s %s:\n%17s", info->name, info->help, "");
         for (int i = 0; i < info->count; i++)
             fprintf(file, i == info->usual ? "[%s] " : "%s ", info->choices[i]);
         fputc('\n', file);
     }
     fprintf(file,
-            "\nIn the folder: results.csv, one line for each scene and setting, to which an\n"
-            "interrupted run comes back; results.json; table.txt; and for each scene a plot\n"
+            "\nThe folder has results.csv, one line per scene and setting, from which an\n"
+            "interrupted run continues; results.json; table.txt; and for each scene a plot\n"
             "of error over time and sheets of drawn, exact and difference.\n"
             "\nTry:  accuracy --quick\n"
             "      accuracy --scene shiny32 --budget 2\n"
@@ -126,16 +98,16 @@ static const char *in_folder(const Options *options, const char *name, char path
 
 /* Drawn, exact and difference of one setting. */
 static bool write_sheet(Survey *survey, const char *name, const Scene *drawn,
-                        const Setting *setting, const Reference *exact, const char *path,
+                        const Quality *quality, const Reference *exact, const char *path,
                         Message *message)
 {
     Drawing drawing;
     DrawingError error;
-    char text[SETTING_TEXT_SIZE], caption[SETTING_TEXT_SIZE + 320];
-    if (!drawing_open(&drawing, survey->studio, drawn, setting, message))
+    char text[QUALITY_TEXT_SIZE], caption[QUALITY_TEXT_SIZE + 320];
+    if (!drawing_open(&drawing, survey->studio, drawn, quality, message))
         return false;
     bool done = drawing_error(&drawing, survey->studio, exact, &error, message);
-    setting_text(setting, text);
+    quality_text(quality, text);
     snprintf(caption, sizeof caption,
              "%s: %s. Interior: largest error %.2f, rms %.3f; all: rms %.2f. %s, LP_NUM_THREADS %s",
              name, text, error.interior_maximum, error.interior_rms, error.all_rms,
@@ -147,7 +119,7 @@ static bool write_sheet(Survey *survey, const char *name, const Scene *drawn,
 
 typedef struct Sheet {
     const char *name; /* of the file, after the scene's */
-    Setting setting;
+    Quality quality;
 } Sheet;
 
 static bool write_sheets(Survey *survey, const Options *options, int number, const Sheet *sheets,
@@ -162,7 +134,7 @@ static bool write_sheets(Survey *survey, const Options *options, int number, con
     for (int i = 0; i < count && done; i++) {
         char name[64], path[PATH_MAX];
         snprintf(name, sizeof name, "%s-%s.png", STUDY_SCENES[number].name, sheets[i].name);
-        done = write_sheet(survey, STUDY_SCENES[number].name, &made.scene, &sheets[i].setting,
+        done = write_sheet(survey, STUDY_SCENES[number].name, &made.scene, &sheets[i].quality,
                            &exact, in_folder(options, name, path), message);
     }
     studio_forget(survey->studio);
@@ -170,9 +142,8 @@ static bool write_sheets(Survey *survey, const Options *options, int number, con
     return done;
 }
 
-/* Whether there is anything to show of a scene. (Its objects may be too small to have an inside.)
- */
-static bool anything_to_show(const Results *results, const char *scene_name)
+/* False if nothing of the scene was measured, or its objects are too small to have an inside. */
+static bool has_errors(const Results *results, const char *scene_name)
 {
     for (int i = 0; i < results->count; i++)
         if (strcmp(results->rows[i].scene, scene_name) == 0 &&
@@ -189,7 +160,7 @@ static bool write_tables(const Survey *survey, const Options *options, Message *
     FILE *file = open_memstream(&text, &size);
     bool done = file || message_set(message, "table.txt: not enough memory");
     for (int i = 0; i < STUDY_SCENE_COUNT && done; i++)
-        if (anything_to_show(&survey->results, STUDY_SCENES[i].name))
+        if (has_errors(&survey->results, STUDY_SCENES[i].name))
             done = report_table(&survey->results, STUDY_SCENES[i].name, ERROR_INTERIOR_MAXIMUM,
                                 false, file, message);
     if (file && fclose(file) != 0 && done)
@@ -199,14 +170,14 @@ static bool write_tables(const Survey *survey, const Options *options, Message *
     return done;
 }
 
-/* Plots need gnuplot; where it is missing the rest is still there, and one line says so. */
+/* Without gnuplot there are no plots, and one line says so. */
 static void draw_plots(const Survey *survey, const Options *options, const int *scenes, int count,
                        Progress *progress)
 {
     Message message = {0};
     for (int i = 0; i < count; i++) {
         const StudySceneInfo *info = &STUDY_SCENES[scenes[i]];
-        if (anything_to_show(&survey->results, info->name) &&
+        if (has_errors(&survey->results, info->name) &&
             !report_plot(&survey->results, info->name, info->what, ERROR_INTERIOR_MAXIMUM,
                          options->output, &message))
             break;
@@ -222,21 +193,26 @@ static bool report(Survey *survey, const Options *options, const int *scenes, in
                    Message *message)
 {
     char path[PATH_MAX];
-    for (int i = 0; i < count; i++)
+    if (markdown)
+        table_machine(survey->like.renderer, stdout);
+    if (markdown && !findings_tables(&survey->results, stdout))
+        return message_set(message, "standard output: not enough memory for the tables");
+    for (int i = 0; i < count && !markdown; i++)
         if (!report_table(&survey->results, STUDY_SCENES[scenes[i]].name, ERROR_INTERIOR_MAXIMUM,
                           !all_rows, stdout, message))
             return false;
     if (!write_tables(survey, options, message) ||
         !results_write_json(&survey->results, in_folder(options, "results.json", path), message) ||
-        !models_report(survey, options->output, stdout, message))
+        !models_report(survey, options->output, markdown, stdout, message))
         return false;
-    findings_matrices(&survey->results, stdout);
+    if (!findings_matrices(&survey->results, markdown, stdout))
+        return message_set(message, "standard output: not enough memory for a table");
     fflush(stdout);
     Sheet sheets[] = {
-        {"usual", setting_usual()}, {"gouraud", setting_usual()}, {"mediump", setting_usual()}};
-    if (!setting_parse(&sheets[1].setting, "interpolation=gouraud divisions=24", message))
+        {"usual", quality_usual()}, {"gouraud", quality_usual()}, {"mediump", quality_usual()}};
+    if (!quality_parse(&sheets[1].quality, "interpolation=gouraud divisions=24", message))
         return false;
-    sheets[2].setting = setting_with(setting_usual(), AXIS_PRECISION, PRECISION_MEDIUMP);
+    sheets[2].quality = quality_with(quality_usual(), AXIS_PRECISION, PRECISION_MEDIUMP);
     Progress progress = progress_start("plots and sheets");
     draw_plots(survey, options, scenes, count, &progress);
     bool done = true;
@@ -249,13 +225,13 @@ static bool report(Survey *survey, const Options *options, const int *scenes, in
 }
 
 /* --setting: one row, one sheet. */
-static bool measure_one(Survey *survey, const Options *options, const Setting *setting,
+static bool measure_one(Survey *survey, const Options *options, const Quality *quality,
                         Message *message)
 {
     ResultRow row;
     Results results = {.rows = NULL};
-    const Sheet sheet = {"setting", *setting};
-    const bool done = survey_once(survey, scene, setting, &row, message) &&
+    const Sheet sheet = {"setting", *quality};
+    const bool done = survey_again(survey, scene, quality, 1, &row, message) &&
                       results_add(&results, &row, message) &&
                       report_table(&results, STUDY_SCENES[scene].name, ERROR_INTERIOR_MAXIMUM,
                                    false, stdout, message) &&
@@ -266,56 +242,51 @@ static bool measure_one(Survey *survey, const Options *options, const Setting *s
     return done;
 }
 
-static bool run(const Options *options, const Setting *setting, Message *message)
+static bool measure(const Options *options, const Quality *quality, Message *message)
 {
     Survey survey;
-    char path[PATH_MAX];
     int scenes[STUDY_SCENE_COUNT], count = 0;
+    const ChooseLimit limit = {.is_time = budget < 0,
+                               .value = budget < 0 ? time_budget : budget,
+                               .kind = by_rms ? ERROR_INTERIOR_RMS : ERROR_INTERIOR_MAXIMUM};
     for (int i = 0; i < STUDY_SCENE_COUNT; i++)
         if (scene == STUDY_SCENE_COUNT || scene == i)
             scenes[count++] = i;
-    /* Before minutes of measuring, whether the table has a place. */
-    if (calibrate && (!efficient_path_to_write(path, message) || !output_check(path, message)))
-        return false;
     if (!survey_open(&survey, options, (unsigned)seed, quick, fresh, message))
         return false;
     if (options->verbose)
         fprintf(stderr, "renderer: %s\nLP_NUM_THREADS: %s\n", survey.like.renderer,
                 survey.like.threads);
     bool done;
-    if (setting)
-        done = measure_one(&survey, options, setting, message);
+    if (quality)
+        done = measure_one(&survey, options, quality, message);
     else
         done = survey_run(&survey, scenes, count, message) &&
-               (budget >= 0        ? choose_by_error(&survey, scene, budget, by_rms, message)
-                : time_budget >= 0 ? choose_by_time(&survey, scene, time_budget, by_rms, message)
-                : calibrate        ? choose_calibrate(&survey, message)
-                                   : report(&survey, options, scenes, count, message));
+               (limit.value >= 0 ? choose(&survey, scene, &limit, message)
+                                 : report(&survey, options, scenes, count, message));
     survey_close(&survey);
     return done;
 }
 
-/* What options contradict each other. */
+/* Options that contradict each other. */
 static bool check(Message *message)
 {
     const bool one = scene < STUDY_SCENE_COUNT;
     if ((budget < 0 && budget != -1) || (time_budget < 0 && time_budget != -1))
-        return message_set(message, "--%s %g: must be 0 or more, or -1 for none",
+        return message_set(message, "--%s %g: must be 0 or more, or -1: off",
                            budget < 0 && budget != -1 ? "budget" : "time-budget",
                            budget < 0 && budget != -1 ? budget : time_budget);
     if (budget >= 0 && time_budget >= 0)
         return message_set(message, "--budget and --time-budget: one of them");
-    if ((budget >= 0 || time_budget >= 0 || setting_asked) && !one)
+    if ((budget >= 0 || time_budget >= 0 || quality_asked) && !one)
         return message_set(message, "%s: needs a scene, as in --scene shiny32",
                            budget >= 0        ? "--budget"
                            : time_budget >= 0 ? "--time-budget"
                                               : "--setting");
-    if (calibrate && (one || budget >= 0 || time_budget >= 0 || setting_asked))
-        return message_set(message, "--calibrate: takes all scenes and settings, not one");
-    if (setting_asked && (budget >= 0 || time_budget >= 0))
+    if (quality_asked && (budget >= 0 || time_budget >= 0))
         return message_set(message, "--setting: measures one; there is nothing to choose");
-    if (setting_asked && fresh)
-        return message_set(message, "--fresh: --setting keeps no rows, and needs none dropped");
+    if (quality_asked && fresh)
+        return message_set(message, "--fresh: --setting keeps no rows, so there are none to drop");
     if (by_rms && budget < 0 && time_budget < 0)
         return message_set(message, "--rms: goes with --budget or --time-budget");
     return true;
@@ -333,7 +304,7 @@ int main(int argc, char *argv[])
 {
     Options options;
     int code;
-    Setting setting;
+    Quality quality;
     Message message = {0};
     for (int i = 0; i < STUDY_SCENE_COUNT; i++)
         SCENES[i] = STUDY_SCENES[i].name;
@@ -342,15 +313,15 @@ int main(int argc, char *argv[])
     if (!options_begin(&options, &usage, argc, argv, &code))
         return code;
     if (options.doctor)
-        return options_finish(usage.name, stage_doctor());
+        return options_finish(usage.name, doctor_run());
     if (!check(&message))
         return options_fail(usage.name, &message, EXIT_USAGE);
-    if (setting_asked && !setting_parse(&setting, setting_asked, &message)) {
+    if (quality_asked && !quality_parse(&quality, quality_asked, &message)) {
         Message said = {0};
         message_set(&said, "--setting: %s", message.text);
         return options_fail(usage.name, &said, EXIT_USAGE);
     }
-    if (!run(&options, setting_asked ? &setting : NULL, &message))
+    if (!measure(&options, quality_asked ? &quality : NULL, &message))
         return options_fail(usage.name, &message, EXIT_FAILED);
     return options_finish(usage.name, 0);
 }

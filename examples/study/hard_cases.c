@@ -1,35 +1,34 @@
 /*
- * hard_cases: what goes wrong, and what does not.
+ * hard_cases: scenes on which plain formulas fail.
  *
- * Draws each hard case three times: by the plain formula, as `lighting` does, and exactly. Says how
- * far the first two are off, and what the stable form costs in time.
+ * Draws each case three times: with the plain formula, as `lighting` does, and exactly. Reports the
+ * errors of the first two, and what the stable form costs in time.
  */
-#include "hard_cases_sheet.h"
-#include "statistics.h"
-
-#include "options.h"
-#include "output.h"
-#include "progress.h"
-#include "reference_error.h"
-#include "stage.h"
+#include "app/doctor.h"
+#include "app/options.h"
+#include "base/clock.h"
+#include "base/output.h"
+#include "base/progress.h"
+#include "reference/picture_error.h"
+#include "study/cases/hard_cases_sheet.h"
+#include "study/results/statistics.h"
+#include "study/results/table.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { WIDTH = 280, HEIGHT = 216, LEAST_ROUNDS = 7, MOST_ROUNDS = 99, MOST_FRAMES = 8 };
+enum { WIDTH = 280, HEIGHT = 216, MIN_ROUNDS = 7, MAX_ROUNDS = 99, MAX_FRAMES = 8 };
 
 static int asked = HARD_CASE_COUNT; /* all */
-static bool list;
+static bool list, markdown;
 
 static const Parameter parameters[] = {
-    {.name = "list", .help = "say which cases there are", .kind = PARAMETER_FLAG, .value = &list},
-    {.name = "case",
-     .help = "draw only this one",
-     .kind = PARAMETER_CHOICE,
-     .value = &asked,
-     .choices = HARD_CASE_NAMES},
+    {"list", "list the cases", PARAMETER_FLAG, .value = &list},
+    {"case", "draw only this one", PARAMETER_CHOICE, .value = &asked, .choices = HARD_CASE_NAMES},
+    {"markdown", "print the table as Markdown, with processor, driver and compiler", PARAMETER_FLAG,
+     .value = &markdown},
     {.name = NULL},
 };
 
@@ -40,7 +39,7 @@ typedef struct Way {
     const Canvas *canvas;
 } Way;
 
-static bool draw(const Way *way, Message *message)
+static bool draw_frame(const Way *way, Message *message)
 {
     canvas_clear(way->canvas, way->scene->background, 1);
     if (!lighting_draw(way->lighting, way->scene, (double)way->canvas->width / way->canvas->height,
@@ -52,28 +51,27 @@ static bool draw(const Way *way, Message *message)
 
 static bool time_of(const Way *way, int frames, double *seconds, Message *message)
 {
-    const double start = progress_now();
+    const double start = clock_now();
     for (int i = 0; i < frames; i++)
-        if (!draw(way, message))
+        if (!draw_frame(way, message))
             return false;
-    *seconds = progress_now() - start;
+    *seconds = clock_now() - start;
     return true;
 }
 
-/* Frames of both in turn, so that what disturbs one disturbs the other. The noise is how far the
- * median of equal frames' ratios is off, and twice its standard error (1.25 deviations over the
- * root of the count; a normal distribution's quartiles are 1.35 of them apart). */
+/* Frames of both in turn, so that a disturbance affects both. The noise is how far the median ratio
+ * of equal frames is from 1, plus twice its standard error (1.25 sigma / sqrt(count); the quartiles
+ * of a normal distribution are 1.35 sigma apart). */
 static bool measure(const Way *naive, const Way *stable, HardResult *result, Message *message)
 {
     static const double ENOUGH = 0.25; /* seconds */
-    double first, second, third, ratios[MOST_ROUNDS], same[MOST_ROUNDS];
+    double first, second, third, ratios[MAX_ROUNDS], same[MAX_ROUNDS];
     if (!time_of(naive, 1, &first, message) || !time_of(stable, 1, &second, message))
         return false;
-    const int frames = (int)fmin(fmax(1e-3 / first, 1), MOST_FRAMES);
-    const double start = progress_now();
+    const int frames = (int)fmin(fmax(1e-3 / first, 1), MAX_FRAMES);
+    const double start = clock_now();
     int count = 0;
-    for (; count < LEAST_ROUNDS || (count < MOST_ROUNDS && progress_now() - start < ENOUGH);
-         count++) {
+    for (; count < MIN_ROUNDS || (count < MAX_ROUNDS && clock_now() - start < ENOUGH); count++) {
         if (!time_of(naive, frames, &first, message) ||
             !time_of(stable, frames, &second, message) || !time_of(naive, frames, &third, message))
             return false;
@@ -90,8 +88,8 @@ static bool measure(const Way *naive, const Way *stable, HardResult *result, Mes
 
 static HardError error_of(const Image *image, const Reference *exact)
 {
-    ReferenceError error = {.all = {0}};
-    reference_error_add(&error, image, 0, 0, exact, NULL);
+    PictureError error = {.all = {0}};
+    picture_error_add(&error, image, 0, 0, exact, NULL);
     const ErrorSum *inside = &error.interior;
     return (HardError){
         .maximum = inside->maximum,
@@ -108,15 +106,15 @@ static bool draw_ways(Way *naive, Way *stable, HardResult *result, Message *mess
         !image_open(&result->stable, canvas->width, canvas->height, IMAGE_BYTE, message) ||
         !reference_open(&result->exact, stable->scene, &options, message))
         return false;
-    if (!draw(naive, message) || !canvas_read(canvas, &result->naive, message) ||
-        !draw(stable, message) || !canvas_read(canvas, &result->stable, message))
+    if (!draw_frame(naive, message) || !canvas_read(canvas, &result->naive, message) ||
+        !draw_frame(stable, message) || !canvas_read(canvas, &result->stable, message))
         return false;
     result->naive_error = error_of(&result->naive, &result->exact);
     result->stable_error = error_of(&result->stable, &result->exact);
     return true;
 }
 
-/* As the case has it; with `first`, only the first of the files is replaced. */
+/* With `first`, only the first of the case's files is replaced. */
 static bool open_naive(Lighting **lighting, const HardCase *of, const ShaderLoader *stable,
                        ShaderReplacement replaced[3], bool first, Message *message)
 {
@@ -170,26 +168,35 @@ static void close_result(HardResult *result)
     reference_close(&result->exact);
 }
 
-static void print(const HardResult *results, int count)
+static bool print_table(const HardResult *results, int count, Message *message)
 {
-    printf("%-14s %14s %14s %14s   %s\n", "", "naive, levels", "pixels wrong", "stable, levels",
-           "stable over naive, time");
+    Table table;
+    table_open(&table, markdown ? "case|plain formula: error|pixels wrong|stable form: error|time "
+                                  "of stable over plain|what is hard|plain|stable"
+                                : "|plain, steps|pixels wrong|stable, steps|stable over plain, "
+                                  "time");
     for (int i = 0; i < count; i++) {
         const HardResult *result = &results[i];
         char cost[HARD_COST_SIZE];
         hard_cost_text(result, cost);
-        printf("%-14s %14.2f %13.1f%% %14.2f   %s\n", result->of->name, result->naive_error.maximum,
-               100 * result->naive_error.wrong, result->stable_error.maximum, cost);
+        char details[256] = "";
+        if (markdown)
+            snprintf(details, sizeof details, "|%s|%s|%s", result->of->what, result->of->naive,
+                     result->of->stable);
+        table_row(&table, "%s|%.2f|%.1f%%|%.2f|%s%s", result->of->name, result->naive_error.maximum,
+                  100 * result->naive_error.wrong, result->stable_error.maximum, cost, details);
     }
+    return table_close(&table, markdown, stdout) ||
+           message_set(message, "standard output: not enough memory for the table");
 }
 
-/* The cases from `from` on, each to its own sheet, and all to one where there are several. */
+/* Each case to its own sheet; several also to a common one. */
 static bool draw_cases(const Options *options, const Canvas *canvas, int from, int count,
                        HardResult *results, Message *message)
 {
     char path[PATH_MAX];
     Progress progress = progress_start("hard cases");
-    /* Small pictures are enlarged, so that there is room for text. */
+    /* Enlarges small pictures to make room for text. */
     const int larger = (WIDTH + options->width - 1) / options->width;
     const int width = larger * options->width, height = larger * options->height;
     bool done = true;
@@ -207,22 +214,29 @@ static bool draw_cases(const Options *options, const Canvas *canvas, int from, i
     return done;
 }
 
-static bool run(const Options *options, Message *message)
+static bool draw_and_report(const Options *options, Message *message)
 {
     HardResult results[HARD_CASE_COUNT] = {{.of = NULL}};
     const int from = asked < HARD_CASE_COUNT ? asked : 0;
     const int count = asked < HARD_CASE_COUNT ? 1 : HARD_CASE_COUNT;
     const CanvasOptions size = {.backend = options->canvas.backend, .width = 1, .height = 1};
     Canvas canvas;
-    setenv("LP_NUM_THREADS", "0", 0); /* other programs disturb one thread less than several */
+    setenv("LP_NUM_THREADS", "0", 0); /* one thread is disturbed less by other programs */
     if (!canvas_open(&canvas, &size, message))
         return false;
     if (options->verbose)
         fprintf(stderr, "renderer: %s\n", canvas.renderer);
+    if (markdown) {
+        char driver[256];
+        snprintf(driver, sizeof driver, "%s; %s", canvas.renderer, canvas.version);
+        table_machine(driver, stdout);
+        putchar('\n');
+    }
     const bool done = output_folder(options->output, message) &&
-                      draw_cases(options, &canvas, from, count, results, message);
-    if (done)
-        print(results, count);
+                      draw_cases(options, &canvas, from, count, results, message) &&
+                      print_table(results, count, message);
+    if (done && !markdown)
+        printf("\nwrote %s/%s.png\n", options->output, count > 1 ? "*" : results[0].of->name);
     for (int i = 0; i < count; i++)
         close_result(&results[i]);
     canvas_close(&canvas);
@@ -231,11 +245,11 @@ static bool run(const Options *options, Message *message)
 
 static const Usage usage = {
     .name = "hard_cases",
-    .summary = "what goes wrong with plain formulas, and what does not",
-    .details = "In the folder: for each case a sheet of three pictures, by the plain formula, by\n"
-               "the stable one, and exact; and hard_cases.png, all of them. Errors are of pixels\n"
+    .summary = "scenes on which plain formulas fail and stable ones do not",
+    .details = "The folder has a sheet for each case, drawn with the plain formula, with the\n"
+               "stable one, and exactly; and hard_cases.png, all of them. Errors are of pixels\n"
                "inside the objects, in steps of 1/255. Times are of frames drawn in turn; the\n"
-               "noise is what frames of the same program differ by.\n"
+               "noise is the difference between frames of the same program.\n"
                "\nTry:  hard_cases\n"
                "      hard_cases --list\n"
                "      hard_cases --case mirror -s 560x432\n",
@@ -253,13 +267,13 @@ int main(int argc, char *argv[])
     if (!options_begin(&options, &usage, argc, argv, &code))
         return code;
     if (options.doctor)
-        return options_finish(usage.name, stage_doctor());
+        return options_finish(usage.name, doctor_run());
     if (list) {
         for (int i = 0; i < HARD_CASE_COUNT; i++)
             printf("%-14s %s\n", HARD_CASES[i].name, HARD_CASES[i].what);
         return options_finish(usage.name, 0);
     }
-    if (!run(&options, &message))
+    if (!draw_and_report(&options, &message))
         return options_fail(usage.name, &message, EXIT_FAILED);
     return options_finish(usage.name, 0);
 }

@@ -3,11 +3,13 @@
 precision highp float;
 precision highp int;
 
-uniform int u_Facing;     // what the side is told by
-uniform float u_Mirrored; // -1 where the model matrix mirrors
+uniform int u_Facing;     // 0: right; 1: none; 2: not mirrored; 3: swapped; 4: by the light; 5: back; 6:
+                          // by the angle to the eye; 7: and swapped
+uniform float u_Mirrored; // -1 if the model matrix mirrors
 uniform int u_BackNormal; // 1: reversed on the back
-uniform int u_Discard;    // 1: what is seen from the front
+uniform int u_Discard;    // 1: front faces; 2: back faces
 uniform float u_Gamma;
+uniform int u_Output; // 1: inverted; 2: red and blue swapped; 3: grey; 4: black; 5: white
 
 varying vec3 v_Place;
 varying vec3 v_Normal;
@@ -19,9 +21,13 @@ varying vec3 v_Color;
 // 1 on the back.
 int side(vec3 normal) {
     bool front = gl_FrontFacing;
-    if (u_Facing == 0)
+    if (u_Facing == 1)
         return 0;
-    if (u_Facing == 1 && u_Mirrored < 0.0)
+    if (u_Facing == 5)
+        return 1;
+    if (u_Facing >= 6)
+        return (dot(normal, u_View - v_Place) > 0.0) == (u_Facing == 6) ? 0 : 1;
+    if (u_Facing == 0 && u_Mirrored < 0.0)
         front = !front;
     if (u_Facing == 3) {
         front = u_Mirrored < 0.0 ? front : !front;
@@ -34,8 +40,12 @@ int side(vec3 normal) {
 void main() {
     if (u_Discard == 1 && gl_FrontFacing)
         discard;
-    vec3 normal = u_NormalUnit >= 2 ? normalize(v_Normal) : v_Normal;
+    vec3 normal = u_NormalUnit == 0 || u_NormalUnit == 3 ? normalize(v_Normal) : v_Normal;
     int back = side(normal);
+    if (u_NormalUnit == 4)
+        normal *= inversesqrt(dot(normal, normal) + 1.0);
+    if (u_Discard == 2 && back == 1)
+        discard;
     if (back == 1 && u_BackNormal == 1)
         normal = -normal;
     vec3 color = v_Color;
@@ -43,5 +53,15 @@ void main() {
         color = shade(v_Place, normal, v_Toward[0], v_Toward[1], back);
     if (u_Gamma != 1.0)
         color = pow(max(color, 0.0), vec3(u_Gamma));
+    if (u_Output == 1)
+        color = 1.0 - color;
+    else if (u_Output == 2)
+        color = color.bgr;
+    else if (u_Output == 3)
+        color = vec3(dot(color, vec3(0.299, 0.587, 0.114)));
+    else if (u_Output == 4)
+        color = vec3(0.0);
+    else if (u_Output == 5)
+        color = vec3(1.0);
     gl_FragColor = vec4(color, 1.0);
 }

@@ -1,12 +1,14 @@
-// catalogue: a lab's right picture, or what it becomes by mistakes. All that can be settled on the
-// CPU is: which matrices, which colours; see examples/labs/wrong_program.h.
+// catalogue: a lab's right picture, or that of a mistake. Matrices and colours are chosen on the
+// CPU: see examples/labs/diagnosis/wrong_program.h.
 
 attribute vec4 a_Position;
 attribute vec4 a_Normal;
 
 uniform mat4 u_Clip;
 uniform mat4 u_Place;
-uniform mat4 u_Normal; // its last column is added: that of a normal with w = 1
+uniform mat4 u_Normal; // its last column is added, as for a normal with w = 1
+
+uniform int u_NormalOf; // 1: of the position
 
 varying vec3 v_Place;
 varying vec3 v_Normal;
@@ -18,12 +20,14 @@ varying vec3 v_Color;
 void main() {
     gl_Position = u_Clip * a_Position;
     v_Place = vec3(u_Place * a_Position);
-    vec3 normal = vec3(u_Normal * vec4(a_Normal.xyz, 1.0));
-    v_Normal = u_NormalUnit == 1 || u_NormalUnit == 3 ? normalize(normal) : normal;
+    vec3 normal = vec3(u_Normal * vec4(u_NormalOf == 1 ? a_Position.xyz : a_Normal.xyz, 1.0));
+    v_Normal = u_NormalUnit == 2 || u_NormalUnit == 3 ? normalize(normal) : normal;
     v_Toward[0] = normalize(u_Light[0] - u_FromPlace * v_Place);
     v_Toward[1] = normalize(u_Light[1] - u_FromPlace * v_Place);
     v_Color = vec3(0.0);
+    vec3 unit = u_NormalUnit == 4 ? normal * inversesqrt(dot(normal, normal) + 1.0)
+                                  : normalize(normal);
     if (u_AtVertices == 1)
-        v_Color = shade(v_Place, u_NormalUnit == 0 ? normal : normalize(normal), v_Toward[0],
+        v_Color = shade(v_Place, u_NormalUnit == 1 ? normal : unit, v_Toward[0],
                         v_Toward[1], 0);
 }

@@ -1,35 +1,51 @@
-// Light on a point, with or without mistakes.
+// Light on a point, with or without mistakes. The numbers of the modes are those of
+// examples/labs/diagnosis/catalogue.h.
 
 uniform int u_AtVertices;
-// Normals: 0: as they come; 1: made unit at the vertices; 2: where light is computed; 3: both.
+// Normals are normalized: 0: where light is computed; 1: nowhere; 2: at the vertices; 3: at both; 4:
+// where light is computed, with w = 1.
 uniform int u_NormalUnit;
-uniform vec3 u_Light[2];  // places or directions
-uniform float u_FromPlace; // 1: the direction to the light is from the point
-uniform int u_LightUnit;   // 0: as it comes; 1: made unit; 2: at the vertices alone
+uniform vec3 u_Light[2];   // positions or directions
+uniform float u_FromPlace; // 1: the direction to the light starts at the point
+uniform int u_LightUnit;   // 0: normalized; 1: not; 2: only at the vertices
 uniform float u_LightSign;
-uniform int u_Cosine; // 0: clamped; 1: not; 2: absolute; 3: none; 4: wrapped
+// 0: clamped; 1: not; 2: absolute; 3: none; 4: wrapped; 5: their sum clamped; 6: squared; 7: sine; 8:
+// the angle; 9: one or nothing; 10: the lesser of it and 0; 11: the larger of it and 0.1; 12: at most 1
+uniform int u_Cosine;
+uniform float u_CosineMax;
+uniform float u_CosinePower;
+uniform int u_PlaceUnit; // 1: the point is normalized
 
-uniform vec3 u_Base[2];        // ambient light on the front and the back
-uniform int u_AmbientMode;     // 0: added; 1: times each light's cosine; 2: the larger of the two
-uniform int u_Lights;          // how many there are
-uniform vec3 u_Diffuse[4];     // of light 0 and 1 on the front, then on the back
-uniform vec3 u_Highlight[2];   // of light 0 and 1
+uniform vec3 u_Base[2];      // ambient light on the front and the back
+uniform int u_Ambient;       // 3: times each light's cosine; 6: the larger of the two; else: added
+uniform int u_Lights;        // how many
+uniform vec3 u_Diffuse[4];   // of light 0 and 1 on the front, then on the back
+uniform vec3 u_Highlight[2]; // of light 0 and 1
 uniform float u_Exponent;
-uniform int u_Reflection; // 0: none; 1: Phong; 2: Blinn-Phong; 3: reflect's sign; 4: half not unit
-uniform int u_Gate;       // 0: where the cosine is positive; 1: everywhere; 2: times the cosine
-uniform int u_Power;      // 0: of what is not negative; 1: of anything; 2: of the absolute value
+// 0: none; 1: Phong; 2: Blinn-Phong; 3: reflect's sign; 4: L + V halved; 5: L + V; 6: of L - V; 7: N.V;
+// 8: L.V; 9: H.V; 10 and 11: N reflected at -L and L
+uniform int u_Reflection;
+uniform int u_Gate;  // 0: if the cosine is positive; 1: always; 2: times the cosine
+// of the cosine: 0: clamped; 1: as it is; 2: absolute; 3: as the exponent; 4: as a factor; 5: clamped
+// after the power; 6: at most 1
+uniform int u_Power;
 uniform vec3 u_View;
-uniform mat4 u_ViewPlace; // V is u_View less this times the point
+uniform mat4 u_ViewPlace; // V is u_View minus this times the point
 uniform int u_ViewUnit;
 
-uniform vec3 u_Fade; // constant, linear, quadratic
-uniform int u_FadeMode; // 0: divided by; 1: multiplied with; 2: of the distance's square
+uniform vec3 u_Fade;    // constant, linear, quadratic
+uniform int u_FadeMode; // 2: multiplied by; 3: of the squared distance; else: divided by
 uniform vec3 u_FadeOn;  // 1 for each of diffuse, specular, ambient
 uniform vec3 u_SpotAxis;
 uniform float u_SpotCosine;
 uniform float u_SpotExponent;
 uniform int u_SpotOutside;
 uniform vec3 u_SpotOn;
+uniform int u_SpotShape; // 1: linear between the cosine of the cutoff and 1; 2: smoothstep
+uniform vec3 u_Limit[2]; // of the light times the surface, on the front and the back
+uniform int u_LimitOf;   // 1: with the ambient light; 2: without
+uniform vec3 u_Plus;     // added at the end
+uniform int u_Product;   // 1: lights are multiplied
 
 float cosine_of(float c) {
     if (u_Cosine == 0)
@@ -38,7 +54,21 @@ float cosine_of(float c) {
         return abs(c);
     if (u_Cosine == 3)
         return 1.0;
-    return u_Cosine == 4 ? 0.5 * c + 0.5 : c;
+    if (u_Cosine == 4)
+        return 0.5 * c + 0.5;
+    if (u_Cosine == 6)
+        return max(c, 0.0) * max(c, 0.0);
+    if (u_Cosine == 7)
+        return sqrt(max(1.0 - c * c, 0.0));
+    if (u_Cosine == 8)
+        return acos(clamp(c, -1.0, 1.0));
+    if (u_Cosine == 9)
+        return c > 0.0 ? 1.0 : 0.0;
+    if (u_Cosine == 10)
+        return min(c, 0.0);
+    if (u_Cosine == 12)
+        return clamp(c, 0.0, 1.0);
+    return u_Cosine == 11 ? max(c, 0.1) : c;
 }
 
 float highlight(vec3 n, vec3 l, vec3 v) {
@@ -49,18 +79,38 @@ float highlight(vec3 n, vec3 l, vec3 v) {
         c = dot(n, normalize(l + v));
     else if (u_Reflection == 3)
         c = dot(reflect(l, n), v);
-    else
+    else if (u_Reflection == 4)
         c = dot(n, 0.5 * (l + v));
+    else if (u_Reflection == 5)
+        c = dot(n, l + v);
+    else if (u_Reflection == 6)
+        c = dot(n, normalize(l - v));
+    else if (u_Reflection == 7)
+        c = dot(n, v);
+    else if (u_Reflection == 8)
+        c = dot(l, v);
+    else if (u_Reflection == 9)
+        c = dot(normalize(l + v), v);
+    else
+        c = dot(reflect(n, u_Reflection == 10 ? -l : l), v);
     if (u_Power == 1)
         return pow(c, u_Exponent);
+    if (u_Power == 3)
+        return pow(u_Exponent, max(c, 0.0));
+    if (u_Power == 4)
+        return max(c, 0.0) * u_Exponent;
+    if (u_Power == 5)
+        return max(pow(c, u_Exponent), 0.0);
+    if (u_Power == 6)
+        return pow(clamp(c, 0.0, 1.0), u_Exponent);
     return pow(u_Power == 2 ? abs(c) : max(c, 0.0), u_Exponent);
 }
 
 float fading(float d) {
-    if (u_FadeMode == 2)
+    if (u_FadeMode == 3)
         d *= d;
     float sum = u_Fade.x + u_Fade.y * d + u_Fade.z * d * d;
-    return u_FadeMode == 1 ? sum : 1.0 / sum;
+    return u_FadeMode == 2 ? sum : 1.0 / sum;
 }
 
 float cone(vec3 l) {
@@ -68,25 +118,37 @@ float cone(vec3 l) {
     bool inside = along >= u_SpotCosine;
     if (u_SpotOutside == 1)
         inside = !inside;
+    if (u_SpotShape == 1)
+        return inside ? (along - u_SpotCosine) / (1.0 - u_SpotCosine) : 0.0;
+    if (u_SpotShape == 3)
+        return inside ? pow((along - u_SpotCosine) / (1.0 - u_SpotCosine), u_SpotExponent) : 0.0;
+    if (u_SpotShape == 2)
+        return smoothstep(u_SpotCosine, 1.0, along);
     return inside ? pow(max(along, 0.0), u_SpotExponent) : 0.0;
 }
 
-vec3 one_light(vec3 place, vec3 n, vec3 v, vec3 source, vec3 toward, vec3 base, vec3 diffuse,
-               vec3 specular) {
+// What all lights add.
+struct Sum {
+    vec3 diffuse, specular, ambient;
+};
+
+void add_light(inout Sum sum, vec3 place, vec3 n, vec3 v, vec3 source, vec3 toward, vec3 base,
+               vec3 diffuse, vec3 specular) {
     vec3 way = source - u_FromPlace * place;
-    vec3 l = u_LightSign * (u_LightUnit == 0 ? way : u_LightUnit == 1 ? normalize(way) : toward);
-    vec3 share = mix(vec3(1.0), vec3(fading(length(way))), u_FadeOn);
+    vec3 l = u_LightSign * (u_LightUnit == 1 ? way : u_LightUnit == 0 ? normalize(way) : toward);
+    vec3 share = mix(vec3(1.0), vec3(fading(length(u_FadeMode == 5 ? u_View - place : way))),
+                     u_FadeOn);
     share *= mix(vec3(1.0), vec3(cone(l)), u_SpotOn);
     float c = dot(n, l);
-    float shown = cosine_of(c);
-    vec3 sum = share.x * diffuse * shown;
+    float shown = min(cosine_of(c), u_CosineMax);
+    if (u_CosinePower != 1.0)
+        shown = pow(max(shown, 0.0), u_CosinePower);
+    sum.diffuse += share.x * diffuse * shown;
     if (u_Reflection != 0 && share.y > 0.0 && (c > 0.0 || u_Gate == 1)) {
         float h = highlight(n, l, v);
-        sum += share.y * specular * (u_Gate == 2 ? h * shown : h);
+        sum.specular += share.y * specular * (u_Gate == 2 ? h * shown : h);
     }
-    if (u_AmbientMode == 2)
-        return max(sum, base);
-    return sum + share.z * base * (u_AmbientMode == 1 ? shown : 1.0);
+    sum.ambient += share.z * base * (u_Ambient == 3 ? shown : 1.0);
 }
 
 // `back`: 1 for the back's colours.
@@ -94,13 +156,32 @@ vec3 shade(vec3 place, vec3 n, vec3 toward0, vec3 toward1, int back) {
     vec3 v = u_View - vec3(u_ViewPlace * vec4(place, 1.0));
     if (u_ViewUnit == 1)
         v = normalize(v);
+    if (u_PlaceUnit == 1)
+        place = normalize(place);
     vec3 base = back == 1 ? u_Base[1] : u_Base[0];
-    // Ambient light belongs to the first; what is per light is multiplied already.
-    vec3 color = one_light(place, n, v, u_Light[0], toward0, base,
-                           back == 1 ? u_Diffuse[2] : u_Diffuse[0], u_Highlight[0]);
-    vec3 other = u_AmbientMode == 1 ? base : vec3(0.0);
-    if (u_Lights == 1)
-        return color;
-    return color + one_light(place, n, v, u_Light[1], toward1, other,
-                             back == 1 ? u_Diffuse[3] : u_Diffuse[1], u_Highlight[1]);
+    Sum sum = Sum(vec3(0.0), vec3(0.0), vec3(0.0));
+    // The first light carries the ambient light; u_Base already has any factor per light.
+    add_light(sum, place, n, v, u_Light[0], toward0, base, back == 1 ? u_Diffuse[2] : u_Diffuse[0],
+              u_Highlight[0]);
+    if (u_Lights == 2) {
+        vec3 first = sum.diffuse;
+        if (u_Product == 1)
+            sum.diffuse = vec3(0.0);
+        add_light(sum, place, n, v, u_Light[1], toward1, u_Ambient == 3 ? base : vec3(0.0),
+                  back == 1 ? u_Diffuse[3] : u_Diffuse[1], u_Highlight[1]);
+        if (u_Product == 1)
+            sum.diffuse *= first / max(back == 1 ? u_Limit[1] : u_Limit[0], 1e-6);
+    }
+    if (u_Cosine == 5)
+        sum.diffuse = max(sum.diffuse, 0.0);
+    vec3 limit = back == 1 ? u_Limit[1] : u_Limit[0];
+    if (u_LimitOf == 2)
+        sum.diffuse = min(sum.diffuse, limit);
+    vec3 color = u_Ambient == 6 ? max(sum.diffuse, sum.ambient) : sum.diffuse + sum.ambient;
+    if (u_LimitOf == 1)
+        color = min(color, limit);
+    color += sum.specular;
+    if (u_Ambient == 6)
+        color = max(sum.diffuse + sum.specular, sum.ambient);
+    return color + u_Plus;
 }

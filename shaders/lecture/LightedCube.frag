@@ -1,4 +1,4 @@
-// LightedCube: the colour comes from the vertices, interpolated.
+// LightedCube: the interpolated colour of the vertices.
 
 precision mediump float;
 

@@ -1,4 +1,4 @@
-// LightedCube_ambient: the colour comes from the vertices, interpolated.
+// LightedCube_ambient: the interpolated colour of the vertices.
 
 precision mediump float;
 

@@ -1,4 +1,4 @@
-// LightedCube_animation: the colour comes from the vertices, interpolated.
+// LightedCube_animation: the interpolated colour of the vertices.
 
 precision mediump float;
 

@@ -1,4 +1,4 @@
-// LightedTranslatedRotatedCube: the colour comes from the vertices, interpolated.
+// LightedTranslatedRotatedCube: the interpolated colour of the vertices.
 
 precision mediump float;
 

@@ -1,4 +1,4 @@
-// PointLightedCube: the colour comes from the vertices, interpolated.
+// PointLightedCube: the interpolated colour of the vertices.
 
 precision mediump float;
 

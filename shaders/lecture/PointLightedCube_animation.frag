@@ -1,4 +1,4 @@
-// PointLightedCube_animation: the colour comes from the vertices, interpolated.
+// PointLightedCube_animation: the interpolated colour of the vertices.
 
 precision mediump float;
 

@@ -1,4 +1,4 @@
-// PointLightedSphere: the colour comes from the vertices, interpolated.
+// PointLightedSphere: the interpolated colour of the vertices.
 
 precision mediump float;
 

@@ -1,4 +1,4 @@
-// PointLightedSphere_perFragment: at each vertex, pass on what the fragments need for their light.
+// PointLightedSphere_perFragment: projects each vertex and passes on what lighting per fragment needs.
 
 attribute vec4 a_Position;
 attribute vec4 a_Color;
@@ -10,7 +10,7 @@ uniform mat4 u_NormalMatrix; // inverse transpose of the model matrix
 
 varying vec4 v_Color;
 varying vec3 v_Normal;
-varying vec3 v_Position; // in the world
+varying vec3 v_Position; // world coordinates
 
 void main() {
     gl_Position = u_MvpMatrix * a_Position;

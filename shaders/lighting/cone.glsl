@@ -1,5 +1,5 @@
-// cone.glsl: whether light from a spot arrives, by the cosine of the angle to its axis and that of
-// its cutoff.
+// cone.glsl: whether a direction is within a spot's cone, from the cosines of its angle to the axis
+// and of the cutoff.
 
 bool in_cone(float along, float cutoff) {
     return along >= cutoff;

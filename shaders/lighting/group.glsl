@@ -1,6 +1,6 @@
-// group.glsl: the lights that share their terms. Included once for each such group, with GROUP (the
-// function's name), COUNT and the terms defined, and the uniforms renamed for it.
-// (OpenGL 1.1 specification, section 2.13.1; products of light and material come from the CPU)
+// group.glsl: lights with equal terms. Included once per group, with GROUP (the function's name),
+// COUNT and the terms defined, and the uniforms renamed.
+// (OpenGL 1.1 specification, section 2.13.1; the CPU multiplies colors of light and material)
 
 #ifdef ANY
 uniform vec4 u_Position[COUNT]; // w = 0: a direction
@@ -48,7 +48,7 @@ uniform float u_Exponent[COUNT];
 
 void GROUP(vec3 normal, vec3 position, vec3 viewer, bool front, inout vec3 color) {
     for (int i = 0; i < COUNT; i++) {
-        float share = 1.0; // of the light that arrives
+        float share = 1.0; // the attenuation
 #ifdef DIRECTIONAL
         vec3 to_light = u_Direction[i];
 #else
@@ -58,14 +58,10 @@ void GROUP(vec3 normal, vec3 position, vec3 viewer, bool front, inout vec3 color
         vec3 way = u_Position[i] - position;
 #endif
         float square = dot(way, way);
-#ifdef GUARD_DISTANCE
         vec3 to_light = way * safe_inversesqrt(square);
-#else
-        vec3 to_light = way * inversesqrt(square);
-#endif
 #ifdef ATTENUATION
 #ifdef GUARD_ATTENUATION
-        float held = min(square, MOST); // 0 times infinity is no number
+        float held = min(square, MOST); // 0 times infinity is NaN
         share = safe_inverse(dot(u_Attenuation[i], vec3(1.0, sqrt(held), held)));
 #else
         share = 1.0 / dot(u_Attenuation[i], vec3(1.0, sqrt(square), square));
@@ -94,16 +90,17 @@ void GROUP(vec3 normal, vec3 position, vec3 viewer, bool front, inout vec3 color
 #ifdef DIFFUSE
         sum += PICK(u_FrontDiffuse[i], u_BackDiffuse[i]) * max(n_dot_l, 0.0);
 #endif
+#if defined(VERTEX_COLOR) && defined(AMBIENT) || defined(VERTEX_COLOR) && defined(DIFFUSE)
+        sum *= surface_color;
+#endif
 #ifdef SPECULAR
         float shininess = PICK(u_FrontShininess, u_BackShininess);
 #ifdef PHONG
         float power = highlight(2.0 * n_dot_l * normal - to_light, viewer, shininess);
 #elif defined(HALF_VECTOR)
         float power = highlight(normal, u_Half[i], shininess);
-#elif defined(GUARD_HALF_VECTOR)
-        float power = highlight(normal, safe_normalize(to_light + viewer), shininess);
 #else
-        float power = highlight(normal, normalize(to_light + viewer), shininess);
+        float power = highlight(normal, safe_normalize(to_light + viewer), shininess);
 #endif
         sum += PICK(u_FrontSpecular[i], u_BackSpecular[i]) * facing(n_dot_l, power);
 #endif

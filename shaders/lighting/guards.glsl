@@ -1,14 +1,12 @@
-// guards.glsl: what keeps the cases finite in which a formula of the book divides by zero or leaves
-// its domain. Compiled in where the scene may come to such a case. LEAST and MOST are numbers that
-// the stage's arithmetic has.
+// guards.glsl: keeps results finite if a formula of the book divides by zero or leaves its domain.
+// LEAST and MOST bound the range of the stage's floats.
 
-#ifdef GUARDS
-// The inverse of a length, of its square. Of no length: large, where inversesqrt gives infinity.
+// 1 / length, from its square; large, not infinite, for length 0.
 float safe_inversesqrt(float square) {
     return inversesqrt(max(square, LEAST));
 }
 
-// A vector of no length stays one, where normalize would give NaN.
+// The zero vector stays zero; normalize returns NaN.
 vec3 safe_normalize(vec3 v) {
     return v * safe_inversesqrt(dot(v, v));
 }
@@ -17,17 +15,13 @@ vec3 safe_normalize(vec3 v) {
 float safe_inverse(float denominator) {
     return 1.0 / max(denominator, LEAST);
 }
-#endif
 
-// Two that are terms of the equation, and always there:
-
-// max(N.H, 0), to a power. 0 to the power of 0 is undefined in GLSL, and 1 here, as for any other
-// number.
+// max(base, 0) to a power. 0 to the power of 0 is undefined in GLSL, and 1 here.
 float safe_pow(float base, float exponent) {
     return base > 0.0 ? pow(base, exponent) : float(exponent == 0.0);
 }
 
-// Behind the surface there is no highlight: the equation's factor f.
+// No highlight if the light is behind the surface: the factor f of the equation.
 float facing(float n_dot_l, float highlight) {
     return n_dot_l > 0.0 ? highlight : 0.0;
 }

@@ -1,5 +1,4 @@
-// output.glsl: the last step before the framebuffer, which clamps and rounds to the nearest of its
-// values.
+// output.glsl: the last step before the framebuffer, which clamps and rounds.
 
 vec3 output_color(vec3 color) {
     return color;

@@ -1,4 +1,4 @@
-// side.glsl: whether a fragment belongs to the front.
+// side.glsl: whether a fragment is front-facing.
 
 bool is_front() {
     return gl_FrontFacing;

@@ -1,4 +1,4 @@
-// cone_acos.glsl: lighting/cone.glsl by the angles themselves.
+// cone_acos.glsl: lighting/cone.glsl by angles, not cosines.
 
 bool in_cone(float along, float cutoff) {
     return acos(along) <= acos(cutoff);

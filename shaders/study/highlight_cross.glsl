@@ -1,6 +1,6 @@
 // highlight_cross.glsl: lighting/highlight.glsl by Lagrange's identity, (a.b)^2 = 1 - |a x b|^2 for
-// unit vectors. Near the highlight's middle the cosine is nearly 1 and the sine small, so that an
-// arithmetic of few digits tells its angles apart.
+// unit vectors. Near the highlight's center the cosine is nearly 1 and the sine small, so that
+// low precision still resolves the angle.
 
 float highlight(vec3 a, vec3 b, float shininess) {
     vec3 sine = cross(a, b);

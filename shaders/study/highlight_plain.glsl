@@ -1,5 +1,5 @@
-// highlight_plain.glsl: lighting/highlight.glsl without max: a negative cosine has no power, and
-// what is no number stays none.
+// highlight_plain.glsl: lighting/highlight.glsl without max: the power of a negative cosine is
+// NaN.
 
 float highlight(vec3 a, vec3 b, float shininess) {
     return pow(dot(a, b), shininess);

@@ -1,5 +1,5 @@
-// highlight_squares.glsl: lighting/highlight.glsl for the shininess 32, by squaring, without max: what
-// is no number stays none.
+// highlight_squares.glsl: lighting/highlight.glsl for the shininess 32, by squaring, without max: NaN
+// stays NaN.
 
 float highlight(vec3 a, vec3 b, float shininess) {
     float power = dot(a, b);

@@ -1,8 +1,8 @@
-// surface.frag: which object a pixel shows, and how far away. Into a framebuffer of floats.
+// surface.frag: object number and depth of a pixel, for a float framebuffer.
 
 precision highp float;
 
-uniform float u_Object; // its number, from 1
+uniform float u_Object; // from 1
 varying float v_Depth;
 
 void main() {

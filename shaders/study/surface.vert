@@ -1,4 +1,4 @@
-// surface.vert: for surface.frag: the distance along the view.
+// surface.vert: depth for surface.frag.
 
 attribute vec4 a_Position;
 uniform mat4 u_ClipFromObject;

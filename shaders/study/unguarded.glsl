@@ -1,6 +1,5 @@
-// unguarded.glsl: the functions of lighting/guards.glsl as the formulas of the book have them.
+// unguarded.glsl: lighting/guards.glsl without guards: the formulas of the book.
 
-#ifdef GUARDS
 float safe_inversesqrt(float square) {
     return inversesqrt(square);
 }
@@ -12,7 +11,6 @@ vec3 safe_normalize(vec3 v) {
 float safe_inverse(float denominator) {
     return 1.0 / denominator;
 }
-#endif
 
 float safe_pow(float base, float exponent) {
     return pow(max(base, 0.0), exponent);

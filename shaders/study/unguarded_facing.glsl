@@ -1,4 +1,4 @@
-// unguarded_facing.glsl: lighting/guards.glsl with one function as the book has it.
+// unguarded_facing.glsl: lighting/guards.glsl with one function unguarded.
 
 #define facing guarded_facing
 #include "../lighting/guards.glsl"

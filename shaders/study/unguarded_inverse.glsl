@@ -1,4 +1,4 @@
-// unguarded_inverse.glsl: lighting/guards.glsl with one function as the book has it.
+// unguarded_inverse.glsl: lighting/guards.glsl with one function unguarded.
 
 #define safe_inverse guarded_inverse
 #include "../lighting/guards.glsl"

@@ -1,4 +1,4 @@
-// unguarded_inversesqrt.glsl: lighting/guards.glsl with one function as the book has it.
+// unguarded_inversesqrt.glsl: lighting/guards.glsl with one function unguarded.
 
 #define safe_inversesqrt guarded_inversesqrt
 #include "../lighting/guards.glsl"

@@ -1,4 +1,4 @@
-// unguarded_normalize.glsl: lighting/guards.glsl with one function as the book has it.
+// unguarded_normalize.glsl: lighting/guards.glsl with one function unguarded.
 
 #define safe_normalize guarded_normalize
 #include "../lighting/guards.glsl"

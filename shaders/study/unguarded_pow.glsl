@@ -1,4 +1,4 @@
-// unguarded_pow.glsl: lighting/guards.glsl with one function as the book has it.
+// unguarded_pow.glsl: lighting/guards.glsl with one function unguarded.
 
 #define safe_pow guarded_pow
 #include "../lighting/guards.glsl"

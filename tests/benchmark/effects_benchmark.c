@@ -1,19 +1,19 @@
 /*
- * What effects cost: a ladder of scenes, each with one effect more than the one before it, drawn
- * by the programs made for them and by the full program: operations, compiling and frames. Then the
- * simplest scene against a shader written by hand for just that, lights that are off, and changes
- * of values, which must compile nothing: only that can fail.
+ * What effects cost: a series of scenes, each with one effect more than the one before, drawn by
+ * their specialized programs and by the full program: operations, compile time and frame time. Then
+ * the simplest scene against a shader written by hand for it, lights that are off, and changes of
+ * values, which must compile nothing: only that can fail.
  *
- * One sphere, lit at the fragments. The full program always draws its far side too: culling is one
- * of the things that a scene calls for, or not.
+ * One sphere, lit at the fragments. The full program always draws its far side too, because culling
+ * is one of the effects.
  */
-#include "canvas.h"
-#include "lighting.h"
-#include "measure.h"
-#include "mesh_buffer.h"
-#include "operations.h"
-#include "options.h"
-#include "progress.h"
+#include "app/options.h"
+#include "base/clock.h"
+#include "benchmark/measure.h"
+#include "core/canvas.h"
+#include "core/mesh_buffer.h"
+#include "scene/lighting.h"
+#include "scene/shader_cost.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -43,7 +43,7 @@ enum {
     TWO_LIGHTS,
     FOUR_LIGHTS,
     EVERYTHING,
-    THREE_OFF, /* beside the ladder */
+    THREE_OFF, /* not part of the series */
     STEPS
 };
 
@@ -54,7 +54,7 @@ static Lighting *lighting;
 
 /* The scenes. */
 
-/* Points the scene at its own step's lights and object: a copy's are elsewhere. */
+/* Points the scene to its own step's lights and object, because a copy's are elsewhere. */
 static void settle(Step *step)
 {
     step->object.mesh = &sphere;
@@ -70,7 +70,7 @@ static void make_steps(void)
         .object = {.world_from_object = mat4_identity(),
                    .closed = true,
                    .front = {.diffuse = {0.6, 0.4, 0.3}, .shininess = 30, .alpha = 1}},
-        .scene = {.camera = {{0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 30, 1, 20},
+        .scene = {.camera = {{0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 30, 1, 20, 0},
                   .object_count = 1,
                   .distant_viewer = true},
     };
@@ -156,7 +156,7 @@ static void make_steps(void)
             step.lights[k] = *light;
             step.lights[k].position.x = light->position.x - 0.5 * k;
             step.lights[k].off = i == THREE_OFF;
-            if (i == EVERYTHING) /* of all kinds */
+            if (i == EVERYTHING) /* lights of all kinds */
                 step.lights[k].kind = (LightKind)(k % 3);
             if (step.lights[k].kind == LIGHT_DIRECTIONAL)
                 step.lights[k].direction = (Vec3){1, 2, 3};
@@ -166,7 +166,7 @@ static void make_steps(void)
     }
 }
 
-/* The simplest scene by hand: shaders of just that, and the GL calls that it takes. */
+/* The simplest scene by hand: its shaders and GL calls. */
 
 static const ShaderText BY_HAND[] = {
     {"hand.vert", "attribute vec4 a_Position;\n"
@@ -241,7 +241,7 @@ typedef struct Run {
     Way way;
 } Run;
 
-static bool draw(const Run *run, Message *message)
+static bool render(const Run *run, Message *message)
 {
     canvas_clear(&canvas, (Vec3){0, 0, 0}, 1);
     if (run->way == HAND
@@ -256,7 +256,7 @@ static bool draw_frames(void *argument)
 {
     Message message = {0};
     for (int i = 0; i < FRAMES; i++) {
-        if (!draw(argument, &message)) {
+        if (!render(argument, &message)) {
             fprintf(stderr, "%s\n", message.text);
             return false;
         }
@@ -264,8 +264,8 @@ static bool draw_frames(void *argument)
     return true;
 }
 
-/* Seconds from nothing to the first frame, over those of the second: what compiling takes, part of
- * which the driver puts off until a program is drawn with. */
+/* Seconds from nothing to the first frame, minus those of the second: the compile time, part of
+ * which the driver postpones until the first draw call. */
 static bool measure_compiling(const Run *run, double *seconds, Message *message)
 {
     double samples[COMPILATIONS];
@@ -277,19 +277,19 @@ static bool measure_compiling(const Run *run, double *seconds, Message *message)
             !lighting_draw(lighting, &steps[UNLIT].scene, 1, false, message))
             return false;
         glFinish();
-        const double start = progress_now();
-        if (!draw(run, message))
+        const double start = clock_now();
+        if (!render(run, message))
             return false;
-        const double first = progress_now();
-        if (!draw(run, message))
+        const double first = clock_now();
+        if (!render(run, message))
             return false;
-        samples[i] = first - start - (progress_now() - first);
+        samples[i] = first - start - (clock_now() - first);
     }
     *seconds = measure_summary(samples, COMPILATIONS).median;
     return true;
 }
 
-/* "30 (1)" for each stage: operations, and how many of them are special; "?" where no tool counts
+/* "30 (1)" for each stage: all operations, and how many of them are special; "?" if no tool counts
  * them. */
 static void tell_operations(const Run *run, char told[2][16])
 {
@@ -300,8 +300,8 @@ static void tell_operations(const Run *run, char told[2][16])
                           sources, &message))
         return;
     for (int stage = 0; stage < 2; stage++) {
-        Operations operations;
-        if (operations_count(sources[stage].text, (ShaderStage)stage, &operations, &message))
+        ShaderCost operations;
+        if (shader_cost(sources[stage].text, (ShaderStage)stage, &operations, &message))
             snprintf(told[stage], sizeof told[stage], "%d (%d)",
                      operations.arithmetic + operations.special, operations.special);
         else
@@ -314,19 +314,20 @@ static void tell_operations(const Run *run, char told[2][16])
         said = message;
 }
 
-/* What is timed: every step both ways, and beside them: */
+/* What is timed: every step with both programs, and in addition: */
 enum { AGAIN = 2 * STEPS, BY_HAND_TOO, MEASURED };
 
-static void print_ratio(const char *name, const Measured *a, const Measured *b)
+static void put_ratio(Table *table, const char *name, const Measured *a, const Measured *b)
 {
     const Summary ratio = measure_ratio(a, b, 1, ROUNDS);
-    printf("%-58s %5.2f [%.2f, %.2f]\n", name, ratio.median, ratio.lower, ratio.upper);
+    table_row(table, "%s|%s", name, measure_cell(ratio, 1, 2).text);
 }
 
 static bool print_sizes(Message *message)
 {
-    printf("\n%-30s %10s %10s   %10s %10s   %10s %10s\n", "operations (of them special)",
-           "a vertex", "full", "a fragment", "full", "compile ms", "full");
+    Table table;
+    table_open(&table,
+               "operations (of them special)|a vertex|full|a fragment|full|compile ms|full");
     for (int i = 0; i < STEPS; i++) {
         char told[2][2][16] = {{"?", "?"}, {"?", "?"}}; /* by Way and ShaderStage */
         double seconds[2];
@@ -336,37 +337,38 @@ static bool print_sizes(Message *message)
                 return false;
             tell_operations(&run, told[way]);
         }
-        printf("%-30s %10s %10s   %10s %10s   %10.1f %10.1f\n", steps[i].name,
-               told[MINE][SHADER_VERTEX], told[FULL][SHADER_VERTEX], told[MINE][SHADER_FRAGMENT],
-               told[FULL][SHADER_FRAGMENT], 1e3 * seconds[MINE], 1e3 * seconds[FULL]);
+        table_row(&table, "%s|%s|%s|%s|%s|%.1f|%.1f", steps[i].name, told[MINE][SHADER_VERTEX],
+                  told[FULL][SHADER_VERTEX], told[MINE][SHADER_FRAGMENT],
+                  told[FULL][SHADER_FRAGMENT], 1e3 * seconds[MINE], 1e3 * seconds[FULL]);
     }
+    measure_print_table(NULL, &table);
     return true;
 }
 
 static void print_times(const Measured measured[MEASURED])
 {
-    printf("\n%-30s %21s %7s   %-18s   %s\n", "a frame of 400x400", "ms", "full", "over full",
-           "over the scene before");
+    Table table;
+    table_open(&table, "a frame of 400x400|ms|full, ms|over full|over the scene before");
     for (int i = 0; i < STEPS; i++) {
         const Measured *mine = &measured[2 * i + MINE], *full = &measured[2 * i + FULL];
         const Summary time = measure_summary(mine->seconds, ROUNDS);
         const Summary ratio = measure_ratio(mine, full, 1, ROUNDS);
-        printf("%-30s %5.2f [%5.2f, %5.2f] %7.2f   %4.2f [%4.2f, %4.2f]", steps[i].name,
-               1e3 * time.median / FRAMES, 1e3 * time.lower / FRAMES, 1e3 * time.upper / FRAMES,
-               1e3 * measure_summary(full->seconds, ROUNDS).median / FRAMES, ratio.median,
-               ratio.lower, ratio.upper);
         const Summary more = measure_ratio(mine, mine - (i ? 2 : 0), 1, ROUNDS);
-        if (i > 0 && i < THREE_OFF)
-            printf("   %4.2f [%4.2f, %4.2f]", more.median, more.lower, more.upper);
-        printf("\n");
+        table_row(&table, "%s|%s|%.2f|%s|%s", steps[i].name,
+                  measure_cell(time, 1e3 / FRAMES, 2).text,
+                  1e3 * measure_summary(full->seconds, ROUNDS).median / FRAMES,
+                  measure_cell(ratio, 1, 2).text,
+                  i > 0 && i < THREE_OFF ? measure_cell(more, 1, 2).text : "");
     }
-    printf("\n");
-    print_ratio("the simplest lit scene over the same again (A/A)", &measured[2 * DIFFUSE],
-                &measured[AGAIN]);
-    print_ratio("the simplest lit scene over shaders written by hand for it",
-                &measured[2 * DIFFUSE], &measured[BY_HAND_TOO]);
-    print_ratio("4 point lights, 3 of them off, over one", &measured[2 * THREE_OFF],
-                &measured[2 * POINT]);
+    measure_print_table(NULL, &table);
+    table_open(&table, "ratio of times|");
+    put_ratio(&table, "the simplest lit scene over the same again (A/A)", &measured[2 * DIFFUSE],
+              &measured[AGAIN]);
+    put_ratio(&table, "the simplest lit scene over shaders written by hand for it",
+              &measured[2 * DIFFUSE], &measured[BY_HAND_TOO]);
+    put_ratio(&table, "4 point lights, 3 of them off, over one", &measured[2 * THREE_OFF],
+              &measured[2 * POINT]);
+    measure_print_table(NULL, &table);
 }
 
 static bool measure_frames(Message *message)
@@ -386,12 +388,12 @@ static bool measure_frames(Message *message)
     return done ? true : message_set(message, "measuring failed");
 }
 
-/* Draws the last step with other values, of which none is zero. */
+/* Draws the last step with other values, none of them zero. */
 static bool compiles_nothing(Message *message)
 {
     Step step = steps[EVERYTHING];
     settle(&step);
-    if (!draw(&(Run){&steps[EVERYTHING], MINE}, message))
+    if (!render(&(Run){&steps[EVERYTHING], MINE}, message))
         return false;
     const int before = lighting_counts(lighting).programs;
     for (int i = 1; i <= 10; i++) {
@@ -402,25 +404,26 @@ static bool compiles_nothing(Message *message)
             step.lights[k].ambient = step.lights[k].diffuse = color;
             step.lights[k].specular = color;
         }
-        if (!draw(&(Run){&step, MINE}, message))
+        if (!render(&(Run){&step, MINE}, message))
             return false;
     }
     const int compiled = lighting_counts(lighting).programs - before;
-    printf("programs compiled by changing every colour ten times: %d\n", compiled);
+    printf("\nPrograms compiled by changing every colour ten times: %d\n", compiled);
     return compiled == 0 ? true : message_set(message, "changing a colour compiles programs");
 }
 
-int main(void)
+int main(int argc, char *argv[])
 {
+    measure_begin(&argc, argv);
     Message message = {0};
     const CanvasOptions size = {.width = SIZE, .height = SIZE};
     setenv("LP_NUM_THREADS", "0", 0); /* other programs disturb one thread less than several */
-    setenv("MESA_SHADER_CACHE_DISABLE", "true", 1); /* or nothing is compiled the second time */
+    setenv("MESA_SHADER_CACHE_DISABLE", "true",
+           1); /* otherwise nothing is compiled the second time */
     if (!canvas_open(&canvas, &size, &message))
         return options_fail("effects_benchmark", &message, 77);
     make_steps();
-    measure_print_machine();
-    printf("%s\n", canvas.renderer);
+    measure_print_machine(canvas.renderer, canvas.version);
     const bool done = mesh_sphere(&sphere, 1, 64, 32, &message) && open_hand(&message) &&
                       print_sizes(&message) && measure_frames(&message) &&
                       compiles_nothing(&message);

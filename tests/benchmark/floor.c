@@ -1,8 +1,7 @@
 /*
- * floor: the least that a program can do which draws without a display: open the same EGL context,
- * clear and read back 400x400 pixels. What the chapter's programs cost is measured against it.
+ * floor: the minimum for drawing without a display: opens the same EGL context, clears and reads
+ * back 400x400 pixels. The programs' times are compared with it.
  */
-#include <stdio.h>
 #include <stdlib.h>
 
 #include <EGL/egl.h>

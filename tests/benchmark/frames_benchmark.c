@@ -1,10 +1,10 @@
 /*
- * Pictures a second of 200 frames of PointLightedCube_perFragment at 400x400, to PNG files from one
- * process: drawing and encoding side by side, over drawing and reading back alone, and over
- * libpng's defaults written one after the other.
+ * Pictures per second, 200 frames of PointLightedCube_perFragment at 400x400, to PNG files from one
+ * process: drawing and encoding in parallel, compared with drawing and reading back alone, and with
+ * libpng's defaults in sequence.
  */
-#include "measure.h"
-#include "stage.h"
+#include "app/stage.h"
+#include "benchmark/measure.h"
 
 #include <ftw.h>
 #include <png.h>
@@ -20,6 +20,7 @@ enum { FRAMES = 200, ROUNDS = 7 };
 static const Example *const EXAMPLE_DRAWN = &PointLightedCube_perFragment;
 
 static Canvas canvas;
+static Stage stage;
 static Options options = {
     .width = 400, .height = 400, .frames = FRAMES, .fps = 30, .compress = IMAGE_COMPRESS_DEFAULT};
 static char folder[] = "/tmp/lighting-benchmark-XXXXXX";
@@ -29,7 +30,7 @@ static double moment(int frame)
     return frame / options.fps;
 }
 
-/* Drawing and reading back, nothing else: what no way of writing can beat. */
+/* Drawing and reading back only: the upper bound. */
 static bool draw_only(void *argument)
 {
     (void)argument;
@@ -37,7 +38,7 @@ static bool draw_only(void *argument)
     Picture picture = {.path = ""};
     bool done = image_open(&picture.image, canvas.width, canvas.height, IMAGE_BYTE, &message);
     for (int i = 0; i < FRAMES && done; i++)
-        done = stage_picture(EXAMPLE_DRAWN, &canvas, &options, moment(i), &picture, &message);
+        done = stage_picture(&stage, &options, moment(i), &picture, &message);
     image_close(&picture.image);
     return done;
 }
@@ -53,7 +54,7 @@ static bool draw_and_write(void *argument)
     for (int i = 0; i < FRAMES && done; i++) {
         Picture *picture = picture_queue_take(queue);
         snprintf(picture->path, sizeof picture->path, "%s/frame%03d.png", folder, i);
-        done = stage_picture(EXAMPLE_DRAWN, &canvas, &options, moment(i), picture, &message) &&
+        done = stage_picture(&stage, &options, moment(i), picture, &message) &&
                picture_queue_give(queue, picture, &message);
     }
     done = picture_queue_close(queue, &message) && done;
@@ -90,7 +91,7 @@ static bool draw_then_write_default(void *argument)
     bool done = image_open(&picture.image, canvas.width, canvas.height, IMAGE_BYTE, &message);
     for (int i = 0; i < FRAMES && done; i++) {
         snprintf(path, sizeof path, "%s/frame%03d.png", folder, i);
-        done = stage_picture(EXAMPLE_DRAWN, &canvas, &options, moment(i), &picture, &message) &&
+        done = stage_picture(&stage, &options, moment(i), &picture, &message) &&
                write_default_png(path, &picture.image);
     }
     image_close(&picture.image);
@@ -103,44 +104,46 @@ static int remove_entry(const char *path, const struct stat *status, int type, s
     return remove(path);
 }
 
-int main(void)
+int main(int argc, char *argv[])
 {
+    measure_begin(&argc, argv);
     Message message = {0};
     setenv("LP_NUM_THREADS", "0", 0); /* as --frames does */
     if (!mkdtemp(folder)) {
         perror(folder);
         return 1;
     }
-    if (!stage_open(&canvas, &options, "x.png", &message) ||
-        !stage_enter(EXAMPLE_DRAWN, &options, &message)) {
+    if (!stage_open_canvas(&canvas, &options, "x.png", &message) ||
+        !stage_open(&stage, EXAMPLE_DRAWN, &canvas, &options, &message)) {
         canvas_close(&canvas);
         rmdir(folder);
         return options_fail("frames_benchmark", &message, 77);
     }
     enum { DRAW, WRITE, DEFAULT, COUNT };
     Measured measured[COUNT] = {
-        [DRAW] = {"drawing and reading alone", draw_only, NULL, NULL},
-        [WRITE] = {"and writing, side by side", draw_and_write, NULL, NULL},
-        [DEFAULT] = {"libpng's default, one after the other", draw_then_write_default, NULL, NULL},
+        [DRAW] = {"drawing and reading back alone", draw_only, NULL, NULL},
+        [WRITE] = {"and writing PNG files, in parallel", draw_and_write, NULL, NULL},
+        [DEFAULT] = {"and writing with libpng's defaults, in sequence", draw_then_write_default,
+                     NULL, NULL},
     };
     const bool done = measure_rounds(measured, COUNT, ROUNDS);
     if (done) {
-        measure_print_machine();
-        printf("%-38s pictures/s\n", "200 frames, 400x400, one process");
+        Table table;
+        measure_print_machine(canvas.renderer, canvas.version);
+        table_open(&table, "200 frames, 400x400, one process|pictures per second");
         for (int i = 0; i < COUNT; i++) {
             const Summary time = measure_summary(measured[i].seconds, ROUNDS);
-            printf("%-38s %6.0f [%.0f, %.0f]\n", measured[i].name, FRAMES / time.median,
-                   FRAMES / time.upper, FRAMES / time.lower);
+            table_row(&table, "%s|%.0f [%.0f, %.0f]", measured[i].name, FRAMES / time.median,
+                      FRAMES / time.upper, FRAMES / time.lower);
         }
         const Summary alone = measure_ratio(&measured[DRAW], &measured[WRITE], 1, ROUNDS);
         const Summary plain = measure_ratio(&measured[DEFAULT], &measured[WRITE], 1, ROUNDS);
-        printf("pictures a second, side by side over drawing alone: %.2f [%.2f, %.2f]\n",
-               alone.median, alone.lower, alone.upper);
-        printf("pictures a second, side by side over libpng's default: %.1f [%.1f, %.1f]\n",
-               plain.median, plain.lower, plain.upper);
+        table_row(&table, "in parallel over drawing alone|%s", measure_cell(alone, 1, 2).text);
+        table_row(&table, "in parallel over libpng's default|%s", measure_cell(plain, 1, 1).text);
+        measure_print_table(NULL, &table);
     }
     measure_finish(measured, COUNT);
-    stage_leave(EXAMPLE_DRAWN);
+    stage_close(&stage);
     canvas_close(&canvas);
     nftw(folder, remove_entry, 8, FTW_DEPTH | FTW_PHYS);
     return done ? 0 : 1;

@@ -1,16 +1,15 @@
 /*
- * What guards cost: the full program and programs made for scenes, each with one guard of the
- * lighting left out and with all left out, over the guarded one; beside that the same again (A/A).
- * A scene that needs no guard has none in its program: there all of these are the same.
+ * The cost of guards: the guarded program relative to one without a certain guard, and to one
+ * without any, as full program and for scenes; next to it the guarded program relative to itself
+ * (A/A).
  */
-#include "canvas.h"
-#include "lighting.h"
-#include "measure.h"
-#include "options.h"
+#include "app/options.h"
+#include "benchmark/measure.h"
+#include "core/canvas.h"
+#include "scene/lighting.h"
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum { SIZE = 400, ROUNDS = 41, FRAMES = 2 };
 
@@ -27,7 +26,7 @@ typedef struct Guard {
         }                                                                                          \
     }
 
-/* The first is guarded, and so is the second. */
+/* The first and the second are both guarded. */
 static const Guard GUARDS[] = {
     {"all guards, again (A/A)", {{NULL, NULL}, {NULL, NULL}}},
     {"the length of a vector", WITHOUT("_normalize")},
@@ -80,7 +79,7 @@ static void make_worlds(void)
                              .specular = {0.5, 0.5, 0.5},
                              .shininess = 30,
                              .alpha = 1}},
-        .scene = {.camera = {{0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 30, 1, 20},
+        .scene = {.camera = {{0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 30, 1, 20, 0},
                   .light_count = 2,
                   .object_count = 1},
     };
@@ -109,7 +108,7 @@ typedef struct Run {
     const World *world;
 } Run;
 
-static bool draw(const Run *run, Message *message)
+static bool render(const Run *run, Message *message)
 {
     canvas_clear(&canvas, (Vec3){0, 0, 0}, 1);
     if (!lighting_draw(run->lighting, &run->world->scene, 1, run->world->full, message))
@@ -122,24 +121,10 @@ static bool draw_frames(void *argument)
 {
     Message message = {0};
     for (int i = 0; i < FRAMES; i++) {
-        if (!draw(argument, &message)) {
+        if (!render(argument, &message)) {
             fprintf(stderr, "%s\n", message.text);
             return false;
         }
-    }
-    return true;
-}
-
-static bool has_guards(const Run *run, bool *has, Message *message)
-{
-    ShaderSource sources[2];
-    if (!lighting_sources(run->lighting, &run->world->scene, &run->world->object, run->world->full,
-                          sources, message))
-        return false;
-    *has = false;
-    for (int stage = 0; stage < 2; stage++) {
-        *has |= strstr(sources[stage].text, "#define GUARD") != NULL;
-        shader_source_close(&sources[stage]);
     }
     return true;
 }
@@ -149,31 +134,31 @@ static bool measure_world(const World *world, Lighting *const lightings[GUARD_CO
 {
     Run runs[GUARD_COUNT + 1];
     Measured measured[GUARD_COUNT + 1];
-    bool has;
     for (int i = 0; i <= GUARD_COUNT; i++) {
         runs[i] = (Run){lightings[i], world};
         measured[i] = (Measured){world->name, draw_frames, &runs[i], NULL};
     }
-    if (!has_guards(&runs[0], &has, message))
-        return false;
     if (!measure_rounds(measured, GUARD_COUNT + 1, ROUNDS)) {
         measure_finish(measured, GUARD_COUNT + 1);
         return message_set(message, "measuring failed");
     }
     const Summary time = measure_summary(measured[0].seconds, ROUNDS);
-    printf("\n%s: %.2f ms a frame; %s\n", world->name, 1e3 * time.median / FRAMES,
-           has ? "guarded" : "no guard is compiled in but pow and the highlight's");
+    Table table;
+    char title[160];
+    snprintf(title, sizeof title, "%s: %.2f ms a frame", world->name, 1e3 * time.median / FRAMES);
+    table_open(&table, "without|guarded over that");
     for (int i = 0; i < GUARD_COUNT; i++) {
         const Summary ratio = measure_ratio(&measured[0], &measured[i + 1], 1, ROUNDS);
-        printf("  %-26s %5.3f [%.3f, %.3f]\n", GUARDS[i].name, ratio.median, ratio.lower,
-               ratio.upper);
+        table_row(&table, "%s|%s", GUARDS[i].name, measure_cell(ratio, 1, 3).text);
     }
+    measure_print_table(title, &table);
     measure_finish(measured, GUARD_COUNT + 1);
     return true;
 }
 
-int main(void)
+int main(int argc, char *argv[])
 {
+    measure_begin(&argc, argv);
     Message message = {0};
     const CanvasOptions size = {.width = SIZE, .height = SIZE};
     ShaderLoader loaders[GUARD_COUNT + 1] = {{.folder = NULL}};
@@ -182,8 +167,8 @@ int main(void)
     if (!canvas_open(&canvas, &size, &message))
         return options_fail("guards_benchmark", &message, 77);
     make_worlds();
-    measure_print_machine();
-    printf("%s\nA guarded frame's time over that without:\n", canvas.renderer);
+    measure_print_machine(canvas.renderer, canvas.version);
+    printf("A guarded frame's time over that without:\n");
     bool done = mesh_sphere(&sphere, 1, 64, 32, &message);
     for (int i = 0; i <= GUARD_COUNT && done; i++) {
         if (i > 0 && GUARDS[i - 1].replaced[0].name)

@@ -1,13 +1,15 @@
 /*
- * Ways to invert a matrix, and to get the matrix for normals: what each costs, and what it keeps of
- * its digits. The matrices are R1 S R2, rotations about a scale whose largest and smallest factors
- * are `condition` apart, and are compared with arithmetic of 113 bits. Beside the project's own
- * stand cglm and GLM, where they are installed (Debian: libcglm-dev, libglm-dev).
+ * Time and accuracy of inverses and normal matrices: this project's, and those of cglm and GLM if
+ * they are installed (Debian: libcglm-dev, libglm-dev). The matrices are R1 S R2, rotations and a
+ * scale whose largest and smallest factors have the ratio `condition`. Errors are relative to
+ * 113-bit arithmetic.
  */
-#include "matrix.h"
-#include "matrix_benchmark.h"
-#include "measure.h"
-#include "statistics.h"
+#include "benchmark/matrix_benchmark.h"
+
+#include "base/random.h"
+#include "benchmark/measure.h"
+#include "core/matrix.h"
+#include "study/results/statistics.h"
 
 #ifdef HAVE_CGLM
 #include <cglm/cglm.h>
@@ -15,35 +17,29 @@
 
 #include <math.h>
 #include <stdalign.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
 #if defined(__SIZEOF_FLOAT128__)
 __extension__ typedef __float128 Quad;
 #else
-typedef long double Quad; /* of 113 bits on those machines that have no other */
+typedef long double Quad; /* 113 bits on machines without __float128 */
 #endif
 
 enum { ROUNDS = 101, COUNT = 1000, REPEATS = 4, DECADES = 7 };
 
-static uint64_t random_state = 20240607;
+static Random random_state = {20240607};
 static double doubles[COUNT][16], double_results[COUNT][16];
 static alignas(64) float floats[COUNT][16], float_results[COUNT][16];
-static float normals[COUNT][3]; /* what the matrices for normals are applied to */
+static float normals[COUNT][3]; /* that the normal matrices are applied to */
 static const Batch BATCH = {COUNT, (const double (*)[16])doubles, (const float (*)[16])floats,
                             double_results, float_results};
 
 /* Matrices. */
 
-/* Evenly in 0..1: splitmix64 (Steele, Lea and Flood, OOPSLA 2014). */
 static double uniform(void)
 {
-    random_state += 0x9e3779b97f4a7c15u;
-    uint64_t z = random_state;
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
-    return (double)((z ^ z >> 31) >> 11) * 0x1p-53;
+    return random_between(&random_state, 0, 1);
 }
 
 static Vec3 random_direction(void)
@@ -54,13 +50,11 @@ static Vec3 random_direction(void)
 
 static Mat4 random_rotation(void)
 {
-    Mat4 rotation;
     const double degrees = 360 * uniform();
-    mat4_rotate(degrees, random_direction(), &rotation);
-    return rotation;
+    return mat4_rotate(degrees, random_direction());
 }
 
-/* Fills the batch with matrices of one condition, or for 0 of 1 to 1e12. */
+/* Fills the batch with matrices of one condition; 0: of 1 to 1e12. */
 static void fill(double condition)
 {
     for (int i = 0; i < COUNT; i++) {
@@ -86,7 +80,7 @@ static void own_affine(const Batch *batch)
     }
 }
 
-/* Twice the matrix has the bottom row 0 0 0 2: not affine, so eliminated. */
+/* Twice the matrix has the bottom row 0 0 0 2, which is not affine: LU is used. */
 static void own_general(const Batch *batch)
 {
     for (int i = 0; i < batch->count; i++) {
@@ -99,8 +93,8 @@ static void own_general(const Batch *batch)
     }
 }
 
-/* The adjugate over the determinant, by products of 2x2 determinants of the upper and the lower
- * half, as libraries have it. */
+/* The adjugate divided by the determinant, from 2x2 determinants of the upper and lower half, as in
+ * common libraries. */
 static void plain_inverse(const double m[16], double out[16])
 {
     double s[6], c[6]; /* of rows 0 and 1, and 2 and 3, for columns 01 02 03 12 13 23 */
@@ -143,31 +137,24 @@ static void own_normal(const Batch *batch)
     for (int i = 0; i < batch->count; i++) {
         Mat4 a;
         memcpy(a.m, batch->doubles[i], sizeof a.m);
-        mat4_normal(a, &a);
+        a = mat4_normal(a);
         mat4_to_float(a, batch->float_results[i]);
     }
 }
 
 #ifdef HAVE_CGLM
-static void cglm_inverse(const Batch *batch)
-{
-    for (int i = 0; i < batch->count; i++) {
-        mat4 a;
-        memcpy(a, batch->floats[i], sizeof a);
-        glm_mat4_inv(a, a);
-        memcpy(batch->float_results[i], a, sizeof a);
+#define CGLM_INVERSE(name, inverse)                                                                \
+    static void name(const Batch *batch)                                                           \
+    {                                                                                              \
+        for (int i = 0; i < batch->count; i++) {                                                   \
+            mat4 a;                                                                                \
+            memcpy(a, batch->floats[i], sizeof a);                                                 \
+            inverse(a, a);                                                                         \
+            memcpy(batch->float_results[i], a, sizeof a);                                          \
+        }                                                                                          \
     }
-}
-
-static void cglm_inverse_precise(const Batch *batch)
-{
-    for (int i = 0; i < batch->count; i++) {
-        mat4 a;
-        memcpy(a, batch->floats[i], sizeof a);
-        glm_mat4_inv_precise(a, a);
-        memcpy(batch->float_results[i], a, sizeof a);
-    }
-}
+CGLM_INVERSE(cglm_inverse, glm_mat4_inv)
+CGLM_INVERSE(cglm_inverse_precise, glm_mat4_inv_precise)
 
 static void cglm_normal(const Batch *batch)
 {
@@ -197,8 +184,8 @@ static void cglm_normal(const Batch *batch)
 typedef struct Algorithm {
     const char *name;
     void (*run)(const Batch *batch); /* NULL: the library is missing */
-    bool real;                       /* its results are floats */
-    bool again;                      /* the algorithm before it, to compare with itself */
+    bool real;                       /* results are floats */
+    bool again;                      /* A/A: repeats the algorithm before it */
 } Algorithm;
 
 static const Algorithm INVERSES[] = {
@@ -224,7 +211,8 @@ enum { NORMAL_COUNT = sizeof NORMALS / sizeof *NORMALS };
 
 /* Errors. */
 
-/* Of the upper left 3x3 part: cofactors and determinant, of which 1e-34 * condition is lost. */
+/* Cofactors and determinant of the upper left 3x3 part, with a relative error of 1e-34 * condition.
+ */
 static Quad quad_cofactors(const double m[16], Quad cofactor[3][3])
 {
     Quad determinant = 0;
@@ -240,7 +228,7 @@ static Quad quad_cofactors(const double m[16], Quad cofactor[3][3])
     return determinant;
 }
 
-/* || X - A^-1 || / || A^-1 ||, Frobenius; 1, no digit right, where it is more or no number. */
+/* || X - A^-1 || / || A^-1 ||, Frobenius; 1 (no correct digit) if it is larger or NaN. */
 static double inverse_error(int i, bool real)
 {
     Quad cofactor[3][3], error = 0, norm = 1;
@@ -259,8 +247,8 @@ static double inverse_error(int i, bool real)
     return relative < 1 ? relative : 1;
 }
 
-/* The angle between the exact normal and what a vertex shader makes of a matrix of floats: up to
- * pi, and that too where it is no number. */
+/* The angle between the exact normal and a vertex shader's, from a matrix of floats; pi if it is
+ * NaN. */
 static double normal_error(int i, bool real)
 {
     Quad cofactor[3][3], dot = 0, cross = 0, right[3];
@@ -284,35 +272,35 @@ static double normal_error(int i, bool real)
     return isfinite(angle) && (cross > 0 || dot > 0) ? angle : pi;
 }
 
-typedef struct Table {
+typedef struct Comparison {
     const char *title;
     const Algorithm *algorithms;
     int count;
     double (*error)(int i, bool real);
     double (*errors)[DECADES][2]; /* by algorithm: median and worst */
-} Table;
+} Comparison;
 
-static void find_errors(const Table *table)
+static void find_errors(const Comparison *comparison)
 {
     static double errors[COUNT];
     for (int decade = 0; decade < DECADES; decade++) {
         fill(pow(10, 2 * decade));
-        for (int k = 0; k < table->count; k++) {
-            const Algorithm *algorithm = &table->algorithms[k];
+        for (int k = 0; k < comparison->count; k++) {
+            const Algorithm *algorithm = &comparison->algorithms[k];
             if (!algorithm->run)
                 continue;
             algorithm->run(&BATCH);
             for (int i = 0; i < COUNT; i++)
-                errors[i] = table->error(i, algorithm->real);
-            table->errors[k][decade][0] = statistics_quantile(errors, COUNT, 0.5);
-            table->errors[k][decade][1] = statistics_quantile(errors, COUNT, 1);
+                errors[i] = comparison->error(i, algorithm->real);
+            comparison->errors[k][decade][0] = statistics_quantile(errors, COUNT, 0.5);
+            comparison->errors[k][decade][1] = statistics_quantile(errors, COUNT, 1);
         }
     }
 }
 
 /* Times. */
 
-static bool run(void *argument)
+static bool run_batches(void *argument)
 {
     const Algorithm *const *algorithm = argument;
     for (int i = 0; i < REPEATS; i++)
@@ -320,71 +308,68 @@ static bool run(void *argument)
     return true;
 }
 
-static void print_row(const Table *table, int k, const Measured *measured)
+static void put_row(Table *table, const Comparison *comparison, int k, const Measured *measured)
 {
-    const Algorithm *algorithm = &table->algorithms[k];
-    printf("%-33s", algorithm->name);
-    if (!measured) {
-        printf(" missing\n");
-        return;
-    }
-    const Summary time = measure_summary(measured->seconds, ROUNDS);
-    const double scale = 1e9 / (COUNT * REPEATS);
-    for (int decade = 0; decade < DECADES && !algorithm->again; decade++)
-        printf(" %5.0e/%-5.0e", table->errors[k][decade][0], table->errors[k][decade][1]);
-    if (algorithm->again)
-        printf("%*s", 12 * DECADES, "");
-    printf(" %6.1f [%.1f, %.1f]\n", scale * time.median, scale * time.lower, scale * time.upper);
+    const Algorithm *algorithm = &comparison->algorithms[k];
+    char errors[DECADES][24] = {{0}};
+    Cell time = {"missing"};
+    for (int i = 0; i < DECADES && measured && !algorithm->again; i++)
+        snprintf(errors[i], sizeof errors[i], "%.0e/%.0e", comparison->errors[k][i][0],
+                 comparison->errors[k][i][1]);
+    if (measured)
+        time = measure_cell(measure_summary(measured->seconds, ROUNDS), 1e9 / (COUNT * REPEATS), 1);
+    table_row(table, "%s|%s|%s|%s|%s|%s|%s|%s|%s", algorithm->name, errors[0], errors[1], errors[2],
+              errors[3], errors[4], errors[5], errors[6], time.text);
 }
 
-/* False only where there is no memory. */
-static bool print_table(const Table *table)
+/* False if there is not enough memory. */
+static bool compare(const Comparison *comparison)
 {
     const Algorithm *timed[INVERSE_COUNT];
     Measured measured[INVERSE_COUNT];
     int rows[INVERSE_COUNT], count = 0;
-    find_errors(table);
+    Table table;
+    find_errors(comparison);
     fill(0);
-    for (int k = 0; k < table->count; k++) {
+    for (int k = 0; k < comparison->count; k++) {
         rows[k] = -1;
-        if (!table->algorithms[k].run)
+        if (!comparison->algorithms[k].run)
             continue;
         rows[k] = count;
-        timed[count] = &table->algorithms[k];
-        measured[count] = (Measured){timed[count]->name, run, &timed[count], NULL};
+        timed[count] = &comparison->algorithms[k];
+        measured[count] = (Measured){timed[count]->name, run_batches, &timed[count], NULL};
         count++;
     }
     if (!measure_rounds(measured, count, ROUNDS)) {
         measure_finish(measured, count);
         return false;
     }
-    printf("\n%s\n%-33s", table->title, "");
-    for (int decade = 0; decade < DECADES; decade++)
-        printf(" 1e%-9d", 2 * decade);
-    printf(" ns a call\n");
-    for (int k = 0; k < table->count; k++)
-        print_row(table, k, rows[k] < 0 ? NULL : &measured[rows[k]]);
-    for (int k = 1; k < table->count; k++) {
-        if (!table->algorithms[k].again)
+    table_open(&table, "condition|1e0|1e2|1e4|1e6|1e8|1e10|1e12|ns per call");
+    for (int k = 0; k < comparison->count; k++)
+        put_row(&table, comparison, k, rows[k] < 0 ? NULL : &measured[rows[k]]);
+    for (int k = 1; k < comparison->count; k++) {
+        if (!comparison->algorithms[k].again)
             continue;
         const Summary ratio = measure_ratio(&measured[rows[k]], &measured[rows[k] - 1], 1, ROUNDS);
-        printf("A/A %.3f [%.3f, %.3f]\n", ratio.median, ratio.lower, ratio.upper);
+        table_row(&table, "A/A||||||||%s", measure_cell(ratio, 1, 3).text);
     }
+    measure_print_table(comparison->title, &table);
     measure_finish(measured, count);
     return true;
 }
 
-int main(void)
+int main(int argc, char *argv[])
 {
+    measure_begin(&argc, argv);
     static double inverse_errors[INVERSE_COUNT][DECADES][2],
         normal_errors[NORMAL_COUNT][DECADES][2];
-    const Table inverses = {
-        "Inverse of R1 S R2: relative error (Frobenius norms), median/worst of 1000, by condition",
+    const Comparison inverses = {
+        "Inverse of R1 S R2: relative error (Frobenius norms), median/worst of 1000, by condition:",
         INVERSES, INVERSE_COUNT, inverse_error, inverse_errors};
-    const Table normal_matrices = {
-        "Matrix for normals of R1 S R2: error of a normal in radians, applied in float, "
-        "median/worst of 1000, by condition",
+    const Comparison normal_matrices = {
+        "Normal matrix of R1 S R2: angular error of a normal in radians, applied in float, "
+        "median/worst of 1000, by condition:",
         NORMALS, NORMAL_COUNT, normal_error, normal_errors};
-    measure_print_machine();
-    return print_table(&inverses) && print_table(&normal_matrices) ? 0 : 1;
+    measure_print_machine(NULL, NULL);
+    return compare(&inverses) && compare(&normal_matrices) ? 0 : 1;
 }

@@ -8,8 +8,8 @@
 extern "C" {
 #endif
 
-/* Matrices, column after column, each 16 numbers; an algorithm reads those of its precision and
- * writes as many. */
+/* Matrices one after another, 16 numbers each, by columns; an algorithm reads those of its
+ * precision and writes as many. */
 typedef struct Batch {
     int count;
     const double (*doubles)[16];

@@ -1,4 +1,4 @@
-#include "matrix_benchmark.h"
+#include "benchmark/matrix_benchmark.h"
 
 #include <glm/glm.hpp>
 #include <glm/gtc/matrix_inverse.hpp>

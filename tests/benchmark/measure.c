@@ -1,12 +1,30 @@
-#include "measure.h"
+#include "benchmark/measure.h"
 
-#include "progress.h"
-#include "statistics.h"
+#include "base/clock.h"
+#include "base/progress.h"
+#include "study/results/statistics.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
+
+static bool markdown;
+
+void measure_begin(int *argc, char *argv[])
+{
+    int kept = 1;
+    for (int i = 1; i < *argc; i++) {
+        if (strcmp(argv[i], "--markdown") == 0) {
+            markdown = true;
+        } else if (strncmp(argv[i], "--", 2) == 0) {
+            fprintf(stderr, "%s: no such option; there is --markdown\n", argv[i]);
+            exit(2);
+        } else {
+            argv[kept++] = argv[i];
+        }
+    }
+    *argc = kept;
+}
 
 bool measure_rounds(Measured *measured, int count, int rounds)
 {
@@ -18,14 +36,14 @@ bool measure_rounds(Measured *measured, int count, int rounds)
     }
     for (int round = -1; round < rounds; round++) {
         for (int i = 0; i < count; i++) {
-            const double start = progress_now();
+            const double start = clock_now();
             if (!measured[i].run(measured[i].argument)) {
                 progress_end(&progress);
                 fprintf(stderr, "%s: failed\n", measured[i].name);
                 return false;
             }
             if (round >= 0)
-                measured[i].seconds[round] = progress_now() - start;
+                measured[i].seconds[round] = clock_now() - start;
         }
         progress_update(&progress, round + 1, rounds);
     }
@@ -64,15 +82,27 @@ Summary measure_ratio(const Measured *a, const Measured *b, double scale, int ro
     return summary;
 }
 
-void measure_print_machine(void)
+void measure_print_machine(const char *renderer, const char *version)
 {
-    char line[256], model[200] = "unknown processor";
-    FILE *file = fopen("/proc/cpuinfo", "r");
-    while (file && fgets(line, sizeof line, file))
-        if (sscanf(line, "model name : %199[^\n]", model) == 1)
-            break;
-    if (file)
-        fclose(file);
-    printf("%s, %ld cores. Medians of interleaved rounds; in brackets the quartiles.\n", model,
-           sysconf(_SC_NPROCESSORS_ONLN));
+    char driver[256];
+    snprintf(driver, sizeof driver, "%s; %s", renderer ? renderer : "", version ? version : "");
+    table_machine(renderer ? driver : NULL, stdout);
+    printf("Medians of interleaved rounds; quartiles in brackets.\n");
+}
+
+void measure_print_table(const char *title, Table *table)
+{
+    if (title)
+        printf("\n%s\n", title);
+    putchar('\n');
+    if (!table_close(table, markdown, stdout))
+        fprintf(stderr, "not enough memory for a table\n");
+}
+
+Cell measure_cell(Summary summary, double scale, int digits)
+{
+    Cell cell;
+    snprintf(cell.text, sizeof cell.text, "%.*f [%.*f, %.*f]", digits, scale * summary.median,
+             digits, scale * summary.lower, digits, scale * summary.upper);
+    return cell;
 }

@@ -1,10 +1,10 @@
 /*
- * What a picture costs as a process of its own, over the least that any such process can cost, and
- * what a further picture costs in a process that draws several.
+ * The time of a picture as a process of its own relative to the minimum for such a process, and of
+ * the gallery's pictures; their limits hold on an idle machine with two cores.
  *
- *   process_benchmark PROGRAM GALLERY FLOOR
+ * process_benchmark PROGRAM GALLERY FLOOR
  */
-#include "measure.h"
+#include "benchmark/measure.h"
 
 #include <fcntl.h>
 #include <ftw.h>
@@ -18,6 +18,7 @@
 extern char **environ;
 
 enum { ROUNDS = 41, SCENES = 9 };
+static const double MAX_GALLERY_OF_ONE = 1.5, MAX_FURTHER_MS = 6;
 
 /* Runs a command and waits for it. */
 static bool run_command(void *argument)
@@ -42,6 +43,7 @@ static int remove_entry(const char *path, const struct stat *status, int type, s
 
 int main(int argc, char *argv[])
 {
+    measure_begin(&argc, argv);
     if (argc != 4) {
         fprintf(stderr, "usage: process_benchmark PROGRAM GALLERY FLOOR\n");
         return 2;
@@ -58,7 +60,8 @@ int main(int argc, char *argv[])
     char *draw_null[] = {argv[1], "--compress", "0", "-o", "/dev/null", NULL};
     char *smallest[] = {argv[1], "--compress", "9", "-o", picture, NULL};
     char *floor_command[] = {argv[3], NULL};
-    char *gallery_one[] = {argv[2], "-o", one, "LightedCube", NULL};
+    char *slash = strrchr(argv[1], '/');
+    char *gallery_one[] = {argv[2], "-o", one, slash ? slash + 1 : argv[1], NULL};
     char *gallery_all[] = {argv[2],
                            "-o",
                            all,
@@ -84,22 +87,25 @@ int main(int argc, char *argv[])
     };
     const bool measured_all = measure_rounds(measured, COUNT, ROUNDS);
     if (measured_all) {
-        measure_print_machine();
-        printf("%-38s %22s   %s\n", "one process, 400x400", "ms", "over the floor");
+        Table table;
+        measure_print_machine(NULL, NULL);
+        table_open(&table, "one process, 400x400|ms|over the floor");
         for (int i = 0; i < COUNT; i++) {
             const Summary time = measure_summary(measured[i].seconds, ROUNDS);
             const Summary ratio = measure_ratio(&measured[i], &measured[FLOOR], 1, ROUNDS);
-            printf("%-38s %6.1f [%5.1f, %6.1f]   %.2f [%.2f, %.2f]\n", measured[i].name,
-                   1e3 * time.median, 1e3 * time.lower, 1e3 * time.upper, ratio.median, ratio.lower,
-                   ratio.upper);
+            table_row(&table, "%s|%s|%s", measured[i].name, measure_cell(time, 1e3, 1).text,
+                      measure_cell(ratio, 1, 2).text);
         }
         double further[ROUNDS];
         for (int i = 0; i < ROUNDS; i++)
             further[i] = 1e3 * (measured[ALL].seconds[i] - measured[ONE].seconds[i]) / (SCENES - 1);
+        const Summary ratio = measure_ratio(&measured[ONE], &measured[DRAW], 1, ROUNDS);
         const Summary each = measure_summary(further, ROUNDS);
-        printf(
-            "each further picture of the gallery: %.1f ms [%.1f, %.1f], sheet and page included\n",
-            each.median, each.lower, each.upper);
+        table_row(&table, "gallery of one over the picture, at most %.1f||%s", MAX_GALLERY_OF_ONE,
+                  measure_cell(ratio, 1, 2).text);
+        table_row(&table, "each further picture, sheet and page included, at most %.1f ms|%s|",
+                  MAX_FURTHER_MS, measure_cell(each, 1, 1).text);
+        measure_print_table(NULL, &table);
     }
     measure_finish(measured, COUNT);
     nftw(folder, remove_entry, 8, FTW_DEPTH | FTW_PHYS);

@@ -1,10 +1,11 @@
 /*
- * What the exact picture costs: the solids and the teapot's mesh at the lecture's size, and how
- * that falls with the threads.
+ * The time of the exact picture: solids and the teapot's mesh at the lecture's size, and with one
+ * thread.
  */
-#include "measure.h"
-#include "options.h"
-#include "reference.h"
+#include "app/options.h"
+#include "benchmark/measure.h"
+#include "reference/reference.h"
+#include "shapes/mesh_solids.h"
 
 #include <stdio.h>
 
@@ -52,7 +53,7 @@ static Case cases[CASES] = {
     {"sphere's mesh, 1,100 triangles", {.kind = SOLID_SPHERE, .radius = 1}, 24, AS_MESH, 0, {0}},
 };
 
-static bool draw(void *argument)
+static bool trace_picture(void *argument)
 {
     const Case *drawn = argument;
     const Light lights[2] = {
@@ -72,7 +73,7 @@ static bool draw(void *argument)
                                .specular = {0.6, 0.6, 0.6},
                                .alpha = 1,
                                .shininess = 40}};
-    const Scene scene = {.camera = {{0.5, 1, 4}, {0, 0, 0}, {0, 1, 0}, 40, 0.5, 20},
+    const Scene scene = {.camera = {{0.5, 1, 4}, {0, 0, 0}, {0, 1, 0}, 40, 0.5, 20, 0},
                          .global_ambient = {0.3, 0.3, 0.3},
                          .lights = lights,
                          .light_count = 2,
@@ -81,8 +82,8 @@ static bool draw(void *argument)
                          .interpolation = drawn->interpolation};
     Reference reference;
     Message message = {0};
-    mat4_rotate(drawn->solid.kind == SOLID_TEAPOT ? 0 : -60, (Vec3){1, 0.3, 0},
-                &object.world_from_object);
+    object.world_from_object =
+        mat4_rotate(drawn->solid.kind == SOLID_TEAPOT ? 0 : -60, (Vec3){1, 0.3, 0});
     const bool done = reference_open(&reference, &scene, &drawn->options, &message);
     if (!done)
         fprintf(stderr, "%s\n", message.text);
@@ -90,23 +91,25 @@ static bool draw(void *argument)
     return done;
 }
 
-int main(void)
+int main(int argc, char *argv[])
 {
+    measure_begin(&argc, argv);
     Measured measured[CASES];
     Message message = {0};
     for (int i = 0; i < CASES; i++) {
         if (!solid_mesh(&cases[i].solid, cases[i].divisions, &cases[i].mesh, &message))
             return options_fail("reference_benchmark", &message, 1);
-        measured[i] = (Measured){cases[i].name, draw, &cases[i], NULL};
+        measured[i] = (Measured){cases[i].name, trace_picture, &cases[i], NULL};
     }
-    measure_print_machine();
+    measure_print_machine(NULL, NULL);
     const bool done = measure_rounds(measured, CASES, ROUNDS);
-    printf("%-32s %s\n", "a picture of 400x400", "ms");
+    Table table;
+    table_open(&table, "the exact picture, 400x400|ms");
     for (int i = 0; i < CASES && done; i++) {
         const Summary time = measure_summary(measured[i].seconds, ROUNDS);
-        printf("%-32s %6.1f [%.1f, %.1f]\n", cases[i].name, 1e3 * time.median, 1e3 * time.lower,
-               1e3 * time.upper);
+        table_row(&table, "%s|%s", cases[i].name, measure_cell(time, 1e3, 1).text);
     }
+    measure_print_table(NULL, &table);
     measure_finish(measured, CASES);
     for (int i = 0; i < CASES; i++)
         mesh_close(&cases[i].mesh);

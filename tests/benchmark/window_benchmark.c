@@ -1,13 +1,11 @@
 /*
- * A window's frame over what it is made of: the frame as a headless program draws it, and the copy
- * to the screen. Both are of the same context, the screen waits for nothing (vertical sync is off),
- * and every step is finished before the next is timed.
+ * The time of a window's frame relative to its parts: the headless frame and the copy to the
+ * screen. Same context, vertical sync off, every step finished before the next is timed.
  */
-#include "measure.h"
-#include "stage.h"
-#include "window.h"
+#include "app/stage.h"
+#include "benchmark/measure.h"
+#include "window/window.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 
 extern const Example LightedCube_animation, PointLightedSphere_perFragment, ShadingModels;
@@ -23,26 +21,23 @@ enum {
     FRAMES = 10,
 };
 
-/* "at most 1.2 times" */
-static const double BOUND = 1.2;
-
 typedef struct Run {
-    const Example *example;
+    Stage *stage;
     Canvas *canvas;
     const Options *options;
 } Run;
 
-static bool draw(const Run *run, int number)
+static bool draw_frame(const Run *run, int number)
 {
     Message message = {0};
-    return stage_draw(run->example, run->canvas, run->options, 0.1 * number, &message) ||
+    return stage_draw(run->stage, run->options, 0.1 * number, &message) ||
            options_fail("window_benchmark", &message, 0);
 }
 
 static bool headless_frames(void *argument)
 {
     for (int i = 0; i < FRAMES; i++) {
-        if (!draw(argument, i))
+        if (!draw_frame(argument, i))
             return false;
         glFinish();
     }
@@ -69,14 +64,14 @@ static bool window_frames(void *argument)
     WindowInput input;
     for (int i = 0; i < FRAMES; i++) {
         window_input(window_of(run->canvas), 0, &input);
-        if (!draw(run, i))
+        if (!draw_frame(run, i))
             return false;
         copy(run);
     }
     return true;
 }
 
-/* Of the rounds' ratios frame / (headless + copy). */
+/* Of each round's ratio frame / (headless + copy). */
 static Summary frame_ratio(const Measured *headless, const Measured *copied, const Measured *frame)
 {
     double ratios[ROUNDS];
@@ -85,33 +80,35 @@ static Summary frame_ratio(const Measured *headless, const Measured *copied, con
     return measure_summary(ratios, ROUNDS);
 }
 
-static bool measure_example(const Example *example, Canvas *canvas, Message *message)
+static bool measure_example(const Example *example, Canvas *canvas, Table *table, Message *message)
 {
     const Options options = {.fps = 30};
-    Run run = {example, canvas, &options};
+    Stage stage;
+    Run run = {&stage, canvas, &options};
     Measured measured[] = {{"a headless frame", headless_frames, &run, NULL},
                            {"the copy", copies, &run, NULL},
                            {"a window's frame", window_frames, &run, NULL},
                            {"the same again", window_frames, &run, NULL}};
     enum { COUNT = sizeof measured / sizeof measured[0] };
-    if (!stage_enter(example, &options, message))
+    if (!stage_open(&stage, example, canvas, &options, message))
         return false;
     const bool done = measure_rounds(measured, COUNT, ROUNDS);
     if (done) {
-        printf("%-32s %4dx%-4d", example->name, canvas->width, canvas->height);
+        double ms[3];
         for (int i = 0; i < 3; i++)
-            printf(" %6.2f", 1e3 * measure_summary(measured[i].seconds, ROUNDS).median / FRAMES);
+            ms[i] = 1e3 * measure_summary(measured[i].seconds, ROUNDS).median / FRAMES;
         const Summary ratio = frame_ratio(&measured[0], &measured[1], &measured[2]);
         const Summary again = measure_ratio(&measured[3], &measured[2], 1, ROUNDS);
-        printf("   %.2f [%.2f, %.2f]   %.2f [%.2f, %.2f]\n", ratio.median, ratio.lower, ratio.upper,
-               again.median, again.lower, again.upper);
+        table_row(table, "%s|%dx%d|%.2f|%.2f|%.2f|%s|%s", example->name, canvas->width,
+                  canvas->height, ms[0], ms[1], ms[2], measure_cell(ratio, 1, 2).text,
+                  measure_cell(again, 1, 2).text);
     }
     measure_finish(measured, COUNT);
-    stage_leave(example);
+    stage_close(&stage);
     return done || message_set(message, "%s: measuring failed", example->name);
 }
 
-static bool measure_size(int width, int height, Message *message)
+static bool measure_size(int width, int height, Table *table, Message *message)
 {
     Canvas canvas;
     const CanvasOptions options = {
@@ -122,25 +119,27 @@ static bool measure_size(int width, int height, Message *message)
     window_wait_for_screen(window_of(&canvas), false);
     bool done = true;
     for (int i = 0; i < EXAMPLE_COUNT && done; i++)
-        done = measure_example(EXAMPLES_SHOWN[i], &canvas, message);
+        done = measure_example(EXAMPLES_SHOWN[i], &canvas, table, message);
     canvas_close(&canvas);
     return done;
 }
 
-int main(void)
+int main(int argc, char *argv[])
 {
+    measure_begin(&argc, argv);
     Message message = {0};
     void *window;
     const char *platform;
+    Table table;
     if (!CANVAS_WINDOW.open(&window, &(CanvasOptions){.width = 1, .height = 1}, &platform,
                             &message))
         return options_fail("window_benchmark", &message, 77);
     CANVAS_WINDOW.close(window);
-    measure_print_machine();
-    printf("%s\n%-42s %20s   over both, at most %.1f    the same again\n", platform, "milliseconds",
-           "headless  copy window", BOUND);
+    measure_print_machine(NULL, NULL);
+    table_open(&table, "a frame, in ms|size|headless|copy|window|window over both|the same again");
     for (int i = 0; i < SIZE_COUNT; i++)
-        if (!measure_size(SIZES[i][0], SIZES[i][1], &message))
+        if (!measure_size(SIZES[i][0], SIZES[i][1], &table, &message))
             return options_fail("window_benchmark", &message, EXIT_FAILED);
+    measure_print_table(platform, &table);
     return 0;
 }

@@ -1,13 +1,12 @@
 /*
- * class_fuzz: no name, stream, picture or archive may do harm.
- *
- * The first byte says what the rest is.
+ * class_fuzz: no name, stream, picture or archive does harm. The first byte selects which one
+ * follows.
  */
-#include "bundle.h"
-#include "class_find.h"
-#include "png_copy.h"
-#include "source.h"
-#include "unpack.h"
+#include "labs/class/class_find.h"
+#include "labs/sandbox/bundle.h"
+#include "labs/sandbox/png_copy.h"
+#include "labs/sandbox/source.h"
+#include "labs/sandbox/unpack.h"
 
 #include <jansson.h>
 #include <stdint.h>
@@ -28,7 +27,7 @@ static void check_bundle(void)
             abort();
         size += bundle.files[i].size;
     }
-    if (size != bundle.size || size > BUNDLE_BYTES_MOST)
+    if (size != bundle.size || size > BUNDLE_BYTES_MAX)
         abort();
 }
 
@@ -39,7 +38,9 @@ static void read_stream(const uint8_t *data, size_t size)
         abort();
     check_bundle();
     for (int lab = 1; lab <= 2; lab++)
-        source_choose(&bundle, lab, NULL);
+        source_choose(&bundle, &LABS[lab - 1], NULL);
+    check_bundle();
+    source_normalize(&bundle, &LABS[2]);
     check_bundle();
     bundle_close(&bundle);
 }

@@ -4,8 +4,9 @@
  * The first byte says which. Triangles: their vertices' numbers, as the floats that the bytes are,
  * and indices. A solid: its kind, divisions and lengths.
  */
-#include "mesh.h"
-#include "solid.h"
+#include "core/mesh_make.h"
+#include "shapes/mesh_solids.h"
+#include "shapes/solid.h"
 
 #include <limits.h>
 #include <math.h>
@@ -79,13 +80,6 @@ static size_t check_faces(const Mesh *mesh)
     return with_area;
 }
 
-static void copy(const Mesh *from, Mesh *to)
-{
-    require(mesh_open(to, from->vertex_count, from->index_count, NULL));
-    memcpy(to->vertices, from->vertices, from->vertex_count * sizeof *to->vertices);
-    memcpy(to->indices, from->indices, from->index_count * sizeof *to->indices);
-}
-
 static void check_any(const Mesh *mesh)
 {
     const bool finite = all_finite(mesh);
@@ -93,7 +87,7 @@ static void check_any(const Mesh *mesh)
     Mesh other;
     check_bounds(mesh, finite);
     Message message = {0};
-    copy(mesh, &other);
+    require(mesh_copy(&other, mesh, NULL));
     require(mesh_check(mesh, &message) == finite);
     require(mesh_flatten(&other, NULL) == finite);
     if (finite) {
@@ -107,8 +101,12 @@ static void check_any(const Mesh *mesh)
                        mesh->vertex_count * sizeof *mesh->vertices) == 0);
     }
     mesh_close(&other);
+    require(mesh_copy(&other, mesh, NULL) && mesh_provoke(&other, NULL) == finite);
+    require(!finite || (other.vertex_count == mesh->index_count && other.lit_positions &&
+                        indices_in_range(&other)));
+    mesh_close(&other);
     for (int weight = MESH_WEIGHT_ANGLE; weight <= MESH_WEIGHT_MAX; weight++) {
-        copy(mesh, &other);
+        require(mesh_copy(&other, mesh, NULL));
         require(mesh_compute_normals(&other, (MeshWeight)weight, NULL));
         for (size_t i = 0; i < other.vertex_count; i++)
             require(is_unit(other.vertices[i].normal) &&
@@ -125,7 +123,7 @@ static void check_any(const Mesh *mesh)
 /* Twelve bytes for each vertex, and what is left in threes of indices. */
 static void try_triangles(const uint8_t *data, size_t size)
 {
-    enum { MOST = 64 };
+    enum { MAX = 64 };
     if (size < 1)
         return;
     size_t vertices = 1 + data[0] % 24u;
@@ -133,7 +131,7 @@ static void try_triangles(const uint8_t *data, size_t size)
     if (vertices > size / 12)
         vertices = size / 12;
     size_t triangles = (size - 12 * vertices) / 3;
-    triangles = triangles < MOST ? triangles : MOST;
+    triangles = triangles < MAX ? triangles : MAX;
     if (vertices == 0)
         return;
     Mesh mesh;
@@ -159,14 +157,14 @@ static bool plain(const Solid *solid)
 {
     const double lengths[] = {solid->radius, solid->height, solid->tube};
     const int count = solid->kind == SOLID_TORUS ? 3 : 2;
-    double least = INFINITY, most = 0;
+    double min = INFINITY, max = 0;
     for (int i = 0; i < count; i++) {
         if (i == 1 && solid->kind != SOLID_CYLINDER && solid->kind != SOLID_CONE)
             continue;
-        least = fmin(least, lengths[i]);
-        most = fmax(most, lengths[i]);
+        min = fmin(min, lengths[i]);
+        max = fmax(max, lengths[i]);
     }
-    return least >= 1e-30 && most <= 1e38 && most <= 1e3 * least;
+    return min >= 1e-30 && max <= 1e38 && max <= 1e3 * min;
 }
 
 static void try_solid(const uint8_t *data, size_t size)
@@ -179,7 +177,7 @@ static void try_solid(const uint8_t *data, size_t size)
                          .tube = taken_double(bytes + 20),
                          .caps = (MeshCaps)(bytes[1] % 4)};
     /* Few triangles, but numbers out of range on both sides. */
-    static const int odd[] = {-1, INT_MIN, INT_MAX, SOLID_MOST_DIVISIONS + 1};
+    static const int odd[] = {-1, INT_MIN, INT_MAX, SOLID_MAX_DIVISIONS + 1};
     const int divisions = bytes[2] < 252 ? bytes[2] % 12 : odd[bytes[2] - 252];
     Mesh mesh;
     Message message = {0};
@@ -187,8 +185,8 @@ static void try_solid(const uint8_t *data, size_t size)
         require(message.text[0] && zeroed(&mesh));
         return;
     }
-    require(!message.text[0] && divisions >= SOLID_LEAST_DIVISIONS &&
-            divisions <= SOLID_MOST_DIVISIONS && indices_in_range(&mesh));
+    require(!message.text[0] && divisions >= SOLID_MIN_DIVISIONS &&
+            divisions <= SOLID_MAX_DIVISIONS && indices_in_range(&mesh));
     for (size_t i = 0; i < mesh.vertex_count; i++)
         require(is_unit(mesh.vertices[i].normal));
     if (plain(&solid)) {

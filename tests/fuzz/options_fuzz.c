@@ -4,9 +4,9 @@
  * The input's lines (or what zeros separate) are the arguments; each is also read as a size, a
  * number, a name and a pattern on its own.
  */
-#include "options.h"
-#include "parse.h"
-#include "output.h"
+#include "app/options.h"
+#include "base/output.h"
+#include "base/parse.h"
 
 #include <limits.h>
 #include <math.h>
@@ -26,7 +26,7 @@ static void read_one(const char *argument)
     char path[64];
     Message message = {0};
     if (parse_size(argument, &width, &height) &&
-        (width < 1 || width > PARSE_SIZE_MOST || height < 1 || height > PARSE_SIZE_MOST))
+        (width < 1 || width > PARSE_SIZE_MAX || height < 1 || height > PARSE_SIZE_MAX))
         abort();
     if (parse_number(argument, -1e9, 1e9, &number) && !(fabs(number) <= 1e9))
         abort();
@@ -49,8 +49,8 @@ static void read_all(const Usage *usage, int count, char *arguments[])
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    enum { MOST = 16 };
-    static const Usage program = {.name = "LightedCube", .summary = "Fuzzed."};
+    enum { MAX = 16 };
+    static const Usage program = {.name = "LightedCube", .summary = "Fuzzed.", .scene = true};
     static const Usage gallery = {.name = "gallery", .summary = "Fuzzed.", .gallery = true};
     static bool quiet;
     if (!quiet && !freopen("/dev/null", "w", stdout)) /* --help is printed often */
@@ -63,9 +63,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     for (size_t i = 0; i < size; i++)
         text[i] = data[i] == '\n' ? '\0' : (char)data[i];
     text[size] = '\0';
-    char *arguments[MOST + 2] = {"program"}, *again[MOST + 2];
+    char *arguments[MAX + 2] = {"program"}, *again[MAX + 2];
     int count = 1;
-    for (char *p = text; p < text + size && count <= MOST; p += strlen(p) + 1) {
+    for (char *p = text; p < text + size && count <= MAX; p += strlen(p) + 1) {
         read_one(p);
         arguments[count++] = p;
     }

@@ -3,7 +3,7 @@
  *
  * The input is read as a file, and again as the rows below a header as it is written.
  */
-#include "results.h"
+#include "study/results/results.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -34,7 +34,7 @@ int LLVMFuzzerInitialize(int *count, char ***arguments)
 static void check_row(const ResultRow *row)
 {
     for (int axis = 0; axis < AXIS_COUNT; axis++)
-        if (row->setting.choice[axis] >= SETTING_AXES[axis].count)
+        if (row->quality.choice[axis] >= QUALITY_AXES[axis].count)
             abort();
     if (!row->scene[0] || strchr(row->scene, '/') || row->width < 1 || row->height < 1 ||
         row->vertices < -1 || row->vertex_operations < -1 || isinf(row->time) || row->time < 0 ||

@@ -6,9 +6,9 @@
  * scene_check accepts has effects that can be explained and an exact picture, as solids and as
  * meshes, all of whose colours are colours.
  */
-#include "effects.h"
-#include "random_scene.h"
-#include "reference.h"
+#include "hard/random_scene.h"
+#include "reference/reference.h"
+#include "scene/effects.h"
 
 #include <float.h>
 #include <math.h>
@@ -62,7 +62,7 @@ static bool seen(const Reference *picture)
     return true;
 }
 
-static void draw(const Scene *scene, bool as_meshes)
+static void render(const Scene *scene, bool as_meshes)
 {
     Reference picture;
     Message message = {0};
@@ -110,15 +110,15 @@ static void change_choices(RandomScene *made, uint64_t bits)
     }
     if (bits >> 40 & 1)
         made->scene.light_count = 0;
-    if (bits >> 41 & 1)
-        made->scene.interpolation = (Interpolation)(int)(bits >> 42 & 3); /* one too many */
+    if (bits >> 41 & 1) /* one too many */
+        made->scene.interpolation = (Interpolation)(int)((bits >> 42 & 3) + (bits >> 45 & 1));
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     Input input = {data, size};
     RandomScene made;
-    RandomNumber numbers[RANDOM_MOST_NUMBERS];
+    RandomNumber numbers[RANDOM_MAX_NUMBERS];
     Message message = {0};
     const uint64_t kind = take(&input, 2), values = take(&input, 1);
     random_scene_make(&made, kind, values);
@@ -142,6 +142,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (!sound)
         return 0;
     decide(&made.scene);
-    draw(&made.scene, choices >> 44 & 1);
+    render(&made.scene, choices >> 44 & 1);
     return 0;
 }

@@ -4,7 +4,7 @@
  * The input is a shader, a zero, and a log; includes are looked for in a folder with a few files
  * that include each other. Seeds: the files of shaders/.
  */
-#include "shader.h"
+#include "core/shader.h"
 
 #include <stdint.h>
 #include <stdio.h>

@@ -1,10 +1,10 @@
 /*
- * verdict_fuzz: no verdict may do harm, whoever wrote it.
+ * verdict_fuzz: no verdict does harm.
  *
- * The input is read as JSON; what is taken is written, read again and the same, and it is what
- * pages and tables rely on: text in UTF-8 without control characters, numbers in their ranges.
+ * The input is read as JSON; an accepted verdict, written and read again, is the same, and has what
+ * pages and tables rely on: UTF-8 text without control characters, numbers in range.
  */
-#include "verdict_json.h"
+#include "labs/submission/verdict_json.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -28,10 +28,10 @@ static void check_text(const char *text, size_t size, bool lines)
 
 static void check(const Verdict *verdict)
 {
-    if (!(verdict->points >= 0 && verdict->points <= VERDICT_MOST_POINTS) ||
-        verdict->kind > VERDICT_TIMEOUT || verdict->mistake_count > VERDICT_MOST_MISTAKES ||
-        verdict->symptom_count > VERDICT_MOST_SYMPTOMS ||
-        verdict->probe_count > VERDICT_MOST_PROBES || strchr(verdict->picture, '/') ||
+    if (!(verdict->points >= 0 && verdict->points <= VERDICT_MAX_POINTS) ||
+        verdict->kind > VERDICT_TIMEOUT || verdict->mistake_count > VERDICT_MAX_MISTAKES ||
+        verdict->symptom_count > VERDICT_MAX_SYMPTOMS ||
+        verdict->probe_count > VERDICT_MAX_PROBES || strchr(verdict->picture, '/') ||
         verdict->picture[0] == '.')
         abort();
     check_text(verdict->message, sizeof verdict->message, false);

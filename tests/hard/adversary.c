@@ -1,11 +1,11 @@
 /*
- * adversary: looks for scenes that are drawn wrongly, for as long as one likes:
- *   adversary [--seed N] [--seconds S] [--least LEVELS] [--size PIXELS] [--tame] [--mediump]
- * Each that is wrong by more than so many steps of 1/255 is shrunk and printed as C.
+ * adversary: searches for scenes that are drawn wrongly, until stopped:
+ * adversary [--seed N] [--seconds S] [--least LEVELS] [--size PIXELS] [--tame] [--mediump]
+ *
+ * Each scene with an error of more than LEVELS steps of 1/255 is shrunk and printed as C.
  */
-#include "search.h"
-
-#include "progress.h"
+#include "base/clock.h"
+#include "hard/search.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -59,11 +59,11 @@ int main(int count, char *arguments[])
     Search search;
     double worst = 0, sum = 0;
     int found = 0;
-    const double start = progress_now();
+    const double start = clock_now();
     search_open(&search, (int)choices[3].value, (unsigned long long)choices[0].value);
     search.tame = choices[4].value != 0;
     search.precision = choices[5].value != 0 ? HARD_MEDIUMP : HARD_HIGHP;
-    while (progress_now() - start < choices[1].value) {
+    while (clock_now() - start < choices[1].value) {
         if (!search_step(&search))
             continue;
         worst = search.error > worst ? search.error : worst;

@@ -1,16 +1,9 @@
 /*
- * What the search has found, each shrunk, with its cause, and the bound that follows from it.
+ * What the search has found: each scene shrunk, with its cause, and a bound that follows from it.
  */
-#include "picture_check.h"
-#include "search.h"
-
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <cmocka.h>
+#include "hard/search.h"
+#include "support/picture_check.h"
+#include "support/testing.h"
 
 enum { SIZE = 24 };
 
@@ -21,9 +14,9 @@ enum { SIZE = 24 };
         }                                                                                          \
     }
 
-/* R.V is below 0 all over the face, and the shininess next to 0. The exact highlight is 0 there;
- * the shaders had pow(max(cosine, 1e-37), s), which for s = 0.01 is 0.43: wrong by 109 steps.
- * Mended: a cosine of 0 or less has a branch of its own. */
+/* R.V is negative on the whole face and the shininess is nearly 0. The exact highlight is 0; the
+ * shaders computed pow(max(cosine, 1e-37), s), which is 0.43 for s = 0.01: an error of 109 steps.
+ * Fixed: a cosine of 0 or less has a branch of its own. */
 static const RandomScene SHININESS_NEXT_TO_0 = {
     .scene = {.camera = {.eye = {0, 0, 3}, .up = {0, 1, 0}, .fovy = 30, .near = 1, .far = 30},
               .light_count = 1,
@@ -35,8 +28,8 @@ static const RandomScene SHININESS_NEXT_TO_0 = {
     .shapes[0] = {.solid = {.kind = SOLID_QUAD}, .divisions = 3},
 };
 
-/* The same where the light is not weak: constant attenuation below 1 makes it 12.5 times 4 as
- * strong, and 50 * 1e-37^0.1 was 0.01: 2.5 steps. Mended with it. */
+/* The same with a strong light: a constant attenuation below 1 makes it 12.5 times 4 as strong, and
+ * 50 * 1e-37^0.1 is 0.01, 2.5 steps. Fixed by the same branch. */
 static const RandomScene STRONG_LIGHT_ASIDE = {
     .scene = {.camera = {.eye = {0, -2, 1}, .up = {0, 0, 1}, .fovy = 1, .near = 0.5, .far = 1},
               .light_count = 1,
@@ -47,9 +40,9 @@ static const RandomScene STRONG_LIGHT_ASIDE = {
     .shapes[0] = {.solid = {.kind = SOLID_QUAD}, .divisions = 3},
 };
 
-/* A thousandth of a degree is seen, along the edge of a cone of 90 degrees. From floats a cosine is
- * wrong by 2^-23 or so, 1.2e-7, a sixth of a pixel here; nothing that computes with 24 bits knows
- * better, so that this much counts as rounding. */
+/* A thousandth of a degree is visible along the edge of a cone of 90 degrees. A cosine of floats
+ * has an error of about 2^-23, 1.2e-7, a sixth of a pixel here. No computation with 24 bits is
+ * better, so this counts as rounding. */
 static const RandomScene CLOSE_LOOK_AT_A_CONE = {
     .scene = {.camera = {.eye = {-3, 0, 0}, .up = {0, 1, 0}, .fovy = 0.001, .near = 0.5, .far = 1},
               .light_count = 1,
@@ -65,10 +58,10 @@ static const RandomScene CLOSE_LOOK_AT_A_CONE = {
     .shapes[0] = {.solid = {.kind = SOLID_BOX, .radius = 90}, .divisions = 3},
 };
 
-/* A cone of one degree, seen from 0.0004 before a surface: a pixel there is 4e-6 wide. The cosine
- * of a cutoff c is rounded to 2^-24, which moves the edge by 2^-24 / sin(c) radians: 3.4e-6, 1.2e-5
- * at a distance of 3.4. For the smaller cones the more: one of 0.02 degrees, whose cosine is 1 but
- * for one unit in the last place, may have any width from 0 to twice that. */
+/* A cone of one degree, seen from 0.0004 in front of a surface, where a pixel is 4e-6 wide. The
+ * cosine of a cutoff c is rounded to 2^-24, which moves the edge by 2^-24 / sin(c) radians: 3.4e-6,
+ * or 1.2e-5 at a distance of 3.4. Smaller cones are worse: the cosine of 0.02 degrees is 1 minus
+ * one unit in the last place, so that cone may have any width from 0 to twice the right one. */
 static const RandomScene NARROW_CONE_SEEN_CLOSELY = {
     .scene = {.camera = {.eye = {1, -1, 0.5},
                          .center = {0, -0.9, -0.8},
@@ -90,9 +83,9 @@ static const RandomScene NARROW_CONE_SEEN_CLOSELY = {
     .shapes[0] = {.solid = {.kind = SOLID_QUAD}, .divisions = 3},
 };
 
-/* Colours of vertices, a triangle no wider than a pixel, and sRGB, up to 13 times as steep as
- * linear colours: the driver rounds each corner to 1/256 of a pixel, which here changes the colour
- * by most of a step. */
+/* Vertex colors, a triangle no wider than a pixel, and sRGB, which is up to 13 times as steep as
+ * linear colors: the driver rounds each corner to 1/256 of a pixel, which changes the color here by
+ * most of a step. */
 static const RandomScene SMALL_TRIANGLES_IN_THE_DARK = {
     .scene = {.camera = {.eye = {1.295441, 2.336, 4.646332},
                          .center = {0, -0.118042, 0.2866},
@@ -111,8 +104,9 @@ static const RandomScene SMALL_TRIANGLES_IN_THE_DARK = {
     .shapes[0] = {.solid = {.kind = SOLID_TORUS, .radius = 1, .tube = 0.375}, .divisions = 24},
 };
 
-/* A corner lies on the light but for rounding, 1e-7: whether the cone holds it is decided by that,
- * and the colour of a whole triangle with it. As above, that counts as rounding. */
+/* A corner coincides with the light up to a rounding of 1e-7. That rounding decides whether the
+ * corner is in the cone, and with it the color of the whole triangle; as above, it counts as
+ * rounding. */
 static const RandomScene CORNER_ON_A_SPOT = {
     .scene = {.camera = {.eye = {-4.595986, 0, 0.06298793},
                          .center = {1, -0.2606417, 0.3246102},
@@ -135,9 +129,9 @@ static const RandomScene CORNER_ON_A_SPOT = {
     .shapes[0] = {.form = FORM_TETRAHEDRON, .solid = {.radius = 1}, .divisions = 3},
 };
 
-/* Attenuation that is the same everywhere is part of the colours: 1 / 2e-308 is no float, and
- * infinity times 0 no number. */
-static const RandomScene LEAST_CONSTANT_ATTENUATION = {
+/* A constant attenuation is part of the colors. 1 / 2e-308 is infinite as a float, and infinity
+ * times 0 is NaN. */
+static const RandomScene MIN_CONSTANT_ATTENUATION = {
     .scene = {.camera = {.eye = {0, 0, 1}, .up = {0, 1, 0}, .fovy = 1, .near = 0.5, .far = 30},
               .light_count = 1,
               .object_count = 1},
@@ -150,7 +144,7 @@ static const RandomScene LEAST_CONSTANT_ATTENUATION = {
     .shapes[0] = {.solid = {.kind = SOLID_QUAD}, .divisions = 3},
 };
 
-/* A matrix that takes corners to 1e30, the square of which is no float. */
+/* A matrix that moves corners to 1e30, whose square overflows a float. */
 static const RandomScene CORNERS_TOO_FAR_AWAY = {
     .scene = {.camera = {.eye = {0, 1, 0}, .up = {1, 0, 0}, .fovy = 1, .near = 0.5, .far = 1},
               .light_count = 1,
@@ -161,9 +155,9 @@ static const RandomScene CORNERS_TOO_FAR_AWAY = {
     .shapes[0] = {.solid = {.kind = SOLID_QUAD}, .divisions = 3},
 };
 
-/* As far away as places may be: the driver cuts such a triangle at the sides of the view in floats,
- * whose steps are 6e7 there, and where it is cut, or whether it is seen, is anyone's guess. Only
- * that all values are finite can be asked for. */
+/* The farthest corners allowed. The driver clips such a triangle at the sides of the view in
+ * floats, whose steps are 6e7 there, so where it is cut is unspecified. Only finite values are
+ * required. */
 static const RandomScene CORNERS_FAR_AWAY = {
     .scene = {.camera = {.eye = {0, 0, 1}, .up = {0, 1, 0}, .fovy = 30, .near = 1, .far = 30},
               .background = {0.8, 0.05, 0.65},
@@ -174,8 +168,8 @@ static const RandomScene CORNERS_FAR_AWAY = {
     .shapes[0] = {.solid = {.kind = SOLID_QUAD}, .divisions = 3},
 };
 
-/* A light of the vertices and one of the fragments, both specular: both shaders have the uniform of
- * the shininess, which mediump gave two precisions, so that the program did not link. */
+/* One light computed at the vertices and one at the fragments, both specular: both shaders have the
+ * uniform of the shininess. mediump gave it two precisions, and the program did not link. */
 static const RandomScene SHININESS_IN_BOTH_SHADERS = {
     .scene = {.camera = {.eye = {0, 0, 4}, .up = {0, 1, 0}, .fovy = 40, .near = 1, .far = 10},
               .light_count = 2,
@@ -191,12 +185,12 @@ static const RandomScene SHININESS_IN_BOTH_SHADERS = {
 typedef struct Found {
     const char *name;
     const RandomScene *scene;
-    double most; /* steps of 1/255, beyond what rounding may do; see search_error */
+    double max; /* steps of 1/255, beyond the allowance for rounding; see search_error */
 } Found;
 
-#define FOUND(scene, most)                                                                         \
+#define FOUND(scene, max)                                                                          \
     {                                                                                              \
-#scene, &scene, most                                                                       \
+#scene, &scene, max                                                                        \
     }
 
 static const Found FOUND_SCENES[] = {
@@ -208,62 +202,48 @@ static const Found FOUND_SCENES[] = {
     FOUND(CORNER_ON_A_SPOT, 0.1),
     FOUND(CORNERS_FAR_AWAY, 255),
     FOUND(CORNERS_TOO_FAR_AWAY, 255),
-    FOUND(LEAST_CONSTANT_ATTENUATION, 0.1),
+    FOUND(MIN_CONSTANT_ATTENUATION, 0.1),
     FOUND(SHININESS_IN_BOTH_SHADERS, 0.1),
 };
 
 static Search search;
 
-static int open_all(void **state)
+FIXTURE(open_all)
 {
-    (void)state;
     search_open(&search, SIZE, 1);
     return 0;
 }
 
-static int close_all(void **state)
+FIXTURE(close_all)
 {
-    (void)state;
     search_close(&search);
     return 0;
 }
 
-static void what_was_found_stays_within_its_bound(void **state)
+TEST(found_scenes_stay_within_their_bounds)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof FOUND_SCENES / sizeof FOUND_SCENES[0]; i++) {
         const Found *found = &FOUND_SCENES[i];
         RandomScene scene = *found->scene;
         const double error = search_error(&search, &scene, 0);
         const bool refused = !scene_check(&scene.scene, NULL);
-        const bool right = refused || (error >= 0 && error <= found->most);
-        print_message("%s: %.3g steps, of %g\n", found->name, error, found->most);
+        const bool right = refused || (error >= 0 && error <= found->max);
+        print_message("%s: %.3g steps, of %g\n", found->name, error, found->max);
         if (!right)
-            fail_msg("%s: %g steps, of %g", found->name, error, found->most);
+            fail_msg("%s: %g steps, of %g", found->name, error, found->max);
     }
 }
 
-/* In mediump no more than that there is a program for it. */
-static void shininess_in_both_shaders_links(void **state)
+/* In mediump only that the program links. */
+TEST(shininess_in_both_shaders_links)
 {
     RandomScene scene = SHININESS_IN_BOTH_SHADERS;
-    (void)state;
     assert_true(random_scene_ready(&scene, &search.meshes, NULL));
     for (int i = 0; i < 2; i++) {
-        Message message = {0};
-        if (!random_scene_draw(&scene, &search.hard.floats, search.hard.lightings[i],
-                               &search.hard.real, &message))
-            fail_msg("%s", message.text);
+        require(random_scene_draw(&scene, &search.hard.floats, search.hard.lightings[i],
+                                  &search.hard.real, FAILURE),
+                FAILURE);
     }
 }
 
-int main(void)
-{
-    if (!picture_check_driver("hard found"))
-        return EXIT_SKIPPED;
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_was_found_stays_within_its_bound),
-        cmocka_unit_test(shininess_in_both_shaders_links),
-    };
-    return cmocka_run_group_tests(tests, open_all, close_all);
-}
+PICTURE_TEST_MAIN("found", open_all, close_all)

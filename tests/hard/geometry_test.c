@@ -1,18 +1,14 @@
 /*
- * Hard cases of geometry: more vertices than 16 bits number, poles and seams, triangles without
- * area, behind the eye and beyond the planes, vertices that are no numbers, meshes of any size,
- * pictures of a pixel, needles.
+ * Hard cases of geometry: more vertices than 16-bit indices reach, poles and seams, triangles
+ * without area, behind the eye and beyond the planes, NaN vertices, meshes of any size, pictures of
+ * one pixel, needles.
  */
-#include "hard.h"
-
-#include "picture_check.h"
-#include "reference_trace.h"
-
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <stdint.h>
-#include <cmocka.h>
+#include "core/mesh_make.h"
+#include "hard/hard.h"
+#include "reference/reference_trace.h"
+#include "shapes/mesh_solids.h"
+#include "support/picture_check.h"
+#include "support/testing.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -22,36 +18,26 @@
 enum { SIZE = 48, SEED = 20140401 };
 
 static const double REACH = 4;    /* see normals_test.c */
-static const double FAR_OFF = 64; /* for vertices that lie some sixteen times as far as the light */
+static const double FAR_OFF = 64; /* for vertices about sixteen times as far away as the light */
 
 static Hard hard;
 static HardWorld world;
-static Mesh sphere, quad;
-static Mesh made[2]; /* by a test, until forget_made */
+static Mesh made[2]; /* of the current test, until forget_made */
 
-static int open_all(void **state)
+FIXTURE(open_all)
 {
-    Message message = {0};
-    (void)state;
     hard_open(&hard, SIZE, SIZE);
-    if (mesh_sphere(&sphere, 1, 24, 12, &message) && mesh_quad(&quad, 2, &message))
-        return 0;
-    printf("%s\n", message.text);
-    return 1;
+    return 0;
 }
 
-static int close_all(void **state)
+FIXTURE(close_all)
 {
-    (void)state;
-    mesh_close(&quad);
-    mesh_close(&sphere);
     hard_close(&hard);
     return 0;
 }
 
-static int forget_made(void **state)
+FIXTURE(forget_made)
 {
-    (void)state;
     for (int i = 0; i < 2; i++) {
         hard_forget(&hard, &made[i]);
         mesh_close(&made[i]);
@@ -61,9 +47,9 @@ static int forget_made(void **state)
     return 0;
 }
 
-static void check(const char *name, double reach, int least_pixels)
+static void check(const char *name, double reach, int min_pixels)
 {
-    hard_check_reflections(&hard, name, &world, reach, least_pixels);
+    hard_check_reflections(&hard, name, &world, reach, min_pixels);
 }
 
 /* Rows `first` to `last` of a wavy sheet of 256 x 256 cells over -1.6..1.6, with its normals. */
@@ -86,13 +72,12 @@ static void make_sheet(Mesh *mesh, int first, int last)
     mesh_grid(mesh->indices, 0, rows, CELLS, MESH_POLE_NONE);
 }
 
-static void a_mesh_of_66049_vertices_is_drawn_as_its_two_halves(void **state)
+TEST_WITH(0, a_mesh_of_66049_vertices_is_drawn_as_its_two_halves, NULL, forget_made)
 {
     enum { LARGE = 192 };
     const size_t bytes = 4 * (size_t)LARGE * LARGE;
     unsigned char *whole = malloc(bytes);
     assert_non_null(whole);
-    (void)state;
     hard_resize(&hard, LARGE, LARGE);
     make_sheet(&made[0], 0, 256);
     assert_int_equal(made[0].vertex_count, 66049);
@@ -100,7 +85,7 @@ static void a_mesh_of_66049_vertices_is_drawn_as_its_two_halves(void **state)
     world.scene.background = (Vec3){1, 0, 1};
     hard_check(&hard, "66049 vertices", &world.scene, HARD_HIGHP, 1, LARGE * LARGE * 9 / 10);
     memcpy(whole, hard.image.pixels, bytes);
-    for (size_t i = 0; i < bytes; i += 4) /* nothing of the sheet is this red and this blue */
+    for (size_t i = 0; i < bytes; i += 4) /* the sheet nowhere has this red and this blue */
         assert_false(whole[i] == 255 && whole[i + 2] == 255);
     hard_forget(&hard, &made[0]);
     mesh_close(&made[0]);
@@ -116,10 +101,9 @@ static void a_mesh_of_66049_vertices_is_drawn_as_its_two_halves(void **state)
     hard_report(&hard, "66049 vertices");
 }
 
-static void poles_have_areas_and_seams_do_not_show(void **state)
+TEST_WITH(0, poles_have_areas_and_seams_do_not_show, NULL, forget_made)
 {
     static const Vec3 axes[] = {{0, 1, 0}, {1, 0, 0}};
-    (void)state;
     for (int slices = 3; slices <= 48; slices *= 2) {
         const size_t row = (size_t)slices + 1;
         assert_true(mesh_sphere(&made[0], 1, slices, slices, NULL));
@@ -133,20 +117,20 @@ static void poles_have_areas_and_seams_do_not_show(void **state)
         /* The seam faces the eye; then a pole does. */
         for (int i = 0; i < 2; i++) {
             hard_world(&world, &made[0]);
-            mat4_rotate(90 * i, axes[i], &world.objects[0].world_from_object);
+            world.objects[0].world_from_object = mat4_rotate(90 * i, axes[i]);
             check("seam and pole", REACH, SIZE);
         }
         forget_made(NULL);
     }
-    /* Turned by one of its slices a sphere is the same, but its seam is elsewhere. */
+    /* Rotated by one slice a sphere is the same, but its seam is elsewhere. */
     for (int interpolation = 0; interpolation < 2; interpolation++) {
         unsigned char before[4 * SIZE * SIZE];
         int apart = 0;
-        hard_world(&world, &sphere);
+        hard_world(&world, &hard.sphere);
         world.scene.interpolation = (Interpolation)interpolation;
         hard_draw(&hard, &world.scene, HARD_HIGHP, NULL);
         memcpy(before, hard.image.pixels, sizeof before);
-        mat4_rotate(90, axes[0], &world.objects[0].world_from_object);
+        world.objects[0].world_from_object = mat4_rotate(90, axes[0]);
         hard_draw(&hard, &world.scene, HARD_HIGHP, NULL);
         for (size_t i = 0; i < sizeof before; i++)
             apart += abs(before[i] - ((unsigned char *)hard.image.pixels)[i]) > 1;
@@ -155,9 +139,8 @@ static void poles_have_areas_and_seams_do_not_show(void **state)
     hard_report(&hard, "poles and seams");
 }
 
-static void triangles_without_area_draw_nothing(void **state)
+TEST_WITH(0, triangles_without_area_draw_nothing, NULL, forget_made)
 {
-    (void)state;
     for (int way = 0; way < 3; way++) {
         static const Interpolation ways[] = {INTERPOLATION_PHONG, INTERPOLATION_GOURAUD,
                                              INTERPOLATION_FLAT};
@@ -171,10 +154,9 @@ static void triangles_without_area_draw_nothing(void **state)
         }
         hard_world(&world, &made[0]);
         world.scene.interpolation = ways[way];
-        for (int precision = 0; precision < 2; precision++) {
-            const HardResult result =
-                hard_draw(&hard, &world.scene, (HardPrecision)precision, NULL);
-            assert_int_equal(result.not_finite, 0);
+        for (HardPrecision precision = HARD_HIGHP; precision <= HARD_MEDIUMP; precision++) {
+            const HardResult result = hard_draw_finite(&hard, &world.scene, precision);
+
             assert_int_equal(result.interior_pixels, 0);
             for (size_t i = 0; i < 4 * (size_t)SIZE * SIZE; i += 4)
                 assert_int_equal(((unsigned char *)hard.image.pixels)[i], 51);
@@ -184,7 +166,7 @@ static void triangles_without_area_draw_nothing(void **state)
     /* The lecture's sphere has some at its poles. */
     assert_true(mesh_sphere_lecture(&made[0], 16, NULL));
     hard_world(&world, &made[0]);
-    mat4_rotate(90, (Vec3){1, 0, 0}, &world.objects[0].world_from_object);
+    world.objects[0].world_from_object = mat4_rotate(90, (Vec3){1, 0, 0});
     check("lecture's sphere", REACH, SIZE);
     hard_report(&hard, "triangles without area");
 }
@@ -195,12 +177,11 @@ static void set_vertex(MeshVertex *vertex, Vec3 position)
     vec3_to_float((Vec3){0, 1, 0}, vertex->normal);
 }
 
-/* A floor, one of whose corners lies behind the eye, in the plane of the eye, on the near plane, on
- * the far plane, or far beyond. Clipped, it keeps colours and normals. */
-static void corners_may_lie_anywhere(void **state)
+/* A floor with one corner behind the eye, in the plane of the eye, on the near plane, on the far
+ * plane, or far beyond it. Clipping keeps colours and normals. */
+TEST_WITH(0, corners_may_be_anywhere, NULL, forget_made)
 {
     static const double depths[] = {-50, -1, 0, 0.5, 0.5000001, 20, 21, 200, 2000};
-    (void)state;
     for (size_t i = 0; i < sizeof depths / sizeof depths[0]; i++) {
         for (size_t k = 0; k < 2; k++) {
             static const uint32_t indices[3] = {0, 1, 2};
@@ -221,11 +202,10 @@ static void corners_may_lie_anywhere(void **state)
     hard_report(&hard, "corners behind the eye, on the planes and beyond");
 }
 
-/* The message names the vertex. Nothing is checked again once a mesh has been uploaded. */
-static void vertices_that_are_no_numbers_are_refused(void **state)
+/* The message names the vertex. An uploaded mesh is not checked again. */
+TEST_WITH(0, vertices_that_are_not_finite_are_refused, NULL, forget_made)
 {
     static const float bad[] = {NAN, INFINITY, -INFINITY};
-    (void)state;
     for (int i = 0; i < 54; i++) {
         Message message = {0};
         assert_true(mesh_sphere(&made[0], 1, 8, 4, NULL));
@@ -246,20 +226,16 @@ static void vertices_that_are_no_numbers_are_refused(void **state)
     assert_string_equal(message.text, "mesh: triangle 3: vertex 45: there are 45");
 }
 
-/* All of it as large: mesh, camera, light. In mediump nothing beyond 65504 has a place, and the
- * square of nothing below 8e-3 or above 255 has all its digits: see precision_test.c. */
-static void a_mesh_of_any_size_is_lit_alike(void **state)
+/* Mesh, camera and light scaled together. In mediump no coordinate is above 65504, and squares keep
+ * all their digits only of numbers from 8e-3 to 255: see precision_test.c. */
+TEST_WITH(0, the_size_of_a_mesh_does_not_change_its_lighting, NULL, forget_made)
 {
-    (void)state;
     for (int exponent = -14; exponent <= 14; exponent += 4) {
         const double size = pow(10, exponent);
         char name[64];
         assert_true(mesh_sphere(&made[0], size, 24, 12, NULL));
         hard_world(&world, &made[0]);
-        world.lights[0].position = vec3_scale(world.lights[0].position, size);
-        world.scene.camera.eye = vec3_scale(world.scene.camera.eye, size);
-        world.scene.camera.near *= size;
-        world.scene.camera.far *= size;
+        hard_world_scale(&world, size);
         snprintf(name, sizeof name, "mesh of size 1e%d", exponent);
         for (int way = 0; way < 4; way++) {
             world.scene.reflection = way & 1 ? REFLECTION_PHONG : REFLECTION_BLINN_PHONG;
@@ -273,53 +249,49 @@ static void a_mesh_of_any_size_is_lit_alike(void **state)
     hard_report(&hard, "meshes of sizes 1e-14 to 1e14");
 }
 
-/* Pixels that are as large as the object are no interior ones: they are compared at their centres,
- * where a driver samples them. */
-static void check_centres(double most)
+/* Pixels as large as the object are not interior: they are compared at their centres, where a
+ * driver samples them. */
+static void check_centres(double max)
 {
-    Message message = {0};
     Trace *trace;
     const int width = hard.bytes.width, height = hard.bytes.height;
-    if (!trace_open(&trace, &world.scene, true, width, height, NULL, &message))
-        fail_msg("%s", message.text);
+    require(trace_open(&trace, &world.scene, true, width, height, NULL, FAILURE), FAILURE);
     for (int i = 0; i < width * height; i++) {
         Sample sample;
         trace_sample(trace, i % width + 0.5, i / width + 0.5, &sample);
         for (int c = 0; c < 3; c++) {
             const double error = fabs(((unsigned char *)hard.image.pixels)[4 * i + c] -
                                       255 * (double)sample.color[c]);
-            if (error > most)
-                fail_msg("%d x %d: pixel %d: %.3f of %.3f", width, height, i, error, most);
+            if (error > max)
+                fail_msg("%d x %d: pixel %d: %.3f of %.3f", width, height, i, error, max);
         }
     }
     trace_close(trace);
 }
 
-static void pictures_may_be_one_pixel_wide_or_high(void **state)
+TEST_WITH(0, pictures_may_be_one_pixel_wide_or_high, NULL, forget_made)
 {
     static const int sizes[][2] = {{1, 1}, {1, 2}, {2, 1}, {1, 64}, {64, 1}, {3, 1}, {1, 255}};
-    (void)state;
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
         hard_resize(&hard, sizes[i][0], sizes[i][1]);
-        hard_world(&world, &quad);
+        hard_world(&world, &hard.quad);
         world.scene.camera.fovy = 20; /* the quad fills the picture's height */
         for (int way = 0; way < 4; way++) {
             const HardPrecision precision = way & 1 ? HARD_MEDIUMP : HARD_HIGHP;
             world.scene.interpolation = way & 2 ? INTERPOLATION_GOURAUD : INTERPOLATION_PHONG;
-            assert_int_equal(hard_draw(&hard, &world.scene, precision, NULL).not_finite, 0);
-            check_centres(precision ? hard_mediump_most(&world.scene, FAR_OFF) : 1);
+            hard_draw_finite(&hard, &world.scene, precision);
+            check_centres(precision ? hard_mediump_max(&world.scene, FAR_OFF) : 1);
         }
     }
 }
 
-static void an_object_may_fill_the_picture(void **state)
+TEST_WITH(0, an_object_may_fill_the_picture, NULL, forget_made)
 {
-    (void)state;
     for (int i = 0; i < 2; i++) {
-        hard_world(&world, i ? &sphere : &quad);
+        hard_world(&world, i ? &hard.sphere : &hard.quad);
         world.scene.camera.fovy = 8;
         check("filled", REACH, i ? SIZE * SIZE / 2 : SIZE * SIZE * 9 / 10);
-        hard_world(&world, &quad);
+        hard_world(&world, &hard.quad);
         world.scene.camera.eye = (Vec3){0.1, 0.1, 0.01 * (i + 1)};
         world.scene.camera.near = 0.001;
         world.scene.camera.center = (Vec3){0.1, 0.1, 0};
@@ -328,17 +300,16 @@ static void an_object_may_fill_the_picture(void **state)
     hard_report(&hard, "an object that fills the picture");
 }
 
-/* Triangles of which hardly any has a pixel's centre: a fan of them, and random ones. */
-static void needles_are_finite_and_right_where_they_are_wide(void **state)
+/* Triangles that contain few pixel centres: a fan, and random ones. */
+TEST_WITH(0, needles_are_finite_and_right_where_they_are_wide, NULL, forget_made)
 {
-    HardRandom random = {SEED};
-    (void)state;
+    Random random = {SEED};
     printf("seed %d\n", SEED);
     assert_true(mesh_disc(&made[0], 1.2, 1000, 1, NULL));
     hard_world(&world, &made[0]);
     check("fan of needles", REACH, SIZE * SIZE / 8);
     forget_made(NULL);
-    for (int i = 0; i < 8; i++) {
+    for (int i = 0; i < 8; i += testing_step(3)) {
         assert_true(mesh_open(&made[0], 3 * 64, 3 * 64, NULL));
         for (size_t k = 0; k < 3 * 64; k++) {
             MeshVertex *vertex = &made[0].vertices[k];
@@ -348,7 +319,7 @@ static void needles_are_finite_and_right_where_they_are_wide(void **state)
             if (k % 3 == 2) /* beside its neighbour */
                 for (int axis = 0; axis < 3; axis++)
                     vertex->position[axis] =
-                        vertex[-1].position[axis] + (float)hard_random(&random, -0.01, 0.01);
+                        vertex[-1].position[axis] + (float)random_between(&random, -0.01, 0.01);
         }
         hard_world(&world, &made[0]);
         world.objects[0].two_sided = i & 1;
@@ -363,30 +334,12 @@ static void needles_are_finite_and_right_where_they_are_wide(void **state)
     hard_report(&hard, "needles");
 }
 
-static void objects_without_triangles_are_refused(void **state)
+TEST(objects_without_triangles_are_refused)
 {
     Message message = {0};
-    (void)state;
     hard_world(&world, &made[0]);
     assert_false(scene_check(&world.scene, &message));
     assert_string_equal(message.text, "object 0: has no triangles");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_teardown(a_mesh_of_66049_vertices_is_drawn_as_its_two_halves, forget_made),
-        cmocka_unit_test_teardown(poles_have_areas_and_seams_do_not_show, forget_made),
-        cmocka_unit_test_teardown(triangles_without_area_draw_nothing, forget_made),
-        cmocka_unit_test_teardown(corners_may_lie_anywhere, forget_made),
-        cmocka_unit_test_teardown(vertices_that_are_no_numbers_are_refused, forget_made),
-        cmocka_unit_test_teardown(a_mesh_of_any_size_is_lit_alike, forget_made),
-        cmocka_unit_test_teardown(pictures_may_be_one_pixel_wide_or_high, forget_made),
-        cmocka_unit_test_teardown(an_object_may_fill_the_picture, forget_made),
-        cmocka_unit_test_teardown(needles_are_finite_and_right_where_they_are_wide, forget_made),
-        cmocka_unit_test(objects_without_triangles_are_refused),
-    };
-    if (!picture_check_driver("hard geometry"))
-        return EXIT_SKIPPED;
-    return cmocka_run_group_tests_name("hard geometry", tests, open_all, close_all);
-}
+PICTURE_TEST_MAIN("hard geometry", open_all, close_all)

@@ -1,43 +1,44 @@
 /*
- * hard: what the tests of hard cases share: a scene is drawn in bytes and in floats, in either
+ * hard: shared by the tests of hard cases: a scene is drawn in bytes and in floats, in either
  * precision, and compared with the exact picture of its meshes.
  */
 #ifndef HARD_H
 #define HARD_H
 
-#include "canvas.h"
-#include "lighting.h"
-#include "reference.h"
+#include "base/random.h"
+#include "core/canvas.h"
+#include "reference/reference.h"
+#include "scene/lighting.h"
 
 typedef struct Hard {
-    Canvas bytes, floats;     /* of one size, in one context */
-    Lighting *lightings[2];   /* by HardPrecision */
-    Image image, real;        /* the last pictures */
-    double worst[2], most[2]; /* by HardPrecision, since hard_report: the largest error of
-                                 hard_check, and the loosest bound that it had to keep */
-    int checked;              /* how many pictures hard_check has seen since */
+    Canvas bytes, floats;    /* of one size, in one context */
+    Lighting *lightings[2];  /* by HardPrecision */
+    Image image, real;       /* the last pictures */
+    Mesh sphere, quad;       /* of radius 1, 24 by 12; of side 2 */
+    double worst[2], max[2]; /* since hard_report, by HardPrecision: the largest error of
+                                hard_check, and the loosest bound */
+    int checked;             /* the number of pictures that hard_check has compared since */
 } Hard;
 
 typedef enum HardPrecision { HARD_HIGHP, HARD_MEDIUMP } HardPrecision;
 
-/* Opens the default backend. Fails the test that runs where it cannot. */
+/* Opens the default backend. Fails the test if it cannot. */
 void hard_open(Hard *hard, int width, int height);
 void hard_close(Hard *hard);
 
-/* Gives the pictures another size. */
+/* Resizes the pictures. */
 void hard_resize(Hard *hard, int width, int height);
 
-/* How the pictures of a scene came out. Errors in steps of 1/255. */
+/* The errors of a scene's pictures, in steps of 1/255. */
 typedef struct HardResult {
-    double byte_error, float_error; /* the largest inside objects; in floats clamped to 0..1 */
-    int x, y;                       /* where the byte picture has it */
+    double byte_error, float_error; /* largest inside objects; floats are clamped to 0..1 */
+    int x, y;                       /* its place in the byte picture */
     int interior_pixels;
-    long long
-        not_finite; /* values of the float picture, anywhere, that are infinite or no number */
+    long long not_finite; /* values of the float picture that are infinite or NaN */
 } HardResult;
 
-/* Draws a scene that passes scene_check (fails the test where it does not) and compares it with
- * `exact`, or where that is NULL with reference_open's picture of its meshes. A mesh must not have
+/* Draws a scene, which must pass scene_check, and compares it with
+ * `exact`, or if that is NULL with reference_open's picture of its meshes. A mesh must not have
  * changed since an earlier call, or hard_forget must have been called for it. */
 HardResult hard_draw(Hard *hard, const Scene *scene, HardPrecision precision,
                      const Reference *exact);
@@ -46,19 +47,23 @@ void hard_forget(Hard *hard, const Mesh *mesh);
 /* The exact picture of the scene's meshes, or with `solids` of its solids. */
 void hard_exact(const Hard *hard, const Scene *scene, bool solids, Reference *exact);
 
-/* Draws a scene, and fails the test with one line that names the case where a value is not finite,
- * fewer than `least_pixels` pixels are inside objects, or a byte is farther than `most` steps from
- * the exact picture; keeps the pictures then (see picture_check.h). */
+/* Draws a scene and compares. Fails the test with one line that names the case if a value is not
+ * finite, fewer than `min_pixels` pixels are inside objects, or a byte is farther than `max` steps
+ * from the exact picture; then it keeps the pictures (see picture_check.h). */
 void hard_check(Hard *hard, const char *name, const Scene *scene, HardPrecision precision,
-                double most, int least_pixels);
+                double max, int min_pixels);
 
-/* Prints one line: how many pictures hard_check has seen since the last report, and their largest
+/* The same with a given exact picture, perhaps of an equivalent scene. */
+void hard_check_exact(Hard *hard, const char *name, const Scene *scene, HardPrecision precision,
+                      double max, int min_pixels, const Reference *exact);
+
+/* Prints one line: the number of pictures compared since the last report, and their largest
  * errors. */
 void hard_report(Hard *hard, const char *name);
 
 /* One object and one point light, from which hard cases are made. The scene points into the world.
- * Nothing is brighter than can be shown, and from no point of a unit sphere do light and viewer lie
- * farther than 75 degrees apart. */
+ * Nothing is overexposed, and at each point of a unit sphere the angle between light and viewer is
+ * at most 75 degrees. */
 typedef struct HardWorld {
     Light lights[32];
     Object objects[8];
@@ -66,29 +71,42 @@ typedef struct HardWorld {
 } HardWorld;
 void hard_world(HardWorld *world, const Mesh *mesh);
 
-/* How far, in steps of 1/255, a picture in mediump may lie from the exact one where light is
- * computed at the fragments; the derivation is in hard.c. `reach` says how far eye and light are
- * for the distance between light and surface: the largest (|light| + |point| + d) / d, in eye
- * coordinates, 1 for directional lights. 255 at most, which says nothing any more. */
-double hard_mediump_most(const Scene *scene, double reach);
+/* One object, a point light and a directional light; every color stays below 1. */
+void hard_two_lights(HardWorld *world, const Mesh *mesh, Mat4 world_from_object);
 
-/* hard_check in both precisions with light at the fragments and at the vertices: within 1 step in
- * highp, within hard_mediump_most in mediump at the fragments; at the vertices, which are highp
- * always, mediump has colours only, and 1.5 steps. */
+/* The largest error of an interior pixel in the scene of hard_two_lights; derived in hard.c. */
+double hard_two_lights_max(const Scene *scene, HardPrecision precision);
+
+/* Changes the unit of length: positions of lights and camera, attenuation, near and far plane; not
+ * the objects. */
+void hard_world_scale(HardWorld *world, double factor);
+
+/* After a copy: points the scene to the copy's lights and objects. */
+void hard_world_settle(HardWorld *world);
+
+/* The largest possible distance, in steps of 1/255, between a mediump picture lit at the fragments
+ * and the exact one; the derivation is in hard.c. `reach` bounds how far eye and light are relative
+ * to the distance between light and surface: the largest (|light| + |point| + d) / d, in eye
+ * coordinates; 1 for directional lights. At most 255, which is no bound. */
+double hard_mediump_max(const Scene *scene, double reach);
+
+/* hard_check in both precisions, lit at the fragments and at the vertices: within 1 step in highp,
+ * within hard_mediump_max for mediump fragments. At the vertices, which are always highp, mediump
+ * affects only colours: 1.5 steps. */
 void hard_check_ways(Hard *hard, const char *name, const Scene *scene, double reach,
-                     int least_pixels);
+                     int min_pixels);
 
-/* hard_check_ways with each reflection, of the world's scene, which keeps the last. */
+/* hard_check_ways with each reflection; the world's scene keeps the last one. */
 void hard_check_reflections(Hard *hard, const char *name, HardWorld *world, double reach,
-                            int least_pixels);
+                            int min_pixels);
 
-/* Numbers that look random, the same for the same seed: splitmix64 (Steele, Lea and Flood, Fast
- * splittable pseudorandom number generators, OOPSLA 2014). */
-typedef struct HardRandom {
-    unsigned long long state;
-} HardRandom;
-double hard_random(HardRandom *random, double least, double most); /* evenly */
-int hard_random_below(HardRandom *random, int limit);
-Vec3 hard_random_direction(HardRandom *random); /* unit, evenly over the sphere */
+/* hard_draw without an exact picture; every value must be finite. */
+HardResult hard_draw_finite(Hard *hard, const Scene *scene, HardPrecision precision);
+
+/* Fails unless scene_check rejects the scene with one line that begins like this. */
+void hard_check_refused(const Scene *scene, const char *beginning);
+
+/* A unit vector, uniform over the sphere. */
+Vec3 hard_random_direction(Random *random);
 
 #endif

@@ -1,17 +1,12 @@
 /*
  * Hard cases of lights: far away, on the surface and within the object; attenuation and cones at
- * the ends of their ranges; directions of any length; none, black, and as many as there may be.
+ * the ends of their ranges; directions of any length; no light, black ones, and the maximum number.
  */
-#include "hard.h"
-
-#include "picture_check.h"
-#include "reference_trace.h"
-
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <stdint.h>
-#include <cmocka.h>
+#include "hard/hard.h"
+#include "reference/reference_trace.h"
+#include "shapes/mesh_solids.h"
+#include "support/picture_check.h"
+#include "support/testing.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -22,32 +17,24 @@ enum { SIZE = 48, SEED = 20140201 };
 
 static const double RADIANS = 0.017453292519943295;
 static const double REACH = 4;        /* see normals_test.c */
-static const double NEXT_TO_IT = 1e9; /* the light: its direction has no digit left in mediump */
+static const double NEXT_TO_IT = 1e9; /* the light: in mediump its direction has no correct digit */
 
 static Hard hard;
 static HardWorld world;
-static Mesh sphere, quad, fine_quad;
+static Mesh fine_quad;
 static unsigned char before[4 * SIZE * SIZE];
 
-static int open_all(void **state)
+FIXTURE(open_all)
 {
     const Solid solid = {.kind = SOLID_QUAD, .radius = 2};
-    Message message = {0};
-    (void)state;
     hard_open(&hard, SIZE, SIZE);
-    if (mesh_sphere(&sphere, 1, 24, 12, &message) && mesh_quad(&quad, 2, &message) &&
-        solid_mesh(&solid, 16, &fine_quad, &message))
-        return 0;
-    printf("%s\n", message.text);
-    return 1;
+    require(solid_mesh(&solid, 16, &fine_quad, FAILURE), FAILURE);
+    return 0;
 }
 
-static int close_all(void **state)
+FIXTURE(close_all)
 {
-    (void)state;
     mesh_close(&fine_quad);
-    mesh_close(&quad);
-    mesh_close(&sphere);
     hard_close(&hard);
     return 0;
 }
@@ -57,23 +44,23 @@ static void check(const char *name, double reach)
     hard_check_reflections(&hard, name, &world, reach, SIZE * SIZE / 8);
 }
 
-/* Bytes as they are, kept for comparing. */
+/* Keeps the byte picture for comparison. */
 static void draw_before(HardPrecision precision)
 {
-    assert_int_equal(hard_draw(&hard, &world.scene, precision, NULL).not_finite, 0);
+    hard_draw_finite(&hard, &world.scene, precision);
     memcpy(before, hard.image.pixels, sizeof before);
 }
 
-/* The largest difference from what was kept. */
+/* The largest difference from the kept picture. */
 static int draw_after(HardPrecision precision)
 {
-    int most = 0;
-    assert_int_equal(hard_draw(&hard, &world.scene, precision, NULL).not_finite, 0);
+    int max = 0;
+    hard_draw_finite(&hard, &world.scene, precision);
     for (size_t i = 0; i < sizeof before; i++) {
         const int apart = abs(before[i] - ((unsigned char *)hard.image.pixels)[i]);
-        most = apart > most ? apart : most;
+        max = apart > max ? apart : max;
     }
-    return most;
+    return max;
 }
 
 static const unsigned char *middle(void)
@@ -81,13 +68,12 @@ static const unsigned char *middle(void)
     return (unsigned char *)hard.image.pixels + 4 * (SIZE / 2 * SIZE + SIZE / 2);
 }
 
-static void a_point_light_far_away_is_a_directional_one(void **state)
+TEST(a_point_light_far_away_is_a_directional_one)
 {
     static const Vec3 way = {0.4, 0.5, 0.8};
-    (void)state;
     for (int interpolation = 0; interpolation < 2; interpolation++) {
         for (int exponent = 8; exponent <= 14; exponent += 3) {
-            hard_world(&world, &sphere);
+            hard_world(&world, &hard.sphere);
             world.scene.interpolation = (Interpolation)interpolation;
             world.lights[0].kind = LIGHT_DIRECTIONAL;
             world.lights[0].direction = way;
@@ -101,33 +87,32 @@ static void a_point_light_far_away_is_a_directional_one(void **state)
     hard_report(&hard, "point lights at 1e8 to 1e14");
 }
 
-/* In mediump a square of more than 65504 is infinite: no light farther than 255.9 has a direction.
- * At the vertices, which are highp, it has. */
-static void in_mediump_lights_are_near_or_at_infinity(void **state)
+/* In mediump a square of more than 65504 is infinite, so a light farther than 255.9 has no
+ * direction. At the vertices, which are highp, it has one. */
+TEST(in_mediump_lights_are_near_or_at_infinity)
 {
     static const Vec3 way = {0.39036, 0.48795, 0.78072};
-    (void)state;
     for (int exponent = 0; exponent < 3; exponent++) {
-        hard_world(&world, &sphere);
+        hard_world(&world, &hard.sphere);
         world.lights[0].position = vec3_scale(way, 3 * pow(9, exponent)); /* 3, 27, 243 */
         check("light within reach of mediump", REACH);
     }
-    hard_world(&world, &sphere);
+    hard_world(&world, &hard.sphere);
     world.lights[0].position = vec3_scale(way, 1e8);
     world.scene.interpolation = INTERPOLATION_GOURAUD;
     hard_check(&hard, "light beyond mediump, at vertices", &world.scene, HARD_MEDIUMP, 1.5,
                SIZE * SIZE / 8);
     world.scene.interpolation = INTERPOLATION_PHONG;
-    const HardResult result = hard_draw(&hard, &world.scene, HARD_MEDIUMP, NULL);
+    const HardResult result = hard_draw_finite(&hard, &world.scene, HARD_MEDIUMP);
     printf("a light at 1e8, at fragments in mediump: error %.1f\n", result.byte_error);
-    assert_int_equal(result.not_finite, 0);
+
     hard_report(&hard, "lights within reach of mediump");
 }
 
-static void a_light_may_touch_the_object_and_be_within(void **state)
+TEST(a_light_may_touch_the_object_or_be_inside)
 {
-    /* In the quad's plane, above it, and in vertices of both: the middle and a corner of the quad,
-     * the sphere's pole and the vertex that faces the eye. */
+    /* In the quad's plane and above it, at vertices of both objects: the middle and a corner of the
+     * quad, the sphere's pole and the vertex that faces the eye. */
     static const struct {
         bool on_sphere;
         Vec3 position;
@@ -137,11 +122,10 @@ static void a_light_may_touch_the_object_and_be_within(void **state)
         {true, {0, 1, 0}},          {true, {0, 0, 1}},          {true, {0.3, 0.2, 0.93}},
         {true, {0.5, 0.25, -0.25}}, {true, {0, 0, 4}},
     };
-    (void)state;
     for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
         for (int fades = 0; fades < 2; fades++) {
             char name[64];
-            hard_world(&world, places[i].on_sphere ? &sphere : &fine_quad);
+            hard_world(&world, places[i].on_sphere ? &hard.sphere : &fine_quad);
             world.lights[0].position = places[i].position;
             world.lights[0].constant = fades ? 1 : 0;
             world.lights[0].quadratic = fades ? 0.5 : 0;
@@ -152,8 +136,8 @@ static void a_light_may_touch_the_object_and_be_within(void **state)
     hard_report(&hard, "lights on and within the object");
 }
 
-/* The inverse of less than 1 / 65504 is infinite in mediump, and infinity times the cosine 0 no
- * number: there a denominator must be larger. */
+/* In mediump the inverse of less than 1 / 65504 is infinite, and infinity times a cosine of 0 is
+ * NaN: the denominator must be larger. */
 static bool fit_for_mediump(Vec3 factors, double nearest)
 {
     return (factors.x == 0 && factors.y == 0 && factors.z == 0) ||
@@ -167,24 +151,23 @@ static void check_at_fragments_and_vertices(const char *name, HardPrecision prec
         world.scene.reflection = (Reflection)reflection;
         world.scene.interpolation = INTERPOLATION_PHONG;
         hard_check(&hard, name, &world.scene, precision,
-                   half ? hard_mediump_most(&world.scene, NEXT_TO_IT) : 1, SIZE * SIZE / 8);
+                   half ? hard_mediump_max(&world.scene, NEXT_TO_IT) : 1, SIZE * SIZE / 8);
         world.scene.interpolation = INTERPOLATION_GOURAUD;
         hard_check(&hard, name, &world.scene, precision, half ? 1.5 : 1, SIZE * SIZE / 8);
     }
 }
 
-static void attenuation_of_any_size_is_finite(void **state)
+TEST(attenuation_of_any_size_is_finite)
 {
     static const Vec3 factors[] = {
         {0, 0, 0},       {1e-30, 0, 0},   {0, 1e-30, 0},   {0, 0, 1e-30}, {1e-3, 1e-3, 1e-3},
         {0.5, 0.2, 0.1}, {0, 0, 1},       {1e30, 0, 0},    {0, 1e30, 0},  {0, 0, 1e30},
         {1, 1e30, 1e30}, {1e-30, 1, 0.1}, {1e30, 1e30, 1}, {0, 1e-3, 0},  {1e4, 1e4, 1e4},
     };
-    (void)state;
     for (size_t i = 0; i < sizeof factors / sizeof factors[0]; i++) {
         for (int touches = 0; touches < 2; touches++) {
             char name[64];
-            hard_world(&world, touches ? &quad : &sphere);
+            hard_world(&world, touches ? &hard.quad : &hard.sphere);
             world.lights[0].constant = factors[i].x;
             world.lights[0].linear = factors[i].y;
             world.lights[0].quadratic = factors[i].z;
@@ -195,36 +178,42 @@ static void attenuation_of_any_size_is_finite(void **state)
             if (fit_for_mediump(factors[i], touches ? 0 : 2))
                 check_at_fragments_and_vertices(name, HARD_MEDIUMP);
             else
-                assert_int_equal(hard_draw(&hard, &world.scene, HARD_MEDIUMP, NULL).not_finite, 0);
+                hard_draw_finite(&hard, &world.scene, HARD_MEDIUMP);
         }
     }
     hard_report(&hard, "attenuation of 1e-30 to 1e30");
 }
 
-/* As a light goes away from the middle of a quad. Nearer than a hundred of the last digit of the
- * position there, 4 in 2^24 or in 2^11, its direction is rounding. */
-static void light_never_grows_with_the_distance(void **state)
+FIXTURE(restore_size)
+{
+    if (hard.bytes.width != SIZE)
+        hard_resize(&hard, SIZE, SIZE);
+    return 0;
+}
+
+/* A light moves away from the middle of a quad. Closer than a hundred times the last digit of the
+ * position there, 4 / 2^24 or 4 / 2^11, its direction is only rounding. */
+TEST_WITH(0, light_never_grows_with_the_distance, NULL, restore_size)
 {
     static const Vec3 factors[] = {{1, 0.5, 0}, {1, 0, 0.25}, {0, 1, 0}, {0, 0, 1}, {0.5, 1e-3, 1}};
     static const double nearest[] = {400 * 0x1p-24, 400 * 0x1p-11};
     enum { SMALL = 9 };
-    (void)state;
     hard_resize(&hard, SMALL, SMALL);
     for (int way = 0; way < 4; way++) {
         const HardPrecision precision = way & 1 ? HARD_MEDIUMP : HARD_HIGHP;
         for (size_t i = 0; i < sizeof factors / sizeof factors[0]; i++) {
             int last = 255;
             for (double distance = nearest[precision]; distance < 200; distance *= 1.7) {
-                hard_world(&world, &quad);
+                hard_world(&world, &hard.quad);
                 world.scene.interpolation = way & 2 ? INTERPOLATION_GOURAUD : INTERPOLATION_PHONG;
                 world.lights[0].position = (Vec3){0, 0, distance};
                 world.lights[0].specular = world.lights[0].ambient = (Vec3){0, 0, 0};
                 world.lights[0].constant = factors[i].x;
                 world.lights[0].linear = factors[i].y;
                 world.lights[0].quadratic = factors[i].z;
-                assert_int_equal(hard_draw(&hard, &world.scene, precision, NULL).not_finite, 0);
+                hard_draw_finite(&hard, &world.scene, precision);
                 const int now = ((unsigned char *)hard.image.pixels)[4 * (SMALL * SMALL / 2)];
-                /* At the corners light slants less as it goes away. */
+                /* At the corners the light becomes less oblique as it moves away. */
                 if (now > last && !(way & 2))
                     fail_msg("attenuation %zu, precision %d: %d at distance %g, %d nearer", i,
                              precision, now, distance, last);
@@ -234,38 +223,27 @@ static void light_never_grows_with_the_distance(void **state)
     }
 }
 
-static int restore_size(void **state)
+TEST(no_attenuation_is_a_constant_of_one)
 {
-    (void)state;
-    if (hard.bytes.width != SIZE)
-        hard_resize(&hard, SIZE, SIZE);
-    return 0;
-}
-
-static void no_attenuation_is_a_constant_of_one(void **state)
-{
-    (void)state;
-    for (int precision = 0; precision < 2; precision++) {
-        hard_world(&world, &sphere);
-        draw_before((HardPrecision)precision);
+    for (HardPrecision precision = HARD_HIGHP; precision <= HARD_MEDIUMP; precision++) {
+        hard_world(&world, &hard.sphere);
+        draw_before(precision);
         world.lights[0].constant = 1;
-        assert_int_equal(draw_after((HardPrecision)precision), 0);
+        assert_int_equal(draw_after(precision), 0);
     }
 }
 
-/* Every pixel of the object, at its centre, within `most` steps of the exact colour there, except
- * where the cosine of its angle from the axis lies within `margin` of the cone's edge. */
+/* Compares every pixel of the object at its centre: within `max` steps of the exact colour, except
+ * where the cosine of its angle from the axis is within `margin` of the cone's edge. */
 static double compare_centres(HardPrecision precision, double margin, const Reference *unused,
                               int *compared)
 {
-    Message message = {0};
     Trace *trace;
     double worst = 0;
     Vec3 axis;
     const Light *light = &world.lights[0];
     assert_int_equal(hard_draw(&hard, &world.scene, precision, unused).not_finite, 0);
-    if (!trace_open(&trace, &world.scene, true, SIZE, SIZE, NULL, &message))
-        fail_msg("%s", message.text);
+    require(trace_open(&trace, &world.scene, true, SIZE, SIZE, NULL, FAILURE), FAILURE);
     vec3_normalize(light->direction, &axis);
     for (int i = 0; i < SIZE * SIZE; i++) {
         Sample sample;
@@ -287,40 +265,38 @@ static double compare_centres(HardPrecision precision, double margin, const Refe
     return worst;
 }
 
-/* In highp a cosine near 1 has a last digit of 6e-8, and the direction a few of them; in mediump
- * the direction's error is that of hard_mediump_most, and 3 units for the product. Then a power:
- * its error is exp(exponent * error) - 1 of all the light. */
-static void a_cone_has_its_edge_where_it_should(void **state)
+/* In highp a cosine near 1 has a last digit of 6e-8, and the direction an error of a few of them;
+ * in mediump the direction's error is that of hard_mediump_max, plus 3 units for the product. Then
+ * the power: its error is exp(exponent * error) - 1 of the light. */
+TEST(a_cone_has_its_exact_edge)
 {
     static const double cutoffs[] = {0, 0.001, 1, 7.3, 13.7, 45, 60, 89, 90};
     static const double exponents[] = {0, 1, 7.5, 128};
     static const double MEDIUMP = (4 + 3.5 + 3) * 0x1p-11;
     double worst[2] = {0, 0};
     int compared = 0;
-    Reference unused; /* hard_draw's own would resolve the cones' edges within pixels */
-    (void)state;
-    hard_world(&world, &quad);
+    Reference unused; /* hard_draw's own picture would resolve the cones' edges within pixels */
+    hard_world(&world, &hard.quad);
     hard_exact(&hard, &world.scene, false, &unused);
     for (size_t i = 0; i < sizeof cutoffs / sizeof cutoffs[0]; i++) {
         for (size_t k = 0; k < sizeof exponents / sizeof exponents[0]; k++) {
-            hard_world(&world, &quad);
+            hard_world(&world, &hard.quad);
             world.lights[0].kind = LIGHT_SPOT;
             world.lights[0].position = (Vec3){0.6, 0.8, 1.2};
             world.lights[0].direction = (Vec3){-0.3, -0.4, -0.7};
             world.lights[0].cutoff = cutoffs[i];
             world.lights[0].exponent = exponents[k];
-            for (int precision = 0; precision < 2; precision++) {
+            for (HardPrecision precision = HARD_HIGHP; precision <= HARD_MEDIUMP; precision++) {
                 const double margin = precision == HARD_HIGHP ? 5e-7 : MEDIUMP;
-                const double most = precision == HARD_HIGHP
-                                        ? 1
-                                        : fmin(255, hard_mediump_most(&world.scene, REACH) +
-                                                        255 * expm1(exponents[k] * MEDIUMP));
-                const double error =
-                    compare_centres((HardPrecision)precision, margin, &unused, &compared);
+                const double max = precision == HARD_HIGHP
+                                       ? 1
+                                       : fmin(255, hard_mediump_max(&world.scene, REACH) +
+                                                       255 * expm1(exponents[k] * MEDIUMP));
+                const double error = compare_centres(precision, margin, &unused, &compared);
                 worst[precision] = fmax(worst[precision], error);
-                if (error > most)
+                if (error > max)
                     fail_msg("cutoff %g, exponent %g, precision %d: %.3f of %.3f", cutoffs[i],
-                             exponents[k], precision, error, most);
+                             exponents[k], precision, error, max);
             }
         }
     }
@@ -330,92 +306,80 @@ static void a_cone_has_its_edge_where_it_should(void **state)
            worst[1]);
 }
 
-static void directions_of_any_length_are_those_of_length_one(void **state)
+TEST(the_length_of_a_direction_does_not_matter)
 {
     static const double lengths[] = {1e-307, 1e-300, 1e-160, 1e-20, 1e20, 1e160, 1e300, 1e307};
-    (void)state;
     for (int kind = 0; kind < 2; kind++) {
-        for (int precision = 0; precision < 2; precision++) {
-            hard_world(&world, &sphere);
+        for (HardPrecision precision = HARD_HIGHP; precision <= HARD_MEDIUMP; precision++) {
+            hard_world(&world, &hard.sphere);
             world.lights[0].kind = kind ? LIGHT_SPOT : LIGHT_DIRECTIONAL;
             world.lights[0].cutoff = 14.3;
             world.lights[0].direction = kind ? (Vec3){-1.4, -1.8, -3.5} : (Vec3){1.4, 1.8, 3.5};
             const Vec3 unit = world.lights[0].direction;
-            draw_before((HardPrecision)precision);
+            draw_before(precision);
             for (size_t i = 0; i < sizeof lengths / sizeof lengths[0]; i++) {
                 world.lights[0].direction = vec3_scale(unit, lengths[i]);
-                assert_true(draw_after((HardPrecision)precision) <= (precision == HARD_HIGHP));
+                assert_true(draw_after(precision) <= (precision == HARD_HIGHP));
             }
         }
     }
 }
 
-static void assert_refused(const char *beginning)
-{
-    Message message = {0};
-    assert_false(scene_check(&world.scene, &message));
-    if (strncmp(message.text, beginning, strlen(beginning)) != 0 || strchr(message.text, '\n'))
-        fail_msg("\"%s\" where one line \"%s...\" was expected", message.text, beginning);
-}
-
-static void lights_without_meaning_are_refused_by_name(void **state)
+TEST(invalid_lights_are_refused_by_name)
 {
     static const double bad[] = {NAN, INFINITY, -INFINITY, -1e-300, 2e30};
-    (void)state;
-    hard_world(&world, &sphere);
+    hard_world(&world, &hard.sphere);
     Light *light = &world.lights[0], good = *light;
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         *light = good, light->diffuse.y = bad[i];
-        assert_refused("light 0: diffuse");
+        hard_check_refused(&world.scene, "light 0: diffuse");
         *light = good, light->quadratic = bad[i];
-        assert_refused("light 0: quadratic");
+        hard_check_refused(&world.scene, "light 0: quadratic");
         *light = good, light->kind = LIGHT_SPOT, light->direction = (Vec3){0, 0, 1};
         light->cutoff = bad[i];
-        assert_refused("light 0: cutoff");
+        hard_check_refused(&world.scene, "light 0: cutoff");
         light->cutoff = 10, light->exponent = bad[i];
-        assert_refused("light 0: exponent");
+        hard_check_refused(&world.scene, "light 0: exponent");
         *light = good, light->position.z = i == 3 ? 2e15 : bad[i];
-        assert_refused("light 0: position");
+        hard_check_refused(&world.scene, "light 0: position");
     }
     *light = good, light->kind = LIGHT_DIRECTIONAL;
-    assert_refused("light 0: direction (0, 0, 0)");
+    hard_check_refused(&world.scene, "light 0: direction (0, 0, 0)");
     light->direction = (Vec3){0, NAN, 1};
-    assert_refused("light 0: direction");
+    hard_check_refused(&world.scene, "light 0: direction");
     light->kind = LIGHT_SPOT;
-    assert_refused("light 0: direction");
+    hard_check_refused(&world.scene, "light 0: direction");
     light->direction = (Vec3){0, INFINITY, 1};
-    assert_refused("light 0: direction");
+    hard_check_refused(&world.scene, "light 0: direction");
 }
 
-static void a_light_behind_the_surface_leaves_ambient_light_only(void **state)
+TEST(a_light_behind_the_surface_leaves_ambient_light_only)
 {
-    (void)state;
     for (int way = 0; way < 8; way++) {
-        hard_world(&world, &quad);
+        hard_world(&world, &hard.quad);
         world.lights[0].kind = way & 1 ? LIGHT_DIRECTIONAL : LIGHT_POINT;
         world.lights[0].position = world.lights[0].direction = (Vec3){0.25, 0.5, -2};
         world.lights[0].ambient = (Vec3){0.4, 0.4, 0.4};
         world.scene.reflection = way & 2 ? REFLECTION_PHONG : REFLECTION_BLINN_PHONG;
         world.scene.interpolation = way & 4 ? INTERPOLATION_GOURAUD : INTERPOLATION_PHONG;
-        for (int precision = 0; precision < 2; precision++) {
-            hard_draw(&hard, &world.scene, (HardPrecision)precision, NULL);
-            for (int c = 0; c < 3; c++) /* .25 of 255, which is 63.75 */
+        for (HardPrecision precision = HARD_HIGHP; precision <= HARD_MEDIUMP; precision++) {
+            hard_draw(&hard, &world.scene, precision, NULL);
+            for (int c = 0; c < 3; c++) /* 0.25 * 255 = 63.75 */
                 assert_int_equal(middle()[c], 64);
         }
     }
 }
 
-/* In mediump nothing is above 65504; there light is held to less at the fragments, and no colour
- * has a bound. At the vertices colours are finite, and clamped when they have become infinite. */
-static void intensities_of_any_size_are_finite(void **state)
+/* In mediump no number is above 65504: at the fragments the light is limited to less, and colours
+ * have no bound. At the vertices colours are finite, and clamped once they are infinite. */
+TEST(intensities_of_any_size_are_finite)
 {
     static const double intensities[] = {0, 1e-30, 1e-3, 1, 100, 1e4, 1e5, 1e6};
-    (void)state;
     for (size_t i = 0; i < sizeof intensities / sizeof intensities[0]; i++) {
         for (int interpolation = 0; interpolation < 2; interpolation++) {
             const double much = intensities[i];
             char name[64];
-            hard_world(&world, &sphere);
+            hard_world(&world, &hard.sphere);
             world.scene.interpolation = (Interpolation)interpolation;
             world.lights[0].diffuse = world.lights[0].specular = (Vec3){much, much, much};
             snprintf(name, sizeof name, "intensity %g", much);
@@ -423,37 +387,37 @@ static void intensities_of_any_size_are_finite(void **state)
             if (much < 65504)
                 hard_check(&hard, name, &world.scene, HARD_MEDIUMP,
                            interpolation ? fmin(255, 1.5 + much)
-                                         : hard_mediump_most(&world.scene, REACH),
+                                         : hard_mediump_max(&world.scene, REACH),
                            SIZE * SIZE / 8);
             else
-                assert_int_equal(hard_draw(&hard, &world.scene, HARD_MEDIUMP, NULL).not_finite, 0);
+                hard_draw_finite(&hard, &world.scene, HARD_MEDIUMP);
         }
     }
     hard_report(&hard, "intensities of 0 to 1e6");
 }
 
-static void random_light(HardRandom *random, Light *light)
+static void random_light(Random *random, Light *light)
 {
-    light->kind = hard_random_below(random, 2) ? LIGHT_POINT : LIGHT_DIRECTIONAL;
+    light->kind = random_below(random, 2) ? LIGHT_POINT : LIGHT_DIRECTIONAL;
     light->direction = hard_random_direction(random);
     light->position = vec3_scale(hard_random_direction(random), 4);
     light->position.z = fabs(light->position.z) + 1;
     light->direction.z = fabs(light->direction.z) + 0.3;
     light->constant = 1;
-    light->linear = hard_random_below(random, 2);
+    light->linear = random_below(random, 2);
     for (int c = 0; c < 3; c++) {
         double *const channels[] = {&light->diffuse.x, &light->specular.y, &light->ambient.z};
-        *channels[c] = hard_random(random, 0, 0.05);
+        *channels[c] = random_between(random, 0, 0.05);
     }
 }
 
-static void thirty_two_lights_add_up(void **state)
+TEST(thirty_two_lights_add_up)
 {
-    HardRandom random = {SEED};
-    (void)state;
+    Random random = {SEED};
+    const int factor = testing_step(2); /* or 0, 2, 8, 32 */
     printf("seed %d\n", SEED);
-    for (int count = 0; count <= 32; count = count ? 2 * count : 1) {
-        hard_world(&world, &sphere);
+    for (int count = 0; count <= 32; count = (count ? 2 * count : 1) * factor) {
+        hard_world(&world, &hard.sphere);
         world.scene.light_count = count;
         for (int i = 0; i < count; i++)
             random_light(&random, &world.lights[i]);
@@ -462,15 +426,14 @@ static void thirty_two_lights_add_up(void **state)
     hard_report(&hard, "0 to 32 lights");
 }
 
-static void lights_that_are_off_are_not_there(void **state)
+TEST(lights_that_are_off_add_nothing)
 {
-    HardRandom random = {SEED + 1};
+    Random random = {SEED + 1};
     Light kept[32];
-    (void)state;
     printf("seed %d\n", SEED + 1);
-    for (int precision = 0; precision < 2; precision++) {
+    for (HardPrecision precision = HARD_HIGHP; precision <= HARD_MEDIUMP; precision++) {
         int on = 0;
-        hard_world(&world, &sphere);
+        hard_world(&world, &hard.sphere);
         world.scene.light_count = 32;
         for (int i = 0; i < 32; i++) {
             random_light(&random, &world.lights[i]);
@@ -478,35 +441,15 @@ static void lights_that_are_off_are_not_there(void **state)
             if (!world.lights[i].off)
                 kept[on++] = world.lights[i];
         }
-        draw_before((HardPrecision)precision);
+        draw_before(precision);
         memcpy(world.lights, kept, sizeof kept);
         world.scene.light_count = on;
-        assert_int_equal(draw_after((HardPrecision)precision), 0);
+        assert_int_equal(draw_after(precision), 0);
         for (int i = 0; i < on; i++)
             world.lights[i].off = true;
-        hard_check(&hard, "all off", &world.scene, (HardPrecision)precision, 1, SIZE * SIZE / 8);
+        hard_check(&hard, "all off", &world.scene, precision, 1, SIZE * SIZE / 8);
     }
     hard_report(&hard, "all lights off");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_point_light_far_away_is_a_directional_one),
-        cmocka_unit_test(in_mediump_lights_are_near_or_at_infinity),
-        cmocka_unit_test(a_light_may_touch_the_object_and_be_within),
-        cmocka_unit_test(attenuation_of_any_size_is_finite),
-        cmocka_unit_test_teardown(light_never_grows_with_the_distance, restore_size),
-        cmocka_unit_test(no_attenuation_is_a_constant_of_one),
-        cmocka_unit_test(a_cone_has_its_edge_where_it_should),
-        cmocka_unit_test(directions_of_any_length_are_those_of_length_one),
-        cmocka_unit_test(lights_without_meaning_are_refused_by_name),
-        cmocka_unit_test(a_light_behind_the_surface_leaves_ambient_light_only),
-        cmocka_unit_test(intensities_of_any_size_are_finite),
-        cmocka_unit_test(thirty_two_lights_add_up),
-        cmocka_unit_test(lights_that_are_off_are_not_there),
-    };
-    if (!picture_check_driver("hard lights"))
-        return EXIT_SKIPPED;
-    return cmocka_run_group_tests_name("hard lights", tests, open_all, close_all);
-}
+PICTURE_TEST_MAIN("hard lights", open_all, close_all)

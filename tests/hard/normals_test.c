@@ -1,16 +1,12 @@
 /*
- * Hard cases of normals: of no length, very short and very long, cancelled between the corners,
- * turned the wrong way, turned over at silhouettes, mirrored.
+ * Hard cases of normals: zero, very short and very long ones, normals that cancel between the
+ * corners, point the wrong way, turn over at silhouettes, or are mirrored.
  */
-#include "hard.h"
-
-#include "picture_check.h"
-
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <stdint.h>
-#include <cmocka.h>
+#include "core/mesh_make.h"
+#include "hard/hard.h"
+#include "shapes/mesh_solids.h"
+#include "support/picture_check.h"
+#include "support/testing.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -23,34 +19,25 @@ static const double REACH = 4;
 
 static Hard hard;
 static HardWorld world;
-static Mesh sphere, quad, tube;
-static Mesh made; /* by a test, until forget */
+static Mesh tube;
+static Mesh made; /* of the current test, until forget */
 
-static int open_all(void **state)
+FIXTURE(open_all)
 {
-    Message message = {0};
-    (void)state;
     hard_open(&hard, SIZE, SIZE);
-    if (mesh_sphere(&sphere, 1, 24, 12, &message) && mesh_quad(&quad, 2, &message) &&
-        mesh_cylinder(&tube, 0.8, 1.6, 24, 4, MESH_CAP_NONE, &message))
-        return 0;
-    printf("%s\n", message.text);
-    return 1;
+    require(mesh_cylinder(&tube, 0.8, 1.6, 24, 4, MESH_CAP_NONE, FAILURE), FAILURE);
+    return 0;
 }
 
-static int close_all(void **state)
+FIXTURE(close_all)
 {
-    (void)state;
     mesh_close(&tube);
-    mesh_close(&quad);
-    mesh_close(&sphere);
     hard_close(&hard);
     return 0;
 }
 
-static int forget_made(void **state)
+FIXTURE(forget_made)
 {
-    (void)state;
     hard_forget(&hard, &made);
     mesh_close(&made);
     if (hard.bytes.width != SIZE)
@@ -80,42 +67,40 @@ static void scale_normals(float factor)
         scale_normal(&made.vertices[i], factor);
 }
 
-static void check(const char *name, int least_pixels)
+static void check(const char *name, int min_pixels)
 {
-    hard_check_reflections(&hard, name, &world, REACH, least_pixels);
+    hard_check_reflections(&hard, name, &world, REACH, min_pixels);
 }
 
-static void a_normal_of_no_length_gives_ambient_light_exactly(void **state)
+TEST_WITH(0, a_zero_normal_gives_exactly_ambient_light, NULL, forget_made)
 {
-    (void)state;
-    make_copy(&sphere);
+    make_copy(&hard.sphere);
     scale_normals(0);
     world.lights[0].ambient = (Vec3){0.25, 0.5, 0};
     world.scene.global_ambient = (Vec3){0, 0, 0};
     world.objects[0].front.ambient = (Vec3){1, 1, 1};
     world.objects[0].front.emission = (Vec3){0, 0, 0.75};
     check("zero normals", SIZE * SIZE / 4);
-    for (int precision = 0; precision < 2; precision++) {
+    for (HardPrecision precision = HARD_HIGHP; precision <= HARD_MEDIUMP; precision++) {
         for (int way = 0; way < 3; way++) {
             world.scene.interpolation = way == 1 ? INTERPOLATION_GOURAUD : INTERPOLATION_PHONG;
             world.objects[0].world_from_object =
                 mat4_scale(way == 2 ? (Vec3){1, 0.5, 2} : (Vec3){1, 1, 1});
-            hard_draw(&hard, &world.scene, (HardPrecision)precision, NULL);
+            hard_draw(&hard, &world.scene, precision, NULL);
             const unsigned char *middle =
                 (unsigned char *)hard.image.pixels + 4 * (SIZE / 2 * SIZE + SIZE / 2);
             assert_int_equal(middle[0], 64);  /* 63.75 */
-            assert_int_equal(middle[1], 128); /* 127.5 goes to the even one */
+            assert_int_equal(middle[1], 128); /* 127.5 is rounded to even */
             assert_int_equal(middle[2], 191); /* 191.25 */
         }
     }
     hard_report(&hard, "normals of no length");
 }
 
-static void normals_of_any_length_are_those_of_length_one(void **state)
+TEST_WITH(0, the_length_of_normals_does_not_matter, NULL, forget_made)
 {
-    (void)state;
     for (int exponent = -20; exponent <= 20; exponent += 4) {
-        make_copy(&sphere);
+        make_copy(&hard.sphere);
         scale_normals(powf(10, (float)exponent));
         check("normals' lengths", SIZE * SIZE / 8);
         world.objects[0].world_from_object = mat4_scale((Vec3){1, 0.6, 0.8});
@@ -124,22 +109,20 @@ static void normals_of_any_length_are_those_of_length_one(void **state)
     hard_report(&hard, "normals of lengths 1e-20 to 1e20");
 }
 
-/* At every vertex another length: nothing of that may be left between them. */
-static void lengths_that_differ_do_not_matter(void **state)
+/* Another length at each vertex must not change the interpolated direction. */
+TEST_WITH(0, different_lengths_at_the_vertices_do_not_matter, NULL, forget_made)
 {
-    HardRandom random = {SEED};
-    (void)state;
+    Random random = {SEED};
     printf("seed %d\n", SEED);
-    make_copy(&sphere);
+    make_copy(&hard.sphere);
     for (size_t i = 0; i < made.vertex_count; i++)
-        scale_normal(&made.vertices[i], (float)pow(10, hard_random(&random, -3, 3)));
+        scale_normal(&made.vertices[i], (float)pow(10, random_between(&random, -3, 3)));
     check("lengths that differ", SIZE * SIZE / 8);
     hard_report(&hard, "normals of differing lengths");
 }
 
-static void a_transform_of_any_size_lights_alike(void **state)
+TEST_WITH(0, the_scale_of_a_transform_does_not_matter, NULL, forget_made)
 {
-    (void)state;
     for (int exponent = -20; exponent <= 20; exponent += 5) {
         const double factor = pow(10, exponent);
         forget_made(NULL);
@@ -156,14 +139,13 @@ static void a_transform_of_any_size_lights_alike(void **state)
     hard_report(&hard, "transforms of sizes 1e-20 to 1e20");
 }
 
-/* A sphere that its mesh has flattened and its transform restores. */
-static void a_transform_may_stretch_by_any_factor(void **state)
+/* A sphere flattened in its mesh and restored by its transform. */
+TEST_WITH(0, a_transform_may_stretch_by_any_factor, NULL, forget_made)
 {
-    (void)state;
     for (int exponent = -14; exponent <= 14; exponent += 4) {
         const double factor = pow(10, exponent);
         char name[64];
-        make_copy(&sphere);
+        make_copy(&hard.sphere);
         for (size_t i = 0; i < made.vertex_count; i++) {
             MeshVertex *vertex = &made.vertices[i];
             const float *n = vertex->normal;
@@ -179,11 +161,10 @@ static void a_transform_may_stretch_by_any_factor(void **state)
     hard_report(&hard, "transforms that stretch by 1e-14 to 1e14");
 }
 
-/* Opposite normals at the left and at the right of a quad: in the middle they cancel. */
-static void normals_that_cancel_stay_finite_at_every_width(void **state)
+/* Opposite normals at the left and right of a quad: in the middle they cancel. */
+TEST_WITH(0, normals_that_cancel_stay_finite_at_every_width, NULL, forget_made)
 {
-    (void)state;
-    make_copy(&quad);
+    make_copy(&hard.quad);
     for (size_t i = 0; i < made.vertex_count; i++)
         scale_normal(&made.vertices[i], made.vertices[i].position[0] > 0 ? -1 : 1);
     for (int width = 1; width <= 128; width++) {
@@ -193,15 +174,14 @@ static void normals_that_cancel_stay_finite_at_every_width(void **state)
     hard_report(&hard, "normals that cancel, widths 1 to 128");
 }
 
-/* Where three random normals nearly cancel, their direction changes from pixel to pixel by more
- * than an interior pixel's colour may: what is left there is right. */
-static void random_normals_stay_finite(void **state)
+/* Where three random normals nearly cancel, the direction changes from pixel to pixel by more than
+ * the color of an interior pixel may. The other pixels are right. */
+TEST_WITH(0, random_normals_stay_finite, NULL, forget_made)
 {
-    HardRandom random = {SEED + 1};
-    (void)state;
+    Random random = {SEED + 1};
     printf("seed %d\n", SEED + 1);
     for (int i = 0; i < 24; i++) {
-        make_copy(&quad);
+        make_copy(&hard.quad);
         for (size_t v = 0; v < made.vertex_count; v++)
             vec3_to_float(hard_random_direction(&random), made.vertices[v].normal);
         world.objects[0].two_sided = i % 2;
@@ -210,10 +190,9 @@ static void random_normals_stay_finite(void **state)
     hard_report(&hard, "random normals");
 }
 
-static void normals_that_point_inwards_are_lit_as_given(void **state)
+TEST_WITH(0, normals_that_point_inwards_are_lit_as_given, NULL, forget_made)
 {
-    (void)state;
-    make_copy(&sphere);
+    make_copy(&hard.sphere);
     scale_normals(-1);
     for (int way = 0; way < 4; way++) {
         world.objects[0].two_sided = way & 1;
@@ -223,40 +202,39 @@ static void normals_that_point_inwards_are_lit_as_given(void **state)
     hard_report(&hard, "inward normals");
 }
 
-/* Inside and outside of an open tube: at its silhouettes N.V changes its sign within triangles,
- * and a side chosen by that sign would leave spots. */
-static void sides_turn_over_with_the_triangle_not_with_the_normal(void **state)
+/* Inside and outside of an open tube: at its silhouettes N.V changes sign within triangles, and
+ * choosing the side by that sign would leave spots. */
+TEST_WITH(0, sides_turn_over_with_the_triangle_not_with_the_normal, NULL, forget_made)
 {
-    HardRandom random = {SEED + 2};
-    (void)state;
+    Random random = {SEED + 2};
     printf("seed %d\n", SEED + 2);
     for (int i = 0; i < 12; i++) {
-        hard_world(&world, i % 3 == 2 ? &quad : &tube);
+        hard_world(&world, i % 3 == 2 ? &hard.quad : &tube);
         world.objects[0].two_sided = true;
-        /* The tube anyhow, the quad within 70 degrees of facing the eye or facing away. */
+        /* The tube in any orientation; the quad within 70 degrees of facing the eye or facing
+         * away. */
         if (i % 3 == 2)
-            mat4_rotate(180 * (i & 1) + hard_random(&random, -70, 70), (Vec3){1, 1, 0},
-                        &world.objects[0].world_from_object);
+            world.objects[0].world_from_object =
+                mat4_rotate(180 * (i & 1) + random_between(&random, -70, 70), (Vec3){1, 1, 0});
         else
-            mat4_rotate(hard_random(&random, 0, 360), hard_random_direction(&random),
-                        &world.objects[0].world_from_object);
+            world.objects[0].world_from_object =
+                mat4_rotate(random_between(&random, 0, 360), hard_random_direction(&random));
         check("two sides", SIZE / 2);
     }
     hard_report(&hard, "two sides");
 }
 
-static void mirrored_objects_are_lit_as_the_mirrored_mesh(void **state)
+TEST_WITH(0, mirrored_objects_are_lit_as_the_mirrored_mesh, NULL, forget_made)
 {
-    HardRandom random = {SEED + 3};
-    (void)state;
+    Random random = {SEED + 3};
     printf("seed %d\n", SEED + 3);
     for (int i = 0; i < 16; i++) {
         Mat4 turn;
-        hard_world(&world, i & 1 ? &tube : &sphere);
+        hard_world(&world, i & 1 ? &tube : &hard.sphere);
         world.objects[0].two_sided = i & 2;
         world.objects[0].closed = !(i & 1) && i & 4;
-        assert_true(
-            mat4_rotate(hard_random(&random, 0, 360), hard_random_direction(&random), &turn));
+        assert_true(mat4_try_rotate(random_between(&random, 0, 360), hard_random_direction(&random),
+                                    &turn));
         world.objects[0].world_from_object =
             mat4_product(turn, mat4_scale(i & 8 ? (Vec3){-1, -0.5, -0.9} : (Vec3){1, -1, 1}));
         check("mirrored", SIZE);
@@ -264,22 +242,4 @@ static void mirrored_objects_are_lit_as_the_mirrored_mesh(void **state)
     hard_report(&hard, "mirrored objects");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_teardown(a_normal_of_no_length_gives_ambient_light_exactly, forget_made),
-        cmocka_unit_test_teardown(normals_of_any_length_are_those_of_length_one, forget_made),
-        cmocka_unit_test_teardown(lengths_that_differ_do_not_matter, forget_made),
-        cmocka_unit_test_teardown(a_transform_of_any_size_lights_alike, forget_made),
-        cmocka_unit_test_teardown(a_transform_may_stretch_by_any_factor, forget_made),
-        cmocka_unit_test_teardown(normals_that_cancel_stay_finite_at_every_width, forget_made),
-        cmocka_unit_test_teardown(random_normals_stay_finite, forget_made),
-        cmocka_unit_test_teardown(normals_that_point_inwards_are_lit_as_given, forget_made),
-        cmocka_unit_test_teardown(sides_turn_over_with_the_triangle_not_with_the_normal,
-                                  forget_made),
-        cmocka_unit_test_teardown(mirrored_objects_are_lit_as_the_mirrored_mesh, forget_made),
-    };
-    if (!picture_check_driver("hard normals"))
-        return EXIT_SKIPPED;
-    return cmocka_run_group_tests_name("hard normals", tests, open_all, close_all);
-}
+PICTURE_TEST_MAIN("hard normals", open_all, close_all)

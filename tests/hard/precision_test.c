@@ -1,17 +1,11 @@
 /*
- * What the precision of the fragment shader makes of highlights, and of scenes of any size. Highp
- * is right everywhere. Mediump, 11 significant bits from 6.1e-5 to 65504, is bounded and never
- * pinned: which operations are computed in it depends on the driver's compiler.
+ * The effect of the fragment shader's precision on highlights, and on scenes of any size. highp is
+ * right everywhere. mediump, 11 significant bits from 6.1e-5 to 65504, has bounds but no expected
+ * values: which operations are computed in it depends on the driver's compiler.
  */
-#include "hard.h"
-
-#include "picture_check.h"
-
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <stdint.h>
-#include <cmocka.h>
+#include "hard/hard.h"
+#include "support/picture_check.h"
+#include "support/testing.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -26,27 +20,22 @@ static HardWorld world;
 static Mesh sphere;
 static Lighting *cosine[2]; /* as hard_open made them */
 
-static int open_all(void **state)
+FIXTURE(open_all)
 {
-    Message message = {0};
-    (void)state;
     hard_open(&hard, SIZE, SIZE);
     memcpy(cosine, hard.lightings, sizeof cosine);
-    if (mesh_sphere(&sphere, 1, 96, 48, &message))
-        return 0;
-    printf("%s\n", message.text);
-    return 1;
+    require(mesh_sphere(&sphere, 1, 96, 48, FAILURE), FAILURE);
+    return 0;
 }
 
-static int close_all(void **state)
+FIXTURE(close_all)
 {
-    (void)state;
     mesh_close(&sphere);
     hard_close(&hard);
     return 0;
 }
 
-/* Only a highlight, of the light's whole range. */
+/* Only a highlight, as bright as a light can be. */
 static void highlight_world(double shininess, Reflection reflection)
 {
     hard_world(&world, &sphere);
@@ -60,44 +49,43 @@ static void highlight_world(double shininess, Reflection reflection)
 static double worst_of(double shininess, Reflection reflection, HardPrecision precision)
 {
     highlight_world(shininess, reflection);
-    const HardResult result = hard_draw(&hard, &world.scene, precision, NULL);
-    assert_int_equal(result.not_finite, 0);
+    const HardResult result = hard_draw_finite(&hard, &world.scene, precision);
+
     assert_true(result.interior_pixels > SIZE * SIZE / 8);
     return result.byte_error;
 }
 
-/* The largest error in steps of 1/255, by reflection: measured 3, 12, 37 and 8, 25, 82 elsewhere,
- * and no more than a third above that here. That of hard_mediump_most, with every rounding at its
+/* The largest error in steps of 1/255, by reflection: 3, 12, 37 and 8, 25, 82 were measured; the
+ * bounds are a third larger. The bound of hard_mediump_max, for which every rounding is at its
  * worst, is several times as large. */
-static void a_highlight_loses_digits_in_mediump_as_its_shininess_grows(void **state)
+TEST(a_highlight_loses_digits_in_mediump_as_its_shininess_grows)
 {
     static const struct {
-        double shininess, most[2];
+        double shininess, max[2];
     } rows[] = {{8, {4, 10.6}}, {32, {16, 33.3}}, {128, {49.3, 109.3}}};
-    (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         for (int reflection = 0; reflection < 2; reflection++) {
             const double shininess = rows[i].shininess;
             const double high = worst_of(shininess, (Reflection)reflection, HARD_HIGHP);
             const double medium = worst_of(shininess, (Reflection)reflection, HARD_MEDIUMP);
-            const double derived = hard_mediump_most(&world.scene, REACH);
+            const double derived = hard_mediump_max(&world.scene, REACH);
             printf("shininess %g, %s: %.2f in highp, %.2f in mediump (derived: at most %.0f)\n",
                    shininess, reflection ? "Phong" : "Blinn-Phong", high, medium, derived);
             assert_true(high <= 1);
-            assert_true(medium <= rows[i].most[reflection]);
+            assert_true(medium <= rows[i].max[reflection]);
             assert_true(medium <= derived);
         }
     }
 }
 
-/* Lagrange's identity: (1 - q^2)^(s / 2), where q is the length of a cross product. With u = 2^-11
- * and the errors of hard_mediump_most, those of the two vectors are e = 17 u for normal and half
- * vector, 54 u for reflection and viewer, and q's is no larger. The power's slope over q is at most
- * s / sqrt(s - 1) ((s - 2) / (s - 1))^(s / 2 - 1), about sqrt(s); beside it, 1 - q^2 is rounded by
- * u / 2 near 1, which makes s u / 4, and the square, the power and the product with a colour make 9
- * u. For s below 2 the slope has no bound where the cosine is 0; a power of 1 / 2 or so of the
- * error does. The cosine's own form has s e in the place of sqrt(s) e. */
-static double cross_most(double s, bool phong)
+/* Lagrange's identity: the highlight is (1 - q^2)^(s / 2), where q is the length of a cross
+ * product. With u = 2^-11, hard_mediump_max gives the errors e of the two vectors: 17 u for normal
+ * and half vector, 54 u for reflection and viewer; the error of q is no larger. The slope of the
+ * power over q is at most s / sqrt(s - 1) ((s - 2) / (s - 1))^(s / 2 - 1), about sqrt(s). Rounding
+ * 1 - q^2 by u / 2 near 1 adds s u / 4; the square, the power and the product with a color add 9 u.
+ * For s below 2 the slope has no bound where the cosine is 0, but the result is bounded by about
+ * the square root of the error. The cosine's own form has s e instead of sqrt(s) e. */
+static double cross_max(double s, bool phong)
 {
     const double u = 0x1p-11, e = (phong ? 54 : 17) * u;
     const double moved = s < 2
@@ -106,23 +94,21 @@ static double cross_most(double s, bool phong)
     return 0.5 + 255 * (moved + 9 * u);
 }
 
-static void the_cross_product_keeps_the_digits_of_a_highlight(void **state)
+TEST(the_cross_product_keeps_the_digits_of_a_highlight)
 {
     static const ShaderReplacement replacements[] = {
         {"lighting/highlight.glsl", "study/highlight_cross.glsl"}, {NULL, NULL}};
     static const char *const precisions[] = {"highp", "mediump"};
     static const double shininesses[] = {1, 8, 32, 128};
-    Message message = {0};
     Lighting *cross[2];
-    (void)state;
     for (int i = 0; i < 2; i++) {
         const ShaderLoader loader = {.precision = precisions[i], .replacements = replacements};
-        assert_true(lighting_open(&cross[i], &loader, &message));
+        require(lighting_open(&cross[i], &loader, FAILURE), FAILURE);
     }
     for (size_t i = 0; i < sizeof shininesses / sizeof shininesses[0]; i++) {
         const double s = shininesses[i];
         for (int reflection = 0; reflection < 2; reflection++) {
-            const double derived = cross_most(s, reflection);
+            const double derived = cross_max(s, reflection);
             const double by_cosine = worst_of(s, (Reflection)reflection, HARD_MEDIUMP);
             memcpy(hard.lightings, cross, sizeof cross);
             const double medium = worst_of(s, (Reflection)reflection, HARD_MEDIUMP);
@@ -143,15 +129,11 @@ static void scale_scene(double size)
 {
     hard_world(&world, &sphere);
     world.objects[0].world_from_object = mat4_scale((Vec3){size, size, size});
-    world.lights[0].position = vec3_scale(world.lights[0].position, size);
-    world.scene.camera.eye = vec3_scale(world.scene.camera.eye, size);
-    world.scene.camera.near *= size;
-    world.scene.camera.far *= size;
+    hard_world_scale(&world, size);
 }
 
-static void highp_is_right_in_scenes_up_to_1e8_and_as_far_away(void **state)
+TEST(highp_is_right_in_scenes_up_to_1e8_and_as_far_away)
 {
-    (void)state;
     for (int exponent = 0; exponent <= 8; exponent += 2) {
         for (int reflection = 0; reflection < 2; reflection++) {
             char name[64];
@@ -176,15 +158,14 @@ static void highp_is_right_in_scenes_up_to_1e8_and_as_far_away(void **state)
     hard_report(&hard, "scenes of sizes up to 1e8");
 }
 
-/* In mediump a vector's square must lie from 6.1e-5 to 65504, where it has all its digits, and its
- * length from 7.8e-3 to 255.9. Here the shortest is that to the light, 1.4 to 4 sizes long, and the
- * longest that to the eye, 5 with the light's: sizes of .0056 to 51. Beyond, there is no bound, and
- * the picture is only said to be one. At the vertices light is highp, and right. */
-static void mediump_has_room_for_small_scenes_only(void **state)
+/* In mediump the square of a vector must be from 6.1e-5 to 65504, where it has all its digits, so
+ * its length from 7.8e-3 to 255.9. Here the shortest is the one to the light, 1.4 to 4 sizes, and
+ * the longest the sum of that to the eye, 5 sizes, and that to the light: sizes of 0.0056 to 51.
+ * For other sizes there is no bound. At the vertices lighting is highp, and right. */
+TEST(mediump_has_room_for_small_scenes_only)
 {
     static const double sizes[] = {0.006, 0.01, 0.1, 1, 10, 50};
     static const double beyond[] = {1e-6, 1e-3, 75, 300, 1e5};
-    (void)state;
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
         char name[64];
         snprintf(name, sizeof name, "scene of size %g", sizes[i]);
@@ -195,9 +176,9 @@ static void mediump_has_room_for_small_scenes_only(void **state)
     for (size_t i = 0; i < sizeof beyond / sizeof beyond[0]; i++) {
         char name[64];
         scale_scene(beyond[i]);
-        const HardResult result = hard_draw(&hard, &world.scene, HARD_MEDIUMP, NULL);
+        const HardResult result = hard_draw_finite(&hard, &world.scene, HARD_MEDIUMP);
         printf("scene of size %g: %.1f in mediump\n", beyond[i], result.byte_error);
-        assert_int_equal(result.not_finite, 0);
+
         snprintf(name, sizeof name, "scene of size %g", beyond[i]);
         hard_check(&hard, name, &world.scene, HARD_HIGHP, 1, SIZE * SIZE / 8);
         world.scene.interpolation = INTERPOLATION_GOURAUD;
@@ -206,15 +187,4 @@ static void mediump_has_room_for_small_scenes_only(void **state)
     hard_report(&hard, "scenes that mediump has no room for, at the vertices");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_highlight_loses_digits_in_mediump_as_its_shininess_grows),
-        cmocka_unit_test(the_cross_product_keeps_the_digits_of_a_highlight),
-        cmocka_unit_test(highp_is_right_in_scenes_up_to_1e8_and_as_far_away),
-        cmocka_unit_test(mediump_has_room_for_small_scenes_only),
-    };
-    if (!picture_check_driver("hard precision"))
-        return EXIT_SKIPPED;
-    return cmocka_run_group_tests_name("hard precision", tests, open_all, close_all);
-}
+PICTURE_TEST_MAIN("hard precision", open_all, close_all)

@@ -1,4 +1,7 @@
-#include "random_scene.h"
+#include "hard/random_scene.h"
+
+#include "core/mesh_make.h"
+#include "shapes/mesh_solids.h"
 
 #include <float.h>
 #include <math.h>
@@ -8,15 +11,15 @@ static const double RADIANS = 0.017453292519943295;
 
 /* Scenes. */
 
-static bool chance(HardRandom *random, double probability)
+static bool chance(Random *random, double probability)
 {
-    return hard_random(random, 0, 1) < probability;
+    return random_between(random, 0, 1) < probability;
 }
 
-static Vec3 vector(HardRandom *random, double least, double most)
+static Vec3 vector(Random *random, double min, double max)
 {
-    const double x = hard_random(random, least, most), y = hard_random(random, least, most);
-    return (Vec3){x, y, hard_random(random, least, most)};
+    const double x = random_between(random, min, max), y = random_between(random, min, max);
+    return (Vec3){x, y, random_between(random, min, max)};
 }
 
 static Vec3 on_grid(Vec3 v)
@@ -25,18 +28,18 @@ static Vec3 on_grid(Vec3 v)
                   rint(v.z * 0x1p20) * 0x1p-20};
 }
 
-/* Whether it is there follows from the kind, its values from the numbers. */
-static Vec3 color(HardRandom *kind, HardRandom *numbers, double most)
+/* The kind decides whether there is one, the numbers give its values. */
+static Vec3 color(Random *kind, Random *numbers, double max)
 {
-    const Vec3 c = vector(numbers, 0, most);
+    const Vec3 c = vector(numbers, 0, max);
     return chance(kind, 0.2) ? (Vec3){0, 0, 0} : c;
 }
 
-static Material random_material(HardRandom *kind, HardRandom *numbers)
+static Material random_material(Random *kind, Random *numbers)
 {
     const Vec3 ambient = color(kind, numbers, 0.5), diffuse = color(kind, numbers, 1);
     const Vec3 specular = color(kind, numbers, 1), emission = color(kind, numbers, 0.2);
-    const double power = pow(2, hard_random(numbers, -2, 7));
+    const double power = pow(2, random_between(numbers, -2, 7));
     return (Material){.ambient = ambient,
                       .diffuse = diffuse,
                       .specular = specular,
@@ -47,19 +50,21 @@ static Material random_material(HardRandom *kind, HardRandom *numbers)
                                                        : power};
 }
 
-static Light random_light(HardRandom *kind, HardRandom *numbers, double most)
+static Light random_light(Random *kind, Random *numbers, double max)
 {
     Light light = {.off = chance(kind, 0.05),
-                   .kind = (LightKind)hard_random_below(kind, 3),
+                   .kind = (LightKind)random_below(kind, 3),
                    .position = on_grid(vector(numbers, -4, 4)),
                    .direction = hard_random_direction(numbers)};
     const Vec3 aim = vector(numbers, -1, 1);
-    light.ambient = color(kind, numbers, most / 2);
-    light.diffuse = color(kind, numbers, most);
-    light.specular = color(kind, numbers, most);
-    const double cutoff = hard_random(numbers, 5, 60), exponent = hard_random(numbers, 0.5, 128);
-    const double constant = hard_random(numbers, 0.5, 2), linear = hard_random(numbers, 0.05, 0.5);
-    const double quadratic = hard_random(numbers, 0.05, 0.3);
+    light.ambient = color(kind, numbers, max / 2);
+    light.diffuse = color(kind, numbers, max);
+    light.specular = color(kind, numbers, max);
+    const double cutoff = random_between(numbers, 5, 60),
+                 exponent = random_between(numbers, 0.5, 128);
+    const double constant = random_between(numbers, 0.5, 2),
+                 linear = random_between(numbers, 0.05, 0.5);
+    const double quadratic = random_between(numbers, 0.05, 0.3);
     if (light.kind == LIGHT_SPOT) {
         light.direction = vec3_subtract(aim, light.position);
         light.cutoff = chance(kind, 0.1) ? 90 : cutoff;
@@ -73,14 +78,14 @@ static Light random_light(HardRandom *kind, HardRandom *numbers, double most)
     return light;
 }
 
-static Mat4 random_transform(HardRandom *kind, HardRandom *numbers)
+static Mat4 random_transform(Random *kind, Random *numbers)
 {
-    Mat4 turn, other_turn;
-    const double size = hard_random(numbers, 0.5, 1.1);
+    const double size = random_between(numbers, 0.5, 1.1);
     const Vec3 uneven = vector(numbers, 0.4, 1.3), then = vector(numbers, 0.6, 1.2);
     const Vec3 place = on_grid(vector(numbers, -1.2, 1.2));
-    mat4_rotate(hard_random(numbers, 0, 360), hard_random_direction(numbers), &turn);
-    mat4_rotate(hard_random(numbers, 0, 360), hard_random_direction(numbers), &other_turn);
+    const Mat4 turn = mat4_rotate(random_between(numbers, 0, 360), hard_random_direction(numbers));
+    const Mat4 other_turn =
+        mat4_rotate(random_between(numbers, 0, 360), hard_random_direction(numbers));
     const bool even = chance(kind, 0.5), rigid = even && chance(kind, 0.5);
     const bool mirrored = chance(kind, 0.2), sheared = !even && chance(kind, 0.5);
     Vec3 scale = rigid ? (Vec3){1, 1, 1} : even ? (Vec3){size, size, size} : uneven;
@@ -92,8 +97,8 @@ static Mat4 random_transform(HardRandom *kind, HardRandom *numbers)
     return mat4_product(mat4_translate(place), matrix);
 }
 
-/* Few different ones, so that meshes are found again. */
-static RandomShape random_shape(HardRandom *kind)
+/* Few different shapes, so that meshes are reused. */
+static RandomShape random_shape(Random *kind)
 {
     static const Solid solids[] = {
         {.kind = SOLID_SPHERE, .radius = 1},
@@ -108,43 +113,61 @@ static RandomShape random_shape(HardRandom *kind)
         {.kind = SOLID_TEAPOT, .radius = 0.75},
     };
     static const int divisions[] = {5, 12, 24};
-    RandomShape shape = {.divisions = divisions[hard_random_below(kind, 3)]};
+    RandomShape shape = {.divisions = divisions[random_below(kind, 3)]};
     if (chance(kind, 0.25)) {
-        shape.form = (RandomForm)(1 + hard_random_below(kind, FORM_COUNT - 1));
+        shape.form = (RandomForm)(1 + random_below(kind, FORM_COUNT - 1));
         shape.solid.radius = 1;
     } else {
-        shape.solid = solids[hard_random_below(kind, sizeof solids / sizeof solids[0])];
+        shape.solid = solids[random_below(kind, sizeof solids / sizeof solids[0])];
     }
     return shape;
+}
+
+/* The viewer's lights lie about as far from the objects as those of the world. */
+static void vary(RandomScene *made, Random *kind)
+{
+    Scene *scene = &made->scene;
+    if (chance(kind, 0.2))
+        scene->interpolation = INTERPOLATION_CONSTANT;
+    for (int i = 0; i < scene->light_count; i++) {
+        if (!chance(kind, 0.25))
+            continue;
+        made->lights[i].space = LIGHT_EYE;
+        made->lights[i].position.z -= 5.5;
+    }
+    for (int i = 0; i < scene->object_count; i++) {
+        made->shapes[i].colored = chance(kind, 0.25);
+        made->objects[i].clockwise = chance(kind, 0.15);
+    }
 }
 
 void random_scene_make(RandomScene *made, unsigned long long kind_seed,
                        unsigned long long number_seed)
 {
-    HardRandom kind = {kind_seed * 0xD1342543DE82EF95ULL + 1};
-    HardRandom numbers = {kind.state ^ number_seed * 0xAF251AF3B0F025B5ULL};
+    Random kind = {kind_seed * 0xD1342543DE82EF95ULL + 1}, more = {~kind.state};
+    Random numbers = {kind.state ^ number_seed * 0xAF251AF3B0F025B5ULL};
     *made = (RandomScene){
         .scene = {.reflection = chance(&kind, 0.5) ? REFLECTION_PHONG : REFLECTION_BLINN_PHONG}};
     Scene *scene = &made->scene;
     scene->interpolation =
-        chance(&kind, 0.5) ? INTERPOLATION_PHONG : (Interpolation)(1 + hard_random_below(&kind, 2));
+        chance(&kind, 0.5) ? INTERPOLATION_PHONG : (Interpolation)(1 + random_below(&kind, 2));
     scene->distant_viewer = chance(&kind, 0.3);
     scene->clamp_vertex = chance(&kind, 0.3);
     scene->linear = chance(&kind, 0.3);
     scene->show_clipped = chance(&kind, 0.1);
-    scene->light_count = 1 + hard_random_below(&kind, 4);
-    scene->object_count = 1 + hard_random_below(&kind, 3);
+    scene->light_count = 1 + random_below(&kind, 4);
+    scene->object_count = 1 + random_below(&kind, 3);
     scene->background = vector(&numbers, 0, 1);
     scene->global_ambient = color(&kind, &numbers, 0.3);
-    const Vec3 from = vec3_scale(hard_random_direction(&numbers), hard_random(&numbers, 4.5, 7));
+    const Vec3 from = vec3_scale(hard_random_direction(&numbers), random_between(&numbers, 4.5, 7));
     const Vec3 center = on_grid(vector(&numbers, -0.4, 0.4)), up = hard_random_direction(&numbers);
     scene->camera = (Camera){.eye = on_grid(vec3_add(center, from)),
                              .center = center,
                              .up = up,
-                             .fovy = hard_random(&numbers, 25, 45),
+                             .fovy = random_between(&numbers, 25, 45),
                              .near = 0.5,
                              .far = 32};
-    /* Bright enough to be clamped in places, and not everywhere. */
+    /* Bright enough to be clamped in some places only. */
     for (int i = 0; i < scene->light_count; i++)
         made->lights[i] = random_light(&kind, &numbers, 0.5 + 1.5 / scene->light_count);
     for (int i = 0; i < scene->object_count; i++) {
@@ -156,6 +179,7 @@ void random_scene_make(RandomScene *made, unsigned long long kind_seed,
         object->two_sided = chance(&kind, 0.4);
         object->wrong_normals = chance(&kind, 0.05);
     }
+    vary(made, &more);
 }
 
 /* Meshes. */
@@ -164,10 +188,11 @@ static bool same_shape(const RandomShape *a, const RandomShape *b)
 {
     return a->form == b->form && a->divisions == b->divisions && a->solid.kind == b->solid.kind &&
            a->solid.radius == b->solid.radius && a->solid.height == b->solid.height &&
-           a->solid.tube == b->solid.tube && a->solid.caps == b->solid.caps;
+           a->solid.tube == b->solid.tube && a->solid.caps == b->solid.caps &&
+           a->colored == b->colored;
 }
 
-static bool make_mesh(const RandomShape *shape, Mesh *mesh, Message *message)
+static bool make_uncolored(const RandomShape *shape, Mesh *mesh, Message *message)
 {
     const double radius = shape->solid.radius;
     switch (shape->form) {
@@ -184,6 +209,28 @@ static bool make_mesh(const RandomShape *shape, Mesh *mesh, Message *message)
     default:
         return solid_mesh(&shape->solid, shape->divisions, mesh, message);
     }
+}
+
+/* Waves along the normals, beyond 0 and 1 here and there, where they are held. */
+static bool make_mesh(const RandomShape *shape, Mesh *mesh, Message *message)
+{
+    if (!make_uncolored(shape, mesh, message))
+        return false;
+    if (!shape->colored)
+        return true;
+    if (!mesh_open_colors(mesh, message)) {
+        mesh_close(mesh);
+        return false;
+    }
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
+        const float *p = mesh->vertices[i].position, *n = mesh->vertices[i].normal;
+        for (int c = 0; c < 3; c++) {
+            const double wave =
+                0.5 + 0.6 * sin(c + (double)(p[c] - p[(c + 1) % 3]) + 2 * (double)n[c]);
+            mesh->colors[i][c] = (float)fmin(fmax(wave, 0), 1);
+        }
+    }
+    return true;
 }
 
 static const Mesh *find_mesh(RandomMeshes *meshes, const RandomShape *shape, Message *message)
@@ -256,7 +303,7 @@ bool random_scene_draw(const RandomScene *made, const Canvas *canvas, Lighting *
            canvas_read(canvas, image, message);
 }
 
-/* Jumps. */
+/* Discontinuities. */
 
 static Vec3 to_vec3(const float v[3])
 {
@@ -270,8 +317,8 @@ static bool black(Vec3 a, Vec3 b)
 
 static bool light_grazes(const Light *light, const Object *object, Vec3 place, Vec3 normal)
 {
-    /* A cosine from floats is wrong by a few parts in 1e7; not where the way itself is a difference
-     * of far longer ones. */
+    /* A cosine of floats has an error of a few parts in 1e7, if the direction is not a difference
+     * of much longer vectors. */
     static const double NEAR = 1e-5;
     Vec3 to_light, axis;
     const bool highlight = !black(light->specular, object->front.specular) ||
@@ -295,7 +342,7 @@ bool random_scene_grazes(const RandomScene *made)
         const Mesh *mesh = object->mesh;
         Mat4 normal_matrix = object->world_from_object;
         if (!object->wrong_normals)
-            mat4_normal(object->world_from_object, &normal_matrix);
+            normal_matrix = mat4_normal(object->world_from_object);
         for (size_t k = 0; k < mesh->index_count; k++) {
             const MeshVertex *vertex = &mesh->vertices[mesh->indices[k]];
             Vec3 normal = to_vec3(vertex->normal);
@@ -304,9 +351,11 @@ bool random_scene_grazes(const RandomScene *made)
             vec3_normalize(mat4_transform_direction(normal_matrix, normal), &normal);
             const Vec3 place =
                 mat4_transform_point(object->world_from_object, to_vec3(vertex->position));
-            for (int j = 0; j < scene->light_count; j++)
-                if (!scene->lights[j].off && light_grazes(&scene->lights[j], object, place, normal))
+            for (int j = 0; j < scene->light_count; j++) {
+                const Light light = scene_world_light(scene, j);
+                if (!light.off && light_grazes(&light, object, place, normal))
                     return true;
+            }
         }
     }
     return false;
@@ -319,16 +368,16 @@ typedef struct Numbers {
     int count;
 } Numbers;
 
-static void add(Numbers *to, double *value, double least, double most)
+static void add(Numbers *to, double *value, double min, double max)
 {
-    to->numbers[to->count++] = (RandomNumber){value, least, most};
+    to->numbers[to->count++] = (RandomNumber){value, min, max};
 }
 
-static void add_vector(Numbers *to, Vec3 *v, double least, double most)
+static void add_vector(Numbers *to, Vec3 *v, double min, double max)
 {
-    add(to, &v->x, least, most);
-    add(to, &v->y, least, most);
-    add(to, &v->z, least, most);
+    add(to, &v->x, min, max);
+    add(to, &v->y, min, max);
+    add(to, &v->z, min, max);
 }
 
 static void add_light(Numbers *to, Light *light)
@@ -359,7 +408,7 @@ static void add_material(Numbers *to, Material *material)
     add(to, &material->shininess, 0, 128);
 }
 
-int random_scene_numbers(RandomScene *made, RandomNumber numbers[RANDOM_MOST_NUMBERS])
+int random_scene_numbers(RandomScene *made, RandomNumber numbers[RANDOM_MAX_NUMBERS])
 {
     Numbers to = {numbers, 0};
     Camera *camera = &made->scene.camera;
@@ -391,7 +440,7 @@ int random_scene_numbers(RandomScene *made, RandomNumber numbers[RANDOM_MOST_NUM
     return to.count;
 }
 
-/* Text. What is zero is left out. */
+/* Text, without what is zero. */
 
 static void print_number(FILE *file, const char *name, double value)
 {
@@ -425,6 +474,7 @@ static void print_light(FILE *file, int number, const Light *light)
     fprintf(file, ".lights[%d] = {", number);
     print_flag(file, ".off", light->off);
     fprintf(file, ".kind = %s, ", kinds[light->kind]);
+    fputs(light->space == LIGHT_EYE ? ".space = LIGHT_EYE, " : "", file);
     print_vector(file, ".position", light->position);
     print_vector(file, ".direction", light->direction);
     print_vector(file, ".ambient", light->ambient);
@@ -462,6 +512,7 @@ static void print_object(FILE *file, int number, const Object *object)
         print_material(file, ".back", &object->back);
     }
     print_flag(file, ".wrong_normals", object->wrong_normals);
+    print_flag(file, ".clockwise", object->clockwise);
     fprintf(file, "},\n");
 }
 
@@ -483,13 +534,14 @@ static void print_shape(FILE *file, int number, const RandomShape *shape)
     print_number(file, ".height", shape->solid.height);
     print_number(file, ".tube", shape->solid.tube);
     print_choice(file, ".caps", (int)shape->solid.caps, caps);
-    fprintf(file, "}, .divisions = %d},\n", shape->divisions);
+    fprintf(file, "}, .divisions = %d", shape->divisions);
+    fputs(shape->colored ? ", .colored = true},\n" : "},\n", file);
 }
 
 void random_scene_print(const RandomScene *made, const char *name, FILE *file)
 {
     static const char *const interpolations[] = {"INTERPOLATION_PHONG", "INTERPOLATION_GOURAUD",
-                                                 "INTERPOLATION_FLAT"};
+                                                 "INTERPOLATION_FLAT", "INTERPOLATION_CONSTANT"};
     static const char *const reflections[] = {"REFLECTION_BLINN_PHONG", "REFLECTION_PHONG"};
     const Scene *scene = &made->scene;
     fprintf(file, "static const RandomScene %s = {\n.scene = {.camera = {", name);

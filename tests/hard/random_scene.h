@@ -1,19 +1,19 @@
 /*
- * random_scene: scenes that look random, the same for the same seeds, as flat data: printed as C
- * text that a test can hold, changed number by number by what looks for errors.
+ * random_scene: random scenes as flat data, the same for the same seeds, which can be printed as C
+ * text for a test and changed number by number by a search.
  */
 #ifndef RANDOM_SCENE_H
 #define RANDOM_SCENE_H
 
-#include "hard.h"
-#include "scene.h"
+#include "hard/hard.h"
+#include "scene/scene.h"
 
 #include <stdio.h>
 
-enum { RANDOM_MOST_LIGHTS = 8, RANDOM_MOST_OBJECTS = 4 };
+enum { RANDOM_MAX_LIGHTS = 8, RANDOM_MAX_OBJECTS = 4 };
 
-/* What an object's mesh is made from: a solid with a formula, or one of those below with the
- * solid's radius. */
+/* The source of an object's mesh: a solid with a formula, or one of those below with the solid's
+ * radius. */
 typedef enum RandomForm {
     FORM_SOLID,
     FORM_TETRAHEDRON,
@@ -28,18 +28,19 @@ typedef struct RandomShape {
     RandomForm form;
     Solid solid;
     int divisions;
+    bool colored; /* its vertices have colors, which vary smoothly */
 } RandomShape;
 
-/* A scene with its lights and objects. Those are found through `scene` once random_scene_ready has
- * been called: anew for each copy. */
+/* A scene with its lights and objects. `scene` points to them after random_scene_ready, which is
+ * needed again for each copy. */
 typedef struct RandomScene {
     Scene scene;
-    Light lights[RANDOM_MOST_LIGHTS];
-    Object objects[RANDOM_MOST_OBJECTS];
-    RandomShape shapes[RANDOM_MOST_OBJECTS];
+    Light lights[RANDOM_MAX_LIGHTS];
+    Object objects[RANDOM_MAX_OBJECTS];
+    RandomShape shapes[RANDOM_MAX_OBJECTS];
 } RandomScene;
 
-/* Meshes that have been made, one for each shape. Zeroed: none. */
+/* A cache of meshes, one for each shape. Zeroed: empty. */
 typedef struct RandomMesh {
     RandomShape shape;
     Mesh mesh;
@@ -51,35 +52,37 @@ typedef struct RandomMeshes {
 } RandomMeshes;
 void random_meshes_close(RandomMeshes *meshes);
 
-/* A scene around the origin that passes scene_check once it is ready. `kind` decides what there is,
- * and with it which programs draw the scene; `numbers` every number. Places are multiples of 2^-20,
- * so that they can be moved without rounding. Nothing asks for what the exact picture lacks. */
+/* A scene around the origin that passes scene_check once it is ready. `kind` decides what it
+ * contains, and so which programs draw it; `numbers` is the seed of every number. Positions are
+ * multiples of 2^-20, so that they can be moved without rounding. It uses nothing that the exact
+ * picture lacks. */
 void random_scene_make(RandomScene *made, unsigned long long kind, unsigned long long numbers);
 
-/* Points the scene at its lights and objects, and these at their meshes, whether flat and closed.
- * False where a shape cannot be made. */
+/* Points the scene to its lights and objects, and these to their meshes. False if a shape cannot be
+ * made. */
 bool random_scene_ready(RandomScene *made, RandomMeshes *meshes, Message *message);
 
 /* Whether at some vertex (of a mesh that is ready) rounding to float may decide on which side of a
- * jump light lies: at the edge of a cone, or of a highlight where the surface turns away. Where
- * light is computed at vertices, or a whole face lies there, that changes more than an edge. */
+ * discontinuity light falls: the edge of a cone, or the end of a highlight where the surface turns
+ * away. If light is computed at vertices, or a whole face lies there, this changes more than an
+ * edge. */
 bool random_scene_grazes(const RandomScene *made);
 
-/* Draws a scene that is ready. False, with a message, as lighting_draw. */
+/* Draws a scene that is ready. Fails as lighting_draw does. */
 bool random_scene_draw(const RandomScene *made, const Canvas *canvas, Lighting *lighting,
                        Image *image, Message *message);
 
-/* A number of the scene, and what scene_check or the making of a mesh takes. */
+/* A number of the scene, and the range that scene_check or the mesh accepts. */
 typedef struct RandomNumber {
     double *value;
-    double least, most;
+    double min, max;
 } RandomNumber;
-enum { RANDOM_MOST_NUMBERS = 400 };
+enum { RANDOM_MAX_NUMBERS = 400 };
 
-/* Those that count, of lights, objects and sides that there are; returns how many. */
-int random_scene_numbers(RandomScene *made, RandomNumber numbers[RANDOM_MOST_NUMBERS]);
+/* The numbers in use, of existing lights, objects and sides; returns how many. */
+int random_scene_numbers(RandomScene *made, RandomNumber numbers[RANDOM_MAX_NUMBERS]);
 
-/* Writes "static const RandomScene NAME = {...};", from which a compiler makes the same bits. */
+/* Writes "static const RandomScene NAME = {...};", which compiles to the same bits. */
 void random_scene_print(const RandomScene *made, const char *name, FILE *file);
 
 #endif

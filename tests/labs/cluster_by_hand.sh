@@ -1,13 +1,11 @@
 #!/bin/sh
-# cluster_by_hand.sh: a class in parts, with GNU parallel and as a Slurm job array on a cluster of this
-# one machine, each compared with the class judged in one piece.
+# cluster_by_hand.sh: judges a class in parts, with GNU parallel and as a Slurm job array on a cluster of
+# this machine, and compares both with the class judged at once.
 #
 #   tests/labs/cluster_by_hand.sh [BUILD_FOLDER]
 #
-# Wants root, and the packages parallel, slurm-wlm and munge, which tests/run does not install:
-#   apt-get install parallel slurm-wlm munge
-# Slurm runs from a temporary folder, on ports of its own, and is ended at the end; no service and no
-# configuration of this machine is touched.
+# Needs root and packages that tests/run does not install: apt-get install parallel slurm-wlm munge
+# Slurm runs from a temporary folder on its own ports; no service or configuration is changed.
 
 set -eu
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/../.." && pwd -P)
@@ -41,16 +39,16 @@ for i in 0 1 2 3 4 5 6 7 8 9; do
     cp "$from"/*.vert "$from"/*.frag "class/student$i"
 done
 
-# All but the column of times.
+# Without the column of times.
 same() {
     for out in whole "$1"; do
         cut -d, -f1-11,13 "$out/class.csv" >"$out.csv"
     done
     cmp whole.csv "$1.csv" || {
-        echo "cluster_by_hand.sh: $1 differs from the whole" >&2
+        echo "cluster_by_hand.sh: $1 differs from the class judged at once" >&2
         exit 1
     }
-    echo "$1: the same as in one piece"
+    echo "$1: the same"
 }
 
 "$check" --class class --lab 5 -o whole

@@ -1,26 +1,20 @@
 /*
- * The catalogue against itself: each mistake of a lab alone, and pairs of them, drawn by the
- * program that has them all, is to be found again. What others write wrongly is in labs_test.py.
+ * The catalogue against itself: single mistakes and pairs, drawn by wrong_program, are found again.
+ * Independently written mistakes are in labs_test.py.
  *
- * LABS_SEEDS and LABS_PAIRS in the environment: how many seeds for each mistake, and how many pairs
- * for each lab. Without them a sample: every fourth form of a mistake in one seed, and 3 pairs.
+ * Environment: LABS_SEEDS and LABS_PAIRS set the number of seeds per mistake and of pairs per lab.
+ * Default: every fourth form of a mistake in one seed, and 3 pairs.
  */
-#include "diagnose.h"
-#include "wrong_program.h"
+#include "labs/diagnosis/diagnose.h"
+#include "labs/diagnosis/wrong_program.h"
+#include "support/picture_check.h"
+#include "support/testing.h"
 
-#include "picture_check.h"
-
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
-/* What paints: a suspect, in the place of a submission's program. */
+/* Paints as a suspect instead of a submission's program. */
 typedef struct Fake {
     const WrongProgram *program;
     const Choices *choices;
@@ -42,7 +36,6 @@ static bool paint_fake(const Painter *painter, const Probe *probe,
     return done;
 }
 
-/* What came of it. */
 typedef enum Outcome { HIDDEN, NAMED, UNNAMED, ONE_OF, MISNAMED } Outcome;
 
 static bool has(const Verdict *verdict, int mistake)
@@ -63,7 +56,7 @@ static Outcome outcome_of(const Verdict *verdict, const Suspect *made)
         return right > 0 ? ONE_OF : MISNAMED;
     if (right < verdict->mistake_count)
         return MISNAMED;
-    return NAMED; /* of two, one may hide the other */
+    return NAMED; /* one of a pair may hide the other */
 }
 
 static Outcome try(const Lab *lab, const Suspect *made, uint64_t seed, Verdict *verdict)
@@ -78,7 +71,6 @@ static Outcome try(const Lab *lab, const Suspect *made, uint64_t seed, Verdict *
         fail_msg("%s", message.text);
     if (lab->budget && !shots_use_sphere(&shots, 24, 24, &message))
         fail_msg("%s", message.text);
-    /* Lab 3 is painted as its mistakes say; matrices are nobody's. */
     if (!shots_draw(&shots, &painter, &canvas, &message))
         fail_msg("%s", message.text);
     for (int i = 0; i < shots.count; i++)
@@ -98,8 +90,7 @@ static int number_of(const char *name, int otherwise)
 static void say(const Lab *lab, const Suspect *made, uint64_t seed, Outcome outcome,
                 const Verdict *verdict)
 {
-    static const char *const NAMES[] = {"not to be seen", "named", "not identified", "one of",
-                                        "MISNAMED"};
+    static const char *const NAMES[] = {"not visible", "named", "unnamed", "one of", "MISNAMED"};
     printf("%s, seed %d: %s%s%s: %s", lab->file, (int)seed, MISTAKES[made->mistakes[0]].name,
            made->mistakes[1] >= 0 ? " + " : "",
            made->mistakes[1] >= 0 ? MISTAKES[made->mistakes[1]].name : "", NAMES[outcome]);
@@ -108,13 +99,13 @@ static void say(const Lab *lab, const Suspect *made, uint64_t seed, Outcome outc
     printf("\n");
 }
 
-/* Every mistake alone: named rightly in 95% of seeds, and never misnamed. Two that draw the same
- * in all scenes, whatever the seed, cannot be told apart, and are named as one of. */
-static void test_singles(void **unused)
+/* Single mistakes: named in 95% of seeds, never misnamed. Mistakes that look alike in every scene
+ * are named as "one of". */
+TEST(test_singles)
 {
-    (void)unused;
     static Verdict verdict;
-    const int seeds = number_of("LABS_SEEDS", 1), step = getenv("LABS_SEEDS") ? 1 : 4;
+    const int seeds = number_of("LABS_SEEDS", 1),
+              step = getenv("LABS_SEEDS") ? 1 : 4 * testing_step(3);
     for (int l = 0; l < LAB_COUNT; l++) {
         const Lab *lab = &LABS[l];
         int count = 0, tried = 0, misnamed = 0;
@@ -122,7 +113,7 @@ static void test_singles(void **unused)
         assert_non_null(singles);
         int named = 0, kinds = 0;
         for (int i = 0; i < count; i++) {
-            /* Once for each stage that is right. */
+            /* Once, not for each right stage. */
             kinds += (i == 0 || singles[i].mistakes[0] != singles[i - 1].mistakes[0]) &&
                      !singles[i].choices.of[SLOT_FIT] &&
                      singles[i].choices.of[SLOT_STAGE] != STAGE_OTHER;
@@ -144,12 +135,11 @@ static void test_singles(void **unused)
     }
 }
 
-/* Two at once: 70%, and never misnamed. */
-static void test_pairs(void **unused)
+/* Pairs: named in 70%, never misnamed. */
+TEST(test_pairs)
 {
-    (void)unused;
     static Verdict verdict;
-    const int pairs = number_of("LABS_PAIRS", 3);
+    const int pairs = number_of("LABS_PAIRS", 3 / testing_step(3));
     Random random = {7};
     for (int l = 0; l < LAB_COUNT; l++) {
         const Lab *lab = &LABS[l];
@@ -179,10 +169,6 @@ int main(void)
 {
     Message message = {0};
     const CanvasOptions size = {.width = 96, .height = 96};
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_singles),
-        cmocka_unit_test(test_pairs),
-    };
     setenv("LP_NUM_THREADS", "0", 0);
     if (!picture_check_driver("diagnose"))
         return EXIT_SKIPPED;
@@ -190,7 +176,7 @@ int main(void)
         fprintf(stderr, "%s\n", message.text);
         return 1;
     }
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    const int failed = testing_run(0, "diagnose", NULL, NULL);
     wrong_program_close(&program);
     canvas_close(&canvas);
     return failed;

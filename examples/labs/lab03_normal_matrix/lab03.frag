@@ -1,4 +1,4 @@
-// Lab 3, given: the colour comes from the vertices, interpolated.
+// Lab 3, given: the colour is interpolated between the vertices.
 
 precision mediump float;
 

@@ -1,4 +1,4 @@
-// Lab 3, given: at each vertex, project it and light it with the normal that the matrix gives.
+// Lab 3, given: project and light each vertex, with the normal from the normal matrix.
 
 attribute vec4 a_Position;
 attribute vec4 a_Color;
@@ -7,7 +7,7 @@ attribute vec4 a_Normal;
 uniform mat4 u_MvpMatrix;
 uniform mat4 u_NormalMatrix;
 uniform vec3 u_LightColor;
-uniform vec3 u_LightDirection; // in the world, towards the light, unit
+uniform vec3 u_LightDirection; // world space, to the light, normalized
 uniform vec3 u_AmbientLight;
 
 varying vec4 v_Color;

@@ -1,4 +1,4 @@
-// Lab 4: the colour comes from the vertices, interpolated. Nothing is to be done here.
+// Lab 4: the colour is interpolated between the vertices. Nothing to do here.
 
 precision mediump float;
 

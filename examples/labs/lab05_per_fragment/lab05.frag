@@ -7,12 +7,12 @@ precision mediump float;
 #endif
 
 uniform vec3 u_LightColor[2];
-uniform vec3 u_LightPosition[2]; // in the world
+uniform vec3 u_LightPosition[2]; // world space
 uniform vec3 u_AmbientLight;
 
 varying vec4 v_Color;
 
 void main() {
-    // To do: the light of lab 4, here.
+    // To do: the lighting of lab 4, here.
     gl_FragColor = vec4(u_AmbientLight * v_Color.rgb, v_Color.a);
 }

@@ -1,4 +1,4 @@
-// Lab 7: light each fragment, with Blinn's highlight, made as wide as Phong's.
+// Lab 7: light each fragment, with Blinn's highlight, fitted to Phong's.
 
 #ifdef GL_FRAGMENT_PRECISION_HIGH
 precision highp float;
@@ -7,16 +7,16 @@ precision mediump float;
 #endif
 
 uniform vec3 u_LightColor[2];
-uniform vec3 u_LightPosition[2]; // in the world
+uniform vec3 u_LightPosition[2]; // world space
 uniform vec3 u_AmbientLight;
 uniform vec3 u_SpecularColor;
 uniform float u_Shininess;  // Phong's
-uniform vec3 u_EyePosition; // in the world
+uniform vec3 u_EyePosition; // world space
 
 varying vec4 v_Color;
 
 void main() {
-    // Begin with what you did in lab 6.
-    // To do: the vector half way between light and eye, and the exponent that fits Phong's.
+    // Start from your lab 6.
+    // To do: the half vector, and the exponent that fits Phong's.
     gl_FragColor = vec4(u_AmbientLight * v_Color.rgb, v_Color.a);
 }

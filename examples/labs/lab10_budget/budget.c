@@ -1,5 +1,5 @@
 /*
- * Lab 10: what the sphere is drawn with.
+ * Lab 10: how the sphere is drawn.
  */
 #include "lab_code.h"
 

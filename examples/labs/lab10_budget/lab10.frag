@@ -1,4 +1,4 @@
-// Lab 10: light each fragment, with Phong's highlight, as cheaply as it goes.
+// Lab 10: light each fragment, with Phong's highlight, as cheaply as possible.
 
 #ifdef GL_FRAGMENT_PRECISION_HIGH
 precision highp float;
@@ -7,16 +7,16 @@ precision mediump float;
 #endif
 
 uniform vec3 u_LightColor;
-uniform vec3 u_LightPosition; // in the world
+uniform vec3 u_LightPosition; // world space
 uniform vec3 u_AmbientLight;
 uniform vec3 u_SpecularColor;
 uniform float u_Shininess;
-uniform vec3 u_EyePosition; // in the world
+uniform vec3 u_EyePosition; // world space
 
 varying vec4 v_Color;
 
 void main() {
-    // Begin with what you did in lab 6.
-    // To do: the highlight; then leave out what costs time and changes nothing.
+    // Start from your lab 6.
+    // To do: the highlight; then remove what costs time and changes nothing.
     gl_FragColor = vec4(u_AmbientLight * v_Color.rgb, v_Color.a);
 }

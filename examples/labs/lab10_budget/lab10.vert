@@ -1,4 +1,4 @@
-// Lab 10: at each vertex, pass on what the fragments need for their light.
+// Lab 10: project each vertex and pass on what the fragment shader needs.
 
 attribute vec4 a_Position;
 attribute vec4 a_Color;
@@ -12,6 +12,6 @@ varying vec4 v_Color;
 
 void main() {
     gl_Position = u_MvpMatrix * a_Position;
-    // To do: pass on position and normal, in the world.
+    // To do: pass on position and normal in world space.
     v_Color = a_Color;
 }

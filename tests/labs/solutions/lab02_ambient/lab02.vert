@@ -1,4 +1,4 @@
-// Lab 2: at each vertex, project it; two directional lights, and ambient light once.
+// Lab 2: project each vertex; two directional lights, and ambient light once.
 
 attribute vec4 a_Position;
 attribute vec4 a_Color;
@@ -7,7 +7,7 @@ attribute vec4 a_Normal;
 uniform mat4 u_MvpMatrix;
 uniform mat4 u_NormalMatrix;
 uniform vec3 u_LightColor[2];
-uniform vec3 u_LightDirection[2]; // in the world, towards the lights, unit
+uniform vec3 u_LightDirection[2]; // world space, to the lights, normalized
 uniform vec3 u_AmbientLight;
 
 varying vec4 v_Color;

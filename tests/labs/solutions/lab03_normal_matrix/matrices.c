@@ -8,8 +8,7 @@ static const double DEGREES_PER_SECOND = 30;
 
 void lab_matrices(double seconds, Mat4 *world_from_model, Mat4 *normal_matrix)
 {
-    Mat4 rotation;
-    mat4_rotate(DEGREES_PER_SECOND * seconds, AXIS, &rotation);
+    Mat4 rotation = mat4_rotate(DEGREES_PER_SECOND * seconds, AXIS);
     *world_from_model =
         mat4_product(mat4_translate(PLACE), mat4_product(rotation, mat4_scale(SCALE)));
     /* The transpose of the inverse keeps normals perpendicular to the surface. */

@@ -1,4 +1,4 @@
-// Lab 4: the colour comes from the vertices, interpolated.
+// Lab 4: the colour is interpolated between the vertices.
 
 precision mediump float;
 

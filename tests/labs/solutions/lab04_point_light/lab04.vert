@@ -1,4 +1,4 @@
-// Lab 4: at each vertex, project it; two point lights.
+// Lab 4: project each vertex; two point lights.
 
 attribute vec4 a_Position;
 attribute vec4 a_Color;
@@ -8,7 +8,7 @@ uniform mat4 u_MvpMatrix;
 uniform mat4 u_ModelMatrix;
 uniform mat4 u_NormalMatrix;
 uniform vec3 u_LightColor[2];
-uniform vec3 u_LightPosition[2]; // in the world
+uniform vec3 u_LightPosition[2]; // world space
 uniform vec3 u_AmbientLight;
 
 varying vec4 v_Color;

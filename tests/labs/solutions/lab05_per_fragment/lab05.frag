@@ -7,12 +7,12 @@ precision mediump float;
 #endif
 
 uniform vec3 u_LightColor[2];
-uniform vec3 u_LightPosition[2]; // in the world
+uniform vec3 u_LightPosition[2]; // world space
 uniform vec3 u_AmbientLight;
 
 varying vec4 v_Color;
 varying vec3 v_Normal;
-varying vec3 v_Position; // in the world
+varying vec3 v_Position; // world space
 
 void main() {
     // Between vertices the interpolated normal is shorter than 1.

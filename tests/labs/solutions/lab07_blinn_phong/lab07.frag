@@ -1,4 +1,4 @@
-// Lab 7: light each fragment, with Blinn's highlight, made as wide as Phong's.
+// Lab 7: light each fragment, with Blinn's highlight, fitted to Phong's.
 
 #ifdef GL_FRAGMENT_PRECISION_HIGH
 precision highp float;
@@ -7,15 +7,15 @@ precision mediump float;
 #endif
 
 uniform vec3 u_LightColor[2];
-uniform vec3 u_LightPosition[2]; // in the world
+uniform vec3 u_LightPosition[2]; // world space
 uniform vec3 u_AmbientLight;
 uniform vec3 u_SpecularColor;
 uniform float u_Shininess;  // Phong's
-uniform vec3 u_EyePosition; // in the world
+uniform vec3 u_EyePosition; // world space
 
 varying vec4 v_Color;
 varying vec3 v_Normal;
-varying vec3 v_Position; // in the world
+varying vec3 v_Position; // world space
 
 void main() {
     vec3 normal = normalize(v_Normal);

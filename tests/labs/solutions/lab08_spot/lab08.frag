@@ -1,4 +1,4 @@
-// Lab 8: light each fragment with a spot that falls off towards its edge and with the distance.
+// Lab 8: light each fragment with a spot light with a soft edge and attenuation.
 
 #ifdef GL_FRAGMENT_PRECISION_HIGH
 precision highp float;
@@ -7,19 +7,19 @@ precision mediump float;
 #endif
 
 uniform vec3 u_LightColor;
-uniform vec3 u_LightPosition; // in the world
-uniform vec3 u_SpotDirection; // in the world, away from the light, unit
+uniform vec3 u_LightPosition; // world space
+uniform vec3 u_SpotDirection; // world space, from the light, normalized
 uniform float u_SpotCutoff;   // half the cone's angle, in degrees
 uniform float u_SpotExponent;
 uniform vec3 u_Attenuation; // constant, linear, quadratic
 uniform vec3 u_AmbientLight;
 uniform vec3 u_SpecularColor;
 uniform float u_Shininess;
-uniform vec3 u_EyePosition; // in the world
+uniform vec3 u_EyePosition; // world space
 
 varying vec4 v_Color;
 varying vec3 v_Normal;
-varying vec3 v_Position; // in the world
+varying vec3 v_Position; // world space
 
 void main() {
     vec3 normal = normalize(v_Normal);

@@ -7,14 +7,14 @@ precision mediump float;
 #endif
 
 uniform vec3 u_LightColor;
-uniform vec3 u_LightPosition; // in the world
+uniform vec3 u_LightPosition; // world space
 uniform vec3 u_AmbientLight;
 uniform vec4 u_BackColor;
-uniform float u_Mirrored; // -1 where the model matrix mirrors, else 1
+uniform float u_Mirrored; // -1 if the model matrix mirrors, else 1
 
 varying vec4 v_Color;
 varying vec3 v_Normal;
-varying vec3 v_Position; // in the world
+varying vec3 v_Position; // world space
 
 void main() {
     // A mirror turns the order of a triangle's corners around, and gl_FrontFacing with it.

@@ -1,4 +1,4 @@
-// Lab 10: at each vertex, pass on what the fragments need for their light.
+// Lab 10: project each vertex and pass on what the fragment shader needs.
 
 attribute vec4 a_Position;
 attribute vec4 a_Color;
@@ -9,8 +9,8 @@ uniform mat4 u_ModelMatrix;
 uniform mat4 u_NormalMatrix;
 
 varying vec4 v_Color;
-varying vec3 v_Normal;   // in the world
-varying vec3 v_Position; // in the world
+varying vec3 v_Normal;   // world space
+varying vec3 v_Position; // world space
 
 void main() {
     gl_Position = u_MvpMatrix * a_Position;

@@ -1,5 +1,5 @@
-#include "matrix.h"
 #include "lab_code.h"
+#include "matrix.h"
 
 static Vec3 column(const Mat4 *m, int i)
 {
@@ -21,7 +21,7 @@ void lab_matrices(double seconds, Mat4 *world_from_model, Mat4 *normal_matrix)
     Vec3 axis = {1.0, 2.0, 0.5};
     Mat4 r, w;
     vec3_normalize(axis, &axis);
-    mat4_rotate(seconds * 30.0, axis, &r);
+    r = mat4_rotate(seconds * 30.0, axis);
     w = mat4_product(mat4_product(mat4_translate((Vec3){.x = 0.5, .y = 0.3, .z = -0.8}), r),
                      mat4_scale((Vec3){2.0, 0.7, 1.2}));
     *world_from_model = w;

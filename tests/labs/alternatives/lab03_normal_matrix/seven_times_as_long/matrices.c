@@ -5,7 +5,7 @@
 void lab_matrices(double seconds, Mat4 *world_from_model, Mat4 *normal_matrix)
 {
     Mat4 rotation, result;
-    mat4_rotate(30.0 * seconds - 360.0, (Vec3){2, 4, 1}, &rotation);
+    rotation = mat4_rotate(30.0 * seconds - 360.0, (Vec3){2, 4, 1});
     Mat4 world = mat4_product(rotation, mat4_scale((Vec3){2, 0.7, 1.2}));
     world.m[12] = 0.5;
     world.m[13] = 0.3;

@@ -1,0 +1,99 @@
+#include "app/command.h"
+
+#include "scene/scene_example.h"
+#include "window/backends.h"
+#include "window/window.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Between single quotes all but these stand for themselves (POSIX.1-2017, Shell Command Language,
+ * section 2.2.2). Plain letters need no quotes anywhere in a word. */
+static void put_quoted(FILE *line, const char *text)
+{
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                                "%+,-./:@_";
+    const bool quoted = !text[0] || text[strspn(text, plain)];
+    fputs(quoted ? "'" : "", line);
+    for (; *text; text++)
+        fprintf(line, "%s%c", *text == '\'' ? "'\\'" : "", *text);
+    fputs(quoted ? "'" : "", line);
+}
+
+/* Writes an option whose value is not the default, or which was given. A value that begins with a
+ * hyphen is joined to its option. False if no option sets the value. */
+static bool put_changed(FILE *line, const Parameter *option, const Parameter *usual)
+{
+    char own[PARAMETER_TEXT_SIZE], other[PARAMETER_TEXT_SIZE];
+    const char *value = parameter_text(option, own), *usual_value = parameter_text(usual, other);
+    const bool given = option->given && *option->given;
+    if (!value || (usual_value && strcmp(value, usual_value) == 0 && !given))
+        return value || !usual_value;
+    fprintf(line, " --%s", option->name);
+    if (option->kind != PARAMETER_FLAG) {
+        fputc(value[0] == '-' ? '=' : ' ', line);
+        put_quoted(line, value);
+    }
+    return true;
+}
+
+/* Writes a program's own options: sets the defaults, then each option in turn, as they take effect
+ * when they are read, so that what follows from one of them is not written again. */
+static bool put_own(FILE *line, const Parameter *table, const ParameterValue *defaults)
+{
+    ParameterValue values[OPTIONS_MAX_PARAMETERS];
+    bool done = true;
+    int count = 0;
+    for (; table[count].name; count++) {
+        values[count] = parameter_save(&table[count]);
+        parameter_restore(&table[count], defaults[count]);
+    }
+    for (int turn = 0; turn < 2 * count; turn++) {
+        const int i = turn % count;
+        Parameter wanted = table[i];
+        if ((turn < count) != (table[i].changed != NULL))
+            continue;
+        wanted.value = &values[i];
+        done &= put_changed(line, &wanted, &table[i]);
+        const bool same = parameter_equal(&table[i], &values[i]);
+        parameter_restore(&table[i], values[i]);
+        if (!same && table[i].changed)
+            table[i].changed(&table[i]);
+    }
+    for (int i = 0; i < count; i++)
+        parameter_restore(&table[i], values[i]);
+    return done;
+}
+
+bool command_write(const Example *example, const Options *options, const ParameterValue *defaults,
+                   char *text, size_t size)
+{
+    const Usage usage = options_usage(example);
+    Options own = *options, usual = options_default(&usage);
+    Parameter table[OPTIONS_MAX], usual_table[OPTIONS_MAX];
+    char *written = NULL;
+    size_t length = 0;
+    FILE *line = open_memstream(&written, &length);
+    bool done = line != NULL;
+    own.size_given = false; /* the size alone counts */
+    if (!own.output_given)
+        own.output = NULL;
+    if (options_in_window(&own)) /* which draws with EGL */
+        own.canvas.backend = &CANVAS_EGL;
+    /* EGL goes without saying, but not where the environment may say otherwise. */
+    usual.canvas.backend = backend_default(NULL) == &CANVAS_EGL ? &CANVAS_EGL : &CANVAS_WINDOW;
+    const int common = options_table(&usage, &usual, OPTIONS_TO_WRITE, usual_table);
+    options_table(&usage, &own, OPTIONS_TO_WRITE, table);
+    if (done)
+        put_quoted(line, example->name);
+    for (int i = 0; done && i < common; i++)
+        done = put_changed(line, &table[i], &usual_table[i]);
+    if (done && defaults)
+        done = put_own(line, table + common, defaults);
+    done = line && fclose(line) == 0 && done && length < size;
+    if (size > 0)
+        snprintf(text, size, "%s", done ? written : "");
+    free(written);
+    return done;
+}

@@ -1,0 +1,16 @@
+/*
+ * explain: the effects that the views of a scene need, and what their programs cost.
+ */
+#ifndef EXPLAIN_H
+#define EXPLAIN_H
+
+#include "app/stage.h"
+
+/* Writes the effects at the options' time, by view and object. */
+void explain_effects(Stage *stage, const Options *options, FILE *file);
+
+/* --explain: the same on standard output, with each program's operations. Compiles the programs, so
+ * that the loader prints them if it was asked to. */
+bool explain_programs(Stage *stage, const Options *options, Message *message);
+
+#endif

@@ -1,0 +1,131 @@
+/*
+ * options: the command line, the same for every program.
+ */
+#ifndef OPTIONS_H
+#define OPTIONS_H
+
+#include "core/canvas.h"
+#include "core/example.h"
+#include "core/orbit.h"
+#include "core/shader.h"
+#include "scene/parameter.h"
+#include "scene/scene.h"
+
+/* Exit codes besides 0. */
+enum {
+    EXIT_FAILED = 1, /* of the machine, a file or a driver */
+    EXIT_USAGE = 2,  /* of the command line */
+};
+
+enum { FRAMES_MAX = 1000000 };
+
+/* Of a program: its own options, and all. */
+enum { OPTIONS_MAX_PARAMETERS = 32, OPTIONS_MAX = 72 };
+
+/* The defaults of --size in pixels and of --fps. */
+enum { OPTIONS_SIDE = 400, OPTIONS_FPS = 30 };
+
+/* The range of --time, before and after 0. */
+enum { OPTIONS_MAX_SECONDS = 1000000000 };
+
+typedef struct Options {
+    const char *output; /* a file, "-", a name with %d; for a gallery or a study a folder */
+    bool output_given;
+    int width, height;
+    bool size_given;
+    double seconds;
+    int frames;
+    bool numbered; /* --frames was given, and the output's name has a number */
+    double fps;
+    const char *format; /* of standard output: "png", "y4m", "rgb", "svg", "pdf"; NULL: not given */
+    const char *vector; /* "svg" or "pdf", of a diagram; NULL: pixels */
+    const char *animation; /* the format of the one file or stream of all pictures, see animation.h;
+                              NULL: each picture has its own file */
+    Orbit orbit;
+    bool watch;           /* draw again when a shader changes */
+    CanvasOptions canvas; /* without size and real */
+    ShaderLoader shaders;
+    bool alpha;
+    int compress;
+    bool verbose;
+    bool doctor;
+    const char
+        *generate; /* "man", "bash", "zsh", "fish": what options_read prints; NULL: nothing */
+    /* Of programs that draw scenes. */
+    bool explain;      /* report the effects that the scene needs, and draw nothing */
+    bool full;         /* draw with the program that has every effect */
+    bool clamp_vertex; /* see scene.h */
+    bool linear;
+    bool show_clipped;
+    SceneTerms terms;
+    bool cheap; /* --error: draw as cheaply as an error of `error` steps of 1/255 allows */
+    double error;
+    bool own_given[OPTIONS_MAX_PARAMETERS]; /* the program's own options, in their order */
+    /* Of the example's own parameters before the command line was read; NULL: they are unchanged.
+     */
+    const ParameterValue *defaults;
+    char *const *names; /* the arguments that are no options; NULL-terminated */
+    char default_output[128];
+} Options;
+
+/* What the program accepts, and what --help says besides the options. */
+typedef struct Usage {
+    const char *name;
+    const char *summary;
+    const char *details;      /* the last part of --help; NULL: examples */
+    bool gallery;             /* -o names a folder, names may follow the options, no --frames */
+    bool study;               /* -o names a folder; no options that change a picture */
+    bool scene;               /* the options of programs that draw scenes */
+    bool diagram;             /* draws without OpenGL, and writes SVG and PDF too */
+    const char *names;        /* the operands in --help, "LAB PATH"; NULL: there are none */
+    const char *const *tries; /* as in an Example; may be NULL */
+    int width, height;        /* of the picture without --size; zero: 400 */
+    void (*resize)(int *width, int *height); /* where that depends on an option; may be NULL */
+    const Parameter *parameters; /* the program's own options; ended by a NULL name; may be NULL */
+} Usage;
+
+typedef enum OptionsResult { OPTIONS_RUN, OPTIONS_ANSWERED, OPTIONS_BAD } OptionsResult;
+
+/* Reads the command line. OPTIONS_ANSWERED: --help, --version or --generate was printed on standard
+ * output; OPTIONS_BAD: a usage error, with its message. */
+OptionsResult options_read(Options *options, const Usage *usage, int argc, char *argv[],
+                           Message *message);
+
+Usage options_usage(const Example *example);
+
+/* The size of the picture without --size. */
+void options_size(const Usage *usage, int *width, int *height);
+
+/* As options_read leaves them without arguments, apart from the output. */
+Options options_default(const Usage *usage);
+
+/* Fills `table` with the options that a program has, in the order of --help, their values in
+ * `options`: the common ones, how many of which is returned, then its own, then a NULL name. To
+ * write: only those that change what is drawn or where it goes. */
+typedef enum OptionsPurpose { OPTIONS_TO_READ, OPTIONS_TO_SHOW, OPTIONS_TO_WRITE } OptionsPurpose;
+int options_table(const Usage *usage, Options *options, OptionsPurpose purpose,
+                  Parameter table[OPTIONS_MAX]);
+
+bool options_in_window(const Options *options);
+
+/* Sets a handler, with sigaction's flags, for SIGINT, SIGTERM and SIGHUP; not for those that are
+ * ignored, as under nohup. */
+void options_catch_signals(void (*handler)(int), int flags);
+
+/* Opens /dev/null for closed standard streams, so that a picture does not land in a file that got
+ * the number of standard output; ends the process quietly if the reader of standard output leaves;
+ * turns SIGPIPE of other pipes and SIGXFSZ into errors of the write; removes half-written files
+ * before a signal ends the process. */
+void options_prepare_process(void);
+
+/* The beginning of a program: options_prepare_process and options_read, whose message it prints.
+ * False if the program is to return *code at once. */
+bool options_begin(Options *options, const Usage *usage, int argc, char *argv[], int *code);
+
+/* Prints a message on standard error and returns `code`. */
+int options_fail(const char *program, const Message *message, int code);
+
+/* Flushes standard output; EXIT_FAILED, with a message, if something written did not arrive. */
+int options_finish(const char *program, int code);
+
+#endif

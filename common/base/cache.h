@@ -1,0 +1,30 @@
+/*
+ * cache: bytes kept between runs by a key of their contents, in lighting/ of XDG_CACHE_HOME or
+ * ~/.cache. A convenience: whatever fails (no folder, no room, a damaged file) is a miss.
+ *
+ * At most CACHE_MAX bytes: the least recently used files go first. Files appear whole, by rename,
+ * and one process writes at a time (others then keep nothing), so that any number may use it at
+ * once.
+ */
+#ifndef CACHE_H
+#define CACHE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+enum { CACHE_MAX = 100000000 };
+
+/* 128 bits of a hash; zeroed: of nothing. */
+typedef struct CacheKey {
+    uint64_t bits[2];
+} CacheKey;
+void cache_key_add(CacheKey *key, const void *bytes, size_t size);
+
+/* The bytes kept under a key, to be freed; NULL: none. */
+void *cache_read(const char *kind, const CacheKey *key, size_t *size);
+
+/* Keeps bytes; `kind` is the beginning of the file's name. */
+void cache_write(const char *kind, const CacheKey *key, const void *bytes, size_t size);
+
+#endif

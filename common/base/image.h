@@ -1,0 +1,28 @@
+/*
+ * image: pixels in memory.
+ */
+#ifndef IMAGE_H
+#define IMAGE_H
+
+#include "base/message.h"
+
+#include <stddef.h>
+
+typedef enum ImageType {
+    IMAGE_BYTE,  /* unsigned char, 0..255 stands for 0..1 */
+    IMAGE_FLOAT, /* float, not clamped */
+} ImageType;
+
+/* RGBA, row 0 at the top, rows without padding, alpha not premultiplied. */
+typedef struct Image {
+    int width, height;
+    ImageType type;
+    void *pixels; /* width * height * 4 unsigned char or float */
+} Image;
+
+/* Opens an image of zeros. */
+bool image_open(Image *image, int width, int height, ImageType type, Message *message);
+void image_close(Image *image);
+size_t image_row_size(const Image *image); /* in bytes */
+
+#endif

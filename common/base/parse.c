@@ -1,0 +1,108 @@
+#include "base/parse.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool parse_size(const char *text, int *width, int *height)
+{
+    const char *p = text;
+    int sizes[2];
+    for (int i = 0; i < 2; i++) {
+        int value = 0, digits = 0;
+        for (; *p >= '0' && *p <= '9' && digits < 6; p++, digits++)
+            value = 10 * value + (*p - '0');
+        if (!digits || value < 1 || value > PARSE_SIZE_MAX)
+            return false;
+        sizes[i] = value;
+        if (i == 0 && *p != 'x' && *p != 'X')
+            return false;
+        p += i == 0;
+    }
+    if (*p)
+        return false;
+    *width = sizes[0];
+    *height = sizes[1];
+    return true;
+}
+
+bool parse_number(const char *text, double min, double max, double *number)
+{
+    char *end;
+    /* strtod also accepts blanks, hexadecimal, inf and nan. */
+    const char *digits = text + (*text == '-' || *text == '+');
+    if (!((*digits >= '0' && *digits <= '9') || *digits == '.') || strpbrk(text, "xX"))
+        return false;
+    const double value = strtod(text, &end);
+    if (end == text || *end || !(value >= min && value <= max))
+        return false;
+    *number = value;
+    return true;
+}
+
+bool parse_whole(const char *text, int min, int max, int *number)
+{
+    double value;
+    if (!parse_number(text, min, max, &value) || value != floor(value))
+        return false;
+    *number = (int)value;
+    return true;
+}
+
+int parse_numbers(const char *text, const double min[3], const double max[3], double numbers[3])
+{
+    char copy[128], *rest = copy;
+    int count = 0;
+    if (snprintf(copy, sizeof copy, "%s", text) >= (int)sizeof copy)
+        return 0;
+    for (char *part; (part = strsep(&rest, ",")) != NULL; count++)
+        if (count == 3 || !parse_number(part, min[count], max[count], &numbers[count]))
+            return 0;
+    return count;
+}
+
+void parse_number_text(double number, char text[32])
+{
+    /* 15 digits keep every decimal of 15 digits, 17 every double. */
+    for (int digits = 15; digits <= 17; digits++) {
+        snprintf(text, 32, "%.*g", digits, number);
+        if (strtod(text, NULL) == number)
+            return;
+    }
+}
+
+/* Levenshtein distance of the first 63 characters. */
+static int distance(const char *a, const char *b)
+{
+    enum { MAX = 63 };
+    int row[MAX + 1];
+    const int length = (int)strlen(b) < MAX ? (int)strlen(b) : MAX;
+    for (int j = 0; j <= length; j++)
+        row[j] = j;
+    for (int i = 1; i <= MAX && a[i - 1]; i++) {
+        int diagonal = row[0];
+        row[0] = i;
+        for (int j = 1; j <= length; j++) {
+            const int change = diagonal + (a[i - 1] != b[j - 1]);
+            diagonal = row[j];
+            const int other = 1 + (row[j] < row[j - 1] ? row[j] : row[j - 1]);
+            row[j] = change < other ? change : other;
+        }
+    }
+    return row[length];
+}
+
+const char *parse_nearest(const char *word, const char *const *names)
+{
+    const char *nearest = NULL;
+    int min = 1 + (int)strlen(word) / 3; /* a third of the letters may be wrong */
+    for (; *names; names++) {
+        const int d = distance(word, *names);
+        if (d <= min && (!nearest || d < min)) {
+            nearest = *names;
+            min = d;
+        }
+    }
+    return nearest;
+}

@@ -1,0 +1,30 @@
+/*
+ * parse: values of the command line.
+ */
+#ifndef PARSE_H
+#define PARSE_H
+
+#include <stdbool.h>
+
+enum { PARSE_SIZE_MAX = 16384 };
+
+/* "WIDTHxHEIGHT", each 1 to PARSE_SIZE_MAX. Like all functions here, it refuses trailing text. */
+bool parse_size(const char *text, int *width, int *height);
+
+/* A finite decimal number in [min, max]. */
+bool parse_number(const char *text, double min, double max, double *number);
+
+/* An integer in [min, max]. */
+bool parse_whole(const char *text, int min, int max, int *number);
+
+/* One to three numbers separated by commas, the i-th in [min[i], max[i]]. Returns their count; 0 on
+ * failure. */
+int parse_numbers(const char *text, const double min[3], const double max[3], double numbers[3]);
+
+/* Writes a finite number with the fewest digits, 15 to 17, that parse_number reads back exactly. */
+void parse_number_text(double number, char text[32]);
+
+/* The name nearest to `word` by edit distance; NULL if none is near. `names` ends with NULL. */
+const char *parse_nearest(const char *word, const char *const *names);
+
+#endif

@@ -1,0 +1,471 @@
+#include "core/canvas.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The function pointers of gl.h and EGL's display belong to one canvas. */
+static bool is_open;
+
+static const CanvasBackend *const HEADLESS[] = {&CANVAS_EGL, &CANVAS_OSMESA, NULL};
+
+const CanvasBackend *canvas_backend(const CanvasBackend *const *backends, const char *name,
+                                    Message *message)
+{
+    char known[128] = "";
+    for (int i = 0; backends[i]; i++) {
+        if (strcmp(name, backends[i]->name) == 0)
+            return backends[i];
+        const size_t used = strlen(known);
+        snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "", backends[i]->name);
+    }
+    message_set(message, "%s: no such backend; there is %s", name, known);
+    return NULL;
+}
+
+const CanvasBackend *canvas_default_backend(const CanvasBackend *const *backends, Message *message)
+{
+    const char *name = getenv("LIGHTING_BACKEND");
+    Message why = {0};
+    const CanvasBackend *found =
+        name && name[0] ? canvas_backend(backends, name, &why) : backends[0];
+    if (!found)
+        message_set(message, "LIGHTING_BACKEND: %s", why.text);
+    return found;
+}
+
+static GLenum color_format(const Canvas *canvas)
+{
+    return canvas->real ? GL_RGBA32F_EXT : GL_RGBA8_OES;
+}
+
+static bool check_size(const Canvas *canvas, Message *message)
+{
+    GLint max_buffer = 0, max[2] = {0, 0};
+    char how[64] = "";
+    glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &max_buffer);
+    glGetIntegerv(GL_MAX_VIEWPORT_DIMS, max);
+    for (int i = 0; i < 2; i++)
+        max[i] = (max_buffer < max[i] ? max_buffer : max[i]) / canvas->supersample;
+    if (canvas->width >= 1 && canvas->width <= max[0] && canvas->height >= 1 &&
+        canvas->height <= max[1])
+        return true;
+    if (canvas->supersample > 1)
+        snprintf(how, sizeof how, " with %dx%d supersampling", canvas->supersample,
+                 canvas->supersample);
+    return message_set(message, "size %dx%d: %s%s draws 1x1 to %dx%d", canvas->width,
+                       canvas->height, canvas->renderer, how, max[0], max[1]);
+}
+
+static const char *framebuffer_status(GLenum status)
+{
+    switch (status) {
+    case GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT:
+        return "incomplete attachment, probably out of memory; ask for a smaller size or "
+               "fewer samples";
+    case GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT:
+        return "missing attachment";
+    case GL_FRAMEBUFFER_UNSUPPORTED:
+        return "unsupported combination of formats";
+    default:
+        return "incomplete";
+    }
+}
+
+static void renderbuffer(GLuint *name, int samples, GLenum format, int width, int height)
+{
+    glGenRenderbuffers(1, name);
+    glBindRenderbuffer(GL_RENDERBUFFER, *name);
+    if (samples > 0)
+        glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, format, width, height);
+    else
+        glRenderbufferStorage(GL_RENDERBUFFER, format, width, height);
+}
+
+static bool framebuffer(GLuint *name, GLuint color, GLuint depth, int width, int height,
+                        Message *message)
+{
+    glGenFramebuffers(1, name);
+    glBindFramebuffer(GL_FRAMEBUFFER, *name);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color);
+    if (depth)
+        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth);
+    const GLenum error = glGetError();
+    if (error != GL_NO_ERROR)
+        return message_set(message,
+                           "canvas: a %dx%d framebuffer: %s from the driver; ask for a "
+                           "smaller size or fewer samples",
+                           width, height, gl_error_name(error));
+    const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
+    if (status != GL_FRAMEBUFFER_COMPLETE)
+        return message_set(message, "canvas: a %dx%d framebuffer: %s", width, height,
+                           framebuffer_status(status));
+    return true;
+}
+
+/* The driver's multisampling, or else supersampling. */
+static bool choose_samples(Canvas *canvas, int samples, Message *message)
+{
+    enum { MAX_SUPERSAMPLE = 4 };
+    if (samples <= 1)
+        return true;
+    if (glRenderbufferStorageMultisample && glBlitFramebuffer) {
+        GLint max = 0;
+        glGetIntegerv(GL_MAX_SAMPLES_ANGLE, &max);
+        if (samples > max)
+            return message_set(message, "%d samples: %s has at most %d", samples, canvas->renderer,
+                               (int)max);
+        canvas->samples = samples;
+        return true;
+    }
+    int side = 2;
+    while (side * side < samples)
+        side++;
+    if (side > MAX_SUPERSAMPLE)
+        return message_set(message,
+                           "%d samples: %s has none of its own, and supersampling gives "
+                           "at most %d",
+                           samples, canvas->renderer, MAX_SUPERSAMPLE * MAX_SUPERSAMPLE);
+    canvas->supersample *= side;
+    return true;
+}
+
+static bool check_bits(Canvas *canvas, Message *message)
+{
+    glGetIntegerv(GL_RED_BITS, &canvas->red_bits);
+    glGetIntegerv(GL_GREEN_BITS, &canvas->green_bits);
+    glGetIntegerv(GL_BLUE_BITS, &canvas->blue_bits);
+    glGetIntegerv(GL_ALPHA_BITS, &canvas->alpha_bits);
+    glGetIntegerv(GL_DEPTH_BITS, &canvas->depth_bits);
+    const int bits = canvas->real ? 32 : 8;
+    if (canvas->red_bits != bits || canvas->green_bits != bits || canvas->blue_bits != bits ||
+        canvas->alpha_bits != bits || canvas->depth_bits < 24)
+        return message_set(message,
+                           "canvas: asked for RGBA %d %d %d %d and depth 24, the driver gave %d %d "
+                           "%d %d and %d",
+                           bits, bits, bits, bits, canvas->red_bits, canvas->green_bits,
+                           canvas->blue_bits, canvas->alpha_bits, canvas->depth_bits);
+    return true;
+}
+
+static bool make_framebuffers(Canvas *canvas, Message *message)
+{
+    const int width = canvas->width * canvas->supersample;
+    const int height = canvas->height * canvas->supersample;
+    const bool es3 = gl_version() >= 30;
+    const GLenum depth_format =
+        es3 || gl_has("GL_OES_depth24") ? GL_DEPTH_COMPONENT24_OES : GL_DEPTH_COMPONENT16;
+    if (!es3 && !gl_has("GL_OES_rgb8_rgba8"))
+        return message_set(message, "canvas: %s cannot draw to 8-bit RGBA (GL_OES_rgb8_rgba8)",
+                           canvas->renderer);
+    if (canvas->samples > 0) {
+        renderbuffer(&canvas->resolve_color, 0, color_format(canvas), width, height);
+        if (!framebuffer(&canvas->resolve_framebuffer, canvas->resolve_color, 0, width, height,
+                         message))
+            return false;
+    }
+    renderbuffer(&canvas->color, canvas->samples, color_format(canvas), width, height);
+    renderbuffer(&canvas->depth, canvas->samples, depth_format, width, height);
+    if (!framebuffer(&canvas->framebuffer, canvas->color, canvas->depth, width, height, message))
+        return false;
+    if (canvas->samples > 0)
+        glGetIntegerv(GL_SAMPLES, &canvas->samples);
+    return check_bits(canvas, message);
+}
+
+/* In the current context. */
+static bool make_canvas(Canvas *canvas, const CanvasOptions *options, Message *message)
+{
+    canvas->width = options->width;
+    canvas->height = options->height;
+    canvas->supersample = options->supersample > 1 ? options->supersample : 1;
+    canvas->real = options->real && gl_draws_floats();
+    if (!choose_samples(canvas, options->samples, message) || !check_size(canvas, message) ||
+        !make_framebuffers(canvas, message))
+        return false;
+    canvas_begin(canvas);
+    return true;
+}
+
+/* A window shows a copy of what was drawn. */
+static bool check_presents(const Canvas *canvas, Message *message)
+{
+    return !canvas->backend->presents || glBlitFramebuffer ||
+           message_set(message,
+                       "window: %s cannot copy to it (OpenGL ES 3 or GL_ANGLE_framebuffer_blit)",
+                       canvas->renderer);
+}
+
+static bool make_first(Canvas *canvas, const CanvasOptions *options, Message *message)
+{
+    enum { PROGRAM_POINT_SIZE = 0x8642 };
+    if (!gl_load(canvas->backend->address, message))
+        return false;
+    canvas->renderer = (const char *)glGetString(GL_RENDERER);
+    canvas->version = (const char *)glGetString(GL_VERSION);
+    /* Desktop OpenGL ignores gl_PointSize unless this is enabled. */
+    if (gl_desktop())
+        glEnable(PROGRAM_POINT_SIZE);
+    return check_presents(canvas, message) && make_canvas(canvas, options, message);
+}
+
+bool canvas_open(Canvas *canvas, const CanvasOptions *options, Message *message)
+{
+    const CanvasBackend *backend =
+        options->backend ? options->backend : canvas_default_backend(HEADLESS, message);
+    Canvas opened = {.backend = backend};
+    *canvas = (Canvas){0};
+    if (!backend)
+        return false;
+    if (is_open)
+        return message_set(message, "canvas: another one is open; close it first");
+    if (!backend->open(&opened.context, options, &opened.platform, message))
+        return false;
+    is_open = true;
+    *canvas = opened;
+    if (make_first(canvas, options, message))
+        return true;
+    canvas_close(canvas);
+    return false;
+}
+
+bool canvas_open_beside(Canvas *canvas, const Canvas *first, const CanvasOptions *options,
+                        Message *message)
+{
+    *canvas = (Canvas){.backend = first->backend,
+                       .context = first->context,
+                       .beside = true,
+                       .platform = first->platform,
+                       .renderer = first->renderer,
+                       .version = first->version};
+    if (make_canvas(canvas, options, message))
+        return true;
+    canvas_close(canvas);
+    return false;
+}
+
+void canvas_begin(const Canvas *canvas)
+{
+    glBindFramebuffer(GL_FRAMEBUFFER, canvas->framebuffer);
+    glDisable(GL_SCISSOR_TEST);
+    glViewport(0, 0, canvas->width * canvas->supersample, canvas->height * canvas->supersample);
+}
+
+void canvas_clear(const Canvas *canvas, Vec3 color, double alpha)
+{
+    canvas_begin(canvas);
+    glClearColor((float)color.x, (float)color.y, (float)color.z, (float)alpha);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
+void canvas_view(const Canvas *canvas, int x, int y, int width, int height)
+{
+    const int side = canvas->supersample;
+    const int bottom = (canvas->height - y - height) * side;
+    glViewport(x * side, bottom, width * side, height * side);
+    /* The viewport does not clip large points. */
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(x * side, bottom, width * side, height * side);
+}
+
+static void delete_framebuffers(Canvas *canvas)
+{
+    const GLuint framebuffers[2] = {canvas->framebuffer, canvas->resolve_framebuffer};
+    const GLuint buffers[3] = {canvas->color, canvas->depth, canvas->resolve_color};
+    glDeleteFramebuffers(2, framebuffers); /* 0 is ignored */
+    glDeleteRenderbuffers(3, buffers);
+    canvas->framebuffer = canvas->resolve_framebuffer = 0;
+    canvas->color = canvas->depth = canvas->resolve_color = 0;
+}
+
+bool canvas_resize(Canvas *canvas, int width, int height, Message *message)
+{
+    if (canvas->width == width && canvas->height == height)
+        return true;
+    delete_framebuffers(canvas);
+    canvas->width = width;
+    canvas->height = height;
+    if (!check_size(canvas, message) || !make_framebuffers(canvas, message))
+        return false;
+    canvas_begin(canvas);
+    return true;
+}
+
+/* OpenGL's row 0 is the bottom. */
+static bool flip_rows(Image *image, Message *message)
+{
+    const size_t row = image_row_size(image);
+    unsigned char *spare = malloc(row), *pixels = image->pixels;
+    if (!spare)
+        return message_set(message, "canvas: not enough memory for a row of pixels");
+    for (int y = 0; y < image->height / 2; y++) {
+        unsigned char *upper = pixels + (size_t)y * row;
+        unsigned char *lower = pixels + (size_t)(image->height - 1 - y) * row;
+        memcpy(spare, upper, row);
+        memcpy(upper, lower, row);
+        memcpy(lower, spare, row);
+    }
+    free(spare);
+    return true;
+}
+
+/* Adds row `y` of `large` to `sums`, `side` pixels per sum. */
+static void add_row(const Image *large, size_t y, size_t side, double *sums)
+{
+    const size_t channels = 4, width = (size_t)large->width / side;
+    const size_t first = y * (size_t)large->width * channels;
+    const unsigned char *bytes = (const unsigned char *)large->pixels + first;
+    const float *floats = (const float *)large->pixels + first;
+    for (size_t x = 0; x < width; x++) {
+        for (size_t i = 0; i < side; i++) {
+            const size_t from = (x * side + i) * channels;
+            for (size_t c = 0; c < channels; c++)
+                sums[x * channels + c] +=
+                    large->type == IMAGE_FLOAT ? (double)floats[from + c] : bytes[from + c];
+        }
+    }
+}
+
+/* Each pixel of `image` is the mean of `side` x `side` of `large`. */
+static bool average(Image *image, const Image *large, int side, Message *message)
+{
+    const size_t count = 4 * (size_t)image->width;
+    const double squares = side * side;
+    double *sums = malloc(count * sizeof *sums);
+    if (!sums)
+        return message_set(message, "canvas: not enough memory for a row of pixels");
+    for (size_t y = 0; y < (size_t)image->height; y++) {
+        for (size_t i = 0; i < count; i++)
+            sums[i] = 0;
+        for (size_t j = 0; j < (size_t)side; j++)
+            add_row(large, y * (size_t)side + j, (size_t)side, sums);
+        for (size_t i = 0; i < count; i++) {
+            const double mean = sums[i] / squares;
+            if (image->type == IMAGE_FLOAT)
+                ((float *)image->pixels)[y * count + i] = (float)mean;
+            else
+                ((unsigned char *)image->pixels)[y * count + i] = (unsigned char)lrint(mean);
+        }
+    }
+    free(sums);
+    return true;
+}
+
+/* Averages the samples of each pixel. Leaves the framebuffer with the result bound. */
+static void resolve(const Canvas *canvas)
+{
+    const int width = canvas->width * canvas->supersample;
+    const int height = canvas->height * canvas->supersample;
+    if (!canvas->samples)
+        return glBindFramebuffer(GL_FRAMEBUFFER, canvas->framebuffer);
+    glDisable(GL_SCISSOR_TEST); /* it would clip the copy */
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER_ANGLE, canvas->resolve_framebuffer);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER_ANGLE, canvas->framebuffer);
+    glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBindFramebuffer(GL_FRAMEBUFFER, canvas->resolve_framebuffer);
+}
+
+static bool read_pixels(const Canvas *canvas, Image *image, Message *message)
+{
+    resolve(canvas);
+    const bool reverses = gl_has("GL_ANGLE_pack_reverse_row_order");
+    glPixelStorei(GL_PACK_ALIGNMENT, 4);
+    if (reverses)
+        glPixelStorei(GL_PACK_REVERSE_ROW_ORDER_ANGLE, 1);
+    glReadPixels(0, 0, image->width, image->height, GL_RGBA,
+                 canvas->real ? GL_FLOAT : GL_UNSIGNED_BYTE, image->pixels);
+    glBindFramebuffer(GL_FRAMEBUFFER, canvas->framebuffer);
+    const GLenum error = glGetError();
+    if (error != GL_NO_ERROR)
+        return message_set(message, "canvas: drawing and reading back a %dx%d picture: %s",
+                           image->width, image->height, gl_error_name(error));
+    return reverses || flip_rows(image, message);
+}
+
+bool canvas_check(const Canvas *canvas, Message *message)
+{
+    if (!canvas->backend->current(canvas->context))
+        return message_set(message,
+                           "canvas: its context is no longer current; what was drawn is lost");
+    const GLenum reset = glGetGraphicsResetStatus ? glGetGraphicsResetStatus() : GL_NO_ERROR;
+    return reset == GL_NO_ERROR ||
+           message_set(message, "canvas: %s was reset (%s), and what was drawn is lost; try again",
+                       canvas->renderer,
+                       reset == GL_GUILTY_CONTEXT_RESET_EXT     ? "by this program"
+                       : reset == GL_INNOCENT_CONTEXT_RESET_EXT ? "by another program"
+                                                                : "cause unknown");
+}
+
+/* Copies the bound framebuffer to framebuffer 0; `flipped`: its first row is the top. */
+static void present(int from_width, int from_height, int width, int height, bool flipped)
+{
+    const bool equal = width == from_width && height == from_height;
+    glDisable(GL_SCISSOR_TEST);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER_ANGLE, 0);
+    glBlitFramebuffer(0, 0, from_width, from_height, 0, flipped ? height : 0, width,
+                      flipped ? 0 : height, GL_COLOR_BUFFER_BIT, equal ? GL_NEAREST : GL_LINEAR);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glViewport(0, 0, width, height);
+}
+
+void canvas_present(const Canvas *canvas, int width, int height)
+{
+    const int side = canvas->supersample;
+    resolve(canvas);
+    present(canvas->width * side, canvas->height * side, width, height, false);
+}
+
+bool canvas_present_image(const Image *image, int width, int height, Message *message)
+{
+    GLuint texture = 0, framebuffer = 0;
+    glGenTextures(1, &texture);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, image->width, image->height, 0, GL_RGBA,
+                 GL_UNSIGNED_BYTE, image->pixels);
+    glBindTexture(GL_TEXTURE_2D, 0);
+    glGenFramebuffers(1, &framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
+    present(image->width, image->height, width, height, true);
+    glDeleteFramebuffers(1, &framebuffer);
+    glDeleteTextures(1, &texture);
+    const GLenum error = glGetError();
+    return error == GL_NO_ERROR || message_set(message, "window: showing a %dx%d picture: %s",
+                                               image->width, image->height, gl_error_name(error));
+}
+
+bool canvas_read(const Canvas *canvas, Image *image, Message *message)
+{
+    if (!canvas_check(canvas, message))
+        return false;
+    if (image->width != canvas->width || image->height != canvas->height ||
+        image->type != (canvas->real ? IMAGE_FLOAT : IMAGE_BYTE))
+        return message_set(message, "canvas: a %dx%d %s image cannot take a %dx%d %s picture",
+                           image->width, image->height,
+                           image->type == IMAGE_FLOAT ? "float" : "byte", canvas->width,
+                           canvas->height, canvas->real ? "float" : "byte");
+    if (canvas->supersample == 1)
+        return read_pixels(canvas, image, message);
+    Image large;
+    if (!image_open(&large, canvas->width * canvas->supersample,
+                    canvas->height * canvas->supersample, image->type, message))
+        return false;
+    const bool done = read_pixels(canvas, &large, message) &&
+                      average(image, &large, canvas->supersample, message);
+    image_close(&large);
+    return done;
+}
+
+void canvas_close(Canvas *canvas)
+{
+    if (!canvas)
+        return;
+    if (canvas->beside) {
+        delete_framebuffers(canvas);
+    } else if (canvas->context) {
+        canvas->backend->close(canvas->context); /* its framebuffers too */
+        is_open = false;
+    }
+    *canvas = (Canvas){0};
+}

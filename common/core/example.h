@@ -1,0 +1,49 @@
+/*
+ * example: a program of the chapter: its name, what it teaches, and three functions.
+ *
+ * `main` (app/main.c) passes it to example_main (app/run.h), which reads the options, opens a
+ * canvas, draws and writes the picture. `draw` gets the time and reads no clock, so every picture
+ * is reproducible.
+ */
+#ifndef EXAMPLE_H
+#define EXAMPLE_H
+
+#include "core/gl.h"
+#include "core/orbit.h"
+#include "core/shader.h"
+
+/* What to draw. */
+typedef struct Frame {
+    double seconds; /* since the start of the animation */
+    double aspect;  /* width / height of the picture */
+    Orbit orbit;    /* how the user has moved the camera */
+} Frame;
+
+typedef struct Example {
+    const char *name;     /* of the program and of its picture */
+    const char *summary;  /* one line: what it teaches */
+    float clear_color[3]; /* of the background; zero: black */
+    int width, height;    /* of the picture; zero: 400 */
+    const char *tries[4]; /* arguments that --help suggests; ended by NULL; none: common ones */
+
+    /* Loads shaders, makes meshes, finds locations. `finish` closes what it opened, also after a
+     * failure. Both NULL for a diagram. */
+    bool (*init)(const ShaderLoader *loader, Message *message);
+    void (*finish)(void);
+
+    /* Draws one frame into the canvas, which is already cleared. */
+    void (*draw)(const Frame *frame);
+
+    /* Instead of `draw`: */
+    bool (*try_draw)(const Frame *frame, Message *message); /* drawing that can fail */
+    const struct SceneExample *scene;                       /* see scene/scene_example.h */
+    const struct DiagramExample *diagram;                   /* the same */
+} Example;
+
+/* The lecture's animations turn at this rate, so that --angle selects a time. */
+enum { DEGREES_PER_SECOND = 30 };
+
+/* mat4_look_at from where the frame's orbit has moved the eye. */
+Mat4 frame_look_at(const Frame *frame, Vec3 eye, Vec3 center, Vec3 up);
+
+#endif

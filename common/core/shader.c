@@ -1,0 +1,321 @@
+/*
+ * Compiling, linking, locations: the part of shader.h that uses GL.
+ */
+#include "core/shader.h"
+
+#include "base/clock.h"
+#include "base/parse.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { LOG_MAX = sizeof((Message *)NULL)->text, NAME_SIZE = 128 };
+
+static void print_source(const ShaderLoader *loader, const ShaderSource *source, ShaderStage stage)
+{
+    const int both = SHADER_PRINT_VERTEX | SHADER_PRINT_FRAGMENT;
+    const int mine = stage == SHADER_VERTEX ? SHADER_PRINT_VERTEX : SHADER_PRINT_FRAGMENT;
+    if (!loader->printed || !(loader->print & mine))
+        return;
+    if ((loader->print & both) == both)
+        fprintf(loader->printed, "// %s shader: %s\n",
+                stage == SHADER_VERTEX ? "vertex" : "fragment", source->files[0]);
+    fputs(source->text, loader->printed);
+}
+
+static GLuint compile(const ShaderSource *source, ShaderStage stage, Message *message)
+{
+    const GLchar *text = source->text;
+    const GLint size = (GLint)source->size;
+    GLint compiled = GL_FALSE;
+    GLuint shader = glCreateShader(stage == SHADER_VERTEX ? GL_VERTEX_SHADER : GL_FRAGMENT_SHADER);
+    glShaderSource(shader, 1, &text, &size);
+    glCompileShader(shader);
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
+    if (compiled)
+        return shader;
+    char log[LOG_MAX] = "";
+    glGetShaderInfoLog(shader, sizeof log, NULL, log);
+    glDeleteShader(shader);
+    if (log[0])
+        shader_explain_log(source, log, message);
+    else
+        message_set(message, "%s: the driver rejected it without a reason", source->files[0]);
+    return 0;
+}
+
+static bool in_name(char c)
+{
+    return isalnum((unsigned char)c) || c == '_';
+}
+
+/* Whether a line declares `word`, followed by a separator: "varying vec3 v_Normal;". */
+static bool declares(const char *line, int length, const char *word, int word_length)
+{
+    static const char *const kinds[] = {"attribute", "uniform", "varying"};
+    bool declaration = false;
+    for (int i = 0; i < length;) {
+        int n = 0;
+        while (i + n < length && in_name(line[i + n]))
+            n++;
+        for (int k = 0; k < 3; k++)
+            declaration |=
+                n == (int)strlen(kinds[k]) && strncmp(line + i, kinds[k], (size_t)n) == 0;
+        int after = i + n;
+        while (after < length && isspace((unsigned char)line[after]))
+            after++;
+        if (declaration && n == word_length && strncmp(line + i, word, (size_t)n) == 0 &&
+            after < length && strchr(";,[", line[after]))
+            return true;
+        i += n ? n : 1;
+    }
+    return false;
+}
+
+typedef struct Declaration {
+    const char *file, *text; /* the text of its line, of this length */
+    int line, length;
+} Declaration;
+
+static bool find_declaration(const ShaderSource *source, const char *word, int word_length,
+                             Declaration *found)
+{
+    int file = 0, line = 0;
+    for (const char *p = source->text; p && *p;) {
+        const char *newline = strchr(p, '\n');
+        const int length = newline ? (int)(newline - p) : (int)strlen(p);
+        const bool numbered = shader_line_directive(p, &file, &line);
+        if (!numbered && declares(p, length, word, word_length)) {
+            *found = (Declaration){source->files[file], p, line, length};
+            return true;
+        }
+        line += !numbered;
+        p += length + (newline ? 1 : 0);
+    }
+    return false;
+}
+
+/* A link error names variables, not lines: finds the declaration of one of them. */
+static bool locate_link_error(const ShaderSource *source, const char *log, Message *message)
+{
+    Declaration found;
+    for (const char *word = log; *word;) {
+        int length = 0;
+        while (in_name(word[length]))
+            length++;
+        if (length > 1 && find_declaration(source, word, length, &found)) {
+            message_set(message, "%s:%d: linking: %s\n  %d | %.*s", found.file, found.line, log,
+                        found.line, found.length < 200 ? found.length : 200, found.text);
+            if (message)
+                message->located = true;
+            return true;
+        }
+        word += length ? length : 1;
+    }
+    return false;
+}
+
+static bool link_program(GLuint program, const ShaderSource *vertex, const ShaderSource *fragment,
+                         Message *message)
+{
+    GLint linked = GL_FALSE;
+    glLinkProgram(program);
+    glGetProgramiv(program, GL_LINK_STATUS, &linked);
+    if (linked)
+        return true;
+    char log[LOG_MAX] = "";
+    glGetProgramInfoLog(program, sizeof log, NULL, log);
+    for (size_t end = strlen(log); end > 0 && isspace((unsigned char)log[end - 1]); end--)
+        log[end - 1] = '\0';
+    if (locate_link_error(fragment, log, message) || locate_link_error(vertex, log, message))
+        return false;
+    return message_set(message, "%s, %s: linking: %s", vertex->files[0], fragment->files[0],
+                       log[0] ? log : "the driver rejected it without a reason");
+}
+
+static bool check_precision(const ShaderLoader *loader, Message *message)
+{
+    if (!loader->precision || strcmp(loader->precision, "highp") != 0)
+        return true;
+    GLint range[2] = {0, 0}, precision = 0;
+    glGetShaderPrecisionFormat(GL_FRAGMENT_SHADER, GL_HIGH_FLOAT, range, &precision);
+    if (range[1] > 0)
+        return true;
+    return message_set(message, "precision highp: %s has none in fragment shaders",
+                       (const char *)glGetString(GL_RENDERER));
+}
+
+static void close_sources(Shader *shader)
+{
+    shader_source_close(&shader->sources[SHADER_VERTEX]);
+    shader_source_close(&shader->sources[SHADER_FRAGMENT]);
+}
+
+bool shader_open(Shader *shader, const ShaderLoader *loader, const char *name, Message *message)
+{
+    ShaderSource vertex_source = {0}, fragment_source = {0};
+    GLuint vertex = 0, fragment = 0;
+    char file[160];
+    bool done = false;
+    const double start = clock_now();
+
+    *shader = (Shader){0};
+    snprintf(shader->name, sizeof shader->name, "%s", name);
+    snprintf(file, sizeof file, "%s.vert", name);
+    if (!check_precision(loader, message) ||
+        !shader_source_open(&vertex_source, loader, file, SHADER_VERTEX, message))
+        goto end;
+    snprintf(file, sizeof file, "%s.frag", name);
+    if (!shader_source_open(&fragment_source, loader, file, SHADER_FRAGMENT, message))
+        goto end;
+    print_source(loader, &vertex_source, SHADER_VERTEX);
+    print_source(loader, &fragment_source, SHADER_FRAGMENT);
+
+    if (!(vertex = compile(&vertex_source, SHADER_VERTEX, message)) ||
+        !(fragment = compile(&fragment_source, SHADER_FRAGMENT, message)))
+        goto end;
+    shader->program = glCreateProgram();
+    glAttachShader(shader->program, vertex);
+    glAttachShader(shader->program, fragment);
+    glBindAttribLocation(shader->program, 0, "a_Position");
+    done = link_program(shader->program, &vertex_source, &fragment_source, message);
+    if (done && loader->log)
+        fprintf(loader->log, "%s: %s and %s: compiled and linked in %.1f ms\n", name,
+                vertex_source.files[0], fragment_source.files[0], 1e3 * (clock_now() - start));
+end:
+    /* Deleted when the program is. */
+    if (vertex)
+        glDeleteShader(vertex);
+    if (fragment)
+        glDeleteShader(fragment);
+    shader->warning = loader->warning;
+    shader->sources[SHADER_VERTEX] = vertex_source;
+    shader->sources[SHADER_FRAGMENT] = fragment_source;
+    if (!done)
+        shader_close(shader);
+    else if (!loader->warning)
+        close_sources(shader);
+    return done;
+}
+
+static bool missing(const Shader *shader, const char *kind, const char *name, Message *message)
+{
+    return message_set(message,
+                       "%s: the linked program has no %s %s: it is not declared, or no output "
+                       "depends on it",
+                       shader->name, kind, name);
+}
+
+/* Location 0 is valid; -1 is the failure. */
+bool shader_uniform(const Shader *shader, const char *name, GLint *location, Message *message)
+{
+    *location = glGetUniformLocation(shader->program, name);
+    return *location >= 0 ? true : missing(shader, "uniform", name, message);
+}
+
+bool shader_attribute(const Shader *shader, const char *name, GLint *location, Message *message)
+{
+    *location = glGetAttribLocation(shader->program, name);
+    return *location >= 0 ? true : missing(shader, "attribute", name, message);
+}
+
+static bool is_attribute(const char *name)
+{
+    return strncmp(name, "a_", 2) == 0;
+}
+
+/* The variable of the linked program that `name` is probably meant to be: of a similar name, and
+ * not one that the caller knows. Empty if there is none. */
+static void find_similar(const Shader *shader, const char *name, const ShaderLocation *known,
+                         char similar[NAME_SIZE])
+{
+    const bool attribute = is_attribute(name);
+    GLint count = 0;
+    similar[0] = '\0';
+    glGetProgramiv(shader->program, attribute ? GL_ACTIVE_ATTRIBUTES : GL_ACTIVE_UNIFORMS, &count);
+    for (GLint i = 0; i < count && !similar[0]; i++) {
+        char active[NAME_SIZE] = "";
+        const char *names[] = {active, NULL};
+        GLint size;
+        GLenum type;
+        (attribute ? glGetActiveAttrib : glGetActiveUniform)(shader->program, (GLuint)i, NAME_SIZE,
+                                                             NULL, &size, &type, active);
+        bool taken = !parse_nearest(name, names);
+        for (const ShaderLocation *other = known; other->name; other++)
+            taken |= strcmp(other->name, active) == 0;
+        if (!taken)
+            memcpy(similar, active, NAME_SIZE);
+    }
+}
+
+/* Adds a clause to the warning, which begins with the place of the first variable in it. */
+static void warn_of_missing(const Shader *shader, const char *name, const ShaderLocation *known)
+{
+    const ShaderSource *vertex = &shader->sources[SHADER_VERTEX];
+    const ShaderSource *fragment = &shader->sources[SHADER_FRAGMENT];
+    Message *warning = shader->warning;
+    char similar[NAME_SIZE];
+    Declaration found;
+    find_similar(shader, name, known, similar);
+    const char *there = similar[0] ? similar : name;
+    const bool declared = find_declaration(vertex, there, (int)strlen(there), &found) ||
+                          find_declaration(fragment, there, (int)strlen(there), &found);
+    if (warning->text[0])
+        message_add(warning, ", ");
+    else if (declared)
+        message_add(warning, "%s:%d: warning: ", found.file, found.line);
+    else
+        message_add(warning, "%s, %s: warning: ", vertex->files[0], fragment->files[0]);
+    warning->located = true;
+    if (similar[0])
+        message_add(warning, "%s: %s?", similar, name);
+    else
+        message_add(warning, declared ? "%s is not used" : "%s is not declared", name);
+}
+
+bool shader_locations(const Shader *shader, const ShaderLocation *locations, Message *message)
+{
+    for (const ShaderLocation *one = locations; one->name; one++) {
+        const bool found = (is_attribute(one->name) ? shader_attribute : shader_uniform)(
+            shader, one->name, one->location, shader->warning ? NULL : message);
+        if (!found && !shader->warning)
+            return false;
+        if (!found)
+            warn_of_missing(shader, one->name, locations);
+    }
+    return true;
+}
+
+void shader_set_attribute(GLint location, Vec3 value)
+{
+    float rounded[3];
+    vec3_to_float(value, rounded);
+    if (location >= 0)
+        glVertexAttrib3fv((GLuint)location, rounded);
+}
+
+void shader_set_vec3(GLint location, Vec3 value)
+{
+    float rounded[3];
+    vec3_to_float(value, rounded);
+    glUniform3fv(location, 1, rounded);
+}
+
+void shader_set_mat4(GLint location, Mat4 value)
+{
+    float rounded[16];
+    mat4_to_float(value, rounded);
+    glUniformMatrix4fv(location, 1, GL_FALSE, rounded);
+}
+
+void shader_close(Shader *shader)
+{
+    if (!shader)
+        return;
+    if (shader->program)
+        glDeleteProgram(shader->program);
+    close_sources(shader);
+    *shader = (Shader){0};
+}

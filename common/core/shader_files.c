@@ -1,0 +1,133 @@
+#include "core/shader_files.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static void close_file(ShaderFile *file)
+{
+    free(file->path);
+    free(file->text);
+    free(file->problem);
+    *file = (ShaderFile){0};
+}
+
+/* Reads an open file; false if it is not a shader file or cannot be read. */
+static bool read_text(ShaderFile *file, int from, Message *message)
+{
+    struct stat status;
+    if (fstat(from, &status) != 0)
+        return message_set(message, "%s: %s", file->path, strerror(errno));
+    file->device = status.st_dev;
+    file->inode = status.st_ino;
+    if (!S_ISREG(status.st_mode))
+        return message_set(message, "%s: is not a regular file", file->path);
+    if (status.st_size > SHADER_FILE_MAX)
+        return message_set(message, "%s: has %lld bytes; a shader file has at most %d", file->path,
+                           (long long)status.st_size, SHADER_FILE_MAX);
+    const size_t max = (size_t)status.st_size;
+    file->text = malloc(max + 1);
+    if (!file->text)
+        return message_set(message, "%s: not enough memory", file->path);
+    ssize_t got = 0;
+    while (file->size < max && (got = read(from, file->text + file->size, max - file->size)) > 0)
+        file->size += (size_t)got;
+    if (got < 0)
+        return message_set(message, "%s: %s", file->path, strerror(errno));
+    file->text[file->size] = '\0';
+    return true;
+}
+
+/* Reads what is on disk. False only if out of memory. */
+static bool open_file(ShaderFile *file, const char *path, Message *message)
+{
+    Message problem = {0};
+    *file = (ShaderFile){.path = strdup(path)};
+    if (!file->path)
+        return message_set(message, "%s: not enough memory", path);
+    /* O_NONBLOCK: do not wait for the writer of a pipe. */
+    const int from = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (from >= 0) {
+        if (!read_text(file, from, &problem)) {
+            free(file->text);
+            file->text = NULL;
+            file->size = 0;
+        }
+        close(from);
+    } else if (errno != ENOENT && errno != ENOTDIR) {
+        message_set(&problem, "%s: %s", path, strerror(errno));
+    }
+    if (!problem.text[0] || (file->problem = strdup(problem.text)))
+        return true;
+    close_file(file);
+    return message_set(message, "%s: not enough memory", path);
+}
+
+static ShaderFile *find(const ShaderFiles *files, const char *path)
+{
+    for (int i = 0; i < files->count; i++)
+        if (strcmp(files->files[i].path, path) == 0)
+            return &files->files[i];
+    return NULL;
+}
+
+const ShaderFile *shader_files_get(ShaderFiles *files, const char *path, Message *message)
+{
+    ShaderFile *known = find(files, path);
+    if (known)
+        return known;
+    ShaderFile *larger = realloc(files->files, ((size_t)files->count + 1) * sizeof *larger);
+    if (!larger) {
+        message_set(message, "%s: not enough memory", path);
+        return NULL;
+    }
+    files->files = larger;
+    if (!open_file(&larger[files->count], path, message))
+        return NULL;
+    return &larger[files->count++];
+}
+
+bool shader_files_same(const ShaderFiles *files, const char *a, const char *b)
+{
+    const ShaderFile *first = find(files, a), *second = find(files, b);
+    return first && second && first->text && second->text && first->device == second->device &&
+           first->inode == second->inode;
+}
+
+static bool text_equal(const char *a, const char *b)
+{
+    return a == b || (a && b && strcmp(a, b) == 0);
+}
+
+static bool file_equal(const ShaderFile *a, const ShaderFile *b)
+{
+    return !a->text == !b->text && a->size == b->size &&
+           (!a->text || memcmp(a->text, b->text, a->size) == 0) &&
+           text_equal(a->problem, b->problem);
+}
+
+const char *shader_files_changed(const ShaderFiles *files)
+{
+    for (int i = 0; i < files->count; i++) {
+        ShaderFile now;
+        const bool equal =
+            open_file(&now, files->files[i].path, NULL) && file_equal(&now, &files->files[i]);
+        close_file(&now);
+        if (!equal)
+            return files->files[i].path;
+    }
+    return NULL;
+}
+
+void shader_files_close(ShaderFiles *files)
+{
+    if (!files)
+        return;
+    for (int i = 0; i < files->count; i++)
+        close_file(&files->files[i]);
+    free(files->files);
+    *files = (ShaderFiles){0};
+}

@@ -1,0 +1,105 @@
+/*
+ * drawing: a figure of lines, areas and text, as a list of paths; painted into an image, or written
+ * as SVG or PDF.
+ *
+ * Units are pixels of the picture (of SVG too; points of PDF), from its upper left corner. Text
+ * becomes the outlines of its letters, in Liberation Serif, so that a file looks the same where
+ * that font is missing, and its size is known before it is drawn. Building a list needs the font's
+ * files alone; painting and writing load the plugin that links cairo.
+ */
+#ifndef DRAWING_H
+#define DRAWING_H
+
+#include "base/image.h"
+#include "core/matrix.h"
+#include "images/font.h"
+#include "images/image_file.h"
+
+typedef struct DrawingPoint {
+    double x, y;
+} DrawingPoint;
+
+/* With the number of points that each takes: 1, 1, 3 (two controls of a Bezier curve and its end),
+ * 0. */
+typedef enum DrawingStep { DRAWING_MOVE, DRAWING_LINE, DRAWING_CURVE, DRAWING_CLOSE } DrawingStep;
+
+/* How a path is drawn: filled, then stroked with round ends and joints. */
+typedef struct DrawingStyle {
+    Vec3 fill, stroke;
+    double fill_alpha; /* 0: not filled */
+    double width;      /* of the stroke; 0: none */
+    double dash;       /* the length of dashes and of the gaps between them; 0: a whole line */
+} DrawingStyle;
+
+typedef struct DrawingPath {
+    DrawingStyle style;
+    int first_step, step_count, first_point;
+} DrawingPath;
+
+typedef struct DrawingBox {
+    double left, top, right, bottom;
+} DrawingBox;
+
+enum { DRAWING_TEXT_SIZE = 64 };
+
+/* A text and where its ink lies. */
+typedef struct DrawingLabel {
+    DrawingBox box;
+    char text[DRAWING_TEXT_SIZE];
+} DrawingLabel;
+
+typedef struct Drawing {
+    double width, height;
+    Font upright, italic;
+    DrawingStep *steps;
+    DrawingPoint *points;
+    DrawingPath *paths;
+    DrawingLabel *labels;
+    int step_count, point_count, path_count, label_count;
+    int step_room, point_room, path_room, label_room;
+    bool failed; /* memory ran out: what was added since is missing */
+} Drawing;
+
+/* An empty drawing. Fails without the fonts. A zeroed one can be closed. */
+bool drawing_begin(Drawing *drawing, double width, double height, Message *message);
+void drawing_end(Drawing *drawing);
+
+/* Whether all that was added is there. */
+bool drawing_check(const Drawing *drawing, Message *message);
+
+/* Adds a path, to which the steps that follow belong. */
+void drawing_path(Drawing *drawing, DrawingStyle style);
+void drawing_move(Drawing *drawing, DrawingPoint to);
+void drawing_line(Drawing *drawing, DrawingPoint to);
+void drawing_curve(Drawing *drawing, DrawingPoint a, DrawingPoint b, DrawingPoint to);
+void drawing_close_path(Drawing *drawing);
+
+/* Texts are UTF-8; letters between two $ are italic, and ^{...} and _{...} are raised and lowered.
+ * The box of a text is that of its ink, `size` pixels per em, for a baseline that begins at 0,0. */
+DrawingBox drawing_text_box(const Drawing *drawing, double size, const char *text);
+
+/* Adds a text with its baseline's beginning at `at`. */
+void drawing_text(Drawing *drawing, DrawingPoint at, double size, Vec3 color, const char *text);
+
+/* Where the ink of a path lies, or more: control points and the pen's width count. */
+DrawingBox drawing_path_box(const Drawing *drawing, const DrawingPath *path);
+
+/* "svg" or "pdf", as a path's extension has it; NULL: neither. */
+const char *drawing_format(const char *path);
+
+/* Paints a drawing over white, or over nothing if `transparent`, into a byte image of any size, to
+ * which it is scaled. */
+bool drawing_paint(const Drawing *drawing, Image *image, bool transparent, Message *message);
+
+/* Encodes to memory: equal drawings become equal bytes. */
+bool drawing_encode(const Drawing *drawing, const char *format, bool transparent, ImageFile *file,
+                    Message *message);
+
+/* drawing_encode and output_write. */
+bool drawing_write(const Drawing *drawing, const char *path, const char *format, bool transparent,
+                   Message *message);
+
+/* Loads the plugin and appends a line about what was found; true if the plugin was. */
+bool drawing_probe(Message *findings);
+
+#endif

@@ -1,0 +1,318 @@
+#include "images/image_file.h"
+
+#include "base/output.h"
+#include "base/plugin.h"
+#include "images/image_plugin.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <math.h>
+#include <png.h>
+#include <pthread.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <zlib.h>
+
+void image_file_close(ImageFile *file)
+{
+    if (!file)
+        return;
+    free(file->bytes);
+    *file = (ImageFile){0};
+}
+
+/* The plugin. */
+
+/* Pictures are written by several threads: one loads the plugin, and plugin_encode lifts a limit
+ * of the whole process. */
+static pthread_mutex_t plugin_lock = PTHREAD_MUTEX_INITIALIZER;
+
+bool image_plugin_open(const ImagePlugin **plugin, Message *message)
+{
+    static const PluginName name = {"image_oiio.so", IMAGE_PLUGIN_ENTRY, "OpenImageIO",
+                                    "libopenimageio-dev"};
+    static const ImagePlugin *loaded; /* the library cannot be unloaded */
+    pthread_mutex_lock(&plugin_lock);
+    const ImagePluginEntry entry = loaded ? NULL : (ImagePluginEntry)plugin_entry(&name, message);
+    if (entry)
+        loaded = entry();
+    *plugin = loaded;
+    pthread_mutex_unlock(&plugin_lock);
+    return *plugin != NULL;
+}
+
+bool image_probe(Message *findings)
+{
+    Message message = {0};
+    const ImagePlugin *plugin;
+    message_add(findings, "  PNG        libpng %s: found\n", png_get_libpng_ver(NULL));
+    if (!image_plugin_open(&plugin, &message)) {
+        message_add(findings, "  OpenImageIO (all other formats) missing: %s\n", message.text);
+        return false;
+    }
+    message_add(findings, "  OpenImageIO (all other formats) %s: found\n", plugin->version);
+    return true;
+}
+
+/* Formats. */
+
+typedef struct Format {
+    const char *name;
+    bool real, alpha; /* holds floats, an alpha channel */
+} Format;
+
+/* OpenImageIO names more formats, but writes nothing for some, or to the terminal. */
+static const Format FORMATS[] = {
+    {"png", false, true},  {"exr", true, true},    {"tif", true, true},   {"tiff", true, true},
+    {"jpg", false, false}, {"jpeg", false, false}, {"webp", false, true}, {"bmp", false, true},
+    {"tga", false, true},  {"ppm", false, false},  {"hdr", true, false},  {"dpx", false, true},
+    {"gif", false, false},
+};
+
+static const Format *find_format(const char *name)
+{
+    for (size_t i = 0; i < sizeof FORMATS / sizeof FORMATS[0]; i++)
+        if (strcmp(name, FORMATS[i].name) == 0)
+            return &FORMATS[i];
+    return NULL;
+}
+
+bool image_format(const char *path, char format[16], Message *message)
+{
+    const char *slash = strrchr(path, '/');
+    const char *name = slash ? slash + 1 : path;
+    const char *dot = strrchr(name, '.');
+    const bool named = dot && dot != name && dot[1];
+    /* Standard output and devices have no extension. */
+    const bool device =
+        strcmp(path, "-") == 0 || strncmp(path, "/dev/", 5) == 0 || strncmp(path, "/proc/", 6) == 0;
+    if (!named && !device)
+        return message_set(message, "%s: the extension names the format; give one, as in %s.png",
+                           path, name);
+    size_t length = 0;
+    for (const char *p = named ? dot + 1 : "png"; *p && length < 15; p++)
+        format[length++] = (char)tolower((unsigned char)*p);
+    format[length] = '\0';
+    if (find_format(format))
+        return true;
+    return message_set(
+        message,
+        "%s: unknown picture format .%s; supported are .png, .exr, .tif, .jpg, .webp "
+        "and .gif",
+        path, format);
+}
+
+bool image_format_is_float(const char *format)
+{
+    const Format *found = find_format(format);
+    return found && found->real;
+}
+
+bool image_format_has_alpha(const char *format)
+{
+    const Format *found = find_format(format);
+    return found && found->alpha;
+}
+
+/* PNG. */
+
+/* libpng requires an error handler that does not return. */
+static void png_failed(png_structp png, png_const_charp text)
+{
+    Message *message = png_get_error_ptr(png);
+    message_set(message, "PNG: %s", text);
+    png_longjmp(png, 1);
+}
+
+static void png_warned(png_structp png, png_const_charp text)
+{
+    (void)png;
+    (void)text;
+}
+
+static void png_put_text(png_structp png, png_infop info, const ImageText *text)
+{
+    for (; text && text->key; text++) {
+        png_text chunk = {.compression = PNG_ITXT_COMPRESSION_NONE,
+                          .key = (char *)(uintptr_t)text->key,
+                          .text = (char *)(uintptr_t)text->text};
+        bool ascii = true;
+        for (const char *p = text->text; *p; p++)
+            ascii = ascii && (unsigned char)*p < 128;
+        if (ascii)
+            chunk.compression = PNG_TEXT_COMPRESSION_NONE;
+        png_set_text(png, info, &chunk, 1);
+    }
+}
+
+static unsigned char to_byte(float value)
+{
+    const float clamped = value > 0 ? (value < 1 ? value : 1) : 0; /* NaN becomes 0 */
+    return (unsigned char)lrintf(255 * clamped);
+}
+
+/* Row y as RGBA bytes: the image's own, or converted into `spare`. */
+static const unsigned char *png_row(const Image *image, int y, unsigned char *spare)
+{
+    const size_t values = 4 * (size_t)image->width;
+    if (image->type == IMAGE_BYTE)
+        return (const unsigned char *)image->pixels + (size_t)y * values;
+    const float *row = (const float *)image->pixels + (size_t)y * values;
+    for (size_t i = 0; i < values; i++)
+        spare[i] = to_byte(row[i]);
+    return spare;
+}
+
+/* Whether under 2% of the pixels differ from their left neighbor. */
+static bool has_flat_colors(const Image *image)
+{
+    const size_t width = (size_t)image->width, height = (size_t)image->height;
+    const uint32_t *pixels = image->pixels;
+    size_t changes = 0;
+    if (image->type != IMAGE_BYTE)
+        return false;
+    for (size_t y = 0; y < height; y++)
+        for (size_t x = 1; x < width; x++)
+            changes += pixels[y * width + x] != pixels[y * width + x - 1];
+    return changes < width * height / 50;
+}
+
+static bool write_png(const Image *image, const ImageOptions *options, FILE *stream,
+                      Message *message)
+{
+    const bool fast = options->compress < 0;
+    const int level = fast ? 3 : options->compress;
+    unsigned char *spare = malloc(4 * (size_t)image->width);
+    png_structp png =
+        png_create_write_struct(PNG_LIBPNG_VER_STRING, message, png_failed, png_warned);
+    png_infop info = png ? png_create_info_struct(png) : NULL;
+    bool done = false;
+    if (!spare || !info) {
+        message_set(message, "PNG: not enough memory");
+        goto end;
+    }
+    if (setjmp(png_jmpbuf(png)))
+        goto end;
+    png_init_io(png, stream);
+    png_set_user_limits(png, 0x7fffffff, 0x7fffffff);
+    png_set_IHDR(png, info, (png_uint_32)image->width, (png_uint_32)image->height, 8,
+                 options->alpha ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_compression_level(png, level);
+    if (fast && has_flat_colors(image))
+        png_set_compression_strategy(png, Z_RLE);
+    /* Choosing a filter for every row takes longer than the fast levels of zlib gain by it. */
+    if (level < 6)
+        png_set_filter(png, PNG_FILTER_TYPE_BASE, level ? PNG_FILTER_SUB : PNG_FILTER_NONE);
+    png_put_text(png, info, options->text);
+    png_write_info(png, info);
+    if (!options->alpha)
+        png_set_filler(png, 0, PNG_FILLER_AFTER); /* drops every fourth byte */
+    for (int y = 0; y < image->height; y++)
+        png_write_row(png, png_row(image, y, spare));
+    png_write_end(png, info);
+    done = true;
+end:
+    png_destroy_write_struct(&png, &info);
+    free(spare);
+    return done;
+}
+
+static bool png_encode(const Image *image, const ImageOptions *options, ImageFile *file,
+                       Message *message)
+{
+    char *bytes = NULL;
+    FILE *stream = open_memstream(&bytes, &file->size);
+    bool done = stream && write_png(image, options, stream, message);
+    if (stream)
+        done = fclose(stream) == 0 && done;
+    file->bytes = (unsigned char *)bytes;
+    return done || message_set(message, "PNG: not enough memory for the file");
+}
+
+/* ulimit -f also limits files in memory, which not every encoder can handle: the limit is lifted
+ * while one runs, and applies when the file itself is written. */
+static struct rlimit lift_file_limit(void)
+{
+    struct rlimit limit = {RLIM_INFINITY, RLIM_INFINITY};
+    if (getrlimit(RLIMIT_FSIZE, &limit) == 0) {
+        const struct rlimit lifted = {limit.rlim_max, limit.rlim_max};
+        setrlimit(RLIMIT_FSIZE, &lifted);
+    }
+    return limit;
+}
+
+static bool read_memory(int memory, ImageFile *file, char *reason, size_t reason_size)
+{
+    struct stat status;
+    ssize_t got = 0;
+    size_t left = fstat(memory, &status) == 0 ? (size_t)status.st_size : 0;
+    file->bytes = malloc(left + 1);
+    while (file->bytes && left && (got = read(memory, file->bytes + file->size, left)) > 0) {
+        file->size += (size_t)got;
+        left -= (size_t)got;
+    }
+    if (file->size && !left)
+        return true;
+    snprintf(reason, reason_size, "%s",
+             !file->bytes ? "not enough memory for the file"
+             : got < 0    ? strerror(errno)
+                          : "nothing was written");
+    return false;
+}
+
+/* Encodes into a memory file, because OpenImageIO writes some formats to files only, and a full
+ * disk must not end a file halfway. */
+static bool plugin_encode(const Image *image, const char *format, const ImageOptions *options,
+                          ImageFile *file, Message *message)
+{
+    const ImagePlugin *plugin;
+    char reason[1024] = "";
+    if (!image_plugin_open(&plugin, message))
+        return false;
+    const int memory = memfd_create("picture", MFD_CLOEXEC);
+    if (memory < 0)
+        return message_set(message, "%s: %s", format, strerror(errno));
+    pthread_mutex_lock(&plugin_lock);
+    const struct rlimit limit = lift_file_limit();
+    const bool done = plugin->encode(image, format, options, memory, reason, sizeof reason) &&
+                      read_memory(memory, file, reason, sizeof reason);
+    setrlimit(RLIMIT_FSIZE, &limit);
+    pthread_mutex_unlock(&plugin_lock);
+    close(memory);
+    /* DPX stores the path that the library was given. (SMPTE 268M: 100 bytes from 36 on) */
+    if (done && strcmp(format, "dpx") == 0 && file->size > 136)
+        memset(file->bytes + 36, 0, 100);
+    return done || message_set(message, "cannot write %s: %s", format, reason);
+}
+
+bool image_encode(const Image *image, const char *format, const ImageOptions *options,
+                  ImageFile *file, Message *message)
+{
+    *file = (ImageFile){0};
+    const bool done = strcmp(format, "png") == 0
+                          ? png_encode(image, options, file, message)
+                          : plugin_encode(image, format, options, file, message);
+    if (!done)
+        image_file_close(file);
+    return done;
+}
+
+bool image_write(const Image *image, const char *path, const ImageOptions *options,
+                 Message *message)
+{
+    char format[16];
+    ImageFile file;
+    if (!image_format(path, format, message) ||
+        !image_encode(image, format, options, &file, message))
+        return false;
+    const bool written = output_write(path, file.bytes, file.size, message);
+    image_file_close(&file);
+    return written;
+}

@@ -1,0 +1,117 @@
+#include "images/image_gif.h"
+
+#include "images/image_plugin.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+struct ImageGif {
+    const ImagePlugin *plugin;
+    PluginGif *own;
+    int file, count;
+    double fps;
+    bool failed;
+};
+
+bool image_gif_open(ImageGif **opened, int file, int width, int height, int count, double fps,
+                    Message *message)
+{
+    char reason[1024] = "";
+    ImageGif *gif = *opened = calloc(1, sizeof *gif);
+    if (!gif)
+        return message_set(message, "GIF: not enough memory");
+    *gif = (ImageGif){.file = file, .count = count, .fps = fps, .failed = true};
+    if (!image_plugin_open(&gif->plugin, message))
+        return false;
+    if (!gif->plugin->gif_open(&gif->own, file, width, height, count, reason, sizeof reason))
+        return message_set(message, "GIF: %s", reason);
+    gif->failed = false;
+    return true;
+}
+
+bool image_gif_add(ImageGif *gif, const Image *image, Message *message)
+{
+    char reason[1024] = "";
+    gif->failed = !gif->plugin->gif_add(gif->own, image, reason, sizeof reason);
+    return gif->failed ? message_set(message, "GIF: %s", reason) : true;
+}
+
+/* Skips sub-blocks: each is a length and as many bytes; the last length is 0. */
+static bool gif_skip_blocks(FILE *file)
+{
+    int length;
+    while ((length = getc(file)) > 0)
+        for (; length > 0; length--)
+            getc(file);
+    return length == 0;
+}
+
+/* Skips a color table if the flags before it announce one. */
+static void gif_skip_colors(FILE *file, int flags)
+{
+    for (int left = flags & 0x80 ? 3 << ((flags & 7) + 1) : 0; left > 0; left--)
+        getc(file);
+}
+
+/* In hundredths of a second. */
+static long gif_delay(const ImageGif *gif, int number)
+{
+    return lround(100 * (number + 1) / gif->fps) - lround(100 * number / gif->fps);
+}
+
+/* The library writes the same delay for all pictures: replaces it in their graphic control
+ * extensions. (GIF89a specification, sections 17 to 23) */
+static bool gif_set_delays(const ImageGif *gif, FILE *file)
+{
+    int kind, flags, number = 0;
+    fseek(file, 10, SEEK_SET);
+    flags = getc(file);
+    fseek(file, 13, SEEK_SET);
+    gif_skip_colors(file, flags);
+    while ((kind = getc(file)) == 0x21 || kind == 0x2C) {
+        if (kind == 0x21 && getc(file) == 0xF9) {
+            const long delay = gif_delay(gif, number++);
+            const unsigned char bytes[2] = {(unsigned char)(delay & 255),
+                                            (unsigned char)(delay >> 8)};
+            if (pwrite(gif->file, bytes, 2, ftell(file) + 2) != 2)
+                return false;
+        } else if (kind == 0x2C) {
+            for (int i = 0; i < 8; i++)
+                getc(file);
+            gif_skip_colors(file, getc(file));
+            getc(file); /* LZW minimum code size */
+        }
+        if (!gif_skip_blocks(file))
+            break;
+    }
+    errno = EILSEQ;
+    return kind == 0x3B && number == gif->count;
+}
+
+bool image_gif_close(ImageGif *gif, Message *message)
+{
+    char reason[1024] = "";
+    if (!gif)
+        return true;
+    bool done = !gif->plugin || gif->plugin->gif_close(gif->own, reason, sizeof reason);
+    if (!done)
+        message_set(message, "GIF: %s", reason);
+    if (done && !gif->failed) {
+        const int again = dup(gif->file);
+        FILE *file = again < 0 ? NULL : fdopen(again, "rb");
+        done = file && gif_set_delays(gif, file);
+        if (!done)
+            message_set(message, "GIF: cannot set the times: %s", strerror(errno));
+        if (file)
+            fclose(file);
+        else if (again >= 0)
+            close(again);
+    }
+    done = done && !gif->failed;
+    free(gif);
+    return done;
+}

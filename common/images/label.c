@@ -1,0 +1,108 @@
+#include "images/label.h"
+
+#include "images/font.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define FONT "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
+
+/* White over the pixel, whose color is not multiplied by its alpha. */
+static void blend(unsigned char *pixel, int coverage)
+{
+    const int rest = pixel[3] * (255 - coverage), alpha = 255 * coverage + rest;
+    for (int c = 0; c < 3; c++)
+        pixel[c] = (unsigned char)((255 * 255 * coverage + pixel[c] * rest + alpha / 2) / alpha);
+    pixel[3] = (unsigned char)((alpha + 127) / 255);
+}
+
+static void draw_coverage(Image *image, const unsigned char *coverage, int left, int top, int width,
+                          int height)
+{
+    for (int row = 0; row < height; row++) {
+        for (int column = 0; column < width; column++, coverage++) {
+            const int x = left + column, y = top + row;
+            if (*coverage && x >= 0 && y >= 0 && x < image->width && y < image->height)
+                blend((unsigned char *)image->pixels + (size_t)y * image_row_size(image) +
+                          4 * (size_t)x,
+                      *coverage);
+        }
+    }
+}
+
+/* A text's scale, in pixels per font unit. */
+typedef struct Scale {
+    float x, y;
+} Scale;
+
+/* Rounds the height of small letters to whole pixels, so that their upper edges are sharp as their
+ * baseline is. Without it text of 12 pixels looks blurred. */
+static Scale scale_of(const stbtt_fontinfo *font, int size)
+{
+    const float scale = stbtt_ScaleForMappingEmToPixels(font, (float)size);
+    int left, bottom, right, top;
+    if (!stbtt_GetCodepointBox(font, 'x', &left, &bottom, &right, &top) || (float)top * scale < 1)
+        return (Scale){scale, scale};
+    return (Scale){scale, roundf(scale * (float)top) / (float)top};
+}
+
+/* Where a text's ink begins and ends, in pixels. */
+typedef struct Extent {
+    float left, right;
+} Extent;
+
+static bool draw_glyph(const stbtt_fontinfo *font, Scale scale, int glyph, float pen, int baseline,
+                       Image *image, Message *message)
+{
+    const float column = floorf(pen);
+    int width = 0, height = 0, left, top;
+    unsigned char *coverage = stbtt_GetGlyphBitmapSubpixel(font, scale.x, scale.y, pen - column, 0,
+                                                           glyph, &width, &height, &left, &top);
+    if (!coverage && width && height)
+        return message_set(message, "label: not enough memory");
+    if (coverage)
+        draw_coverage(image, coverage, (int)column + left, baseline + top, width, height);
+    stbtt_FreeBitmap(coverage, NULL);
+    return true;
+}
+
+/* Measures the ink and, unless `image` is NULL, draws it. */
+static bool set_text(const stbtt_fontinfo *font, Scale scale, const char *text, float start,
+                     int baseline, Image *image, Extent *ink, Message *message)
+{
+    float pen = start;
+    *ink = (Extent){INFINITY, -INFINITY};
+    for (int glyph, before = 0; *text; before = glyph) {
+        const int code = font_character(&text);
+        int advance, bearing, left, bottom, right, top;
+        glyph = stbtt_FindGlyphIndex(font, code < ' ' ? ' ' : code);
+        if (before)
+            pen += scale.x * (float)stbtt_GetGlyphKernAdvance(font, before, glyph);
+        if (stbtt_GetGlyphBox(font, glyph, &left, &bottom, &right, &top)) {
+            const Extent own = {pen + scale.x * (float)left, pen + scale.x * (float)right};
+            *ink = (Extent){fminf(ink->left, own.left), fmaxf(ink->right, own.right)};
+            if (image && own.right > 0 && own.left < (float)image->width &&
+                !draw_glyph(font, scale, glyph, pen, baseline, image, message))
+                return false;
+        }
+        stbtt_GetGlyphHMetrics(font, glyph, &advance, &bearing);
+        pen += scale.x * (float)advance;
+    }
+    return true;
+}
+
+bool image_label(Image *image, int x, int y, int size, const char *text, Message *message)
+{
+    const char *path = getenv("LIGHTING_FONT");
+    Font font;
+    Extent ink;
+    if (!font_open(&font, path ? path : FONT, "fonts-dejavu-core", message))
+        return false;
+    const Scale scale = scale_of(&font.info, size);
+    bool done = set_text(&font.info, scale, text, 0, y, NULL, &ink, message);
+    if (done && ink.left < ink.right)
+        done = set_text(&font.info, scale, text, (float)x - (ink.left + ink.right) / 2, y, image,
+                        &ink, message);
+    font_close(&font);
+    return done;
+}

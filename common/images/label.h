@@ -1,0 +1,15 @@
+/*
+ * label: a line of text in a picture, rasterized by stb_truetype from DejaVu Sans.
+ */
+#ifndef LABEL_H
+#define LABEL_H
+
+#include "base/image.h"
+
+/* Draws UTF-8 text into a byte image: white, antialiased, kerned, `size` pixels per em, its
+ * baseline on row y's upper edge, its ink centred on column x's left edge, clipped at the border.
+ * Control characters are spaces; a character that the font lacks is a box. False if the font cannot
+ * be read: the file named by LIGHTING_FONT in the environment, or Debian's fonts-dejavu-core. */
+bool image_label(Image *image, int x, int y, int size, const char *text, Message *message);
+
+#endif

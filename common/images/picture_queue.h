@@ -1,0 +1,53 @@
+/*
+ * picture_queue: threads that encode and write pictures while the caller draws the next.
+ */
+#ifndef PICTURE_QUEUE_H
+#define PICTURE_QUEUE_H
+
+#include "images/image_file.h"
+
+#include <limits.h>
+
+/* An image and everything its file needs. */
+typedef struct Picture {
+    Image image;
+    char path[PATH_MAX]; /* "-": standard output, as PNG */
+    int compress;
+    bool alpha;
+    /* The file's text chunks. */
+    char title[64];             /* the program's name */
+    char moment[64];            /* the time drawn: "1.5 s" */
+    char driver[512];           /* backend, platform, renderer */
+    char command[4 * PATH_MAX]; /* makes the file again, under another name; "": there is none */
+} Picture;
+
+/* Encodes and writes, as output_write does. */
+bool picture_write(const Picture *picture, Message *message);
+
+/* Where a queue's pictures go. */
+typedef struct PictureSink {
+    /* False stops the queue; without a message if that is no error. */
+    bool (*write)(void *data, const Picture *picture, Message *message);
+    void *data;
+    int threads; /* that call it, 1 or 2; one receives the pictures in order */
+} PictureSink;
+
+typedef struct PictureQueue PictureQueue;
+
+/* Starts the threads for `count` pictures of this size and type. If `sink` is NULL, two threads
+ * write each picture to its path. */
+bool picture_queue_open(PictureQueue **queue, int width, int height, ImageType type, int count,
+                        const PictureSink *sink, Message *message);
+
+/* A picture to draw into; waits while all are in use. */
+Picture *picture_queue_take(PictureQueue *queue);
+
+/* Hands it to the threads. False, with its message, if an earlier picture could not be written;
+ * later pictures are then dropped. */
+bool picture_queue_give(PictureQueue *queue, Picture *picture, Message *message);
+
+/* Waits until every picture is written, ends the threads and frees the queue. False, with the first
+ * failure's message, if a picture could not be written. NULL is fine. */
+bool picture_queue_close(PictureQueue *queue, Message *message);
+
+#endif

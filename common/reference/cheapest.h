@@ -1,0 +1,63 @@
+/*
+ * cheapest: the cheapest way to draw a scene whose error stays within what is allowed, found by
+ * drawing: each candidate is compared with the exact picture of this very scene.
+ *
+ * The error is that of picture_error's interior: against the exact shapes (solids) or the mesh as
+ * given (others), the largest over the pixels that lie wholly inside one surface and that the drawn
+ * objects cover. Edges do not count.
+ *
+ * Candidates differ per object in the mesh of a solid and in lighting per fragment or per vertex;
+ * then, as far as the error still allows, in the viewer and each light at infinity, lights without
+ * highlight or off, and normals as interpolated. All objects are searched at once, because the
+ * pixels of one hardly depend on another. Which one is cheapest is decided by
+ * quality_parts_cost, not by a clock, so that the same is chosen every time. `mediump` is no
+ * candidate: on llvmpipe it is 1.5 to 3.5 times as slow as `highp`, and never more exact.
+ *
+ * Exact pictures and choices are kept in base/cache.
+ */
+#ifndef CHEAPEST_H
+#define CHEAPEST_H
+
+#include "core/canvas.h"
+#include "scene/lighting.h"
+#include "scene/quality.h"
+
+typedef struct CheapestTask {
+    const Canvas *canvas; /* candidates are drawn into it */
+    int place[4];         /* and read from this part: x, y, width, height */
+    Lighting *lighting;
+    bool full; /* see lighting_draw */
+    SolidMeshes *meshes;
+    double error; /* allowed, in steps of 1/255 */
+    /* What stays as the scene says: bits of 1 << AXIS_INTERPOLATION, _DIVISIONS, _NORMALS, _VIEWER,
+     * _LIGHTS. */
+    unsigned kept;
+    /* The scene at moment `number`, valid until the next call; it passes scene_check and has the
+     * same objects and lights at all of them. */
+    int moments;
+    bool (*scene)(void *data, int number, Scene *scene, Message *message);
+    void *data;
+    /* There are more moments between these: a third of the error is kept in reserve, or twice
+     * what the error at every second moment differs from that at the others. */
+    bool moving;
+} CheapestTask;
+
+typedef struct Cheapest {
+    ObjectQuality *objects;
+    int count;
+    double error, plain_error; /* over all moments */
+    double cost, plain_cost;   /* expected, see quality_parts_cost */
+    double margin;             /* the reserve for the moments between */
+    bool cached;
+} Cheapest;
+
+/* Where the error cannot be kept, the cheapest of the most exact is chosen: `error` is then above
+ * the task's. Never less exact than the plain picture unless cheaper. */
+bool cheapest_choose(Cheapest *cheapest, const CheapestTask *task, Message *message);
+void cheapest_close(Cheapest *cheapest);
+
+/* What the choice leaves away, as text: "object 0: 24 divisions, lit per vertex, viewer at
+ * infinity"; at most `size` characters. */
+void cheapest_text(const Cheapest *cheapest, const Scene *scene, char *text, size_t size);
+
+#endif

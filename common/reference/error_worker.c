@@ -1,0 +1,253 @@
+#include "reference/error_worker.h"
+
+#include "base/clock.h"
+
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+struct ErrorWorker {
+    pthread_t thread;
+    pthread_mutex_t lock; /* of all that follows but `stop` */
+    pthread_cond_t changed;
+    ErrorPicture next; /* waits for the thread */
+    bool waiting, computing, ended;
+    ErrorResult result; /* without `computing` */
+    atomic_bool stop;   /* what is being computed */
+};
+
+/* Pictures. */
+
+bool error_picture_open(ErrorPicture *picture, int width, int height, ImageType type, int max_views,
+                        Message *message)
+{
+    *picture = (ErrorPicture){.views = calloc((size_t)max_views + 1, sizeof *picture->views)};
+    if (!picture->views)
+        return message_set(message, "error worker: not enough memory for %d views", max_views);
+    if (image_open(&picture->image, width, height, type, message))
+        return true;
+    error_picture_close(picture);
+    return false;
+}
+
+bool error_picture_add(ErrorPicture *picture, const int place[4], const Scene *asked,
+                       const Scene *drawn, Message *message)
+{
+    ErrorView *view = &picture->views[picture->view_count];
+    picture->view_count++;
+    memcpy(view->place, place, sizeof view->place);
+    return scene_copy_open(&view->asked, asked, true, message) &&
+           (!drawn || scene_copy_open(&view->drawn, drawn, true, message));
+}
+
+static void view_close(ErrorView *view)
+{
+    scene_copy_close(&view->asked);
+    scene_copy_close(&view->drawn);
+}
+
+void error_picture_close(ErrorPicture *picture)
+{
+    if (!picture)
+        return;
+    for (int i = 0; i < picture->view_count; i++)
+        view_close(&picture->views[i]);
+    free(picture->views);
+    image_close(&picture->image);
+    *picture = (ErrorPicture){.views = NULL};
+}
+
+/* Computing. */
+
+/* The meshes as drawn, unlit: only objects and depths count. */
+static Scene shapes_of(const ErrorView *view)
+{
+    Scene scene = view->drawn.objects ? view->drawn.scene : view->asked.scene;
+    scene.light_count = 0;
+    scene.interpolation = INTERPOLATION_PHONG;
+    return scene;
+}
+
+static bool has_solids(const Scene *scene)
+{
+    for (int i = 0; i < scene->object_count; i++)
+        if (scene->objects[i].solid.kind != SOLID_NONE)
+            return true;
+    return false;
+}
+
+static bool add_view(PictureError *error, const Image *image, const ErrorView *view, int threads,
+                     const atomic_bool *stop, Message *message)
+{
+    const Scene shapes = shapes_of(view);
+    const bool differ = has_solids(&view->asked.scene);
+    Reference exact = {.width = 0}, drawn = {.width = 0};
+    const ReferenceOptions options = {
+        .width = view->place[2], .height = view->place[3], .threads = threads, .stop = stop};
+    ReferenceOptions of_meshes = options;
+    of_meshes.meshes = true;
+    of_meshes.edge_error = 255; /* colors do not count */
+    const bool done = reference_open(&exact, &view->asked.scene, &options, message) &&
+                      (!differ || reference_open(&drawn, &shapes, &of_meshes, message));
+    if (done)
+        picture_error_add(error, image, view->place[0], view->place[1], &exact,
+                          differ ? &drawn : NULL);
+    reference_close(&exact);
+    reference_close(&drawn);
+    return done;
+}
+
+bool error_worker_compute(const ErrorPicture *picture, int threads, const atomic_bool *stop,
+                          PictureError *error, Message *message)
+{
+    *error = (PictureError){.all = {0}};
+    for (int i = 0; i < picture->view_count; i++)
+        if (!add_view(error, &picture->image, &picture->views[i], threads, stop, message))
+            return false;
+    return true;
+}
+
+/* Leaves one core to the frames. */
+static int thread_count(void)
+{
+    const long cores = sysconf(_SC_NPROCESSORS_ONLN);
+    return cores > 2 ? (int)(cores - 1) : 1;
+}
+
+/* On Linux a priority belongs to a thread, and the threads that it starts inherit it. */
+static void step_back(void)
+{
+#ifdef __linux__
+    /* A tenth of the frames' share; not less, because the last picture is waited for. */
+    enum { NICE = 10 };
+    setpriority(PRIO_PROCESS, 0, NICE); /* if it fails, frames are less smooth */
+#endif
+}
+
+/* Called with the lock held; releases it while computing. */
+static void compute_next(ErrorWorker *worker)
+{
+    ErrorPicture picture = worker->next;
+    ErrorResult result = {.seconds = picture.seconds};
+    worker->next = (ErrorPicture){.views = NULL};
+    worker->waiting = false;
+    worker->computing = true;
+    atomic_store(&worker->stop, false);
+    pthread_mutex_unlock(&worker->lock);
+    const double start = clock_now();
+    result.known = error_worker_compute(&picture, thread_count(), &worker->stop, &result.error,
+                                        &result.message);
+    result.milliseconds = 1e3 * (clock_now() - start);
+    error_picture_close(&picture);
+    pthread_mutex_lock(&worker->lock);
+    worker->computing = false;
+    if (!atomic_load(&worker->stop))
+        worker->result = result;
+}
+
+static void *work(void *argument)
+{
+    ErrorWorker *worker = argument;
+    step_back();
+    pthread_mutex_lock(&worker->lock);
+    while (!worker->ended) {
+        if (worker->waiting)
+            compute_next(worker);
+        else
+            pthread_cond_wait(&worker->changed, &worker->lock);
+    }
+    pthread_mutex_unlock(&worker->lock);
+    return NULL;
+}
+
+/* The caller's side. */
+
+static void destroy(ErrorWorker *worker)
+{
+    error_picture_close(&worker->next);
+    pthread_cond_destroy(&worker->changed);
+    pthread_mutex_destroy(&worker->lock);
+    free(worker);
+}
+
+bool error_worker_open(ErrorWorker **opened, Message *message)
+{
+    ErrorWorker *worker = calloc(1, sizeof *worker);
+    *opened = NULL;
+    if (!worker)
+        return message_set(message, "error worker: not enough memory");
+    pthread_mutex_init(&worker->lock, NULL);
+    pthread_cond_init(&worker->changed, NULL);
+    atomic_init(&worker->stop, false);
+    const int error = pthread_create(&worker->thread, NULL, work, worker);
+    if (error) {
+        destroy(worker);
+        return message_set(message, "error worker: cannot start a thread: %s", strerror(error));
+    }
+    *opened = worker;
+    return true;
+}
+
+/* With the lock held: drops the waiting picture and stops the current one. */
+static void abandon(ErrorWorker *worker)
+{
+    error_picture_close(&worker->next);
+    worker->waiting = false;
+    atomic_store(&worker->stop, true);
+}
+
+void error_worker_start(ErrorWorker *worker, ErrorPicture *picture)
+{
+    pthread_mutex_lock(&worker->lock);
+    abandon(worker);
+    worker->next = *picture;
+    worker->waiting = true;
+    pthread_cond_signal(&worker->changed);
+    pthread_mutex_unlock(&worker->lock);
+    *picture = (ErrorPicture){.views = NULL};
+}
+
+/* With the lock held. A stopped picture does not count. */
+static bool busy(const ErrorWorker *worker)
+{
+    return worker->waiting || (worker->computing && !atomic_load(&worker->stop));
+}
+
+bool error_worker_busy(ErrorWorker *worker)
+{
+    pthread_mutex_lock(&worker->lock);
+    const bool is_busy = busy(worker);
+    pthread_mutex_unlock(&worker->lock);
+    return is_busy;
+}
+
+void error_worker_result(ErrorWorker *worker, ErrorResult *result)
+{
+    pthread_mutex_lock(&worker->lock);
+    *result = worker->result;
+    result->computing = busy(worker);
+    pthread_mutex_unlock(&worker->lock);
+}
+
+void error_worker_cancel(ErrorWorker *worker)
+{
+    pthread_mutex_lock(&worker->lock);
+    abandon(worker);
+    worker->result = (ErrorResult){.known = false};
+    pthread_mutex_unlock(&worker->lock);
+}
+
+void error_worker_close(ErrorWorker *worker)
+{
+    if (!worker)
+        return;
+    pthread_mutex_lock(&worker->lock);
+    abandon(worker);
+    worker->ended = true;
+    pthread_cond_signal(&worker->changed);
+    pthread_mutex_unlock(&worker->lock);
+    pthread_join(worker->thread, NULL);
+    destroy(worker);
+}

@@ -1,0 +1,174 @@
+#include "reference/reference.h"
+
+#include "reference/reference_pixel.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+/* Threads take bands of rows in turn. A band samples the corners, sides and centers of its pixels
+ * row by row; those on the border of two bands are sampled twice, and are the same. */
+enum { BAND = 8, MAX_THREADS = 256 };
+static const double EDGE_ERROR = 0.5;
+
+typedef struct Job {
+    Reference *reference;
+    const Trace *trace;
+    double edge_error;
+    const atomic_bool *stop;
+    atomic_int next; /* band */
+} Job;
+
+typedef struct Worker {
+    Job *job;
+    Sample *samples; /* three rows */
+    pthread_t thread;
+} Worker;
+
+static void sample_row(const Job *job, int row, Sample *samples)
+{
+    for (int i = 0; i <= 2 * job->reference->width; i++)
+        trace_sample(job->trace, i / 2.0, row / 2.0, &samples[i]);
+}
+
+static void put_pixel(Reference *reference, int x, int y, const Sample *center, const Pixel *pixel)
+{
+    const size_t i = (size_t)y * (size_t)reference->width + (size_t)x;
+    for (size_t k = 0; k < 3; k++)
+        reference->color[3 * i + k] = pixel->color[k];
+    reference->depth[i] = center->depth;
+    reference->object[i] = center->object;
+    reference->coverage[i] = pixel->coverage;
+    reference->interior[i] = pixel->interior;
+}
+
+static void draw_band(const Worker *worker, int band)
+{
+    const Job *job = worker->job;
+    Reference *reference = job->reference;
+    const size_t length = 2 * (size_t)reference->width + 1;
+    Sample *top = worker->samples, *middle = top + length, *bottom = middle + length;
+    const int first = band * BAND;
+    sample_row(job, 2 * first, top);
+    for (int y = first; y < first + BAND && y < reference->height; y++) {
+        if (stop_asked(job->stop))
+            return;
+        sample_row(job, 2 * y + 1, middle);
+        sample_row(job, 2 * y + 2, bottom);
+        for (int x = 0; x < reference->width; x++) {
+            const Pixel pixel = pixel_resolve(job->trace, job->edge_error, x, y, top + 2 * x,
+                                              middle + 2 * x, bottom + 2 * x);
+            put_pixel(reference, x, y, &middle[2 * x + 1], &pixel);
+        }
+        Sample *above = top;
+        top = bottom;
+        bottom = above;
+    }
+}
+
+static void *work(void *argument)
+{
+    const Worker *worker = argument;
+    Job *job = worker->job;
+    const int count = (job->reference->height + BAND - 1) / BAND;
+    for (int band = atomic_fetch_add(&job->next, 1); band < count && !stop_asked(job->stop);
+         band = atomic_fetch_add(&job->next, 1))
+        draw_band(worker, band);
+    return NULL;
+}
+
+static int thread_count(const ReferenceOptions *options)
+{
+    const int bands = (options->height + BAND - 1) / BAND;
+    long count = options->threads > 0 ? options->threads : sysconf(_SC_NPROCESSORS_ONLN);
+    count = count < bands ? count : bands;
+    return count < 1 ? 1 : count > MAX_THREADS ? MAX_THREADS : (int)count;
+}
+
+/* This thread works too: where others cannot be had it does all. */
+static bool draw_bands(Job *job, int count)
+{
+    const size_t length = 3 * (2 * (size_t)job->reference->width + 1);
+    Worker *workers = calloc((size_t)count, sizeof *workers);
+    int ready = 0, running = 1;
+    while (workers && ready < count) {
+        workers[ready] = (Worker){job, malloc(length * sizeof(Sample)), 0};
+        if (!workers[ready].samples)
+            break;
+        ready++;
+    }
+    while (running < ready &&
+           pthread_create(&workers[running].thread, NULL, work, &workers[running]) == 0)
+        running++;
+    if (ready > 0)
+        work(&workers[0]);
+    for (int i = 1; i < running && i < ready; i++)
+        pthread_join(workers[i].thread, NULL);
+    for (int i = 0; i < ready; i++)
+        free(workers[i].samples);
+    free(workers);
+    return ready > 0;
+}
+
+static bool check(const ReferenceOptions *options, Message *message)
+{
+    if (options->width < 1 || options->height < 1)
+        return message_set(message, "reference: size %dx%d: must be 1x1 or more", options->width,
+                           options->height);
+    if (!(options->edge_error >= 0 && options->edge_error <= 255))
+        return message_set(message, "reference: edge error %g: must be 0 to 255",
+                           options->edge_error);
+    if (options->threads < 0)
+        return message_set(message, "reference: %d threads: must be 0 or more", options->threads);
+    return true;
+}
+
+static bool open_pixels(Reference *reference)
+{
+    const size_t count = (size_t)reference->width * (size_t)reference->height;
+    reference->color = calloc(count, 3 * sizeof *reference->color);
+    reference->depth = calloc(count, sizeof *reference->depth);
+    reference->object = calloc(count, sizeof *reference->object);
+    reference->coverage = calloc(count, sizeof *reference->coverage);
+    reference->interior = calloc(count, sizeof *reference->interior);
+    return reference->color && reference->depth && reference->object && reference->coverage &&
+           reference->interior;
+}
+
+bool reference_open(Reference *reference, const Scene *scene, const ReferenceOptions *options,
+                    Message *message)
+{
+    Trace *trace = NULL;
+    *reference = (Reference){0};
+    if (!check(options, message) || !trace_open(&trace, scene, options->meshes, options->width,
+                                                options->height, options->stop, message))
+        return false;
+    *reference = (Reference){.width = options->width, .height = options->height};
+    Job job = {.reference = reference,
+               .trace = trace,
+               .edge_error = options->edge_error > 0 ? options->edge_error : EDGE_ERROR,
+               .stop = options->stop};
+    const bool done = open_pixels(reference) && draw_bands(&job, thread_count(options));
+    trace_close(trace);
+    const bool stopped = stop_asked(options->stop);
+    if (done && !stopped)
+        return true;
+    reference_close(reference);
+    if (stopped)
+        return message_set(message, "reference: stopped");
+    return message_set(message, "reference: %dx%d pixels: not enough memory", options->width,
+                       options->height);
+}
+
+void reference_close(Reference *reference)
+{
+    if (!reference)
+        return;
+    free(reference->color);
+    free(reference->depth);
+    free(reference->object);
+    free(reference->coverage);
+    free(reference->interior);
+    *reference = (Reference){0};
+}

@@ -1,0 +1,175 @@
+#include "reference/reference_object.h"
+
+#include "shapes/mesh_solids.h"
+
+#include <stdlib.h>
+
+enum { TEAPOT_DIVISIONS = 64 };
+
+static Real3 column(const double m[16], int number)
+{
+    return (Real3){m[4 * number], m[4 * number + 1], m[4 * number + 2]};
+}
+
+static Real3 transform(const Real3 columns[3], Real3 v)
+{
+    return real3_along(real3_along(real3_scale(columns[0], v.x), v.y, columns[1]), v.z, columns[2]);
+}
+
+/* The cofactor matrix's columns: the inverse transpose is they over the determinant. */
+static void cofactors(const Real3 columns[3], Real3 out[3])
+{
+    out[0] = real3_cross(columns[1], columns[2]);
+    out[1] = real3_cross(columns[2], columns[0]);
+    out[2] = real3_cross(columns[0], columns[1]);
+}
+
+/* Whether a matrix with these columns, whose determinant is `determinant`, flattens what it
+ * transforms; but for rounding, since it may be a product. */
+static bool singular(const Real3 columns[3], Real determinant)
+{
+    const Real size =
+        real3_length(columns[0]) * real3_length(columns[1]) * real3_length(columns[2]);
+    return !(real_abs(determinant) > (Real)1e-14 * size);
+}
+
+/* Normals are transformed with the inverse transpose up to a positive factor: the cofactors by the
+ * sign of the determinant. (Turkowski, Properties of Surface-Normal Transformations, Graphics Gems,
+ * 1990) */
+static void set_normal_columns(TraceObject *ready, const Real3 turned[3])
+{
+    Real largest = 0, size = 0;
+    for (int k = 0; k < 3; k++) {
+        ready->normal_columns[k] = ready->columns[k];
+        largest = real_max(largest, real3_length(turned[k]));
+        size = real_max(size, real3_dot(ready->columns[k], ready->columns[k]));
+    }
+    if (ready->object->wrong_normals)
+        return;
+    /* Rank below 2: no surface is left, and no normal; the cofactors are rounding at most. */
+    const Real factor = largest > (Real)1e-15 * size ? (ready->mirrored ? -1 : 1) / largest : 0;
+    for (int k = 0; k < 3; k++)
+        ready->normal_columns[k] = real3_scale(turned[k], factor);
+}
+
+Real3 trace_object_normal(const TraceObject *ready, Real3 normal_object)
+{
+    return real3_unit(transform(ready->normal_columns, normal_object));
+}
+
+static Real3 to_real3(const float v[3])
+{
+    return (Real3){v[0], v[1], v[2]};
+}
+
+/* A light at the corners, with the normal of the vertex or of the triangle. */
+static Real3 light_corner(const TraceObject *ready, const Scene *scene, const Shading *shading,
+                          size_t vertex, Real3 position, Real3 normal, bool back)
+{
+    const Object *object = ready->object;
+    ShadeSides sides;
+    const bool reversed = back && object->two_sided;
+    Material material = reversed ? object->back : object->front;
+    if (ready->mesh->colors)
+        material.ambient = material.diffuse = vec3_from_float(ready->mesh->colors[vertex]);
+    Real3 color =
+        shade_point(shading, &material, position, real3_scale(normal, reversed ? -1 : 1), &sides);
+    if (scene->clamp_vertex)
+        color = (Real3){real_min(color.x, 1), real_min(color.y, 1), real_min(color.z, 1)};
+    return color;
+}
+
+/* The normal of a triangle of the mesh, in object coordinates. */
+static Real3 face_normal(const Mesh *mesh, size_t triangle)
+{
+    Real3 v[3];
+    for (size_t k = 0; k < 3; k++)
+        v[k] = to_real3(mesh->vertices[mesh->indices[3 * triangle + k]].position);
+    return real3_unit(real3_cross(real3_subtract(v[1], v[0]), real3_subtract(v[2], v[0])));
+}
+
+static bool light_corners(TraceObject *ready, const Scene *scene, const Shading *shading,
+                          const Real3 *points)
+{
+    const Mesh *mesh = ready->mesh;
+    const size_t count = ready->own_corners ? mesh->index_count : mesh->vertex_count;
+    const bool constant = scene->interpolation == INTERPOLATION_CONSTANT;
+    for (int side = 0; side < (ready->object->two_sided ? 2 : 1); side++) {
+        ready->colors[side] = malloc((count + 1) * sizeof *ready->colors[side]);
+        if (!ready->colors[side])
+            return false;
+        for (size_t i = 0; i < count; i++) {
+            const size_t corner = constant ? i - i % 3 + 2 : i; /* a triangle's last */
+            const size_t vertex = ready->own_corners ? mesh->indices[corner] : i;
+            const Real3 normal = ready->own_corners && !constant
+                                     ? trace_object_normal(ready, face_normal(mesh, i / 3))
+                                     : ready->normals[vertex];
+            ready->colors[side][i] =
+                light_corner(ready, scene, shading, vertex, points[vertex], normal, side == 1);
+        }
+    }
+    return true;
+}
+
+static bool open_triangles(TraceObject *ready, const Scene *scene, const Shading *shading,
+                           bool meshes, const atomic_bool *stop)
+{
+    const Mesh *mesh = ready->mesh;
+    const bool at_corners = meshes && scene->interpolation != INTERPOLATION_PHONG;
+    const bool flatten = scene->interpolation == INTERPOLATION_FLAT && !ready->object->flat;
+    ready->own_corners = at_corners && (flatten || scene->interpolation == INTERPOLATION_CONSTANT);
+    Real3 *points = malloc((mesh->vertex_count + 1) * sizeof *points);
+    ready->normals = malloc((mesh->vertex_count + 1) * sizeof *ready->normals);
+    bool done = points && ready->normals;
+    for (size_t i = 0; done && i < mesh->vertex_count; i++) {
+        const MeshVertex *vertex = &mesh->vertices[i];
+        points[i] = real3_add(transform(ready->columns, to_real3(vertex->position)), ready->offset);
+        ready->normals[i] = trace_object_normal(ready, to_real3(vertex->normal));
+    }
+    done = done && triangles_open(&ready->triangles, mesh, points, ready->own_corners, stop) &&
+           (!at_corners || light_corners(ready, scene, shading, points));
+    free(points);
+    return done;
+}
+
+bool trace_object_open(TraceObject *ready, const Object *object, const Scene *scene,
+                       const Shading *shading, bool meshes, const atomic_bool *stop)
+{
+    const double *m = object->world_from_object.m;
+    Real3 rows[3];
+    *ready = (TraceObject){.object = object, .mesh = object->mesh};
+    for (int k = 0; k < 3; k++)
+        ready->columns[k] = column(m, k);
+    ready->offset = real3_subtract(column(m, 3), real3(scene->camera.eye));
+    cofactors(ready->columns, rows);
+    const Real determinant = real3_dot(ready->columns[0], rows[0]);
+    const bool flattened = singular(ready->columns, determinant);
+    ready->mirrored = determinant < 0;
+    set_normal_columns(ready, rows);
+    const bool exact = !meshes && !flattened && !(object->mesh && object->mesh->colors);
+    ready->exact = exact && object->solid.kind != SOLID_NONE && object->solid.kind != SOLID_TEAPOT;
+    if (ready->exact) {
+        for (int k = 0; k < 3; k++)
+            ready->inverse[k] = real3_scale(rows[k], 1 / determinant);
+        const Real3 eye = real3_scale(ready->offset, -1);
+        ready->eye = (Real3){real3_dot(ready->inverse[0], eye), real3_dot(ready->inverse[1], eye),
+                             real3_dot(ready->inverse[2], eye)};
+        return true;
+    }
+    if (exact && object->solid.kind == SOLID_TEAPOT) {
+        if (!mesh_teapot_until(&ready->own, object->solid.radius, TEAPOT_DIVISIONS, stop, NULL))
+            return false;
+        ready->mesh = &ready->own;
+    }
+    return open_triangles(ready, scene, shading, meshes, stop);
+}
+
+void trace_object_close(TraceObject *ready)
+{
+    triangles_close(&ready->triangles);
+    mesh_close(&ready->own);
+    free(ready->normals);
+    free(ready->colors[0]);
+    free(ready->colors[1]);
+    *ready = (TraceObject){.object = NULL};
+}

@@ -1,0 +1,42 @@
+/*
+ * reference_object: an object of the scene, made ready for rays from the eye.
+ *
+ * Space: the axes are the world's, the origin is the eye. Translations are subtracted before
+ * anything is multiplied, so that a scene far from the origin is what it is there.
+ */
+#ifndef REFERENCE_OBJECT_H
+#define REFERENCE_OBJECT_H
+
+#include "reference/reference_shade.h"
+#include "reference/reference_triangles.h"
+#include "scene/scene.h"
+
+typedef struct TraceObject {
+    const Object *object;
+    Real3 columns[3];        /* of world_from_object */
+    Real3 normal_columns[3]; /* what normals are transformed with, up to a factor; zero: none is */
+    Real3 offset;            /* its translation, from the eye */
+    bool mirrored;           /* determinant below 0 */
+    bool exact;              /* a solid by its formula; else triangles */
+    /* Exact: rows of object_from_world, and the eye in object coordinates. */
+    Real3 inverse[3], eye;
+    /* Triangles, and for each of their vertices the unit normal; or, where light is computed there,
+     * the colors of the front and of the back: for each vertex, or, for flat triangles, for each
+     * corner. */
+    Triangles triangles;
+    Mesh own; /* of a teapot: made for its formula, of which it has none */
+    const Mesh *mesh;
+    Real3 *normals;
+    Real3 *colors[2];
+    bool own_corners;
+} TraceObject;
+
+/* False where memory runs out, or it was stopped; to be closed all the same. */
+bool trace_object_open(TraceObject *ready, const Object *object, const Scene *scene,
+                       const Shading *shading, bool meshes, const atomic_bool *stop);
+void trace_object_close(TraceObject *ready);
+
+/* The unit normal that light sees, from one in object coordinates; zero where there is none. */
+Real3 trace_object_normal(const TraceObject *ready, Real3 normal_object);
+
+#endif

@@ -1,0 +1,133 @@
+/*
+ * reference_real: the number that the reference computes with, and vectors of it.
+ *
+ * A double; where REFERENCE_QUAD is defined a __float128, for the test that measures what rounding
+ * to double does. Functions have other names then, so that a program can have both.
+ */
+#ifndef REFERENCE_REAL_H
+#define REFERENCE_REAL_H
+
+#include "core/matrix.h"
+
+#include <math.h>
+
+#ifdef REFERENCE_QUAD
+
+#include <quadmath.h>
+
+typedef __float128 Real;
+#define REAL_EPSILON FLT128_EPSILON
+#define REAL_PI M_PIq
+#define real_sqrt sqrtq
+#define real_abs fabsq
+#define real_pow powq
+#define real_cos cosq
+#define real_tan tanq
+#define real_max fmaxq
+#define real_min fminq
+
+#define ray_solid quad_ray_solid
+#define solid_normal quad_solid_normal
+#define shade_point quad_shade_point
+#define triangles_open quad_triangles_open
+#define triangles_ray quad_triangles_ray
+#define triangles_share quad_triangles_share
+#define triangles_close quad_triangles_close
+#define bounds_build quad_bounds_build
+#define bounds_close quad_bounds_close
+#define trace_open quad_trace_open
+#define trace_sample quad_trace_sample
+#define trace_same_side quad_trace_same_side
+#define trace_agree quad_trace_agree
+#define trace_close quad_trace_close
+#define trace_object_open quad_trace_object_open
+#define trace_object_close quad_trace_object_close
+#define trace_object_normal quad_trace_object_normal
+
+#else
+
+#include <float.h>
+
+typedef double Real;
+#define REAL_EPSILON DBL_EPSILON
+#define REAL_PI 3.14159265358979323846
+#define real_sqrt sqrt
+#define real_abs fabs
+#define real_pow pow
+#define real_cos cos
+#define real_tan tan
+/* Plain comparisons, for what is not a number does not come here. */
+#define real_max(a, b) ((a) > (b) ? (a) : (b))
+#define real_min(a, b) ((a) < (b) ? (a) : (b))
+
+#endif
+
+typedef struct Real3 {
+    Real x, y, z;
+} Real3;
+
+static inline Real3 real3(Vec3 a)
+{
+    return (Real3){a.x, a.y, a.z};
+}
+
+static inline Vec3 real3_round(Real3 a)
+{
+    return (Vec3){(double)a.x, (double)a.y, (double)a.z};
+}
+
+static inline Real3 real3_add(Real3 a, Real3 b)
+{
+    return (Real3){a.x + b.x, a.y + b.y, a.z + b.z};
+}
+
+static inline Real3 real3_subtract(Real3 a, Real3 b)
+{
+    return (Real3){a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+static inline Real3 real3_scale(Real3 a, Real factor)
+{
+    return (Real3){a.x * factor, a.y * factor, a.z * factor};
+}
+
+/* a + factor b */
+static inline Real3 real3_along(Real3 a, Real factor, Real3 b)
+{
+    return (Real3){a.x + factor * b.x, a.y + factor * b.y, a.z + factor * b.z};
+}
+
+static inline Real3 real3_product(Real3 a, Real3 b)
+{
+    return (Real3){a.x * b.x, a.y * b.y, a.z * b.z};
+}
+
+static inline Real real3_dot(Real3 a, Real3 b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+/* b x a is exactly -(a x b). */
+static inline Real3 real3_cross(Real3 a, Real3 b)
+{
+    return (Real3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+static inline Real real3_length(Real3 a)
+{
+    return real_sqrt(real3_dot(a, a));
+}
+
+static inline Real real3_largest(Real3 a)
+{
+    return real_max(real_max(a.x, a.y), a.z);
+}
+
+/* The unit vector along `a`; zero where `a` is. */
+static inline Real3 real3_unit(Real3 a)
+{
+    const Real length = real3_length(a);
+    return length > 0 ? real3_scale(a, 1 / length) : (Real3){0, 0, 0};
+}
+
+#endif

@@ -1,0 +1,76 @@
+#include "reference/reference_shade.h"
+
+/* What of a positional light arrives at distance d. */
+static Real attenuation(const Light *light, Real d)
+{
+    if (light->constant == 0 && light->linear == 0 && light->quadratic == 0)
+        return 1;
+    /* On the light itself the sum may be 0, and the share is not a number but large. */
+    return 1 /
+           real_max(light->constant + light->linear * d + light->quadratic * d * d, (Real)1e-30);
+}
+
+/* The cosine whose power is the highlight. */
+static Real highlight_cosine(const Shading *shading, Real3 n, Real3 l, Real3 v)
+{
+    if (shading->reflection_phong) {
+        const Real3 r = real3_subtract(real3_scale(n, 2 * real3_dot(n, l)), l);
+        return real_max(real3_dot(r, v), 0);
+    }
+    return real_max(real3_dot(n, real3_unit(real3_add(l, v))), 0);
+}
+
+static void note_side(ShadeSides *sides, int number, bool inside, Real jump)
+{
+    const uint32_t bit = (uint32_t)1 << (number & 31);
+    sides->bits ^= inside ? bit : 0;
+    sides->matters |= jump > (Real)SHADE_JUMP ? bit : 0;
+}
+
+Real3 shade_point(const Shading *shading, const Material *material, Real3 position, Real3 normal,
+                  ShadeSides *sides)
+{
+    const Real3 ambient = real3(material->ambient), diffuse = real3(material->diffuse);
+    const Real3 specular = real3(material->specular);
+    const Real3 v = shading->distant_viewer ? shading->view : real3_unit(real3_scale(position, -1));
+    Real3 color =
+        real3_add(real3(material->emission), real3_product(shading->global_ambient, ambient));
+    *sides = (ShadeSides){0, 0};
+    for (int i = 0; i < shading->light_count; i++) {
+        const ShadeLight *shade = &shading->lights[i];
+        const Light *light = shade->light;
+        Real3 l = shade->direction;
+        Real share = 1; /* of the light that arrives */
+        bool in_cone = true;
+        if (light->kind != LIGHT_DIRECTIONAL) {
+            const Real3 way = real3_subtract(shade->position, position);
+            l = real3_unit(way);
+            share = attenuation(light, real3_length(way));
+        }
+        if (light->kind == LIGHT_SPOT) {
+            const Real along = -real3_dot(l, shade->direction);
+            in_cone = along >= shade->cosine_cutoff;
+            share *= real_pow(real_max(along, 0), light->exponent);
+        }
+        const Real n_dot_l = real3_dot(normal, l);
+        Real3 highlight = real3_product(real3(light->specular), specular);
+        if (real3_largest(highlight) > 0)
+            highlight =
+                real3_scale(highlight, share * real_pow(highlight_cosine(shading, normal, l, v),
+                                                        material->shininess));
+        /* Behind the surface there is no highlight. */
+        const bool faces = n_dot_l > 0;
+        Real3 sum = real3_add(
+            real3_product(real3(light->ambient), ambient),
+            real3_scale(real3_product(real3(light->diffuse), diffuse), real_max(n_dot_l, 0)));
+        sum = real3_scale(sum, share);
+        if (faces)
+            sum = real3_add(sum, highlight);
+        if (in_cone)
+            color = real3_add(color, sum);
+        note_side(sides, 2 * i + 1, faces, in_cone ? real3_largest(highlight) : 0);
+        if (light->kind == LIGHT_SPOT)
+            note_side(sides, 2 * i, in_cone, real3_largest(sum));
+    }
+    return color;
+}

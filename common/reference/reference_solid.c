@@ -1,0 +1,317 @@
+#include "reference/reference_solid.h"
+
+#include "shapes/mesh_solids.h"
+
+/* What of a line lies within a convex solid, and through which parts it comes in and goes out. */
+typedef struct Span {
+    Real from, to;
+    int entry, exit;
+} Span;
+
+enum { PART_OPEN = -1 }; /* there is no surface */
+
+static const Span LINE = {-INFINITY, INFINITY, PART_OPEN, PART_OPEN};
+
+/* Cuts a span to [from, to]. */
+static void cut(Span *span, Real from, Real to, int entry, int exit)
+{
+    if (from > span->from) {
+        span->from = from;
+        span->entry = entry;
+    }
+    if (to < span->to) {
+        span->to = to;
+        span->exit = exit;
+    }
+}
+
+static void cut_to_nothing(Span *span)
+{
+    span->to = -INFINITY;
+}
+
+/* Cuts to where low <= origin + t direction <= high in one coordinate. (Kay and Kajiya, Ray Tracing
+ * Complex Scenes, SIGGRAPH 1986) */
+static void cut_to_slab(Span *span, Real origin, Real direction, Real low, Real high, int at_low,
+                        int at_high)
+{
+    if (direction > 0)
+        cut(span, (low - origin) / direction, (high - origin) / direction, at_low, at_high);
+    else if (direction < 0)
+        cut(span, (high - origin) / direction, (low - origin) / direction, at_high, at_low);
+    else if (origin < low || origin > high)
+        cut_to_nothing(span);
+}
+
+/* From the point of the line that is nearest to the center, where nothing cancels. (Haines, Gunther
+ * and Akenine-Moller, Precision Improvements for Ray/Sphere Intersection, Ray Tracing Gems, 2019)
+ */
+static void cut_to_sphere(Span *span, Real3 origin, Real3 direction, Real radius)
+{
+    const Real square = real3_dot(direction, direction);
+    const Real nearest = -real3_dot(origin, direction) / square;
+    const Real3 foot = real3_along(origin, nearest, direction);
+    const Real half = (radius * radius - real3_dot(foot, foot)) / square;
+    if (half < 0) {
+        cut_to_nothing(span);
+        return;
+    }
+    cut(span, nearest - real_sqrt(half), nearest + real_sqrt(half), PART_SIDE, PART_SIDE);
+}
+
+/* The same in the plane across the axis z. */
+static void cut_to_tube(Span *span, Real3 origin, Real3 direction, Real radius)
+{
+    const Real square = direction.x * direction.x + direction.y * direction.y;
+    if (!(square > 0)) {
+        if (origin.x * origin.x + origin.y * origin.y > radius * radius)
+            cut_to_nothing(span);
+        return;
+    }
+    const Real nearest = -(origin.x * direction.x + origin.y * direction.y) / square;
+    const Real moment = origin.x * direction.y - origin.y * direction.x;
+    const Real half = (radius * radius - moment * moment / square) / square;
+    if (half < 0) {
+        cut_to_nothing(span);
+        return;
+    }
+    cut(span, nearest - real_sqrt(half), nearest + real_sqrt(half), PART_SIDE, PART_SIDE);
+}
+
+/* Cuts to the half of the double cone x^2 + y^2 <= (slope w)^2 where w = height - z, the way down
+ * from the apex, is not negative. */
+static void cut_to_cone(Span *span, Real3 origin, Real3 direction, Real slope, Real height)
+{
+    /* From the point nearest to the apex, so that a far origin does not cost digits. */
+    Real3 o = {origin.x, origin.y, origin.z - height};
+    const Real nearest = -real3_dot(o, direction) / real3_dot(direction, direction);
+    o = real3_along(o, nearest, direction);
+    const Real down = -direction.z, k = slope * slope;
+    const Real a = direction.x * direction.x + direction.y * direction.y - k * down * down;
+    const Real b = o.x * direction.x + o.y * direction.y + k * o.z * down;
+    const Real c = o.x * o.x + o.y * o.y - k * o.z * o.z;
+    const Real discriminant = b * b - a * c;
+    if (discriminant < 0) {
+        cut_to_nothing(span);
+        return;
+    }
+    /* Of the two roots of a s^2 + 2 b s + c, without cancellation. (Press et al., Numerical Recipes
+     * in C, section 5.6) */
+    const Real q = b > 0 ? -b - real_sqrt(discriminant) : -b + real_sqrt(discriminant);
+    const Real one = a != 0 ? q / a : c / q, other = q != 0 ? c / q : one;
+    const Real first = nearest + real_min(one, other), last = nearest + real_max(one, other);
+    if (a > 0) {
+        /* Between the roots; both are on the same half. */
+        const Real middle = (first + last) / 2 - nearest;
+        if (-o.z + middle * down < 0)
+            cut_to_nothing(span);
+        else
+            cut(span, first, last, PART_SIDE, PART_SIDE);
+    } else if (a < 0) {
+        /* Outside the roots, the lower half of the cone being at the end where w grows. */
+        if (down > 0)
+            cut(span, last, INFINITY, PART_SIDE, PART_OPEN);
+        else
+            cut(span, -INFINITY, first, PART_OPEN, PART_SIDE);
+    } else if (down > 0) { /* along the side: one root */
+        cut(span, nearest + c / (-2 * b), INFINITY, PART_SIDE, PART_OPEN);
+    } else {
+        cut(span, -INFINITY, nearest + c / (-2 * b), PART_OPEN, PART_SIDE);
+    }
+}
+
+static int span_hits(const Span *span, SolidHit hits[SOLID_MAX_HITS])
+{
+    int count = 0;
+    if (!(span->from <= span->to))
+        return 0;
+    if (span->entry != PART_OPEN)
+        hits[count++] = (SolidHit){span->from, span->entry};
+    if (span->exit != PART_OPEN)
+        hits[count++] = (SolidHit){span->to, span->exit};
+    return count;
+}
+
+static int plane_hits(const Solid *solid, Real3 origin, Real3 direction,
+                      SolidHit hits[SOLID_MAX_HITS])
+{
+    if (!(direction.z != 0))
+        return 0;
+    const Real t = -origin.z / direction.z;
+    const Real3 p = real3_along(origin, t, direction);
+    const bool inside = solid->kind == SOLID_QUAD
+                            ? real_abs(p.x) <= 1 && real_abs(p.y) <= 1
+                            : p.x * p.x + p.y * p.y <= (Real)solid->radius * solid->radius;
+    if (!inside)
+        return 0;
+    hits[0] = (SolidHit){t, PART_SIDE};
+    return 1;
+}
+
+/* The torus: (|p|^2 + ring^2 - tube^2)^2 = 4 ring^2 (x^2 + y^2). (Hanrahan, in Glassner, An
+ * Introduction to Ray Tracing, 1989, chapter 2) With s counted in lengths from the point of the
+ * line nearest to the center, |p|^2 = |foot|^2 + s^2, and there is no cubic term. */
+
+typedef struct Quartic {
+    Real c[5]; /* c[i] s^i */
+} Quartic;
+
+static Real evaluate(const Real *c, int degree, Real s)
+{
+    Real sum = c[degree];
+    for (int i = degree - 1; i >= 0; i--)
+        sum = sum * s + c[i];
+    return sum;
+}
+
+/* The root of a polynomial that is monotonic between low and high, where its signs differ: Newton's
+ * steps, or halves where those leave the bracket. (Numerical Recipes in C, section 9.4) */
+static Real bracketed_root(const Real *c, int degree, Real low, Real high)
+{
+    Real slope[4];
+    for (int i = 0; i < degree; i++)
+        slope[i] = c[i + 1] * (i + 1);
+    const bool rising = evaluate(c, degree, high) > 0;
+    Real s = (low + high) / 2;
+    for (int i = 0; i < 200; i++) {
+        const Real value = evaluate(c, degree, s);
+        if (value == 0)
+            break;
+        *((value > 0) == rising ? &high : &low) = s;
+        const Real gradient = evaluate(slope, degree - 1, s);
+        Real next = gradient != 0 ? s - value / gradient : low;
+        if (!(next > low && next < high))
+            next = (low + high) / 2;
+        if (real_abs(next - s) <= 2 * REAL_EPSILON * real_max(real_abs(low), real_abs(high)))
+            break;
+        s = next;
+    }
+    return s;
+}
+
+/* All roots between low and high in their order. Between the roots of its derivative a polynomial
+ * is monotonic. */
+static int roots_between(const Real *c, int degree, Real low, Real high, Real *roots)
+{
+    Real slope[4], turns[6];
+    int count = 0, turn_count = 0;
+    if (degree == 0)
+        return 0;
+    for (int i = 0; i < degree; i++)
+        slope[i] = c[i + 1] * (i + 1);
+    turns[0] = low;
+    turn_count = 1 + roots_between(slope, degree - 1, low, high, turns + 1);
+    turns[turn_count] = high;
+    for (int i = 0; i < turn_count; i++)
+        if ((evaluate(c, degree, turns[i]) > 0) != (evaluate(c, degree, turns[i + 1]) > 0))
+            roots[count++] = bracketed_root(c, degree, turns[i], turns[i + 1]);
+    return count;
+}
+
+/* Near the surface of a thin tube the quartic is a small difference of large numbers; the distance
+ * from the ring is not. Newton's step on (distance^2 - tube^2). */
+static Real polish(Real ring, Real tube, Real3 foot, Real3 unit, Real s)
+{
+    for (int i = 0; i < 2; i++) {
+        const Real3 p = real3_along(foot, s, unit);
+        const Real across = real_sqrt(p.x * p.x + p.y * p.y), out = across - ring;
+        const Real value = out * out + p.z * p.z - tube * tube;
+        const Real slope = 2 * (out * (p.x * unit.x + p.y * unit.y) / across + p.z * unit.z);
+        const Real step = value / slope;
+        /* Where the line touches the surface the slope is no guide. */
+        if (!(real_abs(step) < (Real)1e-6 * tube))
+            break;
+        s -= step;
+    }
+    return s;
+}
+
+static int torus_hits(const Solid *solid, Real3 origin, Real3 direction,
+                      SolidHit hits[SOLID_MAX_HITS])
+{
+    const Real ring = solid->radius, tube = solid->tube;
+    Span around = LINE;
+    cut_to_slab(&around, origin.z, direction.z, -tube, tube, PART_SIDE, PART_SIDE);
+    cut_to_sphere(&around, origin, direction, ring + tube);
+    if (!(around.from <= around.to))
+        return 0;
+    const Real length = real3_length(direction);
+    const Real nearest = -real3_dot(origin, direction) / (length * length);
+    const Real3 foot = real3_along(origin, nearest, direction);
+    const Real3 unit = real3_scale(direction, 1 / length);
+    const Real k = real3_dot(foot, foot) + (ring - tube) * (ring + tube);
+    const Real factor = 4 * ring * ring;
+    const Real c[5] = {k * k - factor * (foot.x * foot.x + foot.y * foot.y),
+                       -2 * factor * (foot.x * unit.x + foot.y * unit.y),
+                       2 * k - factor * (unit.x * unit.x + unit.y * unit.y), 0, 1};
+    /* A little more, because the ends of the bracket may touch the surface. */
+    const Real margin = tube / 1024;
+    Real roots[SOLID_MAX_HITS];
+    const int count = roots_between(c, 4, (around.from - nearest) * length - margin,
+                                    (around.to - nearest) * length + margin, roots);
+    for (int i = 0; i < count; i++)
+        hits[i] =
+            (SolidHit){nearest + polish(ring, tube, foot, unit, roots[i]) / length, PART_SIDE};
+    return count;
+}
+
+int ray_solid(const Solid *solid, Real3 origin, Real3 direction, SolidHit hits[SOLID_MAX_HITS])
+{
+    const Real radius = solid->radius, height = solid->height;
+    Span span = LINE;
+    switch (solid->kind) {
+    case SOLID_SPHERE:
+        cut_to_sphere(&span, origin, direction, radius);
+        break;
+    case SOLID_BOX: /* front, right, up, left, down, back */
+        cut_to_slab(&span, origin.x, direction.x, -radius, radius, 3, 1);
+        cut_to_slab(&span, origin.y, direction.y, -radius, radius, 4, 2);
+        cut_to_slab(&span, origin.z, direction.z, -radius, radius, 5, 0);
+        break;
+    case SOLID_CYLINDER:
+        cut_to_tube(&span, origin, direction, radius);
+        cut_to_slab(&span, origin.z, direction.z, 0, height,
+                    solid->caps & MESH_CAP_BOTTOM ? PART_BOTTOM : PART_OPEN,
+                    solid->caps & MESH_CAP_TOP ? PART_TOP : PART_OPEN);
+        break;
+    case SOLID_CONE:
+        cut_to_cone(&span, origin, direction, radius / height, height);
+        cut_to_slab(&span, origin.z, direction.z, 0, INFINITY, PART_BOTTOM, PART_OPEN);
+        break;
+    case SOLID_TORUS:
+        return torus_hits(solid, origin, direction, hits);
+    case SOLID_QUAD:
+    case SOLID_DISC:
+        return plane_hits(solid, origin, direction, hits);
+    case SOLID_TEAPOT:
+    case SOLID_NONE:
+        return 0;
+    }
+    return span_hits(&span, hits);
+}
+
+static Real3 box_normal(int part)
+{
+    static const signed char normals[6][3] = {{0, 0, 1},  {1, 0, 0},  {0, 1, 0},
+                                              {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
+    return (Real3){normals[part][0], normals[part][1], normals[part][2]};
+}
+
+Real3 solid_normal(const Solid *solid, int part, Real3 p)
+{
+    const Real across = real_sqrt(p.x * p.x + p.y * p.y);
+    if (solid->kind == SOLID_BOX)
+        return box_normal(part);
+    if (part == PART_BOTTOM)
+        return (Real3){0, 0, -1};
+    if (solid->kind == SOLID_SPHERE)
+        return real3_unit(p);
+    if (part == PART_TOP || solid->kind == SOLID_QUAD || solid->kind == SOLID_DISC || across == 0)
+        return (Real3){0, 0, 1};
+    const Real3 out = {p.x / across, p.y / across, 0};
+    if (solid->kind == SOLID_CONE)
+        return real3_unit((Real3){out.x * solid->height, out.y * solid->height, solid->radius});
+    if (solid->kind == SOLID_TORUS)
+        return real3_unit(real3_along(p, -(Real)solid->radius, out));
+    return out;
+}

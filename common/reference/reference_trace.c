@@ -1,0 +1,332 @@
+#include "reference/reference_trace.h"
+
+#include "reference/reference_object.h"
+#include "reference/reference_solid.h"
+
+#include <stdlib.h>
+
+struct Trace {
+    const Scene *scene;
+    bool at_corners; /* light is computed there */
+    bool show_clipped;
+    /* A ray's direction is corner + x across + y down, of depth 1: t is the depth. */
+    Real3 corner, across, down;
+    Shading shading;
+    ShadeLight *lights;
+    TraceObject *objects;
+};
+
+static void set_camera(Trace *trace, const Camera *camera, Mat4 eye_from_world, int width,
+                       int height)
+{
+    const double *m = eye_from_world.m;
+    const Real3 right = {m[0], m[4], m[8]}, up = {m[1], m[5], m[9]}, back = {m[2], m[6], m[10]};
+    const Real tangent = real_tan(scene_fovy(camera, (double)width / height) * (REAL_PI / 360));
+    const Real aspect = (Real)width / height;
+    trace->across = real3_scale(right, 2 * tangent * aspect / width);
+    trace->down = real3_scale(up, -2 * tangent / height);
+    trace->corner =
+        real3_along(real3_along(real3_scale(back, -1), -tangent * aspect, right), tangent, up);
+    trace->shading.view = back;
+}
+
+/* From eye coordinates. */
+static Real3 turn_to_world(Real3 v, Mat4 eye_from_world)
+{
+    const double *m = eye_from_world.m;
+    const Real3 right = {m[0], m[4], m[8]}, up = {m[1], m[5], m[9]}, back = {m[2], m[6], m[10]};
+    return real3_along(real3_along(real3_scale(right, v.x), v.y, up), v.z, back);
+}
+
+static ShadeLight prepare_light(const Light *light, Vec3 eye, Mat4 eye_from_world)
+{
+    ShadeLight ready = {.light = light};
+    Vec3 direction;
+    vec3_normalize(light->direction, &direction); /* whatever its size; then exactly unit */
+    ready.position = real3(light->position);
+    ready.direction = real3_unit(real3(direction));
+    if (light->space == LIGHT_WORLD) {
+        ready.position = real3_subtract(ready.position, real3(eye));
+    } else {
+        ready.position = turn_to_world(ready.position, eye_from_world);
+        ready.direction = turn_to_world(ready.direction, eye_from_world);
+    }
+    ready.cosine_cutoff = real_cos(light->cutoff * (REAL_PI / 180));
+    return ready;
+}
+
+static bool fill(Trace *trace, const Scene *scene, Mat4 eye_from_world, bool meshes,
+                 const atomic_bool *stop)
+{
+    trace->lights = calloc((size_t)scene->light_count + 1, sizeof *trace->lights);
+    trace->objects = calloc((size_t)scene->object_count + 1, sizeof *trace->objects);
+    if (!trace->lights || !trace->objects)
+        return false;
+    for (int i = 0; i < scene->light_count; i++)
+        if (!scene->lights[i].off)
+            trace->lights[trace->shading.light_count++] =
+                prepare_light(&scene->lights[i], scene->camera.eye, eye_from_world);
+    trace->shading.lights = trace->lights;
+    for (int i = 0; i < scene->object_count; i++)
+        if (!trace_object_open(&trace->objects[i], &scene->objects[i], scene, &trace->shading,
+                               meshes, stop))
+            return false;
+    return true;
+}
+
+bool trace_open(Trace **opened, const Scene *scene, bool meshes, int width, int height,
+                const atomic_bool *stop, Message *message)
+{
+    Mat4 eye_from_world, clip_from_eye;
+    *opened = NULL;
+    if (!scene_camera(&scene->camera, (double)width / height, &eye_from_world, &clip_from_eye,
+                      message))
+        return false;
+    Trace *trace = calloc(1, sizeof *trace);
+    if (!trace)
+        return message_set(message, "reference: not enough memory");
+    trace->scene = scene;
+    trace->at_corners = meshes && scene->interpolation != INTERPOLATION_PHONG;
+    trace->show_clipped = scene->show_clipped && !(trace->at_corners && scene->clamp_vertex);
+    trace->shading.global_ambient = real3(scene->global_ambient);
+    trace->shading.reflection_phong = scene->reflection == REFLECTION_PHONG;
+    trace->shading.distant_viewer = scene->distant_viewer;
+    set_camera(trace, &scene->camera, eye_from_world, width, height);
+    if (!fill(trace, scene, eye_from_world, meshes, stop)) {
+        trace_close(trace);
+        return message_set(message, "reference: %s",
+                           stop_asked(stop) ? "stopped" : "not enough memory for the scene");
+    }
+    *opened = trace;
+    return true;
+}
+
+void trace_close(Trace *trace)
+{
+    if (!trace)
+        return;
+    for (int i = 0; trace->objects && i < trace->scene->object_count; i++)
+        trace_object_close(&trace->objects[i]);
+    free(trace->objects);
+    free(trace->lights);
+    free(trace);
+}
+
+/* The nearest point. */
+typedef struct Nearest {
+    int object; /* -1: none */
+    Real t;
+    SolidHit solid;
+    TriangleHit triangle;
+} Nearest;
+
+static void meet_object(const Trace *trace, int number, Real3 direction, Nearest *nearest)
+{
+    const TraceObject *ready = &trace->objects[number];
+    const Real near = trace->scene->camera.near, far = trace->scene->camera.far;
+    if (!ready->exact) {
+        TriangleHit hit = {.t = nearest->t};
+        if (triangles_ray(&ready->triangles, direction, near, far, &hit))
+            *nearest = (Nearest){.object = number, .t = hit.t, .triangle = hit};
+        return;
+    }
+    SolidHit hits[SOLID_MAX_HITS];
+    const Real3 d = {real3_dot(ready->inverse[0], direction),
+                     real3_dot(ready->inverse[1], direction),
+                     real3_dot(ready->inverse[2], direction)};
+    const int count = ray_solid(&ready->object->solid, ready->eye, d, hits);
+    for (int i = 0; i < count; i++) {
+        if (hits[i].t >= near && hits[i].t <= far) {
+            if (hits[i].t < nearest->t)
+                *nearest = (Nearest){.object = number, .t = hits[i].t, .solid = hits[i]};
+            return;
+        }
+    }
+}
+
+/* Their mean by the weights of the triangle's corners. */
+static Real3 interpolate(Real3 a, Real3 b, Real3 c, const Real weights[3])
+{
+    return real3_along(real3_along(real3_scale(a, weights[0]), weights[1], b), weights[2], c);
+}
+
+/* What light needs of the point that was hit. */
+typedef struct Surface {
+    Real3 geometric;         /* the surface's own unit normal */
+    Real3 normal;            /* that which light sees */
+    const uint32_t *indices; /* of the triangle's corners */
+} Surface;
+
+static Surface solid_surface(const TraceObject *ready, const Nearest *nearest, Real3 direction,
+                             Sample *sample)
+{
+    const Solid *solid = &ready->object->solid;
+    const Real3 d = {real3_dot(ready->inverse[0], direction),
+                     real3_dot(ready->inverse[1], direction),
+                     real3_dot(ready->inverse[2], direction)};
+    const Real3 normal =
+        solid_normal(solid, nearest->solid.part, real3_along(ready->eye, nearest->t, d));
+    Surface surface = {.normal = trace_object_normal(ready, normal)};
+    surface.geometric = surface.normal;
+    if (ready->object->wrong_normals) {
+        /* n . inverse: the columns of the inverse transpose. */
+        surface.geometric =
+            real3_unit(interpolate(ready->inverse[0], ready->inverse[1], ready->inverse[2],
+                                   (const Real[3]){normal.x, normal.y, normal.z}));
+    }
+    sample->front = (real3_dot(normal, d) < 0) != ready->object->clockwise;
+    sample->piece = (uint32_t)nearest->solid.part;
+    return surface;
+}
+
+static Surface triangle_surface(const TraceObject *ready, const Nearest *nearest, Real3 direction,
+                                Sample *sample)
+{
+    const Triangle *triangle = &ready->triangles.triangles[nearest->triangle.index];
+    const uint32_t *indices = ready->mesh->indices + 3 * (size_t)triangle->number;
+    const Real3 *n = ready->normals;
+    Surface surface = {.geometric = real3_unit(triangle->normal), .indices = indices};
+    surface.normal = real3_unit(
+        interpolate(n[indices[0]], n[indices[1]], n[indices[2]], nearest->triangle.weights));
+    sample->front = (real3_dot(triangle->normal, direction) < 0) !=
+                    (ready->mirrored != ready->object->clockwise);
+    sample->piece = triangle->piece;
+    sample->triangle = nearest->triangle.index;
+    return surface;
+}
+
+static Real3 corner_color(const TraceObject *ready, const Nearest *nearest, const uint32_t *indices,
+                          bool front)
+{
+    const Real3 *colors = ready->colors[!front && ready->object->two_sided];
+    const Triangle *triangle = &ready->triangles.triangles[nearest->triangle.index];
+    const Real *weights = nearest->triangle.weights;
+    if (ready->own_corners) {
+        const Real3 *c = colors + 3 * (size_t)triangle->number;
+        return interpolate(c[0], c[1], c[2], weights);
+    }
+    return interpolate(colors[indices[0]], colors[indices[1]], colors[indices[2]], weights);
+}
+
+/* The mean of a triangle's vertex colors. */
+static Real3 vertex_color(const Mesh *mesh, const uint32_t *indices, const Real weights[3])
+{
+    Real3 c[3];
+    for (int k = 0; k < 3; k++)
+        c[k] = real3(vec3_from_float(mesh->colors[indices[k]]));
+    return interpolate(c[0], c[1], c[2], weights);
+}
+
+/* IEC 61966-2-1. */
+static Real encode(Real linear)
+{
+    return linear <= (Real)0.0031308 ? (Real)12.92 * linear
+                                     : (Real)1.055 * real_pow(linear, 1 / (Real)2.4) - (Real)0.055;
+}
+
+static void put_out(const Trace *trace, Real3 color, Sample *sample)
+{
+    Real channels[3] = {color.x, color.y, color.z};
+    sample->clipped = trace->show_clipped && real3_largest(color) > 1;
+    for (int k = 0; k < 3; k++) {
+        Real channel = real_max(real_min(channels[k], 1), 0);
+        if (sample->clipped)
+            channel = k == 1 ? 0 : 1;
+        sample->linear[k] = (double)channel;
+        sample->color[k] = (float)(trace->scene->linear ? encode(channel) : channel);
+    }
+}
+
+void trace_sample(const Trace *trace, double x, double y, Sample *sample)
+{
+    const Scene *scene = trace->scene;
+    const Real3 direction =
+        real3_along(real3_along(trace->corner, x, trace->across), y, trace->down);
+    Nearest nearest = {.object = -1, .t = INFINITY};
+    *sample = (Sample){.object = -1, .depth = INFINITY};
+    for (int i = 0; i < scene->object_count; i++)
+        meet_object(trace, i, direction, &nearest);
+    if (nearest.object < 0) {
+        const Vec3 background = scene->background;
+        sample->color[0] = (float)background.x;
+        sample->color[1] = (float)background.y;
+        sample->color[2] = (float)background.z;
+        return;
+    }
+    const TraceObject *ready = &trace->objects[nearest.object];
+    const Surface surface = ready->exact ? solid_surface(ready, &nearest, direction, sample)
+                                         : triangle_surface(ready, &nearest, direction, sample);
+    const Real3 position = real3_scale(direction, nearest.t);
+    sample->object = nearest.object;
+    sample->depth = (double)nearest.t;
+    sample->position = real3_round(position);
+    sample->normal = real3_round(surface.geometric);
+    if (trace->at_corners) {
+        put_out(trace, corner_color(ready, &nearest, surface.indices, sample->front), sample);
+        return;
+    }
+    const bool reversed = ready->object->two_sided && !sample->front;
+    Material material = reversed ? ready->object->back : ready->object->front;
+    ShadeSides sides;
+    if (!ready->exact && ready->mesh->colors)
+        material.ambient = material.diffuse =
+            real3_round(vertex_color(ready->mesh, surface.indices, nearest.triangle.weights));
+    const Real3 color = shade_point(&trace->shading, &material, position,
+                                    real3_scale(surface.normal, reversed ? -1 : 1), &sides);
+    sample->sides = sides.bits;
+    sample->sides_matter = sides.matters;
+    put_out(trace, color, sample);
+}
+
+/* A smooth surface's chord is nearly perpendicular to the mean of the normals at its ends: on a
+ * circle exactly, elsewhere but for the third power of its length. A jump in depth is along the
+ * view. */
+static bool in_tangent_planes(const Sample *a, const Sample *b)
+{
+    const Vec3 chord = vec3_subtract(b->position, a->position);
+    const double out = vec3_dot(chord, vec3_add(a->normal, b->normal));
+    return out * out <= 0.0025 * vec3_dot(chord, chord);
+}
+
+/* Whether triangles hang together smoothly: by an edge, with its normals; else not where a crease
+ * is between them; else by a corner at which they are not folded, or as far as their planes tell.
+ */
+static bool joined(const Triangle *a, const Triangle *b, const Sample *at_a, const Sample *at_b)
+{
+    const TrianglesShare share = triangles_share(a, b);
+    if (share.corners >= 2 || share.places > share.corners)
+        return share.corners >= 2;
+    return vec3_dot(at_a->normal, at_b->normal) > 0.7 &&
+           (share.corners == 1 || in_tangent_planes(at_a, at_b));
+}
+
+static bool like_colors(const Sample *a, const Sample *b)
+{
+    for (int k = 0; k < 3; k++)
+        if (fabsf(a->color[k] - b->color[k]) > 0.0625F)
+            return false;
+    return true;
+}
+
+bool trace_same_side(const Sample *a, const Sample *b)
+{
+    return a->object == b->object && a->piece == b->piece && a->front == b->front &&
+           a->clipped == b->clipped &&
+           ((a->sides ^ b->sides) & (a->sides_matter | b->sides_matter)) == 0;
+}
+
+bool trace_agree(const Trace *trace, const Sample *a, const Sample *b)
+{
+    if (!trace_same_side(a, b))
+        return false;
+    if (a->object < 0)
+        return true;
+    const TraceObject *ready = &trace->objects[a->object];
+    if (!like_colors(a, b))
+        return false;
+    if (!ready->exact)
+        return joined(&ready->triangles.triangles[a->triangle],
+                      &ready->triangles.triangles[b->triangle], a, b);
+    /* Of all solids only a torus lies before itself with the same side outwards. */
+    return ready->object->solid.kind != SOLID_TORUS || in_tangent_planes(a, b);
+}

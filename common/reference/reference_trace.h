@@ -1,0 +1,50 @@
+/*
+ * reference_trace: what a ray from the eye through one point of the picture sees, and its color.
+ *
+ * The whole of what a pixel's exactness rests on; how pixels are made of such samples is in
+ * reference_pixel.h.
+ */
+#ifndef REFERENCE_TRACE_H
+#define REFERENCE_TRACE_H
+
+#include "base/stop.h"
+#include "reference/reference_real.h"
+#include "scene/scene.h"
+
+#include <stdint.h>
+
+typedef struct Trace Trace;
+
+/* Prepares a scene that has passed scene_check, for a picture of so many pixels; `meshes` as in
+ * ReferenceOptions, as is `stop`. A trace may be used by several threads. */
+bool trace_open(Trace **trace, const Scene *scene, bool meshes, int width, int height,
+                const atomic_bool *stop, Message *message);
+void trace_close(Trace *trace); /* NULL is fine */
+
+/* What is seen at one point. Space: the axes are the world's, the origin is the eye. */
+typedef struct Sample {
+    int object;        /* -1: the background; the rest is then 0, but for the color */
+    uint32_t piece;    /* which of its smooth surfaces */
+    uint32_t triangle; /* its place in the hierarchy, where the object has triangles */
+    bool front;
+    bool clipped;                 /* painted magenta */
+    uint32_t sides, sides_matter; /* see ShadeSides */
+    float color[3];               /* as in Reference */
+    double linear[3];             /* the same before it is rounded to float, and encoded */
+    double depth;                 /* as in Reference; INFINITY for the background */
+    Vec3 position, normal;        /* the normal is the surface's own, a unit vector */
+} Sample;
+
+/* x in 0..width from the left, y in 0..height from the top, in pixels. */
+void trace_sample(const Trace *trace, double x, double y, Sample *sample);
+
+/* Whether two samples agree in whatever is discrete: object, face, front or back, and the sides of
+ * the jumps of light. */
+bool trace_same_side(const Sample *a, const Sample *b);
+
+/* Whether two samples near each other lie on one smooth surface, lit smoothly, as far as can be
+ * told from them: they are on the same side, their colors lie within 1/16, and each lies
+ * in the other's tangent plane, or on a triangle next to it. */
+bool trace_agree(const Trace *trace, const Sample *a, const Sample *b);
+
+#endif

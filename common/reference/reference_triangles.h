@@ -1,0 +1,55 @@
+/*
+ * reference_triangles: rays from the eye against triangles.
+ *
+ * Space: the axes are the world's, the origin is the eye, and every ray begins there.
+ */
+#ifndef REFERENCE_TRIANGLES_H
+#define REFERENCE_TRIANGLES_H
+
+#include "core/mesh.h"
+#include "reference/reference_bounds.h"
+
+/* With v0, v1, v2 seen from the origin. */
+typedef struct Triangle {
+    Real3 edges[3];  /* v1 x v2, v2 x v0, v0 x v1: normals of the planes through origin and edge */
+    Real3 normal;    /* (v1 - v0) x (v2 - v0) */
+    Real offset;     /* normal . v0 */
+    uint32_t number; /* in the mesh */
+    uint32_t corners[3]; /* vertices; of those that are equal the first */
+    uint32_t places[3];  /* vertices; of those in one place the first */
+    uint32_t piece;      /* a triangle of it: pieces are what hangs together by equal corners */
+} Triangle;
+
+typedef struct Triangles {
+    Triangle *triangles; /* in the order of the boxes */
+    size_t count;
+    Bounds bounds;
+} Triangles;
+
+/* The triangles of a mesh with its vertices at `points`; without those that have no area. Vertices
+ * are equal where position and normal are, the normal but for 1e-3. Where `apart` is set no two
+ * triangles hang together. False where memory runs out, or it was stopped. */
+bool triangles_open(Triangles *triangles, const Mesh *mesh, const Real3 *points, bool apart,
+                    const atomic_bool *stop);
+void triangles_close(Triangles *triangles);
+
+typedef struct TriangleHit {
+    Real t;
+    Real weights[3]; /* of the corners; their sum is 1 */
+    uint32_t index;  /* in `triangles` */
+} TriangleHit;
+
+/* The nearest point t * direction with near <= t <= far and t < hit->t on a triangle; of several
+ * with that t that of the first triangle of the mesh. A ray through an edge or corner that
+ * triangles share meets at least one of them. */
+bool triangles_ray(const Triangles *triangles, Real3 direction, Real near, Real far,
+                   TriangleHit *hit);
+
+/* How many corners two triangles have in common, 3 for one with itself; and how many places. More
+ * places than corners make a crease between them. */
+typedef struct TrianglesShare {
+    int corners, places;
+} TrianglesShare;
+TrianglesShare triangles_share(const Triangle *a, const Triangle *b);
+
+#endif

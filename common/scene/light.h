@@ -1,0 +1,57 @@
+/*
+ * light: light sources.
+ */
+#ifndef LIGHT_H
+#define LIGHT_H
+
+#include "core/matrix.h"
+
+#include <stdbool.h>
+
+typedef enum LightKind {
+    LIGHT_DIRECTIONAL, /* infinitely far away: its rays are parallel */
+    LIGHT_POINT,       /* at a position, in all directions */
+    LIGHT_SPOT,        /* at a position, within a cone */
+} LightKind;
+
+/* In what its position and direction are given. */
+typedef enum LightSpace {
+    LIGHT_WORLD, /* it stays in the world when the camera moves */
+    LIGHT_EYE,   /* it belongs to the viewer and moves along, as a lamp on a helmet */
+} LightSpace;
+
+/* The light source of the OpenGL 1.1 specification, section 2.13.1. */
+typedef struct Light {
+    bool off; /* a zeroed light is on */
+    LightKind kind;
+    LightSpace space;
+    Vec3 position;  /* point and spot */
+    Vec3 direction; /* directional: towards the light; spot: the axis of its cone, away from the
+                       light. Any length but 0 */
+    Vec3 ambient, diffuse, specular; /* intensities for red, green and blue, 0 or more */
+    double cutoff;                   /* spot: half the cone's angle in degrees, 0 to 90 */
+    double exponent;                 /* spot: the falloff within the cone, 0 to 128 */
+    /* Point and spot: 1 / (constant + linear d + quadratic d^2) of the light arrives at distance d.
+     * Each 0 or more; all three 0 mean no attenuation. */
+    double constant, linear, quadratic;
+} Light;
+
+/* Whether a light or reflectivity of this color contributes nothing. */
+static inline bool color_is_black(Vec3 color)
+{
+    return color.x == 0 && color.y == 0 && color.z == 0;
+}
+
+/* Whether attenuation depends on distance. */
+static inline bool light_fades(const Light *light)
+{
+    return light->kind != LIGHT_DIRECTIONAL && (light->linear != 0 || light->quadratic != 0);
+}
+
+/* Whether its ambient light varies over a surface; otherwise it is part of the constant base. */
+static inline bool light_ambient_varies(const Light *light)
+{
+    return light->kind == LIGHT_SPOT || light_fades(light);
+}
+
+#endif

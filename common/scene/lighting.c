@@ -1,0 +1,661 @@
+#include "scene/lighting.h"
+
+#include "base/clock.h"
+#include "core/mesh_buffer.h"
+#include "core/mesh_make.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_DEFINES = 32 };
+
+/* What determines a program: equal recipes give equal programs. */
+typedef struct Recipe {
+    const char *defines[MAX_DEFINES];
+    char *groups[2]; /* of lights, by ShaderStage */
+} Recipe;
+
+typedef struct Variant {
+    Recipe recipe;
+    Shader shader;
+    struct Variant *next;
+} Variant;
+
+typedef struct Buffered {
+    const Mesh *mesh;
+    Interpolation remade; /* INTERPOLATION_PHONG: the mesh itself */
+    MeshBox box;          /* of `mesh` */
+    MeshBuffer buffer;
+    struct Buffered *next;
+} Buffered;
+
+struct Lighting {
+    ShaderLoader loader;
+    Variant *variants;
+    Buffered *buffers;
+    LightingCounts counts;
+    LightingTransforms transforms;
+    LightingNormalMatrix *normal_matrix; /* NULL: mat4_normal */
+};
+
+static Mat4 clip_from_object(Mat4 clip_from_eye, Mat4 eye_from_world, Mat4 world_from_object,
+                             Mat4 eye_from_object)
+{
+    (void)eye_from_world, (void)world_from_object;
+    return mat4_product(clip_from_eye, eye_from_object);
+}
+
+static const LightingTransforms USUAL = {scene_eye_from_object, scene_eye_point, clip_from_object};
+
+void lighting_use_transforms(Lighting *lighting, const LightingTransforms *transforms)
+{
+    lighting->transforms = transforms ? *transforms : USUAL;
+}
+
+void lighting_use_normal_matrix(Lighting *lighting, LightingNormalMatrix *normal_matrix)
+{
+    lighting->normal_matrix = normal_matrix;
+}
+
+/* Recipes. */
+
+/* The uniforms of group.glsl, renamed per group. */
+static const char *const GROUP_UNIFORMS[] = {
+    "u_Position",     "u_Direction",   "u_FrontAmbient",  "u_BackAmbient",
+    "u_FrontDiffuse", "u_BackDiffuse", "u_FrontSpecular", "u_BackSpecular",
+    "u_Half",         "u_Attenuation", "u_Spot",          "u_Exponent",
+};
+enum { GROUP_UNIFORM_COUNT = sizeof GROUP_UNIFORMS / sizeof GROUP_UNIFORMS[0] };
+
+/* The defines of group.glsl. 16-bit floats need the guard of the attenuation for any light. */
+enum { MAX_GROUP_DEFINES = 10 };
+static int group_defines(const LightGroup *group, bool mediump,
+                         const char *defines[MAX_GROUP_DEFINES])
+{
+    const LightTerms *terms = &group->terms;
+    const struct {
+        bool there;
+        const char *name;
+    } all[] = {
+        {terms->any, "ANY"},
+        {terms->kind == LIGHT_DIRECTIONAL, "DIRECTIONAL"},
+        {terms->kind == LIGHT_SPOT, "SPOT"},
+        {terms->ambient, "AMBIENT"},
+        {terms->diffuse, "DIFFUSE"},
+        {terms->specular, "SPECULAR"},
+        {terms->half_vector, "HALF_VECTOR"},
+        {terms->attenuation, "ATTENUATION"},
+        {terms->exponent, "EXPONENT"},
+        {terms->attenuation && (group->guard_attenuation || mediump), "GUARD_ATTENUATION"},
+    };
+    int count = 0;
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        if (all[i].there)
+            defines[count++] = all[i].name;
+    return count;
+}
+
+/* The text of "lighting/vertex_groups.glsl" or "lighting/fragment_groups.glsl": a function per
+ * group, and add_lights, which calls them. */
+static char *groups_text(const Effects *effects, bool at_vertex, bool mediump)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *file = open_memstream(&text, &size);
+    if (!file)
+        return NULL;
+    for (int g = 0; g < effects->group_count; g++) {
+        const LightGroup *group = &effects->groups[g];
+        const char *defines[MAX_GROUP_DEFINES];
+        const int count = group_defines(group, mediump, defines);
+        if (group->terms.at_vertex != at_vertex)
+            continue;
+        fprintf(file, "#define GROUP group%d\n#define COUNT %d\n", g, group->count);
+        for (int i = 0; i < count; i++)
+            fprintf(file, "#define %s\n", defines[i]);
+        for (int i = 0; i < GROUP_UNIFORM_COUNT; i++)
+            fprintf(file, "#define %s %s%d\n", GROUP_UNIFORMS[i], GROUP_UNIFORMS[i], g);
+        fprintf(file, "#include \"lighting/group.glsl\"\n#undef GROUP\n#undef COUNT\n");
+        for (int i = 0; i < count; i++)
+            fprintf(file, "#undef %s\n", defines[i]);
+        for (int i = 0; i < GROUP_UNIFORM_COUNT; i++)
+            fprintf(file, "#undef %s\n", GROUP_UNIFORMS[i]);
+    }
+    fprintf(file, "void add_lights(vec3 normal, vec3 position, vec3 viewer, bool front, inout vec3 "
+                  "color) {\n");
+    for (int g = 0; g < effects->group_count; g++)
+        if (effects->groups[g].terms.at_vertex == at_vertex)
+            fprintf(file, "    group%d(normal, position, viewer, front, color);\n", g);
+    fprintf(file, "}\n");
+    fclose(file);
+    return text;
+}
+
+/* Whether fragments may be computed in 16 bits. */
+static bool is_mediump(const ShaderLoader *loader)
+{
+    return loader->precision && strcmp(loader->precision, "mediump") == 0;
+}
+
+static bool recipe_open(Recipe *recipe, const Effects *effects, const ShaderLoader *loader,
+                        Message *message)
+{
+    const bool mediump = is_mediump(loader);
+    /* By ShaderStage. What is clamped at the vertices is computed there, the base too. */
+    bool lights[2] = {[SHADER_VERTEX] = effects->clamp_vertex}, position[2] = {false};
+    bool normals[2] = {false}, colored[2] = {false};
+    bool specular = false, full = false;
+    for (int g = 0; g < effects->group_count; g++) {
+        const LightTerms *terms = &effects->groups[g].terms;
+        const int stage = terms->at_vertex ? SHADER_VERTEX : SHADER_FRAGMENT;
+        lights[stage] = true;
+        position[stage] |=
+            terms->kind != LIGHT_DIRECTIONAL || (terms->specular && effects->local_viewer);
+        normals[stage] |= terms->diffuse || terms->specular;
+        colored[stage] |= effects->vertex_color && (terms->ambient || terms->diffuse);
+        specular |= terms->specular;
+        full |= terms->any;
+    }
+    colored[lights[SHADER_VERTEX] ? SHADER_VERTEX : SHADER_FRAGMENT] |=
+        effects->vertex_color && effects->base;
+    const struct {
+        bool there;
+        const char *define;
+    } all[] = {
+        {full, "FULL"},
+        {mediump, "MEDIUMP"},
+        {effects->base, "BASE"},
+        {effects->alpha, "ALPHA"},
+        {effects->vertex_color, "VERTEX_COLOR"},
+        {colored[SHADER_FRAGMENT], "FRAGMENT_COLOR"},
+        {effects->lit_positions && lights[SHADER_VERTEX], "LIT_POSITION"},
+        {effects->two_sided, "TWO_SIDED"},
+        {lights[SHADER_VERTEX], "VERTEX_LIGHTS"},
+        {lights[SHADER_FRAGMENT], "FRAGMENT_LIGHTS"},
+        {position[SHADER_VERTEX] || position[SHADER_FRAGMENT], "POSITION"},
+        {position[SHADER_FRAGMENT], "FRAGMENT_POSITION"},
+        {normals[SHADER_VERTEX] || normals[SHADER_FRAGMENT], "NORMALS"},
+        {normals[SHADER_FRAGMENT], "FRAGMENT_NORMALS"},
+        {effects->normal_matrix, "NORMAL_MATRIX"},
+        {effects->normalize_vertex, "NORMALIZE_VERTEX"},
+        {effects->normalize_fragment, "NORMALIZE_FRAGMENT"},
+        {effects->local_viewer, "LOCAL_VIEWER"},
+        {specular, "SHININESS"},
+        {specular && effects->reflection == REFLECTION_PHONG, "PHONG"},
+        {effects->clamp_vertex, "CLAMP_VERTEX"},
+        {effects->linear, "LINEAR"},
+        {effects->show_clipped, "SHOW_CLIPPED"},
+    };
+    int count = 0;
+    *recipe = (Recipe){{NULL}, {NULL}};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        if (all[i].there)
+            recipe->defines[count++] = all[i].define;
+    recipe->groups[SHADER_VERTEX] = groups_text(effects, true, mediump);
+    recipe->groups[SHADER_FRAGMENT] = groups_text(effects, false, mediump);
+    if (recipe->groups[SHADER_VERTEX] && recipe->groups[SHADER_FRAGMENT])
+        return true;
+    return message_set(message, "lighting: not enough memory");
+}
+
+static void recipe_close(Recipe *recipe)
+{
+    free(recipe->groups[SHADER_VERTEX]);
+    free(recipe->groups[SHADER_FRAGMENT]);
+    *recipe = (Recipe){{NULL}, {NULL}};
+}
+
+/* The defines are string literals of this file, so pointers are compared. */
+static bool recipe_equal(const Recipe *a, const Recipe *b)
+{
+    return memcmp(a->defines, b->defines, sizeof a->defines) == 0 &&
+           strcmp(a->groups[0], b->groups[0]) == 0 && strcmp(a->groups[1], b->groups[1]) == 0;
+}
+
+/* A loader for this recipe; `texts` has room for three. */
+static ShaderLoader recipe_loader(const Recipe *recipe, const ShaderLoader *base,
+                                  ShaderText texts[3])
+{
+    ShaderLoader loader = *base;
+    texts[0] = (ShaderText){"lighting/vertex_groups.glsl", recipe->groups[SHADER_VERTEX]};
+    texts[1] = (ShaderText){"lighting/fragment_groups.glsl", recipe->groups[SHADER_FRAGMENT]};
+    texts[2] = (ShaderText){NULL, NULL};
+    loader.texts = texts;
+    loader.defines = recipe->defines;
+    return loader;
+}
+
+/* Programs and buffers. */
+
+static const Variant *find_variant(Lighting *lighting, const Effects *effects, Message *message)
+{
+    Recipe recipe;
+    ShaderText texts[3];
+    if (!recipe_open(&recipe, effects, &lighting->loader, message)) {
+        recipe_close(&recipe);
+        return NULL;
+    }
+    for (const Variant *variant = lighting->variants; variant; variant = variant->next) {
+        if (recipe_equal(&variant->recipe, &recipe)) {
+            recipe_close(&recipe);
+            return variant;
+        }
+    }
+    Variant *variant = calloc(1, sizeof *variant);
+    const ShaderLoader loader = recipe_loader(&recipe, &lighting->loader, texts);
+    const double start = clock_now();
+    if (!variant || !shader_open(&variant->shader, &loader, "lighting", message)) {
+        message_set(message, "lighting: not enough memory");
+        recipe_close(&recipe);
+        free(variant);
+        return NULL;
+    }
+    lighting->counts.programs++;
+    lighting->counts.compile_seconds += clock_now() - start;
+    variant->recipe = recipe;
+    variant->next = lighting->variants;
+    lighting->variants = variant;
+    return variant;
+}
+
+/* A copy as this interpolation needs it. */
+static bool remade_copy(const Mesh *mesh, Interpolation kind, Mesh *made, Message *message)
+{
+    if (!mesh_copy(made, mesh, message))
+        return false;
+    if (kind == INTERPOLATION_FLAT ? mesh_flatten(made, message) : mesh_provoke(made, message))
+        return true;
+    mesh_close(made);
+    return false;
+}
+
+/* How an object's mesh must be remade; INTERPOLATION_PHONG: not at all. */
+static Interpolation remade_for(const Scene *scene, const Object *object)
+{
+    const bool flatten = scene->interpolation == INTERPOLATION_FLAT && !object->flat;
+    return flatten || scene->interpolation == INTERPOLATION_CONSTANT ? scene->interpolation
+                                                                     : INTERPOLATION_PHONG;
+}
+
+static const Buffered *find_buffer(Lighting *lighting, const Mesh *mesh, Interpolation remade,
+                                   Message *message)
+{
+    for (const Buffered *buffered = lighting->buffers; buffered; buffered = buffered->next)
+        if (buffered->mesh == mesh && buffered->remade == remade)
+            return buffered;
+    Buffered *buffered = calloc(1, sizeof *buffered);
+    Mesh made = {0};
+    if (!buffered) {
+        message_set(message, "lighting: not enough memory");
+        return NULL;
+    }
+    const bool own = remade != INTERPOLATION_PHONG;
+    const bool done = (!own || remade_copy(mesh, remade, &made, message)) &&
+                      mesh_buffer_open(&buffered->buffer, own ? &made : mesh, message);
+    mesh_close(&made);
+    if (!done) {
+        free(buffered);
+        return NULL;
+    }
+    buffered->mesh = mesh;
+    buffered->remade = remade;
+    mesh_bounds(mesh, &buffered->box.low, &buffered->box.high);
+    buffered->next = lighting->buffers;
+    lighting->buffers = buffered;
+    return buffered;
+}
+
+void lighting_forget(Lighting *lighting, const Mesh *mesh)
+{
+    for (Buffered **link = &lighting->buffers; *link;) {
+        Buffered *buffered = *link;
+        if (mesh && buffered->mesh != mesh) {
+            link = &buffered->next;
+            continue;
+        }
+        *link = buffered->next;
+        mesh_buffer_close(&buffered->buffer);
+        free(buffered);
+    }
+}
+
+/* Uniforms. GL ignores location -1, that of a uniform the program lacks. */
+
+static void set_float(GLuint program, const char *name, double value)
+{
+    const float rounded = (float)value;
+    glUniform1fv(glGetUniformLocation(program, name), 1, &rounded);
+}
+
+static void set_vec3(GLuint program, const char *name, Vec3 value)
+{
+    shader_set_vec3(glGetUniformLocation(program, name), value);
+}
+
+static void set_mat4(GLuint program, const char *name, Mat4 value)
+{
+    shader_set_mat4(glGetUniformLocation(program, name), value);
+}
+
+/* `count` vectors of `size` components to a uniform array of group `g`. */
+static void set_array(GLuint program, const char *name, int g, int size, int count,
+                      const float *values)
+{
+    char full_name[32];
+    snprintf(full_name, sizeof full_name, "%s%d", name, g);
+    const GLint location = glGetUniformLocation(program, full_name);
+    if (size == 1)
+        glUniform1fv(location, count, values);
+    else if (size == 3)
+        glUniform3fv(location, count, values);
+    else
+        glUniform4fv(location, count, values);
+}
+
+static Vec3 multiply(Vec3 a, Vec3 b)
+{
+    return (Vec3){a.x * b.x, a.y * b.y, a.z * b.z};
+}
+
+/* The attenuation factor of a light that does not depend on distance: 1 / constant. */
+static double constant_share(const Light *light)
+{
+    const bool shared = light->kind != LIGHT_DIRECTIONAL && !light_fades(light);
+    /* Within the range of float. */
+    return shared && light->constant != 0 ? 1 / fmax(light->constant, 1e-30) : 1;
+}
+
+/* Constant ambient light that the material reflects. In the full program each light adds its own.
+ */
+static Vec3 base_ambient(const Scene *scene, const Material *material, bool full)
+{
+    Vec3 sum = multiply(scene->global_ambient, material->ambient);
+    for (int i = 0; i < scene->light_count && !full; i++) {
+        const Light *light = &scene->lights[i];
+        if (!light->off && !light_ambient_varies(light))
+            sum = vec3_add(sum, vec3_scale(multiply(light->ambient, material->ambient),
+                                           constant_share(light)));
+    }
+    return sum;
+}
+
+static Vec3 at_max(Vec3 a, double max)
+{
+    return (Vec3){fmin(a.x, max), fmin(a.y, max), fmin(a.z, max)};
+}
+
+/* The products of light and material colors, in the color uniforms. */
+static void set_colors(GLuint program, const Scene *scene, const LightGroup *group, int g,
+                       const Material *material, bool mediump, const char *const names[3])
+{
+    /* A 16-bit float overflows above 65504, and infinity times 0 is NaN. The three terms are added
+     * before they are attenuated. */
+    const double max = mediump && !group->terms.at_vertex ? 2e4 : INFINITY;
+    float values[3][3 * EFFECTS_MAX_LIGHTS];
+    for (int i = 0; i < group->count; i++) {
+        const Light *light = &scene->lights[group->lights[i]];
+        /* In the full program a light that is off is black, and attenuation has its own uniform. */
+        const double share = light->off ? 0 : group->terms.any ? 1 : constant_share(light);
+        const Vec3 products[3] = {multiply(light->ambient, material->ambient),
+                                  multiply(light->diffuse, material->diffuse),
+                                  multiply(light->specular, material->specular)};
+        for (int k = 0; k < 3; k++)
+            vec3_to_float(at_max(vec3_scale(products[k], share), max), &values[k][3 * i]);
+    }
+    for (int k = 0; k < 3; k++)
+        set_array(program, names[k], g, 3, group->count, values[k]);
+}
+
+/* A light in eye coordinates: the direction is a unit vector. */
+static Light eye_light(const LightingTransforms *transforms, const Camera *camera,
+                       Mat4 eye_from_world, const Light *given)
+{
+    Light light = *given;
+    vec3_normalize(given->direction, &light.direction);
+    if (given->space == LIGHT_WORLD) {
+        light.direction = mat4_transform_direction(eye_from_world, light.direction);
+        light.position = transforms->eye_point(camera, eye_from_world, given->position);
+    }
+    return light;
+}
+
+static void set_group(GLuint program, const LightingTransforms *transforms, const Scene *scene,
+                      Mat4 eye_from_world, const LightGroup *group, int g)
+{
+    float position[4 * EFFECTS_MAX_LIGHTS], direction[3 * EFFECTS_MAX_LIGHTS];
+    float half[3 * EFFECTS_MAX_LIGHTS], attenuation[3 * EFFECTS_MAX_LIGHTS];
+    float spot[4 * EFFECTS_MAX_LIGHTS], exponent[EFFECTS_MAX_LIGHTS];
+    static const double RADIANS = 0.017453292519943295;
+    const int size = group->terms.any ? 4 : 3; /* of a position */
+    for (int i = 0; i < group->count; i++) {
+        const Light made =
+            eye_light(transforms, &scene->camera, eye_from_world, &scene->lights[group->lights[i]]);
+        const Light *light = &made;
+        const bool directional = light->kind == LIGHT_DIRECTIONAL;
+        const Vec3 direction_eye = light->direction;
+        const Vec3 place = directional ? direction_eye : light->position;
+        Vec3 half_eye;
+        vec3_to_float(place, &position[size * i]);
+        if (size == 4)
+            position[4 * i + 3] = directional ? 0 : 1;
+        vec3_to_float(direction_eye, &direction[3 * i]);
+        vec3_normalize(vec3_add(direction_eye, (Vec3){0, 0, 1}), &half_eye);
+        vec3_to_float(half_eye, &half[3 * i]);
+        const bool none = light->constant == 0 && light->linear == 0 && light->quadratic == 0;
+        vec3_to_float(directional || none
+                          ? (Vec3){1, 0, 0}
+                          : (Vec3){light->constant, light->linear, light->quadratic},
+                      &attenuation[3 * i]);
+        vec3_to_float(direction_eye, &spot[4 * i]);
+        /* No cosine is below -1, so that other lights shine in every direction. */
+        spot[4 * i + 3] = light->kind == LIGHT_SPOT ? (float)cos(light->cutoff * RADIANS) : -2.0F;
+        exponent[i] = light->kind == LIGHT_SPOT ? (float)light->exponent : 0;
+    }
+    set_array(program, "u_Position", g, size, group->count, position);
+    set_array(program, "u_Direction", g, 3, group->count, direction);
+    set_array(program, "u_Half", g, 3, group->count, half);
+    set_array(program, "u_Attenuation", g, 3, group->count, attenuation);
+    set_array(program, "u_Spot", g, 4, group->count, spot);
+    set_array(program, "u_Exponent", g, 1, group->count, exponent);
+}
+
+/* Emission and constant ambient light; with vertex colors, which the latter is multiplied by, in
+ * two uniforms. */
+static void set_base(GLuint program, const char *base, const char *tint, const Scene *scene,
+                     const Material *material, bool colored, bool full)
+{
+    const Vec3 ambient = base_ambient(scene, material, full);
+    set_vec3(program, base, colored ? material->emission : vec3_add(material->emission, ambient));
+    set_vec3(program, tint, ambient);
+}
+
+static void set_materials(GLuint program, const Scene *scene, const Object *object,
+                          const Effects *effects, bool full, bool mediump)
+{
+    static const char *const front[3] = {"u_FrontAmbient", "u_FrontDiffuse", "u_FrontSpecular"};
+    static const char *const back[3] = {"u_BackAmbient", "u_BackDiffuse", "u_BackSpecular"};
+    /* In the full program one-sided objects have two equal sides. */
+    const Material sides[2] = {effects_material(object, false), effects_material(object, true)};
+    const Material *before = &sides[0], *behind = &sides[1];
+    const bool colored = effects->vertex_color;
+    set_base(program, "u_FrontBase", "u_FrontTint", scene, before, colored, full);
+    set_float(program, "u_FrontAlpha", before->alpha);
+    set_float(program, "u_FrontShininess", before->shininess);
+    set_float(program, "u_VertexFrontShininess", before->shininess);
+    for (int g = 0; g < effects->group_count; g++)
+        set_colors(program, scene, &effects->groups[g], g, before, mediump, front);
+    if (!effects->two_sided)
+        return;
+    set_base(program, "u_BackBase", "u_BackTint", scene, behind, colored, full);
+    set_float(program, "u_BackAlpha", behind->alpha);
+    set_float(program, "u_BackShininess", behind->shininess);
+    set_float(program, "u_VertexBackShininess", behind->shininess);
+    set_float(program, "u_BackNormal", object->two_sided ? -1 : 1);
+    set_float(program, "u_VertexBackNormal", object->two_sided ? -1 : 1);
+    for (int g = 0; g < effects->group_count; g++)
+        set_colors(program, scene, &effects->groups[g], g, behind, mediump, back);
+}
+
+/* The full program; colors of vertices take a uniform's place, so they are not a matter of
+ * coefficients. */
+static Effects effects_full_of(const Scene *scene, const Object *object)
+{
+    Effects effects = effects_full(scene);
+    effects.vertex_color = object->mesh->colors != NULL;
+    return effects;
+}
+
+/* Drawing. */
+
+static bool draw_object(Lighting *lighting, const Scene *scene, const Object *object,
+                        Mat4 eye_from_world, Mat4 clip_from_eye, bool full, Message *message)
+{
+    const Buffered *buffered =
+        find_buffer(lighting, object->mesh, remade_for(scene, object), message);
+    if (!buffered)
+        return false;
+    Effects effects =
+        full ? effects_full_of(scene, object) : effects_of_boxed(scene, object, &buffered->box);
+    if (lighting->normal_matrix && effects.normals)
+        effects.normal_matrix = effects.normalize_vertex = true;
+    const Variant *variant = find_variant(lighting, &effects, message);
+    if (!variant)
+        return false;
+
+    const GLuint program = variant->shader.program;
+    const LightingTransforms *transforms = &lighting->transforms;
+    const Mat4 eye_from_object =
+        transforms->eye_from_object(&scene->camera, eye_from_world, object->world_from_object);
+    Mat4 normal_matrix;
+    if (lighting->normal_matrix)
+        normal_matrix = lighting->normal_matrix(eye_from_object);
+    else if (object->wrong_normals)
+        normal_matrix = eye_from_object;
+    else
+        normal_matrix = mat4_normal(eye_from_object); /* zero if the matrix is singular: unlit */
+    glUseProgram(program);
+    set_mat4(program, "u_ClipFromObject",
+             transforms->clip_from_object(clip_from_eye, eye_from_world, object->world_from_object,
+                                          eye_from_object));
+    set_mat4(program, "u_EyeFromObject", eye_from_object);
+    set_mat4(program, "u_NormalMatrix", normal_matrix);
+    set_float(program, "u_LocalViewer", scene->distant_viewer ? 0 : 1);
+    set_float(program, "u_VertexLocalViewer", scene->distant_viewer ? 0 : 1);
+    set_materials(program, scene, object, &effects, full, is_mediump(&lighting->loader));
+    for (int g = 0; g < effects.group_count; g++)
+        set_group(program, transforms, scene, eye_from_world, &effects.groups[g], g);
+
+    /* A reflection reverses the winding. */
+    glFrontFace((mat4_determinant(eye_from_object) < 0) != object->clockwise ? GL_CW : GL_CCW);
+    if (object->behind_lines) {
+        glEnable(GL_POLYGON_OFFSET_FILL);
+        glPolygonOffset(1, 1);
+    }
+    if (effects.cull)
+        glEnable(GL_CULL_FACE);
+    else
+        glDisable(GL_CULL_FACE);
+    const GLint position = glGetAttribLocation(program, "a_Position");
+    const GLint normal = glGetAttribLocation(program, "a_Normal");
+    const GLint others[] = {normal, glGetAttribLocation(program, "a_Color"),
+                            glGetAttribLocation(program, "a_LitPosition")};
+    mesh_buffer_bind(&buffered->buffer, position, normal);
+    mesh_buffer_bind_more(&buffered->buffer, others[1], others[2]);
+    glDrawElements(GL_TRIANGLES, buffered->buffer.index_count, buffered->buffer.index_type, NULL);
+    for (int i = 0; i < 3; i++)
+        if (others[i] >= 0)
+            glDisableVertexAttribArray((GLuint)others[i]);
+    glDisable(GL_POLYGON_OFFSET_FILL);
+    return true;
+}
+
+bool lighting_draw(Lighting *lighting, const Scene *scene, double aspect, bool full,
+                   Message *message)
+{
+    Mat4 eye_from_world, clip_from_eye;
+    if (!scene_camera(&scene->camera, aspect, &eye_from_world, &clip_from_eye, message))
+        return false;
+    if (scene->light_count > EFFECTS_MAX_LIGHTS)
+        return message_set(message, "scene: %d lights: at most %d fit into one program",
+                           scene->light_count, EFFECTS_MAX_LIGHTS);
+    glEnable(GL_DEPTH_TEST);
+    bool done = true;
+    for (int i = 0; i < scene->object_count && done; i++) {
+        Message why = {.located = false};
+        done = draw_object(lighting, scene, &scene->objects[i], eye_from_world, clip_from_eye, full,
+                           &why);
+        if (!done && why.located && message)
+            *message = why; /* a shader's, which begins with file:line */
+        else if (!done)
+            message_set(message, "object %d: %s", i, why.text);
+    }
+    glDisable(GL_CULL_FACE);
+    glFrontFace(GL_CCW);
+    return done;
+}
+
+bool lighting_open(Lighting **opened, const ShaderLoader *loader, Message *message)
+{
+    Lighting *lighting = calloc(1, sizeof *lighting);
+    *opened = lighting;
+    if (!lighting)
+        return message_set(message, "lighting: not enough memory");
+    lighting->loader = *loader;
+    lighting->transforms = USUAL;
+    return true;
+}
+
+GLuint lighting_program(Lighting *lighting, const Scene *scene, const Object *object, bool full,
+                        Message *message)
+{
+    const Effects effects = full ? effects_full_of(scene, object) : effects_of(scene, object);
+    const Variant *variant = find_variant(lighting, &effects, message);
+    return variant ? variant->shader.program : 0;
+}
+
+bool lighting_sources(const Lighting *lighting, const Scene *scene, const Object *object, bool full,
+                      ShaderSource sources[2], Message *message)
+{
+    const Effects effects = full ? effects_full_of(scene, object) : effects_of(scene, object);
+    Recipe recipe;
+    ShaderText texts[3];
+    bool done = recipe_open(&recipe, &effects, &lighting->loader, message);
+    const ShaderLoader loader = recipe_loader(&recipe, &lighting->loader, texts);
+    sources[SHADER_VERTEX] = sources[SHADER_FRAGMENT] = (ShaderSource){0};
+    done = done &&
+           shader_source_open(&sources[SHADER_VERTEX], &loader, "lighting.vert", SHADER_VERTEX,
+                              message) &&
+           shader_source_open(&sources[SHADER_FRAGMENT], &loader, "lighting.frag", SHADER_FRAGMENT,
+                              message);
+    if (!done)
+        shader_source_close(&sources[SHADER_VERTEX]);
+    recipe_close(&recipe);
+    return done;
+}
+
+LightingCounts lighting_counts(const Lighting *lighting)
+{
+    return lighting->counts;
+}
+
+void lighting_close(Lighting *lighting)
+{
+    if (!lighting)
+        return;
+    while (lighting->variants) {
+        Variant *variant = lighting->variants;
+        lighting->variants = variant->next;
+        shader_close(&variant->shader);
+        recipe_close(&variant->recipe);
+        free(variant);
+    }
+    while (lighting->buffers) {
+        Buffered *buffered = lighting->buffers;
+        lighting->buffers = buffered->next;
+        mesh_buffer_close(&buffered->buffer);
+        free(buffered);
+    }
+    free(lighting);
+}

@@ -1,0 +1,196 @@
+#include "scene/reality.h"
+
+#include <math.h>
+
+enum { SAMPLES = 200 };
+
+static const char *name_of(const Object *object)
+{
+    static const char *const names[] = {
+        [SOLID_NONE] = "a mesh",   [SOLID_SPHERE] = "a sphere", [SOLID_BOX] = "a box",
+        [SOLID_QUAD] = "a square", [SOLID_DISC] = "a disc",     [SOLID_CYLINDER] = "a cylinder",
+        [SOLID_CONE] = "a cone",   [SOLID_TORUS] = "a torus",   [SOLID_TEAPOT] = "a teapot",
+    };
+    return names[object->solid.kind];
+}
+
+static Vec3 vertex_place(const Object *object, uint32_t vertex)
+{
+    return mat4_transform_point(object->world_from_object,
+                                vec3_from_float(object->mesh->vertices[vertex].position));
+}
+
+/* Whether the segment from `from` along `way` meets the triangle, away from its ends. (Moeller and
+ * Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, JGT 2(1), 1997) */
+static bool meets(Vec3 from, Vec3 way, Vec3 a, Vec3 b, Vec3 c)
+{
+    static const double END = 1e-3;
+    const Vec3 ab = vec3_subtract(b, a), ac = vec3_subtract(c, a);
+    const Vec3 p = vec3_cross(way, ac), s = vec3_subtract(from, a);
+    const double determinant = vec3_dot(ab, p);
+    if (determinant == 0)
+        return false;
+    const double u = vec3_dot(s, p) / determinant;
+    const Vec3 q = vec3_cross(s, ab);
+    const double v = vec3_dot(way, q) / determinant, t = vec3_dot(ac, q) / determinant;
+    return u >= 0 && v >= 0 && u + v <= 1 && t > END && t < 1 - END;
+}
+
+static bool is_hidden(const Object *occluder, Vec3 from, Vec3 way)
+{
+    const Mesh *mesh = occluder->mesh;
+    for (size_t i = 0; i + 2 < mesh->index_count; i += 3)
+        if (meets(from, way, vertex_place(occluder, mesh->indices[i]),
+                  vertex_place(occluder, mesh->indices[i + 1]),
+                  vertex_place(occluder, mesh->indices[i + 2])))
+            return true;
+    return false;
+}
+
+/* The way from a point to the light; for a directional one, out of a scene of this size. */
+static Vec3 way_to(const Light *light, Vec3 from, double size)
+{
+    Vec3 unit;
+    if (light->kind != LIGHT_DIRECTIONAL)
+        return vec3_subtract(light->position, from);
+    vec3_normalize(light->direction, &unit);
+    return vec3_scale(unit, size);
+}
+
+/* Point number `sample` on the surface, spread over all triangles, and its normal. (Roberts, The
+ * Unreasonable Effectiveness of Quasirandom Sequences, 2018) */
+static Vec3 surface_point(const Object *object, int sample, Vec3 *normal)
+{
+    const Mesh *mesh = object->mesh;
+    const size_t count = mesh->index_count / 3;
+    const size_t triangle =
+        count < SAMPLES ? (size_t)sample % count : (size_t)sample * (count / SAMPLES);
+    double u = fmod(0.5 + 0.7548776662466927 * sample, 1);
+    double v = fmod(0.5 + 0.5698402909980532 * sample, 1);
+    Vec3 corners[3];
+    for (size_t k = 0; k < 3; k++)
+        corners[k] = vertex_place(object, mesh->indices[3 * triangle + k]);
+    if (u + v > 1) {
+        u = 1 - u;
+        v = 1 - v;
+    }
+    const Vec3 ab = vec3_subtract(corners[1], corners[0]);
+    const Vec3 ac = vec3_subtract(corners[2], corners[0]);
+    const uint32_t vertex = mesh->indices[3 * triangle];
+    *normal = mat4_transform_direction(mat4_normal(object->world_from_object),
+                                       vec3_from_float(mesh->vertices[vertex].normal));
+    return vec3_add(corners[0], vec3_add(vec3_scale(ab, u), vec3_scale(ac, v)));
+}
+
+/* Whether the segment passes through the sphere around the mesh's box. */
+static bool passes_near(const Object *object, Vec3 from, Vec3 way)
+{
+    Vec3 low, high;
+    mesh_bounds(object->mesh, &low, &high);
+    const Mat4 m = object->world_from_object;
+    const Vec3 center = mat4_transform_point(m, vec3_scale(vec3_add(low, high), 0.5));
+    double radius = 0;
+    for (int corner = 0; corner < 8; corner++) {
+        const Vec3 at = {corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y,
+                         corner & 4 ? high.z : low.z};
+        radius = fmax(radius, vec3_length(vec3_subtract(mat4_transform_point(m, at), center)));
+    }
+    const Vec3 to = vec3_subtract(center, from);
+    const double t = fmin(fmax(vec3_dot(to, way) / vec3_dot(way, way), 0), 1);
+    return vec3_length(vec3_subtract(to, vec3_scale(way, t))) <= radius;
+}
+
+/* Whether some point of the receiver that faces the light is hidden from it. */
+static bool throws_shadow(const Object *occluder, const Object *receiver, const Light *light,
+                          double size)
+{
+    for (int sample = 0; sample < SAMPLES; sample++) {
+        Vec3 normal;
+        const Vec3 from = surface_point(receiver, sample, &normal);
+        const Vec3 way = way_to(light, from, size);
+        /* At a grazing angle a mesh's own facets are in the way. */
+        if (vec3_dot(normal, way) > 0.3 * vec3_length(normal) * vec3_length(way) &&
+            passes_near(occluder, from, way) && is_hidden(occluder, from, way))
+            return true;
+    }
+    return false;
+}
+
+/* The diameter of the box around everything, doubled. */
+static double scene_size(const Scene *scene)
+{
+    double largest = 0;
+    for (int i = 0; i < scene->object_count; i++)
+        for (size_t k = 0; k < scene->objects[i].mesh->vertex_count; k++)
+            largest = fmax(largest, vec3_length(vertex_place(&scene->objects[i], (uint32_t)k)));
+    return 4 * largest;
+}
+
+static bool is_lit(const Object *object)
+{
+    return object->mesh->colors || !color_is_black(object->front.diffuse) ||
+           !color_is_black(object->front.specular);
+}
+
+/* The lights, by number, in whose light the occluder throws a shadow on the receiver. */
+static int shadow_lights(const Scene *scene, int occluder, int receiver, double size,
+                         int lights[SAMPLES])
+{
+    int count = 0;
+    for (int l = 0; l < scene->light_count && count < SAMPLES; l++) {
+        const Light light = scene_world_light(scene, l);
+        const bool on =
+            !light.off && !(color_is_black(light.diffuse) && color_is_black(light.specular));
+        if (on && throws_shadow(&scene->objects[occluder], &scene->objects[receiver], &light, size))
+            lights[count++] = l;
+    }
+    return count;
+}
+
+static int explain_shadows(const Scene *scene, FILE *file)
+{
+    int lines = 0;
+    const double size = scene_size(scene);
+    for (int o = 0; o < scene->object_count; o++) {
+        for (int r = 0; r < scene->object_count; r++) {
+            int lights[SAMPLES];
+            const Object *receiver = &scene->objects[r];
+            const int count = is_lit(receiver) ? shadow_lights(scene, o, r, size, lights) : 0;
+            if (!count)
+                continue;
+            fprintf(file, "object %d, %s, would throw a shadow on ", o,
+                    name_of(&scene->objects[o]));
+            if (o == r)
+                fprintf(file, "itself (");
+            else
+                fprintf(file, "object %d, %s (", r, name_of(receiver));
+            for (int i = 0; i < count; i++)
+                fprintf(file, "%s%d", i ? ", " : count > 1 ? "lights " : "light ", lights[i]);
+            fprintf(file, ")\n");
+            lines++;
+        }
+    }
+    return lines;
+}
+
+void reality_explain(const Scene *scene, FILE *file)
+{
+    int reflecting = 0, lines = explain_shadows(scene, file);
+    for (int i = 0; i < scene->object_count; i++) {
+        const Object *object = &scene->objects[i];
+        reflecting += is_lit(object);
+        const bool emits = !color_is_black(object->front.emission), clear = object->front.alpha < 1;
+        lines += emits + clear;
+        if (emits)
+            fprintf(file, "object %d, %s, emits, and would light other surfaces too\n", i,
+                    name_of(object));
+        if (clear)
+            fprintf(file, "object %d, %s, would let light through, and refract it\n", i,
+                    name_of(object));
+    }
+    if (reflecting > 1)
+        fprintf(file, "surfaces would light each other with what they reflect; ambient light "
+                      "stands for it\n");
+    else if (lines == 0)
+        fprintf(file, "nothing: one surface, whose every lit point sees its lights\n");
+}

@@ -1,0 +1,16 @@
+/*
+ * reality: what a scene would show in reality that the lighting model leaves out. No GL.
+ */
+#ifndef REALITY_H
+#define REALITY_H
+
+#include "scene/scene.h"
+
+#include <stdio.h>
+
+/* Writes a line for each thing that this scene lacks: "object 0, a sphere, would throw a shadow on
+ * object 1, a square (light 0)". Shadows are found by rays from some
+ * vertices to each light. */
+void reality_explain(const Scene *scene, FILE *file);
+
+#endif

@@ -1,0 +1,134 @@
+/*
+ * scene_example: an example that describes a scene, which `lighting` draws, or a diagram, which
+ * cairo draws.
+ */
+#ifndef SCENE_EXAMPLE_H
+#define SCENE_EXAMPLE_H
+
+#include "base/image.h"
+#include "core/example.h"
+#include "scene/overlay.h"
+#include "scene/parameter.h"
+#include "scene/scene.h"
+
+/* Lines and points of the overlay, in world coordinates. */
+typedef struct Annotations {
+    OverlayList lines, points;
+} Annotations;
+
+typedef struct SceneExample {
+    /* Fills in the scene at a time. The example owns what it points to, until the next call. */
+    void (*make)(double seconds, int view, Scene *scene);
+    /* The grid of views in the picture, in row order; NULL: one view. */
+    void (*layout)(int *columns, int *rows);
+    /* Changes the size of the picture without --size, where that depends on an option; may be NULL.
+     */
+    void (*size)(int *width, int *height);
+    void (*annotate)(double seconds, int view, const Scene *scene, Annotations *annotations);
+    const char *(*label)(int view); /* one line at the bottom of a view; NULL: none */
+    void (*retouch)(Image *image);  /* changes the finished picture, in bytes */
+    const Parameter *parameters;    /* the program's own options, terminated by a NULL name */
+} SceneExample;
+
+/* What a program lets its user choose about shading, with its own defaults. */
+typedef struct SceneShading {
+    int reflection, interpolation; /* Reflection, Interpolation */
+    int viewer;                    /* VIEWER_* */
+} SceneShading;
+void scene_shading_apply(const SceneShading *shading, Scene *scene);
+
+#define INTERPOLATION_PARAMETERS(shading)                                                          \
+    {"interpolation",                                                                              \
+     "of normals, of colours; flat: one normal for each triangle; constant: one colour",           \
+     PARAMETER_CHOICE, .value = &(shading).interpolation, .choices = INTERPOLATION_NAMES},         \
+    {                                                                                              \
+        "viewer", "where the highlight is computed for: the eye, or a viewer at infinity",         \
+            PARAMETER_CHOICE, .value = &(shading).viewer, .choices = VIEWER_NAMES                  \
+    }
+#define SHADING_PARAMETERS(shading)                                                                \
+    {"reflection", "the model of the highlight", PARAMETER_CHOICE, .value = &(shading).reflection, \
+     .choices = REFLECTION_NAMES},                                                                 \
+        INTERPOLATION_PARAMETERS(shading)
+
+/* A material that starts from a named one, whose colours can then be changed one by one. */
+typedef struct Surface {
+    int name; /* in MATERIAL_NAMES; MATERIAL_COUNT: none */
+    Material material;
+} Surface;
+
+#define COLOR_PARAMETER(row_name, row_help, color)                                                 \
+    {                                                                                              \
+        row_name, row_help, PARAMETER_COLOR, .value = &(color), .min = 0, .max = 1                 \
+    }
+#define COLOR_PARAMETERS(surface)                                                                  \
+    COLOR_PARAMETER("ambient", "ambient colour of the surface", (surface).material.ambient),       \
+        COLOR_PARAMETER("diffuse", "diffuse colour", (surface).material.diffuse),                  \
+        COLOR_PARAMETER("specular", "specular colour", (surface).material.specular),               \
+        COLOR_PARAMETER("emission", "what it emits", (surface).material.emission)
+#define MATERIAL_PARAMETER(surface)                                                                \
+    {                                                                                              \
+        "material", "a named material, whose colours other options change; none changes none",     \
+            PARAMETER_CHOICE, .value = &(surface).name, .choices = MATERIAL_NAMES,                 \
+                              .changed = scene_surface_named                                       \
+    }
+#define OPACITY_PARAMETER(surface)                                                                 \
+    {                                                                                              \
+        "opacity", "1 is opaque; seen in a picture with alpha", PARAMETER_NUMBER,                  \
+            .value = &(surface).material.alpha, .min = 0, .max = 1                                 \
+    }
+#define SURFACE_PARAMETERS(surface)                                                                \
+    MATERIAL_PARAMETER(surface), COLOR_PARAMETERS(surface),                                        \
+        {"shininess",      "the highlight's exponent",                                             \
+         PARAMETER_NUMBER, .value = &(surface).material.shininess,                                 \
+         .min = 0,         .max = 128},                                                            \
+        OPACITY_PARAMETER(surface)
+
+/* Of the row "material": sets the material of the Surface that the row's value is in. */
+void scene_surface_named(const Parameter *parameter);
+
+/* What a light emits. */
+typedef struct LightColors {
+    Vec3 ambient, diffuse, specular;
+} LightColors;
+void light_colors_apply(const LightColors *colors, Light *light);
+
+#define LIGHT_PARAMETERS(colors, global)                                                           \
+    COLOR_PARAMETER("light-ambient", "ambient colour of each light", (colors).ambient),            \
+        COLOR_PARAMETER("light-diffuse", "its diffuse colour", (colors).diffuse),                  \
+        COLOR_PARAMETER("light-specular", "its specular colour", (colors).specular),               \
+        COLOR_PARAMETER("global-ambient", "ambient light of the scene", global)
+
+/* A ShapeKind and a model's file name. */
+#define SHAPE_PARAMETERS(kind, model)                                                              \
+    {"shape", "what is lit", PARAMETER_CHOICE, .value = &(kind), .choices = SHAPE_NAMES},          \
+        {"model", "a model file (OBJ, PLY, glTF, 3DS...) instead of the shape", PARAMETER_TEXT,    \
+         .value = &(model).path, .placeholder = "FILE"},                                           \
+    {                                                                                              \
+        "up", "the axis of the model file that points up", PARAMETER_CHOICE,                       \
+            .value = &(model).up, .choices = SHAPE_UP_NAMES                                        \
+    }
+
+/* The textbook's camera: looks at the origin from `eye`, and shows what lies within `extent` of it
+ * to each side. */
+Camera example_camera(Vec3 eye, double extent);
+
+struct Drawing;
+
+/* A figure of lines and text, which needs no OpenGL. */
+typedef struct DiagramExample {
+    /* Fills an empty drawing (images/drawing.h) of any size. */
+    bool (*compose)(double seconds, struct Drawing *drawing, Message *message);
+    const Parameter *parameters;
+} DiagramExample;
+
+/* An example's own options; NULL: none. */
+const Parameter *example_parameters(const Example *example);
+
+/* As in the lecture: axes of length 2, and the lights as points. */
+void example_annotate(double seconds, int view, const Scene *scene, Annotations *annotations);
+
+/* A point, or an object, rotated about the y axis at 30 degrees per second. */
+Vec3 example_turn(Vec3 point, double seconds);
+Mat4 example_turned(double seconds);
+
+#endif

@@ -1,0 +1,118 @@
+#include "scene/shape.h"
+
+#include "shapes/head.h"
+#include "shapes/mesh_solids.h"
+#include "shapes/model.h"
+
+const char *const SHAPE_NAMES[SHAPE_COUNT + 1] = {
+    "cube",         "sphere",      "teapot",     "torus",        "cone",
+    "cylinder",     "tetrahedron", "octahedron", "dodecahedron", "icosahedron",
+    "head-faceted", "head-smooth", "head",       NULL,
+};
+
+const char *const SHAPE_UP_NAMES[] = {"file", "x", "y", "z", NULL};
+
+/* Moves the middle of the model's box to the origin, and scales its diagonal to 2. */
+static bool open_model(Mesh *mesh, const ShapeModel *model, Message *message)
+{
+    Vec3 low, high;
+    if (!model_read(model->path, (ModelUp)model->up, mesh, message))
+        return false;
+    mesh_bounds(mesh, &low, &high);
+    const Vec3 diagonal = vec3_subtract(high, low);
+    const Vec3 middle = vec3_add(low, vec3_scale(diagonal, 0.5));
+    const double scale = 2 / vec3_length(diagonal);
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
+        float *p = mesh->vertices[i].position;
+        const Vec3 at = {(double)p[0], (double)p[1], (double)p[2]};
+        vec3_to_float(vec3_scale(vec3_subtract(at, middle), scale), p);
+    }
+    return true;
+}
+
+/* Solids of revolution stand on z = 0 along z. */
+static Mat4 stand(double height)
+{
+    return mat4_product(mat4_rotate(-90, (Vec3){1, 0, 0}),
+                        mat4_translate((Vec3){0, 0, -height / 2}));
+}
+
+bool shape_open(Shape *shape, ShapeKind kind, ShapeStyle style, const ShapeModel *model,
+                Message *message)
+{
+    const bool textbook = style == SHAPE_TEXTBOOK;
+    const double size = textbook ? 0.5 : 1;
+    const double radius = textbook ? 0.5 : 0.8; /* of a cone and a cylinder */
+    const double tube = size / 3, ring = 2 * tube;
+    const int slices = textbook ? 128 : 20, stacks = textbook ? 64 : 20; /* of a sphere */
+    const int along = textbook ? 1 : 16; /* parts of a cone or cylinder along its axis */
+    Mesh *mesh = &shape->mesh;
+    const bool file = model && model->path;
+    *shape = (Shape){.closed = !file, .placed = mat4_identity()};
+    if (file) {
+        shape->placed = mat4_scale((Vec3){size, size, size});
+        return open_model(mesh, model, message);
+    }
+    switch (kind) {
+    case SHAPE_CUBE:
+        shape->solid = (Solid){.kind = SOLID_BOX, .radius = size};
+        shape->flat = true;
+        return mesh_cube(mesh, size, message);
+    case SHAPE_SPHERE:
+        shape->solid = (Solid){.kind = SOLID_SPHERE, .radius = size};
+        return mesh_sphere(mesh, size, slices, stacks, message);
+    case SHAPE_TEAPOT:
+        shape->solid = (Solid){.kind = SOLID_TEAPOT, .radius = 0.8 * size};
+        shape->closed = false; /* there is a gap under its lid */
+        return mesh_teapot(mesh, 0.8 * size, 10, message);
+    case SHAPE_TORUS:
+        shape->solid = (Solid){.kind = SOLID_TORUS, .radius = ring, .tube = tube};
+        shape->placed = stand(0);
+        return mesh_torus(mesh, tube, ring, 32, 64, message);
+    case SHAPE_CONE:
+        shape->solid = (Solid){.kind = SOLID_CONE, .radius = radius, .height = 2.4 * radius};
+        shape->placed = stand(2.4 * radius);
+        return mesh_cone(mesh, radius, 2.4 * radius, 64, along, message);
+    case SHAPE_CYLINDER:
+        shape->solid = (Solid){
+            .kind = SOLID_CYLINDER, .radius = radius, .height = 2 * radius, .caps = MESH_CAP_BOTH};
+        shape->placed = stand(2 * radius);
+        return mesh_cylinder(mesh, radius, 2 * radius, 64, along, MESH_CAP_BOTH, message);
+    case SHAPE_TETRAHEDRON:
+        shape->flat = true;
+        return mesh_tetrahedron(mesh, size, message);
+    case SHAPE_OCTAHEDRON:
+        shape->flat = true;
+        return mesh_octahedron(mesh, size, message);
+    case SHAPE_DODECAHEDRON:
+        shape->flat = true;
+        return mesh_dodecahedron(mesh, size, message);
+    case SHAPE_ICOSAHEDRON:
+        shape->flat = true;
+        return mesh_icosahedron(mesh, size, message);
+    case SHAPE_HEAD_FACETED:
+    case SHAPE_HEAD_SMOOTH:
+    case SHAPE_HEAD:
+        shape->placed = mat4_scale((Vec3){size, size, size});
+        return mesh_head(mesh, (HeadStyle)(kind - SHAPE_HEAD_FACETED), message);
+    case SHAPE_COUNT:
+        break;
+    }
+    return message_set(message, "shape %d: there is none", (int)kind);
+}
+
+Object shape_object(const Shape *shape, Mat4 world_from_object, Material material)
+{
+    return (Object){.mesh = &shape->mesh,
+                    .solid = shape->solid,
+                    .flat = shape->flat,
+                    .closed = shape->closed,
+                    .world_from_object = mat4_product(world_from_object, shape->placed),
+                    .front = material};
+}
+
+void shape_close(Shape *shape)
+{
+    if (shape)
+        mesh_close(&shape->mesh);
+}

@@ -1,0 +1,34 @@
+/*
+ * model: reads model files as meshes. No GL.
+ *
+ * OBJ, PLY, STL, OFF, glTF, 3DS, COLLADA and all other formats of Assimp, through a plugin; if that
+ * is missing, reading fails with a message that names the package. Assimp runs in a child process
+ * with limited time and memory, because damaged files can make it loop or crash.
+ */
+#ifndef MODEL_H
+#define MODEL_H
+
+#include "core/mesh.h"
+
+/* Limits. Vertices count before equal ones are merged. */
+enum { MODEL_BYTES_MAX = 1 << 30, MODEL_VERTICES_MAX = 10000000, MODEL_TRIANGLES_MAX = 20000000 };
+
+/* The axis of the file that points up. MODEL_UP_FILE: the one that the file names (FBX, COLLADA),
+ * or its format's custom: z for STL, 3DS and Blender, y for all others. */
+typedef enum ModelUp { MODEL_UP_FILE, MODEL_UP_X, MODEL_UP_Y, MODEL_UP_Z } ModelUp;
+
+/* Reads all meshes of a file into one, transformed by the file's nodes. Polygons are triangulated;
+ * points, lines and degenerate triangles are left out; vertices of equal position and normal are
+ * merged. Normals are normalized; missing or zero ones are computed by mesh_compute_normals,
+ * weighted by angle, smooth across all edges. It is turned so that y points up; size
+ * and place are the file's: see mesh_bounds.
+ *
+ * Fails, with a message of one line and a zeroed mesh, if the file cannot be read, is not a model,
+ * is damaged (as far as its format shows), too large, or has no triangle or a number that is not
+ * finite. */
+bool model_read(const char *path, ModelUp up, Mesh *mesh, Message *message);
+
+/* Loads the plugin and appends a line with its version, or why it is missing, to `findings`. */
+bool model_probe(Message *findings);
+
+#endif

@@ -1,0 +1,469 @@
+/*
+ * The window backend: GLFW makes a window with an OpenGL ES 2 context of EGL.
+ */
+#include "window/window.h"
+
+#include <dlfcn.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#ifndef GLFW_PLATFORM /* before 3.4; the library that is loaded may be newer */
+#define GLFW_PLATFORM 0x00050003
+#define GLFW_PLATFORM_X11 0x00060004
+#endif
+
+#define GLFW_PACKAGE "libglfw3"
+
+#define GLFW_FUNCTIONS(X)                                                                          \
+    X(CreateWindow)                                                                                \
+    X(DestroyWindow)                                                                               \
+    X(GetClipboardString)                                                                          \
+    X(GetCursorPos)                                                                                \
+    X(GetFramebufferSize)                                                                          \
+    X(GetKey)                                                                                      \
+    X(GetMouseButton)                                                                              \
+    X(GetPrimaryMonitor)                                                                           \
+    X(GetProcAddress)                                                                              \
+    X(GetVersionString)                                                                            \
+    X(GetVideoMode)                                                                                \
+    X(GetWindowAttrib)                                                                             \
+    X(GetWindowContentScale)                                                                       \
+    X(GetWindowPos)                                                                                \
+    X(GetWindowSize)                                                                               \
+    X(GetWindowUserPointer)                                                                        \
+    X(Init)                                                                                        \
+    X(InitHint)                                                                                    \
+    X(MakeContextCurrent)                                                                          \
+    X(PollEvents)                                                                                  \
+    X(SetCharCallback)                                                                             \
+    X(SetClipboardString)                                                                          \
+    X(SetCursorPosCallback)                                                                        \
+    X(SetErrorCallback)                                                                            \
+    X(SetKeyCallback)                                                                              \
+    X(SetMouseButtonCallback)                                                                      \
+    X(SetScrollCallback)                                                                           \
+    X(SetWindowMonitor)                                                                            \
+    X(SetWindowTitle)                                                                              \
+    X(SetWindowUserPointer)                                                                        \
+    X(ShowWindow)                                                                                  \
+    X(SwapBuffers)                                                                                 \
+    X(SwapInterval)                                                                                \
+    X(WaitEventsTimeout)                                                                           \
+    X(WindowHint)                                                                                  \
+    X(WindowHintString)                                                                            \
+    X(WindowShouldClose)
+
+static struct {
+    void *library; /* stays loaded, like drivers */
+#define GLFW_DECLARE(name) __typeof__(&glfw##name) name;
+    GLFW_FUNCTIONS(GLFW_DECLARE)
+#undef GLFW_DECLARE
+    char error[256]; /* the first since the last take_error */
+    void (*lost)(const char *title);
+    char title[64]; /* of the latest window, for `lost` */
+} glfw;
+
+enum { MAX_SIDE = 16384 };
+
+struct Window {
+    GLFWwindow *handle;
+    void *context; /* EGL's: GLFW does not notice what others make current */
+    char platform[64];
+    int place[4];        /* x, y, width, height in screen units, before full screen */
+    WindowInput pending; /* collected by the callbacks; drags in screen units */
+    bool held;           /* the left button, in the order of events */
+    double x, y;         /* of the pointer, in the order of events */
+};
+
+static void keep_error(int code, const char *text)
+{
+    (void)code;
+    if (!glfw.error[0])
+        snprintf(glfw.error, sizeof glfw.error, "%s", text);
+}
+
+/* Returns and clears the kept error, without a final full stop or newline. */
+static const char *take_error(char text[256])
+{
+    snprintf(text, 256, "%s", glfw.error[0] ? glfw.error : "no reason given");
+    for (size_t end = strlen(text); end > 0 && strchr(" .\n", text[end - 1]); end--)
+        text[end - 1] = '\0';
+    glfw.error[0] = '\0';
+    return text;
+}
+
+static int display_lost(void *display)
+{
+    (void)display;
+    glfw.lost(glfw.title);
+    return 0;
+}
+
+/* Through dlsym, without X11's headers. GLFW 3.4 loads the library in glfwInit, which is too late
+ * for a display that is lost there; the library stays loaded, like GLFW. */
+static void handle_lost_display(void)
+{
+    typedef int (*Handler)(void *display);
+    Handler (*set)(Handler);
+    void *library = getenv("DISPLAY") ? dlopen("libX11.so.6", RTLD_LAZY) : NULL;
+    if (!library)
+        return;
+    *(void **)&set = dlsym(library, "XSetIOErrorHandler");
+    if (set)
+        set(display_lost);
+}
+
+/* Whether libwayland knows where to look for a display (wl_display_connect). Otherwise it says so
+ * on standard error. */
+static bool has_wayland_path(void)
+{
+    const char *socket = getenv("WAYLAND_SOCKET"), *display = getenv("WAYLAND_DISPLAY");
+    const char *folder = getenv("XDG_RUNTIME_DIR");
+    return socket || (display && display[0] == '/') || (folder && folder[0] == '/');
+}
+
+/* GLFW 3.4 tries Wayland first, unless it is told to use X11. */
+static bool choose_platform(Message *message)
+{
+    const char *version = glfw.GetVersionString();
+    if (has_wayland_path() || !strstr(version, "Wayland"))
+        return true;
+    if (!strstr(version, "X11"))
+        return message_set(message, "window: no display (XDG_RUNTIME_DIR is not set)");
+    glfw.InitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+    return true;
+}
+
+static bool glfw_load(Message *message)
+{
+    if (glfw.library)
+        return true;
+    void *library = dlopen("libglfw.so.3", RTLD_NOW | RTLD_LOCAL);
+    if (!library)
+        return message_set(message,
+                           "window: libglfw.so.3 not found; install the package " GLFW_PACKAGE);
+#define GLFW_LOAD(name)                                                                            \
+    *(void **)&glfw.name = dlsym(library, "glfw" #name);                                           \
+    if (!glfw.name) {                                                                              \
+        dlclose(library);                                                                          \
+        return message_set(message, "window: libglfw.so.3 has no glfw" #name                       \
+                                    "; install a newer " GLFW_PACKAGE);                            \
+    }
+    GLFW_FUNCTIONS(GLFW_LOAD)
+#undef GLFW_LOAD
+    glfw.library = library;
+    return true;
+}
+
+static WindowInput *pending(GLFWwindow *handle)
+{
+    Window *window = glfw.GetWindowUserPointer(handle);
+    return &window->pending;
+}
+
+static const int KEYS[WINDOW_KEY_COUNT] = {
+    [WINDOW_KEY_ESCAPE] = GLFW_KEY_ESCAPE, [WINDOW_KEY_ENTER] = GLFW_KEY_ENTER,
+    [WINDOW_KEY_TAB] = GLFW_KEY_TAB,       [WINDOW_KEY_BACKSPACE] = GLFW_KEY_BACKSPACE,
+    [WINDOW_KEY_DELETE] = GLFW_KEY_DELETE, [WINDOW_KEY_LEFT] = GLFW_KEY_LEFT,
+    [WINDOW_KEY_RIGHT] = GLFW_KEY_RIGHT,   [WINDOW_KEY_UP] = GLFW_KEY_UP,
+    [WINDOW_KEY_DOWN] = GLFW_KEY_DOWN,     [WINDOW_KEY_HOME] = GLFW_KEY_HOME,
+    [WINDOW_KEY_END] = GLFW_KEY_END,       [WINDOW_KEY_A] = GLFW_KEY_A,
+    [WINDOW_KEY_C] = GLFW_KEY_C,           [WINDOW_KEY_V] = GLFW_KEY_V,
+    [WINDOW_KEY_X] = GLFW_KEY_X,
+};
+
+static void on_key(GLFWwindow *handle, int key, int scancode, int action, int modifiers)
+{
+    WindowInput *input = pending(handle);
+    (void)scancode, (void)modifiers;
+    if (key == GLFW_KEY_KP_ENTER)
+        key = GLFW_KEY_ENTER;
+    for (int i = 0; i < WINDOW_KEY_COUNT; i++) {
+        if (KEYS[i] == key && action != GLFW_RELEASE) {
+            input->down[i] = true;
+            input->pressed[i]++;
+        }
+    }
+}
+
+static void on_character(GLFWwindow *handle, unsigned character)
+{
+    WindowInput *input = pending(handle);
+    if (input->typed_count < WINDOW_MAX_TYPED)
+        input->typed[input->typed_count++] = character;
+}
+
+static void on_button(GLFWwindow *handle, int button, int action, int modifiers)
+{
+    (void)modifiers;
+    Window *window = glfw.GetWindowUserPointer(handle);
+    if (button < WINDOW_BUTTONS && action == GLFW_PRESS)
+        window->pending.buttons[button] = true;
+    if (button == GLFW_MOUSE_BUTTON_LEFT)
+        window->held = action == GLFW_PRESS;
+}
+
+static void on_pointer(GLFWwindow *handle, double x, double y)
+{
+    Window *window = glfw.GetWindowUserPointer(handle);
+    if (window->held) {
+        window->pending.drag_x += x - window->x;
+        window->pending.drag_y += y - window->y;
+    }
+    window->x = x;
+    window->y = y;
+}
+
+static void on_scroll(GLFWwindow *handle, double x, double y)
+{
+    (void)x;
+    pending(handle)->scroll += y;
+}
+
+static void window_close(void *opened)
+{
+    Window *window = opened;
+    if (!window)
+        return;
+    /* GLFW stays initialized: EGL keeps state for each display connection and fails after about 200
+     * of them. Poll to drop the window's remaining events. */
+    if (window->handle)
+        glfw.DestroyWindow(window->handle);
+    glfw.PollEvents();
+    free(window);
+}
+
+static int between(int value, int min, int max)
+{
+    return value < min ? min : value > max ? max : value;
+}
+
+static void *current_context(void)
+{
+    void *(*get)(void) = (void *(*)(void))glfw.GetProcAddress("eglGetCurrentContext");
+    return get ? get() : NULL;
+}
+
+static bool window_open(void **opened, const CanvasOptions *options, const char **platform,
+                        Message *message)
+{
+    char why[256];
+    const char *title = options->title ? options->title : "lighting";
+    if (!glfw_load(message) || !choose_platform(message))
+        return false;
+    if (options->lost) {
+        glfw.lost = options->lost;
+        snprintf(glfw.title, sizeof glfw.title, "%s", title);
+        handle_lost_display();
+    }
+    Window *window = calloc(1, sizeof *window);
+    if (!window)
+        return message_set(message, "window: not enough memory");
+    glfw.error[0] = '\0';
+    glfw.SetErrorCallback(keep_error);
+    if (!glfw.Init()) {
+        free(window);
+        return message_set(message, "window: no display (%s)", take_error(why));
+    }
+    glfw.WindowHint(GLFW_CLIENT_API, GLFW_OPENGL_ES_API);
+    glfw.WindowHint(GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API);
+    glfw.WindowHint(GLFW_CONTEXT_VERSION_MAJOR, 2);
+    glfw.WindowHint(GLFW_CONTEXT_VERSION_MINOR, 0);
+    /* The canvas has a depth buffer and samples of its own. */
+    glfw.WindowHint(GLFW_DEPTH_BITS, 0);
+    glfw.WindowHint(GLFW_STENCIL_BITS, 0);
+    glfw.WindowHint(GLFW_ALPHA_BITS, 0);
+    glfw.WindowHint(GLFW_VISIBLE, GLFW_FALSE);
+    /* GLFW uses each only if both are set. */
+    glfw.WindowHintString(GLFW_X11_CLASS_NAME, "lighting");
+    glfw.WindowHintString(GLFW_X11_INSTANCE_NAME, "lighting");
+    /* The canvas rejects sizes beyond the driver's limit. */
+    window->handle = glfw.CreateWindow(between(options->width, 1, MAX_SIDE),
+                                       between(options->height, 1, MAX_SIDE), title, NULL, NULL);
+    if (!window->handle) {
+        window_close(window);
+        return message_set(message, "window: %s", take_error(why));
+    }
+    glfw.SetWindowUserPointer(window->handle, window);
+    glfw.MakeContextCurrent(window->handle);
+    window->context = current_context();
+    glfw.SetKeyCallback(window->handle, on_key);
+    glfw.SetCharCallback(window->handle, on_character);
+    glfw.SetCursorPosCallback(window->handle, on_pointer);
+    glfw.SetMouseButtonCallback(window->handle, on_button);
+    glfw.SetScrollCallback(window->handle, on_scroll);
+    snprintf(window->platform, sizeof window->platform, "GLFW %s", glfw.GetVersionString());
+    window_wait_for_screen(window, true);
+    *opened = window;
+    *platform = window->platform;
+    return true;
+}
+
+static GlFunction window_address(const char *name)
+{
+    return (GlFunction)glfw.GetProcAddress(name);
+}
+
+static bool window_current(void *opened)
+{
+    const Window *window = opened;
+    return current_context() == window->context;
+}
+
+Window *window_of(const Canvas *canvas)
+{
+    return canvas->backend == &CANVAS_WINDOW ? canvas->context : NULL;
+}
+
+/* Ignores errors about what a platform does not support (Wayland: window positions, focus). */
+static void forget_error(void)
+{
+    glfw.error[0] = '\0';
+}
+
+void window_show(Window *window)
+{
+    glfw.ShowWindow(window->handle);
+    forget_error();
+}
+
+void window_input(Window *window, double seconds, WindowInput *input)
+{
+    int width = 0, height = 0;
+    float scale_x = 1, scale_y = 1;
+    if (seconds > 0)
+        glfw.WaitEventsTimeout(seconds);
+    else
+        glfw.PollEvents();
+    *input = window->pending;
+    window->pending = (WindowInput){.closed = false};
+
+    input->closed = glfw.WindowShouldClose(window->handle);
+    glfw.GetFramebufferSize(window->handle, &input->width, &input->height);
+    if (glfw.GetWindowAttrib(window->handle, GLFW_ICONIFIED))
+        input->width = input->height = 0;
+    glfw.GetWindowContentScale(window->handle, &scale_x, &scale_y);
+    input->scale = fmax(1, (double)scale_y);
+    glfw.GetCursorPos(window->handle, &input->x, &input->y);
+    glfw.GetWindowSize(window->handle, &width, &height);
+    if (width > 0 && height > 0) {
+        const double x = (double)input->width / width, y = (double)input->height / height;
+        input->x *= x;
+        input->y *= y;
+        input->drag_x *= x;
+        input->drag_y *= y;
+    }
+    for (int i = 0; i < WINDOW_BUTTONS; i++)
+        input->buttons[i] |= glfw.GetMouseButton(window->handle, i) == GLFW_PRESS;
+    for (int i = 0; i < WINDOW_KEY_COUNT; i++)
+        input->down[i] |= glfw.GetKey(window->handle, KEYS[i]) == GLFW_PRESS;
+    input->control = glfw.GetKey(window->handle, GLFW_KEY_LEFT_CONTROL) == GLFW_PRESS ||
+                     glfw.GetKey(window->handle, GLFW_KEY_RIGHT_CONTROL) == GLFW_PRESS;
+    input->shift = glfw.GetKey(window->handle, GLFW_KEY_LEFT_SHIFT) == GLFW_PRESS ||
+                   glfw.GetKey(window->handle, GLFW_KEY_RIGHT_SHIFT) == GLFW_PRESS;
+}
+
+void window_swap(Window *window)
+{
+    glfw.SwapBuffers(window->handle);
+}
+
+void window_wait_for_screen(Window *window, bool wait)
+{
+    /* Wayland does not tear, and a hidden window would wait forever. */
+    const bool wayland = strstr(window->platform, "Wayland") && !strstr(window->platform, "X11");
+    glfw.SwapInterval(wait && !wayland ? 1 : 0); /* of the current context */
+}
+
+static const GLFWvidmode *video_mode(GLFWmonitor **monitor)
+{
+    *monitor = glfw.GetPrimaryMonitor();
+    return *monitor ? glfw.GetVideoMode(*monitor) : NULL;
+}
+
+double window_refresh_rate(Window *window)
+{
+    enum { USUAL = 60 };
+    GLFWmonitor *monitor;
+    const GLFWvidmode *mode = video_mode(&monitor);
+    (void)window;
+    return mode && mode->refreshRate > 0 ? mode->refreshRate : USUAL;
+}
+
+void window_title(Window *window, const char *title)
+{
+    glfw.SetWindowTitle(window->handle, title);
+}
+
+void window_full_screen(Window *window, bool full)
+{
+    int *place = window->place;
+    GLFWmonitor *monitor;
+    const GLFWvidmode *mode = video_mode(&monitor);
+    if (full && mode) {
+        glfw.GetWindowPos(window->handle, &place[0], &place[1]);
+        glfw.GetWindowSize(window->handle, &place[2], &place[3]);
+        glfw.SetWindowMonitor(window->handle, monitor, 0, 0, mode->width, mode->height,
+                              mode->refreshRate);
+    } else if (!full && place[2] > 0) {
+        glfw.SetWindowMonitor(window->handle, NULL, place[0], place[1], place[2], place[3],
+                              GLFW_DONT_CARE);
+    }
+    forget_error();
+}
+
+const char *window_clipboard(Window *window)
+{
+    const char *text = glfw.GetClipboardString(window->handle);
+    forget_error(); /* a clipboard without text is not an error */
+    return text ? text : "";
+}
+
+void window_set_clipboard(Window *window, const char *text)
+{
+    glfw.SetClipboardString(window->handle, text);
+}
+
+bool window_check(Window *window, Message *message)
+{
+    char why[256];
+    (void)window;
+    return !glfw.error[0] || message_set(message, "window: %s", take_error(why));
+}
+
+static bool window_probe(Message *findings)
+{
+    static const CanvasOptions tiny = {.width = 1, .height = 1};
+    Message message = {0};
+    const char *platform;
+    void *window;
+    if (!window_open(&window, &tiny, &platform, &message)) {
+        message_add(findings, "  no: %s\n", message.text);
+        return false;
+    }
+    message_add(findings, "  library    %s\n", platform);
+    const bool loaded = gl_load(window_address, &message);
+    if (loaded)
+        message_add(findings, "  works: renderer %s, %s\n", (const char *)glGetString(GL_RENDERER),
+                    (const char *)glGetString(GL_VERSION));
+    else
+        message_add(findings, "  no: %s\n", message.text);
+    window_close(window);
+    return loaded;
+}
+
+const CanvasBackend CANVAS_WINDOW = {
+    .name = "window",
+    .summary = "on a display, in a window of GLFW",
+    .presents = true,
+    .open = window_open,
+    .address = window_address,
+    .current = window_current,
+    .close = window_close,
+    .probe = window_probe,
+};

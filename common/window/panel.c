@@ -1,0 +1,112 @@
+#include "window/panel.h"
+
+#include "base/plugin.h"
+#include "window/panel_module.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+struct Panel {
+    const PanelModule *module;
+    void *context;
+};
+
+static const double MIN_SCALE = 0.5, MAX_SCALE = 4, LONGEST_FRAME = 1;
+static const double OUTSIDE = -1e6, MAX_PLACE = 1e6, MAX_SCROLL = 100;
+
+static const PanelModule *load(Message *message)
+{
+    static const PluginName name = {"panel_imgui.so", PANEL_MODULE_SYMBOL, "Dear ImGui",
+                                    "libimgui-dev"};
+    static const PanelModule *loaded; /* once: windows belong to one thread */
+    if (!loaded) {
+        const PanelModuleEntry entry = (PanelModuleEntry)plugin_entry(&name, message);
+        if (!entry)
+            return NULL;
+        loaded = entry();
+    }
+    return loaded;
+}
+
+bool panel_open(Panel **panel, Message *message)
+{
+    char reason[256];
+    const PanelModule *module = load(message);
+    *panel = NULL;
+    if (!module)
+        return false;
+    Panel *own = calloc(1, sizeof *own);
+    if (!own)
+        return message_set(message, "panel: not enough memory");
+    own->module = module;
+    if (!module->open(&own->context, reason, sizeof reason)) {
+        free(own);
+        return message_set(message, "panel: %s", reason);
+    }
+    *panel = own;
+    return true;
+}
+
+static double within(double value, double min, double max, double otherwise)
+{
+    return isfinite(value) ? fmin(fmax(value, min), max) : otherwise;
+}
+
+/* Dear ImGui aborts on invalid numbers. */
+static WindowInput sane(const WindowInput *input)
+{
+    WindowInput own = *input;
+    own.scale = within(input->scale, MIN_SCALE, MAX_SCALE, 1);
+    own.x = within(input->x, -MAX_PLACE, MAX_PLACE, OUTSIDE);
+    own.y = within(input->y, -MAX_PLACE, MAX_PLACE, OUTSIDE);
+    own.scroll = within(input->scroll, -MAX_SCROLL, MAX_SCROLL, 0);
+    own.typed_count = own.typed_count < 0                  ? 0
+                      : own.typed_count > WINDOW_MAX_TYPED ? WINDOW_MAX_TYPED
+                                                           : own.typed_count;
+    return own;
+}
+
+bool panel_frame(Panel *panel, const PanelInput *input, const PanelContent *content,
+                 PanelResult *result, Message *message)
+{
+    enum { LARGEST = 32767 };
+    char reason[256];
+    const WindowInput window = sane(input->window);
+    PanelInput own = *input;
+    own.window = &window;
+    own.seconds = within(input->seconds, 0, LONGEST_FRAME, 0);
+    *result = (PanelResult){.view = content->view};
+    const bool something =
+        content->view != PANEL_HIDDEN || content->help || content->errors || content->notice;
+    const bool visible = window.width > 0 && window.height > 0 && window.width <= LARGEST &&
+                         window.height <= LARGEST;
+    if (!something || !visible)
+        return true;
+    if (!panel->module->frame(panel->context, &own, content, result, reason, sizeof reason))
+        return message_set(message, "panel: %s", reason);
+    return true;
+}
+
+void panel_close(Panel *panel)
+{
+    if (!panel)
+        return;
+    panel->module->close(panel->context);
+    free(panel);
+}
+
+PanelView panel_next_view(PanelView view)
+{
+    return view == PANEL_OPEN ? PANEL_HIDDEN : PANEL_OPEN;
+}
+
+bool panel_probe(Message *findings)
+{
+    Message message = {0};
+    const PanelModule *module = load(&message);
+    if (module)
+        message_add(findings, "  Dear ImGui (the panel) %s: found\n", module->version);
+    else
+        message_add(findings, "  Dear ImGui (the panel) missing: %s\n", message.text);
+    return module != NULL;
+}

@@ -1,0 +1,112 @@
+/*
+ * panel: controls over the picture in a window, with their cost; help, errors and notices. No GL:
+ * input goes in, triangles come out (panel_draw.h draws them), both as plain data.
+ *
+ * The widgets are Dear ImGui's, in a module that is loaded on first use.
+ */
+#ifndef PANEL_H
+#define PANEL_H
+
+#include "base/message.h"
+#include "scene/parameter.h"
+#include "window/window.h"
+
+#include <stdint.h>
+
+typedef struct Panel Panel;
+
+/* Folded: only the title, which unfolds it. */
+typedef enum PanelView { PANEL_HIDDEN, PANEL_FOLDED, PANEL_OPEN } PanelView;
+
+typedef struct PanelInput {
+    const WindowInput *window; /* invalid sizes and positions are ignored */
+    double seconds;            /* since the last frame */
+    /* The clipboard and its functions, which may be NULL. */
+    void *clipboard;
+    const char *(*get_clipboard)(void *clipboard);
+    void (*set_clipboard)(void *clipboard, const char *text);
+} PanelInput;
+
+/* A line of help: "space", "pauses". */
+typedef struct PanelHelp {
+    const char *key, *action;
+} PanelHelp;
+
+/* The error of the picture against the exact one. */
+typedef struct PanelError {
+    bool known, computing; /* both: the known error is that of an earlier picture */
+    double rms, maximum;   /* in steps of 1/255; rms NaN: no object is visible */
+    double seconds;        /* time of that picture */
+} PanelError;
+
+/* What to show. Texts are UTF-8; NULL: none. */
+typedef struct PanelContent {
+    const char *name; /* of the program: the title */
+    PanelView view;
+    const Parameter *parameters;    /* ended by a NULL name, at most 32; may be NULL */
+    const ParameterValue *defaults; /* of each; NULL: no reset */
+    double milliseconds;            /* per frame; not positive: unknown */
+    double frames_per_second;
+    PanelError error;
+    const char *effects;      /* lines, as effects_explain writes them */
+    const char *command;      /* that draws this picture */
+    const char *const *tries; /* arguments to try, a button each; ended by NULL; may be NULL */
+    /* Shown also while the panel is hidden: */
+    const PanelHelp *help; /* ended by a NULL key */
+    const char *errors;    /* lines, "file:line: reason" */
+    const char *notice;    /* one line, "saved NAME.png" */
+} PanelContent;
+
+typedef struct PanelVertex {
+    float x, y; /* pixels, from the upper left corner of the window */
+    float u, v; /* 0..1 in the atlas */
+    unsigned char color[4];
+} PanelVertex;
+
+/* Triangles clipped to a rectangle in the window, with its upper left pixel at (x, y). */
+typedef struct PanelCommand {
+    int first, count; /* indices */
+    int vertex;       /* added to each index */
+    int x, y, width, height;
+} PanelCommand;
+
+/* Commands to draw in order, alpha-blended: the vertex colour, with its alpha multiplied by the
+ * atlas's. */
+typedef struct PanelDrawing {
+    const PanelVertex *vertices;
+    const uint16_t *indices;
+    const PanelCommand *commands;
+    int vertex_count, index_count, command_count; /* no commands: nothing to draw */
+    const unsigned char *atlas;                   /* alpha, row after row */
+    int atlas_width, atlas_height;
+    unsigned generation; /* changes with the atlas */
+} PanelDrawing;
+
+typedef struct PanelResult {
+    PanelView view;       /* a click on the title changes it */
+    uint32_t changed;     /* bit i: parameter i changed */
+    const char *tried;    /* the arguments of the button that was pressed; NULL: none */
+    bool wants_pointer;   /* the panel uses pointer and wheel in this frame */
+    bool wants_keys;      /* ... keys and characters */
+    PanelDrawing drawing; /* valid until the next frame */
+} PanelResult;
+
+/* False if the module cannot be loaded. */
+bool panel_open(Panel **panel, Message *message);
+
+/* One frame: handles input, sets changed parameters, each to a value that parameter_read accepts,
+ * and returns what to draw. Costs nothing if there is nothing to show. New content is laid out in
+ * its first frame and settles in its second. */
+bool panel_frame(Panel *panel, const PanelInput *input, const PanelContent *content,
+                 PanelResult *result, Message *message);
+
+/* NULL is fine. */
+void panel_close(Panel *panel);
+
+/* The view after the panel key: open, or hidden if it was open. */
+PanelView panel_next_view(PanelView view);
+
+/* Loads the module and appends a line about what was found; true if it was. */
+bool panel_probe(Message *findings);
+
+#endif

@@ -1,0 +1,30 @@
+/*
+ * panel_module: what panel.c asks of the module that links Dear ImGui (panel_imgui.cpp), and how
+ * the two agree on it. Only these two files include it.
+ */
+#ifndef PANEL_MODULE_H
+#define PANEL_MODULE_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#include "window/panel.h"
+
+/* Functions return true, or false with the reason in `reason` (without a subject). A frame's window
+ * is at least 1x1, and its numbers are finite; a place that was none is outside the window. */
+typedef struct PanelModule {
+    const char *version;
+    bool (*open)(void **context, char *reason, size_t reason_size);
+    bool (*frame)(void *context, const PanelInput *input, const PanelContent *content,
+                  PanelResult *result, char *reason, size_t reason_size);
+    void (*close)(void *context);
+} PanelModule;
+
+#define PANEL_MODULE_SYMBOL "panel_module"
+typedef const PanelModule *(*PanelModuleEntry)(void);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

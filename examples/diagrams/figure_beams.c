@@ -1,0 +1,227 @@
+/* What a beam lights, and parallel and radiating rays. */
+#include "diagrams/figures.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static const Vec3 UP = {0, 1, 0}, ORIGIN = {0, 0, 0}, BEAM = {1, 0.86, 0.42};
+
+/* Room below the surface for light that comes from there, in ems. */
+static double depth_for(double n_dot_l)
+{
+    return n_dot_l < 0 ? 4 : 0;
+}
+
+/* A line between two ends with a name beside it. */
+static void dimension(Board *board, DrawingPoint a, DrawingPoint b, Vec3 side, const char *text)
+{
+    const double length = hypot(b.x - a.x, b.y - a.y), tick = 0.3 * board->em;
+    const Vec3 across = {(b.y - a.y) / length, (b.x - a.x) / length, 0};
+    board_line(board, a, b, INK, 0.06);
+    board_line(board, board_at(a, across, -tick), board_at(a, across, tick), INK, 0.06);
+    board_line(board, board_at(b, across, -tick), board_at(b, across, tick), INK, 0.06);
+    board_label(board, (DrawingPoint){(a.x + b.x) / 2, (a.y + b.y) / 2}, side, INK, text);
+}
+
+/* A beam of a width from the direction L onto the surface about a point. */
+typedef struct Beam {
+    DrawingPoint at;
+    Vec3 l;
+    double width, length;
+    double lit; /* half the width of what it lights, as far as the picture goes */
+} Beam;
+
+/* Perpendicular to a beam, to the right. */
+static Vec3 beam_across(Vec3 l)
+{
+    return l.y < 0 ? (Vec3){-l.y, l.x, 0} : (Vec3){l.y, -l.x, 0};
+}
+
+static void draw_beam(Board *board, Beam beam)
+{
+    const Vec3 across = beam_across(beam.l);
+    const DrawingPoint far = board_at(beam.at, beam.l, beam.length);
+    const DrawingPoint corners[] = {{beam.at.x - beam.lit, beam.at.y},
+                                    {beam.at.x + beam.lit, beam.at.y},
+                                    board_at(far, across, beam.width / 2),
+                                    board_at(far, across, -beam.width / 2)};
+    board_area(board, corners, 4, BEAM, 0.55);
+    for (int i = 0; i < 4; i++) { /* the normal is in the middle */
+        static const double SHARES[] = {-0.85, -0.45, 0.45, 0.85};
+        const double share = SHARES[i];
+        const DrawingPoint foot = {beam.at.x + share * beam.lit, beam.at.y};
+        board_arrow(board, board_at(far, across, share * beam.width / 2), foot, LIGHT_COLOR, 0.08);
+    }
+}
+
+/* How long a beam can be before a corner leaves the part. */
+static double beam_length(const Beam *beam, DrawingBox part)
+{
+    const double x = fabs(beam->l.x), y = beam->l.y;
+    const double half = beam->width / 2;
+    const double aside = fmin(part.right - beam->at.x, beam->at.x - part.left) - half * fabs(y);
+    const double up = (y > 0 ? beam->at.y - part.top : part.bottom - beam->at.y) - half * x;
+    const double by_side = x > 1e-9 ? aside / x : INFINITY;
+    const double by_height = fabs(y) > 1e-9 ? up / fabs(y) : INFINITY;
+    return fmax(fmin(by_side, by_height), 0);
+}
+
+static void incidence_captions(Board *board, DrawingBox *part, double n_dot_l)
+{
+    char first[FIGURE_TEXT], number[NUMBER_SIZE];
+    const char *second = "spread over $w$: as bright as can be";
+    board_number(n_dot_l, number);
+    snprintf(first, sizeof first, "$N·L$ = %s", number);
+    if (n_dot_l <= 0)
+        second = "no light: it comes from behind";
+    else if (n_dot_l < 1)
+        second = "the same light, spread over $w$ / ($N·L$)";
+    figure_captions(board, part, (const char *const[]){first, second}, 2);
+}
+
+static void draw_incidence(Board *board, const Optics *optics, double angle, int number)
+{
+    static const double STRIP = 0.8, ROOM = 2.9;
+    const double em = board->em;
+    Optics turned = *optics;
+    Material matte = *optics->material; /* what the eye's place does not change */
+    matte.specular = (Vec3){0, 0, 0};
+    turned.material = &matte;
+    turned.light = angle;
+    turned.radiating = false;
+    const OpticsVectors at = optics_vectors(&turned, ORIGIN, UP);
+    DrawingBox part = figure_part(board, number);
+    incidence_captions(board, &part, at.n_dot_l);
+    const double width = part.right - part.left;
+    const double depth = fmax(depth_for(at.n_dot_l) + STRIP, ROOM) * em;
+    const Vec3 asked = optics_left(optics->light);
+    const double beam_width =
+        asked.y > 0 ? fmax(fmin(fmin(4 * em, 0.3 * width), 0.7 * width * asked.y), 0.6 * em)
+                    : 3 * em;
+    Beam beam = {.at = {(part.left + part.right) / 2, part.bottom - depth},
+                 .l = at.l,
+                 .width = beam_width,
+                 .lit = fmin(beam_width * optics_footprint(at.n_dot_l) / 2, 0.46 * width)};
+    if (at.n_dot_l <= 0) /* what it would light from behind */
+        beam.lit = fmin(beam_width * optics_footprint(-at.n_dot_l) / 2, 0.46 * width);
+    DrawingBox room = part; /* L is written at the beam's end */
+    room.top += 1.4 * em;
+    room.bottom -= 1.4 * em;
+    beam.length = beam_length(&beam, room);
+    board->area = part;
+    board_area(board,
+               (const DrawingPoint[]){{part.left, beam.at.y},
+                                      {part.right, beam.at.y},
+                                      {part.right, beam.at.y + STRIP * em},
+                                      {part.left, beam.at.y + STRIP * em}},
+               4, PALE, 1);
+    board_line(board, (DrawingPoint){part.left, beam.at.y}, (DrawingPoint){part.right, beam.at.y},
+               INK, 0.12);
+    if (at.n_dot_l > 0)
+        figure_surface(board, &turned, beam.at, beam.at.x - beam.lit, beam.at.x + beam.lit, 1);
+    draw_beam(board, beam);
+    const double n_length = fmin(4.5 * em, 0.75 * (beam.at.y - part.top));
+    const DrawingPoint n_tip = board_at(beam.at, UP, n_length);
+    board_arrow(board, beam.at, n_tip, INK, 0.12);
+    if (at.n_dot_l > 0) {
+        char text[FIGURE_TEXT];
+        const double y = beam.at.y + (STRIP + 0.55) * em;
+        const double footprint = optics_footprint(at.n_dot_l);
+        snprintf(text, sizeof text, "%.*f $w$", footprint < 100 ? 2 : 0, footprint);
+        dimension(board, (DrawingPoint){beam.at.x - beam.lit, y},
+                  (DrawingPoint){beam.at.x + beam.lit, y}, (Vec3){0, -1, 0},
+                  at.n_dot_l < 1 ? text : "$w$");
+    }
+    if (fabs(angle) > 8 && at.n_dot_l > 0) {
+        board_arc(board, beam.at, 0.5 * n_length, -angle, 0, INK, 0.06, 0);
+        board_label(board, board_at(beam.at, optics_left(angle / 2), 0.5 * n_length),
+                    optics_left(angle / 2), INK, "$θ$");
+    }
+    const DrawingPoint far = board_at(beam.at, beam.l, beam.length);
+    const Vec3 across = beam_across(beam.l);
+    if (at.n_dot_l > 0 && at.n_dot_l < 1) {
+        const DrawingPoint near = board_at(beam.at, beam.l, 0.8 * beam.length);
+        dimension(board, board_at(near, across, -beam.width / 2),
+                  board_at(near, across, beam.width / 2),
+                  angle > 0 ? across : vec3_scale(across, -1), "$w$");
+    }
+    board_label(board, n_tip, UP, INK, "$N$");
+    board_label(board, far, at.l, LIGHT_COLOR, "light");
+}
+
+void figure_incidence(Board *board, const Optics *optics)
+{
+    draw_incidence(board, optics, 0, 0);
+    draw_incidence(board, optics, optics->light, 1);
+}
+
+/* Rays. */
+
+static void draw_point(Board *board, DrawingPoint foot, DrawingPoint from, double n_length,
+                       double n_dot_l, double number_y)
+{
+    char number[NUMBER_SIZE];
+    board_arrow(board, foot, board_at(foot, UP, n_length), INK, 0.09);
+    board_arrow(board, from, foot, LIGHT_COLOR, 0.1);
+    board_number(n_dot_l, number);
+    const DrawingBox ink = drawing_text_box(board->drawing, board->em, number);
+    drawing_text(board->drawing, (DrawingPoint){foot.x - (ink.left + ink.right) / 2, number_y},
+                 board->em, INK, number);
+}
+
+static void draw_rays(Board *board, const Optics *optics, bool radiating)
+{
+    const double em = board->em;
+    Optics shown = *optics;
+    Material matte = *optics->material; /* there is no eye */
+    matte.specular = (Vec3){0, 0, 0};
+    shown.material = &matte;
+    shown.radiating = radiating;
+    const double cosine = optics_left(optics->light).y, sine = optics_left(optics->light).x;
+    const char *const captions[] = {radiating ? "radiating: $L$ differs from point to point"
+                                              : "parallel: $L$ is the same everywhere",
+                                    cosine > 0 ? "$N·L$ is written below each point"
+                                               : "$N·L$ ≤ 0 counts as 0: no light"};
+    DrawingBox part = figure_part(board, radiating);
+    figure_captions(board, &part, captions, 2);
+    const double width = part.right - part.left;
+    const double depth = (2.4 + depth_for(cosine)) * em;
+    const double rise = part.bottom - depth - part.top - 1.3 * em;
+    const DrawingPoint origin = {(part.left + part.right) / 2, part.bottom - depth};
+    const double side = 0.5 * width - 1.2 * em;
+    /* The lamp's distance, which is OPTICS_LIGHT_DISTANCE units, or the rays' length. */
+    const double room = cosine < 0 ? depth_for(cosine) * em + 0.6 * em : rise;
+    const double reach = fmin(room / fmax(fabs(cosine), 1e-9),
+                              (radiating ? 1 : 0.6) * side / fmax(fabs(sine), 1e-9));
+    const double unit = reach / OPTICS_LIGHT_DISTANCE;
+    const int points = (int)fmin(fmax(floor(2 * side / (3.2 * em)), 3), 7) | 1;
+    const double left = radiating ? -side : fmax(-side, -side - sine * reach);
+    const double right = radiating ? side : fmin(side, side - sine * reach);
+    const double normal = fmin(2.4 * em, rise - 1.2 * em);
+    /* On the side where the light is not. */
+    const double number_y = cosine > 0 ? origin.y + 2 * em : origin.y - normal - 0.5 * em;
+    const DrawingPoint lamp = board_at(origin, optics_left(optics->light), reach);
+    board->area = part;
+    figure_surface(board, &shown, origin, part.left, part.right, unit);
+    for (int i = 0; i < points; i++) {
+        const double x = left + (right - left) * i / (points - 1);
+        const OpticsVectors at = optics_vectors(&shown, (Vec3){x / unit, 0, 0}, UP);
+        const DrawingPoint foot = {origin.x + x, origin.y};
+        draw_point(board, foot, radiating ? lamp : board_at(foot, at.l, reach), normal, at.n_dot_l,
+                   number_y);
+    }
+    if (radiating)
+        board_lamp(board, lamp);
+    const DrawingPoint last = {origin.x + right, origin.y};
+    const Vec3 towards = optics_vectors(&shown, (Vec3){right / unit, 0, 0}, UP).l;
+    board_label(board, board_at(last, UP, normal), UP, INK, "$N$");
+    const double along = radiating ? 0.5 * hypot(lamp.x - last.x, lamp.y - last.y) : 0.75 * reach;
+    board_label(board, board_at(last, towards, along), vec3_add(towards, (Vec3){1, 0, 0}),
+                LIGHT_COLOR, "light");
+}
+
+void figure_rays(Board *board, const Optics *optics)
+{
+    draw_rays(board, optics, false);
+    draw_rays(board, optics, true);
+}

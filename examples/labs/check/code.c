@@ -1,0 +1,251 @@
+#include "labs/check/code.h"
+
+#include "base/output.h"
+#include "base/paths.h"
+#include "base/process.h"
+#include "labs/check/confine.h"
+
+#include <dlfcn.h>
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+/* Seconds of processor time, bytes of memory and of written files. */
+enum { CALL_SECONDS = 2, BUILD_SECONDS = 10, MAX_WRITTEN = 32 << 20 };
+static const rlim_t CALL_MEMORY = (rlim_t)256 << 20, BUILD_MEMORY = (rlim_t)1 << 30;
+
+/* Building. */
+
+/* The folders of lab_code.h and of core/matrix.h: one if they are installed. */
+static bool find_headers(char labs[PATH_MAX], char common[PATH_MAX], Message *message)
+{
+    return (paths_find_data("examples/labs/program", "labs/include", labs) &&
+            paths_find_data("common", "labs/include", common)) ||
+           message_set(message, "%s: no such folder; install the labs again", common);
+}
+
+static void limit(rlim_t seconds, rlim_t memory)
+{
+    process_limit(seconds, memory);
+    setrlimit(RLIMIT_FSIZE, &(struct rlimit){MAX_WRITTEN, MAX_WRITTEN});
+}
+
+/* In the child: the compiler, its messages going to a pipe. */
+static _Noreturn void compile(const Lab *lab, const char *folder, const char *labs,
+                              const char *common, int errors)
+{
+    char include[3][PATH_MAX + 8], matrix[PATH_MAX + 16], inverse[PATH_MAX + 32];
+    snprintf(include[0], sizeof include[0], "-I%s", labs);
+    snprintf(include[1], sizeof include[1], "-I%s", common);
+    snprintf(include[2], sizeof include[2], "-I%s/core", common);
+    snprintf(matrix, sizeof matrix, "%s/core/matrix.c", common);
+    snprintf(inverse, sizeof inverse, "%s/core/matrix_inverse.c", common);
+    limit(BUILD_SECONDS, BUILD_MEMORY);
+    process_null(STDIN_FILENO, STDOUT_FILENO);
+    dup2(errors, STDERR_FILENO);
+    setenv("LC_ALL", "C", 1);
+    setenv("TMPDIR", folder, 1);
+    /* The folder itself is no -I: a student's file could replace a header. */
+    if (chdir(folder) == 0)
+        execlp("cc", "cc", "-std=gnu11", "-O0", "-fPIC", "-shared", "-Wall",
+               "-Werror=implicit-function-declaration", "-fno-diagnostics-show-caret", include[0],
+               include[1], include[2], "-o", "module.so", lab->code, matrix, inverse, "-lm",
+               (char *)NULL);
+    _exit(127);
+}
+
+/* And skips the rest, so that the child does not wait for its reader. */
+static size_t read_all(int from, char *bytes, size_t size)
+{
+    char rest[4096];
+    const size_t got = process_read(from, bytes, size, HUGE_VAL);
+    while (process_read(from, rest, sizeof rest, HUGE_VAL) > 0)
+        continue;
+    return got;
+}
+
+static bool blame(Verdict *verdict, VerdictKind kind, const char *format, const char *text)
+{
+    verdict->kind = kind;
+    snprintf(verdict->message, sizeof verdict->message, format, text);
+    return false;
+}
+
+/* The compiler's first error as the message, its other output as details. */
+static bool blame_text(Verdict *verdict, VerdictKind kind, const char *said)
+{
+    const char *error = strstr(said, "error:"), *begin = error ? error : said;
+    while (begin > said && begin[-1] != '\n')
+        begin--;
+    verdict->kind = kind;
+    snprintf(verdict->message, sizeof verdict->message, "%.*s", (int)strcspn(begin, "\n"), begin);
+    if (!verdict->message[0])
+        snprintf(verdict->message, sizeof verdict->message, "the compiler failed");
+    const char *rest = begin + strcspn(begin, "\n");
+    snprintf(verdict->details, sizeof verdict->details, "%.*s%s", (int)(begin - said), said,
+             rest[0] ? rest + 1 : rest);
+    return false;
+}
+
+static bool build(const Lab *lab, const char *text, const char *folder, Verdict *verdict,
+                  Message *message)
+{
+    char path[PATH_MAX], labs[PATH_MAX], common[PATH_MAX], said[VERDICT_DETAILS_SIZE];
+    int end;
+    if (snprintf(path, sizeof path, "%s/%s", folder, lab->code) >= (int)sizeof path)
+        return message_set(message, "%s: the path is too long", folder);
+    if (!find_headers(labs, common, message) || !output_write(path, text, strlen(text), message))
+        return false;
+    const pid_t child = process_fork(&end, message);
+    if (child < 0)
+        return false;
+    if (child == 0)
+        compile(lab, folder, labs, common, end);
+    const size_t size = read_all(end, said, sizeof said - 1);
+    close(end);
+    said[size] = '\0';
+    const int status = process_wait(child);
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
+        return true;
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
+        return message_set(message, "cc: no C compiler was found; apt-get install gcc");
+    if (!WIFEXITED(status) || size == 0)
+        return blame(verdict, VERDICT_ERROR, "%s: the compiler failed", lab->code);
+    return blame_text(verdict, VERDICT_ERROR, said);
+}
+
+/* Calling. */
+
+/* The arguments and results of a call. */
+typedef struct Call {
+    const double *seconds;
+    int count;
+    CodeMatrices *matrices; /* NULL: the budget */
+    LabBudget budget;
+} Call;
+
+/* In the child. */
+static _Noreturn void call(const char *module, const Call *wanted, int results)
+{
+    Message message = {0};
+    typedef void (*MatricesFunction)(double, Mat4 *, Mat4 *);
+    typedef void (*BudgetFunction)(LabBudget *);
+    union {
+        void *object;
+        MatricesFunction matrices;
+        BudgetFunction budget;
+    } function;
+    process_null(STDIN_FILENO, STDERR_FILENO);
+    dup2(results, 3);
+    close_range(4, ~0u, 0);
+    limit(CALL_SECONDS, CALL_MEMORY);
+    /* Loading opens the module; its functions can open nothing. */
+    if (!confine_process(true, &message))
+        _exit(3);
+    void *library = dlopen(module, RTLD_NOW | RTLD_LOCAL);
+    function.object =
+        library ? dlsym(library, wanted->matrices ? "lab_matrices" : "lab_budget") : NULL;
+    if (!function.object)
+        _exit(4);
+    if (!confine_process(false, &message))
+        _exit(3);
+    for (int i = 0; i < wanted->count; i++) {
+        CodeMatrices matrices = {mat4_identity(), mat4_identity()};
+        LabBudget budget = {.slices = 16, .stacks = 16};
+        if (wanted->matrices)
+            function.matrices(wanted->seconds[i], &matrices.world_from_model,
+                              &matrices.normal_matrix);
+        else
+            function.budget(&budget);
+        const void *bytes = wanted->matrices ? (void *)&matrices : (void *)&budget;
+        const size_t size = wanted->matrices ? sizeof matrices : sizeof budget;
+        if (write(3, bytes, size) != (ssize_t)size)
+            _exit(5);
+    }
+    _exit(0);
+}
+
+static bool run_code(const Lab *lab, const char *folder, Call *wanted, Verdict *verdict,
+                     Message *message)
+{
+    char module[PATH_MAX];
+    int end;
+    const size_t each = wanted->matrices ? sizeof *wanted->matrices : sizeof wanted->budget;
+    const size_t size = each * (size_t)wanted->count;
+    if (snprintf(module, sizeof module, "%s/module.so", folder) >= (int)sizeof module)
+        return message_set(message, "%s: the path is too long", folder);
+    const pid_t child = process_fork(&end, message);
+    if (child < 0)
+        return false;
+    if (child == 0)
+        call(module, wanted, end);
+    const size_t got =
+        read_all(end, wanted->matrices ? (char *)wanted->matrices : (char *)&wanted->budget, size);
+    close(end);
+    const int status = process_wait(child);
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 3)
+        return message_set(message, "this kernel cannot confine a process, so a submission's C is "
+                                    "not run");
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 4)
+        return blame(verdict, VERDICT_ERROR, "%s: cannot be loaded, or lacks the lab's function",
+                     lab->code);
+    if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL))
+        return blame(verdict, VERDICT_TIMEOUT, "%s: it does not end: look for an endless loop",
+                     lab->code);
+    if (WIFSIGNALED(status))
+        return blame(
+            verdict, VERDICT_ERROR,
+            "%s: it crashes: look for a bad pointer, an integer division by zero, or large "
+            "local arrays",
+            lab->code);
+    if (got != size || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
+        return blame(verdict, VERDICT_ERROR, "%s: it exits the program", lab->code);
+    return true;
+}
+
+static bool is_finite(const Mat4 *matrix)
+{
+    for (int i = 0; i < 16; i++)
+        if (!isfinite(matrix->m[i]) || fabs(matrix->m[i]) > 1e30)
+            return false;
+    return true;
+}
+
+bool code_matrices(const Lab *lab, const char *text, const char *folder, const double *seconds,
+                   int count, CodeMatrices *matrices, Verdict *verdict, Message *message)
+{
+    Call wanted = {.seconds = seconds, .count = count, .matrices = matrices};
+    if (!build(lab, text, folder, verdict, message) ||
+        !run_code(lab, folder, &wanted, verdict, message))
+        return false;
+    for (int i = 0; i < count; i++)
+        if (!is_finite(&matrices[i].world_from_model) || !is_finite(&matrices[i].normal_matrix))
+            return blame(verdict, VERDICT_ERROR,
+                         "%s: a matrix has numbers that are not finite or beyond 1e30: look for a "
+                         "division by zero or an unset value",
+                         lab->code);
+    return true;
+}
+
+bool code_budget(const Lab *lab, const char *text, const char *folder, LabBudget *budget,
+                 Verdict *verdict, Message *message)
+{
+    Call wanted = {.count = 1};
+    if (!build(lab, text, folder, verdict, message) ||
+        !run_code(lab, folder, &wanted, verdict, message))
+        return false;
+    *budget = wanted.budget;
+    /* A bool from another process may be any byte. */
+    unsigned char cull;
+    memcpy(&cull, &wanted.budget.cull, 1);
+    budget->cull = cull != 0;
+    if (budget->slices >= 3 && budget->slices <= 512 && budget->stacks >= 2 &&
+        budget->stacks <= 512)
+        return true;
+    return blame(verdict, VERDICT_ERROR, "%s: slices must be 3 to 512, stacks 2 to 512", lab->code);
+}

@@ -1,0 +1,29 @@
+/*
+ * code: builds and calls a submission's C file.
+ *
+ * To be called inside the sandbox (sandbox/sandbox.h), where the compiler finds nothing but itself,
+ * the headers and the lab's files. The compiler runs with limits on time, memory and file size; the
+ * result is loaded and called in a process that can only compute (confine.h) and sends back only
+ * numbers.
+ */
+#ifndef CODE_H
+#define CODE_H
+
+#include "labs/program/lab.h"
+#include "labs/program/lab_code.h"
+#include "labs/submission/verdict.h"
+
+/* Lab 3's result for one time. */
+typedef struct CodeMatrices {
+    Mat4 world_from_model, normal_matrix;
+} CodeMatrices;
+
+/* Both build `text`, called lab->code, in an existing empty folder. True: there are numbers, finite
+ * and in range. False with a verdict and no message: the submission is at fault; with a message:
+ * this machine is. */
+bool code_matrices(const Lab *lab, const char *text, const char *folder, const double *seconds,
+                   int count, CodeMatrices *matrices, Verdict *verdict, Message *message);
+bool code_budget(const Lab *lab, const char *text, const char *folder, LabBudget *budget,
+                 Verdict *verdict, Message *message);
+
+#endif

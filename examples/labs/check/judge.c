@@ -1,0 +1,369 @@
+#include "labs/check/judge.h"
+
+#include "base/clock.h"
+#include "images/image_file.h"
+#include "labs/check/budget.h"
+#include "labs/check/code.h"
+#include "labs/check/judge_pictures.h"
+#include "labs/diagnosis/catalogue.h"
+#include "labs/diagnosis/compile_advice.h"
+#include "labs/diagnosis/diagnose.h"
+#include "labs/diagnosis/matrices.h"
+#include "labs/diagnosis/text_facts.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct Session {
+    const JudgeOptions *options;
+    const Lab *lab;
+    Verdict *verdict;
+    Canvas canvas;
+    SubmissionFiles files;
+    SubmissionFiles plain; /* lab 10: its shaders, preprocessed; none: they cannot be */
+    Shader shader, own;    /* the latter with the files' own precision */
+    Shots shots;
+    LabBudget budget; /* lab 10 */
+    bool settled;     /* the submission is at fault: there is a verdict */
+} Session;
+
+/* Settles on a verdict: the first line is the message, the others are details. */
+static bool settle(Session *session, VerdictKind kind, const Message *message, const char *advice)
+{
+    Verdict *verdict = session->verdict;
+    /* An error comes before warnings. */
+    const char *first = strstr(message->text, "error:");
+    if (!first || kind != VERDICT_ERROR || strncmp(message->text, session->lab->file, 5) != 0)
+        first = message->text;
+    while (first > message->text && first[-1] != '\n')
+        first--;
+    const size_t length = strcspn(first, "\n");
+    const char *rest = first[length] ? first + length + 1 : first + length;
+    session->settled = true;
+    verdict->kind = kind;
+    snprintf(verdict->message, sizeof verdict->message, "%.*s", (int)length, first);
+    snprintf(verdict->details, sizeof verdict->details, "%.*s%s%s%s", (int)(first - message->text),
+             message->text, rest, rest[0] && advice ? "\n" : "", advice ? advice : "");
+    return true;
+}
+
+static bool open_files(Session *session)
+{
+    Message own = {0};
+    return submission_files_open(&session->files, session->lab, session->options->folder, &own) ||
+           settle(session, VERDICT_REFUSED, &own, NULL);
+}
+
+static bool open_given(Session *session, Message *message)
+{
+    char folder[PATH_MAX];
+    if (!lab_folder(session->lab, folder, message))
+        return false;
+    const ShaderLoader loader = {.folder = folder, .precision = "highp"};
+    return shader_open(&session->shader, &loader, session->lab->file, message);
+}
+
+/* Compiles with the file's own precision, as the student's program does, then with highp: 16-bit
+ * errors are judged separately. Lab 10 lets the student choose the precision. */
+static bool open_shader(Session *session, Message *message)
+{
+    Message own = {0};
+    if (session->lab->given)
+        return open_given(session, message);
+    if (!submission_compile(&session->own, session->lab, &session->files, NULL, &own))
+        return settle(session, VERDICT_ERROR, &own, compile_advice(own.text));
+    if (!binding_check(session->lab, session->own.program, &own))
+        return settle(session, VERDICT_ERROR, &own, NULL);
+    if (session->lab->budget) {
+        /* The driver draws the very text that is counted. Without the tools nothing is counted. */
+        if (!budget_preprocess(&session->files, &session->plain, NULL) ||
+            !submission_compile(&session->shader, session->lab, &session->plain, NULL, NULL))
+            return submission_compile(&session->shader, session->lab, &session->files, NULL,
+                                      message);
+        return true;
+    }
+    /* What links only as it is, is drawn as it is. */
+    return submission_compile(&session->shader, session->lab, &session->files, "highp", NULL) ||
+           submission_compile(&session->shader, session->lab, &session->files, NULL, message);
+}
+
+/* Adds each scene's result; returns the worst, or -1 if all are right. */
+static int add_probes(const Shots *shots, Verdict *verdict)
+{
+    int worst = -1;
+    for (int i = 0; i < shots->count; i++) {
+        const Probe *probe = &shots->shots[i].probe;
+        const ErrorSum error = shots_error(shots, i, shots->truth);
+        VerdictProbe *line = &verdict->probes[verdict->probe_count++];
+        *line = (VerdictProbe){.known = probe->known,
+                               .width = probe->width,
+                               .height = probe->height,
+                               .seconds = probe->seconds,
+                               .maximum = error.maximum,
+                               .rms = error_sum_rms(&error),
+                               .passed = error.maximum <= shots_tolerance(shots, i)};
+        snprintf(line->name, sizeof line->name, "%s", PROBE_NAMES[probe->kind]);
+        if (!line->passed && (worst < 0 || line->rms > verdict->probes[worst].rms))
+            worst = i;
+    }
+    return worst;
+}
+
+/* Lab 3: the matrices at every scene's time. */
+static bool take_matrices(Session *session, const char *text, Message *message)
+{
+    double seconds[SHOTS_MAX];
+    CodeMatrices matrices[SHOTS_MAX];
+    Shots *shots = &session->shots;
+    for (int i = 0; i < shots->count; i++)
+        seconds[i] = shots->shots[i].probe.seconds;
+    const bool done = code_matrices(session->lab, text, session->options->scratch, seconds,
+                                    shots->count, matrices, session->verdict, message);
+    session->settled = !done && !message->text[0];
+    for (int i = 0; i < shots->count && done; i++) {
+        shots->world_from_object[i] = matrices[i].world_from_model;
+        shots->normal_matrix[i] = matrices[i].normal_matrix;
+    }
+    return done || session->settled;
+}
+
+static bool take_code(Session *session, Message *message)
+{
+    const Lab *lab = session->lab;
+    const char *text = lab->code ? submission_file(&session->files, lab->code) : NULL;
+    if (!text)
+        return true;
+    if (lab->given)
+        return take_matrices(session, text, message);
+    const bool done = code_budget(lab, text, session->options->scratch, &session->budget,
+                                  session->verdict, message);
+    session->settled = !done && !message->text[0];
+    if (!done)
+        return session->settled;
+    session->shots.geometry.cull = session->budget.cull;
+    return shots_use_sphere(&session->shots, session->budget.slices, session->budget.stacks,
+                            message);
+}
+
+/* Draws a right submission again with its own precision: far away or, in labs whose fragment
+ * shaders have the lecture's mediump, the same scenes. */
+static bool look_at_precision(Session *session, Message *message)
+{
+    const Lab *lab = session->lab;
+    const Painter painter = {.lab = lab, .program = session->own.program};
+    if (lab->given || lab->budget)
+        return true;
+    if (lab->either)
+        return shots_draw_own(&session->shots, &painter, &session->canvas, message);
+    return shots_draw_huge(&session->shots, session->verdict->seed, &painter, &session->canvas,
+                           message);
+}
+
+/* Right in 32 bits counts as right, minus a point. */
+static void note_overflow(Verdict *verdict)
+{
+    const Mistake *known = &MISTAKES[catalogue_find("mediump overflow")];
+    verdict_add_mistake(verdict, known->name, known->sentence, known->look, 0.9);
+    verdict->points -= 1;
+    snprintf(verdict->message, sizeof verdict->message, "Right except in large scenes: %s",
+             known->name);
+}
+
+/* Lab 10: whether the picture is right with a fine mesh, or with highp. */
+static bool is_right_with(Session *session, int slices, const char *precision, bool *right,
+                          Message *message)
+{
+    Shader shader = {0};
+    const bool compiled =
+        submission_compile(&shader, session->lab, &session->files, precision, NULL);
+    const Painter painter = {.lab = session->lab, .program = shader.program};
+    Shots *shots = &session->shots;
+    *right = false;
+    const int stacks = slices ? slices : session->budget.stacks;
+    bool done = !compiled || (shots_use_sphere(shots, slices ? slices : session->budget.slices,
+                                               stacks, message) &&
+                              shots_draw(shots, &painter, &session->canvas, message));
+    for (int i = 0; i < shots->count && done && compiled; i++)
+        *right = (i == 0 || *right) &&
+                 shots_error(shots, i, shots->truth).maximum <= shots_tolerance(shots, i);
+    shader_close(&shader);
+    return done;
+}
+
+static void blame_known(Verdict *verdict, const char *name)
+{
+    const Mistake *known = &MISTAKES[catalogue_find(name)];
+    verdict_add_mistake(verdict, known->name, known->sentence, known->look, 0.9);
+    snprintf(verdict->message, sizeof verdict->message, "%s", known->name);
+}
+
+/* Lab 10: a mesh that is too coarse, or mediump. *found: it is one of these. */
+static bool look_at_budget(Session *session, bool *found, Message *message)
+{
+    enum { FINE = 256 };
+    *found = false;
+    if (!session->lab->budget)
+        return true;
+    if (!is_right_with(session, FINE, NULL, found, message))
+        return false;
+    if (*found)
+        blame_known(session->verdict, "mesh too coarse");
+    else if (!is_right_with(session, 0, "highp", found, message))
+        return false;
+    else if (*found)
+        blame_known(session->verdict, "mediump too coarse");
+    /* As it was. */
+    const Painter painter = {.lab = session->lab, .program = session->shader.program};
+    return shots_use_sphere(&session->shots, session->budget.slices, session->budget.stacks,
+                            message) &&
+           shots_draw(&session->shots, &painter, &session->canvas, message);
+}
+
+/* Says why the submission is wrong. */
+static bool explain(Session *session, const Painter *painter, const char *numbers, Message *message)
+{
+    Verdict *verdict = session->verdict;
+    bool found;
+    if (text_is_starter(session->lab, &session->files)) {
+        snprintf(verdict->message, sizeof verdict->message, "unchanged: this is the starter");
+        return true;
+    }
+    if (numbers[0] && session->lab->budget) {
+        blame_known(verdict, "depends on the picture's size");
+        verdict_add_symptom(verdict, "%s", numbers);
+        return true;
+    }
+    if (!session->lab->given &&
+        text_find_fault(session->lab, &session->files, session->own.program, verdict))
+        return diagnose_symptoms(&session->shots, painter, &session->canvas, verdict, message);
+    if (!diagnose(&session->shots, painter, &session->canvas, verdict, message))
+        return false;
+    /* A mistake with a name is more than a mesh that would hide it. */
+    if (verdict->mistake_count == 0 && !look_at_budget(session, &found, message))
+        return false;
+    if (session->lab->given && verdict->mistake_count == 0)
+        matrices_name(&session->shots, verdict);
+    if (!session->lab->given && verdict->mistake_count == 0)
+        text_find_suspicion(session->lab, &session->files, verdict);
+    if (numbers[0])
+        verdict_add_symptom(verdict, "%s", numbers);
+    return true;
+}
+
+/* What the pictures' insides do not show: lab 3's numbers, and the outline. */
+static bool look_closer(Session *session, const Painter *painter, int worst, bool *wrong,
+                        char numbers[VERDICT_SENTENCE_SIZE], Message *message)
+{
+    numbers[0] = '\0';
+    bool right = true;
+    *wrong = session->lab->given && !matrices_are_right(&session->shots, numbers);
+    if (session->lab->budget && !shots_check_sizes(&session->shots, session->options->seed, painter,
+                                                   &session->canvas, &right, message))
+        return false;
+    if (!right && worst < 0) {
+        *wrong = true;
+        snprintf(numbers, VERDICT_SENTENCE_SIZE,
+                 "The picture is right at small sizes only: it depends on the picture's size or "
+                 "place, as by gl_FragCoord.");
+        return true;
+    }
+    return session->lab->given ||
+           diagnose_outline(&session->shots, painter, &session->canvas, wrong, message);
+}
+
+void judge_limit(rlim_t seconds)
+{
+    struct rlimit limit;
+    if (getrlimit(RLIMIT_CPU, &limit) != 0)
+        return;
+    limit.rlim_cur = seconds < limit.rlim_max ? seconds : limit.rlim_max;
+    setrlimit(RLIMIT_CPU, &limit);
+}
+
+static bool judge_pictures(Session *session, Message *message)
+{
+    Verdict *verdict = session->verdict;
+    const Painter painter = {.lab = session->lab, .program = session->shader.program};
+    char numbers[VERDICT_SENTENCE_SIZE];
+    bool outside;
+    if (!shots_draw(&session->shots, &painter, &session->canvas, message))
+        return false;
+    judge_limit(RLIM_INFINITY);
+    int worst = add_probes(&session->shots, verdict);
+    if (!look_closer(session, &painter, worst, &outside, numbers, message))
+        return false;
+    const bool wrong = worst >= 0 || outside;
+    verdict->kind = wrong ? VERDICT_WRONG : VERDICT_RIGHT;
+    if (!wrong) {
+        if (!look_at_precision(session, message))
+            return false;
+        verdict->probe_count = 0;
+        worst = add_probes(&session->shots, verdict);
+        snprintf(verdict->message, sizeof verdict->message, "Right in all %d scenes",
+                 verdict->probe_count);
+    } else if (!explain(session, &painter, numbers, message)) {
+        return false;
+    }
+    verdict_score(verdict);
+    if (!wrong && worst >= 0)
+        note_overflow(verdict);
+    if (session->lab->budget && !budget_score(&session->budget, session->shader.program,
+                                              &session->canvas, &session->plain, verdict, message))
+        return false;
+    if (worst < 0 || !session->options->pictures)
+        return true;
+    snprintf(verdict->picture, sizeof verdict->picture, "%s", JUDGE_WORST);
+    return judge_worst(&session->shots, worst, session->options->pictures, message);
+}
+
+static bool judge_submission(Session *session, Message *message)
+{
+    const CanvasOptions canvas = {.backend = session->options->backend, .width = 96, .height = 96};
+    bool done = open_files(session);
+    if (done && !session->settled)
+        done = shots_open(&session->shots, session->lab, session->options->seed, message) &&
+               take_code(session, message);
+    if (done && !session->settled)
+        done = canvas_open(&session->canvas, &canvas, message) && open_shader(session, message);
+    if (done && !session->settled)
+        done = judge_pictures(session, message);
+    return done;
+}
+
+bool judge(const JudgeOptions *options, Verdict *verdict, Message *message)
+{
+    const double start = clock_now();
+    *verdict = (Verdict){.seed = options->seed};
+    Session session = {.options = options, .lab = options->lab, .verdict = verdict};
+    const bool done = judge_submission(&session, message);
+    shots_close(&session.shots);
+    shader_close(&session.shader);
+    shader_close(&session.own);
+    submission_files_close(&session.plain);
+    canvas_close(&session.canvas);
+    submission_files_close(&session.files);
+    verdict->seconds = clock_now() - start;
+    return done;
+}
+
+bool judge_expected(const Lab *lab, const char *path, Message *message)
+{
+    enum { SIZE = 400 };
+    Probe probe;
+    Reference exact = {.width = 0};
+    Image image = {0};
+    Object objects[PROBE_MAX_OBJECTS];
+    const ReferenceOptions options = {.width = SIZE, .height = SIZE, .meshes = !lab->budget};
+    if (!probe_open_usual(&probe, lab, 1, message))
+        return false;
+    const Scene scene = shots_truth_scene(lab, &probe, 0, objects);
+    const ImageOptions file = {.compress = 9};
+    const bool done = reference_open(&exact, &scene, &options, message) &&
+                      judge_exact_image(&exact, &image, message) &&
+                      image_write(&image, path, &file, message);
+    image_close(&image);
+    reference_close(&exact);
+    probe_close(&probe);
+    return done;
+}

@@ -1,0 +1,90 @@
+#include "labs/check/judge_pictures.h"
+
+#include "base/output.h"
+#include "images/image_file.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { SPACE = 8 };
+
+/* A difference is brightened so that the largest is white, but a step is at most this: rounding
+ * must not look like a mistake. */
+static const double MAX_GAIN = 16;
+
+bool judge_exact_image(const Reference *exact, Image *image, Message *message)
+{
+    if (!image_open(image, exact->width, exact->height, IMAGE_BYTE, message))
+        return false;
+    unsigned char *out = image->pixels;
+    const size_t count = (size_t)exact->width * (size_t)exact->height;
+    for (size_t i = 0; i < count; i++) {
+        for (size_t c = 0; c < 3; c++)
+            out[4 * i + c] = (unsigned char)lround(255 * (double)exact->color[3 * i + c]);
+        out[4 * i + 3] = 255;
+    }
+    return true;
+}
+
+/* |a - b|, brightened. */
+static bool make_difference(const Image *a, const Image *b, const Reference *exact,
+                            Image *difference, Message *message)
+{
+    if (!image_open(difference, a->width, a->height, IMAGE_BYTE, message))
+        return false;
+    const unsigned char *p = a->pixels, *q = b->pixels;
+    unsigned char *out = difference->pixels;
+    int largest = 1;
+    for (size_t i = 0; i < 4 * (size_t)a->width * (size_t)a->height; i++)
+        if (i % 4 < 3 && exact->interior[i / 4] && abs(p[i] - q[i]) > largest)
+            largest = abs(p[i] - q[i]);
+    const double gain = fmin(255.0 / largest, MAX_GAIN);
+    for (size_t i = 0; i < 4 * (size_t)a->width * (size_t)a->height; i++) {
+        const bool counts =
+            exact->interior[i / 4] || (exact->object[i / 4] < 0 && exact->coverage[i / 4] >= 1);
+        out[i] = i % 4 == 3 ? 255 : counts ? (unsigned char)fmin(gain * abs(p[i] - q[i]), 255) : 0;
+    }
+    return true;
+}
+
+/* Copies a picture into a larger one, each pixel as a square. */
+static void paste(const Image *from, int times, int left, Image *to)
+{
+    for (int y = 0; y < times * from->height; y++) {
+        for (int x = 0; x < times * from->width; x++) {
+            const size_t source = (size_t)(y / times) * (size_t)from->width + (size_t)(x / times);
+            const size_t target = (size_t)y * (size_t)to->width + (size_t)(left + x);
+            memcpy((unsigned char *)to->pixels + 4 * target,
+                   (const unsigned char *)from->pixels + 4 * source, 4);
+        }
+    }
+}
+
+bool judge_worst(const Shots *shots, int number, const char *folder, Message *message)
+{
+    const Shot *shot = &shots->shots[number];
+    Image exact = {0}, difference = {0}, sheet = {0};
+    char path[PATH_MAX];
+    const int width = shot->image.width, height = shot->image.height;
+    const int times = width < 100 ? 3 : width < 200 ? 2 : 1;
+    bool done =
+        judge_exact_image(&shot->truths[shots->truth], &exact, message) &&
+        make_difference(&shot->image, &exact, &shot->truths[shots->truth], &difference, message) &&
+        image_open(&sheet, 3 * times * width + 2 * SPACE, times * height, IMAGE_BYTE, message);
+    if (done) {
+        memset(sheet.pixels, 255, image_row_size(&sheet) * (size_t)sheet.height);
+        paste(&shot->image, times, 0, &sheet);
+        paste(&exact, times, times * width + SPACE, &sheet);
+        paste(&difference, times, 2 * (times * width + SPACE), &sheet);
+        if (snprintf(path, sizeof path, "%s/%s", folder, JUDGE_WORST) >= (int)sizeof path)
+            done = message_set(message, "%s: the path is too long", folder);
+    }
+    const ImageOptions options = {.compress = IMAGE_COMPRESS_DEFAULT};
+    done = done && output_folder(folder, message) && image_write(&sheet, path, &options, message);
+    image_close(&exact);
+    image_close(&difference);
+    image_close(&sheet);
+    return done;
+}

@@ -1,0 +1,82 @@
+#include "labs/class/class_options.h"
+
+#include "app/arguments.h"
+#include "app/help.h"
+#include "base/parse.h"
+#include "labs/sandbox/sandbox.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+/* "3/8". */
+static bool read_part(const Parameter *parameter, const char *text, Message *message)
+{
+    ClassOptions *options = parameter->value;
+    char first[16];
+    const int length = (int)strcspn(text, "/");
+    snprintf(first, sizeof first, "%.*s", length, text);
+    return (length < 15 && text[length] &&
+            parse_whole(text + length + 1, 1, CLASS_PARTS_MAX, &options->parts) &&
+            parse_whole(first, 1, options->parts, &options->part)) ||
+           message_set(message, "--part %s: must be K/N, 1/N to N/N, as in 3/8", text);
+}
+
+bool class_options_read(ClassOptions *options, int argc, char *argv[], Message *message)
+{
+    const long processors = sysconf(_SC_NPROCESSORS_ONLN);
+    const Parameter *answer;
+    int limit = 10, seed = 1;
+    bool merge = false;
+    *options = (ClassOptions){.output = "results",
+                              .jobs = processors < 1                ? 1
+                                      : processors > CLASS_JOBS_MAX ? CLASS_JOBS_MAX
+                                                                    : (int)processors,
+                              .part = 1,
+                              .parts = 1};
+    const Parameter table[] = {
+        {"class",
+         "judge every submission in DIR: folders, archives or files, one for each student, as "
+         "people or learning platforms name them; each in a sandboxed process",
+         PARAMETER_TEXT, &options->folder, .min = 1, .placeholder = "DIR", .standard = ""},
+        {"lab", "which lab; default: the one that the names in DIR say", PARAMETER_TEXT,
+         &options->lab, .placeholder = "LAB"},
+        {"output",
+         "the folder for results. A run continues an interrupted one: what is finished is judged "
+         "again only if the submission has changed",
+         PARAMETER_TEXT, &options->output, .min = 1, .letter = 'o', .placeholder = "OUT"},
+        {"jobs", "submissions at a time", PARAMETER_WHOLE, &options->jobs, 1, CLASS_JOBS_MAX,
+         .placeholder = "N", .standard = "one for each processor"},
+        {"limit", "computing time for each submission", PARAMETER_WHOLE, &limit, 1,
+         SANDBOX_SECONDS_MAX, .placeholder = "SECONDS"},
+        {"seed", "of the scenes that the students do not know", PARAMETER_WHOLE, &seed, 0,
+         2147483647, .placeholder = "N"},
+        {"part", "only the K-th of N parts; -o another folder for each part", PARAMETER_TEXT,
+         options, .placeholder = "K/N", .read = read_part},
+        {"merge", "join the results in the folders that are named", PARAMETER_FLAG,
+         .value = &merge},
+        {"again", "judge everything again; a worse result replaces none", PARAMETER_FLAG,
+         .value = &options->again},
+        {"help", "print this text", PARAMETER_FLAG, .letter = 'h'},
+        {.name = NULL},
+    };
+    if (!arguments_read(table, argc, argv, &answer, message))
+        return false;
+    options->limit = limit;
+    options->seed = (uint64_t)seed;
+    options->merged = argv + 1;
+    options->help = answer != NULL;
+    if (answer) {
+        printf("A whole class:  check --class DIR [options]\n"
+               "                check --merge DIR... -o OUT\n");
+        help_options(table);
+        return true;
+    }
+    if (merge && options->folder)
+        return message_set(message, "--class and --merge: one of them");
+    if (merge && !argv[1])
+        return message_set(message, "--merge: needs the folders to merge");
+    if (!merge && argv[1])
+        return message_set(message, "%s: not an option; --class takes one folder", argv[1]);
+    return true;
+}

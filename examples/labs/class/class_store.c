@@ -1,0 +1,303 @@
+#include "labs/class/class_store.h"
+
+#include "base/output.h"
+#include "labs/sandbox/png_copy.h"
+#include "labs/submission/verdict_json.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { FILE_MAX = 4 << 20 }; /* bytes */
+
+bool class_store_path(const char *store, const char *folder, const char *name, char path[PATH_MAX],
+                      Message *message)
+{
+    if (snprintf(path, PATH_MAX, "%s/students%s%s%s%s", store, folder ? "/" : "",
+                 folder ? folder : "", name ? "/" : "", name ? name : "") >= PATH_MAX)
+        return message_set(message, "%s: %s", store, strerror(ENAMETOOLONG));
+    return true;
+}
+
+/* The bytes of a file, which the caller frees; NULL, with a message: failed. */
+static unsigned char *read_file(const char *path, size_t *size, Message *message)
+{
+    struct stat status;
+    unsigned char *bytes = NULL;
+    const int file = open(path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (file < 0) {
+        message_set(message, "%s: %s", path, strerror(errno));
+        return NULL;
+    }
+    if (fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_size <= FILE_MAX)
+        bytes = malloc((size_t)status.st_size + 1);
+    *size = bytes ? (size_t)status.st_size : 0;
+    if (bytes && read(file, bytes, *size) != (ssize_t)*size) {
+        free(bytes);
+        bytes = NULL;
+    }
+    close(file);
+    if (!bytes)
+        message_set(message, "%s: cannot be read", path);
+    return bytes;
+}
+
+static bool from_json(const json_t *object, ClassResult *result, Message *message)
+{
+    char hash[32];
+    double when = 0;
+    if (!verdict_from_json(object, result->lab, &result->verdict, message) ||
+        !verdict_text(object, "student", result->student, sizeof result->student, message) ||
+        !verdict_text(object, "id", result->id, sizeof result->id, message) ||
+        !verdict_text(object, "hash", hash, sizeof hash, message) ||
+        !verdict_number(object, "limit", 0, 1e9, &result->limit, message) ||
+        !verdict_number(object, "when", 0, 1e15, &when, message))
+        return false;
+    result->hash = strtoull(hash, NULL, 16);
+    result->when = (long long)when;
+    result->finished = json_is_true(json_object_get(object, "finished"));
+    return true;
+}
+
+static bool read_result(const char *path, ClassResult *result, Message *message)
+{
+    json_error_t error;
+    size_t size;
+    Message why = {.text = ""};
+    unsigned char *bytes = read_file(path, &size, message);
+    if (!bytes)
+        return false;
+    json_t *object = json_loadb((const char *)bytes, size, JSON_REJECT_DUPLICATES, &error);
+    const bool done = object && from_json(object, result, &why);
+    json_decref(object);
+    free(bytes);
+    return done ? true
+                : message_set(message, "%s: not a valid result, judging again: %s", path,
+                              object ? why.text : error.text);
+}
+
+static bool add(ClassStore *store, const ClassResult *result, Message *message)
+{
+    ClassResult *results =
+        realloc(store->results, ((size_t)store->count + 1) * sizeof *store->results);
+    if (!results)
+        return message_set(message, "%s", strerror(ENOMEM));
+    store->results = results;
+    int at = store->count++;
+    for (; at > 0 && strcmp(results[at - 1].folder, result->folder) > 0; at--)
+        results[at] = results[at - 1];
+    results[at] = *result;
+    return true;
+}
+
+static bool read_one(ClassStore *store, const char *name, Message *notes, Message *message)
+{
+    char path[PATH_MAX];
+    Message why = {.text = ""};
+    ClassResult *result = calloc(1, sizeof *result);
+    bool done = result && class_store_path(store->folder, name, "result.json", path, message);
+    if (!result)
+        message_set(message, "%s", strerror(ENOMEM));
+    if (done && access(path, F_OK) == 0) {
+        memcpy(result->folder, name, strlen(name) + 1);
+        if (read_result(path, result, &why))
+            done = add(store, result, message);
+        else if (notes)
+            message_add(notes, "%s%s", notes->text[0] ? "\n" : "", why.text);
+    }
+    free(result);
+    return done;
+}
+
+bool class_store_read(ClassStore *store, const char *folder, Message *notes, Message *message)
+{
+    char path[PATH_MAX];
+    struct dirent **entries;
+    *store = (ClassStore){.lock = -1};
+    if (strlen(folder) >= sizeof store->folder)
+        return message_set(message, "%s: %s", folder, strerror(ENAMETOOLONG));
+    memcpy(store->folder, folder, strlen(folder) + 1);
+    if (!class_store_path(folder, NULL, NULL, path, message))
+        return false;
+    const int count = scandir(path, &entries, NULL, alphasort);
+    if (count < 0)
+        return message_set(message, "%s: %s; name a folder that check --class wrote", path,
+                           strerror(errno));
+    bool done = true;
+    for (int i = 0; i < count; i++) {
+        if (entries[i]->d_name[0] != '.' && strlen(entries[i]->d_name) < CLASS_FOLDER_SIZE)
+            done = done && read_one(store, entries[i]->d_name, notes, message);
+        free(entries[i]);
+    }
+    free(entries);
+    if (!done)
+        class_store_close(store);
+    return done;
+}
+
+bool class_store_open(ClassStore *store, const char *folder, Message *notes, Message *message)
+{
+    char path[PATH_MAX];
+    *store = (ClassStore){.lock = -1};
+    if (!class_store_path(folder, NULL, NULL, path, message) || !output_folder(folder, message) ||
+        !output_folder(path, message))
+        return false;
+    if (snprintf(path, sizeof path, "%s/.lock", folder) >= (int)sizeof path)
+        return message_set(message, "%s: %s", folder, strerror(ENAMETOOLONG));
+    const int lock = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+    if (lock < 0)
+        return message_set(message, "%s: %s", path, strerror(errno));
+    if (flock(lock, LOCK_EX | LOCK_NB) != 0) {
+        const int error = errno;
+        close(lock);
+        return error == EWOULDBLOCK
+                   ? message_set(message,
+                                 "%s: another run writes there; wait for it, or choose another "
+                                 "folder with -o and combine them with --merge",
+                                 folder)
+                   : message_set(message, "%s: %s", path, strerror(error));
+    }
+    if (!class_store_read(store, folder, notes, message)) {
+        close(lock);
+        return false;
+    }
+    store->lock = lock;
+    return true;
+}
+
+ClassResult *class_store_find(const ClassStore *store, const char *folder)
+{
+    for (int i = 0; i < store->count; i++)
+        if (strcmp(store->results[i].folder, folder) == 0)
+            return &store->results[i];
+    return NULL;
+}
+
+bool class_result_stands(const ClassResult *result, const char *lab, uint64_t hash, double limit)
+{
+    return result && result->hash == hash && strcmp(result->lab, lab) == 0 &&
+           (result->finished ||
+            (result->verdict.kind == VERDICT_TIMEOUT && result->limit >= limit));
+}
+
+bool class_result_is_worse(const ClassResult *next, const ClassResult *old)
+{
+    if (next->hash != old->hash || strcmp(next->lab, old->lab) != 0)
+        return false;
+    if (next->finished != old->finished)
+        return old->finished;
+    return next->verdict.points < old->verdict.points;
+}
+
+static bool write_result(const char *path, const ClassResult *result, Message *message)
+{
+    char hash[32];
+    snprintf(hash, sizeof hash, "%016" PRIx64, result->hash);
+    json_t *object = verdict_to_json(&result->verdict, result->lab);
+    json_t *own = json_pack("{s:s, s:s, s:s, s:b, s:f, s:I}", "student", result->student, "id",
+                            result->id, "hash", hash, "finished", (int)result->finished, "limit",
+                            result->limit, "when", (json_int_t)result->when);
+    char *text = object && own && json_object_update(object, own) == 0
+                     ? json_dumps(object, JSON_INDENT(2) | JSON_REAL_PRECISION(9))
+                     : NULL;
+    json_decref(object);
+    json_decref(own);
+    const bool done = text ? output_write(path, text, strlen(text), message)
+                           : message_set(message, "%s: %s", path, strerror(ENOMEM));
+    free(text);
+    return done;
+}
+
+/* Writes the result's picture; if it is invalid, the result names none. */
+static bool write_picture(const ClassStore *store, ClassResult *result, const Bundle *files,
+                          Message *message)
+{
+    char path[PATH_MAX];
+    Verdict *verdict = &result->verdict;
+    const BundleFile *file =
+        files && verdict->picture[0] ? bundle_find(files, verdict->picture) : NULL;
+    size_t size = file ? file->size : 0;
+    if (!file || !png_copy(file->bytes, &size, NULL)) {
+        verdict->picture[0] = '\0';
+        return true;
+    }
+    return class_store_path(store->folder, result->folder, verdict->picture, path, message) &&
+           output_write(path, file->bytes, size, message);
+}
+
+bool class_store_put(ClassStore *store, const ClassResult *result, const Bundle *files, bool *kept,
+                     Message *message)
+{
+    char path[PATH_MAX];
+    ClassResult *old = class_store_find(store, result->folder), *next = malloc(sizeof *next);
+    if (!next)
+        return message_set(message, "%s", strerror(ENOMEM));
+    *next = *result;
+    const bool keep = !old || !class_result_is_worse(next, old);
+    bool done =
+        !keep || (class_store_path(store->folder, next->folder, NULL, path, message) &&
+                  output_folder(path, message) && write_picture(store, next, files, message) &&
+                  class_store_path(store->folder, next->folder, "result.json", path, message) &&
+                  write_result(path, next, message));
+    if (done && keep && old)
+        *old = *next;
+    else if (done && keep)
+        done = add(store, next, message);
+    if (kept)
+        *kept = keep;
+    free(next);
+    return done;
+}
+
+/* Reads the picture of another folder's result, if there is one. */
+static bool read_picture(const ClassStore *from, const ClassResult *result, Bundle *files,
+                         Message *message)
+{
+    char path[PATH_MAX];
+    size_t size;
+    if (!result->verdict.picture[0])
+        return true;
+    if (!class_store_path(from->folder, result->folder, result->verdict.picture, path, message))
+        return false;
+    unsigned char *bytes = read_file(path, &size, NULL);
+    const bool done = !bytes || bundle_add(files, result->verdict.picture, bytes, size, message);
+    free(bytes);
+    return done;
+}
+
+bool class_store_merge(ClassStore *store, const ClassStore *from, Message *message)
+{
+    Bundle *files = calloc(1, sizeof *files);
+    bool done = files ? true : message_set(message, "%s", strerror(ENOMEM));
+    for (int i = 0; i < from->count && done; i++) {
+        const ClassResult *next = &from->results[i];
+        const ClassResult *old = class_store_find(store, next->folder);
+        if (store->count > 0 && strcmp(store->results[0].lab, next->lab) != 0) {
+            done = message_set(message, "%s: has results of %s, but %s has those of %s",
+                               from->folder, next->lab, store->folder, store->results[0].lab);
+        } else if (!old || old->hash == next->hash || old->when <= next->when) {
+            done = read_picture(from, next, files, message) &&
+                   class_store_put(store, next, files, NULL, message);
+            bundle_close(files);
+        }
+    }
+    bundle_close(files);
+    free(files);
+    return done;
+}
+
+void class_store_close(ClassStore *store)
+{
+    if (!store)
+        return;
+    free(store->results);
+    if (store->lock > 0)
+        close(store->lock);
+    *store = (ClassStore){.lock = -1};
+}

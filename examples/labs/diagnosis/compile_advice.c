@@ -1,0 +1,118 @@
+#include "labs/diagnosis/compile_advice.h"
+
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+#define PRECISION "Floats have no default precision here: add `precision highp float;` at the top."
+#define BRACE "A closing brace } is missing."
+#define NO_TEXTURES "This lab has no textures."
+#define SHORTEN "use .xyz or .rgb of the longer one, or vec4(..., 1.0) of the shorter one."
+#define SPELLING "This name is not declared: check its spelling and case"
+#define VARYING "Declare the varying in both shaders with the same name and type"
+
+/* The line contains both parts, in this order. Special cases come first. */
+static const struct {
+    const char *part, *then, *advice;
+} ADVICE[] = {
+    {"No precision specified", "", PRECISION},
+    {"has no declared precision", "", PRECISION},
+    {"could not implicitly convert", "",
+     "The two sides have different types, and GLSL ES never converts: write vec3(...) or vec4(...), "
+     "and 2.0 instead of 2."},
+    {"type mismatch", "int", "GLSL ES does not convert int to float: write 2.0 instead of 2."},
+    {"operands to arithmetic operators must be numeric", "",
+     "An operand is not a number: check whether a name is a function or a bool."},
+    {"vector size mismatch", "",
+     "Vectors of different sizes cannot be added or multiplied: " SHORTEN},
+    {"vector", "mismatch", "Vectors of different sizes: " SHORTEN},
+    {"size mismatch for matrix", "",
+     "A mat4 multiplies a vec4: write vec4(position, 1.0), or vec4(normal, 0.0) for a direction."},
+    {"no matching function for call to `max(", "",
+     "max takes two numbers of the same type: write max(x, 0.0), not max(x, 0)."},
+    {"no matching function for call to `pow(", "",
+     "pow takes two floats: write pow(x, 2.0), not pow(x, 2)."},
+    {"no matching function for call to", "vec",
+     "No function of this name takes these arguments: count the components, and write 1.0 instead "
+     "of 1."},
+    {"no matching function", "",
+     "No function of this name takes these types: write 0.0 instead of 0, and vectors of equal "
+     "size."},
+    {"too few components", "",
+     "Count the components: a vec4 needs four numbers, or vec4(rgb, 1.0) from a vec3."},
+    {"too many components", "",
+     "Count the components: a vec3 needs three numbers or one vec3; use .xyz or .rgb."},
+    {"cannot construct", "", "A value in the parentheses is not a number: check each name."},
+    {"cannot access field", "",
+     "Only vectors have components (.xyzw or .rgba), and only as many as their size."},
+    {"illegal use of reserved word", "",
+     "This word belongs to C or a later GLSL: GLSL ES 1.00 has float, int, bool, vec, mat."},
+    {"must be declared at global scope", "",
+     "Declare attributes, uniforms and varyings outside all functions, above main."},
+    {"no function with name 'texture'", "", NO_TEXTURES},
+    {"no function with name", "", "There is no such function: check its spelling."},
+    {"undeclared", "", SPELLING "; declare a varying or uniform in each shader that uses it."},
+    {"redeclar", "", "This name is declared twice: remove one declaration, or only its type."},
+    {"value of type", "cannot be assigned",
+     "The value and the variable have different types: a vec4 does not fit into a vec3; use .xyz or "
+     ".rgb."},
+    {"initializer of type", "cannot be assigned",
+     "The value and the variable have different types: write 1.0 instead of 1, and .xyz or .rgb of "
+     "a vec4."},
+    {"assignment to", "read-only",
+     "Uniforms, attributes and, in the fragment shader, varyings are read-only: copy the value to a "
+     "variable of your own."},
+    {"`in' qualifier", "", "`in` and `out` belong to a later GLSL: use attribute and varying."},
+    {"texture", "", NO_TEXTURES},
+    {"swizzle", "", "This vector has no such component: .xyzw or .rgba, up to its size."},
+    {"does not write to", "gl_Position",
+     "The vertex shader must set gl_Position, the fragment shader gl_FragColor."},
+    {"unexpected $end", "", BRACE},
+    {"unexpected end", "", BRACE},
+    {"unexpected NEW_IDENTIFIER", "",
+     "Check the end of the line before too: a semicolon is missing, or a type is misspelled."},
+    {"unexpected IDENTIFIER", "",
+     "Check the end of the line before too: usually a semicolon is missing."},
+    {"syntax error", "",
+     "Check the line before too: usually a semicolon, bracket or operator is missing."},
+    {"not linked", "declared", "Declare it the same way in both shaders."},
+    {"linking", "but fragment shader input declared", VARYING "."},
+    {"linking", "has no matching output",
+     "The vertex shader has no varying of this name: compare the names in both files."},
+    {"linking", "varying", VARYING ", and set it in the vertex shader."},
+    {"not written", "",
+     "The fragment shader reads a varying that the vertex shader lacks: compare the names."},
+    {"not declared", "", SPELLING "."},
+    {"must be", "constant",
+     "In GLSL ES 1.00 loop bounds and, in the fragment shader, array indices must be constant."},
+    {"only #version 100", "", "Remove the #version line, or write #version 100."},
+    {"no such file beside it", "", "A submission may include only files from its own folder."},
+    {"is empty", "", "This file is empty."},
+    {"lacks `main'", "", "Each of the two files needs a function `void main()`."},
+    {"static recursion", "", "A GLSL function must not call itself: use a loop."},
+    {"memory exhausted", "", "An expression is nested too deeply."},
+    {"linking", "", "The two shaders do not match: compare what both declare."},
+};
+
+/* The line of the first error: later ones are candidates or consequences. */
+static void first_error(const char *message, char *line, size_t size)
+{
+    const char *start = strstr(message, "error: ");
+    while (start && start > message && start[-1] != '\n')
+        start--;
+    if (!start)
+        start = message;
+    snprintf(line, size, "%.*s", (int)strcspn(start, "\n"), start);
+}
+
+const char *compile_advice(const char *message)
+{
+    char line[1024];
+    first_error(message, line, sizeof line);
+    for (size_t i = 0; i < sizeof ADVICE / sizeof ADVICE[0]; i++) {
+        const char *part = strstr(line, ADVICE[i].part);
+        if (part && strstr(part, ADVICE[i].then))
+            return ADVICE[i].advice;
+    }
+    return NULL;
+}

@@ -1,0 +1,251 @@
+#include "labs/diagnosis/diagnose.h"
+
+#include "labs/diagnosis/suspects.h"
+#include "labs/diagnosis/symptoms.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Further scenes: always two; more if several suspects match, or one nearly matches. */
+enum { ALWAYS_FURTHER = 2, MAX_FURTHER = 17, NEAR_FURTHER = 7 };
+static const uint64_t FURTHER_SEED = 0x0F0E0D0C0B0A0908u;
+
+/* Of names given to work that was never seen while this was written: see TEACHING.md. */
+static const double SURE = 0.9, LESS_SURE = 0.75;
+
+/* A single mistake that leaves less than this share needs no number tried. */
+static const double EXACT = 0.003;
+
+static bool same_names(const Suspect *a, const Suspect *b)
+{
+    return (a->mistakes[0] == b->mistakes[0] && a->mistakes[1] == b->mistakes[1]) ||
+           (a->mistakes[0] == b->mistakes[1] && a->mistakes[1] == b->mistakes[0]);
+}
+
+/* Keeps one suspect of each name or pair of names. */
+static void unite(Suspect *suspects, int *count)
+{
+    int kept = 0;
+    for (int i = 0; i < *count; i++) {
+        bool known = false;
+        for (int k = 0; k < kept; k++)
+            known |= same_names(&suspects[k], &suspects[i]);
+        if (!known)
+            suspects[kept++] = suspects[i];
+    }
+    *count = kept;
+}
+
+static bool all_same(const Suspect *suspects, int count)
+{
+    for (int i = 1; i < count; i++)
+        if (!same_names(&suspects[0], &suspects[i]))
+            return false;
+    return true;
+}
+
+static bool tell_apart(Lineup *lineup, uint64_t seed, Suspect *suspects, int *count, bool near,
+                       Message *message)
+{
+    static const ProbeKind kinds[] = {PROBE_ALONG,  PROBE_AGAINST, PROBE_MOVED, PROBE_CROWD,
+                                      PROBE_BEHIND, PROBE_COARSE,  PROBE_WIDE};
+    enum { KINDS = sizeof kinds / sizeof kinds[0] };
+    /* The submission's C gave no matrices for other times. */
+    if (lineup->shots->lab->given)
+        return true;
+    for (int i = 0; *count > 0 && i < MAX_FURTHER; i++) {
+        Probe probe;
+        if (i >= ALWAYS_FURTHER && (!near || i >= NEAR_FURTHER) && all_same(suspects, *count))
+            break;
+        if (!probe_open_seed(&probe, lineup->shots->lab, kinds[i % KINDS],
+                             (seed ^ FURTHER_SEED) + (uint64_t)i, message))
+            return false;
+        const bool done = lineup_confront(lineup, &probe, suspects, count, message);
+        probe_close(&probe);
+        if (!done)
+            return false;
+    }
+    return true;
+}
+
+static void add(Verdict *verdict, int mistake, double sure)
+{
+    const Mistake *known = &MISTAKES[mistake];
+    verdict_add_mistake(verdict, known->name, known->sentence, known->look, sure);
+}
+
+/* The mistake common to all suspects; -1: none. */
+static int common_mistake(const Suspect *suspects, int count)
+{
+    for (int k = 0; k < 2; k++) {
+        const int mistake = suspects[0].mistakes[k];
+        bool in_all = mistake >= 0;
+        for (int i = 1; i < count; i++)
+            in_all &= suspects[i].mistakes[0] == mistake || suspects[i].mistakes[1] == mistake;
+        if (in_all)
+            return mistake;
+    }
+    return -1;
+}
+
+/* Names the suspects that are left; false if they are too many or none. */
+static bool name(Verdict *verdict, Suspect *suspects, int count, bool near)
+{
+    const double sure = near ? LESS_SURE : SURE;
+    unite(suspects, &count);
+    if (count == 0)
+        return false;
+    const int *first = suspects[0].mistakes, common = common_mistake(suspects, count);
+    const bool pair = first[1] >= 0;
+    if (count == 1) {
+        add(verdict, first[0], sure);
+        if (pair)
+            add(verdict, first[1], sure);
+        snprintf(verdict->message, sizeof verdict->message, "%s%s%s%s",
+                 pair ? "Two mistakes: " : "", MISTAKES[first[0]].name, pair ? "; " : "",
+                 pair ? MISTAKES[first[1]].name : "");
+        return true;
+    }
+    if (pair && common >= 0) {
+        add(verdict, common, LESS_SURE);
+        snprintf(verdict->message, sizeof verdict->message,
+                 "Two mistakes: %s; the other is unknown", MISTAKES[common].name);
+        return true;
+    }
+    if (pair || count > VERDICT_MAX_MISTAKES)
+        return false;
+    verdict->one_of = true;
+    for (int i = 0; i < count; i++)
+        add(verdict, suspects[i].mistakes[0], sure / count);
+    snprintf(verdict->message, sizeof verdict->message, "One of several mistakes that look alike");
+    return true;
+}
+
+/* Keeps the suspects that match in every scene. */
+static bool narrow(Lineup *lineup, uint64_t seed, Suspect *suspects, int *count, bool *near,
+                   Message *message)
+{
+    return lineup_screen(lineup, suspects, count, message) &&
+           lineup_verify(lineup, suspects, count, near, message) &&
+           (*count == 0 || tell_apart(lineup, seed, suspects, count, *near, message));
+}
+
+/* Pairs of single mistakes that move the outline if and only if the submission's is moved. */
+static Suspect *make_pairs(const Lineup *lineup, const Suspect *singles, int count, int *pairs)
+{
+    Suspect *made = malloc(((size_t)count * (size_t)count / 2 + 1) * sizeof *made);
+    *pairs = 0;
+    for (int i = 0; made && i < count; i++)
+        for (int k = i + 1; k < count; k++)
+            if (catalogue_pair(&singles[i], &singles[k], &made[*pairs]) &&
+                (lineup->shots->lab->given || catalogue_moves(&made[*pairs]) == lineup->moved))
+                (*pairs)++;
+    return made;
+}
+
+/* Tries the mistakes that are one wrong number. */
+static bool find_number(Lineup *lineup, Suspect *numbers, int *count, bool *near, Message *message)
+{
+    const Lab *lab = lineup->shots->lab;
+    if (lab->given) {
+        *count = 0;
+        return true;
+    }
+    for (int i = 0; i < *count; i++)
+        lineup_fit(lineup, &numbers[i]);
+    return lineup_verify(lineup, numbers, count, near, message);
+}
+
+/* Appends the number, which is the only suspect. */
+static void say_number(Verdict *verdict, const Suspect *number)
+{
+    const size_t used = strlen(verdict->message);
+    const Factor factor = number->choices.factor;
+    snprintf(verdict->message + used, sizeof verdict->message - used, ": %s %.2g",
+             factor == FACTOR_PLUS_LIGHT || factor == FACTOR_PLUS_COLOR ? "about"
+             : factor == FACTOR_GAMMA                                   ? "the power is about"
+             : factor == FACTOR_LIMIT || factor == FACTOR_COSINE        ? "at about"
+             : factor >= FACTOR_AMBIENT_VALUE                           ? "at about"
+                                                                        : "it is about times",
+             number->choices.value);
+}
+
+/* Tries single mistakes, then pairs. */
+static bool find(Lineup *lineup, Verdict *verdict, bool *named, Message *message)
+{
+    int count, left, number_count, pair_count = 0;
+    bool near = false, done = false;
+    Suspect *singles = catalogue_singles(lineup->shots->lab, &count), *pairs = NULL;
+    Suspect *numbers = catalogue_numbers(lineup->shots->lab, &number_count);
+    Suspect *tried = malloc(((size_t)count + (size_t)number_count + 1) * sizeof *tried);
+    *named = false;
+    left = count;
+    if (singles && numbers && tried) {
+        memcpy(tried, singles, (size_t)count * sizeof *tried);
+        done = lineup_screen(lineup, tried, &left, message) &&
+               lineup_verify(lineup, tried, &left, &near, message);
+        /* A wrong number may be nearer than what is nearly the same. */
+        if (done && (left == 0 || tried[0].apart > EXACT * lineup->wrong_by)) {
+            done = find_number(lineup, numbers, &number_count, &near, message);
+            memcpy(tried + left, numbers, (size_t)number_count * sizeof *tried);
+            left += number_count;
+            lineup_nearest(lineup, tried, &left);
+        }
+        done =
+            done && (left == 0 || tell_apart(lineup, verdict->seed, tried, &left, near, message));
+        *named = done && name(verdict, tried, left, near);
+        if (*named && left > 0 && verdict->mistake_count == 1 && tried[0].choices.factor)
+            say_number(verdict, &tried[0]);
+        if (done && left == 0) {
+            pairs = make_pairs(lineup, singles, count, &pair_count);
+            done = pairs && narrow(lineup, verdict->seed, pairs, &pair_count, &near, message);
+            *named = done && name(verdict, pairs, pair_count, near);
+        }
+    }
+    if (!done)
+        message_set(message, "not enough memory"); /* unless there is another message */
+    free(singles);
+    free(numbers);
+    free(tried);
+    free(pairs);
+    return done;
+}
+
+bool diagnose(const Shots *shots, const Painter *painter, Canvas *canvas, Verdict *verdict,
+              Message *message)
+{
+    Lineup lineup;
+    bool named = false;
+    const bool done = lineup_open(&lineup, shots, painter, canvas, message) &&
+                      find(&lineup, verdict, &named, message);
+    const bool moved = lineup.moved;
+    lineup_close(&lineup);
+    if (!done)
+        return false;
+    symptoms_describe(shots, moved, verdict);
+    if (!named)
+        snprintf(verdict->message, sizeof verdict->message,
+                 "Unknown mistake: no known mistake or pair of them draws this in every scene");
+    return true;
+}
+
+bool diagnose_outline(const Shots *shots, const Painter *painter, Canvas *canvas, bool *wrong,
+                      Message *message)
+{
+    Lineup lineup;
+    const bool done = lineup_open(&lineup, shots, painter, canvas, message);
+    *wrong = lineup.moved;
+    lineup_close(&lineup);
+    return done;
+}
+
+bool diagnose_symptoms(const Shots *shots, const Painter *painter, Canvas *canvas, Verdict *verdict,
+                       Message *message)
+{
+    bool moved;
+    if (!diagnose_outline(shots, painter, canvas, &moved, message))
+        return false;
+    symptoms_describe(shots, moved, verdict);
+    return true;
+}

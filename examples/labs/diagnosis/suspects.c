@@ -1,0 +1,360 @@
+#include "labs/diagnosis/suspects.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Small pictures: TILES x TILES of TILE x TILE pixels are read at once. */
+enum { FIT_SCENES = 3 };
+enum { TILE = 32, TILES = 16, SHEET = TILE * TILES, COARSE = 12 };
+
+/* In steps of 1/255. Rounding makes equal programs differ by 1, by 2 if a power of a cosine
+ * amplifies it; lab 7's two right exponents add 1. */
+static const double TOLERANCE = 3, SMALL_TOLERANCE = 4;
+
+/* Of the squares of the differences from right, those that a suspect may leave; and what rounding
+ * makes of them. */
+static const double EXPLAINED = 0.03, ROUNDING = 0.002;
+
+/* Squares below which pictures are the same: 25 pixels that are 3 steps apart. */
+static const double FAR = 100;
+
+/* The share of pixels that may differ, all beside edges. */
+static const double MATCH = 0.004, NEAR = 0.015, SMALL_MATCH = 0.1;
+
+static bool fit_images(Lineup *lineup, int width, int height, Message *message)
+{
+    if (lineup->image.width == width && lineup->image.height == height)
+        return true;
+    image_close(&lineup->image);
+    image_close(&lineup->drawn);
+    return image_open(&lineup->image, width, height, IMAGE_BYTE, message) &&
+           image_open(&lineup->drawn, width, height, IMAGE_BYTE, message);
+}
+
+static bool draw_suspect(Lineup *lineup, const Probe *probe, const ProbeBuffers *buffers,
+                         const Choices *choices, Image *image, Message *message)
+{
+    if (!canvas_resize(lineup->canvas, probe->width, probe->height, message))
+        return false;
+    canvas_clear(lineup->canvas, probe->scene.background, 1);
+    wrong_program_draw(&lineup->wrong, lineup->shots->lab, probe, buffers, choices);
+    return canvas_read(lineup->canvas, image, message);
+}
+
+static double compare_all(const Image *a, const Image *b)
+{
+    return compare_drawn(a, b, TOLERANCE, a->width * a->height).squares;
+}
+
+static void sort_shots(Lineup *lineup)
+{
+    const Shots *shots = lineup->shots;
+    double rms[SHOTS_MAX];
+    for (int i = 0; i < shots->count; i++) {
+        const ErrorSum error = shots_error(shots, i, shots->truth);
+        rms[i] = error.pixels ? error_sum_rms(&error) : 0;
+        int k = i;
+        for (; k > 0 && rms[lineup->order[k - 1]] < rms[i]; k--)
+            lineup->order[k] = lineup->order[k - 1];
+        lineup->order[k] = i;
+    }
+}
+
+static bool is_green(const Image *image, int pixel)
+{
+    const unsigned char *p = (const unsigned char *)image->pixels + 4 * (size_t)pixel;
+    return p[0] == 0 && p[1] == 255 && p[2] == 0;
+}
+
+/* Whether the submission covers other pixels than the right program, by more than rounding at
+ * edges. The background is a colour that neither draws. */
+static bool find_outline(Lineup *lineup, Message *message)
+{
+    const Choices right = {.value = 1};
+    const Vec3 green = {0, 1, 0};
+    for (int k = 0; k < lineup->shots->count && !lineup->moved; k++) {
+        const int i = lineup->order[k];
+        Probe probe = lineup->shots->shots[i].probe; /* its scene's arrays are the original's */
+        const SubmissionGeometry geometry = shots_geometry(lineup->shots, i);
+        probe.scene.background = green;
+        if (!fit_images(lineup, probe.width, probe.height, message) ||
+            !painter_draw(lineup->painter, &probe, &geometry, lineup->canvas, &lineup->image,
+                          message) ||
+            !draw_suspect(lineup, &probe, &lineup->buffers[i], &right, &lineup->drawn, message))
+            return false;
+        int apart = 0;
+        for (int p = 0; p < probe.width * probe.height; p++)
+            apart += is_green(&lineup->image, p) != is_green(&lineup->drawn, p);
+        lineup->moved = apart > 6;
+    }
+    return true;
+}
+
+/* The right program's pictures, with the stage or exponent that the submission is nearest to. */
+static bool draw_right(Lineup *lineup, Message *message)
+{
+    const Shots *shots = lineup->shots;
+    lineup->right_choices = (Choices){.value = 1};
+    if (shots->lab->either)
+        lineup->right_choices.of[SLOT_STAGE] = shots->truth == 1 ? STAGE_OTHER : 0;
+    else if (shots->lab->fitted)
+        lineup->right_choices.of[SLOT_FIT] = shots->truth == 1 ? FIT_FOUR : FIT_LEAST_SQUARES;
+    for (int i = 0; i < shots->count; i++) {
+        const Shot *shot = &shots->shots[i];
+        if (!image_open(&lineup->right[i], shot->probe.width, shot->probe.height, IMAGE_BYTE,
+                        message) ||
+            !draw_suspect(lineup, &shot->probe, &lineup->buffers[i], &lineup->right_choices,
+                          &lineup->right[i], message))
+            return false;
+        lineup->wrong_by += compare_all(&shot->image, &lineup->right[i]);
+    }
+    return true;
+}
+
+bool lineup_open(Lineup *lineup, const Shots *shots, const Painter *painter, Canvas *canvas,
+                 Message *message)
+{
+    *lineup = (Lineup){.shots = shots, .painter = painter, .canvas = canvas};
+    const CanvasOptions sheet = {.width = SHEET, .height = SHEET};
+    if (!wrong_program_open(&lineup->wrong, message) ||
+        !canvas_open_beside(&lineup->sheet, canvas, &sheet, message))
+        return false;
+    for (int i = 0; i < shots->count; i++) {
+        const SubmissionGeometry geometry = shots_geometry(shots, i);
+        if (!probe_buffers_open(&lineup->buffers[i], &shots->shots[i].probe, &geometry, message))
+            return false;
+    }
+    if (shots->lab->budget && !mesh_sphere(&lineup->coarse, 1, COARSE, COARSE, message))
+        return false;
+    sort_shots(lineup);
+    return draw_right(lineup, message) && find_outline(lineup, message);
+}
+
+void lineup_close(Lineup *lineup)
+{
+    if (!lineup)
+        return;
+    for (int i = 0; i < SHOTS_MAX; i++)
+        probe_buffers_close(&lineup->buffers[i]), image_close(&lineup->right[i]);
+    mesh_close(&lineup->coarse);
+    image_close(&lineup->image);
+    image_close(&lineup->drawn);
+    canvas_close(&lineup->sheet);
+    wrong_program_close(&lineup->wrong);
+}
+
+/* Small pictures. */
+
+static void cut_tile(const Image *sheet, int number, Image *tile)
+{
+    for (int y = 0; y < TILE; y++) {
+        const int row = TILE * (number / TILES) + y, column = TILE * (number % TILES);
+        memcpy((unsigned char *)tile->pixels + 4 * TILE * (size_t)y,
+               (const unsigned char *)sheet->pixels + 4 * ((size_t)row * SHEET + (size_t)column),
+               4 * TILE);
+    }
+}
+
+/* Keeps the suspects of one sheet whose tile is like the submission's. */
+static int keep_like(const Image *sheet, const Image *wanted, Suspect *suspects, int from,
+                     int count, int kept)
+{
+    unsigned char pixels[4 * TILE * TILE];
+    Image tile = {TILE, TILE, IMAGE_BYTE, pixels};
+    for (int i = 0; i < count; i++) {
+        cut_tile(sheet, i, &tile);
+        const Likeness like = compare_drawn(wanted, &tile, SMALL_TOLERANCE, TILE * TILE);
+        if (like.differing <= 2 + SMALL_MATCH * like.pixels)
+            suspects[kept++] = suspects[from + i];
+    }
+    return kept;
+}
+
+static bool screen_shot(Lineup *lineup, int shot, Image *sheet, Suspect *suspects, int *count,
+                        Message *message)
+{
+    Probe probe = lineup->shots->shots[shot].probe;
+    SubmissionGeometry geometry = shots_geometry(lineup->shots, shot);
+    int kept = 0;
+    Image wanted;
+    ProbeBuffers buffers = {.buffers = {{0}}};
+    probe.width = probe.height = TILE;
+    if (lineup->shots->lab->budget)
+        geometry.mesh = &lineup->coarse;
+    if (!image_open(&wanted, TILE, TILE, IMAGE_BYTE, message))
+        return false;
+    bool done = probe_buffers_open(&buffers, &probe, &geometry, message) &&
+                painter_draw(lineup->painter, &probe, &geometry, lineup->canvas, &wanted, message);
+    for (int from = 0; from < *count && done; from += TILES * TILES) {
+        const int part = *count - from < TILES * TILES ? *count - from : TILES * TILES;
+        canvas_clear(&lineup->sheet, probe.scene.background, 1);
+        for (int i = 0; i < part; i++) {
+            canvas_view(&lineup->sheet, TILE * (i % TILES), TILE * (i / TILES), TILE, TILE);
+            wrong_program_draw(&lineup->wrong, lineup->shots->lab, &probe, &buffers,
+                               &suspects[from + i].choices);
+        }
+        canvas_begin(&lineup->sheet);
+        done = canvas_read(&lineup->sheet, sheet, message);
+        if (done)
+            kept = keep_like(sheet, &wanted, suspects, from, part, kept);
+    }
+    probe_buffers_close(&buffers);
+    image_close(&wanted);
+    *count = kept;
+    return done;
+}
+
+bool lineup_screen(Lineup *lineup, Suspect *suspects, int *count, Message *message)
+{
+    Image sheet;
+    if (!image_open(&sheet, SHEET, SHEET, IMAGE_BYTE, message))
+        return false;
+    bool done = true;
+    for (int k = 0; k < 2 && k < lineup->shots->count && done; k++)
+        done = screen_shot(lineup, lineup->order[k], &sheet, suspects, count, message);
+    image_close(&sheet);
+    return done;
+}
+
+/* Whole pictures. */
+
+/* 0: no match; 1: nearly; 2: a match. Adds to *squares. */
+static int grade(const Image *a, const Image *b, double *squares)
+{
+    const int max = (int)(NEAR * a->width * a->height) + 1;
+    const Likeness like = compare_drawn(a, b, TOLERANCE, max);
+    *squares += like.squares;
+    if (like.differing > max || like.differing > 1 + NEAR * like.pixels)
+        return 0;
+    return like.differing <= 1 + MATCH * like.pixels ? 2 : 1;
+}
+
+/* Whether the suspect explains what is wrong: its pictures are far nearer to the submission's than
+ * either is to the right ones. */
+static bool explains(const Lineup *lineup, const Suspect *suspect)
+{
+    return fmin(lineup->wrong_by, suspect->own) >= FAR &&
+           suspect->apart <= EXPLAINED * fmin(lineup->wrong_by, suspect->own);
+}
+
+void lineup_nearest(const Lineup *lineup, Suspect *suspects, int *count)
+{
+    int kept = 0;
+    double nearest = HUGE_VAL;
+    for (int i = 0; i < *count; i++)
+        if (explains(lineup, &suspects[i]) && suspects[i].apart < nearest)
+            nearest = suspects[i].apart;
+    for (int i = 0; i < *count; i++)
+        if (explains(lineup, &suspects[i]) &&
+            suspects[i].apart <= 4 * nearest + ROUNDING * lineup->wrong_by)
+            suspects[kept++] = suspects[i];
+    *count = kept;
+}
+
+bool lineup_verify(Lineup *lineup, Suspect *suspects, int *count, bool *near, Message *message)
+{
+    const Shots *shots = lineup->shots;
+    int kept = 0;
+    *near = false;
+    for (int i = 0; i < *count; i++) {
+        int worst = 2;
+        Suspect suspect = suspects[i];
+        suspect.apart = suspect.own = 0;
+        for (int k = 0; k < shots->count && worst > 0; k++) {
+            const int number = lineup->order[k];
+            const Shot *shot = &shots->shots[number];
+            if (!fit_images(lineup, shot->probe.width, shot->probe.height, message) ||
+                !draw_suspect(lineup, &shot->probe, &lineup->buffers[number], &suspect.choices,
+                              &lineup->drawn, message))
+                return false;
+            const int found = grade(&shot->image, &lineup->drawn, &suspect.apart);
+            worst = found < worst ? found : worst;
+            suspect.own += compare_all(&lineup->right[number], &lineup->drawn);
+        }
+        if (worst == 2)
+            suspects[kept++] = suspect;
+        *near |= worst == 1;
+    }
+    *count = kept;
+    lineup_nearest(lineup, suspects, count);
+    return true;
+}
+
+bool lineup_confront(Lineup *lineup, const Probe *probe, Suspect *suspects, int *count,
+                     Message *message)
+{
+    const SubmissionGeometry geometry = {.mesh = lineup->shots->mesh.vertices ? &lineup->shots->mesh
+                                                                              : NULL,
+                                         .cull = lineup->shots->geometry.cull};
+    ProbeBuffers buffers;
+    Image right = {0};
+    int kept = 0;
+    if (!fit_images(lineup, probe->width, probe->height, message) ||
+        !painter_draw(lineup->painter, probe, &geometry, lineup->canvas, &lineup->image, message) ||
+        !probe_buffers_open(&buffers, probe, &geometry, message))
+        return false;
+    bool done = image_open(&right, probe->width, probe->height, IMAGE_BYTE, message) &&
+                draw_suspect(lineup, probe, &buffers, &lineup->right_choices, &right, message);
+    if (done)
+        lineup->wrong_by += compare_all(&lineup->image, &right);
+    for (int i = 0; i < *count && done; i++) {
+        Suspect suspect = suspects[i];
+        done = draw_suspect(lineup, probe, &buffers, &suspect.choices, &lineup->drawn, message);
+        const bool matches = done && grade(&lineup->image, &lineup->drawn, &suspect.apart) == 2;
+        suspect.own += done ? compare_all(&right, &lineup->drawn) : 0;
+        if (matches)
+            suspects[kept++] = suspect;
+    }
+    image_close(&right);
+    probe_buffers_close(&buffers);
+    *count = kept;
+    lineup_nearest(lineup, suspects, count);
+    return done;
+}
+
+/* Numbers. */
+
+/* How far the suspect with this value is in the worst scenes; HUGE_VAL: cannot be drawn. */
+static double distance_with(Lineup *lineup, Suspect *suspect, double value)
+{
+    const Shots *shots = lineup->shots;
+    double sum = 0;
+    suspect->choices.value = value;
+    for (int k = 0; k < FIT_SCENES && k < shots->count; k++) {
+        const int number = lineup->order[k];
+        const Shot *shot = &shots->shots[number];
+        if (!fit_images(lineup, shot->probe.width, shot->probe.height, NULL) ||
+            !draw_suspect(lineup, &shot->probe, &lineup->buffers[number], &suspect->choices,
+                          &lineup->drawn, NULL))
+            return HUGE_VAL;
+        sum += compare_all(&shot->image, &lineup->drawn);
+    }
+    return sum;
+}
+
+void lineup_fit(Lineup *lineup, Suspect *suspect)
+{
+    enum { STEPS = 18, REFINED = 14 };
+    const bool added = suspect->choices.factor == FACTOR_PLUS_LIGHT ||
+                       suspect->choices.factor == FACTOR_PLUS_COLOR;
+    const double golden = (sqrt(5) - 1) / 2;
+    /* Numbers that are added: -0.9 to 0.9; factors: the power of two of -9 to 9. */
+    const double first = added ? -0.9 : -9, step = added ? 0.1 : 1;
+    double best = HUGE_VAL, at = 0;
+#define VALUE(x) (added ? (x) : exp2(x))
+    for (int i = 0; i <= STEPS; i++) {
+        const double x = first + step * i, found = distance_with(lineup, suspect, VALUE(x));
+        if (found < best)
+            best = found, at = x;
+    }
+    double low = at - step, high = at + step;
+    for (int i = 0; i < REFINED; i++) {
+        const double a = high - golden * (high - low), b = low + golden * (high - low);
+        if (distance_with(lineup, suspect, VALUE(a)) < distance_with(lineup, suspect, VALUE(b)))
+            high = b;
+        else
+            low = a;
+    }
+    suspect->choices.value = VALUE((low + high) / 2);
+#undef VALUE
+}

@@ -1,0 +1,137 @@
+#include "labs/diagnosis/symptoms.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Sums over the pixels inside the objects in all scenes, in steps of 1/255. */
+typedef struct Overview {
+    double pixels, bright_pixels;
+    double dark, bright; /* drawn minus exact, of dark and of bright pixels */
+    double channels[3];  /* absolute differences */
+    bool anything;       /* any pixel is not black */
+    bool wrong[PROBE_KIND_COUNT];
+} Overview;
+
+static void look_at(const Shot *shot, const Reference *exact, Overview *overview)
+{
+    const unsigned char *drawn = shot->image.pixels;
+    for (size_t i = 0; i < (size_t)exact->width * (size_t)exact->height; i++) {
+        double mean = 0, apart = 0;
+        overview->anything |= drawn[4 * i] || drawn[4 * i + 1] || drawn[4 * i + 2];
+        if (!exact->interior[i])
+            continue;
+        for (size_t c = 0; c < 3; c++) {
+            const double right = 255 * (double)exact->color[3 * i + c];
+            mean += right / 3;
+            apart += (drawn[4 * i + c] - right) / 3;
+            overview->channels[c] += fabs(drawn[4 * i + c] - right);
+        }
+        overview->pixels++;
+        if (mean > 60) {
+            overview->bright_pixels++;
+            overview->bright += apart;
+        } else {
+            overview->dark += apart;
+        }
+    }
+}
+
+static void name_scenes(const Overview *overview, Verdict *verdict)
+{
+    static const char *const HINTS[PROBE_KIND_COUNT] = {
+        [PROBE_MOVED] = "Only scenes with a turned, moved or scaled object are wrong.",
+        [PROBE_COARSE] = "Only scenes with a coarse mesh are wrong.",
+        [PROBE_BEHIND] = "Only scenes with the light behind the object are wrong.",
+        [PROBE_CROWD] = "Only scenes with several objects are wrong.",
+        [PROBE_WIDE] = "Only scenes with a wide picture and a near light are wrong.",
+    };
+    int count = 0, last = 0;
+    for (int i = 0; i < PROBE_KIND_COUNT; i++) {
+        count += overview->wrong[i];
+        last = overview->wrong[i] ? i : last;
+    }
+    if (count == 1 && HINTS[last])
+        verdict_add_symptom(verdict, "%s", HINTS[last]);
+}
+
+static void compare_sides(const Overview *overview, Verdict *verdict)
+{
+    const double dark_pixels = fmax(overview->pixels - overview->bright_pixels, 1);
+    const double dark = overview->dark / dark_pixels;
+    const double bright = overview->bright / fmax(overview->bright_pixels, 1);
+    if (fabs(bright) >= 1)
+        verdict_add_symptom(verdict, "Lit parts are too %s, by %.0f of 255 steps on average.",
+                            bright < 0 ? "dark" : "bright", fabs(bright));
+    if (fabs(dark) >= 1)
+        verdict_add_symptom(verdict, "Dark parts are too %s, by %.0f of 255 steps on average.",
+                            dark < 0 ? "dark" : "bright", fabs(dark));
+    if (fabs(bright) < 1 && fabs(dark) < 1 && overview->pixels > 0)
+        verdict_add_symptom(verdict,
+                            "The average brightness is right, but light and shade are in the "
+                            "wrong places.");
+}
+
+static void compare_channels(const Overview *overview, Verdict *verdict)
+{
+    static const char *const NAMES[] = {"red", "green", "blue"};
+    const double *c = overview->channels, sum = c[0] + c[1] + c[2];
+    for (int i = 0; i < 3 && sum > 0; i++)
+        if (c[i] > 0.75 * sum)
+            verdict_add_symptom(verdict, "Most of the error is in the %s channel.", NAMES[i]);
+}
+
+/* The pixel with the largest error, in the worst scene. */
+static void point_at_worst(const Shots *shots, Verdict *verdict)
+{
+    int worst = -1;
+    for (int i = 0; i < shots->count && i < verdict->probe_count; i++)
+        if (!verdict->probes[i].passed &&
+            (worst < 0 || verdict->probes[i].rms > verdict->probes[worst].rms))
+            worst = i;
+    if (worst < 0)
+        return;
+    const Shot *shot = &shots->shots[worst];
+    const Reference *exact = &shot->truths[shots->truth];
+    const unsigned char *drawn = shot->image.pixels;
+    double most = 0;
+    size_t at = 0;
+    for (size_t i = 0; i < (size_t)exact->width * (size_t)exact->height; i++) {
+        for (size_t c = 0; c < 3 && exact->interior[i]; c++) {
+            const double apart = fabs(drawn[4 * i + c] - 255 * (double)exact->color[3 * i + c]);
+            if (apart > most)
+                most = apart, at = i;
+        }
+    }
+    if (most > 0)
+        verdict_add_symptom(
+            verdict,
+            "Scene %s (%s), column %d, row %d from the top: it is (%d, %d, %d), right is (%.0f, "
+            "%.0f, %.0f).",
+            PROBE_NAMES[shot->probe.kind], shot->probe.known ? "known" : "seed",
+            (int)(at % (size_t)exact->width), (int)(at / (size_t)exact->width), drawn[4 * at],
+            drawn[4 * at + 1], drawn[4 * at + 2], 255 * (double)exact->color[3 * at],
+            255 * (double)exact->color[3 * at + 1], 255 * (double)exact->color[3 * at + 2]);
+}
+
+void symptoms_describe(const Shots *shots, bool moved, Verdict *verdict)
+{
+    Overview overview = {.pixels = 0};
+    for (int i = 0; i < shots->count; i++) {
+        const Shot *shot = &shots->shots[i];
+        look_at(shot, &shot->truths[shots->truth], &overview);
+        overview.wrong[shot->probe.kind] |= !verdict->probes[i].passed;
+    }
+    if (!overview.anything) {
+        verdict_add_symptom(verdict, "Nothing is drawn, or everything is black: check that "
+                                     "gl_Position is u_MvpMatrix * a_Position and gl_FragColor a "
+                                     "colour.");
+        return;
+    }
+    verdict_add_symptom(verdict, "%s",
+                        moved ? "The outline is wrong: check gl_Position first."
+                              : "The outline is right: the mistake is in the light.");
+    name_scenes(&overview, verdict);
+    compare_sides(&overview, verdict);
+    compare_channels(&overview, verdict);
+    point_at_worst(shots, verdict);
+}

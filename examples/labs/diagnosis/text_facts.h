@@ -1,0 +1,25 @@
+/*
+ * text_facts: what the texts of a submission tell without being drawn.
+ */
+#ifndef TEXT_FACTS_H
+#define TEXT_FACTS_H
+
+#include "labs/submission/submission.h"
+#include "labs/submission/verdict.h"
+
+/* Whether two texts are the same except for comments and white space. */
+bool text_is_same(const char *a, const char *b);
+
+/* Whether a lab's files are the starter's, except for comments and white space. */
+bool text_is_starter(const Lab *lab, const SubmissionFiles *files);
+
+/* Adds a mistake for the fault that explains any picture: no gl_FragColor, a varying that is never
+ * set, a variable that the compiler calls uninitialized in the linked program's log. False: none.
+ */
+bool text_find_fault(const Lab *lab, const SubmissionFiles *files, GLuint program,
+                     Verdict *verdict);
+
+/* Adds a mistake for what only may be the fault: lowp. False: none. */
+bool text_find_suspicion(const Lab *lab, const SubmissionFiles *files, Verdict *verdict);
+
+#endif

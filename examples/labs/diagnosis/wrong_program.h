@@ -1,0 +1,37 @@
+/*
+ * wrong_program: one program whose uniforms select a lab's right picture, any mistake of the
+ * catalogue, or two at once: compiled once for all mistakes.
+ */
+#ifndef WRONG_PROGRAM_H
+#define WRONG_PROGRAM_H
+
+#include "labs/diagnosis/catalogue.h"
+#include "labs/submission/submission.h"
+
+enum { WRONG_PROGRAM_UNIFORMS = 45 };
+
+typedef struct WrongProgram {
+    Shader shader;
+    GLint position, normal;
+    GLint locations[WRONG_PROGRAM_UNIFORMS];
+} WrongProgram;
+
+/* Loads shaders/labs/catalogue. */
+bool wrong_program_open(WrongProgram *program, Message *message);
+void wrong_program_close(WrongProgram *program);
+
+/* A probe's meshes, uploaded once for many draw calls. */
+typedef struct ProbeBuffers {
+    MeshBuffer buffers[PROBE_MAX_OBJECTS];
+    bool cull; /* back faces */
+} ProbeBuffers;
+bool probe_buffers_open(ProbeBuffers *buffers, const Probe *probe,
+                        const SubmissionGeometry *geometry, Message *message);
+void probe_buffers_close(ProbeBuffers *buffers);
+
+/* Draws a probe with these choices into the canvas's current view, which is cleared. False: the
+ * camera is degenerate. */
+bool wrong_program_draw(const WrongProgram *program, const Lab *lab, const Probe *probe,
+                        const ProbeBuffers *buffers, const Choices *choices);
+
+#endif

@@ -1,0 +1,285 @@
+#include "labs/program/binding.h"
+
+#include "base/parse.h"
+
+#include <string.h>
+
+typedef enum Kind { KIND_MATRIX, KIND_POINT, KIND_DIRECTION, KIND_COLOR, KIND_NUMBER } Kind;
+
+/* A uniform of the interface. */
+typedef struct Value {
+    const char *name;
+    Kind kind;
+    int count;                          /* of array elements; 1: no array */
+    float m[16];                        /* matrix */
+    float v[LAB_MAX_LIGHTS][4], number; /* anything else */
+} Value;
+
+enum { MAX_VALUES = 24, MAX_NAME = 256 };
+
+typedef struct Values {
+    Value values[MAX_VALUES];
+    int count;
+} Values;
+
+static const char *const ATTRIBUTES[] = {"a_Position", "a_Normal", "a_Color", NULL};
+
+static Value *add(Values *values, const char *name, Kind kind)
+{
+    Value *value = &values->values[values->count++];
+    *value = (Value){.name = name, .kind = kind, .count = 1};
+    return value;
+}
+
+static void add_matrix(Values *values, const char *name, Mat4 matrix)
+{
+    mat4_to_float(matrix, add(values, name, KIND_MATRIX)->m);
+}
+
+static void set_vector(Value *value, int i, Vec3 vector)
+{
+    vec3_to_float(vector, value->v[i]);
+    value->v[i][3] = value->kind == KIND_DIRECTION ? 0 : 1;
+}
+
+static void add_vector(Values *values, const char *name, Kind kind, Vec3 vector)
+{
+    set_vector(add(values, name, kind), 0, vector);
+}
+
+static void add_number(Values *values, const char *name, double number)
+{
+    add(values, name, KIND_NUMBER)->number = (float)number;
+}
+
+static void add_lights(Values *values, const Lab *lab, const Scene *scene)
+{
+    const bool directional = lab->light == LIGHT_DIRECTIONAL;
+    Value *place = add(values, directional ? "u_LightDirection" : "u_LightPosition",
+                       directional ? KIND_DIRECTION : KIND_POINT);
+    Value *color = add(values, "u_LightColor", KIND_COLOR);
+    place->count = color->count = lab->lights;
+    for (int i = 0; i < scene->light_count && i < lab->lights; i++) {
+        const Light *light = &scene->lights[i];
+        Vec3 direction = light->direction;
+        vec3_normalize(light->direction, &direction);
+        set_vector(place, i, directional ? direction : light->position);
+        set_vector(color, i, light->diffuse);
+    }
+    if (lab->light != LIGHT_SPOT)
+        return;
+    const Light *spot = scene->light_count ? &scene->lights[0] : &(Light){.off = true};
+    Vec3 axis = spot->direction;
+    vec3_normalize(spot->direction, &axis);
+    add_vector(values, "u_SpotDirection", KIND_DIRECTION, axis);
+    add_number(values, "u_SpotCutoff", spot->cutoff);
+    add_number(values, "u_SpotExponent", spot->exponent);
+    add_vector(values, "u_Attenuation", KIND_DIRECTION,
+               (Vec3){spot->constant, spot->linear, spot->quadratic});
+}
+
+Mat4 binding_normal_matrix(Mat4 matrix)
+{
+    Mat4 inverse;
+    for (int k = 0; k < 3; k++)
+        matrix.m[12 + k] = matrix.m[4 * k + 3] = 0;
+    matrix.m[15] = 1;
+    mat4_inverse(matrix, &inverse);
+    return mat4_transpose(inverse);
+}
+
+/* Without `drawn` only names and kinds. */
+static bool gather(Values *values, const Lab *lab, const Drawn *drawn, Message *message)
+{
+    const Scene none = {.light_count = 0};
+    const Scene *scene = drawn ? drawn->scene : &none;
+    const Object *object = drawn ? &scene->objects[drawn->object] : &(Object){.mesh = NULL};
+    Mat4 eye_from_world = mat4_identity(), clip_from_eye = mat4_identity();
+    Mat4 world = mat4_identity(), normal = world, eye_normal = world;
+    if (drawn) {
+        world = drawn->world_from_object ? *drawn->world_from_object : object->world_from_object;
+        if (!scene_camera(&scene->camera, drawn->aspect, &eye_from_world, &clip_from_eye, message))
+            return false;
+        normal = drawn->normal_matrix ? *drawn->normal_matrix : binding_normal_matrix(world);
+        eye_normal = binding_normal_matrix(mat4_product(eye_from_world, world));
+    }
+    const Mat4 eye_from_model = mat4_product(eye_from_world, world);
+    values->count = 0;
+    add_matrix(values, "u_MvpMatrix", mat4_product(clip_from_eye, eye_from_model));
+    add_matrix(values, "u_ModelMatrix", world);
+    add_matrix(values, "u_NormalMatrix", normal);
+    add_matrix(values, "u_ViewMatrix", eye_from_world);
+    add_matrix(values, "u_ProjMatrix", clip_from_eye);
+    add_matrix(values, "u_ModelViewMatrix", eye_from_model);
+    add_matrix(values, "u_EyeNormalMatrix", eye_normal);
+    add_vector(values, "u_EyePosition", KIND_POINT, scene->camera.eye);
+    add_vector(values, "u_AmbientLight", KIND_COLOR, scene->global_ambient);
+    add_lights(values, lab, scene);
+    if (lab->specular) {
+        add_vector(values, "u_SpecularColor", KIND_COLOR, object->front.specular);
+        add_number(values, "u_Shininess", object->front.shininess);
+    }
+    if (lab->two_sided) {
+        add_vector(values, "u_BackColor", KIND_COLOR, object->back.diffuse);
+        add_number(values, "u_Mirrored", mat4_determinant(world) < 0 ? -1 : 1);
+    }
+    return true;
+}
+
+static const Value *find(const Values *values, const char *name)
+{
+    for (int i = 0; i < values->count; i++)
+        if (strcmp(values->values[i].name, name) == 0)
+            return &values->values[i];
+    return NULL;
+}
+
+static bool suits(const Value *value, GLenum type)
+{
+    if (value->kind == KIND_MATRIX)
+        return type == GL_FLOAT_MAT4 || type == GL_FLOAT_MAT3;
+    if (value->kind == KIND_NUMBER)
+        return type == GL_FLOAT || type == GL_INT;
+    return type == GL_FLOAT_VEC3 || type == GL_FLOAT_VEC4;
+}
+
+static const char *type_of(const Value *value)
+{
+    static const char *const NAMES[] = {"mat4", "vec3", "vec3", "vec3", "float"};
+    return NAMES[value->kind];
+}
+
+/* A uniform of a program; `value` is NULL if the interface has none of its name. */
+typedef struct Uniform {
+    char name[MAX_NAME];
+    GLint size;
+    GLenum type;
+    const Value *value;
+} Uniform;
+
+static Uniform uniform_at(GLuint program, GLint i, const Values *values)
+{
+    Uniform uniform = {.size = 0};
+    glGetActiveUniform(program, (GLuint)i, sizeof uniform.name, NULL, &uniform.size, &uniform.type,
+                       uniform.name);
+    uniform.name[strcspn(uniform.name, "[")] = '\0'; /* an array's ends in [0] */
+    uniform.value = find(values, uniform.name);
+    return uniform;
+}
+
+static bool unknown(const char *kind, const char *name, const char *const *names, Message *message)
+{
+    const char *nearest = parse_nearest(name, names);
+    return message_set(message, "%s %s does not exist in this lab; %s%s%s", kind, name,
+                       nearest ? "did you mean " : "TASK.md lists the names",
+                       nearest ? nearest : "", nearest ? "?" : "");
+}
+
+static bool check_attributes(GLuint program, Message *message)
+{
+    GLint count = 0;
+    glGetProgramiv(program, GL_ACTIVE_ATTRIBUTES, &count);
+    for (GLint i = 0; i < count; i++) {
+        char name[MAX_NAME] = "";
+        GLint size;
+        GLenum type;
+        bool known = false;
+        glGetActiveAttrib(program, (GLuint)i, sizeof name, NULL, &size, &type, name);
+        for (int k = 0; ATTRIBUTES[k]; k++)
+            known |= strcmp(name, ATTRIBUTES[k]) == 0;
+        if (!known && strncmp(name, "gl_", 3) != 0)
+            return unknown("attribute", name, ATTRIBUTES, message);
+        if (known && type != GL_FLOAT_VEC3 && type != GL_FLOAT_VEC4)
+            return message_set(message, "attribute %s: declare it as vec4 or vec3", name);
+    }
+    return true;
+}
+
+bool binding_check(const Lab *lab, GLuint program, Message *message)
+{
+    Values values;
+    const char *names[MAX_VALUES + 1] = {NULL};
+    GLint count = 0;
+    if (!gather(&values, lab, NULL, message))
+        return false;
+    for (int i = 0; i < values.count; i++)
+        names[i] = values.values[i].name;
+    glGetProgramiv(program, GL_ACTIVE_UNIFORMS, &count);
+    for (GLint i = 0; i < count; i++) {
+        const Uniform uniform = uniform_at(program, i, &values);
+        if (strncmp(uniform.name, "gl_", 3) == 0)
+            continue;
+        if (!uniform.value)
+            return unknown("uniform", uniform.name, names, message);
+        if (!suits(uniform.value, uniform.type))
+            return message_set(message, "uniform %s: declare it as %s", uniform.name,
+                               type_of(uniform.value));
+    }
+    return check_attributes(program, message);
+}
+
+static void set_matrix(GLint location, GLenum type, const float m[16])
+{
+    if (type == GL_FLOAT_MAT4) {
+        glUniformMatrix4fv(location, 1, GL_FALSE, m);
+        return;
+    }
+    const float upper[9] = {m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]};
+    glUniformMatrix3fv(location, 1, GL_FALSE, upper);
+}
+
+static void set_value(GLint location, const Uniform *uniform)
+{
+    const Value *value = uniform->value;
+    const GLenum type = uniform->type;
+    const GLsizei count = uniform->size < value->count ? uniform->size : value->count;
+    float packed[3 * LAB_MAX_LIGHTS];
+    if (!suits(value, type))
+        return;
+    if (value->kind == KIND_MATRIX) {
+        set_matrix(location, type, value->m);
+    } else if (type == GL_INT) {
+        glUniform1i(location, (GLint)value->number);
+    } else if (type == GL_FLOAT) {
+        glUniform1fv(location, 1, &value->number);
+    } else if (type == GL_FLOAT_VEC4) {
+        glUniform4fv(location, count, value->v[0]);
+    } else {
+        for (int i = 0; i < 3 * LAB_MAX_LIGHTS; i++)
+            packed[i] = value->v[i / 3][i % 3];
+        glUniform3fv(location, count, packed);
+    }
+}
+
+static void set_uniforms(GLuint program, const Values *values)
+{
+    GLint count = 0;
+    glGetProgramiv(program, GL_ACTIVE_UNIFORMS, &count);
+    for (GLint i = 0; i < count; i++) {
+        const Uniform uniform = uniform_at(program, i, values);
+        const GLint location = glGetUniformLocation(program, uniform.name);
+        if (uniform.value && location >= 0)
+            set_value(location, &uniform);
+    }
+}
+
+bool binding_draw(const Lab *lab, GLuint program, const MeshBuffer *mesh, const Drawn *drawn,
+                  Message *message)
+{
+    Values values;
+    if (!gather(&values, lab, drawn, message))
+        return false;
+    glUseProgram(program);
+    set_uniforms(program, &values);
+    mesh_buffer_bind(mesh, glGetAttribLocation(program, "a_Position"),
+                     glGetAttribLocation(program, "a_Normal"));
+    const GLint color = glGetAttribLocation(program, "a_Color");
+    if (color >= 0) {
+        float rgba[4] = {0, 0, 0, 1};
+        vec3_to_float(drawn->scene->objects[drawn->object].front.diffuse, rgba);
+        glDisableVertexAttribArray((GLuint)color);
+        glVertexAttrib4fv((GLuint)color, rgba);
+    }
+    glDrawElements(GL_TRIANGLES, mesh->index_count, mesh->index_type, NULL);
+    return true;
+}

@@ -1,0 +1,36 @@
+/*
+ * binding: the interface between a lab's scene and a submission's shaders: attributes and uniforms
+ * by name, each set if the program has it.
+ *
+ * Values adapt to the declared type: a vec4 instead of a vec3 gets w = 1 for a position or colour
+ * and 0 for a direction, a mat3 gets a mat4's upper left part, a short array the first lights.
+ */
+#ifndef BINDING_H
+#define BINDING_H
+
+#include "core/mesh_buffer.h"
+#include "labs/program/lab.h"
+
+/* One object of a scene, drawn with this aspect ratio, width / height. */
+typedef struct Drawn {
+    const Scene *scene;
+    int object;
+    double aspect;
+    const Mat4 *world_from_object; /* lab 3's; NULL: the object's */
+    const Mat4 *normal_matrix;     /* lab 3's; NULL: the inverse transpose */
+} Drawn;
+
+/* Checks every active attribute and uniform of a linked program. False, with a message about the
+ * first that the lab's interface lacks (naming the nearest) or that has another type. */
+bool binding_check(const Lab *lab, GLuint program, Message *message);
+
+/* Sets the uniforms and the colour, binds the mesh and draws it with the program, which stays in
+ * use. False, with a message: the camera is degenerate. */
+bool binding_draw(const Lab *lab, GLuint program, const MeshBuffer *mesh, const Drawn *drawn,
+                  Message *message);
+
+/* The inverse transpose of the matrix's 3x3 part; the identity if it is singular. Unlike
+ * mat4_normal it keeps the scale. */
+Mat4 binding_normal_matrix(Mat4 matrix);
+
+#endif

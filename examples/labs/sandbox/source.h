@@ -1,0 +1,41 @@
+/*
+ * source: the source files of one submission.
+ */
+#ifndef SOURCE_H
+#define SOURCE_H
+
+#include "labs/program/lab.h"
+#include "labs/sandbox/bundle.h"
+
+#include <stdint.h>
+
+enum { SOURCE_FILE_MAX = 256 << 10 }; /* bytes; the largest of the labs' own has 4000 */
+
+/* Whether a path is that of a source file: .vert, .frag, .glsl, .vs, .fs, .c or .h, in any case,
+ * also with ".txt" added, with no part hidden or added by macOS ("__MACOSX", "._lab05.frag"). */
+bool source_is_wanted(const char *path);
+
+/* Adds the source files of a folder and its subfolders; follows no link. Refused, with one
+ * sentence: a source file that is a link, a device or too large, and too many files. */
+bool source_read_folder(Bundle *bundle, const char *folder, Message *message);
+
+/* Adds one file under the name `name`. */
+bool source_read_file(Bundle *bundle, const char *path, const char *name, Message *message);
+
+/* Changes with any name or byte: FNV-1a (Fowler, Noll, Vo), 64 bits. Detects changes, not attacks:
+ * of two submissions made to collide, the first keeps its result. */
+uint64_t source_hash(const Bundle *bundle);
+uint64_t source_hash_bytes(uint64_t hash, const void *bytes, size_t size);
+#define SOURCE_HASH_START 14695981039346656037ULL
+
+/* Keeps the files of the submission's folder and removes its path from their names. It is the
+ * topmost folder with source files; of several the one named like the lab ("lab05"). False, with a
+ * message, if that does not decide. A folder with the unchanged starter does not count beside
+ * another. */
+bool source_choose(Bundle *bundle, const Lab *lab, Message *message);
+
+/* Gives the files the names and the encoding that the lab needs: lower case, without ".txt" at the
+ * end, "lab05.vert" for the only vertex shader, UTF-8 for UTF-16. */
+void source_normalize(Bundle *bundle, const Lab *lab);
+
+#endif

@@ -1,0 +1,118 @@
+#include "labs/submission/compare.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Whether a pixel and its neighbors are background only. */
+static bool is_empty(const Reference *exact, int x, int y)
+{
+    for (int dy = -1; dy <= 1; dy++) {
+        for (int dx = -1; dx <= 1; dx++) {
+            const int u = x + dx, v = y + dy;
+            if (u < 0 || v < 0 || u >= exact->width || v >= exact->height)
+                continue;
+            const size_t i = (size_t)v * (size_t)exact->width + (size_t)u;
+            if (exact->object[i] >= 0 || exact->coverage[i] < 1)
+                return false;
+        }
+    }
+    return true;
+}
+
+/* Whether all pixels within two of it are inside the object: a mesh that is worth drawing has its
+ * outline outside. */
+static bool is_deep(const Reference *exact, int x, int y)
+{
+    const int reach = 2, own = exact->object[(size_t)y * (size_t)exact->width + (size_t)x];
+    for (int v = y - reach; v <= y + reach; v++)
+        for (int u = x - reach; u <= x + reach; u++)
+            if (u < 0 || v < 0 || u >= exact->width || v >= exact->height ||
+                exact->object[(size_t)v * (size_t)exact->width + (size_t)u] != own ||
+                !exact->interior[(size_t)v * (size_t)exact->width + (size_t)u])
+                return false;
+    return true;
+}
+
+ErrorSum compare_exact(const Image *image, const Reference *exact, const Reference *mask)
+{
+    ErrorSum sum = {.pixels = 0};
+    for (int y = 0; y < exact->height; y++) {
+        for (int x = 0; x < exact->width; x++) {
+            const size_t i = (size_t)y * (size_t)exact->width + (size_t)x;
+            if (pixel_is_interior(exact, mask, x, y) || (mask && is_deep(exact, x, y)) ||
+                is_empty(exact, x, y))
+                error_sum_add(&sum, pixel_error(image, i, exact, i), i);
+        }
+    }
+    return sum;
+}
+
+static const unsigned char *pixel(const Image *image, int x, int y)
+{
+    return (const unsigned char *)image->pixels +
+           4 * ((size_t)y * (size_t)image->width + (size_t)x);
+}
+
+static int apart(const unsigned char *a, const unsigned char *b)
+{
+    int max = 0;
+    for (int c = 0; c < 3; c++) {
+        const int d = abs((int)a[c] - (int)b[c]);
+        max = d > max ? d : max;
+    }
+    return max;
+}
+
+/* Whether a pixel of one picture is like a neighbor of the same place in the other. */
+static bool is_near(const Image *a, const Image *b, int x, int y, double tolerance)
+{
+    for (int v = y > 0 ? y - 1 : 0; v <= y + 1 && v < a->height; v++)
+        for (int u = x > 0 ? x - 1 : 0; u <= x + 1 && u < a->width; u++)
+            if (apart(pixel(a, x, y), pixel(b, u, v)) <= tolerance)
+                return true;
+    return false;
+}
+
+/* Whether a neighbor differs by more than EDGE, which smooth shading does not. */
+static bool at_edge(const Image *image, int x, int y)
+{
+    enum { EDGE = 20 };
+    const unsigned char *here = pixel(image, x, y);
+    return (x > 0 && apart(here, pixel(image, x - 1, y)) > EDGE) ||
+           (y > 0 && apart(here, pixel(image, x, y - 1)) > EDGE) ||
+           (x + 1 < image->width && apart(here, pixel(image, x + 1, y)) > EDGE) ||
+           (y + 1 < image->height && apart(here, pixel(image, x, y + 1)) > EDGE);
+}
+
+static bool is_dark(const unsigned char *p)
+{
+    return p[0] == 0 && p[1] == 0 && p[2] == 0;
+}
+
+Likeness compare_drawn(const Image *a, const Image *b, double tolerance, int max)
+{
+    Likeness found = {.maximum = 0};
+    if (memcmp(a->pixels, b->pixels, 4 * (size_t)a->width * (size_t)a->height) == 0)
+        return found;
+    for (int y = 0; y < a->height; y++) {
+        for (int x = 0; x < a->width; x++) {
+            const unsigned char *p = pixel(a, x, y), *q = pixel(b, x, y);
+            found.pixels += !is_dark(p) || !is_dark(q);
+            const int d = apart(p, q);
+            if (d <= tolerance) {
+                found.maximum = fmax(found.maximum, d);
+                found.squares += d > 1 ? (d - 1) * (d - 1) : 0;
+                continue;
+            }
+            if ((at_edge(a, x, y) || at_edge(b, x, y)) && is_near(a, b, x, y, tolerance) &&
+                is_near(b, a, x, y, tolerance))
+                continue;
+            found.maximum = fmax(found.maximum, d);
+            found.squares += (d - 1) * (d - 1);
+            if (++found.differing > max)
+                return found;
+        }
+    }
+    return found;
+}

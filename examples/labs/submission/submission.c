@@ -1,0 +1,202 @@
+#include "labs/submission/submission.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { MAX_ENTRIES = 1000 }; /* of a folder that are read */
+
+static bool ends_in(const char *name, const char *end)
+{
+    const size_t length = strlen(name), size = strlen(end);
+    return length > size && strcmp(name + length - size, end) == 0;
+}
+
+static bool read_text(int file, const char *name, size_t size, char **text, Message *message)
+{
+    size_t got = 0;
+    ssize_t part = 0;
+    *text = malloc(size + 1);
+    if (!*text)
+        return message_set(message, "%s: not enough memory", name);
+    while (got < size && (part = read(file, *text + got, size - got)) > 0)
+        got += (size_t)part;
+    (*text)[got] = '\0';
+    if (part >= 0 && strlen(*text) == got)
+        return true;
+    message_set(message, "%s: %s", name, part < 0 ? strerror(errno) : "not a text file");
+    free(*text);
+    return false;
+}
+
+/* Reads one file of an open folder; follows no link and never blocks. */
+static bool read_file(SubmissionFiles *files, int folder, const char *name, Message *message)
+{
+    struct stat status;
+    char *text = NULL, *copy = NULL;
+    const int file = openat(folder, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (file < 0)
+        return message_set(message, "%s: %s", name,
+                           errno == ELOOP    ? "is a link; submit the file itself"
+                           : errno == ENOENT ? "is missing from the folder"
+                                             : strerror(errno));
+    bool done = fstat(file, &status) == 0;
+    if (!done)
+        message_set(message, "%s: %s", name, strerror(errno));
+    else if (!S_ISREG(status.st_mode))
+        done = message_set(message, "%s: not a regular file", name);
+    else if (status.st_size > SHADER_FILE_MAX)
+        done = message_set(message, "%s: has %lld bytes; at most %d are allowed", name,
+                           (long long)status.st_size, SHADER_FILE_MAX);
+    done = done && read_text(file, name, (size_t)status.st_size, &text, message);
+    close(file);
+    if (!done)
+        return false;
+    copy = strdup(name);
+    if (!copy || files->count == SUBMISSION_MAX_FILES) {
+        free(copy);
+        free(text);
+        return message_set(message, "%s: more than %d files", name, SUBMISSION_MAX_FILES);
+    }
+    files->texts[files->count++] = (ShaderText){copy, text};
+    return true;
+}
+
+/* Files that may be included; unreadable ones are ignored. */
+static void read_others(SubmissionFiles *files, int folder)
+{
+    const int again = openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    DIR *list = again >= 0 ? fdopendir(again) : NULL;
+    if (!list && again >= 0)
+        close(again);
+    struct dirent *entry;
+    for (int i = 0; list && i < MAX_ENTRIES && (entry = readdir(list)); i++)
+        if ((ends_in(entry->d_name, ".glsl") || ends_in(entry->d_name, ".vert") ||
+             ends_in(entry->d_name, ".frag")) &&
+            !submission_file(files, entry->d_name))
+            read_file(files, folder, entry->d_name, NULL);
+    if (list)
+        closedir(list);
+}
+
+bool submission_files_open(SubmissionFiles *files, const Lab *lab, const char *folder,
+                           Message *message)
+{
+    static const char *const endings[] = {".vert", ".frag"};
+    *files = (SubmissionFiles){.count = 0};
+    const int directory = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (directory < 0)
+        return message_set(message, "%s: %s", folder,
+                           errno == ENOTDIR ? "not a folder; name the folder with the files"
+                                            : strerror(errno));
+    bool done = true;
+    for (int i = 0; i < 2 && done && !lab->given; i++) {
+        char name[64];
+        snprintf(name, sizeof name, "%s%s", lab->file, endings[i]);
+        done = read_file(files, directory, name, message);
+    }
+    if (done && lab->code)
+        done = read_file(files, directory, lab->code, message);
+    if (done && !lab->given)
+        read_others(files, directory);
+    close(directory);
+    if (!done)
+        submission_files_close(files);
+    return done;
+}
+
+const char *submission_file(const SubmissionFiles *files, const char *name)
+{
+    for (int i = 0; i < files->count; i++)
+        if (strcmp(files->texts[i].name, name) == 0)
+            return files->texts[i].text;
+    return NULL;
+}
+
+void submission_files_close(SubmissionFiles *files)
+{
+    if (!files)
+        return;
+    for (int i = 0; i < files->count; i++) {
+        free((char *)files->texts[i].name);
+        free((char *)files->texts[i].text);
+    }
+    *files = (SubmissionFiles){.count = 0};
+}
+
+bool submission_compile(Shader *shader, const Lab *lab, const SubmissionFiles *files,
+                        const char *precision, Message *message)
+{
+    const ShaderLoader loader = {.texts = files->texts, .only_texts = true, .precision = precision};
+    return shader_open(shader, &loader, lab->file, message);
+}
+
+static bool draw_object(const Lab *lab, GLuint program, const Probe *probe, int i,
+                        const SubmissionGeometry *geometry, Message *message)
+{
+    MeshBuffer mesh;
+    const Drawn drawn = {.scene = &probe->scene,
+                         .object = i,
+                         .aspect = (double)probe->width / probe->height,
+                         .world_from_object = geometry->world_from_object,
+                         .normal_matrix = geometry->normal_matrix};
+    const Mesh *shape = geometry->mesh ? geometry->mesh : probe->objects[i].mesh;
+    if (!mesh_buffer_open(&mesh, shape, message))
+        return false;
+    const bool done = binding_draw(lab, program, &mesh, &drawn, message);
+    mesh_buffer_close(&mesh);
+    return done;
+}
+
+static bool paint(const Painter *painter, const Probe *probe, const SubmissionGeometry *geometry,
+                  Message *message)
+{
+    for (int i = 0; i < probe->scene.object_count; i++)
+        if (!draw_object(painter->lab, painter->program, probe, i, geometry, message))
+            return false;
+    return true;
+}
+
+static bool read_part(const Canvas *canvas, int left, int top, Image *image, Message *message)
+{
+    Image whole;
+    if (left == 0 && top == 0)
+        return canvas_read(canvas, image, message);
+    if (!image_open(&whole, left + image->width, top + image->height, IMAGE_BYTE, message))
+        return false;
+    const bool done = canvas_read(canvas, &whole, message);
+    for (int y = 0; y < image->height && done; y++)
+        memcpy((unsigned char *)image->pixels + 4 * (size_t)y * (size_t)image->width,
+               (const unsigned char *)whole.pixels +
+                   4 * ((size_t)(y + top) * (size_t)whole.width + (size_t)left),
+               4 * (size_t)image->width);
+    image_close(&whole);
+    return done;
+}
+
+bool painter_draw_at(const Painter *painter, const Probe *probe, const SubmissionGeometry *geometry,
+                     Canvas *canvas, int left, int top, Image *image, Message *message)
+{
+    if (!canvas_resize(canvas, left + probe->width, top + probe->height, message))
+        return false;
+    canvas_clear(canvas, probe->scene.background, 1);
+    canvas_view(canvas, left, top, probe->width, probe->height);
+    glEnable(GL_DEPTH_TEST);
+    if (geometry->cull)
+        glEnable(GL_CULL_FACE);
+    const bool done = painter->paint ? painter->paint(painter, probe, geometry, message)
+                                     : paint(painter, probe, geometry, message);
+    glDisable(GL_CULL_FACE);
+    return done && read_part(canvas, left, top, image, message);
+}
+
+bool painter_draw(const Painter *painter, const Probe *probe, const SubmissionGeometry *geometry,
+                  Canvas *canvas, Image *image, Message *message)
+{
+    return painter_draw_at(painter, probe, geometry, canvas, 0, 0, image, message);
+}

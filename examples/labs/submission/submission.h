@@ -1,0 +1,62 @@
+/*
+ * submission: a student's shaders: read, compiled, drawn.
+ *
+ * Untrusted: only regular files of the folder itself are read, of at most SHADER_FILE_MAX bytes,
+ * and
+ * `#include` finds only those.
+ */
+#ifndef SUBMISSION_H
+#define SUBMISSION_H
+
+#include "core/canvas.h"
+#include "core/shader.h"
+#include "labs/program/binding.h"
+#include "labs/program/probe.h"
+
+/* Files of a folder, in memory. Zeroed: none. */
+enum { SUBMISSION_MAX_FILES = 64 };
+typedef struct SubmissionFiles {
+    ShaderText texts[SUBMISSION_MAX_FILES + 1]; /* ended by a NULL name */
+    int count;
+} SubmissionFiles;
+
+/* Reads a lab's files, and *.glsl, *.vert, *.frag that they may include, from a folder. False, with
+ * a message that begins with the file's name, if a required file is missing, too large, not text,
+ * or not a regular file of this folder. */
+bool submission_files_open(SubmissionFiles *files, const Lab *lab, const char *folder,
+                           Message *message);
+const char *submission_file(const SubmissionFiles *files, const char *name); /* its text, or NULL */
+void submission_files_close(SubmissionFiles *files);
+
+/* Compiles LAB.vert and LAB.frag. `precision` is ShaderLoader's. Messages begin "file:line:" if the
+ * driver names a line. */
+bool submission_compile(Shader *shader, const Lab *lab, const SubmissionFiles *files,
+                        const char *precision, Message *message);
+
+/* Replaces a probe's own geometry. Zeroed: nothing. */
+typedef struct SubmissionGeometry {
+    const Mat4 *world_from_object, *normal_matrix; /* lab 3; NULL: the probe's */
+    const Mesh *mesh;                              /* lab 10; NULL: the probe's */
+    bool cull;
+} SubmissionGeometry;
+
+/* Draws with a submission's program or, in a test, as a known mistake. */
+typedef struct Painter {
+    const Lab *lab;
+    GLuint program;
+    /* Draws a scene's objects into the cleared canvas; NULL: with the program. */
+    bool (*paint)(const struct Painter *painter, const Probe *probe,
+                  const SubmissionGeometry *geometry, Message *message);
+    const void *what; /* for `paint` */
+} Painter;
+
+/* Resizes a canvas to a probe's size, draws the probe and reads it back into an image of bytes of
+ * that size. False, with a message: the driver failed. */
+bool painter_draw(const Painter *painter, const Probe *probe, const SubmissionGeometry *geometry,
+                  Canvas *canvas, Image *image, Message *message);
+
+/* The same into a rectangle of a larger canvas, whose upper left pixel is (left, top). */
+bool painter_draw_at(const Painter *painter, const Probe *probe, const SubmissionGeometry *geometry,
+                     Canvas *canvas, int left, int top, Image *image, Message *message);
+
+#endif

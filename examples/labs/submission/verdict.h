@@ -1,0 +1,93 @@
+/*
+ * verdict: the result of judging one submission, as plain data without pointers, so that the
+ * judging process can send it through a pipe.
+ *
+ * Errors are in steps of 1/255, in pixels without an edge.
+ */
+#ifndef VERDICT_H
+#define VERDICT_H
+
+#include "labs/program/lab.h"
+
+#include <stdint.h>
+#include <stdio.h>
+
+typedef enum VerdictKind {
+    VERDICT_ERROR, /* does not compile, or could not be drawn */
+    VERDICT_RIGHT,
+    VERDICT_WRONG,
+    VERDICT_REFUSED, /* its files are not allowed */
+    VERDICT_TIMEOUT, /* did not end in time */
+} VerdictKind;
+
+/* "error", "right", "wrong", "refused", "timeout". */
+extern const char *const VERDICT_NAMES[];
+
+enum {
+    VERDICT_MAX_POINTS = 10,
+    VERDICT_MAX_MISTAKES = 4,
+    VERDICT_MAX_SYMPTOMS = 8,
+    VERDICT_MAX_PROBES = 16,
+    VERDICT_SENTENCE_SIZE = 512,
+    VERDICT_DETAILS_SIZE = 4096,
+};
+
+/* A mistake that explains the pictures. `sure` is 0 to 1. */
+typedef struct VerdictMistake {
+    char name[64];
+    char sentence[VERDICT_SENTENCE_SIZE]; /* what is wrong */
+    char look[VERDICT_SENTENCE_SIZE];     /* completes "Look at ..." */
+    double sure;
+} VerdictMistake;
+
+/* The result of one scene. */
+typedef struct VerdictProbe {
+    char name[8];
+    bool known; /* else of the seed */
+    int width, height;
+    double seconds;
+    double maximum, rms;
+    bool passed;
+} VerdictProbe;
+
+/* The cost of lab 10's picture. */
+typedef struct VerdictCost {
+    bool known;
+    double error;            /* the largest of all scenes */
+    double time_ratio;       /* to the chapter's own program in `accuracy`'s usual setting */
+    long operations;         /* of all vertices and fragments; -1: not counted */
+    double operations_ratio; /* to that program's; -1: not counted */
+} VerdictCost;
+
+typedef struct Verdict {
+    VerdictKind kind;
+    uint64_t seed;
+    double points;
+    char message[VERDICT_SENTENCE_SIZE]; /* one sentence */
+    char details[VERDICT_DETAILS_SIZE];  /* more lines: from driver or compiler */
+    VerdictMistake mistakes[VERDICT_MAX_MISTAKES];
+    int mistake_count;
+    bool one_of; /* one of the mistakes, which look alike; else all of them */
+    char symptoms[VERDICT_MAX_SYMPTOMS][VERDICT_SENTENCE_SIZE];
+    int symptom_count;
+    VerdictProbe probes[VERDICT_MAX_PROBES];
+    int probe_count;
+    char picture[64]; /* in the folder for pictures; empty: none */
+    VerdictCost cost;
+    double seconds; /* of judging */
+} Verdict;
+
+/* Adds text, cut if too long. */
+void verdict_add_symptom(Verdict *verdict, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+void verdict_add_mistake(Verdict *verdict, const char *name, const char *sentence, const char *look,
+                         double sure);
+
+/* Sets the points: 10 if right; otherwise 1 for compiling and drawing, and up to 8 for the share of
+ * scenes passed, in halves. Lab 10: see budget_score. */
+void verdict_score(Verdict *verdict);
+
+/* For a terminal. */
+void verdict_print(const Verdict *verdict, const Lab *lab, const char *pictures, FILE *file);
+
+#endif

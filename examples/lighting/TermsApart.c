@@ -1,0 +1,216 @@
+/*
+ * TermsApart: the lighting equation taken apart, term by term and light by light.
+ *
+ * Above, each term alone: emission, ambient, diffuse, specular. Below, each of two lights alone,
+ * the sum without its highlights, and the whole sum. A view computes only what it shows: --costs
+ * says with how many operations per vertex and per fragment, and in what time.
+ *
+ * Look at what each term adds, and at its price. Any program has --terms for the same.
+ */
+#include "base/clock.h"
+#include "scene/lighting.h"
+#include "scene/scene_example.h"
+#include "scene/shader_cost.h"
+#include "scene/shape.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { VIEWS = 8, LIGHTS = 2, ROUNDS = 15 };
+
+static const struct {
+    const char *name;
+    SceneTerms terms;
+} VIEW[VIEWS] = {
+    {"emission", {.left_out = TERM_ALL & ~TERM_EMISSION}},
+    {"ambient", {.left_out = TERM_ALL & ~TERM_AMBIENT}},
+    {"diffuse", {.left_out = TERM_ALL & ~TERM_DIFFUSE}},
+    {"specular", {.left_out = TERM_ALL & ~TERM_SPECULAR}},
+    {"light 0", {.left_out = TERM_AMBIENT | TERM_EMISSION, .lights_left_out = 2}},
+    {"light 1", {.left_out = TERM_AMBIENT | TERM_EMISSION, .lights_left_out = 1}},
+    {"all but specular", {.left_out = TERM_SPECULAR}},
+    {"sum", {.left_out = 0}},
+};
+
+enum { COSTS_OFF, COSTS_OPERATIONS, COSTS_TIME };
+static const char *const COSTS[] = {"off", "operations", "time", NULL};
+
+static int shape_kind = SHAPE_TEAPOT, costs = COSTS_OPERATIONS;
+static ShapeModel model;
+static Surface surface = {.name = MATERIAL_COUNT,
+                          .material = {.ambient = {0.2, 0.5, 0.45},
+                                       .diffuse = {0.2, 0.5, 0.45},
+                                       .specular = {0.7, 0.7, 0.7},
+                                       .emission = {0.12, 0.02, 0.02},
+                                       .alpha = 1,
+                                       .shininess = 40}};
+static SceneShading shading = {REFLECTION_PHONG, INTERPOLATION_PHONG, VIEWER_LOCAL};
+static Vec3 global_ambient = {0.3, 0.3, 0.3};
+
+static const Parameter parameters[] = {
+    SHAPE_PARAMETERS(shape_kind, model),
+    {"costs",
+     "of each view: operations per vertex + per fragment; or their time too, which differs from run to run",
+     PARAMETER_CHOICE, .value = &costs, .choices = COSTS},
+    SURFACE_PARAMETERS(surface),
+    SHADING_PARAMETERS(shading),
+    COLOR_PARAMETER("global-ambient", "ambient light of the scene", global_ambient),
+    {.name = NULL},
+};
+
+static struct {
+    Shape shape;
+    Light lights[LIGHTS];
+    Object object;
+    SceneCopy kept;
+    char labels[VIEWS][64];
+} state;
+
+static void scene(double seconds, int view, Scene *scene)
+{
+    state.lights[0] = (Light){.kind = LIGHT_POINT,
+                              .position = example_turn((Vec3){-3, 3, 2}, seconds),
+                              .diffuse = {1, 0.9, 0.7},
+                              .specular = {1, 0.9, 0.7}};
+    state.lights[1] = (Light){.kind = LIGHT_POINT,
+                              .position = example_turn((Vec3){3, 1, 3}, seconds),
+                              .diffuse = {0.4, 0.5, 0.8},
+                              .specular = {0.4, 0.5, 0.8}};
+    state.object = shape_object(&state.shape, mat4_identity(), surface.material);
+    *scene = (Scene){.camera = example_camera((Vec3){1, 2, 5}, 1.6),
+                     .global_ambient = global_ambient,
+                     .lights = state.lights,
+                     .light_count = LIGHTS,
+                     .objects = &state.object,
+                     .object_count = 1};
+    scene_shading_apply(&shading, scene);
+    scene_copy_close(&state.kept);
+    if (scene_copy_open(&state.kept, scene, false, NULL)) {
+        scene_keep_terms(&state.kept, VIEW[view].terms);
+        *scene = state.kept.scene;
+    }
+}
+
+/* The operations of a view's shader: those of an earlier view with the same, or counted now; -1
+ * where the tools that count them are missing. */
+static int operations_of(ShaderSource sources[VIEWS][2], int operations[VIEWS][2], int view,
+                         int stage)
+{
+    ShaderCost cost;
+    const char *text = sources[view][stage].text;
+    for (int earlier = 0; earlier < view; earlier++)
+        if (text && strcmp(sources[earlier][stage].text, text) == 0)
+            return operations[earlier][stage];
+    return text && shader_cost(text, (ShaderStage)stage, &cost, NULL)
+               ? cost.arithmetic + cost.special
+               : -1;
+}
+
+static bool count_operations(const Lighting *lighting, int operations[VIEWS][2], Message *message)
+{
+    ShaderSource sources[VIEWS][2] = {{{0}}};
+    bool done = true;
+    for (int view = 0; view < VIEWS && done; view++) {
+        Scene shown;
+        scene(0, view, &shown);
+        done = lighting_sources(lighting, &shown, &shown.objects[0], false, sources[view], message);
+        for (int stage = 0; stage < 2 && done; stage++)
+            operations[view][stage] = operations_of(sources, operations, view, stage);
+    }
+    for (int view = 0; view < VIEWS; view++)
+        for (int stage = 0; stage < 2; stage++)
+            shader_source_close(&sources[view][stage]);
+    return done;
+}
+
+static int compare(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* The medians of interleaved rounds, in milliseconds. */
+static bool time_views(Lighting *lighting, double medians[VIEWS], Message *message)
+{
+    double times[VIEWS][ROUNDS];
+    for (int round = -1; round < ROUNDS; round++) { /* the first compiles */
+        for (int view = 0; view < VIEWS; view++) {
+            Scene shown;
+            scene(0, view, &shown);
+            glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+            const double start = clock_now();
+            if (!lighting_draw(lighting, &shown, 1, false, message))
+                return false;
+            glFinish();
+            if (round >= 0)
+                times[view][round] = 1e3 * (clock_now() - start);
+        }
+    }
+    for (int view = 0; view < VIEWS; view++) {
+        qsort(times[view], ROUNDS, sizeof times[view][0], compare);
+        medians[view] = times[view][ROUNDS / 2];
+    }
+    return true;
+}
+
+static bool make_labels(const ShaderLoader *loader, Message *message)
+{
+    Lighting *lighting;
+    ShaderLoader quiet = *loader;
+    double medians[VIEWS];
+    int operations[VIEWS][2];
+    quiet.print = 0;
+    quiet.log = NULL;
+    const bool done = lighting_open(&lighting, &quiet, message) &&
+                      (costs == COSTS_OFF || count_operations(lighting, operations, message)) &&
+                      (costs != COSTS_TIME || time_views(lighting, medians, message));
+    for (int view = 0; view < VIEWS && done; view++) {
+        char counted[32] = "", timed[32] = "";
+        const int *own = operations[view];
+        if (costs != COSTS_OFF && own[0] >= 0 && own[1] >= 0)
+            snprintf(counted, sizeof counted, ": %d + %d op", own[0], own[1]);
+        if (costs == COSTS_TIME)
+            snprintf(timed, sizeof timed, "%s%.2f ms", counted[0] ? ", " : ": ", medians[view]);
+        snprintf(state.labels[view], sizeof state.labels[view], "%s%s%s", VIEW[view].name, counted,
+                 timed);
+    }
+    lighting_close(lighting);
+    return done;
+}
+
+static bool init(const ShaderLoader *loader, Message *message)
+{
+    return shape_open(&state.shape, (ShapeKind)shape_kind, SHAPE_LECTURE, &model, message) &&
+           make_labels(loader, message);
+}
+
+static void layout(int *columns, int *rows)
+{
+    *columns = VIEWS / 2;
+    *rows = 2;
+}
+
+static const char *label(int view)
+{
+    return state.labels[view];
+}
+
+static void finish(void)
+{
+    scene_copy_close(&state.kept);
+    shape_close(&state.shape);
+}
+
+const Example TermsApart = {
+    .name = "TermsApart",
+    .summary = "the terms of the lighting equation one by one, and what each costs",
+    .width = 1000,
+    .height = 500,
+    .tries = {"--interpolation gouraud", "--shape sphere --costs time", "--shininess 0"},
+    .init = init,
+    .finish = finish,
+    .scene =
+        &(const SceneExample){
+            .make = scene, .layout = layout, .label = label, .parameters = parameters},
+};

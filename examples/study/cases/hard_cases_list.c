@@ -1,0 +1,483 @@
+#include "study/cases/hard_cases_list.h"
+
+#include "shapes/mesh_solids.h"
+#include "study/cases/hard_cases_naive.h"
+
+#include <string.h>
+
+/* The start of every case: a slightly shiny object, a point light, some ambient light. */
+static void begin(HardScene *made)
+{
+    made->lights[0] = (Light){.kind = LIGHT_POINT,
+                              .position = {-2, 3, 4},
+                              .diffuse = {0.8, 0.8, 0.75},
+                              .specular = {0.5, 0.5, 0.5}};
+    made->objects[0] = (Object){.mesh = &made->mesh,
+                                .world_from_object = mat4_identity(),
+                                .front = {.ambient = {0.9, 0.6, 0.35},
+                                          .diffuse = {0.9, 0.6, 0.35},
+                                          .specular = {0.6, 0.6, 0.6},
+                                          .alpha = 1,
+                                          .shininess = 32}};
+    made->scene = (Scene){.camera = {{0, 1.2, 4}, {0, 0, 0}, {0, 1, 0}, 36, 1, 20, 0},
+                          .background = {0.12, 0.13, 0.17},
+                          .global_ambient = {0.25, 0.25, 0.25},
+                          .lights = made->lights,
+                          .light_count = 1,
+                          .objects = made->objects,
+                          .object_count = 1};
+}
+
+static Mat4 scale(double x, double y, double z)
+{
+    return mat4_scale((Vec3){x, y, z});
+}
+
+/* Half a sphere, flattened to a disc. */
+static bool make_singular(HardScene *made, Message *message)
+{
+    if (!mesh_sphere(&made->mesh, 1, 64, 32, message))
+        return false;
+    Mesh *mesh = &made->mesh;
+    size_t kept = 0;
+    for (size_t i = 0; i < mesh->index_count; i += 3) {
+        double height = 0;
+        for (size_t k = 0; k < 3; k++)
+            height += (double)mesh->vertices[mesh->indices[i + k]].position[1];
+        for (size_t k = 0; k < 3 && height > 0; k++)
+            mesh->indices[kept++] = mesh->indices[i + k];
+    }
+    mesh->index_count = kept;
+    made->objects[0].world_from_object = scale(1.3, 0, 1.3);
+    made->scene.camera.eye = (Vec3){0, 2.5, 3};
+    return true;
+}
+
+static bool make_mirror(HardScene *made, Message *message)
+{
+    made->objects[0].world_from_object = scale(-1, 1, 1);
+    made->scene.camera.fovy = 30;
+    return mesh_teapot(&made->mesh, 0.9, 10, message);
+}
+
+static bool make_uneven(HardScene *made, Message *message)
+{
+    const Mat4 turned = mat4_rotate(35, (Vec3){0, 0, 1});
+    made->objects[0].world_from_object = mat4_product(turned, scale(1.4, 0.35, 1));
+    return mesh_sphere(&made->mesh, 1, 96, 48, message);
+}
+
+static void spoil_normals(HardScene *made)
+{
+    made->naive_objects[0].wrong_normals = true;
+}
+
+static bool make_tiny(HardScene *made, Message *message)
+{
+    made->objects[0].world_from_object = scale(1e-16, 0.8e-16, 1e-16);
+    made->scene.camera.fovy = 30;
+    return mesh_teapot(&made->mesh, 1e16, 10, message);
+}
+
+/* The camera above the teapot, with its up vector LEAN radians from the view direction. */
+static bool make_look_at(HardScene *made, Message *message)
+{
+    static const double LEAN = 1e-7;
+    Vec3 behind, side;
+    Camera *camera = &made->scene.camera;
+    camera->eye = (Vec3){0.7, 3.1, 2.3};
+    vec3_normalize(camera->eye, &behind);
+    vec3_normalize(vec3_cross(vec3_cross(behind, (Vec3){0, 1, 0}), behind), &side);
+    camera->up = vec3_subtract(behind, vec3_scale(side, -LEAN));
+    camera->fovy = 32;
+    return mesh_teapot(&made->mesh, 0.9, 10, message);
+}
+
+static bool make_far(HardScene *made, Message *message)
+{
+    static const Vec3 offset = {5000000.3, 1000000.7, -2500000.1};
+    Camera *camera = &made->scene.camera;
+    made->objects[0].world_from_object = mat4_translate(offset);
+    made->lights[0].position = vec3_add(made->lights[0].position, offset);
+    camera->eye = vec3_add(camera->eye, offset);
+    camera->center = vec3_add(camera->center, offset);
+    camera->fovy = 30;
+    return mesh_teapot(&made->mesh, 0.9, 10, message);
+}
+
+/* Some normals are zero, as in defective model files. */
+static bool make_zero_normals(HardScene *made, Message *message)
+{
+    made->scene.global_ambient = (Vec3){0.45, 0.45, 0.45};
+    made->scene.camera.fovy = 30;
+    made->lights[0].position = (Vec3){-1, 2, 4};
+    made->lights[0].diffuse = (Vec3){0.5, 0.5, 0.5};
+    if (!mesh_sphere(&made->mesh, 1, 48, 24, message))
+        return false;
+    for (size_t i = 0; i < made->mesh.vertex_count; i++) {
+        const float *p = made->mesh.vertices[i].position;
+        if (p[0] + p[1] > 0.15F && p[0] + p[1] < 0.75F)
+            memset(made->mesh.vertices[i].normal, 0, sizeof made->mesh.vertices[i].normal);
+    }
+    return true;
+}
+
+/* A strip whose ends have opposite normals, with its middle at a pixel's centre. */
+static bool make_cancelling(HardScene *made, Message *message)
+{
+    static const double FOVY = 80.31199924983865; /* 27 pixels are 27/16 high at distance 1 */
+    made->scene.camera = (Camera){{0, 0, 1}, {0, 0, 0}, {0, 1, 0}, FOVY, 0.1, 10, 0};
+    made->scene.global_ambient = (Vec3){0.6, 0.6, 0.6};
+    made->lights[0].position = (Vec3){0, 0, 0.7};
+    made->lights[0].diffuse = (Vec3){0.5, 0.5, 0.5};
+    made->objects[0].world_from_object = scale(1, 0.55, 1);
+    if (!mesh_quad(&made->mesh, 1, message))
+        return false;
+    for (size_t i = 0; i < 4; i++) {
+        MeshVertex *v = &made->mesh.vertices[i];
+        v->normal[0] = v->position[0] < 0 ? 1 : -1;
+        v->normal[1] = v->normal[2] = 0;
+    }
+    return true;
+}
+
+static bool make_pow(HardScene *made, Message *message)
+{
+    made->scene.reflection = REFLECTION_PHONG;
+    made->scene.camera.fovy = 30;
+    made->lights[0].position = (Vec3){-4, 2, 1};
+    made->objects[0].front.shininess = 0;
+    return mesh_sphere(&made->mesh, 1, 96, 48, message);
+}
+
+/* Light from the side: on the far side R.V is negative although N.L > 0. */
+static bool make_negative(HardScene *made, Message *message)
+{
+    made->scene.reflection = REFLECTION_PHONG;
+    made->scene.camera.fovy = 30;
+    made->lights[0].position = (Vec3){-4, 2, 2.5};
+    return mesh_sphere(&made->mesh, 1, 96, 48, message);
+}
+
+static bool make_unit(HardScene *made, Message *message)
+{
+    made->scene.camera.fovy = 30;
+    made->lights[0].position = (Vec3){-1, 2, 4};
+    made->objects[0].front.diffuse = (Vec3){0.6, 0.35, 0.2};
+    return mesh_sphere(&made->mesh, 1, 10, 5, message);
+}
+
+static void spoil_unit(HardScene *made)
+{
+    made->naive.skip_renormalization = true;
+}
+
+static bool make_leak(HardScene *made, Message *message)
+{
+    made->scene.camera.fovy = 30;
+    made->lights[0].position = (Vec3){-4, 2, -2.5};
+    made->lights[0].specular = (Vec3){1, 1, 1};
+    made->objects[0].front.shininess = 3;
+    return mesh_sphere(&made->mesh, 1, 96, 48, message);
+}
+
+/* The lower half of a sphere, seen from inside. */
+static bool make_bowl(Mesh *mesh, int slices, int stacks, Message *message)
+{
+    if (!mesh_sphere(mesh, 1, slices, stacks, message))
+        return false;
+    size_t kept = 0;
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
+        MeshVertex *v = &mesh->vertices[i];
+        for (int k = 0; k < 3; k++)
+            v->normal[k] *= -1;
+        if (v->position[1] < -0.9999F) /* the pole, without rounding of the sine */
+            *v = (MeshVertex){{0, -1, 0}, {0, 1, 0}};
+    }
+    for (size_t i = 0; i < mesh->index_count; i += 3) {
+        const uint32_t a = mesh->indices[i], b = mesh->indices[i + 1], c = mesh->indices[i + 2];
+        if (mesh->vertices[a].position[1] > 0.01F || mesh->vertices[b].position[1] > 0.01F ||
+            mesh->vertices[c].position[1] > 0.01F)
+            continue;
+        mesh->indices[kept++] = a;
+        mesh->indices[kept++] = c;
+        mesh->indices[kept++] = b;
+    }
+    mesh->index_count = kept;
+    return true;
+}
+
+/* A bowl that opens towards the eye, with light from straight behind: at its middle vertex light
+ * and viewer are opposite. Specular reflection is small. */
+static bool make_opposite(HardScene *made, Message *message)
+{
+    made->objects[0].world_from_object = mat4_rotate(90, (Vec3){1, 0, 0});
+    made->scene.camera = (Camera){{0, 0, 3}, {0, 0, 0}, {0, 1, 0}, 42, 1, 20, 0};
+    made->scene.interpolation = INTERPOLATION_GOURAUD;
+    made->scene.global_ambient = (Vec3){0.6, 0.6, 0.6};
+    made->lights[0].kind = LIGHT_DIRECTIONAL;
+    made->lights[0].direction = (Vec3){0, 0, -1};
+    made->lights[0].specular = (Vec3){0.02, 0.02, 0.02};
+    return make_bowl(&made->mesh, 16, 12, message);
+}
+
+/* A bowl with a light at its bottom vertex. */
+static bool make_touching(HardScene *made, Message *message)
+{
+    made->scene.camera = (Camera){{0, 3, 0}, {0, 0, 0}, {0, 0, -1}, 42, 1, 20, 0};
+    made->scene.interpolation = INTERPOLATION_GOURAUD;
+    made->lights[0].position = (Vec3){0, -1, 0};
+    made->lights[0].linear = 1.2;
+    made->lights[0].specular = (Vec3){0, 0, 0};
+    return make_bowl(&made->mesh, 16, 12, message);
+}
+
+static bool make_spot(HardScene *made, Message *message)
+{
+    const Mat4 lying = mat4_rotate(-90, (Vec3){1, 0, 0});
+    made->objects[0].world_from_object = mat4_product(lying, scale(2, 2, 1));
+    made->objects[0].front.specular = (Vec3){0, 0, 0};
+    made->scene.camera.eye = (Vec3){0, 3, 3};
+    made->scene.camera.fovy = 34;
+    made->lights[0] = (Light){.kind = LIGHT_SPOT,
+                              .position = {-4, 12, 3},
+                              .direction = {4, -12, -3},
+                              .cutoff = 4.5,
+                              .diffuse = {0.8, 0.8, 0.75}};
+    return mesh_quad(&made->mesh, 1, message);
+}
+
+static bool make_highlight(HardScene *made, Message *message)
+{
+    made->scene.reflection = REFLECTION_PHONG;
+    made->scene.camera.fovy = 9;
+    made->scene.camera.center = (Vec3){-0.25, 0.3, 0.9};
+    made->lights[0].position = (Vec3){-2, 2, 4};
+    made->lights[0].specular = (Vec3){1, 1, 1};
+    made->objects[0].front.diffuse = (Vec3){0.5, 0.3, 0.15};
+    made->objects[0].front.specular = (Vec3){0.7, 0.7, 0.7};
+    made->objects[0].front.shininess = 128;
+    return mesh_sphere(&made->mesh, 1, 192, 96, message);
+}
+
+static bool make_wide(HardScene *made, Message *message)
+{
+    static const double SIZE = 300;
+    Camera *camera = &made->scene.camera;
+    camera->eye = vec3_scale(camera->eye, SIZE);
+    camera->near *= SIZE;
+    camera->far *= SIZE;
+    camera->fovy = 30;
+    made->lights[0].position = vec3_scale(made->lights[0].position, SIZE);
+    return mesh_sphere(&made->mesh, SIZE, 96, 48, message);
+}
+
+static bool make_indices(HardScene *made, Message *message)
+{
+    const Mat4 turned = mat4_rotate(-50, (Vec3){1, 0, 0});
+    made->objects[0].world_from_object = turned;
+    made->scene.camera.fovy = 30;
+    return mesh_sphere(&made->mesh, 1, 400, 250, message) &&
+           mesh_sphere(&made->naive_mesh, 1, 400, 250, message);
+}
+
+static void spoil_indices(HardScene *made)
+{
+    for (size_t i = 0; i < made->naive_mesh.index_count; i++)
+        made->naive_mesh.indices[i] &= 0xffff;
+}
+
+/* A sheet, and another a hundredth of a unit above it. */
+static bool make_depth(HardScene *made, Message *message)
+{
+    const Mat4 lying = mat4_rotate(-90, (Vec3){1, 0, 0});
+    made->objects[1] = made->objects[0];
+    made->objects[0].world_from_object = mat4_product(lying, scale(1.4, 1.4, 1));
+    made->objects[1].world_from_object =
+        mat4_product(mat4_translate((Vec3){0, 0.01, 0}), mat4_product(lying, scale(0.9, 0.9, 1)));
+    made->objects[1].front.ambient = made->objects[1].front.diffuse = (Vec3){0.2, 0.4, 0.8};
+    made->objects[0].front.specular = made->objects[1].front.specular = (Vec3){0, 0, 0};
+    made->scene.object_count = 2;
+    made->scene.camera.eye = (Vec3){0, 2.4, 3.6};
+    return mesh_quad(&made->mesh, 1, message);
+}
+
+static void spoil_near(HardScene *made)
+{
+    made->naive.camera.near = 3e-5;
+}
+
+/* A bowl of few facets, seen from slightly above its rim. */
+static bool make_two_sided(HardScene *made, Message *message)
+{
+    made->objects[0].world_from_object = mat4_translate((Vec3){0, 0.5, 0});
+    made->objects[0].two_sided = true;
+    made->objects[0].back = made->objects[0].front;
+    made->objects[0].back.ambient = made->objects[0].back.diffuse = (Vec3){0.2, 0.5, 0.9};
+    made->scene.camera.eye = (Vec3){0, 1.9, 3.6};
+    made->scene.camera.fovy = 32;
+    return make_bowl(&made->mesh, 8, 5, message);
+}
+
+/* Without any max, because max(NaN, b) is b and would hide the NaN. */
+#define NOT_GUARDED                                                                                \
+    {                                                                                              \
+        {"lighting/guards.glsl", "study/unguarded.glsl"},                                          \
+        {                                                                                          \
+            "lighting/highlight.glsl", "study/highlight_squares.glsl"                              \
+        }                                                                                          \
+    }
+
+const HardCase HARD_CASES[HARD_CASE_COUNT] = {
+    {.name = "singular",
+     .what = "scale (1.3, 0, 1.3), which has no inverse, for the normals",
+     .naive = "no inverse: old matrix",
+     .stable = "cofactors",
+     .make = make_singular,
+     .normal_matrix = naive_inverse_transpose},
+    {.name = "mirror",
+     .what = "a mirrored teapot, scale (-1, 1, 1)",
+     .naive = "cofactors",
+     .stable = "times sign of det",
+     .make = make_mirror,
+     .normal_matrix = naive_cofactors},
+    {.name = "uneven",
+     .what = "an uneven scale, (1.4, 0.35, 1)",
+     .naive = "model-view for normals",
+     .stable = "normal matrix",
+     .make = make_uneven,
+     .spoil = spoil_normals},
+    {.name = "tiny",
+     .what = "a model in small units, scale 1e-16",
+     .naive = "float inverse",
+     .stable = "cofactors in double",
+     .make = make_tiny,
+     .normal_matrix = naive_float_inverse_transpose},
+    {.name = "look-at",
+     .what = "up nearly along the view, 1e-7 radians away",
+     .naive = "float, as usual",
+     .stable = "double, made orthogonal",
+     .make = make_look_at,
+     .transforms = naive_float_look_at},
+    {.name = "far",
+     .what = "a world five million units from the origin",
+     .naive = "float, view x model",
+     .stable = "relative to the eye",
+     .make = make_far,
+     .transforms = naive_float_lecture},
+    {.name = "unit",
+     .what = "interpolated normals are shorter than 1",
+     .naive = "as interpolated",
+     .stable = "normalized again",
+     .make = make_unit,
+     .spoil = spoil_unit},
+    {.name = "zero-normals",
+     .what = "a mesh without some of its normals: normalize(0)",
+     .naive = "normalize(n)",
+     .stable = "guarded: ambient stays",
+     .make = make_zero_normals,
+     .replaced = NOT_GUARDED},
+    {.name = "cancelling",
+     .what = "opposite normals, interpolated: exactly 0 in the middle",
+     .naive = "normalize(n)",
+     .stable = "guarded: ambient stays",
+     .make = make_cancelling,
+     .replaced = NOT_GUARDED,
+     .width = 35,
+     .height = 27},
+    {.name = "pow",
+     .what = "shininess 0: pow(0, 0) where R.V is not positive",
+     .naive = "pow(max(k, 0), s)",
+     .stable = "1, as for any k",
+     .make = make_pow,
+     .replaced = {{"lighting/guards.glsl", "study/unguarded_pow.glsl"}}},
+    {.name = "negative",
+     .what = "a highlight without max: the power of a negative",
+     .naive = "pow(R.V, s)",
+     .stable = "0 where R.V <= 0",
+     .make = make_negative,
+     .replaced = {{"lighting/highlight.glsl", "study/highlight_plain.glsl"}}},
+    {.name = "leak",
+     .what = "a highlight where no light arrives, N.L < 0",
+     .naive = "pow(N.H, s)",
+     .stable = "0 where N.L <= 0",
+     .make = make_leak,
+     .replaced = {{"lighting/guards.glsl", "study/unguarded_facing.glsl"}}},
+    {.name = "opposite",
+     .what = "light straight behind the object: L + V = 0 at a vertex",
+     .naive = "normalize(L + V)",
+     .stable = "guarded",
+     .make = make_opposite,
+     .replaced = NOT_GUARDED},
+    {.name = "touching",
+     .what = "a light on the surface: distance 0 at a vertex",
+     .naive = "1 / 0",
+     .stable = "1 / max(d, tiny)",
+     .make = make_touching,
+     .replaced = NOT_GUARDED},
+    {.name = "spot",
+     .what = "the edge of a narrow spot, by its angle in mediump",
+     .naive = "acos in mediump",
+     .stable = "cosines in highp",
+     .make = make_spot,
+     .replaced = {{"lighting/cone.glsl", "study/cone_acos.glsl"}},
+     .precision = "mediump"},
+    {.name = "highlight",
+     .what = "a small highlight, shininess 128, in mediump",
+     .naive = "mediump",
+     .stable = "highp",
+     .make = make_highlight,
+     .precision = "mediump"},
+    {.name = "wide",
+     .what = "a scene 600 units wide in mediump: squares overflow",
+     .naive = "mediump",
+     .stable = "highp",
+     .make = make_wide,
+     .precision = "mediump"},
+    {.name = "indices",
+     .what = "a mesh of 100651 vertices with indices of 16 bits",
+     .naive = "16 bits: wrapped",
+     .stable = "32 bits",
+     .make = make_indices,
+     .spoil = spoil_indices},
+    {.name = "depth",
+     .what = "two sheets 0.01 apart, and where the near plane is",
+     .naive = "near 0.00003",
+     .stable = "near 1",
+     .make = make_depth,
+     .spoil = spoil_near},
+    {.name = "two-sided",
+     .what = "which side is seen, of a bowl with few facets",
+     .naive = "by N.V > 0",
+     .stable = "gl_FrontFacing",
+     .make = make_two_sided,
+     .replaced = {{"lighting/side.glsl", "study/side_by_normal.glsl"}}},
+};
+
+const char *const HARD_CASE_NAMES[HARD_CASE_COUNT + 2] = {
+    "singular", "mirror",       "uneven",     "tiny",      "look-at",  "far",
+    "unit",     "zero-normals", "cancelling", "pow",       "negative", "leak",
+    "opposite", "touching",     "spot",       "highlight", "wide",     "indices",
+    "depth",    "two-sided",    "all",        NULL};
+
+bool hard_scene_open(HardScene *made, const HardCase *hard_case, Message *message)
+{
+    memset(made, 0, sizeof *made);
+    begin(made);
+    if (!hard_case->make(made, message))
+        return false;
+    made->naive = made->scene;
+    made->naive.objects = made->naive_objects;
+    memcpy(made->naive_objects, made->objects, sizeof made->objects);
+    if (made->naive_mesh.vertices)
+        made->naive_objects[0].mesh = &made->naive_mesh;
+    if (hard_case->spoil)
+        hard_case->spoil(made);
+    return scene_check(&made->scene, message) && scene_check(&made->naive, message);
+}
+
+void hard_scene_close(HardScene *made)
+{
+    mesh_close(&made->mesh);
+    mesh_close(&made->naive_mesh);
+}

@@ -1,0 +1,43 @@
+/*
+ * hard_cases_list: the hard cases: scenes, and the plain formula that fails on each.
+ */
+#ifndef HARD_CASES_LIST_H
+#define HARD_CASES_LIST_H
+
+#include "scene/lighting.h"
+
+/* A scene for the stable form and one for the plain formula. Not to be copied: points into itself.
+ */
+typedef struct HardScene {
+    Scene scene, naive;
+    Light lights[2];
+    Object objects[2], naive_objects[2]; /* copies, changed by `spoil` */
+    Mesh mesh, naive_mesh;               /* naive_mesh may be empty: then `mesh` */
+} HardScene;
+
+typedef struct HardCase {
+    const char *name;           /* "mirror" */
+    const char *what;           /* at most 62 characters */
+    const char *naive, *stable; /* the two forms, at most 24 characters */
+    bool (*make)(HardScene *made, Message *message);
+    /* How the plain formula differs; NULL: not in this. */
+    void (*spoil)(HardScene *made);
+    ShaderReplacement replaced[3]; /* ended by a NULL name. Timed with the first only: the second
+                                      makes its result visible */
+    const char *precision;
+    LightingNormalMatrix *normal_matrix;
+    const LightingTransforms *(*transforms)(void);
+    int width, height; /* of the picture, which is then enlarged; 0: the user's */
+} HardCase;
+
+enum { HARD_CASE_COUNT = 20 };
+extern const HardCase HARD_CASES[HARD_CASE_COUNT];
+
+/* Their names and "all", NULL-terminated, for a PARAMETER_CHOICE. */
+extern const char *const HARD_CASE_NAMES[HARD_CASE_COUNT + 2];
+
+/* Makes a case's scenes; call hard_scene_close even on failure. */
+bool hard_scene_open(HardScene *made, const HardCase *hard_case, Message *message);
+void hard_scene_close(HardScene *made);
+
+#endif

@@ -1,0 +1,34 @@
+/*
+ * hard_cases_sheet: pictures of hard cases, side by side.
+ */
+#ifndef HARD_CASES_SHEET_H
+#define HARD_CASES_SHEET_H
+
+#include "images/image_file.h"
+#include "reference/reference.h"
+#include "study/cases/hard_cases_list.h"
+
+/* The error of a picture inside the objects. */
+typedef struct HardError {
+    double maximum; /* in steps of 1/255 */
+    double wrong;   /* the fraction of pixels off by more than one step */
+} HardError;
+
+typedef struct HardResult {
+    const HardCase *of;
+    Image naive, stable;
+    Reference exact;
+    HardError naive_error, stable_error;
+    double cost, noise; /* fractions: of a stable frame over a naive one, and A/A */
+} HardResult;
+
+/* "+3% (noise 2%)" */
+enum { HARD_COST_SIZE = 48 };
+void hard_cost_text(const HardResult *result, char text[HARD_COST_SIZE]);
+
+/* A PNG of the results in this number of columns, each as naive, stable and exact in panels of this
+ * size, with names and errors below. Without a font it has no text. */
+bool hard_sheet(const HardResult *results, int count, int columns, int width, int height,
+                const char *path, Message *message);
+
+#endif

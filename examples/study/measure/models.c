@@ -1,0 +1,158 @@
+#include "study/measure/models.h"
+
+#include "base/output.h"
+#include "scene/material.h"
+#include "study/measure/scenes.h"
+#include "study/results/statistics.h"
+#include "study/results/table.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { PHONG, BLINN_PHONG, FITTED, MODELS };
+
+static const char *const NAMES[MODELS] = {"Phong", "Blinn-Phong", "Blinn-Phong, fitted"};
+
+/* Up to a quarter of 128, OpenGL 1.1's maximum: the fitted exponent is about four times as large.
+ */
+static const double SHININESSES[] = {4, 8, 16, 30};
+
+enum { SHININESS_COUNT = sizeof SHININESSES / sizeof SHININESSES[0], ROUNDS = 15 };
+
+typedef struct Model {
+    double shininess;
+    StudyScene made;
+    Reference exact;
+    Drawing drawing;
+    DrawingError error;              /* of the drawn picture, from its own exact one */
+    double apart_rms, apart_maximum; /* of the exact picture from Phong's exact one, inside */
+    int operations;
+    double milliseconds[ROUNDS];
+} Model;
+
+static bool open_model(Survey *survey, Model *model, int number, double shininess, Message *message)
+{
+    const Quality usual = quality_usual();
+    DrawingCounts counts;
+    model->shininess = number == FITTED ? material_fitted_shininess(shininess) : shininess;
+    study_shiny(&model->made, model->shininess,
+                number == PHONG ? REFLECTION_PHONG : REFLECTION_BLINN_PHONG);
+    if (!survey_exact(survey, &model->made.scene, &model->exact, message) ||
+        !drawing_open(&model->drawing, survey->studio, &model->made.scene, &usual, message) ||
+        !drawing_error(&model->drawing, survey->studio, &model->exact, &model->error, message) ||
+        !drawing_counts(&model->drawing, survey->studio, &counts, message))
+        return false;
+    model->operations = counts.fragment_operations;
+    return true;
+}
+
+static void compare(Model *model, const Reference *phong)
+{
+    double squares = 0;
+    long count = 0;
+    for (size_t i = 0; i < (size_t)phong->width * (size_t)phong->height; i++) {
+        if (!phong->interior[i] || !model->exact.interior[i])
+            continue;
+        count += 3;
+        for (size_t c = 3 * i; c < 3 * i + 3; c++) {
+            const double apart =
+                255 * fabs((double)model->exact.color[c] - (double)phong->color[c]);
+            squares += apart * apart;
+            model->apart_maximum = fmax(model->apart_maximum, apart);
+        }
+    }
+    model->apart_rms = count ? sqrt(squares / (double)count) : NAN;
+}
+
+static bool measure(Survey *survey, Model models[MODELS], Message *message)
+{
+    for (int round = 0; round < ROUNDS; round++) {
+        for (int i = 0; i < MODELS; i++) {
+            Drawing *drawing = &models[(i + round) % MODELS].drawing;
+            double *milliseconds = &models[(i + round) % MODELS].milliseconds[round];
+            double wall, gpu;
+            if (!drawing_frame(drawing, survey->studio, &wall, &gpu, message) ||
+                !drawing_frame(drawing, survey->studio, &wall, &gpu, message))
+                return false;
+            *milliseconds = 1e3 * wall;
+        }
+    }
+    return true;
+}
+
+static void print_models(const Model models[MODELS], double phong, const ResultRow *like,
+                         Table *table, FILE *csv)
+{
+    for (int i = 0; i < MODELS; i++) {
+        const Model *model = &models[i];
+        double ratios[ROUNDS], times[ROUNDS];
+        for (int k = 0; k < ROUNDS; k++) {
+            times[k] = model->milliseconds[k];
+            ratios[k] = times[k] / models[PHONG].milliseconds[k];
+        }
+        const double time = statistics_quantile(times, ROUNDS, 0.5);
+        const double ratio = statistics_quantile(ratios, ROUNDS, 0.5);
+        const double lower = statistics_quantile(ratios, ROUNDS, 0.25);
+        const double upper = statistics_quantile(ratios, ROUNDS, 0.75);
+        table_row(table, "%s|%g|%.1f|%.2f|%.3f|%.2f|%.3f|%.3f|%.2f [%.2f, %.2f]|%d", NAMES[i],
+                  phong, model->shininess, model->error.interior_maximum, model->error.interior_rms,
+                  model->apart_maximum, model->apart_rms, time, ratio, lower, upper,
+                  model->operations);
+        fprintf(csv, "%g,\"%s\",%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%d,\"%s\",\"%s\"\n",
+                phong, NAMES[i], model->shininess, model->error.interior_maximum,
+                model->error.interior_rms, model->apart_maximum, model->apart_rms, time, ratio,
+                lower, upper, model->operations, like->renderer, like->threads);
+    }
+}
+
+static bool report_shininess(Survey *survey, double shininess, Table *table, FILE *csv,
+                             Message *message)
+{
+    Model *models = calloc(MODELS, sizeof *models);
+    bool done = models || message_set(message, "models: not enough memory");
+    for (int i = 0; i < MODELS && done; i++)
+        done = open_model(survey, &models[i], i, shininess, message);
+    for (int i = 0; i < MODELS && done; i++)
+        compare(&models[i], &models[PHONG].exact);
+    done = done && measure(survey, models, message);
+    if (done)
+        print_models(models, shininess, &survey->like, table, csv);
+    for (int i = 0; i < MODELS && models; i++) {
+        drawing_close(&models[i].drawing);
+        reference_close(&models[i].exact);
+    }
+    studio_forget(survey->studio);
+    free(models);
+    return done;
+}
+
+bool models_report(Survey *survey, const char *folder, bool markdown, FILE *file, Message *message)
+{
+    char *text = NULL, path[PATH_MAX];
+    size_t size = 0;
+    FILE *csv = open_memstream(&text, &size);
+    bool done = csv || message_set(message, "models.csv: not enough memory");
+    char with[RESULT_WITH_SIZE];
+    results_measured_with(&survey->like, with);
+    Table table;
+    table_open(&table, "model|s|shininess|error|rms|from Phong|rms|ms|over Phong|operations");
+    if (done)
+        fprintf(csv, "s,model,shininess,error_maximum,error_rms,apart_maximum,apart_rms,"
+                     "milliseconds,ratio,ratio_lower,ratio_upper,fragment_operations,"
+                     "renderer,threads\n");
+    for (int i = 0; i < SHININESS_COUNT && done; i++)
+        done = report_shininess(survey, SHININESSES[i], &table, csv, message);
+    if (csv && fclose(csv) != 0 && done)
+        done = message_set(message, "models.csv: not enough memory");
+    fprintf(file,
+            "\nPhong and Blinn-Phong on a sphere, fitted to Phong's shininess s: the error of each "
+            "against its own exact picture,\nand the distance of its exact picture from Phong's "
+            "(steps of 1/255, interior)\n%s\n\n",
+            with);
+    if (!table_close(&table, markdown, file) && done)
+        done = message_set(message, "models: not enough memory");
+    snprintf(path, sizeof path, "%s/models.csv", folder);
+    done = done && output_write(path, text, size, message);
+    free(text);
+    return done;
+}

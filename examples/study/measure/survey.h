@@ -1,0 +1,39 @@
+/*
+ * survey: measures the planned settings of some scenes. Each batch of rows is written to a file as
+ * soon as it is known, so that an interrupted survey continues where it stopped.
+ */
+#ifndef SURVEY_H
+#define SURVEY_H
+
+#include "app/options.h"
+#include "study/measure/studio.h"
+#include "study/results/results.h"
+
+typedef struct Survey {
+    Studio *studio;
+    Results results;     /* of this and of earlier surveys into the same folder */
+    ResultRow like;      /* size, renderer, threads, seed */
+    char path[PATH_MAX]; /* of the file of results */
+    bool quick;
+    double seconds; /* for all scenes together, approximately */
+} Survey;
+
+/* Opens the driver, makes the folder, and reads its rows; `fresh` drops them instead. */
+bool survey_open(Survey *survey, const Options *options, unsigned seed, bool quick, bool fresh,
+                 Message *message);
+
+/* The exact picture of a scene; close it with reference_close. */
+bool survey_exact(const Survey *survey, const Scene *scene, Reference *exact, Message *message);
+
+/* Measures the planned settings of these scenes that have no rows yet, with a progress bar. An
+ * interruption (SIGINT, SIGTERM) is a failure; its message says what is kept. */
+bool survey_run(Survey *survey, const int *scenes, int count, Message *message);
+
+/* Measures up to TRIALS_BATCH - 1 settings of one scene against each other, without keeping their
+ * rows. */
+bool survey_again(Survey *survey, int scene, const Quality *qualities, int count, ResultRow *rows,
+                  Message *message);
+
+void survey_close(Survey *survey);
+
+#endif

@@ -1,0 +1,362 @@
+#include "study/measure/trials.h"
+
+#include "base/clock.h"
+#include "base/random.h"
+#include "study/results/statistics.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Lists. */
+
+bool quality_list_add(QualityList *list, const Quality *quality, Message *message)
+{
+    for (int i = 0; i < list->count; i++)
+        if (quality_equal(&list->qualities[i], quality))
+            return true;
+    if (list->count == list->capacity) {
+        const int capacity = list->capacity ? 2 * list->capacity : 64;
+        Quality *more = realloc(list->qualities, (size_t)capacity * sizeof *more);
+        if (!more)
+            return message_set(message, "study: not enough memory");
+        list->qualities = more;
+        list->capacity = capacity;
+    }
+    list->qualities[list->count++] = *quality;
+    return true;
+}
+
+void quality_list_close(QualityList *list)
+{
+    free(list->qualities);
+    *list = (QualityList){.qualities = NULL};
+}
+
+static bool add_text(QualityList *list, const char *text, Message *message)
+{
+    Quality quality;
+    return quality_parse(&quality, text, message) && quality_list_add(list, &quality, message);
+}
+
+static const char *const QUICK[] = {
+    "divisions=12",
+    "divisions=24",
+    "divisions=192",
+    "interpolation=gouraud divisions=12",
+    "interpolation=gouraud divisions=24",
+    "interpolation=gouraud",
+    "interpolation=gouraud divisions=192",
+    "interpolation=flat divisions=24",
+    "precision=mediump",
+    "guards=off",
+    "viewer=infinite",
+    "supersample=2",
+    "samples=4",
+    "output=float",
+};
+
+/* Beyond the products below. */
+static const char *const COMBINED[] = {
+    "precision=mediump highlight=cross",
+    "precision=mediump divisions=24",
+    "interpolation=gouraud precision=mediump divisions=24",
+    "interpolation=gouraud precision=mediump divisions=96",
+    "guards=off normals=interpolated",
+    "guards=off normals=interpolated divisions=192",
+    "guards=off viewer=infinite lights=infinite divisions=24",
+    "output=float divisions=128",
+    "output=float divisions=256",
+    "output=float divisions=512",
+    "output=float highlight=cross divisions=256",
+    "output=float supersample=2 divisions=256",
+    "order=lecture matrices=float",
+    "order=lecture matrices=compensated",
+    "supersample=2 samples=4",
+    "supersample=2 divisions=24",
+    "supersample=2 divisions=128",
+    "supersample=3 divisions=24",
+    "supersample=3 divisions=128",
+    "supersample=4 divisions=128",
+    "samples=4 divisions=24",
+    "samples=4 divisions=128",
+    "interpolation=gouraud samples=4 divisions=96",
+    "interpolation=gouraud supersample=2 divisions=96",
+    "interpolation=gouraud supersample=2 divisions=24",
+};
+
+/* The setting with each choice of `axis` from `min` to `max`. */
+static bool add_axis(QualityList *list, Quality quality, QualityAxis axis, int min, int max,
+                     Message *message)
+{
+    for (int choice = min; choice <= max; choice++) {
+        const Quality other = quality_with(quality, axis, choice);
+        if (!quality_list_add(list, &other, message))
+            return false;
+    }
+    return true;
+}
+
+/* All combinations of what makes lighting cheaper, with this interpolation. */
+static bool add_cheaper(QualityList *list, int interpolation, const char *const *divisions,
+                        Message *message)
+{
+    for (int i = 0; divisions[i]; i++) {
+        for (int k = 0; k < 8; k++) {
+            Quality quality = quality_with(quality_usual(), AXIS_INTERPOLATION, interpolation);
+            if (!quality_choose(&quality, "divisions", divisions[i], message))
+                return false;
+            quality = quality_with(quality, AXIS_VIEWER, k & 1);
+            quality = quality_with(quality, AXIS_LIGHTS, k >> 1 & 1);
+            quality = quality_with(quality, AXIS_NORMALS,
+                                   interpolation == INTERPOLATION_PHONG ? k >> 2 : 0);
+            if (!quality_list_add(list, &quality, message))
+                return false;
+        }
+    }
+    return true;
+}
+
+bool trials_plan(bool quick, QualityList *list, Message *message)
+{
+    static const char *const PHONG_DIVISIONS[] = {"12", "16", "24", "32", "64", "128", NULL};
+    static const char *const GOURAUD_DIVISIONS[] = {"24", "48", "96", "192", NULL};
+    const Quality usual = quality_usual();
+    *list = (QualityList){.qualities = NULL};
+    if (!quality_list_add(list, &usual, message))
+        return false;
+    if (quick) {
+        for (size_t i = 0; i < sizeof QUICK / sizeof QUICK[0]; i++)
+            if (!add_text(list, QUICK[i], message))
+                return false;
+        return true;
+    }
+    for (int axis = 0; axis < AXIS_COUNT; axis++)
+        if (!add_axis(list, usual, (QualityAxis)axis, 0, QUALITY_AXES[axis].count - 1, message))
+            return false;
+    const int max = QUALITY_AXES[AXIS_DIVISIONS].count - 1;
+    const Quality gouraud = quality_with(usual, AXIS_INTERPOLATION, INTERPOLATION_GOURAUD);
+    const Quality flat = quality_with(usual, AXIS_INTERPOLATION, INTERPOLATION_FLAT);
+    if (!add_axis(list, gouraud, AXIS_DIVISIONS, 0, max, message) ||
+        !add_axis(list, flat, AXIS_DIVISIONS, 0, max - 2, message) ||
+        !add_cheaper(list, INTERPOLATION_PHONG, PHONG_DIVISIONS, message) ||
+        !add_cheaper(list, INTERPOLATION_GOURAUD, GOURAUD_DIVISIONS, message))
+        return false;
+    for (size_t i = 0; i < sizeof COMBINED / sizeof COMBINED[0]; i++)
+        if (!add_text(list, COMBINED[i], message))
+            return false;
+    return true;
+}
+
+/* Measuring. */
+
+/* Timed are the settings of a batch, followed by: */
+enum { USUAL = TRIALS_BATCH, AGAIN, EMPTY, TIMED };
+
+typedef struct Timed {
+    int rounds;                                  /* of each run */
+    double wall[RESULT_RUNS][TRIALS_MAX_ROUNDS]; /* seconds */
+    double gpu[RESULT_RUNS * TRIALS_MAX_ROUNDS];
+    int gpu_count;
+} Timed;
+
+typedef struct Batch {
+    Drawing drawings[USUAL + 1];
+    Timed timed[TIMED];
+    int count;
+} Batch;
+
+static bool visit(Trials *trials, Batch *batch, int number, int run, int round, Message *message)
+{
+    Timed *timed = &batch->timed[number];
+    double wall = 0, gpu = NAN;
+    if (round >= timed->rounds)
+        return true;
+    if (number == EMPTY) {
+        if (!drawing_empty(&batch->drawings[USUAL], trials->studio, &wall, message) ||
+            !drawing_empty(&batch->drawings[USUAL], trials->studio, &wall, message))
+            return false;
+    } else {
+        Drawing *drawing = &batch->drawings[number < USUAL ? number : USUAL];
+        if (!drawing_frame(drawing, trials->studio, &wall, &gpu, message) ||
+            !drawing_frame(drawing, trials->studio, &wall, &gpu, message))
+            return false;
+    }
+    timed->wall[run][round] = wall;
+    if (isfinite(gpu))
+        timed->gpu[timed->gpu_count++] = gpu;
+    return true;
+}
+
+static bool run_rounds(Trials *trials, Batch *batch, Message *message)
+{
+    Random random = {trials->like.seed};
+    int order[TIMED], max = 0, count = 0;
+    for (int i = 0; i < TIMED; i++) {
+        if (i >= batch->count && i < USUAL)
+            continue;
+        order[count++] = i;
+        max = batch->timed[i].rounds > max ? batch->timed[i].rounds : max;
+    }
+    for (int run = 0; run < RESULT_RUNS; run++) {
+        for (int round = 0; round < max; round++) {
+            for (int i = count - 1; i > 0; i--) {
+                const int k = random_below(&random, i + 1), kept = order[i];
+                order[i] = order[k];
+                order[k] = kept;
+            }
+            for (int i = 0; i < count; i++) {
+                if (*trials->interrupted || !visit(trials, batch, order[i], run, round, message))
+                    return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* Rounds for each, so that together they take about `seconds` and no setting takes most of it. */
+static void share_rounds(Batch *batch, const double *frames, double seconds)
+{
+    const double share = seconds / (2 * RESULT_RUNS * (batch->count + 3));
+    int max = 2; /* of the usual one, for the noise */
+    for (int i = 0; i < batch->count; i++) {
+        const double rounds = share / frames[i];
+        batch->timed[i].rounds = rounds < 1                   ? 1
+                                 : rounds > TRIALS_MAX_ROUNDS ? TRIALS_MAX_ROUNDS
+                                                              : (int)rounds;
+        max = batch->timed[i].rounds > max ? batch->timed[i].rounds : max;
+    }
+    for (int i = USUAL; i < TIMED; i++)
+        batch->timed[i].rounds = max;
+}
+
+/* The ratios of a setting to the usual one, by round; returns their number. */
+static int ratios_of(const Batch *batch, int number, int run, double *ratios)
+{
+    const Timed *timed = &batch->timed[number], *usual = &batch->timed[USUAL];
+    for (int i = 0; i < timed->rounds; i++)
+        ratios[i] = timed->wall[run][i] / usual->wall[run][i];
+    return timed->rounds;
+}
+
+static double median_ratio(const Batch *batch, int number, double *lower, double *upper)
+{
+    double all[RESULT_RUNS * TRIALS_MAX_ROUNDS];
+    int count = 0;
+    for (int run = 0; run < RESULT_RUNS; run++)
+        count += ratios_of(batch, number, run, all + count);
+    *lower = statistics_quantile(all, count, 0.25);
+    *upper = statistics_quantile(all, count, 0.75);
+    return statistics_quantile(all, count, 0.5);
+}
+
+/* The usual setting against itself: the distance of the median ratio from 1, plus the standard
+ * error of the median of as many ratios as the setting has (0.93 interquartile ranges / sqrt(count)
+ * for a normal distribution). */
+static double noise_of(const Batch *batch, int number)
+{
+    double lower, upper;
+    const double median = median_ratio(batch, AGAIN, &lower, &upper);
+    const int count = RESULT_RUNS * batch->timed[number].rounds;
+    return fabs(median - 1) + 0.93 * (upper - lower) / sqrt(count);
+}
+
+static double usual_milliseconds(const Batch *batch)
+{
+    double all[RESULT_RUNS * TRIALS_MAX_ROUNDS];
+    int count = 0;
+    for (int run = 0; run < RESULT_RUNS; run++)
+        for (int i = 0; i < batch->timed[USUAL].rounds; i++)
+            all[count++] = 1e3 * batch->timed[USUAL].wall[run][i];
+    return statistics_quantile(all, count, 0.5);
+}
+
+/* By the driver's timer; NAN if it is not plausible: if for the usual setting it reports more than
+ * the whole frame or less than a fifth of it. (The timer of a deferred renderer may measure
+ * nothing.) */
+static double gpu_milliseconds(Batch *batch, int number)
+{
+    Timed *usual = &batch->timed[USUAL], *timed = &batch->timed[number];
+    const double known = 1e3 * statistics_quantile(usual->gpu, usual->gpu_count, 0.5);
+    const double whole = usual_milliseconds(batch);
+    if (!(known > 0.2 * whole && known < whole))
+        return NAN;
+    return 1e3 * statistics_quantile(timed->gpu, timed->gpu_count, 0.5);
+}
+
+static void fill_times(const Trials *trials, Batch *batch, int number, ResultRow *row)
+{
+    const Quality usual = quality_usual();
+    /* The usual setting's spread is that of the A/A measurement. */
+    const int from = quality_equal(&row->quality, &usual) ? AGAIN : number;
+    double lower, upper, ignored[2];
+    const double ratio = median_ratio(batch, from, &lower, &upper);
+    row->time = from == AGAIN ? trials->usual : trials->usual * ratio;
+    row->time_lower = fmin(trials->usual * lower, row->time);
+    row->time_upper = fmax(trials->usual * upper, row->time);
+    for (int run = 0; run < RESULT_RUNS; run++) {
+        double ratios[TRIALS_MAX_ROUNDS];
+        const int count = ratios_of(batch, from, run, ratios);
+        row->run_times[run] = trials->usual * statistics_quantile(ratios, count, 0.5);
+    }
+    row->net_time =
+        row->time - trials->usual * median_ratio(batch, EMPTY, &ignored[0], &ignored[1]);
+    row->gpu_time = gpu_milliseconds(batch, number);
+    row->noise = noise_of(batch, from);
+}
+
+/* Fills everything but times, and gives the approximate time of a frame. */
+static bool look_at(Trials *trials, Drawing *drawing, ResultRow *row, double *frame,
+                    Message *message)
+{
+    DrawingError error;
+    DrawingCounts counts;
+    double gpu;
+    *row = trials->like;
+    row->quality = drawing->quality;
+    if (!drawing_frame(drawing, trials->studio, frame, &gpu, message) ||
+        !drawing_error(drawing, trials->studio, trials->exact, &error, message) ||
+        !drawing_counts(drawing, trials->studio, &counts, message))
+        return false;
+    row->interior_rms = error.interior_rms;
+    row->interior_maximum = error.interior_maximum;
+    row->all_rms = error.all_rms;
+    row->all_maximum = error.all_maximum;
+    row->interior_pixels = error.interior_pixels;
+    row->vertices = counts.vertices;
+    row->fragments = counts.fragments;
+    row->vertex_operations = counts.vertex_operations;
+    row->fragment_operations = counts.fragment_operations;
+    return true;
+}
+
+bool trials_measure(Trials *trials, const Quality *qualities, int count, double seconds,
+                    ResultRow *rows, Message *message)
+{
+    const Quality usual = quality_usual();
+    const double start = clock_now();
+    double frames[TRIALS_BATCH];
+    bool done = true;
+    Batch *batch = calloc(1, sizeof *batch);
+    if (!batch)
+        return message_set(message, "study: not enough memory");
+    batch->count = count;
+    for (int i = 0; i < count && done && !*trials->interrupted; i++)
+        done = drawing_open(&batch->drawings[i], trials->studio, trials->scene, &qualities[i],
+                            message) &&
+               look_at(trials, &batch->drawings[i], &rows[i], &frames[i], message);
+    done = done && !*trials->interrupted &&
+           drawing_open(&batch->drawings[USUAL], trials->studio, trials->scene, &usual, message);
+    if (done) {
+        share_rounds(batch, frames, seconds - (clock_now() - start));
+        done = run_rounds(trials, batch, message);
+    }
+    if (done && trials->usual == 0)
+        trials->usual = usual_milliseconds(batch);
+    for (int i = 0; i < count && done; i++)
+        fill_times(trials, batch, i, &rows[i]);
+    for (int i = 0; i <= USUAL; i++)
+        drawing_close(&batch->drawings[i]);
+    free(batch);
+    return done;
+}

@@ -1,0 +1,46 @@
+/*
+ * trials: measures settings of a scene against each other.
+ *
+ * Settings are measured in batches, together with the usual setting, twice (the A/A noise), and
+ * with a frame that draws nothing. Each round visits all of them in random order and draws one
+ * frame untimed and one timed. A setting's time is its median ratio to the usual one in the same
+ * round, times the usual one's time at the start of the scene: a machine that slows down changes
+ * nothing.
+ */
+#ifndef TRIALS_H
+#define TRIALS_H
+
+#include "study/measure/studio.h"
+#include "study/results/results.h"
+
+enum { TRIALS_BATCH = 16, TRIALS_MAX_ROUNDS = 9 };
+
+/* A set of settings, in order of insertion. */
+typedef struct QualityList {
+    Quality *qualities;
+    int count, capacity;
+} QualityList;
+bool quality_list_add(QualityList *list, const Quality *quality, Message *message);
+void quality_list_close(QualityList *list);
+
+/* The settings to measure for a scene: the usual one; each other choice of each axis; useful
+ * combinations. `quick`: a tenth of them. */
+bool trials_plan(bool quick, QualityList *list, Message *message);
+
+typedef struct Trials {
+    Studio *studio;
+    const Scene *scene;
+    const Reference *exact;
+    ResultRow like; /* scene, size, renderer, threads, seed */
+    double usual;   /* milliseconds of the usual setting; 0: not known yet */
+    /* Set by a signal handler: stop. */
+    const volatile int *interrupted;
+} Trials;
+
+/* Measures up to TRIALS_BATCH settings in about `seconds` and writes a row for each. False on
+ * failure or interruption (with an empty message). Sets trials->usual if that is 0; the usual
+ * setting must then be among `qualities`. */
+bool trials_measure(Trials *trials, const Quality *qualities, int count, double seconds,
+                    ResultRow *rows, Message *message);
+
+#endif

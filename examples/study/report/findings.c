@@ -1,0 +1,453 @@
+#include "study/report/findings.h"
+
+#include "base/clock.h"
+#include "study/measure/scenes.h"
+#include "study/measure/transforms.h"
+#include "study/report/report.h"
+#include "study/report/report_gnuplot.h"
+#include "study/results/front.h"
+#include "study/results/statistics.h"
+#include "study/results/table.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The row of a scene with this setting; NULL if there is none. */
+static const ResultRow *row_of(const Results *results, const char *scene, const char *text)
+{
+    Quality quality;
+    return quality_parse(&quality, text, NULL) ? results_find(results, scene, &quality) : NULL;
+}
+
+/* Of the newest row; empty if there is none. */
+static void measured_with(const Results *results, char text[RESULT_WITH_SIZE])
+{
+    text[0] = '\0';
+    if (results->count)
+        results_measured_with(&results->rows[results->count - 1], text);
+}
+
+/* Error over time along one axis. */
+
+typedef struct Curve {
+    double x[QUALITY_MAX_CHOICES], y[QUALITY_MAX_CHOICES];
+    int count;
+} Curve;
+
+static void follow(const Results *results, const char *scene, Quality quality, QualityAxis axis,
+                   ErrorKind kind, Curve *curve)
+{
+    for (int choice = 0; choice < QUALITY_AXES[axis].count; choice++) {
+        quality = quality_with(quality, axis, choice);
+        const ResultRow *row = results_find(results, scene, &quality);
+        if (!row)
+            continue;
+        curve->x[curve->count] = row->time;
+        curve->y[curve->count++] = row_error(row, kind);
+    }
+}
+
+static bool plot_interpolation(const Results *results, const char *foot, const char *folder,
+                               Message *message)
+{
+    static const char *const names[] = {"Phong", "Gouraud", "flat"};
+    const ReportAxes axes = {
+        .foot = foot,
+        .title = "Interpolation: shiny32, with 6, 8, 12 ... 512 divisions from left to right",
+        .x = "time of a frame in ms",
+        .y = "largest error inside, in steps of 1/255",
+        .log_x = true,
+        .log_y = true,
+    };
+    Curve curves[3] = {{.count = 0}};
+    ReportSeries series[3];
+    int points = 0;
+    for (int i = 0; i < 3; i++) {
+        const Quality quality = quality_with(quality_usual(), AXIS_INTERPOLATION, i);
+        follow(results, "shiny32", quality, AXIS_DIVISIONS, ERROR_INTERIOR_MAXIMUM, &curves[i]);
+        series[i] = (ReportSeries){names[i], curves[i].x, curves[i].y, curves[i].count};
+        points += curves[i].count;
+    }
+    return points == 0 || report_curves(&axes, series, 3, folder, "finding-interpolation", message);
+}
+
+static bool plot_antialiasing(const Results *results, const char *foot, const char *folder,
+                              Message *message)
+{
+    const ReportAxes axes = {
+        .foot = foot,
+        .title = "Antialiasing: sphere",
+        .x = "time of a frame in ms",
+        .y = "root mean square error of all pixels, in steps of 1/255",
+        .log_x = true,
+        .log_y = true,
+    };
+    Quality fine = quality_usual();
+    quality_choose(&fine, "divisions", "128", NULL);
+    const struct {
+        const char *name;
+        Quality quality;
+        QualityAxis axis;
+    } kinds[] = {
+        {"0 and 4 samples, 64 divisions", quality_usual(), AXIS_SAMPLES},
+        {"1, 2x2, 3x3, 4x4 supersampling, 64 divisions", quality_usual(), AXIS_SUPERSAMPLE},
+        {"0 and 4 samples, 128 divisions", fine, AXIS_SAMPLES},
+        {"1, 2x2, 3x3, 4x4 supersampling, 128 divisions", fine, AXIS_SUPERSAMPLE},
+    };
+    Curve curves[4] = {{.count = 0}};
+    ReportSeries series[4];
+    int points = 0;
+    for (int i = 0; i < 4; i++) {
+        follow(results, "sphere", kinds[i].quality, kinds[i].axis, ERROR_ALL_RMS, &curves[i]);
+        series[i] = (ReportSeries){kinds[i].name, curves[i].x, curves[i].y, curves[i].count};
+        points += curves[i].count;
+    }
+    return points == 0 || report_curves(&axes, series, 4, folder, "finding-antialiasing", message);
+}
+
+/* Bars: one or two values per category, and a line of text below each. */
+
+enum { MAX_BARS = 12 };
+
+typedef struct Bars {
+    const char *title, *y;
+    const char *names[2]; /* of the values; the second may be NULL */
+    const char *foot;     /* as in ReportAxes */
+    double floor;         /* where bars begin; more than 0: a logarithmic axis */
+    struct {
+        char name[48], note[48];
+        double values[2];
+    } bars[MAX_BARS];
+    int count;
+} Bars;
+
+static bool draw_bars(const Bars *bars, const char *folder, const char *name, Message *message)
+{
+    char *script = NULL;
+    size_t size = 0;
+    double max = bars->floor;
+    const int values = bars->names[1] ? 2 : 1;
+    FILE *file = bars->count ? open_memstream(&script, &size) : NULL;
+    if (!file)
+        return bars->count == 0 || message_set(message, "%s: not enough memory", name);
+    gnuplot_foot(file, bars->foot);
+    fputs("set encoding utf8\nset border 3 lc rgb '#444444'\nset title ", file);
+    gnuplot_string(file, bars->title);
+    fputs(" font ',16'\nset grid y lc rgb '#dddddd' lw 0.6 lt 1\nset ylabel ", file);
+    gnuplot_string(file, bars->y);
+    fprintf(file,
+            "\nset key top %s samplen 1.5\nset style fill solid 0.9 noborder\n"
+            "set xrange [-0.6:%g]\n$bars << EOD\n",
+            bars->names[1] ? "left" : "right", bars->count - 0.4);
+    for (int i = 0; i < bars->count; i++) {
+        for (int k = 0; k < values; k++) {
+            const double value = bars->bars[i].values[k];
+            fprintf(file, "%.9g ", value > bars->floor ? value : bars->floor);
+            if (isfinite(value) && value > max)
+                max = value;
+        }
+        fputc('\n', file);
+    }
+    fputs("EOD\n", file);
+    const bool log = bars->floor > 0;
+    gnuplot_axis(file, 'y', bars->floor, log ? max * 2 : max * 1.15, log);
+    fputs("set xtics nomirror out scale 0 font ',10' (", file);
+    for (int i = 0; i < bars->count; i++) {
+        char label[128];
+        snprintf(label, sizeof label, "%s", bars->bars[i].name);
+        fputs(i ? ", " : "", file);
+        gnuplot_string(file, label);
+        fprintf(file, " %d", i);
+    }
+    fputs(")\nset bmargin 5\n", file);
+    for (int i = 0; i < bars->count; i++) {
+        fputs("set label ", file);
+        gnuplot_string(file, bars->bars[i].note);
+        fprintf(file, " at first %d, graph -0.085 center font ',10' textcolor rgb '#666666'\n", i);
+    }
+    const double width = 0.7 / values;
+    fprintf(file, "set boxwidth %g\nplot ", width);
+    for (int k = 0; k < values; k++) {
+        fprintf(file, "%s$bars using ($0 + %g):%d with boxes lc rgb '%s' title ",
+                k ? ", \\\n  " : "", width * (k - 0.5 * (values - 1)), k + 1, GNUPLOT_PALETTE[k]);
+        gnuplot_string(file, bars->names[k]);
+    }
+    fputc('\n', file);
+    const bool done = fclose(file) == 0 ? gnuplot_draw(script, size, folder, name, message)
+                                        : message_set(message, "%s: not enough memory", name);
+    free(script);
+    return done;
+}
+
+_Static_assert((int)STUDY_SCENE_COUNT <= (int)MAX_BARS, "a bar for each scene");
+
+/* The values and note of a scene's bar, from its usual row and the one with the setting. */
+typedef void FillBar(const ResultRow *usual, const ResultRow *other, double values[2],
+                     char note[48]);
+
+static bool plot_by_scene(const Results *results, Bars *bars, const char *quality, FillBar *fill,
+                          const char *folder, const char *name, Message *message)
+{
+    for (int i = 0; i < STUDY_SCENE_COUNT; i++) {
+        const char *scene = STUDY_SCENES[i].name;
+        const ResultRow *usual = row_of(results, scene, "usual");
+        const ResultRow *other = row_of(results, scene, quality);
+        if (!usual || !other)
+            continue;
+        snprintf(bars->bars[bars->count].name, sizeof bars->bars[0].name, "%s", scene);
+        double *values = bars->bars[bars->count].values;
+        fill(usual, other, values, bars->bars[bars->count].note);
+        if (isfinite(values[0]) && (!bars->names[1] || isfinite(values[1])))
+            bars->count++;
+    }
+    return draw_bars(bars, folder, name, message);
+}
+
+/* The ratio of times, if it is outside the noise. */
+static void note_time(const ResultRow *row, const ResultRow *over, char note[48])
+{
+    if (row_faster(row, over) || row_faster(over, row))
+        snprintf(note, 48, "time x %.2f", row->time / over->time);
+    else
+        snprintf(note, 48, "time the same");
+}
+
+static void fill_errors(const ResultRow *usual, const ResultRow *other, double values[2],
+                        char note[48])
+{
+    values[0] = usual->interior_maximum;
+    values[1] = other->interior_maximum;
+    note_time(other, usual, note);
+}
+
+static void fill_guards(const ResultRow *usual, const ResultRow *other, double values[2],
+                        char note[48])
+{
+    values[0] = usual->time / other->time;
+    values[1] = NAN;
+    if (row_faster(usual, other) || row_faster(other, usual))
+        snprintf(note, 48, "x %.2f", values[0]);
+    else
+        snprintf(note, 48, "within noise");
+}
+
+static bool plot_by_scenes(const Results *results, const char *foot, const char *folder,
+                           Message *message)
+{
+    Bars precision = {.foot = foot,
+                      .title = "Precision of fragment shaders: the largest error inside",
+                      .y = "steps of 1/255",
+                      .names = {"highp", "mediump"},
+                      .floor = 0.1};
+    Bars guards = {.foot = foot,
+                   .title = "Guards: the time of a frame with them, over that without",
+                   .y = "ratio of times",
+                   .names = {"with guards over without", NULL}};
+    Bars viewer = {.foot = foot,
+                   .title = "A viewer at infinity: the largest error inside",
+                   .y = "steps of 1/255",
+                   .names = {"local viewer", "infinite viewer"},
+                   .floor = 0.1};
+    return plot_by_scene(results, &precision, "precision=mediump", fill_errors, folder,
+                         "finding-precision", message) &&
+           plot_by_scene(results, &guards, "guards=off", fill_guards, folder, "finding-guards",
+                         message) &&
+           plot_by_scene(results, &viewer, "viewer=infinite", fill_errors, folder, "finding-viewer",
+                         message);
+}
+
+/* Matrices. */
+
+static const char *const COMPOSITIONS[] = {
+    "usual",
+    "matrices=float",
+    "matrices=compensated",
+    "order=lecture",
+    "matrices=float order=lecture",
+    "matrices=compensated order=lecture",
+};
+enum { COMPOSITION_COUNT = sizeof COMPOSITIONS / sizeof COMPOSITIONS[0] };
+
+/* As `lighting` does by default. */
+static Mat4 usual_clip_from_object(Mat4 clip_from_eye, Mat4 eye_from_world, Mat4 world_from_object,
+                                   Mat4 eye_from_object)
+{
+    (void)eye_from_world, (void)world_from_object;
+    return mat4_product(clip_from_eye, eye_from_object);
+}
+
+/* Nanoseconds for one object's matrices and one light's position: the median of some runs. */
+static double time_composition(const char *text)
+{
+    enum { RUNS = 15, TIMES = 2000 };
+    static const LightingTransforms USUAL = {scene_eye_from_object, scene_eye_point,
+                                             usual_clip_from_object};
+    double nanoseconds[RUNS];
+    volatile double kept = 0; /* so that nothing is optimized away */
+    StudyScene made;
+    Quality quality;
+    Mat4 eye_from_world, clip_from_eye;
+    study_scene(study_scene_number("far"), &made);
+    if (!quality_parse(&quality, text, NULL) ||
+        !scene_camera(&made.scene.camera, 1, &eye_from_world, &clip_from_eye, NULL))
+        return NAN;
+    const LightingTransforms *transforms = transforms_of(&quality);
+    transforms = transforms ? transforms : &USUAL;
+    Mat4 world_from_object = made.objects[0].world_from_object;
+    for (int run = 0; run < RUNS; run++) {
+        const double start = clock_now();
+        for (int i = 0; i < TIMES; i++) {
+            world_from_object.m[12] += 1;
+            const Mat4 eye_from_object =
+                transforms->eye_from_object(&made.scene.camera, eye_from_world, world_from_object);
+            const Mat4 clip_from_object = transforms->clip_from_object(
+                clip_from_eye, eye_from_world, world_from_object, eye_from_object);
+            const Vec3 light =
+                transforms->eye_point(&made.scene.camera, eye_from_world, made.lights[0].position);
+            kept = kept + clip_from_object.m[12] + light.x;
+        }
+        nanoseconds[run] = 1e9 * (clock_now() - start) / TIMES;
+    }
+    return statistics_quantile(nanoseconds, RUNS, 0.5);
+}
+
+bool findings_matrices(const Results *results, bool markdown, FILE *file)
+{
+    char with[RESULT_WITH_SIZE];
+    Table table;
+    measured_with(results, with);
+    table_open(&table, "setting|ns|largest interior error, steps of 1/255");
+    for (int i = 0; i < COMPOSITION_COUNT; i++) {
+        const ResultRow *row = row_of(results, "far", COMPOSITIONS[i]);
+        char error[32] = "not measured";
+        if (row)
+            snprintf(error, sizeof error, "%.2f", row->interior_maximum);
+        table_row(&table, "%s|%.0f|%s", COMPOSITIONS[i], time_composition(COMPOSITIONS[i]), error);
+    }
+    fprintf(file,
+            "\nMatrices of one object and position of one light; scene far, a million units from "
+            "the origin\n%s\n\n",
+            with);
+    return table_close(&table, markdown, file);
+}
+
+/* Tables for a page. */
+
+/* "1.34", and the time in ms or over `usual`; empty if not measured. */
+static void put_cells(char text[64], const ResultRow *row, const ResultRow *usual, ErrorKind kind)
+{
+    char time[24] = "same";
+    if (row && !(usual && usual != row && !row_faster(row, usual) && !row_faster(usual, row)))
+        snprintf(time, sizeof time, "%.2f", row->time / (usual ? usual->time : 1));
+    if (row)
+        snprintf(text, 64, "%.2f|%s", row_error(row, kind), time);
+    else
+        snprintf(text, 64, "|");
+}
+
+static bool table_interpolation(const Results *results, FILE *file)
+{
+    const QualityAxisInfo *divisions = &QUALITY_AXES[AXIS_DIVISIONS];
+    Table table;
+    table_open(&table, "divisions|Phong: error|ms|Gouraud: error|ms|flat: error|ms");
+    for (int i = 0; i < divisions->count; i++) {
+        char cells[3][64];
+        bool any = false;
+        for (int k = 0; k < 3; k++) {
+            const Quality quality = quality_with(
+                quality_with(quality_usual(), AXIS_INTERPOLATION, k), AXIS_DIVISIONS, i);
+            const ResultRow *row = results_find(results, "shiny32", &quality);
+            any = any || row;
+            put_cells(cells[k], row, NULL, ERROR_INTERIOR_MAXIMUM);
+        }
+        if (any)
+            table_row(&table, "%s|%s|%s|%s", divisions->choices[i], cells[0], cells[1], cells[2]);
+    }
+    fputs("\nInterpolation and fineness of the mesh, scene shiny32:\n\n", file);
+    return table_close(&table, true, file);
+}
+
+static bool table_by_scene(const Results *results, FILE *file)
+{
+    static const char *const columns[] = {"precision=mediump", "guards=off", "viewer=infinite",
+                                          "lights=infinite"};
+    enum { COUNT = sizeof columns / sizeof columns[0] };
+    Table table;
+    table_open(&table, "scene|usual: error|ms|`mediump`: error|time|without guards: error|time|"
+                       "infinite viewer: error|time|infinite lights: error|time");
+    for (int i = 0; i < STUDY_SCENE_COUNT; i++) {
+        const char *scene = STUDY_SCENES[i].name;
+        const ResultRow *usual = row_of(results, scene, "usual");
+        char first[64], cells[COUNT][64];
+        if (!usual)
+            continue;
+        put_cells(first, usual, NULL, ERROR_INTERIOR_MAXIMUM);
+        for (int k = 0; k < COUNT; k++)
+            put_cells(cells[k], row_of(results, scene, columns[k]), usual, ERROR_INTERIOR_MAXIMUM);
+        table_row(&table, "%s|%s|%s|%s|%s|%s", scene, first, cells[0], cells[1], cells[2],
+                  cells[3]);
+    }
+    fputs("\nOne choice changed, scene by scene; times over the usual one, \"same\" within the "
+          "noise:\n\n",
+          file);
+    return table_close(&table, true, file);
+}
+
+static bool table_antialiasing(const Results *results, FILE *file)
+{
+    static const char *const ways[] = {"samples=0", "samples=4", "supersample=2", "supersample=3",
+                                       "supersample=4"};
+    const ResultRow *usual = row_of(results, "sphere", "usual");
+    Table table;
+    table_open(&table, "antialiasing|64 divisions: rms|time|128 divisions: rms|time");
+    for (size_t i = 0; i < sizeof ways / sizeof ways[0]; i++) {
+        char fine[64], cells[2][64];
+        snprintf(fine, sizeof fine, "%s divisions=128", ways[i]);
+        put_cells(cells[0], row_of(results, "sphere", ways[i]), usual, ERROR_ALL_RMS);
+        put_cells(cells[1], row_of(results, "sphere", fine), usual, ERROR_ALL_RMS);
+        table_row(&table, "%s|%s|%s", ways[i], cells[0], cells[1]);
+    }
+    fputs("\nAntialiasing, scene sphere; root mean square error of all pixels:\n\n", file);
+    return table_close(&table, true, file);
+}
+
+bool findings_tables(const Results *results, FILE *file)
+{
+    return table_interpolation(results, file) && table_by_scene(results, file) &&
+           table_antialiasing(results, file);
+}
+
+static bool plot_matrices(const Results *results, const char *foot, const char *folder,
+                          Message *message)
+{
+    static const char *const names[COMPOSITION_COUNT] = {
+        "double", "float", "compensated", "double, lect.", "float, lect.", "comp., lect."};
+    Bars bars = {.foot = foot,
+                 .title = "Matrices, a million units from the origin: the largest error inside",
+                 .y = "steps of 1/255",
+                 .names = {"relative to the eye; lect.: in the lecture's order", NULL},
+                 .floor = 0.1};
+    for (int i = 0; i < COMPOSITION_COUNT; i++) {
+        const ResultRow *row = row_of(results, "far", COMPOSITIONS[i]);
+        if (!row || !isfinite(row->interior_maximum))
+            continue;
+        snprintf(bars.bars[bars.count].name, sizeof bars.bars[0].name, "%s", names[i]);
+        snprintf(bars.bars[bars.count].note, sizeof bars.bars[0].note, "%.0f ns",
+                 time_composition(COMPOSITIONS[i]));
+        bars.bars[bars.count++].values[0] = row->interior_maximum;
+    }
+    if (bars.count < 2)
+        return true; /* nothing to compare */
+    return draw_bars(&bars, folder, "finding-matrices", message);
+}
+
+bool findings_plot(const Results *results, const char *folder, Message *message)
+{
+    char foot[RESULT_WITH_SIZE];
+    measured_with(results, foot);
+    return plot_interpolation(results, foot, folder, message) &&
+           plot_by_scenes(results, foot, folder, message) &&
+           plot_antialiasing(results, foot, folder, message) &&
+           plot_matrices(results, foot, folder, message);
+}

@@ -1,0 +1,48 @@
+/*
+ * report: measurements as tables, plots and sheets of pictures.
+ */
+#ifndef REPORT_H
+#define REPORT_H
+
+#include "images/image_file.h"
+#include "reference/reference.h"
+#include "study/results/front.h"
+
+#include <stdio.h>
+
+/* A table of a scene's latest rows, sorted by time, with efficient and tied settings marked.
+ * `only_efficient`: only those. */
+bool report_table(const Results *results, const char *scene, ErrorKind kind, bool only_efficient,
+                  FILE *file, Message *message);
+
+/* FOLDER/SCENE.svg and .png, by gnuplot: error over time on logarithmic axes, a point per row,
+ * coloured by interpolation, the efficient ones joined and, if there is room, labelled. Errors
+ * below 0.01 are drawn at 0.01, and the axis says so. False if gnuplot is missing; the message
+ * names the package. The folder must exist. */
+bool report_plot(const Results *results, const char *scene, const char *title, ErrorKind kind,
+                 const char *folder, Message *message);
+
+/* The same for curves, named series of points. On a logarithmic axis values up to 0 are drawn at
+ * the lower end, and its label says so. */
+typedef struct ReportSeries {
+    const char *name;
+    const double *x, *y; /* NAN: left out */
+    int count;
+} ReportSeries;
+typedef struct ReportAxes {
+    const char *title, *x, *y; /* labels with units */
+    bool log_x, log_y;
+    const char *foot; /* a small footer; NULL: none */
+} ReportAxes;
+bool report_curves(const ReportAxes *axes, const ReportSeries *series, int count,
+                   const char *folder, const char *name, Message *message);
+
+/* A PNG of three labelled pictures: drawn, exact, and their difference in false colour with a scale
+ * in steps of 1/255. `drawn` is a byte or float image of the reference's size. The difference is
+ * the largest |drawn - exact| of the three channels: grey up to half a step (rounding), then on a
+ * logarithmic scale; magenta if it is NaN. `caption` is wrapped below. Small pictures are enlarged.
+ * Without a font the sheet has no text. */
+bool report_sheet(const Image *drawn, const Reference *exact, const char *caption, const char *path,
+                  Message *message);
+
+#endif

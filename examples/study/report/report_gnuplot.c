@@ -1,0 +1,191 @@
+#include "study/report/report_gnuplot.h"
+
+#include "base/output.h"
+#include "base/process.h"
+
+#include <errno.h>
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+const char *const GNUPLOT_PALETTE[GNUPLOT_COLORS] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                                     "#E69F00", "#56B4E9", "#000000"};
+
+static bool fail(const char *path, const char *reason, Message *message)
+{
+    return message_set(message, "%s: gnuplot: %s", path, reason);
+}
+
+/* Writes the contents of an open file to `path`. */
+static bool copy_file(int file, const char *path, Message *message)
+{
+    struct stat status;
+    const size_t size = fstat(file, &status) == 0 ? (size_t)status.st_size : 0;
+    void *bytes = mmap(NULL, size, PROT_READ, MAP_SHARED, file, 0);
+    if (bytes == MAP_FAILED)
+        return fail(path, strerror(errno), message);
+    const bool done = output_write(path, bytes, size, message);
+    munmap(bytes, size);
+    return done;
+}
+
+/* Runs gnuplot with these standard streams. It points at the place in the script over several
+ * lines; the last one says what is wrong. */
+static bool run_gnuplot(const int files[3], const char *path, Message *message)
+{
+    /* -d: without the user's settings. */
+    static const char *const arguments[] = {"gnuplot", "-d", NULL};
+    pid_t child;
+    const int error = process_start(&child, arguments, (int[]){files[0], files[1], files[2], -1});
+    if (error == ENOENT || error == EACCES)
+        return message_set(message, "%s: plots need gnuplot: %s; install the package gnuplot-nox",
+                           path, strerror(error));
+    if (error)
+        return fail(path, strerror(error), message);
+    const int status = process_wait(child);
+    struct stat picture;
+    char said[501];
+    if (status == 0 && fstat(files[1], &picture) == 0 && picture.st_size > 0)
+        return true;
+    if (WIFSIGNALED(status))
+        return fail(path, strsignal(WTERMSIG(status)), message);
+    if (!process_last_line(files[2], said, sizeof said))
+        strcpy(said, "it drew nothing");
+    return message_set(message, "%s: gnuplot: status %d: %s", path, WEXITSTATUS(status), said);
+}
+
+/* Script and output are memory files, so that neither side blocks. */
+static bool draw_plot(const char *terminal, const char *script, size_t size, const char *path,
+                      Message *message)
+{
+    int files[3];
+    bool done = true;
+    for (int i = 0; i < 3; i++) {
+        files[i] = memfd_create("gnuplot", MFD_CLOEXEC);
+        done = done && files[i] >= 0;
+    }
+    done = done && dprintf(files[0], "set terminal %s\n", terminal) > 0 &&
+           write(files[0], script, size) == (ssize_t)size && lseek(files[0], 0, SEEK_SET) == 0;
+    if (!done)
+        fail(path, strerror(errno), message);
+    done = done && run_gnuplot(files, path, message) && copy_file(files[1], path, message);
+    for (int i = 0; i < 3; i++)
+        if (files[i] >= 0)
+            close(files[i]);
+    return done;
+}
+
+bool gnuplot_draw(const char *script, size_t size, const char *folder, const char *name,
+                  Message *message)
+{
+    static const char *const extensions[] = {"svg", "png"};
+    /* Scaled to equal sizes: svg counts in pixels, pngcairo in points. */
+    static const char *const terminals[] = {"svg dynamic",
+                                            "pngcairo fontscale 0.75 pointscale 1.4"};
+    if (strchr(name, '/') || name[0] == '.')
+        return message_set(message, "%s: cannot be a file's name", name);
+    for (int i = 0; i < 2; i++) {
+        char path[PATH_MAX], terminal[160];
+        snprintf(terminal, sizeof terminal,
+                 "%s size %d,%d noenhanced font 'DejaVu Sans,14' background '#ffffff'",
+                 terminals[i], GNUPLOT_WIDTH, GNUPLOT_HEIGHT);
+        if (snprintf(path, sizeof path, "%s/%s.%s", folder, name, extensions[i]) >=
+            (int)sizeof path)
+            return message_set(message, "%s/%s: %s", folder, name, strerror(ENAMETOOLONG));
+        if (!draw_plot(terminal, script, size, path, message))
+            return false;
+    }
+    return true;
+}
+
+bool gnuplot_finish(FILE *file, char **script, const size_t *size, bool done, const char *folder,
+                    const char *name, Message *message)
+{
+    const bool failed = ferror(file) != 0;
+    if (fclose(file) != 0 || failed)
+        done = message_set(message, "%s: the plot: %s", name, strerror(ENOMEM));
+    done = done && gnuplot_draw(*script, *size, folder, name, message);
+    free(*script);
+    return done;
+}
+
+void gnuplot_string(FILE *script, const char *text)
+{
+    /* Within single quotes only the quote itself is special. */
+    fputc('\'', script);
+    for (const char *p = text; *p; p++) {
+        if (*p == '\'')
+            fputc('\'', script);
+        fputc((unsigned char)*p < ' ' ? ' ' : *p, script);
+    }
+    fputc('\'', script);
+}
+
+void gnuplot_foot(FILE *script, const char *text)
+{
+    if (!text)
+        return;
+    fputs("set label ", script);
+    gnuplot_string(script, text);
+    fputs(" at screen 0.995,0.012 right font ',9' textcolor rgb '#888888'\n", script);
+}
+
+/* Writes the numbers in min..max that are a factor times a power of ten; returns how many. */
+static int put_decades(FILE *script, double min, double max, const double *factors, int count)
+{
+    int written = 0;
+    for (int power = (int)floor(log10(min)); power <= (int)ceil(log10(max)); power++) {
+        for (int i = 0; i < count; i++) {
+            const double value = factors[i] * pow(10, power);
+            if (value < min * 0.9999 || value > max * 1.0001)
+                continue;
+            if (script)
+                fprintf(script, "%s'%.6g' %.9g", written ? ", " : "", value, value);
+            written++;
+        }
+    }
+    return written;
+}
+
+static void put_steps(FILE *script, double min, double max)
+{
+    static const double factors[] = {1, 2, 5, 10};
+    const double rough = (max - min) / 6, power = pow(10, floor(log10(rough)));
+    double step = power;
+    for (int i = 0; i < 4 && step < rough; i++)
+        step = factors[i] * power;
+    const double first = ceil(min / step - 1e-6);
+    for (int i = 0; (first + i) * step <= max + 1e-6 * step; i++) {
+        const double value = (first + i) * step;
+        fprintf(script, "%s'%.6g' %.9g", i ? ", " : "", value, value);
+    }
+}
+
+void gnuplot_axis(FILE *script, char axis, double min, double max, bool log)
+{
+    enum { FEW = 5, MANY = 16 };
+    static const double factors[] = {1, 2, 5, 1, 1.5, 2, 3, 4, 5, 7};
+    static const struct {
+        int first, count;
+    } sets[] = {{0, 3}, {0, 1}, {3, 7}};
+    int set = -1;
+    for (int i = 0; i < 3 && log && set < 0; i++) {
+        const int count = put_decades(NULL, min, max, factors + sets[i].first, sets[i].count);
+        if (count >= FEW && count <= MANY)
+            set = i;
+    }
+    if (log)
+        fprintf(script, "set logscale %c\n", axis);
+    fprintf(script, "set %crange [%.9g:%.9g]\n", axis, min, max);
+    fprintf(script, "set %ctics nomirror out (", axis);
+    if (set >= 0)
+        put_decades(script, min, max, factors + sets[set].first, sets[set].count);
+    else
+        put_steps(script, min, max);
+    fprintf(script, ")\n");
+}

@@ -1,0 +1,40 @@
+/*
+ * report_gnuplot: runs gnuplot and writes parts of its scripts.
+ */
+#ifndef REPORT_GNUPLOT_H
+#define REPORT_GNUPLOT_H
+
+#include "base/message.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+
+/* The size of every plot, in pixels. */
+enum { GNUPLOT_WIDTH = 1000, GNUPLOT_HEIGHT = 700 };
+
+/* Colours safe for colour blindness (Okabe and Ito, Color Universal Design, 2008), dark ones first.
+ */
+enum { GNUPLOT_COLORS = 7 };
+extern const char *const GNUPLOT_PALETTE[GNUPLOT_COLORS];
+
+/* Runs a script twice, for FOLDER/NAME.svg and FOLDER/NAME.png, each written completely or not at
+ * all. The script sets neither terminal nor output. Uses no shell and no temporary files. */
+bool gnuplot_draw(const char *script, size_t size, const char *folder, const char *name,
+                  Message *message);
+
+/* Closes and frees a script from open_memstream; draws it first if `done` and no write failed. */
+bool gnuplot_finish(FILE *file, char **script, const size_t *size, bool done, const char *folder,
+                    const char *name, Message *message);
+
+/* Writes a quoted string. */
+void gnuplot_string(FILE *script, const char *text);
+
+/* A small footer: what was measured with. NULL: none. */
+void gnuplot_foot(FILE *script, const char *text);
+
+/* The range of an axis ('x' or 'y') and its tics: 1, 2 and 5 times powers of ten, or others if
+ * those are too few or too many. If `log`, 0 < min < max. */
+void gnuplot_axis(FILE *script, char axis, double min, double max, bool log);
+
+#endif

@@ -1,0 +1,281 @@
+#include "study/results/results_row.h"
+
+#include "base/parse.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define ROW(field) offsetof(ResultRow, field), sizeof((ResultRow *)0)->field
+
+static const Column SCENE = {"scene", COLUMN_TEXT, ROW(scene), 1, 0, 0};
+
+enum { MAX = 1000000000 }; /* steps, or milliseconds */
+
+/* The columns after the scene and the axes. */
+static const Column NUMBERS[] = {
+    {"width", COLUMN_COUNT, ROW(width), 1, PARSE_SIZE_MAX, 0},
+    {"height", COLUMN_COUNT, ROW(height), 1, PARSE_SIZE_MAX, 0},
+    {"interior_rms", COLUMN_REAL, ROW(interior_rms), 0, MAX, 0},
+    {"interior_maximum", COLUMN_REAL, ROW(interior_maximum), 0, MAX, 0},
+    {"all_rms", COLUMN_REAL, ROW(all_rms), 0, MAX, 0},
+    {"all_maximum", COLUMN_REAL, ROW(all_maximum), 0, MAX, 0},
+    {"interior_pixels", COLUMN_COUNT, ROW(interior_pixels), 0, INT_MAX, 0},
+    {"time", COLUMN_REAL, ROW(time), 0, MAX, 0},
+    {"time_lower", COLUMN_REAL, ROW(time_lower), 0, MAX, 0},
+    {"time_upper", COLUMN_REAL, ROW(time_upper), 0, MAX, 0},
+    {"run_1", COLUMN_REAL, ROW(run_times[0]), 0, MAX, 0},
+    {"run_2", COLUMN_REAL, ROW(run_times[1]), 0, MAX, 0},
+    {"run_3", COLUMN_REAL, ROW(run_times[2]), 0, MAX, 0},
+    {"net_time", COLUMN_REAL, ROW(net_time), -MAX, MAX,
+     0}, /* a tiny one may be measured as negative */
+    {"gpu_time", COLUMN_REAL, ROW(gpu_time), 0, MAX, 0},
+    {"noise", COLUMN_REAL, ROW(noise), 0, MAX, 0},
+    {"vertices", COLUMN_LONG_COUNT, ROW(vertices), 0, 1e15, 0},
+    {"fragments", COLUMN_LONG_COUNT, ROW(fragments), 0, 1e15, 0},
+    {"vertex_operations", COLUMN_COUNT, ROW(vertex_operations), 0, INT_MAX, 0},
+    {"fragment_operations", COLUMN_COUNT, ROW(fragment_operations), 0, INT_MAX, 0},
+    {"seed", COLUMN_SEED, ROW(seed), 0, UINT_MAX, 0},
+    {"renderer", COLUMN_TEXT, ROW(renderer), 0, 0, 0},
+    {"threads", COLUMN_TEXT, ROW(threads), 1, 0, 0},
+};
+
+_Static_assert(RESULT_RUNS == 3, "one column for each run");
+_Static_assert(sizeof NUMBERS / sizeof NUMBERS[0] == RESULTS_NUMBERS, "all are counted");
+
+Column column_at(int number)
+{
+    if (number == 0)
+        return SCENE;
+    if (number > AXIS_COUNT)
+        return NUMBERS[number - 1 - AXIS_COUNT];
+    const QualityAxis axis = (QualityAxis)(number - 1);
+    return (Column){QUALITY_AXES[axis].name, COLUMN_CHOICE, 0, 0, 0, 0, axis};
+}
+
+static void real_text(double value, char text[32])
+{
+    text[0] = '\0';
+    if (isfinite(value))
+        parse_number_text(value, text);
+}
+
+void column_text(const ResultRow *row, const Column *column, char text[RESULTS_FIELD_SIZE])
+{
+    const void *field = (const char *)row + column->offset;
+    text[0] = '\0';
+    switch (column->kind) {
+    case COLUMN_TEXT:
+        snprintf(text, RESULTS_FIELD_SIZE, "%.*s", (int)column->size, (const char *)field);
+        for (char *p = text; *p; p++) /* a line break would break the row */
+            if ((unsigned char)*p < ' ' || *p == 127)
+                *p = ' ';
+        break;
+    case COLUMN_CHOICE: {
+        const QualityAxisInfo *axis = &QUALITY_AXES[column->axis];
+        const int choice = row->quality.choice[column->axis];
+        snprintf(text, RESULTS_FIELD_SIZE, "%s", choice < axis->count ? axis->choices[choice] : "");
+        break;
+    }
+    case COLUMN_COUNT:
+        if (*(const int *)field >= 0)
+            snprintf(text, RESULTS_FIELD_SIZE, "%d", *(const int *)field);
+        break;
+    case COLUMN_LONG_COUNT:
+        if (*(const long long *)field >= 0)
+            snprintf(text, RESULTS_FIELD_SIZE, "%lld", *(const long long *)field);
+        break;
+    case COLUMN_SEED:
+        snprintf(text, RESULTS_FIELD_SIZE, "%u", *(const unsigned *)field);
+        break;
+    case COLUMN_REAL:
+        real_text(*(const double *)field, text);
+        break;
+    }
+}
+
+__attribute__((format(printf, 2, 3))) static bool fault_set(Fault *fault, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(fault->text, sizeof fault->text, format, arguments);
+    va_end(arguments);
+    for (char *p = fault->text; *p; p++) /* the file may hold anything */
+        if ((unsigned char)*p < ' ' || (unsigned char)*p > 126)
+            *p = '?';
+    return false;
+}
+
+/* Reads a field; `*next` moves behind the comma, or is NULL after the last field. */
+static bool read_field(const char **next, const char *end, char field[RESULTS_FIELD_SIZE],
+                       Fault *fault)
+{
+    const char *p = *next;
+    const bool quoted = p < end && *p == '"';
+    size_t used = 0;
+    for (p += quoted;; p++) {
+        if (p == end && quoted)
+            return fault_set(fault, "a quote does not end");
+        if (quoted && *p == '"' && !(p + 1 < end && p[1] == '"'))
+            break;
+        if (!quoted && (p == end || *p == ','))
+            break;
+        if (!quoted && *p == '"')
+            return fault_set(fault, "a quote within a field");
+        if (quoted && *p == '"')
+            p++;
+        if (*p == '\0')
+            return fault_set(fault, "a zero byte");
+        if (used + 1 >= RESULTS_FIELD_SIZE)
+            return fault_set(fault, "a field of more than %d characters", RESULTS_FIELD_SIZE - 1);
+        field[used++] = *p;
+    }
+    field[used] = '\0';
+    p += quoted;
+    if (p < end && *p != ',')
+        return fault_set(fault, "text after a quote");
+    *next = p < end ? p + 1 : NULL;
+    return true;
+}
+
+static bool parse_integer(const char *text, double min, double max, long long *value)
+{
+    const size_t length = strlen(text);
+    if (!length || length > 16 || strspn(text, "0123456789") != length)
+        return false;
+    *value = strtoll(text, NULL, 10);
+    return (double)*value >= min && (double)*value <= max;
+}
+
+static bool parse_choice(ResultRow *row, const Column *column, const char *text, Fault *fault)
+{
+    const QualityAxisInfo *axis = &QUALITY_AXES[column->axis];
+    for (int i = 0; i < axis->count; i++) {
+        if (strcmp(text, axis->choices[i]) == 0) {
+            row->quality.choice[column->axis] = (unsigned char)i;
+            return true;
+        }
+    }
+    return fault_set(fault, "%s \"%.32s\": no such choice", column->name, text);
+}
+
+/* A scene's name becomes part of a file name. */
+static bool is_scene(const char *text)
+{
+    return text[0] != '.' && !strchr(text, '/');
+}
+
+static bool parse_text(void *field, const Column *column, const char *text, Fault *fault)
+{
+    const size_t length = strlen(text);
+    if (length < (size_t)column->min || length >= column->size)
+        return fault_set(fault, "%s \"%.32s\": must have %.0f to %zu characters", column->name,
+                         text, column->min, column->size - 1);
+    for (const char *p = text; *p; p++)
+        if ((unsigned char)*p < ' ' || *p == 127)
+            return fault_set(fault, "%s \"%.32s\": a control character", column->name, text);
+    if (column->offset == SCENE.offset && !is_scene(text))
+        return fault_set(fault, "%s \"%.32s\": must not begin with . or hold /", column->name,
+                         text);
+    memcpy(field, text, length + 1);
+    return true;
+}
+
+static bool parse_value(ResultRow *row, const Column *column, const char *text, Fault *fault)
+{
+    void *field = (char *)row + column->offset;
+    long long count = -1;
+    double real = NAN;
+    if (column->kind == COLUMN_TEXT)
+        return parse_text(field, column, text, fault);
+    if (column->kind == COLUMN_CHOICE)
+        return parse_choice(row, column, text, fault);
+    const bool unknown = !text[0] && column->kind != COLUMN_SEED && column->min < 1;
+    if (!unknown &&
+        !(column->kind == COLUMN_REAL ? parse_number(text, column->min, column->max, &real)
+                                      : parse_integer(text, column->min, column->max, &count)))
+        return fault_set(fault, "%s \"%.32s\": must be a %snumber from %.0f to %.0f", column->name,
+                         text, column->kind == COLUMN_REAL ? "" : "whole ", column->min,
+                         column->max);
+    if (column->kind == COLUMN_COUNT)
+        *(int *)field = (int)count;
+    else if (column->kind == COLUMN_LONG_COUNT)
+        *(long long *)field = count;
+    else if (column->kind == COLUMN_SEED)
+        *(unsigned *)field = (unsigned)count;
+    else
+        *(double *)field = real;
+    return true;
+}
+
+bool header_parse(Header *header, const char *line, const char *end, Fault *fault)
+{
+    char field[RESULTS_FIELD_SIZE];
+    int place[RESULTS_COLUMNS];
+    *header = (Header){.count = 0};
+    memset(place, -1, sizeof place);
+    for (const char *next = line; next; header->count++) {
+        if (header->count == (int)(sizeof header->columns / sizeof header->columns[0]))
+            return fault_set(fault, "it has more than %d columns",
+                             (int)(sizeof header->columns / sizeof header->columns[0]));
+        if (!read_field(&next, end, field, fault))
+            return false;
+        header->columns[header->count] = -1;
+        for (int i = 0; i < RESULTS_COLUMNS; i++) {
+            if (strcmp(field, column_at(i).name) != 0)
+                continue;
+            if (place[i] >= 0)
+                return fault_set(fault, "it has two columns \"%s\"", field);
+            place[i] = header->columns[header->count] = header->count;
+            header->columns[header->count] = i;
+        }
+    }
+    header->ours = header->count == RESULTS_COLUMNS;
+    for (int i = 0; i < RESULTS_COLUMNS; i++) {
+        if (place[i] < 0)
+            return fault_set(fault, "it has no column \"%s\"", column_at(i).name);
+        header->ours = header->ours && place[i] == i;
+    }
+    return true;
+}
+
+bool row_parse(ResultRow *row, const Header *header, const char *line, const char *end,
+               Fault *fault)
+{
+    char field[RESULTS_FIELD_SIZE];
+    int count = 0;
+    *row = (ResultRow){.seed = 0};
+    for (const char *next = line; next; count++) {
+        if (count == header->count)
+            return fault_set(fault, "more than %d fields", header->count);
+        if (!read_field(&next, end, field, fault))
+            return false;
+        if (header->columns[count] < 0)
+            continue;
+        const Column column = column_at(header->columns[count]);
+        if (!parse_value(row, &column, field, fault))
+            return false;
+    }
+    if (count < header->count)
+        return fault_set(fault, "only %d of %d fields", count, header->count);
+    return true;
+}
+
+Header header_ours(void)
+{
+    Header header = {.count = RESULTS_COLUMNS, .ours = true};
+    for (int i = 0; i < RESULTS_COLUMNS; i++)
+        header.columns[i] = i;
+    return header;
+}
+
+void header_text(char text[RESULTS_HEADER_SIZE])
+{
+    size_t used = 0;
+    text[0] = '\0';
+    for (int i = 0; i < RESULTS_COLUMNS && used < RESULTS_HEADER_SIZE; i++)
+        used += (size_t)snprintf(text + used, RESULTS_HEADER_SIZE - used, "%s%s", i ? "," : "",
+                                 column_at(i).name);
+}

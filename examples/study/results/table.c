@@ -1,0 +1,94 @@
+#include "study/results/table.h"
+
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+void table_open(Table *table, const char *head)
+{
+    *table = (Table){.stream = NULL};
+    table->stream = open_memstream(&table->text, &table->size);
+    table_row(table, "%s", head);
+}
+
+void table_row(Table *table, const char *format, ...)
+{
+    va_list arguments;
+    if (!table->stream)
+        return;
+    va_start(arguments, format);
+    vfprintf(table->stream, format, arguments);
+    va_end(arguments);
+    fputc('\n', table->stream);
+}
+
+static int cell_width(const char *cell)
+{
+    return (int)strcspn(cell, "|\n");
+}
+
+/* NULL after the last one of a row. */
+static const char *next_cell(const char *cell)
+{
+    cell += cell_width(cell);
+    return *cell == '|' ? cell + 1 : NULL;
+}
+
+static void put_markdown(const char *row, bool head, FILE *file)
+{
+    for (const char *cell = row; cell; cell = next_cell(cell))
+        fprintf(file, "| %.*s ", cell_width(cell), cell);
+    fputs("|\n", file);
+    for (const char *cell = row; head && cell; cell = next_cell(cell))
+        fputs("|---", file);
+    fputs(head ? "|\n" : "", file);
+}
+
+static void put_aligned(const char *row, const int widths[TABLE_MAX_COLUMNS], FILE *file)
+{
+    int column = 0;
+    for (const char *cell = row; cell; cell = next_cell(cell), column++)
+        fprintf(file, "%s%*.*s", column ? "  " : "", column ? widths[column] : -widths[0],
+                cell_width(cell), cell);
+    fputc('\n', file);
+}
+
+bool table_close(Table *table, bool markdown, FILE *file)
+{
+    int widths[TABLE_MAX_COLUMNS] = {0};
+    bool done = table->stream && !ferror(table->stream);
+    if (table->stream && fclose(table->stream) != 0)
+        done = false;
+    const char *const end = done ? table->text + table->size : table->text;
+    for (const char *row = table->text; row < end; row = strchr(row, '\n') + 1) {
+        int column = 0;
+        for (const char *cell = row; cell; cell = next_cell(cell), column++)
+            widths[column] = cell_width(cell) > widths[column] ? cell_width(cell) : widths[column];
+    }
+    for (const char *row = table->text; row < end; row = strchr(row, '\n') + 1) {
+        if (markdown)
+            put_markdown(row, row == table->text, file);
+        else
+            put_aligned(row, widths, file);
+    }
+    free(table->text);
+    return done;
+}
+
+void table_machine(const char *driver, FILE *file)
+{
+    char line[256], processor[200] = "unknown processor";
+    const char *threads = getenv("LP_NUM_THREADS");
+    FILE *information = fopen("/proc/cpuinfo", "r");
+    while (information && fgets(line, sizeof line, information))
+        if (sscanf(line, "model name : %199[^\n]", processor) == 1)
+            break;
+    if (information)
+        fclose(information);
+    fprintf(file, "%s, %ld cores; ", processor, sysconf(_SC_NPROCESSORS_ONLN));
+    if (driver)
+        fprintf(file, "%s; LP_NUM_THREADS %s; ", driver,
+                threads && threads[0] ? threads : "default");
+    fprintf(file, "%s\n", COMPILER);
+}

@@ -1,0 +1,686 @@
+/*
+ * options: every option, every bad value, and the edge of a program.
+ */
+#include "app/options.h"
+#include "base/parse.h"
+#include "base/version.h"
+#include "images/image_file.h"
+#include "support/testing.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <float.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { MAX_ARGUMENTS = 8 };
+
+static const Usage PROGRAM = {.name = "LightedCube", .summary = "A summary."};
+static void twice_as_wide(int *width, int *height)
+{
+    *width = 2 * *height;
+}
+
+static const Usage SCENE = {.name = "Scene", .summary = "A summary.", .scene = true};
+static const Usage GALLERY = {.name = "gallery", .summary = "A summary.", .gallery = true};
+
+static Options options;
+static Message message;
+
+/* Reads a command line whose arguments are separated by blanks; "" stands for an empty one. */
+static OptionsResult read_as(const Usage *usage, const char *line)
+{
+    static char text[512];
+    static char *arguments[MAX_ARGUMENTS + 2];
+    int count = 0;
+    snprintf(text, sizeof text, "%s %s", usage->name, line);
+    for (char *word = strtok(text, " "); word; word = strtok(NULL, " ")) {
+        assert_true(count <= MAX_ARGUMENTS);
+        arguments[count++] = strcmp(word, "\"\"") == 0 ? word + 2 : word;
+    }
+    arguments[count] = NULL;
+    message = (Message){0};
+    return options_read(&options, usage, count, arguments, &message);
+}
+
+static void accept(const char *line)
+{
+    if (read_as(&PROGRAM, line) != OPTIONS_RUN)
+        fail_msg("refused: %s: %s", line, message.text);
+    assert_string_equal(message.text, "");
+}
+
+/* The line is accepted, and then the condition holds. */
+#define reads(line, condition) (accept(line), assert_true(condition))
+
+static void refuse_as(const Usage *usage, const char *line, const char *said)
+{
+    if (read_as(usage, line) != OPTIONS_BAD)
+        fail_msg("accepted: %s", line);
+    if (!strstr(message.text, said))
+        fail_msg("%s: expected \"%s\" in \"%s\"", line, said, message.text);
+    if (strchr(message.text, '\n'))
+        fail_msg("%s: more than one line: %s", line, message.text);
+    assert_false(message.located);
+}
+
+static void refuse(const char *line, const char *said)
+{
+    refuse_as(&PROGRAM, line, said);
+}
+
+TEST(without_options_the_defaults_are_those_of_the_lecture)
+{
+    accept("");
+    assert_string_equal(options.output, "LightedCube.png");
+    assert_false(options.output_given);
+    assert_int_equal(options.width, 400);
+    assert_int_equal(options.height, 400);
+    assert_true(options.seconds == 0);
+    assert_int_equal(options.frames, 1);
+    assert_true(options.fps == 30);
+    assert_null(options.canvas.backend);
+    assert_int_equal(options.canvas.samples, 0);
+    assert_null(options.shaders.folder);
+    assert_null(options.shaders.precision);
+    assert_int_equal(options.shaders.print, 0);
+    assert_int_equal(options.compress, IMAGE_COMPRESS_DEFAULT);
+    assert_false(options.alpha || options.verbose || options.doctor);
+    assert_null(options.names[0]);
+}
+
+TEST(every_option_is_read_in_its_short_and_long_form)
+{
+    static const char *const outputs[] = {"-o a.png",       "-oa.png",     "--output a.png",
+                                          "--output=a.png", "--out a.png", "-o b.png -o a.png"};
+    for (size_t i = 0; i < sizeof outputs / sizeof outputs[0]; i++) {
+        accept(outputs[i]);
+        assert_string_equal(options.output, "a.png");
+        assert_true(options.output_given);
+    }
+    static const char *const sizes[] = {"-s 3x16384", "--size 3x16384", "--size=3X16384"};
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+        accept(sizes[i]);
+        assert_int_equal(options.width, 3);
+        assert_int_equal(options.height, 16384);
+    }
+    reads("-t -1.5", options.seconds == -1.5);
+    reads("--time=2e3", options.seconds == 2000);
+    reads("-a 90", options.seconds == 3); /* at the lecture's 30 degrees a second */
+    reads("--angle -45", options.seconds == -1.5);
+    reads("-t 1 -a 90 -t 5", options.seconds == 5); /* the last one counts */
+    reads("-n 7 -o x%d.png", options.frames == 7);
+    accept("--frames 1000000 --fps 0.5");
+    assert_int_equal(options.frames, FRAMES_MAX);
+    assert_true(options.fps == 0.5);
+    reads("--samples 4", options.canvas.samples == 4);
+    reads("-b egl", options.canvas.backend == &CANVAS_EGL);
+    reads("--backend=egl", options.canvas.backend == &CANVAS_EGL);
+    reads("--shaders some/folder", strcmp(options.shaders.folder, "some/folder") == 0);
+    reads("--precision highp", strcmp(options.shaders.precision, "highp") == 0);
+    reads("--precision mediump", strcmp(options.shaders.precision, "mediump") == 0);
+    reads("--print-shader", options.shaders.print == (SHADER_PRINT_VERTEX | SHADER_PRINT_FRAGMENT));
+    reads("--print-shader=vert", options.shaders.print == SHADER_PRINT_VERTEX);
+    reads("--print-shader=frag", options.shaders.print == SHADER_PRINT_FRAGMENT);
+    reads("--alpha", options.alpha);
+    reads("--compress 0", options.compress == 0);
+    reads("--compress 9", options.compress == 9);
+    reads("-v", options.verbose);
+    reads("--verbose", options.verbose);
+    reads("--doctor", options.doctor);
+}
+
+TEST(every_bad_value_is_refused_with_the_option_and_the_value)
+{
+    static const struct {
+        const char *option, *values[14];
+    } cases[] = {
+        {"--size",
+         {"0", "400x", "x400", "0x0", "20000x1", "1x16385", "-1x5", "4x4x4", "400", "x", "1.5x2",
+          "0x10x4", "99999999999x1"}},
+        {"--time",
+         {"nan", "-nan", "inf", "-infinity", "0x10", "1e999", "2e9", "-2e9", "abc", "1s", "--",
+          "+-1", "1,5"}},
+        {"--angle", {"nan", "inf", "0x5a", "4e10", "abc", "90deg"}},
+        {"--frames", {"0", "-1", "1.5", "abc", "1000001", "1e9", "nan", "0x2", "3x"}},
+        {"--fps", {"0", "-30", "nan", "inf", "2e6", "abc", "1e-9"}},
+        {"--samples", {"-1", "1.5", "abc", "nan", "4x", "1e99"}},
+        {"--orbit",
+         {"1", "1,", ",1", "1,2,", "1,2,3,4", "1,91", "1,-91", "36001,0", "1,2,0", "1,2,101", "1;2",
+          "nan,0"}},
+        {"--backend", {"vulkan", "EGL", "eg"}},
+        {"--precision", {"lowp", "high", "HIGHP", "highp,mediump"}},
+        {"--print-shader", {"fragment", "both", "vert,frag"}},
+        {"--compress", {"-1", "10", "1.5", "best"}},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        for (const char *const *value = cases[i].values; *value; value++) {
+            char line[128], said[128];
+            snprintf(line, sizeof line, "%s=%s", cases[i].option, *value);
+            snprintf(said, sizeof said, "%s %s: ", cases[i].option, *value);
+            refuse(line, said);
+        }
+        char empty[64];
+        snprintf(empty, sizeof empty, "%s=", cases[i].option);
+        refuse(empty, cases[i].option);
+    }
+    refuse("--output=", "--output: the name is empty");
+    refuse("-o \"\"", "--output: the name is empty");
+    refuse("--shaders=", "--shaders: the name is empty");
+    refuse("--backend osmosis", "there is egl");
+}
+
+TEST(an_option_without_its_value_says_so)
+{
+    static const char *const lines[] = {
+        "--output",  "--size",    "--time",    "--angle",     "--frames",   "--fps",
+        "--samples", "--backend", "--shaders", "--precision", "--compress", "-o",
+        "-s",        "-t",        "-a",        "-n",          "-b"};
+    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
+        char said[64];
+        snprintf(said, sizeof said, "%s: needs a value", lines[i]);
+        refuse(lines[i], said);
+    }
+    refuse("-vo", "-o: needs a value");
+}
+
+TEST(a_value_for_an_option_that_takes_none_is_refused)
+{
+    refuse("--alpha=1", "--alpha=1: takes no value");
+    refuse("--verbose=very", "takes no value");
+    refuse("--help=me", "takes no value");
+}
+
+TEST(an_unknown_option_gets_the_nearest_name)
+{
+    refuse("--sise 4x4", "--sise: no such option; did you mean --size?");
+    refuse("--ouptut=a.png", "did you mean --output?");
+    refuse("--Samples 4", "did you mean --samples?");
+    refuse("--precison highp", "did you mean --precision?");
+    refuse("--print-shaders", "did you mean --print-shader?");
+    refuse("--fsp 3", "did you mean --fps?");
+    refuse("--xylophone", "--xylophone: no such option; --help lists them");
+    refuse("--=3", "no such option");
+    refuse("-z", "-z: no such option; --help lists them");
+}
+
+TEST(an_unknown_letter_is_named_at_any_position)
+{
+    refuse("-vz", "-z: no such option");
+    refuse("-zv", "-z: no such option");
+    refuse("--verbose -zv", "-z: no such option");
+    refuse("--alpha -zo a.png", "-z: no such option");
+}
+
+TEST(an_ambiguous_abbreviation_names_the_options)
+{
+    refuse("--pr", "--precision");
+    refuse("--pr", "--print-shader");
+    refuse("--s 4", "--samples");
+}
+
+TEST(an_argument_that_is_not_an_option_is_refused)
+{
+    refuse("picture.png", "picture.png: not an option");
+    refuse("-v picture.png --alpha", "picture.png: not an option");
+    refuse("-- --alpha", "--alpha: not an option");
+    refuse("-", "-: not an option");
+    refuse("\"\"", "not an option");
+}
+
+TEST(a_size_is_two_whole_numbers)
+{
+    static const char *const bad[] = {
+        "",        "x",     "1",     "1x",   "x1",    "0x1",  "1x0",         "16385x1",
+        "1x16385", "-1x1",  "+1x1",  " 1x1", "1x1 ",  "1 x1", "1x 1",        "1x1x1",
+        "1e2x1",   "1.0x1", "0x1x1", "1*1",  "1x1\n", "axb",  "4294967297x1"};
+    int width = 11, height = 22;
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++)
+        if (parse_size(bad[i], &width, &height))
+            fail_msg("accepted: \"%s\"", bad[i]);
+    assert_int_equal(width, 11);
+    assert_int_equal(height, 22);
+    static const struct {
+        const char *text;
+        int width, height;
+    } good[] = {
+        {"1x1", 1, 1}, {"16384x16384", 16384, 16384}, {"007x3", 7, 3}, {"640X480", 640, 480}};
+    for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) {
+        assert_true(parse_size(good[i].text, &width, &height));
+        assert_int_equal(width, good[i].width);
+        assert_int_equal(height, good[i].height);
+    }
+}
+
+TEST(without_a_size_it_is_the_programs)
+{
+    Usage usage = PROGRAM;
+    int width, height;
+    options_size(&usage, &width, &height);
+    assert_true(width == 400 && height == 400);
+    usage.width = 300;
+    usage.height = 200;
+    options_size(&usage, &width, &height);
+    assert_true(width == 300 && height == 200);
+    usage.resize = twice_as_wide;
+    options_size(&usage, &width, &height);
+    assert_true(width == 400 && height == 200);
+    assert_int_equal(read_as(&usage, ""), OPTIONS_RUN);
+    assert_true(options.width == 400 && options.height == 200);
+    assert_int_equal(read_as(&usage, "--size 50x60"), OPTIONS_RUN);
+    assert_true(options.width == 50 && options.height == 60);
+}
+
+/* Terms and lights. */
+
+static const char *const LIGHT_NUMBERS[] = {"0", "1", "2", "31"};
+static const char *const TERMS[] = {"ambient", "diffuse", "specular", "emission"};
+
+/* The row --terms of `options`. */
+static Parameter terms_row(void)
+{
+    static Parameter table[OPTIONS_MAX];
+    Parameter *row = table;
+    options_table(&SCENE, &options, OPTIONS_TO_WRITE, table);
+    while (row->name && strcmp(row->name, "terms") != 0)
+        row++;
+    assert_non_null(row->name);
+    return *row;
+}
+
+/* Every set of terms and of four lights, in both orders; what is written is read as the same. */
+TEST(every_set_of_terms_and_lights_is_read_and_written)
+{
+    for (unsigned bits = 1; bits < 1 << 8; bits++) {
+        char line[160] = "--terms ", text[PARAMETER_TEXT_SIZE];
+        for (int i = 0; i < 8; i++) {
+            const int k = bits & 1 ? i : 7 - i;
+            if (bits >> k & 1)
+                snprintf(line + strlen(line), sizeof line - strlen(line), "%s%s",
+                         line[strlen(line) - 1] == ' ' ? "" : ",",
+                         k < 4 ? TERMS[k] : LIGHT_NUMBERS[k - 4]);
+        }
+        if (read_as(&SCENE, line) != OPTIONS_RUN)
+            fail_msg("refused: %s: %s", line, message.text);
+        const uint32_t lights = (bits >> 4 & 7) | (uint32_t)(bits >> 7) << 31;
+        const SceneTerms read = options.terms;
+        assert_int_equal(read.left_out, bits & 15 ? TERM_ALL & ~bits : 0);
+        assert_int_equal(read.lights_left_out, lights ? ~lights : 0);
+        assert_false(read.unlit);
+        const Parameter row = terms_row();
+        assert_true(row.write(&row, text, sizeof text));
+        snprintf(line, sizeof line, "--terms %s", text);
+        assert_int_equal(read_as(&SCENE, line), OPTIONS_RUN);
+        assert_memory_equal(&options.terms, &read, sizeof read);
+    }
+    assert_int_equal(read_as(&SCENE, ""), OPTIONS_RUN);
+    assert_true(options.terms.left_out == 0 && options.terms.lights_left_out == 0);
+}
+
+/* All lights but one are the longest text. */
+TEST(the_longest_terms_fit)
+{
+    char text[PARAMETER_TEXT_SIZE], line[160];
+    for (unsigned left_out = 0; left_out < 32; left_out++) {
+        assert_int_equal(read_as(&SCENE, ""), OPTIONS_RUN);
+        options.terms.lights_left_out = (uint32_t)1 << left_out;
+        const Parameter row = terms_row();
+        assert_true(row.write(&row, text, sizeof text));
+        snprintf(line, sizeof line, "--terms %s", text);
+        assert_int_equal(read_as(&SCENE, line), OPTIONS_RUN);
+        assert_int_equal(options.terms.lights_left_out, (uint32_t)1 << left_out);
+    }
+}
+
+TEST(terms_that_are_none_are_refused)
+{
+    static const char *const wrong[] = {"\"\"",
+                                        "difuse",
+                                        "diffuse,",
+                                        ",diffuse",
+                                        "32",
+                                        "-1",
+                                        "1,,2",
+                                        "diffuse ambient",
+                                        "Diffuse",
+                                        "specularspecular",
+                                        "0000000000000000x"};
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        char line[64];
+        snprintf(line, sizeof line, "--terms %s", wrong[i]);
+        refuse_as(&SCENE, line, strchr(wrong[i], ' ') ? "ambient" : "--terms");
+    }
+    refuse("--terms diffuse", "--terms");
+}
+
+TEST(a_number_is_finite_decimal_and_nothing_else)
+{
+    static const char *const bad[] = {
+        "",         ".",   "-",     "+",     "e",      "nan", "NAN",   "inf", "-inf",
+        "infinity", "0x1", "0X1p3", "1e400", "-1e400", " 1",  "1 ",    "\t1", "1\n",
+        "1a",       "1e",  "--1",   "+-1",   "1.2.3",  "1,5", "1_000", "1f",  "\xC2\xB2"};
+    double number = 42;
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++)
+        if (parse_number(bad[i], -DBL_MAX, DBL_MAX, &number))
+            fail_msg("accepted: \"%s\"", bad[i]);
+    assert_true(number == 42);
+    static const struct {
+        const char *text;
+        double value;
+    } good[] = {{"0", 0},      {"-1.5", -1.5}, {"+2", 2},      {".5", 0.5}, {"5.", 5},
+                {"1e3", 1000}, {"1E-2", 0.01}, {"-.25", -.25}, {"010", 10}, {"1e-400", 0}};
+    for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) {
+        assert_true(parse_number(good[i].text, -DBL_MAX, DBL_MAX, &number));
+        assert_true(number == good[i].value);
+    }
+}
+
+TEST(the_ends_of_a_range_belong_to_it)
+{
+    double number;
+    assert_true(parse_number("-2", -2, 3, &number));
+    assert_true(parse_number("3", -2, 3, &number));
+    assert_false(parse_number("-2.0000001", -2, 3, &number));
+    assert_false(parse_number("3.0000001", -2, 3, &number));
+}
+
+TEST(the_nearest_name_has_the_fewest_edits)
+{
+    static const char *const names[] = {
+        "cube", "sphere", "torus", "LightedCube", "LightedCube_ambient", NULL};
+    static const char *const none[] = {NULL};
+    static const struct {
+        const char *word, *nearest;
+    } cases[] = {
+        {"cube", "cube"},
+        {"cub", "cube"},
+        {"cubes", "cube"},
+        {"Cube", "cube"},
+        {"ucbe", "cube"},
+        {"shpere", "sphere"},
+        {"tours", "torus"},
+        {"lightedcube", "LightedCube"},
+        {"LightedCubes", "LightedCube"},
+        {"LightedCube_ambiant", "LightedCube_ambient"},
+        {"teapot", NULL},
+        {"xyz", NULL},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const char *found = parse_nearest(cases[i].word, names);
+        if (!cases[i].nearest && found)
+            fail_msg("%s: found %s", cases[i].word, found);
+        if (cases[i].nearest)
+            assert_string_equal(found ? found : "(none)", cases[i].nearest);
+    }
+    assert_null(parse_nearest("cube", none));
+
+    char endless[5000];
+    memset(endless, 'c', sizeof endless - 1);
+    endless[sizeof endless - 1] = '\0';
+    const char *const long_names[] = {endless, NULL};
+    assert_null(parse_nearest("cube", long_names));
+    parse_nearest(endless, names); /* whatever it finds, it must return */
+}
+
+TEST(the_default_output_is_named_for_the_program)
+{
+    accept("");
+    assert_string_equal(options.output, "LightedCube.png");
+    accept("-n 3");
+    assert_string_equal(options.output, "LightedCube%04d.png");
+    assert_false(options.output_given);
+    assert_int_equal(read_as(&GALLERY, ""), OPTIONS_RUN);
+    assert_string_equal(options.output, "gallery");
+}
+
+TEST(an_output_that_cannot_be_a_picture_is_refused)
+{
+    refuse("-o folder/", "folder/: is a folder");
+    refuse("-o picture", "picture: the extension names the format");
+    refuse("-o folder.png/picture", "folder.png/picture: the extension");
+    refuse("-o .png", "the extension");
+    refuse("-o picture.", "the extension");
+    refuse("-o - -n 2", "standard output takes one picture as PNG, not 2; --format y4m or rgb");
+    refuse("-o - -n 2 --format png", "standard output takes one picture as PNG");
+    accept("-o picture.PNG");
+    accept("-o /dev/null");
+    accept("-o 100%.png"); /* the name of a single picture is used as it is */
+}
+
+TEST(several_pictures_need_exactly_one_number_in_the_name)
+{
+    static const char *const bad[] = {"a.png",  "a%%.png",   "%d%d.png", "a%s.png",
+                                      "a%.png", "a%-3d.png", "a%x.png",  "a%100d.png"};
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        char line[64];
+        snprintf(line, sizeof line, "--frames 2 -o %s", bad[i]);
+        refuse(line, bad[i]);
+    }
+    accept("--frames 2 -o a%d.png");
+    accept("--frames 2 -o a%04d.png");
+    accept("--frames 2 -o 100%%_%3d.png");
+    accept("--frames 1 -o a.png");
+    assert_null(options.animation);
+    accept("-o a.png --print-shader --frames 2"); /* nothing is written, so any name is accepted */
+}
+
+static void takes(const char *line, const char *animation, bool numbered)
+{
+    accept(line);
+    if (!animation != !options.animation ||
+        (animation && strcmp(options.animation, animation) != 0))
+        fail_msg("%s: %s", line, options.animation ? options.animation : "no animation");
+    assert_int_equal(options.numbered, numbered);
+}
+
+TEST(pictures_go_to_one_animation_or_each_to_its_file)
+{
+    takes("-o a.gif", NULL, false);
+    takes("-o a.webp", NULL, false);
+    takes("-o a.gif -n 1", NULL, false);
+    takes("-o a.gif -n 2", "gif", false);
+    takes("-o a.WEBP -n 2", "webp", false);
+    takes("-o a.mp4", "mp4", false);
+    takes("-o a.apng -n 2", "apng", false);
+    takes("-o 100%.webm -n 2", "webm", false);
+    takes("-o a%d.gif -n 2", NULL, true);
+    takes("-o a%d.webp -n 1", NULL, true);
+    takes("-o a.webp -n 2 --alpha", "webp", false);
+    refuse("-o a%d.mp4 -n 2", "a%d.mp4: a .mp4 holds all the pictures; leave the number out");
+    refuse("-o a%d.apng -n 1", "leave the number out");
+    refuse("-o a.gif --alpha", ".gif has no alpha channel");
+    refuse("-o a.gif -n 2 --alpha", "gif has no alpha channel");
+    refuse("-o a.mp4 --alpha", "mp4 has no alpha channel");
+    refuse("-o a.gif -n 2 --fps 101", "gif has 0.001526 to 100");
+    refuse("-o a.webm --fps 1001", "webm has 0.001 to 1000");
+    refuse("-o a.png --format y4m", "--format y4m: applies to standard output, -o -");
+    refuse("--format png", "--format png: applies to standard output, -o -");
+    refuse("-o - --format gif", "--format gif: must be png, y4m or rgb");
+    refuse("-o - --format y4m --alpha", "y4m has no alpha channel");
+    refuse_as(&GALLERY, "--format y4m", "--format: a gallery");
+    takes("-o a.mp4 --print-shader --format y4m", NULL, false);
+}
+
+TEST(a_gallery_takes_names_and_a_folder_but_no_frames)
+{
+    assert_int_equal(read_as(&GALLERY, "LightedCube -s 64x64 PointLightedCube -o here"),
+                     OPTIONS_RUN);
+    assert_string_equal(options.output, "here"); /* needs no extension */
+    assert_true(options.output_given);
+    assert_int_equal(options.width, 64);
+    assert_string_equal(options.names[0], "LightedCube");
+    assert_string_equal(options.names[1], "PointLightedCube");
+    assert_null(options.names[2]);
+    assert_int_equal(read_as(&GALLERY, "-o here/"), OPTIONS_RUN);
+    refuse_as(&GALLERY, "-n 2", "--frames: a gallery");
+    refuse_as(&GALLERY, "--fps 2", "--fps: a gallery");
+    refuse_as(&GALLERY, "-s 4", "--size 4: must be");
+}
+
+TEST(reading_again_resets_the_options)
+{
+    accept("-v --alpha -s 4x4");
+    refuse("--bogus -v", "--bogus");
+    accept("");
+    assert_false(options.verbose || options.alpha);
+    assert_int_equal(options.width, 400);
+}
+
+/* A stream's file descriptor, while a temporary file stands in its place. */
+typedef struct Capture {
+    FILE *stream, *file;
+    int saved;
+} Capture;
+
+static Capture capture_start(FILE *stream)
+{
+    Capture capture = {.stream = stream, .file = tmpfile()};
+    assert_non_null(capture.file);
+    fflush(stream);
+    capture.saved = dup(fileno(stream));
+    assert_true(dup2(fileno(capture.file), fileno(stream)) >= 0);
+    return capture;
+}
+
+static void capture_end(Capture *capture, char *text, size_t size)
+{
+    fflush(capture->stream);
+    assert_true(dup2(capture->saved, fileno(capture->stream)) >= 0);
+    close(capture->saved);
+    rewind(capture->file);
+    text[fread(text, 1, size - 1, capture->file)] = '\0';
+    fclose(capture->file);
+}
+
+TEST(help_names_every_option_and_version_is_one_line)
+{
+    static const char *const named[] = {"Usage: LightedCube [options]",
+                                        "A summary.",
+                                        "-o, --output",
+                                        "-s, --size",
+                                        "-t, --time",
+                                        "-a, --angle",
+                                        "-n, --frames",
+                                        "--fps",
+                                        "--samples",
+                                        "-b, --backend",
+                                        "--shaders",
+                                        "--precision",
+                                        "--print-shader",
+                                        "--alpha",
+                                        "--compress",
+                                        "-v, --verbose",
+                                        "--doctor",
+                                        "-h, --help",
+                                        "--version",
+                                        "LIGHTING_SHADERS",
+                                        "400x400",
+                                        "Exit status"};
+    char text[8192];
+    Capture capture = capture_start(stdout);
+    const OptionsResult result = read_as(&PROGRAM, "--help");
+    capture_end(&capture, text, sizeof text);
+    assert_int_equal(result, OPTIONS_ANSWERED);
+    for (size_t i = 0; i < sizeof named / sizeof named[0]; i++)
+        if (!strstr(text, named[i]))
+            fail_msg("not in --help: %s", named[i]);
+    for (char *line = strtok(text, "\n"); line; line = strtok(NULL, "\n"))
+        if (strlen(line) > 100)
+            fail_msg("too long: %s", line);
+
+    capture = capture_start(stdout);
+    const OptionsResult gallery = read_as(&GALLERY, "-h");
+    capture_end(&capture, text, sizeof text);
+    assert_int_equal(gallery, OPTIONS_ANSWERED);
+    assert_non_null(strstr(text, "Usage: gallery [options] [NAME...]"));
+    assert_null(strstr(text, "--frames"));
+
+    capture = capture_start(stdout);
+    const OptionsResult version = read_as(&PROGRAM, "--version");
+    capture_end(&capture, text, sizeof text);
+    assert_int_equal(version, OPTIONS_ANSWERED);
+    assert_string_equal(text, "LightedCube (lighting) " VERSION "\n");
+}
+
+TEST(a_failure_begins_with_the_programs_name_or_a_place)
+{
+    char text[256];
+    const Message plain = {.text = "a.png: is a folder"};
+    const Message placed = {.text = "a.vert:3: syntax error", .located = true};
+    const Message empty = {.text = ""};
+    Capture capture = capture_start(stderr);
+    const int first = options_fail("LightedCube", &plain, EXIT_USAGE);
+    const int second = options_fail("LightedCube", &placed, EXIT_FAILED);
+    options_fail("LightedCube", &empty, EXIT_FAILED);
+    capture_end(&capture, text, sizeof text);
+    assert_int_equal(first, EXIT_USAGE);
+    assert_int_equal(second, EXIT_FAILED);
+    assert_string_equal(text, "LightedCube: a.png: is a folder\na.vert:3: syntax error\n"
+                              "LightedCube: failed\n");
+}
+
+static int prepare_with_closed_streams(void)
+{
+    close(0);
+    close(1);
+    close(2);
+    options_prepare_process();
+    const int next = open("/dev/null", O_RDONLY);
+    char byte;
+    if (next != 3)
+        return 1; /* a file got the number of a standard stream */
+    if (read(0, &byte, 1) != 0)
+        return 2;
+    if (write(1, "x", 1) >= 0 || write(2, "x", 1) >= 0)
+        return 3; /* writing to a closed stream must fail */
+    return 0;
+}
+
+static int prepare_with_open_streams(void)
+{
+    int ends[2];
+    if (pipe(ends) != 0 || dup2(ends[1], 1) < 0)
+        return 1;
+    options_prepare_process();
+    if (write(1, "x", 1) != 1)
+        return 2; /* open streams stay as they are */
+    close(ends[0]);
+    if (write(1, "x", 1) >= 0 || errno != EPIPE)
+        return 3; /* a broken pipe is an error, not the end */
+    return signal(SIGXFSZ, SIG_DFL) == SIG_IGN ? 0 : 4;
+}
+
+static int finish_on_a_full_device(void)
+{
+    const int full = open("/dev/full", O_WRONLY);
+    const int quiet = open("/dev/null", O_WRONLY);
+    if (full < 0 || dup2(full, 1) < 0 || dup2(quiet, 2) < 0)
+        return 1;
+    if (options_finish("LightedCube", 0) != 0)
+        return 2; /* nothing was written, so nothing is lost */
+    fputs("data", stdout);
+    return options_finish("LightedCube", 0) == EXIT_FAILED ? 0 : 3;
+}
+
+TEST(closed_standard_streams_are_reserved)
+{
+    assert_int_equal(testing_in_child(prepare_with_closed_streams), 0);
+}
+
+TEST(open_streams_stay_and_broken_pipes_are_errors)
+{
+    assert_int_equal(testing_in_child(prepare_with_open_streams), 0);
+}
+
+TEST(output_that_does_not_arrive_is_a_failure)
+{
+    assert_int_equal(testing_in_child(finish_on_a_full_device), 0);
+}
+
+int main(void)
+{
+    return testing_run(0, "options", NULL, NULL);
+}

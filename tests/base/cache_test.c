@@ -1,0 +1,145 @@
+/*
+ * The cache: what is written is read, damage and want of a folder are misses, the least recently
+ * used goes, and processes that write at once leave whole files.
+ */
+#include "base/cache.h"
+#include "support/testing.h"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+static CacheKey key_of(const char *text)
+{
+    CacheKey key = {{0, 0}};
+    cache_key_add(&key, text, strlen(text));
+    return key;
+}
+
+/* Whether `text` is kept under a key of the same name. */
+static bool has(const char *name, const char *text)
+{
+    size_t size = 0;
+    const CacheKey key = key_of(name);
+    char *bytes = cache_read("test", &key, &size);
+    const bool found = bytes && size == strlen(text) && memcmp(bytes, text, size) == 0;
+    free(bytes);
+    return found;
+}
+
+static void put(const char *name, const char *text)
+{
+    const CacheKey key = key_of(name);
+    cache_write("test", &key, text, strlen(text));
+}
+
+FIXTURE(enter)
+{
+    testing_enter_folder(NULL);
+    setenv("XDG_CACHE_HOME", testing_folder, 1);
+    return 0;
+}
+
+FIXTURE(leave)
+{
+    unsetenv("XDG_CACHE_HOME");
+    return testing_leave_folder(NULL);
+}
+
+TEST_WITH(0, what_is_kept_is_found, enter, leave)
+{
+    assert_false(has("a", "one"));
+    put("a", "one");
+    put("b", "two");
+    assert_true(has("a", "one") && has("b", "two"));
+    put("a", "three");
+    assert_true(has("a", "three") && has("b", "two"));
+}
+
+TEST_WITH(0, keys_differ_by_bytes_lengths_and_order, enter, leave)
+{
+    static const char bytes[40] = {0};
+    CacheKey keys[42] = {{{0, 0}}};
+    for (size_t i = 0; i <= 40; i++)
+        cache_key_add(&keys[i], bytes, i);
+    cache_key_add(&keys[41], bytes, 20);
+    cache_key_add(&keys[41], bytes, 20); /* not the same as 40 at once */
+    for (int i = 0; i < 42; i++)
+        for (int k = 0; k < i; k++)
+            assert_memory_not_equal(&keys[i], &keys[k], sizeof keys[i]);
+}
+
+TEST_WITH(0, without_a_folder_nothing_is_kept, enter, leave)
+{
+    char path[4096];
+    snprintf(path, sizeof path, "%s/file", testing_folder);
+    close(open(path, O_CREAT | O_WRONLY, 0600));
+    const char *const folders[] = {path, "relative", "/dev/null", "/nonexistent/folder"};
+    unsetenv("HOME");
+    for (size_t i = 0; i < sizeof folders / sizeof folders[0]; i++) {
+        setenv("XDG_CACHE_HOME", folders[i], 1);
+        put("a", "one");
+        assert_false(has("a", "one"));
+    }
+}
+
+TEST_WITH(0, the_least_recently_used_goes, enter, leave)
+{
+    enum { SIZE = 30000000 };
+    char *large = calloc(1, SIZE);
+    size_t size;
+    assert_non_null(large);
+    for (int i = 0; i < 5; i++) {
+        const char name[] = {(char)('a' + i), '\0'};
+        const CacheKey key = key_of(name), first = key_of("a");
+        cache_write("test", &key, large, SIZE);
+        free(cache_read("test", &first, &size));          /* used again and again */
+        nanosleep(&(struct timespec){0, 20000000}, NULL); /* times of files are that coarse */
+    }
+    for (int i = 0; i < 5; i++) {
+        const char name[] = {(char)('a' + i), '\0'};
+        const CacheKey key = key_of(name);
+        void *bytes = cache_read("test", &key, &size);
+        /* Three fit: the first, and the last two. */
+        assert_int_equal(bytes != NULL, i == 0 || i >= 3);
+        free(bytes);
+    }
+    free(large);
+}
+
+TEST_WITH(0, processes_that_write_at_once_leave_whole_files, enter, leave)
+{
+    enum { PROCESSES = 4, ROUNDS = 50, SIZE = 100000 };
+    const CacheKey key = key_of("a");
+    pid_t all[PROCESSES];
+    for (int i = 0; i < PROCESSES; i++) {
+        all[i] = fork();
+        if (all[i] == 0) {
+            char *bytes = malloc(SIZE);
+            memset(bytes, 'a' + i, SIZE);
+            for (int round = 0; round < ROUNDS; round++) {
+                size_t size = SIZE;
+                cache_write("test", &key, bytes, SIZE);
+                char *read = cache_read("test", &key, &size);
+                for (size_t k = 0; read && k < size; k++)
+                    if (read[k] != read[0] || size != SIZE)
+                        _exit(1);
+                free(read);
+            }
+            _exit(0);
+        }
+    }
+    for (int i = 0; i < PROCESSES; i++) {
+        int status;
+        assert_int_equal(waitpid(all[i], &status, 0), all[i]);
+        assert_int_equal(status, 0);
+    }
+}
+
+TEST_MAIN("cache", NULL, NULL)

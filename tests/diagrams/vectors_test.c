@@ -1,0 +1,238 @@
+/* The figures of Vectors: their numbers against closed forms, and that nothing in them overlaps or
+ * is cut. */
+#include "diagrams/figures.h"
+#include "support/testing.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Of sums and products of a few numbers near 1 in double precision. */
+#define ROUNDING 1e-12
+
+static const Vec3 UP = {0, 1, 0}, ORIGIN = {0, 0, 0};
+static const double PI = 3.14159265358979323846;
+
+static Optics usual(double light, double eye, double shininess, Reflection reflection)
+{
+    return (Optics){.light = light,
+                    .eye = eye,
+                    .shininess = shininess,
+                    .reflection = reflection,
+                    .material = material_find("jade")};
+}
+
+static void assert_near(double a, double b)
+{
+    if (!(fabs(a - b) <= ROUNDING))
+        fail_msg("%.17g is not %.17g", a, b);
+}
+
+static double cosine(double degrees)
+{
+    return cos(degrees * PI / 180);
+}
+
+TEST(vectors_are_what_their_angles_say)
+{
+    for (int light = -180; light <= 180; light += 5) {
+        for (int eye = -90; eye <= 90; eye += 5) {
+            const Optics optics = usual(light, eye, 10, REFLECTION_PHONG);
+            const OpticsVectors at = optics_vectors(&optics, ORIGIN, UP);
+            assert_near(at.n_dot_l, cosine(light));
+            assert_near(at.r_dot_v, cosine(eye - light));
+            /* R mirrors L in N: the same along N, the opposite across. */
+            assert_near(at.r.x, -at.l.x);
+            assert_near(at.r.y, at.l.y);
+            assert_near(vec3_length(at.r), 1);
+            /* Where L and V are opposite, H is zero or, by rounding, any unit vector. */
+            const bool opposite = (eye + light + 540) % 360 == 0;
+            assert_near(vec3_length(at.h), opposite && vec3_length(at.h) < 0.5 ? 0 : 1);
+            if (abs(eye + light) < 175) /* halfway, on the side of both */
+                assert_near(at.n_dot_h, cosine((eye - light) / 2.0));
+        }
+    }
+}
+
+TEST(right_angles_are_exact)
+{
+    const Optics optics = usual(90, 0, 10, REFLECTION_PHONG);
+    const OpticsVectors at = optics_vectors(&optics, ORIGIN, UP);
+    assert_true(at.n_dot_l == 0 && at.l.x == -1 && at.r.x == 1 && at.highlight == 0);
+}
+
+TEST(a_lobe_is_a_power_of_a_cosine)
+{
+    static const double SHININESS[] = {0, 0.5, 1, 10, 128};
+    for (int i = 0; i < 5; i++) {
+        for (int eye = -90; eye <= 90; eye += 3) {
+            const Optics phong = usual(35, 0, SHININESS[i], REFLECTION_PHONG);
+            const Optics blinn = usual(35, 0, SHININESS[i], REFLECTION_BLINN_PHONG);
+            assert_near(optics_lobe(&phong, eye), pow(fmax(cosine(eye - 35), 0), SHININESS[i]));
+            assert_near(optics_lobe(&blinn, eye), pow(cosine((eye - 35) / 2.0), SHININESS[i]));
+        }
+    }
+}
+
+TEST(a_light_behind_has_no_lobe)
+{
+    const Optics optics = usual(100, 100, 0, REFLECTION_PHONG);
+    for (int eye = -90; eye <= 90; eye += 10)
+        assert_true(optics_lobe(&optics, eye) == 0);
+}
+
+TEST(at_the_half_angle_the_highlight_is_half)
+{
+    for (int reflection = 0; reflection < 2; reflection++) {
+        for (double shininess = 4; shininess <= 128; shininess *= 2) {
+            const Optics optics = usual(30, 0, shininess, (Reflection)reflection);
+            const double eye = 30 - optics_half_angle(&optics);
+            assert_near(optics_lobe(&optics, eye), 0.5);
+        }
+    }
+    const Optics flat = usual(30, 0, 0, REFLECTION_PHONG);
+    assert_true(optics_half_angle(&flat) == 180);
+}
+
+TEST(a_footprint_is_the_width_over_the_cosine)
+{
+    assert_true(optics_footprint(1) == 1 && optics_footprint(0.5) == 2);
+    assert_true(isinf(optics_footprint(0)) && isinf(optics_footprint(-0.5)));
+    for (int light = 0; light < 90; light++)
+        assert_near(optics_footprint(cosine(light)) * cosine(light), 1);
+}
+
+/* Emission + 0.2 ambient + diffuse N.L + specular (R.V or N.H)^s, clamped. */
+TEST(colours_are_the_lighting_equation)
+{
+    for (int reflection = 0; reflection < 2; reflection++) {
+        for (int light = -175; light <= 175; light += 10) {
+            const Optics optics = usual(light, 25, 20, (Reflection)reflection);
+            const Material *m = optics.material;
+            const double n_dot_l = cosine(light);
+            const double base = reflection == REFLECTION_PHONG
+                                    ? cosine(25 - light)
+                                    : cosine((25 - light) / 2.0) * (abs(25 + light) < 180 ? 1 : -1);
+            const double power = n_dot_l > 0 ? pow(fmax(base, 0), 20) : 0;
+            const double wanted = m->emission.x + 0.2 * m->ambient.x +
+                                  m->diffuse.x * fmax(n_dot_l, 0) + m->specular.x * power;
+            assert_near(optics_color(&optics, ORIGIN, UP).x, fmin(wanted, 1));
+        }
+    }
+}
+
+TEST(radiating_rays_come_from_the_lamp)
+{
+    Optics optics = usual(30, 40, 10, REFLECTION_PHONG);
+    optics.radiating = true;
+    const Vec3 lamp = optics_light_place(&optics);
+    assert_near(vec3_length(lamp), OPTICS_LIGHT_DISTANCE);
+    for (double x = -2; x <= 2; x += 0.5) {
+        const OpticsVectors at = optics_vectors(&optics, (Vec3){x, 0, 0}, UP);
+        assert_near(at.n_dot_l, lamp.y / hypot(lamp.x - x, lamp.y));
+    }
+    /* At the origin they are the parallel ones. */
+    const OpticsVectors near = optics_vectors(&optics, ORIGIN, UP);
+    assert_near(near.n_dot_l, cosine(30));
+    assert_near(near.r_dot_v, cosine(10));
+}
+
+TEST(numbers_have_a_minus_sign_and_no_negative_zero)
+{
+    char text[NUMBER_SIZE];
+    assert_string_equal(board_number(0.766, text), "0.77");
+    assert_string_equal(board_number(-0.5, text), "\xE2\x88\x92"
+                                                  "0.50");
+    assert_string_equal(board_number(-0.001, text), "0.00");
+}
+
+static bool apart(DrawingBox a, DrawingBox b)
+{
+    return a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top;
+}
+
+static void check_layout(const Drawing *drawing, const char *what)
+{
+    for (int i = 0; i < drawing->label_count; i++)
+        for (int j = 0; j < i; j++)
+            if (!apart(drawing->labels[i].box, drawing->labels[j].box))
+                fail_msg("%s: %s covers %s", what, drawing->labels[i].text,
+                         drawing->labels[j].text);
+    for (int i = 0; i < drawing->path_count; i++) {
+        const DrawingBox box = drawing_path_box(drawing, &drawing->paths[i]);
+        if (!(box.left >= 0 && box.top >= 0 && box.right <= drawing->width &&
+              box.bottom <= drawing->height) &&
+            drawing->paths[i].step_count)
+            fail_msg("%s: path %d is cut: %g %g %g %g of %gx%g", what, i, box.left, box.top,
+                     box.right, box.bottom, drawing->width, drawing->height);
+    }
+}
+
+static bool has_label(const Drawing *drawing, const char *letter)
+{
+    for (int i = 0; i < drawing->label_count; i++)
+        if (drawing->labels[i].text[0] == '$' && strstr(drawing->labels[i].text, letter) &&
+            !strstr(drawing->labels[i].text, "·"))
+            return true;
+    return false;
+}
+
+static void check_figure(Figure figure, const Optics *optics, int sides, double width,
+                         double height)
+{
+    char what[200];
+    CLOSED(drawing_end) Drawing drawing;
+    SUCCEEDS(drawing_begin(&drawing, width, height, message));
+    figure_draw(figure, optics, sides, &drawing);
+    SUCCEEDS(drawing_check(&drawing, message));
+    snprintf(what, sizeof what, "%s %gx%g light %g eye %g shininess %g %s %s sides %d",
+             FIGURE_NAMES[figure], width, height, optics->light, optics->eye, optics->shininess,
+             REFLECTION_NAMES[optics->reflection], optics->radiating ? "radiating" : "parallel",
+             sides);
+    check_layout(&drawing, what);
+    for (int i = 0; i < 4 && figure == FIGURE_VECTORS; i++)
+        if (!has_label(&drawing, (const char *[]){"N", "L", "R", "V"}[i]))
+            fail_msg("%s: no label %d", what, i);
+    assert_true(figure != FIGURE_LOBE || has_label(&drawing, "V"));
+}
+
+TEST(nothing_overlaps_and_nothing_is_cut)
+{
+    static const double SIZES[][2] = {{400, 400}, {800, 450}, {1600, 400}, {400, 1600},
+                                      {560, 400}, {400, 300}, {300, 400},  {520, 399}};
+    static const double LIGHTS[] = {-180, -135, -90, -89.9, -60, -20, -1, 0,   0.02,
+                                    5,    20,   40,  75,    89,  90,  91, 120, 180};
+    static const double EYES[] = {-90, -20, 0, 3, 40, 90};
+    static const double SHININESS[] = {0, 33.333333, 128};
+    const int step = testing_step(11);
+    int count = 0;
+    for (int size = 0; size < 8; size++)
+        for (int light = 0; light < 18; light++)
+            for (int eye = 0; eye < 6; eye++)
+                for (int shininess = 0; shininess < 3; shininess++)
+                    for (int figure = 0; figure < FIGURE_COUNT; figure++)
+                        for (int kind = 0; kind < 4; kind++) {
+                            Optics optics = usual(LIGHTS[light], EYES[eye], SHININESS[shininess],
+                                                  (Reflection)(kind & 1));
+                            optics.radiating = kind & 2;
+                            if (count++ % step == 0)
+                                check_figure((Figure)figure, &optics, 1 + count % FIGURE_SIDES_MAX,
+                                             SIZES[size][0], SIZES[size][1]);
+                        }
+}
+
+TEST(a_picture_of_a_pixel_can_be_drawn)
+{
+    const Optics optics = usual(40, 20, 10, REFLECTION_PHONG);
+    for (int figure = 0; figure < FIGURE_COUNT; figure++) {
+        CLOSED(drawing_end) Drawing drawing;
+        CLOSED(image_close) Image image;
+        SUCCEEDS(drawing_begin(&drawing, 1, 1, message));
+        figure_draw((Figure)figure, &optics, 5, &drawing);
+        SUCCEEDS(image_open(&image, 1, 1, IMAGE_BYTE, message));
+        SUCCEEDS(drawing_paint(&drawing, &image, false, message));
+    }
+}
+
+TEST_MAIN("vectors", NULL, NULL)

@@ -1,0 +1,212 @@
+#!/usr/bin/env python3
+"""Submissions that were written from the tasks alone, by authors who had not read `check`.
+
+corpus/labNN.txt has those of a lab: a line "=== NAME/FILE" before each file; a file that is not
+plain text is in base64, "=== NAME/FILE base64". The file `label` begins "right", "wrong: MISTAKE",
+"two: MISTAKES" or "cheat: HOW". Half of them, by a hash of their names, was set aside and measured
+once, when `check` was finished: the other half served to improve it. corpus/rulings.txt has, for
+each held-out submission whose given names are not those of its label, why.
+
+usage: corpus.py CHECK --half open|held [--lab N] [--every N] [--json FILE]   judges, and lists
+       corpus.py CHECK --half held --table [--from FILE]   the table of examples/labs/TEACHING.md
+       corpus.py --pack FOLDER       makes corpus/labNN.txt from FOLDER/labNN/NAME
+"""
+import base64
+import collections
+import concurrent.futures
+import hashlib
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+HERE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "corpus")
+
+
+def half_of(name):
+    """`held` if the first hexadecimal digit of the hash of "labNN/NAME" is 0 to 7, else `open`."""
+    return "held" if hashlib.sha256(name.encode()).hexdigest()[0] in "01234567" else "open"
+
+
+def pack(folder):
+    for lab in sorted(os.listdir(folder)):
+        if not lab.startswith("lab") or not os.path.isdir(os.path.join(folder, lab)):
+            continue
+        with open(os.path.join(HERE, f"{lab}.txt"), "w", newline="") as out:
+            for name in sorted(os.listdir(os.path.join(folder, lab))):
+                one = os.path.join(folder, lab, name)
+                if not os.path.isfile(os.path.join(one, "label")):
+                    continue
+                for file in sorted(os.listdir(one)):
+                    with open(os.path.join(one, file), "rb") as opened:
+                        content = opened.read()
+                    try:
+                        text = content.decode()
+                    except UnicodeDecodeError:
+                        text = "\0"
+                    plain = text.endswith("\n") and not set(text) & set("\0\r") and "=== " not in text
+                    out.write(f"=== {name}/{file}{'' if plain else ' base64'}\n")
+                    out.write(text if plain else base64.encodebytes(content).decode())
+
+
+def read(lab):
+    """The submissions of a lab: the files of each by its name."""
+    found = collections.defaultdict(dict)
+    path = os.path.join(HERE, f"lab{lab:02}.txt")
+    if not os.path.exists(path):
+        return found
+    with open(path, newline="") as file:
+        for part in file.read().split("=== ")[1:]:
+            head, text = part.split("\n", 1)
+            where, *coded = head.split(" ")
+            name, file_name = where.split("/")
+            content = base64.b64decode(text) if coded else text.encode()
+            found[name][file_name] = content
+    return found
+
+
+def judge(check, lab, name, files, seed=3):
+    label = files["label"].decode().split("\n")[0].strip()
+    with tempfile.TemporaryDirectory(prefix="corpus-") as folder:
+        for file_name, content in files.items():
+            if file_name != "label":
+                with open(os.path.join(folder, file_name), "wb") as file:
+                    file.write(content)
+        done = subprocess.run(
+            [check, str(lab), folder, "--seed", str(seed), "--json", "-"],
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+        )
+    row = {"lab": lab, "name": f"lab{lab:02}/{name}", "label": label}
+    try:
+        result = json.loads(done.stdout)
+    except ValueError:
+        return {**row, "verdict": "no verdict", "message": str(done.stderr), "said": [], "one_of": 0}
+    return {
+        **row,
+        "verdict": result["verdict"],
+        "message": result["message"],
+        "said": [[mistake["name"], mistake["sure"]] for mistake in result["mistakes"]],
+        "one_of": result["one_of"],
+    }
+
+
+def jobs(half=None, lab=None, every=1):
+    for number in [lab] if lab else range(1, 11):
+        for i, (name, files) in enumerate(sorted(read(number).items())):
+            if half in (None, half_of(f"lab{number:02}/{name}")) and i % every == 0:
+                yield number, name, files
+
+
+def judge_all(check, todo):
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        return list(pool.map(lambda job: judge(check, *job), todo))
+
+
+def rulings():
+    """Names of submissions that `check` names wrongly."""
+    path = os.path.join(HERE, "rulings.txt")
+    if not os.path.exists(path):
+        return {}
+    with open(path) as file:
+        return dict(line.rstrip("\n").split(": ", 1) for line in file if ": " in line)
+
+
+def outcome(row, wrongly):
+    """right, passes, accused, error, refused, named, one of, unknown or MISNAMED."""
+    if row["label"].startswith("right") and row["verdict"] != "right":
+        return "accused"
+    if row["verdict"] == "right" and not row["said"]:
+        return "right" if row["label"].startswith("right") else "passes"
+    if row["verdict"] in ("error", "refused", "timeout", "no verdict"):
+        return "error" if row["verdict"] == "error" else "refused"
+    if row["name"] in wrongly:
+        return "MISNAMED"
+    if not row["said"]:
+        starter = row["message"].startswith("unchanged")
+        return "named" if starter else "unknown"
+    return "one of" if row["one_of"] else "named"
+
+
+def interval(count, total):
+    """Wilson's interval for 95%."""
+    if not total:
+        return "-"
+    z, share = 1.96, count / total
+    middle = (share + z * z / (2 * total)) / (1 + z * z / total)
+    half = z / (1 + z * z / total) * (share * (1 - share) / total + z * z / (4 * total**2)) ** 0.5
+    return f"{count} of {total}, {share:.1%} ({max(middle - half, 0):.1%} to {min(middle + half, 1):.1%})"
+
+
+def table(rows):
+    wrongly = rulings()
+    kinds = collections.defaultdict(collections.Counter)
+    for row in rows:
+        kind = row["label"].split(":")[0]
+        if "not compile" in row["label"] or "not link" in row["label"] or "no valid C" in row["label"]:
+            kind = "broken"
+        kinds[kind][outcome(row, wrongly)] += 1
+    print("| submissions | outcome | count, share, 95% interval |")
+    print("|---|---|---|")
+    names = {
+        "right": "right",
+        "broken": "do not compile or link",
+        "wrong": "one mistake",
+        "two": "two mistakes",
+        "cheat": "cheats and near misses",
+    }
+    words = {
+        "right": "judged right",
+        "passes": "judged right",
+        "accused": "judged wrong",
+        "error": "reported with the compiler's message",
+        "refused": "refused or stopped, with the reason",
+        "named": "named rightly",
+        "one of": "among two to four names",
+        "unknown": "wrong, without a name",
+        "MISNAMED": "wrongly named",
+    }
+    for kind, name in names.items():
+        total = sum(kinds[kind].values())
+        for said in words:
+            if kinds[kind][said] or (said == "MISNAMED" and kind == "wrong"):
+                print(f"| {name} | {words[said]} | {interval(kinds[kind][said], total)} |")
+    sure = collections.Counter()
+    for row in rows:
+        for name, share in row["said"] if not row["one_of"] else []:
+            sure[round(share, 2), row["name"] not in wrongly] += 1
+    for value in sorted({key[0] for key in sure}):
+        good, bad = sure[value, True], sure[value, False]
+        print(f"| names called {value:.0%} sure | true | {interval(good, good + bad)} |")
+
+
+def option(name, otherwise=None):
+    return sys.argv[sys.argv.index(name) + 1] if name in sys.argv else otherwise
+
+
+def main():
+    if "--pack" in sys.argv:
+        pack(option("--pack"))
+        return
+    lab = option("--lab")
+    todo = list(jobs(option("--half"), lab and int(lab), int(option("--every", 1))))
+    if "--from" in sys.argv:
+        with open(option("--from")) as file:
+            rows = json.load(file)
+    else:
+        rows = judge_all(sys.argv[1], todo)
+    if "--table" in sys.argv:
+        table(rows)
+        return
+    if "--json" in sys.argv:
+        with open(option("--json"), "w") as file:
+            json.dump(rows, file, indent=1)
+    for row in rows:
+        said = "; ".join(f"{name} {sure:.0%}" for name, sure in row["said"])
+        both = "one of: " if row["one_of"] else ""
+        print(f"{row['name']} | {row['label'][:100]} | {row['verdict']} | {both}{said or row['message'][:100]}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,267 @@
+#!/usr/bin/env python3
+"""The study `accuracy` and the option --error: results, files and messages.
+
+usage: accuracy_test.py EXAMPLES_FOLDER_OF_THE_BUILD SOURCE_FOLDER [unittest's arguments]
+
+No test depends on speed. Exit code: 77 without a driver.
+"""
+import csv
+import io
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+import command_line_test as base
+
+QUICK = ("--quick", "-s", "48x48")
+
+
+class Study(base.Case):
+    def setUp(self):
+        super().setUp()
+        self.own = {"XDG_CACHE_HOME": self.path("cache")}
+
+    def accuracy(self, *arguments, **more):
+        return self.good(*arguments, program="accuracy", environment=self.own, **more).decode()
+
+    def wrong(self, code, said, *arguments, program="accuracy", **more):
+        more.setdefault("environment", self.own)
+        return self.refused(code, rf"^{program}: {said}", *arguments, program=program, **more)
+
+    def rows(self, folder="accuracy"):
+        text = self.read(f"{folder}/results.csv").decode()
+        return list(csv.DictReader(io.StringIO(text, newline="")))
+
+
+class Surveys(Study):
+    made = None  # what the survey of the cube prints, and its files
+
+    def survey(self):
+        """A survey of the cube, made for the first test that asks and copied for the others."""
+        if not Surveys.made:
+            text = self.accuracy("--scene", "cube", *QUICK)
+            names = os.listdir(self.path("accuracy"))
+            Surveys.made = text, {name: self.read(f"accuracy/{name}") for name in names}
+        text, files = Surveys.made
+        for name, content in files.items():
+            self.make(f"accuracy/{name}", content)
+        return text
+
+    def test_help_tells_scenes_axes_and_files(self):
+        text = self.accuracy("--help")
+        for word in ("--budget", "--time-budget", "--quick", "shiny128",
+                     "[phong] gouraud flat", "results.csv", "Try:"):
+            self.assertIn(word, text)
+        self.assertNotIn("--samples", text)
+        self.assertEqual(self.everything(), {})
+
+    def test_a_scene_gives_table_rows_plots_and_sheets(self):
+        text = self.survey()
+        self.assertRegex(text, r"cube, 48x48; .*LP_NUM_THREADS")
+        self.assertRegex(text, r"\n\* ")
+        self.assertRegex(text, r"Blinn-Phong, fitted")
+        self.assertRegex(text, r"matrices=compensated order=lecture")
+        rows = self.rows()
+        self.assertEqual(len(rows), 15)
+        self.assertEqual({row["scene"] for row in rows}, {"cube"})
+        self.assertEqual({row["seed"] for row in rows}, {"1"})
+        # A flat cube, lit at every fragment by 32-bit floats: rounding to 8 bits is all there is.
+        usual = [row for row in rows if row["precision"] == "highp" and
+                 row["output"] == "nearest" and row["interpolation"] == "phong" and
+                 row["samples"] == "0" and row["supersample"] == "1"]
+        self.assertGreater(len(usual), 2)
+        for row in usual:
+            self.assertLess(float(row["interior_maximum"]), 0.51)
+            self.assertGreater(float(row["time"]), 0)
+        for row in rows:  # glslangValidator took each program
+            self.assertGreater(int(row["vertex_operations"]), 0, row)
+            self.assertGreaterEqual(int(row["fragment_operations"]), 0, row)
+        data = json.loads(self.read("accuracy/results.json"))
+        self.assertEqual(len(data["rows"]), 15)
+        self.assertIn("cube, 48x48", self.read("accuracy/table.txt").decode())
+        sheet = self.png("accuracy/cube-usual.png")
+        self.assertGreater(len(set(zip(*[iter(sheet.pixels)] * sheet.channels))), 50)
+        for name in ("cube.png", "cube.svg", "models.csv", "finding-precision.svg"):
+            self.assertGreater(len(self.read("accuracy/" + name)), 500)
+
+    def test_existing_rows_are_not_measured_again(self):
+        self.survey()
+        before = self.read("accuracy/results.csv")
+        text = self.accuracy("--scene", "cube", "--markdown", *QUICK)
+        self.assertEqual(self.read("accuracy/results.csv"), before)
+        self.assertRegex(text, r"^.* cores; .*; LP_NUM_THREADS .*\n\n")
+        for head in ("divisions | Phong: error", "scene | usual: error", "antialiasing |",
+                     "model | s |", "setting | ns |"):
+            self.assertRegex(text, rf"\n\| {re.escape(head)}.*\n\|---")
+        self.assertRegex(text, r"\n\| cube \| 0\.50 \| [\d.]+ \|")
+        self.accuracy("--scene", "cube", "--fresh", "--seed", "7", *QUICK)
+        self.assertEqual({row["seed"] for row in self.rows()}, {"7"})
+
+    def test_broken_rows_are_named_and_measured_again(self):
+        self.survey()
+        lines = self.read("accuracy/results.csv").splitlines(keepends=True)
+        taken = self.rows()[0]["time"].encode()  # by the usual setting, the measure of all
+        lines[1] = lines[1].replace(b"," + taken + b",", b",,", 1)
+        lines[3] = lines[3].replace(b",", b";")
+        lines[-1] = lines[-1][:40]  # cut, as by a full disk
+        self.make("accuracy/results.csv", b"".join(lines))
+        result = self.run_it("--scene", "cube", *QUICK, program="accuracy", environment=self.own)
+        error = result.stderr.decode()
+        self.assertEqual(result.returncode, 0, error)
+        self.assertRegex(error, r"accuracy/results\.csv:4: ")
+        self.assertRegex(error, rf"accuracy/results\.csv:{len(lines)}: ")
+        self.assertEqual(error.count("\n"), 2)
+        now = self.read("accuracy/results.csv")
+        for line in lines[:3] + lines[4:-1]:
+            self.assertIn(line, now)
+        rows = json.loads(self.read("accuracy/results.json"))["rows"]
+        # 13 of the 15 were whole. Times are relative to the usual setting's: all are measured again.
+        self.assertEqual([row["time"] is None for row in rows], [True] + (12 + 15) * [False])
+
+    def test_an_interrupted_survey_goes_on(self):
+        command = [os.path.join(base.EXAMPLES, "accuracy"), "--scene", "shiny8", "-s", "32x32"]
+        process = subprocess.Popen(command, cwd=self.folder, stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, env={**os.environ, **self.own})
+        path = self.path("accuracy/results.csv")
+        deadline = time.monotonic() + base.PATIENCE
+        while not (os.path.exists(path) and os.path.getsize(path) > 500):
+            self.assertIsNone(process.poll())
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        out, error = process.communicate(timeout=base.PATIENCE)
+        self.assertEqual((process.returncode, out), (1, b""))
+        self.assertRegex(error.decode(), r"^accuracy: interrupted; \d+ of \d+ rows are in "
+                                         r"accuracy/results\.csv; the same command goes on\n$")
+        before = self.read("accuracy/results.csv")
+        self.accuracy("--scene", "shiny8", "--quick", "-s", "32x32")
+        self.assertTrue(self.read("accuracy/results.csv").startswith(before))
+
+    def test_without_gnuplot_the_rest_is_there(self):
+        os.mkdir(self.path("bin"))
+        self.says(0, r"^accuracy: no plots: .*gnuplot-nox\n$", "--scene", "cube", *QUICK,
+                  program="accuracy", environment={**self.own, "PATH": self.path("bin")})
+        found = os.listdir(self.path("accuracy"))
+        for name in ("results.csv", "results.json", "table.txt", "cube-usual.png"):
+            self.assertIn(name, found)
+        self.assertNotIn("cube.svg", found)
+
+    def test_one_setting_is_measured_and_shown(self):
+        text = self.accuracy("--scene", "sphere", "--setting",
+                             "interpolation=gouraud divisions=12", "-s", "64x64")
+        self.assertIn("interpolation=gouraud", text)
+        self.assertTrue(text.endswith("accuracy/sphere-setting.png\n"))
+        self.assertEqual(os.listdir(self.path("accuracy")), ["sphere-setting.png"])
+
+    def test_usage_errors_and_failures_are_said(self):
+        for said, *arguments in (
+                (r"--scene shiny: there is none; did you mean shiny8\?", "--scene", "shiny"),
+                (r"--scene nothing: must be sphere, cube", "--scene", "nothing"),
+                (r"--setting: flat: must be AXIS=CHOICE", "--scene", "cube", "--setting", "flat"),
+                (r"--setting: divisions=5: must be one of 6, 8", "--scene", "cube", "--setting",
+                 "divisions=5"),
+                (r"--budget: needs a scene", "--budget", "1"),
+                (r"--time-budget: needs a scene", "--time-budget", "1"),
+                (r"--setting: needs a scene", "--setting", "usual"),
+                (r"--budget and --time-budget: one of them", "--scene", "cube", "--budget", "1",
+                 "--time-budget", "1"),
+                (r"--budget -2: must be a number", "--scene", "cube", "--budget=-2"),
+                (r"--budget -0\.5: must be 0 or more, or -1", "--scene", "cube", "--budget=-0.5"),
+                (r"--time-budget -0\.5: must be", "--scene", "cube", "--time-budget=-0.5"),
+                (r"--fresh: --setting keeps no rows", "--scene", "cube", "--setting", "usual",
+                 "--fresh"),
+                (r"--rms: goes with", "--scene", "cube", "--rms"),
+                (r"--output -: a study is a folder", "-o", "-"),
+                (r"--samples: no such option", "--samples", "4"),
+                (r"x: not an option", "x")):
+            self.wrong(2, said, *arguments)
+        self.make("file")
+        self.wrong(1, "file: exists and is not a folder", "-o", "file")
+        self.says(1, "^accuracy: EGL: .*install.*\n$", "-o", "new", program="accuracy",
+                  environment={**self.own, **base.NO_DRIVER})
+        os.makedirs(self.path("other"))
+        self.make("other/results.csv", "name,age\nme,7\n")
+        self.wrong(1, r"other/results\.csv", "-o", "other", "--scene", "cube", *QUICK)
+        os.makedirs(self.path("odd/results.csv"))
+        self.wrong(1, r"odd/results\.csv", "-o", "odd", "--scene", "cube", *QUICK)
+
+    def test_a_full_disk_keeps_the_rows_before_it(self):
+        os.mkdir(self.path("accuracy"))
+        os.symlink("/dev/full", self.path("accuracy/results.csv"))
+        self.says(1, r"^accuracy: accuracy/results\.csv: .*\n$", "--scene", "cube", *QUICK,
+                  program="accuracy", environment=self.own)
+
+
+class Choices(Study):
+    def test_the_cheapest_within_a_budget_is_named_and_confirmed(self):
+        text = self.accuracy("--scene", "sphere", "--budget", "8", *QUICK)
+        for part in (r"^cheapest: ", r"\n(the next cheaper: |there is none)",
+                     r"\nmeasured with .*LP_NUM_THREADS default, 48x48, seed 1\n$"):
+            self.assertRegex(text, part)
+        for error in text.split("largest error ")[1:2]:
+            self.assertLessEqual(float(error.split()[0]), 8)
+        self.assertRegex(self.accuracy("--scene", "sphere", "--budget", "1", "--rms", *QUICK),
+                         r"^cheapest: .*\n  rms error ")
+
+    def test_a_budget_out_of_reach_says_the_best(self):
+        said = r"--budget 0: no setting of sphere is so exact; the best has 0\.\d+$"
+        self.says(1, "^accuracy: " + said, "--scene", "sphere", "--budget", "0", *QUICK,
+                  program="accuracy", environment=self.own)
+
+    def test_the_most_exact_within_a_time_is_named(self):
+        text = self.accuracy("--scene", "sphere", "--time-budget", "1000000", *QUICK)
+        self.assertRegex(text, r"^most exact: .*\n")
+        self.assertIn("there is none that is more exact", text)
+        self.says(1, r"no setting of sphere is so fast; the best takes", "--scene", "sphere",
+                  "--time-budget", "0", *QUICK, program="accuracy", environment=self.own)
+
+    def test_error_says_what_it_leaves_away(self):
+        for error in ("1", "30"):
+            self.says(0, rf"view 0: .*; error [\d.]+ of {error} allowed inside objects, edges apart "
+                      r"\(plain: [\d.]+\); [\d.]+ of the plain time\n", "--error", error, "-v",
+                      "-o", error + ".png", program="ShadingModels", environment=self.own)
+        self.assertNotEqual(self.png("1.png").pixels, self.png("30.png").pixels)
+        self.says(0, "; from the cache\n", "--error", "30", "-v", "-o", "again.png",
+                  program="ShadingModels", environment=self.own)
+        self.assertEqual(self.png("again.png").pixels, self.png("30.png").pixels)
+
+    def test_error_draws_the_best_where_it_cannot_be_kept(self):
+        self.says(0, r"^ShadingModels: --error 0.001: view 0 comes to 0\.\d+ at best, inside objects; "
+                  r"drawn so\n$", "--error", "0.001", "-s", "60x60", program="ShadingModels",
+                  environment=self.own)
+        self.wrong(2, "--error -1: must be", "--error=-1", program="ShadingModels")
+        self.wrong(2, "--error: no such option", "--error", "1", program="LightedCube",
+                   lines=1)
+
+    def test_error_keeps_the_options_that_are_given(self):
+        for more in (["--interpolation", "flat"], ["--interpolation", "phong"], ["--interpolation", "gouraud"],
+                     ["--precision", "mediump"]):
+            text = self.says(0, "view 0: ", "--error", "16", "-v", "-s", "100x100", *more,
+                             program="ShadingModels", environment=self.own).stderr.decode()
+            self.assertNotRegex(text, "lit per")
+            self.assertEqual("mediump" in more, "precision of fragment shaders: mediump" in text)
+
+    def test_without_a_cache_error_draws_the_same(self):
+        self.make("file", "no folder")
+        pictures = []
+        for number, cache in enumerate((self.path("cache"), self.path("file"), "", "/dev/null")):
+            # Mesa says where it keeps no shaders.
+            self.says(0, "^", "--error", "8", "-s", "100x100", "-o", f"{number}.png", program="SpotLight",
+                      environment={"XDG_CACHE_HOME": cache, "HOME": ""})
+            pictures.append(self.png(f"{number}.png").pixels)
+        self.assertEqual(pictures, pictures[:1] * 4)
+
+    def test_an_animation_keeps_its_error_by_one_choice(self):
+        text = self.says(0, r"at 17 moments, and [\d.]+ in reserve", "--error", "8", "-s", "80x80",
+                         "-v", "-n", "60", "-o", "x%d.png", program="SpotLight",
+                         environment=self.own).stderr.decode()
+        self.assertEqual(text.count("view 0: "), 1)
+
+
+if __name__ == "__main__":
+    sys.exit(base.main())

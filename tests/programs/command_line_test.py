@@ -1,0 +1,1050 @@
+#!/usr/bin/env python3
+"""The programs' command line: options, faults, streams and every kind of file.
+
+usage: command_line_test.py EXAMPLES_FOLDER_OF_THE_BUILD SOURCE_FOLDER [unittest's arguments]
+
+Exit codes are those of --help: 1 if the machine, a file or a driver does not allow it, 2 for a bad
+command line. A failing program writes one line and no file, and changes none. Exit code of the test:
+77 without a driver.
+"""
+import array
+import functools
+import itertools
+import os
+import re
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+import zlib
+
+# The tests end programs by signals, which may be inherited as ignored, as under nohup.
+for number in (signal.SIGINT, signal.SIGHUP):
+    if signal.getsignal(number) == signal.SIG_IGN:
+        signal.signal(number, signal.SIG_DFL)
+
+EXAMPLES, SOURCE = (os.path.abspath(path) for path in sys.argv[1:3])
+PROGRAMS = sorted(name[:-2] for name in os.listdir(os.path.join(SOURCE, "examples/lecture")))
+SCENES = sorted(name[:-2] for name in os.listdir(os.path.join(SOURCE, "examples/lighting"))
+                if name.endswith(".c"))
+# Built where cairo is.
+DIAGRAMS = [name for name in ("Vectors",) if os.path.exists(os.path.join(EXAMPLES, name))]
+EVERY = PROGRAMS + SCENES + DIAGRAMS + ["gallery", "accuracy", "hard_cases", "check"] + sorted(
+    name for name in os.listdir(os.path.join(SOURCE, "examples/labs")) if re.match(r"lab\d", name)
+    and "." not in name)
+MODULE = os.path.join(EXAMPLES, "../common/image_oiio.so")
+NO_DRIVER = {"__EGL_VENDOR_LIBRARY_DIRS": "/nonexistent", "LIBGL_DRIVERS_PATH": "/nonexistent"}
+# A user whom permissions bind: as root, a bug could replace a device.
+SOMEBODY = {"user": 65534, "group": 65534, "extra_groups": []} if os.getuid() == 0 else {}
+SMALL = ("-s", "40x40")
+# Seconds after which a program counts as hanging, also on a busy machine.
+PATIENCE = 600
+LONG = bool(os.environ.get("LIGHTING_TEST_LONG"))
+
+
+def step(number):
+    """Of many similar cases: the short form takes every `number`-th, the long one (tests/run --long,
+    which sets LIGHTING_TEST_LONG) all."""
+    return 1 if LONG else number
+
+
+class Png:
+    """An RGB or RGBA PNG of 8 bits: its size, pixels and texts. Every checksum is checked."""
+
+    def __init__(self, data):
+        assert data[:8] == b"\x89PNG\r\n\x1a\n", "no PNG signature"
+        at, packed, self.texts, kind = 8, b"", {}, b""
+        while at < len(data):
+            length, kind = struct.unpack(">I4s", data[at:at + 8])
+            body = data[at + 8:at + 8 + length]
+            assert struct.unpack(">I", data[at + 8 + length:at + 12 + length])[0] == zlib.crc32(
+                kind + body), f"wrong checksum of {kind}"
+            at += 12 + length
+            if kind == b"IHDR":
+                self.width, self.height, depth, color = struct.unpack(">IIBB", body[:10])
+                assert depth == 8 and color in (2, 6) and body[10:] == b"\0\0\0", body
+                self.channels = 3 if color == 2 else 4
+            elif kind == b"tEXt":
+                key, text = body.split(b"\0", 1)
+                self.texts[key.decode("latin-1")] = text.decode("latin-1")
+            elif kind == b"IDAT":
+                packed += body
+        assert kind == b"IEND", "no end"
+        self.raw = zlib.decompress(packed)
+        assert len(self.raw) == (self.width * self.channels + 1) * self.height, "wrong length"
+
+    @functools.cached_property
+    def pixels(self):
+        raw, stride, step = self.raw, self.width * self.channels, self.channels
+        above, pixels = bytearray(stride), bytearray()
+        for start in range(0, len(raw), stride + 1):
+            kind, row = raw[start], bytearray(raw[start + 1:start + 1 + stride])
+            if kind == 1:  # the programs' own, fast: the low bytes of the sums from the left
+                for c in range(step):
+                    sums = array.array("I", itertools.accumulate(row[c::step]))
+                    if sys.byteorder == "big":
+                        sums.byteswap()
+                    row[c::step] = sums.tobytes()[::sums.itemsize]
+                kind = 0
+            for i in range(stride if kind else 0):
+                b = above[i]
+                a, c = (row[i - step], above[i - step]) if i >= step else (0, 0)
+                near = min((abs(b - c), 0, a), (abs(a - c), 1, b), (abs(a + b - 2 * c), 2, c))[2]
+                row[i] = (row[i] + (0, a, b, (a + b) // 2, near)[kind]) & 255
+            pixels += row
+            above = row
+        return bytes(pixels)
+
+    def at(self, x, y):
+        start = (y * self.width + x) * self.channels
+        return tuple(self.pixels[start:start + self.channels])
+
+
+class Case(unittest.TestCase):
+    """A test in a folder of its own, in which the programs run."""
+
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="command_line_test-")
+        os.chmod(self.folder, 0o755)
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def path(self, *names):
+        return os.path.join(self.folder, *names)
+
+    def make(self, name, content=b"old"):
+        os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
+        with open(self.path(name), "wb") as file:
+            file.write(content if isinstance(content, bytes) else content.encode())
+
+    def read(self, name):
+        with open(self.path(name), "rb") as file:
+            return file.read()
+
+    def png(self, name):
+        return Png(self.read(name))
+
+    def drawn(self, *arguments, **more):
+        return Png(self.good(*arguments, "-o", "-", **more))
+
+    def everything(self):
+        """What the folder has, down to the bytes; pipes and folders by their kind alone."""
+        found = {}
+        for folder, folders, files in os.walk(self.folder):
+            if "cache" in folders:
+                folders.remove("cache")  # XDG_CACHE_HOME
+            for name in folders + files:
+                path = os.path.join(folder, name)
+                if os.path.islink(path):
+                    found[path] = os.readlink(path)
+                elif os.path.isfile(path):
+                    with open(path, "rb") as file:
+                        found[path] = file.read()
+                else:
+                    found[path] = os.lstat(path).st_mode
+        return found
+
+    def run_it(self, *arguments, program="LightedCube", environment=None, shell="", cwd=None,
+               **more):
+        """`shell` are redirections: "2>&-"."""
+        clean = {key: value for key, value in os.environ.items() if key != "LIGHTING_SHADERS"}
+        command = [os.path.join(EXAMPLES, program), *arguments]
+        if shell:
+            command = ["sh", "-c", 'exec "$@" ' + shell, "sh", *command]
+        more.setdefault("stdout", subprocess.PIPE)
+        return subprocess.run(command, cwd=cwd or self.folder, env={**clean, **(environment or {})},
+                              stderr=subprocess.PIPE, timeout=PATIENCE, **more)
+
+    def good(self, *arguments, **more):
+        result = self.run_it(*arguments, **more)
+        self.assertEqual((result.returncode, result.stderr), (0, b""), arguments)
+        return result.stdout
+
+    def says(self, code, said, *arguments, **more):
+        """Ends with this code and a text that matches `said` on standard error."""
+        result = self.run_it(*arguments, **more)
+        self.assertEqual(result.returncode, code, result.stderr)
+        self.assertRegex(result.stderr.decode(), said)
+        return result
+
+    def refused(self, code, said, *arguments, lines=1, **more):
+        """Fails with this code, says a line that matches `said`, and leaves the folder alone."""
+        before = self.everything()
+        result = self.run_it(*arguments, **more)
+        error = result.stderr.decode()
+        with self.subTest(arguments=arguments):
+            self.assertEqual(result.returncode, code, error)
+            self.assertRegex(error, said)
+            self.assertTrue(error.endswith("\n"))
+            if lines:
+                self.assertEqual(error.count("\n"), lines, error)
+            self.assertFalse(result.stdout)
+            self.assertEqual(self.everything(), before)
+        return error
+
+    def need_somebody(self):
+        try:
+            self.good("--version", **SOMEBODY)
+        except (OSError, AssertionError):
+            self.skipTest("nobody may not enter the build's folder")
+
+
+class Options(Case):
+    def test_every_program_answers_help_and_version(self):
+        for program in PROGRAMS + SCENES + DIAGRAMS + ["gallery"]:
+            with self.subTest(program=program):
+                version = self.good("--version", program=program).decode()
+                self.assertRegex(version, rf"^{program} \(lighting\) \d[\d.]*(-\d+-g\w+)?\n$")
+                text = self.good("--help", program=program).decode()
+                self.assertTrue(text.startswith(f"Usage: {program} [options]"))
+                self.assertEqual(text, self.good("-h", "--bogus", program=program).decode())
+                self.assertEqual("--explain" in text, program in SCENES)
+        self.assertEqual(self.everything(), {})
+
+    def test_every_program_draws_its_picture(self):
+        for program in PROGRAMS:
+            with self.subTest(program=program):
+                self.assertEqual(self.good(program=program), b"")
+                png = self.png(program + ".png")
+                self.assertEqual((png.width, png.height, png.channels), (400, 400, 3))
+                self.assertNotEqual(png.at(200, 200), png.at(0, 0))
+        self.assertEqual(sorted(os.listdir(self.folder)), [name + ".png" for name in PROGRAMS])
+
+    def test_usage_errors(self):
+        self.make("LightedCube.png")
+        wanted = "must be"
+        for said, *arguments in (
+                ("no such option; did you mean --size", "--sise", "4x4"),
+                ("no such option", "--xylophone"), ("-z: no such option", "-z"),
+                ("-z: no such option", "--verbose", "-zv"),
+                ("--precision.*--print-shader", "--pr"),
+                ("needs a value", "--output"), ("needs a value", "-s"),
+                ("takes no value", "--alpha=yes"), ("not an option", "picture.png"),
+                ("no such backend; there is .*egl", "--backend", "vulkan"),
+                *((wanted, "--size", value) for value in (
+                    "0", "400x", "x400", "0x0", "20000x1", "16385x1", "-1x5", "4x4x4", "", "4 x4")),
+                *((wanted, "--frames", value) for value in ("0", "abc", "-1", "1.5", "1e99")),
+                *((wanted, "--fps", value) for value in ("0", "-1", "inf")),
+                *((wanted, "--time", value) for value in ("nan", "inf", "abc", "1e999", "0x1", "")),
+                *((wanted, "--angle", value) for value in ("nan", "-inf", "abc")),
+                *((wanted, "--samples", value) for value in ("-1", "abc", "1.5")),
+                *((wanted, "--compress", value) for value in ("10", "-1", "best")),
+                (wanted, "--precision", "lowp"), (wanted, "--print-shader=geometry"),
+                ("name is empty", "--shaders", ""), ("name is empty", "-o", ""),
+                ("number", "-n", "3", "-o", "a.png"), ("number", "-n", "3", "-o", "a%d%d.png"),
+                ("number", "-n", "3", "-o", "a%s.png"), ("one picture", "-n", "3", "-o", "-"),
+                ("is a folder", "-o", "folder/"), ("extension", "-o", "picture"),
+                ("extension", "-o", ".png"), ("xyz", "-o", "picture.xyz")):
+            self.refused(2, "^LightedCube: .*" + said, *arguments)
+
+    def test_more_samples_than_there_are_name_the_most(self):
+        self.make("LightedCube.png")
+        for samples in ("64", "999"):
+            self.refused(1, r"^LightedCube: .*\bat most \d+$", "--samples", samples)
+
+    def test_sizes(self):
+        for width, height in ((1, 1), (1, 400), (777, 3), (16384, 1)):
+            png = self.drawn("-s", f"{width}x{height}")
+            self.assertEqual((png.width, png.height), (width, height))
+
+    def test_texts_say_what_the_picture_is(self):
+        texts = self.drawn("--size=30x20", "-t", "1.5", "--samples", "4", "--precision", "highp",
+                           "--alpha", program="PointLightedCube_animation").texts
+        self.assertEqual(texts["Title"], "PointLightedCube_animation")
+        self.assertRegex(texts["Software"], r"^lighting \d")
+        self.assertEqual(texts["Time"], "1.5 s")
+        for part in ("--size 30x20", "--samples 4", "--precision highp", "--alpha"):
+            self.assertIn(part, texts["Command"])
+        self.assertIn("egl", texts["Driver"])
+
+    def test_alpha_makes_the_background_transparent(self):
+        opaque, clear = self.drawn(*SMALL), self.drawn(*SMALL, "--alpha")
+        self.assertEqual((opaque.channels, clear.channels), (3, 4))
+        self.assertEqual(clear.at(0, 0)[3], 0)
+        self.assertEqual(clear.at(20, 20), (*opaque.at(20, 20), 255))
+
+    def test_samples_smooth_the_edges(self):
+        colors = []
+        for samples in ("0", "4"):
+            png = self.drawn("--samples", samples)
+            colors.append(len({png.at(x, y) for x in range(400) for y in range(400)}))
+        self.assertGreater(colors[1], 2 * colors[0])  # a cube has few colours, its edges have many
+
+    def test_frames_are_the_pictures_of_their_times(self):
+        move = {"program": "LightedCube_animation"}
+        self.good(*SMALL, "--frames", "5", "--fps", "2", "-t", "0.25", "-o", "f%02d.png", **move)
+        self.assertEqual(sorted(os.listdir(self.folder)), [f"f{i:02}.png" for i in range(5)])
+        pictures = [self.png(f"f{i:02}.png") for i in range(5)]
+        self.assertEqual(len({picture.pixels for picture in pictures}), 5)
+        for i, picture in enumerate(pictures):
+            one = self.drawn(*SMALL, "-t", str(0.25 + i / 2), **move)
+            self.assertEqual((one.pixels, one.texts), (picture.pixels, picture.texts))
+        self.good(*SMALL, "-n", "2", **move)
+        self.assertTrue(os.path.exists(self.path("LightedCube_animation0001.png")))
+
+    def test_an_angle_is_a_time(self):
+        for program, moves in (("LightedCube_animation", True), ("LightedCube", False)):
+            for name, option, value in (("a.png", "-a", "75"), ("t.png", "-t", "2.5"),
+                                        ("0.png", "--angle", "0")):
+                self.good(*SMALL, option, value, "-o", name, program=program)
+            self.assertEqual(self.read("a.png"), self.read("t.png"))
+            self.assertEqual(self.png("a.png").pixels != self.png("0.png").pixels, moves)
+
+    def test_compressing_changes_the_size_alone(self):
+        for level in "09":
+            self.good("--compress", level, "-o", level + ".png")
+        self.assertLess(len(self.read("9.png")), len(self.read("0.png")) // 2)
+        self.assertEqual(self.png("9.png").pixels, self.png("0.png").pixels)
+
+    def test_printing_a_shader_draws_nothing(self):
+        for stage, has in (("vert", "gl_Position"), ("frag", "gl_FragColor")):
+            text = self.good("--print-shader=" + stage, program="PointLightedCube").decode()
+            self.assertTrue(text.startswith("#version 100\n"))
+            self.assertIn(has, text)
+        both = self.good("--print-shader").decode()
+        self.assertEqual(both.count("#version 100\n"), 2)
+        high = self.good("--print-shader=frag", "--precision", "highp").decode()
+        self.assertIn("#define mediump highp", high)
+        self.assertEqual(self.everything(), {})
+
+    def test_verbose_speaks_on_standard_error(self):
+        for option in ("-v", "--verbose"):
+            result = self.run_it(*SMALL, option, "-o", "-")
+            self.assertEqual(result.returncode, 0)
+            self.assertEqual(Png(result.stdout).width, 40)
+            for word in ("backend: egl", "renderer: ", "40x40", "precision", " ms"):
+                self.assertIn(word, result.stderr.decode())
+
+    def test_a_backend_can_be_named(self):
+        self.good(*SMALL, "-o", "a.png")
+        self.good(*SMALL, "-b", "egl", "-o", "b.png")
+        self.assertEqual(self.read("a.png"), self.read("b.png"))
+        self.good(*SMALL, "-o", "c.png", environment={"LIGHTING_BACKEND": "egl"})
+        self.assertEqual(self.read("a.png"), self.read("c.png"))
+        self.refused(2, "^LightedCube: --backend glut: no such backend; there is egl, osmesa, window$",
+                     "-b", "glut")
+        self.refused(1, "^LightedCube: LIGHTING_BACKEND: glut: no such backend; there is egl",
+                     environment={"LIGHTING_BACKEND": "glut"})
+
+    def test_osmesa_draws_what_egl_draws(self):
+        """In mediump too, which both compute in 16 bits."""
+        for precision in "highp", "mediump":
+            for backend in "egl", "osmesa":
+                self.good(*SMALL, "-b", backend, "--precision", precision, "-o", backend,
+                          program="gallery")
+            for program in PROGRAMS + SCENES + DIAGRAMS:
+                pictures = [self.png(f"{backend}/{program}.png").pixels
+                            for backend in ("egl", "osmesa")]
+                apart = max(abs(a - b) for a, b in zip(*pictures))
+                self.assertLessEqual(apart, 1, (program, precision))
+
+    def test_the_doctor_says_what_works(self):
+        text = self.good("--doctor").decode()
+        self.assertRegex(text, r"(?s)egl.*works.*renderer.*This machine can draw\.\n$")
+        self.assertEqual(self.everything(), {})
+
+    def test_without_a_driver_one_line_names_the_packages(self):
+        self.make("LightedCube.png")
+        self.refused(1, "^LightedCube: EGL: .*install the packages libegl1 ",
+                     environment=NO_DRIVER)
+        result = self.run_it("--doctor", environment=NO_DRIVER)
+        self.assertEqual(result.stderr, b"")
+        self.assertRegex(result.stdout.decode(), {
+            0: r"(?s)libegl1.*can draw with --backend osmesa\.\n$",
+            1: r"(?s)libegl1.*libosmesa6.*cannot draw yet\.\n$"}[result.returncode])
+
+
+class Generated(Case):
+    """Man pages and completion, against --help."""
+
+    def options(self, program):
+        """The names and the letters in --help."""
+        text = self.good("--help", program=program).decode()
+        found = re.findall(r"^  (?:-(\w), |    )--([\w-]+)", text, re.MULTILINE)
+        return [name for _, name in found], [letter for letter, _ in found if letter]
+
+    def generate(self, form, program="LightedCube"):
+        self.make(form, self.good("--generate", form, program=program))
+        return self.read(form).decode()
+
+    def shell(self, *command):
+        result = subprocess.run(command, cwd=self.folder, capture_output=True, timeout=60)
+        self.assertEqual((result.returncode, result.stderr), (0, b""), command)
+        return result.stdout.decode()
+
+    def test_no_program_has_two_options_of_one_name(self):
+        for program in EVERY:
+            for names in self.options(program):
+                self.assertIn("size" if len(names[0]) > 1 else "s", names)
+                self.assertEqual(len(names), len(set(names)), program)
+
+    def test_an_exact_name_is_no_abbreviation(self):
+        exact, longer, neither = (self.drawn(*SMALL, *arguments, program="ShadingModels").pixels
+                                  for arguments in (["--linear"], ["--linear-light"], []))
+        self.assertEqual(exact, longer)
+        self.assertNotEqual(exact, neither)
+        self.refused(2, "--lin: could be --linear-light or --linear", "--lin", program="LightTypes")
+
+    def test_all_have_the_options_of_help(self):
+        for program in EVERY:
+            names, letters = self.options(program)
+            text = self.generate("man", program).replace("\\-", "-")
+            self.assertEqual(re.findall(r"^(?:\\fB-\w\\fR, )?\\fB--([\w-]+)", text, re.M), names)
+            text = self.generate("bash", program)
+            self.assertEqual(re.search("words='(--.*) '", text)[1], " ".join("--" + n for n in names))
+            text = self.generate("fish", program)
+            self.assertEqual(re.findall(r"^complete -c \w+ -l (\S+)", text, re.M), names)
+            self.assertEqual(re.findall(r" -l \S+ -s (\w) ", text), letters)
+            text = self.generate("zsh", program)
+            self.assertEqual(re.findall(r"^    '(?:\(-\w )?--([\w-]+)", text, re.M), names)
+            for shell in "bash", "zsh", "fish":
+                if shutil.which(shell):
+                    self.assertEqual(self.shell(shell, "-n", shell), "")
+
+    @unittest.skipUnless(shutil.which("groff"), "groff is not installed")
+    def test_man_pages_are_typeset_without_warnings(self):
+        for program in EVERY:
+            self.generate("man", program)
+            text = self.shell("groff", "-man", "-ww", "-Tascii", "-P-c", "man")
+            text = " ".join(re.sub(".\b", "", text).split())
+            self.assertIn(f"NAME {program} - ", text)
+            self.assertIn("-s, --size WxH in pixels", text)
+
+    @unittest.skipUnless(shutil.which("bash"), "bash is not installed")
+    def test_bash_completes_options_and_values(self):
+        self.generate("bash")
+        for words, expected in (("--siz", "--size"), ("--pr", "--precision --print-shader"),
+                                ("--alpha --backend o", "osmesa"), ("-b e", "egl"),
+                                ("--precision = m", "mediump"), ("--format =", "png y4m rgb"),
+                                ("a", ""), ("-o --siz", "--size")):
+            said = self.shell("bash", "-c", f". ./bash; COMP_WORDS=(LightedCube {words}); "
+                              "COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _LightedCube; "
+                              "echo ${COMPREPLY[*]}")
+            self.assertEqual(said, expected + "\n", words)
+
+    @unittest.skipUnless(shutil.which("fish"), "fish is not installed")
+    def test_fish_completes_options_and_values(self):
+        self.generate("fish")
+        for line, expected in (("--siz", "--size"), ("--backend o", "osmesa")):
+            said = self.shell("fish", "-c", f". ./fish; complete -C 'LightedCube {line}'")
+            self.assertEqual(said.split()[0], expected)
+
+
+class Outputs(Case):
+    def test_an_output_that_cannot_be_written_is_a_failure(self):
+        self.make("file")
+        os.mkdir(self.path("folder.png"))
+        os.symlink("loop.png", self.path("loop.png"))
+        os.symlink("missing/a.png", self.path("lost.png"))
+        for output, said in (("missing/a.png", "folder missing/ does not exist"),
+                             ("folder.png", "is a folder"), ("file/a.png", "Not a directory"),
+                             ("loop.png", "symbolic links"), ("lost.png", "does not exist"),
+                             ("n" * 300 + ".png", "too long")):
+            self.refused(1, "^LightedCube: .*" + said, *SMALL, "-o", output)
+        self.refused(1, "folder missing0/ does not exist", "-n", "2", "-o", "missing%d/a.png")
+
+    def test_devices_are_written_through(self):
+        self.need_somebody()
+        os.symlink("/dev/full", self.path("full.png"))
+        os.symlink("/dev/null", self.path("null.png"))
+        expected = self.good(*SMALL, "-o", "-")
+        for output in ("/dev/null", "null.png"):
+            self.assertEqual(self.good(*SMALL, "-o", output, **SOMEBODY), b"")
+        # What /dev/stdout leads to, in a folder where nothing can be replaced.
+        self.assertEqual(self.good(*SMALL, "-o", "/proc/self/fd/1"), expected)
+        for output in ("/dev/full", "full.png"):
+            self.refused(1, "^LightedCube: .*No space left", *SMALL, "-o", output, **SOMEBODY)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["full.png", "null.png"])
+
+    def test_protected_files_stay(self):
+        self.need_somebody()
+        self.make("read_only.png")
+        self.make("protected/old.png")
+        os.chmod(self.path("read_only.png"), 0o444)
+        os.chmod(self.path("protected"), 0o555)
+        self.addCleanup(os.chmod, self.path("protected"), 0o755)
+        for output in ("read_only.png", "protected/old.png", "protected/new.png"):
+            self.refused(1, "^LightedCube: .*Permission denied", "-o", output, **SOMEBODY)
+
+    def test_a_file_is_replaced_and_keeps_its_permissions(self):
+        self.make("a.png")
+        os.chmod(self.path("a.png"), 0o640)
+        self.good(*SMALL, "-o", "a.png")
+        self.assertEqual(self.png("a.png").width, 40)
+        self.assertEqual(os.stat(self.path("a.png")).st_mode & 0o777, 0o640)
+        self.assertEqual(os.listdir(self.folder), ["a.png"])
+
+    def test_a_file_too_large_for_the_limit_leaves_the_old_one(self):
+        self.make("a.png")
+        limit = 'ulimit -f 8; trap "" XFSZ; exec "$@"'  # 8 blocks of 512 or 1024 bytes
+        for number in ((), ("-n", "3")):
+            before = self.everything()
+            name = "b%d.png" if number else "a.png"
+            result = subprocess.run(["sh", "-c", limit, "sh", os.path.join(EXAMPLES, "LightedCube"),
+                                     "--compress", "0", *number, "-o", name], cwd=self.folder,
+                                    capture_output=True, timeout=PATIENCE)
+            self.assertEqual((result.returncode, result.stdout), (1, b""))
+            self.assertRegex(result.stderr.decode(), r"^LightedCube: \w+\.png: cannot write: .*\n$")
+            self.assertEqual(self.everything(), before)
+
+    def test_links_and_pipes_are_written_through(self):
+        self.make("target.png")
+        os.symlink("target.png", self.path("link.png"))
+        self.good(*SMALL, "-o", "link.png")
+        self.assertTrue(os.path.islink(self.path("link.png")))
+        expected = self.read("target.png")
+        self.assertEqual(Png(expected).width, 40)
+
+        got = []
+        os.mkfifo(self.path("pipe.png"))
+        reader = threading.Thread(target=lambda: got.append(self.read("pipe.png")))
+        reader.start()
+        self.good(*SMALL, "-o", "pipe.png")
+        reader.join(PATIENCE)
+        self.assertEqual(got, [expected])
+        self.assertEqual(sorted(os.listdir(self.folder)), ["link.png", "pipe.png", "target.png"])
+
+    def test_a_dash_is_standard_output(self):
+        self.good(*SMALL, "-o", "a.png")
+        self.assertEqual(self.good(*SMALL, "-o", "-"), self.read("a.png"))
+        self.assertEqual(os.listdir(self.folder), ["a.png"])
+
+    def test_output_that_does_not_arrive_is_a_failure(self):
+        for arguments in (("--help",), ("--version",), ("-o", "-"), ("--print-shader",),
+                          ("--doctor",)):
+            for shell in (">&-", ">/dev/full"):
+                self.refused(1, "^LightedCube: standard output: cannot write: ", *SMALL, *arguments,
+                             shell=shell)
+
+    def test_a_reader_that_leaves_ends_a_program_quietly(self):
+        for program, *arguments in (
+                ("LightedCube", "--help"), ("LightedCube", "-o", "-"),
+                ("LightedCube", "--print-shader"), ("LightedCube", "--doctor"),
+                ("LightedCube", "--generate", "man"), ("SpotLight", "--explain")):
+            reading, writing = os.pipe()
+            os.close(reading)
+            self.good(*SMALL, *arguments, program=program, stdout=writing)
+            os.close(writing)
+            self.good(*SMALL, *arguments, program=program, shell="| head -n 1")
+        self.assertEqual(self.everything(), {})
+
+    def test_closed_streams_do_no_harm(self):
+        self.good(*SMALL, "-o", "right.png")
+        for shell in ("<&-", ">&-", "2>&-", "<&- >&- 2>&-"):
+            result = self.run_it(*SMALL, "-v", "-o", "a.png", shell=shell)
+            self.assertEqual(result.returncode, 0)
+            self.assertEqual(self.read("a.png"), self.read("right.png"))
+        for shell in ("2>&-", "2>/dev/full", "<&- >&- 2>&-"):
+            for code, arguments in ((2, ("--bogus",)), (1, ("-o", "missing/a.png"))):
+                self.assertEqual(self.run_it(*arguments, shell=shell).returncode, code)
+
+    def test_programs_run_from_any_folder_and_under_any_name(self):
+        os.makedirs(self.path("a b/h\u00e9"))
+        self.good(*SMALL, "-o", self.path("a.png"), cwd="/")
+        self.good(*SMALL, "-o", "a.png", cwd=self.path("a b/h\u00e9"))
+        self.assertEqual(self.read("a.png"), self.read("a b/h\u00e9/a.png"))
+        os.symlink(os.path.join(EXAMPLES, "LightedCube"), self.path("linked"))
+        self.good(*SMALL, "-o", "b.png", program=self.path("linked"))
+        self.assertEqual(self.read("a.png"), self.read("b.png"))
+
+    @unittest.skipUnless(os.path.exists(MODULE), "built without OpenImageIO")
+    def test_other_formats(self):
+        for extension, start in (("exr", b"\x76\x2f\x31\x01"), ("tif", b"II*\0"), ("webp", b"RIFF"),
+                                 ("jpg", b"\xff\xd8\xff"), ("PNG", b"\x89PNG")):
+            self.good(*SMALL, "-o", "a." + extension)
+            self.assertTrue(self.read("a." + extension).startswith(start), extension)
+        # The channels of an OpenEXR file: a name, and 2 for 32-bit float.
+        channels = self.read("a.exr").split(b"channels\0chlist\0", 1)[1][4:]
+        self.assertEqual(channels[:6], b"B\0" + struct.pack("<I", 2))
+        self.refused(1, "folder missing/ does not exist", "-o", "missing/a.exr")
+
+    def test_captions_need_a_font_and_no_plugin(self):
+        result = self.run_it("-o", "a.png", program="PhongBlinn",
+                             environment={"LD_DEBUG": "files"})
+        self.assertEqual(result.returncode, 0)
+        self.assertIn(b"libpng", result.stderr)
+        self.assertNotIn(b"image_oiio", result.stderr)
+        no_font = {"LIGHTING_FONT": "missing.ttf"}
+        said = "missing.ttf: cannot read the font: .*; install the package fonts-dejavu-core$"
+        self.refused(1, "^PhongBlinn: " + said, program="PhongBlinn", environment=no_font)
+        self.says(0, "^gallery: the contact sheet has no labels: " + said, "LightedCube", *SMALL,
+                  program="gallery", environment=no_font)
+
+
+class Shaders(Case):
+    def setUp(self):
+        super().setUp()
+        self.make("LightedCube.png")
+        self.lecture = os.path.join(SOURCE, "shaders/lecture")
+        os.mkdir(self.path("mine"))
+
+    def original(self, name="LightedCube.frag"):
+        with open(os.path.join(self.lecture, name), encoding="utf-8") as file:
+            return file.read()
+
+    def test_an_edited_shader_is_found_and_drawn(self):
+        # Always 1, but no compiler knows, so that no variable becomes unused.
+        red = ("precision mediump float;\nvarying vec4 v_Color;\nvoid main() {\n"
+               "    float one = step(-9.0, dot(v_Color, v_Color));\n"
+               "    gl_FragColor = vec4(one, 0.0, 0.0, 1.0);\n}\n")
+        blue = red.replace("one, 0.0, 0.0", "0.0, 0.0, one")
+        self.make("by_name/LightedCube.frag", red)
+        self.make("by_path/lecture/LightedCube.frag", blue)
+        for color, arguments, environment in (
+                ((255, 0, 0), ("--shaders", "by_name"), {}),
+                ((0, 0, 255), ("--shaders", "by_path"), {}),
+                ((255, 0, 0), (), {"LIGHTING_SHADERS": "by_name"}),
+                ((0, 0, 255), ("--shaders", "by_path"), {"LIGHTING_SHADERS": "by_name"})):
+            self.assertEqual(self.drawn(*SMALL, *arguments, environment=environment).at(20, 20), color)
+
+    def test_missing_folders_are_named(self):
+        self.refused(1, "^LightedCube: nowhere: no such shader folder", "--shaders", "nowhere")
+        self.refused(1, "^LightedCube: LightedCube.png: no such shader folder", "--shaders",
+                     "LightedCube.png")
+        self.refused(1, "^LightedCube: LIGHTING_SHADERS=nowhere: ",
+                     environment={"LIGHTING_SHADERS": "nowhere"})
+
+    def test_a_broken_shader_is_said_with_its_line(self):
+        original = self.original()
+        lines = original.count("\n")
+        mine = "mine/LightedCube.frag"
+        long = ("//" + "x" * 47 + "\n") * 16383
+        for content, said, count in (
+                ("", rf"^{mine}:1: the file is empty\n", 1),
+                (b"\x7fELF\0\1\2", rf"^{mine}:1: byte 0x7F: ", 1),
+                (b"int a;\n\0", rf"^{mine}:2: byte 0x00: ", 1),
+                (bytes(10 << 20), rf"^LightedCube: {mine}: has 10485760 bytes", 1),
+                ("#version 300 es\n", rf"^{mine}:1: only #version 100", 1),
+                ("\nint a = 1.0;\n" + original, rf"^{mine}:2: .*\n  2 \| int a = 1\.0;\n", 0),
+                (original + "int wrong = ;\n",
+                 rf"^{mine}:{lines + 1}: .*\n  {lines + 1} \| int wrong = ;\n", 0),
+                (original.replace("\n", "\r\n") + "int wrong = ;\r\n",
+                 rf"^{mine}:{lines + 1}: .*\n  {lines + 1} \| int wrong = ;\n", 0),
+                (long + "wrong;\n", rf"^{mine}:16384: .*\n  16384 \| wrong;\n", 0),
+                ("\n#include \"LightedCube.frag\"\n", rf"^{mine}:2: .*includes itself\n", 1),
+                ("#include \"missing.glsl\"\n",
+                 rf"^{mine}:1: missing.glsl: no such .*\n  tried mine/missing.glsl\n", 0),
+                ("#include \"part.glsl\"\n" + original,
+                 r"^mine/part.glsl:2: .*\n  2 \| int p = q;\n", 0),
+                ("precision mediump float;\nvarying vec3 v_Color;\nvoid main() {\n"
+                 "    gl_FragColor = vec4(v_Color, 1.0);\n}\n",
+                 rf"^{mine}:2: linking: .*\n  2 \| varying vec3 v_Color;\n", 0)):
+            self.make("mine/part.glsl", "\nint p = q;\n")
+            self.make(mine, content)
+            self.refused(1, said, "--shaders", "mine", lines=count)
+
+    def warned(self, warning, program="LightedCube", **more):
+        """Draws, with this one line on standard error; the picture."""
+        result = self.run_it(*SMALL, "--shaders", "mine", "-o", "-", program=program, **more)
+        self.assertEqual((result.returncode, result.stderr.decode()), (0, warning + "\n"))
+        return Png(result.stdout)
+
+    def test_each_variable_of_each_shader_can_become_unused(self):
+        for program in PROGRAMS[::step(8)]:
+            for name in (program + ".vert", program + ".frag"):
+                text = self.original(name)
+                for kind, variable in re.findall(r"^(?:uniform|attribute) (\w+) (\w+);", text, re.M):
+                    body = text.index("void main")
+                    line = text[:text.index(f"{kind} {variable};")].count("\n") + 1
+                    # A declaration alone, and none.
+                    used = text[body:].replace(variable, kind + "(1.0)")
+                    self.make("mine/" + name, text[:body] + used)
+                    self.warned(f"mine/{name}:{line}: warning: {variable} is not used", program)
+                    self.make("mine/" + name, re.sub(rf".* {variable};.*", "", text[:body]) + used)
+                    files = [("mine/" if name.endswith(end) else self.lecture + "/") + program + end
+                             for end in (".vert", ".frag")]
+                    self.warned(f"{files[0]}, {files[1]}: warning: {variable} is not declared", program)
+                    # Mistyped.
+                    self.make("mine/" + name, text.replace(variable, variable + "s"))
+                    self.warned(f"mine/{name}:{line}: warning: {variable}s: {variable}?", program)
+                    os.remove(self.path("mine", name))
+
+    def test_several_unused_variables_are_one_line(self):
+        text = self.original("LightedCube.vert")
+        self.make("mine/LightedCube.vert", text.replace("v_Color = vec4(diffuse, a_Color.a)",
+                                                        "v_Color = vec4(0.2, 0.4, 0.6, 1.0)"))
+        png = self.warned("mine/LightedCube.vert:4: warning: a_Color is not used, a_Normal is not "
+                          "used, u_LightColor is not used, u_LightDirection is not used")
+        self.assertEqual(png.at(20, 20), (51, 102, 153))
+        # The gallery says it once too.
+        self.says(0, r"^mine/[^\n]*u_LightDirection is not used\n$", "LightedCube", *SMALL,
+                  "--shaders", "mine", program="gallery")
+
+    def test_a_shader_must_be_a_regular_file(self):
+        os.mkfifo(self.path("mine/LightedCube.frag"))
+        self.refused(1, "LightedCube.frag: is not a regular file", "--shaders", "mine")
+        os.remove(self.path("mine/LightedCube.frag"))
+        os.mkdir(self.path("mine/LightedCube.frag"))
+        self.refused(1, "LightedCube.frag: is not a regular file", "--shaders", "mine")
+
+    def test_precision_changes_the_shader_and_hardly_the_picture(self):
+        high, medium = (self.drawn(*SMALL, "--precision", name).pixels
+                        for name in ("highp", "mediump"))
+        # One step of rounding: a driver may take mediump's ten bits at its word.
+        self.assertLessEqual(max(abs(a - b) for a, b in zip(high, medium)), 1)
+
+
+class Scenes(Case):
+    def test_every_scene_draws_the_same_with_the_full_program(self):
+        for program in SCENES:
+            with self.subTest(program=program):
+                self.good(program=program)
+                self.good("--full", "-o", "full.png", program=program)
+                lean, full = self.png(program + ".png"), self.png("full.png")
+                self.assertGreater(len(set(zip(*[iter(lean.pixels)] * 3))), 50)
+                self.assertEqual((lean.width, lean.height), (full.width, full.height))
+                apart = [abs(a - b) for a, b in zip(lean.pixels, full.pixels)]
+                # The programs round differently, and then once to a level; where a spot's edge
+                # or the sign of a normal decides, a pixel may be on either side.
+                self.assertLess(sum(a > 1 for a in apart), 1e-4 * len(apart))
+
+    def test_every_scene_explains_itself_and_draws_nothing(self):
+        for program in SCENES[::step(3)]:
+            with self.subTest(program=program):
+                text = self.good("--explain", program=program).decode()
+                self.assertIn("light 0: ", text)
+                self.assertIn("operations: ", text)
+                self.assertIn("# what the model leaves out\n", text)
+                self.assertNotIn("#version", text)
+        self.assertEqual(self.everything(), {})
+
+    def test_antialiasing_changes_edges_alone(self):
+        for program in SCENES[::step(2)]:
+            with self.subTest(program=program):
+                plain = self.drawn(program=program).pixels
+                smooth = self.drawn("--samples", "4", program=program).pixels
+                apart = sum(abs(a - b) > 8 for a, b in zip(plain, smooth))
+                # Edges, lines and the small spheres of a row are a few pixels in a hundred.
+                self.assertTrue(0 < apart < 0.06 * len(plain), apart / len(plain))
+
+    def test_each_option_of_a_scene_has_its_range(self):
+        for program, said, *arguments in (
+                ("SpotLight", "0 to 90", "--cutoff", "91"),
+                ("SpotLight", "0 to 128", "--exponent", "-1"),
+                ("SmoothFlat", "3 to 64", "--slices", "2"),
+                ("SmoothFlat", "3 to 64", "--slices", "8.5"),
+                ("SmoothFlat", "2 to 32", "--stacks", "33"),
+                ("Materials", "0 to 128", "--shininess", "129"),
+                ("Materials", "0 to 1", "--diffuse", "0,0,1.1"),
+                ("Materials", "R,G,B or one number", "--specular", "0,0"),
+                ("Materials", "did you mean gold", "--material", "golf"),
+                ("ShadingModels", "did you mean sphere", "--shape", "sphre"),
+                ("ShadingModels", "blinn-phong or phong", "--reflection", "lambert"),
+                ("FourLights", "on or off", "--red", "maybe"),
+                ("PhongBlinn", "1 to 30", "--shininess", "31"),
+                ("LightTypes", "vertex or end", "--clamp", "never"),
+                ("LightedCube", "no such option", "--explain")):
+            self.refused(2, f"^{program}: .*{said}", *arguments, program=program)
+
+    def test_options_change_the_picture(self):
+        for program, *arguments in (
+                ("ShadingModels", "--shape", "teapot"), ("ShadingModels", "--material", "ruby"),
+                ("ShadingModels", "--interpolation", "gouraud"),
+                ("ShadingModels", "--reflection", "blinn-phong"),
+                ("ShadingModels", "--fixed-light", "off"), ("ShadingModels", "--time", "1"),
+                ("ShadingModels", "--turning-kind", "directional"), ("ShadingModels", "--linear"),
+                ("ShadingModels", "--material", "pearl", "--show-clipped"),
+                ("NormalMatrix", "--normals", "on"), ("TwoSidedLighting", "--shape", "cylinder"),
+                ("TwoSidedLighting", "--time", "6"), ("SpotLight", "--cutoff", "10"),
+                ("SpotLight", "--exponent", "30"), ("ShininessRow", "--reflection", "blinn-phong"),
+                ("Materials", "--sheet", "on"), ("Materials", "--material", "gold"),
+                ("SmoothFlat", "--normals", "flat"), ("SmoothFlat", "--shape", "band"),
+                ("SmoothFlat", "--edges", "on"), ("FourLights", "--green", "off"),
+                ("FourLights", "--ambient", "off"), ("LightTypes", "--quadratic", "0"),
+                ("LightTypes", "--linear", "0.9"), ("LightTypes", "--linear-light"),
+                ("PhongBlinn", "--fit", "off"), ("PhongBlinn", "--interpolation", "gouraud"),
+                ("NormalMatrix", "--matrix", "wrong"), ("NormalMatrix", "--matrix", "both"),
+                ("NormalMatrix", "--material", "jade"), ("TwoSidedLighting", "--front-face", "cw"),
+                ("TwoSidedLighting", "--back-material", "jade", "-t", "6"),
+                ("SpotLight", "--material", "jade"), ("SpotLight", "--shape", "cube"),
+                ("SpotLight", "--global-ambient", "0.5"), ("Materials", "--emission", "0.1"),
+                ("Materials", "--viewer", "local"), ("Materials", "--light-diffuse", "1,0,0"),
+                ("Materials", "--terms", "diffuse"), ("Materials", "--lighting", "off"),
+                ("ShadingModels", "--terms", "0"), ("SmoothFlat", "--shape", "square"),
+                ("SmoothFlat", "--interpolation", "constant"), ("FourLights", "--base", "off"),
+                ("FourLights", "--orbit", "0,30"), ("ColoredLights", "--light", "0,1,1"),
+                ("TermsApart", "--costs", "off")):
+            with self.subTest(program=program, arguments=arguments):
+                plain = self.drawn("-s", "120x120", program=program).pixels
+                changed = self.drawn("-s", "120x120", *arguments, program=program).pixels
+                self.assertNotEqual(plain, changed)
+
+
+    def test_a_named_material_can_be_changed_in_any_order(self):
+        mixed = self.drawn("--material", "gold", "--diffuse", "0,0,1", program="Materials").pixels
+        self.assertEqual(mixed, self.drawn("--diffuse", "0,0,1", "--material", "gold",
+                                           program="Materials").pixels)
+        self.assertNotEqual(mixed, self.drawn("--material", "gold", program="Materials").pixels)
+
+    def test_the_light_of_the_viewer_follows_the_camera(self):
+        """A sphere looks the same from all sides; its mesh turns, by at most a few steps."""
+        plain = self.drawn("--shape", "sphere", program="Materials").pixels
+        behind = self.drawn("--shape", "sphere", "--orbit", "180,0", program="Materials").pixels
+        self.assertLess(max(abs(a - b) for a, b in zip(plain, behind)), 8)
+
+    def test_every_distance_shows_the_scene(self):
+        for distance in ("0.3", "3", "27"):
+            for program in ("ShadingModels", "Materials", "FourLights", "ShininessRow"):
+                with self.subTest(program=program, distance=distance):
+                    pixels = self.drawn("--orbit", "20,10," + distance, program=program).pixels
+                    self.assertGreater(len(set(pixels)), 3) # the background has three at most
+
+
+class Gallery(Case):
+    def gallery(self, *arguments, **more):
+        return self.good(*arguments, program="gallery", **more)
+
+    def test_every_picture_is_the_one_that_its_program_draws(self):
+        self.assertEqual(self.gallery(*SMALL, "-o", "pictures"), b"pictures/index.html\n")
+        self.assertEqual(sorted(os.listdir(self.path("pictures"))),
+                         sorted([name + ".png" for name in PROGRAMS + SCENES + DIAGRAMS] +
+                                ["contact-sheet.png", "index.html"]))
+        page = self.read("pictures/index.html").decode()
+        for program in PROGRAMS + SCENES + DIAGRAMS:
+            self.assertEqual(self.drawn(*SMALL, program=program).pixels,
+                             self.png(f"pictures/{program}.png").pixels)
+            self.assertIn(f"<code>examples/run {program} --size 40x40</code>", page)
+
+    def test_the_page_has_the_commands_that_draw_its_pictures(self):
+        # The second program has a size of its own.
+        self.gallery("LightedCube", "ShininessRow", "--orbit", "30,-10", "--samples", "4",
+                     "--alpha", "-t", "0.1", "--shaders", os.path.join(SOURCE, "shaders"))
+        page = self.read("gallery/index.html").decode()
+        for program in "LightedCube", "ShininessRow":
+            said = f"{program} --time 0.1 --samples 4 --orbit 30,-10 --shaders ... --alpha"
+            self.assertIn(f"<code>examples/run {said}</code>", page)
+            words = said.replace("--shaders ...", "").split()[1:]
+            self.assertEqual(self.drawn(*words, program=program).pixels,
+                             self.png(f"gallery/{program}.png").pixels)
+        self.gallery("ShininessRow", "-s", "400x400")
+        self.assertIn("<code>examples/run ShininessRow --size 400x400</code>",
+                      self.read("gallery/index.html").decode())
+
+    def test_named_programs_are_drawn_into_the_default_folder(self):
+        self.gallery("PointLightedCube", *SMALL, "LightedCube")
+        self.assertEqual(sorted(os.listdir(self.path("gallery"))),
+                         ["LightedCube.png", "PointLightedCube.png", "contact-sheet.png",
+                          "index.html"])
+
+    def test_usage_errors_and_failures_are_said(self):
+        self.make("file")
+        for code, said, *arguments in (
+                (2, "LightedCub: no such program; did you mean LightedCube", "LightedCub"),
+                (2, "xylophone: no such program", "xylophone"), (2, "--frames: ", "-n", "2"),
+                (2, "--fps: ", "--fps", "2"), (2, "--size 0x0: must be", "-s", "0x0"),
+                (1, "file: exists and is not a folder", "-o", "file"),
+                (1, "missing/deep: cannot create the folder", "-o", "missing/deep")):
+            self.refused(code, "^gallery: " + said, *arguments, program="gallery")
+        self.refused(1, "^gallery: EGL: .*install", program="gallery", environment=NO_DRIVER)
+
+
+class Again(Case):
+    """The same command writes the same bytes, and a picture's text is such a command."""
+    FORMATS = ("png", "exr", "tif", "jpg", "webp", "bmp", "tga", "ppm", "hdr", "dpx", "gif")
+    FILMS = ("gif", "webp", "apng", "mp4", "webm")
+    CUBE = ("v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv 0 0 1\n"
+            "f 4 3 2 1\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n")
+
+    def values(self, program):
+        """A value that is not the default's for each option that the program alone has."""
+        text = self.good("--help", program=program).decode().partition("Options of this program")[2]
+        found = []
+        for name, form, rest in re.findall(r"^ +--(\S+) (\S+)((?:.*\n(?! +--|\n))*.*)", text,
+                                           re.MULTILINE):
+            form += "".join(rest.split()) if form.endswith("|") else ""
+            usual = re.search(r"default\s+(\S+)", rest)
+            if "differs from run to run" in " ".join(rest.split()):
+                continue
+            if name == "model":
+                self.make("a model.obj", self.CUBE)
+                value = self.path("a model.obj")
+            elif form == "R,G,B":
+                value = "0.25,0.1,1"
+            elif ".." in form:
+                low, high = map(float, form.split(".."))
+                value = next(text for text in (f"{(low + high) // 2:g}", f"{(low + high) / 4:g}")
+                             if not usual or text != usual[1])
+            else:
+                value = next(word for word in re.split(r"\||;", form)
+                             if not usual or word != usual[1])
+            found.append((name, value))
+        self.assertTrue(found, program)
+        return found
+
+    def command(self, data):
+        """What a picture says, as a shell has it."""
+        if data[:4] == b"\x89PNG":
+            text = Png(data).texts["Command"]
+        elif data[:2] == b"II":  # TIFF: tag 270 of the first folder
+            at = struct.unpack("<I", data[4:8])[0]
+            tags = [struct.unpack("<HHII", data[at + 2 + 12 * i:at + 14 + 12 * i])
+                    for i in range(struct.unpack("<H", data[at:at + 2])[0])]
+            size, place = next((tag[2], tag[3]) for tag in tags if tag[0] == 270)
+            text = data[place:place + size - 1].decode()
+        else:  # OpenEXR: name, type, size, value
+            place = data.index(b"Command\0string\0") + 15
+            size = struct.unpack("<I", data[place:place + 4])[0]
+            text = data[place + 4:place + 4 + size].decode()
+        return subprocess.run(["sh", "-c", f"printf '%s\\0' {text}"], stdout=subprocess.PIPE,
+                              check=True).stdout.decode().split("\0")[:-1]
+
+    def assert_again(self, program, *arguments, suffix="png", **more):
+        self.good(*arguments, "-o", "first." + suffix, program=program, **more)
+        first = self.read("first." + suffix)
+        name, *words = self.command(first)
+        with self.subTest(program=program, arguments=arguments, suffix=suffix, words=words):
+            self.assertEqual(name, program)
+            os.makedirs(self.path("elsewhere"), exist_ok=True)
+            self.good(*words, program=name, cwd=self.path("elsewhere"))
+            self.assertEqual(os.listdir(self.path("elsewhere")), [f"{program}.{suffix}"])
+            self.assertTrue(self.read(f"elsewhere/{program}.{suffix}") == first)
+        shutil.rmtree(self.path("elsewhere"))
+        return words
+
+    def test_every_program_says_how_to_draw_its_picture_again(self):
+        common = ("-t", "0.7", "--orbit=-20,10,0.9", "--samples", "2", "--alpha", "--compress", "9")
+        labs = [program for program in EVERY if program.startswith("lab")]
+        for program in (PROGRAMS + SCENES + labs)[::step(7)]:
+            self.assert_again(program, *SMALL, *common, "--precision", "mediump")
+        for program in (PROGRAMS + SCENES + labs)[::step(11)]:
+            self.assert_again(program)
+        for program in SCENES[::step(6)]:
+            self.assert_again(program, *SMALL, "--clamp", "vertex", "--linear-light",
+                              "--show-clipped", "--full")
+            self.assert_again(program, *SMALL, "--error", "2")
+
+    def test_a_programs_own_options_are_said(self):
+        for program in SCENES[::step(2)]:
+            values = self.values(program)
+            self.assert_again(program, *SMALL, *(f"--{name}={value}" for name, value in values))
+            for name, value in values[::step(16)]:
+                words = self.assert_again(program, *SMALL, f"--{name}={value}")
+                if words[2:]:  # the one that was given
+                    self.assertEqual(words[2:], ["--" + name, value])
+
+    @unittest.skipUnless(os.path.exists(MODULE), "without OpenImageIO")
+    def test_exr_and_tiff_say_it_too(self):
+        for suffix in ("exr", "tif", "tiff"):
+            for program in ("PointLightedCube", "Materials", "NormalMatrix"):
+                self.assert_again(program, *SMALL, "-t", "1.1", suffix=suffix)
+            self.assert_again("Materials", *SMALL, "--material", "gold", "--alpha", suffix=suffix)
+
+    def test_shaders_and_backends_are_said(self):
+        folder = self.path("my shaders'")
+        shutil.copytree(os.path.join(SOURCE, "shaders/lecture"), folder)
+        self.assert_again("LightedCube", *SMALL, "--shaders", folder)
+        words = self.assert_again("LightedCube", *SMALL,
+                                  environment={"LIGHTING_SHADERS": folder})
+        self.assertIn(folder, words)
+        if self.run_it(*SMALL, "-b", "osmesa", "-o", "-").returncode == 0:
+            for more in ({}, {"environment": {"LIGHTING_BACKEND": "osmesa"}}):
+                words = self.assert_again("LightedCube", *SMALL, "-b", "osmesa", **more)
+                self.assertIn("osmesa", words)
+
+    def test_pictures_of_a_gallery_and_of_frames_say_it(self):
+        self.good(*SMALL, "-t", "0.3", "-o", "all", program="gallery")
+        self.good(*SMALL, "-n", "3", "--fps", "7", "-o", "f%d.png", program="LightedCube_animation")
+        for path, program in (("all/Materials.png", "Materials"), ("all/LightedCube.png",
+                              "LightedCube"), ("f2.png", "LightedCube_animation")):
+            name, *words = self.command(self.read(path))
+            self.assertEqual(name, program)
+            self.assertTrue(self.good(*words, "-o", "-", program=program) == self.read(path))
+
+    @unittest.skipUnless(os.path.exists(MODULE), "without OpenImageIO")
+    def test_every_format_has_the_same_bytes_in_every_environment(self):
+        """What the clock says changes between the first picture of each format and its last."""
+        environments = (
+            {}, {"TZ": "Asia/Tokyo", "LC_ALL": "C", "LP_NUM_THREADS": "0"},
+            {"TZ": "America/Lima", "LC_ALL": "de_DE.UTF-8", "LANG": "de_DE.UTF-8",
+             "LP_NUM_THREADS": "1", "HOME": "/nonexistent"},
+            {"LC_ALL": "tr_TR.UTF-8", "LP_NUM_THREADS": "2", "OPENIMAGEIO_THREADS": "1"})
+        films = self.FILMS if shutil.which("ffmpeg") else ("gif",)
+        draws = ([(suffix, "LightedCube", (*SMALL, "-t", "0.5")) for suffix in self.FORMATS] +
+                 [(suffix, "LightedCube_animation", ("-s", "64x48", "-n", "12"))
+                  for suffix in films])
+        first, start = {}, time.time()
+        for number, environment in enumerate(environments):
+            folder = self.path(f"folder {number}")
+            os.mkdir(folder)
+            core = {number % os.cpu_count()} if number % 2 else None
+            for suffix, program, arguments in draws:
+                name = f"{program}.{suffix}"
+                self.good(*arguments, "-o", name, program=program, cwd=folder,
+                          environment=environment,
+                          preexec_fn=core and (lambda: os.sched_setaffinity(0, core)))
+                with open(os.path.join(folder, name), "rb") as file:
+                    data = file.read()
+                with self.subTest(name=name, environment=environment):
+                    self.assertTrue(first.setdefault(name, data) == data)
+        self.assertGreater(time.time() - start, 2)  # seconds are what dates in files count
+        for name, data in first.items():
+            self.assertNotIn(time.strftime("%Y:%m").encode(), data, name)
+
+    @unittest.skipUnless(os.path.exists(MODULE), "without OpenImageIO")
+    def test_a_date_is_that_of_source_date_epoch(self):
+        for suffix in ("exr", "tif"):
+            for epoch, date in (("86399", b"1970:01:01 23:59:59"), (None, b"1970:01:01 00:00:00"),
+                                ("4102444800", b"2100:01:01 00:00:00")):
+                environment = {"SOURCE_DATE_EPOCH": epoch} if epoch else {}
+                self.good(*SMALL, "-o", "a." + suffix, environment=environment)
+                self.assertIn(date, self.read("a." + suffix))
+            os.remove(self.path("a." + suffix))
+            for epoch in ("today", "", "-1", "253402300800", "1e3"):
+                self.refused(1, "SOURCE_DATE_EPOCH=" + epoch, *SMALL, "-o", "a." + suffix,
+                             environment={"SOURCE_DATE_EPOCH": epoch})
+
+class Setup(Case):
+    TOOLS = ("sh", "sed", "awk", "cat", "readlink", "id", "uname", "grep", "mkdir", "mktemp", "find")
+
+    def test_other_systems_get_their_packages_names(self):
+        """Where there is no dpkg. The path has what is in every system, and a package manager."""
+        for manager, said in (("dnf", "dnf install gcc glibc-devel .*OpenImageIO-devel"),
+                              ("pacman", "pacman -S gcc glibc .*openimageio"),
+                              ("apk", "apk add gcc musl-dev .*openimageio-dev"),
+                              ("brew", "brew install .*glfw .*openimageio"),
+                              (None, "what these packages of Debian contain: gcc .*openimageio-dev")):
+            folder = self.path(f"bin {manager}")
+            os.mkdir(folder)
+            for tool in self.TOOLS:
+                os.symlink(shutil.which(tool), os.path.join(folder, tool))
+            if manager:
+                os.symlink("/bin/true", os.path.join(folder, manager))
+            result = subprocess.run(
+                [os.path.join(SOURCE, "examples/run"), "Materials", "-o", "a.exr"],
+                env={"PATH": folder, "LIGHTING_BUILD": self.path("build")}, capture_output=True)
+            error = result.stderr.decode()
+            self.assertEqual((result.returncode, error.count("\n")), (1, 1), error)
+            self.assertRegex(error, "^examples/run: this is not a Debian system; it needs " + said)
+            self.assertEqual("untested" in error, bool(manager), error)
+
+    def test_every_package_has_its_names_elsewhere(self):
+        with open(os.path.join(SOURCE, "common/setup.sh")) as file:
+            text = file.read().replace("\\\n", " ")
+        wanted = set(" ".join(re.findall(r'^packages_to_\w+="(.*?)"', text, re.MULTILINE)).split())
+        with open(os.path.join(SOURCE, "common/packages")) as file:
+            rows = [line.split() for line in file if not line.startswith("#")]
+        self.assertEqual(wanted, {row[0] for row in rows})
+        self.assertTrue(all(len(row) == 5 for row in rows))
+
+
+def main():
+    doctor = subprocess.run([os.path.join(EXAMPLES, "LightedCube"), "--doctor"],
+                            capture_output=True)
+    if doctor.returncode == 1:
+        print("skipped: this machine cannot draw; LightedCube --doctor says why")
+        return 77
+    test = unittest.main(argv=[sys.argv[0], *sys.argv[3:]], exit=False).result
+    failed = {case.id().split(" ")[0] for case, _ in test.failures + test.errors}
+    failed |= {case.id() for case in test.unexpectedSuccesses}
+    for case, reason in test.skipped:
+        print(f"not checked: {case.id()}: {reason}")
+    print(f"{test.testsRun - len(failed) - len(test.skipped)} passed, {len(failed)} failed")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,64 @@
+"""The pages: links, anchors and pictures exist, options are in --help, the map of common/ is complete.
+
+    pages_test.py EXAMPLES_FOLDER_OF_THE_BUILD SOURCE_FOLDER
+"""
+import pathlib
+import re
+import subprocess
+import sys
+
+examples, root = (pathlib.Path(path).resolve() for path in sys.argv[1:3])
+pages = [root / "README.md", root / "CHANGELOG.md", *sorted(root.glob("[cest]*/**/*.md"))]
+# Options of scripts are looked for in their text; these are of other programs.
+SCRIPTS = ("examples/run", "tests/run", "tests/tables", "tests/labs/labs_test.py", "tests/benchmark/measure.c")
+FOREIGN = {"--benchmark", "--array", "--half", "--table"}  # meson test, sbatch, labs/corpus.py
+failures = []
+
+
+def check(condition, page, text):
+    if not condition:
+        failures.append(f"{page.relative_to(root)}: {text}")
+
+
+def anchors(page):
+    """Of its headings, as GitHub and GitLab make them."""
+    titles = re.findall(r"^#+ (.*)$", page.read_text(), re.MULTILINE)
+    return {re.sub(r"[^\w -]", "", title.lower()).replace(" ", "-") for title in titles}
+
+
+def help_texts():
+    for program in sorted(path for path in examples.iterdir() if path.is_file() and path.stat().st_mode & 0o100):
+        for more in ([], ["--class", "x"]) if program.name == "check" else ([],):
+            yield subprocess.run([program, *more, "--help"], capture_output=True, text=True, check=True).stdout
+    for script in SCRIPTS:
+        yield (root / script).read_text()
+
+
+def options(text):
+    return set(re.findall(r"(?<![\w<!-])--[a-z][a-z-]+", text))
+
+
+known = FOREIGN.union(*map(options, help_texts()))
+for page in pages:
+    text = page.read_text()
+    for link in re.findall(r"\]\(([^)\s]+)\)", text):
+        path, _, anchor = link.partition("#")
+        target = page.parent / path if path else page
+        if "://" in link:
+            continue
+        check(target.exists(), page, f"{link}: no such file")
+        check(not anchor or target.is_file() and anchor in anchors(target), page, f"{link}: no such heading")
+    for path in re.findall(r"`((?:examples|common|shaders|tests)/[\w./-]+\.\w+)`", text):
+        check((root / path).exists() or "NAME" in path, page, f"{path}: no such file")
+    for option in sorted(options(text) - known):
+        check(page.name == "CHANGELOG.md", page, f"{option}: no program has it")
+
+modules = (root / "common/README.md").read_text()
+for header in sorted(root.glob("common/*/*.h")):
+    check(f"({header.parent.name}/{header.name})" in modules, root / "common/README.md",
+          f"{header.name} is missing; tests/tables --map prints the table")
+lines = len((root / "README.md").read_text().splitlines())
+check(lines <= 150, root / "README.md", f"{lines} lines; at most 150")
+
+print("\n".join(failures))
+sys.exit(1 if failures else 0)

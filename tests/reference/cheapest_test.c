@@ -1,0 +1,787 @@
+/*
+ * --error keeps its word: random scenes of all programs, drawn with random errors allowed, against
+ * two judges that share nothing with the choice: the exact picture of the public interface, and for
+ * a sample of the pixels an evaluator of this file (rays and the lighting equation in double
+ * precision, from the OpenGL 1.1 specification).
+ *
+ * cheapest_test --markdown: what the same scenes save, as a table.
+ */
+#include "app/stage.h"
+#include "base/clock.h"
+#include "base/random.h"
+#include "scene/scene_example.h"
+#include "support/picture_check.h"
+#include "support/testing.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define X(NAME) extern const Example NAME;
+LIGHTING_EXAMPLES
+#undef X
+
+#define X(NAME) &NAME,
+static const Example *const EXAMPLES[] = {LIGHTING_EXAMPLES};
+#undef X
+
+enum { EXAMPLE_COUNT = sizeof EXAMPLES / sizeof EXAMPLES[0] };
+
+/* What the judges may differ by from the chooser's comparison: colors are kept there in 16 bits
+ * (0.002), and the reserve is 0.015. */
+static const double SLACK = 0.02;
+
+/* An evaluator of its own. */
+
+typedef struct Ray {
+    Vec3 from, along;
+} Ray;
+
+typedef struct Hit {
+    double t;
+    Vec3 normal; /* towards the outside or the triangle's front; of a mesh in world coordinates */
+    Vec3 face;   /* the same of the surface itself, in object coordinates */
+} Hit;
+
+static void meet(Hit *nearest, double t, double near, double far, Vec3 normal, Vec3 face)
+{
+    if (t >= near && t <= far && t < nearest->t)
+        *nearest = (Hit){t, normal, face};
+}
+
+static Vec3 at(const Ray *ray, double t)
+{
+    return vec3_add(ray->from, vec3_scale(ray->along, t));
+}
+
+/* a t^2 + 2 b t + c = 0. */
+static int roots(double a, double b, double c, double t[2])
+{
+    const double d = b * b - a * c;
+    if (a == 0 || d < 0)
+        return 0;
+    t[0] = (-b - sqrt(d)) / a;
+    t[1] = (-b + sqrt(d)) / a;
+    return 2;
+}
+
+static void meet_disc(Hit *hit, const Ray *ray, double near, double far, double z, double radius,
+                      double up)
+{
+    const double t = (z - ray->from.z) / ray->along.z;
+    const Vec3 p = at(ray, t), n = {0, 0, up};
+    if (ray->along.z != 0 && hypot(p.x, p.y) <= radius)
+        meet(hit, t, near, far, n, n);
+}
+
+static double torus_value(const Solid *solid, Vec3 p)
+{
+    return hypot(hypot(p.x, p.y) - solid->radius, p.z) - solid->tube;
+}
+
+/* The distance from the surface along the ray, in steps short enough for this tube. */
+static void meet_torus(Hit *hit, const Ray *ray, double near, double far, const Solid *solid)
+{
+    enum { STEPS = 2000 };
+    double t[2];
+    const double bound = solid->radius + solid->tube;
+    if (!roots(vec3_dot(ray->along, ray->along), vec3_dot(ray->along, ray->from),
+               vec3_dot(ray->from, ray->from) - bound * bound, t))
+        return;
+    const double step = (t[1] - t[0]) / STEPS;
+    double before = torus_value(solid, at(ray, t[0]));
+    for (int i = 1; i <= STEPS; i++) {
+        double low = t[0] + (i - 1) * step, high = low + step;
+        const double after = torus_value(solid, at(ray, high));
+        if ((before < 0) != (after < 0)) {
+            for (int k = 0; k < 50; k++) {
+                const double middle = (low + high) / 2;
+                if ((torus_value(solid, at(ray, middle)) < 0) == (before < 0))
+                    low = middle;
+                else
+                    high = middle;
+            }
+            const Vec3 p = at(ray, low);
+            const double r = hypot(p.x, p.y), share = (r - solid->radius) / r;
+            const Vec3 n = vec3_unit((Vec3){p.x * share, p.y * share, p.z});
+            meet(hit, low, near, far, n, n);
+        }
+        before = after;
+    }
+}
+
+/* Normals are of unit length at the vertices, where the transform has put them. */
+static void meet_mesh(Hit *hit, const Ray *ray, double near, double far, const Mesh *mesh,
+                      Mat4 world_normals)
+{
+    for (size_t i = 0; i < mesh->index_count; i += 3) {
+        Vec3 v[3], n[3];
+        for (size_t k = 0; k < 3; k++) {
+            const MeshVertex *vertex = &mesh->vertices[mesh->indices[i + k]];
+            v[k] = vec3_from_float(vertex->position);
+            n[k] =
+                vec3_unit(mat4_transform_direction(world_normals, vec3_from_float(vertex->normal)));
+        }
+        const Vec3 a = vec3_subtract(v[1], v[0]), b = vec3_subtract(v[2], v[0]);
+        const Vec3 face = vec3_cross(a, b), s = vec3_subtract(ray->from, v[0]);
+        const double determinant = -vec3_dot(ray->along, face);
+        if (determinant == 0)
+            continue;
+        const Vec3 m = vec3_cross(s, ray->along);
+        const double first = vec3_dot(b, m) / determinant, second = -vec3_dot(a, m) / determinant;
+        if (first < 0 || second < 0 || first + second > 1)
+            continue;
+        const Vec3 normal = vec3_add(vec3_scale(n[0], 1 - first - second),
+                                     vec3_add(vec3_scale(n[1], first), vec3_scale(n[2], second)));
+        meet(hit, vec3_dot(s, face) / determinant, near, far, normal, face);
+    }
+}
+
+static void meet_object(Hit *hit, const Ray *ray, double near, double far, const Object *object,
+                        Mat4 world_normals)
+{
+    const Solid *solid = &object->solid;
+    const double r = solid->radius, h = solid->height;
+    const Vec3 o = ray->from, d = ray->along;
+    double t[2];
+    switch (solid->kind) {
+    case SOLID_SPHERE:
+        for (int i = roots(vec3_dot(d, d), vec3_dot(d, o), vec3_dot(o, o) - r * r, t); i-- > 0;) {
+            const Vec3 n = vec3_scale(at(ray, t[i]), 1 / r);
+            meet(hit, t[i], near, far, n, n);
+        }
+        break;
+    case SOLID_DISC:
+        meet_disc(hit, ray, near, far, 0, r, 1);
+        break;
+    case SOLID_CYLINDER:
+        for (int i = roots(d.x * d.x + d.y * d.y, d.x * o.x + d.y * o.y,
+                           o.x * o.x + o.y * o.y - r * r, t);
+             i-- > 0;) {
+            const Vec3 p = at(ray, t[i]), n = {p.x / r, p.y / r, 0};
+            if (p.z >= 0 && p.z <= h)
+                meet(hit, t[i], near, far, n, n);
+        }
+        if (solid->caps & MESH_CAP_BOTTOM)
+            meet_disc(hit, ray, near, far, 0, r, -1);
+        if (solid->caps & MESH_CAP_TOP)
+            meet_disc(hit, ray, near, far, h, r, 1);
+        break;
+    case SOLID_CONE: {
+        /* x^2 + y^2 = (r - z r / h)^2 */
+        const double k = r / h, z = r - k * o.z;
+        for (int i = roots(d.x * d.x + d.y * d.y - k * k * d.z * d.z,
+                           d.x * o.x + d.y * o.y + k * z * d.z, o.x * o.x + o.y * o.y - z * z, t);
+             i-- > 0;) {
+            const Vec3 p = at(ray, t[i]);
+            const Vec3 n = vec3_unit((Vec3){p.x, p.y, k * hypot(p.x, p.y)});
+            if (p.z >= 0 && p.z <= h)
+                meet(hit, t[i], near, far, n, n);
+        }
+        meet_disc(hit, ray, near, far, 0, r, -1);
+        break;
+    }
+    case SOLID_TORUS:
+        meet_torus(hit, ray, near, far, solid);
+        break;
+    case SOLID_NONE:
+    case SOLID_BOX: /* the mesh as given is the shape */
+    case SOLID_QUAD:
+    case SOLID_TEAPOT:
+        meet_mesh(hit, ray, near, far, object->mesh, world_normals);
+        break;
+    }
+}
+
+static Vec3 times(Vec3 a, Vec3 b)
+{
+    return (Vec3){a.x * b.x, a.y * b.y, a.z * b.z};
+}
+
+/* From the viewer's coordinates, if the light is given in those. */
+static Vec3 in_world(const Light *light, const Vec3 axes[3], Vec3 v)
+{
+    if (light->space == LIGHT_WORLD)
+        return v;
+    return vec3_add(vec3_scale(axes[0], v.x),
+                    vec3_add(vec3_scale(axes[1], v.y), vec3_scale(axes[2], v.z)));
+}
+
+/* `axes`: of the viewer: right, up, back. */
+static Vec3 lit(const Scene *scene, const Material *material, Vec3 point, Vec3 normal, Vec3 viewer,
+                const Vec3 axes[3])
+{
+    Vec3 sum = vec3_add(material->emission, times(scene->global_ambient, material->ambient));
+    for (int i = 0; i < scene->light_count; i++) {
+        const Light *light = &scene->lights[i];
+        double share = 1;
+        Vec3 to_light = vec3_unit(in_world(light, axes, light->direction));
+        if (light->off)
+            continue;
+        if (light->kind != LIGHT_DIRECTIONAL) {
+            const Vec3 origin = light->space == LIGHT_WORLD ? (Vec3){0, 0, 0} : scene->camera.eye;
+            const Vec3 place = vec3_add(origin, in_world(light, axes, light->position));
+            const Vec3 way = vec3_subtract(place, point), axis = to_light;
+            const double distance = vec3_length(way);
+            const double loss =
+                light->constant + distance * (light->linear + distance * light->quadratic);
+            to_light = vec3_unit(way);
+            if (light->constant != 0 || light->linear != 0 || light->quadratic != 0)
+                share = 1 / loss;
+            if (light->kind == LIGHT_SPOT) {
+                const double along = -vec3_dot(to_light, axis);
+                share *= along >= cos(light->cutoff * acos(-1) / 180)
+                             ? pow(fmax(along, 0), light->exponent)
+                             : 0;
+            }
+        }
+        const double facing = vec3_dot(normal, to_light);
+        Vec3 one = times(light->ambient, material->ambient);
+        if (facing > 0) {
+            const Vec3 mirrored = vec3_subtract(vec3_scale(normal, 2 * facing), to_light);
+            const double cosine = scene->reflection == REFLECTION_PHONG
+                                      ? vec3_dot(mirrored, viewer)
+                                      : vec3_dot(normal, vec3_unit(vec3_add(to_light, viewer)));
+            one = vec3_add(one, vec3_scale(times(light->diffuse, material->diffuse), facing));
+            one = vec3_add(one, vec3_scale(times(light->specular, material->specular),
+                                           pow(fmax(cosine, 0), material->shininess)));
+        }
+        sum = vec3_add(sum, vec3_scale(one, share));
+    }
+    return sum;
+}
+
+/* The color of a pixel's center in steps of 1/255; false where nothing is met, and for what has no
+ * formula here: a teapot, colors of vertices. */
+static bool own_color(const Scene *scene, int width, int height, int x, int y, double color[3])
+{
+    const Camera *camera = &scene->camera;
+    const Vec3 back = vec3_unit(vec3_subtract(camera->eye, camera->center));
+    const Vec3 right = vec3_unit(vec3_cross(camera->up, back)), up = vec3_cross(back, right);
+    /* What is seen of the width stays in narrow pictures. */
+    const double aspect = (double)width / height;
+    const double size = tan(camera->fovy * acos(-1) / 360) * fmax(1, camera->aspect / aspect);
+    const double across = ((2 * x + 1.0) / width - 1) * size * aspect;
+    const double above = (1 - (2 * y + 1.0) / height) * size;
+    const Vec3 along =
+        vec3_add(vec3_subtract(vec3_scale(right, across), back), vec3_scale(up, above));
+    const Object *seen = NULL;
+    Hit hit = {.t = INFINITY};
+    for (int i = 0; i < scene->object_count; i++) {
+        const Object *object = &scene->objects[i];
+        Mat4 inverse;
+        if (object->solid.kind == SOLID_TEAPOT || object->mesh->colors ||
+            object->mesh->lit_positions || !mat4_inverse(object->world_from_object, &inverse))
+            return false;
+        const Ray ray = {mat4_transform_point(inverse, camera->eye),
+                         mat4_transform_direction(inverse, along)};
+        const double before = hit.t;
+        meet_object(&hit, &ray, camera->near, camera->far, object,
+                    object->wrong_normals ? object->world_from_object : mat4_transpose(inverse));
+        if (hit.t < before)
+            seen = object;
+    }
+    if (!seen)
+        return false;
+    const Mat4 m = seen->world_from_object;
+    Mat4 inverse;
+    mat4_inverse(m, &inverse);
+    const Vec3 point = vec3_add(camera->eye, vec3_scale(along, hit.t));
+    const bool mesh = seen->solid.kind == SOLID_NONE || seen->solid.kind == SOLID_BOX ||
+                      seen->solid.kind == SOLID_QUAD;
+    const Mat4 normals = seen->wrong_normals ? m : mat4_transpose(inverse);
+    Vec3 normal = vec3_unit(mesh ? hit.normal : mat4_transform_direction(normals, hit.normal));
+    const bool behind = vec3_dot(hit.face, mat4_transform_direction(inverse, along)) > 0;
+    const bool back_side = behind != seen->clockwise && seen->two_sided;
+    if (back_side)
+        normal = vec3_scale(normal, -1);
+    const Vec3 sum = lit(scene, back_side ? &seen->back : &seen->front, point, normal,
+                         scene->distant_viewer ? back : vec3_unit(vec3_scale(along, -1)),
+                         (const Vec3[]){right, up, back});
+    const double channels[3] = {sum.x, sum.y, sum.z};
+    const bool clipped = scene->show_clipped && fmax(sum.x, fmax(sum.y, sum.z)) > 1;
+    for (int k = 0; k < 3; k++) {
+        double value = fmin(fmax(channels[k], 0), 1);
+        if (clipped)
+            value = k != 1;
+        if (scene->linear)
+            value = value <= 0.0031308 ? 12.92 * value : 1.055 * pow(value, 1 / 2.4) - 0.055;
+        color[k] = 255 * value;
+    }
+    return true;
+}
+
+/* Random scenes. */
+
+static Random randomness;
+
+static int below(int limit)
+{
+    return random_below(&randomness, limit);
+}
+
+static double between(double min, double max)
+{
+    return random_between(&randomness, min, max);
+}
+
+/* A sphere of 8 x 4, and two triangles that are bent. */
+static void write_models(void)
+{
+    static const char *const names[] = {"ball.obj", "bent.obj"};
+    FILE *file = fopen(names[0], "w");
+    assert_non_null(file);
+    for (int stack = 0; stack <= 4; stack++)
+        for (int slice = 0; slice < 8; slice++) {
+            const double a = acos(-1) * stack / 4, b = acos(-1) * slice / 4;
+            fprintf(file, "v %.6f %.6f %.6f\nvn %.6f %.6f %.6f\n", sin(a) * sin(b), cos(a),
+                    sin(a) * cos(b), sin(a) * sin(b), cos(a), sin(a) * cos(b));
+        }
+    for (int stack = 0; stack < 4; stack++)
+        for (int slice = 0; slice < 8; slice++) {
+            const int p = 8 * stack + slice + 1, q = 8 * stack + (slice + 1) % 8 + 1;
+            if (stack < 3)
+                fprintf(file, "f %d//%d %d//%d %d//%d\n", p, p, p + 8, p + 8, q + 8, q + 8);
+            if (stack > 0)
+                fprintf(file, "f %d//%d %d//%d %d//%d\n", p, p, q + 8, q + 8, q, q);
+        }
+    fclose(file);
+    file = fopen(names[1], "w");
+    assert_non_null(file);
+    fprintf(file, "v -1 0 0\nv 1 0 0\nv 0 1 0.5\nv 0 -1 0.5\nf 1 2 3\nf 2 1 4\n");
+    fclose(file);
+}
+
+static void any_value(const Parameter *parameter, char *line, size_t size)
+{
+    static const char *const models[] = {"ball.obj", "bent.obj"};
+    const char *const *choices = parameter_choices(parameter);
+    char text[64] = "";
+    int count = 0;
+    while (choices && choices[count])
+        count++;
+    switch (parameter->kind) {
+    case PARAMETER_NUMBER:
+        snprintf(
+            text, sizeof text, "%.3f",
+            fmin(parameter->max, fmax(parameter->min, between(parameter->min, parameter->max))));
+        break;
+    case PARAMETER_WHOLE:
+        snprintf(text, sizeof text, "%d",
+                 (int)parameter->min + below((int)(parameter->max - parameter->min) + 1));
+        break;
+    case PARAMETER_CHOICE:
+    case PARAMETER_SWITCH:
+        snprintf(text, sizeof text, "%s", choices[below(count)]);
+        break;
+    case PARAMETER_COLOR:
+        snprintf(text, sizeof text, "%.2f,%.2f,%.2f", between(parameter->min, parameter->max),
+                 below(3) ? parameter->min : between(parameter->min, parameter->max),
+                 between(parameter->min, parameter->max));
+        break;
+    case PARAMETER_TEXT:
+        if (strcmp(parameter->name, "model") != 0 || below(3))
+            return;
+        snprintf(text, sizeof text, "%s", models[below(2)]);
+        break;
+    case PARAMETER_FLAG:
+        return;
+    }
+    snprintf(line, size, "--%s=%s", parameter->name, text);
+}
+
+enum { MAX_WORDS = 56 };
+
+/* A command line, as one would type it. */
+typedef struct Command {
+    const Example *example;
+    char words[MAX_WORDS][96];
+    int count;
+} Command;
+
+static void __attribute__((format(printf, 2, 3))) add(Command *command, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(command->words[command->count++], sizeof command->words[0], format, arguments);
+    va_end(arguments);
+}
+
+/* Whether --error may choose this itself, if it is not given. */
+static bool is_chosen(const Parameter *parameter)
+{
+    static const char *const names[] = {"interpolation", "viewer", "normals", "slices", "stacks"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        if (strcmp(parameter->name, names[i]) == 0)
+            return true;
+    return false;
+}
+
+/* `error`: 0: any; else this one, and nothing is given that can be chosen. */
+static Command any_command(bool large, double error)
+{
+    static const double errors[] = {0.6, 1, 2, 4, 8, 16, 32};
+    const double any = errors[below(7)];
+    Command command = {.example = EXAMPLES[below(EXAMPLE_COUNT)]};
+    const double most = large ? 1600 : 400;
+    const Parameter *own = example_parameters(command.example);
+    add(&command, "--error=%g", error > 0 ? error : any);
+    add(&command, "--size=%dx%d", (int)(50 * pow(most / 50, between(0, 1))),
+        (int)(50 * pow(0.75 * most / 50, between(0, 1))));
+    if (below(2))
+        add(&command, "--time=%.2f", between(0, 12));
+    if (below(2))
+        add(&command, "--orbit=%.1f,%.1f,%.2f", between(-180, 180), between(-80, 80),
+            between(0.4, 2));
+    if (below(6) == 0)
+        add(&command, "--linear-light");
+    if (below(8) == 0)
+        add(&command, "--clamp=vertex");
+    if (below(10) == 0)
+        add(&command, "--full");
+    if (below(12) == 0 && error == 0)
+        add(&command, "--samples=4");
+    if (below(12) == 0 && error == 0)
+        add(&command, "--precision=mediump");
+    for (; own && own->name && command.count < MAX_WORDS - 4; own++) {
+        if (below(2) || (error > 0 && is_chosen(own)))
+            continue;
+        command.words[command.count][0] = '\0';
+        any_value(own, command.words[command.count], sizeof command.words[0]);
+        command.count += command.words[command.count][0] != '\0';
+    }
+    return command;
+}
+
+/* Judging. */
+
+typedef struct Verdict {
+    double allowed, reached;            /* what was asked, and what the program says */
+    double by_reference, by_own, apart; /* own from the reference */
+    long long pixels, own_pixels;
+    double plain;      /* the plain picture's error */
+    double over_plain; /* time */
+} Verdict;
+
+static double apart(const unsigned char *bytes, const double color[3])
+{
+    double largest = 0;
+    for (int k = 0; k < 3; k++)
+        largest = fmax(largest, fabs(bytes[k] - color[k]));
+    return largest;
+}
+
+static double smallest_alpha(const Scene *scene)
+{
+    double alpha = 1;
+    for (int i = 0; i < scene->object_count; i++) {
+        alpha = fmin(alpha, scene->objects[i].front.alpha);
+        if (scene->objects[i].two_sided)
+            alpha = fmin(alpha, scene->objects[i].back.alpha);
+    }
+    return alpha;
+}
+
+static void judge_view(const ErrorPicture *picture, const ErrorView *view, int samples,
+                       Verdict *verdict)
+{
+    const int *place = view->place;
+    const Scene *scene = &view->asked.scene;
+    const ReferenceOptions options = {.width = place[2], .height = place[3]};
+    const double alpha = floor(255 * smallest_alpha(scene));
+    Reference exact;
+    require(reference_open(&exact, scene, &options, FAILURE), FAILURE);
+    long long inside = 0, looked = 0;
+    for (int i = 0; i < place[2] * place[3]; i++)
+        inside += exact.interior[i];
+    for (int y = 0; y < place[3]; y++) {
+        for (int x = 0; x < place[2]; x++) {
+            const int i = y * place[2] + x;
+            const unsigned char *bytes =
+                (const unsigned char *)picture->image.pixels +
+                4 * ((size_t)(place[1] + y) * (size_t)picture->image.width +
+                     (size_t)(place[0] + x));
+            double color[3], own[3];
+            /* Inside both outlines. */
+            if (!exact.interior[i] || bytes[3] < alpha)
+                continue;
+            for (int k = 0; k < 3; k++)
+                color[k] = 255 * (double)exact.color[3 * i + k];
+            const double off = apart(bytes, color);
+            verdict->pixels++;
+            const bool worst = off > verdict->by_reference;
+            verdict->by_reference = fmax(verdict->by_reference, off);
+            /* Every worst pixel so far, and some others. */
+            if (!worst && (inside > samples && random_below(&randomness, (int)(inside / samples))))
+                continue;
+            if (looked++ > 2 * samples || !own_color(scene, place[2], place[3], x, y, own))
+                continue;
+            verdict->own_pixels++;
+            verdict->by_own = fmax(verdict->by_own, apart(bytes, own));
+            for (int k = 0; k < 3; k++)
+                verdict->apart = fmax(verdict->apart, fabs(own[k] - color[k]));
+        }
+    }
+    reference_close(&exact);
+}
+
+static double frame(Stage *stage, const Options *options)
+{
+    glFinish();
+    const double start = clock_now();
+    require(stage_draw(stage, options, options->seconds, FAILURE), FAILURE);
+    glFinish();
+    return clock_now() - start;
+}
+
+static int by_size(const void *a, const void *b)
+{
+    const double *x = a, *y = b;
+    return (*x > *y) - (*x < *y);
+}
+
+static double median(double *values, int count)
+{
+    qsort(values, (size_t)count, sizeof *values, by_size);
+    return count ? values[count / 2] : NAN;
+}
+
+/* The median of the ratios of frames drawn in turn, after one each that compiles. */
+static double measure(Stage *stage, const Options *options)
+{
+    enum { FRAMES = 5 };
+    double ratios[FRAMES];
+    Options plain = *options;
+    plain.cheap = false;
+    frame(stage, options);
+    frame(stage, &plain);
+    for (int i = 0; i < FRAMES; i++) {
+        const double own = frame(stage, options);
+        ratios[i] = own / frame(stage, &plain);
+    }
+    return median(ratios, FRAMES);
+}
+
+/* Runs a command as its program does, up to the picture, and judges that, or measures its time. */
+static Verdict run(const Command *command, bool timed)
+{
+    const Example *example = command->example;
+    const Usage usage = options_usage(example);
+    const Parameter *own = example_parameters(example);
+    ParameterValue before[OPTIONS_MAX_PARAMETERS];
+    char *words[MAX_WORDS + 2] = {(char *)example->name};
+    Options options;
+    Canvas canvas;
+    Stage stage;
+    ErrorPicture picture;
+    Verdict verdict = {.allowed = 0};
+    for (int i = 0; own && own[i].name; i++)
+        before[i] = parameter_save(&own[i]);
+    for (int i = 0; i < command->count; i++)
+        words[1 + i] = (char *)command->words[i];
+    require(options_read(&options, &usage, command->count + 1, words, FAILURE) == OPTIONS_RUN,
+            FAILURE);
+    options.alpha = true;
+    require(stage_open_canvas(&canvas, &options, "x.png", FAILURE), FAILURE);
+    require(stage_open(&stage, example, &canvas, &options, FAILURE), FAILURE);
+    verdict.allowed = options.error;
+    for (int frame_number = 0; frame_number < options.frames; frame_number++) {
+        require(stage_error_picture(&stage, &options, options.seconds + frame_number / options.fps,
+                                    &picture, FAILURE),
+                FAILURE);
+        for (int i = 0; i < picture.view_count && !timed; i++)
+            judge_view(&picture, &picture.views[i], 300 / (options.frames * picture.view_count) + 1,
+                       &verdict);
+        error_picture_close(&picture);
+    }
+    verdict.reached = options.error;
+    for (int i = 0; i < stage.choice_count; i++) {
+        verdict.reached = fmax(verdict.reached, stage.choices[i].error);
+        verdict.plain = fmax(verdict.plain, stage.choices[i].plain_error);
+    }
+    if (timed && verdict.reached <= verdict.allowed)
+        verdict.over_plain = measure(&stage, &options);
+    stage_close(&stage);
+    canvas_close(&canvas);
+    for (int i = 0; own && own[i].name; i++)
+        parameter_restore(&own[i], before[i]);
+    return verdict;
+}
+
+static void print_command(const Command *command)
+{
+    print_message("%s", command->example->name);
+    for (int i = 0; i < command->count; i++)
+        print_message(" %s", command->words[i]);
+}
+
+/* Whether the command keeps its word; says what it found if not. */
+static bool check(const Command *command, Verdict *found)
+{
+    const Verdict verdict = run(command, false);
+    *found = verdict;
+    const double limit = fmax(verdict.allowed, verdict.reached) + SLACK;
+    const bool kept = verdict.by_reference <= limit && verdict.by_own <= limit;
+    /* The two evaluators agree to a thousandth of a step. */
+    const bool agree = verdict.apart < 1e-3;
+    if (!kept || !agree || getenv("LIGHTING_TEST_VERBOSE")) {
+        print_message("%s", kept && agree ? "" : "FAILED: ");
+        print_command(command);
+        print_message(": allowed %g, said %.2f, is %.3f by the reference (%lld pixels), %.3f by "
+                      "the own evaluator (%lld), which are %.2g apart; plain %.2f\n",
+                      verdict.allowed, verdict.reached, verdict.by_reference, verdict.pixels,
+                      verdict.by_own, verdict.own_pixels, verdict.apart, verdict.plain);
+    }
+    return kept && agree;
+}
+
+/* Those that a table of classes got wrong. */
+TEST(scenes_that_were_wrong_are_right)
+{
+    static const double errors[] = {1, 2, 4, 8, 16, 32};
+    static const struct {
+        const Example *example;
+        const char *words[8];
+        double error; /* 0: all of the above */
+    } cases[] = {
+        {&Materials, {"--shininess=8"}, 0},
+        {&Materials, {"--shape=torus", "--shininess=8"}, 0},
+        {&Materials, {"--shape=torus", "--specular=0,0,0"}, 0},
+        {&Materials, {"--shape=sphere", "--shininess=8"}, 0},
+        {&Materials, {"--shape=tetrahedron", "--specular=0,0,0", "--diffuse=1,1,1"}, 0},
+        {&Materials, {NULL}, 32},
+        {&Materials, {"--model=ball.obj", "--shininess=16"}, 32},
+        {&SmoothFlat, {NULL}, 28},
+        {&SmoothFlat, {"--time=1", "--slices=3", "--stacks=2"}, 32},
+        {&SpotLight, {"--time=1", "--exponent=128", "--cutoff=90", "--orbit=0,0,0.4"}, 4},
+        {&ShininessRow, {NULL}, 130},
+        {&PhongBlinn, {NULL}, 0.6},
+        {&SmoothFlat,
+         {"--size=106x348", "--orbit=-72.6,79.7,0.83", "--shape=square", "--slices=61",
+          "--shininess=57.999"},
+         2},
+        /* Small pictures, in which colors differ much from pixel to pixel. */
+        {&Materials,
+         {"--size=320x107", "--time=8.02", "--orbit=-103.7,42.5,0.59", "--material=red_rubber",
+          "--sheet=on"},
+         4},
+        {&Materials, {"--size=51x248", "--time=7.97", "--orbit=-18.0,62.5,1.57", "--sheet=on"}, 32},
+    };
+    bool all = true;
+    int number = 0;
+    write_models();
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        for (size_t e = 0; e < sizeof errors / sizeof errors[0]; e++) {
+            const bool one = cases[i].error != 0;
+            Command command = {.example = cases[i].example};
+            Verdict verdict;
+            if ((one && e > 0) || number++ % testing_step(14))
+                continue;
+            for (int k = 0; cases[i].words[k]; k++)
+                add(&command, "%s", cases[i].words[k]);
+            add(&command, "--error=%g", one ? cases[i].error : errors[e]);
+            all &= check(&command, &verdict) && verdict.reached <= verdict.allowed;
+        }
+    }
+    assert_true(all);
+}
+
+TEST(random_scenes_keep_the_error_that_is_allowed)
+{
+    /* A scene takes 1 to 10 s. LIGHTING_TEST_CASES asks for more of them. */
+    enum { CASES = 60 };
+    const char *asked = getenv("LIGHTING_TEST_CASES");
+    const int count = asked ? atoi(asked) : CASES / testing_step(10);
+    const bool large = testing_step(2) == 1;
+    int broken = 0, unreached = 0;
+    randomness.state = testing_seed(1);
+    write_models();
+    for (int i = 0; i < count; i++) {
+        Command command = any_command(large && i % 8 == 0, 0);
+        Verdict verdict;
+        broken += !check(&command, &verdict);
+        unreached += verdict.reached > verdict.allowed;
+    }
+    print_message("%d scenes, %d broken; %d where the error cannot be kept\n", count, broken,
+                  unreached);
+    assert_int_equal(broken, 0);
+}
+
+/* Three times as many pictures as moments at which the choice is tested. */
+TEST(animations_keep_the_error_between_the_moments)
+{
+    enum { CASES = 12 };
+    const int count = CASES / testing_step(6);
+    int broken = 0;
+    randomness.state = testing_seed(2);
+    write_models();
+    for (int i = 0; i < count; i++) {
+        Command command = any_command(false, 0);
+        Verdict verdict;
+        /* Later options replace earlier ones. Two seconds, 60 degrees. */
+        add(&command, "--size=%dx%d", 40 + below(60), 40 + below(60));
+        add(&command, "--frames=51");
+        add(&command, "--fps=25");
+        /* Where it cannot be kept, it is said for the moments alone. */
+        broken += !check(&command, &verdict) && verdict.reached <= verdict.allowed;
+    }
+    assert_int_equal(broken, 0);
+}
+
+FIXTURE(enter)
+{
+    testing_enter_folder(NULL);
+    setenv("XDG_CACHE_HOME", testing_folder, 1);
+    return 0;
+}
+
+FIXTURE(leave)
+{
+    unsetenv("XDG_CACHE_HOME");
+    return testing_leave_folder(NULL);
+}
+
+/* Cheaper: by more than the noise of a twentieth. Of scenes that keep the error. */
+static int print_table(void)
+{
+    enum { CASES = 24 };
+    static const double errors[] = {1, 2, 4, 8, 16};
+    printf(
+        "| E | plain keeps it | kept | cheaper | their time | dearer | their time | median of all |\n"
+        "|---|---|---|---|---|---|---|---|\n");
+    write_models();
+    for (size_t e = 0; e < sizeof errors / sizeof errors[0]; e++) {
+        double all[CASES], cheaper[CASES], dearer[CASES];
+        int count = 0, fewer = 0, more = 0, plain = 0;
+        randomness.state = 1;
+        for (int i = 0; i < CASES; i++) {
+            const Command command = any_command(false, errors[e]);
+            const Verdict verdict = run(&command, true);
+            plain += verdict.plain <= errors[e];
+            if (verdict.reached > errors[e])
+                continue;
+            all[count++] = verdict.over_plain;
+            if (verdict.over_plain < 0.95)
+                cheaper[fewer++] = verdict.over_plain;
+            else if (verdict.over_plain > 1.05)
+                dearer[more++] = verdict.over_plain;
+        }
+        printf("| %g | %.0f%% | %.0f%% | %.0f%% | %.2f | %.0f%% | %.2f | %.2f |\n", errors[e],
+               100.0 * plain / CASES, 100.0 * count / CASES, 100.0 * fewer / CASES,
+               median(cheaper, fewer), 100.0 * more / CASES, median(dearer, more),
+               median(all, count));
+        fflush(stdout);
+    }
+    return 0;
+}
+
+int main(int argc, char *argv[])
+{
+    if (argc < 2 || strcmp(argv[1], "--markdown") != 0)
+        return picture_check_run("cheapest", enter, leave);
+    enter(NULL);
+    const int code = print_table();
+    leave(NULL);
+    return code;
+}

@@ -1,0 +1,458 @@
+/*
+ * The error computed in the background is compared with the same error computed here, for every
+ * example and each option that changes the exact picture. Everything is drawn, and the canvas
+ * closed, before the first thread starts, so that a thread checker sees only this project's
+ * threads.
+ */
+#include "app/stage.h"
+#include "base/clock.h"
+#include "reference/error_worker.h"
+#include "scene/scene_example.h"
+#include "shapes/mesh_solids.h"
+#include "support/picture_check.h"
+#include "support/testing.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#define X(NAME) extern const Example NAME;
+LIGHTING_EXAMPLES
+#undef X
+
+#define X(NAME) &NAME,
+static const Example *const EXAMPLES[] = {LIGHTING_EXAMPLES};
+#undef X
+
+enum { EXAMPLE_COUNT = sizeof EXAMPLES / sizeof EXAMPLES[0], WIDTH = 200, HEIGHT = 150 };
+
+static const double SECONDS = 1.3, ERROR = 4;
+
+#define SIZE .width = WIDTH, .height = HEIGHT
+
+/* Options that change the exact picture, or should not. */
+static const struct {
+    const char *name, *output;
+    Options options;
+    bool teapots; /* draw also those examples whose exact pictures take long */
+} WAYS[] = {
+    {"", "x.png", {SIZE}, true},
+    {"--linear", "x.png", {SIZE, .linear = true}, false},
+    {"--clamp vertex", "x.png", {SIZE, .clamp_vertex = true}, false},
+    {"--show-clipped", "x.png", {SIZE, .show_clipped = true}, false},
+    {"--orbit 30,10,0.8", "x.png", {SIZE, .orbit = {30, 10, 0.8}}, false},
+    {"--alpha", "x.png", {SIZE, .alpha = true}, false},
+    {"--samples 4", "x.png", {SIZE, .canvas = {.samples = 4}}, false},
+    {"floats", "x.exr", {SIZE}, false},
+    {"--error 4", "x.png", {SIZE, .cheap = true, .error = 4}, true},
+    {"-s 1x1", "x.png", {.width = 1, .height = 1}, true},
+    /* Less than a pixel for some of several views. */
+    {"-s 2x1", "x.png", {.width = 2, .height = 1}, true},
+};
+
+enum { WAY_COUNT = sizeof WAYS / sizeof WAYS[0] };
+
+/* A drawn picture, and its known error. */
+typedef struct Case {
+    char name[64];
+    ErrorPicture picture;
+    PictureError expected;
+} Case;
+
+static Case cases[WAY_COUNT][EXAMPLE_COUNT];
+
+static bool is_drawn(int way, int example)
+{
+    const bool teapot = EXAMPLES[example] == &Materials || EXAMPLES[example] == &FourLights ||
+                        EXAMPLES[example] == &TermsApart;
+    const int step = testing_step(3);
+    if (step > 1 && way > 0 && (teapot || (!WAYS[way].options.cheap && (way + example) % step)))
+        return false;
+    return WAYS[way].teapots || !teapot;
+}
+
+/* The scene of a view from the example itself, changed as the options say. */
+static Scene scene_of(const Example *example, const Options *options, int view)
+{
+    Scene scene = {.object_count = 0};
+    example->scene->make(SECONDS, view, &scene);
+    orbit_move(options->orbit, &scene.camera.eye, scene.camera.center, &scene.camera.up);
+    const Usage usage = options_usage(example);
+    int width, height, columns = 1, rows = 1;
+    options_size(&usage, &width, &height);
+    if (example->scene->layout)
+        example->scene->layout(&columns, &rows);
+    scene.camera.aspect = (double)width * rows / ((double)height * columns);
+    scene.clamp_vertex |= options->clamp_vertex;
+    scene.linear |= options->linear;
+    scene.show_clipped |= options->show_clipped;
+    return scene;
+}
+
+/* Of all views, pixel by pixel. The meshes as drawn, the stage's own, count only in views with
+ * solids: other meshes are the exact shapes. */
+static PictureError expect(const Example *example, const Options *options, const Image *image)
+{
+    PictureError error = {.all = {0}};
+    int columns = 1, rows = 1;
+    if (example->scene->layout)
+        example->scene->layout(&columns, &rows);
+    for (int view = 0; view < columns * rows; view++) {
+        const int column = view % columns, row = view / columns;
+        const int left = column * (image->width / columns), top = row * (image->height / rows);
+        const int right = left + image->width / columns;
+        const int bottom = top + image->height / rows;
+        Scene scene = scene_of(example, options, view);
+        if (right == left || bottom == top || scene.object_count == 0)
+            continue;
+        Reference exact, meshes;
+        bool has_solids = false;
+        for (int i = 0; i < scene.object_count; i++)
+            has_solids |= scene.objects[i].solid.kind != SOLID_NONE;
+        ReferenceOptions size = {.width = right - left, .height = bottom - top};
+        require(reference_open(&exact, &scene, &size, FAILURE), FAILURE);
+        size.meshes = true;
+        size.edge_error = 255;
+        scene.light_count = 0;
+        scene.interpolation = INTERPOLATION_PHONG;
+        require(reference_open(&meshes, &scene, &size, FAILURE), FAILURE);
+        picture_error_add(&error, image, left, top, &exact, has_solids ? &meshes : NULL);
+        reference_close(&exact);
+        reference_close(&meshes);
+    }
+    return error;
+}
+
+static void draw_case(Stage *stage, int way, Case *made)
+{
+    const Example *example = stage->example;
+    Options options = WAYS[way].options;
+    options.shaders.precision = "highp";
+    snprintf(made->name, sizeof made->name, "%s %s", example->name, WAYS[way].name);
+    require(stage_error_picture(stage, &options, SECONDS, &made->picture, FAILURE), FAILURE);
+    made->expected = expect(example, &options, &made->picture.image);
+}
+
+FIXTURE(draw_all)
+{
+    for (int way = 0; way < WAY_COUNT; way++) {
+        for (int i = 0; i < EXAMPLE_COUNT; i++) {
+            Options options = WAYS[way].options;
+            Canvas canvas;
+            Stage stage;
+            options.shaders.precision = "highp";
+            if (!is_drawn(way, i))
+                continue;
+            require(stage_open_canvas(&canvas, &options, WAYS[way].output, FAILURE), FAILURE);
+            require(stage_open(&stage, EXAMPLES[i], &canvas, &options, FAILURE), FAILURE);
+            draw_case(&stage, way, &cases[way][i]);
+            stage_close(&stage);
+            canvas_close(&canvas);
+        }
+    }
+    return 0;
+}
+
+FIXTURE(forget_all)
+{
+    for (int way = 0; way < WAY_COUNT; way++)
+        for (int i = 0; i < EXAMPLE_COUNT; i++)
+            error_picture_close(&cases[way][i].picture);
+    return 0;
+}
+
+static void pause_for(double seconds)
+{
+    const struct timespec time = {(time_t)seconds, (long)(1e9 * fmod(seconds, 1))};
+    nanosleep(&time, NULL);
+}
+
+static ErrorResult wait_for(ErrorWorker *worker)
+{
+    ErrorResult result;
+    while (error_worker_busy(worker))
+        pause_for(1e-3);
+    error_worker_result(worker, &result);
+    return result;
+}
+
+static void assert_same_sum(const char *name, const ErrorSum *a, const ErrorSum *b)
+{
+    if (a->pixels != b->pixels || a->wrong != b->wrong || a->squares != b->squares ||
+        a->maximum != b->maximum || a->worst != b->worst)
+        fail_msg("%s: %lld pixels, %lld wrong, largest %.17g; not %lld, %lld, %.17g", name,
+                 a->pixels, a->wrong, a->maximum, b->pixels, b->wrong, b->maximum);
+}
+
+/* A copy of a picture, because the worker takes ownership. */
+static ErrorPicture copy_of(const ErrorPicture *picture)
+{
+    ErrorPicture copy;
+    const Image *image = &picture->image;
+    require(error_picture_open(&copy, image->width, image->height, image->type, picture->view_count,
+                               FAILURE),
+            FAILURE);
+    memcpy(copy.image.pixels, image->pixels, image_row_size(image) * (size_t)image->height);
+    copy.seconds = picture->seconds;
+    for (int i = 0; i < picture->view_count; i++) {
+        const ErrorView *view = &picture->views[i];
+        require(error_picture_add(&copy, view->place, &view->asked.scene,
+                                  view->drawn.objects ? &view->drawn.scene : NULL, FAILURE),
+                FAILURE);
+    }
+    return copy;
+}
+
+static ErrorWorker *open_worker(void)
+{
+    ErrorWorker *worker;
+    require(error_worker_open(&worker, FAILURE), FAILURE);
+    return worker;
+}
+
+TEST(the_worker_finds_the_error_that_is_computed_here)
+{
+    ErrorWorker *worker = open_worker();
+    for (int way = 0; way < WAY_COUNT; way++) {
+        for (int i = 0; i < EXAMPLE_COUNT; i++) {
+            const Case *of = &cases[way][i];
+            if (!is_drawn(way, i))
+                continue;
+            ErrorPicture picture = copy_of(&of->picture);
+            error_worker_start(worker, &picture);
+            assert_null(picture.views);
+            assert_null(picture.image.pixels);
+            const ErrorResult result = wait_for(worker);
+            require(result.known, &result.message);
+            assert_false(result.computing);
+            assert_true(result.seconds == SECONDS);
+            assert_same_sum(of->name, &result.error.all, &of->expected.all);
+            if (!WAYS[way].options.cheap)
+                assert_same_sum(of->name, &result.error.interior, &of->expected.interior);
+            if (WAYS[way].options.width == WIDTH)
+                print_message("%-34s inside rms %6.3f, largest %7.2f; all rms %6.3f, largest "
+                              "%7.2f; %4.0f ms\n",
+                              of->name, error_sum_rms(&result.error.interior),
+                              result.error.interior.maximum, error_sum_rms(&result.error.all),
+                              result.error.all.maximum, result.milliseconds);
+        }
+    }
+    error_worker_close(worker);
+}
+
+/* The exact picture does not follow the setting that was chosen for the drawn one: the error found
+ * is then that which was allowed, neither next to none nor that of the usual setting. */
+TEST(an_error_that_was_allowed_is_kept)
+{
+    bool all = true, differ = false;
+    for (int way = 0; way < WAY_COUNT; way++) {
+        for (int i = 0; i < EXAMPLE_COUNT && WAYS[way].options.cheap; i++) {
+            PictureError error;
+            if (!is_drawn(way, i))
+                continue;
+            require(error_worker_compute(&cases[way][i].picture, 1, NULL, &error, FAILURE),
+                    FAILURE);
+            print_message("%-34s inside %.2f, usually %.2f\n", cases[way][i].name,
+                          error.interior.maximum, cases[0][i].expected.interior.maximum);
+            all &= error.interior.pixels > 0 && error.interior.maximum <= ERROR;
+            differ |= error.interior.maximum > 1;
+        }
+    }
+    assert_true(all);
+    assert_true(differ);
+}
+
+/* The exact picture has no overlay: an overlay would be a large error. With lighting at every
+ * fragment only rounding is left. */
+TEST(overlays_are_not_drawn)
+{
+    int found = 0;
+    for (int i = 0; i < EXAMPLE_COUNT; i++) {
+        if (EXAMPLES[i] != &TwoSidedLighting)
+            continue;
+        /* A half from bytes, and less than a hundredth from floats. */
+        assert_true(cases[0][i].expected.interior.maximum < 0.51);
+        found++;
+    }
+    assert_int_equal(found, 1);
+}
+
+TEST(every_pixel_of_every_view_counts_once)
+{
+    for (int way = 0; way < WAY_COUNT; way++) {
+        for (int i = 0; i < EXAMPLE_COUNT; i++) {
+            const Options *options = &WAYS[way].options;
+            const long long pixels = cases[way][i].expected.all.pixels;
+            if (!is_drawn(way, i))
+                continue;
+            int columns = 1, rows = 1;
+            if (EXAMPLES[i]->scene->layout)
+                EXAMPLES[i]->scene->layout(&columns, &rows);
+            /* PhongBlinn's third view is the difference of the others, not a scene. */
+            const int views = EXAMPLES[i] == &PhongBlinn ? 2 : columns * rows;
+            assert_int_equal(pixels, views * (options->width / columns) * (options->height / rows));
+        }
+    }
+}
+
+/* A teapot, which takes long, in a scene of its own. */
+typedef struct Pot {
+    Mesh mesh;
+    Light light;
+    Object object;
+    Scene scene;
+} Pot;
+
+static void pot_open(Pot *pot, SolidKind kind)
+{
+    require(mesh_teapot(&pot->mesh, 1, 10, FAILURE), FAILURE);
+    pot->light = (Light){.direction = {1, 1, 1}, .diffuse = {1, 1, 1}, .specular = {1, 1, 1}};
+    pot->object = (Object){.mesh = &pot->mesh,
+                           .solid = {.kind = kind, .radius = 1},
+                           .world_from_object = mat4_identity(),
+                           .front = {.diffuse = {0.6, 0.5, 0.4}, .alpha = 1, .shininess = 20}};
+    pot->scene = (Scene){.camera = {{0, 2, 5}, {0, 0, 0}, {0, 1, 0}, 40, 1, 20, 0},
+                         .lights = &pot->light,
+                         .light_count = 1,
+                         .objects = &pot->object,
+                         .object_count = 1};
+}
+
+static ErrorPicture picture_of(const Scene *scene, int width, int height, double seconds)
+{
+    const int place[4] = {0, 0, width, height};
+    ErrorPicture picture;
+    require(error_picture_open(&picture, width, height, IMAGE_BYTE, 1, FAILURE), FAILURE);
+    memset(picture.image.pixels, 100, image_row_size(&picture.image) * (size_t)height);
+    picture.seconds = seconds;
+    require(error_picture_add(&picture, place, scene, NULL, FAILURE), FAILURE);
+    return picture;
+}
+
+/* Everything the scene points to is overwritten and freed as soon as the picture has been handed
+ * over. */
+TEST(the_scene_may_be_freed_at_once)
+{
+    for (int i = 0; i < 2; i++) {
+        Pot pot;
+        PictureError expected;
+        pot_open(&pot, i ? SOLID_TEAPOT : SOLID_NONE);
+        ErrorPicture picture = picture_of(&pot.scene, 120, 90, 0);
+        require(error_worker_compute(&picture, 2, NULL, &expected, FAILURE), FAILURE);
+        ErrorWorker *worker = open_worker();
+        error_worker_start(worker, &picture);
+        memset(pot.mesh.vertices, 0xFF, pot.mesh.vertex_count * sizeof *pot.mesh.vertices);
+        memset(pot.mesh.indices, 0xFF, pot.mesh.index_count * sizeof *pot.mesh.indices);
+        mesh_close(&pot.mesh);
+        memset(&pot, 0xFF, sizeof pot);
+        const ErrorResult result = wait_for(worker);
+        require(result.known, &result.message);
+        assert_same_sum("all", &result.error.all, &expected.all);
+        assert_same_sum("inside", &result.error.interior, &expected.interior);
+        assert_true(result.error.interior.pixels > 1000);
+        error_worker_close(worker);
+    }
+}
+
+/* Cancelled while it makes the mesh, its hierarchy, and the picture. */
+TEST(a_cancelled_computation_ends_soon)
+{
+    static const double after[] = {0, 0.01, 0.05, 0.1, 0.2, 0.4, 0.8};
+    Pot pot;
+    double longest = 0;
+    pot_open(&pot, SOLID_TEAPOT);
+    for (size_t i = 0; i < sizeof after / sizeof after[0]; i++) {
+        ErrorWorker *worker = open_worker();
+        ErrorResult result;
+        ErrorPicture picture = picture_of(&pot.scene, 1600, 1200, 1);
+        error_worker_start(worker, &picture);
+        pause_for(after[i]);
+        const double start = clock_now();
+        error_worker_cancel(worker);
+        const double cancelled = clock_now();
+        assert_false(error_worker_busy(worker));
+        error_worker_result(worker, &result);
+        assert_false(result.known || result.computing || result.message.text[0]);
+        error_worker_close(worker);
+        const double closed = clock_now();
+        print_message("after %3.0f ms: cancelled in %.2f ms, closed in %.1f ms\n", 1e3 * after[i],
+                      1e3 * (cancelled - start), 1e3 * (closed - start));
+        longest = fmax(longest, closed - start);
+    }
+    print_message("closed in %.1f ms at most\n", 1e3 * longest);
+    mesh_close(&pot.mesh);
+}
+
+TEST(the_newest_picture_counts)
+{
+    Pot pot;
+    ErrorWorker *worker = open_worker();
+    ErrorResult result;
+    pot_open(&pot, SOLID_NONE);
+    error_worker_result(worker, &result);
+    assert_false(result.known || result.computing);
+    for (int i = 0; i < 20; i++) {
+        ErrorPicture picture = picture_of(&pot.scene, i < 19 ? 400 : 40, 30, i);
+        error_worker_start(worker, &picture);
+        assert_true(error_worker_busy(worker) || i == 19);
+        pause_for(1e-3 * (i % 4));
+    }
+    result = wait_for(worker);
+    require(result.known, &result.message);
+    assert_true(result.seconds == 19);
+    assert_int_equal(result.error.all.pixels, 40 * 30);
+    /* A known error is kept while the next one is computed, and discarded with a cancelled one. */
+    ErrorPicture next = picture_of(&pot.scene, 1000, 1000, 20);
+    error_worker_start(worker, &next);
+    error_worker_result(worker, &result);
+    assert_true(result.known && result.computing && result.seconds == 19);
+    error_worker_cancel(worker);
+    error_worker_result(worker, &result);
+    assert_false(result.known || result.computing);
+    next = picture_of(&pot.scene, 10, 10, 21);
+    error_worker_start(worker, &next);
+    assert_true(wait_for(worker).known);
+    error_worker_close(worker);
+    mesh_close(&pot.mesh);
+}
+
+TEST(a_failed_computation_has_a_message)
+{
+    Pot pot;
+    ErrorWorker *worker = open_worker();
+    pot_open(&pot, SOLID_NONE);
+    pot.scene.camera.center = pot.scene.camera.eye;
+    ErrorPicture picture = picture_of(&pot.scene, 10, 10, 0);
+    error_worker_start(worker, &picture);
+    ErrorResult result = wait_for(worker);
+    assert_false(result.known);
+    assert_non_null(strstr(result.message.text, "camera: eye (0, 2, 5), center (0, 2, 5)"));
+    pot.scene.camera.center = (Vec3){0, 0, 0};
+    picture = picture_of(&pot.scene, 10, 10, 0);
+    error_worker_start(worker, &picture);
+    result = wait_for(worker);
+    assert_true(result.known);
+    assert_string_equal(result.message.text, "");
+    error_worker_close(worker);
+    mesh_close(&pot.mesh);
+}
+
+TEST(nothing_to_compare_is_no_error)
+{
+    ErrorPicture picture = {.views = NULL}, empty;
+    error_picture_close(NULL);
+    error_picture_close(&picture);
+    error_worker_close(NULL);
+    require(error_picture_open(&empty, 3, 2, IMAGE_FLOAT, 0, FAILURE), FAILURE);
+    ErrorWorker *worker = open_worker();
+    error_worker_start(worker, &empty);
+    const ErrorResult result = wait_for(worker);
+    assert_true(result.known);
+    assert_int_equal(result.error.all.pixels, 0);
+    assert_true(isnan(error_sum_rms(&result.error.all)));
+    error_worker_close(worker);
+}
+
+PICTURE_TEST_MAIN("error worker", draw_all, forget_all)

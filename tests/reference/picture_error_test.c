@@ -1,0 +1,264 @@
+/*
+ * The errors of pictures written pixel by pixel, so that every error, its place and every count is
+ * known.
+ */
+#include "reference/picture_error.h"
+#include "support/testing.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { WIDTH = 7, HEIGHT = 5, COUNT = WIDTH * HEIGHT };
+
+/* An exact picture of one color, all of it interior. */
+typedef struct Plain {
+    float color[3 * COUNT];
+    unsigned char interior[COUNT];
+    Reference exact;
+} Plain;
+
+static void plain_open(Plain *plain, int width, int height, float value)
+{
+    for (int i = 0; i < 3 * COUNT; i++)
+        plain->color[i] = value;
+    memset(plain->interior, 1, sizeof plain->interior);
+    plain->exact = (Reference){
+        .width = width, .height = height, .color = plain->color, .interior = plain->interior};
+}
+
+static Image open_image(int width, int height, ImageType type, double value)
+{
+    Image image;
+    require(image_open(&image, width, height, type, FAILURE), FAILURE);
+    for (int i = 0; i < 4 * width * height; i++) {
+        if (type == IMAGE_FLOAT)
+            ((float *)image.pixels)[i] = (float)value;
+        else
+            ((unsigned char *)image.pixels)[i] = (unsigned char)lround(255 * value);
+    }
+    return image;
+}
+
+static void put_byte(Image *image, int x, int y, int channel, int value)
+{
+    ((unsigned char *)image->pixels)[4 * (y * image->width + x) + channel] = (unsigned char)value;
+}
+
+static void put_float(Image *image, int x, int y, int channel, double value)
+{
+    ((float *)image->pixels)[4 * (y * image->width + x) + channel] = (float)value;
+}
+
+static PictureError compare(const Image *image, const Plain *plain)
+{
+    PictureError error = {.all = {0}};
+    picture_error_add(&error, image, 0, 0, &plain->exact, NULL);
+    return error;
+}
+
+TEST(equal_pictures_have_no_error)
+{
+    Plain plain;
+    for (int value = 0; value <= 255; value++) {
+        /* The float next to value / 255 is less than 255 2^-24 = 1.6e-5 steps away. */
+        plain_open(&plain, WIDTH, HEIGHT, (float)value / 255);
+        Image bytes = open_image(WIDTH, HEIGHT, IMAGE_BYTE, value / 255.0);
+        const PictureError error = compare(&bytes, &plain);
+        assert_int_equal(error.all.pixels, COUNT);
+        assert_int_equal(error.interior.pixels, COUNT);
+        assert_int_equal(error.all.wrong, 0);
+        assert_true(error.all.maximum < 1.6e-5);
+        assert_true(error_sum_rms(&error.all) < 1.6e-5);
+        Image floats = open_image(WIDTH, HEIGHT, IMAGE_FLOAT, (double)plain.color[0]);
+        const PictureError none = compare(&floats, &plain);
+        assert_true(none.all.maximum == 0 && error_sum_rms(&none.all) == 0);
+        image_close(&bytes);
+        image_close(&floats);
+    }
+}
+
+/* Two channels of one pixel off by 3 and 4, one of another by 12: the largest is the worst
+ * channel's, the mean is over all channels, the place that of the pixel. */
+TEST(errors_are_of_the_worst_channel_and_the_mean_of_all)
+{
+    Plain plain;
+    plain_open(&plain, WIDTH, HEIGHT, 0);
+    Image image = open_image(WIDTH, HEIGHT, IMAGE_BYTE, 0);
+    put_byte(&image, 2, 1, 0, 3);
+    put_byte(&image, 2, 1, 2, 4);
+    put_byte(&image, 5, 3, 1, 12);
+    put_byte(&image, 0, 0, 3, 200); /* alpha does not count */
+    put_byte(&image, 6, 4, 0, 1);   /* one step is not wrong */
+    const PictureError error = compare(&image, &plain);
+    assert_true(error.all.maximum == 12);
+    assert_int_equal(error.all.worst, 3 * WIDTH + 5);
+    assert_int_equal(error.all.wrong, 2);
+    assert_true(error.all.squares == 9 + 16 + 144 + 1);
+    /* Two roundings of a double, of a quotient and a root. */
+    assert_true(fabs(error_sum_rms(&error.all) - sqrt(170.0 / (3 * COUNT))) < 4 * DBL_EPSILON);
+    image_close(&image);
+}
+
+TEST(the_first_of_equal_maxima_is_named)
+{
+    Plain plain;
+    plain_open(&plain, WIDTH, HEIGHT, 1);
+    Image image = open_image(WIDTH, HEIGHT, IMAGE_BYTE, 1);
+    put_byte(&image, 4, 2, 1, 250);
+    put_byte(&image, 1, 2, 0, 250);
+    put_byte(&image, 6, 4, 2, 250);
+    const PictureError error = compare(&image, &plain);
+    assert_true(error.all.maximum == 5);
+    assert_int_equal(error.all.worst, 2 * WIDTH + 1);
+    image_close(&image);
+}
+
+TEST(edges_count_in_the_whole_alone)
+{
+    Plain plain;
+    plain_open(&plain, WIDTH, HEIGHT, 0.4F);
+    Image image = open_image(WIDTH, HEIGHT, IMAGE_BYTE, 0.4); /* 102 */
+    put_byte(&image, 3, 2, 0, 202);
+    put_byte(&image, 1, 1, 0, 105);
+    plain.interior[2 * WIDTH + 3] = plain.interior[0] = 0;
+    const PictureError error = compare(&image, &plain);
+    assert_int_equal(error.all.pixels, COUNT);
+    assert_int_equal(error.interior.pixels, COUNT - 2);
+    /* 0.4 as a float is 0.4 + 6e-9. */
+    assert_true(fabs(error.all.maximum - 100) < 1e-5);
+    assert_true(fabs(error.interior.maximum - 3) < 1e-5);
+    assert_int_equal(error.interior.worst, WIDTH + 1);
+    assert_int_equal(error.all.wrong, 2);
+    assert_int_equal(error.interior.wrong, 1);
+    image_close(&image);
+}
+
+TEST(nothing_compared_has_no_mean)
+{
+    Plain plain;
+    plain_open(&plain, 1, 1, 0);
+    plain.interior[0] = 0;
+    Image image = open_image(1, 1, IMAGE_BYTE, 1);
+    const PictureError error = compare(&image, &plain);
+    assert_int_equal(error.all.pixels, 1);
+    assert_true(error.all.maximum == 255 && error_sum_rms(&error.all) == 255);
+    assert_int_equal(error.interior.pixels, 0);
+    assert_true(error.interior.maximum == 0);
+    assert_true(isnan(error_sum_rms(&error.interior)));
+    image_close(&image);
+}
+
+/* The exact picture is what a framebuffer would hold, so floats are clamped to 0..1 like bytes; the
+ * error of a value that is not finite is the largest, even if the exact value is 0 or 1. */
+TEST(floats_are_clamped_and_values_not_finite_are_wrong)
+{
+    static const struct {
+        double drawn, exact, error;
+    } cases[] = {
+        {1.7, 1, 0},        {-0.3, 0, 0},        {1.7, 0.2, 204},      {-5, 0.2, 51},
+        {FLT_MAX, 1, 0},    {0.5, 0.25, 63.75},  {NAN, 1, 255},        {NAN, 0.5, 255},
+        {INFINITY, 1, 255}, {-INFINITY, 0, 255}, {FLT_TRUE_MIN, 0, 0}, {-0.0, 0, 0},
+    };
+    Plain plain;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        plain_open(&plain, WIDTH, HEIGHT, (float)cases[i].exact);
+        Image image = open_image(WIDTH, HEIGHT, IMAGE_FLOAT, cases[i].exact);
+        put_float(&image, 4, 3, (int)i % 3, cases[i].drawn);
+        put_float(&image, 1, 1, 3, NAN); /* alpha does not count */
+        const PictureError error = compare(&image, &plain);
+        /* 0.2 as a float is 0.2 + 3e-9. */
+        if (!(fabs(error.all.maximum - cases[i].error) < 1e-6))
+            fail_msg("%g for %g: %g steps, not %g", cases[i].drawn, cases[i].exact,
+                     error.all.maximum, cases[i].error);
+        if (cases[i].error > 0)
+            assert_int_equal(error.all.worst, 3 * WIDTH + 4);
+        assert_true(isfinite(error_sum_rms(&error.all)));
+        image_close(&image);
+    }
+}
+
+/* The errors of views, each with its own exact picture, add up to that of the whole picture. */
+TEST(views_add_up_to_the_picture)
+{
+    static const int cuts[][4] = {{0, 0, 3, 2}, {3, 0, 4, 2}, {0, 2, 3, 3}, {3, 2, 4, 3}};
+    Plain whole, part;
+    srand(1);
+    for (int type = IMAGE_BYTE; type <= IMAGE_FLOAT; type++) {
+        Image image = open_image(WIDTH, HEIGHT, (ImageType)type, 0);
+        plain_open(&whole, WIDTH, HEIGHT, 0);
+        for (int i = 0; i < COUNT; i++) {
+            whole.interior[i] = rand() % 2 == 1;
+            for (int c = 0; c < 3; c++) {
+                whole.color[3 * i + c] = (float)(rand() % 256) / 256; /* so that sums are exact */
+                if (type == IMAGE_BYTE)
+                    put_byte(&image, i % WIDTH, i / WIDTH, c, rand() % 256);
+                else
+                    put_float(&image, i % WIDTH, i / WIDTH, c, (double)(rand() % 256) / 256);
+            }
+        }
+        const PictureError expected = compare(&image, &whole);
+        PictureError error = {.all = {0}};
+        for (size_t v = 0; v < sizeof cuts / sizeof cuts[0]; v++) {
+            const int *place = cuts[v];
+            plain_open(&part, place[2], place[3], 0);
+            for (int i = 0; i < place[2] * place[3]; i++) {
+                const int from = (place[1] + i / place[2]) * WIDTH + place[0] + i % place[2];
+                memcpy(&part.color[3 * i], &whole.color[3 * from], 3 * sizeof(float));
+                part.interior[i] = whole.interior[from];
+            }
+            picture_error_add(&error, &image, place[0], place[1], &part.exact, NULL);
+        }
+        const ErrorSum *sums[2][2] = {{&error.interior, &expected.interior},
+                                      {&error.all, &expected.all}};
+        for (int k = 0; k < 2; k++) {
+            assert_int_equal(sums[k][0]->pixels, sums[k][1]->pixels);
+            assert_int_equal(sums[k][0]->wrong, sums[k][1]->wrong);
+            /* Of equal maxima, the first is another one by views. */
+            const size_t worst = sums[k][0]->worst;
+            assert_true(pixel_error(&image, worst, &whole.exact, worst).largest ==
+                        sums[k][1]->maximum);
+            assert_true(sums[k][0]->maximum == sums[k][1]->maximum);
+            assert_true(sums[k][0]->squares == sums[k][1]->squares);
+        }
+        image_close(&image);
+    }
+}
+
+/* A pixel at the drawn mesh's outline, or at another depth, is not inside. */
+TEST(the_mesh_as_drawn_limits_the_interior)
+{
+    Plain plain;
+    int objects[2][COUNT] = {{0}};
+    double depths[2][COUNT];
+    plain_open(&plain, WIDTH, HEIGHT, 0);
+    for (int i = 0; i < COUNT; i++)
+        depths[0][i] = depths[1][i] = 10;
+    Image image = open_image(WIDTH, HEIGHT, IMAGE_BYTE, 0);
+    objects[1][2] = -1; /* outside the mesh: with its neighbors, 6 pixels in columns 1 to 3 */
+    depths[1][2] = INFINITY;
+    objects[1][3] = 1;         /* another object: 2 pixels more, in column 4 */
+    depths[1][5] = 10.6;       /* 6% farther */
+    depths[1][6] = 9.6;        /* 4% nearer: interior */
+    plain.interior[WIDTH] = 0; /* an edge of the exact picture */
+    for (int i = 1; i <= 6; i++)
+        put_byte(&image, i, 0, 1, i == 6 ? 2 : 100 + i);
+    put_byte(&image, 1, 1, 1, 50); /* a neighbor in the row below */
+    put_byte(&image, 0, 1, 1, 108);
+    Reference drawn = {.width = WIDTH, .height = HEIGHT};
+    plain.exact.object = objects[0];
+    plain.exact.depth = depths[0];
+    drawn.object = objects[1];
+    drawn.depth = depths[1];
+    PictureError error = {.all = {0}};
+    picture_error_add(&error, &image, 0, 0, &plain.exact, &drawn);
+    assert_int_equal(error.all.pixels, COUNT);
+    assert_true(error.all.maximum == 108);
+    assert_int_equal(error.interior.pixels, COUNT - 10);
+    assert_true(error.interior.maximum == 2);
+    assert_int_equal(error.interior.worst, 6);
+    image_close(&image);
+}
+
+TEST_MAIN("picture error", NULL, NULL)

@@ -1,0 +1,388 @@
+/*
+ * The basis of the exact picture: rays against solids and triangles, and the lighting equation at a
+ * point. No GL.
+ */
+#include "reference/reference_shade.h"
+#include "reference/reference_solid.h"
+#include "reference/reference_triangles.h"
+#include "shapes/mesh_solids.h"
+#include "support/testing.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static const long SEED = 1;
+
+static double uniform(double min, double max)
+{
+    return min + (max - min) * drand48();
+}
+
+static Real3 vector(double min, double max)
+{
+    return (Real3){uniform(min, max), uniform(min, max), uniform(min, max)};
+}
+
+FIXTURE(set_up)
+{
+    srand48(SEED);
+    printf("seed %ld\n", SEED);
+    return 0;
+}
+
+/* Each closed solid as the set of points where this is not above 0; its size is about 1. */
+static double implicit(const Solid *solid, Real3 p)
+{
+    const double r = solid->radius, across = hypot(p.x, p.y);
+    switch (solid->kind) {
+    case SOLID_SPHERE:
+        return hypot(across, p.z) - r;
+    case SOLID_BOX:
+        return fmax(fmax(fabs(p.x), fabs(p.y)), fabs(p.z)) - r;
+    case SOLID_CYLINDER:
+        return fmax(across - r, fmax(-p.z, p.z - solid->height));
+    case SOLID_CONE:
+        return fmax(across - r * (solid->height - p.z) / solid->height, -p.z);
+    case SOLID_TORUS:
+        return hypot(across - r, p.z) - solid->tube;
+    default:
+        return NAN;
+    }
+}
+
+static const Solid CLOSED[] = {
+    {.kind = SOLID_SPHERE, .radius = 1.1},
+    {.kind = SOLID_BOX, .radius = 0.8},
+    {.kind = SOLID_CYLINDER, .radius = 0.7, .height = 1.3, .caps = MESH_CAP_BOTH},
+    {.kind = SOLID_CONE, .radius = 0.9, .height = 1.4},
+    {.kind = SOLID_CONE, .radius = 1, .height = 0.2},
+    {.kind = SOLID_TORUS, .radius = 1, .tube = 0.4},
+    {.kind = SOLID_TORUS, .radius = 1, .tube = 0.99},
+    {.kind = SOLID_TORUS, .radius = 1, .tube = 0.001},
+};
+enum { CLOSED_COUNT = sizeof CLOSED / sizeof CLOSED[0], RAYS = 20000 };
+
+/* A ray from this distance towards a point in or near a solid. */
+static void random_ray(double distance, Real3 *origin, Real3 *direction)
+{
+    const Real3 target = vector(-1.2, 1.2);
+    *origin = real3_scale(real3_unit(vector(-1, 1)), distance);
+    *direction = real3_scale(real3_subtract(target, *origin), uniform(0.01, 5));
+}
+
+TEST(hits_are_on_the_surface_and_their_normals_point_outwards)
+{
+    for (int s = 0; s < CLOSED_COUNT; s++) {
+        const Solid *solid = &CLOSED[s];
+        const double smallest = solid->kind == SOLID_TORUS ? solid->tube : 1;
+        double worst = 0;
+        int total = 0;
+        for (int i = 0; i < RAYS; i++) {
+            Real3 origin, direction;
+            SolidHit hits[SOLID_MAX_HITS];
+            random_ray(uniform(0, 6), &origin, &direction);
+            const int count = ray_solid(solid, origin, direction, hits);
+            for (int h = 0; h < count; h++, total++) {
+                const Real3 p = real3_along(origin, hits[h].t, direction);
+                const Real3 n = solid_normal(solid, hits[h].part, p);
+                assert_true(h == 0 || hits[h].t >= hits[h - 1].t);
+                worst = fmax(worst, fabs(implicit(solid, p)));
+                assert_true(fabs(real3_length(n) - 1) < 1e-14);
+                const Real step = smallest * 1e-4;
+                assert_true(implicit(solid, real3_along(p, step, n)) > 0);
+                /* The normal points against the ray if it enters the solid. */
+                if (count == 2)
+                    assert_true((real3_dot(n, direction) <= 0) == (h == 0));
+            }
+        }
+        printf("solid %d: %d hits, %.1e off the surface at most\n", solid->kind, total, worst);
+        assert_true(total > (smallest < 0.01 ? 20 : RAYS / 4));
+        assert_true(worst < 1e-11); /* a point 6 away is rounded to 1e-15 */
+    }
+}
+
+/* A point of the line is inside if the number of hits before it is odd. */
+TEST(no_hit_is_missed_or_made_up)
+{
+    for (int s = 0; s < CLOSED_COUNT; s++) {
+        const Solid *solid = &CLOSED[s];
+        for (int i = 0; i < RAYS; i++) {
+            Real3 origin, direction;
+            SolidHit hits[SOLID_MAX_HITS];
+            random_ray(4, &origin, &direction);
+            const int count = ray_solid(solid, origin, direction, hits);
+            for (int k = 0; k < 8; k++) {
+                const Real t = uniform(2, 6) / real3_length(direction);
+                const double value = implicit(solid, real3_along(origin, t, direction));
+                int before = 0;
+                for (int h = 0; h < count; h++)
+                    before += hits[h].t < t;
+                if (fabs(value) > 1e-9)
+                    assert_int_equal(before % 2, value < 0);
+            }
+        }
+    }
+}
+
+TEST(rays_along_axes_and_tangents_give_finite_hits)
+{
+    static const double places[] = {-2, -1.1, -1, -0.8, -0.4, 0, 0.4, 0.7, 0.8, 0.9, 1, 1.1, 1.4};
+    enum { PLACES = sizeof places / sizeof places[0] };
+    for (int s = 0; s < CLOSED_COUNT; s++)
+        for (int i = 0; i < PLACES * PLACES * 3; i++) {
+            const double a = places[i % PLACES], b = places[i / PLACES % PLACES];
+            const int axis = i / PLACES / PLACES;
+            const Real3 origins[3] = {{-5, a, b}, {a, -5, b}, {a, b, -5}};
+            const Real3 direction = {axis == 0, axis == 1, axis == 2};
+            SolidHit hits[SOLID_MAX_HITS];
+            const int count = ray_solid(&CLOSED[s], origins[axis], direction, hits);
+            assert_in_range(count, 0, SOLID_MAX_HITS);
+            for (int h = 0; h < count; h++) {
+                const Real3 p = real3_along(origins[axis], hits[h].t, direction);
+                const Real3 n = solid_normal(&CLOSED[s], hits[h].part, p);
+                assert_true(isfinite(hits[h].t));
+                /* For a tangent ray, the torus is as accurate as the root of the rounding. */
+                assert_true(fabs(implicit(&CLOSED[s], p)) < 1e-7);
+                assert_true(fabs(real3_length(n) - 1) < 1e-14);
+            }
+        }
+}
+
+TEST(a_far_origin_costs_only_its_own_rounding)
+{
+    for (int s = 0; s < CLOSED_COUNT; s++) {
+        if (CLOSED[s].kind == SOLID_TORUS && CLOSED[s].tube < 0.01)
+            continue;
+        for (int i = 0; i < RAYS / 10; i++) {
+            Real3 origin, direction;
+            SolidHit hits[SOLID_MAX_HITS];
+            random_ray(1e6, &origin, &direction);
+            const int count = ray_solid(&CLOSED[s], origin, direction, hits);
+            for (int h = 0; h < count; h++) /* 1e6 is rounded to 1e-10, several times; near a cone's
+                                               or torus's outline this is divided by its root */
+                assert_true(fabs(implicit(&CLOSED[s], real3_along(origin, hits[h].t, direction))) <
+                            1e-8);
+        }
+    }
+}
+
+TEST(open_cylinders_and_sheets_have_their_faces)
+{
+    SolidHit hits[SOLID_MAX_HITS];
+    const Solid quad = {.kind = SOLID_QUAD}, disc = {.kind = SOLID_DISC, .radius = 2};
+    Solid tube = {.kind = SOLID_CYLINDER, .radius = 1, .height = 2};
+    const Real3 down = {0, 0, -1}, above = {0.5, 0.25, 5}, slanted = {0.2, 0, -1};
+    for (int caps = 0; caps < 4; caps++) {
+        tube.caps = (MeshCaps)caps;
+        assert_int_equal(ray_solid(&tube, above, down, hits), (caps & 1) + (caps >> 1));
+        if (caps & MESH_CAP_TOP) {
+            assert_true(hits[0].t == 3);
+            assert_int_equal(hits[0].part, PART_TOP);
+        }
+        if (caps & MESH_CAP_BOTTOM)
+            assert_true(hits[(caps & MESH_CAP_TOP) != 0].t == 5);
+    }
+    /* In through the open top, to the inner side: at x = 0.5 + 0.2 t = 1. */
+    tube.caps = MESH_CAP_NONE;
+    assert_int_equal(ray_solid(&tube, (Real3){0.5, 0, 3.5}, slanted, hits), 1);
+    assert_true(fabs(hits[0].t - 2.5) < 1e-15);
+    assert_int_equal(hits[0].part, PART_SIDE);
+
+    assert_int_equal(ray_solid(&quad, (Real3){1, -1, 3}, down, hits), 1);
+    assert_true(hits[0].t == 3);
+    assert_int_equal(ray_solid(&quad, (Real3){1.000001, 0, 3}, down, hits), 0);
+    assert_int_equal(ray_solid(&quad, (Real3){0, 0, 3}, (Real3){1, 0, 0}, hits), 0);
+    assert_int_equal(ray_solid(&disc, (Real3){0, 2, -3}, (Real3){0, 0, 2}, hits), 1);
+    assert_true(hits[0].t == 1.5);
+    assert_int_equal(ray_solid(&disc, (Real3){1.5, 1.5, 3}, down, hits), 0);
+}
+
+/* Triangles. */
+
+static Triangles open_mesh(const Mesh *mesh, Real3 offset, Real3 **points)
+{
+    Triangles triangles;
+    *points = malloc(mesh->vertex_count * sizeof **points);
+    assert_non_null(*points);
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
+        const float *p = mesh->vertices[i].position;
+        (*points)[i] = real3_add((Real3){(Real)p[0], (Real)p[1], (Real)p[2]}, offset);
+    }
+    assert_true(triangles_open(&triangles, mesh, *points, false, NULL));
+    return triangles;
+}
+
+static void close_mesh(Mesh *mesh, Triangles *triangles, Real3 *points)
+{
+    triangles_close(triangles);
+    free(points);
+    mesh_close(mesh);
+}
+
+TEST(boxes_contain_their_triangles)
+{
+    Mesh mesh;
+    Real3 *points;
+    assert_true(mesh_teapot(&mesh, 1, 9, NULL));
+    Triangles triangles = open_mesh(&mesh, (Real3){0.1, -0.2, -4}, &points);
+    Triangles each = {.count = 1};
+    BoundsNode node = {.count = 1};
+    uint32_t first = 0;
+    each.bounds = (Bounds){&node, &first};
+    for (int i = 0; i < 1000; i++) {
+        const Real3 direction = {uniform(-0.5, 0.5), uniform(-0.3, 0.3), -1};
+        TriangleHit hit = {.t = INFINITY}, nearest = {.t = INFINITY};
+        const bool met = triangles_ray(&triangles, direction, 0.1, 100, &hit);
+        for (size_t k = 0; k < triangles.count; k++) {
+            each.triangles = &triangles.triangles[k];
+            for (int axis = 0; axis < 3; axis++) {
+                node.low[axis] = -100;
+                node.high[axis] = 100;
+            }
+            triangles_ray(&each, direction, 0.1, 100, &nearest);
+        }
+        assert_int_equal(met, nearest.t < INFINITY);
+        assert_true(hit.t == nearest.t);
+    }
+    close_mesh(&mesh, &triangles, points);
+}
+
+/* At the corners and on the sides of triangles, as seen from the eye. */
+TEST(no_ray_passes_between_triangles)
+{
+    Mesh mesh;
+    Real3 *points;
+    assert_true(mesh_sphere(&mesh, 1, 24, 16, NULL));
+    Triangles triangles = open_mesh(&mesh, (Real3){0, 0, -3}, &points);
+    for (size_t i = 0; i < mesh.index_count; i++) {
+        const Real3 a = points[mesh.indices[i]];
+        const Real3 b = points[mesh.indices[i % 3 == 2 ? i - 2 : i + 1]];
+        const Real3 on_side = real3_along(a, uniform(0, 1), real3_subtract(b, a));
+        TriangleHit hit = {.t = INFINITY};
+        /* The outline's own points may be missed; it is at z = -3 + 1/3. */
+        if (a.z < -2.6 || b.z < -2.6)
+            continue;
+        assert_true(triangles_ray(&triangles, a, 0.1, 100, &hit));
+        hit.t = INFINITY;
+        assert_true(triangles_ray(&triangles, on_side, 0.1, 100, &hit));
+        assert_true(fabs(hit.t - 1) < 1e-12);
+        assert_true(fabs(hit.weights[0] + hit.weights[1] + hit.weights[2] - 1) < 1e-15);
+    }
+    close_mesh(&mesh, &triangles, points);
+}
+
+TEST(faces_of_a_cube_are_pieces_and_a_sphere_is_one)
+{
+    Mesh mesh;
+    Real3 *points;
+    assert_true(solid_mesh(&(Solid){.kind = SOLID_BOX, .radius = 1}, 4, &mesh, NULL));
+    Triangles triangles = open_mesh(&mesh, (Real3){0, 0, -4}, &points);
+    for (size_t i = 0; i < triangles.count; i++)
+        for (size_t k = 0; k < triangles.count; k++) {
+            const Triangle *a = &triangles.triangles[i], *b = &triangles.triangles[k];
+            assert_int_equal(a->piece == b->piece, a->number / 32 == b->number / 32);
+        }
+    close_mesh(&mesh, &triangles, points);
+    assert_true(mesh_sphere(&mesh, 1, 12, 12, NULL)); /* with a seam, and copies of its poles */
+    triangles = open_mesh(&mesh, (Real3){0, 0, -4}, &points);
+    for (size_t i = 0; i < triangles.count; i++)
+        assert_int_equal(triangles.triangles[i].piece, triangles.triangles[0].piece);
+    close_mesh(&mesh, &triangles, points);
+}
+
+/* The equation, at (0, 0, -4) seen from the origin, by hand. */
+
+static const Material MATERIAL = {.ambient = {0.5, 0.25, 0},
+                                  .diffuse = {0.25, 0.5, 1},
+                                  .specular = {1, 0.5, 0.25},
+                                  .emission = {0.0625, 0, 0},
+                                  .alpha = 1,
+                                  .shininess = 2};
+
+static Real3 shade(Light light, const Material *material, bool phong, Real3 normal)
+{
+    Real3 axis = real3_unit(real3(light.direction));
+    const ShadeLight ready = {&light, real3(light.position), axis,
+                              cos(light.cutoff * 3.141592653589793 / 180)};
+    const Shading shading = {.lights = &ready,
+                             .light_count = 1,
+                             .global_ambient = {0.5, 0.5, 0.5},
+                             .reflection_phong = phong};
+    ShadeSides sides;
+    return shade_point(&shading, material, (Real3){0, 0, -4}, normal, &sides);
+}
+
+static void assert_color(Real3 color, double red, double green, double blue)
+{
+    /* A dozen roundings of numbers near 1. */
+    assert_true(fabs(color.x - red) < 1e-15);
+    assert_true(fabs(color.y - green) < 1e-15);
+    assert_true(fabs(color.z - blue) < 1e-15);
+}
+
+TEST(the_equation_has_hand_computed_values)
+{
+    const Real3 n = {0, 0, 1};
+    const double s = sqrt(0.75); /* of 60 degrees */
+    /* L 60 degrees from N = V: N.L = 1/2, N.H = cos 30, R.V = 1/2. */
+    const Light sun = {.direction = {2 * s, 0, 1},
+                       .ambient = {0.5, 0, 0},
+                       .diffuse = {1, 1, 0.5},
+                       .specular = {0.5, 0.5, 1}};
+    assert_color(shade(sun, &MATERIAL, false, n), 0.0625 + 0.25 + 0.25 + 0.125 + 0.5 * 0.75,
+                 0.125 + 0.25 + 0.25 * 0.75, 0.25 + 0.25 * 0.75);
+    assert_color(shade(sun, &MATERIAL, true, n), 0.0625 + 0.25 + 0.25 + 0.125 + 0.5 * 0.25,
+                 0.125 + 0.25 + 0.25 * 0.25, 0.25 + 0.25 * 0.25);
+    /* Behind the surface, and without a normal: emission and ambient light. */
+    assert_color(shade(sun, &MATERIAL, false, (Real3){0, 0, -1}), 0.5625, 0.125, 0);
+    assert_color(shade(sun, &MATERIAL, false, (Real3){0, 0, 0}), 0.5625, 0.125, 0);
+    /* At distance 2 on the normal: half of it with 1 + d / 4 + d^2 / 8; in the cone's axis. */
+    Light lamp = {.kind = LIGHT_SPOT,
+                  .position = {0, 0, -2},
+                  .direction = {0, 0, -3},
+                  .ambient = {0.5, 0, 0},
+                  .diffuse = {1, 1, 0.5},
+                  .cutoff = 0,
+                  .exponent = 128,
+                  .constant = 1,
+                  .linear = 0.25,
+                  .quadratic = 0.125};
+    assert_color(shade(lamp, &MATERIAL, false, n), 0.3125 + 0.5 * (0.25 + 0.25), 0.125 + 0.5 * 0.5,
+                 0.25);
+    /* 60 degrees off its axis: within 60.001 degrees a quarter with exponent 2; 60 - 0.001: none.
+     */
+    lamp.direction = (Vec3){2 * s, 0, -1};
+    lamp.exponent = 2;
+    lamp.cutoff = 60.001;
+    assert_color(shade(lamp, &MATERIAL, false, n), 0.3125 + 0.125 * 0.5, 0.125 + 0.125 * 0.5,
+                 0.125 * 0.5);
+    lamp.cutoff = 59.999;
+    assert_color(shade(lamp, &MATERIAL, false, n), 0.3125, 0.125, 0);
+    /* Shininess 0: the whole highlight wherever the surface faces the light. */
+    Material dull = MATERIAL;
+    dull.shininess = 0;
+    assert_color(
+        shade(sun, &dull, true, real3_unit((Real3){1, 0, -0.9})),
+        0.0625 + 0.5 + 0.5 + 0.25 * real3_dot(real3_unit((Real3){1, 0, -0.9}), (Real3){s, 0, 0.5}),
+        0.125 + 0.25 + 0.5 * real3_dot(real3_unit((Real3){1, 0, -0.9}), (Real3){s, 0, 0.5}),
+        0.25 + 0.5 * real3_dot(real3_unit((Real3){1, 0, -0.9}), (Real3){s, 0, 0.5}));
+}
+
+TEST(a_light_on_the_surface_gives_finite_colors)
+{
+    const Light lamps[] = {
+        {.kind = LIGHT_POINT, .position = {0, 0, -4}, .diffuse = {1, 1, 1}, .specular = {1, 1, 1}},
+        {.kind = LIGHT_SPOT,
+         .position = {0, 0, -4},
+         .direction = {0, 0, -1},
+         .cutoff = 90,
+         .diffuse = {1, 1, 1},
+         .specular = {1, 1, 1},
+         .quadratic = 1},
+    };
+    for (int i = 0; i < 4; i++)
+        assert_color(shade(lamps[i / 2], &MATERIAL, i % 2, (Real3){0, 0, 1}), 0.3125, 0.125, 0);
+}
+
+TEST_MAIN("reference solid", set_up, NULL)

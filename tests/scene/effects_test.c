@@ -1,0 +1,617 @@
+/*
+ * Which effects a scene needs, and the reasons given for them. No GL.
+ */
+#include "scene/effects.h"
+#include "support/testing.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* An object lit by one source, to be changed by each test. */
+typedef struct World {
+    Light lights[EFFECTS_MAX_LIGHTS];
+    Object object;
+    Scene scene;
+} World;
+
+static World world;
+static Mesh cube, sphere;
+
+static const Vec3 BLACK = {0, 0, 0}, WHITE = {1, 1, 1}, RED = {1, 0, 0}, GREEN = {0, 1, 0};
+
+FIXTURE(open_meshes)
+{
+    return mesh_cube(&cube, 1, NULL) && mesh_sphere(&sphere, 1, 8, 4, NULL) ? 0 : 1;
+}
+
+FIXTURE(close_meshes)
+{
+    mesh_close(&cube);
+    mesh_close(&sphere);
+    return 0;
+}
+
+/* A smooth open object in white directional light, diffuse only, lit per fragment. */
+FIXTURE(set_up)
+{
+    world = (World){
+        .lights = {{.kind = LIGHT_DIRECTIONAL, .direction = {0, 1, 1}, .diffuse = WHITE}},
+        .object = {.mesh = &sphere,
+                   .world_from_object = mat4_identity(),
+                   .front = {.diffuse = WHITE, .alpha = 1, .shininess = 16},
+                   .back = {.diffuse = WHITE, .alpha = 1, .shininess = 16}},
+        .scene = {.camera = {{3, 2, 5}, {0, 0, 0}, {0, 1, 0}, 45, 0.1, 100, 0},
+                  .lights = world.lights,
+                  .light_count = 1,
+                  .objects = &world.object,
+                  .object_count = 1},
+    };
+    return 0;
+}
+
+static void shine_specular(void)
+{
+    world.lights[0].specular = WHITE;
+    world.object.front.specular = WHITE;
+}
+
+static void shine_ambient(void)
+{
+    world.lights[0].ambient = WHITE;
+    world.object.front.ambient = WHITE;
+}
+
+static void transform_by(Mat4 matrix)
+{
+    world.object.world_from_object = matrix;
+}
+
+/* A set as text: its members, then its groups of lights with their terms. */
+
+static void put(char *text, bool there, const char *word)
+{
+    if (there)
+        strcat(strcat(text, text[0] ? " " : ""), word);
+}
+
+static void write_set(const Effects *effects, char text[1024])
+{
+    static const char *const kinds[] = {"directional", "point", "spot"};
+    text[0] = '\0';
+    put(text, effects->cull, "cull");
+    put(text, effects->two_sided, "two");
+    put(text, effects->base, "base");
+    put(text, effects->alpha, "alpha");
+    put(text, effects->normals, "normals");
+    put(text, effects->normal_matrix, "matrix");
+    put(text, effects->normalize_vertex, "unit_vertex");
+    put(text, effects->normalize_fragment, "unit_fragment");
+    put(text, effects->local_viewer, "local");
+    put(text, effects->reflection == REFLECTION_PHONG, "phong");
+    put(text, effects->clamp_vertex, "clamp");
+    put(text, effects->linear, "linear");
+    put(text, effects->show_clipped, "clipped");
+    for (int g = 0; g < effects->group_count; g++) {
+        const LightGroup *group = &effects->groups[g];
+        const LightTerms *terms = &group->terms;
+        put(text, true, "|");
+        for (int i = 0; i < group->count; i++) {
+            char number[16];
+            snprintf(number, sizeof number, "%d", group->lights[i]);
+            put(text, true, number);
+        }
+        put(text, true, terms->any ? "any" : kinds[terms->kind]);
+        put(text, terms->ambient, "ambient");
+        put(text, terms->diffuse, "diffuse");
+        put(text, terms->specular, "specular");
+        put(text, terms->attenuation, "attenuation");
+        put(text, terms->exponent, "exponent");
+        put(text, terms->half_vector, "half");
+        put(text, terms->at_vertex, "at_vertex");
+    }
+}
+
+static void assert_set(const char *expected)
+{
+    char text[1024];
+    require(scene_check(&world.scene, FAILURE), FAILURE);
+    const Effects effects = effects_of(&world.scene, &world.object);
+    write_set(&effects, text);
+    assert_string_equal(text, expected);
+}
+
+/* effects_explain writes a line that begins with this, after any indentation. */
+static void assert_said(const char *line)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *file = open_memstream(&text, &size);
+    effects_explain(&world.scene, &world.object, file);
+    fclose(file);
+    bool said = false;
+    for (const char *at = text; *at && !said; at += strcspn(at, "\n") + 1) {
+        at += strspn(at, " ");
+        said = strncmp(at, line, strlen(line)) == 0;
+    }
+    if (!said)
+        fail_msg("\"%s\" is not said in:\n%s", line, text);
+    free(text);
+}
+
+TEST_WITH(0, diffuse_light_alone_needs_normals_and_no_more, set_up, NULL)
+{
+    assert_set("normals unit_fragment | 0 directional diffuse");
+    assert_said("light 0: directional, computed at the fragments");
+    assert_said("diffuse: in light and material");
+    assert_said("without specular: black in light or material");
+    assert_said("without ambient:");
+    assert_said("without attenuation: the light is at infinity");
+    assert_said("without base: neither emission nor constant ambient light");
+    assert_said("without alpha: the surface is opaque");
+    assert_said("without a back side: it is lit like the front");
+    assert_said("without local viewer: no term is specular");
+    assert_said("without normal matrix: the model-view matrix is orthogonal");
+    assert_said("normals not normalized at the vertices: the transform keeps their length");
+    assert_said("normals normalized at the fragments: interpolation shortens them");
+    assert_said("without culling: the object is open");
+    assert_said("without clamping at the vertices: not requested");
+    assert_said("without sRGB encoding: not requested");
+    assert_said("without highlighting overexposed pixels: not requested");
+}
+
+TEST_WITH(0, a_term_needs_a_colour_in_both_light_and_material, set_up, NULL)
+{
+    world.lights[0].specular = WHITE;
+    assert_set("normals unit_fragment | 0 directional diffuse");
+    world.object.front.specular = RED;
+    assert_set("normals unit_fragment local | 0 directional diffuse specular");
+    assert_said("specular: in light and material");
+    assert_said("local viewer: the direction to the eye varies over the surface");
+    world.lights[0].specular = GREEN; /* the red material does not reflect it */
+    assert_set("normals unit_fragment | 0 directional diffuse");
+    world.object.front.diffuse = BLACK;
+    world.lights[0].specular = RED;
+    assert_set("normals unit_fragment local | 0 directional specular");
+    assert_said("without diffuse: black in light or material");
+}
+
+TEST_WITH(0, a_light_that_is_off_or_black_is_left_out, set_up, NULL)
+{
+    world.lights[0].off = true;
+    assert_set("");
+    assert_said("without light 0: it is off");
+    assert_said("without normals: no term depends on them");
+    world.lights[0].off = false;
+    world.lights[0].diffuse = BLACK;
+    assert_set("");
+    assert_said("without light 0: the material reflects none of its color");
+    world.lights[0].diffuse = RED;
+    world.object.front.diffuse = GREEN;
+    assert_set("");
+    world.scene.light_count = 0;
+    assert_set("");
+}
+
+TEST_WITH(0, a_light_whose_cone_misses_the_object_is_left_out, set_up, NULL)
+{
+    Light *light = &world.lights[0];
+    *light = (Light){.kind = LIGHT_SPOT,
+                     .position = {0, 0, 10},
+                     .direction = {0, 0, -1},
+                     .diffuse = WHITE,
+                     .cutoff = 10};
+    assert_set("normals unit_fragment | 0 spot diffuse");
+    assert_said("spot: only within its cone, without falloff: its exponent is 0");
+    light->direction = (Vec3){0, 0, 1};
+    assert_set("");
+    assert_said("without light 0: its cone misses the object");
+    light->direction = (Vec3){0, 1, -1};
+    assert_set("");
+    light->cutoff = 90; /* the cone is a half space that contains the object */
+    assert_set("normals unit_fragment | 0 spot diffuse");
+    light->direction = (Vec3){0, 0, 1};
+    assert_set("");
+    light->position = (Vec3){0, 0, 0}; /* inside the object, in any direction */
+    light->cutoff = 1;
+    assert_set("normals unit_fragment | 0 spot diffuse");
+}
+
+TEST_WITH(0, a_cone_that_contains_a_vertex_is_kept, set_up, NULL)
+{
+    Light *light = &world.lights[0];
+    world.object.mesh = &cube;
+    int left_out = 0;
+    for (int i = 0; i < 3600; i++) {
+        const double turn = i * 0.0174532925199, cutoff = i % 91;
+        *light = (Light){.kind = LIGHT_SPOT,
+                         .position = {2 * cos(turn) + 3, i % 7 - 3, 4 * sin(turn)},
+                         .direction = {sin(3.1 * turn), cos(1.7 * turn), sin(0.9 * turn) - 0.5},
+                         .diffuse = WHITE,
+                         .cutoff = cutoff};
+        bool holds = false;
+        for (size_t k = 0; k < cube.vertex_count; k++) {
+            const float *p = cube.vertices[k].position;
+            Vec3 way, axis;
+            vec3_normalize(
+                vec3_subtract((Vec3){(double)p[0], (double)p[1], (double)p[2]}, light->position),
+                &way);
+            vec3_normalize(light->direction, &axis);
+            holds |= vec3_dot(way, axis) >= cos(cutoff * 0.017453292519943295);
+        }
+        const bool there = effects_of(&world.scene, &world.object).group_count > 0;
+        assert_true(there || !holds);
+        left_out += !there;
+    }
+    assert_true(left_out > 1000);
+}
+
+TEST_WITH(0, even_ambient_light_is_part_of_the_base, set_up, NULL)
+{
+    world.lights[0].diffuse = BLACK;
+    shine_ambient();
+    assert_set("base");
+    assert_said("without light 0: the material reflects none of its color but the ambient");
+    world.lights[0].kind = LIGHT_POINT;
+    world.lights[0].constant = 2; /* constant */
+    assert_set("base");
+    world.lights[0].linear = 0.1;
+    assert_set("| 0 point ambient attenuation");
+    assert_said("ambient: varies over the surface, as the light does");
+    world.lights[0] = (Light){.kind = LIGHT_SPOT,
+                              .position = {0, 0, 5},
+                              .direction = {0, 0, -1},
+                              .ambient = WHITE,
+                              .cutoff = 20};
+    assert_set("| 0 spot ambient");
+}
+
+TEST_WITH(0, emission_and_global_ambient_light_are_the_base, set_up, NULL)
+{
+    world.scene.light_count = 0;
+    world.object.front.emission = RED;
+    assert_set("base");
+    assert_said("base: emission or constant ambient light");
+    world.object.front.emission = BLACK;
+    world.scene.global_ambient = RED;
+    assert_set("");
+    world.object.front.ambient = GREEN;
+    assert_set("");
+    world.object.front.ambient = WHITE;
+    assert_set("base");
+}
+
+TEST_WITH(0, the_half_vector_is_constant_only_for_a_far_light_a_far_viewer_and_blinn_phong, set_up,
+          NULL)
+{
+    shine_specular();
+    world.scene.distant_viewer = true;
+    assert_set("normals unit_fragment | 0 directional diffuse specular half");
+    assert_said("half vector: a uniform, because light and viewer are at infinity");
+    assert_said("without local viewer: the viewer is at infinity");
+    world.scene.reflection = REFLECTION_PHONG;
+    assert_set("normals unit_fragment phong | 0 directional diffuse specular");
+    assert_said("without half vector as a uniform: the Phong reflection has none");
+    world.scene.reflection = REFLECTION_BLINN_PHONG;
+    world.lights[0].kind = LIGHT_POINT;
+    assert_set("normals unit_fragment | 0 point diffuse specular");
+    assert_said("without half vector as a uniform: the light is near");
+    world.lights[0].kind = LIGHT_DIRECTIONAL;
+    world.scene.distant_viewer = false;
+    assert_set("normals unit_fragment local | 0 directional diffuse specular");
+    assert_said("without half vector as a uniform: the viewer is near");
+}
+
+TEST_WITH(0, the_reflection_counts_only_where_something_is_specular, set_up, NULL)
+{
+    world.scene.reflection = REFLECTION_PHONG;
+    assert_set("normals unit_fragment | 0 directional diffuse");
+    shine_specular();
+    assert_set("normals unit_fragment local phong | 0 directional diffuse specular");
+}
+
+TEST_WITH(0, attenuation_counts_only_where_it_depends_on_distance, set_up, NULL)
+{
+    Light *light = &world.lights[0];
+    light->linear = 1;
+    assert_set("normals unit_fragment | 0 directional diffuse");
+    light->kind = LIGHT_POINT;
+    assert_set("normals unit_fragment | 0 point diffuse attenuation");
+    assert_said("attenuation: depends on the distance");
+    light->linear = 0;
+    light->constant = 3;
+    assert_set("normals unit_fragment | 0 point diffuse");
+    assert_said("without attenuation: constant");
+    light->quadratic = 0.01;
+    assert_set("normals unit_fragment | 0 point diffuse attenuation");
+}
+
+TEST_WITH(0, a_fall_off_counts_only_for_spots, set_up, NULL)
+{
+    Light *light = &world.lights[0];
+    light->exponent = 8;
+    assert_set("normals unit_fragment | 0 directional diffuse");
+    light->kind = LIGHT_SPOT;
+    light->direction = (Vec3){0, 0, -1};
+    light->cutoff = 45;
+    assert_set("normals unit_fragment | 0 spot diffuse exponent");
+    assert_said("spot: only within its cone, with falloff");
+}
+
+TEST_WITH(0, lights_of_equal_terms_share_a_group, set_up, NULL)
+{
+    world.scene.light_count = 4;
+    for (int i = 1; i < 4; i++)
+        world.lights[i] = world.lights[0];
+    world.lights[1].kind = LIGHT_POINT;
+    world.lights[2].diffuse = RED;
+    world.lights[3].off = true;
+    assert_set("normals unit_fragment | 0 2 directional diffuse | 1 point diffuse");
+    world.lights[3].off = false;
+    assert_set("normals unit_fragment | 0 2 3 directional diffuse | 1 point diffuse");
+}
+
+TEST_WITH(0, vertices_or_fragments_are_lit_as_the_interpolation_says, set_up, NULL)
+{
+    world.scene.interpolation = INTERPOLATION_GOURAUD;
+    assert_set("normals | 0 directional diffuse at_vertex");
+    assert_said("light 0: directional, computed at the vertices: colours are interpolated");
+    assert_said("normals not normalized at the fragments: no light is computed there");
+    world.scene.interpolation = INTERPOLATION_FLAT;
+    assert_set("normals | 0 directional diffuse at_vertex");
+    assert_said("light 0: directional, computed at the vertices: of flat triangles");
+}
+
+TEST_WITH(0, constant_light_on_a_flat_triangle_moves_to_the_vertices, set_up, NULL)
+{
+    world.object.mesh = &cube;
+    world.object.flat = true;
+    assert_set("normals | 0 directional diffuse at_vertex");
+    assert_said("light 0: directional, computed at the vertices: constant over a flat triangle");
+    shine_specular(); /* the direction to the eye varies */
+    assert_set("normals local | 0 directional diffuse specular");
+    assert_said("normals not normalized at the fragments: constant over a triangle");
+    world.scene.distant_viewer = true;
+    assert_set("normals | 0 directional diffuse specular half at_vertex");
+    world.lights[0].kind = LIGHT_POINT;
+    assert_set("normals | 0 point diffuse specular");
+}
+
+static Mat4 turned(void)
+{
+    return mat4_rotate(77, (Vec3){1, -2, 3});
+}
+
+static Mat4 scaled(double x, double y, double z)
+{
+    return mat4_scale((Vec3){x, y, z});
+}
+
+TEST_WITH(0, a_normal_matrix_is_needed_only_where_the_model_view_is_not_orthogonal, set_up, NULL)
+{
+    const Mat4 turn = turned();
+    transform_by(turn);
+    assert_set("normals unit_fragment | 0 directional diffuse");
+    transform_by(mat4_product(mat4_translate((Vec3){1, 2, -3}), turn));
+    assert_set("normals unit_fragment | 0 directional diffuse");
+    transform_by(mat4_product(turn, scaled(-1, 1, 1))); /* mirrored */
+    assert_set("normals unit_fragment | 0 directional diffuse");
+    transform_by(mat4_product(turn, scaled(0.5, 0.5, 0.5))); /* the fragments normalize */
+    assert_set("normals unit_fragment | 0 directional diffuse");
+    assert_said(
+        "normals not normalized at the vertices: the fragments do it, and all lengths are equal");
+    transform_by(mat4_product(turn, scaled(-3, 3, 3)));
+    assert_set("normals unit_fragment | 0 directional diffuse");
+    transform_by(mat4_product(turn, scaled(1, 1, 1.01)));
+    assert_set("normals matrix unit_vertex unit_fragment | 0 directional diffuse");
+    assert_said("normal matrix: the model-view matrix scales unevenly or shears");
+    assert_said("normals normalized at the vertices: the transform changes their length");
+    Mat4 shear = mat4_identity();
+    shear.m[4] = 0.5;
+    transform_by(mat4_product(turn, shear));
+    assert_set("normals matrix unit_vertex unit_fragment | 0 directional diffuse");
+    transform_by(scaled(1, 1, 0)); /* flattened */
+    assert_set("normals matrix unit_vertex unit_fragment | 0 directional diffuse");
+    transform_by(scaled(1e-20, 1e-20, 1e-20)); /* their squares underflow in float */
+    assert_set("normals matrix unit_vertex unit_fragment | 0 directional diffuse");
+}
+
+TEST_WITH(0, uneven_scales_that_cancel_need_no_normal_matrix, set_up, NULL)
+{
+    const Mat4 uneven = scaled(2, 3, 4), undone = scaled(1.0 / 2, 1.0 / 3, 1.0 / 4);
+    transform_by(mat4_product(mat4_product(turned(), uneven), undone));
+    assert_set("normals unit_fragment | 0 directional diffuse");
+}
+
+TEST_WITH(0, vertices_normalize_normals_if_they_use_their_length, set_up, NULL)
+{
+    world.scene.interpolation = INTERPOLATION_GOURAUD;
+    transform_by(scaled(2, 2, 2));
+    assert_set("normals unit_vertex | 0 directional diffuse at_vertex");
+    transform_by(scaled(-1, 1, 1));
+    assert_set("normals | 0 directional diffuse at_vertex");
+    transform_by(scaled(1, 2, 1));
+    assert_set("normals matrix unit_vertex | 0 directional diffuse at_vertex");
+    world.scene.interpolation = INTERPOLATION_PHONG;
+    world.object.mesh = &cube;
+    world.object.flat = true; /* no fragment normalizes: constant over a triangle */
+    world.lights[0].kind = LIGHT_POINT;
+    transform_by(scaled(2, 2, 2));
+    assert_set("normals unit_vertex | 0 point diffuse");
+}
+
+TEST_WITH(0, wrong_normals_never_need_a_matrix_of_their_own, set_up, NULL)
+{
+    world.object.wrong_normals = true;
+    transform_by(scaled(1, 1, 2));
+    assert_set("normals unit_vertex unit_fragment | 0 directional diffuse");
+    assert_said("without normal matrix: the scene requests the wrong one");
+}
+
+TEST_WITH(0, varying_ambient_light_needs_no_normals, set_up, NULL)
+{
+    world.lights[0] = (Light){.kind = LIGHT_POINT, .ambient = WHITE, .linear = 1};
+    world.object.front.ambient = WHITE;
+    transform_by(scaled(1, 2, 3));
+    assert_set("| 0 point ambient attenuation");
+}
+
+TEST_WITH(0, a_closed_object_seen_from_outside_is_culled_and_has_no_back, set_up, NULL)
+{
+    world.object.closed = true;
+    assert_set("cull normals unit_fragment | 0 directional diffuse");
+    assert_said("culling of back faces: a closed object, seen from outside");
+    world.object.two_sided = true;
+    world.object.back.emission = RED;
+    world.object.back.alpha = 0.5;
+    assert_set("cull normals unit_fragment | 0 directional diffuse");
+    assert_said("without a back side: it is never seen");
+    world.scene.camera.eye = (Vec3){0, 0, 1.05}; /* the near plane cuts the object */
+    assert_set("two base alpha normals unit_fragment | 0 directional diffuse");
+    assert_said("without culling: the near plane may cut the object");
+    assert_said("two-sided: the back has its own material and the opposite normal");
+    world.scene.camera.eye = (Vec3){0, 0, 0.5}; /* the eye is inside */
+    world.object.two_sided = false;
+    assert_set("normals unit_fragment | 0 directional diffuse");
+}
+
+TEST_WITH(0, the_back_counts_only_where_two_sides_are_lit, set_up, NULL)
+{
+    world.lights[0].specular = WHITE;
+    world.object.back.specular = WHITE;
+    world.object.back.emission = WHITE;
+    world.object.back.alpha = 0.5;
+    assert_set("normals unit_fragment | 0 directional diffuse");
+    world.object.two_sided = true;
+    assert_set("two base alpha normals unit_fragment local | 0 directional diffuse specular");
+    assert_said("alpha: the surface is not opaque");
+}
+
+TEST_WITH(0, clamping_counts_only_where_lit_vertices_are_interpolated, set_up, NULL)
+{
+    world.scene.clamp_vertex = true;
+    assert_set("normals unit_fragment | 0 directional diffuse");
+    world.scene.interpolation = INTERPOLATION_GOURAUD;
+    assert_set("normals clamp | 0 directional diffuse at_vertex");
+    assert_said("clamping at the vertices: requested");
+    world.scene.interpolation = INTERPOLATION_PHONG;
+    world.object.mesh = &cube;
+    world.object.flat = true; /* at the vertices, but only as an optimization */
+    assert_set("normals | 0 directional diffuse at_vertex");
+}
+
+TEST_WITH(0, overexposure_is_tested_only_if_it_is_possible, set_up, NULL)
+{
+    world.scene.show_clipped = true;
+    assert_set("normals unit_fragment clipped | 0 directional diffuse");
+    assert_said("overexposed pixels highlighted: requested");
+    world.scene.interpolation = INTERPOLATION_GOURAUD;
+    assert_set("normals clipped | 0 directional diffuse at_vertex");
+    world.scene.clamp_vertex = true;
+    assert_set("normals clamp | 0 directional diffuse at_vertex");
+    assert_said("without highlighting overexposed pixels: colors are clamped at the vertices");
+}
+
+TEST_WITH(0, linear_light_is_off_by_default, set_up, NULL)
+{
+    world.scene.linear = true;
+    assert_set("normals unit_fragment linear | 0 directional diffuse");
+    assert_said("sRGB encoding: requested");
+}
+
+/* Only whether a number is zero matters, and whether alpha is one. */
+TEST_WITH(0, values_do_not_change_the_set, set_up, NULL)
+{
+    Light *light = &world.lights[0];
+    char before[1024], after[1024];
+    shine_specular();
+    shine_ambient();
+    light->kind = LIGHT_SPOT;
+    light->position = (Vec3){0, 0, 3};
+    light->direction = (Vec3){0, 0, -1};
+    light->cutoff = 40;
+    light->exponent = 2;
+    light->constant = light->linear = light->quadratic = 1;
+    world.object.front.alpha = 0.5;
+    world.object.front.emission = RED;
+    const Effects effects = effects_of(&world.scene, &world.object);
+    write_set(&effects, before);
+    light->diffuse = (Vec3){0.001, 0, 0};
+    light->specular = (Vec3){0, 1000, 0};
+    light->ambient = (Vec3){0, 0, 0.5};
+    light->cutoff = 3;
+    light->exponent = 127;
+    light->linear = 1e-6;
+    light->position = (Vec3){0.5, -0.5, 30};
+    world.object.front = (Material){{0, 0, 0.1}, {0.1, 1, 0}, {0, 0.1, 0}, {0, 0, 0.01}, 0, 0};
+    world.scene.global_ambient = RED;
+    transform_by(turned());
+    const Effects others = effects_of(&world.scene, &world.object);
+    write_set(&others, after);
+    assert_string_equal(after, before);
+    assert_memory_equal(&others, &effects,
+                        sizeof effects); /* including padding: sets may be compared bytewise */
+}
+
+TEST_WITH(0, the_full_set_has_every_effect, set_up, NULL)
+{
+    char text[1024];
+    world.lights[0].off = true;
+    Effects full = effects_full(&world.scene);
+    write_set(&full, text);
+    assert_string_equal(text, "two base alpha normals matrix unit_vertex unit_fragment local | 0 "
+                              "any ambient diffuse specular attenuation exponent");
+    world.scene.interpolation = INTERPOLATION_FLAT;
+    world.scene.clamp_vertex = world.scene.linear = true;
+    world.scene.reflection = REFLECTION_PHONG;
+    world.scene.light_count = 2;
+    world.lights[1] = world.lights[0];
+    full = effects_full(&world.scene);
+    write_set(&full, text);
+    assert_string_equal(text, "two base alpha normals matrix unit_vertex unit_fragment local phong "
+                              "clamp linear | 0 1 any ambient diffuse specular attenuation "
+                              "exponent at_vertex");
+}
+
+/* Guards. */
+
+static void assert_guarded(bool expected)
+{
+    require(scene_check(&world.scene, FAILURE), FAILURE);
+    const Effects effects = effects_of(&world.scene, &world.object);
+    assert_int_equal(effects.groups[0].guard_attenuation, expected);
+}
+
+TEST_WITH(0, attenuation_is_guarded_unless_its_constant_coefficient_bounds_it, set_up, NULL)
+{
+    Light *light = &world.lights[0];
+    *light = (Light){.kind = LIGHT_POINT, .position = {0, 1, 0}, .diffuse = WHITE, .linear = 1};
+    assert_guarded(true);
+    assert_said("guard of the attenuation: its denominator may be 0, or overflow");
+    light->constant = 1e-3;
+    assert_guarded(false);
+    assert_said("without guard of the attenuation: its constant coefficient is not 0");
+    light->constant = 1e-30;
+    assert_guarded(true);
+    light->constant = 1;
+    transform_by(scaled(1e19, 1e19, 1e19)); /* squares of distances overflow */
+    assert_guarded(true);
+    light->linear = 0; /* no attenuation */
+    assert_guarded(false);
+}
+
+TEST_WITH(0, a_group_is_guarded_if_any_of_its_lights_needs_it, set_up, NULL)
+{
+    world.lights[0] = (Light){
+        .kind = LIGHT_POINT, .position = {0, 5, 0}, .diffuse = WHITE, .constant = 1, .linear = 1};
+    world.lights[1] = world.lights[0];
+    world.scene.light_count = 2;
+    assert_guarded(false);
+    world.lights[1].constant = 0;
+    assert_set("normals unit_fragment | 0 1 point diffuse attenuation");
+    assert_guarded(true);
+    assert_true(effects_full(&world.scene).groups[0].guard_attenuation);
+}
+
+TEST_MAIN("effects", open_meshes, close_meshes)

@@ -1,0 +1,1046 @@
+/*
+ * The solids, the teapot, and operations on any mesh: faces, bounds, normals. No GL.
+ */
+#include "shapes/mesh_solids.h"
+#include "support/testing.h"
+#include "support/topology.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double PI = 3.14159265358979323846;
+
+/* Half a step of a float below 1, plus the error of sine and cosine in double. */
+static const double ROUNDED = FLT_EPSILON / 4 + 1e-15;
+
+static unsigned short seed[3];
+
+/* Unit normals, triangles with an area that are counter-clockwise on the side of their corners'
+ * normals, and the given number of open edges. */
+static void assert_sound(const Mesh *mesh, size_t boundary)
+{
+    topology_check_indices(mesh);
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
+        /* Three components, each with an error of at most a quarter of FLT_EPSILON: sqrt(3) / 4. */
+        const double length = vec3_length(topology_vector(mesh->vertices[i].normal));
+        assert_true(fabs(length - 1) <= 0.44 * FLT_EPSILON);
+        assert_true(isfinite(vec3_length(topology_vector(mesh->vertices[i].position))));
+    }
+    for (size_t triangle = 0; triangle < mesh->index_count / 3; triangle++) {
+        const Vec3 face = topology_face(mesh, triangle);
+        assert_true(vec3_length(face) > 0);
+        for (size_t i = 3 * triangle; i < 3 * triangle + 3; i++)
+            assert_true(vec3_dot(face, topology_vector(mesh->vertices[mesh->indices[i]].normal)) >
+                        0);
+    }
+    assert_int_equal(topology_open_edges(mesh), boundary);
+}
+
+/* Each of `rows` rows ends with its first vertex. */
+static void assert_seam(const MeshVertex *vertices, size_t rows, size_t columns)
+{
+    for (size_t j = 0; j < rows; j++)
+        assert_memory_equal(&vertices[j * (columns + 1)], &vertices[j * (columns + 1) + columns],
+                            sizeof *vertices);
+}
+
+/* `value` is `expected` to within `tolerance`, relative. */
+static void assert_near(double value, double expected, double tolerance)
+{
+    if (!(fabs(value - expected) <= tolerance * fabs(expected)))
+        fail_msg("%.17g instead of %.17g", value, expected);
+}
+
+/* A vertex lies where f is 0, and its normal is f's gradient. f is divided by the length of its
+ * gradient, which to first order gives the distance from the surface. */
+static void assert_on_surface(const MeshVertex *vertex, double f, Vec3 gradient, double size)
+{
+    Vec3 unit;
+    const double slope = vec3_length(gradient);
+    assert_true(vec3_normalize(gradient, &unit));
+    /* At most half a step in each coordinate. */
+    assert_true(fabs(f) / slope <= size * FLT_EPSILON);
+    /* The gradient is computed at the rounded position, and the normal is rounded too. */
+    assert_true(topology_distance(unit, topology_vector(vertex->normal)) <= 4 * FLT_EPSILON);
+}
+
+typedef struct Tessellation {
+    int around, along;
+} Tessellation;
+
+static const Tessellation TESSELLATIONS[] = {{3, 1},   {3, 3},  {4, 2},    {13, 13},
+                                             {64, 32}, {5, 50}, {8192, 3}, {3, 8192}};
+enum { TESSELLATION_COUNT = sizeof TESSELLATIONS / sizeof TESSELLATIONS[0] };
+
+static const double SIZES[] = {1, 0.1, 3, 1e-18, 1e20};
+enum { SIZE_COUNT = sizeof SIZES / sizeof SIZES[0] };
+
+/* The area of a regular polygon with n corners in a circle of radius 1. */
+static double polygon(int n)
+{
+    return n / 2.0 * sin(2 * PI / n);
+}
+
+/* Cone, cylinder, torus, disc, quad. */
+
+TEST(a_cone_lies_on_its_surface_with_the_normals_of_it)
+{
+    for (int n = 0; n < TESSELLATION_COUNT; n++) {
+        for (int s = 0; s < SIZE_COUNT; s++) {
+            const Tessellation t = TESSELLATIONS[n];
+            const double r = SIZES[s], h = 2.5 * r;
+            const size_t row = (size_t)t.around + 1, side = row * ((size_t)t.along + 1);
+            CLOSED(mesh_close) Mesh mesh;
+            SUCCEEDS(mesh_cone(&mesh, r, h, t.around, t.along, message));
+            assert_int_equal(mesh.vertex_count, side + 2 * row);
+            assert_seam(mesh.vertices, (size_t)t.along + 3, row - 1);
+            for (size_t i = row; i < side; i++) {
+                const Vec3 p = topology_vector(mesh.vertices[i].position);
+                const double wide = hypot(p.x, p.y);
+                assert_on_surface(&mesh.vertices[i], wide + r * p.z / h - r,
+                                  (Vec3){p.x / wide, p.y / wide, r / h}, h);
+            }
+            for (size_t i = 0; i < row; i++) { /* the apex: vertex i + 1 is that of slice i */
+                const MeshVertex apex = {{0, 0, (float)h}, {0, 0, 0}};
+                const double a = 2 * PI * ((double)i - 0.5) / t.around, l = hypot(r, h);
+                const Vec3 normal = {h / l * cos(a), h / l * sin(a), r / l};
+                assert_memory_equal(mesh.vertices[i].position, apex.position, sizeof apex.position);
+                assert_true(topology_distance(topology_vector(mesh.vertices[i].normal), normal) <=
+                            2 * ROUNDED);
+            }
+            const MeshVertex middle = {{0, 0, 0}, {0, 0, -1}};
+            for (size_t i = side; i < mesh.vertex_count; i++) {
+                assert_memory_equal(mesh.vertices[i].normal, middle.normal, sizeof middle.normal);
+                assert_true(mesh.vertices[i].position[2] == 0);
+                if (i >= side + row)
+                    assert_memory_equal(&mesh.vertices[i], &middle, sizeof middle);
+            }
+        }
+    }
+}
+
+TEST(a_cone_is_closed_and_has_the_area_and_volume_of_its_pyramid)
+{
+    for (int n = 0; n < TESSELLATION_COUNT; n++) {
+        const Tessellation t = TESSELLATIONS[n];
+        const double r = 1.5, h = 4, apothem = r * cos(PI / t.around);
+        CLOSED(mesh_close) Mesh mesh;
+        assert_true(mesh_cone(&mesh, r, h, t.around, t.along, NULL));
+        assert_int_equal(mesh.index_count, 3 * t.around * (2 * t.along - 1 + 1));
+        assert_sound(&mesh, 0);
+        /* Half a step in every coordinate: relative errors of a few FLT_EPSILON. */
+        assert_near(topology_volume(&mesh), polygon(t.around) * r * r * h / 3, 4 * FLT_EPSILON);
+        assert_near(topology_area(&mesh),
+                    polygon(t.around) * r * r +
+                        t.around * r * sin(PI / t.around) * hypot(h, apothem),
+                    4 * FLT_EPSILON);
+    }
+}
+
+TEST(a_cylinder_lies_on_its_surface_with_the_normals_of_it)
+{
+    for (int n = 0; n < TESSELLATION_COUNT; n++) {
+        for (int s = 0; s < SIZE_COUNT; s++) {
+            const Tessellation t = TESSELLATIONS[n];
+            const double r = SIZES[s], h = 0.7 * r;
+            const size_t row = (size_t)t.around + 1, side = row * ((size_t)t.along + 1);
+            CLOSED(mesh_close) Mesh mesh;
+            SUCCEEDS(mesh_cylinder(&mesh, r, h, t.around, t.along, MESH_CAP_BOTH, message));
+            assert_int_equal(mesh.vertex_count, side + 4 * row);
+            assert_seam(mesh.vertices, (size_t)t.along + 5, row - 1);
+            for (size_t i = 0; i < side; i++) {
+                const Vec3 p = topology_vector(mesh.vertices[i].position);
+                assert_true(p.z >= 0 && p.z <= (float)h);
+                assert_on_surface(&mesh.vertices[i], hypot(p.x, p.y) - r,
+                                  (Vec3){p.x / r, p.y / r, 0}, r);
+            }
+            for (size_t i = side; i < mesh.vertex_count; i++) { /* the top's, then the bottom's */
+                const bool top = i < side + 2 * row;
+                const float *normal = mesh.vertices[i].normal;
+                assert_true(normal[0] == 0 && normal[1] == 0 && normal[2] == (top ? 1 : -1));
+                assert_true(mesh.vertices[i].position[2] == (top ? (float)h : 0));
+            }
+        }
+    }
+}
+
+TEST(a_cylinder_without_a_cap_is_open)
+{
+    for (int n = 0; n < TESSELLATION_COUNT; n++) {
+        const Tessellation t = TESSELLATIONS[n];
+        const double r = 2, h = 3, side = 2 * t.around * r * sin(PI / t.around) * h;
+        for (int caps = MESH_CAP_NONE; caps <= MESH_CAP_BOTH; caps++) {
+            const bool bottom = caps & MESH_CAP_BOTTOM, top = caps & MESH_CAP_TOP;
+            CLOSED(mesh_close) Mesh mesh;
+            assert_true(mesh_cylinder(&mesh, r, h, t.around, t.along, (MeshCaps)caps, NULL));
+            assert_sound(&mesh, (size_t)t.around * (size_t)(!bottom + !top));
+            assert_near(topology_area(&mesh), side + (bottom + top) * polygon(t.around) * r * r,
+                        4 * FLT_EPSILON);
+            /* Seen from the origin, in the plane of the bottom: the bottom contributes nothing;
+             * side and top enclose two thirds and one third of the prism. */
+            assert_near(topology_volume(&mesh), polygon(t.around) * r * r * h * (2 + top) / 3,
+                        4 * FLT_EPSILON);
+            size_t down = 0;
+            for (size_t i = 0; i < mesh.index_count / 3; i++)
+                down += topology_face(&mesh, i).z < 0;
+            assert_int_equal(down, bottom ? t.around : 0);
+        }
+    }
+}
+
+TEST(a_torus_lies_on_its_surface_with_the_normals_of_it)
+{
+    static const double thickness[] = {0.001, 0.3, 0.999999};
+    for (int n = 1; n < TESSELLATION_COUNT; n++) {
+        for (int s = 0; s < SIZE_COUNT; s++) {
+            const int rings = TESSELLATIONS[n].around;
+            const int sides = TESSELLATIONS[n].along < 3 ? 3 : TESSELLATIONS[n].along;
+            const double ring = SIZES[s], tube = thickness[s % 3] * ring;
+            CLOSED(mesh_close) Mesh mesh;
+            SUCCEEDS(mesh_torus(&mesh, tube, ring, sides, rings, message));
+            assert_int_equal(mesh.vertex_count, (rings + 1) * (sides + 1));
+            assert_int_equal(mesh.index_count, 6 * rings * sides);
+            assert_seam(mesh.vertices, (size_t)sides + 1, (size_t)rings);
+            assert_memory_equal(mesh.vertices, mesh.vertices + (rings + 1) * sides,
+                                ((size_t)rings + 1) * sizeof *mesh.vertices);
+            for (size_t i = 0; i < mesh.vertex_count; i++) {
+                /* The vector from the middle of the tube; the thinner the tube, the larger its
+                 * relative rounding error. */
+                const Vec3 p = topology_vector(mesh.vertices[i].position);
+                const double wide = hypot(p.x, p.y);
+                const Vec3 middle = {ring * p.x / wide, ring * p.y / wide, 0};
+                const Vec3 out = vec3_scale(vec3_subtract(p, middle), 1 / tube);
+                const double part = FLT_EPSILON * (1 + ring / tube);
+                assert_true(fabs(vec3_length(out) - 1) <= part);
+                if (wide > 0.01 * ring) /* near the axis it has no accurate direction */
+                    assert_true(topology_distance(out, topology_vector(mesh.vertices[i].normal)) <=
+                                2 * part);
+            }
+        }
+    }
+}
+
+TEST(a_torus_is_closed_and_its_area_and_volume_converge)
+{
+    const double tube = 0.5, ring = 2;
+    double area_before = 0, volume_before = 0;
+    for (int n = 1; n < TESSELLATION_COUNT; n++) {
+        const int sides = TESSELLATIONS[n].along < 3 ? 3 : TESSELLATIONS[n].along;
+        CLOSED(mesh_close) Mesh mesh;
+        assert_true(mesh_torus(&mesh, tube, ring, sides, TESSELLATIONS[n].around, NULL));
+        assert_sound(&mesh, 0);
+    }
+    for (int divisions = 16; divisions <= 256; divisions *= 2) {
+        Mesh mesh;
+        assert_true(mesh_torus(&mesh, tube, ring, divisions, divisions, NULL));
+        const double area_error = 4 * PI * PI * tube * ring - topology_area(&mesh);
+        const double volume_error = 2 * PI * PI * tube * tube * ring - topology_volume(&mesh);
+        mesh_close(&mesh);
+        /* Twice the divisions leave a quarter of the error, apart from a term of fourth order:
+         * about the square of a division's angle, (2 pi / 16)^2 = 0.15 at the coarsest. */
+        if (divisions > 16) {
+            assert_true(fabs(area_before / area_error - 4) < 0.15);
+            assert_true(fabs(volume_before / volume_error - 4) < 0.15);
+        }
+        area_before = area_error;
+        volume_before = volume_error;
+    }
+    assert_true(area_before > 0 && area_before < 0.01 && volume_before > 0);
+}
+
+TEST(a_disc_is_a_polygon_that_faces_up)
+{
+    for (int n = 0; n < TESSELLATION_COUNT; n++) {
+        for (int s = 0; s < SIZE_COUNT; s++) {
+            const Tessellation t = TESSELLATIONS[n];
+            const double r = SIZES[s];
+            CLOSED(mesh_close) Mesh mesh;
+            SUCCEEDS(mesh_disc(&mesh, r, t.around, t.along, message));
+            assert_int_equal(mesh.vertex_count, (t.around + 1) * (t.along + 1));
+            assert_int_equal(mesh.index_count, 3 * t.around * (2 * t.along - 1));
+            assert_seam(mesh.vertices, (size_t)t.along + 1, (size_t)t.around);
+            assert_sound(&mesh, (size_t)t.around);
+            assert_near(topology_area(&mesh), polygon(t.around) * r * r, 4 * FLT_EPSILON);
+            for (size_t i = 0; i < mesh.vertex_count; i++) {
+                const Vec3 p = topology_vector(mesh.vertices[i].position);
+                const double loop = (double)(i / ((size_t)t.around + 1)) / t.along;
+                const double angle = 2 * PI * (double)(i % ((size_t)t.around + 1)) / t.around;
+                const Vec3 expected = {r * loop * cos(angle), r * loop * sin(angle), 0};
+                assert_true(topology_distance(p, expected) <= 4 * r * ROUNDED && p.z == 0);
+                assert_true(mesh.vertices[i].normal[2] == 1);
+            }
+        }
+    }
+}
+
+TEST(a_quad_is_a_square_that_faces_up)
+{
+    static const int divisions[] = {1, 2, 3, 10, 128};
+    for (size_t n = 0; n < sizeof divisions / sizeof divisions[0]; n++) {
+        const int d = divisions[n];
+        CLOSED(mesh_close) Mesh mesh;
+        assert_true(mesh_quad(&mesh, d, NULL));
+        assert_int_equal(mesh.vertex_count, (d + 1) * (d + 1));
+        assert_int_equal(mesh.index_count, 6 * d * d);
+        assert_sound(&mesh, 4 * (size_t)d);
+        assert_near(topology_area(&mesh), 4, 4 * FLT_EPSILON);
+        for (int i = 0; i < (d + 1) * (d + 1); i++) { /* rows from the top, columns from the left */
+            const MeshVertex expected = {{(float)((double)(2 * (i % (d + 1)) - d) / d),
+                                          (float)((double)(d - 2 * (i / (d + 1))) / d), 0},
+                                         {0, 0, 1}};
+            assert_memory_equal(&mesh.vertices[i], &expected, sizeof expected);
+        }
+    }
+}
+
+/* Regular solids. */
+
+static const struct {
+    bool (*open)(Mesh *mesh, double radius, Message *message);
+    int faces, sides;
+    double edge, volume; /* in a sphere of radius 1 */
+    Vec3 corner, no_corner;
+} REGULAR[] = {
+    /* Edge and volume as in Coxeter, Regular polytopes, table I. */
+    {mesh_tetrahedron, 4, 3, 1.6329931618554520655, 0.51320023928966731859, {1, 1, 1}, {-1, 1, 1}},
+    {mesh_octahedron, 8, 3, 1.4142135623730950488, 1.3333333333333333333, {0, 0, 1}, {1, 1, 1}},
+    {mesh_dodecahedron,
+     12,
+     5,
+     0.71364417954617988885,
+     2.7851638631226171,
+     {0, 0.61803398874989484820, 1.6180339887498948482},
+     {0, 1.6180339887498948482, 0.61803398874989484820}},
+    {mesh_icosahedron,
+     20,
+     3,
+     1.0514622242382672121,
+     2.5361507101204095,
+     {1, 0, 1.6180339887498948482},
+     {1.6180339887498948482, 0, 1}},
+};
+enum { REGULAR_COUNT = sizeof REGULAR / sizeof REGULAR[0] };
+
+static bool has_corner(const Mesh *mesh, Vec3 direction, double radius)
+{
+    Vec3 unit;
+    vec3_normalize(direction, &unit);
+    for (size_t i = 0; i < mesh->vertex_count; i++)
+        if (topology_distance(vec3_scale(topology_vector(mesh->vertices[i].position), 1 / radius),
+                              unit) < 1e-6)
+            return true;
+    return false;
+}
+
+TEST(regular_solids_are_regular)
+{
+    for (int n = 0; n < REGULAR_COUNT; n++) {
+        for (int s = 0; s < SIZE_COUNT; s++) {
+            const double r = SIZES[s];
+            const size_t sides = (size_t)REGULAR[n].sides, faces = (size_t)REGULAR[n].faces;
+            CLOSED(mesh_close) Mesh mesh;
+            SUCCEEDS(REGULAR[n].open(&mesh, r, message));
+            assert_int_equal(mesh.vertex_count, faces * sides);
+            assert_int_equal(mesh.index_count, 3 * faces * (sides - 2));
+            assert_sound(&mesh, 0);
+            assert_near(topology_volume(&mesh), REGULAR[n].volume * r * r * r, 4 * FLT_EPSILON);
+            for (size_t i = 0; i < mesh.vertex_count; i++) {
+                const size_t next = i % sides == sides - 1 ? i + 1 - sides : i + 1;
+                const Vec3 p = topology_vector(mesh.vertices[i].position);
+                const Vec3 q = topology_vector(mesh.vertices[next].position);
+                const Vec3 normal = topology_vector(mesh.vertices[i].normal);
+                assert_near(vec3_length(p), r, FLT_EPSILON);
+                assert_near(topology_distance(p, q), REGULAR[n].edge * r, 2 * FLT_EPSILON);
+                /* Flat: the normal is the face's, perpendicular to its edges. */
+                assert_true(fabs(vec3_dot(vec3_subtract(q, p), normal)) <= 4 * FLT_EPSILON * r);
+                assert_memory_equal(mesh.vertices[i].normal, mesh.vertices[next].normal,
+                                    sizeof mesh.vertices[i].normal);
+                /* Convex: no corner is above a face. */
+                for (size_t other = 0; other < mesh.vertex_count; other++)
+                    assert_true(
+                        vec3_dot(vec3_subtract(topology_vector(mesh.vertices[other].position), p),
+                                 normal) <= 4 * FLT_EPSILON * r);
+            }
+            assert_true(has_corner(&mesh, REGULAR[n].corner, r));
+            assert_false(has_corner(&mesh, REGULAR[n].no_corner, r));
+        }
+    }
+}
+
+/* The teapot. */
+
+/* Its grids: columns around, rows down; the mirror plane contains column 0 and the middle column.
+ */
+static const struct {
+    const char *name;
+    int down, around;
+} PARTS[] = {{"body", 4, 4}, {"lid", 2, 4}, {"handle", 2, 2}, {"spout", 2, 2}};
+enum { PART_COUNT = sizeof PARTS / sizeof PARTS[0], BODY = 0, LID, HANDLE, SPOUT };
+
+static Mesh teapot(double size, int divisions)
+{
+    Mesh mesh;
+    SUCCEEDS(mesh_teapot(&mesh, size, divisions, message));
+    return mesh;
+}
+
+/* Vertex (row, column) of a part; both may be fractions of a patch's divisions. */
+static const MeshVertex *part_vertex(const Mesh *mesh, int divisions, int part, int row, int column)
+{
+    size_t first = 0;
+    for (int i = 0; i < part; i++)
+        first +=
+            (size_t)(PARTS[i].down * divisions + 1) * (size_t)(PARTS[i].around * divisions + 1);
+    return &mesh->vertices[first + (size_t)row * (size_t)(PARTS[part].around * divisions + 1) +
+                           (size_t)column];
+}
+
+TEST(a_teapot_has_32_patches_whose_seams_are_equal_bit_for_bit)
+{
+    static const int divisions[] = {2, 3, 8, 14, 33};
+    for (size_t n = 0; n < sizeof divisions / sizeof divisions[0]; n++) {
+        const int d = divisions[n];
+        CLOSED(mesh_close) Mesh mesh = teapot(1, d);
+        size_t vertex_count = 0, patches = 0;
+        for (int part = 0; part < PART_COUNT; part++) {
+            const size_t rows = (size_t)(PARTS[part].down * d + 1);
+            const size_t columns = (size_t)(PARTS[part].around * d);
+            assert_seam(mesh.vertices + vertex_count, rows, columns);
+            vertex_count += rows * (columns + 1);
+            patches += (size_t)(PARTS[part].down * PARTS[part].around);
+        }
+        assert_int_equal(patches, MESH_TEAPOT_PATCHES);
+        assert_int_equal(mesh.vertex_count, vertex_count);
+        /* Two triangles for each part of each patch; at each of the two poles one less. */
+        assert_int_equal(mesh.index_count, 3 * (MESH_TEAPOT_PATCHES * 2 * d * d - 2 * 4 * d));
+        /* Open: rim and lid, and the two ends of both tubes. */
+        assert_int_equal(topology_open_edges(&mesh), 2 * 4 * d + 2 * 2 * 2 * d);
+        for (size_t i = 0; i < mesh.index_count / 3; i++)
+            assert_true(vec3_length(topology_face(&mesh, i)) > 0);
+    }
+}
+
+TEST(a_teapot_turns_its_triangles_outwards)
+{
+    /* If coarser, some triangles lie across the surface where handle and lid bend most. */
+    static const int divisions[] = {8, 14, 40};
+    for (size_t n = 0; n < sizeof divisions / sizeof divisions[0]; n++) {
+        const int d = divisions[n];
+        CLOSED(mesh_close) Mesh mesh = teapot(1, d);
+        assert_sound(&mesh, 16 * (size_t)d);
+        /* Body and lid: away from the axis, or up or down at the poles. Tubes: away from the middle
+         * of their cross sections. */
+        for (int part = 0; part < PART_COUNT; part++) {
+            const int columns = PARTS[part].around * d;
+            for (int row = 0; row <= PARTS[part].down * d; row++) {
+                Vec3 middle = {0, 0, 0};
+                double outwards = 0;
+                for (int i = 0; i < columns; i++)
+                    middle = vec3_add(
+                        middle, topology_vector(part_vertex(&mesh, d, part, row, i)->position));
+                middle = vec3_scale(middle, 1.0 / columns);
+                for (int i = 0; i < columns; i++) {
+                    const MeshVertex *vertex = part_vertex(&mesh, d, part, row, i);
+                    outwards += vec3_dot(vec3_subtract(topology_vector(vertex->position), middle),
+                                         topology_vector(vertex->normal));
+                }
+                /* The rim, the lid, the middle of the bottom and the spout's lip face other ways
+                 * too. */
+                if (part == HANDLE || (part == SPOUT && row <= d) ||
+                    (part == BODY && row >= d && row < 4 * d))
+                    assert_true(outwards > 0);
+            }
+        }
+    }
+}
+
+TEST(a_teapot_passes_through_known_points)
+{
+    /* By hand, from Newell's control points: in the middle of a patch's side a cubic is (a + 3b +
+     * 3c + d) / 8; in the middle of a quarter turn x = y = (4 + 3 * 0.56) / 8 radius. Here as (x, z
+     * - 1.5, -y) / 2. Rows and columns in halves of a patch. */
+    static const struct {
+        int part, row, column;
+        Vec3 position;
+    } known[] = {
+        {BODY, 0, 0, {0.7, 0.45, 0}},
+        {BODY, 1, 0, {0.7015625, 0.49921875, 0}},
+        {BODY, 3, 0, {0.921875, 0.0609375, 0}},
+        {BODY, 3, 1, {0.65453125, 0.0609375, -0.65453125}},
+        {BODY, 4, 2, {0, -0.3, -1}},
+        {BODY, 4, 4, {-1, -0.3, 0}},
+        {BODY, 4, 6, {0, -0.3, 1}},
+        {BODY, 5, 0, {0.875, -0.5578125, 0}},
+        {BODY, 7, 1, {0.455953125, -0.7265625, -0.455953125}},
+        {BODY, 8, 0, {0, -0.75, 0}},
+        {LID, 0, 0, {0, 0.825, 0}},
+        {LID, 1, 0, {0.1625, 0.740625, 0}},
+        {LID, 1, 1, {0.115515625, 0.740625, -0.115515625}},
+        {LID, 2, 0, {0.1, 0.6, 0}},
+        {LID, 3, 0, {0.4125, 0.525, 0}},
+        {LID, 4, 2, {0, 0.45, -0.65}},
+        {HANDLE, 0, 0, {-0.75, 0.375, 0}},
+        {HANDLE, 0, 2, {-0.8, 0.2625, 0}},
+        {HANDLE, 1, 0, {-1.3125, 0.346875, 0}},
+        {HANDLE, 1, 1, {-1.259375, 0.29765625, 0.1125}},
+        {HANDLE, 2, 0, {-1.5, 0.15, 0}},
+        {HANDLE, 2, 1, {-1.425, 0.15, 0.1125}},
+        {HANDLE, 3, 0, {-1.365625, -0.17109375, 0}},
+        {HANDLE, 3, 2, {-1.26875, -0.075, 0}},
+        {HANDLE, 3, 3, {-1.3171875, -0.123046875, -0.1125}},
+        {HANDLE, 4, 2, {-1, -0.3, 0}},
+        {SPOUT, 0, 0, {0.85, -0.45, 0}},
+        {SPOUT, 1, 0, {1.34375, -0.028125, 0}},
+        {SPOUT, 1, 1, {1.26875, 0.0609375, 0.170625}},
+        {SPOUT, 1, 2, {1.19375, 0.15, 0}},
+        {SPOUT, 2, 2, {1.35, 0.45, 0}},
+        {SPOUT, 3, 0, {1.7140625, 0.488671875, 0}},
+        {SPOUT, 3, 1, {1.56328125, 0.4833984375, 0.075}},
+        {SPOUT, 3, 2, {1.4125, 0.478125, 0}},
+        {SPOUT, 4, 0, {1.6, 0.45, 0}},
+        {SPOUT, 4, 1, {1.5, 0.45, 0.05625}},
+        {SPOUT, 4, 3, {1.5, 0.45, -0.05625}},
+    };
+    static const double sizes[] = {1, 0.3, 1e-15, 1e20};
+    for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++) {
+        const int divisions = 10;
+        CLOSED(mesh_close) Mesh mesh = teapot(sizes[s], divisions);
+        for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+            const MeshVertex *vertex =
+                part_vertex(&mesh, divisions, known[i].part, known[i].row * divisions / 2,
+                            known[i].column * divisions / 2);
+            const Vec3 p = vec3_scale(topology_vector(vertex->position), 1 / sizes[s]);
+            /* Coordinates below 2 are rounded to float once: half a step in each. */
+            if (!(topology_distance(p, known[i].position) <= FLT_EPSILON))
+                fail_msg("%s %d %d: %.9g %.9g %.9g", PARTS[known[i].part].name, known[i].row,
+                         known[i].column, p.x, p.y, p.z);
+        }
+    }
+}
+
+TEST(a_teapot_fills_its_box)
+{
+    double max = 0; /* on the outer curve of the spout's second half, which reaches farthest */
+    for (int i = 0; i <= 100000; i++) {
+        const double t = i / 1e5, s = 1 - t;
+        max = fmax(
+            max,
+            (3.3 * s * s * s + 3 * 3.525 * s * s * t + 3 * 3.45 * s * t * t + 3.2 * t * t * t) / 2);
+    }
+    static const int divisions[] = {2, 8, 64};
+    for (size_t n = 0; n < sizeof divisions / sizeof divisions[0]; n++) {
+        CLOSED(mesh_close) Mesh mesh = teapot(1, divisions[n]);
+        Vec3 low, high;
+        mesh_bounds(&mesh, &low, &high);
+        /* Ends of patches. */
+        assert_true(low.x == -1.5 && low.y == -0.75 && low.z == -1);
+        assert_true(high.y == 0.825F && high.z == 1);
+        /* This one is within a patch: at most half a part away from a vertex. The curve's second
+         * derivative there is 6 ((3.3 - 2 * 3.525 + 3.45) 0.59 + ...0.41) / 2 = -1.49, so it has
+         * fallen by 1.49 / 2 (0.5 / n)^2. */
+        assert_true(high.x <= max + FLT_EPSILON);
+        assert_true(high.x >= max - 1.49 / 8 / divisions[n] / divisions[n] - FLT_EPSILON);
+    }
+}
+
+TEST(a_teapot_is_its_own_mirror_image)
+{
+    const int divisions = 9;
+    CLOSED(mesh_close) Mesh mesh = teapot(1, divisions);
+    for (int part = 0; part < PART_COUNT; part++) {
+        const int columns = PARTS[part].around * divisions;
+        for (int row = 0; row <= PARTS[part].down * divisions; row++) {
+            for (int column = 0; column <= columns; column++) {
+                const MeshVertex *a = part_vertex(&mesh, divisions, part, row, column);
+                const MeshVertex *b = part_vertex(&mesh, divisions, part, row, columns - column);
+                assert_true(a->position[0] == b->position[0]);
+                assert_true(a->position[1] == b->position[1]);
+                assert_true(a->position[2] == -b->position[2]);
+                /* Normals are computed from differences: only the last bit may differ. */
+                const Vec3 mirrored = {b->normal[0], b->normal[1], -b->normal[2]};
+                assert_true(topology_distance(topology_vector(a->normal), mirrored) <= FLT_EPSILON);
+            }
+        }
+    }
+}
+
+TEST(a_coarse_teapot_has_the_vertices_of_a_fine_one)
+{
+    CLOSED(mesh_close) Mesh fine = teapot(1, 64);
+    for (int coarse_divisions = 2; coarse_divisions <= 32; coarse_divisions *= 4) {
+        const int step = 64 / coarse_divisions;
+        CLOSED(mesh_close) Mesh coarse = teapot(1, coarse_divisions);
+        for (int part = 0; part < PART_COUNT; part++)
+            for (int row = 0; row <= PARTS[part].down * coarse_divisions; row++)
+                for (int column = 0; column <= PARTS[part].around * coarse_divisions; column++)
+                    assert_memory_equal(part_vertex(&coarse, coarse_divisions, part, row, column),
+                                        part_vertex(&fine, 64, part, step * row, step * column),
+                                        sizeof(MeshVertex));
+    }
+}
+
+/* The sine of the angle between the normal and the surface, estimated from the neighbours on both
+ * sides in one direction. */
+static double tilt(const MeshVertex *before, const MeshVertex *vertex, const MeshVertex *after)
+{
+    const Vec3 along =
+        vec3_subtract(topology_vector(after->position), topology_vector(before->position));
+    return fabs(vec3_dot(along, topology_vector(vertex->normal))) / vec3_length(along);
+}
+
+static double worst_tilt(int divisions)
+{
+    Mesh mesh = teapot(1, divisions);
+    double worst = 0;
+    for (int part = 0; part < PART_COUNT; part++) {
+        for (int row = 0; row < PARTS[part].down * divisions; row++) {
+            for (int column = 0; column < PARTS[part].around * divisions; column++) {
+                const MeshVertex *at = part_vertex(&mesh, divisions, part, row, column);
+                /* The spacing changes across the side of a patch. */
+                if (column % divisions > 0 && !(part == LID && row == 0))
+                    worst = fmax(worst, tilt(at - 1, at, at + 1));
+                if (row % divisions > 0)
+                    worst =
+                        fmax(worst, tilt(part_vertex(&mesh, divisions, part, row - 1, column), at,
+                                         part_vertex(&mesh, divisions, part, row + 1, column)));
+            }
+        }
+    }
+    mesh_close(&mesh);
+    return worst;
+}
+
+TEST(the_normals_of_a_teapot_are_perpendicular_to_it)
+{
+    double before = 0;
+    for (int divisions = 16; divisions <= 128; divisions *= 2) {
+        const double worst = worst_tilt(divisions);
+        print_message("%d divisions: differences are %.3g off at most\n", divisions, worst);
+        /* Central differences of a cubic have an error of second order, so a quarter each time,
+         * plus that of rounded positions, which weighs more the closer they are. */
+        if (before > 0)
+            assert_true(worst < before / 3.3);
+        before = worst;
+    }
+    assert_true(before < 1e-3);
+}
+
+TEST(the_poles_of_a_teapot_have_the_normals_of_the_limit)
+{
+    const MeshVertex tip = {{0, 0.825F, 0}, {0, 1, 0}}, bottom = {{0, -0.75F, 0}, {0, -1, 0}};
+    static const int divisions[] = {2, 7, 256};
+    double before = 2;
+    for (size_t n = 0; n < sizeof divisions / sizeof divisions[0]; n++) {
+        const int d = divisions[n];
+        CLOSED(mesh_close) Mesh mesh = teapot(1, d);
+        double farthest = 0;
+        for (int column = 0; column <= 4 * d; column++) {
+            assert_memory_equal(part_vertex(&mesh, d, LID, 0, column), &tip, sizeof tip);
+            assert_memory_equal(part_vertex(&mesh, d, BODY, 4 * d, column), &bottom, sizeof bottom);
+            const Vec3 lid = topology_vector(part_vertex(&mesh, d, LID, 1, column)->normal);
+            const Vec3 body =
+                topology_vector(part_vertex(&mesh, d, BODY, 4 * d - 1, column)->normal);
+            farthest = fmax(farthest, fmax(topology_distance(lid, (Vec3){0, 1, 0}),
+                                           topology_distance(body, (Vec3){0, -1, 0})));
+        }
+        assert_true(farthest < before); /* the neighbours move to it */
+        before = farthest;
+    }
+    /* The outline falls by 3 * 0.3 t^2 over a distance of 2.4 t: a slope of 0.75 t. */
+    assert_near(before, 0.75 / 256, 0.02);
+}
+
+/* Any mesh. */
+
+TEST(bounds_contain_all_vertices)
+{
+    MeshVertex vertices[] = {{{1, -2, 3}, {0, 0, 1}}, {{-4, 5, 0.5F}, {0, 0, 1}}};
+    Vec3 low, high;
+    mesh_bounds(&(Mesh){.vertices = vertices, .vertex_count = 2}, &low, &high);
+    assert_true(low.x == -4 && low.y == -2 && low.z == 0.5);
+    assert_true(high.x == 1 && high.y == 5 && high.z == 3);
+    mesh_bounds(&(Mesh){.vertices = vertices, .vertex_count = 1}, &low, &high);
+    assert_true(topology_distance(low, high) == 0 && low.z == 3);
+    mesh_bounds(&(Mesh){.vertices = NULL}, &low, &high);
+    assert_true(vec3_length(low) == 0 && vec3_length(high) == 0);
+}
+
+TEST(a_flat_mesh_has_its_triangles_and_their_normals)
+{
+    CLOSED(mesh_close) Mesh smooth = teapot(1, 6), flat = teapot(1, 6);
+    const size_t count = smooth.index_count;
+    for (int twice = 0; twice < 2; twice++) {
+        assert_true(mesh_flatten(&flat, NULL));
+        assert_int_equal(flat.index_count, count);
+        assert_int_equal(flat.vertex_count, count);
+        for (size_t i = 0; i < count; i++) {
+            Vec3 normal;
+            assert_int_equal(flat.indices[i], i);
+            assert_memory_equal(flat.vertices[i].position,
+                                smooth.vertices[smooth.indices[i]].position,
+                                sizeof flat.vertices[i].position);
+            assert_true(mesh_face(&smooth, i / 3, &normal));
+            assert_true(topology_distance(topology_vector(flat.vertices[i].normal), normal) <=
+                        2 * ROUNDED);
+            assert_true(fabs(vec3_dot(topology_face(&smooth, i / 3), normal) -
+                             vec3_length(topology_face(&smooth, i / 3))) < 1e-15);
+        }
+    }
+}
+
+TEST(a_flat_cube_is_the_cube_and_a_flat_sphere_has_no_triangle_without_area)
+{
+    Mesh cube, flat, sphere;
+    assert_true(mesh_cube(&cube, 2, NULL) && mesh_cube(&flat, 2, NULL));
+    assert_true(mesh_flatten(&flat, NULL));
+    for (size_t i = 0; i < cube.index_count; i++) {
+        const MeshVertex *vertex = &cube.vertices[cube.indices[i]];
+        assert_true(
+            topology_distance(topology_corner(&flat, i), topology_vector(vertex->position)) == 0);
+        assert_true(topology_distance(topology_vector(flat.vertices[i].normal),
+                                      topology_vector(vertex->normal)) == 0);
+    }
+    mesh_close(&cube);
+    mesh_close(&flat);
+    /* The lecture's sphere has 2 * 13 at the poles. At the south pole sin(pi) is not quite 0, so in
+     * floats these triangles are slivers; at the north pole the area is exactly 0. */
+    assert_true(mesh_sphere_lecture(&sphere, 13, NULL));
+    const size_t before = sphere.index_count / 3;
+    size_t without = 0;
+    for (size_t i = 0; i < before; i++) {
+        Vec3 normal;
+        without += !mesh_face(&sphere, i, &normal);
+    }
+    assert_true(without >= 13);
+    assert_true(mesh_flatten(&sphere, NULL));
+    assert_int_equal(sphere.index_count / 3, before - without);
+    for (size_t i = 0; i < sphere.index_count / 3; i++)
+        assert_true(vec3_length(topology_face(&sphere, i)) > 0);
+    mesh_close(&sphere);
+}
+
+static const MeshWeight WEIGHTS[] = {MESH_WEIGHT_ANGLE, MESH_WEIGHT_AREA, MESH_WEIGHT_MAX};
+
+/* Merges vertices at the same place, and clears the normals. */
+static void weld(Mesh *mesh)
+{
+    uint32_t *vertex = topology_representatives(mesh);
+    for (size_t i = 0; i < mesh->index_count; i++)
+        mesh->indices[i] = vertex[mesh->indices[i]];
+    for (size_t i = 0; i < mesh->vertex_count; i++)
+        mesh->vertices[i].normal[0] = NAN;
+    free(vertex);
+}
+
+/* How far the normals of a welded mesh are from the true ones, which are a copy. */
+static double worst_normal(const Mesh *welded, const Mesh *truth)
+{
+    double worst = 0;
+    for (size_t i = 0; i < welded->index_count; i++)
+        worst = fmax(
+            worst, topology_distance(topology_vector(welded->vertices[welded->indices[i]].normal),
+                                     topology_vector(truth->vertices[welded->indices[i]].normal)));
+    return worst;
+}
+
+TEST(separate_faces_get_face_normals)
+{
+    for (int w = 0; w < 3; w++) {
+        CLOSED(mesh_close) Mesh truth, mesh;
+        assert_true(mesh_cube(&truth, 3, NULL) && mesh_cube(&mesh, 3, NULL));
+        for (size_t i = 0; i < mesh.vertex_count; i++)
+            mesh.vertices[i].normal[0] = NAN;
+        assert_true(mesh_compute_normals(&mesh, WEIGHTS[w], NULL));
+        assert_memory_equal(mesh.vertices, truth.vertices,
+                            mesh.vertex_count * sizeof *mesh.vertices);
+    }
+}
+
+TEST(angle_weights_do_not_depend_on_how_faces_are_triangulated)
+{
+    const double third = 1 / sqrt(3);
+    double worst[3] = {0, 0, 0};
+    for (int round = 0; round < 64; round++) {
+        for (int w = 0; w < 3; w++) {
+            CLOSED(mesh_close) Mesh mesh;
+            assert_true(mesh_cube(&mesh, 1, NULL));
+            for (uint32_t face = 0; face < 6; face++) {
+                static const uint32_t other[6] = {1, 2, 3, 1, 3, 0};
+                if (round >> face & 1)
+                    for (uint32_t i = 0; i < 6; i++)
+                        mesh.indices[6 * face + i] = 4 * face + other[i];
+            }
+            weld(&mesh);
+            assert_true(mesh_compute_normals(&mesh, WEIGHTS[w], NULL));
+            for (size_t i = 0; i < mesh.index_count; i++) {
+                const MeshVertex *vertex = &mesh.vertices[mesh.indices[i]];
+                const Vec3 exact = vec3_scale(topology_vector(vertex->position), third);
+                worst[w] =
+                    fmax(worst[w], topology_distance(exact, topology_vector(vertex->normal)));
+            }
+        }
+    }
+    print_message("corners of a cube are off by %.3g (angle), %.3g (area), %.3g (Max)\n", worst[0],
+                  worst[1], worst[2]);
+    assert_true(worst[MESH_WEIGHT_ANGLE] <= 2 * ROUNDED);
+    /* In the worst case two of three faces give a corner twice the area: (2, 2, 1) / 3 or (1, 1, 2)
+     * / sqrt(6). */
+    assert_near(worst[MESH_WEIGHT_AREA], sqrt(2 - 2 * 4 / sqrt(6) * third), 1e-6);
+}
+
+/* A sphere whose vertices, except the poles, have been moved on it at random by up to a fifth of
+ * the distance to the next; with or without its exact normals. */
+static void open_irregular_sphere(Mesh *mesh, Mesh *truth, int divisions)
+{
+    assert_true(mesh_sphere(mesh, 1, divisions, divisions, NULL));
+    assert_true(mesh_sphere(truth, 1, divisions, divisions, NULL));
+    weld(mesh);
+    weld(truth);
+    for (int j = 1; j < divisions; j++) {
+        for (int i = 0; i <= divisions; i++) {
+            const size_t number = (size_t)(j * (divisions + 1) + i);
+            const double a = 2 * PI * (i + 0.4 * (erand48(seed) - 0.5)) / divisions;
+            const double b = PI * (j + 0.4 * (erand48(seed) - 0.5)) / divisions;
+            const Vec3 p = {sin(a) * sin(b), cos(b), cos(a) * sin(b)};
+            vec3_to_float(p, mesh->vertices[number].position);
+        }
+    }
+    for (size_t i = 0; i < mesh->vertex_count; i++)
+        vec3_to_float(topology_vector(mesh->vertices[i].position), truth->vertices[i].normal);
+}
+
+/* The effect of rounding a sphere's positions on Max's normals: an error of at most FLT_EPSILON / 2
+ * relative to the shortest edges, those around the poles, which are 2 pi / n * sin(pi / n) long, or
+ * 0.6 of that where vertices were moved. */
+static double rounding_of_max(int divisions)
+{
+    return FLT_EPSILON / 2 / (0.6 * 2 * PI / divisions * sin(PI / divisions));
+}
+
+TEST(max_weights_are_exact_on_any_triangulated_sphere)
+{
+    for (int divisions = 8; divisions <= 32; divisions *= 2) {
+        double worst[3];
+        for (int w = 0; w < 3; w++) {
+            CLOSED(mesh_close) Mesh mesh, truth;
+            open_irregular_sphere(&mesh, &truth, divisions);
+            assert_true(mesh_compute_normals(&mesh, WEIGHTS[w], NULL));
+            worst[w] = worst_normal(&mesh, &truth);
+        }
+        print_message("%d divisions: off by %.3g (angle), %.3g (area), %.3g (Max)\n", divisions,
+                      worst[0], worst[1], worst[2]);
+        assert_true(worst[MESH_WEIGHT_MAX] <= rounding_of_max(divisions));
+        assert_true(worst[MESH_WEIGHT_ANGLE] > 0.01 && worst[MESH_WEIGHT_AREA] > 0.01);
+    }
+}
+
+/* The worst computed normal of a regular sphere or torus. */
+static double worst_of_shape(bool torus, MeshWeight weight, int divisions)
+{
+    Mesh mesh, truth;
+    Mesh *const both[2] = {&mesh, &truth};
+    for (int i = 0; i < 2; i++)
+        assert_true(torus ? mesh_torus(both[i], 0.5, 1, divisions, 2 * divisions, NULL)
+                          : mesh_sphere(both[i], 1, divisions, divisions, NULL));
+    weld(&mesh);
+    assert_true(mesh_compute_normals(&mesh, weight, NULL));
+    const double worst = worst_normal(&mesh, &truth);
+    mesh_close(&mesh);
+    mesh_close(&truth);
+    return worst;
+}
+
+TEST(normals_of_a_sphere_and_a_torus_converge_to_the_exact_ones)
+{
+    /* On a regular grid the first order cancels, except around the poles of the sphere: triangles
+     * there have very different areas however small they are. */
+    static const double falls[2][2] = {{4, 4}, {2, 4}}; /* angle, area; sphere, torus */
+    for (int torus = 0; torus < 2; torus++) {
+        for (int w = 0; w < 3; w++) {
+            double before = 0;
+            for (int divisions = 16; divisions <= 128; divisions *= 2) {
+                const double worst = worst_of_shape(torus, WEIGHTS[w], divisions);
+                if (WEIGHTS[w] == MESH_WEIGHT_MAX)
+                    assert_true(worst <= rounding_of_max(divisions));
+                else if (divisions > 16) /* next order: 0.02 at the coarsest */
+                    assert_true(before / worst > 0.96 * falls[w][torus]);
+                before = worst;
+            }
+            print_message("%s, %s: off by %.3g at 128 divisions\n", torus ? "torus" : "sphere",
+                          w == 0   ? "angle"
+                          : w == 1 ? "area"
+                                   : "Max",
+                          before);
+        }
+    }
+}
+
+TEST(triangles_without_area_do_not_count)
+{
+    for (int w = 0; w < 3; w++) {
+        CLOSED(mesh_close) Mesh with, without;
+        assert_true(mesh_torus(&with, 0.5, 1, 8, 8, NULL));
+        assert_true(mesh_torus(&without, 0.5, 1, 8, 8, NULL));
+        /* The same triangles, and before each of them three that have collapsed to its edges. */
+        uint32_t *indices = calloc(4 * with.index_count, sizeof *indices);
+        assert_non_null(indices);
+        for (size_t i = 0; i < with.index_count; i += 3) {
+            const uint32_t *c = &with.indices[i];
+            const uint32_t all[12] = {c[0], c[1], c[0], c[1], c[2], c[2],
+                                      c[0], c[0], c[0], c[0], c[1], c[2]};
+            memcpy(indices + 4 * i, all, sizeof all);
+        }
+        free(with.indices);
+        with.indices = indices;
+        with.index_count *= 4;
+        assert_true(mesh_compute_normals(&with, WEIGHTS[w], NULL));
+        assert_true(mesh_compute_normals(&without, WEIGHTS[w], NULL));
+        assert_memory_equal(with.vertices, without.vertices,
+                            with.vertex_count * sizeof *with.vertices);
+    }
+}
+
+TEST(a_cancelled_normal_is_the_first_faces_and_an_unused_one_is_up)
+{
+    for (int w = 0; w < 3; w++) {
+        /* Both sides of a sheet in a plane that is no coordinate plane; a vertex that no triangle
+         * uses, and one used only by a triangle without area. */
+        MeshVertex vertices[] = {{{0.1F, 0.2F, 0.3F}, {1, 0, 0}},
+                                 {{1.7F, 0.1F, 0.9F}, {1, 0, 0}},
+                                 {{0.4F, 2.3F, 1.1F}, {1, 0, 0}},
+                                 {{9, 9, 9}, {1, 0, 0}},
+                                 {{5, 5, 5}, {1, 0, 0}}};
+        uint32_t indices[] = {0, 1, 2, 1, 0, 2, 0, 4, 4};
+        Mesh mesh = {.vertices = vertices, .indices = indices, .vertex_count = 5, .index_count = 9};
+        Vec3 first;
+        assert_true(mesh_face(&mesh, 0, &first));
+        assert_true(mesh_compute_normals(&mesh, WEIGHTS[w], NULL));
+        for (int i = 0; i < 3; i++)
+            assert_true(topology_distance(topology_vector(vertices[i].normal), first) <=
+                        2 * ROUNDED);
+        for (int i = 3; i < 5; i++)
+            assert_true(vertices[i].normal[0] == 0 && vertices[i].normal[2] == 1);
+        assert_false(mesh_face(&mesh, 2, &first));
+        assert_true(vec3_length(first) == 0);
+    }
+    assert_true(mesh_compute_normals(&(Mesh){.vertices = NULL}, MESH_WEIGHT_ANGLE, NULL));
+}
+
+TEST(normals_do_not_depend_on_the_size_of_a_mesh)
+{
+    /* Powers of two, so that nothing else is rounded. */
+    static const double sizes[] = {0x1p-100, 0x1p100};
+    for (int w = 0; w < 3; w++) {
+        for (int s = 0; s < 2; s++) {
+            CLOSED(mesh_close) Mesh mesh = teapot(1, 5), scaled = teapot(sizes[s], 5);
+            assert_true(mesh_compute_normals(&mesh, WEIGHTS[w], NULL));
+            assert_true(mesh_compute_normals(&scaled, WEIGHTS[w], NULL));
+            for (size_t i = 0; i < mesh.vertex_count; i++)
+                assert_memory_equal(mesh.vertices[i].normal, scaled.vertices[i].normal,
+                                    sizeof mesh.vertices[i].normal);
+        }
+    }
+}
+
+/* True with AddressSanitizer, which ends the process when memory is exhausted. */
+void __asan_init(void) __attribute__((weak));
+
+TEST(out_of_memory_leaves_a_mesh_unchanged)
+{
+    if (__asan_init)
+        skip();
+    /* Sizes that exceed any machine's memory; nothing is allocated. */
+    const Mesh huge = {.vertex_count = SIZE_MAX / sizeof(MeshVertex), .index_count = SIZE_MAX / 64};
+    Mesh mesh = huge;
+    Message message = {0};
+    assert_false(mesh_flatten(&mesh, &message));
+    assert_memory_equal(&mesh, &huge, sizeof mesh);
+    assert_memory_equal(message.text, "mesh: not enough memory for ", 28);
+    message = (Message){0};
+    assert_false(mesh_compute_normals(&mesh, MESH_WEIGHT_ANGLE, &message));
+    assert_memory_equal(&mesh, &huge, sizeof mesh);
+    assert_memory_equal(message.text, "mesh: not enough memory for the normals of ", 43);
+}
+
+/* Arguments. */
+
+TEST(lengths_out_of_range_are_refused)
+{
+    static const double bad[] = {0, -0.0, -1, NAN, INFINITY, -INFINITY, 1e-60, 1e60};
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        for (int shape = 0; shape < 11; shape++) {
+            static const char *const names[] = {
+                "cone: radius",        "cone: height",        "cylinder: radius",
+                "cylinder: height",    "torus: tube radius",  "torus: ring radius",
+                "disc: radius",        "tetrahedron: radius", "dodecahedron: radius",
+                "icosahedron: radius", "teapot: size"};
+            const double x = bad[i];
+            CHECK_REFUSED(shape == 0   ? mesh_cone(mesh, x, 1, 8, 8, message)
+                          : shape == 1 ? mesh_cone(mesh, 1, x, 8, 8, message)
+                          : shape == 2 ? mesh_cylinder(mesh, x, 1, 8, 8, MESH_CAP_BOTH, message)
+                          : shape == 3 ? mesh_cylinder(mesh, 1, x, 8, 8, MESH_CAP_BOTH, message)
+                          : shape == 4 ? mesh_torus(mesh, x, 1, 8, 8, message)
+                          : shape == 5 ? mesh_torus(mesh, 1, x, 8, 8, message)
+                          : shape == 6 ? mesh_disc(mesh, x, 8, 8, message)
+                          : shape == 7 ? mesh_tetrahedron(mesh, x, message)
+                          : shape == 8 ? mesh_dodecahedron(mesh, x, message)
+                          : shape == 9 ? mesh_icosahedron(mesh, x, message)
+                                       : mesh_teapot(mesh, x, 8, message),
+                          "%s %g: must be more than 0 and finite", names[shape], bad[i]);
+        }
+    }
+}
+
+TEST(counts_out_of_range_are_refused)
+{
+    for (int high = 0; high < 2; high++) {
+        for (int shape = 0; shape < 10; shape++) {
+            static const struct {
+                const char *shape, *what;
+                int min, max;
+            } ranges[] = {{"cone", "slices", 3, 8192},     {"cone", "stacks", 1, 8192},
+                          {"cylinder", "slices", 3, 8192}, {"cylinder", "stacks", 1, 8192},
+                          {"torus", "sides", 3, 8192},     {"torus", "rings", 3, 8192},
+                          {"disc", "slices", 3, 8192},     {"disc", "loops", 1, 8192},
+                          {"quad", "divisions", 1, 8192},  {"teapot", "divisions", 2, 512}};
+            const int n = high ? ranges[shape].max + 1 : ranges[shape].min - 1;
+            CHECK_REFUSED(shape == 0   ? mesh_cone(mesh, 1, 1, n, 8, message)
+                          : shape == 1 ? mesh_cone(mesh, 1, 1, 8, n, message)
+                          : shape == 2 ? mesh_cylinder(mesh, 1, 1, n, 8, MESH_CAP_BOTH, message)
+                          : shape == 3 ? mesh_cylinder(mesh, 1, 1, 8, n, MESH_CAP_BOTH, message)
+                          : shape == 4 ? mesh_torus(mesh, 0.5, 1, n, 8, message)
+                          : shape == 5 ? mesh_torus(mesh, 0.5, 1, 8, n, message)
+                          : shape == 6 ? mesh_disc(mesh, 1, n, 8, message)
+                          : shape == 7 ? mesh_disc(mesh, 1, 8, n, message)
+                          : shape == 8 ? mesh_quad(mesh, n, message)
+                                       : mesh_teapot(mesh, 1, n, message),
+                          "%s: %d %s: must be %d to %d", ranges[shape].shape, n, ranges[shape].what,
+                          ranges[shape].min, ranges[shape].max);
+        }
+    }
+}
+
+TEST(a_torus_too_thin_or_too_thick_is_refused)
+{
+    static const struct {
+        double tube;
+        const char *message;
+    } bad[] = {{1, "torus: tube radius 1: must be less than the ring radius, 1, and at least "
+                   "1/1000 of it"},
+               {2, "torus: tube radius 2: must be less than the ring radius, 1, and at least "
+                   "1/1000 of it"},
+               {0.0009, "torus: tube radius 0.0009: must be less than the ring radius, 1, and at "
+                        "least 1/1000 of it"}};
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        CHECK_REFUSED(mesh_torus(mesh, bad[i].tube, 1, 8, 8, message), "%s", bad[i].message);
+    }
+}
+
+int main(void)
+{
+    testing_seed48(seed);
+    return testing_run(0, "mesh solids", NULL, NULL);
+}

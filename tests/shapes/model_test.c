@@ -1,0 +1,765 @@
+/*
+ * Model files: valid ones are read correctly, others rejected with one line. Every file is written
+ * here.
+ */
+#include "base/plugin.h"
+#include "shapes/model.h"
+#include "support/testing.h"
+#include "support/topology.h"
+
+#include <errno.h>
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+static unsigned short seed[3];
+
+/* The bytes of a file to write. */
+typedef struct Bytes {
+    unsigned char data[4096];
+    size_t size;
+} Bytes;
+
+static Bytes text(const char *text)
+{
+    Bytes bytes = {.size = strlen(text)};
+    assert_true(bytes.size <= sizeof bytes.data);
+    memcpy(bytes.data, text, bytes.size);
+    return bytes;
+}
+
+static void append(Bytes *bytes, const void *data, size_t size)
+{
+    assert_true(bytes->size + size <= sizeof bytes->data);
+    memcpy(bytes->data + bytes->size, data, size);
+    bytes->size += size;
+}
+
+static void append_floats(Bytes *bytes, const float *floats, size_t count)
+{
+    append(bytes, floats, count * sizeof *floats); /* little-endian, like this machine */
+}
+
+/* model_read of a file with these bytes. */
+static bool read_bytes(const char *name, const Bytes *bytes, Mesh *mesh, Message *message)
+{
+    testing_write(name, bytes->data, bytes->size);
+    memset(mesh, 0xa5, sizeof *mesh);
+    const bool read = model_read(name, MODEL_UP_FILE, mesh, message);
+    assert_int_equal(unlink(name), 0);
+    return read;
+}
+
+/* What holds for every mesh that was read. */
+static void assert_sound(const Mesh *mesh)
+{
+    assert_true(mesh->index_count > 0);
+    topology_check_indices(mesh);
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
+        for (int axis = 0; axis < 3; axis++)
+            assert_true(isfinite(mesh->vertices[i].position[axis]));
+        /* Three components, each with an error of at most a quarter of FLT_EPSILON: sqrt(3) / 4. */
+        assert_true(fabs(vec3_length(topology_vector(mesh->vertices[i].normal)) - 1) <=
+                    0.44 * FLT_EPSILON);
+    }
+    for (size_t i = 0; i < mesh->index_count / 3; i++) {
+        Vec3 normal;
+        assert_true(mesh_face(mesh, i, &normal));
+    }
+}
+
+static Mesh read_sound(const char *name, Bytes bytes)
+{
+    Mesh mesh;
+    Message message = {0};
+    require(read_bytes(name, &bytes, &mesh, &message), &message);
+    assert_string_equal(message.text, "");
+    assert_sound(&mesh);
+    return mesh;
+}
+
+static void assert_counts(const Mesh *mesh, size_t vertices, size_t triangles)
+{
+    assert_int_equal(mesh->vertex_count, vertices);
+    assert_int_equal(mesh->index_count, 3 * triangles);
+}
+
+static void assert_bounds(const Mesh *mesh, Vec3 low, Vec3 high, double tolerance)
+{
+    Vec3 got_low, got_high;
+    mesh_bounds(mesh, &got_low, &got_high);
+    assert_true(topology_distance(got_low, low) <= tolerance &&
+                topology_distance(got_high, high) <= tolerance);
+}
+
+/* Files. */
+
+static const char CUBE_OBJ[] = "# a cube of quads, without normals\n"
+                               "o cube\n"
+                               "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\n"
+                               "v -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
+                               "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+
+static const char OCTAHEDRON_PLY[] = "ply\nformat ascii 1.0\ncomment an octahedron\n"
+                                     "element vertex 6\n"
+                                     "property float x\nproperty float y\nproperty float z\n"
+                                     "element face 8\n"
+                                     "property list uchar int vertex_indices\nend_header\n"
+                                     "1 0 0\n-1 0 0\n0 1 0\n0 -1 0\n0 0 1\n0 0 -1\n"
+                                     "3 0 2 4\n3 0 3 5\n3 0 4 3\n3 0 5 2\n"
+                                     "3 1 2 5\n3 1 3 4\n3 1 4 2\n3 1 5 3\n";
+
+static const char SQUARE_STL[] = "solid square\n"
+                                 "facet normal 0 0 1\nouter loop\n"
+                                 "vertex 0 0 2\nvertex 1 0 2\nvertex 1 1 2\nendloop\nendfacet\n"
+                                 "facet normal 0 0 1\nouter loop\n"
+                                 "vertex 0 0 2\nvertex 1 1 2\nvertex 0 1 2\nendloop\nendfacet\n"
+                                 "endsolid square\n";
+
+static Bytes binary_stl(void)
+{
+    static const float facets[2][12] = {{0, 0, 1, 0, 0, 2, 1, 0, 2, 1, 1, 2},
+                                        {0, 0, 1, 0, 0, 2, 1, 1, 2, 0, 1, 2}};
+    static const uint32_t count = 2;
+    static const char header[80] = "a square", attributes[2] = {0};
+    Bytes bytes = {.size = 0};
+    append(&bytes, header, sizeof header);
+    append(&bytes, &count, sizeof count);
+    for (int i = 0; i < 2; i++) {
+        append_floats(&bytes, facets[i], 12);
+        append(&bytes, attributes, sizeof attributes);
+    }
+    return bytes;
+}
+
+static Bytes binary_ply(void)
+{
+    static const float corners[4][6] = {
+        {0, 0, 0, 0, 3, 4}, {1, 0, 0, 0, 3, 4}, {1, 1, 0, 0, 3, 4}, {0, 1, 0, 0, 3, 4}};
+    static const struct {
+        unsigned char count;
+        int32_t corners[3];
+    } __attribute__((packed)) faces[2] = {{3, {0, 1, 2}}, {3, {0, 2, 3}}};
+    Bytes bytes = text("ply\nformat binary_little_endian 1.0\n"
+                       "element vertex 4\n"
+                       "property float x\nproperty float y\nproperty float z\n"
+                       "property float nx\nproperty float ny\nproperty float nz\n"
+                       "element face 2\n"
+                       "property list uchar int vertex_indices\nend_header\n");
+    append_floats(&bytes, corners[0], 24);
+    append(&bytes, faces, sizeof faces);
+    return bytes;
+}
+
+static void append_base64(Bytes *bytes, const void *data, size_t size)
+{
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const unsigned char *next = data;
+    assert_int_equal(size % 3, 0);
+    for (size_t i = 0; i < size; i += 3, next += 3) {
+        const unsigned long word =
+            (unsigned long)next[0] << 16 | (unsigned long)next[1] << 8 | next[2];
+        for (int shift = 18; shift >= 0; shift -= 6)
+            append(bytes, &digits[word >> shift & 63], 1);
+    }
+}
+
+/* One tetrahedron, corners at the origin and at 1 on each axis, placed by these nodes: with or
+ * without normals. */
+static Bytes gltf(const char *nodes, const char *attributes)
+{
+    static const struct {
+        float positions[4][3], normals[4][3];
+        uint16_t indices[12];
+    } data = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+              {{-2, -2, -2}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}}, /* not normalized */
+              {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3}};
+    Bytes bytes = text("{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],"
+                       "\"nodes\":");
+    append(&bytes, nodes, strlen(nodes));
+    const char *meshes = ",\"meshes\":[{\"primitives\":[{\"indices\":2,\"attributes\":{";
+    append(&bytes, meshes, strlen(meshes));
+    append(&bytes, attributes, strlen(attributes));
+    const char *rest =
+        "}}]}],\"accessors\":["
+        "{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\","
+        "\"min\":[0,0,0],\"max\":[1,1,1]},"
+        "{\"bufferView\":1,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\"},"
+        "{\"bufferView\":2,\"componentType\":5123,\"count\":12,\"type\":\"SCALAR\"}],"
+        "\"bufferViews\":[{\"buffer\":0,\"byteOffset\":0,\"byteLength\":48},"
+        "{\"buffer\":0,\"byteOffset\":48,\"byteLength\":48},"
+        "{\"buffer\":0,\"byteOffset\":96,\"byteLength\":24}],"
+        "\"buffers\":[{\"byteLength\":120,\"uri\":\"data:application/octet-stream;base64,";
+    append(&bytes, rest, strlen(rest));
+    append_base64(&bytes, &data, sizeof data);
+    append(&bytes, "\"}]}", 4);
+    return bytes;
+}
+
+static const char POSITION[] = "\"POSITION\":0";
+static const char POSITION_AND_NORMAL[] = "\"POSITION\":0,\"NORMAL\":1";
+
+/* Valid files. */
+
+TEST(quads_without_normals_become_a_smooth_cube)
+{
+    CLOSED(mesh_close) Mesh mesh = read_sound("cube.obj", text(CUBE_OBJ));
+    assert_counts(&mesh, 8, 12);
+    assert_bounds(&mesh, (Vec3){-1, -1, -1}, (Vec3){1, 1, 1}, 0);
+    assert_true(topology_volume(&mesh) == 8 && topology_area(&mesh) == 24);
+    for (size_t i = 0; i < 8; i++) /* the three faces at a corner have equal weights */
+        assert_true(topology_distance(topology_vector(mesh.vertices[i].normal),
+                                      vec3_scale(topology_vector(mesh.vertices[i].position),
+                                                 1 / sqrt(3))) <= FLT_EPSILON);
+}
+
+TEST(normals_of_a_file_are_kept_and_normalized)
+{
+    CLOSED(mesh_close)
+    Mesh mesh = read_sound("normals.obj", text("v 0 0 0\nv 1 0 0\nv 0 1 0\n"
+                                               "vn 0 0 5\nvn 3 0 4\nvn 0 -1e-30 0\n"
+                                               "f 1//1 2//2 3//3\n"));
+    assert_counts(&mesh, 3, 1);
+    static const Vec3 expected[3] = {{0, 0, 1}, {0.6, 0, 0.8}, {0, -1, 0}};
+    for (size_t i = 0; i < 3; i++)
+        assert_true(topology_distance(topology_vector(mesh.vertices[mesh.indices[i]].normal),
+                                      expected[i]) <= FLT_EPSILON);
+}
+
+TEST(normals_that_differ_keep_vertices_apart)
+{
+    static const char faces[] = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nvn 0 1 0\n";
+    char flat[256], sharp[256];
+    snprintf(flat, sizeof flat, "%sf 1//1 2//1 3//1\nf 1//1 3//1 4//1\n", faces);
+    snprintf(sharp, sizeof sharp, "%sf 1//1 2//1 3//1\nf 1//2 3//2 4//2\n", faces);
+    Mesh mesh = read_sound("flat.obj", text(flat));
+    assert_counts(&mesh, 4, 2);
+    mesh_close(&mesh);
+    mesh = read_sound("sharp.obj", text(sharp));
+    assert_counts(&mesh, 6, 2);
+    mesh_close(&mesh);
+}
+
+TEST(positive_and_negative_zero_are_the_same_position)
+{
+    CLOSED(mesh_close)
+    Mesh mesh = read_sound("zeros.obj", text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv -0 -0 -0\nv 0 1 0\n"
+                                             "f 1 2 3\nf 4 3 5\n"));
+    assert_counts(&mesh, 4, 2);
+}
+
+TEST(polygons_are_triangulated_and_degenerate_ones_dropped)
+{
+    /* An arrowhead, which is not convex; a line and a point; a collinear triangle and one with two
+     * equal corners; a distant vertex that nothing uses. */
+    CLOSED(mesh_close)
+    Mesh mesh = read_sound("arrow.obj", text("v 0 0 0\nv 2 -1 0\nv 1 0 0\nv 2 1 0\nv 9 9 9\n"
+                                             "v 3 0 0\nf 1 2 3 4\nl 1 2\np 3\nf 1 3 6\nf 1 1 2\n"));
+    assert_counts(&mesh, 4, 2);
+    assert_true(fabs(topology_area(&mesh) - 1) <= FLT_EPSILON);
+    assert_bounds(&mesh, (Vec3){0, -1, 0}, (Vec3){2, 1, 0}, 0);
+    for (size_t i = 0; i < 4; i++)
+        assert_true(mesh.vertices[i].normal[2] == 1);
+}
+
+TEST(a_ply_file_is_read_as_text_and_as_bytes)
+{
+    Mesh mesh = read_sound("octahedron.ply", text(OCTAHEDRON_PLY));
+    assert_counts(&mesh, 6, 8);
+    assert_true(fabs(topology_volume(&mesh) - 4.0 / 3) < 1e-15); /* sixths: exact terms */
+    for (size_t i = 0; i < 6; i++)
+        assert_true(topology_distance(topology_vector(mesh.vertices[i].normal),
+                                      topology_vector(mesh.vertices[i].position)) <= FLT_EPSILON);
+    mesh_close(&mesh);
+    mesh = read_sound("square.ply", binary_ply());
+    assert_counts(&mesh, 4, 2);
+    assert_true(topology_area(&mesh) == 1);
+    for (size_t i = 0; i < 4; i++)
+        assert_true(topology_distance(topology_vector(mesh.vertices[i].normal),
+                                      (Vec3){0, 0.6, 0.8}) <= FLT_EPSILON);
+    mesh_close(&mesh);
+}
+
+TEST(an_stl_file_is_read_as_text_and_as_bytes)
+{
+    for (int binary = 0; binary < 2; binary++) {
+        CLOSED(mesh_close)
+        Mesh mesh = read_sound("square.stl", binary ? binary_stl() : text(SQUARE_STL));
+        assert_counts(&mesh, 4, 2);
+        assert_true(topology_area(&mesh) == 1);
+        assert_bounds(&mesh, (Vec3){0, 2, -1}, (Vec3){1, 2, 0}, 0); /* z is up */
+        for (size_t i = 0; i < 4; i++)
+            assert_true(mesh.vertices[i].normal[1] == 1);
+    }
+}
+
+/* A pyramid whose box has corners (-1, -2, 0) and (1, 2, 4), in every format that has an axis of
+ * its own. */
+
+#define CORNERS "-1 -2 0 1 -2 0 1 2 0 -1 2 0 0 0 4"
+#define TRIANGLES "0 2 1 0 3 2 0 1 4 1 2 4 2 3 4 3 0 4"
+
+static const float PYRAMID[5][3] = {{-1, -2, 0}, {1, -2, 0}, {1, 2, 0}, {-1, 2, 0}, {0, 0, 4}};
+static const uint16_t PYRAMID_FACES[6][3] = {{0, 2, 1}, {0, 3, 2}, {0, 1, 4},
+                                             {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
+
+static Bytes pyramid_stl(void)
+{
+    Bytes bytes = text("solid p\n");
+    char line[256];
+    for (int i = 0; i < 6; i++) {
+        const float *a = PYRAMID[PYRAMID_FACES[i][0]], *b = PYRAMID[PYRAMID_FACES[i][1]];
+        const float *c = PYRAMID[PYRAMID_FACES[i][2]];
+        snprintf(line, sizeof line,
+                 "facet normal 0 0 0\nouter loop\nvertex %g %g %g\nvertex %g %g %g\n"
+                 "vertex %g %g %g\nendloop\nendfacet\n",
+                 (double)a[0], (double)a[1], (double)a[2], (double)b[0], (double)b[1], (double)b[2],
+                 (double)c[0], (double)c[1], (double)c[2]);
+        append(&bytes, line, strlen(line));
+    }
+    append(&bytes, "endsolid p\n", 11);
+    return bytes;
+}
+
+/* A chunk's head: its name, and its size with the head. */
+static void append_chunk(Bytes *bytes, uint16_t name, uint32_t size)
+{
+    append(bytes, &name, 2);
+    append(bytes, &size, 4);
+}
+
+static Bytes pyramid_3ds(void)
+{
+    enum { VERTICES = 6 + 2 + 60, FACES = 6 + 2 + 48, MESH = 6 + VERTICES + FACES };
+    const uint16_t vertices = 5, faces = 6, edges = 7;
+    Bytes bytes = {.size = 0};
+    append_chunk(&bytes, 0x4D4D, 6 + 6 + 6 + 2 + MESH);
+    append_chunk(&bytes, 0x3D3D, 6 + 6 + 2 + MESH);
+    append_chunk(&bytes, 0x4000, 6 + 2 + MESH);
+    append(&bytes, "p", 2);
+    append_chunk(&bytes, 0x4100, MESH);
+    append_chunk(&bytes, 0x4110, VERTICES);
+    append(&bytes, &vertices, 2);
+    append_floats(&bytes, PYRAMID[0], 15);
+    append_chunk(&bytes, 0x4120, FACES);
+    append(&bytes, &faces, 2);
+    for (int i = 0; i < 6; i++) {
+        append(&bytes, PYRAMID_FACES[i], 6);
+        append(&bytes, &edges, 2);
+    }
+    return bytes;
+}
+
+static Bytes pyramid_collada(char up)
+{
+    char file[2048];
+    snprintf(
+        file, sizeof file,
+        "<?xml version=\"1.0\"?><COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" "
+        "version=\"1.4.1\"><asset><created>2020-01-01T00:00:00Z</created>"
+        "<modified>2020-01-01T00:00:00Z</modified><up_axis>%c_UP</up_axis></asset>"
+        "<library_geometries><geometry id=\"g\"><mesh><source id=\"s\">"
+        "<float_array id=\"a\" count=\"15\">" CORNERS "</float_array><technique_common>"
+        "<accessor source=\"#a\" count=\"5\" stride=\"3\"><param name=\"X\" type=\"float\"/>"
+        "<param name=\"Y\" type=\"float\"/><param name=\"Z\" type=\"float\"/></accessor>"
+        "</technique_common></source><vertices id=\"v\"><input semantic=\"POSITION\" "
+        "source=\"#s\"/></vertices><triangles count=\"6\"><input semantic=\"VERTEX\" "
+        "source=\"#v\" offset=\"0\"/><p>" TRIANGLES "</p></triangles></mesh></geometry>"
+        "</library_geometries><library_visual_scenes><visual_scene id=\"w\"><node id=\"n\">"
+        "<instance_geometry url=\"#g\"/></node></visual_scene></library_visual_scenes>"
+        "<scene><instance_visual_scene url=\"#w\"/></scene></COLLADA>",
+        up);
+    return text(file);
+}
+
+static Bytes pyramid_fbx(int axis, int sign)
+{
+    char file[2048];
+    snprintf(file, sizeof file,
+             "; FBX 7.3.0 project file\nFBXHeaderExtension:  {\n\tFBXHeaderVersion: 1003\n"
+             "\tFBXVersion: 7300\n}\nGlobalSettings:  {\n\tVersion: 1000\n\tProperties70:  {\n"
+             "\t\tP: \"UpAxis\", \"int\", \"Integer\", \"\",%d\n"
+             "\t\tP: \"UpAxisSign\", \"int\", \"Integer\", \"\",%d\n\t}\n}\n"
+             "Objects:  {\n\tGeometry: 1, \"Geometry::g\", \"Mesh\" {\n\t\tVertices: *15 {\n"
+             "\t\t\ta: -1,-2,0,1,-2,0,1,2,0,-1,2,0,0,0,4\n\t\t}\n"
+             "\t\tPolygonVertexIndex: *18 {\n"
+             "\t\t\ta: 0,2,-2,0,3,-3,0,1,-5,1,2,-5,2,3,-5,3,0,-5\n\t\t}\n\t}\n"
+             "\tModel: 2, \"Model::m\", \"Mesh\" {\n\t\tVersion: 232\n\t}\n}\n"
+             "Connections:  {\n\tC: \"OO\",2,0\n\tC: \"OO\",1,2\n}\n",
+             axis, sign);
+    return text(file);
+}
+
+/* Where the box of the pyramid lies after the axis was turned up. */
+static const struct {
+    Vec3 low, high;
+} UPRIGHT[] = {[MODEL_UP_X] = {{-2, -1, 0}, {2, 1, 4}},
+               [MODEL_UP_Y] = {{-1, -2, 0}, {1, 2, 4}},
+               [MODEL_UP_Z] = {{-1, 0, -2}, {1, 4, 2}}};
+
+TEST(models_stand_upright)
+{
+    const struct {
+        const char *name;
+        Bytes bytes;
+        ModelUp own;
+    } files[] = {
+        {"p.stl", pyramid_stl(), MODEL_UP_Z},
+        {"p.3ds", pyramid_3ds(), MODEL_UP_Z},
+        {"p.dae", pyramid_collada('X'), MODEL_UP_X},
+        {"p.dae", pyramid_collada('Y'), MODEL_UP_Y},
+        {"p.dae", pyramid_collada('Z'), MODEL_UP_Z},
+        {"p.fbx", pyramid_fbx(0, 1), MODEL_UP_X},
+        {"p.fbx", pyramid_fbx(1, 1), MODEL_UP_Y},
+        {"p.fbx", pyramid_fbx(2, 1), MODEL_UP_Z},
+        {"p.obj",
+         text("v -1 -2 0\nv 1 -2 0\nv 1 2 0\nv -1 2 0\nv 0 0 4\n"
+              "f 1 3 2\nf 1 4 3\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n"),
+         MODEL_UP_Y},
+    };
+    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
+        for (ModelUp up = MODEL_UP_FILE; up <= MODEL_UP_Z; up++) {
+            CLOSED(mesh_close) Mesh mesh;
+            const ModelUp is = up == MODEL_UP_FILE ? files[i].own : up;
+            testing_write(files[i].name, files[i].bytes.data, files[i].bytes.size);
+            SUCCEEDS(model_read(files[i].name, up, &mesh, message));
+            assert_int_equal(unlink(files[i].name), 0);
+            assert_bounds(&mesh, UPRIGHT[is].low, UPRIGHT[is].high, 0);
+            assert_true(topology_volume(&mesh) > 0); /* turned, not mirrored */
+        }
+    }
+    CLOSED(mesh_close)
+    Mesh mesh = read_sound("p.fbx", pyramid_fbx(2, -1));
+    assert_bounds(&mesh, (Vec3){-1, -4, -2}, (Vec3){1, 0, 2}, 0);
+}
+
+TEST(an_off_file_is_read)
+{
+    CLOSED(mesh_close)
+    Mesh mesh = read_sound("corner.off", text("OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
+                                              "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n"));
+    assert_counts(&mesh, 4, 4);
+    assert_true(fabs(topology_volume(&mesh) - 1.0 / 6) < 1e-15);
+}
+
+TEST(the_nodes_of_a_gltf_file_transform_its_meshes)
+{
+    /* All are rounded to float in the file and once more: a few FLT_EPSILON of 5. */
+    const double tolerance = 16 * FLT_EPSILON;
+    static const struct {
+        const char *nodes;
+        size_t copies;
+        Vec3 low, high;
+        double volume;
+    } known[] = {
+        {"[{\"mesh\":0}]", 1, {0, 0, 0}, {1, 1, 1}, 1.0 / 6},
+        {"[{\"mesh\":0,\"translation\":[1,2,3]}]", 1, {1, 2, 3}, {2, 3, 4}, 1.0 / 6},
+        /* A quarter turn about z: x to y, y to -x. */
+        {"[{\"mesh\":0,\"rotation\":[0,0,0.70710678,0.70710678]}]",
+         1,
+         {-1, 0, 0},
+         {0, 1, 1},
+         1.0 / 6},
+        {"[{\"mesh\":0,\"scale\":[2,3,4]}]", 1, {0, 0, 0}, {2, 3, 4}, 4},
+        /* Mirrored, and the outside is still outside. */
+        {"[{\"mesh\":0,\"scale\":[-2,1,1]}]", 1, {-2, 0, 0}, {0, 1, 1}, 1.0 / 3},
+        /* The child's transform, then its parent's; both are drawn. */
+        {"[{\"mesh\":0,\"scale\":[2,2,2],\"children\":[1]},{\"mesh\":0,\"translation\":[2,0,0]}]",
+         2,
+         {0, 0, 0},
+         {6, 2, 2},
+         8.0 / 3},
+        {"[{\"matrix\":[0,1,0,0,0,0,1,0,1,0,0,0,5,6,7,1],\"children\":[1]},{\"mesh\":0}]",
+         1,
+         {5, 6, 7},
+         {6, 7, 8},
+         1.0 / 6},
+    };
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+        for (int normals = 0; normals < 2; normals++) {
+            CLOSED(mesh_close)
+            Mesh mesh = read_sound("nodes.gltf",
+                                   gltf(known[i].nodes, normals ? POSITION_AND_NORMAL : POSITION));
+            assert_counts(&mesh, 4 * known[i].copies, 4 * known[i].copies);
+            assert_bounds(&mesh, known[i].low, known[i].high, tolerance);
+            assert_true(fabs(topology_volume(&mesh) - known[i].volume) <= tolerance);
+        }
+    }
+}
+
+TEST(normals_follow_the_inverse_transpose)
+{
+    static const struct {
+        const char *nodes;
+        Vec3 first; /* of (-1, -1, -1), the normal at the origin */
+    } known[] = {
+        {"[{\"mesh\":0}]", {-1, -1, -1}},
+        {"[{\"mesh\":0,\"scale\":[1,2,4]}]", {-1, -0.5, -0.25}},
+        {"[{\"mesh\":0,\"scale\":[-1,1,1]}]", {1, -1, -1}},
+        {"[{\"mesh\":0,\"rotation\":[0,0,0.70710678,0.70710678]}]", {1, -1, -1}},
+    };
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+        CLOSED(mesh_close)
+        Mesh mesh = read_sound("normals.gltf", gltf(known[i].nodes, POSITION_AND_NORMAL));
+        Vec3 expected;
+        vec3_normalize(known[i].first, &expected);
+        for (size_t v = 0; v < mesh.vertex_count; v++)
+            if (vec3_length(topology_vector(mesh.vertices[v].position)) == 0)
+                assert_true(topology_distance(topology_vector(mesh.vertices[v].normal), expected) <=
+                            4 * FLT_EPSILON);
+    }
+}
+
+TEST(only_missing_normals_are_computed)
+{
+    /* Two squares that meet at x = 1 like a roof. The normals of the second are zero, except one
+     * that points up. */
+    CLOSED(mesh_close)
+    Mesh mesh = read_sound("roof.obj", text("v 0 0 0\nv 1 0 1\nv 1 1 1\nv 0 1 0\nv 2 0 0\nv 2 1 0\n"
+                                            "vn 0 0 1\nvn 0 0 0\n"
+                                            "g a\nf 2 5 6 3\ng b\nf 1//2 2//1 3//1 4//1\n"));
+    const double half = sqrt(0.5);
+    assert_counts(&mesh, 8, 4);
+    for (size_t i = 0; i < mesh.vertex_count; i++) {
+        const float *p = mesh.vertices[i].position;
+        const Vec3 normal = topology_vector(mesh.vertices[i].normal);
+        const bool zero = p[0] == 0 && p[1] == 0;
+        const bool up = topology_distance(normal, (Vec3){0, 0, 1}) == 0;
+        const bool left = topology_distance(normal, (Vec3){-half, 0, half}) <= FLT_EPSILON;
+        const bool right = topology_distance(normal, (Vec3){half, 0, half}) <= FLT_EPSILON;
+        assert_true(p[0] == 0 ? (zero ? left : up) : p[0] == 2 ? right : up || right);
+    }
+}
+
+TEST(a_model_keeps_the_size_in_its_file)
+{
+    /* Not so small that vertices coincide, not so large that areas overflow. */
+    static const char *const sizes[] = {"1e-20", "1e-6", "1e6", "1e18"};
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+        char triangle[256];
+        const char *s = sizes[i];
+        const double size = strtod(s, NULL);
+        snprintf(triangle, sizeof triangle, "v 0 0 0\nv %s 0 0\nv 0 %s 0\nf 1 2 3\n", s, s);
+        CLOSED(mesh_close) Mesh mesh = read_sound("size.obj", text(triangle));
+        assert_counts(&mesh, 3, 1);
+        assert_bounds(&mesh, (Vec3){0, 0, 0}, (Vec3){size, size, 0}, size * 2 * FLT_EPSILON);
+        assert_true(mesh.vertices[0].normal[2] == 1);
+    }
+}
+
+/* Invalid files. */
+
+static void assert_refused(bool read, const char *path, const Mesh *mesh, const Message *message)
+{
+    char start[4200];
+    snprintf(start, sizeof start, "%s: ", path);
+    assert_false(read);
+    assert_true(!mesh->vertices && !mesh->indices && !mesh->vertex_count && !mesh->index_count);
+    assert_memory_equal(message->text, start, strlen(start));
+    assert_true(strlen(message->text) > strlen(start));
+    assert_null(strchr(message->text, '\n'));
+}
+
+static void assert_says(const char *path, const char *reason)
+{
+    Mesh mesh;
+    Message message = {0};
+    memset(&mesh, 0xa5, sizeof mesh);
+    assert_refused(model_read(path, MODEL_UP_FILE, &mesh, &message), path, &mesh, &message);
+    if (!strstr(message.text, reason))
+        fail_msg("\"%s\" does not say \"%s\"", message.text, reason);
+}
+
+TEST(a_path_that_is_not_a_file_is_refused)
+{
+    assert_says("missing.obj", "No such file");
+    assert_says("no/folder.obj", "No such file");
+    assert_says("", "No such file");
+    const char *path = "what.obj";
+    assert_int_equal(mkdir(path, 0700), 0);
+    assert_says(path, "is a folder");
+    assert_int_equal(rmdir(path), 0);
+    assert_int_equal(mkfifo(path, 0600), 0);
+    assert_says(path, "is not a file");
+    assert_int_equal(unlink(path), 0);
+    assert_int_equal(symlink("itself.obj", "itself.obj"), 0);
+    assert_says("itself.obj", "symbolic links");
+    assert_int_equal(unlink("itself.obj"), 0);
+    assert_says("/dev/null", "is not a file");
+}
+
+TEST(a_file_that_is_not_a_model_is_refused)
+{
+    static const char *const names[] = {"none.obj",  "none.ply", "none.stl", "none.off",
+                                        "none.gltf", "none.glb", "none.3ds", "none.dae",
+                                        "none.fbx",  "none.xyz", "none"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        static const char *const contents[] = {"", "This is no model, whatever its name says.\n",
+                                               "\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n"};
+        for (int c = 0; c < 3; c++) {
+            const Bytes bytes = text(contents[c]);
+            Mesh mesh;
+            Message message = {0};
+            const bool read = read_bytes(names[i], &bytes, &mesh, &message);
+            assert_refused(read, names[i], &mesh, &message);
+            if (c == 0)
+                assert_non_null(strstr(message.text, ": is empty"));
+        }
+    }
+}
+
+TEST(invalid_models_are_rejected)
+{
+    static const char ply[] = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                              "property float y\nproperty float z\nelement face 1\n"
+                              "property list uchar int vertex_indices\nend_header\n";
+    char range_ply[512], count_ply[512];
+    snprintf(range_ply, sizeof range_ply, "%s0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n", ply);
+    snprintf(count_ply, sizeof count_ply, "%s0 0 0\n1 0 0\n", ply);
+    const struct {
+        const char *name, *content, *reason;
+    } known[] = {
+        {"nan.obj", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", ": position ("},
+        {"inf.obj", "v 0 0 inf\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", ": position ("},
+        {"big.obj", "v 0 0 0\nv 1e39 0 0\nv 0 1 0\nf 1 2 3\n", ": position ("},
+        {"normal.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn nan 0 0\nf 1//1 2//1 3//1\n", ": normal ("},
+        {"range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", ": cannot read: "},
+        {"below.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -4\n", ": cannot read: "},
+        {"huge.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4294967297\n", ": cannot read: "},
+        {"range.ply", range_ply, ": cannot read: "},
+        {"count.ply", count_ply, ": "},
+        {"faceless.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", ": "},
+        {"lines.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\nl 2 3\n", ": holds no triangle"},
+        {"thin.obj", "v 0 0 0\nv 1 1 1\nv 2 2 2\nf 1 2 3\nf 1 1 1\n", ": holds no triangle"},
+        {"scene.gltf", "{\"asset\":{\"version\":\"2.0\"}}", ": cannot read: "},
+    };
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+        const Bytes bytes = text(known[i].content);
+        Mesh mesh;
+        Message message = {0};
+        const bool read = read_bytes(known[i].name, &bytes, &mesh, &message);
+        assert_refused(read, known[i].name, &mesh, &message);
+        if (!strstr(message.text, known[i].reason))
+            fail_msg("\"%s\" does not say \"%s\"", message.text, known[i].reason);
+    }
+}
+
+TEST(oversized_models_are_rejected)
+{
+    const char *path = "large.stl";
+    /* More bytes than are read; a sparse file. */
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(ftruncate(fileno(file), (off_t)MODEL_BYTES_MAX + 1), 0);
+    assert_int_equal(fclose(file), 0);
+    assert_says(path, ": 1073741825 bytes; model files of at most 1073741824 are read");
+    assert_int_equal(unlink(path), 0);
+    /* More vertices: a header that says so, then zeros. */
+    const uint32_t triangles = MODEL_VERTICES_MAX / 3 + 1;
+    file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fseek(file, 80, SEEK_SET), 0);
+    assert_int_equal(fwrite(&triangles, sizeof triangles, 1, file), 1);
+    assert_int_equal(fflush(file), 0);
+    assert_int_equal(ftruncate(fileno(file), 84 + 50 * (off_t)triangles), 0);
+    assert_int_equal(fclose(file), 0);
+    assert_says(path, ": cannot read: 10000002 vertices and 3333334 triangles; at most 10000000 "
+                      "and 20000000 are read");
+    assert_int_equal(unlink(path), 0);
+}
+
+/* Damage. */
+
+/* A damaged file is rejected (true), or what is left is a valid mesh. */
+static bool refused_or_sound(const char *name, const Bytes *bytes)
+{
+    Mesh mesh;
+    Message message = {0};
+    const bool read = read_bytes(name, bytes, &mesh, &message);
+    if (read)
+        assert_sound(&mesh);
+    else
+        assert_refused(read, name, &mesh, &message);
+    mesh_close(&mesh);
+    return !read;
+}
+
+TEST(damaged_files_are_harmless)
+{
+    enum { CUTS = 12 };
+    const int flips = 50 / testing_step(5);
+    const struct {
+        const char *name;
+        Bytes bytes;
+    } files[] = {
+        {"damaged.obj", text(CUBE_OBJ)}, {"damaged.ply", text(OCTAHEDRON_PLY)},
+        {"bytes.ply", binary_ply()},     {"damaged.stl", text(SQUARE_STL)},
+        {"bytes.stl", binary_stl()},     {"damaged.gltf", gltf("[{\"mesh\":0}]", POSITION)}};
+    enum { FILES = sizeof files / sizeof files[0] };
+    struct rlimit before, after;
+    assert_int_equal(getrlimit(RLIMIT_AS, &before), 0);
+    assert_false(refused_or_sound(files[0].name, &files[0].bytes));
+    const int open_before = testing_open_files();
+    for (int f = 0; f < FILES; f++) {
+        int refused_cuts = 0, refused_flips = 0;
+        for (int i = 0; i < CUTS; i++) {
+            Bytes cut = files[f].bytes;
+            cut.size = cut.size * (size_t)i / CUTS;
+            refused_cuts += refused_or_sound(files[f].name, &cut);
+        }
+        for (int i = 0; i < flips; i++) {
+            Bytes flipped = files[f].bytes;
+            const size_t bit = (size_t)(erand48(seed) * 8 * (double)flipped.size);
+            flipped.data[bit / 8] ^= (unsigned char)(1 << bit % 8);
+            refused_flips += refused_or_sound(files[f].name, &flipped);
+        }
+        print_message("%s: refused %d of %d cut and %d of %d with one wrong bit\n", files[f].name,
+                      refused_cuts, CUTS, refused_flips, flips);
+        assert_true(refused_cuts > 0);
+    }
+    /* No file and no process is left open, and the readers' limits do not apply to this process. */
+    assert_int_equal(testing_open_files(), open_before);
+    assert_int_equal(waitpid(-1, NULL, 0), -1);
+    assert_int_equal(errno, ECHILD);
+    assert_int_equal(getrlimit(RLIMIT_AS, &after), 0);
+    assert_memory_equal(&after, &before, sizeof after);
+}
+
+/* The header never ends: Assimp 5.2 searches for its end without a limit. */
+TEST(a_file_that_never_ends_times_out)
+{
+    const Bytes bytes = text("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n");
+    Mesh mesh;
+    Message message = {0};
+    const bool read = read_bytes("endless.ply", &bytes, &mesh, &message);
+    assert_refused(read, "endless.ply", &mesh, &message);
+}
+
+TEST(a_missing_plugin_names_its_package)
+{
+    static const PluginName name = {"no_such_module.so", "entry", "Nothing", "libnothing-dev"};
+    Message message = {0};
+    assert_null(plugin_entry(&name, &message));
+    assert_memory_equal(message.text, "Nothing: its module cannot be loaded (", 38);
+    assert_non_null(strstr(message.text, "no_such_module.so"));
+    assert_non_null(strstr(message.text, "; install the package libnothing-dev and build again"));
+    static const PluginName wrong = {"model_assimp.so", "no_such_entry", "Assimp", "libassimp-dev"};
+    message = (Message){0};
+    assert_null(plugin_entry(&wrong, &message));
+    assert_memory_equal(message.text, "Assimp: ", 8);
+    assert_non_null(strstr(message.text, "no_such_entry"));
+}
+
+int main(void)
+{
+    testing_seed48(seed);
+    if (!model_probe(NULL))
+        return EXIT_SKIPPED;
+    return testing_run(0, "model", testing_enter_folder, testing_leave_empty_folder);
+}

@@ -1,0 +1,453 @@
+/*
+ * report: tables line up, plots are whole files that gnuplot drew, sheets show what is different.
+ */
+#include "study/report/report.h"
+#include "study/report/report_labels.h"
+#include "support/testing.h"
+
+#include <math.h>
+#include <png.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static Message message;
+static Results results;
+
+/* The message, empty. */
+static Message *fresh(void)
+{
+    message = (Message){0};
+    return &message;
+}
+
+static void add(const char *divisions, const char *interpolation, double error, double time)
+{
+    ResultRow row = {.quality = quality_usual(),
+                     .scene = "sphere",
+                     .width = 400,
+                     .height = 300,
+                     .interior_maximum = error,
+                     .interior_rms = error / 3,
+                     .all_rms = error / 2,
+                     .all_maximum = NAN,
+                     .time = time,
+                     .time_lower = 0.9 * time,
+                     .time_upper = 1.1 * time,
+                     .run_times = {time, time, time},
+                     .net_time = time - 0.5,
+                     .gpu_time = NAN,
+                     .noise = 0.05,
+                     .vertices = 100,
+                     .fragments = -1,
+                     .vertex_operations = 20,
+                     .fragment_operations = -1,
+                     .renderer = "llvmpipe",
+                     .threads = "2"};
+    assert_true(quality_choose(&row.quality, "divisions", divisions, fresh()));
+    assert_true(quality_choose(&row.quality, "interpolation", interpolation, &message));
+    assert_true(results_add(&results, &row, &message));
+}
+
+static void add_four(void)
+{
+    add("24", "gouraud", 12.5, 1);
+    add("32", "gouraud", 30, 1.02);
+    add("64", "phong", 0.002, 3);
+    add("64", "flat", 7, 12.25);
+}
+
+static char *table(bool only_efficient)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *file = open_memstream(&text, &size);
+    assert_non_null(file);
+    assert_true(
+        report_table(&results, "sphere", ERROR_INTERIOR_MAXIMUM, only_efficient, file, fresh()));
+    fclose(file);
+    return text;
+}
+
+static int enter(void **state)
+{
+    return testing_enter_folder(state) != 0 || mkdir("out", 0777) != 0;
+}
+
+static int leave(void **state)
+{
+    results_close(&results);
+    return testing_leave_folder(state);
+}
+
+TEST_WITH(0, a_table_is_sorted_and_marked, enter, leave)
+{
+    add_four();
+    char *text = table(false);
+    assert_string_equal(
+        text, "sphere, 400x300; llvmpipe, LP_NUM_THREADS 2; noise 5.0 %\n"
+              "Errors in steps of 1/255. * efficient by the largest error inside the objects.\n"
+              "= tied: its median would make it efficient too, but that is within the noise.\n"
+              "\n"
+              "                          net inside       all                          operations\n"
+              "      ms      quartiles    ms    max   rms max   rms vertices fragments  vert/frag  "
+              "setting\n"
+              "*   1.00   [0.90, 1.10]  0.50  12.50  4.17   -  6.25      100         -       20/-  "
+              "interpolation=gouraud divisions=24\n"
+              "    1.02   [0.92, 1.12]  0.52  30.00 10.00   - 15.00      100         -       20/-  "
+              "interpolation=gouraud divisions=32\n"
+              "*   3.00   [2.70, 3.30]  2.50  <0.01 <0.01   - <0.01      100         -       20/-  "
+              "usual\n"
+              "   12.25 [11.03, 13.48] 11.75   7.00  2.33   -  3.50      100         -       20/-  "
+              "interpolation=flat\n");
+    free(text);
+}
+
+TEST_WITH(0, only_the_efficient_ones_if_asked, enter, leave)
+{
+    add_four();
+    char *text = table(true);
+    assert_non_null(strstr(text, "divisions=24"));
+    assert_non_null(strstr(text, "usual"));
+    assert_null(strstr(text, "divisions=32"));
+    assert_null(strstr(text, "flat"));
+    assert_null(strstr(text, "*="));
+    free(text);
+}
+
+TEST_WITH(0, a_table_stays_within_120_columns, enter, leave)
+{
+    ResultRow row;
+    add_four();
+    row = results.rows[0];
+    for (int axis = 0; axis < AXIS_COUNT; axis++)
+        row.quality.choice[axis] = (unsigned char)(QUALITY_AXES[axis].count - 1);
+    row.gpu_time = 1234.5;
+    row.vertices = row.fragments = 123456789;
+    row.noise = 0.1;
+    assert_true(results_add(&results, &row, &message));
+    char *text = table(false);
+    assert_non_null(strstr(text, "noise 5.0 to 10.0 %"));
+    assert_non_null(strstr(text, "GPU"));
+    assert_non_null(strstr(text, "1234.50"));
+    for (const char *line = text; *line; line += strcspn(line, "\n") + 1)
+        assert_true(strcspn(line, "\n") <= 120);
+    free(text);
+}
+
+TEST_WITH(0, no_rows_and_full_disks_are_reported, enter, leave)
+{
+    assert_false(report_table(&results, "cube", ERROR_ALL_RMS, false, stdout, fresh()));
+    assert_string_equal(message.text, "cube: nothing was measured");
+    assert_false(report_plot(&results, "cube", "", ERROR_ALL_RMS, ".", fresh()));
+    assert_string_equal(message.text, "cube: nothing was measured");
+    add_four();
+    FILE *full = fopen("/dev/full", "w");
+    assert_non_null(full);
+    assert_false(report_table(&results, "sphere", ERROR_ALL_RMS, false, full, fresh()));
+    assert_non_null(strstr(message.text, "No space left on device"));
+    fclose(full);
+}
+
+/* Plots. */
+
+static char *get_file(const char *path, size_t *size)
+{
+    FILE *file = fopen(path, "r");
+    if (!file)
+        fail_msg("%s is missing", path);
+    char *bytes = calloc(1, 1 << 22);
+    assert_non_null(bytes);
+    *size = fread(bytes, 1, (1 << 22) - 1, file);
+    fclose(file);
+    return bytes;
+}
+
+static bool has_gnuplot(void)
+{
+    return system("gnuplot --version >/dev/null 2>&1") == 0;
+}
+
+/* Both files are there, whole, with nothing beside them; the text of the first, to be freed. */
+static char *drawn(const char *name)
+{
+    char path[64];
+    size_t size;
+    snprintf(path, sizeof path, "out/%s.png", name);
+    char *png = get_file(path, &size);
+    assert_true(size > 1000);
+    assert_memory_equal(png, "\x89PNG\r\n\x1a\n", 8);
+    assert_memory_equal(png + size - 8, "IEND\xAE\x42\x60\x82", 8);
+    free(png);
+    snprintf(path, sizeof path, "out/%s.svg", name);
+    char *svg = get_file(path, &size);
+    assert_non_null(strstr(svg, "</svg>"));
+    assert_int_equal(testing_entries("out"), 2);
+    return svg;
+}
+
+static bool plot(const char *title)
+{
+    return report_plot(&results, "sphere", title, ERROR_INTERIOR_MAXIMUM, "out", fresh());
+}
+
+TEST_WITH(0, a_plot_names_the_efficient_ones, enter, leave)
+{
+    if (!has_gnuplot())
+        skip();
+    add_four();
+    require(plot("It's `date` \"quoted\" \\n $HOME @x ^2_3 <&> {/Bold x}"), &message);
+    char *svg = drawn("sphere");
+    assert_non_null(strstr(svg, "It's `date` \"quoted\" \\n $HOME @x ^2_3 &lt;&amp;> {/Bold x}"));
+    assert_non_null(strstr(svg, ">gouraud, divisions 24<"));
+    assert_non_null(strstr(svg, ">usual<"));
+    assert_null(strstr(svg, ">gouraud, divisions 32<"));
+    assert_non_null(strstr(svg, ">\xE2\x89\xA4"
+                                "0.01<"));
+    free(svg);
+}
+
+TEST_WITH(0, any_number_of_rows_can_be_plotted, enter, leave)
+{
+    if (!has_gnuplot())
+        skip();
+    add("8", "flat", 0, 1); /* one row, without error */
+    require(plot("one"), &message);
+    free(drawn("sphere"));
+    add("12", "flat", NAN, 1);
+    add("16", "flat", 1, 0);
+    add("24", "flat", 1, NAN);
+    require(plot("one that counts"), &message);
+    for (int i = 0; i < 500; i++) {
+        char text[32];
+        snprintf(text, sizeof text, "%s", QUALITY_AXES[AXIS_DIVISIONS].choices[i % 14]);
+        add(text, QUALITY_AXES[AXIS_INTERPOLATION].choices[i % 3], 1e6 / (i + 1), 1e-3 * (i + 1));
+        results.rows[results.count - 1].quality.choice[AXIS_OUTPUT] = (unsigned char)(i % 2);
+    }
+    require(plot("many"), &message);
+    free(drawn("sphere"));
+}
+
+TEST_WITH(0, curves_leave_out_unknown_values, enter, leave)
+{
+    if (!has_gnuplot())
+        skip();
+    static const double x[] = {1, 2, 4, 8, 16}, y[] = {100, NAN, 1, 0, -3};
+    static const double nothing[] = {NAN, NAN, NAN, NAN, NAN};
+    const ReportSeries series[] = {{"one", x, y, 5}, {"none's", x, nothing, 5}, {"empty", x, y, 0}};
+    for (int i = 0; i < 4; i++) {
+        const ReportAxes axes = {"title", "x", "y", i % 2 == 1, i / 2 == 1, i ? "a foot" : NULL};
+        if (!report_curves(&axes, series, 3, "out", "curves", fresh()))
+            fail_msg("%s", message.text);
+        char *svg = drawn("curves");
+        assert_non_null(strstr(svg, "none's"));
+        assert_int_equal(strstr(svg, "a foot") != NULL, i > 0);
+        assert_int_equal(strstr(svg, "drawn at the lower end") != NULL, i / 2 == 1);
+        free(svg);
+    }
+}
+
+static void put_program(const char *text)
+{
+    FILE *file = fopen("bin/gnuplot", "w");
+    assert_non_null(file);
+    fputs(text, file);
+    fclose(file);
+    assert_int_equal(chmod("bin/gnuplot", 0755), 0);
+}
+
+TEST_WITH(0, gnuplot_errors_are_passed_on, enter, leave)
+{
+    static const char *const cases[][2] = {
+        {NULL, "out/sphere.svg: plots need gnuplot: No such file or directory; install the package "
+               "gnuplot-nox"},
+        {"#!/bin/sh\nprintf 'a\\n\\n  line 3: bad thing\\n' >&2; exit 3\n",
+         "out/sphere.svg: gnuplot: status 3:   line 3: bad thing"},
+        {"#!/bin/sh\nkill -KILL $$\n", "out/sphere.svg: gnuplot: Killed"},
+        {"#!/bin/sh\nexit 0\n", "out/sphere.svg: gnuplot: status 0: it drew nothing"},
+        {"#!/bin/sh\nexec 0<&-; printf cut; exit 1\n",
+         "out/sphere.svg: gnuplot: status 1: it drew nothing"},
+    };
+    char *before = strdup(getenv("PATH"));
+    add_four();
+    assert_int_equal(mkdir("bin", 0777), 0);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        if (cases[i][0])
+            put_program(cases[i][0]);
+        setenv("PATH", "bin", 1);
+        const bool done = plot("title");
+        setenv("PATH", before, 1);
+        assert_false(done);
+        assert_string_equal(message.text, cases[i][1]);
+        assert_int_equal(testing_entries("out"), 0);
+    }
+    free(before);
+}
+
+TEST_WITH(0, a_plot_without_a_folder_is_refused, enter, leave)
+{
+    if (!has_gnuplot())
+        skip();
+    add_four();
+    assert_false(report_plot(&results, "sphere", "", ERROR_ALL_RMS, "nowhere", fresh()));
+    assert_non_null(strstr(message.text, "nowhere/sphere.svg: the folder nowhere/ does not exist"));
+    assert_false(report_curves(&(ReportAxes){"", "", "", false, false, NULL}, NULL, 0, "out",
+                               "../x", fresh()));
+    assert_non_null(strstr(message.text, "../x: cannot be a file's name"));
+}
+
+/* Labels. */
+
+TEST_WITH(0, labels_do_not_overlap, enter, leave)
+{
+    Label labels[10];
+    Place path[10];
+    for (int i = 0; i < 10; i++) {
+        Quality quality = quality_usual();
+        quality.choice[AXIS_DIVISIONS] = (unsigned char)i;
+        quality.choice[AXIS_VIEWER] = (unsigned char)(i % 2);
+        path[i] = (Place){200 + 30 * i, 500 - 40 * i};
+        labels[i] = (Label){.point = path[i]};
+        label_name(&labels[i], &quality);
+    }
+    labels_place(labels, 10,
+                 &(LabelGround){
+                     .max = {1000, 700}, .path = path, .path_count = 10, .letter = 7, .line = 15});
+    int placed = 0;
+    for (int i = 0; i < 10; i++) {
+        const Label *a = &labels[i];
+        placed += a->placed;
+        for (int j = 0; j < 10 && a->placed; j++) {
+            const Label *b = &labels[j];
+            assert_true(path[j].x < a->min.x || path[j].x > a->max.x || path[j].y < a->min.y ||
+                        path[j].y > a->max.y);
+            assert_true(i == j || !b->placed || a->max.x < b->min.x || b->max.x < a->min.x ||
+                        a->max.y < b->min.y || b->max.y < a->min.y);
+        }
+    }
+    assert_true(placed >= 8);
+}
+
+TEST_WITH(0, a_name_is_short, enter, leave)
+{
+    Label label;
+    Quality quality = quality_usual();
+    label_name(&label, &quality);
+    assert_int_equal(label.line_count, 1);
+    assert_string_equal(label.lines[0], "usual");
+    quality.choice[AXIS_INTERPOLATION] = INTERPOLATION_GOURAUD;
+    quality.choice[AXIS_GUARDS] = GUARDS_OFF;
+    label_name(&label, &quality);
+    assert_string_equal(label.lines[0], "gouraud, guards off");
+    for (int axis = 0; axis < AXIS_COUNT; axis++)
+        quality.choice[axis] = (unsigned char)(QUALITY_AXES[axis].usual ? 0 : 1);
+    label_name(&label, &quality);
+    assert_int_equal(label.line_count, LABEL_LINES);
+    assert_non_null(strstr(label.lines[LABEL_LINES - 1], " more"));
+}
+
+/* Sheets. */
+
+enum { SIDE = 16, SCALE = 20, PANEL = SIDE * SCALE, TOP = 32 };
+
+static bool sheet(const Image *image, const Reference *exact, const char *caption)
+{
+    return report_sheet(image, exact, caption, "sheet.png", fresh());
+}
+
+/* The pixel of a sheet that shows (x, y) in a panel. */
+static const unsigned char *shown(const Image *image, int panel, int x, int y)
+{
+    const int left = 10 + panel * (PANEL + 10) + x * SCALE + SCALE / 2;
+    const int top = TOP + y * SCALE + SCALE / 2;
+    return (const unsigned char *)image->pixels + 4 * (top * image->width + left);
+}
+
+static int brightness(const unsigned char *pixel)
+{
+    return 2 * pixel[0] + 7 * pixel[1] + pixel[2];
+}
+
+static Image read_png(const char *path)
+{
+    png_image png = {.version = PNG_IMAGE_VERSION};
+    Image image;
+    assert_true(png_image_begin_read_from_file(&png, path));
+    png.format = PNG_FORMAT_RGBA;
+    require(image_open(&image, (int)png.width, (int)png.height, IMAGE_BYTE, &message), &message);
+    assert_true(png_image_finish_read(&png, NULL, image.pixels, 0, NULL));
+    return image;
+}
+
+TEST_WITH(0, a_sheet_shows_what_is_different, enter, leave)
+{
+    Image image, read;
+    float colors[3 * SIDE * SIDE];
+    const Reference exact = {.width = SIDE, .height = SIDE, .color = colors};
+    static const double steps[SIDE] = {0, 0.3, 0.5, 0.6, 1, 1.5, 2, 3, 5, 8, 10, 20, 50, 90, 120};
+    for (int type = IMAGE_BYTE; type <= IMAGE_FLOAT; type++) {
+        assert_true(image_open(&image, SIDE, SIDE, (ImageType)type, fresh()));
+        for (size_t i = 0; i < SIDE * SIDE; i++) {
+            for (size_t c = 0; c < 3; c++) {
+                const double more = c == i % 3 ? steps[i % SIDE] / 255 : 0;
+                colors[3 * i + c] = (float)(100.0 / 255 + more);
+                if (type == IMAGE_BYTE)
+                    ((unsigned char *)image.pixels)[4 * i + c] = 100;
+                else
+                    ((float *)image.pixels)[4 * i + c] = 100.0f / 255;
+            }
+        }
+        /* As bright as can be shown, and brighter: the same to the eye. */
+        const size_t bright = SIDE * SIDE - 1;
+        for (size_t c = 0; c < 3; c++) {
+            colors[3 * bright + c] = 1;
+            if (type == IMAGE_BYTE)
+                ((unsigned char *)image.pixels)[4 * bright + c] = 255;
+            else
+                ((float *)image.pixels)[4 * bright + c] = 1.5f;
+        }
+        if (type == IMAGE_FLOAT)
+            ((float *)image.pixels)[4 * 15] = NAN;
+        if (!sheet(&image, &exact,
+                   "A caption, rather long, so that it has to be broken at some "
+                   "blank; it is broken there, and goes on below, to its end, "
+                   "which comes here.\nAnd another line."))
+            fail_msg("%s", message.text);
+        image_close(&image);
+        read = read_png("sheet.png");
+        assert_int_equal(read.width, 3 * PANEL + 40);
+        assert_int_equal(shown(&read, 0, 3, 3)[0], 100);
+        assert_int_equal(shown(&read, 1, 0, 0)[0], 100);
+        assert_int_equal(shown(&read, 1, 12, 0)[0], 150); /* 12 % 3: red */
+        assert_int_equal(shown(&read, 1, 13, 0)[1], 190);
+        const unsigned char *neutral = shown(&read, 2, 0, 0);
+        for (int x = 1; x <= 2; x++)
+            assert_memory_equal(shown(&read, 2, x, 0), neutral, 3);
+        assert_memory_equal(shown(&read, 2, SIDE - 1, SIDE - 1), neutral, 3);
+        for (int x = 3; x < 14; x++) {
+            assert_memory_not_equal(shown(&read, 2, x, 0), neutral, 3);
+            assert_true(brightness(shown(&read, 2, x, 0)) < brightness(shown(&read, 2, x + 1, 0)));
+        }
+        if (type == IMAGE_FLOAT)
+            assert_memory_equal(shown(&read, 2, 15, 0), "\xFF\x00\xFF", 3);
+        image_close(&read);
+    }
+}
+
+TEST_WITH(0, pictures_of_two_sizes_make_no_sheet, enter, leave)
+{
+    Image image;
+    float colors[3] = {0};
+    const Reference exact = {.width = 1, .height = 1, .color = colors};
+    assert_true(image_open(&image, 2, 1, IMAGE_BYTE, fresh()));
+    assert_false(sheet(&image, &exact, ""));
+    assert_string_equal(message.text,
+                        "sheet.png: the drawn picture has 2x1 pixels, the exact one 1x1");
+    image.width = 1;
+    assert_true(sheet(&image, &exact, "")); /* the smallest, without a caption */
+    image_close(&image);
+}
+
+TEST_MAIN("report", NULL, NULL)

@@ -1,0 +1,139 @@
+#include "support/testing.h"
+
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+char testing_folder[] = "/tmp/lighting_test-XXXXXX";
+
+static struct {
+    struct CMUnitTest tests[128];
+    size_t count;
+} lists[2];
+
+void testing_add(int list, struct CMUnitTest test)
+{
+    assert_true(lists[list].count < sizeof lists[list].tests / sizeof lists[list].tests[0]);
+    lists[list].tests[lists[list].count++] = test;
+}
+
+int testing_run(int list, const char *name, CMFixtureFunction setup, CMFixtureFunction teardown)
+{
+    return _cmocka_run_group_tests(name, lists[list].tests, lists[list].count, setup, teardown);
+}
+
+int testing_step(int step)
+{
+    const char *everything = getenv("LIGHTING_TEST_LONG"), *backend = getenv("LIGHTING_BACKEND");
+    if (everything && everything[0])
+        return 1;
+    return backend && strcmp(backend, "osmesa") == 0 ? 4 * step : step;
+}
+
+unsigned long long testing_seed(unsigned long long usual)
+{
+    const char *text = getenv("LIGHTING_TEST_SEED");
+    const unsigned long long seed = text && *text ? strtoull(text, NULL, 0) : usual;
+    printf("LIGHTING_TEST_SEED=%llu\n", seed);
+    return seed;
+}
+
+Message testing_failure;
+
+void require(bool done, const Message *message)
+{
+    const Message said = *message;
+    testing_failure = (Message){0};
+    if (!done)
+        fail_msg("%s", said.text);
+}
+
+int testing_enter_folder(void **state)
+{
+    (void)state;
+    memcpy(testing_folder + sizeof testing_folder - 7, "XXXXXX", 6);
+    return mkdtemp(testing_folder) && chdir(testing_folder) == 0 ? 0 : -1;
+}
+
+int testing_leave_folder(void **state)
+{
+    (void)state;
+    char command[128];
+    snprintf(command, sizeof command, "rm -rf %s", testing_folder);
+    return chdir("/") == 0 ? system(command) : -1;
+}
+
+int testing_leave_empty_folder(void **state)
+{
+    (void)state;
+    return chdir("/") == 0 ? rmdir(testing_folder) : -1;
+}
+
+void testing_write(const char *path, const void *bytes, size_t size)
+{
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    assert_int_equal(fwrite(bytes, 1, size, file), size);
+    assert_int_equal(fclose(file), 0);
+}
+
+void testing_shell(const char *command)
+{
+    if (system(command) != 0)
+        fail_msg("failed: %s", command);
+}
+
+int testing_in_child(int (*body)(void))
+{
+    int status = 0;
+    fflush(NULL);
+    const pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0)
+        _exit(body());
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status));
+    return WEXITSTATUS(status);
+}
+
+bool testing_drop_root(void)
+{
+    return geteuid() != 0 || setresuid(65534, 65534, 65534) == 0;
+}
+
+void testing_seed48(unsigned short seed[3])
+{
+    const unsigned long long number = testing_seed(20240229);
+    seed[0] = 0x330e;
+    seed[1] = (unsigned short)number;
+    seed[2] = (unsigned short)(number >> 16);
+}
+
+int testing_entries(const char *folder)
+{
+    int count = -2; /* . and .. */
+    DIR *listing = opendir(folder);
+    assert_non_null(listing);
+    while (readdir(listing))
+        count++;
+    closedir(listing);
+    return count;
+}
+
+int testing_open_files(void)
+{
+    return testing_entries("/proc/self/fd");
+}
+
+long testing_resident_kib(void)
+{
+    long pages = 0;
+    FILE *file = fopen("/proc/self/statm", "r");
+    assert_non_null(file);
+    assert_int_equal(fscanf(file, "%*d %ld", &pages), 1);
+    fclose(file);
+    return pages * (sysconf(_SC_PAGESIZE) / 1024);
+}

@@ -1,0 +1,840 @@
+/*
+ * The panel's controls, used like a user would: pointer and keys go in, and parameters get new
+ * values. Controls are found with the pointer, by the tooltips that they show.
+ */
+#include "support/testing.h"
+#include "window/panel.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { MAX_ROWS = 32 };
+static const double LABEL_X = 20; /* in the names of the parameters */
+
+static Panel *panel;
+static WindowInput window;
+static PanelInput input;
+static PanelContent content;
+static PanelResult result;
+static char clipboard[256];
+
+static const char *get_clipboard(void *text)
+{
+    return text;
+}
+
+static void set_clipboard(void *to, const char *text)
+{
+    assert_ptr_equal(to, clipboard);
+    snprintf(clipboard, sizeof clipboard, "%s", text);
+}
+
+/* A new panel of 1000x700 pixels, the pointer outside it. */
+static int open_panel(void **state)
+{
+    Message message = {0};
+    (void)state;
+    window = (WindowInput){.width = 1000, .height = 700, .scale = 1, .x = -10, .y = -10};
+    clipboard[0] = '\0';
+    input = (PanelInput){.window = &window,
+                         .seconds = 1.0 / 60,
+                         .clipboard = clipboard,
+                         .get_clipboard = get_clipboard,
+                         .set_clipboard = set_clipboard};
+    content = (PanelContent){.name = "Test", .view = PANEL_OPEN};
+    result = (PanelResult){.view = PANEL_OPEN};
+    if (panel_open(&panel, &message))
+        return 0;
+    printf("%s\n", message.text);
+    return 1;
+}
+
+static int close_panel(void **state)
+{
+    (void)state;
+    panel_close(panel);
+    return 0;
+}
+
+/* What is drawn is within the window, and indices are within the arrays. */
+static void check_drawing(void)
+{
+    const PanelDrawing *drawing = &result.drawing;
+    for (int i = 0; i < drawing->command_count; i++) {
+        const PanelCommand *command = &drawing->commands[i];
+        assert_true(command->x >= 0 && command->y >= 0);
+        assert_true(command->width > 0 && command->x + command->width <= window.width);
+        assert_true(command->height > 0 && command->y + command->height <= window.height);
+        assert_true(command->first >= 0 && command->count > 0 && command->count % 3 == 0);
+        assert_true(command->first + command->count <= drawing->index_count);
+        for (int k = command->first; k < command->first + command->count; k++)
+            assert_true(command->vertex + drawing->indices[k] < drawing->vertex_count);
+    }
+}
+
+static void frame(void)
+{
+    SUCCEEDS(panel_frame(panel, &input, &content, &result, message));
+    check_drawing();
+    content.view = result.view;
+    window.typed_count = 0;
+    window.scroll = 0;
+    memset(window.down, 0, sizeof window.down);
+}
+
+static void frames(int count)
+{
+    for (int i = 0; i < count; i++)
+        frame();
+}
+
+/* Moves the pointer there, and lets the panel see it. */
+static void point(double x, double y)
+{
+    window.x = x;
+    window.y = y;
+    frames(2);
+}
+
+/* Returns what the click changed. */
+static uint32_t click(double x, double y)
+{
+    point(x, y);
+    window.buttons[0] = true;
+    frame();
+    uint32_t changed = result.changed;
+    window.buttons[0] = false;
+    frame();
+    changed |= result.changed;
+    frame();
+    return changed | result.changed;
+}
+
+static uint32_t press_key(WindowKey key)
+{
+    window.down[key] = true;
+    frame();
+    const uint32_t changed = result.changed;
+    frame();
+    return changed | result.changed;
+}
+
+static void type(const char *text)
+{
+    for (; *text; text++) {
+        window.typed[0] = (unsigned char)*text;
+        window.typed_count = 1;
+        frame();
+    }
+}
+
+/* Whether a tooltip appears with the pointer there. */
+static bool hovers(double x, double y)
+{
+    point(-10, -10);
+    const int before = result.drawing.command_count;
+    point(x, y);
+    return result.drawing.command_count > before;
+}
+
+/* The vertical middles of the parameters' rows; returns their number. */
+static int find_rows(double rows[MAX_ROWS])
+{
+    int count = 0, first = -1;
+    for (int y = 0; y < window.height && count < MAX_ROWS; y++) {
+        const bool here = hovers(LABEL_X, y);
+        if (here && first < 0)
+            first = y;
+        if (!here && first >= 0) {
+            rows[count++] = (first + y - 1) / 2.0;
+            first = -1;
+        }
+    }
+    return count;
+}
+
+static double only_row(void)
+{
+    double rows[MAX_ROWS];
+    assert_int_equal(find_rows(rows), 1);
+    return rows[0];
+}
+
+typedef struct Span {
+    double from, to;
+} Span;
+
+/* Where the controls of a row are; returns their number. */
+static int find_controls(double y, Span spans[8])
+{
+    int count = 0, first = -1;
+    for (int x = 0; x < 400 && count < 8; x++) {
+        const bool here = hovers(x, y);
+        if (here && first < 0)
+            first = x;
+        if (!here && first >= 0) {
+            spans[count++] = (Span){first, x - 1};
+            first = -1;
+        }
+    }
+    assert_true(count > 0);
+    memmove(spans, spans + 1, (size_t)(count - 1) * sizeof *spans); /* except its name */
+    return count - 1;
+}
+
+static Span only_control(double y)
+{
+    Span spans[8];
+    assert_int_equal(find_controls(y, spans), 1);
+    return spans[0];
+}
+
+static double middle(Span span)
+{
+    return (span.from + span.to) / 2;
+}
+
+/* The parameters. */
+
+static double number;
+static int whole, choice, many;
+static bool on, flag;
+static Vec3 color;
+static const char *file;
+static const char *const FEW[] = {"one", "two", "three", NULL};
+static const char *const MANY[] = {"brass", "bronze", "chrome", "copper", "gold", "jade", NULL};
+
+static Parameter of_number(double min, double max)
+{
+    return (Parameter){"number",         "a number", PARAMETER_NUMBER,
+                       .value = &number, .min = min, .max = max};
+}
+
+static void show(const Parameter *parameters)
+{
+    content.parameters = parameters;
+    frames(3);
+}
+
+static const Parameter EVERY[] = {
+    {"number", "a number", PARAMETER_NUMBER, .value = &number, .min = 0, .max = 1},
+    {"whole", "h", PARAMETER_WHOLE, .value = &whole, .min = 1, .max = 9},
+    {"choice", "h", PARAMETER_CHOICE, .value = &choice, .choices = FEW},
+    {"many", "h", PARAMETER_CHOICE, .value = &many, .choices = MANY},
+    {"switch", "h", PARAMETER_SWITCH, .value = &on},
+    {"flag", "h", PARAMETER_FLAG, .value = &flag},
+    {"color", "h", PARAMETER_COLOR, .value = &color, .min = 0, .max = 4},
+    {"file", "h", PARAMETER_TEXT, .value = &file},
+    {.name = NULL},
+};
+enum { EVERY_COUNT = 8 };
+
+static void set_every(void)
+{
+    number = 1.0 / 3;
+    whole = 5;
+    choice = 1;
+    many = 4;
+    on = true;
+    flag = false;
+    color = (Vec3){0.1, 2.5, 1.0 / 7};
+    file = "models/teapot.obj";
+}
+
+static void save_every(ParameterValue values[EVERY_COUNT])
+{
+    for (int i = 0; i < EVERY_COUNT; i++)
+        values[i] = parameter_save(&EVERY[i]);
+}
+
+static void assert_every(const ParameterValue values[EVERY_COUNT], uint32_t but)
+{
+    for (int i = 0; i < EVERY_COUNT; i++)
+        assert_int_equal(parameter_equal(&EVERY[i], &values[i]), !(but >> i & 1));
+}
+
+/* Whether the command line could have set them. */
+static void assert_readable(const Parameter *parameters)
+{
+    for (; parameters->name; parameters++) {
+        char text[PARAMETER_TEXT_SIZE];
+        const ParameterValue value = parameter_save(parameters);
+        Message message = {0};
+        if (!parameter_write(parameters, text, sizeof text))
+            continue; /* a flag that is false */
+        if (parameters->kind != PARAMETER_TEXT && !parameter_read(parameters, text, &message))
+            fail_msg("%s", message.text);
+        assert_true(parameter_equal(parameters, &value));
+    }
+}
+
+/* Sliders. */
+
+#define PANEL_TEST(name) TEST_WITH(0, name, open_panel, close_panel)
+
+PANEL_TEST(test_a_slider_is_dragged)
+{
+    const Parameter parameters[] = {of_number(-1, 3), {.name = NULL}};
+    number = 2;
+    show(parameters);
+    const double y = only_row();
+    const Span span = only_control(y);
+    assert_true(span.to - span.from > 100);
+    assert_true(number == 2); /* hovering sets nothing */
+    point(span.from + 1, y);
+    window.buttons[0] = true;
+    frames(2);
+    assert_true(number == -1);
+    window.x = middle(span);
+    frame();
+    assert_int_equal(result.changed, 1);
+    assert_true(fabs(number - 1) < 0.05);               /* two pixels of 200 */
+    assert_true(number * 1000 == round(number * 1000)); /* a thousandth of the range, as decimals */
+    assert_true(result.wants_pointer);
+    window.x = 990; /* far to the right, and below */
+    window.y = 600;
+    frame();
+    assert_true(number == 3);
+    assert_true(result.wants_pointer);
+    frame();
+    assert_int_equal(result.changed, 0);
+    window.buttons[0] = false;
+    frames(2);
+    assert_true(number == 3);
+    assert_false(result.wants_pointer);
+}
+
+PANEL_TEST(test_wide_ranges_have_a_logarithmic_slider)
+{
+    const Parameter parameters[] = {of_number(0.001, 1000), {.name = NULL}};
+    number = 0.001;
+    show(parameters);
+    const double y = only_row();
+    click(middle(only_control(y)), y);
+    assert_true(number > 0.8 && number < 1.25); /* the geometric mean, to two pixels of 200 */
+    click(only_control(y).to - 1, y);
+    assert_true(number == 1000);
+}
+
+PANEL_TEST(test_whole_numbers_stay_whole)
+{
+    const Parameter parameters[] = {
+        {"whole", "h", PARAMETER_WHOLE, .value = &whole, .min = -3, .max = 5}, {.name = NULL}};
+    whole = 0;
+    show(parameters);
+    const double y = only_row();
+    const Span span = only_control(y);
+    click(span.to - 1, y);
+    assert_int_equal(whole, 5);
+    click(middle(span), y);
+    assert_int_equal(whole, 1);
+    click(span.from + 1, y);
+    assert_int_equal(whole, -3);
+}
+
+/* Typing. */
+
+/* Ctrl and a click on the slider, then text that replaces its own. */
+static void type_into(double x, double y, const char *text)
+{
+    window.control = true;
+    click(x, y);
+    window.down[WINDOW_KEY_A] = true;
+    frame();
+    window.control = false;
+    frame();
+    assert_true(result.wants_keys);
+    type(text);
+}
+
+static uint32_t enter(double x, double y, const char *text)
+{
+    type_into(x, y, text);
+    const uint32_t changed = press_key(WINDOW_KEY_ENTER);
+    frame();
+    assert_false(result.wants_keys);
+    return changed;
+}
+
+PANEL_TEST(test_a_value_is_typed)
+{
+    const Parameter parameters[] = {of_number(0, 1), {.name = NULL}};
+    static const struct {
+        const char *text;
+        double before, after;
+    } cases[] = {
+        {"0.125", 0.5, 0.125}, {"0.12345678901234566", 0.5, 0.12345678901234566},
+        {"1e-3", 0.5, 0.001},  {"7", 0.5, 1},  /* to the end of the range */
+        {"-7", 0.5, 0},        {"", 0.5, 0.5}, /* not a number: unchanged */
+        {"+-e", 0.5, 0.5},     {"1e999", 0.5, 1},
+    };
+    number = 0;
+    show(parameters);
+    const double y = only_row(), x = middle(only_control(y));
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        number = cases[i].before;
+        const uint32_t changed = enter(x, y, cases[i].text);
+        if (number != cases[i].after)
+            fail_msg("\"%s\" made %.17g", cases[i].text, number);
+        assert_int_equal(changed, cases[i].before != cases[i].after);
+    }
+}
+
+PANEL_TEST(test_an_incomplete_value_is_ignored)
+{
+    const Parameter parameters[] = {of_number(0, 1), {.name = NULL}};
+    number = 1.0 / 3;
+    show(parameters);
+    const double y = only_row(), x = middle(only_control(y));
+    type_into(x, y, "0.9");
+    assert_true(number == 1.0 / 3);
+    press_key(WINDOW_KEY_ESCAPE);
+    frames(2);
+    assert_false(result.wants_keys);
+    assert_true(number == 1.0 / 3); /* bit for bit */
+    /* Left without typing. */
+    window.control = true;
+    click(x, y);
+    window.control = false;
+    assert_int_equal(press_key(WINDOW_KEY_ENTER), 0);
+    assert_true(number == 1.0 / 3);
+    /* Left by a click elsewhere: the value is set. */
+    type_into(x, y, "0.75");
+    assert_int_equal(click(900, 600), 1);
+    assert_true(number == 0.75);
+}
+
+PANEL_TEST(test_the_clipboard_is_pasted)
+{
+    const Parameter parameters[] = {of_number(0, 1), {.name = NULL}};
+    number = 0.25;
+    show(parameters);
+    const double y = only_row(), x = middle(only_control(y));
+    snprintf(clipboard, sizeof clipboard, "0.625");
+    type_into(x, y, "");
+    window.control = window.down[WINDOW_KEY_V] = true;
+    frame();
+    window.control = false;
+    assert_int_equal(press_key(WINDOW_KEY_ENTER), 1);
+    assert_true(number == 0.625);
+    input.get_clipboard = NULL;
+    input.set_clipboard = NULL;
+    type_into(x, y, "0.5");
+    window.control = window.down[WINDOW_KEY_V] = true;
+    frame();
+    window.control = window.down[WINDOW_KEY_C] = true;
+    frame();
+    window.control = false;
+    press_key(WINDOW_KEY_ENTER);
+    assert_true(number == 0.5);
+}
+
+/* Choices, switches, colours. */
+
+PANEL_TEST(test_a_few_choices_lie_side_by_side)
+{
+    const Parameter parameters[] = {
+        {"choice", "h", PARAMETER_CHOICE, .value = &choice, .choices = FEW}, {.name = NULL}};
+    Span spans[8];
+    choice = 0;
+    show(parameters);
+    const double y = only_row();
+    assert_int_equal(find_controls(y, spans), 3);
+    for (int i = 2; i >= 0; i--) {
+        assert_int_equal(click(middle(spans[i]), y), 1);
+        assert_int_equal(choice, i);
+        assert_int_equal(click(middle(spans[i]), y), 0);
+    }
+}
+
+PANEL_TEST(test_many_choices_unfold)
+{
+    const Parameter parameters[] = {
+        {"many", "h", PARAMETER_CHOICE, .value = &many, .choices = MANY}, {.name = NULL}};
+    many = 6; /* none of them */
+    show(parameters);
+    const double y = only_row(), x = middle(only_control(y));
+    click(x, y);
+    assert_true(result.wants_keys); /* Escape closes the list, not the window */
+    press_key(WINDOW_KEY_ESCAPE);
+    frames(2);
+    assert_false(result.wants_keys);
+    assert_int_equal(many, 6);
+    /* Each choice that is found below. */
+    bool seen[6] = {false};
+    for (double below = 8; below < 160; below += 4) {
+        click(x, y);
+        click(x, y + below);
+        if (result.wants_keys) /* between two */
+            press_key(WINDOW_KEY_ESCAPE);
+        frames(2);
+        if (many < 6)
+            seen[many] = true;
+    }
+    for (int i = 0; i < 6; i++)
+        assert_true(seen[i]);
+}
+
+PANEL_TEST(test_switches_and_flags_are_ticked)
+{
+    double rows[MAX_ROWS];
+    on = false;
+    flag = true;
+    show(&EVERY[4]); /* and what follows */
+    assert_int_equal(find_rows(rows), 4);
+    const double x = only_control(rows[0]).from + 8;
+    assert_int_equal(click(x, rows[0]), 1);
+    assert_true(on);
+    assert_int_equal(click(x, rows[0]), 1);
+    assert_false(on);
+    assert_int_equal(click(x, rows[1]), 2);
+    assert_false(flag);
+}
+
+PANEL_TEST(test_a_color_has_a_slider_for_each_part)
+{
+    double rows[MAX_ROWS];
+    Span spans[8];
+    set_every();
+    show(&EVERY[6]);
+    assert_int_equal(find_rows(rows), 2);
+    assert_int_equal(find_controls(rows[0], spans), 3);
+    const Vec3 before = color;
+    assert_int_equal(click(spans[1].to - 1, rows[0]), 1);
+    assert_true(color.x == before.x && color.y == 4 && color.z == before.z);
+    assert_int_equal(enter(middle(spans[0]), rows[0], "3.75"), 1);
+    assert_true(color.x == 3.75 && color.y == 4 && color.z == before.z);
+    /* The picker keeps the bits of what it does not change. */
+    click(spans[2].to + 10, rows[0]);
+    assert_true(result.wants_keys);
+    click(spans[2].to + 40, rows[0] + 60);
+    assert_readable(&EVERY[6]);
+    press_key(WINDOW_KEY_ESCAPE);
+    frames(2);
+    assert_false(result.wants_keys);
+}
+
+/* All of them. */
+
+PANEL_TEST(test_every_kind_has_a_row_and_keeps_its_bits)
+{
+    ParameterValue values[EVERY_COUNT];
+    double rows[MAX_ROWS];
+    set_every();
+    save_every(values);
+    show(EVERY);
+    assert_int_equal(find_rows(rows), EVERY_COUNT);
+    for (int i = 0; i < EVERY_COUNT; i++) /* clicks beside the controls, and hovering */
+        click(LABEL_X, rows[i]);
+    assert_every(values, 0);
+}
+
+PANEL_TEST(test_defaults_come_back)
+{
+    ParameterValue defaults[EVERY_COUNT], values[EVERY_COUNT];
+    double rows[MAX_ROWS];
+    set_every();
+    save_every(defaults);
+    content.defaults = defaults;
+    show(EVERY);
+    assert_int_equal(find_rows(rows), EVERY_COUNT);
+    const double right = only_control(rows[0]).to;
+    number = 0.5;
+    on = false;
+    file = NULL; /* unchanged: it does not belong to the panel */
+    save_every(values);
+    frames(2);
+    /* Somewhere to the right of the slider there is a button. */
+    uint32_t changed = 0;
+    for (double x = right + 3; x < right + 40 && !changed; x += 3)
+        changed = click(x, rows[0]);
+    assert_int_equal(changed, 1);
+    assert_true(number == 1.0 / 3);
+    assert_every(values, 1);
+    /* Below the last row there is a button for all. */
+    flag = true;
+    many = 0;
+    frames(2);
+    changed = 0;
+    for (double y = rows[EVERY_COUNT - 1] + 15; y < rows[EVERY_COUNT - 1] + 60 && !changed; y += 5)
+        changed = click(LABEL_X, y);
+    assert_int_equal(changed, 1 << 3 | 1 << 4 | 1 << 5);
+    assert_null(file);
+    file = "models/teapot.obj";
+    assert_every(defaults, 0);
+}
+
+/* The panel as a whole. */
+
+PANEL_TEST(test_the_title_collapses_it)
+{
+    set_every();
+    show(EVERY);
+    const int open = result.drawing.vertex_count;
+    click(30, 27);
+    assert_int_equal(content.view, PANEL_FOLDED);
+    frames(2);
+    assert_true(result.drawing.vertex_count < open / 2);
+    point(500, 400);
+    assert_false(result.wants_pointer);
+    click(30, 27);
+    assert_int_equal(content.view, PANEL_OPEN);
+    frames(2);
+    assert_int_equal(panel_next_view(PANEL_OPEN), PANEL_HIDDEN);
+    assert_int_equal(panel_next_view(PANEL_FOLDED), PANEL_OPEN);
+    assert_int_equal(panel_next_view(PANEL_HIDDEN), PANEL_OPEN);
+}
+
+PANEL_TEST(test_the_command_is_copied)
+{
+    bool copied = false;
+    content.command = "LightedCube --size 400x400 # 100%s";
+    frames(3);
+    for (double y = 60; y < 400 && !copied; y += 5) {
+        point(30, y);
+        window.buttons[0] = true;
+        frame();
+        window.buttons[0] = false;
+        frame();
+        copied = clipboard[0] != '\0';
+        if (!copied && click(30, y) == 0)
+            frame(); /* a collapsed section is expanded again */
+    }
+    assert_true(copied);
+    assert_string_equal(clipboard, content.command);
+}
+
+PANEL_TEST(test_elsewhere_the_pointer_belongs_to_the_picture)
+{
+    set_every();
+    show(EVERY);
+    point(100, 100);
+    assert_true(result.wants_pointer);
+    point(700, 350);
+    assert_false(result.wants_pointer);
+    /* A drag that begins on the picture still belongs to the picture over the panel. */
+    window.buttons[0] = true;
+    frame();
+    point(100, 100);
+    assert_false(result.wants_pointer);
+    window.buttons[0] = false;
+    frames(2);
+    assert_true(result.wants_pointer);
+    assert_false(result.wants_keys);
+}
+
+PANEL_TEST(test_what_is_shown_over_the_picture)
+{
+    static const PanelHelp help[] = {{"space", "pauses"}, {"h", "help"}, {NULL, NULL}};
+    content.view = PANEL_HIDDEN;
+    frames(2);
+    assert_int_equal(result.drawing.command_count, 0);
+    content.help = help;
+    frames(2);
+    assert_true(result.drawing.command_count > 0);
+    content.help = NULL;
+    content.notice = "saved LightedCube0001.png";
+    frames(2);
+    assert_true(result.drawing.command_count > 0);
+    point(990, 15);
+    assert_false(result.wants_pointer);
+    content.notice = NULL;
+    content.errors = "shader.frag:23: 'u_Colour' undeclared\n    a line of source 100%s";
+    frames(2);
+    assert_true(result.drawing.command_count > 0);
+    content.errors = NULL;
+    frame();
+    assert_int_equal(result.drawing.command_count, 0);
+    assert_false(result.wants_pointer || result.wants_keys);
+}
+
+PANEL_TEST(test_fonts_follow_the_scale)
+{
+    frames(2);
+    const unsigned generation = result.drawing.generation;
+    const int area = result.drawing.atlas_width * result.drawing.atlas_height;
+    assert_true(generation > 0);
+    frame();
+    assert_int_equal(result.drawing.generation, generation);
+    window.scale = 2;
+    frames(2);
+    assert_true(result.drawing.generation > generation);
+    assert_true(result.drawing.atlas_width * result.drawing.atlas_height > area);
+}
+
+PANEL_TEST(test_two_panels)
+{
+    Panel *first = panel, *second;
+    set_every();
+    show(EVERY);
+    const int count = result.drawing.vertex_count;
+    SUCCEEDS(panel_open(&second, message));
+    panel = second;
+    content.parameters = NULL;
+    frames(3);
+    assert_true(result.drawing.vertex_count < count);
+    panel_close(second);
+    panel = first;
+    content.parameters = EVERY;
+    frames(3);
+    assert_int_equal(result.drawing.vertex_count, count);
+    panel_close(NULL);
+}
+
+/* Impossible values. */
+
+PANEL_TEST(test_impossible_numbers)
+{
+    static const double numbers[] = {NAN, INFINITY, -INFINITY, DBL_MAX, -DBL_MAX, 0, -1, 1e-300};
+    static const int sizes[] = {0, -1, 1, 16, 32767, 32768, INT32_MAX, INT32_MIN};
+    set_every();
+    content.parameters = EVERY;
+    content.errors = content.notice = content.effects = content.command = "some text";
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
+        window.x = window.y = window.scale = window.scroll = input.seconds = numbers[i];
+        content.milliseconds = content.frames_per_second = numbers[i];
+        content.error = (PanelError){.known = true,
+                                     .computing = i % 2,
+                                     .rms = numbers[i],
+                                     .maximum = numbers[i],
+                                     .seconds = numbers[i]};
+        frames(2);
+        window.typed_count = i % 2 ? -1 : INT32_MAX;
+        frame();
+        window.width = sizes[i];
+        frame();
+        window.height = sizes[i];
+        frames(2);
+        window.width = 1000;
+        window.height = 700;
+    }
+    assert_readable(EVERY);
+}
+
+PANEL_TEST(test_impossible_texts)
+{
+    static char text[100000];
+    static const char *const texts[] = {"",    "\xff\xfe\x80", "\xe2\x82", "%s%n%d",
+                                        "###", "a\tb\r\n\n",   text};
+    memset(text, 'x', sizeof text - 1);
+    set_every();
+    content.parameters = EVERY;
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        const PanelHelp help[] = {{texts[i], texts[i]}, {NULL, NULL}};
+        file = texts[i];
+        content.name = content.effects = content.command = texts[i];
+        content.errors = content.notice = texts[i];
+        content.help = help;
+        frames(3);
+        content.help = NULL;
+    }
+}
+
+/* Clicks, drags and keys everywhere, with ranges and values of every kind. */
+PANEL_TEST(test_no_input_makes_an_impossible_value)
+{
+    static double values[6];
+    static int wholes[2];
+    static const double ranges[6][2] = {
+        {0, 0}, {-DBL_MAX, DBL_MAX}, {DBL_MIN, DBL_MAX}, {0, 1e-300}, {-1, 1}, {1e-9, 1e9}};
+    Parameter parameters[EVERY_COUNT + 9] = {{.name = NULL}};
+    ParameterValue defaults[EVERY_COUNT + 8];
+    static const char letters[] = "0123456789.-+e%xnaif";
+    uint64_t random = 12345;
+    set_every();
+    memcpy(parameters, EVERY, EVERY_COUNT * sizeof *EVERY);
+    for (int i = 0; i < 8; i++) {
+        parameters[EVERY_COUNT + i] =
+            (Parameter){.name = "n",
+                        .help = "h",
+                        .kind = i < 6 ? PARAMETER_NUMBER : PARAMETER_WHOLE,
+                        .value = i < 6 ? (void *)&values[i] : (void *)&wholes[i - 6],
+                        .min = i < 6 ? ranges[i][0] : INT32_MIN,
+                        .max = i < 6 ? ranges[i][1] : INT32_MAX};
+        if (i < 6)
+            values[i] = ranges[i][0];
+    }
+    for (int i = 0; i < EVERY_COUNT + 8; i++)
+        defaults[i] = parameter_save(&parameters[i]);
+    content.parameters = parameters;
+    content.defaults = defaults;
+    content.effects = "# object\nwithout a back: it is lit as the front\ndiffuse: both have it";
+    content.command = "LightedCube";
+    for (int i = 0; i < 6000; i++) {
+        random = random * 6364136223846793005U + 1442695040888963407U;
+        const unsigned r = (unsigned)(random >> 33);
+        if (r % 5 == 0) {
+            window.x = r / 5 % 360;
+            window.y = r / 2000 % 700;
+        }
+        window.buttons[0] = r / 7 % 3 != 0;
+        window.control = r / 11 % 3 == 0;
+        window.down[r / 13 % WINDOW_KEY_COUNT] = r / 17 % 4 == 0;
+        window.typed[0] = (unsigned char)letters[r / 19 % (sizeof letters - 1)];
+        window.typed_count = r / 23 % 3 == 0;
+        window.scroll = r / 29 % 40 == 0 ? (int)(r / 31 % 21) - 10 : 0;
+        if (r / 37 % 200 == 0)
+            content.view = PANEL_OPEN;
+        frame();
+        assert_readable(parameters);
+    }
+    assert_int_not_equal(access("imgui.ini", F_OK), 0); /* no file is left */
+}
+
+PANEL_TEST(test_a_value_out_of_its_range_is_shown_and_stays)
+{
+    const Parameter parameters[] = {of_number(0, 1), EVERY[6], EVERY[2], {.name = NULL}};
+    number = NAN;
+    color = (Vec3){NAN, INFINITY, -1e300};
+    choice = 77;
+    show(parameters);
+    assert_true(isnan(number) && isnan(color.x) && isinf(color.y) && color.z == -1e300);
+    assert_int_equal(choice, 77);
+}
+
+/* A copy of this program outside the build folder finds no plugin, unless one is installed. */
+TEST(test_a_missing_module_is_named)
+{
+    char program[4096], command[8400], text[4096];
+    char folder[] = "/tmp/panel_test.XXXXXX";
+    const ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
+    assert_true(length > 0);
+    program[length] = '\0';
+    assert_non_null(mkdtemp(folder));
+    snprintf(command, sizeof command, "cp '%s' %s/copy && %s/copy say; rm -r %s", program, folder,
+             folder, folder);
+    FILE *said = popen(command, "r");
+    assert_non_null(said);
+    const size_t size = fread(text, 1, sizeof text - 1, said);
+    text[size] = '\0';
+    assert_int_equal(pclose(said), 0);
+    if (strcmp(text, "opened") == 0)
+        skip();
+    assert_int_equal(strncmp(text, "Dear ImGui: its module cannot be loaded (", 41), 0);
+    assert_non_null(strstr(text, "; install the package libimgui-dev and build again"));
+    assert_null(strchr(text, '\n'));
+}
+
+/* The output of opening a panel, for the test above. */
+static int say(void)
+{
+    Panel *opened;
+    Message message = {0};
+    if (panel_open(&opened, &message))
+        panel_close(opened);
+    printf("%s", opened ? "opened" : message.text);
+    return 0;
+}
+
+int main(int argc, char *argv[])
+{
+    if (argc == 2 && strcmp(argv[1], "say") == 0)
+        return say();
+    if (!panel_probe(NULL))
+        return EXIT_SKIPPED; /* the module was not built */
+    return testing_run(0, "panel", NULL, NULL);
+}
