@@ -133,6 +133,17 @@ TEST_WITH(0, odd_names_and_encodings_become_the_labs, start, NULL)
     assert_false(source_is_wanted("notes.txt"));
 }
 
+/* Without ".txt" nothing safe is left of these. */
+TEST_WITH(0, a_name_that_is_only_an_ending_stays, start, NULL)
+{
+    static const char *const names[] = {"a/.txt", "..txt", "...txt"};
+    for (int i = 0; i < 3; i++)
+        assert_true(bundle_add(&bundle, names[i], "x", 1, &message));
+    source_normalize(&bundle, &LABS[4]);
+    for (int i = 0; i < 3; i++)
+        assert_non_null(bundle_find(&bundle, names[i]));
+}
+
 /* Streams. */
 
 TEST_WITH(0, names_that_leave_a_folder_are_refused, start, NULL)

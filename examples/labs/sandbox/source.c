@@ -369,7 +369,7 @@ void source_normalize(Bundle *bundle, const Lab *lab)
         drop_text_ending(name);
         for (char *at = name; *at; at++)
             *at = (char)tolower((unsigned char)*at);
-        if (!bundle_find(bundle, name))
+        if (bundle_name_is_safe(name) && !bundle_find(bundle, name)) /* ".txt" has no name left */
             snprintf(file->name, sizeof file->name, "%s", name);
     }
     snprintf(wanted, sizeof wanted, "%s.vert", lab->file);
