@@ -4,8 +4,9 @@
 #   setup_is_done NAME PACKAGE...     whether nothing has changed since the program NAME was built
 #   setup NAME TARGETS PACKAGE...     installs, configures and builds what is missing or has changed
 #
-# Sets $root, the source tree, and $build, the build folder (LIGHTING_BUILD in the environment, or
-# build/ in the source tree). Nothing here uses the network when nothing is missing.
+# Sets $root, the source tree, and $build, the build folder: LIGHTING_BUILD in the environment, or
+# build/ in the source tree; where that cannot be written and is not up to date, a folder in the user's
+# cache. Nothing here uses the network when nothing is missing.
 
 root=$(CDPATH='' cd -- "${self%/*}/.." && pwd -P) || exit 1
 build=${LIGHTING_BUILD:-$root/build}
@@ -34,6 +35,50 @@ say() {
     printf '%s: %s\n' "${self#"$root"/}" "$*" >&2
 }
 
+# Ends with a status and a message, whose beginning is red on a terminal unless NO_COLOR is set
+# (https://no-color.org).
+fail() {
+    status=$1
+    shift
+    if [ -t 2 ] && [ -z "${NO_COLOR-}" ] && [ "${TERM-dumb}" != dumb ]; then
+        printf '\033[31m%s:\033[0m %s\n' "${self#"$root"/}" "$*" >&2
+    else
+        say "$@"
+    fi
+    exit "$status"
+}
+
+# Of the names on standard input the one that was probably meant by a word: the nearest, if at most a
+# third of its letters differ, or the only one that begins so. Case does not count; of "lab05_phong"
+# the first part is enough.
+nearest() {
+    awk -v word="$1" '
+        function least(a, b) { return a < b ? a : b }
+        function letter(text, i) { return substr(text, i, 1) }
+        function distance(a, b, i, j, d) {
+            for (i = 0; i <= length(a); i++) d[i, 0] = i
+            for (j = 0; j <= length(b); j++) d[0, j] = j
+            for (i = 1; i <= length(a); i++)
+                for (j = 1; j <= length(b); j++) {
+                    d[i, j] = d[i - 1, j - 1] + (letter(a, i) != letter(b, j))
+                    d[i, j] = least(d[i, j], 1 + least(d[i - 1, j], d[i, j - 1]))
+                    if (i > 1 && j > 1 && letter(a, i) == letter(b, j - 1) &&
+                        letter(a, i - 1) == letter(b, j))
+                        d[i, j] = least(d[i, j], 1 + d[i - 2, j - 2])
+                }
+            return d[length(a), length(b)]
+        }
+        BEGIN { word = tolower(word); min = length(word) / 3 + 0.1 }
+        {
+            name = part = tolower($0)
+            sub(/_.*/, "", part)
+            if (index(name, word) == 1 && beginnings++ == 0) beginning = $0
+            d = least(distance(word, name), distance(word, part) + 0.05)
+            if (d < min) { min = d; near = $0 }
+        }
+        END { print beginnings == 1 ? beginning : near }'
+}
+
 # $build/.done-NAME is as old as the start of the last build of NAME, and holds the source tree's path
 # and the packages that the build asked for. A newer file, or a folder from which one went, asks for
 # another build; newer records of dpkg ask for another look at the packages.
@@ -55,10 +100,48 @@ setup_is_done() {
         -newer "$stamp" -print -quit 2>&1)" ]
 }
 
+# Whether ninja, which writes nothing then, finds nothing to do for TARGETS. Of a moved tree it would
+# find nothing either.
+setup_has_built() {
+    [ "$(setup_tree)" = "$root" ] || return 1
+    # shellcheck disable=SC2086
+    case $(ninja -C "$build" -n $targets 2>&1) in
+    *"no work to do"*) return 0 ;;
+    esac
+    return 1
+}
+
+setup_can_write() {
+    # In a shell of its own, which a redirection that fails ends.
+    mkdir -p "$build" 2>/dev/null && (: >>"$build/.lock") 2>/dev/null
+}
+
+# Where $root/build cannot be written: what is built there is run; all else is built in the user's
+# cache, the tests always, because they write there. Returns whether nothing is to be done.
+setup_elsewhere() {
+    [ "${LIGHTING_BUILD-}" ] && return 1
+    [ "$name" != all ] && setup_has_built && return 0
+    case ${XDG_CACHE_HOME-} in
+    /*) cache=$XDG_CACHE_HOME ;;
+    *) cache=${HOME:+$HOME/.cache} ;;
+    esac
+    [ "$cache" ] || return 1
+    shared=$build
+    build=$cache/lighting/build-$(printf %s "$root" | cksum | sed 's/ .*//')
+    setup_can_write || fail 1 "cannot write to the build folder $shared, nor to $build;" \
+        "LIGHTING_BUILD names another"
+    setup_is_done "$name" "$@" && return 0
+    say "$shared cannot be written; building in $build"
+    return 1
+}
+
 setup() {
     name=$1
     targets=$2
     shift 2
+    if ! setup_can_write; then
+        setup_elsewhere "$@" && return
+    fi
     setup_packages "$@"
     setup_lock
     printf '%s\n' "$root" "$*" >"$build/.begun"
@@ -72,8 +155,7 @@ setup_packages() {
     command -v dpkg-query >/dev/null || {
         hint="; it needs $(packages_elsewhere "$@")"
         command -v meson >/dev/null && return 0
-        say "this is not a Debian system$hint"
-        exit 1
+        fail 1 "this is not a Debian system$hint"
     }
     missing=$(dpkg-query -W -f '${Package} ${db:Status-Status}\n' "$@" 2>/dev/null |
         awk -v wanted="$*" '$2 == "installed" { have[$1] = 1 }
@@ -88,24 +170,56 @@ setup_packages() {
     if [ "$(id -u)" != 0 ]; then
         sudo=sudo
         command -v sudo >/dev/null || {
-            say "packages are missing, and this is neither root nor sudo; as root: apt-get install $*"
-            exit 1
+            fail 1 "packages are missing, and this is neither root nor sudo; as root: apt-get install $*"
         }
     fi
     grep -q '^ID=debian$' /etc/os-release 2>/dev/null || say "untested on this system: only Debian is tested"
-    say "installing with apt-get: $*"
     log=$(mktemp) || exit 1
     # The package lists are fetched only if they are missing or too old.
     # shellcheck disable=SC2046
-    if ! install "$@" >"$log" 2>&1 &&
-        ! { $sudo apt-get update >"$log" 2>&1 </dev/null &&
-            install $(packages_of_this_release "$@") >>"$log" 2>&1; }; then
+    if ! install "$@" && ! { update && install $(packages_of_this_release "$@"); }; then
         tail -n 5 "$log" >&2
         rm -f "$log"
-        say "apt-get could not install: $*"
-        exit 1
+        fail 1 "apt-get could not install: $*"
     fi
     rm -f "$log"
+}
+
+update() {
+    say "fetching the package lists"
+    $sudo apt-get update >"$log" 2>&1 </dev/null
+}
+
+# "160 MB to fetch, 650 MB on disk", as apt words it; nothing if it has no lists.
+megabytes() {
+    LC_ALL=C apt-get --print-uris -y --no-install-recommends install "$@" 2>/dev/null </dev/null |
+        sed -n 's/^Need to get \(.*\) of archives.*/\1 to fetch/p
+            s/^After this operation, \(.*\) of additional.*/, \1 on disk/p' | tr -d '\n'
+}
+
+# What apt does is seen on a terminal, in one line that it rewrites.
+# (README.progress-reporting, of apt: "dlstatus:PACKAGE:PERCENT:TEXT", then "pmstatus:...")
+install() {
+    size=$(megabytes "$@")
+    [ "$size" ] || return 1
+    say "installing with apt-get ($size): $*"
+    set -- apt-get install -y --no-install-recommends "$@"
+    if [ -t 2 ]; then
+        # sudo closes all but the standard streams.
+        # shellcheck disable=SC2016
+        code=$({ {
+            $sudo env DEBIAN_FRONTEND=noninteractive sh -c '"$@" 3>&1 >&2' sh \
+                "$@" -o APT::Status-Fd=3 2>>"$log" </dev/null
+            echo $? >&4
+        } | while IFS=: read -r kind _ percent text; do
+            case $kind in
+            dlstatus | pmstatus) printf '\r\033[K%3.0f%% %.70s' "$percent" "$text" >&2 ;;
+            esac
+        done; } 4>&1)
+        printf '\r\033[K' >&2
+        return "$code"
+    fi
+    $sudo env DEBIAN_FRONTEND=noninteractive "$@" >>"$log" 2>&1 </dev/null
 }
 
 # Those of the packages that there are, as far as the package lists say; where there are no lists,
@@ -145,19 +259,19 @@ packages_elsewhere() {
     printf 'what these packages of Debian contain: %s' "$*"
 }
 
-install() {
-    $sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "$@" </dev/null
-}
-
 # Two calls must not build in one folder at once: the second waits. The children of a call that was
 # killed keep the lock until they end.
 setup_lock() {
-    mkdir -p "$build" 2>/dev/null && { : >>"$build/.lock"; } 2>/dev/null || {
-        say "cannot write to the build folder $build; LIGHTING_BUILD names another"
-        exit 1
+    setup_can_write || {
+        fail 1 "cannot write to the build folder $build; LIGHTING_BUILD names another"
     }
     exec 9>>"$build/.lock"
     flock 9
+}
+
+# The source tree that the build folder was configured for.
+setup_tree() {
+    sed -n 's/.*"source": "\([^"]*\)".*/\1/p' "$build/meson-info/meson-info.json" 2>/dev/null
 }
 
 # $build/.configured is as old as the configuration, which is done again if the tree was moved or
@@ -165,11 +279,10 @@ setup_lock() {
 setup_configure() {
     stamp=$build/.configured
     if [ -f "$build/build.ninja" ]; then
-        tree=$(sed -n 's/.*"source": "\([^"]*\)".*/\1/p' "$build/meson-info/meson-info.json" 2>/dev/null)
+        tree=$(setup_tree)
         if [ "${tree:-$root}" != "$root" ]; then
             [ -d "$tree" ] && {
-                say "the build folder $build belongs to $tree; LIGHTING_BUILD names another"
-                exit 1
+                fail 1 "the build folder $build belongs to $tree; LIGHTING_BUILD names another"
             }
             rm -rf "$build"/meson-* "$build/build.ninja" # the tree was moved
         elif [ -f "$stamp" ] && ! [ /var/lib/dpkg/status -nt "$stamp" ]; then
@@ -186,8 +299,7 @@ setup_configure() {
     if ! meson setup $again "$build" "$root" >"$log" 2>&1; then
         tail -n 20 "$log" >&2
         rm -f "$log"
-        say "meson could not configure $build"
-        exit 1
+        fail 1 "meson could not configure $build"
     fi
     rm -f "$log"
     : >"$stamp"
@@ -210,6 +322,5 @@ setup_build() {
             printf '%s\n' "$output" >&2
         fi
     fi
-    say "the build failed${hint-}"
-    exit 1
+    fail 1 "the build failed${hint-}"
 }

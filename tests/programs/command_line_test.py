@@ -997,39 +997,6 @@ class Again(Case):
                 self.refused(1, "SOURCE_DATE_EPOCH=" + epoch, *SMALL, "-o", "a." + suffix,
                              environment={"SOURCE_DATE_EPOCH": epoch})
 
-class Setup(Case):
-    TOOLS = ("sh", "sed", "awk", "cat", "readlink", "id", "uname", "grep", "mkdir", "mktemp", "find")
-
-    def test_other_systems_get_their_packages_names(self):
-        """Where there is no dpkg. The path has what is in every system, and a package manager."""
-        for manager, said in (("dnf", "dnf install gcc glibc-devel .*OpenImageIO-devel"),
-                              ("pacman", "pacman -S gcc glibc .*openimageio"),
-                              ("apk", "apk add gcc musl-dev .*openimageio-dev"),
-                              ("brew", "brew install .*glfw .*openimageio"),
-                              (None, "what these packages of Debian contain: gcc .*openimageio-dev")):
-            folder = self.path(f"bin {manager}")
-            os.mkdir(folder)
-            for tool in self.TOOLS:
-                os.symlink(shutil.which(tool), os.path.join(folder, tool))
-            if manager:
-                os.symlink("/bin/true", os.path.join(folder, manager))
-            result = subprocess.run(
-                [os.path.join(SOURCE, "examples/run"), "Materials", "-o", "a.exr"],
-                env={"PATH": folder, "LIGHTING_BUILD": self.path("build")}, capture_output=True)
-            error = result.stderr.decode()
-            self.assertEqual((result.returncode, error.count("\n")), (1, 1), error)
-            self.assertRegex(error, "^examples/run: this is not a Debian system; it needs " + said)
-            self.assertEqual("untested" in error, bool(manager), error)
-
-    def test_every_package_has_its_names_elsewhere(self):
-        with open(os.path.join(SOURCE, "common/setup.sh")) as file:
-            text = file.read().replace("\\\n", " ")
-        wanted = set(" ".join(re.findall(r'^packages_to_\w+="(.*?)"', text, re.MULTILINE)).split())
-        with open(os.path.join(SOURCE, "common/packages")) as file:
-            rows = [line.split() for line in file if not line.startswith("#")]
-        self.assertEqual(wanted, {row[0] for row in rows})
-        self.assertTrue(all(len(row) == 5 for row in rows))
-
 
 def main():
     doctor = subprocess.run([os.path.join(EXAMPLES, "LightedCube"), "--doctor"],

@@ -1,0 +1,307 @@
+#!/usr/bin/env python3
+"""examples/run and common/setup.sh: what they say, where they build, what they install.
+
+usage: run_test.py EXAMPLES_FOLDER_OF_THE_BUILD SOURCE_FOLDER [unittest's arguments]
+
+Builds nothing: in copies of the scripts, programs of a few lines stand for meson, ninja and apt-get.
+"""
+import json
+import os
+import pty
+import re
+import shutil
+import subprocess
+import sys
+import time
+import unittest
+
+import command_line_test as base
+
+RUN = os.path.join(base.SOURCE, "examples/run")
+
+# What meson and ninja do, as far as setup.sh sees it. A program that was built says where it is.
+TOOLS = {
+    "dpkg-query": 'shift 3; for package; do echo "$package installed"; done',
+    "meson": '[ "$2" != --reconfigure ] || shift; mkdir -p "$2/meson-info" && '
+             'echo "  \\"source\\": \\"$3\\"" >"$2/meson-info/meson-info.json" && '
+             ': >"$2/build.ninja"',
+    "ninja": r'''
+cd "$2" || exit 1
+shift 2
+source=$(sed -n 's/.*: "\(.*\)"/\1/p' meson-info/meson-info.json)
+dry=; [ "$1" = -n ] && dry=1 && shift
+for target; do
+    case $target in *-plugin) continue ;; esac
+    [ -x "$target" ] && [ -z "$(find "$source/examples" -newer "$target")" ] && continue
+    [ "$dry" ] && echo "[1/1] would build $target" && exit
+    mkdir -p "${target%/*}" && printf '#!/bin/sh\necho "ran $0"\n' >"$target" && chmod +x "$target"
+    built=1
+done
+[ "${built-}" ] || echo "ninja: no work to do."
+''',
+}
+
+
+def on_terminal(command, **more):
+    """The status, and what a command writes to a terminal that is its standard error."""
+    ours, theirs = pty.openpty()
+    process = subprocess.Popen(command, stderr=theirs, stdout=subprocess.DEVNULL, **more)
+    os.close(theirs)
+    said = b""
+    try:
+        while chunk := os.read(ours, 65536):
+            said += chunk
+    except OSError:  # EIO: nobody has it open any more
+        pass
+    os.close(ours)
+    return process.wait(), said.decode()
+
+
+class Case(base.Case):
+    def setUp(self):
+        super().setUp()
+        for name, text in TOOLS.items():
+            self.tool(name, text)
+
+    def tool(self, name, text):
+        self.make("bin/" + name, "#!/bin/sh\n" + text + "\n")
+        os.chmod(self.path("bin", name), 0o755)
+
+    def environment(self, **more):
+        clean = {key: value for key, value in os.environ.items()
+                 if key not in ("LIGHTING_BUILD", "XDG_CACHE_HOME", "NO_COLOR", "LIGHTING_BACKEND")}
+        clean["PATH"] = self.path("bin") + ":" + clean["PATH"]
+        clean.update({"HOME": self.path("home"), "TERM": "xterm"}, **more)
+        return {key: value for key, value in clean.items() if value is not None}
+
+    def start(self, *arguments, run=RUN, environment=None, **more):
+        """The status, standard output and standard error."""
+        result = subprocess.run([run, *arguments], cwd=self.folder, text=True, capture_output=True,
+                                timeout=base.PATIENCE, env=self.environment(**(environment or {})),
+                                **more)
+        return result.returncode, result.stdout, result.stderr
+
+
+class Names(Case):
+    def test_what_was_meant_is_said(self):
+        for word, said in (("Shadingmodels", "did you mean ShadingModels?"),
+                           ("lab05", "did you mean lab05_per_fragment?"),
+                           ("lab5", "did you mean lab05_per_fragment?"),
+                           ("LightedCub", "did you mean LightedCube?"),
+                           ("LihgtedCube", "did you mean LightedCube?"),
+                           ("pointlightedsphere_perfragment",
+                            "did you mean PointLightedSphere_perFragment?"),
+                           ("galery", "did you mean gallery?"),
+                           ("lab", f"{RUN} --list names them"),
+                           ("xylophone", f"{RUN} --list names them")):
+            self.assertEqual(self.start(word),
+                             (2, "", f"examples/run: {word}: no such program; {said}\n"))
+        for word, said in (("--jsno", "did you mean --json?"), ("-z", "--help lists them")):
+            self.assertEqual(self.start(word),
+                             (2, "", f"examples/run: {word}: no such option; {said}\n"))
+
+    def test_the_list_for_tools_has_every_program(self):
+        code, text, said = self.start("--json")
+        self.assertEqual((code, said), (0, ""))
+        programs = json.loads(text)
+        self.assertEqual({one["name"] for one in programs},
+                         set(base.EVERY) | {"Vectors"} | {"check"})
+        self.assertEqual("".join(f"{one['name']:32} {one['summary']}\n" for one in programs),
+                         self.start("--list")[1])
+        for one in programs:
+            folder = os.path.join(base.SOURCE, "examples", one["group"])
+            self.assertTrue(one["group"] == "all" or os.path.isdir(folder), one)
+            if one["group"] in ("lecture", "lighting", "diagrams", "study"):
+                self.assertTrue(os.path.exists(os.path.join(folder, one["name"] + ".c")), one)
+
+    def test_the_version_is_said(self):
+        code, text, said = self.start("--version")
+        self.assertEqual((code, said), (0, ""))
+        self.assertRegex(text, r"^run \(lighting\) \d[\d.]*(-\d+-g\w+)?\n$")
+
+    def test_errors_are_red_on_a_terminal(self):
+        for more, red in (({}, True), ({"NO_COLOR": "1"}, False), ({"TERM": "dumb"}, False)):
+            code, said = on_terminal([RUN, "xylophone"], env=self.environment(**more))
+            self.assertEqual(code, 2)
+            self.assertEqual(said.startswith("\x1b[31mexamples/run:\x1b[0m xylophone: "), red, said)
+            self.assertEqual("\x1b" in said, red, said)
+
+
+class Folders(Case):
+    """A copy of the scripts that a user runs who may not write to it."""
+
+    def setUp(self):
+        super().setUp()
+        for name in ("examples/run", "examples/meson.build", "common/setup.sh", "common/packages",
+                     "meson.build", "meson_options.txt"):
+            os.makedirs(os.path.dirname(self.path("tree", name)), exist_ok=True)
+            shutil.copy(os.path.join(base.SOURCE, name), self.path("tree", name))
+        self.make("tree/examples/lecture/LightedCube.c", '    .summary = "a cube",\n')
+        os.mkdir(self.path("home"))
+        os.chmod(self.path("home"), 0o777)
+        self.run_path = self.path("tree/examples/run")
+
+    def protect(self):
+        for folder, _, _ in os.walk(self.path("tree")):
+            os.chmod(folder, 0o555)
+            self.addCleanup(os.chmod, folder, 0o755)
+
+    def start(self, *arguments, **more):
+        return super().start("LightedCube", *arguments, run=self.run_path, **base.SOMEBODY, **more)
+
+    def test_what_is_not_built_is_built_in_the_users_cache(self):
+        self.protect()
+        code, text, said = self.start()
+        self.assertEqual(code, 0, said)
+        folder = re.fullmatch(rf"ran ({re.escape(self.path('home/.cache/lighting/'))}build-\d+)"
+                              "/examples/LightedCube\n", text)[1]
+        self.assertEqual(said.splitlines()[0], f"examples/run: {self.path('tree/build')} cannot be "
+                                               f"written; building in {folder}")
+        self.assertEqual(self.start(), (0, text, ""))
+        self.assertFalse(os.path.exists(self.path("tree/build")))
+
+    def test_the_cache_may_be_elsewhere(self):
+        self.protect()
+        for cache, there in ((self.path("home/other"), "home/other/lighting"),
+                             ("relative", "home/.cache/lighting")):
+            code, text, said = self.start(environment={"XDG_CACHE_HOME": cache})
+            self.assertEqual((code, text.startswith("ran " + self.path(there))), (0, True), said)
+
+    def test_a_build_that_may_not_be_written_runs(self):
+        result = super().start("LightedCube", run=self.run_path)
+        self.assertEqual(result[:2], (0, f"ran {self.path('tree/build/examples/LightedCube')}\n"))
+        self.protect()
+        self.assertEqual(self.start(), (0, result[1], ""))
+        # Built without the scripts: ninja says that it is up to date.
+        os.chmod(self.path("tree/build"), 0o755)
+        os.remove(self.path("tree/build/.done-LightedCube"))
+        os.chmod(self.path("tree/build"), 0o555)
+        self.assertEqual(self.start(), (0, result[1], ""))
+        # Out of date.
+        os.utime(self.path("tree/examples/lecture/LightedCube.c"), (time.time() + 60,) * 2)
+        code, text, said = self.start()
+        self.assertEqual((code, self.path("home/.cache") in text), (0, True), said)
+        self.assertIn("cannot be written; building in", said)
+
+    def test_nowhere_to_build_is_one_line(self):
+        self.protect()
+        build = self.path("tree/build")
+        for said, environment in (
+                (f"cannot write to the build folder {build}; LIGHTING_BUILD names another",
+                 {"HOME": None}),
+                (rf"cannot write to the build folder {build}, nor to /proc/.cache/lighting/build-\d+; "
+                 "LIGHTING_BUILD names another", {"HOME": "/proc"}),
+                ("cannot write to the build folder /proc/build; LIGHTING_BUILD names another",
+                 {"LIGHTING_BUILD": "/proc/build"})):
+            code, text, error = self.start(environment=environment)
+            self.assertEqual((code, text), (1, ""))
+            self.assertRegex(error, f"^examples/run: {said}\n$")
+
+    def test_only_the_plugins_that_are_needed_are_built(self):
+        self.tool("ninja", 'shift 2; [ "$1" = -n ] || echo "$*" >>"$HOME/targets"; exit 1')
+        for arguments, plugins in (((), []), (("-o", "a.exr"), ["image_oiio"]),
+                                   (("-n", "3", "-o", "a.gif"), ["image_oiio"]),
+                                   (("--model", "a.obj", "-w"), ["model_assimp", "panel_imgui"])):
+            self.assertEqual(self.start(*arguments)[0], 1)
+            self.assertEqual(self.read("home/targets").decode(), " ".join(
+                ["examples/LightedCube", *(name + "-plugin" for name in plugins)]) + "\n")
+            os.remove(self.path("home/targets"))
+
+
+class Packages(Case):
+    APT = r'''
+case " $* " in
+*" --print-uris "*)
+    [ -e "$HOME/lists" ] || exit 100
+    echo "Need to get 12.3 MB/45 MB of archives."
+    echo "After this operation, 160 MB of additional disk space will be used." ;;
+*" update "*) : >"$HOME/lists" ;;
+*" install "*)
+    echo "Get:1 noise"
+    case " $* " in *" APT::Status-Fd=3 "*)
+        echo "dlstatus:1:20.5:Retrieving file 1 of 2" >&3
+        echo "pmstatus:gcc:66.7:Unpacking gcc" >&3 ;;
+    esac
+    echo "E: no space" >&2
+    exit "${APT_STATUS-0}" ;;
+esac
+'''
+
+    def setUp(self):
+        super().setUp()
+        os.mkdir(self.path("home"))
+        self.tool("apt-get", self.APT)
+        self.tool("sudo", 'exec "$@"')
+        self.tool("dpkg-query", "exit 1")
+        self.tool("ninja", ": >$HOME/built; exit 1")
+
+    def install(self, terminal, **environment):
+        command = [RUN, "LightedCube"]
+        more = {"LIGHTING_BUILD": self.path("build"), **environment}
+        if terminal:
+            return on_terminal(command, env=self.environment(**more))
+        result = subprocess.run(command, env=self.environment(**more), text=True,
+                                capture_output=True)
+        return result.returncode, result.stderr
+
+    def test_the_megabytes_to_come_are_said(self):
+        _, said = self.install(False)
+        self.assertIn("examples/run: fetching the package lists\nexamples/run: installing with "
+                      "apt-get (12.3 MB/45 MB to fetch, 160 MB on disk): gcc ", said)
+        self.assertNotIn("Unpacking", said)
+        self.assertNotIn("noise", said)
+        self.assertTrue(os.path.exists(self.path("home/built")))
+
+    def test_progress_is_seen_on_a_terminal(self):
+        self.make("home/lists")
+        _, said = self.install(True)
+        self.assertNotIn("fetching", said)
+        self.assertIn("\r\x1b[K 20% Retrieving file 1 of 2\r\x1b[K 67% Unpacking gcc\r\x1b[K", said)
+        self.assertNotIn("noise", said)
+        self.assertTrue(os.path.exists(self.path("home/built")))
+
+    def test_a_failure_is_said_with_its_reason(self):
+        for terminal in False, True:
+            code, said = self.install(terminal, APT_STATUS="100", NO_COLOR="1")
+            self.assertEqual(code, 1)
+            self.assertIn("E: no space", said)
+            self.assertRegex(said.splitlines()[-1],
+                             "^examples/run: apt-get could not install: gcc ")
+            self.assertFalse(os.path.exists(self.path("home/built")))
+
+    def test_other_systems_get_their_packages_names(self):
+        """Where there is no dpkg. The path has what is in every system, and a package manager."""
+        tools = ("sh", "sed", "awk", "cat", "readlink", "id", "uname", "grep", "mkdir", "mktemp",
+                 "find")
+        for manager, said in (("dnf", "dnf install gcc glibc-devel .*OpenImageIO-devel"),
+                              ("pacman", "pacman -S gcc glibc .*openimageio"),
+                              ("apk", "apk add gcc musl-dev .*openimageio-dev"),
+                              ("brew", "brew install .*glfw .*openimageio"),
+                              (None, "what these packages of Debian contain: gcc .*openimageio-dev")):
+            folder = self.path(f"bin {manager}")
+            os.mkdir(folder)
+            for tool in tools:
+                os.symlink(shutil.which(tool), os.path.join(folder, tool))
+            if manager:
+                os.symlink("/bin/true", os.path.join(folder, manager))
+            result = subprocess.run(
+                [RUN, "Materials", "-o", "a.exr"],
+                env={"PATH": folder, "LIGHTING_BUILD": self.path("build")}, capture_output=True)
+            error = result.stderr.decode()
+            self.assertEqual((result.returncode, error.count("\n")), (1, 1), error)
+            self.assertRegex(error, "^examples/run: this is not a Debian system; it needs " + said)
+            self.assertEqual("untested" in error, bool(manager), error)
+
+    def test_every_package_has_its_names_elsewhere(self):
+        with open(os.path.join(base.SOURCE, "common/setup.sh")) as file:
+            text = file.read().replace("\\\n", " ")
+        wanted = set(" ".join(re.findall(r'^packages_to_\w+="(.*?)"', text, re.MULTILINE)).split())
+        with open(os.path.join(base.SOURCE, "common/packages")) as file:
+            rows = [line.split() for line in file if not line.startswith("#")]
+        self.assertEqual(wanted, {row[0] for row in rows})
+        self.assertTrue(all(len(row) == 5 for row in rows))
+
+
+if __name__ == "__main__":
+    sys.exit(0 if unittest.main(argv=[sys.argv[0], *sys.argv[3:]], exit=False).result.wasSuccessful()
+             else 1)
