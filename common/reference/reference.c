@@ -16,6 +16,7 @@ typedef struct Job {
     Reference *reference;
     const Trace *trace;
     double edge_error;
+    bool centers;
     const atomic_bool *stop;
     atomic_int next; /* band */
 } Job;
@@ -32,11 +33,12 @@ static void sample_row(const Job *job, int row, Sample *samples)
         trace_sample(job->trace, i / 2.0, row / 2.0, &samples[i]);
 }
 
-static void put_pixel(Reference *reference, int x, int y, const Sample *center, const Pixel *pixel)
+static void put_pixel(const Job *job, int x, int y, const Sample *center, const Pixel *pixel)
 {
+    Reference *reference = job->reference;
     const size_t i = (size_t)y * (size_t)reference->width + (size_t)x;
     for (size_t k = 0; k < 3; k++)
-        reference->color[3 * i + k] = pixel->color[k];
+        reference->color[3 * i + k] = job->centers ? center->color[k] : pixel->color[k];
     reference->depth[i] = center->depth;
     reference->object[i] = center->object;
     reference->coverage[i] = pixel->coverage;
@@ -46,7 +48,7 @@ static void put_pixel(Reference *reference, int x, int y, const Sample *center, 
 static void draw_band(const Worker *worker, int band)
 {
     const Job *job = worker->job;
-    Reference *reference = job->reference;
+    const Reference *reference = job->reference;
     const size_t length = 2 * (size_t)reference->width + 1;
     Sample *top = worker->samples, *middle = top + length, *bottom = middle + length;
     const int first = band * BAND;
@@ -59,7 +61,7 @@ static void draw_band(const Worker *worker, int band)
         for (int x = 0; x < reference->width; x++) {
             const Pixel pixel = pixel_resolve(job->trace, job->edge_error, x, y, top + 2 * x,
                                               middle + 2 * x, bottom + 2 * x);
-            put_pixel(reference, x, y, &middle[2 * x + 1], &pixel);
+            put_pixel(job, x, y, &middle[2 * x + 1], &pixel);
         }
         Sample *above = top;
         top = bottom;
@@ -148,6 +150,7 @@ bool reference_open(Reference *reference, const Scene *scene, const ReferenceOpt
     Job job = {.reference = reference,
                .trace = trace,
                .edge_error = options->edge_error > 0 ? options->edge_error : EDGE_ERROR,
+               .centers = options->centers,
                .stop = options->stop};
     const bool done = open_pixels(reference) && draw_bands(&job, thread_count(options));
     trace_close(trace);

@@ -25,6 +25,9 @@ typedef struct ReferenceOptions {
     /* The meshes as given instead of the solids: what a perfect driver would draw, with the scene's
      * interpolation. */
     bool meshes;
+    /* Colors at the centers of pixels, as without antialiasing, instead of the means over their
+     * areas. Coverage and interior are the same. */
+    bool centers;
     /* The largest error at edges of a pixel's color and of 255 times its coverage, in steps of
      * 1/255: 0.1 to 255; 0 means 0.5. The worst measured for 0.5 is 0.19. */
     double edge_error;

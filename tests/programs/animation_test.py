@@ -160,7 +160,7 @@ class Formats(Animations):
             self.assertEqual(len(shown), count)
             for got, rgb in zip(shown, wanted):
                 if kind == "gif":
-                    # 256 colours for three faces of one hue each: levels are at most three steps
+                    # 256 colours for three faces of one hue each: they are at most three steps
                     # apart, and each pixel has one of the two nearest.
                     self.assertLess(rms(got, rgb), 3)
                 else:
@@ -226,7 +226,7 @@ class Formats(Animations):
         self.draw("a.webm", count, "--alpha")
         shown = decode(self.path("a.webm"), area * 5 // 2, "yuva420p", ("-c:v", "libvpx-vp9"))
         for yuva, rgba in zip(shown, wanted, strict=True):
-            # Two levels, and between them an edge that is coded as exactly as the colours.
+            # Two values, and between them an edge that is coded as exactly as the colours.
             self.assertLess(rms(yuva[-area:], rgba[3::4]), 4)
 
     def test_an_animation_can_be_made_again(self):

@@ -6,7 +6,7 @@
  * here, from the lecture. Of core/matrix only the vectors are used.
  *
  * Columns and rows are in pixels from the upper left corner of a picture; a pixel's centre is at
- * its number plus one half. Colours are in levels, 0 to 255.
+ * its number plus one half. Colours are in steps, 0 to 255.
  */
 #include "app/stage.h"
 #include "core/matrix.h"
@@ -504,7 +504,7 @@ static void draw_exact(const Lesson *scene, Size size, double seconds, Exact *ex
 typedef struct Verdict {
     long compared, covered, left_out; /* pixels; covered: of those compared */
     long wrong;                       /* of those compared: colour or coverage */
-    double worst, squares;            /* |picture - exact|, in levels */
+    double worst, squares;            /* |picture - exact|, in steps */
     double worst_part;                /* the largest ratio of an error to its bound */
     int column, row;                  /* of the worst ratio */
 } Verdict;
@@ -515,9 +515,9 @@ static const char *precision_of(bool half)
 }
 
 /*
- * How far a channel may be off, in levels: half a level for the byte's rounding, what the snapping
+ * How far a channel may be off, in steps: half a step for the byte's rounding, what the snapping
  * of vertices does at this pixel, 0.01 for the floats of 24 bits (20 operations: 255 * 20 * 2^-24
- * is 3e-4), and with 11 bits what the shader's rounding does. With highp never more than one level.
+ * is 3e-4), and with 11 bits what the shader's rounding does. With highp never more than one step.
  */
 static double allowed(const Pixel *pixel, double channel, bool half)
 {
@@ -700,7 +700,7 @@ static void check_all(bool half)
         }
         image_close(&picture.image);
     }
-    printf("%-31s %-8s   worst  of bound    rms   compared  covered  left out\n", "levels of 255",
+    printf("%-31s %-8s   worst  of bound    rms   compared  covered  left out\n", "steps of 1/255",
            half ? "default:" : "highp:");
     for (int i = 0; i < SCENE_COUNT; i++) {
         const Verdict *sum = &sums[i];

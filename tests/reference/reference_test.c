@@ -243,6 +243,22 @@ TEST_WITH(0, a_square_covers_the_exact_part_of_each_pixel, set_up, tear_down)
     }
 }
 
+/* As a driver draws without antialiasing: no pixel has a mean of square and background. */
+TEST_WITH(0, colors_at_centers_are_not_mixed, set_up, tear_down)
+{
+    Object *quad = add_object((Solid){.kind = SOLID_QUAD}, 4);
+    quad->world_from_object = mat4_scale((Vec3){0.43, 0.71, 1});
+    Reference sharp = trace((ReferenceOptions){.centers = true});
+    int inside = 0, partial = 0;
+    for (size_t pixel = 0; pixel < (size_t)SIZE * SIZE; pixel++) {
+        const bool covered = sharp.object[pixel] == 0;
+        assert_float_equal(channel(&sharp, pixel, 0), covered ? 0.8F : 0.1F, 1e-6F);
+        inside += covered;
+        partial += sharp.coverage[pixel] < 1;
+    }
+    assert_true(inside > 0 && partial > 0); /* the coverage is still there */
+}
+
 TEST_WITH(0, a_cube_has_the_colors_of_its_faces, set_up, tear_down)
 {
     Object *cube = add_object((Solid){.kind = SOLID_BOX, .radius = 0.7}, 5);

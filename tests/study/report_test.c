@@ -1,6 +1,7 @@
 /*
  * report: tables line up, plots are whole files that gnuplot drew, sheets show what is different.
  */
+#include "study/cases/hard_cases_sheet.h"
 #include "study/report/report.h"
 #include "study/report/report_labels.h"
 #include "support/testing.h"
@@ -448,6 +449,25 @@ TEST_WITH(0, pictures_of_two_sizes_make_no_sheet, enter, leave)
     image.width = 1;
     assert_true(sheet(&image, &exact, "")); /* the smallest, without a caption */
     image_close(&image);
+}
+
+TEST(a_cost_within_the_noise_has_no_number)
+{
+    static const struct {
+        double cost, noise;
+        const char *text;
+    } cases[] = {
+        {-0.9, 0.37, "too noisy to tell"},  {-0.1, 0.2, "within the noise"},
+        {0.2, 0.2, "within the noise"},     {0.21, 0.2, "+21% (noise 20%)"},
+        {-0.3, 0.015, "-30% (noise 2%)"},   {0.5, NAN, "too noisy to tell"},
+        {0.032, 0.028, "within the noise"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const HardResult result = {.cost = cases[i].cost, .noise = cases[i].noise};
+        char text[HARD_COST_SIZE];
+        hard_cost_text(&result, text);
+        assert_string_equal(text, cases[i].text);
+    }
 }
 
 TEST_MAIN("report", NULL, NULL)

@@ -122,7 +122,8 @@ static bool make_zero_normals(HardScene *made, Message *message)
     return true;
 }
 
-/* A strip whose ends have opposite normals, with its middle at a pixel's centre. */
+/* A strip whose ends have opposite normals, with its middle at a pixel's center. Their sum is
+ * exactly 0 there because the strip has 32 pixels, a power of two. */
 static bool make_cancelling(HardScene *made, Message *message)
 {
     static const double FOVY = 80.31199924983865; /* 27 pixels are 27/16 high at distance 1 */

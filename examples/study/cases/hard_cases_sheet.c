@@ -8,13 +8,18 @@
 enum {
     PANELS = 3,
     GAP = 8,     /* between the panels of a case */
-    MARGIN = 28, /* between cases */
-    TITLE = 24,  /* the height of letters */
-    TITLE_LINE = 38,
-    TEXT = 20,
+    MARGIN = 28, /* around the cases */
+    HEAD = 26,   /* of the names of the panels, above each column */
+    TITLE = 20,  /* the height of letters */
+    TITLE_LINE = 30,
+    TEXT = 17,
     TEXT_LINE = 26,
     TEXT_LINES = 4,
+    TEXT_WIDTH = 330, /* to the right of the panels */
 };
+
+/* With more than this the machine is too busy for times. */
+static const double NOISE_BOUND = 0.25;
 
 typedef struct Sheet {
     Image image;
@@ -23,11 +28,14 @@ typedef struct Sheet {
 
 void hard_cost_text(const HardResult *result, char text[HARD_COST_SIZE])
 {
-    if (fabs(result->cost) <= result->noise)
+    /* As they would be printed. */
+    const double cost = round(100 * result->cost), noise = ceil(100 * result->noise);
+    if (!(result->noise <= NOISE_BOUND))
+        snprintf(text, HARD_COST_SIZE, "too noisy to tell");
+    else if (fabs(cost) <= noise)
         snprintf(text, HARD_COST_SIZE, "within the noise");
     else
-        snprintf(text, HARD_COST_SIZE, "%+.0f%% (noise %.0f%%)", 100 * result->cost,
-                 ceil(100 * result->noise));
+        snprintf(text, HARD_COST_SIZE, "%+.0f%% (noise %.0f%%)", cost, noise);
 }
 
 static unsigned char *pixel_of(const Image *image, int x, int y)
@@ -43,68 +51,91 @@ static void put_pixel(Sheet *sheet, int x, int y, const unsigned char color[3])
     pixel[3] = 255;
 }
 
+/* A channel of a panel's picture, 0 to 255. */
+static double channel_of(const HardResult *result, int panel, int x, int y, int c)
+{
+    const Reference *exact = &result->exact;
+    if (panel == PANELS - 1)
+        return 255 * (double)exact->color[3 * (y * exact->width + x) + c];
+    return pixel_of(panel ? &result->stable : &result->naive, x, y)[c];
+}
+
+/* Each pixel of the panel is the mean of samples in it. */
 static void put_panel(Sheet *sheet, const HardResult *result, int panel, int left, int top)
 {
+    enum { SIDE = 4 };
     const Reference *exact = &result->exact;
     for (int y = 0; y < sheet->height; y++) {
         for (int x = 0; x < sheet->width; x++) {
-            const int from_x = x * exact->width / sheet->width;
-            const int from_y = y * exact->height / sheet->height;
-            if (panel < 2) {
-                put_pixel(sheet, left + x, top + y,
-                          pixel_of(panel ? &result->stable : &result->naive, from_x, from_y));
-                continue;
-            }
-            const float *color = &exact->color[3 * (from_y * exact->width + from_x)];
+            double sums[3] = {0};
             unsigned char bytes[3];
+            for (int i = 0; i < SIDE * SIDE; i++) {
+                const int across = 2 * (SIDE * x + i % SIDE) + 1;
+                const int down = 2 * (SIDE * y + i / SIDE) + 1;
+                for (int c = 0; c < 3; c++)
+                    sums[c] +=
+                        channel_of(result, panel, across * exact->width / (2 * SIDE * sheet->width),
+                                   down * exact->height / (2 * SIDE * sheet->height), c);
+            }
             for (int c = 0; c < 3; c++)
-                bytes[c] = (unsigned char)lrintf(255 * color[c]);
+                bytes[c] = (unsigned char)lrint(sums[c] / (SIDE * SIDE));
             put_pixel(sheet, left + x, top + y, bytes);
         }
     }
 }
 
-static int case_width(const Sheet *sheet)
+static int panels_width(const Sheet *sheet)
 {
-    return PANELS * sheet->width + (PANELS - 1) * GAP;
+    return PANELS * (sheet->width + GAP);
 }
 
+static int case_width(const Sheet *sheet)
+{
+    return panels_width(sheet) + TEXT_WIDTH;
+}
+
+/* As high as its text at least. */
 static int case_height(const Sheet *sheet)
 {
-    return TITLE_LINE + sheet->height + TEXT_LINES * TEXT_LINE + GAP;
+    const int text = TEXT_LINES * TEXT_LINE;
+    return TITLE_LINE + (sheet->height > text ? sheet->height : text);
 }
 
 /* Only significant digits. */
-static void error_text(double error, char text[48])
+static void error_text(double error, char text[24])
 {
-    snprintf(text, 48, error < 10 ? "off by %.1f steps" : "off by %.0f steps", error);
+    snprintf(text, 24, error < 10 ? "off by %.1f steps" : "off by %.0f steps", error);
 }
 
 static void put_case(Sheet *sheet, const HardResult *result, int left, int top)
 {
-    char lines[PANELS][TEXT_LINES][64] = {{{0}}};
-    char cost[HARD_COST_SIZE], title[128];
+    char lines[TEXT_LINES][128], title[128], cost[HARD_COST_SIZE], error[24];
     hard_cost_text(result, cost);
     snprintf(title, sizeof title, "%s: %s", result->of->name, result->of->what);
-    snprintf(lines[0][0], sizeof lines[0][0], "naive");
-    snprintf(lines[0][1], sizeof lines[0][1], "%s", result->of->naive);
-    error_text(result->naive_error.maximum, lines[0][2]);
-    snprintf(lines[0][3], sizeof lines[0][3], "%.*f%% of pixels wrong",
+    snprintf(lines[0], sizeof lines[0], "plain: %s", result->of->naive);
+    error_text(result->naive_error.maximum, error);
+    snprintf(lines[1], sizeof lines[1], "%s, %.*f%% of pixels", error,
              result->naive_error.wrong < 0.1 ? 1 : 0, 100 * result->naive_error.wrong);
-    snprintf(lines[1][0], sizeof lines[1][0], "stable");
-    snprintf(lines[1][1], sizeof lines[1][1], "%s", result->of->stable);
-    error_text(result->stable_error.maximum, lines[1][2]);
-    snprintf(lines[1][3], sizeof lines[1][3], "time %s", cost);
-    snprintf(lines[2][0], sizeof lines[2][0], "exact");
+    snprintf(lines[2], sizeof lines[2], "stable: %s", result->of->stable);
+    error_text(result->stable_error.maximum, error);
+    snprintf(lines[3], sizeof lines[3], "%s, time %s", error, cost);
     image_label(&sheet->image, left + case_width(sheet) / 2, top + TITLE, TITLE, title, NULL);
-    for (int panel = 0; panel < PANELS; panel++) {
-        const int x = left + panel * (sheet->width + GAP);
-        put_panel(sheet, result, panel, x, top + TITLE_LINE);
-        for (int line = 0; line < TEXT_LINES; line++)
-            image_label(&sheet->image, x + sheet->width / 2,
-                        top + TITLE_LINE + sheet->height + (line + 1) * TEXT_LINE, TEXT,
-                        lines[panel][line], NULL);
-    }
+    for (int panel = 0; panel < PANELS; panel++)
+        put_panel(sheet, result, panel, left + panel * (sheet->width + GAP), top + TITLE_LINE);
+    const int space = case_height(sheet) - TITLE_LINE - TEXT_LINES * TEXT_LINE;
+    for (int line = 0; line < TEXT_LINES; line++)
+        image_label(&sheet->image, left + panels_width(sheet) + TEXT_WIDTH / 2,
+                    top + TITLE_LINE + space / 2 + line * TEXT_LINE + TEXT, TEXT, lines[line],
+                    NULL);
+}
+
+/* The names of the panels. */
+static void put_head(Sheet *sheet, int left)
+{
+    static const char *const names[PANELS] = {"plain", "stable", "exact"};
+    for (int panel = 0; panel < PANELS; panel++)
+        image_label(&sheet->image, left + panel * (sheet->width + GAP) + sheet->width / 2,
+                    MARGIN / 2 + TEXT, TEXT, names[panel], NULL);
 }
 
 bool hard_sheet(const HardResult *results, int count, int columns, int width, int height,
@@ -113,15 +144,18 @@ bool hard_sheet(const HardResult *results, int count, int columns, int width, in
     static const unsigned char ground[3] = {24, 24, 28};
     Sheet sheet = {.width = width, .height = height};
     const int rows = (count + columns - 1) / columns;
-    if (!image_open(&sheet.image, MARGIN + columns * (case_width(&sheet) + MARGIN),
-                    MARGIN + rows * (case_height(&sheet) + MARGIN), IMAGE_BYTE, message))
+    const int across = case_width(&sheet) + MARGIN, down = case_height(&sheet) + MARGIN;
+    if (!image_open(&sheet.image, MARGIN + columns * across, MARGIN / 2 + HEAD + rows * down,
+                    IMAGE_BYTE, message))
         return false;
     for (int y = 0; y < sheet.image.height; y++)
         for (int x = 0; x < sheet.image.width; x++)
             put_pixel(&sheet, x, y, ground);
+    for (int i = 0; i < columns; i++)
+        put_head(&sheet, MARGIN + i * across);
     for (int i = 0; i < count; i++)
-        put_case(&sheet, &results[i], MARGIN + i % columns * (case_width(&sheet) + MARGIN),
-                 MARGIN + i / columns * (case_height(&sheet) + MARGIN));
+        put_case(&sheet, &results[i], MARGIN + i % columns * across,
+                 MARGIN / 2 + HEAD + i / columns * down);
     const bool done = image_write(&sheet.image, path,
                                   &(ImageOptions){.compress = IMAGE_COMPRESS_DEFAULT}, message);
     image_close(&sheet.image);

@@ -22,12 +22,13 @@ typedef struct HardResult {
     double cost, noise; /* fractions: of a stable frame over a naive one, and A/A */
 } HardResult;
 
-/* "+3% (noise 2%)" */
+/* "+3% (noise 2%)"; without numbers where the noise exceeds the difference, or
+ * a quarter. */
 enum { HARD_COST_SIZE = 48 };
 void hard_cost_text(const HardResult *result, char text[HARD_COST_SIZE]);
 
-/* A PNG of the results in this number of columns, each as naive, stable and exact in panels of this
- * size, with names and errors below. Without a font it has no text. */
+/* A PNG of the results in this number of columns, each as plain, stable and exact in panels of this
+ * size, with its name above and errors at the right. Without a font it has no text. */
 bool hard_sheet(const HardResult *results, int count, int columns, int width, int height,
                 const char *path, Message *message);
 
