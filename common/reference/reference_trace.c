@@ -16,26 +16,23 @@ struct Trace {
     TraceObject *objects;
 };
 
-static void set_camera(Trace *trace, const Camera *camera, Mat4 eye_from_world, int width,
-                       int height)
-{
-    const double *m = eye_from_world.m;
-    const Real3 right = {m[0], m[4], m[8]}, up = {m[1], m[5], m[9]}, back = {m[2], m[6], m[10]};
-    const Real tangent = real_tan(scene_fovy(camera, (double)width / height) * (REAL_PI / 360));
-    const Real aspect = (Real)width / height;
-    trace->across = real3_scale(right, 2 * tangent * aspect / width);
-    trace->down = real3_scale(up, -2 * tangent / height);
-    trace->corner =
-        real3_along(real3_along(real3_scale(back, -1), -tangent * aspect, right), tangent, up);
-    trace->shading.view = back;
-}
-
 /* From eye coordinates. */
 static Real3 turn_to_world(Real3 v, Mat4 eye_from_world)
 {
     const double *m = eye_from_world.m;
     const Real3 right = {m[0], m[4], m[8]}, up = {m[1], m[5], m[9]}, back = {m[2], m[6], m[10]};
     return real3_along(real3_along(real3_scale(right, v.x), v.y, up), v.z, back);
+}
+
+static void set_camera(Trace *trace, const Camera *camera, Mat4 eye_from_world, int width,
+                       int height)
+{
+    const Real tangent = real_tan(scene_fovy(camera, (double)width / height) * (REAL_PI / 360));
+    const Real aspect = (Real)width / height;
+    trace->across = turn_to_world((Real3){2 * tangent * aspect / width, 0, 0}, eye_from_world);
+    trace->down = turn_to_world((Real3){0, -2 * tangent / height, 0}, eye_from_world);
+    trace->corner = turn_to_world((Real3){-tangent * aspect, tangent, -1}, eye_from_world);
+    trace->shading.view = turn_to_world((Real3){0, 0, 1}, eye_from_world);
 }
 
 static ShadeLight prepare_light(const Light *light, Vec3 eye, Mat4 eye_from_world)
