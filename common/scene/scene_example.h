@@ -71,6 +71,12 @@ typedef struct Surface {
             PARAMETER_CHOICE, .value = &(surface).name, .choices = MATERIAL_NAMES,                 \
                               .changed = scene_surface_named                                       \
     }
+/* Its value need not be a surface's. */
+#define SHININESS_PARAMETER(exponent)                                                              \
+    {                                                                                              \
+        "shininess", "the highlight's exponent", PARAMETER_NUMBER, .value = &(exponent), .min = 0, \
+                                                                   .max = 128                      \
+    }
 #define OPACITY_PARAMETER(surface)                                                                 \
     {                                                                                              \
         "opacity", "1 is opaque; seen in a picture with alpha", PARAMETER_NUMBER,                  \
@@ -78,10 +84,7 @@ typedef struct Surface {
     }
 #define SURFACE_PARAMETERS(surface)                                                                \
     MATERIAL_PARAMETER(surface), COLOR_PARAMETERS(surface),                                        \
-        {"shininess",      "the highlight's exponent",                                             \
-         PARAMETER_NUMBER, .value = &(surface).material.shininess,                                 \
-         .min = 0,         .max = 128},                                                            \
-        OPACITY_PARAMETER(surface)
+        SHININESS_PARAMETER((surface).material.shininess), OPACITY_PARAMETER(surface)
 
 /* Of the row "material": sets the material of the Surface that the row's value is in. */
 void scene_surface_named(const Parameter *parameter);
