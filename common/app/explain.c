@@ -110,7 +110,7 @@ static bool explain_view(Stage *stage, const Options *options, int number, Expla
     }
     if (done && number == 0 && view.scene.object_count > 0) {
         printf("# what the model leaves out\n");
-        reality_explain(&view.scene, stdout);
+        done = reality_explain(&view.scene, stdout, message);
         printf("\n");
     }
     stage_view_close(&view);

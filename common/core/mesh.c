@@ -206,16 +206,17 @@ static Vec3 position_of(const Mesh *mesh, uint32_t vertex)
     return vec3_from_float(mesh->vertices[vertex].position);
 }
 
-void mesh_bounds(const Mesh *mesh, Vec3 *low, Vec3 *high)
+MeshBox mesh_bounds(const Mesh *mesh)
 {
-    *low = *high = (Vec3){0, 0, 0};
+    MeshBox box = {.low = {0, 0, 0}};
     if (mesh->vertex_count > 0)
-        *low = *high = position_of(mesh, 0);
+        box.low = box.high = position_of(mesh, 0);
     for (size_t i = 1; i < mesh->vertex_count; i++) {
-        const Vec3 p = position_of(mesh, (uint32_t)i);
-        *low = (Vec3){fmin(low->x, p.x), fmin(low->y, p.y), fmin(low->z, p.z)};
-        *high = (Vec3){fmax(high->x, p.x), fmax(high->y, p.y), fmax(high->z, p.z)};
+        const Vec3 p = position_of(mesh, (uint32_t)i), low = box.low, high = box.high;
+        box.low = (Vec3){fmin(low.x, p.x), fmin(low.y, p.y), fmin(low.z, p.z)};
+        box.high = (Vec3){fmax(high.x, p.x), fmax(high.y, p.y), fmax(high.z, p.z)};
     }
+    return box;
 }
 
 bool mesh_face(const Mesh *mesh, size_t triangle, Vec3 *normal)

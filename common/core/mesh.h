@@ -50,8 +50,11 @@ bool mesh_sphere_lecture(Mesh *mesh, int divisions, Message *message);
 
 /* Any mesh whose indices are in range. */
 
-/* The corners of the bounding box of all vertices, used or not; zero without vertices. */
-void mesh_bounds(const Mesh *mesh, Vec3 *low, Vec3 *high);
+/* The bounding box of all vertices, used or not; zero without vertices. */
+typedef struct MeshBox {
+    Vec3 low, high;
+} MeshBox;
+MeshBox mesh_bounds(const Mesh *mesh);
 
 /* The unit normal of triangle number `triangle`, on the side from which it is counter-clockwise.
  * False, and a zero vector, if it has no area. */

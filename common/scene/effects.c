@@ -36,25 +36,6 @@ Material effects_material(const Object *object, bool back)
     return material;
 }
 
-/* The sphere around an object's box, in world coordinates. */
-typedef struct Sphere {
-    Vec3 center;
-    double radius;
-} Sphere;
-
-static Sphere sphere_of(const Object *object, const MeshBox *box)
-{
-    const Mat4 m = object->world_from_object;
-    const Vec3 half = vec3_scale(vec3_subtract(box->high, box->low), 0.5);
-    Sphere sphere = {.center = mat4_transform_point(m, vec3_add(box->low, half))};
-    for (int corner = 0; corner < 4; corner++) { /* the other four lie opposite */
-        const Vec3 to_corner = {half.x, corner & 1 ? -half.y : half.y,
-                                corner & 2 ? -half.z : half.z};
-        sphere.radius = fmax(sphere.radius, vec3_length(mat4_transform_direction(m, to_corner)));
-    }
-    return sphere;
-}
-
 /* Whether a spot's cone misses a sphere: its center lies farther than the radius outside the
  * tangent plane of the cone on its side. */
 static bool cone_misses(const Light *light, Sphere sphere)
@@ -138,10 +119,9 @@ static void explain_light(FILE *file, const Scene *scene, int number, const Ligh
 }
 
 /* The terms of one light on one object; false if it has none. */
-static bool light_terms(const Scene *scene, const Object *object, int number, Sphere sphere,
-                        bool both, LightTerms *terms, FILE *file)
+static bool light_terms(const Scene *scene, const Object *object, int number, const Light *light,
+                        Sphere sphere, bool both, LightTerms *terms, FILE *file)
 {
-    const Light own = scene_world_light(scene, number), *light = &own;
     const Material front_side = effects_material(object, false), *front = &front_side;
     const Material back_side = effects_material(object, true), *back = &back_side;
     const bool positional = light->kind != LIGHT_DIRECTIONAL;
@@ -291,7 +271,7 @@ static Effects decide(const Scene *scene, const Object *object, const MeshBox *b
 {
     Effects effects;
     bool at_vertices = false, at_fragments = false;
-    const Sphere sphere = sphere_of(object, box);
+    const Sphere sphere = scene_sphere(object, box);
     memset(&effects, 0, sizeof effects);
     effects.cull = outside_of(scene, object, sphere, file);
     effects.two_sided = object->two_sided && !effects.cull;
@@ -309,9 +289,9 @@ static Effects decide(const Scene *scene, const Object *object, const MeshBox *b
                             : "without alpha: the surface is opaque");
     for (int i = 0; i < scene->light_count && i < EFFECTS_MAX_LIGHTS; i++) {
         LightTerms terms;
-        if (!light_terms(scene, object, i, sphere, effects.two_sided, &terms, file))
-            continue;
         const Light light = scene_world_light(scene, i);
+        if (!light_terms(scene, object, i, &light, sphere, effects.two_sided, &terms, file))
+            continue;
         add_light(&effects, i, &terms, attenuation_guarded(&light, sphere));
         effects.normals |= terms.diffuse || terms.specular;
         colored |= terms.ambient || terms.diffuse;
@@ -337,13 +317,6 @@ static Effects decide(const Scene *scene, const Object *object, const MeshBox *b
     return effects;
 }
 
-static MeshBox box_of(const Mesh *mesh)
-{
-    MeshBox box;
-    mesh_bounds(mesh, &box.low, &box.high);
-    return box;
-}
-
 Effects effects_of_boxed(const Scene *scene, const Object *object, const MeshBox *box)
 {
     return decide(scene, object, box, NULL);
@@ -351,20 +324,21 @@ Effects effects_of_boxed(const Scene *scene, const Object *object, const MeshBox
 
 Effects effects_of(const Scene *scene, const Object *object)
 {
-    const MeshBox box = box_of(object->mesh);
+    const MeshBox box = mesh_bounds(object->mesh);
     return decide(scene, object, &box, NULL);
 }
 
 void effects_explain(const Scene *scene, const Object *object, FILE *file)
 {
-    const MeshBox box = box_of(object->mesh);
+    const MeshBox box = mesh_bounds(object->mesh);
     decide(scene, object, &box, file);
 }
 
-Effects effects_full(const Scene *scene)
+Effects effects_full(const Scene *scene, const Object *object)
 {
     Effects full;
     memset(&full, 0, sizeof full);
+    full.vertex_color = object->mesh->colors != NULL;
     full.alpha = full.base = full.normals = true;
     full.local_viewer = full.two_sided = true;
     full.normal_matrix = full.normalize_vertex = true;

@@ -65,14 +65,12 @@ Material effects_material(const Object *object, bool back);
 /* The effects that an object in a scene needs. The scene has passed scene_check. */
 Effects effects_of(const Scene *scene, const Object *object);
 
-/* The same for a mesh whose bounds (mesh_bounds) are known, which takes no time. */
-typedef struct MeshBox {
-    Vec3 low, high;
-} MeshBox;
+/* The same for a mesh whose bounds are known, which takes no time. */
 Effects effects_of_boxed(const Scene *scene, const Object *object, const MeshBox *box);
 
-/* The whole model, for comparison: terms that the scene lacks have coefficients of 0. */
-Effects effects_full(const Scene *scene);
+/* The whole model, for comparison: terms that the scene lacks have coefficients of 0. Colors of
+ * vertices take a uniform's place, so they are not a matter of coefficients. */
+Effects effects_full(const Scene *scene, const Object *object);
 
 /* Writes a line for each effect and for each one left out, with the reason: "specular: in light and
  * material", "without light 2: it is off". */

@@ -301,7 +301,7 @@ static const Buffered *find_buffer(Lighting *lighting, const Mesh *mesh, Interpo
     }
     buffered->mesh = mesh;
     buffered->remade = remade;
-    mesh_bounds(mesh, &buffered->box.low, &buffered->box.high);
+    buffered->box = mesh_bounds(mesh);
     buffered->next = lighting->buffers;
     lighting->buffers = buffered;
     return buffered;
@@ -498,15 +498,6 @@ static void set_materials(GLuint program, const Scene *scene, const Object *obje
         set_colors(program, scene, &effects->groups[g], g, behind, mediump, back);
 }
 
-/* The full program; colors of vertices take a uniform's place, so they are not a matter of
- * coefficients. */
-static Effects effects_full_of(const Scene *scene, const Object *object)
-{
-    Effects effects = effects_full(scene);
-    effects.vertex_color = object->mesh->colors != NULL;
-    return effects;
-}
-
 /* Drawing. */
 
 static bool draw_object(Lighting *lighting, const Scene *scene, const Object *object,
@@ -517,7 +508,7 @@ static bool draw_object(Lighting *lighting, const Scene *scene, const Object *ob
     if (!buffered)
         return false;
     Effects effects =
-        full ? effects_full_of(scene, object) : effects_of_boxed(scene, object, &buffered->box);
+        full ? effects_full(scene, object) : effects_of_boxed(scene, object, &buffered->box);
     if (lighting->normal_matrix && effects.normals)
         effects.normal_matrix = effects.normalize_vertex = true;
     const Variant *variant = find_variant(lighting, &effects, message);
@@ -610,7 +601,7 @@ bool lighting_open(Lighting **opened, const ShaderLoader *loader, Message *messa
 GLuint lighting_program(Lighting *lighting, const Scene *scene, const Object *object, bool full,
                         Message *message)
 {
-    const Effects effects = full ? effects_full_of(scene, object) : effects_of(scene, object);
+    const Effects effects = full ? effects_full(scene, object) : effects_of(scene, object);
     const Variant *variant = find_variant(lighting, &effects, message);
     return variant ? variant->shader.program : 0;
 }
@@ -618,7 +609,7 @@ GLuint lighting_program(Lighting *lighting, const Scene *scene, const Object *ob
 bool lighting_sources(const Lighting *lighting, const Scene *scene, const Object *object, bool full,
                       ShaderSource sources[2], Message *message)
 {
-    const Effects effects = full ? effects_full_of(scene, object) : effects_of(scene, object);
+    const Effects effects = full ? effects_full(scene, object) : effects_of(scene, object);
     Recipe recipe;
     ShaderText texts[3];
     bool done = recipe_open(&recipe, &effects, &lighting->loader, message);

@@ -1,6 +1,7 @@
 #include "scene/reality.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 enum { SAMPLES = 200 };
 
@@ -14,10 +15,39 @@ static const char *name_of(const Object *object)
     return names[object->solid.kind];
 }
 
-static Vec3 vertex_place(const Object *object, uint32_t vertex)
+/* An object in world coordinates. */
+typedef struct Placed {
+    const Object *object;
+    Vec3 *vertices;
+    Sphere around;
+} Placed;
+
+static void placed_close(Placed *placed, int count)
 {
-    return mat4_transform_point(object->world_from_object,
-                                vec3_from_float(object->mesh->vertices[vertex].position));
+    for (int i = 0; placed && i < count; i++)
+        free(placed[i].vertices);
+    free(placed);
+}
+
+/* NULL: not enough memory. */
+static Placed *placed_open(const Scene *scene)
+{
+    Placed *all = calloc((size_t)scene->object_count + 1, sizeof *all);
+    for (int i = 0; all && i < scene->object_count; i++) {
+        const Object *object = &scene->objects[i];
+        const Mesh *mesh = object->mesh;
+        const MeshBox box = mesh_bounds(mesh);
+        all[i] = (Placed){object, malloc((mesh->vertex_count + 1) * sizeof(Vec3)),
+                          scene_sphere(object, &box)};
+        if (!all[i].vertices) {
+            placed_close(all, scene->object_count);
+            return NULL;
+        }
+        for (size_t k = 0; k < mesh->vertex_count; k++)
+            all[i].vertices[k] = mat4_transform_point(object->world_from_object,
+                                                      vec3_from_float(mesh->vertices[k].position));
+    }
+    return all;
 }
 
 /* Whether the segment from `from` along `way` meets the triangle, away from its ends. (Moeller and
@@ -36,13 +66,12 @@ static bool meets(Vec3 from, Vec3 way, Vec3 a, Vec3 b, Vec3 c)
     return u >= 0 && v >= 0 && u + v <= 1 && t > END && t < 1 - END;
 }
 
-static bool is_hidden(const Object *occluder, Vec3 from, Vec3 way)
+static bool is_hidden(const Placed *occluder, Vec3 from, Vec3 way)
 {
-    const Mesh *mesh = occluder->mesh;
+    const Mesh *mesh = occluder->object->mesh;
+    const Vec3 *v = occluder->vertices;
     for (size_t i = 0; i + 2 < mesh->index_count; i += 3)
-        if (meets(from, way, vertex_place(occluder, mesh->indices[i]),
-                  vertex_place(occluder, mesh->indices[i + 1]),
-                  vertex_place(occluder, mesh->indices[i + 2])))
+        if (meets(from, way, v[mesh->indices[i]], v[mesh->indices[i + 1]], v[mesh->indices[i + 2]]))
             return true;
     return false;
 }
@@ -59,9 +88,9 @@ static Vec3 way_to(const Light *light, Vec3 from, double size)
 
 /* Point number `sample` on the surface, spread over all triangles, and its normal. (Roberts, The
  * Unreasonable Effectiveness of Quasirandom Sequences, 2018) */
-static Vec3 surface_point(const Object *object, int sample, Vec3 *normal)
+static Vec3 surface_point(const Placed *placed, int sample, Vec3 *normal)
 {
-    const Mesh *mesh = object->mesh;
+    const Mesh *mesh = placed->object->mesh;
     const size_t count = mesh->index_count / 3;
     const size_t triangle =
         count < SAMPLES ? (size_t)sample % count : (size_t)sample * (count / SAMPLES);
@@ -69,7 +98,7 @@ static Vec3 surface_point(const Object *object, int sample, Vec3 *normal)
     double v = fmod(0.5 + 0.5698402909980532 * sample, 1);
     Vec3 corners[3];
     for (size_t k = 0; k < 3; k++)
-        corners[k] = vertex_place(object, mesh->indices[3 * triangle + k]);
+        corners[k] = placed->vertices[mesh->indices[3 * triangle + k]];
     if (u + v > 1) {
         u = 1 - u;
         v = 1 - v;
@@ -77,31 +106,21 @@ static Vec3 surface_point(const Object *object, int sample, Vec3 *normal)
     const Vec3 ab = vec3_subtract(corners[1], corners[0]);
     const Vec3 ac = vec3_subtract(corners[2], corners[0]);
     const uint32_t vertex = mesh->indices[3 * triangle];
-    *normal = mat4_transform_direction(mat4_normal(object->world_from_object),
+    *normal = mat4_transform_direction(mat4_normal(placed->object->world_from_object),
                                        vec3_from_float(mesh->vertices[vertex].normal));
     return vec3_add(corners[0], vec3_add(vec3_scale(ab, u), vec3_scale(ac, v)));
 }
 
-/* Whether the segment passes through the sphere around the mesh's box. */
-static bool passes_near(const Object *object, Vec3 from, Vec3 way)
+/* Whether the segment passes through the sphere. */
+static bool passes_near(Sphere sphere, Vec3 from, Vec3 way)
 {
-    Vec3 low, high;
-    mesh_bounds(object->mesh, &low, &high);
-    const Mat4 m = object->world_from_object;
-    const Vec3 center = mat4_transform_point(m, vec3_scale(vec3_add(low, high), 0.5));
-    double radius = 0;
-    for (int corner = 0; corner < 8; corner++) {
-        const Vec3 at = {corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y,
-                         corner & 4 ? high.z : low.z};
-        radius = fmax(radius, vec3_length(vec3_subtract(mat4_transform_point(m, at), center)));
-    }
-    const Vec3 to = vec3_subtract(center, from);
+    const Vec3 to = vec3_subtract(sphere.center, from);
     const double t = fmin(fmax(vec3_dot(to, way) / vec3_dot(way, way), 0), 1);
-    return vec3_length(vec3_subtract(to, vec3_scale(way, t))) <= radius;
+    return vec3_length(vec3_subtract(to, vec3_scale(way, t))) <= sphere.radius;
 }
 
 /* Whether some point of the receiver that faces the light is hidden from it. */
-static bool throws_shadow(const Object *occluder, const Object *receiver, const Light *light,
+static bool throws_shadow(const Placed *occluder, const Placed *receiver, const Light *light,
                           double size)
 {
     for (int sample = 0; sample < SAMPLES; sample++) {
@@ -110,19 +129,19 @@ static bool throws_shadow(const Object *occluder, const Object *receiver, const 
         const Vec3 way = way_to(light, from, size);
         /* At a grazing angle a mesh's own facets are in the way. */
         if (vec3_dot(normal, way) > 0.3 * vec3_length(normal) * vec3_length(way) &&
-            passes_near(occluder, from, way) && is_hidden(occluder, from, way))
+            passes_near(occluder->around, from, way) && is_hidden(occluder, from, way))
             return true;
     }
     return false;
 }
 
 /* The diameter of the box around everything, doubled. */
-static double scene_size(const Scene *scene)
+static double scene_size(const Placed *placed, int count)
 {
     double largest = 0;
-    for (int i = 0; i < scene->object_count; i++)
-        for (size_t k = 0; k < scene->objects[i].mesh->vertex_count; k++)
-            largest = fmax(largest, vec3_length(vertex_place(&scene->objects[i], (uint32_t)k)));
+    for (int i = 0; i < count; i++)
+        for (size_t k = 0; k < placed[i].object->mesh->vertex_count; k++)
+            largest = fmax(largest, vec3_length(placed[i].vertices[k]));
     return 4 * largest;
 }
 
@@ -133,29 +152,30 @@ static bool is_lit(const Object *object)
 }
 
 /* The lights, by number, in whose light the occluder throws a shadow on the receiver. */
-static int shadow_lights(const Scene *scene, int occluder, int receiver, double size,
-                         int lights[SAMPLES])
+static int shadow_lights(const Scene *scene, const Placed *occluder, const Placed *receiver,
+                         double size, int lights[SAMPLES])
 {
     int count = 0;
     for (int l = 0; l < scene->light_count && count < SAMPLES; l++) {
         const Light light = scene_world_light(scene, l);
         const bool on =
             !light.off && !(color_is_black(light.diffuse) && color_is_black(light.specular));
-        if (on && throws_shadow(&scene->objects[occluder], &scene->objects[receiver], &light, size))
+        if (on && throws_shadow(occluder, receiver, &light, size))
             lights[count++] = l;
     }
     return count;
 }
 
-static int explain_shadows(const Scene *scene, FILE *file)
+static int explain_shadows(const Scene *scene, const Placed *placed, FILE *file)
 {
     int lines = 0;
-    const double size = scene_size(scene);
+    const double size = scene_size(placed, scene->object_count);
     for (int o = 0; o < scene->object_count; o++) {
         for (int r = 0; r < scene->object_count; r++) {
             int lights[SAMPLES];
             const Object *receiver = &scene->objects[r];
-            const int count = is_lit(receiver) ? shadow_lights(scene, o, r, size, lights) : 0;
+            const int count =
+                is_lit(receiver) ? shadow_lights(scene, &placed[o], &placed[r], size, lights) : 0;
             if (!count)
                 continue;
             fprintf(file, "object %d, %s, would throw a shadow on ", o,
@@ -173,9 +193,13 @@ static int explain_shadows(const Scene *scene, FILE *file)
     return lines;
 }
 
-void reality_explain(const Scene *scene, FILE *file)
+bool reality_explain(const Scene *scene, FILE *file, Message *message)
 {
-    int reflecting = 0, lines = explain_shadows(scene, file);
+    Placed *placed = placed_open(scene);
+    if (!placed)
+        return message_set(message, "scene: not enough memory to look for shadows");
+    int reflecting = 0, lines = explain_shadows(scene, placed, file);
+    placed_close(placed, scene->object_count);
     for (int i = 0; i < scene->object_count; i++) {
         const Object *object = &scene->objects[i];
         reflecting += is_lit(object);
@@ -193,4 +217,5 @@ void reality_explain(const Scene *scene, FILE *file)
                       "stands for it\n");
     else if (lines == 0)
         fprintf(file, "nothing: one surface, whose every lit point sees its lights\n");
+    return true;
 }

@@ -9,8 +9,8 @@
 #include <stdio.h>
 
 /* Writes a line for each thing that this scene lacks: "object 0, a sphere, would throw a shadow on
- * object 1, a square (light 0)". Shadows are found by rays from some
- * vertices to each light. */
-void reality_explain(const Scene *scene, FILE *file);
+ * object 1, a square (light 0)". Shadows are found by rays from points spread over the surfaces to
+ * each light. Fails only if memory is out. */
+bool reality_explain(const Scene *scene, FILE *file, Message *message);
 
 #endif

@@ -176,20 +176,29 @@ double scene_fovy(const Camera *camera, double aspect)
     return 2 / RADIANS * atan(tan(camera->fovy * RADIANS / 2) * camera->aspect / aspect);
 }
 
+Sphere scene_sphere(const Object *object, const MeshBox *box)
+{
+    const Mat4 m = object->world_from_object;
+    const Vec3 half = vec3_scale(vec3_subtract(box->high, box->low), 0.5);
+    Sphere sphere = {.center = mat4_transform_point(m, vec3_add(box->low, half))};
+    for (int corner = 0; corner < 4; corner++) { /* the other four lie opposite */
+        const Vec3 to_corner = {half.x, corner & 1 ? -half.y : half.y,
+                                corner & 2 ? -half.z : half.z};
+        sphere.radius = fmax(sphere.radius, vec3_length(mat4_transform_direction(m, to_corner)));
+    }
+    return sphere;
+}
+
 /* The nearest and the farthest corner of an object's box along the view. */
 static void depth_of(const Object *object, Mat4 eye_from_object, double *near, double *far)
 {
-    Vec3 low, high;
-    mesh_bounds(object->mesh, &low, &high);
-    *near = INFINITY;
-    *far = -INFINITY;
-    for (int corner = 0; corner < 8; corner++) {
-        const Vec3 at = {corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y,
-                         corner & 4 ? high.z : low.z};
-        const double depth = -mat4_transform_point(eye_from_object, at).z;
-        *near = fmin(*near, depth);
-        *far = fmax(*far, depth);
-    }
+    const double *m = eye_from_object.m;
+    const MeshBox box = mesh_bounds(object->mesh);
+    const Vec3 half = vec3_scale(vec3_subtract(box.high, box.low), 0.5);
+    const double depth = -mat4_transform_point(eye_from_object, vec3_add(box.low, half)).z;
+    const double reach = fabs(m[2]) * half.x + fabs(m[6]) * half.y + fabs(m[10]) * half.z;
+    *near = depth - reach;
+    *far = depth + reach;
 }
 
 void scene_fit_depth(Scene *scene)

@@ -106,6 +106,13 @@ double scene_fovy(const Camera *camera, double aspect);
  * depth buffer's precision lets them: near is not less than far / 1e5. */
 void scene_fit_depth(Scene *scene);
 
+/* A sphere around an object's box, in world coordinates. */
+typedef struct Sphere {
+    Vec3 center;
+    double radius;
+} Sphere;
+Sphere scene_sphere(const Object *object, const MeshBox *box);
+
 /* A light in world coordinates, whatever its space. */
 Light scene_world_light(const Scene *scene, int number);
 

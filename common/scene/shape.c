@@ -15,12 +15,11 @@ const char *const SHAPE_UP_NAMES[] = {"file", "x", "y", "z", NULL};
 /* Moves the middle of the model's box to the origin, and scales its diagonal to 2. */
 static bool open_model(Mesh *mesh, const ShapeModel *model, Message *message)
 {
-    Vec3 low, high;
     if (!model_read(model->path, (ModelUp)model->up, mesh, message))
         return false;
-    mesh_bounds(mesh, &low, &high);
-    const Vec3 diagonal = vec3_subtract(high, low);
-    const Vec3 middle = vec3_add(low, vec3_scale(diagonal, 0.5));
+    const MeshBox box = mesh_bounds(mesh);
+    const Vec3 diagonal = vec3_subtract(box.high, box.low);
+    const Vec3 middle = vec3_add(box.low, vec3_scale(diagonal, 0.5));
     const double scale = 2 / vec3_length(diagonal);
     for (size_t i = 0; i < mesh->vertex_count; i++) {
         float *p = mesh->vertices[i].position;

@@ -58,12 +58,11 @@ static bool between(double low, float value, double high)
 
 static void check_bounds(const Mesh *mesh, bool finite)
 {
-    Vec3 low, high;
-    mesh_bounds(mesh, &low, &high);
+    const MeshBox box = mesh_bounds(mesh);
     for (size_t i = 0; i < mesh->vertex_count && finite; i++) {
         const float *p = mesh->vertices[i].position;
-        require(between(low.x, p[0], high.x) && between(low.y, p[1], high.y) &&
-                between(low.z, p[2], high.z));
+        require(between(box.low.x, p[0], box.high.x) && between(box.low.y, p[1], box.high.y) &&
+                between(box.low.z, p[2], box.high.z));
     }
 }
 

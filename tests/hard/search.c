@@ -64,9 +64,8 @@ static void perturb(RandomScene *scene, Random *random, double sign, int size)
     for (int i = 0; i < scene->scene.object_count; i++) {
         double *m = scene->objects[i].world_from_object.m;
         const Vec3 place = {m[12] - camera->eye.x, m[13] - camera->eye.y, m[14] - camera->eye.z};
-        Vec3 low, high;
-        mesh_bounds(scene->objects[i].mesh, &low, &high);
-        const double reach = fmax(vec3_length(low), vec3_length(high));
+        const MeshBox box = mesh_bounds(scene->objects[i].mesh);
+        const double reach = fmax(vec3_length(box.low), vec3_length(box.high));
         double scale = 0;
         for (int k = 0; k < 12; k++)
             scale = fmax(scale, fabs(m[k]));

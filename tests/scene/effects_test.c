@@ -558,7 +558,7 @@ TEST_WITH(0, the_full_set_has_every_effect, set_up, NULL)
 {
     char text[1024];
     world.lights[0].off = true;
-    Effects full = effects_full(&world.scene);
+    Effects full = effects_full(&world.scene, &world.object);
     write_set(&full, text);
     assert_string_equal(text, "two base alpha normals matrix unit_vertex unit_fragment local | 0 "
                               "any ambient diffuse specular attenuation exponent");
@@ -567,7 +567,7 @@ TEST_WITH(0, the_full_set_has_every_effect, set_up, NULL)
     world.scene.reflection = REFLECTION_PHONG;
     world.scene.light_count = 2;
     world.lights[1] = world.lights[0];
-    full = effects_full(&world.scene);
+    full = effects_full(&world.scene, &world.object);
     write_set(&full, text);
     assert_string_equal(text, "two base alpha normals matrix unit_vertex unit_fragment local phong "
                               "clamp linear | 0 1 any ambient diffuse specular attenuation "
@@ -611,7 +611,7 @@ TEST_WITH(0, a_group_is_guarded_if_any_of_its_lights_needs_it, set_up, NULL)
     world.lights[1].constant = 0;
     assert_set("normals unit_fragment | 0 1 point diffuse attenuation");
     assert_guarded(true);
-    assert_true(effects_full(&world.scene).groups[0].guard_attenuation);
+    assert_true(effects_full(&world.scene, &world.object).groups[0].guard_attenuation);
 }
 
 TEST_MAIN("effects", open_meshes, close_meshes)

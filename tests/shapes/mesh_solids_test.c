@@ -533,16 +533,15 @@ TEST(a_teapot_fills_its_box)
     static const int divisions[] = {2, 8, 64};
     for (size_t n = 0; n < sizeof divisions / sizeof divisions[0]; n++) {
         CLOSED(mesh_close) Mesh mesh = teapot(1, divisions[n]);
-        Vec3 low, high;
-        mesh_bounds(&mesh, &low, &high);
+        const MeshBox box = mesh_bounds(&mesh);
         /* Ends of patches. */
-        assert_true(low.x == -1.5 && low.y == -0.75 && low.z == -1);
-        assert_true(high.y == 0.825F && high.z == 1);
+        assert_true(box.low.x == -1.5 && box.low.y == -0.75 && box.low.z == -1);
+        assert_true(box.high.y == 0.825F && box.high.z == 1);
         /* This one is within a patch: at most half a part away from a vertex. The curve's second
          * derivative there is 6 ((3.3 - 2 * 3.525 + 3.45) 0.59 + ...0.41) / 2 = -1.49, so it has
          * fallen by 1.49 / 2 (0.5 / n)^2. */
-        assert_true(high.x <= max + FLT_EPSILON);
-        assert_true(high.x >= max - 1.49 / 8 / divisions[n] / divisions[n] - FLT_EPSILON);
+        assert_true(box.high.x <= max + FLT_EPSILON);
+        assert_true(box.high.x >= max - 1.49 / 8 / divisions[n] / divisions[n] - FLT_EPSILON);
     }
 }
 
@@ -658,14 +657,13 @@ TEST(the_poles_of_a_teapot_have_the_normals_of_the_limit)
 TEST(bounds_contain_all_vertices)
 {
     MeshVertex vertices[] = {{{1, -2, 3}, {0, 0, 1}}, {{-4, 5, 0.5F}, {0, 0, 1}}};
-    Vec3 low, high;
-    mesh_bounds(&(Mesh){.vertices = vertices, .vertex_count = 2}, &low, &high);
-    assert_true(low.x == -4 && low.y == -2 && low.z == 0.5);
-    assert_true(high.x == 1 && high.y == 5 && high.z == 3);
-    mesh_bounds(&(Mesh){.vertices = vertices, .vertex_count = 1}, &low, &high);
-    assert_true(topology_distance(low, high) == 0 && low.z == 3);
-    mesh_bounds(&(Mesh){.vertices = NULL}, &low, &high);
-    assert_true(vec3_length(low) == 0 && vec3_length(high) == 0);
+    MeshBox box = mesh_bounds(&(Mesh){.vertices = vertices, .vertex_count = 2});
+    assert_true(box.low.x == -4 && box.low.y == -2 && box.low.z == 0.5);
+    assert_true(box.high.x == 1 && box.high.y == 5 && box.high.z == 3);
+    box = mesh_bounds(&(Mesh){.vertices = vertices, .vertex_count = 1});
+    assert_true(topology_distance(box.low, box.high) == 0 && box.low.z == 3);
+    box = mesh_bounds(&(Mesh){.vertices = NULL});
+    assert_true(vec3_length(box.low) == 0 && vec3_length(box.high) == 0);
 }
 
 TEST(a_flat_mesh_has_its_triangles_and_their_normals)

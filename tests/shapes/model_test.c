@@ -92,10 +92,9 @@ static void assert_counts(const Mesh *mesh, size_t vertices, size_t triangles)
 
 static void assert_bounds(const Mesh *mesh, Vec3 low, Vec3 high, double tolerance)
 {
-    Vec3 got_low, got_high;
-    mesh_bounds(mesh, &got_low, &got_high);
-    assert_true(topology_distance(got_low, low) <= tolerance &&
-                topology_distance(got_high, high) <= tolerance);
+    const MeshBox box = mesh_bounds(mesh);
+    assert_true(topology_distance(box.low, low) <= tolerance &&
+                topology_distance(box.high, high) <= tolerance);
 }
 
 /* Files. */
