@@ -66,6 +66,25 @@ static bool put_own(FILE *line, const Parameter *table, const ParameterValue *de
     return done;
 }
 
+bool command_start(const char *name, const char *argv0, char *text, size_t size)
+{
+    const char *script = getenv("LIGHTING_RUN");
+    char *written = NULL;
+    size_t length = 0;
+    FILE *line = open_memstream(&written, &length);
+    if (line && script && script[0]) {
+        put_quoted(line, script);
+        fputc(' ', line);
+        put_quoted(line, name);
+    } else if (line) {
+        put_quoted(line, argv0 && argv0[0] ? argv0 : name);
+    }
+    const bool done = line && fclose(line) == 0 && length < size;
+    snprintf(text, size, "%s", done ? written : "");
+    free(written);
+    return done;
+}
+
 bool command_write(const Example *example, const Options *options, const ParameterValue *defaults,
                    char *text, size_t size)
 {
@@ -85,7 +104,9 @@ bool command_write(const Example *example, const Options *options, const Paramet
     usual.canvas.backend = backend_default(NULL) == &CANVAS_EGL ? &CANVAS_EGL : &CANVAS_WINDOW;
     const int common = options_table(&usage, &usual, OPTIONS_TO_WRITE, usual_table);
     options_table(&usage, &own, OPTIONS_TO_WRITE, table);
-    if (done)
+    if (done && options->start)
+        fputs(options->start, line);
+    else if (done)
         put_quoted(line, example->name);
     for (int i = 0; done && i < common; i++)
         done = put_changed(line, &table[i], &usual_table[i]);

@@ -64,6 +64,9 @@ typedef struct Options {
     /* Of the example's own parameters before the command line was read; NULL: they are unchanged.
      */
     const ParameterValue *defaults;
+    /* The first words of the command that started the program, for a shell: see command_start.
+     * NULL: its name alone. */
+    const char *start;
     char *const *names; /* the arguments that are no options; NULL-terminated */
     char default_output[128];
 } Options;

@@ -1,5 +1,6 @@
 #include "app/run.h"
 
+#include "app/command.h"
 #include "app/doctor.h"
 #include "app/explain.h"
 #include "app/live.h"
@@ -209,6 +210,7 @@ int example_main(const Example *example, int argc, char *argv[])
 {
     Options options;
     ParameterValue defaults[OPTIONS_MAX_PARAMETERS] = {{.number = 0}};
+    char start[PATH_MAX];
     int code;
     Message message = {0};
     const Usage usage = options_usage(example);
@@ -217,6 +219,8 @@ int example_main(const Example *example, int argc, char *argv[])
     if (!options_begin(&options, &usage, argc, argv, &code))
         return code;
     options.defaults = defaults;
+    if (command_start(example->name, argc > 0 ? argv[0] : NULL, start, sizeof start))
+        options.start = start;
     options.canvas.title = example->name;
     if (options.doctor)
         return options_finish(example->name, doctor_run());

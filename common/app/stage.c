@@ -605,6 +605,7 @@ static void write_command(const Stage *stage, const Options *options, double sec
     own.fps = OPTIONS_FPS;
     own.numbered = false;
     own.format = NULL;
+    own.start = NULL;
     own.canvas.backend = stage->canvas->backend;
     own.output_given = image_format(picture->path, format, NULL) && strcmp(format, "png") != 0;
     if (own.output_given)

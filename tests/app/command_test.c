@@ -200,6 +200,38 @@ COMMAND_TEST(options_change_what_follows_from_another)
     }
 }
 
+/* As argv[0] has it, or with the script that the environment names. */
+COMMAND_TEST(it_begins_as_the_program_was_started)
+{
+    static const struct {
+        const char *script, *argv0, *start;
+    } cases[] = {
+        {NULL, "Example", "Example"},
+        {NULL, "build/examples/Example", "build/examples/Example"},
+        {"", "../my programs/Example", "'../my programs/Example'"},
+        {"examples/run", "/build/examples/Example", "examples/run Example"},
+        {"it's/run", "Example", "'it'\\''s/run' Example"},
+        {NULL, "", "Example"},
+        {NULL, NULL, "Example"},
+    };
+    Options options = plain_options(&example);
+    options.seconds = 2;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char start[64], expected[128];
+        unsetenv("LIGHTING_RUN");
+        if (cases[i].script)
+            setenv("LIGHTING_RUN", cases[i].script, 1);
+        assert_true(command_start("Example", cases[i].argv0, start, sizeof start));
+        assert_string_equal(start, cases[i].start);
+        options.start = start;
+        snprintf(expected, sizeof expected, "%s --time 2", start);
+        assert_command(&options, expected);
+        assert_false(command_start("Example", cases[i].argv0, start, strlen(cases[i].start)));
+        assert_string_equal(start, "");
+    }
+    unsetenv("LIGHTING_RUN");
+}
+
 COMMAND_TEST(frames_are_written_if_given)
 {
     Options options = plain_options(&example);
