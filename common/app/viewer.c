@@ -17,22 +17,32 @@
 #include <unistd.h>
 
 static const double DEGREES_PER_PIXEL = 0.4, NEARER_PER_NOTCH = 0.9;
+/* What moves by hand or by the clock is rounded to these parts, so that the command which draws the
+ * picture is short: milliseconds, tenths of a degree, thousandths of the distance. */
+static const double PARTS_OF_SECOND = 1000, PARTS_OF_DEGREE = 10, PARTS_OF_DISTANCE = 1000;
 static const double NEAREST = 0.1, FARTHEST = 10; /* factors of the example's distance */
 
 typedef struct Viewer {
     const Example *example;
     Canvas *canvas;
     Window *window;
-    const Options *first; /* at the start; restored by r */
+    Options first; /* at the start; restored by r */
     ParameterValue first_values[OPTIONS_MAX_PARAMETERS];
     Options options; /* current */
+    double seconds;  /* options.seconds before it was rounded */
     bool paused, full_screen, left;
     WindowInput input;
     double last; /* when the last frame began */
+    int due;     /* frames to draw although time stands still: something has changed */
+    int drawn, drawn_paused;
+    int margins[2];         /* that the panel has in the window's size */
+    int room[2];            /* the picture's size in the window */
+    int plain[2], asked[2]; /* the window's size without the panel, and the one asked for with it */
     /* Since the title was last updated: */
     double title_time;
     int frames;
     const char *state; /* in the title */
+    bool title_paused;
     ViewerPanel panel;
     bool panel_had_pointer; /* in the previous frame: a press may precede the pointer's current
                                position */
@@ -58,7 +68,7 @@ static bool free_path(const char *pattern, char path[PATH_MAX], Message *message
 /* Where to save a picture: --output's file is replaced; otherwise a new one. */
 static bool save_path(const Viewer *viewer, char path[PATH_MAX], Message *message)
 {
-    const Options *options = viewer->first;
+    const Options *options = &viewer->first;
     char pattern[160];
     if (options->output_given && output_numbered(options->output, 0, path, PATH_MAX, NULL))
         return free_path(options->output, path, message);
@@ -121,11 +131,18 @@ static void save(Viewer *viewer)
     viewer_panel_notice(&viewer->panel, message.text);
 }
 
+/* Zero without a sign, so that it is not written as -0. */
+static double rounded(double value, double parts)
+{
+    return round(value * parts) / parts + 0.0;
+}
+
 /* Within the command line's limits, so that every time can be drawn again. */
 static void pass_time(Viewer *viewer, double seconds)
 {
-    const double now = viewer->options.seconds + seconds;
-    viewer->options.seconds = fmin(fmax(now, -OPTIONS_MAX_SECONDS), OPTIONS_MAX_SECONDS);
+    const double now = viewer->seconds + seconds;
+    viewer->seconds = fmin(fmax(now, -OPTIONS_MAX_SECONDS), OPTIONS_MAX_SECONDS);
+    viewer->options.seconds = rounded(viewer->seconds, PARTS_OF_SECOND);
 }
 
 static void step(Viewer *viewer, double seconds)
@@ -139,7 +156,7 @@ static void step(Viewer *viewer, double seconds)
 static void renew(Viewer *viewer)
 {
     const Message before = viewer->unmade;
-    viewer->panel.stale = true;
+    viewer_panel_renew(&viewer->panel);
     viewer->unmade = (Message){0};
     if (!viewer->live.stage.example ||
         stage_renew(&viewer->live.stage, &viewer->options, &viewer->unmade) ||
@@ -148,19 +165,19 @@ static void renew(Viewer *viewer)
     options_fail(viewer->example->name, &viewer->unmade, EXIT_FAILED);
 }
 
-static void reset(Viewer *viewer)
+/* All as at the start, but for the size, which the window has. What depends on it is to be renewed.
+ */
+static void put_back(Viewer *viewer)
 {
     const Parameter *parameters = example_parameters(viewer->example);
-    viewer->options.seconds = viewer->first->seconds;
-    viewer->options.orbit = viewer->first->orbit;
-    viewer->options.terms = viewer->first->terms;
-    viewer->options.linear = viewer->first->linear;
-    viewer->options.clamp_vertex = viewer->first->clamp_vertex;
-    viewer->options.show_clipped = viewer->first->show_clipped;
+    const int width = viewer->options.width, height = viewer->options.height;
+    viewer->options = viewer->first;
+    viewer->options.width = width;
+    viewer->options.height = height;
+    viewer->seconds = viewer->first.seconds;
     viewer->paused = false;
     for (int i = 0; parameters && parameters[i].name; i++)
         parameter_restore(&parameters[i], viewer->first_values[i]);
-    renew(viewer);
 }
 
 /* Starts again with the arguments of a try, which blanks separate. A given time is held. */
@@ -173,7 +190,7 @@ static void try_arguments(Viewer *viewer, const char *arguments)
     const Parameter *answer;
     Message message = {0};
     int count = 1;
-    reset(viewer);
+    put_back(viewer);
     snprintf(text, sizeof text, "%s", arguments);
     for (char *word = strtok_r(text, " ", &place); word && count <= MAX_WORDS;
          word = strtok_r(NULL, " ", &place))
@@ -183,6 +200,7 @@ static void try_arguments(Viewer *viewer, const char *arguments)
     if (!arguments_read(table, count, words, &answer, &message))
         viewer_panel_notice(&viewer->panel, message.text);
     viewer->paused = viewer->options.seconds != seconds;
+    viewer->seconds = viewer->options.seconds;
     renew(viewer);
 }
 
@@ -196,7 +214,8 @@ static void type(Viewer *viewer, unsigned character)
         save(viewer);
         break;
     case 'r':
-        reset(viewer);
+        put_back(viewer);
+        renew(viewer);
         break;
     case 'f':
         viewer->full_screen = !viewer->full_screen;
@@ -236,14 +255,18 @@ static void use_pointer(Viewer *viewer)
     if (viewer->panel.result.wants_pointer || viewer->panel_had_pointer)
         return;
     const double degrees = DEGREES_PER_PIXEL / input->scale;
-    orbit->azimuth = fmod(orbit->azimuth - degrees * input->drag_x, 360);
-    orbit->elevation += degrees * input->drag_y;
-    orbit->elevation = fmin(fmax(orbit->elevation, -90), 90);
+    if (input->drag_x != 0 || input->drag_y != 0) {
+        orbit->azimuth =
+            rounded(fmod(orbit->azimuth - degrees * input->drag_x, 360), PARTS_OF_DEGREE);
+        orbit->elevation = rounded(orbit->elevation + degrees * input->drag_y, PARTS_OF_DEGREE);
+        orbit->elevation = fmin(fmax(orbit->elevation, -90), 90);
+    }
     if (input->scroll != 0) {
         const double distance = orbit_distance(*orbit);
         /* --orbit may start beyond these limits. */
         const double min = fmin(NEAREST, distance), max = fmax(FARTHEST, distance);
-        orbit->distance = distance * pow(NEARER_PER_NOTCH, input->scroll);
+        orbit->distance =
+            rounded(distance * pow(NEARER_PER_NOTCH, input->scroll), PARTS_OF_DISTANCE);
         orbit->distance = fmin(fmax(orbit->distance, min), max);
     }
 }
@@ -267,17 +290,38 @@ static bool draw_moment(Viewer *viewer)
     return stage_draw(&viewer->live.stage, options, options->seconds, &viewer->trouble);
 }
 
-static void show_nothing(const Viewer *viewer)
+/* Copies what was drawn to the window's lower left corner, and clears what the panel lies on. */
+static bool present(Viewer *viewer, const Image *image, Message *message)
+{
+    const int width = viewer->input.width, height = viewer->input.height;
+    const int *room = viewer->room;
+    bool done = true;
+    if (image)
+        done = canvas_present_image(image, room[0], room[1], message);
+    else
+        canvas_present(viewer->canvas, room[0], room[1]);
+    if (room[0] == width && room[1] == height)
+        return done;
+    glEnable(GL_SCISSOR_TEST);
+    glClearColor(0, 0, 0, 1);
+    glScissor(room[0], 0, width - room[0], height);
+    glClear(GL_COLOR_BUFFER_BIT);
+    glScissor(0, room[1], width, height - room[1]);
+    glClear(GL_COLOR_BUFFER_BIT);
+    glDisable(GL_SCISSOR_TEST);
+    return done;
+}
+
+static bool show_nothing(Viewer *viewer, Message *message)
 {
     canvas_clear(viewer->canvas, (Vec3){0, 0, 0}, 1);
-    canvas_present(viewer->canvas, viewer->input.width, viewer->input.height);
+    return present(viewer, NULL, message);
 }
 
 /* Draws and copies to the window. An error in drawing does not end the viewer: the time, the size
  * or the parameters may change. */
 static bool show_picture(Viewer *viewer, Message *message)
 {
-    const WindowInput *input = &viewer->input;
     const bool had_trouble = viewer->trouble.text[0];
     bool drawn = draw_moment(viewer);
     /* A program that is first needed now may not compile although earlier ones did. */
@@ -289,22 +333,16 @@ static bool show_picture(Viewer *viewer, Message *message)
     if (!drawn) {
         if (!had_trouble)
             options_fail(viewer->example->name, &viewer->trouble, EXIT_FAILED);
-        show_nothing(viewer);
-        return true;
+        return show_nothing(viewer, message);
     }
-    if (is_retouched(viewer))
-        return canvas_present_image(&viewer->picture.image, input->width, input->height, message);
-    canvas_present(viewer->canvas, input->width, input->height);
-    return true;
+    return present(viewer, is_retouched(viewer) ? &viewer->picture.image : NULL, message);
 }
 
 static bool show(Viewer *viewer, Message *message)
 {
     const WindowInput *input = &viewer->input;
     const double start = clock_now();
-    if (!is_made(viewer))
-        show_nothing(viewer);
-    else if (!show_picture(viewer, message))
+    if (!(is_made(viewer) ? show_picture(viewer, message) : show_nothing(viewer, message)))
         return false;
     if (viewer->panel.view == PANEL_OPEN)
         glFinish(); /* to measure the time of the picture */
@@ -313,34 +351,29 @@ static bool show(Viewer *viewer, Message *message)
            viewer_panel_draw(&viewer->panel, input->width, input->height, message);
 }
 
-/* Name, rate and state: twice per second, and at once when the state changes. */
+/* Name, state, and while time runs the rate: twice per second, and at once when the state changes.
+ */
 static void update_title(Viewer *viewer)
 {
     enum { SIZE = 200 };
     static const char *const states[] = {"", ", paused", ", no picture", ", broken shader"};
-    char title[SIZE];
+    char title[SIZE], rate[40] = "";
     const double now = clock_now(), elapsed = now - viewer->title_time;
     const bool trouble = viewer->unmade.text[0] || viewer->trouble.text[0];
     const char *state = states[viewer->broken.text[0] ? 3 : trouble ? 2 : viewer->paused];
+    const bool same = state == viewer->state && viewer->title_paused == viewer->paused;
     viewer->frames++;
-    if (elapsed >= 0.5) {
-        viewer->panel.rate = viewer->frames / elapsed;
-        viewer->title_time = now;
-        viewer->frames = 0;
-    } else if (state == viewer->state) {
+    if (same && (viewer->paused || elapsed < 0.5))
         return;
-    }
-    const double rate = viewer->panel.rate > 0 ? viewer->panel.rate : viewer->frames / elapsed;
+    viewer->panel.rate = viewer->paused ? 0 : viewer->frames / elapsed;
+    viewer->title_time = now;
+    viewer->frames = 0;
     viewer->state = state;
-    snprintf(title, SIZE, "%s, %.0f frames per second%s", viewer->example->name, rate, state);
+    viewer->title_paused = viewer->paused;
+    if (!viewer->paused)
+        snprintf(rate, sizeof rate, ", %.0f frames per second", viewer->panel.rate);
+    snprintf(title, SIZE, "%s%s%s", viewer->example->name, rate, state);
     window_title(viewer->window, title);
-}
-
-/* Time to wait if swapping does not: faster than the screen is useless. */
-static double spare_time(const Viewer *viewer)
-{
-    const double period = 1 / window_refresh_rate(viewer->window);
-    return fmax(0, viewer->last + 0.95 * period - clock_now());
 }
 
 static bool load(Viewer *viewer, Message *message)
@@ -350,18 +383,20 @@ static bool load(Viewer *viewer, Message *message)
     case LIVE_FAILED:
         return message_set(message, "%s", error.text);
     case LIVE_BROKEN:
+        viewer->due = 1;
         options_fail(viewer->example->name, &error, EXIT_FAILED);
         viewer->broken = error;
         viewer->unmade = (Message){0}; /* the stage was opened again */
         return true;
     case LIVE_LOADED:
+        viewer->due = 1;
         stage_warn(&viewer->live.stage);
         if (viewer->live.changed[0] || viewer->live.stage.warning.text[0])
             viewer_panel_notice(&viewer->panel, viewer->live.stage.warning.text[0]
                                                     ? viewer->live.stage.warning.text
                                                     : "shaders loaded");
         viewer->broken = viewer->unmade = (Message){0};
-        viewer->panel.stale = true;
+        viewer_panel_renew(&viewer->panel);
         return true;
     case LIVE_UNCHANGED:
         break;
@@ -387,21 +422,61 @@ static bool use_panel(Viewer *viewer, double elapsed, Message *message)
     return true;
 }
 
+/* The size of the picture: what the panel leaves of the window. */
+static bool use_size(Viewer *viewer, Message *message)
+{
+    const WindowInput *input = &viewer->input;
+    if (input->width <= 0 || input->height <= 0)
+        return true;
+    viewer_panel_room(&viewer->panel, input, viewer->room);
+    viewer->options.width = viewer->room[0];
+    viewer->options.height = viewer->room[1];
+    return canvas_resize(viewer->canvas, viewer->room[0], viewer->room[1], message);
+}
+
+/* When the panel comes, goes or changes its width, so does the window, and the picture keeps its
+ * size, as far as there is room on the screen. */
+static void make_room(Viewer *viewer)
+{
+    const WindowInput *input = &viewer->input;
+    const int *before = viewer->margins, window[2] = {input->width, input->height};
+    int now[2], size[2];
+    viewer_panel_margins(&viewer->panel, input, now);
+    if (now[0] == before[0] && now[1] == before[1])
+        return;
+    if (before[0] == 0 && before[1] == 0) {
+        memcpy(viewer->plain, window, sizeof window);
+    }
+    const bool back = now[0] == 0 && now[1] == 0 && viewer->asked[0] == window[0] &&
+                      viewer->asked[1] == window[1];
+    for (int i = 0; i < 2; i++)
+        size[i] = back ? viewer->plain[i] : window[i] + now[i] - before[i];
+    memcpy(viewer->margins, now, sizeof now);
+    if (!viewer->full_screen)
+        window_resize(viewer->window, &size[0], &size[1]);
+    memcpy(viewer->asked, size, sizeof size);
+}
+
 static bool frame(Viewer *viewer, double wait, Message *message)
 {
+    enum { SETTLE = 3 }; /* frames until the panel shows all that follows from an event */
     WindowInput *input = &viewer->input;
     window_input(viewer->window, wait, input);
     const double now = clock_now(), elapsed = now - viewer->last;
     viewer->last = now;
     if (!viewer->paused)
         pass_time(viewer, elapsed);
-    if (input->width > 0 && input->height > 0) {
-        if (!canvas_resize(viewer->canvas, input->width, input->height, message))
-            return false;
-        viewer->options.width = input->width;
-        viewer->options.height = input->height;
+    if (!load(viewer, message))
+        return false;
+    if (input->touched || viewer_panel_due(&viewer->panel))
+        viewer->due = SETTLE;
+    if (viewer->paused && viewer->due == 0) {
+        viewer->title_time = now;
+        viewer->frames = 0;
+        return true;
     }
-    if (!load(viewer, message) || !use_panel(viewer, elapsed, message))
+    viewer->due -= viewer->due > 0;
+    if (!use_size(viewer, message) || !use_panel(viewer, elapsed, message))
         return false;
     use_pointer(viewer);
     use_keys(viewer);
@@ -411,34 +486,52 @@ static bool frame(Viewer *viewer, double wait, Message *message)
     if (!show(viewer, message))
         return false;
     window_swap(viewer->window);
+    viewer->drawn++;
+    viewer->drawn_paused += viewer->paused;
+    make_room(viewer);
     update_title(viewer);
     return window_check(viewer->window, message);
+}
+
+/* Until the next frame, unless there is an event: the rest of the screen's period, because faster
+ * is useless, where swapping does not wait. While time stands still, until the next look at the
+ * shader files. */
+static double wait_time(const Viewer *viewer)
+{
+    static const double HIDDEN = 0.1, LOOK = 0.05;
+    const double period = 1 / window_refresh_rate(viewer->window);
+    if (viewer->input.width == 0 || viewer->input.height == 0)
+        return HIDDEN;
+    if (viewer->paused && viewer->due == 0)
+        return LOOK;
+    return fmax(0, viewer->last + 0.95 * period - clock_now());
 }
 
 bool viewer_run(const Example *example, Canvas *canvas, const Options *options,
                 const ParameterValue *defaults, Message *message)
 {
-    static const double HIDDEN = 0.1;
     const Parameter *parameters = example_parameters(example);
     Viewer viewer = {.example = example,
                      .canvas = canvas,
                      .window = window_of(canvas),
-                     .first = options,
                      .options = *options,
+                     .seconds = options->seconds,
                      .picture.image.type = canvas->real ? IMAGE_FLOAT : IMAGE_BYTE};
     for (int i = 0; parameters && parameters[i].name; i++)
         viewer.first_values[i] = parameter_save(&parameters[i]);
     if (!live_open(&viewer.live, example, canvas, &viewer.options, message))
         return false;
+    viewer.first = viewer.options;
     viewer_panel_open(&viewer.panel, example, viewer.window, options, defaults);
     viewer_panel_notice(&viewer.panel, "p: panel   h: help");
     window_show(viewer.window);
     viewer.last = viewer.title_time = clock_now();
     bool done = frame(&viewer, 0, message);
-    while (done && !viewer.left) {
-        const bool hidden = viewer.input.width == 0 || viewer.input.height == 0;
-        done = frame(&viewer, hidden ? HIDDEN : spare_time(&viewer), message);
-    }
+    while (done && !viewer.left)
+        done = frame(&viewer, wait_time(&viewer), message);
+    if (options->verbose)
+        fprintf(stderr, "window: %d frames drawn, %d of them while time stood still\n",
+                viewer.drawn, viewer.drawn_paused);
     viewer_panel_close(&viewer.panel);
     image_close(&viewer.picture.image);
     live_close(&viewer.live);

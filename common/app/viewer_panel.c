@@ -30,7 +30,7 @@ void viewer_panel_open(ViewerPanel *panel, const Example *example, Window *windo
                        const Options *options, const ParameterValue *defaults)
 {
     Message message = {0};
-    *panel = (ViewerPanel){.example = example, .window = window, .stale = true};
+    *panel = (ViewerPanel){.example = example, .window = window, .text = 1, .stale = true};
     memcpy(panel->defaults, defaults, sizeof panel->defaults);
     if (!panel_open(&panel->panel, &message) ||
         !panel_draw_open(&panel->draw, &options->shaders, &message) ||
@@ -51,13 +51,24 @@ static void set_clipboard(void *window, const char *text)
     window_set_clipboard(window, text);
 }
 
+static bool same_picture(const Options *a, const Options *b)
+{
+    return a->seconds == b->seconds && a->width == b->width && a->height == b->height &&
+           a->orbit.azimuth == b->orbit.azimuth && a->orbit.elevation == b->orbit.elevation &&
+           a->orbit.distance == b->orbit.distance;
+}
+
 /* Lists the effects that the scene calls for, a few times per second. */
 static void update_effects(ViewerPanel *panel, Stage *stage, const Options *options)
 {
     const double now = clock_now();
     size_t size = 0;
-    if (!panel->example->scene || (panel->effects && now - panel->effects_time < EFFECTS_SECONDS))
+    const bool known = panel->effects && panel->effects_time > 0;
+    panel->effects_wanted =
+        panel->example->scene && !(known && same_picture(&panel->effects_options, options));
+    if (!panel->effects_wanted || (known && now - panel->effects_time < EFFECTS_SECONDS))
         return;
+    panel->effects_wanted = false;
     free(panel->effects);
     panel->effects = NULL;
     FILE *file = open_memstream(&panel->effects, &size);
@@ -66,13 +77,17 @@ static void update_effects(ViewerPanel *panel, Stage *stage, const Options *opti
     explain_effects(stage, options, file);
     fclose(file);
     panel->effects_time = now;
+    panel->effects_options = *options;
 }
 
-static bool same_picture(const Options *a, const Options *b)
+static bool busy(ViewerPanel *panel)
 {
-    return a->seconds == b->seconds && a->width == b->width && a->height == b->height &&
-           a->orbit.azimuth == b->orbit.azimuth && a->orbit.elevation == b->orbit.elevation &&
-           a->orbit.distance == b->orbit.distance;
+    return panel->error_worker && error_worker_busy(panel->error_worker);
+}
+
+static bool may_start(ViewerPanel *panel)
+{
+    return !busy(panel) && clock_now() - panel->error_time >= ERROR_SECONDS;
 }
 
 /* Starts computing the error of a picture that has changed: at once after a change of a parameter,
@@ -80,12 +95,11 @@ static bool same_picture(const Options *a, const Options *b)
 static void update_error(ViewerPanel *panel, Stage *stage, const Options *options)
 {
     ErrorPicture picture;
-    const double now = clock_now();
-    if (!panel->example->scene || (!panel->stale && same_picture(&panel->error_options, options)))
+    panel->error_wanted =
+        panel->example->scene && (panel->stale || !same_picture(&panel->error_options, options));
+    if (!panel->error_wanted || (!panel->stale && !may_start(panel)))
         return;
-    if (!panel->stale &&
-        (error_worker_busy(panel->error_worker) || now - panel->error_time < ERROR_SECONDS))
-        return;
+    panel->error_wanted = false;
     if (panel->stale)
         error_worker_cancel(panel->error_worker);
     /* If this fails, drawing the frame fails too and reports why. */
@@ -93,21 +107,54 @@ static void update_error(ViewerPanel *panel, Stage *stage, const Options *option
         return;
     error_worker_start(panel->error_worker, &picture);
     panel->error_options = *options;
-    panel->error_time = now;
+    panel->error_time = clock_now();
     panel->stale = false;
 }
 
-static PanelError known_error(const ViewerPanel *panel)
+static PanelError known_error(ViewerPanel *panel)
 {
     ErrorResult result;
     if (!panel->error_worker)
         return (PanelError){.known = false};
     error_worker_result(panel->error_worker, &result);
+    panel->computing = result.computing;
     return (PanelError){.known = result.known,
                         .computing = result.computing,
                         .rms = result.known ? error_sum_rms(&result.error.interior) : 0,
                         .maximum = result.error.interior.maximum,
                         .seconds = result.seconds};
+}
+
+static bool has_notice(const ViewerPanel *panel)
+{
+    return panel->notice[0] && clock_now() - panel->notice_time < NOTICE_SECONDS;
+}
+
+bool viewer_panel_due(ViewerPanel *panel)
+{
+    const bool open = panel->view == PANEL_OPEN;
+    return panel->panel &&
+           (has_notice(panel) != panel->noticed || (open && panel->computing != busy(panel)) ||
+            (open && panel->error_wanted && may_start(panel)) ||
+            (open && panel->effects_wanted &&
+             clock_now() - panel->effects_time >= EFFECTS_SECONDS));
+}
+
+/* With the letters' size, by which the panel grows. */
+static double scale_of(const ViewerPanel *panel, const WindowInput *input)
+{
+    return input->scale * panel->text;
+}
+
+void viewer_panel_margins(const ViewerPanel *panel, const WindowInput *input, int margins[2])
+{
+    panel_margins(panel->panel ? panel->view : PANEL_HIDDEN, scale_of(panel, input), margins);
+}
+
+void viewer_panel_room(const ViewerPanel *panel, const WindowInput *input, int room[2])
+{
+    panel_room(panel->panel ? panel->view : PANEL_HIDDEN, scale_of(panel, input), input->width,
+               input->height, room);
 }
 
 bool viewer_panel_frame(ViewerPanel *panel, const WindowInput *input, double seconds, Stage *stage,
@@ -122,8 +169,10 @@ bool viewer_panel_frame(ViewerPanel *panel, const WindowInput *input, double sec
         command_write(panel->example, options, panel->defaults, panel->command,
                       sizeof panel->command);
     }
-    const bool notice = panel->notice[0] && clock_now() - panel->notice_time < NOTICE_SECONDS;
-    const PanelInput in = {.window = input,
+    WindowInput own = *input;
+    own.scale = scale_of(panel, input);
+    panel->noticed = has_notice(panel);
+    const PanelInput in = {.window = &own,
                            .seconds = seconds,
                            .clipboard = panel->window,
                            .get_clipboard = get_clipboard,
@@ -140,14 +189,10 @@ bool viewer_panel_frame(ViewerPanel *panel, const WindowInput *input, double sec
                                   .command = panel->command[0] ? panel->command : NULL,
                                   .help = panel->help ? HELP : NULL,
                                   .errors = trouble->text[0] ? trouble->text : NULL,
-                                  .notice = notice ? panel->notice : NULL};
+                                  .notice = panel->noticed ? panel->notice : NULL};
     if (!panel_frame(panel->panel, &in, &content, &panel->result, message))
         return false;
     panel->view = panel->result.view;
-    if (panel->result.changed) {
-        panel->stale = true;
-        panel->effects_time = 0;
-    }
     return true;
 }
 
@@ -161,6 +206,12 @@ void viewer_panel_measured(ViewerPanel *panel, double seconds)
 {
     static const double SHARE = 0.1; /* of the newest frame */
     panel->seconds = panel->seconds > 0 ? (1 - SHARE) * panel->seconds + SHARE * seconds : seconds;
+}
+
+void viewer_panel_renew(ViewerPanel *panel)
+{
+    panel->stale = true;
+    panel->effects_time = 0;
 }
 
 void viewer_panel_notice(ViewerPanel *panel, const char *text)

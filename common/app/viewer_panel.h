@@ -30,10 +30,15 @@ typedef struct ViewerPanel {
     Options error_options; /* of its picture */
     bool stale;            /* the parameters have changed since */
     char *effects;
-    double effects_time;
+    double effects_time;     /* clock_now when they were listed; 0: the parameters have changed */
+    Options effects_options; /* of their picture */
     char command[VIEWER_COMMAND_SIZE];
     char notice[PATH_MAX + 64];
     double notice_time;
+    /* As in the last frame: */
+    bool noticed, error_wanted, effects_wanted;
+    bool computing;
+    double text; /* the size of letters, as a factor */
 } ViewerPanel;
 
 /* `defaults`: of the example's parameters, before the command line was read. Never fails: what is
@@ -46,11 +51,22 @@ void viewer_panel_open(ViewerPanel *panel, const Example *example, Window *windo
 bool viewer_panel_frame(ViewerPanel *panel, const WindowInput *input, double seconds, Stage *stage,
                         const Options *options, const Message *trouble, Message *message);
 
+/* The panel's margins in the window, and the size of the picture beside it: see panel.h. */
+void viewer_panel_margins(const ViewerPanel *panel, const WindowInput *input, int margins[2]);
+void viewer_panel_room(const ViewerPanel *panel, const WindowInput *input, int room[2]);
+
+/* Whether it has something new to show although nobody touched it: a result, the end of a notice.
+ */
+bool viewer_panel_due(ViewerPanel *panel);
+
 /* Draws it into the bound framebuffer, of the window's size. */
 bool viewer_panel_draw(ViewerPanel *panel, int width, int height, Message *message);
 
 /* The time a frame took to draw. */
 void viewer_panel_measured(ViewerPanel *panel, double seconds);
+
+/* The parameters, or what they draw, have changed. */
+void viewer_panel_renew(ViewerPanel *panel);
 
 /* Shows a line for a few seconds; NULL: removes it. */
 void viewer_panel_notice(ViewerPanel *panel, const char *text);

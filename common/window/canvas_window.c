@@ -42,12 +42,20 @@
     X(PollEvents)                                                                                  \
     X(SetCharCallback)                                                                             \
     X(SetClipboardString)                                                                          \
+    X(SetCursorEnterCallback)                                                                      \
     X(SetCursorPosCallback)                                                                        \
     X(SetErrorCallback)                                                                            \
+    X(SetFramebufferSizeCallback)                                                                  \
     X(SetKeyCallback)                                                                              \
     X(SetMouseButtonCallback)                                                                      \
     X(SetScrollCallback)                                                                           \
+    X(SetWindowCloseCallback)                                                                      \
+    X(SetWindowContentScaleCallback)                                                               \
+    X(SetWindowFocusCallback)                                                                      \
+    X(SetWindowIconifyCallback)                                                                    \
     X(SetWindowMonitor)                                                                            \
+    X(SetWindowRefreshCallback)                                                                    \
+    X(SetWindowSize)                                                                               \
     X(SetWindowTitle)                                                                              \
     X(SetWindowUserPointer)                                                                        \
     X(ShowWindow)                                                                                  \
@@ -78,6 +86,7 @@ struct Window {
     WindowInput pending; /* collected by the callbacks; drags in screen units */
     bool held;           /* the left button, in the order of events */
     double x, y;         /* of the pointer, in the order of events */
+    WindowInput state;   /* of the last input, without events */
 };
 
 static void keep_error(int code, const char *text)
@@ -163,7 +172,33 @@ static bool glfw_load(Message *message)
 static WindowInput *pending(GLFWwindow *handle)
 {
     Window *window = glfw.GetWindowUserPointer(handle);
+    window->pending.touched = true;
     return &window->pending;
+}
+
+/* Events whose values window_input asks for. */
+
+static void on_change(GLFWwindow *handle)
+{
+    pending(handle);
+}
+
+static void on_state(GLFWwindow *handle, int state)
+{
+    (void)state;
+    pending(handle);
+}
+
+static void on_size(GLFWwindow *handle, int width, int height)
+{
+    (void)width, (void)height;
+    pending(handle);
+}
+
+static void on_scale(GLFWwindow *handle, float x, float y)
+{
+    (void)x, (void)y;
+    pending(handle);
 }
 
 static const int KEYS[WINDOW_KEY_COUNT] = {
@@ -202,8 +237,9 @@ static void on_button(GLFWwindow *handle, int button, int action, int modifiers)
 {
     (void)modifiers;
     Window *window = glfw.GetWindowUserPointer(handle);
+    WindowInput *input = pending(handle);
     if (button < WINDOW_BUTTONS && action == GLFW_PRESS)
-        window->pending.buttons[button] = true;
+        input->buttons[button] = true;
     if (button == GLFW_MOUSE_BUTTON_LEFT)
         window->held = action == GLFW_PRESS;
 }
@@ -211,9 +247,10 @@ static void on_button(GLFWwindow *handle, int button, int action, int modifiers)
 static void on_pointer(GLFWwindow *handle, double x, double y)
 {
     Window *window = glfw.GetWindowUserPointer(handle);
+    WindowInput *input = pending(handle);
     if (window->held) {
-        window->pending.drag_x += x - window->x;
-        window->pending.drag_y += y - window->y;
+        input->drag_x += x - window->x;
+        input->drag_y += y - window->y;
     }
     window->x = x;
     window->y = y;
@@ -297,6 +334,14 @@ static bool window_open(void **opened, const CanvasOptions *options, const char 
     glfw.SetCursorPosCallback(window->handle, on_pointer);
     glfw.SetMouseButtonCallback(window->handle, on_button);
     glfw.SetScrollCallback(window->handle, on_scroll);
+    glfw.SetCursorEnterCallback(window->handle, on_state);
+    glfw.SetFramebufferSizeCallback(window->handle, on_size);
+    glfw.SetWindowCloseCallback(window->handle, on_change);
+    glfw.SetWindowContentScaleCallback(window->handle, on_scale);
+    glfw.SetWindowFocusCallback(window->handle, on_state);
+    glfw.SetWindowIconifyCallback(window->handle, on_state);
+    glfw.SetWindowRefreshCallback(window->handle, on_change);
+    window->pending.touched = true;
     snprintf(window->platform, sizeof window->platform, "GLFW %s", glfw.GetVersionString());
     window_wait_for_screen(window, true);
     *opened = window;
@@ -332,40 +377,68 @@ void window_show(Window *window)
     forget_error();
 }
 
-void window_input(Window *window, double seconds, WindowInput *input)
+/* Where things are and what is held, as the display has it. */
+static WindowInput ask(Window *window)
+{
+    WindowInput state = {.closed = glfw.WindowShouldClose(window->handle)};
+    float scale_x = 1, scale_y = 1;
+    glfw.GetFramebufferSize(window->handle, &state.width, &state.height);
+    if (glfw.GetWindowAttrib(window->handle, GLFW_ICONIFIED))
+        state.width = state.height = 0;
+    glfw.GetWindowContentScale(window->handle, &scale_x, &scale_y);
+    state.scale = fmax(1, (double)scale_y);
+    glfw.GetCursorPos(window->handle, &state.x, &state.y);
+    for (int i = 0; i < WINDOW_BUTTONS; i++)
+        state.buttons[i] = glfw.GetMouseButton(window->handle, i) == GLFW_PRESS;
+    for (int i = 0; i < WINDOW_KEY_COUNT; i++)
+        state.down[i] = glfw.GetKey(window->handle, KEYS[i]) == GLFW_PRESS;
+    state.control = glfw.GetKey(window->handle, GLFW_KEY_LEFT_CONTROL) == GLFW_PRESS ||
+                    glfw.GetKey(window->handle, GLFW_KEY_RIGHT_CONTROL) == GLFW_PRESS;
+    state.shift = glfw.GetKey(window->handle, GLFW_KEY_LEFT_SHIFT) == GLFW_PRESS ||
+                  glfw.GetKey(window->handle, GLFW_KEY_RIGHT_SHIFT) == GLFW_PRESS;
+    return state;
+}
+
+/* Framebuffer pixels per screen unit. */
+static void pixels_per_unit(Window *window, double *x, double *y)
 {
     int width = 0, height = 0;
-    float scale_x = 1, scale_y = 1;
+    int pixels[2] = {0, 0};
+    glfw.GetWindowSize(window->handle, &width, &height);
+    glfw.GetFramebufferSize(window->handle, &pixels[0], &pixels[1]);
+    *x = width > 0 && pixels[0] > 0 ? (double)pixels[0] / width : 1;
+    *y = height > 0 && pixels[1] > 0 ? (double)pixels[1] / height : 1;
+}
+
+void window_input(Window *window, double seconds, WindowInput *input)
+{
+    WindowInput *events = &window->pending;
     if (seconds > 0)
         glfw.WaitEventsTimeout(seconds);
     else
         glfw.PollEvents();
-    *input = window->pending;
-    window->pending = (WindowInput){.closed = false};
-
-    input->closed = glfw.WindowShouldClose(window->handle);
-    glfw.GetFramebufferSize(window->handle, &input->width, &input->height);
-    if (glfw.GetWindowAttrib(window->handle, GLFW_ICONIFIED))
-        input->width = input->height = 0;
-    glfw.GetWindowContentScale(window->handle, &scale_x, &scale_y);
-    input->scale = fmax(1, (double)scale_y);
-    glfw.GetCursorPos(window->handle, &input->x, &input->y);
-    glfw.GetWindowSize(window->handle, &width, &height);
-    if (width > 0 && height > 0) {
-        const double x = (double)input->width / width, y = (double)input->height / height;
-        input->x *= x;
-        input->y *= y;
-        input->drag_x *= x;
-        input->drag_y *= y;
+    if (events->touched || window->state.width == 0) { /* hidden: not every change is an event */
+        double x, y;
+        window->state = ask(window);
+        pixels_per_unit(window, &x, &y);
+        window->state.x *= x;
+        window->state.y *= y;
+        events->drag_x *= x;
+        events->drag_y *= y;
     }
+    *input = window->state;
+    input->touched = events->touched;
+    input->drag_x = events->drag_x;
+    input->drag_y = events->drag_y;
+    input->scroll = events->scroll;
+    input->typed_count = events->typed_count;
+    memcpy(input->typed, events->typed, sizeof input->typed);
+    memcpy(input->pressed, events->pressed, sizeof input->pressed);
     for (int i = 0; i < WINDOW_BUTTONS; i++)
-        input->buttons[i] |= glfw.GetMouseButton(window->handle, i) == GLFW_PRESS;
+        input->buttons[i] |= events->buttons[i];
     for (int i = 0; i < WINDOW_KEY_COUNT; i++)
-        input->down[i] |= glfw.GetKey(window->handle, KEYS[i]) == GLFW_PRESS;
-    input->control = glfw.GetKey(window->handle, GLFW_KEY_LEFT_CONTROL) == GLFW_PRESS ||
-                     glfw.GetKey(window->handle, GLFW_KEY_RIGHT_CONTROL) == GLFW_PRESS;
-    input->shift = glfw.GetKey(window->handle, GLFW_KEY_LEFT_SHIFT) == GLFW_PRESS ||
-                   glfw.GetKey(window->handle, GLFW_KEY_RIGHT_SHIFT) == GLFW_PRESS;
+        input->down[i] |= events->down[i];
+    *events = (WindowInput){.touched = false};
 }
 
 void window_swap(Window *window)
@@ -398,6 +471,24 @@ double window_refresh_rate(Window *window)
 void window_title(Window *window, const char *title)
 {
     glfw.SetWindowTitle(window->handle, title);
+}
+
+void window_resize(Window *window, int *width, int *height)
+{
+    GLFWmonitor *monitor;
+    const GLFWvidmode *mode = video_mode(&monitor);
+    int now[2];
+    double x, y;
+    pixels_per_unit(window, &x, &y);
+    glfw.GetWindowSize(window->handle, &now[0], &now[1]);
+    const int most[2] = {mode && mode->width > now[0] ? mode->width : now[0],
+                         mode && mode->height > now[1] ? mode->height : now[1]};
+    const int asked[2] = {between((int)lrint(*width / x), 1, most[0]),
+                          between((int)lrint(*height / y), 1, most[1])};
+    glfw.SetWindowSize(window->handle, asked[0], asked[1]);
+    *width = (int)lrint(asked[0] * x);
+    *height = (int)lrint(asked[1] * y);
+    forget_error();
 }
 
 void window_full_screen(Window *window, bool full)

@@ -52,6 +52,25 @@ static double within(double value, double min, double max, double otherwise)
     return isfinite(value) ? fmin(fmax(value, min), max) : otherwise;
 }
 
+void panel_margins(PanelView view, double scale, int margins[2])
+{
+    const double own = within(scale, MIN_SCALE, MAX_SCALE, 1);
+    const int wide = PANEL_WIDTH + 2 * PANEL_MARGIN, high = PANEL_FOLDED_HEIGHT + 2 * PANEL_MARGIN;
+    margins[0] = view == PANEL_OPEN ? (int)lrint(own * wide) : 0;
+    margins[1] = view == PANEL_FOLDED ? (int)lrint(own * high) : 0;
+}
+
+void panel_room(PanelView view, double scale, int width, int height, int room[2])
+{
+    const int size[2] = {width, height};
+    int margins[2];
+    panel_margins(view, scale, margins);
+    for (int i = 0; i < 2; i++) {
+        const int most = (int)(2LL * size[i] / 3);
+        room[i] = size[i] - (margins[i] < most ? margins[i] : most);
+    }
+}
+
 /* Dear ImGui aborts on invalid numbers. */
 static WindowInput sane(const WindowInput *input)
 {
@@ -74,6 +93,7 @@ bool panel_frame(Panel *panel, const PanelInput *input, const PanelContent *cont
     const WindowInput window = sane(input->window);
     PanelInput own = *input;
     own.window = &window;
+    panel_room(content->view, window.scale, window.width, window.height, own.room);
     own.seconds = within(input->seconds, 0, LONGEST_FRAME, 0);
     *result = (PanelResult){.view = content->view};
     const bool something =

@@ -21,11 +21,20 @@ typedef enum PanelView { PANEL_HIDDEN, PANEL_FOLDED, PANEL_OPEN } PanelView;
 typedef struct PanelInput {
     const WindowInput *window; /* invalid sizes and positions are ignored */
     double seconds;            /* since the last frame */
+    int room[2];               /* of the picture; panel_frame sets it */
     /* The clipboard and its functions, which may be NULL. */
     void *clipboard;
     const char *(*get_clipboard)(void *clipboard);
     void (*set_clipboard)(void *clipboard, const char *text);
 } PanelInput;
+
+/* What the panel wants of the window beside the picture: to the right of it, and above it. Pixels.
+ */
+void panel_margins(PanelView view, double scale, int margins[2]);
+
+/* The size of the picture in a window of this size, from its lower left corner. The picture gets at
+ * least a third of the window, and a pixel. */
+void panel_room(PanelView view, double scale, int width, int height, int room[2]);
 
 /* A line of help: "space", "pauses". */
 typedef struct PanelHelp {

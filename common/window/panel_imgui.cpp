@@ -29,7 +29,7 @@ static_assert(sizeof(PanelVertex) == sizeof(ImDrawVert) &&
 static_assert(sizeof(ImDrawIdx) == sizeof(uint16_t), "indices are copied as they are");
 
 // In pixels of an ordinary screen.
-constexpr float TEXT_SIZE = 14, MONO_SIZE = 13, PANEL_WIDTH = 340, MARGIN = 8;
+constexpr float TEXT_SIZE = 14, MONO_SIZE = 13;
 constexpr size_t LONGEST_TEXT = 8192; // in one piece: a letter is 4 vertices, with 16-bit indices
 
 const ImVec4 PLAIN(0.90f, 0.91f, 0.93f, 1), DIM(0.56f, 0.59f, 0.64f, 1),
@@ -754,7 +754,7 @@ constexpr ImGuiWindowFlags OVERLAY =
 
 float margin(const Context &context)
 {
-    return std::round(MARGIN * context.scale);
+    return std::round(PANEL_MARGIN * context.scale);
 }
 
 // Its sections, below the title, in a window that may have this height.
@@ -790,11 +790,15 @@ void panel_window(Context &context, const PanelContent &content, PanelResult &re
     const char *name = content.name ? content.name : "";
     const float own_width = ImGui::CalcTextSize(name).x + ImGui::GetFontSize() +
                             4 * style.FramePadding.x + 2 * style.WindowPadding.x;
-    const float width = std::min(open ? std::round(PANEL_WIDTH * context.scale) : own_width,
-                                 std::max(display.x - 2 * edge, 4.0f));
+    // Beside the picture, or above it.
+    const float left = open ? float(context.input->room[0]) : 0;
     const float below = content.errors ? context.errors_height + edge : 0;
-    const float max = std::max(display.y - 2 * edge - below, 4.0f);
-    ImGui::SetNextWindowPos(ImVec2(edge, edge));
+    const float bottom = open ? display.y - below : display.y - float(context.input->room[1]);
+    const float most = display.x - left - 2 * edge, max = bottom - 2 * edge;
+    if (most < 4 * edge || max < 2 * edge)
+        return;
+    const float width = open ? most : std::min(own_width, most);
+    ImGui::SetNextWindowPos(ImVec2(left + edge, edge));
     ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0), ImVec2(width, max));
     const ImGuiWindowFlags flags =
         (FIXED & ~ImGuiWindowFlags_NoScrollbar) | ImGuiWindowFlags_NoBringToFrontOnFocus;
@@ -857,7 +861,9 @@ void notice_window(const Context &context, const char *notice)
     const float max = std::max(display.x - 2 * edge, 4.0f);
     const float padding = 2 * ImGui::GetStyle().WindowPadding.x;
     const float width = std::min(ImGui::CalcTextSize(notice).x + padding + 1, max);
-    ImGui::SetNextWindowPos(ImVec2(display.x - edge, edge), ImGuiCond_Always, ImVec2(1, 0));
+    // In the picture's upper left corner.
+    const float top = display.y - float(context.input->room[1]);
+    ImGui::SetNextWindowPos(ImVec2(edge, top + edge));
     ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0), ImVec2(width, FLT_MAX));
     if (ImGui::Begin("notice", nullptr, OVERLAY))
         put_wrapped(notice);

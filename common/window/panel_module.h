@@ -11,6 +11,10 @@ extern "C" {
 
 #include "window/panel.h"
 
+/* In pixels of an ordinary screen: the panel's width, its height folded, and what is left around
+ * it. */
+enum { PANEL_WIDTH = 340, PANEL_FOLDED_HEIGHT = 36, PANEL_MARGIN = 8 };
+
 /* Functions return true, or false with the reason in `reason` (without a subject). A frame's window
  * is at least 1x1, and its numbers are finite; a place that was none is outside the window. */
 typedef struct PanelModule {

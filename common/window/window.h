@@ -43,6 +43,7 @@ enum { WINDOW_MAX_TYPED = 64, WINDOW_BUTTONS = 3 };
 /* Events since the last call, and the current state. Lengths are framebuffer pixels, of which a
  * screen unit may have several; y is 0 at the top. */
 typedef struct WindowInput {
+    bool touched;                     /* there was an event, of any kind */
     bool closed;                      /* the user closed the window */
     int width, height;                /* of the framebuffer; 0 while minimized */
     double scale;                     /* of text, 1 on a standard screen */
@@ -60,7 +61,8 @@ typedef struct WindowInput {
 /* Windows are hidden until shown. */
 void window_show(Window *window);
 
-/* Waits at most `seconds`, which may be 0, for an event, and returns the input. */
+/* Waits at most `seconds`, which may be 0, for an event, and returns the input. Without an event
+ * the display is asked nothing. */
 void window_input(Window *window, double seconds, WindowInput *input);
 
 /* Shows framebuffer 0; waits for the vertical blank unless window_wait_for_screen disabled that or
@@ -72,6 +74,10 @@ void window_wait_for_screen(Window *window, bool wait);
 double window_refresh_rate(Window *window);
 
 void window_title(Window *window, const char *title);
+
+/* Asks for a size in framebuffer pixels, and sets it to what is asked for: no larger than the
+ * screen, unless the window is. What a window manager makes of that, window_input tells. */
+void window_resize(Window *window, int *width, int *height);
 
 /* Full screen, or the position and size before that. */
 void window_full_screen(Window *window, bool full);

@@ -160,6 +160,13 @@ class Folders(Case):
         self.assertEqual(self.start(), (0, text, ""))
         self.assertFalse(os.path.exists(self.path("tree/build")))
 
+    def test_a_program_is_told_how_it_was_started(self):
+        """For the command that its window shows."""
+        self.tool("ninja", TOOLS["ninja"].replace("ran $0", "$LIGHTING_RUN"))
+        self.protect()
+        code, text, said = self.start()
+        self.assertEqual((code, text), (0, self.run_path + "\n"), said)
+
     def test_the_cache_may_be_elsewhere(self):
         self.protect()
         for cache, there in ((self.path("home/other"), "home/other/lighting"),

@@ -31,6 +31,7 @@ MOVING = "LightedCube_animation"
 SCENE = "ShadingModels"
 # Beside every window of the tests, because the server draws the pointer into its picture.
 AWAY = SCREEN[0] - 5, SCREEN[1] - 5
+PANEL = 356  # by which a window with a panel is wider
 
 
 def wait_for(condition, what):
@@ -209,6 +210,8 @@ class Shown:
     def ends(self, code, said=""):
         self.ended = True
         self.case.assertEqual(self.process.wait(DEADLINE), code, self.said())
+        if said is None:
+            return
         if isinstance(said, str):
             self.case.assertEqual(self.said(), said)
         else:
@@ -219,6 +222,11 @@ class Shown:
         before = self.said()
         self.key("Escape")
         self.ends(0, before)
+
+
+def crop(pixels, stride, place):
+    x, y, width, height = place
+    return b"".join(pixels[3 * (stride * row + x):][:3 * width] for row in range(y, y + height))
 
 
 def seconds_of(picture):
@@ -253,7 +261,7 @@ class Case(base.Case):
     def assert_headless(self, picture, program, *arguments):
         """The picture is, to the last bit, the one that the command said with it draws headless."""
         name, *command = picture.command
-        self.assertEqual(name, program)
+        self.assertEqual(name, os.path.join(base.EXAMPLES, program))
         self.good(*command, *arguments, "-o", "headless.png", program=program)
         headless = self.png("headless.png")
         self.assertTrue(picture.pixels == headless.pixels, f"{program} {command}")
@@ -385,13 +393,13 @@ class Keys(Case):
         shown = self.show()
         self.assertRegex(shown.title(), rf"^{MOVING}, \d+ frames per second$")
         shown.pause()
-        self.assertRegex(shown.title(), rf"^{MOVING}, \d+ frames per second, paused$")
+        self.assertEqual(shown.title(), f"{MOVING}, paused")
         shown.key("space")
         wait_for(lambda: "paused" not in shown.title(), "time to run")
 
     def test_time_runs_as_the_clock_does(self):
         """Each moment saved lies between those before its key was pressed and after its file was
-        there, on a clock that began with the first of them: bounds without a tolerance."""
+        there, on a clock that began with the first of them."""
         shown = self.show("-t", "100", "-s", "60x60")
         moments = []
         for _ in range(4):
@@ -405,8 +413,9 @@ class Keys(Case):
             for second in moments:
                 if second[0] > first[0]:
                     elapsed = second[1] - first[1]
-                    self.assertGreaterEqual(elapsed, second[0] - first[2])
-                    self.assertLessEqual(elapsed, second[2] - first[0])
+                    # The time drawn is in whole milliseconds.
+                    self.assertGreaterEqual(elapsed, second[0] - first[2] - 0.001)
+                    self.assertLessEqual(elapsed, second[2] - first[0] + 0.001)
 
     def test_arrows_step_the_time(self):
         shown = self.show("-t", "3", "--fps", "4", "-s", "60x60", paused=True)
@@ -414,7 +423,7 @@ class Keys(Case):
         for key, there in (("Right", 0.25), ("Right", 0.5), ("Left", 0.25), ("Up", 1.25),
                            ("Down", 0.25), ("Down", -0.75)):
             shown.key(key)
-            self.assertAlmostEqual(seconds_of(shown.save()), begin + there, places=9)
+            self.assertAlmostEqual(seconds_of(shown.save()), begin + there, delta=0.0015)
         self.assert_shown(shown)
 
     def test_a_step_pauses(self):
@@ -474,6 +483,65 @@ class Keys(Case):
         wait_for(lambda: "saved" in shown.said(), "a saved picture")
 
 
+class Idle(Case):
+    def test_nothing_is_drawn_while_nothing_changes(self):
+        """An event is followed by three frames, and the pause has two, a key that goes down and up;
+        a notice ends."""
+        for panel in False, True:
+            shown = self.show("-v", "-s", "200x150", program=SCENE)
+            if panel:
+                shown.key("p")
+                time.sleep(0.5)
+            shown.pause()
+            time.sleep(2)
+            shown.key("Escape")
+            shown.ends(0, None)
+            drawn, still = map(int, re.search(
+                r"^window: (\d+) frames drawn, (\d+) of them while time stood still$",
+                shown.said(), re.MULTILINE).groups())
+            self.assertGreater(drawn, still)
+            self.assertLessEqual(still, 30)  # of 120, if each was drawn
+
+    def test_what_changes_is_drawn_although_time_stands_still(self):
+        os.mkdir(self.path("mine"))
+        with open(os.path.join(base.SOURCE, "shaders/lecture/LightedCube.frag"),
+                  encoding="utf-8") as file:
+            text = file.read()
+        shown = self.show("-s", "160x160", "--shaders", "mine", program="LightedCube", paused=True)
+        before = self.visible(shown)
+        self.make("mine/LightedCube.frag", text.replace("v_Color;\n}", "v_Color * 0.5;\n}"))
+        wait_for(lambda: self.visible(shown) != before, "the saved shader")
+        before = self.visible(shown)
+        shown.drag((80, 80), (60, 80))
+        wait_for(lambda: self.visible(shown) != before, "the dragged camera")
+
+
+class Commands(Case):
+    def assert_runs(self, shown, starts):
+        shown.pause()
+        shown.drag((100, 100), (61, 90))
+        picture = shown.save()
+        command = re.findall("the same without a window: (.*)", shown.said())[-1]
+        self.assertTrue(command.startswith(starts), command)
+        # Milliseconds, and tenths of a degree.
+        self.assertRegex(command, r"--time \d+(\.\d{1,3})? --orbit[ =][-.\d]{1,6},[-.\d]{1,6}$")
+        shown.leave()
+        os.remove(self.path("a b.png"))
+        subprocess.run(["sh", "-c", command], cwd=self.folder, check=True, timeout=DEADLINE)
+        self.assertTrue(self.png("a b.png").pixels == picture.pixels)
+
+    def test_what_is_said_runs_in_a_shell(self):
+        shown = self.show("-s", "150x150", "-o", "a b.png")
+        self.assert_runs(shown, os.path.join(base.EXAMPLES, MOVING) + " --output 'a b.png' ")
+        # With the script that started it.
+        os.mkdir(self.path("the scripts"))
+        self.make("the scripts/run", f'#!/bin/sh\nexec "{base.EXAMPLES}/$@"\n')
+        os.chmod(self.path("the scripts/run"), 0o755)
+        shown = self.show("-s", "150x150", "-o", "a b.png",
+                          environment={"LIGHTING_RUN": "the scripts/run"})
+        self.assert_runs(shown, f"'the scripts/run' {MOVING} --output 'a b.png' ")
+
+
 class Sizes(Case):
     def test_the_picture_has_the_window_s_size_and_aspect(self):
         shown = self.show(paused=True)
@@ -526,23 +594,44 @@ class Panel(Case):
         shown = self.show("-s", "500x400", program=SCENE, paused=True)
         plain = self.visible(shown)
         shown.key("p")
-        wait_for(lambda: self.visible(shown) != plain, "the panel")
+        wait_for(lambda: shown.place()[2:] == (500 + PANEL, 400), "a wider window")
+        left = lambda: crop(self.visible(shown), 500 + PANEL, (0, 0, 500, 400))
+        wait_for(lambda: left() == plain, "the whole picture")
         picture = shown.save()
         self.assertTrue(picture.pixels == plain)
         self.assert_headless(picture, SCENE)
         # What is dragged is the panel, not the camera. A frame lies between any two saved pictures.
-        for step in (("mousemove", 100, 60), ("mousedown", 1), ("mousemove", 160, 90),
+        for step in (("mousemove", 600, 60), ("mousedown", 1), ("mousemove", 660, 90),
                      ("mouseup", 1), ("mousemove", *AWAY)):
             self.server.xdotool(*step)
             self.assertIsNone(orbit_of(shown.save()))
         shown.drag((480, 380), (470, 380))
         self.assertIsNotNone(orbit_of(shown.save()))
+        # In a window that is too narrow the picture is smaller, and whole.
+        shown.resize(400, 300)
+        wait_for(lambda: shown.place()[2:] == (400, 300), "the size")
+        picture = wait_for(lambda: self.saved_with(shown, (134, 300)), "a narrow picture")
+        screen = lambda: crop(self.visible(shown), 400, (0, 0, 134, 300))
+        wait_for(lambda: screen() == picture.pixels, "the narrow picture")
+        self.assert_headless(picture, SCENE)
+
+    def saved_with(self, shown, size):
+        picture = shown.save()
+        return picture if (picture.width, picture.height) == size else None
+
+    def test_a_window_without_its_panel_is_as_it_was(self):
+        shown = self.show("-s", "900x300", program=SCENE, paused=True)
+        shown.key("p")
+        wait_for(lambda: shown.place()[2:] == (SCREEN[0], 300), "the whole width")
+        shown.key("p")
+        wait_for(lambda: shown.place()[2:] == (900, 300), "the window as it was")
+        self.assert_shown(shown)
 
     def test_a_switch_in_the_panel_is_the_option(self):
         """Where the switch lies is up to the panel: it is looked for, in a scene that stands
         still."""
         program, option = "PhongBlinn", ("--fit", "off")
-        size = ("-s", "700x560")
+        size = ("-s", "600x560")
         self.good(*size, "-o", "plain.png", program=program)
         self.good(*size, *option, "-o", "wanted.png", program=program)
         plain, wanted = self.png("plain.png").pixels, self.png("wanted.png").pixels
@@ -550,7 +639,7 @@ class Panel(Case):
         shown = self.show(*size, "-o", "a.png", program=program)
         shown.key("p")
         found = None
-        for x, y in ((x, y) for y in range(68, 150, 7) for x in (94, 106, 118, 130)):
+        for x, y in ((600 + x, y) for y in range(68, 150, 7) for x in (94, 106, 118, 130)):
             self.server.xdotool("mousemove", x, y, "click", 1, "mousemove", *AWAY)
             if shown.save().pixels == wanted:
                 found = x, y
@@ -564,10 +653,10 @@ class Panel(Case):
     @unittest.skipUnless(base.DIAGRAMS, "no cairo")
     def test_the_panel_moves_a_diagram(self):
         """A click on "blinn-phong"; where it lies is up to the panel."""
-        shown = self.show("-s", "700x560", "-o", "a.png", program="Vectors")
+        shown = self.show("-s", "600x560", "-o", "a.png", program="Vectors")
         plain, found = shown.save().pixels, False
         shown.key("p")
-        for x, y in ((x, y) for y in range(168, 190, 6) for x in (84, 92)):
+        for x, y in ((600 + x, y) for y in range(168, 190, 6) for x in (84, 92)):
             self.server.xdotool("mousemove", x, y, "click", 1, "mousemove", *AWAY)
             picture = shown.save()
             if picture.pixels != plain:

@@ -13,7 +13,8 @@
 #include <unistd.h>
 
 enum { MAX_ROWS = 32 };
-static const double LABEL_X = 20; /* in the names of the parameters */
+enum { LEFT = 644 };                     /* of the panel in a window of 1000 pixels */
+static const double LABEL_X = LEFT + 20; /* in the names of the parameters */
 
 static Panel *panel;
 static WindowInput window;
@@ -172,7 +173,7 @@ typedef struct Span {
 static int find_controls(double y, Span spans[8])
 {
     int count = 0, first = -1;
-    for (int x = 0; x < 400 && count < 8; x++) {
+    for (int x = LEFT; x < window.width && count < 8; x++) {
         const bool here = hovers(x, y);
         if (here && first < 0)
             first = x;
@@ -295,7 +296,7 @@ PANEL_TEST(test_a_slider_is_dragged)
     assert_true(fabs(number - 1) < 0.05);               /* two pixels of 200 */
     assert_true(number * 1000 == round(number * 1000)); /* a thousandth of the range, as decimals */
     assert_true(result.wants_pointer);
-    window.x = 990; /* far to the right, and below */
+    window.x = 999; /* far to the right, and below */
     window.y = 600;
     frame();
     assert_true(number == 3);
@@ -404,7 +405,7 @@ PANEL_TEST(test_an_incomplete_value_is_ignored)
     assert_true(number == 1.0 / 3);
     /* Left by a click elsewhere: the value is set. */
     type_into(x, y, "0.75");
-    assert_int_equal(click(900, 600), 1);
+    assert_int_equal(click(100, 600), 1);
     assert_true(number == 0.75);
 }
 
@@ -575,7 +576,7 @@ PANEL_TEST(test_the_title_collapses_it)
     set_every();
     show(EVERY);
     const int open = result.drawing.vertex_count;
-    click(30, 27);
+    click(LEFT + 30, 27);
     assert_int_equal(content.view, PANEL_FOLDED);
     frames(2);
     assert_true(result.drawing.vertex_count < open / 2);
@@ -589,19 +590,66 @@ PANEL_TEST(test_the_title_collapses_it)
     assert_int_equal(panel_next_view(PANEL_HIDDEN), PANEL_OPEN);
 }
 
+/* No visible part of a triangle is over the picture. */
+static void assert_beside(const int room[2])
+{
+    const PanelDrawing *drawing = &result.drawing;
+    for (int i = 0; i < drawing->command_count; i++) {
+        const PanelCommand *command = &drawing->commands[i];
+        for (int k = command->first; k < command->first + command->count; k++) {
+            const PanelVertex *vertex = &drawing->vertices[command->vertex + drawing->indices[k]];
+            const double right = fmax(vertex->x, command->x);
+            const double bottom = fmin(vertex->y, command->y + command->height);
+            assert_true(right >= room[0] || bottom <= window.height - room[1]);
+        }
+    }
+}
+
+/* Open beside the picture, folded above it; at every size of a window. */
+PANEL_TEST(test_the_panel_covers_nothing_of_the_picture)
+{
+    static const int sides[] = {1, 2, 30, 170, 400, 868, 5000};
+    static const PanelView views[] = {PANEL_HIDDEN, PANEL_FOLDED, PANEL_OPEN};
+    set_every();
+    content.parameters = EVERY;
+    content.effects = content.command = "some text";
+    for (int i = 0; i < 7 * 7 * 3 * 2; i++) {
+        int room[2];
+        window.width = sides[i % 7];
+        window.height = sides[i / 7 % 7];
+        window.scale = i / 147 + 1;
+        content.view = views[i / 49 % 3];
+        panel_room(content.view, window.scale, window.width, window.height, room);
+        assert_true(room[0] >= (window.width + 2) / 3 && room[1] >= (window.height + 2) / 3);
+        assert_true(room[0] <= window.width && room[1] <= window.height);
+        for (int k = 0; k < 3; k++)
+            frame();
+        assert_beside(room);
+    }
+    /* A window that grows by the margins keeps its picture. */
+    int margins[2], room[2];
+    panel_margins(PANEL_OPEN, 1, margins);
+    assert_true(margins[0] >= 340 && margins[1] == 0);
+    panel_room(PANEL_OPEN, 1, 512 + margins[0], 512, room);
+    assert_true(room[0] == 512 && room[1] == 512);
+    panel_margins(PANEL_FOLDED, NAN, margins);
+    panel_room(PANEL_FOLDED, NAN, 512, 512 + margins[1], room);
+    assert_true(margins[0] == 0 && margins[1] > 20 && room[0] == 512 && room[1] == 512);
+}
+
 PANEL_TEST(test_the_command_is_copied)
 {
     bool copied = false;
     content.command = "LightedCube --size 400x400 # 100%s";
     frames(3);
     for (double y = 60; y < 400 && !copied; y += 5) {
-        point(30, y);
+        point(LEFT + 30, y);
         window.buttons[0] = true;
         frame();
         window.buttons[0] = false;
         frame();
         copied = clipboard[0] != '\0';
-        if (!copied && click(30, y) == 0)
+        if (!copied && click(LEFT + 30, y) == 0)
             frame(); /* a collapsed section is expanded again */
     }
     assert_true(copied);
@@ -612,14 +660,14 @@ PANEL_TEST(test_elsewhere_the_pointer_belongs_to_the_picture)
 {
     set_every();
     show(EVERY);
-    point(100, 100);
+    point(LEFT + 100, 100);
     assert_true(result.wants_pointer);
-    point(700, 350);
+    point(300, 350);
     assert_false(result.wants_pointer);
     /* A drag that begins on the picture still belongs to the picture over the panel. */
     window.buttons[0] = true;
     frame();
-    point(100, 100);
+    point(LEFT + 100, 100);
     assert_false(result.wants_pointer);
     window.buttons[0] = false;
     frames(2);
@@ -768,7 +816,7 @@ PANEL_TEST(test_no_input_makes_an_impossible_value)
         random = random * 6364136223846793005U + 1442695040888963407U;
         const unsigned r = (unsigned)(random >> 33);
         if (r % 5 == 0) {
-            window.x = r / 5 % 360;
+            window.x = LEFT + r / 5 % 360;
             window.y = r / 2000 % 700;
         }
         window.buttons[0] = r / 7 % 3 != 0;
