@@ -497,10 +497,10 @@ static bool draw_frame(Stage *stage, const Options *options, double seconds, boo
     int place[4];
     if (stage->example->scene && !choose_all(stage, options, seconds, message))
         return false;
-    /* The exact picture has a background. */
+    /* The exact picture has a background, and alpha says what the objects cover. */
     canvas_clear(canvas,
                  options->alpha && marks ? (Vec3){0, 0, 0} : background(stage->example, seconds),
-                 options->alpha ? 0 : 1);
+                 options->alpha || !marks ? 0 : 1);
     if (!stage->example->scene)
         return draw_example(stage, options, seconds, message);
     for (int view = 0; view < stage_view_count(stage); view++) {
@@ -529,8 +529,7 @@ static bool add_views(Stage *stage, const Options *options, ErrorPicture *pictur
             continue;
         done = stage_view_open(&view, stage, options, picture->seconds, number, message) &&
                (view.asked.object_count == 0 ||
-                error_picture_add(picture, place, &view.asked, options->cheap ? &view.scene : NULL,
-                                  message));
+                error_picture_add(picture, place, &view.asked, message));
         stage_view_close(&view);
     }
     return done;

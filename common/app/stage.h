@@ -64,8 +64,8 @@ bool stage_picture(Stage *stage, const Options *options, double seconds, Picture
                    Message *message);
 
 /* For error_worker_start: draws one frame of an example with a scene, without marks, labels and
- * retouching, and copies its scenes as they were before --error simplified them. The canvas then
- * holds that frame. With --alpha the background's color stays, and its alpha is 0. */
+ * retouching, over the background's color with alpha 0, and copies its scenes as they were before
+ * --error simplified them. The canvas then holds that frame. */
 bool stage_error_picture(Stage *stage, const Options *options, double seconds,
                          ErrorPicture *picture, Message *message);
 

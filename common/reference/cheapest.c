@@ -3,6 +3,7 @@
 #include "base/cache.h"
 #include "base/paths.h"
 #include "base/version.h"
+#include "reference/picture_error.h"
 #include "reference/reference.h"
 
 #include <math.h>
@@ -142,22 +143,7 @@ static bool exact_make(Exact *exact, const Scene *scene, int width, int height, 
 
 /* Drawing and comparing. */
 
-static double channel(const Image *image, size_t index)
-{
-    if (image->type == IMAGE_BYTE)
-        return ((const unsigned char *)image->pixels)[index];
-    const double value = (double)((const float *)image->pixels)[index];
-    return isfinite(value) ? 255 * fmin(fmax(value, 0), 1) : NAN;
-}
-
-/* The alpha that a covered pixel has, but for rounding. */
-static double covered_alpha(const Object *object)
-{
-    const double front = object->front.alpha;
-    const double alpha = object->two_sided ? fmin(front, object->back.alpha) : front;
-    return 255 * alpha - 0.75;
-}
-
+/* Adds the errors of one moment's drawn picture to those of its objects. */
 static void compare(Search *search, const Exact *exact, const Scene *scene, double *largest)
 {
     const int *place = search->task->place;
@@ -168,15 +154,13 @@ static void compare(Search *search, const Exact *exact, const Scene *scene, doub
             const size_t pixel =
                 (size_t)(place[1] + y) * (size_t)image->width + (size_t)(place[0] + x);
             const int owner = exact->owner[i];
-            if (owner < 0 || channel(image, 4 * pixel + 3) < covered_alpha(&scene->objects[owner]))
+            if (owner < 0 || !pixel_is_interior(&scene->objects[owner], image, pixel))
                 continue;
-            double error = search->errors[owner];
-            for (size_t k = 0; k < 3; k++) {
-                const double apart = fabs(channel(image, 4 * pixel + k) -
-                                          (double)exact->colors[3 * i + k] * (255.0 / 65535));
-                error = fmax(error, isnan(apart) ? 255 : apart);
-            }
-            search->errors[owner] = error;
+            float color[3];
+            for (size_t k = 0; k < 3; k++)
+                color[k] = (float)exact->colors[3 * i + k] / 65535;
+            const double error = pixel_error(image, pixel, color).largest;
+            search->errors[owner] = fmax(search->errors[owner], error);
             *largest = fmax(*largest, error);
         }
     }

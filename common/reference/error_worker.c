@@ -32,20 +32,13 @@ bool error_picture_open(ErrorPicture *picture, int width, int height, ImageType 
     return false;
 }
 
-bool error_picture_add(ErrorPicture *picture, const int place[4], const Scene *asked,
-                       const Scene *drawn, Message *message)
+bool error_picture_add(ErrorPicture *picture, const int place[4], const Scene *scene,
+                       Message *message)
 {
     ErrorView *view = &picture->views[picture->view_count];
     picture->view_count++;
     memcpy(view->place, place, sizeof view->place);
-    return scene_copy_open(&view->asked, asked, true, message) &&
-           (!drawn || scene_copy_open(&view->drawn, drawn, true, message));
-}
-
-static void view_close(ErrorView *view)
-{
-    scene_copy_close(&view->asked);
-    scene_copy_close(&view->drawn);
+    return scene_copy_open(&view->scene, scene, true, message);
 }
 
 void error_picture_close(ErrorPicture *picture)
@@ -53,7 +46,7 @@ void error_picture_close(ErrorPicture *picture)
     if (!picture)
         return;
     for (int i = 0; i < picture->view_count; i++)
-        view_close(&picture->views[i]);
+        scene_copy_close(&picture->views[i].scene);
     free(picture->views);
     image_close(&picture->image);
     *picture = (ErrorPicture){.views = NULL};
@@ -61,42 +54,17 @@ void error_picture_close(ErrorPicture *picture)
 
 /* Computing. */
 
-/* The meshes as drawn, unlit: only objects and depths count. */
-static Scene shapes_of(const ErrorView *view)
-{
-    Scene scene = view->drawn.objects ? view->drawn.scene : view->asked.scene;
-    scene.light_count = 0;
-    scene.interpolation = INTERPOLATION_PHONG;
-    return scene;
-}
-
-static bool has_solids(const Scene *scene)
-{
-    for (int i = 0; i < scene->object_count; i++)
-        if (scene->objects[i].solid.kind != SOLID_NONE)
-            return true;
-    return false;
-}
-
 static bool add_view(PictureError *error, const Image *image, const ErrorView *view, int threads,
                      const atomic_bool *stop, Message *message)
 {
-    const Scene shapes = shapes_of(view);
-    const bool differ = has_solids(&view->asked.scene);
-    Reference exact = {.width = 0}, drawn = {.width = 0};
+    Reference exact;
     const ReferenceOptions options = {
         .width = view->place[2], .height = view->place[3], .threads = threads, .stop = stop};
-    ReferenceOptions of_meshes = options;
-    of_meshes.meshes = true;
-    of_meshes.edge_error = 255; /* colors do not count */
-    const bool done = reference_open(&exact, &view->asked.scene, &options, message) &&
-                      (!differ || reference_open(&drawn, &shapes, &of_meshes, message));
-    if (done)
-        picture_error_add(error, image, view->place[0], view->place[1], &exact,
-                          differ ? &drawn : NULL);
+    if (!reference_open(&exact, &view->scene.scene, &options, message))
+        return false;
+    picture_error_add(error, image, view->place[0], view->place[1], &exact, &view->scene.scene);
     reference_close(&exact);
-    reference_close(&drawn);
-    return done;
+    return true;
 }
 
 bool error_worker_compute(const ErrorPicture *picture, int threads, const atomic_bool *stop,

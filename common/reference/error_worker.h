@@ -15,12 +15,11 @@
 
 /* A part of the picture with its scene. */
 typedef struct ErrorView {
-    int place[4]; /* x, y, width, height, in pixels from the upper left; 1x1 or more */
-    SceneCopy asked;
-    SceneCopy drawn; /* empty: as asked */
+    int place[4];    /* x, y, width, height, in pixels from the upper left; 1x1 or more */
+    SceneCopy scene; /* whose exact picture counts */
 } ErrorView;
 
-/* A picture as drawn, of scenes alone, without overlay or text. */
+/* A picture as drawn, of scenes alone, without overlay or text, over a background of alpha 0. */
 typedef struct ErrorPicture {
     Image image;
     double seconds; /* the moment; comes back with the result */
@@ -33,10 +32,9 @@ typedef struct ErrorPicture {
 bool error_picture_open(ErrorPicture *picture, int width, int height, ImageType type, int max_views,
                         Message *message);
 
-/* Adds a view: copies of the scene whose exact picture counts, and, if not NULL, of that which was
- * drawn in its place with other meshes. Both have passed scene_check. */
-bool error_picture_add(ErrorPicture *picture, const int place[4], const Scene *asked,
-                       const Scene *drawn, Message *message);
+/* Adds a view with a copy of its scene, which has passed scene_check. */
+bool error_picture_add(ErrorPicture *picture, const int place[4], const Scene *scene,
+                       Message *message);
 void error_picture_close(ErrorPicture *picture); /* NULL or a zeroed picture is fine */
 
 /* The last picture that was finished, if there is one. */

@@ -11,12 +11,11 @@ static double steps(const Image *image, size_t index)
     return !isfinite(value) ? NAN : value < 0 ? 0 : value > 1 ? 255 : 255 * value;
 }
 
-PixelError pixel_error(const Image *image, size_t pixel, const Reference *exact, size_t exact_pixel)
+PixelError pixel_error(const Image *image, size_t pixel, const float color[3])
 {
     PixelError error = {0, 0};
     for (size_t c = 0; c < 3; c++) {
-        const double apart =
-            fabs(steps(image, 4 * pixel + c) - 255 * (double)exact->color[3 * exact_pixel + c]);
+        const double apart = fabs(steps(image, 4 * pixel + c) - 255 * (double)color[c]);
         const double off = isnan(apart) ? 255 : apart;
         error.largest = fmax(error.largest, off);
         error.squares += off * off;
@@ -40,29 +39,28 @@ double error_sum_rms(const ErrorSum *sum)
     return sum->pixels ? sqrt(sum->squares / (3.0 * (double)sum->pixels)) : NAN;
 }
 
-bool pixel_is_interior(const Reference *exact, const Reference *drawn, int x, int y)
+bool pixel_is_interior(const Object *object, const Image *image, size_t pixel)
 {
-    static const double DEPTH = 0.05;
-    const size_t width = (size_t)exact->width, pixel = (size_t)y * width + (size_t)x;
-    if (!exact->interior[pixel] || !drawn)
-        return exact->interior[pixel];
-    for (int j = y > 0 ? y - 1 : 0; j <= y + 1 && j < exact->height; j++)
-        for (int i = x > 0 ? x - 1 : 0; i <= x + 1 && i < exact->width; i++)
-            if (drawn->object[(size_t)j * width + (size_t)i] != exact->object[pixel])
-                return false;
-    return fabs(drawn->depth[pixel] - exact->depth[pixel]) <= DEPTH * exact->depth[pixel];
+    static const double ROUNDING = 0.75;
+    if (!object)
+        return false;
+    const double front = object->front.alpha, back = object->back.alpha;
+    const double alpha = object->two_sided ? fmin(front, back) : front;
+    return !(steps(image, 4 * pixel + 3) < 255 * alpha - ROUNDING);
 }
 
 void picture_error_add(PictureError *error, const Image *image, int left, int top,
-                       const Reference *exact, const Reference *drawn)
+                       const Reference *exact, const Scene *scene)
 {
     for (int y = 0; y < exact->height; y++) {
         for (int x = 0; x < exact->width; x++) {
             const size_t pixel = (size_t)(top + y) * (size_t)image->width + (size_t)(left + x);
             const size_t exact_pixel = (size_t)y * (size_t)exact->width + (size_t)x;
-            const PixelError found = pixel_error(image, pixel, exact, exact_pixel);
+            const PixelError found = pixel_error(image, pixel, &exact->color[3 * exact_pixel]);
+            const Object *inside =
+                exact->interior[exact_pixel] ? &scene->objects[exact->object[exact_pixel]] : NULL;
             error_sum_add(&error->all, found, pixel);
-            if (pixel_is_interior(exact, drawn, x, y))
+            if (pixel_is_interior(inside, image, pixel))
                 error_sum_add(&error->interior, found, pixel);
         }
     }

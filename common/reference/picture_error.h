@@ -9,6 +9,7 @@
 
 #include "base/image.h"
 #include "reference/reference.h"
+#include "scene/scene.h"
 
 /* Of one pixel. */
 typedef struct PixelError {
@@ -16,9 +17,8 @@ typedef struct PixelError {
     double squares; /* their sum */
 } PixelError;
 
-/* Pixel `pixel` of the image against `exact_pixel` of the exact picture: indices in row order. */
-PixelError pixel_error(const Image *image, size_t pixel, const Reference *exact,
-                       size_t exact_pixel);
+/* Pixel `pixel` of the image, in row order, against the exact color: see Reference. */
+PixelError pixel_error(const Image *image, size_t pixel, const float color[3]);
 
 /* The error of a set of pixels. Zeroed: the empty set. */
 typedef struct ErrorSum {
@@ -38,22 +38,20 @@ typedef struct PictureError {
     ErrorSum all;      /* of every pixel: shading and silhouettes */
 } PictureError;
 
-/* Whether a pixel is inside an object. This is the only definition of that in the project:
+/* Whether a pixel is inside an object: the only definition of that in the project.
  *
- * - no edge runs through the pixel in the exact picture (Reference.interior), and
- * - if `drawn` is not NULL: the pixel and its 8 neighbors show the same object in `drawn` as the
- *   pixel does in the exact picture, and its depth there differs by at most 5%.
- *
- * `drawn` has the objects and depths at pixel centers of the meshes as drawn; only these two arrays
- * are read. It is NULL if the meshes are the exact shapes: if the scene has no solids. A coarse
- * mesh does not cover its exact shape up to the outline. Neighbors outside the picture do not
- * count. */
-bool pixel_is_interior(const Reference *exact, const Reference *drawn, int x, int y);
+ * - No edge runs through it in the exact picture: it lies wholly inside one surface, smoothly lit.
+ *   `object` is that surface's, where Reference.interior is 1, else NULL.
+ * - The drawn objects cover it wholly, whichever of them it shows: its alpha, channel 3 of pixel
+ *   `pixel` of the drawn image, is that of an object, over a background whose alpha is 0. A coarse
+ *   mesh does not reach its exact shape's outline: what is missing there is an error of the
+ *   silhouette, not of shading. */
+bool pixel_is_interior(const Object *object, const Image *image, size_t pixel);
 
 /* Adds every pixel of the exact picture, whose upper left pixel is (left, top) in the image and
- * which lies within it. `drawn`: as above, of the same size. Several views of one image are added
- * one after another. */
+ * which lies within it. `scene`: of the exact picture. Several views of one image are added one
+ * after another. */
 void picture_error_add(PictureError *error, const Image *image, int left, int top,
-                       const Reference *exact, const Reference *drawn);
+                       const Reference *exact, const Scene *scene);
 
 #endif

@@ -675,7 +675,10 @@ void cost_section(const PanelContent &content)
         ImGui::NewLine();
     } else if (error.known) {
         ImGui::PushStyleColor(ImGuiCol_Text, error.computing ? DIM : PLAIN);
-        ImGui::Text("rms %.3g, at most %.3g", error.rms, error.maximum);
+        ImGui::Text("rms %.3g, at most %.3g, inside", error.rms, error.maximum);
+        if (ImGui::IsItemHovered())
+            ImGui::SetTooltip("of the pixels wholly inside one surface\n"
+                              "and covered by what is drawn; edges\ndo not count");
         ImGui::NewLine();
         ImGui::SameLine(left);
         ImGui::Text("steps of 1/255, at %.2f s", error.seconds);

@@ -65,8 +65,9 @@ static void make_details(void)
         return;
     fprintf(file,
             "Errors are in steps of 1/255, against the exact picture of the shapes (solids) or of "
-            "the\nmesh as given (models): of the pixels inside an object (interior) or of all "
-            "pixels. Times are of a frame, drawn and read back.\n"
+            "the\nmesh as given (models): of the pixels inside an object (interior: wholly inside "
+            "one\nsurface, and covered by what is drawn) or of all pixels. Times are of a frame, "
+            "drawn and\nread back.\n"
             "\nScenes:\n");
     for (int i = 0; i < STUDY_SCENE_COUNT; i++)
         fprintf(file, "  %-14s %s\n", STUDY_SCENES[i].name, STUDY_SCENES[i].what);
@@ -102,17 +103,16 @@ static bool write_sheet(Survey *survey, const char *name, const Scene *drawn,
                         Message *message)
 {
     Drawing drawing;
-    DrawingError error;
     char text[QUALITY_TEXT_SIZE], caption[QUALITY_TEXT_SIZE + 320];
     if (!drawing_open(&drawing, survey->studio, drawn, quality, message))
         return false;
-    bool done = drawing_error(&drawing, survey->studio, exact, &error, message);
+    const DrawingError error = drawing_error(&drawing, exact);
     quality_text(quality, text);
     snprintf(caption, sizeof caption,
              "%s: %s. Interior: largest error %.2f, rms %.3f; all: rms %.2f. %s, LP_NUM_THREADS %s",
              name, text, error.interior_maximum, error.interior_rms, error.all_rms,
              survey->like.renderer, survey->like.threads);
-    done = done && report_sheet(&drawing.image, exact, caption, path, message);
+    const bool done = report_sheet(&drawing.image, exact, caption, path, message);
     drawing_close(&drawing);
     return done;
 }

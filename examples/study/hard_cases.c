@@ -102,10 +102,10 @@ static bool measure(const Way *naive, const Way *stable, HardResult *result, Mes
     return true;
 }
 
-static HardError error_of(const Image *image, const Reference *exact)
+static HardError error_of(const Image *image, const Reference *exact, const Scene *scene)
 {
     PictureError error = {.all = {0}};
-    picture_error_add(&error, image, 0, 0, exact, NULL);
+    picture_error_add(&error, image, 0, 0, exact, scene);
     const ErrorSum *inside = &error.interior;
     return (HardError){
         .maximum = inside->maximum,
@@ -126,8 +126,8 @@ static bool draw_ways(Way *naive, Way *stable, HardResult *result, Message *mess
     if (!draw_frame(naive, message) || !canvas_read(canvas, &result->naive, message) ||
         !draw_frame(stable, message) || !canvas_read(canvas, &result->stable, message))
         return false;
-    result->naive_error = error_of(&result->naive, &result->exact);
-    result->stable_error = error_of(&result->stable, &result->exact);
+    result->naive_error = error_of(&result->naive, &result->exact, stable->scene);
+    result->stable_error = error_of(&result->stable, &result->exact, stable->scene);
     return true;
 }
 

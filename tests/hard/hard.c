@@ -99,8 +99,8 @@ HardResult hard_draw(Hard *hard, const Scene *scene, HardPrecision precision,
     for (size_t i = 0; i < count; i++) {
         if (!right->interior[i]) /* only the insides of objects are compared */
             continue;
-        error_sum_add(&bytes, pixel_error(&hard->image, i, right, i), i);
-        error_sum_add(&floats, pixel_error(&hard->real, i, right, i), i);
+        error_sum_add(&bytes, pixel_error(&hard->image, i, &right->color[3 * i]), i);
+        error_sum_add(&floats, pixel_error(&hard->real, i, &right->color[3 * i]), i);
     }
     result.interior_pixels = (int)bytes.pixels;
     result.byte_error = bytes.maximum;

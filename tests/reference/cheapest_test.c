@@ -487,7 +487,7 @@ static void judge_view(const ErrorPicture *picture, const ErrorView *view, int s
                        Verdict *verdict)
 {
     const int *place = view->place;
-    const Scene *scene = &view->asked.scene;
+    const Scene *scene = &view->scene.scene;
     const ReferenceOptions options = {.width = place[2], .height = place[3]};
     const double alpha = floor(255 * smallest_alpha(scene));
     Reference exact;
@@ -582,7 +582,6 @@ static Verdict run(const Command *command, bool timed)
         words[1 + i] = (char *)command->words[i];
     require(options_read(&options, &usage, command->count + 1, words, FAILURE) == OPTIONS_RUN,
             FAILURE);
-    options.alpha = true;
     require(stage_open_canvas(&canvas, &options, "x.png", FAILURE), FAILURE);
     require(stage_open(&stage, example, &canvas, &options, FAILURE), FAILURE);
     verdict.allowed = options.error;

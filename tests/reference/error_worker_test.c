@@ -91,8 +91,7 @@ static Scene scene_of(const Example *example, const Options *options, int view)
     return scene;
 }
 
-/* Of all views, pixel by pixel. The meshes as drawn, the stage's own, count only in views with
- * solids: other meshes are the exact shapes. */
+/* Of all views, pixel by pixel. */
 static PictureError expect(const Example *example, const Options *options, const Image *image)
 {
     PictureError error = {.all = {0}};
@@ -104,23 +103,14 @@ static PictureError expect(const Example *example, const Options *options, const
         const int left = column * (image->width / columns), top = row * (image->height / rows);
         const int right = left + image->width / columns;
         const int bottom = top + image->height / rows;
-        Scene scene = scene_of(example, options, view);
+        const Scene scene = scene_of(example, options, view);
         if (right == left || bottom == top || scene.object_count == 0)
             continue;
-        Reference exact, meshes;
-        bool has_solids = false;
-        for (int i = 0; i < scene.object_count; i++)
-            has_solids |= scene.objects[i].solid.kind != SOLID_NONE;
-        ReferenceOptions size = {.width = right - left, .height = bottom - top};
+        Reference exact;
+        const ReferenceOptions size = {.width = right - left, .height = bottom - top};
         require(reference_open(&exact, &scene, &size, FAILURE), FAILURE);
-        size.meshes = true;
-        size.edge_error = 255;
-        scene.light_count = 0;
-        scene.interpolation = INTERPOLATION_PHONG;
-        require(reference_open(&meshes, &scene, &size, FAILURE), FAILURE);
-        picture_error_add(&error, image, left, top, &exact, has_solids ? &meshes : NULL);
+        picture_error_add(&error, image, left, top, &exact, &scene);
         reference_close(&exact);
-        reference_close(&meshes);
     }
     return error;
 }
@@ -198,9 +188,7 @@ static ErrorPicture copy_of(const ErrorPicture *picture)
     copy.seconds = picture->seconds;
     for (int i = 0; i < picture->view_count; i++) {
         const ErrorView *view = &picture->views[i];
-        require(error_picture_add(&copy, view->place, &view->asked.scene,
-                                  view->drawn.objects ? &view->drawn.scene : NULL, FAILURE),
-                FAILURE);
+        require(error_picture_add(&copy, view->place, &view->scene.scene, FAILURE), FAILURE);
     }
     return copy;
 }
@@ -229,8 +217,7 @@ TEST(the_worker_finds_the_error_that_is_computed_here)
             assert_false(result.computing);
             assert_true(result.seconds == SECONDS);
             assert_same_sum(of->name, &result.error.all, &of->expected.all);
-            if (!WAYS[way].options.cheap)
-                assert_same_sum(of->name, &result.error.interior, &of->expected.interior);
+            assert_same_sum(of->name, &result.error.interior, &of->expected.interior);
             if (WAYS[way].options.width == WIDTH)
                 print_message("%-34s inside rms %6.3f, largest %7.2f; all rms %6.3f, largest "
                               "%7.2f; %4.0f ms\n",
@@ -325,9 +312,9 @@ static ErrorPicture picture_of(const Scene *scene, int width, int height, double
     const int place[4] = {0, 0, width, height};
     ErrorPicture picture;
     require(error_picture_open(&picture, width, height, IMAGE_BYTE, 1, FAILURE), FAILURE);
-    memset(picture.image.pixels, 100, image_row_size(&picture.image) * (size_t)height);
+    memset(picture.image.pixels, 255, image_row_size(&picture.image) * (size_t)height);
     picture.seconds = seconds;
-    require(error_picture_add(&picture, place, scene, NULL, FAILURE), FAILURE);
+    require(error_picture_add(&picture, place, scene, FAILURE), FAILURE);
     return picture;
 }
 

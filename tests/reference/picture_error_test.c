@@ -16,7 +16,10 @@ enum { WIDTH = 7, HEIGHT = 5, COUNT = WIDTH * HEIGHT };
 typedef struct Plain {
     float color[3 * COUNT];
     unsigned char interior[COUNT];
+    int object[COUNT];
     Reference exact;
+    Object objects[3];
+    Scene scene;
 } Plain;
 
 static void plain_open(Plain *plain, int width, int height, float value)
@@ -24,8 +27,14 @@ static void plain_open(Plain *plain, int width, int height, float value)
     for (int i = 0; i < 3 * COUNT; i++)
         plain->color[i] = value;
     memset(plain->interior, 1, sizeof plain->interior);
-    plain->exact = (Reference){
-        .width = width, .height = height, .color = plain->color, .interior = plain->interior};
+    memset(plain->object, 0, sizeof plain->object);
+    memset(plain->objects, 0, sizeof plain->objects); /* no alpha is less than theirs */
+    plain->exact = (Reference){.width = width,
+                               .height = height,
+                               .color = plain->color,
+                               .interior = plain->interior,
+                               .object = plain->object};
+    plain->scene = (Scene){.objects = plain->objects, .object_count = 3};
 }
 
 static Image open_image(int width, int height, ImageType type, double value)
@@ -54,7 +63,7 @@ static void put_float(Image *image, int x, int y, int channel, double value)
 static PictureError compare(const Image *image, const Plain *plain)
 {
     PictureError error = {.all = {0}};
-    picture_error_add(&error, image, 0, 0, &plain->exact, NULL);
+    picture_error_add(&error, image, 0, 0, &plain->exact, &plain->scene);
     return error;
 }
 
@@ -208,7 +217,7 @@ TEST(views_add_up_to_the_picture)
                 memcpy(&part.color[3 * i], &whole.color[3 * from], 3 * sizeof(float));
                 part.interior[i] = whole.interior[from];
             }
-            picture_error_add(&error, &image, place[0], place[1], &part.exact, NULL);
+            picture_error_add(&error, &image, place[0], place[1], &part.exact, &part.scene);
         }
         const ErrorSum *sums[2][2] = {{&error.interior, &expected.interior},
                                       {&error.all, &expected.all}};
@@ -217,7 +226,7 @@ TEST(views_add_up_to_the_picture)
             assert_int_equal(sums[k][0]->wrong, sums[k][1]->wrong);
             /* Of equal maxima, the first is another one by views. */
             const size_t worst = sums[k][0]->worst;
-            assert_true(pixel_error(&image, worst, &whole.exact, worst).largest ==
+            assert_true(pixel_error(&image, worst, &whole.color[3 * worst]).largest ==
                         sums[k][1]->maximum);
             assert_true(sums[k][0]->maximum == sums[k][1]->maximum);
             assert_true(sums[k][0]->squares == sums[k][1]->squares);
@@ -226,39 +235,49 @@ TEST(views_add_up_to_the_picture)
     }
 }
 
-/* A pixel at the drawn mesh's outline, or at another depth, is not inside. */
-TEST(the_mesh_as_drawn_limits_the_interior)
+/* A pixel that the drawn objects do not cover wholly is not inside; whichever covers it. */
+TEST(what_is_drawn_limits_the_interior)
 {
     Plain plain;
-    int objects[2][COUNT] = {{0}};
-    double depths[2][COUNT];
-    plain_open(&plain, WIDTH, HEIGHT, 0);
-    for (int i = 0; i < COUNT; i++)
-        depths[0][i] = depths[1][i] = 10;
-    Image image = open_image(WIDTH, HEIGHT, IMAGE_BYTE, 0);
-    objects[1][2] = -1; /* outside the mesh: with its neighbors, 6 pixels in columns 1 to 3 */
-    depths[1][2] = INFINITY;
-    objects[1][3] = 1;         /* another object: 2 pixels more, in column 4 */
-    depths[1][5] = 10.6;       /* 6% farther */
-    depths[1][6] = 9.6;        /* 4% nearer: interior */
-    plain.interior[WIDTH] = 0; /* an edge of the exact picture */
-    for (int i = 1; i <= 6; i++)
-        put_byte(&image, i, 0, 1, i == 6 ? 2 : 100 + i);
-    put_byte(&image, 1, 1, 1, 50); /* a neighbor in the row below */
-    put_byte(&image, 0, 1, 1, 108);
-    Reference drawn = {.width = WIDTH, .height = HEIGHT};
-    plain.exact.object = objects[0];
-    plain.exact.depth = depths[0];
-    drawn.object = objects[1];
-    drawn.depth = depths[1];
-    PictureError error = {.all = {0}};
-    picture_error_add(&error, &image, 0, 0, &plain.exact, &drawn);
-    assert_int_equal(error.all.pixels, COUNT);
-    assert_true(error.all.maximum == 108);
-    assert_int_equal(error.interior.pixels, COUNT - 10);
-    assert_true(error.interior.maximum == 2);
-    assert_int_equal(error.interior.worst, 6);
-    image_close(&image);
+    for (int type = IMAGE_BYTE; type <= IMAGE_FLOAT; type++) {
+        plain_open(&plain, WIDTH, HEIGHT, 0);
+        plain.objects[0].front.alpha = plain.objects[1].front.alpha = 1;
+        plain.objects[1].two_sided = true; /* its back is half opaque */
+        plain.objects[1].back.alpha = 0.5;
+        plain.objects[2].front.alpha = 0.25;
+        Image image = open_image(WIDTH, HEIGHT, (ImageType)type, 1);
+        static const struct {
+            int object;
+            double alpha;
+            bool inside;
+        } cases[] = {{0, 1, true},    {0, 0.999, true}, {0, 0.75, false},
+                     {0, 0, false},   {1, 0.5, true},   {1, 0.4, false},
+                     {2, 0.25, true}, {2, 0.2, false},  {-1, 1, false}};
+        int inside = COUNT;
+        for (int i = 0; i < (int)(sizeof cases / sizeof cases[0]); i++) {
+            plain.object[i] = cases[i].object;
+            plain.interior[i] = cases[i].object >= 0;
+            for (int c = 1; c <= 3; c++) {
+                const double value = c == 3            ? cases[i].alpha
+                                     : cases[i].inside ? 2.0 / 255
+                                                       : 100.0 / 255;
+                if (type == IMAGE_BYTE)
+                    put_byte(&image, i % WIDTH, i / WIDTH, c, (int)lround(255 * value));
+                else
+                    put_float(&image, i % WIDTH, i / WIDTH, c, value);
+            }
+            inside -= !cases[i].inside;
+        }
+        for (int i = 0; i < COUNT; i++) /* the rest is not wrong */
+            for (int c = 0; c < 3; c++)
+                if (i >= (int)(sizeof cases / sizeof cases[0]) || c == 0)
+                    plain.color[3 * i + c] = 1;
+        const PictureError error = compare(&image, &plain);
+        assert_int_equal(error.interior.pixels, inside);
+        assert_true(fabs(error.interior.maximum - 2) < 1e-5);
+        assert_true(fabs(error.all.maximum - 100) < 1e-5);
+        image_close(&image);
+    }
 }
 
 TEST_MAIN("picture error", NULL, NULL)

@@ -36,11 +36,12 @@ enum { EXAMPLE_COUNT = sizeof EXAMPLES / sizeof EXAMPLES[0] };
 
 /* Whether no pixel inside an object is farther than `most` steps from the exact picture, and there
  * are such pixels at all, with more than one color. Where not, says so and keeps the pictures. */
-static bool check(const char *name, const Image *image, const Reference *exact, double max)
+static bool check(const char *name, const Image *image, const Reference *exact, const Scene *scene,
+                  double max)
 {
     const size_t count = (size_t)image->width * (size_t)image->height;
     PictureError error = {.all = {0}};
-    picture_error_add(&error, image, 0, 0, exact, NULL);
+    picture_error_add(&error, image, 0, 0, exact, scene);
     const ErrorSum *inside = &error.interior;
     print_message("%-40s %6lld pixels inside, largest error %.3f\n", name, inside->pixels,
                   inside->maximum);
@@ -175,7 +176,7 @@ TEST(lecture_programs_draw_the_reference)
                 open_exact(&exact, &made.scene, canvas.width, canvas.height, true);
                 require(stage_picture(&stage, &options, times[t], &picture, FAILURE), FAILURE);
                 snprintf(name, sizeof name, "%s-%d-%zu", lesson->example->name, canvas.width, t);
-                all &= check(name, &picture.image, &exact, MAX);
+                all &= check(name, &picture.image, &exact, &made.scene, MAX);
                 reference_close(&exact);
             }
             stage_close(&stage);
@@ -227,7 +228,7 @@ TEST(scenes_are_drawn_as_the_reference_has_them)
                 render(&canvas, lighting, &scene, &image);
                 open_exact(&exact, &scene, canvas.width, canvas.height, true);
                 snprintf(name, sizeof name, "%s-%d-%zu", example->name, view, t);
-                all &= check(name, &image, &exact, MAX);
+                all &= check(name, &image, &exact, &scene, MAX);
                 reference_close(&exact);
             }
         }

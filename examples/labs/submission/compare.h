@@ -15,10 +15,10 @@
  * at least 4. */
 #define COMPARE_TOLERANCE 2.5
 
-/* Over the pixels inside an object (pixel_is_interior) and over background pixels without an object
- * next to them. `mask`: the exact picture of the meshes as drawn; NULL if they are the shapes.
- * Pixels where the two have different outlines do not count, unless they are more than two pixels
- * inside the exact one. */
+/* Over the pixels inside an object and over background pixels without an object next to them.
+ * `mask`: the exact picture of the meshes as drawn; NULL if they are the shapes. Pixels where the
+ * two have different outlines do not count, unless they are more than two pixels inside the exact
+ * one. */
 ErrorSum compare_exact(const Image *image, const Reference *exact, const Reference *mask);
 
 /* The difference of two drawn pictures of one size. */

@@ -39,9 +39,9 @@ static bool open_model(Survey *survey, Model *model, int number, double shinines
                 number == PHONG ? REFLECTION_PHONG : REFLECTION_BLINN_PHONG);
     if (!survey_exact(survey, &model->made.scene, &model->exact, message) ||
         !drawing_open(&model->drawing, survey->studio, &model->made.scene, &usual, message) ||
-        !drawing_error(&model->drawing, survey->studio, &model->exact, &model->error, message) ||
         !drawing_counts(&model->drawing, survey->studio, &counts, message))
         return false;
+    model->error = drawing_error(&model->drawing, &model->exact);
     model->operations = counts.fragment_operations;
     return true;
 }

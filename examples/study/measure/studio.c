@@ -1,7 +1,6 @@
 #include "study/measure/studio.h"
 
 #include "base/clock.h"
-#include "core/mesh_buffer.h"
 #include "reference/picture_error.h"
 #include "scene/shader_cost.h"
 #include "study/measure/transforms.h"
@@ -21,7 +20,7 @@ typedef struct Counted {
 struct Studio {
     ShaderLoader loader;
     int width, height;
-    Canvas first; /* owns the context; float, for objects and depths */
+    Canvas first; /* owns the context */
     struct {
         CanvasOptions options;
         Canvas canvas;
@@ -33,10 +32,6 @@ struct Studio {
     } lightings[MAX_LIGHTINGS];
     int lighting_count;
     SolidMeshes meshes;
-    Shader surface;
-    Image seen;       /* as drawn: object from 1, depth */
-    int *seen_object; /* the same, as in Reference */
-    double *seen_depth;
     GLuint timer;
     Counted counted[2][MAX_COUNTED]; /* by ShaderStage */
     int counted_count[2];
@@ -49,27 +44,14 @@ bool studio_open(Studio **opened, const ShaderLoader *loader, const CanvasBacken
     *opened = studio;
     if (!studio)
         return message_set(message, "study: not enough memory");
-    const CanvasOptions options = {
-        .backend = backend, .width = width, .height = height, .real = true};
+    const CanvasOptions options = {.backend = backend, .width = width, .height = height};
     studio->loader = *loader;
     studio->width = width;
     studio->height = height;
-    if (!canvas_open(&studio->first, &options, message) ||
-        !shader_open(&studio->surface, loader, "study/surface", message) ||
-        !image_open(&studio->seen, width, height, IMAGE_FLOAT, message))
-        goto fail;
-    studio->seen_object = calloc((size_t)width * (size_t)height, sizeof *studio->seen_object);
-    studio->seen_depth = calloc((size_t)width * (size_t)height, sizeof *studio->seen_depth);
-    if (!studio->seen_object || !studio->seen_depth) {
-        message_set(message, "study: not enough memory");
-        goto fail;
-    }
-    if (!studio->first.real) {
-        message_set(message,
-                    "study: %s cannot render to floats (GL_EXT_color_buffer_float), which the "
-                    "object and depth of each pixel need",
-                    studio->first.renderer);
-        goto fail;
+    if (!canvas_open(&studio->first, &options, message)) {
+        studio_close(studio);
+        *opened = NULL;
+        return false;
     }
     if (glGenQueriesEXT) {
         GLint bits = 0;
@@ -78,10 +60,6 @@ bool studio_open(Studio **opened, const ShaderLoader *loader, const CanvasBacken
             glGenQueriesEXT(1, &studio->timer);
     }
     return true;
-fail:
-    studio_close(studio);
-    *opened = NULL;
-    return false;
 }
 
 const char *studio_version(const Studio *studio)
@@ -148,7 +126,7 @@ static Lighting *find_lighting(Studio *studio, const Quality *quality, Message *
 
 static void clear(const Drawing *drawing)
 {
-    canvas_clear(drawing->canvas, drawing->made.scene.background, 1);
+    canvas_clear(drawing->canvas, drawing->made.scene.background, 0); /* see pixel_is_interior */
 }
 
 static double aspect_of(const Studio *studio)
@@ -216,71 +194,15 @@ bool drawing_empty(Drawing *drawing, Studio *studio, double *wall, Message *mess
     return true;
 }
 
-/* Draws each object's number and depth with the quality's transforms. */
-static bool see(Drawing *drawing, Studio *studio, Message *message)
-{
-    const Scene *scene = &drawing->made.scene;
-    const LightingTransforms *transforms = transforms_of(&drawing->quality);
-    const Shader *shader = &studio->surface;
-    Mat4 eye_from_world, clip_from_eye;
-    GLint number, clip_from_object;
-    if (!scene_camera(&scene->camera, aspect_of(studio), &eye_from_world, &clip_from_eye,
-                      message) ||
-        !shader_uniform(shader, "u_Object", &number, message) ||
-        !shader_uniform(shader, "u_ClipFromObject", &clip_from_object, message))
-        return false;
-    canvas_clear(&studio->first, (Vec3){0, 0, 0}, 0);
-    glEnable(GL_DEPTH_TEST);
-    glUseProgram(shader->program);
-    for (int i = 0; i < scene->object_count; i++) {
-        const Object *object = &scene->objects[i];
-        const Mat4 world_from_object = object->world_from_object;
-        const Mat4 eye_from_object =
-            (transforms ? transforms->eye_from_object
-                        : scene_eye_from_object)(&scene->camera, eye_from_world, world_from_object);
-        const float one_more = (float)(i + 1);
-        MeshBuffer buffer;
-        if (!mesh_buffer_open(&buffer, object->mesh, message))
-            return false;
-        shader_set_mat4(clip_from_object,
-                        transforms
-                            ? transforms->clip_from_object(clip_from_eye, eye_from_world,
-                                                           world_from_object, eye_from_object)
-                            : mat4_product(clip_from_eye, eye_from_object));
-        glUniform1fv(number, 1, &one_more);
-        mesh_buffer_bind(&buffer, 0, -1);
-        glDrawElements(GL_TRIANGLES, buffer.index_count, buffer.index_type, NULL);
-        mesh_buffer_close(&buffer);
-    }
-    if (!canvas_read(&studio->first, &studio->seen, message))
-        return false;
-    const float *seen = studio->seen.pixels;
-    for (size_t i = 0; i < (size_t)studio->width * (size_t)studio->height; i++) {
-        studio->seen_object[i] = (int)lroundf(seen[4 * i]) - 1;
-        studio->seen_depth[i] = (double)seen[4 * i + 1];
-    }
-    return true;
-}
-
-bool drawing_error(Drawing *drawing, Studio *studio, const Reference *exact, DrawingError *error,
-                   Message *message)
+DrawingError drawing_error(const Drawing *drawing, const Reference *exact)
 {
     PictureError found = {.all = {0}};
-    *error = (DrawingError){.interior_pixels = 0};
-    if (!see(drawing, studio, message))
-        return false;
-    const Reference seen = {.width = studio->width,
-                            .height = studio->height,
-                            .object = studio->seen_object,
-                            .depth = studio->seen_depth};
-    picture_error_add(&found, &drawing->image, 0, 0, exact, &seen);
-    *error =
-        (DrawingError){.interior_rms = error_sum_rms(&found.interior),
-                       .interior_maximum = found.interior.pixels ? found.interior.maximum : NAN,
-                       .all_rms = error_sum_rms(&found.all),
-                       .all_maximum = found.all.maximum,
-                       .interior_pixels = (int)found.interior.pixels};
-    return true;
+    picture_error_add(&found, &drawing->image, 0, 0, exact, &drawing->made.scene);
+    return (DrawingError){.interior_rms = error_sum_rms(&found.interior),
+                          .interior_maximum = found.interior.pixels ? found.interior.maximum : NAN,
+                          .all_rms = error_sum_rms(&found.all),
+                          .all_maximum = found.all.maximum,
+                          .interior_pixels = (int)found.interior.pixels};
 }
 
 /* Counting starts three processes, so results are cached by text. */
@@ -298,6 +220,12 @@ static int count_operations(Studio *studio, const char *text, ShaderStage stage)
     if (*count < MAX_COUNTED && (all[*count].text = strdup(text)))
         all[(*count)++].operations = counted;
     return counted;
+}
+
+static bool is_covered(const Image *image, size_t pixel)
+{
+    return image->type == IMAGE_BYTE ? ((const unsigned char *)image->pixels)[4 * pixel + 3] >= 128
+                                     : ((const float *)image->pixels)[4 * pixel + 3] >= 0.5F;
 }
 
 bool drawing_counts(const Drawing *drawing, Studio *studio, DrawingCounts *counts, Message *message)
@@ -324,7 +252,7 @@ bool drawing_counts(const Drawing *drawing, Studio *studio, DrawingCounts *count
             counts->fragment_operations = fragment;
     }
     for (size_t i = 0; i < (size_t)studio->width * (size_t)studio->height; i++)
-        counts->fragments += studio->seen_object[i] >= 0 ? side * side : 0;
+        counts->fragments += is_covered(&drawing->image, i) ? side * side : 0;
     return true;
 }
 
@@ -348,11 +276,7 @@ void studio_close(Studio *studio)
         canvas_close(&studio->canvases[i].canvas);
     if (studio->timer)
         glDeleteQueriesEXT(1, &studio->timer);
-    shader_close(&studio->surface);
     canvas_close(&studio->first);
-    image_close(&studio->seen);
-    free(studio->seen_object);
-    free(studio->seen_depth);
     for (int stage = 0; stage < 2; stage++)
         for (int i = 0; i < studio->counted_count[stage]; i++)
             free(studio->counted[stage][i].text);

@@ -45,11 +45,10 @@ typedef struct DrawingError {
     int interior_pixels;
 } DrawingError;
 
-/* Interior: see pixel_is_interior. Draws the meshes once more, for their objects and depths. */
-bool drawing_error(Drawing *drawing, Studio *studio, const Reference *exact, DrawingError *error,
-                   Message *message);
+/* Interior: see pixel_is_interior. */
+DrawingError drawing_error(const Drawing *drawing, const Reference *exact);
 
-/* Vertices and visible fragments of a frame, after drawing_error; operations per vertex and per
+/* Vertices and visible fragments of the last frame; operations per vertex and per
  * fragment of the costliest program, -1 if no tool counts them. */
 typedef struct DrawingCounts {
     long long vertices, fragments;

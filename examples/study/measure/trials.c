@@ -309,15 +309,14 @@ static void fill_times(const Trials *trials, Batch *batch, int number, ResultRow
 static bool look_at(Trials *trials, Drawing *drawing, ResultRow *row, double *frame,
                     Message *message)
 {
-    DrawingError error;
     DrawingCounts counts;
     double gpu;
     *row = trials->like;
     row->quality = drawing->quality;
     if (!drawing_frame(drawing, trials->studio, frame, &gpu, message) ||
-        !drawing_error(drawing, trials->studio, trials->exact, &error, message) ||
         !drawing_counts(drawing, trials->studio, &counts, message))
         return false;
+    const DrawingError error = drawing_error(drawing, trials->exact);
     row->interior_rms = error.interior_rms;
     row->interior_maximum = error.interior_maximum;
     row->all_rms = error.all_rms;

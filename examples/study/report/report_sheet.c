@@ -85,8 +85,9 @@ static Color panel_color(int panel, const Image *drawn, const Reference *exact, 
 {
     double shown[3];
     if (panel == 2)
-        return is_finite(drawn, pixel) ? color_of(pixel_error(drawn, pixel, exact, pixel).largest)
-                                       : UNDEFINED;
+        return is_finite(drawn, pixel)
+                   ? color_of(pixel_error(drawn, pixel, &exact->color[3 * pixel]).largest)
+                   : UNDEFINED;
     for (size_t i = 0; i < 3; i++)
         shown[i] = panel == 0 ? channel(drawn, 4 * pixel + i) : (double)exact->color[3 * pixel + i];
     return (Color){to_byte(shown[0]), to_byte(shown[1]), to_byte(shown[2])};
