@@ -124,12 +124,6 @@ static bool count_operations(const Lighting *lighting, int operations[VIEWS][2],
     return done;
 }
 
-static int compare(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* The medians of interleaved rounds, in milliseconds. */
 static bool time_views(Lighting *lighting, double medians[VIEWS], Message *message)
 {
@@ -147,10 +141,8 @@ static bool time_views(Lighting *lighting, double medians[VIEWS], Message *messa
                 times[view][round] = 1e3 * (clock_now() - start);
         }
     }
-    for (int view = 0; view < VIEWS; view++) {
-        qsort(times[view], ROUNDS, sizeof times[view][0], compare);
-        medians[view] = times[view][ROUNDS / 2];
-    }
+    for (int view = 0; view < VIEWS; view++)
+        medians[view] = clock_median(times[view], ROUNDS);
     return true;
 }
 

@@ -11,7 +11,6 @@
 #include "base/progress.h"
 #include "reference/picture_error.h"
 #include "study/cases/hard_cases_sheet.h"
-#include "study/results/statistics.h"
 #include "study/results/table.h"
 
 #include <math.h>
@@ -73,7 +72,7 @@ static bool time_of(const Way *way, int frames, double *seconds, Message *messag
 /* The distance of the quartiles. */
 static double spread_of(double *values, int count)
 {
-    return statistics_quantile(values, count, 0.75) - statistics_quantile(values, count, 0.25);
+    return clock_quantile(values, count, 0.75) - clock_quantile(values, count, 0.25);
 }
 
 /* Frames of both in turn, so that a disturbance affects both. The noise is how far the median ratio
@@ -95,10 +94,9 @@ static bool measure(const Way *naive, const Way *stable, HardResult *result, Mes
         ratios[count] = 2 * second / (first + third);
         same[count] = third / first;
     }
-    result->cost = statistics_quantile(ratios, count, 0.5) - 1;
+    result->cost = clock_median(ratios, count) - 1;
     const double spread = fmax(spread_of(same, count), spread_of(ratios, count));
-    result->noise =
-        fabs(statistics_quantile(same, count, 0.5) - 1) + 2 * 1.25 / 1.35 * spread / sqrt(count);
+    result->noise = fabs(clock_median(same, count) - 1) + 2 * 1.25 / 1.35 * spread / sqrt(count);
     return true;
 }
 

@@ -6,10 +6,10 @@
  */
 #include "benchmark/matrix_benchmark.h"
 
+#include "base/clock.h"
 #include "base/random.h"
 #include "benchmark/measure.h"
 #include "core/matrix.h"
-#include "study/results/statistics.h"
 
 #ifdef HAVE_CGLM
 #include <cglm/cglm.h>
@@ -292,8 +292,8 @@ static void find_errors(const Comparison *comparison)
             algorithm->run(&BATCH);
             for (int i = 0; i < COUNT; i++)
                 errors[i] = comparison->error(i, algorithm->real);
-            comparison->errors[k][decade][0] = statistics_quantile(errors, COUNT, 0.5);
-            comparison->errors[k][decade][1] = statistics_quantile(errors, COUNT, 1);
+            comparison->errors[k][decade][0] = clock_median(errors, COUNT);
+            comparison->errors[k][decade][1] = clock_quantile(errors, COUNT, 1);
         }
     }
 }

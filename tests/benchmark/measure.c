@@ -2,7 +2,6 @@
 
 #include "base/clock.h"
 #include "base/progress.h"
-#include "study/results/statistics.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -63,9 +62,9 @@ Summary measure_summary(const double *values, int count)
     if (!sorted)
         return (Summary){0};
     memcpy(sorted, values, (size_t)count * sizeof *sorted);
-    const Summary summary = {.median = statistics_quantile(sorted, count, 0.5),
-                             .lower = statistics_quantile(sorted, count, 0.25),
-                             .upper = statistics_quantile(sorted, count, 0.75)};
+    const Summary summary = {.median = clock_median(sorted, count),
+                             .lower = clock_quantile(sorted, count, 0.25),
+                             .upper = clock_quantile(sorted, count, 0.75)};
     free(sorted);
     return summary;
 }

@@ -4,6 +4,7 @@
  * in both precisions, lit at vertices and at fragments. LIGHTING_TEST_SEED in the environment
  * replaces the seed.
  */
+#include "base/clock.h"
 #include "core/mesh_make.h"
 #include "hard/hard.h"
 #include "shapes/mesh_solids.h"
@@ -171,19 +172,6 @@ static double normal_error(Mat4 a, const float n[3])
         cross += part * part;
     }
     return dot > 0 ? atan(sqrt((double)(cross / (dot * dot)))) : acos(-1);
-}
-
-static int compare(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-/* Sorts; returns the median. */
-static double median(double *values, int count)
-{
-    qsort(values, (size_t)count, sizeof *values, compare);
-    return values[count / 2];
 }
 
 /* The background of hard_two_lights. */
@@ -818,7 +806,7 @@ TEST(inverse_table)
                 assert_true(mat4_inverse(a, &inverse));
                 errors[i] = inverse_error(a, inverse);
             }
-            const double middle = median(errors, SAMPLES);
+            const double middle = clock_median(errors, SAMPLES);
             print_message(" %.1e", middle);
             if (!(middle <= 2 * max[kind][d]))
                 fail_msg("%s at 1e%d: median %.2g", names[kind], 2 * d, middle);
@@ -839,7 +827,7 @@ TEST(normal_matrix_table)
             const float rounded[3] = {(float)n.x, (float)n.y, (float)n.z};
             errors[i] = normal_error(a, rounded);
         }
-        const double middle = median(errors, 25 * SAMPLES), worst = errors[25 * SAMPLES - 1];
+        const double middle = clock_median(errors, 25 * SAMPLES), worst = errors[25 * SAMPLES - 1];
         print_message("normals, 1e%d: median %.1e, worst %.1e\n", 2 * d, middle, worst);
         assert_true(middle < 8e-8);
         /* The matrix's nine entries, and the normal's products and sums, are rounded to floats,

@@ -9,6 +9,7 @@
 #include "reference/error_worker.h"
 #include "scene/scene_example.h"
 #include "shapes/mesh_solids.h"
+#include "support/examples.h"
 #include "support/picture_check.h"
 #include "support/testing.h"
 
@@ -18,15 +19,7 @@
 #include <string.h>
 #include <time.h>
 
-#define X(NAME) extern const Example NAME;
-LIGHTING_EXAMPLES
-#undef X
-
-#define X(NAME) &NAME,
-static const Example *const EXAMPLES[] = {LIGHTING_EXAMPLES};
-#undef X
-
-enum { EXAMPLE_COUNT = sizeof EXAMPLES / sizeof EXAMPLES[0], WIDTH = 200, HEIGHT = 150 };
+enum { WIDTH = 200, HEIGHT = 150 };
 
 static const double SECONDS = 1.3, ERROR = 4;
 

@@ -11,6 +11,7 @@
 #include "reference/picture_error.h"
 #include "scene/lighting.h"
 #include "scene/scene_example.h"
+#include "support/examples.h"
 #include "support/picture_check.h"
 #include "support/testing.h"
 
@@ -23,14 +24,7 @@ static const double MAX = 1; /* step of 1/255 */
 
 #define X(NAME) extern const Example NAME;
 LECTURE_EXAMPLES
-LIGHTING_EXAMPLES
 #undef X
-
-#define X(NAME) &NAME,
-static const Example *const EXAMPLES[] = {LIGHTING_EXAMPLES};
-#undef X
-
-enum { EXAMPLE_COUNT = sizeof EXAMPLES / sizeof EXAMPLES[0] };
 
 /* Comparing. */
 

@@ -3,7 +3,6 @@
 #include "base/clock.h"
 #include "scene/lighting.h"
 #include "scene/shader_cost.h"
-#include "study/results/statistics.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -69,7 +68,7 @@ static bool measure(const Way *way, const Way *plain, const Lab *lab, const Prob
         if (i >= 0)
             ratios[count++] = first / second;
     }
-    *ratio = statistics_quantile(ratios, count, 0.5);
+    *ratio = clock_median(ratios, count);
     return true;
 }
 

@@ -1,8 +1,8 @@
 #include "labs/class/class_html.h"
 
+#include "base/clock.h"
 #include "labs/class/class_front.h"
 #include "labs/class/class_table.h"
-#include "study/results/statistics.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -190,7 +190,7 @@ static double median(const ClassStore *store)
     for (int i = 0; points && i < store->count; i++)
         points[i] = store->results[i].verdict.points;
     if (points && store->count > 0)
-        middle = statistics_quantile(points, store->count, 0.5);
+        middle = clock_median(points, store->count);
     free(points);
     return middle;
 }

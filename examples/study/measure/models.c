@@ -1,9 +1,9 @@
 #include "study/measure/models.h"
 
+#include "base/clock.h"
 #include "base/output.h"
 #include "scene/material.h"
 #include "study/measure/scenes.h"
-#include "study/results/statistics.h"
 #include "study/results/table.h"
 
 #include <math.h>
@@ -90,10 +90,10 @@ static void print_models(const Model models[MODELS], double phong, const ResultR
             times[k] = model->milliseconds[k];
             ratios[k] = times[k] / models[PHONG].milliseconds[k];
         }
-        const double time = statistics_quantile(times, ROUNDS, 0.5);
-        const double ratio = statistics_quantile(ratios, ROUNDS, 0.5);
-        const double lower = statistics_quantile(ratios, ROUNDS, 0.25);
-        const double upper = statistics_quantile(ratios, ROUNDS, 0.75);
+        const double time = clock_median(times, ROUNDS);
+        const double ratio = clock_median(ratios, ROUNDS);
+        const double lower = clock_quantile(ratios, ROUNDS, 0.25);
+        const double upper = clock_quantile(ratios, ROUNDS, 0.75);
         table_row(table, "%s|%g|%.1f|%.2f|%.3f|%.2f|%.3f|%.3f|%.2f [%.2f, %.2f]|%d", NAMES[i],
                   phong, model->shininess, model->error.interior_maximum, model->error.interior_rms,
                   model->apart_maximum, model->apart_rms, time, ratio, lower, upper,

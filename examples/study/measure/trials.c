@@ -2,7 +2,6 @@
 
 #include "base/clock.h"
 #include "base/random.h"
-#include "study/results/statistics.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -245,9 +244,9 @@ static double median_ratio(const Batch *batch, int number, double *lower, double
     int count = 0;
     for (int run = 0; run < RESULT_RUNS; run++)
         count += ratios_of(batch, number, run, all + count);
-    *lower = statistics_quantile(all, count, 0.25);
-    *upper = statistics_quantile(all, count, 0.75);
-    return statistics_quantile(all, count, 0.5);
+    *lower = clock_quantile(all, count, 0.25);
+    *upper = clock_quantile(all, count, 0.75);
+    return clock_median(all, count);
 }
 
 /* The usual setting against itself: the distance of the median ratio from 1, plus the standard
@@ -268,7 +267,7 @@ static double usual_milliseconds(const Batch *batch)
     for (int run = 0; run < RESULT_RUNS; run++)
         for (int i = 0; i < batch->timed[USUAL].rounds; i++)
             all[count++] = 1e3 * batch->timed[USUAL].wall[run][i];
-    return statistics_quantile(all, count, 0.5);
+    return clock_median(all, count);
 }
 
 /* By the driver's timer; NAN if it is not plausible: if for the usual setting it reports more than
@@ -277,11 +276,11 @@ static double usual_milliseconds(const Batch *batch)
 static double gpu_milliseconds(Batch *batch, int number)
 {
     Timed *usual = &batch->timed[USUAL], *timed = &batch->timed[number];
-    const double known = 1e3 * statistics_quantile(usual->gpu, usual->gpu_count, 0.5);
+    const double known = 1e3 * clock_median(usual->gpu, usual->gpu_count);
     const double whole = usual_milliseconds(batch);
     if (!(known > 0.2 * whole && known < whole))
         return NAN;
-    return 1e3 * statistics_quantile(timed->gpu, timed->gpu_count, 0.5);
+    return 1e3 * clock_median(timed->gpu, timed->gpu_count);
 }
 
 static void fill_times(const Trials *trials, Batch *batch, int number, ResultRow *row)
@@ -297,7 +296,7 @@ static void fill_times(const Trials *trials, Batch *batch, int number, ResultRow
     for (int run = 0; run < RESULT_RUNS; run++) {
         double ratios[TRIALS_MAX_ROUNDS];
         const int count = ratios_of(batch, from, run, ratios);
-        row->run_times[run] = trials->usual * statistics_quantile(ratios, count, 0.5);
+        row->run_times[run] = trials->usual * clock_median(ratios, count);
     }
     row->net_time =
         row->time - trials->usual * median_ratio(batch, EMPTY, &ignored[0], &ignored[1]);

@@ -6,7 +6,6 @@
 #include "study/report/report.h"
 #include "study/report/report_gnuplot.h"
 #include "study/results/front.h"
-#include "study/results/statistics.h"
 #include "study/results/table.h"
 
 #include <math.h>
@@ -309,7 +308,7 @@ static double time_composition(const char *text)
         }
         nanoseconds[run] = 1e9 * (clock_now() - start) / TIMES;
     }
-    return statistics_quantile(nanoseconds, RUNS, 0.5);
+    return clock_median(nanoseconds, RUNS);
 }
 
 bool findings_matrices(const Results *results, bool markdown, FILE *file)
