@@ -267,13 +267,23 @@ static unsigned kept_axes(const Stage *stage, const Options *options)
                {"slices", AXIS_DIVISIONS},
                {"stacks", AXIS_DIVISIONS},
                {"normals", AXIS_NORMALS},
-               {"viewer", AXIS_VIEWER}};
+               {"viewer", AXIS_VIEWER},
+               {"fixed-light", AXIS_LIGHTS},
+               {"fixed-kind", AXIS_LIGHTS},
+               {"turning-light", AXIS_LIGHTS},
+               {"turning-kind", AXIS_LIGHTS},
+               {"viewpoint", AXIS_LIGHTS},
+               {"red", AXIS_LIGHTS},
+               {"green", AXIS_LIGHTS},
+               {"blue", AXIS_LIGHTS}};
     const Parameter *own = example_parameters(stage->example);
     unsigned kept = 0;
     for (int i = 0; own && own[i].name && i < OPTIONS_MAX_PARAMETERS; i++)
         for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
             if (options->own_given[i] && strcmp(own[i].name, all[k].name) == 0)
                 kept |= 1U << all[k].axis;
+    if (options->terms.left_out || options->terms.lights_left_out)
+        kept |= 1U << AXIS_LIGHTS;
     return kept;
 }
 
@@ -286,19 +296,13 @@ static bool draw_parts(const Stage *stage, const QualityParts *made, double aspe
     return true;
 }
 
-static int by_size(const void *a, const void *b)
-{
-    const double *x = a, *y = b;
-    return (*x > *y) - (*x < *y);
-}
-
-/* The median of the time to draw a view with these qualities, over that of the plain ones. NAN if
- * it cannot be drawn. */
+/* The time to draw a view with these qualities over that of the plain ones: the median of frames
+ * drawn in turn, so that what else runs disturbs both. NAN if it cannot be drawn. */
 static double measure(Stage *stage, const Options *options, const Scene *scene,
                       const Cheapest *choice, double aspect)
 {
     enum { ROUNDS = 9 };
-    double times[2][ROUNDS + 1];
+    double times[2], ratios[ROUNDS];
     ObjectQuality *plain = calloc((size_t)choice->count + 1, sizeof *plain);
     bool done = plain != NULL;
     for (int i = 0; done && i < choice->count; i++)
@@ -313,14 +317,14 @@ static double measure(Stage *stage, const Options *options, const Scene *scene,
             const double start = clock_now();
             done = done && draw_parts(stage, &made, aspect, options->full, NULL);
             glFinish();
-            times[k][round] = clock_now() - start;
+            times[k] = clock_now() - start;
             quality_parts_close(&made);
         }
+        if (round > 0)
+            ratios[round - 1] = times[1] / times[0];
     }
     free(plain);
-    qsort(times[0] + 1, ROUNDS, sizeof times[0][0], by_size);
-    qsort(times[1] + 1, ROUNDS, sizeof times[1][0], by_size);
-    return done ? times[1][(ROUNDS + 1) / 2] / times[0][(ROUNDS + 1) / 2] : NAN;
+    return done ? clock_median(ratios, ROUNDS) : NAN;
 }
 
 static void tell(Stage *stage, const Options *options, Moments *moments, const Cheapest *choice,

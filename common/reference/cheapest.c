@@ -154,7 +154,7 @@ static void compare(Search *search, const Exact *exact, const Scene *scene, doub
             const size_t pixel =
                 (size_t)(place[1] + y) * (size_t)image->width + (size_t)(place[0] + x);
             const int owner = exact->owner[i];
-            if (owner < 0 || !pixel_is_interior(&scene->objects[owner], image, pixel))
+            if (!pixel_is_interior(scene, owner, image, pixel))
                 continue;
             float color[3];
             for (size_t k = 0; k < 3; k++)

@@ -39,14 +39,21 @@ double error_sum_rms(const ErrorSum *sum)
     return sum->pixels ? sqrt(sum->squares / (3.0 * (double)sum->pixels)) : NAN;
 }
 
-bool pixel_is_interior(const Object *object, const Image *image, size_t pixel)
+/* Whether the alpha, from 0 to 255, is one of the object's. */
+static bool is_alpha_of(const Object *object, double alpha)
 {
     static const double ROUNDING = 0.75;
-    if (!object)
-        return false;
-    const double front = object->front.alpha, back = object->back.alpha;
-    const double alpha = object->two_sided ? fmin(front, back) : front;
-    return !(steps(image, 4 * pixel + 3) < 255 * alpha - ROUNDING);
+    return !(fabs(alpha - 255 * object->front.alpha) > ROUNDING) ||
+           (object->two_sided && !(fabs(alpha - 255 * object->back.alpha) > ROUNDING));
+}
+
+bool pixel_is_interior(const Scene *scene, int object, const Image *image, size_t pixel)
+{
+    const double alpha = steps(image, 4 * pixel + 3);
+    bool covered = object >= 0 && is_alpha_of(&scene->objects[object], alpha);
+    for (int i = 0; i < scene->object_count && object >= 0 && !covered; i++)
+        covered = is_alpha_of(&scene->objects[i], alpha);
+    return covered;
 }
 
 void picture_error_add(PictureError *error, const Image *image, int left, int top,
@@ -57,10 +64,9 @@ void picture_error_add(PictureError *error, const Image *image, int left, int to
             const size_t pixel = (size_t)(top + y) * (size_t)image->width + (size_t)(left + x);
             const size_t exact_pixel = (size_t)y * (size_t)exact->width + (size_t)x;
             const PixelError found = pixel_error(image, pixel, &exact->color[3 * exact_pixel]);
-            const Object *inside =
-                exact->interior[exact_pixel] ? &scene->objects[exact->object[exact_pixel]] : NULL;
+            const int object = exact->interior[exact_pixel] ? exact->object[exact_pixel] : -1;
             error_sum_add(&error->all, found, pixel);
-            if (pixel_is_interior(inside, image, pixel))
+            if (pixel_is_interior(scene, object, image, pixel))
                 error_sum_add(&error->interior, found, pixel);
         }
     }

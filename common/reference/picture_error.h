@@ -41,12 +41,12 @@ typedef struct PictureError {
 /* Whether a pixel is inside an object: the only definition of that in the project.
  *
  * - No edge runs through it in the exact picture: it lies wholly inside one surface, smoothly lit.
- *   `object` is that surface's, where Reference.interior is 1, else NULL.
- * - The drawn objects cover it wholly, whichever of them it shows: its alpha, channel 3 of pixel
- *   `pixel` of the drawn image, is that of an object, over a background whose alpha is 0. A coarse
- *   mesh does not reach its exact shape's outline: what is missing there is an error of the
- *   silhouette, not of shading. */
-bool pixel_is_interior(const Object *object, const Image *image, size_t pixel);
+ *   `object` is that surface's where Reference.interior is 1, else -1.
+ * - The drawn objects cover it wholly, whichever of them it shows: alpha, channel 3 of pixel
+ * `pixel` of the drawn image, is that of an object, over a background whose alpha is 0. A coarse
+ * mesh does not reach its exact shape's outline: what is missing there is an error of the
+ * silhouette, not of shading. */
+bool pixel_is_interior(const Scene *scene, int object, const Image *image, size_t pixel);
 
 /* Adds every pixel of the exact picture, whose upper left pixel is (left, top) in the image and
  * which lies within it. `scene`: of the exact picture. Several views of one image are added one

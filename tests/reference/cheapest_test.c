@@ -5,11 +5,13 @@
  * precision, from the OpenGL 1.1 specification).
  *
  * cheapest_test --markdown: what the same scenes save, as a table.
+ * cheapest_test NAME --error E ...: judges this command of a program alone.
  */
 #include "app/stage.h"
 #include "base/clock.h"
 #include "base/random.h"
 #include "scene/scene_example.h"
+#include "support/examples.h"
 #include "support/picture_check.h"
 #include "support/testing.h"
 
@@ -17,16 +19,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define X(NAME) extern const Example NAME;
-LIGHTING_EXAMPLES
-#undef X
-
-#define X(NAME) &NAME,
-static const Example *const EXAMPLES[] = {LIGHTING_EXAMPLES};
-#undef X
-
-enum { EXAMPLE_COUNT = sizeof EXAMPLES / sizeof EXAMPLES[0] };
 
 /* What the judges may differ by from the chooser's comparison: colors are kept there in 16 bits
  * (0.002), and the reserve is 0.015. */
@@ -326,36 +318,69 @@ static double between(double min, double max)
     return random_between(&randomness, min, max);
 }
 
-/* A sphere of 8 x 4, and two triangles that are bent. */
-static void write_models(void)
+static const char *const MODELS[] = {"ball.obj", "facets.obj", "bent.obj"};
+enum { MODEL_COUNT = sizeof MODELS / sizeof MODELS[0] };
+
+/* A corner of a triangle; its normal is the number `normal`, of the corner itself if that is 0. */
+static void corner(FILE *file, int number, int normal)
 {
-    static const char *const names[] = {"ball.obj", "bent.obj"};
-    FILE *file = fopen(names[0], "w");
+    fprintf(file, " %d//%d", number, normal ? normal : number);
+}
+
+/* A sphere of 8 x 4, with normals of the sphere or of its faces, wound the other way then. */
+static void write_ball(const char *name, bool facets)
+{
+    FILE *file = fopen(name, "w");
+    int normals = 0;
     assert_non_null(file);
     for (int stack = 0; stack <= 4; stack++)
         for (int slice = 0; slice < 8; slice++) {
             const double a = acos(-1) * stack / 4, b = acos(-1) * slice / 4;
-            fprintf(file, "v %.6f %.6f %.6f\nvn %.6f %.6f %.6f\n", sin(a) * sin(b), cos(a),
-                    sin(a) * cos(b), sin(a) * sin(b), cos(a), sin(a) * cos(b));
+            fprintf(file, "v %.6f %.6f %.6f\n", sin(a) * sin(b), cos(a), sin(a) * cos(b));
+            if (!facets)
+                fprintf(file, "vn %.6f %.6f %.6f\n", sin(a) * sin(b), cos(a), sin(a) * cos(b));
         }
     for (int stack = 0; stack < 4; stack++)
         for (int slice = 0; slice < 8; slice++) {
+            const double a = acos(-1) * (stack + 0.5) / 4, b = acos(-1) * (slice + 0.5) / 4;
             const int p = 8 * stack + slice + 1, q = 8 * stack + (slice + 1) % 8 + 1;
-            if (stack < 3)
-                fprintf(file, "f %d//%d %d//%d %d//%d\n", p, p, p + 8, p + 8, q + 8, q + 8);
-            if (stack > 0)
-                fprintf(file, "f %d//%d %d//%d %d//%d\n", p, p, q + 8, q + 8, q, q);
+            if (facets) {
+                fprintf(file, "vn %.6f %.6f %.6f\n", sin(a) * sin(b), cos(a), sin(a) * cos(b));
+                normals++;
+            }
+            const int triangles[2][3] = {{p, p + 8, q + 8}, {p, q + 8, q}};
+            for (int i = stack == 3; i < 1 + (stack > 0); i++) {
+                fprintf(file, "f");
+                for (int k = 0; k < 3; k++)
+                    corner(file, triangles[i][facets ? 2 - k : k], normals);
+                fprintf(file, "\n");
+            }
         }
     fclose(file);
-    file = fopen(names[1], "w");
+}
+
+/* The two balls, and two triangles that are bent, without normals. */
+static void write_models(void)
+{
+    write_ball(MODELS[0], false);
+    write_ball(MODELS[1], true);
+    FILE *file = fopen(MODELS[2], "w");
     assert_non_null(file);
     fprintf(file, "v -1 0 0\nv 1 0 0\nv 0 1 0.5\nv 0 -1 0.5\nf 1 2 3\nf 2 1 4\n");
     fclose(file);
 }
 
+/* One of six is an end of the range, and one of six near its beginning. */
+static double any_number(double min, double max)
+{
+    const int kind = below(6);
+    if (kind == 0)
+        return below(2) ? min : max;
+    return min + (max - min) * (kind == 1 ? pow(1e-3, between(0, 1)) : between(0, 1));
+}
+
 static void any_value(const Parameter *parameter, char *line, size_t size)
 {
-    static const char *const models[] = {"ball.obj", "bent.obj"};
     const char *const *choices = parameter_choices(parameter);
     char text[64] = "";
     int count = 0;
@@ -363,9 +388,7 @@ static void any_value(const Parameter *parameter, char *line, size_t size)
         count++;
     switch (parameter->kind) {
     case PARAMETER_NUMBER:
-        snprintf(
-            text, sizeof text, "%.3f",
-            fmin(parameter->max, fmax(parameter->min, between(parameter->min, parameter->max))));
+        snprintf(text, sizeof text, "%.3f", any_number(parameter->min, parameter->max));
         break;
     case PARAMETER_WHOLE:
         snprintf(text, sizeof text, "%d",
@@ -383,7 +406,7 @@ static void any_value(const Parameter *parameter, char *line, size_t size)
     case PARAMETER_TEXT:
         if (strcmp(parameter->name, "model") != 0 || below(3))
             return;
-        snprintf(text, sizeof text, "%s", models[below(2)]);
+        snprintf(text, sizeof text, "%s", MODELS[below(MODEL_COUNT)]);
         break;
     case PARAMETER_FLAG:
         return;
@@ -418,6 +441,20 @@ static bool is_chosen(const Parameter *parameter)
     return false;
 }
 
+/* One or two terms, and perhaps one of the lights alone. */
+static void any_terms(Command *command)
+{
+    static const char *const terms[] = {"ambient", "diffuse", "specular", "emission"};
+    const int first = below(4), second = (first + 1 + below(3)) % 4;
+    char text[64];
+    snprintf(text, sizeof text, "%s", terms[first]);
+    if (below(2))
+        snprintf(text + strlen(text), sizeof text - strlen(text), ",%s", terms[second]);
+    if (below(3) == 0)
+        snprintf(text + strlen(text), sizeof text - strlen(text), ",0");
+    add(command, "--terms=%s", text);
+}
+
 /* `error`: 0: any; else this one, and nothing is given that can be chosen. */
 static Command any_command(bool large, double error)
 {
@@ -440,10 +477,20 @@ static Command any_command(bool large, double error)
         add(&command, "--clamp=vertex");
     if (below(10) == 0)
         add(&command, "--full");
+    if (below(10) == 0)
+        add(&command, "--show-clipped");
+    if (below(12) == 0)
+        add(&command, "--lighting=off");
+    else if (below(6) == 0)
+        any_terms(&command);
     if (below(12) == 0 && error == 0)
         add(&command, "--samples=4");
     if (below(12) == 0 && error == 0)
         add(&command, "--precision=mediump");
+    if (below(12) == 0 && error == 0)
+        add(&command, "--output=x.tif"); /* floats */
+    if (below(12) == 0 && error == 0)
+        add(&command, "--alpha");
     for (; own && own->name && command.count < MAX_WORDS - 4; own++) {
         if (below(2) || (error > 0 && is_chosen(own)))
             continue;
@@ -464,23 +511,34 @@ typedef struct Verdict {
     double over_plain; /* time */
 } Verdict;
 
-static double apart(const unsigned char *bytes, const double color[3])
+static double apart(const double drawn[4], const double color[3])
 {
     double largest = 0;
     for (int k = 0; k < 3; k++)
-        largest = fmax(largest, fabs(bytes[k] - color[k]));
+        largest = fmax(largest, fabs(drawn[k] - color[k]));
     return largest;
 }
 
-static double smallest_alpha(const Scene *scene)
+/* Whether objects, not the background, cover all of a pixel: its alpha is then one of theirs. */
+static bool is_covered(const Scene *scene, double alpha)
 {
-    double alpha = 1;
+    bool covered = false;
     for (int i = 0; i < scene->object_count; i++) {
-        alpha = fmin(alpha, scene->objects[i].front.alpha);
-        if (scene->objects[i].two_sided)
-            alpha = fmin(alpha, scene->objects[i].back.alpha);
+        const Object *object = &scene->objects[i];
+        covered |= fabs(alpha - 255 * object->front.alpha) < 0.8;
+        covered |= object->two_sided && fabs(alpha - 255 * object->back.alpha) < 0.8;
     }
-    return alpha;
+    return covered;
+}
+
+/* A pixel's channels, 0 to 255. */
+static void read_pixel(const Image *image, size_t pixel, double channels[4])
+{
+    for (size_t k = 0; k < 4; k++)
+        channels[k] =
+            image->type == IMAGE_BYTE
+                ? ((const unsigned char *)image->pixels)[4 * pixel + k]
+                : 255 * fmin(fmax((double)((const float *)image->pixels)[4 * pixel + k], 0), 1);
 }
 
 static void judge_view(const ErrorPicture *picture, const ErrorView *view, int samples,
@@ -489,7 +547,6 @@ static void judge_view(const ErrorPicture *picture, const ErrorView *view, int s
     const int *place = view->place;
     const Scene *scene = &view->scene.scene;
     const ReferenceOptions options = {.width = place[2], .height = place[3]};
-    const double alpha = floor(255 * smallest_alpha(scene));
     Reference exact;
     require(reference_open(&exact, scene, &options, FAILURE), FAILURE);
     long long inside = 0, looked = 0;
@@ -498,17 +555,17 @@ static void judge_view(const ErrorPicture *picture, const ErrorView *view, int s
     for (int y = 0; y < place[3]; y++) {
         for (int x = 0; x < place[2]; x++) {
             const int i = y * place[2] + x;
-            const unsigned char *bytes =
-                (const unsigned char *)picture->image.pixels +
-                4 * ((size_t)(place[1] + y) * (size_t)picture->image.width +
-                     (size_t)(place[0] + x));
-            double color[3], own[3];
+            double drawn[4], color[3], own[3];
+            read_pixel(&picture->image,
+                       (size_t)(place[1] + y) * (size_t)picture->image.width +
+                           (size_t)(place[0] + x),
+                       drawn);
             /* Inside both outlines. */
-            if (!exact.interior[i] || bytes[3] < alpha)
+            if (!exact.interior[i] || !is_covered(scene, drawn[3]))
                 continue;
             for (int k = 0; k < 3; k++)
                 color[k] = 255 * (double)exact.color[3 * i + k];
-            const double off = apart(bytes, color);
+            const double off = apart(drawn, color);
             verdict->pixels++;
             const bool worst = off > verdict->by_reference;
             verdict->by_reference = fmax(verdict->by_reference, off);
@@ -518,7 +575,7 @@ static void judge_view(const ErrorPicture *picture, const ErrorView *view, int s
             if (looked++ > 2 * samples || !own_color(scene, place[2], place[3], x, y, own))
                 continue;
             verdict->own_pixels++;
-            verdict->by_own = fmax(verdict->by_own, apart(bytes, own));
+            verdict->by_own = fmax(verdict->by_own, apart(drawn, own));
             for (int k = 0; k < 3; k++)
                 verdict->apart = fmax(verdict->apart, fabs(own[k] - color[k]));
         }
@@ -535,18 +592,6 @@ static double frame(Stage *stage, const Options *options)
     return clock_now() - start;
 }
 
-static int by_size(const void *a, const void *b)
-{
-    const double *x = a, *y = b;
-    return (*x > *y) - (*x < *y);
-}
-
-static double median(double *values, int count)
-{
-    qsort(values, (size_t)count, sizeof *values, by_size);
-    return count ? values[count / 2] : NAN;
-}
-
 /* The median of the ratios of frames drawn in turn, after one each that compiles. */
 static double measure(Stage *stage, const Options *options)
 {
@@ -560,7 +605,7 @@ static double measure(Stage *stage, const Options *options)
         const double own = frame(stage, options);
         ratios[i] = own / frame(stage, &plain);
     }
-    return median(ratios, FRAMES);
+    return clock_median(ratios, FRAMES);
 }
 
 /* Runs a command as its program does, up to the picture, and judges that, or measures its time. */
@@ -582,7 +627,9 @@ static Verdict run(const Command *command, bool timed)
         words[1 + i] = (char *)command->words[i];
     require(options_read(&options, &usage, command->count + 1, words, FAILURE) == OPTIONS_RUN,
             FAILURE);
-    require(stage_open_canvas(&canvas, &options, "x.png", FAILURE), FAILURE);
+    require(
+        stage_open_canvas(&canvas, &options, options.output ? options.output : "x.png", FAILURE),
+        FAILURE);
     require(stage_open(&stage, example, &canvas, &options, FAILURE), FAILURE);
     verdict.allowed = options.error;
     for (int frame_number = 0; frame_number < options.frames; frame_number++) {
@@ -768,17 +815,36 @@ static int print_table(void)
         }
         printf("| %g | %.0f%% | %.0f%% | %.0f%% | %.2f | %.0f%% | %.2f | %.2f |\n", errors[e],
                100.0 * plain / CASES, 100.0 * count / CASES, 100.0 * fewer / CASES,
-               median(cheaper, fewer), 100.0 * more / CASES, median(dearer, more),
-               median(all, count));
+               clock_median(cheaper, fewer), 100.0 * more / CASES, clock_median(dearer, more),
+               clock_median(all, count));
         fflush(stdout);
     }
     return 0;
 }
 
+static int judge_command(int argc, char *argv[])
+{
+    Command command = {.example = NULL};
+    Verdict verdict;
+    for (int i = 0; i < EXAMPLE_COUNT; i++)
+        if (strcmp(EXAMPLES[i]->name, argv[1]) == 0)
+            command.example = EXAMPLES[i];
+    if (!command.example || argc - 2 > MAX_WORDS) {
+        fprintf(stderr, "cheapest_test: %s: no program with a scene\n", argv[1]);
+        return 2;
+    }
+    for (int i = 2; i < argc; i++)
+        add(&command, "%s", argv[i]);
+    setenv("LIGHTING_TEST_VERBOSE", "1", 1);
+    return check(&command, &verdict) ? 0 : 1;
+}
+
 int main(int argc, char *argv[])
 {
-    if (argc < 2 || strcmp(argv[1], "--markdown") != 0)
+    if (argc < 2)
         return picture_check_run("cheapest", enter, leave);
+    if (strcmp(argv[1], "--markdown") != 0)
+        return judge_command(argc, argv);
     enter(NULL);
     const int code = print_table();
     leave(NULL);

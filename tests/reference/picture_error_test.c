@@ -28,7 +28,8 @@ static void plain_open(Plain *plain, int width, int height, float value)
         plain->color[i] = value;
     memset(plain->interior, 1, sizeof plain->interior);
     memset(plain->object, 0, sizeof plain->object);
-    memset(plain->objects, 0, sizeof plain->objects); /* no alpha is less than theirs */
+    memset(plain->objects, 0, sizeof plain->objects);
+    plain->objects[0].front.alpha = 1; /* no alpha is less than theirs */
     plain->exact = (Reference){.width = width,
                                .height = height,
                                .color = plain->color,
@@ -43,9 +44,10 @@ static Image open_image(int width, int height, ImageType type, double value)
     require(image_open(&image, width, height, type, FAILURE), FAILURE);
     for (int i = 0; i < 4 * width * height; i++) {
         if (type == IMAGE_FLOAT)
-            ((float *)image.pixels)[i] = (float)value;
+            ((float *)image.pixels)[i] = i % 4 == 3 ? 1 : (float)value;
         else
-            ((unsigned char *)image.pixels)[i] = (unsigned char)lround(255 * value);
+            ((unsigned char *)image.pixels)[i] =
+                i % 4 == 3 ? 255 : (unsigned char)lround(255 * value);
     }
     return image;
 }
@@ -241,7 +243,7 @@ TEST(what_is_drawn_limits_the_interior)
     Plain plain;
     for (int type = IMAGE_BYTE; type <= IMAGE_FLOAT; type++) {
         plain_open(&plain, WIDTH, HEIGHT, 0);
-        plain.objects[0].front.alpha = plain.objects[1].front.alpha = 1;
+        plain.objects[1].front.alpha = 1;
         plain.objects[1].two_sided = true; /* its back is half opaque */
         plain.objects[1].back.alpha = 0.5;
         plain.objects[2].front.alpha = 0.25;
@@ -250,9 +252,9 @@ TEST(what_is_drawn_limits_the_interior)
             int object;
             double alpha;
             bool inside;
-        } cases[] = {{0, 1, true},    {0, 0.999, true}, {0, 0.75, false},
-                     {0, 0, false},   {1, 0.5, true},   {1, 0.4, false},
-                     {2, 0.25, true}, {2, 0.2, false},  {-1, 1, false}};
+        } cases[] = {{0, 1, true},   {0, 0.9985, true}, {0, 0.75, false}, {0, 0, false},
+                     {1, 0.5, true}, {1, 0.4, false},   {2, 0.25, true},  {2, 0.2, false},
+                     {2, 0.5, true}, {0, 0.25, true},   {2, 0.6, false},  {-1, 1, false}};
         int inside = COUNT;
         for (int i = 0; i < (int)(sizeof cases / sizeof cases[0]); i++) {
             plain.object[i] = cases[i].object;
