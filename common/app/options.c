@@ -97,8 +97,20 @@ static bool read_print(const Parameter *parameter, const char *text, Message *me
                        text);
 }
 
-/* By bit of SceneTerms. */
-static const char *const TERM_NAMES[] = {"ambient", "diffuse", "specular", "emission"};
+const char *const OPTIONS_TERM_NAMES[4] = {"ambient", "diffuse", "specular", "emission"};
+
+static bool unknown_term(const char *text, const char *word, Message *message)
+{
+    const char *names[5] = {NULL};
+    for (int k = 0; k < 4; k++)
+        names[k] = OPTIONS_TERM_NAMES[k];
+    const char *nearest = parse_nearest(word, names);
+    message_set(message, "--terms %s: ", text);
+    return nearest
+               ? message_add(message, "%s: did you mean %s?", word, nearest)
+               : message_add(message, "must be some of ambient, diffuse, specular and emission, "
+                                      "and numbers of lights, 0 to 31, between commas");
+}
 
 /* The terms by name and the lights by number; all terms, or lights, if none is named. */
 static bool read_terms(const Parameter *parameter, const char *text, Message *message)
@@ -112,7 +124,7 @@ static bool read_terms(const Parameter *parameter, const char *text, Message *me
         int k = 0, light;
         length = strcspn(word, ",");
         snprintf(copy, sizeof copy, "%.*s", (int)length, word);
-        while (k < 4 && strcmp(copy, TERM_NAMES[k]) != 0)
+        while (k < 4 && strcmp(copy, OPTIONS_TERM_NAMES[k]) != 0)
             k++;
         const bool whole = length < sizeof copy;
         if (whole && k < 4)
@@ -120,10 +132,7 @@ static bool read_terms(const Parameter *parameter, const char *text, Message *me
         else if (whole && parse_whole(copy, 0, 31, &light))
             lights |= (uint32_t)1 << light;
         else
-            return message_set(message,
-                               "--terms %s: must be some of ambient, diffuse, specular and "
-                               "emission, and numbers of lights, 0 to 31, between commas",
-                               text);
+            return unknown_term(text, whole && length ? copy : "", message);
         if (!word[length])
             break;
     }
@@ -139,7 +148,7 @@ static bool write_terms(const Parameter *parameter, char *text, size_t size)
     for (int k = 0; k < 4 && length < size; k++)
         if (!(terms->left_out >> k & 1))
             length += (size_t)snprintf(text + length, size - length, "%s%s", length ? "," : "",
-                                       TERM_NAMES[k]);
+                                       OPTIONS_TERM_NAMES[k]);
     for (int k = 0; k < 32 && terms->lights_left_out && length < size; k++)
         if (!(terms->lights_left_out >> k & 1))
             length += (size_t)snprintf(text + length, size - length, ",%d", k);
@@ -392,6 +401,41 @@ static bool find_animation(Options *options, Message *message)
     return !options->numbered || output_numbered(output, 0, first, sizeof first, message);
 }
 
+/* Names every format that the program writes, or the one that was probably meant. */
+static bool unknown_format(const char *path, const char *format, bool diagram, Message *message)
+{
+    enum { MAX = 64 };
+    const char *names[MAX + 3];
+    const int pictures = image_format_names(names, MAX);
+    int count = pictures + animation_format_names(names + pictures, MAX - pictures);
+    const int drawings = count;
+    if (diagram) {
+        names[count++] = "svg";
+        names[count++] = "pdf";
+    }
+    names[count] = NULL;
+    const char *nearest = parse_nearest(format, names);
+    message_set(message, "%s: unknown picture format .%s; ", path, format);
+    if (nearest)
+        return message_add(message, "did you mean .%s?", nearest);
+    for (int i = 0; i < count; i++)
+        message_add(message, "%s.%s",
+                    i == 0          ? "pictures: "
+                    : i == pictures ? "; animations: "
+                    : i == drawings ? "; drawings: "
+                                    : ", ",
+                    names[i]);
+    return false;
+}
+
+static bool find_format(const char *path, bool diagram, char format[16], Message *message)
+{
+    format[0] = '\0';
+    return image_format(path, format, NULL) ||
+           (format[0] ? unknown_format(path, format, diagram, message)
+                      : image_format(path, format, message));
+}
+
 static bool check_file(Options *options, const Usage *usage, Message *message)
 {
     char format[16];
@@ -409,7 +453,7 @@ static bool check_file(Options *options, const Usage *usage, Message *message)
         options->vector = drawing_format(output);
     if (options->animation || options->vector)
         return true;
-    return image_format(output, format, message) &&
+    return find_format(output, usage->diagram, format, message) &&
            (!options->alpha || image_format_has_alpha(format) ||
             message_set(message, "%s: .%s has no alpha channel; leave out --alpha, or name a .png",
                         output, format));

@@ -25,6 +25,9 @@ enum { OPTIONS_MAX_PARAMETERS = 32, OPTIONS_MAX = 72 };
 /* The defaults of --size in pixels and of --fps. */
 enum { OPTIONS_SIDE = 400, OPTIONS_FPS = 30 };
 
+/* By bit of SceneTerms. */
+extern const char *const OPTIONS_TERM_NAMES[4];
+
 /* The range of --time, before and after 0. */
 enum { OPTIONS_MAX_SECONDS = 1000000000 };
 

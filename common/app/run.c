@@ -4,6 +4,7 @@
 #include "app/doctor.h"
 #include "app/explain.h"
 #include "app/live.h"
+#include "app/unused.h"
 #include "app/viewer.h"
 #include "base/clock.h"
 #include "base/output.h"
@@ -206,6 +207,17 @@ static bool run_example(const Example *example, const Options *options,
     return done;
 }
 
+/* Says which of the options do nothing here. */
+static void tell_unused(const Example *example, const Options *options,
+                        const ParameterValue *defaults)
+{
+    char names[512];
+    unused_options(example, options, defaults, names, sizeof names);
+    if (names[0])
+        fprintf(stderr, "%s: %s: no effect here; the picture is the same without\n", example->name,
+                names);
+}
+
 int example_main(const Example *example, int argc, char *argv[])
 {
     Options options;
@@ -224,6 +236,10 @@ int example_main(const Example *example, int argc, char *argv[])
     options.canvas.title = example->name;
     if (options.doctor)
         return options_finish(example->name, doctor_run());
+    if (!unused_terms_check(example, &options, &message))
+        return options_fail(example->name, &message, EXIT_USAGE);
+    if (!options.shaders.print && !options_in_window(&options)) /* where they can be changed */
+        tell_unused(example, &options, defaults);
     if (!run_example(example, &options, defaults, &message))
         return options_fail(example->name, &message, EXIT_FAILED);
     return options_finish(example->name, 0);

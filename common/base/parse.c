@@ -1,5 +1,6 @@
 #include "base/parse.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -72,37 +73,56 @@ void parse_number_text(double number, char text[32])
     }
 }
 
-/* Levenshtein distance of the first 63 characters. */
-static int distance(const char *a, const char *b)
+enum { WORD_MAX = 63 };
+
+/* The first letters of a word, in lower case. Returns their number. */
+static int lower(const char *word, char letters[WORD_MAX + 1])
 {
-    enum { MAX = 63 };
-    int row[MAX + 1];
-    const int length = (int)strlen(b) < MAX ? (int)strlen(b) : MAX;
-    for (int j = 0; j <= length; j++)
-        row[j] = j;
-    for (int i = 1; i <= MAX && a[i - 1]; i++) {
-        int diagonal = row[0];
+    int length = 0;
+    for (; word[length] && length < WORD_MAX; length++)
+        letters[length] = (char)tolower((unsigned char)word[length]);
+    letters[length] = '\0';
+    return length;
+}
+
+static int least(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+/* The edits from one word to the other: letters changed, added, left out, or exchanged with their
+ * neighbour (optimal string alignment). */
+static int distance(const char *a, int length_a, const char *b, int length_b)
+{
+    int rows[3][WORD_MAX + 1]; /* by i mod 3 */
+    for (int j = 0; j <= length_b; j++)
+        rows[0][j] = j;
+    for (int i = 1; i <= length_a; i++) {
+        int *row = rows[i % 3], *above = rows[(i + 2) % 3], *before = rows[(i + 1) % 3];
         row[0] = i;
-        for (int j = 1; j <= length; j++) {
-            const int change = diagonal + (a[i - 1] != b[j - 1]);
-            diagonal = row[j];
-            const int other = 1 + (row[j] < row[j - 1] ? row[j] : row[j - 1]);
-            row[j] = change < other ? change : other;
+        for (int j = 1; j <= length_b; j++) {
+            row[j] = least(above[j - 1] + (a[i - 1] != b[j - 1]), 1 + least(above[j], row[j - 1]));
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                row[j] = least(row[j], 1 + before[j - 2]);
         }
     }
-    return row[length];
+    return rows[length_a % 3][length_b];
 }
 
 const char *parse_nearest(const char *word, const char *const *names)
 {
-    const char *nearest = NULL;
-    int min = 1 + (int)strlen(word) / 3; /* a third of the letters may be wrong */
+    char own[WORD_MAX + 1], other[WORD_MAX + 1];
+    const int length = lower(word, own);
+    const char *nearest = NULL, *beginning = NULL;
+    int min = length / 3 + 1, beginnings = 0;
     for (; *names; names++) {
-        const int d = distance(word, *names);
-        if (d <= min && (!nearest || d < min)) {
+        const int d = distance(own, length, other, lower(*names, other));
+        if (d < min) {
             nearest = *names;
             min = d;
         }
+        if (length && strncmp(own, other, (size_t)length) == 0 && beginnings++ == 0)
+            beginning = *names;
     }
-    return nearest;
+    return beginnings == 1 ? beginning : nearest;
 }

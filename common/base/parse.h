@@ -24,7 +24,9 @@ int parse_numbers(const char *text, const double min[3], const double max[3], do
 /* Writes a finite number with the fewest digits, 15 to 17, that parse_number reads back exactly. */
 void parse_number_text(double number, char text[32]);
 
-/* The name nearest to `word` by edit distance; NULL if none is near. `names` ends with NULL. */
+/* The name that `word` was probably meant to be: the only one that begins so, or the nearest, if at
+ * most a third of the word's letters differ. Case does not count. NULL: none. `names` ends with
+ * NULL. */
 const char *parse_nearest(const char *word, const char *const *names);
 
 #endif

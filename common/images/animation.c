@@ -97,13 +97,26 @@ static const Format *find_format(const char *name)
     return NULL;
 }
 
+static bool in_file(const Format *format)
+{
+    return format->writer != WRITER_Y4M && format->writer != WRITER_RGB;
+}
+
+int animation_format_names(const char *names[], int max)
+{
+    int count = 0;
+    for (size_t i = 0; count < max && i < sizeof FORMATS / sizeof FORMATS[0]; i++)
+        if (in_file(&FORMATS[i]))
+            names[count++] = FORMATS[i].name;
+    return count;
+}
+
 const char *animation_format(const char *path, int frames)
 {
     const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
     const char *dot = strrchr(name, '.');
     const Format *format = dot && dot > name ? find_format(dot + 1) : NULL;
-    const bool file = format && format->writer != WRITER_Y4M && format->writer != WRITER_RGB;
-    return file && (frames > 1 || format->single) ? format->name : NULL;
+    return format && in_file(format) && (frames > 1 || format->single) ? format->name : NULL;
 }
 
 /* The size limit of ffmpeg. (av_image_check_size2 in libavutil, which assumes 8 bytes a pixel) */

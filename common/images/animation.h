@@ -36,6 +36,9 @@ typedef struct AnimationOptions {
  * .gif or .webp is not an animation; in a .apng, .mp4 or .webm it is. */
 const char *animation_format(const char *path, int frames);
 
+/* The names of the formats that a file may have; at most `max`. Returns their number. */
+int animation_format_names(const char *names[], int max);
+
 /* Whether the format supports these options. Opens nothing. */
 bool animation_check(const AnimationOptions *options, Message *message);
 

@@ -108,6 +108,14 @@ bool image_format(const char *path, char format[16], Message *message)
         path, format);
 }
 
+int image_format_names(const char *names[], int max)
+{
+    int count = 0;
+    for (; count < max && count < (int)(sizeof FORMATS / sizeof FORMATS[0]); count++)
+        names[count] = FORMATS[count].name;
+    return count;
+}
+
 bool image_format_is_float(const char *format)
 {
     const Format *found = find_format(format);

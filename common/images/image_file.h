@@ -38,6 +38,9 @@ void image_file_close(ImageFile *file);
  * below /dev and /proc. False if there is no extension or an unknown one. */
 bool image_format(const char *path, char format[16], Message *message);
 
+/* The names of the formats, "png", "exr"; at most `max`. Returns their number. */
+int image_format_names(const char *names[], int max);
+
 /* Whether a format holds floats ("exr", "hdr", "tif"), so that a float canvas is worthwhile. */
 bool image_format_is_float(const char *format);
 

@@ -16,6 +16,8 @@ typedef struct Annotations {
     OverlayList lines, points;
 } Annotations;
 
+/* The init of such an example may be called with a loader of `only_texts` and without texts, when
+ * its scenes are wanted as data: it loads no shader then. */
 typedef struct SceneExample {
     /* Fills in the scene at a time. The example owns what it points to, until the next call. */
     void (*make)(double seconds, int view, Scene *scene);

@@ -148,6 +148,12 @@ static bool time_views(Lighting *lighting, double medians[VIEWS], Message *messa
 
 static bool make_labels(const ShaderLoader *loader, Message *message)
 {
+    if (loader->only_texts) { /* no shader is to be loaded */
+        for (int view = 0; view < VIEWS; view++)
+            snprintf(state.labels[view], sizeof state.labels[view], "%s: costs %s", VIEW[view].name,
+                     COSTS[costs]);
+        return true;
+    }
     Lighting *lighting;
     ShaderLoader quiet = *loader;
     double medians[VIEWS];

@@ -405,6 +405,11 @@ TEST(the_nearest_name_has_the_fewest_edits)
         {"lightedcube", "LightedCube"},
         {"LightedCubes", "LightedCube"},
         {"LightedCube_ambiant", "LightedCube_ambient"},
+        {"LightedCube_a", "LightedCube_ambient"},
+        {"tor", "torus"},
+        {"SPH", "sphere"},
+        {"LightedC", NULL}, /* two begin so */
+        {"square", NULL},   /* half of the letters of sphere */
         {"teapot", NULL},
         {"xyz", NULL},
     };

@@ -164,6 +164,16 @@ class Case(unittest.TestCase):
         self.assertEqual((result.returncode, result.stderr), (0, b""), arguments)
         return result.stdout
 
+    def good_or_unused(self, *arguments, **more):
+        """The same, but options may be named that do nothing here. Returns these names."""
+        result = self.run_it(*arguments, **more)
+        said = result.stderr.decode()
+        self.assertEqual(result.returncode, 0, said)
+        names = re.fullmatch(r"(?:\w+: (.*): no effect here; the picture is the same without\n)?",
+                             said)
+        self.assertTrue(names, said)
+        return set((names[1] or "").split(", ")) - {""}
+
     def says(self, code, said, *arguments, **more):
         """Ends with this code and a text that matches `said` on standard error."""
         result = self.run_it(*arguments, **more)
@@ -238,7 +248,11 @@ class Options(Case):
                 ("number", "-n", "3", "-o", "a.png"), ("number", "-n", "3", "-o", "a%d%d.png"),
                 ("number", "-n", "3", "-o", "a%s.png"), ("one picture", "-n", "3", "-o", "-"),
                 ("is a folder", "-o", "folder/"), ("extension", "-o", "picture"),
-                ("extension", "-o", ".png"), ("xyz", "-o", "picture.xyz")):
+                ("extension", "-o", ".png"),
+                (r"unknown picture format .xyz; pictures: .png, .exr, .*, .gif; animations: .gif, "
+                 r".webp, .apng, .mp4, .webm\n", "-o", "picture.xyz"),
+                (r"unknown picture format .pgn; did you mean .png\?\n", "-o", "picture.pgn"),
+                (r"--backend egk: no such backend; there is", "-b", "egk")):
             self.refused(2, "^LightedCube: .*" + said, *arguments)
 
     def test_more_samples_than_there_are_name_the_most(self):
@@ -733,6 +747,7 @@ class Scenes(Case):
                 ("Materials", "R,G,B or one number", "--specular", "0,0"),
                 ("Materials", "did you mean gold", "--material", "golf"),
                 ("ShadingModels", "did you mean sphere", "--shape", "sphre"),
+                ("ShadingModels", r"--shape square: must be cube, sphere, .* or \S+$", "--shape", "square"),
                 ("ShadingModels", "blinn-phong or phong", "--reflection", "lambert"),
                 ("FourLights", "on or off", "--red", "maybe"),
                 ("PhongBlinn", "1 to 30", "--shininess", "31"),
@@ -773,6 +788,41 @@ class Scenes(Case):
                 changed = self.drawn("-s", "120x120", *arguments, program=program).pixels
                 self.assertNotEqual(plain, changed)
 
+
+    def test_options_that_do_nothing_are_said(self):
+        for program, unused, *arguments in (
+                ("Materials", "--diffuse --shininess", "--sheet=on", "--diffuse=1,0,0",
+                 "--shininess=3", "--light-diffuse=0.5"),
+                ("Materials", "--opacity", "--opacity=0.5", "--material=gold"),
+                ("Materials", "", "--opacity=0.5", "--alpha"),
+                ("Materials", "--specular", "--terms=diffuse", "--specular=0.2"),
+                ("Materials", "--shininess", "--specular=0", "--shininess=5"),
+                ("SmoothFlat", "--normals --slices --stacks", "--shape=band", "--normals=flat",
+                 "--slices=5", "--stacks=7"),
+                ("SmoothFlat", "--stacks", "--shape=square", "--slices=5", "--stacks=9"),
+                ("PhongBlinn", "", "--fit=off", "--shininess=20"),
+                ("TermsApart", "", "--costs=off", "--shape=cube"),
+                ("SpotLight", "", "--cutoff=10", "--exponent=3", "--shape=cube"),
+                *((("Vectors", "--shininess", "--figure=rays", "--shininess=3"),)
+                  if DIAGRAMS else ())):
+            with self.subTest(program=program, arguments=arguments):
+                draw = functools.partial(self.good_or_unused, "-s", "120x120", program=program)
+                unused = set(unused.split())
+                self.assertEqual(draw(*arguments, "-o", "all.png"), unused)
+                for left_out in [one for one in arguments if one != "--alpha"]:
+                    draw(*(one for one in arguments if one != left_out), "-o", "without.png")
+                    self.assertEqual(self.png("all.png").pixels == self.png("without.png").pixels,
+                                     left_out.split("=")[0] in unused, left_out)
+
+    def test_terms_and_lights_that_are_not_there_are_said(self):
+        has = "the scene has ambient, diffuse, specular"
+        for program, said, terms in (
+                ("LightTypes", f"--terms: there is no light 7; {has}; light 0", "7"),
+                ("FourLights", "--terms: there is no light 4; .*; lights 0 to 3", "diffuse,3,4"),
+                ("Materials", f"--terms: there is no emission; {has}; light 0", "emission"),
+                ("Materials", "--terms difuse,0: difuse: did you mean diffuse?", "difuse,0"),
+                ("Materials", "--terms 32: must be some of ", "32"), ("Materials", "--terms : must be", "")):
+            self.refused(2, f"^{program}: {said}", "--terms", terms, program=program)
 
     def test_a_named_material_can_be_changed_in_any_order(self):
         mixed = self.drawn("--material", "gold", "--diffuse", "0,0,1", program="Materials").pixels
@@ -893,13 +943,13 @@ class Again(Case):
                               check=True).stdout.decode().split("\0")[:-1]
 
     def assert_again(self, program, *arguments, suffix="png", **more):
-        self.good(*arguments, "-o", "first." + suffix, program=program, **more)
+        self.good_or_unused(*arguments, "-o", "first." + suffix, program=program, **more)
         first = self.read("first." + suffix)
         name, *words = self.command(first)
         with self.subTest(program=program, arguments=arguments, suffix=suffix, words=words):
             self.assertEqual(name, program)
             os.makedirs(self.path("elsewhere"), exist_ok=True)
-            self.good(*words, program=name, cwd=self.path("elsewhere"))
+            self.good_or_unused(*words, program=name, cwd=self.path("elsewhere"))
             self.assertEqual(os.listdir(self.path("elsewhere")), [f"{program}.{suffix}"])
             self.assertTrue(self.read(f"elsewhere/{program}.{suffix}") == first)
         shutil.rmtree(self.path("elsewhere"))

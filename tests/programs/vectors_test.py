@@ -142,7 +142,7 @@ class Options(Case):
                 ("did you mean lobe", "--figure", "lob"), ("-180 to 180", "--light", "181"),
                 ("-90 to 90", "--eye", "91"), ("0 to 128", "--shininess", "-1"),
                 ("0 to 128", "--shininess", "nan"), ("1 to 16", "--sides", "0"),
-                ("did you mean gold", "--material", "gol"), ("unknown picture format", "-o", "a.xyz"),
+                ("did you mean gold", "--material", "gol"), ("animations: .*; drawings: .svg, .pdf", "-o", "a.xyz"),
                 ("standard output takes one picture as svg", "-o", "-", "--format", "svg", "-n", "2"),
                 ("--format svg: applies to standard output", "--format", "svg"),
                 ("need a number", "-n", "2", "-o", "a.svg")):
