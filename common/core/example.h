@@ -1,7 +1,7 @@
 /*
  * example: a program of the chapter: its name, what it teaches, and three functions.
  *
- * `main` (app/main.c) passes it to example_main (app/run.h), which reads the options, opens a
+ * `main` (common/main.c) passes it to example_main (app/run.h), which reads the options, opens a
  * canvas, draws and writes the picture. `draw` gets the time and reads no clock, so every picture
  * is reproducible.
  */
