@@ -4,6 +4,7 @@
 #include "app/help.h"
 #include "base/output.h"
 #include "base/parse.h"
+#include "base/process.h"
 #include "base/version.h"
 #include "images/animation.h"
 #include "images/drawing.h"
@@ -259,6 +260,10 @@ int options_table(const Usage *usage, Options *options, OptionsPurpose purpose,
          .standard = "as the shader says", .programs = GL_DRAWS},
         {"print-shader", "print the source that the driver gets; draw nothing", FLAG(shaders.print),
          .choices = STAGES, .read = read_print, .programs = GL_DRAWS | ASIDE},
+        {"deterministic",
+         "use no more of an x86 processor than SSE4.1 and vectors of 128 bits, in Mesa and in the C "
+         "library, so that different processors give the same bytes",
+         FLAG(deterministic), .programs = ALL},
         {"alpha", "keep the alpha channel: the background is transparent", FLAG(alpha),
          .programs = DRAWS},
         {"compress", "of PNG files: 0 is none, 9 is smallest", PARAMETER_WHOLE, &options->compress,
@@ -594,13 +599,31 @@ int options_finish(const char *program, int code)
     return code;
 }
 
+/* What is read when a library is loaded. Mesa's llvmpipe and OSMesa choose instructions by the
+ * processor: F16C is what computes mediump in 16 bits. glibc's libm has its own variants of sin,
+ * pow and others for processors with FMA, whose results differ in the last bit. */
+static const char *const LEAST_PROCESSOR[] = {
+    "GALLIUM_OVERRIDE_CPU_CAPS=sse4.1", "LP_NATIVE_VECTOR_WIDTH=128",
+    "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4", NULL};
+
 bool options_begin(Options *options, const Usage *usage, int argc, char *argv[], int *code)
 {
     Message message = {0};
+    const size_t size = ((size_t)argc + 1) * sizeof *argv;
+    char **given = malloc(size); /* options_read moves the names to the front */
     options_prepare_process();
+    if (given)
+        memcpy(given, argv, size);
     const OptionsResult result = options_read(options, usage, argc, argv, &message);
-    if (result != OPTIONS_RUN)
+    bool run = result == OPTIONS_RUN;
+    if (!run) {
         *code = result == OPTIONS_ANSWERED ? options_finish(usage->name, 0)
                                            : options_fail(usage->name, &message, EXIT_USAGE);
-    return result == OPTIONS_RUN;
+    } else if (options->deterministic &&
+               !(given && process_restart(given, LEAST_PROCESSOR, &message))) {
+        *code = options_fail(usage->name, &message, EXIT_FAILED);
+        run = false;
+    }
+    free(given);
+    return run;
 }

@@ -48,6 +48,7 @@ typedef struct Options {
     bool watch;           /* draw again when a shader changes */
     CanvasOptions canvas; /* without size and real */
     ShaderLoader shaders;
+    bool deterministic;   /* options_begin has seen to it */
     bool alpha;
     int compress;
     bool verbose;
@@ -124,8 +125,8 @@ void options_catch_signals(void (*handler)(int), int flags);
  * before a signal ends the process. */
 void options_prepare_process(void);
 
-/* The beginning of a program: options_prepare_process and options_read, whose message it prints.
- * False if the program is to return *code at once. */
+/* The beginning of a program: options_prepare_process and options_read, whose message it prints;
+ * with --deterministic, starts the program again in an environment that caps the processor. False if the program is to return *code at once. */
 bool options_begin(Options *options, const Usage *usage, int argc, char *argv[], int *code);
 
 /* Prints a message on standard error and returns `code`. */

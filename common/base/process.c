@@ -10,6 +10,7 @@
 #include <signal.h>
 #include <spawn.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -40,6 +41,26 @@ int process_start(pid_t *process, const char *const *arguments, const int files[
     }
     posix_spawn_file_actions_destroy(&actions);
     return error;
+}
+
+bool process_restart(char *const *arguments, const char *const *settings, Message *message)
+{
+    bool there = true;
+    for (; *settings; settings++) {
+        const char *equals = strchr(*settings, '=');
+        char name[64];
+        snprintf(name, sizeof name, "%.*s", (int)(equals - *settings), *settings);
+        const char *value = getenv(name);
+        if (value && strcmp(value, equals + 1) == 0)
+            continue;
+        there = false;
+        if (setenv(name, equals + 1, 1) != 0)
+            return message_set(message, "%s: %s", *settings, strerror(errno));
+    }
+    if (there)
+        return true;
+    execv("/proc/self/exe", arguments);
+    return message_set(message, "this program cannot be started again: %s", strerror(errno));
 }
 
 pid_t process_fork(int *end, Message *message)

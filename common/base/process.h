@@ -15,6 +15,11 @@
  * ENOENT if there is no such program. */
 int process_start(pid_t *process, const char *const *arguments, const int files[4]);
 
+/* Runs this program again in place of this process, with these arguments and with `settings`,
+ * "NAME=VALUE" ended by NULL, in the environment: for what is read before main. Returns true if they
+ * are there already, and false if that fails. */
+bool process_restart(char *const *arguments, const char *const *settings, Message *message);
+
 /* Forks with a pipe for the child's answer. Returns 0 in the child, where *end is to be written,
  * and the child's id in the parent, where *end is to be read and closed; -1 on failure. */
 pid_t process_fork(int *end, Message *message);

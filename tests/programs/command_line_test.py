@@ -897,6 +897,7 @@ class Again(Case):
     """The same command writes the same bytes, and a picture's text is such a command."""
     FORMATS = ("png", "exr", "tif", "jpg", "webp", "bmp", "tga", "ppm", "hdr", "dpx", "gif")
     FILMS = ("gif", "webp", "apng", "mp4", "webm")
+    DRAW = PROGRAMS + SCENES + [program for program in EVERY if program.startswith("lab")]
     CUBE = ("v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv 0 0 1\n"
             "f 4 3 2 1\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n")
 
@@ -958,15 +959,16 @@ class Again(Case):
 
     def test_every_program_says_how_to_draw_its_picture_again(self):
         common = ("-t", "0.7", "--orbit=-20,10,0.9", "--samples", "2", "--alpha", "--compress", "9")
-        labs = [program for program in EVERY if program.startswith("lab")]
-        for program in (PROGRAMS + SCENES + labs)[::step(7)]:
-            self.assert_again(program, *SMALL, *common, "--precision", "mediump")
-        for program in (PROGRAMS + SCENES + labs)[::step(11)]:
+        for program in self.DRAW[::step(7)]:
+            self.assert_again(program, *SMALL, *common, "--precision", "mediump", "--deterministic")
+        for program in self.DRAW[::step(11)] + DIAGRAMS:
             self.assert_again(program)
         for program in SCENES[::step(6)]:
             self.assert_again(program, *SMALL, "--clamp", "vertex", "--linear-light",
-                              "--show-clipped", "--full")
+                              "--show-clipped", "--full", "--terms", "diffuse,specular,0")
             self.assert_again(program, *SMALL, "--error", "2")
+            if LONG:
+                self.assert_again(program, *SMALL, "--lighting", "off")
 
     def test_a_programs_own_options_are_said(self):
         for program in SCENES[::step(4)]:
@@ -980,7 +982,7 @@ class Again(Case):
     @unittest.skipUnless(os.path.exists(MODULE), "without OpenImageIO")
     def test_exr_and_tiff_say_it_too(self):
         for suffix in ("exr", "tif", "tiff")[:None if LONG else 2]:
-            for program in ("PointLightedCube", "Materials", "NormalMatrix") if LONG else ():
+            for program in self.DRAW + DIAGRAMS if LONG else ():
                 self.assert_again(program, *SMALL, "-t", "1.1", suffix=suffix)
             self.assert_again("Materials", *SMALL, "--material", "gold", "--alpha", suffix=suffix)
 
@@ -1036,6 +1038,39 @@ class Again(Case):
                     self.assertTrue(first.setdefault(name, data) == data)
         for name, data in first.items():
             self.assertNotIn(time.strftime("%Y:%m").encode(), data, name)
+
+    # What --deterministic sets, so that an emulated program does not start itself again, which
+    # would be on the real processor.
+    LEAST = {"GALLIUM_OVERRIDE_CPU_CAPS": "sse4.1", "LP_NATIVE_VECTOR_WIDTH": "128",
+             "GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4"}
+
+    def test_deterministic_caps_the_processor(self):
+        draw = ("-s", "90x60", "--deterministic", "-o", "-")
+        picture = self.good(*draw, program="PhongBlinn")
+        renderer = Png(picture).texts["Driver"]
+        if "llvmpipe" in renderer:
+            self.assertIn("128 bits", renderer)
+        for environment in (self.LEAST, {"GALLIUM_OVERRIDE_CPU_CAPS": "nosse"},
+                            {"LP_NATIVE_VECTOR_WIDTH": "512", "GLIBC_TUNABLES": ""}):
+            self.assertTrue(self.good(*draw, program="PhongBlinn", environment=environment) ==
+                            picture, environment)
+        self.good("LightedCube", *draw[:3], "-o", "g", "Materials", program="gallery")
+        self.assertEqual(set(os.listdir(self.path("g"))),
+                         {"LightedCube.png", "Materials.png", "contact-sheet.png", "index.html"})
+        words = self.good("-s", "9x9", "-t", "1", "-o", "-", "--deterministic", "--compress", "0")
+        self.assertIn("--deterministic", self.command(words))
+
+    @unittest.skipUnless(LONG and shutil.which("qemu-x86_64") and os.uname().machine == "x86_64",
+                         "the long form, on x86-64 with qemu-user")
+    def test_deterministic_pictures_are_those_of_other_processors(self):
+        for program in ("PhongBlinn", "PointLightedSphere_perFragment", "Materials"):
+            draw = ("-s", "90x60", "--deterministic", "-o", "-")
+            picture = self.good(*draw, program=program)
+            for processor in ("Penryn", "Nehalem", "SandyBridge", "Haswell", "EPYC", "max"):
+                result = subprocess.run(
+                    ["qemu-x86_64", "-cpu", processor, os.path.join(EXAMPLES, program), *draw],
+                    env={**os.environ, **self.LEAST, "LP_NUM_THREADS": "0"}, capture_output=True)
+                self.assertTrue(result.stdout == picture, (program, processor, result.stderr))
 
     @unittest.skipUnless(os.path.exists(MODULE), "without OpenImageIO")
     def test_a_date_is_that_of_source_date_epoch(self):
