@@ -3,7 +3,6 @@
 #include "app/arguments.h"
 #include "app/help.h"
 #include "base/output.h"
-#include "base/parse.h"
 #include "base/process.h"
 #include "base/version.h"
 #include "images/animation.h"
@@ -77,6 +76,12 @@ static bool write_backend(const Parameter *parameter, char *text, size_t size)
     const CanvasBackend *given = *(const CanvasBackend *const *)parameter->value;
     const CanvasBackend *backend = given ? given : backend_default(NULL);
     return backend && snprintf(text, size, "%s", backend->name) < (int)size;
+}
+
+bool options_read_part(const Parameter *parameter, const char *text, Message *message)
+{
+    return parse_part(text, parameter->value) ||
+           message_set(message, "--part %s: must be I/N, 1/N to N/N, as in 3/8", text);
 }
 
 static bool read_window(const Parameter *parameter, const char *text, Message *message)
@@ -232,6 +237,18 @@ int options_table(const Usage *usage, Options *options, OptionsPurpose purpose,
          .given = &options->numbered, .programs = FILM},
         {"fps", "pictures per second", PARAMETER_NUMBER, &options->fps, 1e-3, 1e6,
          .placeholder = "F", .programs = FILM},
+        {"part",
+         usage->gallery
+             ? "draw only the I-th of N parts, for several processes or machines that share DIR"
+             : "draw only the I-th of N parts of --frames, for several processes or machines. Those "
+               "of an animation go to the folder FILE.parts as PNG",
+         TEXT(part), .placeholder = "I/N", .standard = "", .read = options_read_part,
+         .programs = FILM | GALLERY | ASIDE},
+        {"merge",
+         usage->gallery ? "draw nothing: write what is missing when all parts are drawn, the "
+                          "contact sheet and index.html"
+                        : "draw nothing: put the animation together when all parts are drawn",
+         FLAG(merge), .programs = FILM | GALLERY | ASIDE},
         {"format",
          "what -o - writes: one PNG (default); all pictures as YUV4MPEG2 video (y4m); or their raw "
          "bytes: red, green, blue (rgb)",
@@ -464,6 +481,21 @@ static bool check_file(Options *options, const Usage *usage, Message *message)
                         output, format));
 }
 
+/* Parts are of several pictures in files. */
+static bool check_parts(const Options *options, Message *message)
+{
+    const bool films = options->frames > 1 && strcmp(options->output, "-") != 0 &&
+                       !options->watch && !options_in_window(options);
+    if (options->part.count && !films)
+        return message_set(message,
+                           "--part %d/%d: is one of several pictures that go to files; give "
+                           "--frames and a file, as in -n 90 -o turn.gif",
+                           options->part.number, options->part.count);
+    return !options->merge || (films && options->animation) ||
+           message_set(message, "--merge: puts an animation together; give the command of its "
+                                "parts, as in -n 90 -o turn.gif");
+}
+
 /* Checks that need neither driver nor files. */
 static bool check(Options *options, const Usage *usage, Message *message)
 {
@@ -473,6 +505,8 @@ static bool check(Options *options, const Usage *usage, Message *message)
         return message_set(message, "%s: not an option; --help lists them, -o %s",
                            options->names[0],
                            usage->study ? "DIR names the folder" : "FILE names the picture");
+    if (options->part.count && options->merge)
+        return message_set(message, "--part and --merge: one of them");
     if (options->doctor)
         return true;
     if (options->shaders.print || options->explain)
@@ -490,7 +524,8 @@ static bool check(Options *options, const Usage *usage, Message *message)
         return message_set(message,
                            "--output -: in a window each press of s saves a picture; name a "
                            "file");
-    if (!(stream ? check_stream(options, message) : check_file(options, usage, message)))
+    if (!(stream ? check_stream(options, message) : check_file(options, usage, message)) ||
+        !check_parts(options, message))
         return false;
     const AnimationOptions animation = {.format = options->animation,
                                         .width = options->width,

@@ -4,6 +4,7 @@
 #ifndef OPTIONS_H
 #define OPTIONS_H
 
+#include "base/parse.h"
 #include "core/canvas.h"
 #include "core/example.h"
 #include "core/orbit.h"
@@ -40,6 +41,8 @@ typedef struct Options {
     int frames;
     bool numbered; /* --frames was given, and the output's name has a number */
     double fps;
+    Part part;  /* of the pictures */
+    bool merge; /* instead of drawing, put together what the parts have drawn */
     const char *format; /* of standard output: "png", "y4m", "rgb", "svg", "pdf"; NULL: not given */
     const char *vector; /* "svg" or "pdf", of a diagram; NULL: pixels */
     const char *animation; /* the format of the one file or stream of all pictures, see animation.h;
@@ -97,6 +100,9 @@ typedef enum OptionsResult { OPTIONS_RUN, OPTIONS_ANSWERED, OPTIONS_BAD } Option
  * output; OPTIONS_BAD: a usage error, with its message. */
 OptionsResult options_read(Options *options, const Usage *usage, int argc, char *argv[],
                            Message *message);
+
+/* The value of an option --part, a Part. */
+bool options_read_part(const Parameter *parameter, const char *text, Message *message);
 
 Usage options_usage(const Example *example);
 

@@ -12,6 +12,7 @@
 #include "core/example.h"
 #include "images/animation.h"
 #include "scene/scene_example.h"
+#include "window/backends.h"
 #include "window/window.h"
 
 #include <errno.h>
@@ -19,6 +20,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /* The file of picture `number`. */
 static bool picture_path(const Options *options, int number, char path[PATH_MAX], Message *message)
@@ -69,6 +71,8 @@ static bool draw_pictures(Stage *stage, const Options *options, PictureQueue *qu
     bool done = true;
     for (int i = 0; i < options->frames && done; i++) {
         const double seconds = options->seconds + i / options->fps;
+        if (!part_has(options->part, (uint64_t)i))
+            continue;
         Picture *picture = picture_queue_take(queue);
         done = picture_path(options, i, picture->path, message) &&
                stage_picture(stage, options, seconds, picture, message) &&
@@ -93,6 +97,74 @@ static bool redraw(Live *live, Message *message)
             live->changed[0] ? " changed; " : "", options->output,
             1e3 * (clock_now() - live->began));
     return true;
+}
+
+/* Where the parts of an animation are: pictures in a folder of its name. */
+typedef struct Parts {
+    char folder[PATH_MAX], pictures[2 * PATH_MAX];
+    Options options; /* with which they are drawn */
+} Parts;
+
+static bool parts_of(Parts *parts, const Options *options, Message *message)
+{
+    size_t length = 0;
+    parts->options = *options;
+    parts->options.animation = NULL;
+    parts->options.numbered = true;
+    parts->options.output = parts->pictures;
+    if (snprintf(parts->folder, sizeof parts->folder, "%s.parts", options->output) >= PATH_MAX)
+        return message_set(message, "%s: %s", options->output, strerror(ENAMETOOLONG));
+    for (const char *p = parts->folder; *p; p++) {
+        parts->pictures[length++] = *p;
+        if (*p == '%')
+            parts->pictures[length++] = '%';
+    }
+    snprintf(parts->pictures + length, sizeof parts->pictures - length, "/%%06d.png");
+    return true;
+}
+
+static bool parts_are_whole(const Parts *parts, Message *message)
+{
+    int missing = 0, first = 0;
+    for (int i = parts->options.frames - 1; i >= 0; i--) {
+        char path[PATH_MAX];
+        if (!picture_path(&parts->options, i, path, message))
+            return false;
+        if (access(path, F_OK) != 0) {
+            missing++;
+            first = i;
+        }
+    }
+    return !missing || message_set(message,
+                                   "%s: %d of %d pictures are missing, the first is %06d.png; "
+                                   "--part draws them",
+                                   parts->folder, missing, parts->options.frames, first);
+}
+
+/* --merge. */
+static bool merge_parts(const Example *example, const Options *options, Message *message)
+{
+    const CanvasBackend *given = options->canvas.backend;
+    const Canvas canvas = {.width = options->width,
+                           .height = options->height,
+                           .backend = example->diagram ? NULL
+                                      : given          ? given
+                                                       : backend_default(message)};
+    const Stage stage = {.example = example, .canvas = &canvas};
+    Parts parts;
+    Sink sink = {.queue = NULL};
+    char driver[STAGE_DRIVER_SIZE] = "";
+    if (!parts_of(&parts, options, message) || !parts_are_whole(&parts, message))
+        return false;
+    bool done = sink_open(&sink, &canvas, options, message);
+    for (int i = 0; i < options->frames && done; i++) {
+        Picture *picture = picture_queue_take(sink.queue);
+        done = picture_path(&parts.options, i, picture->path, message) &&
+               stage_picture_part(&stage, &parts.options, options->seconds + i / options->fps,
+                                  driver, picture, message) &&
+               picture_queue_give(sink.queue, picture, message);
+    }
+    return sink_close(&sink, done, message);
 }
 
 /* --watch: draws whenever a shader changes, until the process ends. Errors are reported and can be
@@ -126,6 +198,8 @@ static bool write_drawings(const Example *example, const Options *options, Messa
 {
     bool done = true;
     for (int i = 0; i < options->frames && done; i++) {
+        if (!part_has(options->part, (uint64_t)i))
+            continue;
         char path[PATH_MAX];
         Drawing drawing = {.failed = false};
         done = picture_path(options, i, path, message) &&
@@ -218,6 +292,19 @@ static void tell_unused(const Example *example, const Options *options,
                 names);
 }
 
+/* Drawing, or all parts of an animation together. */
+static bool run(const Example *example, const Options *options, const ParameterValue *defaults,
+                Message *message)
+{
+    Parts parts;
+    if (options->merge)
+        return merge_parts(example, options, message);
+    if (!options->part.count || !options->animation)
+        return run_example(example, options, defaults, message);
+    return parts_of(&parts, options, message) && output_folder(parts.folder, message) &&
+           run_example(example, &parts.options, defaults, message);
+}
+
 int example_main(const Example *example, int argc, char *argv[])
 {
     Options options;
@@ -240,7 +327,7 @@ int example_main(const Example *example, int argc, char *argv[])
         return options_fail(example->name, &message, EXIT_USAGE);
     if (!options.shaders.print && !options_in_window(&options)) /* where they can be changed */
         tell_unused(example, &options, defaults);
-    if (!run_example(example, &options, defaults, &message))
+    if (!run(example, &options, defaults, &message))
         return options_fail(example->name, &message, EXIT_FAILED);
     return options_finish(example->name, 0);
 }

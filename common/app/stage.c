@@ -638,6 +638,26 @@ static void describe_picture(const Stage *stage, const Options *options, double 
     write_command(stage, options, seconds, picture);
 }
 
+bool stage_picture_part(const Stage *stage, const Options *options, double seconds,
+                        char driver[STAGE_DRIVER_SIZE], Picture *picture, Message *message)
+{
+    char wanted[sizeof picture->command];
+    write_command(stage, options, seconds, picture);
+    memcpy(wanted, picture->command, sizeof wanted);
+    if (!picture_read(picture, message))
+        return false;
+    if (strcmp(picture->command, wanted) != 0)
+        return message_set(message, "%s: is not of this command but of: %s; draw its part again",
+                           picture->path, picture->command);
+    if (driver[0] && strcmp(picture->driver, driver) != 0)
+        return message_set(message,
+                           "%s: was drawn by %s, and the one before it by %s; draw all parts with "
+                           "the same (--deterministic, for different processors)",
+                           picture->path, picture->driver, driver);
+    snprintf(driver, STAGE_DRIVER_SIZE, "%s", picture->driver);
+    return true;
+}
+
 bool stage_drawing(const Example *example, double seconds, int width, int height, Drawing *drawing,
                    Message *message)
 {

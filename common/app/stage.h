@@ -63,6 +63,13 @@ bool stage_drawing(const Example *example, double seconds, int width, int height
 bool stage_picture(Stage *stage, const Options *options, double seconds, Picture *picture,
                    Message *message);
 
+/* Instead of drawing: reads the picture that the part of another process has written to
+ * picture->path. Fails if it is not the one that this command draws, or was drawn by another driver
+ * ("": by any), whose name is replaced by the picture's. */
+enum { STAGE_DRIVER_SIZE = 512 };
+bool stage_picture_part(const Stage *stage, const Options *options, double seconds,
+                        char driver[STAGE_DRIVER_SIZE], Picture *picture, Message *message);
+
 /* For error_worker_start: draws one frame of an example with a scene, without marks, labels and
  * retouching, over the background's color with alpha 0, and copies its scenes as they were before
  * --error simplified them. The canvas then holds that frame. */

@@ -73,6 +73,21 @@ void parse_number_text(double number, char text[32])
     }
 }
 
+bool parse_part(const char *text, Part *part)
+{
+    char number[16];
+    const size_t length = strcspn(text, "/");
+    snprintf(number, sizeof number, "%.*s", (int)length, text);
+    return length < sizeof number && text[length] &&
+           parse_whole(text + length + 1, 1, PARTS_MAX, &part->count) &&
+           parse_whole(number, 1, part->count, &part->number);
+}
+
+bool part_has(Part part, uint64_t item)
+{
+    return part.count == 0 || item % (uint64_t)part.count == (uint64_t)part.number - 1;
+}
+
 enum { WORD_MAX = 63 };
 
 /* The first letters of a word, in lower case. Returns their number. */

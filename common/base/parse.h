@@ -5,6 +5,7 @@
 #define PARSE_H
 
 #include <stdbool.h>
+#include <stdint.h>
 
 enum { PARSE_SIZE_MAX = 16384 };
 
@@ -20,6 +21,20 @@ bool parse_whole(const char *text, int min, int max, int *number);
 /* One to three numbers separated by commas, the i-th in [min[i], max[i]]. Returns their count; 0 on
  * failure. */
 int parse_numbers(const char *text, const double min[3], const double max[3], double numbers[3]);
+
+/* The I-th of N parts of something that is made by several processes. Zeroed: all of it. */
+typedef struct Part {
+    int number, count;
+} Part;
+
+enum { PARTS_MAX = 10000 };
+
+/* "I/N", as 2/3. */
+bool parse_part(const char *text, Part *part);
+
+/* Whether an item, counted from 0, is in the part: items that follow each other are in different
+ * ones. */
+bool part_has(Part part, uint64_t item);
 
 /* Writes a finite number with the fewest digits, 15 to 17, that parse_number reads back exactly. */
 void parse_number_text(double number, char text[32]);

@@ -27,6 +27,30 @@ void image_file_close(ImageFile *file)
     *file = (ImageFile){0};
 }
 
+bool image_file_read(ImageFile *file, const char *path, Message *message)
+{
+    enum { STEP = 1 << 16 };
+    FILE *stream = fopen(path, "rbe");
+    size_t got = STEP;
+    *file = (ImageFile){.bytes = NULL};
+    if (!stream)
+        return message_set(message, "%s: cannot read: %s", path, strerror(errno));
+    while (got == STEP) {
+        unsigned char *bytes = realloc(file->bytes, file->size + STEP);
+        if (!bytes)
+            break;
+        file->bytes = bytes;
+        got = fread(file->bytes + file->size, 1, STEP, stream);
+        file->size += got;
+    }
+    const bool whole = got < STEP && !ferror(stream);
+    fclose(stream);
+    if (whole)
+        return true;
+    image_file_close(file);
+    return message_set(message, "%s: cannot read", path);
+}
+
 /* The plugin. */
 
 /* Pictures are written by several threads: one loads the plugin, and plugin_encode lifts a limit

@@ -34,6 +34,9 @@ typedef struct ImageFile {
 } ImageFile;
 void image_file_close(ImageFile *file);
 
+/* A whole file of any kind. */
+bool image_file_read(ImageFile *file, const char *path, Message *message);
+
 /* The format that a path's extension names, in lower case ("png", "exr"); PNG for "-" and for paths
  * below /dev and /proc. False if there is no extension or an unknown one. */
 bool image_format(const char *path, char format[16], Message *message);

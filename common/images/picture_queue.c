@@ -28,7 +28,8 @@ struct PictureQueue {
     Message failure; /* of the first picture that could not be written */
 };
 
-bool picture_write(const Picture *picture, Message *message)
+/* Calls image_write or, with a file, image_encode. */
+static bool write_picture(const Picture *picture, ImageFile *file, Message *message)
 {
     const bool again = picture->command[0];
     const ImageText text[] = {
@@ -41,7 +42,18 @@ bool picture_write(const Picture *picture, Message *message)
     };
     const ImageOptions options = {
         .compress = picture->compress, .alpha = picture->alpha, .text = text};
-    return image_write(&picture->image, picture->path, &options, message);
+    return file ? image_encode(&picture->image, "png", &options, file, message)
+                : image_write(&picture->image, picture->path, &options, message);
+}
+
+bool picture_write(const Picture *picture, Message *message)
+{
+    return write_picture(picture, NULL, message);
+}
+
+bool picture_encode(const Picture *picture, ImageFile *file, Message *message)
+{
+    return write_picture(picture, file, message);
 }
 
 static bool write_file(void *data, const Picture *picture, Message *message)

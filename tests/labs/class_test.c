@@ -507,7 +507,7 @@ TEST_WITH(0, every_submission_is_in_one_part, start, NULL)
         int found = 0;
         snprintf(name, sizeof name, "student%d", student);
         for (int part = 1; part <= 7; part++) {
-            const ClassOptions options = {.part = part, .parts = 7};
+            const ClassOptions options = {.part = {part, 7}};
             found += class_in_part(&options, name);
         }
         assert_int_equal(found, 1);

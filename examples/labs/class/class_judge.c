@@ -41,7 +41,7 @@ typedef struct Judging {
 bool class_in_part(const ClassOptions *options, const char *folder)
 {
     const uint64_t hash = source_hash_bytes(SOURCE_HASH_START, folder, strlen(folder));
-    return (int)((hash ^ hash >> 32) % (uint64_t)options->parts) == options->part - 1;
+    return part_has(options->part, hash ^ hash >> 32);
 }
 
 /* Ends a job: puts its result into the store. */

@@ -2,25 +2,12 @@
 
 #include "app/arguments.h"
 #include "app/help.h"
-#include "base/parse.h"
+#include "app/options.h"
 #include "labs/sandbox/sandbox.h"
 
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
-
-/* "3/8". */
-static bool read_part(const Parameter *parameter, const char *text, Message *message)
-{
-    ClassOptions *options = parameter->value;
-    char first[16];
-    const int length = (int)strcspn(text, "/");
-    snprintf(first, sizeof first, "%.*s", length, text);
-    return (length < 15 && text[length] &&
-            parse_whole(text + length + 1, 1, CLASS_PARTS_MAX, &options->parts) &&
-            parse_whole(first, 1, options->parts, &options->part)) ||
-           message_set(message, "--part %s: must be K/N, 1/N to N/N, as in 3/8", text);
-}
 
 bool class_options_read(ClassOptions *options, int argc, char *argv[], Message *message)
 {
@@ -31,9 +18,7 @@ bool class_options_read(ClassOptions *options, int argc, char *argv[], Message *
     *options = (ClassOptions){.output = "results",
                               .jobs = processors < 1                ? 1
                                       : processors > CLASS_JOBS_MAX ? CLASS_JOBS_MAX
-                                                                    : (int)processors,
-                              .part = 1,
-                              .parts = 1};
+                                                                    : (int)processors};
     const Parameter table[] = {
         {"class",
          "judge every submission in DIR: folders, archives or files, one for each student, as "
@@ -51,8 +36,8 @@ bool class_options_read(ClassOptions *options, int argc, char *argv[], Message *
          SANDBOX_SECONDS_MAX, .placeholder = "SECONDS"},
         {"seed", "of the scenes that the students do not know", PARAMETER_WHOLE, &seed, 0,
          2147483647, .placeholder = "N"},
-        {"part", "only the K-th of N parts; -o another folder for each part", PARAMETER_TEXT,
-         options, .placeholder = "K/N", .read = read_part},
+        {"part", "only the I-th of N parts; -o another folder for each part", PARAMETER_TEXT,
+         &options->part, .placeholder = "I/N", .read = options_read_part},
         {"merge", "join the results in the folders that are named", PARAMETER_FLAG,
          .value = &merge},
         {"again", "judge everything again; a worse result replaces none", PARAMETER_FLAG,

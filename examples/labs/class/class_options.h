@@ -5,10 +5,11 @@
 #define CLASS_OPTIONS_H
 
 #include "base/message.h"
+#include "base/parse.h"
 
 #include <stdint.h>
 
-enum { CLASS_JOBS_MAX = 256, CLASS_PARTS_MAX = 10000 };
+enum { CLASS_JOBS_MAX = 256 };
 
 typedef struct ClassOptions {
     const char *folder; /* --class; NULL: --merge */
@@ -16,7 +17,7 @@ typedef struct ClassOptions {
     const char *output;
     char *const *merged; /* folders to merge, NULL-terminated */
     int jobs;
-    int part, parts; /* 1..parts of parts */
+    Part part;
     double limit;    /* seconds of computing, for each submission */
     uint64_t seed;
     bool again; /* judge what has a result, too */
