@@ -21,6 +21,8 @@ packages_to_convert="g++ libopenimageio-dev"
 packages_to_animate="ffmpeg"
 # Vectors:
 packages_to_diagram="libcairo2-dev fonts-liberation"
+# gallery --manifest and --verify: SHA-256.
+packages_to_verify="libgcrypt20-dev"
 # accuracy and hard_cases: plots, and counts of operations.
 packages_to_count="glslang-tools spirv-tools" # the operations of a shader
 packages_to_study="gnuplot-nox glslang-tools spirv-tools"

@@ -85,36 +85,48 @@ bool command_start(const char *name, const char *argv0, char *text, size_t size)
     return done;
 }
 
-bool command_write(const Example *example, const Options *options, const ParameterValue *defaults,
-                   char *text, size_t size)
+static bool put_command(FILE *line, const Usage *usage, Options *own,
+                        const ParameterValue *defaults)
 {
-    const Usage usage = options_usage(example);
-    Options own = *options, usual = options_default(&usage);
+    Options usual = options_default(usage);
     Parameter table[OPTIONS_MAX], usual_table[OPTIONS_MAX];
+    own->size_given = usage->gallery && own->size_given; /* else the size alone counts */
+    if (!own->output_given)
+        own->output = NULL;
+    if (options_in_window(own)) /* which draws with EGL */
+        own->canvas.backend = &CANVAS_EGL;
+    /* EGL goes without saying, but not where the environment may say otherwise. */
+    usual.canvas.backend = backend_default(NULL) == &CANVAS_EGL ? &CANVAS_EGL : &CANVAS_WINDOW;
+    const int common = options_table(usage, &usual, OPTIONS_TO_WRITE, usual_table);
+    options_table(usage, own, OPTIONS_TO_WRITE, table);
+    if (own->start)
+        fputs(own->start, line);
+    else
+        put_quoted(line, usage->name);
+    for (int i = 0; i < common; i++)
+        if (!put_changed(line, &table[i], &usual_table[i]))
+            return false;
+    return !defaults || put_own(line, table + common, defaults);
+}
+
+bool command_write_usage(const Usage *usage, const Options *options, const ParameterValue *defaults,
+                         char *text, size_t size)
+{
+    Options own = *options;
     char *written = NULL;
     size_t length = 0;
     FILE *line = open_memstream(&written, &length);
-    bool done = line != NULL;
-    own.size_given = false; /* the size alone counts */
-    if (!own.output_given)
-        own.output = NULL;
-    if (options_in_window(&own)) /* which draws with EGL */
-        own.canvas.backend = &CANVAS_EGL;
-    /* EGL goes without saying, but not where the environment may say otherwise. */
-    usual.canvas.backend = backend_default(NULL) == &CANVAS_EGL ? &CANVAS_EGL : &CANVAS_WINDOW;
-    const int common = options_table(&usage, &usual, OPTIONS_TO_WRITE, usual_table);
-    options_table(&usage, &own, OPTIONS_TO_WRITE, table);
-    if (done && options->start)
-        fputs(options->start, line);
-    else if (done)
-        put_quoted(line, example->name);
-    for (int i = 0; done && i < common; i++)
-        done = put_changed(line, &table[i], &usual_table[i]);
-    if (done && defaults)
-        done = put_own(line, table + common, defaults);
+    bool done = line && put_command(line, usage, &own, defaults);
     done = line && fclose(line) == 0 && done && length < size;
     if (size > 0)
         snprintf(text, size, "%s", done ? written : "");
     free(written);
     return done;
+}
+
+bool command_write(const Example *example, const Options *options, const ParameterValue *defaults,
+                   char *text, size_t size)
+{
+    const Usage usage = options_usage(example);
+    return command_write_usage(&usage, options, defaults, text, size);
 }

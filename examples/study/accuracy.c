@@ -22,7 +22,8 @@
 
 static int scene = STUDY_SCENE_COUNT; /* all */
 static double budget = -1, time_budget = -1;
-static bool by_rms, quick, fresh, all_rows, markdown;
+static bool by_rms, quick, fresh, all_rows, markdown, merge;
+static Part part;
 static const char *quality_asked;
 static int seed = 1;
 
@@ -46,6 +47,13 @@ static const Parameter parameters[] = {
     {"quick", "a tenth of the settings, in half a minute", PARAMETER_FLAG, .value = &quick},
     {"fresh", "drop the folder's earlier rows, and measure them again", PARAMETER_FLAG,
      .value = &fresh},
+    {"part",
+     "measure only the I-th of N parts of the settings, for several processes or machines, into "
+     "results-I-of-N.csv",
+     PARAMETER_TEXT, .value = &part, .placeholder = "I/N", .standard = "",
+     .read = options_read_part},
+    {"merge", "measure nothing: report what all parts in DIR have measured, as one survey",
+     PARAMETER_FLAG, .value = &merge},
     {"all-rows", "print every setting, not only the efficient ones", PARAMETER_FLAG,
      .value = &all_rows},
     {"markdown", "print tables of the findings as Markdown, with processor, driver and compiler",
@@ -252,7 +260,9 @@ static bool measure(const Options *options, const Quality *quality, Message *mes
     for (int i = 0; i < STUDY_SCENE_COUNT; i++)
         if (scene == STUDY_SCENE_COUNT || scene == i)
             scenes[count++] = i;
-    if (!survey_open(&survey, options, (unsigned)seed, quick, fresh, message))
+    const SurveyPlan plan = {
+        .seed = (unsigned)seed, .quick = quick, .fresh = fresh, .merge = merge, .part = part};
+    if (!survey_open(&survey, options, &plan, message))
         return false;
     if (options->verbose)
         fprintf(stderr, "renderer: %s\nLP_NUM_THREADS: %s\n", survey.like.renderer,
@@ -261,9 +271,10 @@ static bool measure(const Options *options, const Quality *quality, Message *mes
     if (quality)
         done = measure_one(&survey, options, quality, message);
     else
-        done = survey_run(&survey, scenes, count, message) &&
-               (limit.value >= 0 ? choose(&survey, scene, &limit, message)
-                                 : report(&survey, options, scenes, count, message));
+        done = (merge ? survey_merge : survey_run)(&survey, scenes, count, message) &&
+               (part.count         ? true
+                : limit.value >= 0 ? choose(&survey, scene, &limit, message)
+                                   : report(&survey, options, scenes, count, message));
     survey_close(&survey);
     return done;
 }
@@ -285,6 +296,13 @@ static bool check(Message *message)
                                               : "--setting");
     if (quality_asked && (budget >= 0 || time_budget >= 0))
         return message_set(message, "--setting: measures one; there is nothing to choose");
+    if (part.count && merge)
+        return message_set(message, "--part and --merge: one of them");
+    if ((part.count || merge) && (quality_asked || budget >= 0 || time_budget >= 0))
+        return message_set(message,
+                           "--%s: goes with a survey, not with --budget, --time-budget or "
+                           "--setting",
+                           part.count ? "part" : "merge");
     if (quality_asked && fresh)
         return message_set(message, "--fresh: --setting keeps no rows, so there are none to drop");
     if (by_rms && budget < 0 && time_budget < 0)

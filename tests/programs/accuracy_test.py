@@ -9,6 +9,7 @@ import csv
 import io
 import json
 import os
+import random
 import re
 import signal
 import subprocess
@@ -142,6 +143,63 @@ class Surveys(Study):
         self.accuracy("--scene", "shiny8", "--quick", "-s", "32x32")
         self.assertTrue(self.read("accuracy/results.csv").startswith(before))
 
+    def test_parts_are_merged_into_the_rows_of_one_survey(self):
+        """Parts made of one survey's rows, the second from a machine that takes twice the time."""
+        self.survey()
+        draw = ("--scene", "cube", *QUICK, "--merge", "-o", "parts")
+        one = self.read("accuracy/results.csv")
+        head, usual, *rows = one.splitlines(keepends=True)
+        timed = {i for i, name in enumerate(head.decode().strip().split(","))
+                 if re.search("time|run_", name)}
+
+        def doubled(row):
+            fields = next(csv.reader([row.decode()]))
+            text = io.StringIO()
+            csv.writer(text, lineterminator="\n").writerow(
+                [repr(2 * float(field)) if i in timed and field else field
+                 for i, field in enumerate(fields)])
+            start, _, renderer = text.getvalue().rpartition(",")
+            return f'{start},"{renderer.strip()}"\n'.encode()
+
+        os.mkdir(self.path("parts"))
+        self.wrong(1, "parts: has no results of parts", *draw)
+        self.make("parts/results-1-of-2.csv", head + usual + b"".join(rows[1::2]))
+        second = [doubled(row) for row in (usual, *rows[0::2])]
+        self.make("parts/results-2-of-2.csv", head + b"".join(second[:-1]))
+        self.wrong(1, "parts: 1 rows of its 2 parts are missing; run them to the end", *draw)
+        self.make("parts/results-2-of-2.csv", head + b"".join(second) + second[-1][:50])
+        os.mkdir(self.path("bin"))  # without gnuplot
+        result = self.run_it(*draw, program="accuracy",
+                             environment={**self.own, "PATH": self.path("bin")})
+        self.assertEqual(result.returncode, 0, result.stderr)  # says that a row is cut
+        self.assertIn(b"cube, 48x48", result.stdout)
+        self.assertEqual(self.read("parts/results.csv").decode(), one.decode())
+        self.wrong(1, r"parts/results\.csv: has rows already; --fresh drops them", *draw)
+        self.make("parts/results-1-of-3.csv", head)
+        self.wrong(1, "parts: has parts of . and of .; remove", *draw, "--fresh")
+
+    @unittest.skipUnless(base.LONG, "the long form: takes half a minute")
+    def test_killed_parts_go_on(self):
+        self.survey()
+        dice = random.Random(int(os.environ.get("LIGHTING_TEST_SEED", 1)))
+        draw = ("--scene", "cube", *QUICK, "-o", "parts")
+        for part in ("1/2", "2/2"):
+            for _ in range(6):
+                process = subprocess.Popen(
+                    [os.path.join(base.EXAMPLES, "accuracy"), *draw, "--part", part],
+                    cwd=self.folder, stderr=subprocess.PIPE, env={**os.environ, **self.own})
+                try:
+                    process.communicate(timeout=dice.uniform(0, 6))
+                except subprocess.TimeoutExpired:
+                    process.kill()
+                    process.communicate()
+            self.says(0, "", *draw, "--part", part, program="accuracy", environment=self.own)
+        self.says(0, "", *draw, "--merge", program="accuracy", environment=self.own)
+        measured = re.compile("time|run_|noise")
+        one, merged = ([{key: value for key, value in row.items() if not measured.search(key)}
+                        for row in self.rows(folder)] for folder in ("accuracy", "parts"))
+        self.assertEqual(one, merged)
+
     def test_without_gnuplot_the_rest_is_there(self):
         os.mkdir(self.path("bin"))
         self.says(0, r"^accuracy: no plots: .*gnuplot-nox\n$", "--scene", "cube", *QUICK,
@@ -167,6 +225,10 @@ class Surveys(Study):
                  "divisions=5"),
                 (r"--budget: needs a scene", "--budget", "1"),
                 (r"--time-budget: needs a scene", "--time-budget", "1"),
+                (r"--part 3/2: must be I/N", "--part", "3/2"),
+                (r"--part and --merge: one of them", "--part", "1/2", "--merge"),
+                (r"--part: goes with a survey", "--part", "1/2", "--scene", "cube", "--setting",
+                 "usual"),
                 (r"--setting: needs a scene", "--setting", "usual"),
                 (r"--budget and --time-budget: one of them", "--scene", "cube", "--budget", "1",
                  "--time-budget", "1"),

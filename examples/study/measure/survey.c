@@ -6,6 +6,7 @@
 #include "study/measure/scenes.h"
 #include "study/measure/trials.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <signal.h>
 #include <stdlib.h>
@@ -23,25 +24,40 @@ static void interrupt(int number)
     interrupted = 1;
 }
 
-bool survey_open(Survey *survey, const Options *options, unsigned seed, bool quick, bool fresh,
-                 Message *message)
+static void part_path(const Survey *survey, Part part, char path[PATH_MAX])
 {
-    *survey = (Survey){.quick = quick,
-                       .seconds = quick ? QUICK : WHOLE,
-                       .like = {.width = options->width, .height = options->height, .seed = seed}};
+    if (part.count)
+        snprintf(path, PATH_MAX, "%s/results-%d-of-%d.csv", survey->folder, part.number,
+                 part.count);
+    else
+        snprintf(path, PATH_MAX, "%s/results.csv", survey->folder);
+}
+
+static bool drop(const char *path, Message *message)
+{
+    return unlink(path) == 0 || errno == ENOENT ||
+           message_set(message, "%s: cannot be removed: %s", path, strerror(errno));
+}
+
+bool survey_open(Survey *survey, const Options *options, const SurveyPlan *plan, Message *message)
+{
+    *survey = (Survey){
+        .folder = options->output,
+        .plan = *plan,
+        .seconds = (plan->quick ? QUICK : WHOLE) / (plan->part.count ? plan->part.count : 1),
+        .like = {.width = options->width, .height = options->height, .seed = plan->seed}};
     const char *threads = getenv("LP_NUM_THREADS");
     if (!output_folder(options->output, message) ||
         !shader_loader_check(&options->shaders, message) ||
         !studio_open(&survey->studio, &options->shaders, options->canvas.backend, options->width,
                      options->height, message))
         return false;
-    snprintf(survey->path, sizeof survey->path, "%s/results.csv", options->output);
+    part_path(survey, plan->part, survey->path);
     snprintf(survey->like.renderer, sizeof survey->like.renderer, "%s; %s",
              studio_renderer(survey->studio), studio_version(survey->studio));
     snprintf(survey->like.threads, sizeof survey->like.threads, "%s",
              threads && threads[0] ? threads : "default");
-    if (fresh && unlink(survey->path) != 0 && errno != ENOENT) {
-        message_set(message, "%s: cannot be removed: %s", survey->path, strerror(errno));
+    if (plan->fresh && !plan->merge && !drop(survey->path, message)) {
         survey_close(survey);
         return false;
     }
@@ -76,18 +92,31 @@ static bool is_common(Quality quality)
     return quality_equal(&quality, &usual);
 }
 
-/* The settings of a scene without rows; all of them if the usual one has none, because times are
- * ratios to its time. */
+/* The planned settings of a scene, the usual one first. */
+static bool planned(const Survey *survey, int scene, QualityList *list, Message *message)
+{
+    QualityList all;
+    bool done = trials_plan(survey->plan.quick, &all, message);
+    *list = (QualityList){.qualities = NULL};
+    for (int i = 0; i < all.count && done; i++)
+        if (!STUDY_SCENES[scene].few || is_common(all.qualities[i]))
+            done = quality_list_add(list, &all.qualities[i], message);
+    quality_list_close(&all);
+    return done;
+}
+
+/* The settings of a scene and a part without rows; all of them if the usual one has none, because
+ * times are ratios to its time. */
 static bool missing(const Survey *survey, int scene, QualityList *list, Message *message)
 {
     const StudySceneInfo *info = &STUDY_SCENES[scene];
     const Quality usual = quality_usual();
     const bool based = find_timed(survey, info->name, &usual) != NULL;
     QualityList plan;
-    bool done = trials_plan(survey->quick, &plan, message);
+    bool done = planned(survey, scene, &plan, message);
     *list = (QualityList){.qualities = NULL};
     for (int i = 0; i < plan.count && done; i++)
-        if ((!info->few || is_common(plan.qualities[i])) &&
+        if ((i == 0 || part_has(survey->plan.part, (uint64_t)i)) &&
             !(based && find_timed(survey, info->name, &plan.qualities[i])))
             done = quality_list_add(list, &plan.qualities[i], message);
     quality_list_close(&plan);
@@ -183,6 +212,99 @@ bool survey_run(Survey *survey, const int *scenes, int count, Message *message)
         done =
             message_set(message, "interrupted; %d of %d rows are in %s; the same command goes on",
                         work.done, work.total, survey->path);
+    return done;
+}
+
+/* How many parts have left their rows in the folder, by a file's name; 0, with a message, if there
+ * are none or some of other numbers. */
+static int count_parts(const Survey *survey, Message *message)
+{
+    int count = 0;
+    DIR *folder = opendir(survey->folder);
+    for (const struct dirent *entry; folder && (entry = readdir(folder));) {
+        Part part;
+        int end = 0;
+        if (sscanf(entry->d_name, "results-%d-of-%d.csv%n", &part.number, &part.count, &end) != 2 ||
+            end == 0 || entry->d_name[end] || part.count < 1 || part.count > PARTS_MAX)
+            continue;
+        if (count && part.count != count) {
+            message_set(message, "%s: has parts of %d and of %d; remove those of one survey",
+                        survey->folder, count, part.count);
+            count = 0;
+            break;
+        }
+        count = part.count;
+    }
+    if (folder)
+        closedir(folder);
+    if (!count)
+        message_set(message, "%s: has no results of parts, which --part 1/N to N/N measure",
+                    survey->folder);
+    return count;
+}
+
+/* The row with its times as the first part's machine would have them. */
+static ResultRow scaled(const ResultRow *row, double scale)
+{
+    ResultRow made = *row;
+    double *const times[] = {&made.time,         &made.time_lower,  &made.time_upper,
+                             &made.net_time,     &made.gpu_time,    &made.run_times[0],
+                             &made.run_times[1], &made.run_times[2]};
+    _Static_assert(RESULT_RUNS == 3, "run_times are listed");
+    for (size_t i = 0; i < sizeof times / sizeof times[0]; i++)
+        *times[i] *= scale;
+    return made;
+}
+
+/* Adds the rows of a scene to the survey's. `parts` has each part's rows. */
+static bool merge_scene(Survey *survey, int scene, Results *parts, int count, int *missing_rows,
+                        Message *message)
+{
+    const char *name = STUDY_SCENES[scene].name;
+    const Quality usual = quality_usual();
+    QualityList plan;
+    bool done = planned(survey, scene, &plan, message);
+    const ResultRow *base = results_find(&parts[0], name, &usual);
+    for (int i = 0; i < plan.count && done; i++) {
+        const Results *part = &parts[i % count];
+        const ResultRow *own = results_find(part, name, &usual);
+        const ResultRow *row = results_find(part, name, &plan.qualities[i]);
+        if (!row || !own || !base || !(row->time > 0 && own->time > 0 && base->time > 0)) {
+            ++*missing_rows;
+            continue;
+        }
+        const ResultRow made = part == parts ? *row : scaled(row, base->time / own->time);
+        done = results_add(&survey->results, &made, message);
+    }
+    quality_list_close(&plan);
+    return done;
+}
+
+bool survey_merge(Survey *survey, const int *scenes, int count, Message *message)
+{
+    const int parts = count_parts(survey, message);
+    Results *read = parts ? calloc((size_t)parts, sizeof *read) : NULL;
+    int missing_rows = 0;
+    bool done = read || message_set(message, "results: %s", strerror(ENOMEM));
+    if (survey->plan.fresh)
+        results_close(&survey->results);
+    if (survey->results.count)
+        done = message_set(message, "%s: has rows already; --fresh drops them", survey->path);
+    for (int i = 0; i < parts && done; i++) {
+        char path[PATH_MAX];
+        part_path(survey, (Part){i + 1, parts}, path);
+        done = results_read(&read[i], path, &survey->like, message);
+    }
+    for (int i = 0; i < count && done; i++)
+        done = merge_scene(survey, scenes[i], read, parts, &missing_rows, message);
+    if (done && missing_rows)
+        done = message_set(message, "%s: %d rows of its %d parts are missing; run them to the end",
+                           survey->folder, missing_rows, parts);
+    done =
+        done && results_append(survey->path, survey->results.rows, survey->results.count, message);
+    for (int i = 0; read && i < parts; i++)
+        results_close(&read[i]);
+    free(read);
     return done;
 }
 

@@ -9,18 +9,27 @@
 #include "study/measure/studio.h"
 #include "study/results/results.h"
 
+/* What to measure, and for which of several processes or machines. */
+typedef struct SurveyPlan {
+    unsigned seed; /* of the order of measuring */
+    bool quick;
+    bool fresh; /* drop earlier rows; */
+    bool merge; /* when the merged ones are there, by survey_merge */
+    Part part;  /* of each scene's settings; its rows are in a file of their own */
+} SurveyPlan;
+
 typedef struct Survey {
     Studio *studio;
-    Results results;     /* of this and of earlier surveys into the same folder */
-    ResultRow like;      /* size, renderer, threads, seed */
+    Results results; /* of this and of earlier surveys into the same folder */
+    ResultRow like;  /* size, renderer, threads, seed */
+    const char *folder;
     char path[PATH_MAX]; /* of the file of results */
-    bool quick;
+    SurveyPlan plan;
     double seconds; /* for all scenes together, approximately */
 } Survey;
 
-/* Opens the driver, makes the folder, and reads its rows; `fresh` drops them instead. */
-bool survey_open(Survey *survey, const Options *options, unsigned seed, bool quick, bool fresh,
-                 Message *message);
+/* Opens the driver, makes the folder, and reads its rows. */
+bool survey_open(Survey *survey, const Options *options, const SurveyPlan *plan, Message *message);
 
 /* The exact picture of a scene; close it with reference_close. */
 bool survey_exact(const Survey *survey, const Scene *scene, Reference *exact, Message *message);
@@ -28,6 +37,11 @@ bool survey_exact(const Survey *survey, const Scene *scene, Reference *exact, Me
 /* Measures the planned settings of these scenes that have no rows yet, with a progress bar. An
  * interruption (SIGINT, SIGTERM) is a failure; its message says what is kept. */
 bool survey_run(Survey *survey, const int *scenes, int count, Message *message);
+
+/* Makes the file of results, which must not have rows yet, from those of the parts in the folder:
+ * the rows of one survey, in its order. Each part has measured the usual setting; its times are
+ * scaled by that to the first one's, because parts may be of different machines. */
+bool survey_merge(Survey *survey, const int *scenes, int count, Message *message);
 
 /* Measures up to TRIALS_BATCH - 1 settings of one scene against each other, without keeping their
  * rows. */

@@ -1,0 +1,421 @@
+/*
+ * gallery: every example's picture from one process and one context.
+ *
+ * Also writes a contact sheet, and index.html with each picture, its summary and its command. Other
+ * threads encode a picture while the next is drawn. Several processes draw a part each, and a last
+ * one the rest; --verify compares with an earlier gallery.
+ */
+#include "app/command.h"
+#include "app/doctor.h"
+#include "app/stage.h"
+#include "base/clock.h"
+#include "base/output.h"
+#include "base/parse.h"
+#include "base/progress.h"
+#include "gallery/manifest.h"
+#include "gallery/sheet.h"
+#include "window/backends.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* From the build: X(LightedCube) X(LightedCube_animation)... */
+#define X(name) extern const Example name;
+EXAMPLES
+#undef X
+
+static const Example *const ALL[] = {
+#define X(name) &name,
+    EXAMPLES
+#undef X
+};
+enum { COUNT = sizeof ALL / sizeof ALL[0] };
+
+static bool with_manifest;
+static const char *verified; /* the manifest to verify; NULL: none */
+
+static const Parameter parameters[] = {
+    {"manifest",
+     "also write manifest.txt: the SHA-256 of every picture and of its pixels, for sha256sum -c and "
+     "for --verify",
+     PARAMETER_FLAG, .value = &with_manifest},
+    {"verify",
+     "draw the pictures of a manifest in memory, with the same options, and say which differ: by "
+     "how many pixels and steps of 255, if the manifest's pictures are still beside it. Exit status "
+     "1 if pixels differ, 0 if only what files say of themselves does",
+     PARAMETER_TEXT, .value = &verified, .min = 1, .placeholder = "FILE", .standard = ""},
+    {.name = NULL},
+};
+
+static const Usage GALLERY = {
+    .name = "gallery",
+    .summary = "draws all programs, or those named, with a contact sheet and an HTML page",
+    .gallery = true,
+    .parameters = parameters,
+};
+
+/* The examples to draw, in the order of ALL. */
+typedef struct Selection {
+    const Example *examples[COUNT];
+    int count;
+} Selection;
+
+static bool select_examples(Selection *selection, char *const *names, Message *message)
+{
+    bool chosen[COUNT] = {false};
+    const char *known[COUNT + 1] = {NULL};
+    for (int i = 0; i < COUNT; i++)
+        known[i] = ALL[i]->name;
+    for (char *const *name = names; *name; name++) {
+        int found = -1;
+        for (int i = 0; i < COUNT && found < 0; i++)
+            if (strcmp(*name, known[i]) == 0)
+                found = i;
+        if (found < 0) {
+            const char *nearest = parse_nearest(*name, known);
+            return message_set(message, "%s: no such program; %s%s%s", *name,
+                               nearest ? "did you mean " : "examples/run --list names them",
+                               nearest ? nearest : "", nearest ? "?" : "");
+        }
+        chosen[found] = true;
+    }
+    for (int i = 0; i < COUNT; i++)
+        if (!*names || chosen[i])
+            selection->examples[selection->count++] = ALL[i];
+    return true;
+}
+
+/* Without --size a picture has the example's own size. */
+static Options options_of(const Example *example, const Options *options)
+{
+    Options own = *options;
+    const Usage usage = options_usage(example);
+    if (!options->size_given)
+        options_size(&usage, &own.width, &own.height);
+    return own;
+}
+
+/* The command that draws the picture; --shaders is cut because its folder is private. */
+static void print_command(FILE *file, const Example *example, const Options *options)
+{
+    char command[512]; /* longer than any */
+    Options own = options_of(example, options);
+    own.output_given = false;
+    own.shaders.folder = own.shaders.folder ? "..." : NULL;
+    command_write(example, &own, NULL, command, sizeof command);
+    fprintf(file, "examples/run %s", command);
+}
+
+static bool write_page(const char *folder, const Selection *selection, const Options *options,
+                       Message *message)
+{
+    static const char head[] =
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+        "<title>Lighting: the gallery</title>\n<style>\n"
+        "body { font-family: sans-serif; background: #222; color: #eee; margin: 2em; }\n"
+        "main { display: flex; flex-wrap: wrap; gap: 1.5em; }\n"
+        "figure { margin: 0; width: 16em; }\n"
+        "img { width: 100%; height: 16em; object-fit: contain; background: #000; }\n"
+        "a { color: #9cf; }\ncode { color: #fc9; overflow-wrap: anywhere; }\n"
+        "</style>\n</head>\n<body>\n<h1>Lighting</h1>\n"
+        "<p><a href=\"contact-sheet.png\">All on one sheet</a></p>\n<main>\n";
+    char *text = NULL, path[PATH_MAX];
+    size_t size = 0;
+    FILE *file = open_memstream(&text, &size);
+    if (!file)
+        return message_set(message, "index.html: %s", strerror(errno));
+    fputs(head, file);
+    for (int i = 0; i < selection->count; i++) {
+        const Example *example = selection->examples[i];
+        fprintf(
+            file,
+            "<figure>\n<a href=\"%s.png\"><img src=\"%s.png\" alt=\"%s\" loading=\"lazy\"></a>\n"
+            "<figcaption><strong>%s</strong><br>%s<br><code>",
+            example->name, example->name, example->name, example->name, example->summary);
+        print_command(file, example, options);
+        fputs("</code></figcaption>\n</figure>\n", file);
+    }
+    fputs("</main>\n</body>\n</html>\n", file);
+    const bool whole = fclose(file) == 0;
+    snprintf(path, sizeof path, "%s/index.html", folder);
+    const bool written = whole ? output_write(path, text, size, message)
+                               : message_set(message, "index.html: not enough memory");
+    free(text);
+    return written;
+}
+
+static bool draw_one(const Example *example, Canvas *canvas, const Options *options,
+                     Picture *picture, Message *message)
+{
+    Stage stage;
+    const Options own = options_of(example, options);
+    if (!canvas_resize(canvas, own.width, own.height, message) ||
+        !stage_open(&stage, example, canvas, options, message))
+        return false;
+    stage_warn(&stage);
+    const bool drawn = stage_picture(&stage, &own, options->seconds, picture, message);
+    stage_close(&stage);
+    return drawn;
+}
+
+static void set_path(Picture *picture, const Example *example, const Options *options)
+{
+    snprintf(picture->path, sizeof picture->path, "%s/%s.png", options->output, example->name);
+}
+
+static bool draw_all(const Selection *selection, Canvas *canvas, const Options *options,
+                     Image *sheet, Message *message)
+{
+    PictureQueue *queue;
+    Progress progress = progress_start("gallery");
+    if (!picture_queue_open(&queue, canvas->width, canvas->height, IMAGE_BYTE, selection->count,
+                            NULL, message))
+        return false;
+    bool done = true;
+    for (int i = 0; i < selection->count && done; i++) {
+        const double start = clock_now();
+        const Example *example = selection->examples[i];
+        Picture *picture = picture_queue_take(queue);
+        set_path(picture, example, options);
+        done = draw_one(example, canvas, options, picture, message);
+        if (done && sheet->pixels)
+            sheet_put(sheet, i, &picture->image);
+        done = done && picture_queue_give(queue, picture, message);
+        if (options->verbose)
+            fprintf(stderr, "%s took %.1f ms\n", example->name, 1e3 * (clock_now() - start));
+        progress_update(&progress, i + 1, selection->count);
+    }
+    progress_end(&progress);
+    return picture_queue_close(queue, message) && done;
+}
+
+/* --merge: the pictures that the parts have drawn, onto the sheet. */
+static bool read_all(const Selection *selection, const Options *options, Image *sheet,
+                     Message *message)
+{
+    const CanvasBackend *given = options->canvas.backend;
+    const CanvasBackend *backend = given ? given : backend_default(message);
+    Picture *picture = calloc(1, sizeof *picture);
+    bool done = picture ? backend != NULL : message_set(message, "gallery: not enough memory");
+    char drivers[2][STAGE_DRIVER_SIZE] = {"", ""}; /* of diagrams and of others */
+    for (int i = 0; i < selection->count && done; i++) {
+        const Example *example = selection->examples[i];
+        const Options own = options_of(example, options);
+        const Canvas canvas = {.width = own.width, .height = own.height, .backend = backend};
+        const Stage stage = {.example = example, .canvas = &canvas};
+        set_path(picture, example, options);
+        done = stage_picture_part(&stage, &own, options->seconds, drivers[!example->diagram],
+                                  picture, message);
+        if (done)
+            sheet_put(sheet, i, &picture->image);
+    }
+    if (picture)
+        image_close(&picture->image);
+    free(picture);
+    return done;
+}
+
+static bool write_sheet(const Image *sheet, const Options *options, Message *message)
+{
+    char path[PATH_MAX];
+    const ImageOptions image_options = {.compress = options->compress};
+    snprintf(path, sizeof path, "%s/contact-sheet.png", options->output);
+    return image_write(sheet, path, &image_options, message);
+}
+
+/* The command of a manifest. The folder of --shaders is private. */
+static bool set_command(Manifest *manifest, const Options *options, Message *message)
+{
+    Options own = *options;
+    own.output_given = false;
+    own.shaders.folder = own.shaders.folder ? "..." : NULL;
+    return command_write_usage(&GALLERY, &own, NULL, manifest->command, sizeof manifest->command) ||
+           message_set(message, "manifest: the command is too long");
+}
+
+static bool write_manifest(const Selection *selection, const Options *options, Message *message)
+{
+    char path[PATH_MAX];
+    Manifest *manifest = calloc(1, sizeof *manifest);
+    bool done = manifest ? set_command(manifest, options, message)
+                         : message_set(message, "manifest: not enough memory");
+    for (int i = 0; i < selection->count && done; i++) {
+        ImageFile file = {.bytes = NULL};
+        const char *name = selection->examples[i]->name;
+        snprintf(path, sizeof path, "%s/%s.png", options->output, name);
+        done =
+            image_file_read(&file, path, message) && manifest_add(manifest, name, &file, message);
+        image_file_close(&file);
+    }
+    snprintf(path, sizeof path, "%s/manifest.txt", options->output);
+    done = done && manifest_write(manifest, path, message);
+    free(manifest);
+    return done;
+}
+
+/* What a gallery has besides its pictures. */
+static bool write_rest(const Selection *selection, const Options *options, Image *sheet,
+                       Message *message)
+{
+    sheet_label(sheet, selection->examples, selection->count);
+    return write_sheet(sheet, options, message) &&
+           write_page(options->output, selection, options, message) &&
+           (!with_manifest || write_manifest(selection, options, message));
+}
+
+static bool open_canvas(Canvas *canvas, const Options *options, Message *message)
+{
+    if (!shader_loader_check(&options->shaders, message))
+        return false;
+    setenv("LP_NUM_THREADS", "0", 0); /* as in run.c: other threads encode */
+    return stage_open_canvas(canvas, options, "gallery.png", message);
+}
+
+static bool merge_gallery(const Selection *selection, const Options *options, Message *message)
+{
+    Image sheet = {0};
+    const bool done = sheet_open(&sheet, selection->count, message) &&
+                      read_all(selection, options, &sheet, message) &&
+                      write_rest(selection, options, &sheet, message);
+    image_close(&sheet);
+    return done;
+}
+
+static bool write_gallery(const Selection *selection, const Options *options, Message *message)
+{
+    Canvas canvas = {0};
+    Stage stage;
+    Image sheet = {0};
+    const bool whole = !options->part.count;
+    bool done = open_canvas(&canvas, options, message);
+    /* Each is opened once before anything is written: a failure must not leave half a gallery. */
+    for (int i = 0; i < selection->count && done; i++) {
+        done = stage_open(&stage, selection->examples[i], &canvas, options, message);
+        if (done)
+            stage_close(&stage);
+    }
+    if (done && !options->shaders.print)
+        done = output_folder(options->output, message) &&
+               (!whole || sheet_open(&sheet, selection->count, message)) &&
+               draw_all(selection, &canvas, options, &sheet, message) &&
+               (!whole || write_rest(selection, options, &sheet, message));
+    image_close(&sheet);
+    canvas_close(&canvas);
+    return done;
+}
+
+/* Prints what is not the same. */
+static bool verify_one(const Manifest *manifest, const Example *example, Canvas *canvas,
+                       const Options *options, Picture *picture, int counts[MANIFEST_FAILED],
+                       Message *message)
+{
+    ImageFile file = {.bytes = NULL};
+    Message found = {0};
+    const ManifestEntry *entry = manifest_find(manifest, example->name);
+    ManifestResult result = MANIFEST_FAILED;
+    if (draw_one(example, canvas, options, picture, message) &&
+        picture_encode(picture, &file, message))
+        result = manifest_compare(manifest, entry, &file, &found, message);
+    image_file_close(&file);
+    if (result == MANIFEST_FAILED)
+        return false;
+    counts[result]++;
+    if (result == MANIFEST_PIXELS)
+        printf("%s: the same pixels; the file says other things of itself\n", example->name);
+    else if (result == MANIFEST_DIFFERENT)
+        printf("%s: %s\n", example->name, found.text);
+    return true;
+}
+
+/* --verify; *code is EXIT_FAILED if pixels differ. */
+static bool verify(const Manifest *manifest, const Selection *selection, const Options *options,
+                   int *code, Message *message)
+{
+    Canvas canvas = {0};
+    int counts[MANIFEST_FAILED] = {0};
+    Picture *picture = calloc(1, sizeof *picture);
+    bool done = picture ? open_canvas(&canvas, options, message)
+                        : message_set(message, "gallery: not enough memory");
+    for (int i = 0; i < selection->count && done; i++)
+        done = verify_one(manifest, selection->examples[i], &canvas, options, picture, counts,
+                          message);
+    if (done)
+        printf("%d of %d pictures are the same; %d have the same pixels, %d differ\n",
+               counts[MANIFEST_SAME], selection->count, counts[MANIFEST_PIXELS],
+               counts[MANIFEST_DIFFERENT]);
+    *code = counts[MANIFEST_DIFFERENT] ? EXIT_FAILED : 0;
+    canvas_close(&canvas);
+    if (picture)
+        image_close(&picture->image);
+    free(picture);
+    return done;
+}
+
+/* Reads the manifest, and selects what is in it and is named. */
+static bool select_verified(Manifest *manifest, Selection *selection, const Options *options,
+                            Message *message)
+{
+    Manifest now = {.count = 0};
+    char *names[MANIFEST_MAX + 1] = {NULL};
+    if (!manifest_read(manifest, verified, message) || !set_command(&now, options, message))
+        return false;
+    if (strcmp(manifest->command, now.command) != 0)
+        return message_set(message, "--verify %s: is of the command: %s; give its options",
+                           verified, manifest->command);
+    for (int i = 0; i < manifest->count; i++)
+        names[i] = manifest->entries[i].name;
+    for (char *const *name = options->names; *name; name++)
+        if (!manifest_find(manifest, *name))
+            return message_set(message, "--verify %s: has no picture of %s", verified, *name);
+    return select_examples(selection, options->names[0] ? options->names : names, message);
+}
+
+static bool check(const Options *options, Message *message)
+{
+    if (verified && (options->output_given || with_manifest || options->part.count ||
+                     options->merge || options->shaders.print))
+        return message_set(message, "--verify: writes nothing; leave out --output, --manifest, "
+                                    "--part, --merge and --print-shader");
+    if (with_manifest && options->part.count)
+        return message_set(message, "--manifest: needs all pictures; give it with --merge");
+    return (!verified && !with_manifest) || manifest_possible(message);
+}
+
+/* Of all examples, those of --part. */
+static void select_part(Selection *selection, Part part)
+{
+    int kept = 0;
+    for (int i = 0; i < selection->count; i++)
+        if (part_has(part, (uint64_t)i))
+            selection->examples[kept++] = selection->examples[i];
+    selection->count = kept;
+}
+
+int main(int argc, char *argv[])
+{
+    Options options;
+    int code;
+    Message message = {0};
+    Selection selection = {.count = 0};
+    static Manifest manifest;
+    if (!options_begin(&options, &GALLERY, argc, argv, &code))
+        return code;
+    if (options.doctor)
+        return options_finish(GALLERY.name, doctor_run());
+    if (!check(&options, &message) ||
+        !(verified ? select_verified(&manifest, &selection, &options, &message)
+                   : select_examples(&selection, options.names, &message)))
+        return options_fail(GALLERY.name, &message, EXIT_USAGE);
+    select_part(&selection, options.part);
+    if (!(verified        ? verify(&manifest, &selection, &options, &code, &message)
+          : options.merge ? merge_gallery(&selection, &options, &message)
+                          : write_gallery(&selection, &options, &message)))
+        return options_fail(GALLERY.name, &message, EXIT_FAILED);
+    if (verified)
+        return options_finish(GALLERY.name, code);
+    if (!options.shaders.print && !options.part.count)
+        printf("%s/index.html\n", options.output);
+    return options_finish(GALLERY.name, 0);
+}

@@ -1,0 +1,246 @@
+#!/usr/bin/env python3
+"""Films and galleries made by several processes, and galleries compared with a manifest.
+
+usage: parts_test.py EXAMPLES_FOLDER_OF_THE_BUILD SOURCE_FOLDER [unittest's arguments]
+
+What the parts make together has the bytes of one run, also if they are killed and run again.
+"""
+import filecmp
+import hashlib
+import os
+import random
+import re
+import shutil
+import subprocess
+import sys
+import time
+import unittest
+
+import command_line_test as base
+
+SEED = int(os.environ.get("LIGHTING_TEST_SEED", random.randrange(1 << 30)))
+TURN = ("-s", "40x30", "-n", "12")
+SOME = ("LightedCube", "Materials", "NormalMatrix")
+
+
+class Parts(base.Case):
+    def film(self, *arguments, **more):
+        return self.good(*TURN, *arguments, program="LightedCube_animation", **more)
+
+    def wrong(self, code, said, *arguments, program="LightedCube_animation", **more):
+        return self.refused(code, f"^{program}: {said}", *arguments, program=program, **more)
+
+    def killed(self, kills, parts, command):
+        """Runs all parts of a command to their ends, after `kills` of them were killed."""
+        dice = random.Random(SEED)
+        seconds = 0.5
+        left = list(range(1, parts + 1))
+        while left:
+            part = dice.choice(left)
+            start = time.monotonic()
+            process = subprocess.Popen([*command, "--part", f"{part}/{parts}"], cwd=self.folder,
+                                       stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+            try:
+                error = process.communicate(
+                    timeout=dice.uniform(0, seconds) if kills else base.PATIENCE)[1]
+            except subprocess.TimeoutExpired:
+                process.kill()
+                error = process.communicate()[1]
+                kills -= 1
+                continue
+            self.assertEqual((process.returncode, error), (0, b""), f"LIGHTING_TEST_SEED={SEED}")
+            seconds = time.monotonic() - start
+            if not kills:  # else it stays, to be killed in another run
+                left.remove(part)
+
+    def assert_whole(self, folder):
+        for name in os.listdir(self.path(folder)):
+            if name.endswith(".png"):
+                base.Png(self.read(f"{folder}/{name}"))
+            else:
+                self.assertRegex(name, r"^\.lighting-\d+-\d+$")  # of one that was killed
+
+
+class Films(Parts):
+    def test_pictures_with_numbers_are_those_of_one_run(self):
+        self.film("-o", "one%d.png")
+        for part in (3, 1, 2):
+            self.film("-o", "part%d.png", "--part", f"{part}/3")
+            if part == 3:
+                self.assertEqual({name for name in os.listdir(self.folder) if "part" in name},
+                                 {f"part{i}.png" for i in (2, 5, 8, 11)})
+        for i in range(12):
+            self.assertTrue(self.read(f"one{i}.png") == self.read(f"part{i}.png"), i)
+        before = self.everything()
+        self.film("-o", "part%d.png", "--part", "40/50")  # has none
+        self.assertEqual(self.everything(), before)
+
+    @unittest.skipUnless(os.path.exists(base.MODULE), "without OpenImageIO")
+    def test_a_film_has_the_bytes_of_one_run_after_kills(self):
+        suffixes = ("gif", "webp", "apng", "mp4", "webm") if shutil.which("ffmpeg") else ("gif",)
+        command = [os.path.join(base.EXAMPLES, "LightedCube_animation"), *TURN, "-o", "100%.gif"]
+        self.killed(100 if base.LONG else 4, 3, command)
+        self.assert_whole("100%.gif.parts")
+        for suffix in suffixes[::base.step(3)]:
+            self.film("-o", "one." + suffix)
+            if suffix != "gif":
+                os.rename(self.path("100%.gif.parts"), self.path(f"100%.{suffix}.parts"))
+            self.film("-o", "100%." + suffix, "--merge")
+            self.assertTrue(self.read("one." + suffix) == self.read("100%." + suffix), suffix)
+            if suffix != "gif":
+                os.rename(self.path(f"100%.{suffix}.parts"), self.path("100%.gif.parts"))
+
+    @unittest.skipUnless(base.DIAGRAMS and os.path.exists(base.MODULE), "without cairo")
+    def test_diagrams_have_parts(self):
+        for output in ("one.gif", "one%d.svg"):
+            draw = ("-s", "60x60", "-n", "3", "-o", output)
+            self.good(*draw, program="Vectors")
+            before = self.everything()
+            for name in before:
+                os.remove(name)
+            for part in ("1/2", "2/2"):
+                self.good(*draw, "--part", part, program="Vectors")
+            if output == "one.gif":
+                self.good(*draw, "--merge", program="Vectors")
+                shutil.rmtree(self.path("one.gif.parts"))
+            self.assertTrue(self.everything() == before)
+            for name in before:
+                os.remove(name)
+
+    @unittest.skipUnless(os.path.exists(base.MODULE), "without OpenImageIO")
+    def test_what_is_missing_or_of_another_command_is_said(self):
+        draw = (*TURN[:2], "-n", "3", "-o", "a.gif")
+        self.wrong(1, r"a\.gif\.parts: 3 of 3 pictures are missing, the first is 000000\.png; "
+                      "--part draws them", *draw, "--merge")
+        for part in ("1/2", "2/2"):
+            self.good(*draw, "--part", part, program="LightedCube_animation")
+        self.assertEqual(sorted(os.listdir(self.folder)), ["a.gif.parts"])
+        whole = self.read("a.gif.parts/000001.png")
+        for content, said in (
+                (self.read("a.gif.parts/000000.png"), "is not of this command but of: .* 40x30;"),
+                (whole[:-20], "is no whole PNG picture"), (b"", "is no whole PNG picture"),
+                (b"GIF89a", "is no whole PNG picture"),
+                (self.good(*TURN[:2], "-t", "0.03333333333333333", "-o", "-",
+                                program="LightedCube_animation",
+                                environment={"GALLIUM_OVERRIDE_CPU_CAPS": "sse4.1",
+                                             "LP_NATIVE_VECTOR_WIDTH": "128"}),
+                 "was drawn by .*128 bits.*--deterministic")):
+            if b"128 bits" in content and b"128 bits" in whole:
+                continue  # an older processor
+            self.make("a.gif.parts/000001.png", content)
+            self.wrong(1, r"a\.gif\.parts/000001\.png: " + said, *draw, "--merge")
+        self.make("a.gif.parts/000001.png", whole)
+        self.wrong(1, r"a\.gif\.parts/000000\.png: is not of this command", *draw, "-t", "1",
+                   "--merge")
+        self.good(*draw, "--merge", program="LightedCube_animation")
+
+    def test_usage_errors(self):
+        several = r"--part 1/2: is one of several pictures that go to files"
+        for said, *arguments in (
+                ("--part 0/2: must be I/N", "--part", "0/2"),
+                ("--part 3/2: must be I/N", "--part", "3/2"),
+                ("--part 2: must be I/N", "--part", "2"),
+                (several, "--part", "1/2"), (several, "--part", "1/2", "-o", "a.gif"),
+                (several, *TURN, "--part", "1/2", "-o", "-", "--format", "y4m"),
+                (several, *TURN, "--part", "1/2", "-o", "a%d.png", "--watch"),
+                ("--merge: puts an animation together", "--merge"),
+                ("--merge: puts an animation together", *TURN, "--merge"),
+                ("--part and --merge: one of them", *TURN, "--merge", "--part", "1/2")):
+            self.wrong(2, said, *arguments)
+
+
+class Galleries(Parts):
+    def gallery(self, *arguments, **more):
+        return self.good(*base.SMALL, *arguments, program="gallery", **more).decode()
+
+    def test_parts_make_the_gallery_of_one_run_after_kills(self):
+        command = [os.path.join(base.EXAMPLES, "gallery"), *base.SMALL, *SOME, "-o", "parts"]
+        self.gallery(*SOME, "-o", "one", *(("--manifest",) if self.hashes() else ()))
+        self.killed(100 if base.LONG else 3, 2, command)
+        self.assert_whole("parts")
+        self.assertNotIn("index.html", os.listdir(self.path("parts")))
+        self.gallery(*SOME, "-o", "parts", "--merge", *(("--manifest",) if self.hashes() else ()))
+        names = os.listdir(self.path("one"))
+        self.assertEqual(filecmp.cmpfiles(self.path("one"), self.path("parts"), names, False)[1:],
+                         ([], []))
+
+    def test_merging_what_is_not_there_fails(self):
+        self.gallery("LightedCube", "--part", "1/1", "-o", "g")
+        self.wrong(1, r"g/Materials\.png: cannot read", *base.SMALL, "LightedCube", "Materials",
+                   "--merge", "-o", "g", program="gallery")
+        self.wrong(1, r"g/LightedCube\.png: is not of this command", "-s", "41x41", "LightedCube",
+                   "--merge", "-o", "g", program="gallery")
+
+    def hashes(self):
+        result = self.run_it("LightedCube", *base.SMALL, "--manifest", "-o", "probe",
+                             program="gallery")
+        shutil.rmtree(self.path("probe"), ignore_errors=True)
+        if result.returncode:
+            self.assertIn(b"libgcrypt20-dev", result.stderr)
+        return not result.returncode
+
+    def test_a_manifest_is_verified(self):
+        if not self.hashes():
+            self.skipTest("built without libgcrypt")
+        self.gallery(*SOME, "-o", "g", "--manifest")
+        lines = self.read("g/manifest.txt").decode().splitlines()
+        self.assertEqual(lines[0], "# gallery --size 40x40")
+        names = [line.split("  ")[1] for line in lines[1::2]]
+        self.assertEqual(set(names), {name + ".png" for name in SOME})
+        for line in lines[1::2]:
+            digest, name = line.split("  ")
+            self.assertEqual(hashlib.sha256(self.read("g/" + name)).hexdigest(), digest)
+        before = self.everything()
+        verify = (*base.SMALL, "--verify", "g/manifest.txt")
+        self.assertEqual(self.good(*verify, program="gallery").decode(),
+                         "3 of 3 pictures are the same; 0 have the same pixels, 0 differ\n")
+        self.assertEqual(self.everything(), before)
+
+        # A manifest of another picture: first without that beside it.
+        changed = self.good(*base.SMALL, "--specular", "0.9,0,0", "-o", "-", program="Materials")
+        old = self.read("g/Materials.png")
+        text = self.read("g/manifest.txt").decode()
+        was, now = (hashlib.sha256(data).hexdigest() for data in (old, changed))
+        self.make("g/manifest.txt", re.sub(f"{was}(.*\n# pixels ).*", rf"{now}\g<1>{'0' * 64}",
+                                           text))
+        said = self.run_it(*verify, "Materials", program="gallery")
+        self.assertEqual((said.returncode, said.stderr), (1, b""))
+        self.assertRegex(said.stdout.decode(), "^Materials: differs; by how much would need the "
+                                               "manifest's own g/Materials.png\n0 of 1 ")
+        self.make("g/Materials.png", changed)
+        said = self.run_it(*verify, "Materials", program="gallery")
+        a, b = base.Png(old), base.Png(changed)
+        steps = [max(abs(x - y) for x, y in zip(a.pixels[i:i + 3], b.pixels[i:i + 3]))
+                 for i in range(0, len(a.pixels), 3)]
+        first = next(i for i, step in enumerate(steps) if step)
+        self.assertEqual(said.stdout.decode().splitlines()[0],
+                         f"Materials: {sum(map(bool, steps))} of 1600 pixels differ, by at most "
+                         f"{max(steps)} steps of 255, the first at ({first % 40},{first // 40})")
+        # Only what the file says, its compression, differs.
+        self.make("g/manifest.txt", text.replace(was, "0" * 64))
+        self.assertRegex(self.good(*verify, "Materials", program="gallery").decode(),
+                         "^Materials: the same pixels; .*\n0 of 1 .*; 1 have the same pixels, 0 ")
+
+    def test_bad_manifests_and_options_are_refused(self):
+        if not self.hashes():
+            self.skipTest("built without libgcrypt")
+        self.gallery("LightedCube", "-o", "g", "--manifest")
+        text = self.read("g/manifest.txt")
+        for said, *arguments in (
+                (r"--verify g/manifest.txt: is of the command: gallery --size 40x40; give",
+                 "--verify", "g/manifest.txt"),
+                ("--verify g/manifest.txt: has no picture of Materials", *base.SMALL, "--verify",
+                 "g/manifest.txt", "Materials"),
+                ("none: cannot read", "--verify", "none"),
+                ("--verify: writes nothing", "--verify", "g/manifest.txt", "-o", "h"),
+                ("--manifest: needs all pictures", "--manifest", "--part", "1/2")):
+            self.wrong(2, said, *arguments, program="gallery")
+        for content in (b"", b"\0", text[:-1], text[:100], text + text, text + b"x\n",
+                        text.replace(b"Light", b"/x/yz"), b"# " + b"x" * 5000, text[21:]):
+            self.make("bad", content)
+            self.wrong(2, r"bad: line \d+: is no line of a manifest|--verify bad: is of the command"
+                          r"|bad: line 0", *base.SMALL, "--verify", "bad", program="gallery")
+
+
+if __name__ == "__main__":
+    sys.exit(base.main())
