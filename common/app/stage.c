@@ -559,16 +559,24 @@ bool stage_error_picture(Stage *stage, const Options *options, double seconds,
 
 /* Pictures */
 
-static bool label_views(const Stage *stage, Image *image, Message *message)
+/* Whether an option of all scenes changes what a view computes. */
+static bool is_changed(const Options *options)
 {
-    enum { SIZE = 12, FOOT = 6 };
+    const SceneTerms *terms = &options->terms;
+    return terms->left_out || terms->lights_left_out || terms->unlit || options->full ||
+           options->cheap || options->clamp_vertex || options->linear || options->show_clipped;
+}
+
+static bool label_views(const Stage *stage, const Options *options, Image *image, Message *message)
+{
+    enum { SIZE = 12 };
+    const SceneExample *scene = stage->example->scene;
     for (int view = 0; view < stage_view_count(stage); view++) {
-        const char *text = stage->example->scene->label(view);
+        const char *text = scene->plain_label && is_changed(options) ? scene->plain_label(view)
+                                                                     : scene->label(view);
         int place[4];
-        view_place(stage, view, image->width, image->height, place);
-        if (text && place[3] > 4 * SIZE &&
-            !image_label(image, place[0] + place[2] / 2, place[1] + place[3] - FOOT, SIZE, text,
-                         message))
+        if (text && view_place(stage, view, image->width, image->height, place) &&
+            !image_caption(image, place, SIZE, text, message))
             return false;
     }
     return true;
@@ -708,7 +716,7 @@ bool stage_picture(Stage *stage, const Options *options, double seconds, Picture
     if (scene && image->type == IMAGE_BYTE) {
         if (scene->retouch)
             scene->retouch(image);
-        if (scene->label && !label_views(stage, image, message))
+        if (scene->label && !label_views(stage, options, image, message))
             return false;
     }
     describe_picture(stage, options, seconds, picture);

@@ -3,6 +3,7 @@
 #include "images/font.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #define FONT "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
@@ -105,4 +106,63 @@ bool image_label(Image *image, int x, int y, int size, const char *text, Message
                         &ink, message);
     font_close(&font);
     return done;
+}
+
+enum { MOST_LINES = 8 };
+
+static bool fits(const stbtt_fontinfo *font, Scale scale, const char *line, int width)
+{
+    Extent ink;
+    return set_text(font, scale, line, 0, 0, NULL, &ink, NULL) &&
+           ink.right - ink.left <= (float)width;
+}
+
+/* Ends lines at blanks of the text. 0: a word is too wide, or there are too many lines. */
+static int break_lines(const stbtt_fontinfo *font, Scale scale, char *text, int width,
+                       const char *lines[MOST_LINES])
+{
+    int count = 1;
+    char *blank = NULL; /* where this line could end */
+    lines[0] = text;
+    for (char *at = text;; at++) {
+        const char end = *at;
+        if (end != ' ' && end)
+            continue;
+        *at = '\0';
+        if (!fits(font, scale, lines[count - 1], width)) {
+            if (!blank || count == MOST_LINES || !fits(font, scale, blank + 1, width))
+                return 0;
+            *blank = '\0';
+            lines[count++] = blank + 1;
+        }
+        if (!end)
+            return count;
+        *at = ' ';
+        blank = at;
+    }
+}
+
+bool image_caption(Image *image, const int place[4], int size, const char *text, Message *message)
+{
+    enum { SMALLEST = 7 };
+    const char *path = getenv("LIGHTING_FONT");
+    const char *lines[MOST_LINES];
+    char copy[256];
+    Font font;
+    int count = 0;
+    if (!font_open(&font, path ? path : FONT, "fonts-dejavu-core", message))
+        return false;
+    for (size++; count == 0 && size > SMALLEST;) {
+        snprintf(copy, sizeof copy, "%s", text);
+        size--;
+        count = break_lines(&font.info, scale_of(&font.info, size), copy, place[2] - 4, lines);
+        count = 3 * count * (size + 2) <= place[3] ? count : 0;
+    }
+    font_close(&font);
+    for (int i = 0; i < count; i++)
+        if (!image_label(image, place[0] + place[2] / 2,
+                         place[1] + place[3] - size / 2 - (count - 1 - i) * (size + 2), size,
+                         lines[i], message))
+            return false;
+    return true;
 }

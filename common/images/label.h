@@ -1,5 +1,5 @@
 /*
- * label: a line of text in a picture, rasterized by stb_truetype from DejaVu Sans.
+ * label: text in a picture, rasterized by stb_truetype from DejaVu Sans.
  */
 #ifndef LABEL_H
 #define LABEL_H
@@ -11,5 +11,10 @@
  * Control characters are spaces; a character that the font lacks is a box. False if the font cannot
  * be read: the file named by LIGHTING_FONT in the environment, or Debian's fonts-dejavu-core. */
 bool image_label(Image *image, int x, int y, int size, const char *text, Message *message);
+
+/* The same at the bottom of a rectangle (x, y, width, height): broken at blanks into lines that
+ * leave two thirds of its height, in smaller letters where a word is too wide, not at all where
+ * they would be too small to read. */
+bool image_caption(Image *image, const int place[4], int size, const char *text, Message *message);
 
 #endif

@@ -27,9 +27,11 @@ typedef struct SceneExample {
      */
     void (*size)(int *width, int *height);
     void (*annotate)(double seconds, int view, const Scene *scene, Annotations *annotations);
-    const char *(*label)(int view); /* one line at the bottom of a view; NULL: none */
-    void (*retouch)(Image *image);  /* changes the finished picture, in bytes */
-    const Parameter *parameters;    /* the program's own options, terminated by a NULL name */
+    const char *(*label)(int view); /* at the bottom of a view; NULL: none */
+    /* Instead where an option of all scenes changes what a view computes; may be NULL. */
+    const char *(*plain_label)(int view);
+    void (*retouch)(Image *image); /* changes the finished picture, in bytes */
+    const Parameter *parameters;   /* the program's own options, terminated by a NULL name */
 } SceneExample;
 
 /* What a program lets its user choose about shading, with its own defaults. */
