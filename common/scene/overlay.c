@@ -122,9 +122,8 @@ void overlay_add_lights(OverlayList *list, const Scene *scene)
 {
     for (int i = 0; i < scene->light_count; i++) {
         const Light light = scene_world_light(scene, i);
-        const bool directional = light.kind == LIGHT_DIRECTIONAL;
-        add(list, directional ? light.direction : light.position,
-            light.off ? (Vec3){0.1, 0.1, 0.1} : (Vec3){1, 1, 1});
+        if (light.kind != LIGHT_DIRECTIONAL)
+            add(list, light.position, light.off ? (Vec3){0.1, 0.1, 0.1} : (Vec3){1, 1, 1});
     }
 }
 
