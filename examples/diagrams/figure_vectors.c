@@ -82,6 +82,9 @@ static void draw_table(Board *board, const Table *table)
         for (int i = 0; i < ROWS; i++)
             draw_row(board, table, i, left, height / 2 + row * (i - 0.5 * (ROWS - 1)) + 0.3 * em);
         board->area.right = left - em;
+        /* In the middle of a very wide picture. */
+        board->area.left =
+            fmax(board->area.left, fmin(width - board->area.right, board->area.right - 2 * height));
         return;
     }
     const int columns = 2, rows = (ROWS + columns - 1) / columns;

@@ -222,6 +222,27 @@ TEST(nothing_overlaps_and_nothing_is_cut)
                         }
 }
 
+/* The semicircle of the unit vectors is in the middle of a picture with room on both sides. */
+TEST(the_figure_of_a_very_wide_picture_is_in_its_middle)
+{
+    static const double SIZES[][2] = {{800, 200}, {1600, 400}, {1000, 300}};
+    const Optics optics = usual(0, 0, 10, REFLECTION_PHONG);
+    for (int i = 0; i < 3; i++) {
+        int arcs = 0;
+        CLOSED(drawing_end) Drawing drawing;
+        SUCCEEDS(drawing_begin(&drawing, SIZES[i][0], SIZES[i][1], message));
+        figure_draw(FIGURE_VECTORS, &optics, 4, &drawing);
+        for (int k = 0; k < drawing.path_count; k++) {
+            const DrawingBox box = drawing_path_box(&drawing, &drawing.paths[k]);
+            if (drawing.paths[k].style.dash == 0)
+                continue;
+            arcs++;
+            assert_true(fabs(box.left + box.right - SIZES[i][0]) < 1);
+        }
+        assert_int_equal(arcs, 1);
+    }
+}
+
 TEST(a_picture_of_a_pixel_can_be_drawn)
 {
     const Optics optics = usual(40, 20, 10, REFLECTION_PHONG);
