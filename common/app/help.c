@@ -97,12 +97,17 @@ static const char *details(const Usage *usage, char text[DETAILS_SIZE])
 {
     static const char *const common[] = {"--orbit 180,0 -o back.png", "--size 40x40 --samples 4",
                                          "--precision highp --print-shader=frag", NULL};
-    const char *const *tries = usage->tries && usage->tries[0] ? usage->tries : common;
+    static const char *const at_common[] = {"the scene from behind",
+                                            "few pixels, but smooth edges: four samples for each",
+                                            "the source that the driver gets"};
+    const bool own = usage->tries && usage->tries[0];
+    const char *const *tries = own ? usage->tries : common;
+    const char *const *looks = own ? usage->looks : at_common;
     size_t length = 0;
     text[0] = '\0';
     for (int i = 0; tries[i] && !usage->details && !usage->gallery && length < DETAILS_SIZE; i++)
-        length += (size_t)snprintf(text + length, DETAILS_SIZE - length, "%s%s %s\n",
-                                   i ? "      " : "Try:  ", usage->name, tries[i]);
+        length += (size_t)snprintf(text + length, DETAILS_SIZE - length, "%s%s %s\n          %s\n",
+                                   i ? "      " : "Try:  ", usage->name, tries[i], looks[i]);
     return usage->details ? usage->details : text;
 }
 

@@ -363,6 +363,7 @@ Usage options_usage(const Example *example)
                    .height = example->height,
                    .resize = example->scene ? example->scene->size : NULL,
                    .tries = example->tries,
+                   .looks = example->looks,
                    .parameters = example_parameters(example)};
 }
 

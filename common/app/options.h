@@ -89,6 +89,7 @@ typedef struct Usage {
     bool diagram;             /* draws without OpenGL, and writes SVG and PDF too */
     const char *names;        /* the operands in --help, "LAB PATH"; NULL: there are none */
     const char *const *tries; /* as in an Example; may be NULL */
+    const char *const *looks; /* as many */
     int width, height;        /* of the picture without --size; zero: 400 */
     void (*resize)(int *width, int *height); /* where that depends on an option; may be NULL */
     const Parameter *parameters; /* the program's own options; ended by a NULL name; may be NULL */

@@ -25,6 +25,7 @@ typedef struct Example {
     float clear_color[3]; /* of the background; zero: black */
     int width, height;    /* of the picture; zero: 400 */
     const char *tries[4]; /* arguments that --help suggests; ended by NULL; none: common ones */
+    const char *looks[4]; /* what to look for in each */
 
     /* Loads shaders, makes meshes, finds locations. `finish` closes what it opened, also after a
      * failure. Both NULL for a diagram. */

@@ -63,5 +63,8 @@ const Example Vectors = {
     .width = 800,
     .height = 450,
     .tries = {"--shininess 0", "--figure incidence --light 80", "--figure lobe -o lobe.svg"},
+    .looks = {"the lobe is a half disc: a highlight for every eye",
+              "a flat beam lights a wider place, so each part gets less",
+              "diffuse: the same everywhere; specular: about R"},
     .diagram = &(const DiagramExample){.compose = compose, .parameters = parameters},
 };

@@ -102,6 +102,9 @@ const Example ColoredLights = {
     .width = 500,
     .height = 600,
     .tries = {"--light 0,1,1", "--specular 0", "--terms specular"},
+    .looks = {"cyan light below: what reflects only red is black",
+              "without highlights, red in green light is black",
+              "highlights have the light's colour on every surface"},
     .init = init,
     .finish = finish,
     .scene =

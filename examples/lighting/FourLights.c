@@ -165,6 +165,8 @@ const Example FourLights = {
     .name = "FourLights",
     .summary = "four lights on and off, spheres that emit, colours at the vertices",
     .tries = {"--viewpoint off --ambient off --time 3.1", "--terms emission", "--lighting off"},
+    .looks = {"the three coloured lights alone", "what shines by itself: the lamps",
+              "each surface in its own colour: no depth"},
     .init = init,
     .finish = finish,
     .scene = &(const SceneExample){.make = scene, .parameters = parameters},

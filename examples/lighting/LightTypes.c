@@ -65,8 +65,8 @@ static Light light(double seconds, int view)
 static void scene(double seconds, int view, Scene *scene)
 {
     const Mat4 lying = mat4_rotate(-90, (Vec3){1, 0, 0});
-    const Mat4 below = mat4_translate((Vec3){0, -1, 0});
-    const Mat4 large = mat4_scale((Vec3){4, 4, 4});
+    const Mat4 below = mat4_translate((Vec3){0, -1, -0.7});
+    const Mat4 large = mat4_scale((Vec3){3.3, 3.3, 3.3});
     state.light = light(seconds, view);
     state.objects[0] = (Object){.mesh = &state.sphere,
                                 .solid = {.kind = SOLID_SPHERE, .radius = 1},
@@ -121,6 +121,9 @@ const Example LightTypes = {
     .width = 750,
     .height = 500,
     .tries = {"--linear 0 --quadratic 1", "--cutoff 60 --exponent 128", "--terms specular"},
+    .looks = {"attenuation by the square of the distance is darker",
+              "the exponent narrows the last spot, not the cutoff",
+              "highlights alone: in one place, weaker where attenuated"},
     .init = init,
     .finish = finish,
     .scene = &(const SceneExample){.make = scene,

@@ -102,6 +102,8 @@ const Example NormalMatrix = {
     .summary = "normals of a scaled sphere, transformed rightly and wrongly",
     .tries = {"--matrix both --normals on", "--matrix wrong --terms diffuse",
               "--terms specular --matrix both"},
+    .looks = {"wrong normals lean towards the long axis",
+              "the light's border is in the wrong place", "wrong normals move the highlight"},
     .init = init,
     .finish = finish,
     .scene = &(const SceneExample){.make = scene,

@@ -73,6 +73,8 @@ static void scene(double seconds, int view, Scene *scene)
                 .objects = &state.object,
                 .object_count = 1,
                 .global_ambient = global_ambient};
+    if (shape_kind == SHAPE_CUBE && !model.path) /* whose corners the original cuts */
+        scene->camera.eye = vec3_scale(scene->camera.eye, 1.15);
     scene_shading_apply(&shading, scene);
 }
 
@@ -88,6 +90,9 @@ const Example ShadingModels = {
     .height = 512,
     .tries = {"--shape teapot --interpolation gouraud", "--terms specular --interpolation constant",
               "--material pearl --reflection blinn-phong --show-clipped"},
+    .looks = {"colours are interpolated: highlights between vertices are lost",
+              "one colour for each triangle: the highlight is a few faces",
+              "magenta: more light than can be shown"},
     .init = init,
     .finish = finish,
     .scene = &(

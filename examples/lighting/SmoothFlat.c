@@ -159,6 +159,8 @@ const Example SmoothFlat = {
     .height = 300,
     .tries = {"--slices 3 --stacks 32", "--shape square --orbit 60,20",
               "--slices 12 --stacks 6 --normals flat --edges on"},
+    .looks = {"smooth normals hide the edges, but not in the outline",
+              "flat, but shaded as if it bulged", "one normal and one shade for each face"},
     .init = init,
     .finish = finish,
     .scene = &(const SceneExample){.make = scene, .annotate = annotate, .parameters = parameters},

@@ -77,6 +77,9 @@ const Example SpotLight = {
     .tries = {"--shape cube --interpolation gouraud --global-ambient 0.3",
               "--exponent 60 --cutoff 60 --global-ambient 0.3",
               "--shape teapot --cutoff 90 --time 2"},
+    .looks = {"no corner is within the cone: nothing is lit",
+              "no hard edge: the light fades before the cone ends",
+              "a cone of 180 degrees lights all that faces it"},
     .init = init,
     .finish = finish,
     .scene = &(

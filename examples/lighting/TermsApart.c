@@ -194,6 +194,12 @@ static const char *label(int view)
     return state.labels[view];
 }
 
+/* The costs are those of all terms. */
+static const char *plain_label(int view)
+{
+    return VIEW[view].name;
+}
+
 static void finish(void)
 {
     scene_copy_close(&state.kept);
@@ -206,9 +212,13 @@ const Example TermsApart = {
     .width = 1000,
     .height = 500,
     .tries = {"--interpolation gouraud", "--shape sphere --costs time", "--shininess 0"},
+    .looks = {"all operations move to the vertices", "milliseconds beside the operations",
+              "shininess 0: the highlight covers all that is lit"},
     .init = init,
     .finish = finish,
-    .scene =
-        &(const SceneExample){
-            .make = scene, .layout = layout, .label = label, .parameters = parameters},
+    .scene = &(const SceneExample){.make = scene,
+                                   .layout = layout,
+                                   .label = label,
+                                   .plain_label = plain_label,
+                                   .parameters = parameters},
 };

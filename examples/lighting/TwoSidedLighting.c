@@ -132,6 +132,9 @@ const Example TwoSidedLighting = {
     .name = "TwoSidedLighting",
     .summary = "a material for the back, and its normal reversed",
     .tries = {"--time 6 --two-sided off", "--front-face cw", "--shape cylinder --two-sided off"},
+    .looks = {"the back, lit with the front's normal: dark, though the light is before it",
+              "what faces you is the back: silver, and the light is behind it",
+              "the inside has the outside's colour, and the wrong normals"},
     .init = init,
     .finish = finish,
     .scene =

@@ -1,0 +1,160 @@
+/*
+ * What each --help suggests, and each shape of each scene: it is drawn, and every object lies
+ * within the picture, however wide or narrow that is.
+ */
+#include "app/stage.h"
+#include "scene/scene_example.h"
+#include "scene/shape.h"
+#include "support/examples.h"
+#include "support/picture_check.h"
+#include "support/testing.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define X(NAME) extern const Example NAME;
+LECTURE_EXAMPLES
+#undef X
+
+#define X(NAME) &NAME,
+static const Example *const LECTURES[] = {LECTURE_EXAMPLES};
+#undef X
+
+enum { SIZE = 96, MOST_PARAMETERS = 64, MOST_WORDS = 12 };
+
+static Canvas canvas;
+
+FIXTURE(open_canvas)
+{
+    require(canvas_open(&canvas, &(CanvasOptions){.width = SIZE, .height = SIZE}, FAILURE),
+            FAILURE);
+    return 0;
+}
+
+FIXTURE(close_canvas)
+{
+    canvas_close(&canvas);
+    return 0;
+}
+
+/* Reads a line of arguments, which sets the example's own parameters too. */
+static Options read_line(const Example *example, const char *line)
+{
+    static char text[512];
+    char *words[MOST_WORDS + 1] = {text};
+    int count = 0;
+    Options options;
+    const Usage usage = options_usage(example);
+    snprintf(text, sizeof text, "%s %s", example->name, line);
+    for (char *word = strtok(text, " "); word; word = strtok(NULL, " ")) {
+        assert_true(count < MOST_WORDS);
+        words[count++] = word;
+    }
+    words[count] = NULL;
+    if (options_read(&options, &usage, count, words, FAILURE) != OPTIONS_RUN)
+        fail_msg("%s: %s", text, FAILURE->text);
+    return options;
+}
+
+static void check_whole(const Scene *scene, double aspect, const char *what)
+{
+    Mat4 eye_from_world, clip_from_eye;
+    require(scene_camera(&scene->camera, aspect, &eye_from_world, &clip_from_eye, FAILURE),
+            FAILURE);
+    const Mat4 clip_from_world = mat4_product(clip_from_eye, eye_from_world);
+    for (int i = 0; i < scene->object_count; i++) {
+        const Object *object = &scene->objects[i];
+        const Mat4 clip_from_object = mat4_product(clip_from_world, object->world_from_object);
+        for (size_t k = 0; k < object->mesh->index_count; k++) { /* some vertices are not used */
+            const uint32_t vertex = object->mesh->indices[k];
+            const Vec3 p = vec3_from_float(object->mesh->vertices[vertex].position);
+            const Vec4 clip = mat4_transform(clip_from_object, (Vec4){p.x, p.y, p.z, 1});
+            if (!(fabs(clip.x) <= clip.w && fabs(clip.y) <= clip.w && fabs(clip.z) <= clip.w))
+                fail_msg("%s, aspect %g: object %d is cut at (%g, %g, %g)", what, aspect, i,
+                         clip.x / clip.w, clip.y / clip.w, clip.z / clip.w);
+        }
+    }
+}
+
+/* In pictures of any shape, at moments of a turn. */
+static void check_scene(Stage *stage, const Options *options, const char *what)
+{
+    for (double seconds = options->seconds; seconds < options->seconds + 12; seconds += 3.1) {
+        for (int view = 0; view < stage_view_count(stage); view++) {
+            StageView opened;
+            require(stage_view_open(&opened, stage, options, seconds, view, FAILURE), FAILURE);
+            for (double aspect = 0.25; aspect <= 4; aspect *= 4)
+                check_whole(&opened.scene, aspect, what);
+            stage_view_close(&opened);
+        }
+    }
+}
+
+/* The picture must not be empty. */
+static void check_line(const Example *example, const char *line, bool drawn)
+{
+    char what[256];
+    Stage stage;
+    ParameterValue before[MOST_PARAMETERS];
+    const Parameter *own = example_parameters(example);
+    int count = 0;
+    for (; own && own[count].name; count++)
+        before[count] = parameter_save(&own[count]);
+    const Options options = read_line(example, line);
+    snprintf(what, sizeof what, "%s %s", example->name, line);
+    require(stage_open(&stage, example, &canvas, &options, FAILURE), FAILURE);
+    if (example->scene)
+        check_scene(&stage, &options, what);
+    if (drawn) {
+        CLOSED(image_close) Image image;
+        int colors = 0;
+        SUCCEEDS(image_open(&image, SIZE, SIZE, IMAGE_BYTE, message));
+        require(stage_draw(&stage, &options, options.seconds, FAILURE) &&
+                    canvas_read(&canvas, &image, FAILURE),
+                FAILURE);
+        for (size_t i = 4; i < 4 * SIZE * SIZE; i += 4)
+            colors += memcmp((char *)image.pixels + i, image.pixels, 3) != 0;
+        if (colors < 8)
+            fail_msg("%s: an empty picture", what);
+    }
+    stage_close(&stage);
+    for (int i = 0; i < count; i++)
+        parameter_restore(&own[i], before[i]);
+}
+
+static void check_tries(const Example *const *examples, int count)
+{
+    for (int e = 0; e < count; e++) {
+        for (int i = 0; i < 3 && examples[e]->tries[i]; i++) {
+            check_line(examples[e], examples[e]->tries[i], true);
+            assert_in_range(strlen(examples[e]->looks[i]), 10, 78);
+        }
+    }
+}
+
+TEST(what_help_suggests_is_a_whole_picture)
+{
+    check_tries(EXAMPLES, EXAMPLE_COUNT);
+    check_tries(LECTURES, (int)(sizeof LECTURES / sizeof LECTURES[0]));
+}
+
+/* The value of each choice of the option "shape". */
+TEST(every_shape_is_whole)
+{
+    for (int e = 0; e < EXAMPLE_COUNT; e++) {
+        const Parameter *own = example_parameters(EXAMPLES[e]);
+        check_line(EXAMPLES[e], "", false);
+        while (own->name && strcmp(own->name, "shape") != 0)
+            own++;
+        for (int i = 0; own->name && own->choices[i]; i++) {
+            char line[64];
+            snprintf(line, sizeof line, "--shape %s%s", own->choices[i],
+                     EXAMPLES[e]->name[0] == 'T' && own->choices == SHAPE_NAMES ? " --costs off"
+                                                                                : "");
+            check_line(EXAMPLES[e], line, false);
+        }
+    }
+}
+
+PICTURE_TEST_MAIN("tries", open_canvas, close_canvas)
