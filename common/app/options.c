@@ -15,6 +15,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -612,14 +613,41 @@ void options_prepare_process(void)
     options_catch_signals(end_by_signal, SA_RESTART);
 }
 
+/* The beginning, a program's name or a file and line, in colour on a terminal. */
+static void print_message(const char *program, const Message *message, int color)
+{
+    const char *begin = message_color(color, STDERR_FILENO);
+    const char *end = message_color(MESSAGE_PLAIN, STDERR_FILENO);
+    const char *text = message->text[0] ? message->text : "failed";
+    const char *rest = message->located ? strstr(text, ": ") : NULL;
+    if (rest)
+        fprintf(stderr, "%s%.*s:%s%s\n", begin, (int)(rest - text), text, end, rest + 1);
+    else
+        fprintf(stderr, "%s%s:%s %s\n", begin, program, end, text);
+}
+
 int options_fail(const char *program, const Message *message, int code)
 {
     fflush(stdout);
-    if (message->located)
-        fprintf(stderr, "%s\n", message->text);
-    else
-        fprintf(stderr, "%s: %s\n", program, message->text[0] ? message->text : "failed");
+    print_message(program, message, MESSAGE_RED);
     return code;
+}
+
+void options_warn(const char *program, const Message *message)
+{
+    print_message(program, message, MESSAGE_YELLOW);
+}
+
+void options_tell(const char *program, const char *format, ...)
+{
+    va_list arguments;
+    if (!isatty(STDERR_FILENO))
+        return;
+    va_start(arguments, format);
+    fprintf(stderr, "%s: ", program);
+    vfprintf(stderr, format, arguments);
+    fputc('\n', stderr);
+    va_end(arguments);
 }
 
 int options_finish(const char *program, int code)

@@ -139,6 +139,13 @@ bool options_begin(Options *options, const Usage *usage, int argc, char *argv[],
 /* Prints a message on standard error and returns `code`. */
 int options_fail(const char *program, const Message *message, int code);
 
+/* Prints a warning on standard error. */
+void options_warn(const char *program, const Message *message);
+
+/* Says on standard error what was done, if that is a terminal. */
+void options_tell(const char *program, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
 /* Flushes standard output; EXIT_FAILED, with a message, if something written did not arrive. */
 int options_finish(const char *program, int code);
 

@@ -305,6 +305,24 @@ static bool run(const Example *example, const Options *options, const ParameterV
            run_example(example, &parts.options, defaults, message);
 }
 
+static void tell_written(const Example *example, const Options *options)
+{
+    const int count = options->frames;
+    char first[PATH_MAX], last[PATH_MAX];
+    if (options_in_window(options) || options->shaders.print || options->explain ||
+        options->part.count || strcmp(options->output, "-") == 0 || !picture_path(options, 0, first, NULL) ||
+        !picture_path(options, count - 1, last, NULL))
+        return;
+    if (count == 1)
+        options_tell(example->name, "wrote %s, %dx%d", first, options->width, options->height);
+    else if (options->animation)
+        options_tell(example->name, "wrote %s, %d pictures, %dx%d", first, count, options->width,
+                     options->height);
+    else
+        options_tell(example->name, "wrote %s to %s, %dx%d", first, last, options->width,
+                     options->height);
+}
+
 int example_main(const Example *example, int argc, char *argv[])
 {
     Options options;
@@ -329,5 +347,6 @@ int example_main(const Example *example, int argc, char *argv[])
         tell_unused(example, &options, defaults);
     if (!run(example, &options, defaults, &message))
         return options_fail(example->name, &message, EXIT_FAILED);
+    tell_written(example, &options);
     return options_finish(example->name, 0);
 }

@@ -77,6 +77,7 @@ static ShaderLoader loader_of(const Options *options)
 {
     ShaderLoader loader = options->shaders;
     loader.printed = stdout;
+    loader.advise = true;
     loader.log = options->verbose ? stderr : NULL;
     return loader;
 }
@@ -113,7 +114,7 @@ bool stage_open(Stage *stage, const Example *example, const Canvas *canvas, cons
 void stage_warn(const Stage *stage)
 {
     if (stage->warning.text[0])
-        fprintf(stderr, "%s\n", stage->warning.text);
+        options_warn(stage->example->name, &stage->warning);
 }
 
 void stage_close(Stage *stage)

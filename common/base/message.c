@@ -2,7 +2,9 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 bool message_set(Message *message, const char *format, ...)
 {
@@ -25,4 +27,20 @@ bool message_add(Message *message, const char *format, ...)
     vsnprintf(message->text + used, sizeof message->text - used, format, arguments);
     va_end(arguments);
     return false;
+}
+
+bool message_in_color(int file)
+{
+    const char *none = getenv("NO_COLOR"), *terminal = getenv("TERM");
+    return isatty(file) && !(none && none[0]) && terminal && strcmp(terminal, "dumb") != 0;
+}
+
+const char *message_color(int color, int file)
+{
+    if (!message_in_color(file))
+        return "";
+    return color == MESSAGE_RED      ? "\033[31m"
+           : color == MESSAGE_GREEN  ? "\033[32m"
+           : color == MESSAGE_YELLOW ? "\033[33m"
+                                     : "\033[0m";
 }

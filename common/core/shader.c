@@ -174,13 +174,18 @@ bool shader_open(Shader *shader, const ShaderLoader *loader, const char *name, M
     print_source(loader, &fragment_source, SHADER_FRAGMENT);
 
     if (!(vertex = compile(&vertex_source, SHADER_VERTEX, message)) ||
-        !(fragment = compile(&fragment_source, SHADER_FRAGMENT, message)))
+        !(fragment = compile(&fragment_source, SHADER_FRAGMENT, message))) {
+        if (loader->advise)
+            shader_advise(vertex ? fragment_source.text : vertex_source.text, message);
         goto end;
+    }
     shader->program = glCreateProgram();
     glAttachShader(shader->program, vertex);
     glAttachShader(shader->program, fragment);
     glBindAttribLocation(shader->program, 0, "a_Position");
     done = link_program(shader->program, &vertex_source, &fragment_source, message);
+    if (!done && loader->advise)
+        shader_advise("", message);
     if (done && loader->log)
         fprintf(loader->log, "%s: %s and %s: compiled and linked in %.1f ms\n", name,
                 vertex_source.files[0], fragment_source.files[0], 1e3 * (clock_now() - start));
@@ -198,27 +203,6 @@ end:
     else if (!loader->warning)
         close_sources(shader);
     return done;
-}
-
-static bool missing(const Shader *shader, const char *kind, const char *name, Message *message)
-{
-    return message_set(message,
-                       "%s: the linked program has no %s %s: it is not declared, or no output "
-                       "depends on it",
-                       shader->name, kind, name);
-}
-
-/* Location 0 is valid; -1 is the failure. */
-bool shader_uniform(const Shader *shader, const char *name, GLint *location, Message *message)
-{
-    *location = glGetUniformLocation(shader->program, name);
-    return *location >= 0 ? true : missing(shader, "uniform", name, message);
-}
-
-bool shader_attribute(const Shader *shader, const char *name, GLint *location, Message *message)
-{
-    *location = glGetAttribLocation(shader->program, name);
-    return *location >= 0 ? true : missing(shader, "attribute", name, message);
 }
 
 static bool is_attribute(const char *name)
@@ -248,6 +232,30 @@ static void find_similar(const Shader *shader, const char *name, const ShaderLoc
         if (!taken)
             memcpy(similar, active, NAME_SIZE);
     }
+}
+
+static bool missing(const Shader *shader, const char *kind, const char *name, Message *message)
+{
+    static const ShaderLocation unknown[] = {{NULL, NULL}};
+    char similar[NAME_SIZE];
+    find_similar(shader, name, unknown, similar);
+    return message_set(message,
+                       "%s: the linked program has no %s %s: it is not declared, or no output "
+                       "depends on it%s%s",
+                       shader->name, kind, name, similar[0] ? "; there is " : "", similar);
+}
+
+/* Location 0 is valid; -1 is the failure. */
+bool shader_uniform(const Shader *shader, const char *name, GLint *location, Message *message)
+{
+    *location = glGetUniformLocation(shader->program, name);
+    return *location >= 0 ? true : missing(shader, "uniform", name, message);
+}
+
+bool shader_attribute(const Shader *shader, const char *name, GLint *location, Message *message)
+{
+    *location = glGetAttribLocation(shader->program, name);
+    return *location >= 0 ? true : missing(shader, "attribute", name, message);
 }
 
 /* Adds a clause to the warning, which begins with the place of the first variable in it. */

@@ -40,6 +40,7 @@ typedef struct ShaderLoader {
     ShaderFiles *files;                    /* caches files; NULL: read from disk each time */
     int print;                             /* which shaders to write to `printed`, as below */
     FILE *printed, *log;                   /* the latter for compile times; NULL: not written */
+    bool advise;                           /* errors of the driver end with a hint */
     Message *warning; /* where shader_locations names what a program lacks; NULL: an error */
 } ShaderLoader;
 
@@ -72,6 +73,13 @@ void shader_source_close(ShaderSource *source);
 /* Maps the driver's log to files: a line that begins with a source string and line number becomes
  * "file:line: rest"; the first is followed by that line of source. Always returns false. */
 bool shader_explain_log(const ShaderSource *source, const char *log, Message *message);
+
+/* One sentence on what an error of the driver usually means; NULL: unknown. */
+const char *shader_advice(const char *message);
+
+/* Adds that sentence as a last line, "  hint: ...", which also names what an unknown name in the
+ * source was probably meant to be. */
+void shader_advise(const char *source, Message *message);
 
 /* Whether a line of a source is a #line directive, and the file and line it gives the next. */
 bool shader_line_directive(const char *text, int *file, int *line);

@@ -84,6 +84,8 @@ static int check(const Options *options, const Lab *lab, const char *folder, Mes
         verdict_print(&verdict, lab, pictures, stdout);
     if (json && !verdict_write(&verdict, lab, folder, json, message))
         return options_fail(usage.name, message, EXIT_FAILED);
+    if (json && !quiet)
+        options_tell(usage.name, "wrote %s", json);
     return options_finish(usage.name, verdict.kind == VERDICT_RIGHT ? 0 : EXIT_FAILED);
 }
 
@@ -111,5 +113,6 @@ int main(int argc, char *argv[])
         return check(&options, lab, names[1], &message);
     if (!judge_expected(lab, expected, &message))
         return options_fail(usage.name, &message, EXIT_FAILED);
+    options_tell(usage.name, "wrote %s", expected);
     return options_finish(usage.name, 0);
 }

@@ -275,6 +275,8 @@ static bool measure(const Options *options, const Quality *quality, Message *mes
                (part.count         ? true
                 : limit.value >= 0 ? choose(&survey, scene, &limit, message)
                                    : report(&survey, options, scenes, count, message));
+    if (done && !quality && !part.count && limit.value < 0)
+        options_tell("accuracy", "wrote %s", options->output);
     survey_close(&survey);
     return done;
 }

@@ -11,6 +11,7 @@ import array
 import functools
 import itertools
 import os
+import pty
 import re
 import shutil
 import signal
@@ -51,6 +52,21 @@ def step(number):
     """Of many similar cases: the short form takes every `number`-th, the long one (tests/run --long,
     which sets LIGHTING_TEST_LONG) all."""
     return 1 if LONG else number
+
+
+def on_terminal(command, **more):
+    """The status, and what a command writes to a terminal that is its standard error."""
+    ours, theirs = pty.openpty()
+    process = subprocess.Popen(command, stderr=theirs, stdout=subprocess.DEVNULL, **more)
+    os.close(theirs)
+    said = b""
+    try:
+        while chunk := os.read(ours, 65536):
+            said += chunk
+    except OSError:  # EIO: nobody has it open any more
+        pass
+    os.close(ours)
+    return process.wait(), said.decode()
 
 
 class Png:
@@ -372,6 +388,60 @@ class Options(Case):
             1: r"(?s)libegl1.*libosmesa6.*cannot draw yet\.\n$"}[result.returncode])
 
 
+class Terminal(Case):
+    """What is said on a terminal alone."""
+
+    def on_terminal(self, *arguments, program="LightedCube", **environment):
+        clean = {key: value for key, value in os.environ.items() if key != "NO_COLOR"}
+        return on_terminal([os.path.join(EXAMPLES, program), *arguments], cwd=self.folder,
+                           env={**clean, "TERM": "xterm", **environment})
+
+    def test_what_was_written_is_said(self):
+        for said, program, *arguments in (
+                ("wrote LightedCube.png, 40x40", "LightedCube"),
+                ("wrote f0.png to f2.png, 40x40", "LightedCube", "-n", "3", "-o", "f%d.png"),
+                ("wrote a.svg, 40x40", "Vectors", "-o", "a.svg"),
+                ("wrote a.gif, 3 pictures, 40x40", "LightedCube", "-n", "3", "-o", "a.gif"),
+                ("", "LightedCube", "-o", "-"), ("", "LightedCube", "--print-shader"),
+                ("", "Materials", "--explain")):
+            if program in EVERY and (not said.startswith("wrote a.gif") or os.path.exists(MODULE)):
+                code, text = self.on_terminal(*SMALL, *arguments, program=program)
+                self.assertEqual((code, text), (0, f"{program}: {said}\r\n" if said else ""))
+
+    def test_errors_and_warnings_are_in_colour(self):
+        red, yellow, plain = "\x1b[31m", "\x1b[33m", "\x1b[0m"
+        self.assertEqual(self.on_terminal("--sise"), (
+            2, f"{red}LightedCube:{plain} --sise: no such option; did you mean --size?\r\n"))
+        for more in ({"NO_COLOR": "1"}, {"TERM": "dumb"}):
+            self.assertEqual(self.on_terminal("--sise", **more), (
+                2, "LightedCube: --sise: no such option; did you mean --size?\r\n"))
+        self.assertIn("\x1b[31m", self.on_terminal("--sise", NO_COLOR="")[1])
+        for name in "vert", "frag":
+            shutil.copy(os.path.join(SOURCE, "shaders/lecture/LightedCube." + name), self.folder)
+        text = self.read("LightedCube.vert").decode()
+        self.make("LightedCube.vert", text.replace("u_LightColor", "u_LightColour"))
+        code, said = self.on_terminal(*SMALL, "--shaders", ".")
+        self.assertEqual(code, 0)
+        self.assertRegex(said, rf"^{re.escape(yellow)}\S*LightedCube.vert:\d+:{re.escape(plain)} "
+                               r"warning: u_LightColour: u_LightColor\?\r\n")
+        self.make("LightedCube.vert", "what;\n")
+        code, said = self.on_terminal(*SMALL, "--shaders", ".")
+        self.assertEqual(code, 1)
+        self.assertRegex(said, rf"^{re.escape(red)}\S*LightedCube.vert:1:{re.escape(plain)} error: ")
+
+    @unittest.skipUnless("check" in os.listdir(EXAMPLES), "check is not built")
+    def test_verdicts_are_in_colour(self):
+        for folder, verdict in (("examples/labs/lab01_diffuse", "\x1b[31mwrong\x1b[0m, "),
+                                ("tests/labs/solutions/lab01_diffuse", "\x1b[32mright\x1b[0m, ")):
+            ours, theirs = pty.openpty()
+            subprocess.run([os.path.join(EXAMPLES, "check"), "1", os.path.join(SOURCE, folder)],
+                           stdout=theirs, cwd=self.folder, env={**os.environ, "TERM": "xterm"})
+            os.close(theirs)
+            said = os.read(ours, 65536).decode()
+            os.close(ours)
+            self.assertTrue(said.startswith("lab01_diffuse: " + verdict), said)
+
+
 class Generated(Case):
     """Man pages and completion, against --help."""
 
@@ -650,6 +720,30 @@ class Shaders(Case):
             self.make("mine/part.glsl", "\nint p = q;\n")
             self.make(mine, content)
             self.refused(1, said, "--shaders", "mine", lines=count)
+
+    def test_a_broken_shader_gets_a_hint(self):
+        """In a teacher's words, beside the driver's."""
+        for program, old, new, said in (
+                ("LightedCube", "u_LightColor *", "u_LightColour *",
+                 r"`u_LightColour' undeclared\n  \d+ \|.*(?s:.*)\n  hint: did you mean u_LightColor\? "
+                 "This name is not declared: "),
+                ("LightedCube", "normalize(", "normalise(",
+                 r"(?s)normalise.*\n  hint: did you mean normalize\? There is no such function"),
+                ("LightedCube", "0.0);\n", "0);\n", r"(?s)\n  hint: max takes two numbers of the same "
+                 r"type: write max\(x, 0\.0\)"),
+                ("LightedCube", ";\n}", "\n}", r"(?s)\n  hint: Check the (end of the )?line before"),
+                ("Materials", "a_Normal", "a_Norml", r"(?s)\n  hint: did you mean a_Normal\?")):
+            with self.subTest(new=new):
+                path = "lighting" if program == "Materials" else "lecture/" + program
+                for suffix in ".vert", ".frag":
+                    os.makedirs(self.path("mine"), exist_ok=True)
+                    shutil.copy(os.path.join(SOURCE, "shaders", path + suffix), self.path("mine"))
+                name = f"mine/{os.path.basename(path)}.vert"
+                text = self.read(name).decode()
+                self.assertIn(old, text)
+                head, _, tail = text.rpartition(old)
+                self.make(name, head + new + tail)
+                self.refused(1, said, "--shaders", "mine", lines=0, program=program)
 
     def warned(self, warning, program="LightedCube", **more):
         """Draws, with this one line on standard error; the picture."""

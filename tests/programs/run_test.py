@@ -7,7 +7,6 @@ Builds nothing: in copies of the scripts, programs of a few lines stand for meso
 """
 import json
 import os
-import pty
 import re
 import shutil
 import subprocess
@@ -40,21 +39,6 @@ done
 [ "${built-}" ] || echo "ninja: no work to do."
 ''',
 }
-
-
-def on_terminal(command, **more):
-    """The status, and what a command writes to a terminal that is its standard error."""
-    ours, theirs = pty.openpty()
-    process = subprocess.Popen(command, stderr=theirs, stdout=subprocess.DEVNULL, **more)
-    os.close(theirs)
-    said = b""
-    try:
-        while chunk := os.read(ours, 65536):
-            said += chunk
-    except OSError:  # EIO: nobody has it open any more
-        pass
-    os.close(ours)
-    return process.wait(), said.decode()
 
 
 class Case(base.Case):
@@ -121,7 +105,7 @@ class Names(Case):
 
     def test_errors_are_red_on_a_terminal(self):
         for more, red in (({}, True), ({"NO_COLOR": "1"}, False), ({"TERM": "dumb"}, False)):
-            code, said = on_terminal([RUN, "xylophone"], env=self.environment(**more))
+            code, said = base.on_terminal([RUN, "xylophone"], env=self.environment(**more))
             self.assertEqual(code, 2)
             self.assertEqual(said.startswith("\x1b[31mexamples/run:\x1b[0m xylophone: "), red, said)
             self.assertEqual("\x1b" in said, red, said)
@@ -246,7 +230,7 @@ esac
         command = [RUN, "LightedCube"]
         more = {"LIGHTING_BUILD": self.path("build"), **environment}
         if terminal:
-            return on_terminal(command, env=self.environment(**more))
+            return base.on_terminal(command, env=self.environment(**more))
         result = subprocess.run(command, env=self.environment(**more), text=True,
                                 capture_output=True)
         return result.returncode, result.stderr

@@ -6,7 +6,6 @@
 #include "labs/check/code.h"
 #include "labs/check/judge_pictures.h"
 #include "labs/diagnosis/catalogue.h"
-#include "labs/diagnosis/compile_advice.h"
 #include "labs/diagnosis/diagnose.h"
 #include "labs/diagnosis/matrices.h"
 #include "labs/diagnosis/text_facts.h"
@@ -72,7 +71,7 @@ static bool open_shader(Session *session, Message *message)
     if (session->lab->given)
         return open_given(session, message);
     if (!submission_compile(&session->own, session->lab, &session->files, NULL, &own))
-        return settle(session, VERDICT_ERROR, &own, compile_advice(own.text));
+        return settle(session, VERDICT_ERROR, &own, shader_advice(own.text));
     if (!binding_check(session->lab, session->own.program, &own))
         return settle(session, VERDICT_ERROR, &own, NULL);
     if (session->lab->budget) {

@@ -72,8 +72,14 @@ static void print_probes(const Verdict *verdict, FILE *file)
 
 void verdict_print(const Verdict *verdict, const Lab *lab, const char *pictures, FILE *file)
 {
-    fprintf(file, "%s: %s, %g of %d points\n%s\n", lab->name, VERDICT_NAMES[verdict->kind],
-            verdict->points, VERDICT_MAX_POINTS, verdict->message);
+    const int color = verdict->kind == VERDICT_RIGHT ? MESSAGE_GREEN
+                      : verdict->kind == VERDICT_WRONG || verdict->kind == VERDICT_ERROR
+                          ? MESSAGE_RED
+                          : MESSAGE_YELLOW;
+    const int terminal = fileno(file); /* -1: a file in memory */
+    fprintf(file, "%s: %s%s%s, %g of %d points\n%s\n", lab->name, message_color(color, terminal),
+            VERDICT_NAMES[verdict->kind], message_color(MESSAGE_PLAIN, terminal), verdict->points,
+            VERDICT_MAX_POINTS, verdict->message);
     if (verdict->details[0])
         fprintf(file, "%s\n", verdict->details);
     print_mistakes(verdict, file);

@@ -1,12 +1,18 @@
-#include "labs/diagnosis/compile_advice.h"
+/*
+ * What a compiler's message usually means, in a sentence: the part of shader.h for learners.
+ */
+#include "core/shader.h"
 
+#include "base/parse.h"
+
+#include <ctype.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
 #define PRECISION "Floats have no default precision here: add `precision highp float;` at the top."
 #define BRACE "A closing brace } is missing."
-#define NO_TEXTURES "This lab has no textures."
+#define NO_TEXTURES "These programs have no textures."
 #define SHORTEN "use .xyz or .rgb of the longer one, or vec4(..., 1.0) of the shorter one."
 #define SPELLING "This name is not declared: check its spelling and case"
 #define VARYING "Declare the varying in both shaders with the same name and type"
@@ -105,7 +111,7 @@ static void first_error(const char *message, char *line, size_t size)
     snprintf(line, size, "%.*s", (int)strcspn(start, "\n"), start);
 }
 
-const char *compile_advice(const char *message)
+const char *shader_advice(const char *message)
 {
     char line[1024];
     first_error(message, line, sizeof line);
@@ -115,4 +121,89 @@ const char *compile_advice(const char *message)
             return ADVICE[i].advice;
     }
     return NULL;
+}
+
+enum { WORD_SIZE = 64, WORDS_MAX = 128 };
+
+/* Often misspelled. */
+static const char *const BUILT_IN[] = {
+    "attribute", "clamp",  "dot",       "float",   "gl_FragColor", "gl_Position",
+    "highp",     "length", "max",       "mediump", "min",          "mix",
+    "normalize", "pow",    "precision", "reflect", "texture2D",    "uniform",
+    "varying",   "vec2",   "vec3",      "vec4",    "mat3",         "mat4",
+};
+
+/* The name that the compiler does not know: "`v_Colour' undeclared", "no function with name
+ * 'normalise'". (Mesa's words) */
+static bool unknown_name(const char *line, char name[WORD_SIZE])
+{
+    const char *function = strstr(line, "no function with name '");
+    const char *quote = function ? strchr(function, '\'') : strchr(line, '`');
+    if (!quote || (!function && !strstr(line, "' undeclared")))
+        return false;
+    const size_t length = strcspn(quote + 1, "'");
+    snprintf(name, WORD_SIZE, "%.*s", (int)length, quote + 1);
+    return length > 0 && length < WORD_SIZE;
+}
+
+/* Skips a comment and what is not a word. */
+static const char *next_word(const char *text)
+{
+    while (*text && !isalpha((unsigned char)*text) && *text != '_') {
+        const char *end = strncmp(text, "//", 2) == 0   ? strchr(text, '\n')
+                          : strncmp(text, "/*", 2) == 0 ? strstr(text + 2, "*/")
+                                                        : text;
+        if (!end)
+            return "";
+        text = end + 1;
+    }
+    return text;
+}
+
+/* Adds a name to a list that NULL ends, unless it is there or is the unknown one. */
+static void add_name(const char *names[], int *count, const char *name, const char *unknown)
+{
+    bool seen = strcmp(name, unknown) == 0 || *count >= WORDS_MAX;
+    for (int i = 0; i < *count && !seen; i++)
+        seen = strcmp(names[i], name) == 0;
+    if (!seen)
+        names[(*count)++] = name;
+}
+
+/* The name, of the source or of GLSL, that an unknown one was probably meant to be. */
+static bool find_meant(const char *source, const char *unknown, char meant[WORD_SIZE])
+{
+    char words[WORDS_MAX][WORD_SIZE];
+    const char *names[WORDS_MAX + 1] = {NULL};
+    int count = 0;
+    for (size_t i = 0; i < sizeof BUILT_IN / sizeof BUILT_IN[0]; i++)
+        add_name(names, &count, BUILT_IN[i], unknown);
+    for (const char *word = next_word(source); *word && count < WORDS_MAX;) {
+        size_t length = 0;
+        while (isalnum((unsigned char)word[length]) || word[length] == '_')
+            length++;
+        snprintf(words[count], WORD_SIZE, "%.*s", (int)length, word);
+        add_name(names, &count, words[count], unknown);
+        word = next_word(word + length);
+    }
+    names[count] = NULL;
+    const char *nearest = parse_nearest(unknown, names);
+    if (nearest)
+        snprintf(meant, WORD_SIZE, "%s", nearest);
+    return nearest != NULL;
+}
+
+void shader_advise(const char *source, Message *message)
+{
+    char line[1024], unknown[WORD_SIZE], meant[WORD_SIZE];
+    if (!message || !message->text[0])
+        return;
+    const char *advice = shader_advice(message->text);
+    first_error(message->text, line, sizeof line);
+    const bool found = unknown_name(line, unknown) && find_meant(source, unknown, meant);
+    if (found)
+        message_add(message, "\n  hint: did you mean %s?%s%s", meant, advice ? " " : "",
+                    advice ? advice : "");
+    else if (advice)
+        message_add(message, "\n  hint: %s", advice);
 }
