@@ -12,13 +12,16 @@
 #include "study/measure/models.h"
 #include "study/measure/scenes.h"
 #include "study/measure/survey.h"
+#include "study/report/conclusions.h"
 #include "study/report/findings.h"
 #include "study/report/report.h"
+#include "study/report/report_page.h"
 #include "study/results/table.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static int scene = STUDY_SCENE_COUNT; /* all */
 static double budget = -1, time_budget = -1;
@@ -54,8 +57,8 @@ static const Parameter parameters[] = {
      .read = options_read_part},
     {"merge", "measure nothing: report what all parts in DIR have measured, as one survey",
      PARAMETER_FLAG, .value = &merge},
-    {"all-rows", "print every setting, not only the efficient ones", PARAMETER_FLAG,
-     .value = &all_rows},
+    {"all-rows", "print tables of every setting, not only of the efficient ones as --verbose",
+     PARAMETER_FLAG, .value = &all_rows},
     {"markdown", "print tables of the findings as Markdown, with processor, driver and compiler",
      PARAMETER_FLAG, .value = &markdown},
     {"seed", "of the order in which settings are measured", PARAMETER_WHOLE, .value = &seed,
@@ -90,7 +93,8 @@ static void make_details(void)
     fprintf(file,
             "\nThe folder has results.csv, one line per scene and setting, from which an\n"
             "interrupted run continues; results.json; table.txt; and for each scene a plot\n"
-            "of error over time and sheets of drawn, exact and difference.\n"
+            "of error over time and sheets of drawn, exact and difference; index.html has all.\n"
+            "Prints the conclusions; with --verbose also the tables of efficient settings.\n"
             "\nTry:  accuracy --quick\n"
             "      accuracy --scene shiny32 --budget 2\n"
             "      accuracy --scene shiny32 --time-budget 1.5\n"
@@ -105,10 +109,20 @@ static const char *in_folder(const Options *options, const char *name, char path
     return path;
 }
 
-/* Drawn, exact and difference of one setting. */
+/* False if nothing of the scene was measured, or its objects are too small to have an inside. */
+static bool has_errors(const Results *results, const char *scene_name)
+{
+    for (int i = 0; i < results->count; i++)
+        if (strcmp(results->rows[i].scene, scene_name) == 0 &&
+            isfinite(results->rows[i].interior_maximum))
+            return true;
+    return false;
+}
+
+/* Drawn, exact and difference of one setting; or without the exact picture and text, small. */
 static bool write_sheet(Survey *survey, const char *name, const Scene *drawn,
-                        const Quality *quality, const Reference *exact, const char *path,
-                        Message *message)
+                        const Quality *quality, const Reference *exact, bool small,
+                        const char *path, Message *message)
 {
     Drawing drawing;
     char text[QUALITY_TEXT_SIZE], caption[QUALITY_TEXT_SIZE + 320];
@@ -120,8 +134,29 @@ static bool write_sheet(Survey *survey, const char *name, const Scene *drawn,
              "%s: %s. Interior: largest error %.2f, rms %.3f; all: rms %.2f. %s, LP_NUM_THREADS %s",
              name, text, error.interior_maximum, error.interior_rms, error.all_rms,
              survey->like.renderer, survey->like.threads);
-    const bool done = report_sheet(&drawing.image, exact, caption, path, message);
+    const bool done = small ? report_pair(&drawing.image, exact, path, message)
+                            : report_sheet(&drawing.image, exact, caption, path, message);
     drawing_close(&drawing);
+    return done;
+}
+
+/* The small pictures of a scene's plot; those of an earlier run are removed. */
+static bool write_pins(Survey *survey, const Options *options, int number, const Scene *drawn,
+                       const Reference *exact, Message *message)
+{
+    const char *name = STUDY_SCENES[number].name;
+    ReportPins pins = {.count = 0};
+    char path[PATH_MAX];
+    bool done = !has_errors(&survey->results, name) ||
+                report_pins(&pins, &survey->results, name, ERROR_INTERIOR_MAXIMUM, message);
+    for (int i = 0; i < REPORT_PINS && done; i++) {
+        report_pin_path(options->output, name, i, path);
+        if (i < pins.count)
+            done = write_sheet(survey, name, drawn, &pins.rows[i]->quality, exact, true, path,
+                               message);
+        else
+            unlink(path);
+    }
     return done;
 }
 
@@ -131,7 +166,7 @@ typedef struct Sheet {
 } Sheet;
 
 static bool write_sheets(Survey *survey, const Options *options, int number, const Sheet *sheets,
-                         int count, Message *message)
+                         int count, bool pins, Message *message)
 {
     StudyScene made;
     Reference exact;
@@ -143,25 +178,18 @@ static bool write_sheets(Survey *survey, const Options *options, int number, con
         char name[64], path[PATH_MAX];
         snprintf(name, sizeof name, "%s-%s.png", STUDY_SCENES[number].name, sheets[i].name);
         done = write_sheet(survey, STUDY_SCENES[number].name, &made.scene, &sheets[i].quality,
-                           &exact, in_folder(options, name, path), message);
+                           &exact, false, in_folder(options, name, path), message);
     }
+    if (pins)
+        done = done && write_pins(survey, options, number, &made.scene, &exact, message);
     studio_forget(survey->studio);
     reference_close(&exact);
     return done;
 }
 
-/* False if nothing of the scene was measured, or its objects are too small to have an inside. */
-static bool has_errors(const Results *results, const char *scene_name)
-{
-    for (int i = 0; i < results->count; i++)
-        if (strcmp(results->rows[i].scene, scene_name) == 0 &&
-            isfinite(results->rows[i].interior_maximum))
-            return true;
-    return false;
-}
-
-/* All tables, whole, to a file. */
-static bool write_tables(const Survey *survey, const Options *options, Message *message)
+/* All tables, whole: a scene's settings, then `more`. */
+static bool write_tables(const Survey *survey, const Options *options, const char *more,
+                         Message *message)
 {
     char *text = NULL, path[PATH_MAX];
     size_t size = 0;
@@ -171,10 +199,27 @@ static bool write_tables(const Survey *survey, const Options *options, Message *
         if (has_errors(&survey->results, STUDY_SCENES[i].name))
             done = report_table(&survey->results, STUDY_SCENES[i].name, ERROR_INTERIOR_MAXIMUM,
                                 false, file, message);
+    if (file)
+        fputs(more, file);
     if (file && fclose(file) != 0 && done)
         done = message_set(message, "table.txt: not enough memory");
     done = done && output_write(in_folder(options, "table.txt", path), text, size, message);
     free(text);
+    return done;
+}
+
+/* The tables of models and matrices, as text of its own. */
+static bool measure_more(Survey *survey, const Options *options, ModelsApart *apart, char **text,
+                         Message *message)
+{
+    size_t size = 0;
+    FILE *file = open_memstream(text, &size);
+    bool done = file || message_set(message, "table.txt: not enough memory");
+    done = done && models_report(survey, options->output, markdown, file, apart, message) &&
+           (findings_matrices(&survey->results, markdown, file) ||
+            message_set(message, "table.txt: not enough memory"));
+    if (file && fclose(file) != 0 && done)
+        done = message_set(message, "table.txt: not enough memory");
     return done;
 }
 
@@ -189,7 +234,7 @@ static void draw_plots(const Survey *survey, const Options *options, const int *
             !report_plot(&survey->results, info->name, info->what, ERROR_INTERIOR_MAXIMUM,
                          options->output, &message))
             break;
-        progress_update(progress, i + 1, 2 * count);
+        progress_update(progress, count + i + 1, 2 * count);
     }
     if (!message.text[0])
         findings_plot(&survey->results, options->output, &message);
@@ -197,38 +242,61 @@ static void draw_plots(const Survey *survey, const Options *options, const int *
         fprintf(stderr, "accuracy: no plots: %s\n", message.text);
 }
 
-static bool report(Survey *survey, const Options *options, const int *scenes, int count,
-                   Message *message)
+/* The conclusions; or the tables, if asked for. */
+static bool print_report(const Survey *survey, const Options *options, const int *scenes, int count,
+                         const Conclusions *conclusions, const char *more, Message *message)
 {
-    char path[PATH_MAX];
     if (markdown)
         table_machine(survey->like.renderer, stdout);
     if (markdown && !findings_tables(&survey->results, stdout))
         return message_set(message, "standard output: not enough memory for the tables");
-    for (int i = 0; i < count && !markdown; i++)
+    const bool tables = !markdown && (options->verbose || all_rows);
+    for (int i = 0; i < count && tables; i++)
         if (!report_table(&survey->results, STUDY_SCENES[scenes[i]].name, ERROR_INTERIOR_MAXIMUM,
                           !all_rows, stdout, message))
             return false;
-    if (!write_tables(survey, options, message) ||
-        !results_write_json(&survey->results, in_folder(options, "results.json", path), message) ||
-        !models_report(survey, options->output, markdown, stdout, message))
-        return false;
-    if (!findings_matrices(&survey->results, markdown, stdout))
-        return message_set(message, "standard output: not enough memory for a table");
+    if (markdown || tables)
+        fputs(more, stdout);
+    if (tables)
+        putchar('\n');
+    for (int i = 0; i < conclusions->count && !markdown; i++)
+        puts(conclusions->lines[i]);
+    if (!markdown)
+        printf("%s/index.html: plots and tables; all tables: table.txt; --verbose prints them\n",
+               options->output);
     fflush(stdout);
+    return true;
+}
+
+static bool report(Survey *survey, const Options *options, const int *scenes, int count,
+                   Message *message)
+{
+    char path[PATH_MAX], *more = NULL;
+    ModelsApart apart;
     Sheet sheets[] = {
         {"usual", quality_usual()}, {"gouraud", quality_usual()}, {"mediump", quality_usual()}};
     if (!quality_parse(&sheets[1].quality, "interpolation=gouraud divisions=24", message))
         return false;
     sheets[2].quality = quality_with(quality_usual(), AXIS_PRECISION, PRECISION_MEDIUMP);
+    bool done =
+        measure_more(survey, options, &apart, &more, message) &&
+        write_tables(survey, options, more, message) &&
+        results_write_json(&survey->results, in_folder(options, "results.json", path), message);
     Progress progress = progress_start("plots and sheets");
-    draw_plots(survey, options, scenes, count, &progress);
-    bool done = true;
     for (int i = 0; i < count && done; i++) {
-        done = write_sheets(survey, options, scenes[i], sheets, quick ? 1 : 3, message);
-        progress_update(&progress, count + i + 1, 2 * count);
+        done = write_sheets(survey, options, scenes[i], sheets, quick ? 1 : 3, true, message);
+        progress_update(&progress, i + 1, 2 * count);
     }
+    if (done)
+        draw_plots(survey, options, scenes, count, &progress);
     progress_end(&progress);
+    if (done) {
+        const Conclusions conclusions = conclusions_of(&survey->results, scenes, count, &apart);
+        done =
+            report_page(&survey->results, scenes, count, &conclusions, options->output, message) &&
+            print_report(survey, options, scenes, count, &conclusions, more, message);
+    }
+    free(more);
     return done;
 }
 
@@ -243,7 +311,7 @@ static bool measure_one(Survey *survey, const Options *options, const Quality *q
                       results_add(&results, &row, message) &&
                       report_table(&results, STUDY_SCENES[scene].name, ERROR_INTERIOR_MAXIMUM,
                                    false, stdout, message) &&
-                      write_sheets(survey, options, scene, &sheet, 1, message);
+                      write_sheets(survey, options, scene, &sheet, 1, false, message);
     if (done)
         printf("%s/%s-setting.png\n", options->output, STUDY_SCENES[scene].name);
     results_close(&results);

@@ -63,10 +63,19 @@ class Surveys(Study):
 
     def test_a_scene_gives_table_rows_plots_and_sheets(self):
         text = self.survey()
-        self.assertRegex(text, r"cube, 48x48; .*LP_NUM_THREADS")
-        self.assertRegex(text, r"\n\* ")
-        self.assertRegex(text, r"Blinn-Phong, fitted")
-        self.assertRegex(text, r"matrices=compensated order=lecture")
+        self.assertLessEqual(text.count("\n"), 10)
+        self.assertRegex(text, r"^(1 scene; half the times|the machine was busy: half the times)")
+        self.assertRegex(text, r"\ncube: 0\.5 steps: Phong interpolation [\d.]+ ms, Gouraud [\d.]+ ms")
+        self.assertRegex(text, r"\nmediump: the error grows by up to 0\.\d steps \(cube\); time")
+        self.assertRegex(text, r"\nBlinn-Phong: \d+ to \d+ steps .*\naccuracy/index\.html: .*table\.txt.*\n$")
+        tables = self.read("accuracy/table.txt").decode()
+        printed = self.says(0, "^renderer: ", "--scene", "cube", "--verbose", *QUICK,
+                            program="accuracy", environment=self.own).stdout.decode()
+        for table in tables, printed:
+            self.assertRegex(table, r"cube, 48x48; .*LP_NUM_THREADS")
+            self.assertRegex(table, r"\n([*]|.*The machine was busy)")
+            self.assertRegex(table, r"Blinn-Phong, fitted")
+            self.assertRegex(table, r"matrices=compensated order=lecture")
         rows = self.rows()
         self.assertEqual(len(rows), 15)
         self.assertEqual({row["scene"] for row in rows}, {"cube"})
@@ -84,11 +93,38 @@ class Surveys(Study):
             self.assertGreaterEqual(int(row["fragment_operations"]), 0, row)
         data = json.loads(self.read("accuracy/results.json"))
         self.assertEqual(len(data["rows"]), 15)
-        self.assertIn("cube, 48x48", self.read("accuracy/table.txt").decode())
         sheet = self.png("accuracy/cube-usual.png")
         self.assertGreater(len(set(zip(*[iter(sheet.pixels)] * sheet.channels))), 50)
         for name in ("cube.png", "cube.svg", "models.csv", "finding-precision.svg"):
             self.assertGreater(len(self.read("accuracy/" + name)), 500)
+
+    def test_the_page_has_sentence_plots_and_tables(self):
+        self.survey()
+        page = self.read("accuracy/index.html").decode()
+        for part in (r'<section id="cube">', r'class="says">0\.5 steps: Phong interpolation ',
+                     r'<img src="cube\.svg" alt="Error over time of the settings of cube; [^"]+" ',
+                     r'<a href="cube\.png">', r"<h2>Conclusions</h2>", r"<th>largest error</th>",
+                     r'<a href="table\.txt">'):
+            self.assertRegex(page, part)
+        self.assertNotRegex(page, r"https?:|src=\"//|<script src|<link|@import|<img(?![^>]* alt=\"[^\"])")
+        for name in re.findall(r'(?:href|src)="([^"]+)"', page):
+            self.assertTrue(os.path.exists(self.path("accuracy/" + name)), name)
+
+    def test_plots_can_be_read_and_show_pictures(self):
+        self.survey()
+        for name in os.listdir(self.path("accuracy")):
+            if not name.endswith(".svg"):
+                continue
+            plot = self.read("accuracy/" + name).decode()
+            sizes = {float(size) for size in re.findall(r'font-size="([\d.]+)"', plot)}
+            self.assertGreaterEqual(min(sizes), 700 / 40, name)
+            if name == "cube.svg":
+                self.assertRegex(plot, r"href='data:image/png;base64,")
+                self.assertNotRegex(plot, r"href='(?!data:|#)")
+        pins = [name for name in os.listdir(self.path("accuracy")) if "-pin-" in name]
+        self.assertIn("cube-pin-1.png", pins)
+        self.assertLessEqual(len(pins), 5)
+        self.assertEqual(self.png("accuracy/cube-pin-1.png").width, 2 * 240 + 8)
 
     def test_existing_rows_are_not_measured_again(self):
         self.survey()

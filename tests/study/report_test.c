@@ -2,6 +2,7 @@
  * report: tables line up, plots are whole files that gnuplot drew, sheets show what is different.
  */
 #include "study/cases/hard_cases_sheet.h"
+#include "study/report/conclusions.h"
 #include "study/report/report.h"
 #include "study/report/report_labels.h"
 #include "support/testing.h"
@@ -104,6 +105,44 @@ TEST_WITH(0, a_table_is_sorted_and_marked, enter, leave)
               "   12.25 [11.03, 13.48] 11.75   7.00  2.33   -  3.50      100         -       20/-  "
               "interpolation=flat\n");
     free(text);
+}
+
+TEST_WITH(0, a_busy_machine_marks_nothing, enter, leave)
+{
+    add_four();
+    for (int i = 0; i < results.count; i++)
+        results.rows[i].noise = i < 3 ? 0.11 : 0.02;
+    assert_true(front_busy(&results, "sphere"));
+    char *text = table(true);
+    assert_non_null(strstr(text, "The machine was busy"));
+    assert_null(strstr(text, "*"));
+    assert_non_null(strstr(text, "divisions=24")); /* the rows are still there */
+    free(text);
+}
+
+TEST_WITH(0, a_sentence_compares_at_the_error_that_both_reach, enter, leave)
+{
+    char text[CONCLUSION_SIZE];
+    conclusion_of_scene(&results, "sphere", text);
+    assert_string_equal(text, "");
+    add("24", "gouraud", 12.5, 1);
+    add("96", "gouraud", 1.31, 17.2);
+    add("24", "phong", 1.3, 1.84);
+    add("64", "phong", 0.6, 9);
+    add("64", "flat", 0.1, 0.1);
+    conclusion_of_scene(&results, "sphere", text);
+    assert_string_equal(text, "1.3 steps: Phong interpolation 1.8 ms, Gouraud 17 ms");
+    add("24", "phong", 1.3, 16.9); /* a later one counts */
+    conclusion_of_scene(&results, "sphere", text);
+    assert_string_equal(text, "1.3 steps: Phong interpolation 9.0 ms, Gouraud 17 ms");
+    add("64", "phong", 0.6, 17);
+    conclusion_of_scene(&results, "sphere", text);
+    assert_string_equal(
+        text, "1.3 steps: Phong interpolation 17 ms, Gouraud 17 ms (the same within the noise)");
+    for (int i = 0; i < results.count; i++)
+        results.rows[i].noise = 0.37;
+    conclusion_of_scene(&results, "sphere", text);
+    assert_non_null(strstr(text, "(the machine was busy: noise 37%)"));
 }
 
 TEST_WITH(0, only_the_efficient_ones_if_asked, enter, leave)

@@ -174,6 +174,8 @@ bool choose(Survey *survey, int scene, const ChooseLimit *limit, Message *messag
         say_ties(finalists, best, limit);
         say_neighbour(&front, limit);
         results_measured_with(&survey->like, with);
+        if (best->noise > FRONT_NOISE_BOUND)
+            printf("the machine is busy: times have a noise of %.0f%%\n", 100 * best->noise);
         printf("measured with %s\n", with);
     } else if (done) {
         done = refuse(&front, name, limit, message);

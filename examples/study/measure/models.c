@@ -105,8 +105,14 @@ static void print_models(const Model models[MODELS], double phong, const ResultR
     }
 }
 
+static void widen(double range[2], double value)
+{
+    range[0] = fmin(range[0], value);
+    range[1] = fmax(range[1], value);
+}
+
 static bool report_shininess(Survey *survey, double shininess, Table *table, FILE *csv,
-                             Message *message)
+                             ModelsApart *apart, Message *message)
 {
     Model *models = calloc(MODELS, sizeof *models);
     bool done = models || message_set(message, "models: not enough memory");
@@ -115,6 +121,10 @@ static bool report_shininess(Survey *survey, double shininess, Table *table, FIL
     for (int i = 0; i < MODELS && done; i++)
         compare(&models[i], &models[PHONG].exact);
     done = done && measure(survey, models, message);
+    if (done) {
+        widen(apart->same, models[BLINN_PHONG].apart_maximum);
+        widen(apart->fitted, models[FITTED].apart_maximum);
+    }
     if (done)
         print_models(models, shininess, &survey->like, table, csv);
     for (int i = 0; i < MODELS && models; i++) {
@@ -126,8 +136,10 @@ static bool report_shininess(Survey *survey, double shininess, Table *table, FIL
     return done;
 }
 
-bool models_report(Survey *survey, const char *folder, bool markdown, FILE *file, Message *message)
+bool models_report(Survey *survey, const char *folder, bool markdown, FILE *file,
+                   ModelsApart *apart, Message *message)
 {
+    *apart = (ModelsApart){{INFINITY, 0}, {INFINITY, 0}};
     char *text = NULL, path[PATH_MAX];
     size_t size = 0;
     FILE *csv = open_memstream(&text, &size);
@@ -141,7 +153,7 @@ bool models_report(Survey *survey, const char *folder, bool markdown, FILE *file
                      "milliseconds,ratio,ratio_lower,ratio_upper,fragment_operations,"
                      "renderer,threads\n");
     for (int i = 0; i < SHININESS_COUNT && done; i++)
-        done = report_shininess(survey, SHININESSES[i], &table, csv, message);
+        done = report_shininess(survey, SHININESSES[i], &table, csv, apart, message);
     if (csv && fclose(csv) != 0 && done)
         done = message_set(message, "models.csv: not enough memory");
     fprintf(file,

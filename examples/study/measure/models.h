@@ -9,8 +9,14 @@
 
 #include <stdio.h>
 
+/* The largest distances from Phong's exact picture, over all exponents, in steps of 1/255. */
+typedef struct ModelsApart {
+    double same[2], fitted[2]; /* least and most; of the same and of the fitted exponent */
+} ModelsApart;
+
 /* Measures both on the study's shiny sphere for some exponents, Blinn-Phong also with the exponent
  * fitted to Phong's. Prints a table and writes FOLDER/models.csv. */
-bool models_report(Survey *survey, const char *folder, bool markdown, FILE *file, Message *message);
+bool models_report(Survey *survey, const char *folder, bool markdown, FILE *file,
+                   ModelsApart *apart, Message *message);
 
 #endif

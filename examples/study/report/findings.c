@@ -105,85 +105,101 @@ static bool plot_antialiasing(const Results *results, const char *foot, const ch
     return points == 0 || report_curves(&axes, series, 4, folder, "finding-antialiasing", message);
 }
 
-/* Bars: one or two values per category, and a line of text below each. */
+/* Bars from 0: one or two values per category, each with a whisker. */
 
-enum { MAX_BARS = 12 };
+enum { MAX_BARS = 12, FEW_BARS = 6 };
+
+typedef struct Bar {
+    double value, low, high;
+} Bar;
 
 typedef struct Bars {
     const char *title, *y;
     const char *names[2]; /* of the values; the second may be NULL */
     const char *foot;     /* as in ReportAxes */
-    double floor;         /* where bars begin; more than 0: a logarithmic axis */
     struct {
-        char name[48], note[48];
-        double values[2];
+        char name[48], note[48]; /* notes are shown if there are few bars */
+        Bar values[2];
     } bars[MAX_BARS];
     int count;
 } Bars;
+
+/* Names below each other where there are few bars, else turned. */
+static void put_names(FILE *file, const Bars *bars)
+{
+    const bool few = bars->count <= FEW_BARS;
+    fprintf(file, "set xtics nomirror out scale 0 %s (", few ? "norotate" : "rotate by -35");
+    for (int i = 0; i < bars->count; i++) {
+        fputs(i ? ", " : "", file);
+        gnuplot_string(file, bars->bars[i].name);
+        fprintf(file, " %d", i);
+    }
+    fputs(")\nset bmargin at screen 0.2\nset rmargin at screen 0.93\n", file);
+    for (int i = 0; i < bars->count && few; i++) {
+        fputs("set label ", file);
+        gnuplot_string(file, bars->bars[i].note);
+        fprintf(file, " at first %d, screen 0.11 center textcolor rgb '#555555'\n", i);
+    }
+}
+
+/* Returns the largest number. */
+static double put_bars(FILE *file, const Bars *bars, int values)
+{
+    double max = 0;
+    fputs("$bars << EOD\n", file);
+    for (int i = 0; i < bars->count; i++) {
+        for (int k = 0; k < values; k++) {
+            const Bar bar = bars->bars[i].values[k];
+            fprintf(file, "%.9g %.9g %.9g ", bar.value, bar.low, bar.high);
+            max = fmax(max, fmax(bar.value, bar.high));
+        }
+        fputc('\n', file);
+    }
+    fputs("EOD\n", file);
+    return max;
+}
 
 static bool draw_bars(const Bars *bars, const char *folder, const char *name, Message *message)
 {
     char *script = NULL;
     size_t size = 0;
-    double max = bars->floor;
     const int values = bars->names[1] ? 2 : 1;
     FILE *file = bars->count ? open_memstream(&script, &size) : NULL;
     if (!file)
         return bars->count == 0 || message_set(message, "%s: not enough memory", name);
     gnuplot_foot(file, bars->foot);
-    fputs("set encoding utf8\nset border 3 lc rgb '#444444'\nset title ", file);
-    gnuplot_string(file, bars->title);
-    fputs(" font ',16'\nset grid y lc rgb '#dddddd' lw 0.6 lt 1\nset ylabel ", file);
+    gnuplot_title(file, bars->title);
+    fputs("set encoding utf8\nset border 3 lc rgb '#444444'\nset tmargin at screen 0.92\n"
+          "set grid y lc rgb '#dddddd' lw 0.6 lt 1\nset ylabel ",
+          file);
     gnuplot_string(file, bars->y);
     fprintf(file,
-            "\nset key top %s samplen 1.5\nset style fill solid 0.9 noborder\n"
-            "set xrange [-0.6:%g]\n$bars << EOD\n",
-            bars->names[1] ? "left" : "right", bars->count - 0.4);
-    for (int i = 0; i < bars->count; i++) {
-        for (int k = 0; k < values; k++) {
-            const double value = bars->bars[i].values[k];
-            fprintf(file, "%.9g ", value > bars->floor ? value : bars->floor);
-            if (isfinite(value) && value > max)
-                max = value;
-        }
-        fputc('\n', file);
-    }
-    fputs("EOD\n", file);
-    const bool log = bars->floor > 0;
-    gnuplot_axis(file, 'y', bars->floor, log ? max * 2 : max * 1.15, log);
-    fputs("set xtics nomirror out scale 0 font ',10' (", file);
-    for (int i = 0; i < bars->count; i++) {
-        char label[128];
-        snprintf(label, sizeof label, "%s", bars->bars[i].name);
-        fputs(i ? ", " : "", file);
-        gnuplot_string(file, label);
-        fprintf(file, " %d", i);
-    }
-    fputs(")\nset bmargin 5\n", file);
-    for (int i = 0; i < bars->count; i++) {
-        fputs("set label ", file);
-        gnuplot_string(file, bars->bars[i].note);
-        fprintf(file, " at first %d, graph -0.085 center font ',10' textcolor rgb '#666666'\n", i);
-    }
+            "\nset key inside top left Left reverse samplen 1.5 opaque\n"
+            "set style fill solid 0.9 noborder\nset xrange [-0.6:%g]\n",
+            bars->count - 0.4);
+    /* Room for the key above the bars. */
+    gnuplot_axis(file, 'y', 0, put_bars(file, bars, values) * (1.08 + 0.08 * values), false);
+    put_names(file, bars);
     const double width = 0.7 / values;
     fprintf(file, "set boxwidth %g\nplot ", width);
     for (int k = 0; k < values; k++) {
+        const double offset = width * (k - 0.5 * (values - 1));
         fprintf(file, "%s$bars using ($0 + %g):%d with boxes lc rgb '%s' title ",
-                k ? ", \\\n  " : "", width * (k - 0.5 * (values - 1)), k + 1, GNUPLOT_PALETTE[k]);
+                k ? ", \\\n  " : "", offset, 3 * k + 1, GNUPLOT_PALETTE[k]);
         gnuplot_string(file, bars->names[k]);
+        fprintf(file,
+                ", \\\n  '' using ($0 + %g):%d:(0):($%d - $%d) with vectors heads size graph "
+                "0.006,90 lw 2 lc rgb '#222222' notitle",
+                offset, 3 * k + 2, 3 * k + 3, 3 * k + 2);
     }
     fputc('\n', file);
-    const bool done = fclose(file) == 0 ? gnuplot_draw(script, size, folder, name, message)
-                                        : message_set(message, "%s: not enough memory", name);
-    free(script);
-    return done;
+    return gnuplot_finish(file, &script, &size, true, folder, name, message);
 }
 
 _Static_assert((int)STUDY_SCENE_COUNT <= (int)MAX_BARS, "a bar for each scene");
 
-/* The values and note of a scene's bar, from its usual row and the one with the setting. */
-typedef void FillBar(const ResultRow *usual, const ResultRow *other, double values[2],
-                     char note[48]);
+/* The values of a scene's bars, from its usual row and the one with the setting. */
+typedef void FillBar(const ResultRow *usual, const ResultRow *other, Bar values[2]);
 
 static bool plot_by_scene(const Results *results, Bars *bars, const char *quality, FillBar *fill,
                           const char *folder, const char *name, Message *message)
@@ -195,59 +211,48 @@ static bool plot_by_scene(const Results *results, Bars *bars, const char *qualit
         if (!usual || !other)
             continue;
         snprintf(bars->bars[bars->count].name, sizeof bars->bars[0].name, "%s", scene);
-        double *values = bars->bars[bars->count].values;
-        fill(usual, other, values, bars->bars[bars->count].note);
-        if (isfinite(values[0]) && (!bars->names[1] || isfinite(values[1])))
+        Bar *values = bars->bars[bars->count].values;
+        fill(usual, other, values);
+        if (isfinite(values[0].value) && (!bars->names[1] || isfinite(values[1].value)))
             bars->count++;
     }
     return draw_bars(bars, folder, name, message);
 }
 
-/* The ratio of times, if it is outside the noise. */
-static void note_time(const ResultRow *row, const ResultRow *over, char note[48])
+/* The root mean square, and up to the largest. */
+static Bar error_bar(const ResultRow *row)
 {
-    if (row_faster(row, over) || row_faster(over, row))
-        snprintf(note, 48, "time x %.2f", row->time / over->time);
-    else
-        snprintf(note, 48, "time the same");
+    return (Bar){row->interior_rms, row->interior_rms, row->interior_maximum};
 }
 
-static void fill_errors(const ResultRow *usual, const ResultRow *other, double values[2],
-                        char note[48])
+static void fill_errors(const ResultRow *usual, const ResultRow *other, Bar values[2])
 {
-    values[0] = usual->interior_maximum;
-    values[1] = other->interior_maximum;
-    note_time(other, usual, note);
+    values[0] = error_bar(usual);
+    values[1] = error_bar(other);
 }
 
-static void fill_guards(const ResultRow *usual, const ResultRow *other, double values[2],
-                        char note[48])
+/* A ratio of times, and the noise of both. */
+static void fill_guards(const ResultRow *usual, const ResultRow *other, Bar values[2])
 {
-    values[0] = usual->time / other->time;
-    values[1] = NAN;
-    if (row_faster(usual, other) || row_faster(other, usual))
-        snprintf(note, 48, "x %.2f", values[0]);
-    else
-        snprintf(note, 48, "within noise");
+    const double ratio = usual->time / other->time, noise = fmax(usual->noise, other->noise);
+    values[0] = (Bar){ratio, ratio / (1 + noise), ratio * (1 + noise)};
 }
 
 static bool plot_by_scenes(const Results *results, const char *foot, const char *folder,
                            Message *message)
 {
     Bars precision = {.foot = foot,
-                      .title = "Precision of fragment shaders: the largest error inside",
-                      .y = "steps of 1/255",
-                      .names = {"highp", "mediump"},
-                      .floor = 0.1};
+                      .title = "Precision of fragment shaders: the error inside the objects",
+                      .y = "rms, and up to the largest; steps of 1/255",
+                      .names = {"highp", "mediump"}};
     Bars guards = {.foot = foot,
                    .title = "Guards: the time of a frame with them, over that without",
-                   .y = "ratio of times",
+                   .y = "ratio of times, and the noise",
                    .names = {"with guards over without", NULL}};
     Bars viewer = {.foot = foot,
-                   .title = "A viewer at infinity: the largest error inside",
-                   .y = "steps of 1/255",
-                   .names = {"local viewer", "infinite viewer"},
-                   .floor = 0.1};
+                   .title = "A viewer at infinity: the error inside the objects",
+                   .y = "rms, and up to the largest; steps of 1/255",
+                   .names = {"local viewer", "infinite viewer"}};
     return plot_by_scene(results, &precision, "precision=mediump", fill_errors, folder,
                          "finding-precision", message) &&
            plot_by_scene(results, &guards, "guards=off", fill_guards, folder, "finding-guards",
@@ -423,10 +428,9 @@ static bool plot_matrices(const Results *results, const char *foot, const char *
     static const char *const names[COMPOSITION_COUNT] = {
         "double", "float", "compensated", "double, lect.", "float, lect.", "comp., lect."};
     Bars bars = {.foot = foot,
-                 .title = "Matrices, a million units from the origin: the largest error inside",
-                 .y = "steps of 1/255",
-                 .names = {"relative to the eye; lect.: in the lecture's order", NULL},
-                 .floor = 0.1};
+                 .title = "Matrices, a million units from the origin: the error inside",
+                 .y = "rms, and up to the largest; steps of 1/255",
+                 .names = {"relative to the eye; lect.: in the lecture's order", NULL}};
     for (int i = 0; i < COMPOSITION_COUNT; i++) {
         const ResultRow *row = row_of(results, "far", COMPOSITIONS[i]);
         if (!row || !isfinite(row->interior_maximum))
@@ -434,7 +438,7 @@ static bool plot_matrices(const Results *results, const char *foot, const char *
         snprintf(bars.bars[bars.count].name, sizeof bars.bars[0].name, "%s", names[i]);
         snprintf(bars.bars[bars.count].note, sizeof bars.bars[0].note, "%.0f ns",
                  time_composition(COMPOSITIONS[i]));
-        bars.bars[bars.count++].values[0] = row->interior_maximum;
+        bars.bars[bars.count++].values[0] = error_bar(row);
     }
     if (bars.count < 2)
         return true; /* nothing to compare */

@@ -85,7 +85,7 @@ static int by_time(const void *first, const void *second)
     return memcmp(a->quality.choice, b->quality.choice, sizeof a->quality.choice);
 }
 
-static void put_head(FILE *file, const ResultRow *const *rows, int count, ErrorKind kind)
+static void put_head(FILE *file, const ResultRow *const *rows, int count, ErrorKind kind, bool busy)
 {
     static const char *const kinds[] = {
         [ERROR_INTERIOR_MAXIMUM] = "largest error inside the objects",
@@ -106,6 +106,13 @@ static void put_head(FILE *file, const ResultRow *const *rows, int count, ErrorK
         fprintf(file, "noise %.1f %%\n", 100 * max);
     else
         fprintf(file, "noise %.1f to %.1f %%\n", 100 * min, 100 * max);
+    if (busy) {
+        fprintf(file,
+                "Errors in steps of 1/255. The machine was busy, half the noise above %.0f %%: no "
+                "setting is marked as efficient.\n\n",
+                100 * FRONT_NOISE_BOUND);
+        return;
+    }
     fprintf(file,
             "Errors in steps of 1/255. * efficient by the %s.\n"
             "= tied: its median would make it efficient too, but that is within the noise.\n\n",
@@ -130,7 +137,7 @@ static void put_text(FILE *file, const char *text, int column)
 }
 
 static void put_lines(FILE *file, const ResultRow *const *rows, const Line *lines, int count,
-                      const Front *front, bool only_efficient)
+                      const Front *front, bool only_efficient, bool busy)
 {
     int widths[COLUMNS], column = 4;
     for (int i = 0; i < COLUMNS; i++) {
@@ -156,7 +163,7 @@ static void put_lines(FILE *file, const ResultRow *const *rows, const Line *line
         const bool tied = front_ties(front, rows[j]);
         if (only_efficient && !efficient && !tied)
             continue;
-        fprintf(file, "%c ", efficient ? '*' : tied ? '=' : ' ');
+        fprintf(file, "%c ", busy ? ' ' : efficient ? '*' : tied ? '=' : ' ');
         for (int i = 0; i < COLUMNS; i++)
             if (widths[i])
                 fprintf(file, " %*s", widths[i], lines[j].cells[i]);
@@ -186,8 +193,9 @@ bool report_table(const Results *results, const char *scene, ErrorKind kind, boo
         qsort(rows, (size_t)count, sizeof *rows, by_time);
         for (int i = 0; i < count; i++)
             lines[i] = line_of(rows[i]);
-        put_head(file, rows, count, kind);
-        put_lines(file, rows, lines, count, &front, only_efficient);
+        const bool busy = front_busy(results, scene);
+        put_head(file, rows, count, kind, busy);
+        put_lines(file, rows, lines, count, &front, only_efficient, busy);
         if (fflush(file) != 0 || ferror(file))
             done = message_set(message, "%s: cannot write the table: %s", scene, strerror(errno));
     }

@@ -8,17 +8,32 @@
 #include "reference/reference.h"
 #include "study/results/front.h"
 
+#include <limits.h>
 #include <stdio.h>
 
-/* A table of a scene's latest rows, sorted by time, with efficient and tied settings marked.
- * `only_efficient`: only those. */
+/* A table of a scene's latest rows, sorted by time, with efficient and tied settings marked, unless
+ * the machine was busy. `only_efficient`: only those. */
 bool report_table(const Results *results, const char *scene, ErrorKind kind, bool only_efficient,
                   FILE *file, Message *message);
 
+/* The efficient rows of a scene whose pictures its plot shows, the cheapest first: both ends, and
+ * others far from each other. `rows` belong to `results`. */
+enum { REPORT_PINS = 5 };
+typedef struct ReportPins {
+    const ResultRow *rows[REPORT_PINS];
+    int count;
+} ReportPins;
+bool report_pins(ReportPins *pins, const Results *results, const char *scene, ErrorKind kind,
+                 Message *message);
+
+/* The file of a pin's picture, which report_pair writes: FOLDER/SCENE-pin-NUMBER.png */
+void report_pin_path(const char *folder, const char *scene, int pin, char path[PATH_MAX]);
+
 /* FOLDER/SCENE.svg and .png, by gnuplot: error over time on logarithmic axes, a point per row,
- * coloured by interpolation, the efficient ones joined and, if there is room, labelled. Errors
- * below 0.01 are drawn at 0.01, and the axis says so. False if gnuplot is missing; the message
- * names the package. The folder must exist. */
+ * coloured by interpolation, the efficient ones joined, and those with pins labelled, if there is
+ * room, and joined to their pictures, as far as these files exist. Errors below 0.01 are drawn at
+ * 0.01, and the axis says so. False if gnuplot is missing; the message names the package. The
+ * folder must exist. */
 bool report_plot(const Results *results, const char *scene, const char *title, ErrorKind kind,
                  const char *folder, Message *message);
 
@@ -44,5 +59,10 @@ bool report_curves(const ReportAxes *axes, const ReportSeries *series, int count
  * Without a font the sheet has no text. */
 bool report_sheet(const Image *drawn, const Reference *exact, const char *caption, const char *path,
                   Message *message);
+
+/* A PNG of two small pictures side by side, drawn and difference as in report_sheet: twice
+ * REPORT_PANEL pixels wide, with REPORT_GAP between them. */
+enum { REPORT_PANEL = 240, REPORT_GAP = 8 };
+bool report_pair(const Image *drawn, const Reference *exact, const char *path, Message *message);
 
 #endif

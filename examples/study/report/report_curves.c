@@ -80,7 +80,7 @@ static int key_lines(const ReportSeries *series, int count)
     double longest = 1;
     for (int i = 0; i < count; i++)
         longest = fmax(longest, (double)strlen(series[i].name));
-    const int columns = (int)fmax(1, floor(0.85 * GNUPLOT_WIDTH / (9 * longest + 60)));
+    const int columns = (int)fmax(1, floor(0.85 * GNUPLOT_WIDTH / (10.5 * longest + 80)));
     return (count + columns - 1) / columns;
 }
 
@@ -98,13 +98,13 @@ bool report_curves(const ReportAxes *axes, const ReportSeries *series, int count
         return message_set(message, "%s: the plot: %s", name, strerror(ENOMEM));
     const int lines = key_lines(series, count);
     gnuplot_foot(file, axes->foot);
-    fputs("set encoding utf8\nset border 3 lc rgb '#444444'\nset title ", file);
-    gnuplot_string(file, axes->title);
+    gnuplot_title(file, axes->title);
     fprintf(file,
-            " font ',17' offset 0,%g\nset grid lc rgb '#dddddd' lw 0.6 lt 1\n"
-            "set tmargin at screen %.5f\nset bmargin at screen 0.11\n"
-            "set key at screen 0.5,0.925 center top horizontal reverse Left samplen 2.5 width 1\n",
-            1.25 * lines + 0.4, 1 - (62.0 + 19 * lines) / GNUPLOT_HEIGHT);
+            "set encoding utf8\nset border 3 lc rgb '#444444'\n"
+            "set grid lc rgb '#dddddd' lw 0.6 lt 1\n"
+            "set tmargin at screen %.5f\nset bmargin at screen 0.175\n"
+            "set key at screen 0.5,0.937 center top horizontal reverse Left samplen 2.5 width 1\n",
+            1 - (62.0 + 24 * lines) / GNUPLOT_HEIGHT);
     put_curve_axis(file, 'x', axes->x, &x);
     put_curve_axis(file, 'y', axes->y, &y);
     for (int i = 0; i < count; i++)

@@ -92,8 +92,8 @@ bool gnuplot_draw(const char *script, size_t size, const char *folder, const cha
     for (int i = 0; i < 2; i++) {
         char path[PATH_MAX], terminal[160];
         snprintf(terminal, sizeof terminal,
-                 "%s size %d,%d noenhanced font 'DejaVu Sans,14' background '#ffffff'",
-                 terminals[i], GNUPLOT_WIDTH, GNUPLOT_HEIGHT);
+                 "%s size %d,%d noenhanced font 'DejaVu Sans,%d' background '#ffffff'",
+                 terminals[i], GNUPLOT_WIDTH, GNUPLOT_HEIGHT, GNUPLOT_FONT);
         if (snprintf(path, sizeof path, "%s/%s.%s", folder, name, extensions[i]) >=
             (int)sizeof path)
             return message_set(message, "%s/%s: %s", folder, name, strerror(ENAMETOOLONG));
@@ -126,13 +126,31 @@ void gnuplot_string(FILE *script, const char *text)
     fputc('\'', script);
 }
 
+void gnuplot_title(FILE *script, const char *text)
+{
+    fputs("set label ", script);
+    gnuplot_string(script, text);
+    fprintf(script, " at screen 0.5,0.965 center font ',%d'\n", GNUPLOT_TITLE);
+}
+
 void gnuplot_foot(FILE *script, const char *text)
 {
     if (!text)
         return;
+    /* Without what is in parentheses there is room for it. */
+    char kept[256];
+    size_t used = 0;
+    int depth = 0;
+    for (const char *p = text; *p && used + 1 < sizeof kept; p++) {
+        depth += *p == '(';
+        if (depth == 0 && !(p[0] == ' ' && p[1] == '('))
+            kept[used++] = *p;
+        depth -= *p == ')';
+    }
+    kept[used] = '\0';
     fputs("set label ", script);
-    gnuplot_string(script, text);
-    fputs(" at screen 0.995,0.012 right font ',9' textcolor rgb '#888888'\n", script);
+    gnuplot_string(script, kept);
+    fputs(" at screen 0.99,0.018 right textcolor rgb '#666666'\n", script);
 }
 
 /* Writes the numbers in min..max that are a factor times a power of ten; returns how many. */

@@ -10,8 +10,9 @@
 #include <stddef.h>
 #include <stdio.h>
 
-/* The size of every plot, in pixels. */
-enum { GNUPLOT_WIDTH = 1000, GNUPLOT_HEIGHT = 700 };
+/* The size of every plot and the height of its letters, at least a fortieth of the plot's, so that
+ * they can be read when projected; in pixels. */
+enum { GNUPLOT_WIDTH = 1000, GNUPLOT_HEIGHT = 700, GNUPLOT_FONT = 18, GNUPLOT_TITLE = 21 };
 
 /* Colours safe for colour blindness (Okabe and Ito, Color Universal Design, 2008), dark ones first.
  */
@@ -30,7 +31,10 @@ bool gnuplot_finish(FILE *file, char **script, const size_t *size, bool done, co
 /* Writes a quoted string. */
 void gnuplot_string(FILE *script, const char *text);
 
-/* A small footer: what was measured with. NULL: none. */
+/* A title at the top. */
+void gnuplot_title(FILE *script, const char *text);
+
+/* A footer: what was measured with, without what is in parentheses. NULL: none. */
 void gnuplot_foot(FILE *script, const char *text);
 
 /* The range of an axis ('x' or 'y') and its tics: 1, 2 and 5 times powers of ten, or others if

@@ -6,9 +6,13 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /* The plot area, in pixels from the lower left. */
-static const Place MIN = {100, 75}, MAX = {975, 610};
+static const Place MIN = {115, 122}, MAX = {985, 480};
+
+/* The pictures above it: the height of their captions' lines, and the boxes they fit in. */
+static const double CAPTION = 500, STRIP = 515, STRIP_HEIGHT = 92;
 
 /* Smaller errors are drawn here. */
 static const double FLOOR = 0.01;
@@ -16,13 +20,14 @@ static const double FLOOR = 0.01;
 /* The largest error of rounding to 8 bits. */
 static const double ROUNDING = 0.5;
 
-enum { MAX_LABELS = 10, INTERPOLATIONS = 3 };
+enum { INTERPOLATIONS = 3 };
 
 /* A scene's rows and ranges. */
 typedef struct Plot {
     const ResultRow **rows; /* those with a time and an error */
     int count;
     Front front;
+    ReportPins pins;
     ErrorKind kind;
     double x_min, x_max, y_min, y_max;
     bool floored; /* an error is below FLOOR */
@@ -49,6 +54,49 @@ static void plot_close(Plot *plot)
 {
     free(plot->rows);
     front_close(&plot->front);
+}
+
+/* The efficient row farthest from those with pins; -1 if all have one. */
+static int farthest(const Plot *plot, const bool *pinned)
+{
+    double max = 0;
+    int chosen = -1;
+    for (int i = 0; i < plot->front.count; i++) {
+        if (!(plot->front.rows[i]->time > 0)) /* it has no place */
+            continue;
+        const Place at = place_of(plot, plot->front.rows[i]);
+        double nearest = INFINITY;
+        for (int j = 0; j < plot->front.count; j++) {
+            const Place other = place_of(plot, plot->front.rows[j]);
+            if (pinned[j])
+                nearest = fmin(nearest, hypot(at.x - other.x, at.y - other.y));
+        }
+        if (nearest > max) {
+            max = nearest;
+            chosen = i;
+        }
+    }
+    return chosen;
+}
+
+/* Both ends, and others far from each other. */
+static bool choose_pins(Plot *plot, Message *message)
+{
+    bool *pinned = calloc((size_t)plot->front.count + 1, sizeof *pinned);
+    if (!pinned)
+        return message_set(message, "the plot: %s", strerror(ENOMEM));
+    for (int count = 0; count < REPORT_PINS; count++) {
+        const int last = plot->front.count - 1;
+        const int i = count == 1 && last > 0 && !pinned[last] ? last : farthest(plot, pinned);
+        if (i >= 0)
+            pinned[i] = true;
+    }
+    plot->pins.count = 0;
+    for (int i = 0; i < plot->front.count; i++)
+        if (pinned[i])
+            plot->pins.rows[plot->pins.count++] = plot->front.rows[i];
+    free(pinned);
+    return true;
 }
 
 static bool plot_open(Plot *plot, const Results *results, const char *scene, ErrorKind kind,
@@ -81,43 +129,18 @@ static bool plot_open(Plot *plot, const Results *results, const char *scene, Err
     plot->x_max *= sqrt(sqrt(x_room));
     plot->y_min /= plot->floored ? 1.3 : y_room;
     plot->y_max *= sqrt(y_room);
-    if (front_open(&plot->front, results, scene, kind, message))
+    if (front_open(&plot->front, results, scene, kind, message) && choose_pins(plot, message))
         return true;
     plot_close(plot);
     return false;
 }
 
-/* The efficient row farthest from those with labels; -1 if all have one. */
-static int farthest(const Plot *plot, const Label *labels, int count)
+static void make_labels(const Plot *plot, Label labels[REPORT_PINS])
 {
-    double max = 0;
-    int chosen = -1;
-    for (int i = 0; i < plot->front.count; i++) {
-        const Place at = place_of(plot, plot->front.rows[i]);
-        double nearest = INFINITY;
-        for (int j = 0; j < count; j++)
-            nearest = fmin(nearest, hypot(at.x - labels[j].point.x, at.y - labels[j].point.y));
-        if (nearest > max) {
-            max = nearest;
-            chosen = i;
-        }
+    for (int i = 0; i < plot->pins.count; i++) {
+        labels[i] = (Label){.point = place_of(plot, plot->pins.rows[i])};
+        label_name(&labels[i], &plot->pins.rows[i]->quality);
     }
-    return chosen;
-}
-
-/* Labels for the two ends, and for others far from each other. */
-static int choose_labels(const Plot *plot, Label labels[MAX_LABELS])
-{
-    int count = 0;
-    while (count < MAX_LABELS) {
-        const int i = count == 1 && plot->front.count > 1 ? plot->front.count - 1
-                                                          : farthest(plot, labels, count);
-        if (i < 0)
-            break;
-        labels[count] = (Label){.point = place_of(plot, plot->front.rows[i])};
-        label_name(&labels[count++], &plot->front.rows[i]->quality);
-    }
-    return count;
 }
 
 static bool place_labels(const Plot *plot, Label *labels, int count, Message *message)
@@ -134,13 +157,13 @@ static bool place_labels(const Plot *plot, Label *labels, int count, Message *me
                  &(LabelGround){.min = {MIN.x + 4, MIN.y + 4},
                                 .max = {MAX.x + 15, MAX.y},
                                 .taken_min = {MIN.x, y - 4},
-                                .taken_max = {MIN.x + 135, y + 22},
+                                .taken_max = {MIN.x + 180, y + 26},
                                 .path = places + plot->count,
                                 .path_count = plot->front.count,
                                 .points = places,
                                 .point_count = plot->count,
-                                .letter = 7.2,
-                                .line = 15});
+                                .letter = 10.5,
+                                .line = 21});
     free(places);
     return true;
 }
@@ -164,8 +187,7 @@ static void put_labels(FILE *script, const Label *labels, int count)
             fputs(" at", script);
             put_screen(script, (Place){before ? label->max.x : label->min.x,
                                        label->max.y - (j + 0.5) * step});
-            fprintf(script, " %s front font ',12' textcolor rgb '#222222'\n",
-                    before ? "right" : "left");
+            fprintf(script, " %s front textcolor rgb '#222222'\n", before ? "right" : "left");
         }
         if (!label->led)
             continue;
@@ -215,17 +237,16 @@ static void put_front(FILE *script, const Plot *plot)
 static void put_axes(FILE *script, const Plot *plot, const char *title)
 {
     static const char *const kinds[] = {
-        [ERROR_INTERIOR_MAXIMUM] = "largest error inside the objects",
-        [ERROR_INTERIOR_RMS] = "RMS error inside the objects",
+        [ERROR_INTERIOR_MAXIMUM] = "largest error",
+        [ERROR_INTERIOR_RMS] = "RMS error",
         [ERROR_ALL_RMS] = "RMS error of all pixels",
     };
     char label[160];
     char with[RESULT_WITH_SIZE];
     results_measured_with(plot->rows[0], with);
     gnuplot_foot(script, with);
-    fputs("set encoding utf8\nset border 3 lc rgb '#444444'\nset title ", script);
-    gnuplot_string(script, title);
-    fputs(" font ',17' offset 0,1.6\n", script);
+    gnuplot_title(script, title);
+    fputs("set encoding utf8\nset border 3 lc rgb '#444444'\n", script);
     fprintf(script,
             "set lmargin at screen %.5f\nset rmargin at screen %.5f\n"
             "set bmargin at screen %.5f\nset tmargin at screen %.5f\n",
@@ -233,21 +254,22 @@ static void put_axes(FILE *script, const Plot *plot, const char *title)
             MAX.y / GNUPLOT_HEIGHT);
     gnuplot_axis(script, 'x', plot->x_min, plot->x_max, true);
     gnuplot_axis(script, 'y', plot->y_min, plot->y_max, true);
-    fputs("set xlabel 'time of a frame, drawn and read back, in ms'\nset ylabel ", script);
-    snprintf(label, sizeof label, "%s, in steps of 1/255%s", kinds[plot->kind],
-             plot->floored ? " (0.01: or less)" : "");
+    fputs("set xlabel 'time of a frame, drawn and read back, in ms' offset 0,0.4\nset label ",
+          script);
+    snprintf(label, sizeof label, "%s, in steps of 1/255", kinds[plot->kind]);
     gnuplot_string(script, label);
+    fprintf(script, " at screen 0.022,%.5f center rotate", (MIN.y + MAX.y) / 2 / GNUPLOT_HEIGHT);
     if (plot->floored)
         fprintf(script, "\nset ytics add ('≤%g' %g)", FLOOR, FLOOR);
     fputs("\nset grid lc rgb '#dddddd' lw 0.6 lt 1\n"
-          "set key at screen 0.5,0.925 center top horizontal reverse Left samplen 1.5 width 1\n",
+          "set key at screen 0.5,0.937 center top horizontal reverse Left samplen 1.5 width 1\n",
           script);
     if (plot->kind == ERROR_INTERIOR_MAXIMUM && plot->y_min < ROUNDING && plot->y_max > ROUNDING)
         fprintf(script,
                 "set arrow from graph 0,first 0.5 to graph 1,first 0.5 nohead back lw 1 dt 2 "
                 "lc rgb '#999999'\n"
                 "set label 'rounding to 8 bits' at screen %.5f,first 0.5 left offset 0,0.5 "
-                "font ',12' textcolor rgb '#777777'\n",
+                "textcolor rgb '#666666'\n",
                 (MIN.x + 6) / GNUPLOT_WIDTH);
 }
 
@@ -282,22 +304,105 @@ static void put_plot(FILE *script, const Plot *plot)
     fputs("\n", script);
 }
 
+/* A pin's picture in its part of the strip; lines from there to its point. */
+static double pin_left(int pin)
+{
+    const double part = (MAX.x - MIN.x + 80) / REPORT_PINS;
+    return MIN.x - 80 + part * pin;
+}
+
+static double pin_width(void)
+{
+    return (MAX.x - MIN.x + 80) / REPORT_PINS - 14;
+}
+
+static void put_pins(FILE *script, const Plot *plot)
+{
+    for (int i = 0; i < plot->pins.count; i++) {
+        const ResultRow *row = plot->pins.rows[i];
+        char caption[64];
+        const double middle = pin_left(i) + pin_width() / 2;
+        const double error = row_error(row, plot->kind);
+        snprintf(caption, sizeof caption, "%.*f ms, %.*f steps", row->time < 9.95, row->time,
+                 error < 9.95, error);
+        fputs("set label ", script);
+        gnuplot_string(script, caption);
+        fputs(" at", script);
+        put_screen(script, (Place){middle, CAPTION});
+        fputs(" center front\nset arrow from", script);
+        put_screen(script, (Place){middle, CAPTION - 12});
+        fputs(" to", script);
+        put_screen(script, place_of(plot, row));
+        fputs(" nohead back lw 1 lc rgb '#999999'\n", script);
+    }
+}
+
+/* Over the plot, in pixels. */
+static void put_pictures(FILE *script, const char *scene, const char *folder, const Plot *plot)
+{
+    bool any = false;
+    fprintf(script,
+            "unset border\nunset tics\nunset key\nunset title\nunset xlabel\nunset ylabel\n"
+            "unset label\nunset arrow\nunset grid\nunset logscale\nset lmargin at screen 0\n"
+            "set rmargin at screen 1\nset bmargin at screen 0\nset tmargin at screen 1\n"
+            "set xrange [0:%d]\nset yrange [0:%d]\n",
+            GNUPLOT_WIDTH, GNUPLOT_HEIGHT);
+    for (int i = 0; i < plot->pins.count; i++) {
+        const ResultRow *row = plot->pins.rows[i];
+        char path[PATH_MAX];
+        report_pin_path(folder, scene, i, path);
+        if (access(path, R_OK) != 0)
+            continue;
+        /* As wide as there is room, but for tall pictures. */
+        const double aspect = (double)row->height / row->width * REPORT_PANEL;
+        const double scale =
+            fmin(pin_width() / (2 * REPORT_PANEL + REPORT_GAP), STRIP_HEIGHT / aspect);
+        fputs(any ? ", \\\n  " : "plot ", script);
+        gnuplot_string(script, path);
+        fprintf(script, " binary filetype=png origin=(%g,%g) dx=%.6g dy=%.6g with rgbimage",
+                pin_left(i), STRIP, scale, scale);
+        any = true;
+    }
+    fputs("\n", script);
+}
+
+void report_pin_path(const char *folder, const char *scene, int pin, char path[PATH_MAX])
+{
+    snprintf(path, PATH_MAX, "%s/%s-pin-%d.png", folder, scene, pin + 1);
+}
+
+bool report_pins(ReportPins *pins, const Results *results, const char *scene, ErrorKind kind,
+                 Message *message)
+{
+    Plot plot;
+    if (!plot_open(&plot, results, scene, kind, message))
+        return false;
+    *pins = plot.pins;
+    plot_close(&plot);
+    return true;
+}
+
 bool report_plot(const Results *results, const char *scene, const char *title, ErrorKind kind,
                  const char *folder, Message *message)
 {
     Plot plot;
-    Label labels[MAX_LABELS];
+    Label labels[REPORT_PINS];
     char *script = NULL;
     size_t size = 0;
     if (!plot_open(&plot, results, scene, kind, message))
         return false;
-    const int count = choose_labels(&plot, labels);
+    const int count = plot.pins.count;
+    make_labels(&plot, labels);
     bool done = place_labels(&plot, labels, count, message);
     FILE *file = done ? open_memstream(&script, &size) : NULL;
     if (file) {
+        fputs("set multiplot\n", file);
         put_axes(file, &plot, title);
         put_labels(file, labels, count);
+        put_pins(file, &plot);
         put_plot(file, &plot);
+        put_pictures(file, scene, folder, &plot);
+        fputs("unset multiplot\n", file);
         done = gnuplot_finish(file, &script, &size, done, folder, scene, message);
     } else {
         done = message_set(message, "%s: the plot: %s", scene, strerror(ENOMEM));

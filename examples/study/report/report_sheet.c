@@ -178,6 +178,43 @@ static void put_caption(Sheet *sheet, char lines[MAX_CAPTION_LINES][512], int co
                     lines[i], NULL);
 }
 
+/* The mean of a panel's colors over one pixel of a small picture. */
+static Color mean_color(int panel, const Image *drawn, const Reference *exact, int x, int y,
+                        int height)
+{
+    enum { SIDE = 4 };
+    int red = 0, green = 0, blue = 0;
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        const int across = 2 * (SIDE * x + i % SIDE) + 1, down = 2 * (SIDE * y + i / SIDE) + 1;
+        const size_t column = (size_t)(across * exact->width / (2 * SIDE * REPORT_PANEL));
+        const size_t row = (size_t)(down * exact->height / (2 * SIDE * height));
+        const Color color = panel_color(panel, drawn, exact, row * (size_t)exact->width + column);
+        red += color.red;
+        green += color.green;
+        blue += color.blue;
+    }
+    return (Color){(unsigned char)(red / (SIDE * SIDE)), (unsigned char)(green / (SIDE * SIDE)),
+                   (unsigned char)(blue / (SIDE * SIDE))};
+}
+
+bool report_pair(const Image *drawn, const Reference *exact, const char *path, Message *message)
+{
+    Image pair;
+    const int height = (REPORT_PANEL * exact->height + exact->width - 1) / exact->width;
+    if (!image_open(&pair, 2 * REPORT_PANEL + REPORT_GAP, height, IMAGE_BYTE, message))
+        return false;
+    fill(&pair, 0, 0, pair.width, height, (Color){255, 255, 255});
+    for (int side = 0; side < 2; side++)
+        for (int y = 0; y < height; y++)
+            for (int x = 0; x < REPORT_PANEL; x++)
+                fill(&pair, side * (REPORT_PANEL + REPORT_GAP) + x, y, 1, 1,
+                     mean_color(side ? 2 : 0, drawn, exact, x, y, height));
+    const bool done =
+        image_write(&pair, path, &(ImageOptions){.compress = IMAGE_COMPRESS_DEFAULT}, message);
+    image_close(&pair);
+    return done;
+}
+
 bool report_sheet(const Image *drawn, const Reference *exact, const char *caption, const char *path,
                   Message *message)
 {

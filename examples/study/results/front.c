@@ -1,5 +1,7 @@
 #include "study/results/front.h"
 
+#include "base/clock.h"
+
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -33,6 +35,25 @@ bool row_faster(const ResultRow *a, const ResultRow *b)
 bool row_beats(const ResultRow *a, const ResultRow *b, ErrorKind kind)
 {
     return !row_faster(b, a) && row_error(a, kind) < row_error(b, kind) + FRONT_EQUAL_ERROR;
+}
+
+double front_noise(const Results *results, const char *scene)
+{
+    double *values = malloc(((size_t)results->count + 1) * sizeof *values);
+    int count = 0;
+    for (int i = 0; values && i < results->count; i++) {
+        const ResultRow *row = &results->rows[i];
+        if (isfinite(row->noise) && (!scene || strcmp(row->scene, scene) == 0))
+            values[count++] = row->noise;
+    }
+    const double median = values ? clock_median(values, count) : NAN;
+    free(values);
+    return median;
+}
+
+bool front_busy(const Results *results, const char *scene)
+{
+    return front_noise(results, scene) > FRONT_NOISE_BOUND;
 }
 
 static int unusual(const ResultRow *row)

@@ -25,6 +25,14 @@ bool row_faster(const ResultRow *a, const ResultRow *b);
  * are tied and equally exact beat each other. */
 bool row_beats(const ResultRow *a, const ResultRow *b, ErrorKind kind);
 
+/* With a median noise above this the machine was busy, and times are not compared. */
+#define FRONT_NOISE_BOUND 0.1
+
+/* The median noise of a scene's rows, or of all (NULL); NAN: not known. And whether it is above the
+ * bound. */
+double front_noise(const Results *results, const char *scene);
+bool front_busy(const Results *results, const char *scene);
+
 /* The efficient rows of a scene, from the cheapest (least exact) to the most expensive (most
  * exact). Each is faster than all that follow, and less exact by at least FRONT_EQUAL_ERROR: no two
  * are tied. Every other row is beaten by one of them. Of tied rows the most exact one is chosen,
