@@ -10,7 +10,8 @@ uniform float u_FromPlace; // 1: the direction to the light starts at the point
 uniform int u_LightUnit;   // 0: normalized; 1: not; 2: only at the vertices
 uniform float u_LightSign;
 // 0: clamped; 1: not; 2: absolute; 3: none; 4: wrapped; 5: their sum clamped; 6: squared; 7: sine; 8:
-// the angle; 9: one or nothing; 10: the lesser of it and 0; 11: the larger of it and 0.1; 12: at most 1
+// the angle; 9: one or nothing; 10: the lesser of it and 0; 11: the larger of it and 0.1; 12: at most 1; 13:
+// nothing or one
 uniform int u_Cosine;
 uniform float u_CosineMax;
 uniform float u_CosinePower;
@@ -64,6 +65,8 @@ float cosine_of(float c) {
         return acos(clamp(c, -1.0, 1.0));
     if (u_Cosine == 9)
         return c > 0.0 ? 1.0 : 0.0;
+    if (u_Cosine == 13)
+        return c > 0.0 ? 0.0 : 1.0;
     if (u_Cosine == 10)
         return min(c, 0.0);
     if (u_Cosine == 12)

@@ -6,6 +6,7 @@
  * Default: every fourth form of a mistake in one seed, and 3 pairs.
  */
 #include "labs/diagnosis/diagnose.h"
+#include "labs/diagnosis/outline.h"
 #include "labs/diagnosis/wrong_program.h"
 #include "support/picture_check.h"
 #include "support/testing.h"
@@ -65,7 +66,7 @@ static Outcome try(const Lab *lab, const Suspect *made, uint64_t seed, Verdict *
     static Shots shots;
     const Fake fake = {&program, &made->choices};
     const Painter painter = {.lab = lab, .paint = paint_fake, .what = &fake};
-    bool wrong = false;
+    bool wrong = false, moved = false;
     *verdict = (Verdict){.seed = seed};
     if (!shots_open(&shots, lab, seed, &message))
         fail_msg("%s", message.text);
@@ -75,7 +76,8 @@ static Outcome try(const Lab *lab, const Suspect *made, uint64_t seed, Verdict *
         fail_msg("%s", message.text);
     for (int i = 0; i < shots.count; i++)
         wrong |= shots_error(&shots, i, shots.truth).maximum > shots_tolerance(&shots, i);
-    if (wrong && !diagnose(&shots, &painter, &canvas, verdict, &message))
+    if (wrong && (!outline_check(&shots, &painter, &canvas, &moved, &message) ||
+                  !diagnose(&shots, &painter, moved, &canvas, verdict, &message)))
         fail_msg("%s", message.text);
     shots_close(&shots);
     return wrong ? outcome_of(verdict, made) : HIDDEN;

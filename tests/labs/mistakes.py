@@ -385,7 +385,7 @@ MISTAKES = {
     "light at the vertices": each((5, 6, 7, 8), gouraud),
     "only the first light": each((2, 4, 5, 6, 7), lambda lab: edits(("i < 2", "i < 1"), file=lab)),
     "extra gamma": each(SHADERS, gamma),
-    "gl_FrontFacing in a mirror": {
+    "front and back swapped in a mirror": {
         9: frag("gl_FrontFacing == (u_Mirrored > 0.0)", "gl_FrontFacing")
     },
     "back's normal not reversed": {9: frag("        normal = -normal;\n", "")},

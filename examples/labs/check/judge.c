@@ -8,6 +8,8 @@
 #include "labs/diagnosis/catalogue.h"
 #include "labs/diagnosis/diagnose.h"
 #include "labs/diagnosis/matrices.h"
+#include "labs/diagnosis/outline.h"
+#include "labs/diagnosis/symptoms.h"
 #include "labs/diagnosis/text_facts.h"
 
 #include <stdio.h>
@@ -21,10 +23,11 @@ typedef struct Session {
     Canvas canvas;
     SubmissionFiles files;
     SubmissionFiles plain; /* lab 10: its shaders, preprocessed; none: they cannot be */
-    Shader shader, own;    /* the latter with the files' own precision */
+    Shader shader, own;    /* the latter with the files' own precision, if that is another */
     Shots shots;
     LabBudget budget; /* lab 10 */
     bool settled;     /* the submission is at fault: there is a verdict */
+    bool moved;       /* its outline is wrong */
 } Session;
 
 /* Settles on a verdict: the first line is the message, the others are details. */
@@ -63,6 +66,21 @@ static bool open_given(Session *session, Message *message)
     return shader_open(&session->shader, &loader, session->lab->file, message);
 }
 
+/* As the files are written. */
+static GLuint own_program(const Session *session)
+{
+    return session->own.program ? session->own.program : session->shader.program;
+}
+
+/* What "highp" would replace. */
+static bool has_mediump(const SubmissionFiles *files)
+{
+    for (int i = 0; i < files->count; i++)
+        if (strstr(files->texts[i].text, "mediump"))
+            return true;
+    return false;
+}
+
 /* Compiles with the file's own precision, as the student's program does, then with highp: 16-bit
  * errors are judged separately. Lab 10 lets the student choose the precision. */
 static bool open_shader(Session *session, Message *message)
@@ -80,6 +98,11 @@ static bool open_shader(Session *session, Message *message)
             !submission_compile(&session->shader, session->lab, &session->plain, NULL, NULL))
             return submission_compile(&session->shader, session->lab, &session->files, NULL,
                                       message);
+        return true;
+    }
+    if (!has_mediump(&session->files)) {
+        session->shader = session->own;
+        session->own = (Shader){0};
         return true;
     }
     /* What links only as it is, is drawn as it is. */
@@ -150,7 +173,7 @@ static bool take_code(Session *session, Message *message)
 static bool look_at_precision(Session *session, Message *message)
 {
     const Lab *lab = session->lab;
-    const Painter painter = {.lab = lab, .program = session->own.program};
+    const Painter painter = {.lab = lab, .program = own_program(session)};
     if (lab->given || lab->budget)
         return true;
     if (lab->either)
@@ -234,9 +257,11 @@ static bool explain(Session *session, const Painter *painter, const char *number
         return true;
     }
     if (!session->lab->given &&
-        text_find_fault(session->lab, &session->files, session->own.program, verdict))
-        return diagnose_symptoms(&session->shots, painter, &session->canvas, verdict, message);
-    if (!diagnose(&session->shots, painter, &session->canvas, verdict, message))
+        text_find_fault(session->lab, &session->files, own_program(session), verdict)) {
+        symptoms_describe(&session->shots, session->moved, verdict);
+        return true;
+    }
+    if (!diagnose(&session->shots, painter, session->moved, &session->canvas, verdict, message))
         return false;
     /* A mistake with a name is more than a mesh that would hide it. */
     if (verdict->mistake_count == 0 && !look_at_budget(session, &found, message))
@@ -256,7 +281,9 @@ static bool look_closer(Session *session, const Painter *painter, int worst, boo
 {
     numbers[0] = '\0';
     bool right = true;
-    *wrong = session->lab->given && !matrices_are_right(&session->shots, numbers);
+    if (!outline_check(&session->shots, painter, &session->canvas, &session->moved, message))
+        return false;
+    *wrong = session->lab->given ? !matrices_are_right(&session->shots, numbers) : session->moved;
     if (session->lab->budget && !shots_check_sizes(&session->shots, session->options->seed, painter,
                                                    &session->canvas, &right, message))
         return false;
@@ -265,10 +292,8 @@ static bool look_closer(Session *session, const Painter *painter, int worst, boo
         snprintf(numbers, VERDICT_SENTENCE_SIZE,
                  "The picture is right at small sizes only: it depends on the picture's size or "
                  "place, as by gl_FragCoord.");
-        return true;
     }
-    return session->lab->given ||
-           diagnose_outline(&session->shots, painter, &session->canvas, wrong, message);
+    return true;
 }
 
 void judge_limit(rlim_t seconds)

@@ -16,32 +16,6 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-/* The labs' folder, which also has the headers for a submission's C. */
-static bool labs_folder(const Lab *lab, char folder[PATH_MAX], Message *message)
-{
-    if (!lab_folder(lab, folder, message))
-        return false;
-    char *slash = strrchr(folder, '/');
-    if (slash)
-        *slash = '\0';
-    return true;
-}
-
-static bool open_sandbox(const Lab *lab, double limit, Sandbox *sandbox, Message *message)
-{
-    char folder[PATH_MAX];
-    /* Nothing in a sandbox needs this file, and every system has it. */
-    if (!labs_folder(lab, folder, message) ||
-        !sandbox_open(sandbox, folder, ceil(limit), "/etc/passwd", message))
-        return false;
-    if (lab->code && !(sandbox->proven & SANDBOX_NO_FILES))
-        return message_set(message,
-                           "%s: has C, which runs only in a sandbox; install the package "
-                           "bubblewrap",
-                           lab->name);
-    return true;
-}
-
 /* The files in memory, as the sandbox reads them; -1, with a message: failed. */
 static int open_input(const SubmissionFiles *files, Message *message)
 {
@@ -113,8 +87,10 @@ static bool judge_in(const JudgeOptions *options, const SubmissionFiles *files, 
     SandboxRun run = {.output = -1, .errors = -1};
     SandboxRun *const runs[] = {&run};
     char seed[32];
-    bool done = sandbox ? open_sandbox(options->lab, limit, sandbox, message)
-                        : message_set(message, "%s", strerror(ENOMEM));
+    bool done = sandbox ? true : message_set(message, "%s", strerror(ENOMEM));
+    /* Nothing in a sandbox needs this file, and every system has it. */
+    done = done && sandbox_open(sandbox, options->lab, ceil(limit), "/etc/passwd", message) &&
+           sandbox_admits(sandbox, options->lab, message);
     const int input = done ? open_input(files, message) : -1;
     snprintf(seed, sizeof seed, "%llu", (unsigned long long)options->seed);
     if (options->backend)

@@ -91,28 +91,17 @@ static bool report(const ClassStore *store, Message *message)
 static bool open_sandbox(const ClassOptions *options, const Lab *lab, Sandbox *sandbox,
                          Message *message)
 {
-    char folder[PATH_MAX], hidden[PATH_MAX], text[256];
+    char hidden[PATH_MAX], text[256];
     Message why = {.text = ""};
-    if (!lab_folder(lab, folder, message))
-        return false;
-    /* The folder of all labs: it also has the headers for a submission's C. */
-    char *slash = strrchr(folder, '/');
-    if (slash)
-        *slash = '\0';
     if (!realpath(options->folder, hidden))
         return message_set(message, "%s: %s", options->folder, strerror(errno));
-    if (!sandbox_open(sandbox, folder, options->limit, hidden, &why))
+    if (!sandbox_open(sandbox, lab, options->limit, hidden, &why))
         return message_set(message, "no submission is judged: %s", why.text);
     sandbox_describe(sandbox, text);
     fprintf(stderr, "%s: %s\n", PROGRAM, text);
     if (!sandbox->bubblewrap)
         say(&why);
-    if (lab->code && !(sandbox->proven & SANDBOX_NO_FILES))
-        return message_set(message,
-                           "%s: has C, which runs only in a sandbox; install the package "
-                           "bubblewrap",
-                           lab->name);
-    return true;
+    return sandbox_admits(sandbox, lab, message);
 }
 
 static bool same_lab(const ClassStore *store, const Lab *lab, Message *message)

@@ -99,7 +99,8 @@ enum {
     PLACE_TRANSPOSED,
     PLACE_CLIP, /* gl_Position */
     PLACE_NORMAL_MATRIX,
-    PLACE_UNIT, /* normalized */
+    PLACE_UNIT,       /* normalized */
+    PLACE_NOT_TO_EYE, /* left in world space, while all else is in eye space */
 
     NORMAL_OBJECT = 1,
     NORMAL_MODEL,
@@ -116,6 +117,7 @@ enum {
     NORMAL_WORLD_POSITION,
     NORMAL_CLIP, /* by the whole projection */
     NORMAL_VIEW, /* by the view matrix alone */
+    NORMAL_NOT_TO_EYE,
 
     UNIT_NEVER = 1,
     UNIT_AT_VERTICES,
@@ -136,6 +138,7 @@ enum {
     LIGHT_SPACE_MODEL_W_1,
     LIGHT_SPACE_UNIT, /* normalized */
     LIGHT_SPACE_W_0,  /* in eye space, where all else is too */
+    LIGHT_SPACE_NOT_TO_EYE,
 
     LIGHTS_FIRST = 1,
     LIGHTS_SECOND,
@@ -166,6 +169,7 @@ enum {
     COSINE_MIN,
     COSINE_FLOOR,
     COSINE_SATURATED,
+    COSINE_STEP_REVERSED,
 
     COLOR_SQUARED = 1,
     COLOR_IGNORED,
@@ -205,6 +209,7 @@ enum {
     VIEW_REVERSED,
     VIEW_NEGATED_EYE, /* the same for every point, from the eye */
     VIEW_OBJECT_SPACE,
+    VIEW_NOT_TO_EYE, /* from the eye's position in world space to the point in eye space */
 
     GATE_OPEN = 1,
     GATE_COSINE,
@@ -250,6 +255,7 @@ enum {
     CONE_OUTSIDE,
     CONE_DEGREES_TWICE,
     CONE_HARD_COSINE, /* the cosine of the cutoff, in degrees, as it is */
+    CONE_RADIANS_TWICE,
 
     FALL_OFF_NONE = 1,
     FALL_OFF_ONE,
@@ -270,6 +276,7 @@ enum {
     BACK_NOT_REVERSED,
     BACK_PRODUCT, /* of both colours */
     BACK_COLORS_SWAPPED,
+    BACK_COLORS_MIRRORED, /* swapped in a mirror */
 
     CULL_FRONT = 1,
     CULL_BACK,
@@ -296,7 +303,7 @@ typedef struct Change {
     int choice; /* 0: ends a list */
 } Change;
 
-enum { MISTAKE_MAX_FORMS = 6, MISTAKE_MAX_CHANGES = 3 };
+enum { MISTAKE_MAX_FORMS = 8, MISTAKE_MAX_CHANGES = 3 };
 
 /* A number that a mistake may have wrong: any factor, 0.01 to 100, or a number that is added. */
 typedef enum Factor {

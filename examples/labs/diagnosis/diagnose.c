@@ -212,14 +212,13 @@ static bool find(Lineup *lineup, Verdict *verdict, bool *named, Message *message
     return done;
 }
 
-bool diagnose(const Shots *shots, const Painter *painter, Canvas *canvas, Verdict *verdict,
-              Message *message)
+bool diagnose(const Shots *shots, const Painter *painter, bool moved, Canvas *canvas,
+              Verdict *verdict, Message *message)
 {
     Lineup lineup;
     bool named = false;
-    const bool done = lineup_open(&lineup, shots, painter, canvas, message) &&
+    const bool done = lineup_open(&lineup, shots, painter, moved, canvas, message) &&
                       find(&lineup, verdict, &named, message);
-    const bool moved = lineup.moved;
     lineup_close(&lineup);
     if (!done)
         return false;
@@ -227,25 +226,5 @@ bool diagnose(const Shots *shots, const Painter *painter, Canvas *canvas, Verdic
     if (!named)
         snprintf(verdict->message, sizeof verdict->message,
                  "Unknown mistake: no known mistake or pair of them draws this in every scene");
-    return true;
-}
-
-bool diagnose_outline(const Shots *shots, const Painter *painter, Canvas *canvas, bool *wrong,
-                      Message *message)
-{
-    Lineup lineup;
-    const bool done = lineup_open(&lineup, shots, painter, canvas, message);
-    *wrong = lineup.moved;
-    lineup_close(&lineup);
-    return done;
-}
-
-bool diagnose_symptoms(const Shots *shots, const Painter *painter, Canvas *canvas, Verdict *verdict,
-                       Message *message)
-{
-    bool moved;
-    if (!diagnose_outline(shots, painter, canvas, &moved, message))
-        return false;
-    symptoms_describe(shots, moved, verdict);
     return true;
 }

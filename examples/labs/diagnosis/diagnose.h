@@ -12,17 +12,9 @@
 #include "labs/submission/shots.h"
 #include "labs/submission/verdict.h"
 
-/* Fills in the message, mistakes and symptoms of a wrong submission, drawn in all shots. False,
- * with a message: the driver failed. */
-bool diagnose(const Shots *shots, const Painter *painter, Canvas *canvas, Verdict *verdict,
-              Message *message);
-
-/* Only the symptoms. */
-bool diagnose_symptoms(const Shots *shots, const Painter *painter, Canvas *canvas, Verdict *verdict,
-                       Message *message);
-
-/* *wrong: the submission, drawn in all shots, covers other pixels than the right program. */
-bool diagnose_outline(const Shots *shots, const Painter *painter, Canvas *canvas, bool *wrong,
-                      Message *message);
+/* Fills in the message, mistakes and symptoms of a wrong submission, drawn in all shots. `moved`:
+ * its outline is wrong (outline.h). False, with a message: the driver failed. */
+bool diagnose(const Shots *shots, const Painter *painter, bool moved, Canvas *canvas,
+              Verdict *verdict, Message *message);
 
 #endif

@@ -60,36 +60,6 @@ static void sort_shots(Lineup *lineup)
     }
 }
 
-static bool is_green(const Image *image, int pixel)
-{
-    const unsigned char *p = (const unsigned char *)image->pixels + 4 * (size_t)pixel;
-    return p[0] == 0 && p[1] == 255 && p[2] == 0;
-}
-
-/* Whether the submission covers other pixels than the right program, by more than rounding at
- * edges. The background is a colour that neither draws. */
-static bool find_outline(Lineup *lineup, Message *message)
-{
-    const Choices right = {.value = 1};
-    const Vec3 green = {0, 1, 0};
-    for (int k = 0; k < lineup->shots->count && !lineup->moved; k++) {
-        const int i = lineup->order[k];
-        Probe probe = lineup->shots->shots[i].probe; /* its scene's arrays are the original's */
-        const SubmissionGeometry geometry = shots_geometry(lineup->shots, i);
-        probe.scene.background = green;
-        if (!fit_images(lineup, probe.width, probe.height, message) ||
-            !painter_draw(lineup->painter, &probe, &geometry, lineup->canvas, &lineup->image,
-                          message) ||
-            !draw_suspect(lineup, &probe, &lineup->buffers[i], &right, &lineup->drawn, message))
-            return false;
-        int apart = 0;
-        for (int p = 0; p < probe.width * probe.height; p++)
-            apart += is_green(&lineup->image, p) != is_green(&lineup->drawn, p);
-        lineup->moved = apart > 6;
-    }
-    return true;
-}
-
 /* The right program's pictures, with the stage or exponent that the submission is nearest to. */
 static bool draw_right(Lineup *lineup, Message *message)
 {
@@ -111,10 +81,10 @@ static bool draw_right(Lineup *lineup, Message *message)
     return true;
 }
 
-bool lineup_open(Lineup *lineup, const Shots *shots, const Painter *painter, Canvas *canvas,
-                 Message *message)
+bool lineup_open(Lineup *lineup, const Shots *shots, const Painter *painter, bool moved,
+                 Canvas *canvas, Message *message)
 {
-    *lineup = (Lineup){.shots = shots, .painter = painter, .canvas = canvas};
+    *lineup = (Lineup){.shots = shots, .painter = painter, .moved = moved, .canvas = canvas};
     const CanvasOptions sheet = {.width = SHEET, .height = SHEET};
     if (!wrong_program_open(&lineup->wrong, message) ||
         !canvas_open_beside(&lineup->sheet, canvas, &sheet, message))
@@ -127,7 +97,7 @@ bool lineup_open(Lineup *lineup, const Shots *shots, const Painter *painter, Can
     if (shots->lab->budget && !mesh_sphere(&lineup->coarse, 1, COARSE, COARSE, message))
         return false;
     sort_shots(lineup);
-    return draw_right(lineup, message) && find_outline(lineup, message);
+    return draw_right(lineup, message);
 }
 
 void lineup_close(Lineup *lineup)
@@ -315,12 +285,12 @@ bool lineup_confront(Lineup *lineup, const Probe *probe, Suspect *suspects, int 
 /* Numbers. */
 
 /* How far the suspect with this value is in the worst scenes; HUGE_VAL: cannot be drawn. */
-static double distance_with(Lineup *lineup, Suspect *suspect, double value)
+static double distance_with(Lineup *lineup, Suspect *suspect, double value, int scenes)
 {
     const Shots *shots = lineup->shots;
     double sum = 0;
     suspect->choices.value = value;
-    for (int k = 0; k < FIT_SCENES && k < shots->count; k++) {
+    for (int k = 0; k < scenes && k < shots->count; k++) {
         const int number = lineup->order[k];
         const Shot *shot = &shots->shots[number];
         if (!fit_images(lineup, shot->probe.width, shot->probe.height, NULL) ||
@@ -332,29 +302,50 @@ static double distance_with(Lineup *lineup, Suspect *suspect, double value)
     return sum;
 }
 
+/* Numbers that are added: the value; factors: their power of two. */
+static double number_at(const Suspect *suspect, double x)
+{
+    const Factor factor = suspect->choices.factor;
+    return factor == FACTOR_PLUS_LIGHT || factor == FACTOR_PLUS_COLOR ? x : exp2(x);
+}
+
+/* The golden section of low to high, which ends early far from any match. */
+static double refine(Lineup *lineup, Suspect *suspect, double low, double high, double hopeless)
+{
+    enum { REFINED = 14, ENOUGH = 5 };
+    const double golden = (sqrt(5) - 1) / 2;
+    double a = high - golden * (high - low), b = low + golden * (high - low);
+    double at_a = distance_with(lineup, suspect, number_at(suspect, a), FIT_SCENES);
+    double at_b = distance_with(lineup, suspect, number_at(suspect, b), FIT_SCENES);
+    for (int i = 0; i < REFINED && (i < ENOUGH || fmin(at_a, at_b) < hopeless); i++) {
+        if (at_a < at_b) {
+            high = b, b = a, at_b = at_a;
+            a = high - golden * (high - low);
+            at_a = distance_with(lineup, suspect, number_at(suspect, a), FIT_SCENES);
+        } else {
+            low = a, a = b, at_a = at_b;
+            b = low + golden * (high - low);
+            at_b = distance_with(lineup, suspect, number_at(suspect, b), FIT_SCENES);
+        }
+    }
+    return (low + high) / 2;
+}
+
 void lineup_fit(Lineup *lineup, Suspect *suspect)
 {
-    enum { STEPS = 18, REFINED = 14 };
-    const bool added = suspect->choices.factor == FACTOR_PLUS_LIGHT ||
-                       suspect->choices.factor == FACTOR_PLUS_COLOR;
-    const double golden = (sqrt(5) - 1) / 2;
-    /* Numbers that are added: -0.9 to 0.9; factors: the power of two of -9 to 9. */
-    const double first = added ? -0.9 : -9, step = added ? 0.1 : 1;
-    double best = HUGE_VAL, at = 0;
-#define VALUE(x) (added ? (x) : exp2(x))
+    enum { STEPS = 18 };
+    const double first = number_at(suspect, -9) < 0 ? -0.9 : -9, step = -first / 9;
+    double best = HUGE_VAL, at = 0, wrong = 0;
     for (int i = 0; i <= STEPS; i++) {
-        const double x = first + step * i, found = distance_with(lineup, suspect, VALUE(x));
+        const double x = first + step * i;
+        const double found = distance_with(lineup, suspect, number_at(suspect, x), FIT_SCENES);
         if (found < best)
             best = found, at = x;
     }
-    double low = at - step, high = at + step;
-    for (int i = 0; i < REFINED; i++) {
-        const double a = high - golden * (high - low), b = low + golden * (high - low);
-        if (distance_with(lineup, suspect, VALUE(a)) < distance_with(lineup, suspect, VALUE(b)))
-            high = b;
-        else
-            low = a;
+    for (int k = 0; k < FIT_SCENES && k < lineup->shots->count; k++) {
+        const int number = lineup->order[k];
+        wrong += compare_all(&lineup->shots->shots[number].image, &lineup->right[number]);
     }
-    suspect->choices.value = VALUE((low + high) / 2);
-#undef VALUE
+    suspect->choices.value =
+        number_at(suspect, refine(lineup, suspect, at - step, at + step, 0.3 * wrong));
 }

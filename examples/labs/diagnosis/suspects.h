@@ -23,10 +23,10 @@ typedef struct Lineup {
     Mesh coarse; /* lab 10: for small pictures */
 } Lineup;
 
-/* Compiles, uploads, and checks the submission's outline. False, with a message: the driver failed;
- * close the lineup in any case. */
-bool lineup_open(Lineup *lineup, const Shots *shots, const Painter *painter, Canvas *canvas,
-                 Message *message);
+/* Compiles and uploads. `moved`: the submission's outline is wrong. False, with a message: the
+ * driver failed; close the lineup in any case. */
+bool lineup_open(Lineup *lineup, const Shots *shots, const Painter *painter, bool moved,
+                 Canvas *canvas, Message *message);
 void lineup_close(Lineup *lineup);
 
 /* Keeps the suspects whose small pictures of the two worst scenes are like the submission's, in

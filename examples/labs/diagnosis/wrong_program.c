@@ -214,6 +214,8 @@ static Mat4 place_matrix(const Made *made)
         return product_of(made->clip_from_eye, made->eye_from_world, made->world);
     case PLACE_NORMAL_MATRIX:
         return binding_normal_matrix(made->world);
+    case PLACE_NOT_TO_EYE:
+        return mat4_product(part(made->eye_from_world, PART_INVERSE), made->world);
     default:
         return made->world;
     }
@@ -240,6 +242,9 @@ static Mat4 normal_matrix(const Made *made)
         return mat4_transpose(made->world);
     case NORMAL_EYE:
         return binding_normal_matrix(mat4_product(made->eye_from_world, made->world));
+    case NORMAL_NOT_TO_EYE: /* as seen from world space */
+        return mat4_product(without_translation(part(made->eye_from_world, PART_INVERSE)),
+                            binding_normal_matrix(made->world));
     case NORMAL_XZY:
     case NORMAL_YXZ:
     case NORMAL_ZYX:
@@ -329,6 +334,10 @@ static void choose_light_places(Made *made)
             *place = directional ? mat4_transform_direction(made->eye_from_world, *place)
                                  : mat4_transform_point(made->eye_from_world, *place);
         const int space = choice(made, SLOT_LIGHT_SPACE);
+        const Mat4 world_from_eye = part(made->eye_from_world, PART_INVERSE);
+        if (space == LIGHT_SPACE_NOT_TO_EYE)
+            *place = directional ? mat4_transform_direction(world_from_eye, *place)
+                                 : mat4_transform_point(world_from_eye, *place);
         if (space == LIGHT_SPACE_MODEL || space == LIGHT_SPACE_NORMAL)
             *place = mat4_transform_direction(
                 space == LIGHT_SPACE_NORMAL ? binding_normal_matrix(made->world) : made->world,
@@ -408,15 +417,16 @@ static void set_colors(const WrongProgram *program, const Made *made)
 {
     const int *of = made->of;
     const bool front_only = of[SLOT_BACK] == BACK_FRONT_COLOR || !made->lab->two_sided;
+    const bool swapped =
+        of[SLOT_BACK] == BACK_COLORS_SWAPPED ||
+        (of[SLOT_BACK] == BACK_COLORS_MIRRORED && mat4_determinant(made->world) < 0);
     const Vec3 own_front = surface_color(made, made->object->front.diffuse);
-    const Vec3 front = of[SLOT_BACK] == BACK_COLORS_SWAPPED
-                           ? surface_color(made, made->object->back.diffuse)
-                           : own_front;
+    const Vec3 front = swapped ? surface_color(made, made->object->back.diffuse) : own_front;
     const Vec3 own_back = surface_color(made, made->object->back.diffuse);
-    const Vec3 back = front_only                             ? front
-                      : of[SLOT_BACK] == BACK_PRODUCT        ? product(own_front, own_back)
-                      : of[SLOT_BACK] == BACK_COLORS_SWAPPED ? own_front
-                                                             : own_back;
+    const Vec3 back = front_only                      ? front
+                      : of[SLOT_BACK] == BACK_PRODUCT ? product(own_front, own_back)
+                      : swapped                       ? own_front
+                                                      : own_back;
     const bool added = of[SLOT_COLOR] == COLOR_ADDED;
     const Vec3 back_base = of[SLOT_AMBIENT] == AMBIENT_FRONT ? front : back;
     const Vec3 base[2] = {base_color(made, added ? WHITE : front),
@@ -499,17 +509,20 @@ static void set_view(const WrongProgram *program, const Made *made)
     const double *m = made->eye_from_world.m;
     const Vec3 eye = made->probe->scene.camera.eye;
     const Vec3 center = mat4_transform_point(made->world, (Vec3){0, 0, 0});
-    const Vec3 views[] = {eye,
-                          [VIEW_WORLD_ORIGIN] = BLACK,
-                          [VIEW_EYE_SPACE] = BLACK,
-                          [VIEW_FIXED_EYE] = eye,
-                          [VIEW_FIXED_Z] = {0, 0, 1},
-                          [VIEW_FIXED_AXIS] = {m[2], m[6], m[10]},
-                          [VIEW_FIXED_CENTER] = vec3_subtract(eye, center),
-                          [VIEW_RAW] = eye,
-                          [VIEW_REVERSED] = vec3_scale(eye, -1),
-                          [VIEW_NEGATED_EYE] = vec3_scale(eye, -1),
-                          [VIEW_OBJECT_SPACE] = eye};
+    const Vec3 views[] = {
+        eye,
+        [VIEW_WORLD_ORIGIN] = BLACK,
+        [VIEW_EYE_SPACE] = BLACK,
+        [VIEW_FIXED_EYE] = eye,
+        [VIEW_FIXED_Z] = {0, 0, 1},
+        [VIEW_FIXED_AXIS] = {m[2], m[6], m[10]},
+        [VIEW_FIXED_CENTER] = vec3_subtract(eye, center),
+        [VIEW_RAW] = eye,
+        [VIEW_REVERSED] = vec3_scale(eye, -1),
+        [VIEW_NEGATED_EYE] = vec3_scale(eye, -1),
+        [VIEW_OBJECT_SPACE] = eye,
+        [VIEW_NOT_TO_EYE] =
+            vec3_add(eye, mat4_transform_direction(part(made->eye_from_world, PART_INVERSE), eye))};
     const int of = choice(made, SLOT_VIEW);
     const bool fixed = (of >= VIEW_FIXED_EYE && of <= VIEW_FIXED_CENTER) || of == VIEW_NEGATED_EYE;
     Mat4 inverse = mat4_identity();
@@ -576,7 +589,8 @@ static void set_cone(const WrongProgram *program, const Made *made)
                               [CONE_WHOLE] = cos(radians / 2),
                               [CONE_OUTSIDE] = cos(radians),
                               [CONE_DEGREES_TWICE] = cos(cutoff * 180 / acos(-1)),
-                              [CONE_HARD_COSINE] = cos(radians) * 180 / acos(-1)};
+                              [CONE_HARD_COSINE] = cos(radians) * 180 / acos(-1),
+                              [CONE_RADIANS_TWICE] = cos(radians * acos(-1) / 180)};
     const int fall_off = choice(made, SLOT_CONE_FALL_OFF);
     const double exponents[] = {spot ? value(made, FACTOR_SPOT_EXPONENT_VALUE,
                                              light->exponent * factor(made, FACTOR_SPOT_EXPONENT))

@@ -461,14 +461,16 @@ static bool prove(Sandbox *sandbox, const char *hidden, Message *message)
     return done;
 }
 
-bool sandbox_open(Sandbox *sandbox, const char *folder, double seconds, const char *hidden,
+bool sandbox_open(Sandbox *sandbox, const Lab *lab, double seconds, const char *hidden,
                   Message *message)
 {
     Message why = {.text = ""};
     *sandbox = (Sandbox){.bubblewrap = true, .seconds = seconds};
-    snprintf(sandbox->folder, sizeof sandbox->folder, "%s", folder ? folder : "");
-    if (!paths_program(sandbox->program, message))
+    if (!lab_folder(lab, sandbox->folder, message) || !paths_program(sandbox->program, message))
         return false;
+    char *slash = strrchr(sandbox->folder, '/');
+    if (slash)
+        *slash = '\0';
     if (prove(sandbox, hidden, &why) && (sandbox->proven & SANDBOX_LIMITS))
         return true;
     message_set(message, "bubblewrap: %s", why.text[0] ? why.text : "the limits do not hold");
@@ -479,6 +481,16 @@ bool sandbox_open(Sandbox *sandbox, const char *folder, double seconds, const ch
     message_add(message, "; and without it: %s",
                 why.text[0] ? why.text : "the limits do not hold either");
     return false;
+}
+
+bool sandbox_admits(const Sandbox *sandbox, const Lab *lab, Message *message)
+{
+    return !lab->code || (sandbox->proven & SANDBOX_NO_FILES)
+               ? true
+               : message_set(message,
+                             "%s: has C, which runs only in a sandbox; install the package "
+                             "bubblewrap",
+                             lab->name);
 }
 
 void sandbox_describe(const Sandbox *sandbox, char text[256])

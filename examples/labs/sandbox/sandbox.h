@@ -14,6 +14,7 @@
 #define SANDBOX_H
 
 #include "base/message.h"
+#include "labs/program/lab.h"
 
 #include <limits.h>
 #include <stddef.h>
@@ -41,14 +42,17 @@ typedef struct Sandbox {
     bool bubblewrap;
     unsigned proven;        /* of SandboxProof */
     char program[PATH_MAX]; /* this one */
-    char folder[PATH_MAX];  /* of the labs, readable; may be empty */
+    char folder[PATH_MAX];  /* of all labs, readable: it also has the headers for their C */
     double seconds;         /* of processor time per run; see sandbox_patience */
 } Sandbox;
 
-/* Opens the best sandbox that works. `hidden` is an existing path that the sandbox must not see.
- * False: not even the limits hold. */
-bool sandbox_open(Sandbox *sandbox, const char *folder, double seconds, const char *hidden,
+/* Opens the best sandbox that works for a lab's submissions. `hidden` is an existing path that the
+ * sandbox must not see. False: not even the limits hold. */
+bool sandbox_open(Sandbox *sandbox, const Lab *lab, double seconds, const char *hidden,
                   Message *message);
+
+/* False, with a message: the lab has C, which runs only where it sees no files. */
+bool sandbox_admits(const Sandbox *sandbox, const Lab *lab, Message *message);
 
 /* What is proven, in one line. */
 void sandbox_describe(const Sandbox *sandbox, char text[256]);

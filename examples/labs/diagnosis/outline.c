@@ -1,0 +1,83 @@
+#include "labs/diagnosis/outline.h"
+
+#include "labs/diagnosis/wrong_program.h"
+
+/* The background is a colour that neither draws. */
+static const Vec3 GREEN = {0, 1, 0};
+
+static bool is_green(const Image *image, int pixel)
+{
+    const unsigned char *p = (const unsigned char *)image->pixels + 4 * (size_t)pixel;
+    return p[0] == 0 && p[1] == 255 && p[2] == 0;
+}
+
+static bool draw_right(const Shader *shader, const Probe *probe, const SubmissionGeometry *geometry,
+                       Canvas *canvas, Image *image, Message *message)
+{
+    const GLint position = glGetAttribLocation(shader->program, "a_Position");
+    const GLint clip = glGetUniformLocation(shader->program, "u_Clip");
+    const double aspect = (double)probe->width / probe->height;
+    Mat4 eye_from_world, clip_from_eye;
+    ProbeBuffers buffers;
+    if (!canvas_resize(canvas, probe->width, probe->height, message) ||
+        !scene_camera(&probe->scene.camera, aspect, &eye_from_world, &clip_from_eye, message) ||
+        !probe_buffers_open(&buffers, probe, geometry, message))
+        return false;
+    canvas_clear(canvas, GREEN, 1);
+    glUseProgram(shader->program);
+    glEnable(GL_DEPTH_TEST);
+    if (buffers.cull)
+        glEnable(GL_CULL_FACE);
+    for (int i = 0; i < probe->scene.object_count; i++) {
+        const MeshBuffer *mesh = &buffers.buffers[i];
+        const Mat4 eye_from_object =
+            mat4_product(eye_from_world, probe->objects[i].world_from_object);
+        shader_set_mat4(clip, mat4_product(clip_from_eye, eye_from_object));
+        mesh_buffer_bind(mesh, position, -1);
+        glDrawElements(GL_TRIANGLES, mesh->index_count, mesh->index_type, NULL);
+    }
+    glDisable(GL_CULL_FACE);
+    probe_buffers_close(&buffers);
+    return canvas_read(canvas, image, message);
+}
+
+/* *apart: how many pixels only one of the two covers. */
+static bool compare(const Shader *shader, const Painter *painter, const Probe *original,
+                    const SubmissionGeometry *geometry, Canvas *canvas, int *apart,
+                    Message *message)
+{
+    Probe probe = *original; /* its scene's arrays are the original's */
+    Image image = {0}, right = {0};
+    probe.scene.background = GREEN;
+    const bool done = image_open(&image, probe.width, probe.height, IMAGE_BYTE, message) &&
+                      image_open(&right, probe.width, probe.height, IMAGE_BYTE, message) &&
+                      painter_draw(painter, &probe, geometry, canvas, &image, message) &&
+                      draw_right(shader, &probe, geometry, canvas, &right, message);
+    *apart = 0;
+    for (int p = 0; p < probe.width * probe.height && done; p++)
+        *apart += is_green(&image, p) != is_green(&right, p);
+    image_close(&image);
+    image_close(&right);
+    return done;
+}
+
+bool outline_check(const Shots *shots, const Painter *painter, Canvas *canvas, bool *wrong,
+                   Message *message)
+{
+    enum { ROUNDING = 6 }; /* pixels, at edges */
+    const ShaderLoader loader = {.precision = "highp"};
+    Shader shader;
+    *wrong = false;
+    if (!shader_open(&shader, &loader, "labs/outline", message))
+        return false;
+    bool done = true;
+    for (int i = 0; i < shots->count && !*wrong && done; i++) {
+        const SubmissionGeometry geometry = shots_geometry(shots, i);
+        int apart = 0;
+        done =
+            compare(&shader, painter, &shots->shots[i].probe, &geometry, canvas, &apart, message);
+        *wrong = apart > ROUNDING;
+    }
+    shader_close(&shader);
+    return done;
+}
