@@ -42,7 +42,7 @@ done
 # Without the column of times.
 same() {
     for out in whole "$1"; do
-        cut -d, -f1-11,13 "$out/class.csv" >"$out.csv"
+        cut -d, -f1-12,14 "$out/class.csv" >"$out.csv"
     done
     cmp whole.csv "$1.csv" || {
         echo "cluster_by_hand.sh: $1 differs from the class judged at once" >&2

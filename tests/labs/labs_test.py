@@ -205,7 +205,7 @@ class Wrong(Labs):
             (lab, name, 5 + i % 3)
             for lab in LABS
             for i, name in enumerate(mistakes.of_lab(lab))
-            if i % (3 * base.step(4)) == lab % 3
+            if i % (3 * base.step(10)) == lab % 3
         ]
         self.assert_named(in_parallel(judge_single, jobs), 0.95)
 
@@ -214,10 +214,10 @@ class Wrong(Labs):
         jobs = [
             (lab, first, second, 9) for lab in LABS for first, second in pairs_of(lab, 4, chance)
         ]
-        self.assert_named(in_parallel(judge_pair, jobs[:: base.step(4)]), 0.7)
+        self.assert_named(in_parallel(judge_pair, jobs[:: base.step(10)]), 0.7)
 
     def test_an_unknown_mistake_gets_no_name(self):
-        names = list(mistakes.ART)[:: base.step(4)]
+        names = list(mistakes.ART)[:: base.step(7)]
         jobs = [(*mistakes.art(name), 4) for name in names]
         for name, result in zip(names, in_parallel(check_texts, jobs)):
             self.assertEqual(result["verdict"], "wrong", (name, result["message"]))

@@ -251,7 +251,7 @@ static bool explain(Session *session, const Painter *painter, const char *number
         snprintf(verdict->message, sizeof verdict->message, "unchanged: this is the starter");
         return true;
     }
-    if (numbers[0] && session->lab->budget) {
+    if (numbers[0] && !session->lab->given) {
         blame_known(verdict, "depends on the picture's size");
         verdict_add_symptom(verdict, "%s", numbers);
         return true;
@@ -284,10 +284,11 @@ static bool look_closer(Session *session, const Painter *painter, int worst, boo
     if (!outline_check(&session->shots, painter, &session->canvas, &session->moved, message))
         return false;
     *wrong = session->lab->given ? !matrices_are_right(&session->shots, numbers) : session->moved;
-    if (session->lab->budget && !shots_check_sizes(&session->shots, session->options->seed, painter,
-                                                   &session->canvas, &right, message))
+    if (worst < 0 && !*wrong && !session->lab->given &&
+        !shots_check_sizes(&session->shots, session->options->seed, painter, &session->canvas,
+                           &right, message))
         return false;
-    if (!right && worst < 0) {
+    if (!right) {
         *wrong = true;
         snprintf(numbers, VERDICT_SENTENCE_SIZE,
                  "The picture is right at small sizes only: it depends on the picture's size or "

@@ -271,10 +271,14 @@ static bool add_entry(FoundList *list, const char *folder, const char *entry, Me
     if (known && notes)
         message_add(notes, "%s%s: more than one submission; the %s is judged, which is the latest",
                     notes->text[0] ? "\n" : "", name.student, kinds[later ? kind : found->kind]);
+    if (known)
+        found->attempt++;
     if (again && !later)
         return true;
     if (!found && !(found = add_found(list, message)))
         return false;
+    if (found->attempt <= name.attempt)
+        found->attempt = name.attempt + 1;
     found->name = name;
     found->kind = kind;
     found->changed = changed;

@@ -59,6 +59,7 @@ typedef struct Found {
         int attempt;
     } * files; /* of FOUND_FILES */
     int count;
+    int attempt; /* how many attempts there are: the latest is judged */
 } Found;
 
 typedef struct FoundList {

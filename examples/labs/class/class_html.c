@@ -266,6 +266,8 @@ static void put_link(FILE *file, const ClassResult *result)
            "</bdi></a>");
     if (result->id[0] && strcmp(result->id, result->student) != 0)
         MARKUP(file, " <span class=\"dim\">", result->id, "</span>");
+    if (result->attempt > 1)
+        fprintf(file, " <span class=\"dim\">attempt&nbsp;%d</span>", result->attempt);
 }
 
 static void put_students(FILE *file, const ClassStore *store)
@@ -280,6 +282,7 @@ static void put_students(FILE *file, const ClassStore *store)
         put_link(file, &store->results[i]);
         fprintf(file, "</th><td class=\"number\">%g</td><td class=\"%s\">%s</td><td>",
                 verdict->points, kind, kind);
+        fputs(verdict->one_of ? "one of: " : "", file);
         for (int j = 0; j < verdict->mistake_count; j++)
             MARKUP(file, j ? "; " : "", verdict->mistakes[j].name);
         if (verdict->mistake_count == 0 && verdict->kind != VERDICT_RIGHT)

@@ -198,6 +198,7 @@ static bool start(Judging *judging, Job *job, const Found *found, int slot, bool
         (ClassResult){.limit = judging->options->limit, .verdict.seed = judging->options->seed};
     memcpy(job->result.student, found->name.student, sizeof job->result.student);
     memcpy(job->result.id, found->name.id, sizeof job->result.id);
+    job->result.attempt = found->attempt;
     memcpy(job->result.folder, found->folder, sizeof job->result.folder);
     snprintf(job->result.lab, sizeof job->result.lab, "%s", judging->lab->name);
     *ended = true;

@@ -51,14 +51,17 @@ static unsigned char *read_file(const char *path, size_t *size, Message *message
 static bool from_json(const json_t *object, ClassResult *result, Message *message)
 {
     char hash[32];
-    double when = 0;
+    double when = 0, attempt = 1;
     if (!verdict_from_json(object, result->lab, &result->verdict, message) ||
         !verdict_text(object, "student", result->student, sizeof result->student, message) ||
         !verdict_text(object, "id", result->id, sizeof result->id, message) ||
         !verdict_text(object, "hash", hash, sizeof hash, message) ||
         !verdict_number(object, "limit", 0, 1e9, &result->limit, message) ||
-        !verdict_number(object, "when", 0, 1e15, &when, message))
+        !verdict_number(object, "when", 0, 1e15, &when, message) ||
+        (json_object_get(object, "attempt") &&
+         !verdict_number(object, "attempt", 0, 1e6, &attempt, message)))
         return false;
+    result->attempt = (int)attempt;
     result->hash = strtoull(hash, NULL, 16);
     result->when = (long long)when;
     result->finished = json_is_true(json_object_get(object, "finished"));
@@ -200,9 +203,10 @@ static bool write_result(const char *path, const ClassResult *result, Message *m
     char hash[32];
     snprintf(hash, sizeof hash, "%016" PRIx64, result->hash);
     json_t *object = verdict_to_json(&result->verdict, result->lab);
-    json_t *own = json_pack("{s:s, s:s, s:s, s:b, s:f, s:I}", "student", result->student, "id",
-                            result->id, "hash", hash, "finished", (int)result->finished, "limit",
-                            result->limit, "when", (json_int_t)result->when);
+    json_t *own =
+        json_pack("{s:s, s:s, s:i, s:s, s:b, s:f, s:I}", "student", result->student, "id",
+                  result->id, "attempt", result->attempt, "hash", hash, "finished",
+                  (int)result->finished, "limit", result->limit, "when", (json_int_t)result->when);
     char *text = object && own && json_object_update(object, own) == 0
                      ? json_dumps(object, JSON_INDENT(2) | JSON_REAL_PRECISION(9))
                      : NULL;

@@ -15,6 +15,7 @@ typedef struct ClassResult {
     char student[CLASS_STUDENT_SIZE];
     char id[CLASS_ID_SIZE];
     char folder[CLASS_FOLDER_SIZE]; /* in OUT/students */
+    int attempt;                    /* from 1 */
     char lab[64];
     uint64_t hash;  /* of the submission */
     bool finished;  /* else judging timed out or failed */

@@ -88,18 +88,18 @@ bool class_table_csv(const ClassStore *store, Message *message)
     ClassFile out;
     if (!class_file_open(&out, message))
         return false;
-    fputs("student,id,lab,points,most,verdict,mistakes,message,error,time_ratio,operations,"
+    fputs("student,id,attempt,lab,points,most,verdict,mistakes,message,error,time_ratio,operations,"
           "seconds,folder\r\n",
           out.file);
     for (int i = 0; i < store->count; i++) {
         const ClassResult *result = &store->results[i];
         const Verdict *verdict = &result->verdict;
-        const char *const texts[] = {result->student, result->id, result->lab};
-        for (int j = 0; j < 3; j++) {
-            class_table_csv_field(out.file, texts[j]);
-            fputc(',', out.file);
-        }
-        fprintf(out.file, "%g,%d,%s,", verdict->points, VERDICT_MAX_POINTS,
+        class_table_csv_field(out.file, result->student);
+        fputc(',', out.file);
+        class_table_csv_field(out.file, result->id);
+        fprintf(out.file, ",%d,", result->attempt);
+        class_table_csv_field(out.file, result->lab);
+        fprintf(out.file, ",%g,%d,%s,", verdict->points, VERDICT_MAX_POINTS,
                 VERDICT_NAMES[verdict->kind]);
         put_mistakes(out.file, verdict);
         fputc(',', out.file);
@@ -141,6 +141,7 @@ bool class_table_json(const ClassStore *store, Message *message)
         json_t *object = verdict_to_json(&result->verdict, result->lab);
         json_object_set_new(object, "student", json_string(result->student));
         json_object_set_new(object, "id", json_string(result->id));
+        json_object_set_new(object, "attempt", json_integer(result->attempt));
         json_object_set_new(object, "folder", json_string(result->folder));
         json_object_set_new(object, "finished", json_boolean(result->finished));
         json_array_append_new(students, object);

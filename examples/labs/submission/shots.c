@@ -175,25 +175,36 @@ ErrorSum shots_error(const Shots *shots, int i, int truth)
     return compare_exact(&shot->image, &shot->truths[truth], shot->mask.color ? &shot->mask : NULL);
 }
 
-/* Draws the lab's own scene at a size and place, and compares with the exact picture. */
-static bool check_size(const Shots *shots, const Painter *painter, Canvas *canvas, int size,
-                       int left, int top, bool *right, Message *message)
+/* A size and a place in a larger picture. */
+typedef struct Place {
+    int width, height, left, top;
+} Place;
+
+/* Draws the lab's own scene there, and compares with the exact picture. */
+static bool check_place(const Shots *shots, const Painter *painter, Canvas *canvas, Place place,
+                        bool *right, Message *message)
 {
     Probe probe;
     Image image = {0};
     Reference exact = {.width = 0}, mask = {.width = 0};
     Object objects[PROBE_MAX_OBJECTS];
-    const SubmissionGeometry geometry = {.mesh = &shots->mesh, .cull = shots->geometry.cull};
+    const bool budget = shots->lab->budget;
+    const SubmissionGeometry geometry = {.mesh = budget ? &shots->mesh : NULL,
+                                         .cull = shots->geometry.cull};
     if (!probe_open_usual(&probe, shots->lab, 1, message))
         return false;
-    probe.width = probe.height = size;
-    Scene scene = shots_truth_scene(shots->lab, &probe, 0, objects);
-    bool done = open_exact(&exact, &probe, &scene, false, message);
-    objects[0].mesh = &shots->mesh;
-    done = done && open_exact(&mask, &probe, &scene, true, message) &&
-           image_open(&image, size, size, IMAGE_BYTE, message) &&
-           painter_draw_at(painter, &probe, &geometry, canvas, left, top, &image, message);
-    if (done && compare_exact(&image, &exact, &mask).maximum > BUDGET_TOLERANCE)
+    probe.width = place.width;
+    probe.height = place.height;
+    Scene scene = shots_truth_scene(shots->lab, &probe, shots->truth, objects);
+    bool done = open_exact(&exact, &probe, &scene, !budget, message);
+    if (budget)
+        objects[0].mesh = &shots->mesh;
+    done =
+        done && (!budget || open_exact(&mask, &probe, &scene, true, message)) &&
+        image_open(&image, place.width, place.height, IMAGE_BYTE, message) &&
+        painter_draw_at(painter, &probe, &geometry, canvas, place.left, place.top, &image, message);
+    if (done && compare_exact(&image, &exact, budget ? &mask : NULL).maximum >
+                    (budget ? BUDGET_TOLERANCE : COMPARE_TOLERANCE))
         *right = false;
     image_close(&image);
     reference_close(&exact);
@@ -207,12 +218,15 @@ bool shots_check_sizes(const Shots *shots, uint64_t seed, const Painter *painter
 {
     enum { COUNTED = 400 };
     Random random = {seed * 7919 + 17};
-    const int size = (int)random_between(&random, 100, 300);
-    const int left = (int)random_between(&random, 1, 300),
-              top = (int)random_between(&random, 1, 300);
+    Place place;
+    place.width = (int)random_between(&random, 200, 340);
+    place.height = (int)random_between(&random, 200, 340);
+    place.left = (int)random_between(&random, 1, 300);
+    place.top = (int)random_between(&random, 1, 300);
     *right = true;
-    return check_size(shots, painter, canvas, COUNTED, 0, 0, right, message) &&
-           check_size(shots, painter, canvas, size, left, top, right, message);
+    return (!shots->lab->budget ||
+            check_place(shots, painter, canvas, (Place){COUNTED, COUNTED, 0, 0}, right, message)) &&
+           check_place(shots, painter, canvas, place, right, message);
 }
 
 void shots_close(Shots *shots)
