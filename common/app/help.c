@@ -2,6 +2,7 @@
 
 #include "base/version.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -38,6 +39,8 @@ static const char *placeholder(const Parameter *option, char text[TEXT_SIZE])
         return "TEXT";
     if (option->kind == PARAMETER_COLOR)
         return "R,G,B";
+    if (fmax(fabs(option->min), fabs(option->max)) >= 1e6)
+        return option->kind == PARAMETER_WHOLE ? "N" : "NUMBER";
     snprintf(text, TEXT_SIZE, "%.10g..%.10g", option->min, option->max);
     return text;
 }
@@ -45,14 +48,14 @@ static const char *placeholder(const Parameter *option, char text[TEXT_SIZE])
 /* What the option is, the range of a colour, and the default. */
 static const char *meaning(const Parameter *option, char text[TEXT_SIZE])
 {
-    char buffer[PARAMETER_TEXT_SIZE], range[64] = "";
+    char buffer[PARAMETER_TEXT_SIZE], range[PARAMETER_RANGE_SIZE] = "";
     const char *usual =
         option->standard || !option->value ? option->standard : parameter_text(option, buffer);
     const bool shown = usual && usual[0];
     if (option->kind == PARAMETER_COLOR)
-        snprintf(range, sizeof range, ", each %g to %g", option->min, option->max);
-    snprintf(text, TEXT_SIZE, "%s%s%s%s", option->help, range, shown ? "; default " : "",
-             shown ? usual : "");
+        parameter_range(option, range);
+    snprintf(text, TEXT_SIZE, "%s%s%s%s%s", option->help, range[0] ? ", each " : "", range,
+             shown ? "; default " : "", shown ? usual : "");
     return text;
 }
 
@@ -147,9 +150,39 @@ static void print_roff(const char *text)
     }
 }
 
+/* Variables for which there is an option too only where it is in the table. */
+static void print_environment(const Parameter *table)
+{
+    static const struct {
+        const char *name, *option, *help;
+    } variables[] = {
+        {"LIGHTING_BACKEND", "backend", "What draws, unless --backend says so."},
+        {"LIGHTING_SHADERS", "shaders", "A folder with shader files, after that of --shaders."},
+        {"LIGHTING_FONT", NULL, "The TrueType file for labels in pictures."},
+        {"LP_NUM_THREADS", NULL, "The threads of Mesa's llvmpipe."},
+        {"NO_COLOR", NULL, "If set and not empty, messages on a terminal have no colour."},
+        {"SOURCE_DATE_EPOCH", NULL,
+         "The date in EXR and TIFF files, in seconds since 1970; 0 if it is not set."},
+        {"XDG_CACHE_HOME", NULL,
+         "Where lighting/ keeps what takes long to compute; ~/.cache if it is not set."},
+    };
+    printf(".SH ENVIRONMENT\n");
+    for (size_t i = 0; i < sizeof variables / sizeof variables[0]; i++) {
+        const Parameter *option = table;
+        while (option->name && variables[i].option && strcmp(option->name, variables[i].option))
+            option++;
+        if (!option->name)
+            continue;
+        printf(".TP\n.B %s\n", variables[i].name);
+        print_roff(variables[i].help);
+        printf("\n");
+    }
+}
+
 static void print_man(const Usage *usage, const Parameter *table)
 {
     char text[DETAILS_SIZE];
+    const Parameter *first = table;
     printf(".TH %s 1 \"\" \"lighting %s\" \"User Commands\"\n.ad l\n.SH NAME\n%s \\- ", usage->name,
            VERSION, usage->name);
     print_roff(usage->summary);
@@ -167,8 +200,12 @@ static void print_man(const Usage *usage, const Parameter *table)
         print_roff(meaning(table, text));
         printf("\n");
     }
+    print_environment(first);
     const char *last = details(usage, text);
-    printf(".SH EXIT STATUS\n" EXIT_STATUS "\n%s", last[0] ? ".SH NOTES\n.nf\n" : "");
+    printf(".SH EXIT STATUS\n.TP\n0\nEverything was done.\n"
+           ".TP\n%d\nSomething failed: a file, the driver, the machine.\n"
+           ".TP\n%d\nThe command line is wrong; nothing was written.\n%s",
+           EXIT_FAILED, EXIT_USAGE, last[0] ? ".SH NOTES\n.nf\n" : "");
     print_roff(last);
 }
 

@@ -41,7 +41,7 @@ static bool read_angle(const Parameter *parameter, const char *text, Message *me
 {
     double *seconds = parameter->value;
     if (!parse_number(text, -3e10, 3e10, seconds))
-        return message_set(message, "--angle %s: must be degrees, -3e10 to 3e10", text);
+        return message_set(message, "--angle %s: must be degrees, -30 billion to 30 billion", text);
     *seconds /= DEGREES_PER_SECOND;
     return true;
 }

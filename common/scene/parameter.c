@@ -2,6 +2,8 @@
 
 #include "base/parse.h"
 
+#include <float.h>
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -31,11 +33,44 @@ static int find_choice(const Parameter *parameter, const char *text, Message *me
     return -1;
 }
 
+/* As people say it: "1 million" instead of 1000000. */
+static void write_bound(double bound, char text[32])
+{
+    static const struct {
+        double size;
+        const char *name;
+    } units[] = {{1e9, " billion"}, {1e6, " million"}, {1, ""}};
+    int k = 0;
+    while (k < 2 && (fabs(bound) < units[k].size || fmod(bound, units[k].size / 10) != 0))
+        k++;
+    snprintf(text, 32, "%.10g%s", bound / units[k].size, units[k].name);
+}
+
+const char *parameter_range(const Parameter *parameter, char text[PARAMETER_RANGE_SIZE])
+{
+    const bool whole = parameter->kind == PARAMETER_WHOLE;
+    const double most = whole ? INT_MAX : (double)FLT_MAX, least = whole ? INT_MIN : -most;
+    char min[32], max[32];
+    write_bound(parameter->min, min);
+    write_bound(parameter->max, max);
+    if (parameter->min > least && parameter->max < most)
+        snprintf(text, PARAMETER_RANGE_SIZE, "%s to %s", min, max);
+    else if (parameter->min > least || parameter->max < most)
+        snprintf(text, PARAMETER_RANGE_SIZE, parameter->min > least ? "%s or more" : "%s or less",
+                 parameter->min > least ? min : max);
+    else
+        text[0] = '\0';
+    return text;
+}
+
 static bool out_of_range(const Parameter *parameter, const char *text, const char *what,
                          Message *message)
 {
-    return message_set(message, "--%s %s: must be %s %.10g to %.10g", parameter->name, text, what,
-                       parameter->min, parameter->max);
+    char range[PARAMETER_RANGE_SIZE];
+    const char *separator = parameter->kind == PARAMETER_COLOR ? ", each " : ", ";
+    parameter_range(parameter, range);
+    return message_set(message, "--%s %s: must be %s%s%s", parameter->name, text, what,
+                       range[0] ? separator : "", range);
 }
 
 static bool read_color(const Parameter *parameter, const char *text)
@@ -58,13 +93,13 @@ static bool read_kind(const Parameter *parameter, const char *text, int choice, 
     switch (parameter->kind) {
     case PARAMETER_NUMBER:
         return parse_number(text, min, max, value) ||
-               out_of_range(parameter, text, "a number,", message);
+               out_of_range(parameter, text, "a number", message);
     case PARAMETER_WHOLE:
         return parse_whole(text, (int)min, (int)max, value) ||
-               out_of_range(parameter, text, "a whole number,", message);
+               out_of_range(parameter, text, "a whole number", message);
     case PARAMETER_COLOR:
         return read_color(parameter, text) ||
-               out_of_range(parameter, text, "R,G,B or one number, each", message);
+               out_of_range(parameter, text, "R,G,B or one number", message);
     case PARAMETER_CHOICE:
         *(int *)value = choice;
         return true;

@@ -49,6 +49,10 @@ const char *const *parameter_choices(const Parameter *parameter);
  * its range, or the nearest choice. */
 bool parameter_read(const Parameter *parameter, const char *text, Message *message);
 
+/* The range of a number or color, "0 to 10", "-1 or more"; "" if the type alone limits it. */
+enum { PARAMETER_RANGE_SIZE = 80 };
+const char *parameter_range(const Parameter *parameter, char text[PARAMETER_RANGE_SIZE]);
+
 /* A copy of a parameter's value. */
 typedef union ParameterValue {
     double number;

@@ -46,7 +46,7 @@ static const Parameter parameters[] = {
      "-1: off",
      PARAMETER_NUMBER, .value = &time_budget, .min = -1, .max = 1e6},
     {"setting", "measure only this setting of --scene: \"AXIS=CHOICE ...\", or \"usual\"",
-     PARAMETER_TEXT, .value = &quality_asked},
+     PARAMETER_TEXT, .value = &quality_asked, .placeholder = "SETTING"},
     {"quick", "a tenth of the settings, in half a minute", PARAMETER_FLAG, .value = &quick},
     {"fresh", "drop the folder's earlier rows, and measure them again", PARAMETER_FLAG,
      .value = &fresh},

@@ -489,6 +489,31 @@ class Generated(Case):
                 if shutil.which(shell):
                     self.assertEqual(self.shell(shell, "-n", shell), "")
 
+    def test_ranges_are_said_as_people_say_them(self):
+        machine = r"\de[+]?\d|\d{7}|\bTEXT\b"
+        for program in EVERY[::step(3)]:
+            text = self.good("--help", program=program).decode()
+            self.assertNotRegex(text, machine)
+            for name in re.findall(r"^ .*--([\w-]+) (?:\S+\.\.\S+|N|F|E|SECONDS|DEG|NUMBER)(?: |$)",
+                                   text, re.M):
+                result = self.run_it(f"--{name}=x", program=program)
+                self.assertEqual(result.returncode, 2)
+                self.assertNotRegex(result.stderr.decode(), machine)
+        for said, *arguments in (("--frames x: must be a whole number, 1 to 1 million", "-n", "x"),
+                                 ("--time x: must be a number, -1 billion to 1 billion", "-t", "x"),
+                                 ("--fps 0: must be a number, 0.001 to 1 million", "--fps", "0")):
+            self.refused(2, f"^LightedCube: {said}\n$", *arguments)
+        self.refused(2, "^check: --seed x: must be a whole number, -1 or more\n$", "--seed", "x", "1",
+                     ".", program="check")
+
+    def test_man_pages_name_exit_codes_and_environment(self):
+        for program, has in (("LightedCube", True), ("Vectors", False), ("check", True)):
+            if program in EVERY and os.path.exists(os.path.join(EXAMPLES, program)):
+                text = self.generate("man", program)
+                for word in ".TP\n2\n", "NO_COLOR", "XDG_CACHE_HOME", "SOURCE_DATE_EPOCH":
+                    self.assertIn(word, text)
+                self.assertEqual("LIGHTING_SHADERS" in text.partition(".SH ENVIRONMENT")[2], has)
+
     @unittest.skipUnless(shutil.which("groff"), "groff is not installed")
     def test_man_pages_are_typeset_without_warnings(self):
         for program in EVERY:
