@@ -229,9 +229,23 @@ static bool run_diagram(const Example *example, const Options *options, Message 
     return sink_close(&sink, done, message);
 }
 
-static bool run_example(const Example *example, const Options *options,
+/* A folder without a shader of this program is probably the wrong one. */
+static void tell_unused_folder(const char *program, const char *folder, const ShaderFiles *files)
+{
+    const size_t length = strlen(folder);
+    for (int i = 0; i < files->count; i++)
+        if (files->files[i].text && strncmp(files->files[i].path, folder, length) == 0 &&
+            files->files[i].path[length] == '/')
+            return;
+    fprintf(stderr, "%s: --shaders %s: no effect here; no shader file of this program is there\n",
+            program, folder);
+}
+
+static bool run_example(const Example *example, const Options *given,
                         const ParameterValue *defaults, Message *message)
 {
+    ShaderFiles files = {.count = 0};
+    Options own = *given, *options = &own;
     char first[PATH_MAX];
     Canvas canvas = {0};
     Stage stage = {.example = NULL};
@@ -260,6 +274,7 @@ static bool run_example(const Example *example, const Options *options,
         canvas_close(&canvas);
         return done;
     }
+    options->shaders.files = &files;
     bool done = stage_open(&stage, example, &canvas, options, message);
     if (done)
         stage_warn(&stage);
@@ -271,6 +286,9 @@ static bool run_example(const Example *example, const Options *options,
         done = sink_open(&sink, &canvas, options, message) &&
                draw_pictures(&stage, options, sink.queue, message);
     stage_close(&stage);
+    if (done && options->shaders.folder)
+        tell_unused_folder(example->name, options->shaders.folder, &files);
+    shader_files_close(&files);
     /* Closing the driver takes as long as encoding the last picture: do both at once. */
     const double start = clock_now();
     canvas_close(&canvas);
@@ -310,8 +328,8 @@ static void tell_written(const Example *example, const Options *options)
     const int count = options->frames;
     char first[PATH_MAX], last[PATH_MAX];
     if (options_in_window(options) || options->shaders.print || options->explain ||
-        options->part.count || strcmp(options->output, "-") == 0 || !picture_path(options, 0, first, NULL) ||
-        !picture_path(options, count - 1, last, NULL))
+        options->part.count || strcmp(options->output, "-") == 0 ||
+        !picture_path(options, 0, first, NULL) || !picture_path(options, count - 1, last, NULL))
         return;
     if (count == 1)
         options_tell(example->name, "wrote %s, %dx%d", first, options->width, options->height);

@@ -123,7 +123,13 @@ bool process_last_line(int file, char *line, size_t size)
     if (length <= 0)
         return false;
     text[length] = '\0';
-    const char *newline = strrchr(text, '\n');
+    char *newline = strrchr(text, '\n');
+    /* ffmpeg's last line may end in a dash after which nothing comes: the line before has the
+     * reason. */
+    if (newline && length > 2 && strcmp(text + length - 2, "--") == 0) {
+        *newline = '\0';
+        newline = strrchr(text, '\n');
+    }
     snprintf(line, size, "%s", newline ? newline + 1 : text);
     for (char *c = line; *c; c++)
         *c = (unsigned char)*c < ' ' ? ' ' : *c;

@@ -142,7 +142,7 @@ static bool light_terms(const Scene *scene, const Object *object, int number, co
     terms->ambient = light_ambient_varies(light) &&
                      reflected(light->ambient, front->ambient, back->ambient, both);
     if (!terms->diffuse && !terms->specular && !terms->ambient) {
-        say(file, "without light %d: the material reflects none of its color%s", number,
+        say(file, "without light %d: the material reflects none of its colour%s", number,
             reflected(light->ambient, front->ambient, back->ambient, both)
                 ? " but the ambient, which is constant and part of the base"
                 : "");
@@ -256,12 +256,12 @@ static void decide_output(const Scene *scene, Effects *effects, bool at_vertices
     say(file,
         effects->clamp_vertex ? "clamping at the vertices: requested"
                               : "without clamping at the vertices: %s",
-        !scene->clamp_vertex ? "not requested" : "colors are not interpolated");
+        !scene->clamp_vertex ? "not requested" : "colours are not interpolated");
     effects->show_clipped = scene->show_clipped && !clamped;
     say(file,
         effects->show_clipped ? "overexposed pixels highlighted: requested"
                               : "without highlighting overexposed pixels: %s",
-        scene->show_clipped ? "colors are clamped at the vertices" : "not requested");
+        scene->show_clipped ? "colours are clamped at the vertices" : "not requested");
     effects->linear = scene->linear;
     say(file,
         effects->linear ? "sRGB encoding: requested" : "without sRGB encoding: not requested");

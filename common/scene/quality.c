@@ -11,7 +11,7 @@
 
 const QualityAxisInfo QUALITY_AXES[AXIS_COUNT] = {
     [AXIS_INTERPOLATION] = {.name = "interpolation",
-                            .help = "of normals, of colors, or neither",
+                            .help = "of normals, of colours, or neither",
                             CHOICES("phong", "gouraud", "flat")},
     [AXIS_DIVISIONS] = {.name = "divisions",
                         .help = "the parts into which a full turn, or a side, is cut",

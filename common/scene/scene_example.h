@@ -108,8 +108,12 @@ void light_colors_apply(const LightColors *colors, Light *light);
 /* A ShapeKind and a model's file name. */
 #define SHAPE_PARAMETERS(kind, model)                                                              \
     {"shape", "what is lit", PARAMETER_CHOICE, .value = &(kind), .choices = SHAPE_NAMES},          \
-        {"model", "a model file (OBJ, PLY, glTF, 3DS...) instead of the shape", PARAMETER_TEXT,    \
-         .value = &(model).path, .placeholder = "FILE"},                                           \
+        {"model",                                                                                  \
+         "a model file (OBJ, PLY, glTF, 3DS...) instead of the shape",                             \
+         PARAMETER_TEXT,                                                                           \
+         .value = &(model).path,                                                                   \
+         .placeholder = "FILE",                                                                    \
+         .min = 1},                                                                                \
     {                                                                                              \
         "up", "the axis of the model file that points up", PARAMETER_CHOICE,                       \
             .value = &(model).up, .choices = SHAPE_UP_NAMES                                        \

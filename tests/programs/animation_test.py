@@ -410,6 +410,8 @@ class Encoders(Animations):
                 ("head -c 20000 >/dev/null; echo before >&2; echo the last line >&2; exit 1",
                  "cannot write: ffmpeg: the last line$"),
                 ("cat >/dev/null; echo too late >&2; exit 1", "ffmpeg: too late$"),
+                ("cat >/dev/null; echo the reason >&2; echo 'in stream 0:0 -- ' >&2; exit 1",
+                 "ffmpeg: the reason$"),
                 ("cat >/dev/null; echo not even 1 >&2", "ffmpeg: not even 1$"),
                 ("exit 3", "ffmpeg ended with status 3, and gave no reason$"),
                 ("head -c 20000 >/dev/null", "ffmpeg ended before the last picture$"),

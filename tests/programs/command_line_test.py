@@ -717,6 +717,12 @@ class Shaders(Case):
         self.refused(1, "^LightedCube: LIGHTING_SHADERS=nowhere: ",
                      environment={"LIGHTING_SHADERS": "nowhere"})
 
+    def test_a_folder_without_a_shader_of_the_program_is_said(self):
+        self.make("mine/SpotLight.frag")
+        for program in "LightedCube", "ShadingModels":
+            self.says(0, r"^\w+: --shaders mine: no effect here; no shader file of this program is "
+                      r"there\n$", *SMALL, "--shaders", "mine", program=program)
+
     def test_a_broken_shader_is_said_with_its_line(self):
         original = self.original()
         lines = original.count("\n")
@@ -869,6 +875,7 @@ class Scenes(Case):
                 ("ShadingModels", r"--shape square: must be cube, sphere, .* or \S+$", "--shape", "square"),
                 ("ShadingModels", "blinn-phong or phong", "--reflection", "lambert"),
                 ("FourLights", "on or off", "--red", "maybe"),
+                ("ShadingModels", "--model: the name is empty", "--model", ""),
                 ("PhongBlinn", "1 to 30", "--shininess", "31"),
                 ("LightTypes", "vertex or end", "--clamp", "never"),
                 ("LightedCube", "no such option", "--explain")):

@@ -186,7 +186,7 @@ TEST_WITH(0, a_light_that_is_off_or_black_is_left_out, set_up, NULL)
     world.lights[0].off = false;
     world.lights[0].diffuse = BLACK;
     assert_set("");
-    assert_said("without light 0: the material reflects none of its color");
+    assert_said("without light 0: the material reflects none of its colour");
     world.lights[0].diffuse = RED;
     world.object.front.diffuse = GREEN;
     assert_set("");
@@ -252,7 +252,7 @@ TEST_WITH(0, even_ambient_light_is_part_of_the_base, set_up, NULL)
     world.lights[0].diffuse = BLACK;
     shine_ambient();
     assert_set("base");
-    assert_said("without light 0: the material reflects none of its color but the ambient");
+    assert_said("without light 0: the material reflects none of its colour but the ambient");
     world.lights[0].kind = LIGHT_POINT;
     world.lights[0].constant = 2; /* constant */
     assert_set("base");
@@ -510,7 +510,7 @@ TEST_WITH(0, overexposure_is_tested_only_if_it_is_possible, set_up, NULL)
     assert_set("normals clipped | 0 directional diffuse at_vertex");
     world.scene.clamp_vertex = true;
     assert_set("normals clamp | 0 directional diffuse at_vertex");
-    assert_said("without highlighting overexposed pixels: colors are clamped at the vertices");
+    assert_said("without highlighting overexposed pixels: colours are clamped at the vertices");
 }
 
 TEST_WITH(0, linear_light_is_off_by_default, set_up, NULL)
