@@ -255,8 +255,8 @@ int options_table(const Usage *usage, Options *options, OptionsPurpose purpose,
          "bytes: red, green, blue (rgb)",
          TEXT(format), .choices = usage->diagram ? DIAGRAM_FORMATS : FORMATS, .programs = FILM},
         {"samples", "multisampling with N samples per pixel", PARAMETER_WHOLE,
-         &options->canvas.samples, 0, 65536, .placeholder = "N", .standard = "0 (off)",
-         .programs = GL_DRAWS},
+         &options->canvas.samples, 0, 65536, .placeholder = "N",
+         .standard = usage->gallery ? "4" : "0 (off)", .programs = GL_DRAWS},
         {"orbit",
          "move the camera about its target: degrees to the right and up, and a factor for the "
          "distance",
@@ -380,6 +380,7 @@ Options options_default(const Usage *usage)
 {
     Options options = {.frames = 1, .fps = OPTIONS_FPS, .compress = IMAGE_COMPRESS_DEFAULT};
     options_size(usage, &options.width, &options.height);
+    options.canvas.samples = usage->gallery ? 4 : 0;
     snprintf(options.default_output, sizeof options.default_output, "%s%s", usage->name,
              usage->gallery || usage->study ? "" : ".png");
     return options;

@@ -113,11 +113,13 @@ static bool write_page(const char *folder, const Selection *selection, const Opt
 {
     static const char head[] =
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+        "<meta name=\"viewport\" content=\"width=device-width\">\n"
         "<title>Lighting: the gallery</title>\n<style>\n"
         "body { font-family: sans-serif; background: #222; color: #eee; margin: 2em; }\n"
-        "main { display: flex; flex-wrap: wrap; gap: 1.5em; }\n"
-        "figure { margin: 0; width: 16em; }\n"
-        "img { width: 100%; height: 16em; object-fit: contain; background: #000; }\n"
+        "main { display: grid; gap: 1.5em; "
+        "grid-template-columns: repeat(auto-fill, minmax(min(16em, 100%), 1fr)); }\n"
+        "figure { margin: 0; min-width: 0; overflow-wrap: anywhere; }\n"
+        "img { width: 100%; aspect-ratio: 1; object-fit: contain; background: #000; }\n"
         "a { color: #9cf; }\ncode { color: #fc9; overflow-wrap: anywhere; }\n"
         "</style>\n</head>\n<body>\n<h1>Lighting</h1>\n"
         "<p><a href=\"contact-sheet.png\">All on one sheet</a></p>\n<main>\n";
@@ -131,9 +133,10 @@ static bool write_page(const char *folder, const Selection *selection, const Opt
         const Example *example = selection->examples[i];
         fprintf(
             file,
-            "<figure>\n<a href=\"%s.png\"><img src=\"%s.png\" alt=\"%s\" loading=\"lazy\"></a>\n"
+            "<figure>\n<a href=\"%s.png\"><img src=\"%s.png\" alt=\"%s: %s\" loading=\"lazy\"></a>\n"
             "<figcaption><strong>%s</strong><br>%s<br><code>",
-            example->name, example->name, example->name, example->name, example->summary);
+            example->name, example->name, example->name, example->summary, example->name,
+            example->summary);
         print_command(file, example, options);
         fputs("</code></figcaption>\n</figure>\n", file);
     }

@@ -981,10 +981,25 @@ class Gallery(Case):
                          sorted([name + ".png" for name in PROGRAMS + SCENES + DIAGRAMS] +
                                 ["contact-sheet.png", "index.html"]))
         page = self.read("pictures/index.html").decode()
+        self.assertNotRegex(page, r'<img(?![^>]* alt="[A-Z]\w+: [^"]{10,}")')
         for program in PROGRAMS + SCENES + DIAGRAMS:
-            self.assertEqual(self.drawn(*SMALL, program=program).pixels,
+            smooth = [] if program in DIAGRAMS else ["--samples", "4"]
+            self.assertEqual(self.drawn(*SMALL, *smooth, program=program).pixels,
                              self.png(f"pictures/{program}.png").pixels)
-            self.assertIn(f"<code>examples/run {program} --size 40x40</code>", page)
+            said = " ".join([program, "--size 40x40", *smooth])
+            self.assertIn(f"<code>examples/run {said}</code>", page)
+
+    def test_lines_and_markers_are_smooth_with_samples_alone(self):
+        sharp = self.drawn(program="TwoSidedLighting")
+        smooth = self.drawn("--samples", "4", program="TwoSidedLighting")
+        blue, gray, white = (0, 0, 255), (128, 128, 128), (255, 255, 255)
+        line = {y: (sharp.at(120, y), smooth.at(120, y)) for y in range(305, 322)}
+        self.assertLessEqual({color for color, _ in line.values()}, {blue, gray})
+        self.assertTrue({color for _, color in line.values()} - {blue, gray})
+        marker = [(sharp.at(x, 223), smooth.at(x, 223)) for x in range(208, 228)]
+        self.assertIn((white, white), marker)
+        edges = [b for a, b in marker if max(abs(i - j) for i, j in zip(a, b)) > 20]
+        self.assertTrue(1 <= len(edges) <= 2, edges)
 
     def test_the_page_has_the_commands_that_draw_its_pictures(self):
         # The second program has a size of its own.
@@ -997,7 +1012,7 @@ class Gallery(Case):
             words = said.replace("--shaders ...", "").split()[1:]
             self.assertEqual(self.drawn(*words, program=program).pixels,
                              self.png(f"gallery/{program}.png").pixels)
-        self.gallery("ShininessRow", "-s", "400x400")
+        self.gallery("ShininessRow", "-s", "400x400", "--samples", "0")
         self.assertIn("<code>examples/run ShininessRow --size 400x400</code>",
                       self.read("gallery/index.html").decode())
 
