@@ -15,6 +15,11 @@
 #include "window/backends.h"
 #include "window/window.h"
 
+/* See stage.h. */
+#pragma weak explain_programs
+#pragma weak unused_options
+#pragma weak unused_terms_check
+
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -359,9 +364,10 @@ int example_main(const Example *example, int argc, char *argv[])
     options.canvas.title = example->name;
     if (options.doctor)
         return options_finish(example->name, doctor_run());
-    if (!unused_terms_check(example, &options, &message))
+    if (example->scene && !unused_terms_check(example, &options, &message))
         return options_fail(example->name, &message, EXIT_USAGE);
-    if (!options.shaders.print && !options_in_window(&options)) /* where they can be changed */
+    if (example_parameters(example) && !options.shaders.print &&
+        !options_in_window(&options)) /* where they can be changed */
         tell_unused(example, &options, defaults);
     if (!run(example, &options, defaults, &message))
         return options_fail(example->name, &message, EXIT_FAILED);

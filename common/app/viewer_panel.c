@@ -5,6 +5,9 @@
 #include "base/clock.h"
 #include "scene/scene_example.h"
 
+/* See stage.h. */
+#pragma weak explain_effects
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -235,7 +238,8 @@ void viewer_panel_toggle_help(ViewerPanel *panel)
 
 void viewer_panel_close(ViewerPanel *panel)
 {
-    error_worker_close(panel->error_worker);
+    if (panel->error_worker)
+        error_worker_close(panel->error_worker);
     panel_draw_close(&panel->draw);
     panel_close(panel->panel);
     free(panel->effects);

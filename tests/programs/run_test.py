@@ -54,8 +54,8 @@ class Case(base.Case):
     def environment(self, **more):
         clean = {key: value for key, value in os.environ.items()
                  if key not in ("LIGHTING_BUILD", "XDG_CACHE_HOME", "NO_COLOR", "LIGHTING_BACKEND")}
-        clean["PATH"] = self.path("bin") + ":" + clean["PATH"]
-        clean.update({"HOME": self.path("home"), "TERM": "xterm"}, **more)
+        clean.update({"HOME": self.path("home"), "TERM": "xterm",
+                      "PATH": self.path("bin") + ":" + clean["PATH"]}, **more)
         return {key: value for key, value in clean.items() if value is not None}
 
     def start(self, *arguments, run=RUN, environment=None, **more):
@@ -174,6 +174,17 @@ class Folders(Case):
         self.assertEqual((code, self.path("home/.cache") in text), (0, True), said)
         self.assertIn("cannot be written; building in", said)
 
+    def test_two_tools_find_that_nothing_has_changed(self):
+        """And so the program starts at once."""
+        first = super().start("LightedCube", run=self.run_path)
+        self.assertEqual(first[0], 0, first)
+        os.mkdir(self.path("few"))
+        for tool in "sh", "readlink", "find":
+            os.symlink(shutil.which(tool), self.path("few", tool))
+        self.assertEqual(super().start("LightedCube", run=self.run_path,
+                                       environment={"PATH": self.path("few")}),
+                         (0, first[1], ""))
+
     def test_nowhere_to_build_is_one_line(self):
         self.protect()
         build = self.path("tree/build")
@@ -197,6 +208,19 @@ class Folders(Case):
             self.assertEqual(self.read("home/targets").decode(), " ".join(
                 ["examples/LightedCube", *(name + "-plugin" for name in plugins)]) + "\n")
             os.remove(self.path("home/targets"))
+
+
+class Build(unittest.TestCase):
+    def test_a_program_of_the_lecture_needs_few_files(self):
+        """What scenes alone need is not compiled for it."""
+        build = os.path.dirname(base.EXAMPLES)
+        if not shutil.which("ninja") or not os.path.exists(os.path.join(build, "build.ninja")):
+            self.skipTest("not ninja's build folder")
+        commands = subprocess.run(["ninja", "-C", build, "-t", "commands", "examples/LightedCube"],
+                                  capture_output=True, text=True, check=True).stdout
+        self.assertIn(" -c ../common/core/matrix.c", commands.replace(base.SOURCE, ".."))
+        self.assertNotIn("common/reference/", commands.replace("libcommon_reference", ""))
+        self.assertLessEqual(commands.count(" -c "), 70)
 
 
 class Packages(Case):
