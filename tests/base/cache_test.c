@@ -39,20 +39,7 @@ static void put(const char *name, const char *text)
     cache_write("test", &key, text, strlen(text));
 }
 
-FIXTURE(enter)
-{
-    testing_enter_folder(NULL);
-    setenv("XDG_CACHE_HOME", testing_folder, 1);
-    return 0;
-}
-
-FIXTURE(leave)
-{
-    unsetenv("XDG_CACHE_HOME");
-    return testing_leave_folder(NULL);
-}
-
-TEST_WITH(0, what_is_kept_is_found, enter, leave)
+TEST_WITH(0, what_is_kept_is_found, testing_enter_cache, testing_leave_cache)
 {
     assert_false(has("a", "one"));
     put("a", "one");
@@ -62,7 +49,7 @@ TEST_WITH(0, what_is_kept_is_found, enter, leave)
     assert_true(has("a", "three") && has("b", "two"));
 }
 
-TEST_WITH(0, keys_differ_by_bytes_lengths_and_order, enter, leave)
+TEST_WITH(0, keys_differ_by_bytes_lengths_and_order, testing_enter_cache, testing_leave_cache)
 {
     static const char bytes[40] = {0};
     CacheKey keys[42] = {{{0, 0}}};
@@ -75,7 +62,7 @@ TEST_WITH(0, keys_differ_by_bytes_lengths_and_order, enter, leave)
             assert_memory_not_equal(&keys[i], &keys[k], sizeof keys[i]);
 }
 
-TEST_WITH(0, without_a_folder_nothing_is_kept, enter, leave)
+TEST_WITH(0, without_a_folder_nothing_is_kept, testing_enter_cache, testing_leave_cache)
 {
     char path[4096];
     snprintf(path, sizeof path, "%s/file", testing_folder);
@@ -89,7 +76,7 @@ TEST_WITH(0, without_a_folder_nothing_is_kept, enter, leave)
     }
 }
 
-TEST_WITH(0, the_least_recently_used_goes, enter, leave)
+TEST_WITH(0, the_least_recently_used_goes, testing_enter_cache, testing_leave_cache)
 {
     enum { SIZE = 30000000 };
     char *large = calloc(1, SIZE);
@@ -113,7 +100,8 @@ TEST_WITH(0, the_least_recently_used_goes, enter, leave)
     free(large);
 }
 
-TEST_WITH(0, processes_that_write_at_once_leave_whole_files, enter, leave)
+TEST_WITH(0, processes_that_write_at_once_leave_whole_files, testing_enter_cache,
+          testing_leave_cache)
 {
     enum { PROCESSES = 4, ROUNDS = 50, SIZE = 100000 };
     const CacheKey key = key_of("a");

@@ -775,19 +775,6 @@ TEST(animations_keep_the_error_between_the_moments)
     assert_int_equal(broken, 0);
 }
 
-FIXTURE(enter)
-{
-    testing_enter_folder(NULL);
-    setenv("XDG_CACHE_HOME", testing_folder, 1);
-    return 0;
-}
-
-FIXTURE(leave)
-{
-    unsetenv("XDG_CACHE_HOME");
-    return testing_leave_folder(NULL);
-}
-
 /* Cheaper: by more than the noise of a twentieth. Of scenes that keep the error. */
 static int print_table(void)
 {
@@ -842,11 +829,11 @@ static int judge_command(int argc, char *argv[])
 int main(int argc, char *argv[])
 {
     if (argc < 2)
-        return picture_check_run("cheapest", enter, leave);
+        return picture_check_run("cheapest", testing_enter_cache, testing_leave_cache);
     if (strcmp(argv[1], "--markdown") != 0)
         return judge_command(argc, argv);
-    enter(NULL);
+    testing_enter_cache(NULL);
     const int code = print_table();
-    leave(NULL);
+    testing_leave_cache(NULL);
     return code;
 }

@@ -66,6 +66,17 @@ int testing_leave_folder(void **state)
     return chdir("/") == 0 ? system(command) : -1;
 }
 
+int testing_enter_cache(void **state)
+{
+    return testing_enter_folder(state) || setenv("XDG_CACHE_HOME", testing_folder, 1);
+}
+
+int testing_leave_cache(void **state)
+{
+    unsetenv("XDG_CACHE_HOME");
+    return testing_leave_folder(state);
+}
+
 int testing_leave_empty_folder(void **state)
 {
     (void)state;

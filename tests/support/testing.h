@@ -78,6 +78,10 @@ extern char testing_folder[];
 int testing_enter_folder(void **state);
 int testing_leave_folder(void **state);
 
+/* The same, with the cache (base/cache.h) in that folder. */
+int testing_enter_cache(void **state);
+int testing_leave_cache(void **state);
+
 /* Tear-down that fails if a test left a file. */
 int testing_leave_empty_folder(void **state);
 
