@@ -568,16 +568,20 @@ static bool is_changed(const Options *options)
            options->cheap || options->clamp_vertex || options->linear || options->show_clipped;
 }
 
+/* All captions in one size, or none where one does not fit. */
 static bool label_views(const Stage *stage, const Options *options, Image *image, Message *message)
 {
-    enum { SIZE = 12 };
     const SceneExample *scene = stage->example->scene;
-    for (int view = 0; view < stage_view_count(stage); view++) {
-        const char *text = scene->plain_label && is_changed(options) ? scene->plain_label(view)
-                                                                     : scene->label(view);
+    const bool plain = scene->plain_label && is_changed(options);
+    const int count = stage_view_count(stage);
+    int size = 12;
+    for (int i = 0; i < 2 * count; i++) { /* measured, then drawn */
+        const char *text = plain ? scene->plain_label(i % count) : scene->label(i % count);
         int place[4];
-        if (text && view_place(stage, view, image->width, image->height, place) &&
-            !image_caption(image, place, SIZE, text, message))
+        if (!text || !view_place(stage, i % count, image->width, image->height, place))
+            continue;
+        if (!(i < count ? image_caption_size(place, text, &size, message)
+                        : size == 0 || image_caption(image, place, size, text, message)))
             return false;
     }
     return true;

@@ -108,7 +108,7 @@ bool image_label(Image *image, int x, int y, int size, const char *text, Message
     return done;
 }
 
-enum { MOST_LINES = 8 };
+enum { MOST_LINES = 8, CAPTION_SIZE = 256 };
 
 static bool fits(const stbtt_fontinfo *font, Scale scale, const char *line, int width)
 {
@@ -142,22 +142,39 @@ static int break_lines(const stbtt_fontinfo *font, Scale scale, char *text, int 
     }
 }
 
-bool image_caption(Image *image, const int place[4], int size, const char *text, Message *message)
+/* 0: it does not fit. */
+static int caption_lines(const Font *font, const int place[4], int size, const char *text,
+                         char copy[CAPTION_SIZE], const char *lines[MOST_LINES])
+{
+    snprintf(copy, CAPTION_SIZE, "%s", text);
+    const int count =
+        break_lines(&font->info, scale_of(&font->info, size), copy, place[2] - 4, lines);
+    return 3 * count * (size + 2) <= place[3] ? count : 0;
+}
+
+bool image_caption_size(const int place[4], const char *text, int *size, Message *message)
 {
     enum { SMALLEST = 7 };
-    const char *path = getenv("LIGHTING_FONT");
-    const char *lines[MOST_LINES];
-    char copy[256];
+    const char *path = getenv("LIGHTING_FONT"), *lines[MOST_LINES];
+    char copy[CAPTION_SIZE];
     Font font;
-    int count = 0;
     if (!font_open(&font, path ? path : FONT, "fonts-dejavu-core", message))
         return false;
-    for (size++; count == 0 && size > SMALLEST;) {
-        snprintf(copy, sizeof copy, "%s", text);
-        size--;
-        count = break_lines(&font.info, scale_of(&font.info, size), copy, place[2] - 4, lines);
-        count = 3 * count * (size + 2) <= place[3] ? count : 0;
-    }
+    while (*size >= SMALLEST && !caption_lines(&font, place, *size, text, copy, lines))
+        --*size;
+    font_close(&font);
+    *size = *size < SMALLEST ? 0 : *size;
+    return true;
+}
+
+bool image_caption(Image *image, const int place[4], int size, const char *text, Message *message)
+{
+    const char *path = getenv("LIGHTING_FONT"), *lines[MOST_LINES];
+    char copy[CAPTION_SIZE];
+    Font font;
+    if (!font_open(&font, path ? path : FONT, "fonts-dejavu-core", message))
+        return false;
+    const int count = caption_lines(&font, place, size, text, copy, lines);
     font_close(&font);
     for (int i = 0; i < count; i++)
         if (!image_label(image, place[0] + place[2] / 2,

@@ -12,9 +12,11 @@
  * be read: the file named by LIGHTING_FONT in the environment, or Debian's fonts-dejavu-core. */
 bool image_label(Image *image, int x, int y, int size, const char *text, Message *message);
 
-/* The same at the bottom of a rectangle (x, y, width, height): broken at blanks into lines that
- * leave two thirds of its height, in smaller letters where a word is too wide, not at all where
- * they would be too small to read. */
+/* The same at the bottom of a rectangle (x, y, width, height), broken at blanks into lines that
+ * leave two thirds of its height; nothing if they do not fit. */
 bool image_caption(Image *image, const int place[4], int size, const char *text, Message *message);
+
+/* Lowers `size` to the largest at which such a caption fits; 0: to none that can be read. */
+bool image_caption_size(const int place[4], const char *text, int *size, Message *message);
 
 #endif
