@@ -84,7 +84,7 @@ static void check_scene(Stage *stage, const Options *options, const char *what)
         for (int view = 0; view < stage_view_count(stage); view++) {
             StageView opened;
             require(stage_view_open(&opened, stage, options, seconds, view, FAILURE), FAILURE);
-            for (double aspect = 0.25; aspect <= 4; aspect *= 4)
+            for (double aspect = 0.25; aspect <= 4; aspect *= 16)
                 check_whole(&opened.scene, aspect, what);
             stage_view_close(&opened);
         }
