@@ -1,5 +1,5 @@
 /*
- * ShadingModels: two reflection models, two interpolations, 24 materials, two lights.
+ * ShadingModels: two reflection models, four kinds of shading, 24 materials, two lights.
  *
  * The lecture's shading page. One light is fixed, the other turns about the y axis; points mark
  * them. Lighting is in eye coordinates.
@@ -85,7 +85,7 @@ static void finish(void)
 
 const Example ShadingModels = {
     .name = "ShadingModels",
-    .summary = "Phong and Blinn-Phong, Gouraud and Phong interpolation, 24 materials",
+    .summary = "Phong and Blinn-Phong, four kinds of shading, 24 materials, two lights",
     .width = 512,
     .height = 512,
     .tries = {"--shape teapot --interpolation gouraud", "--terms specular --interpolation constant",
