@@ -83,7 +83,7 @@ typedef struct Surface {
     }
 #define OPACITY_PARAMETER(surface)                                                                 \
     {                                                                                              \
-        "opacity", "1 is opaque; less shows only with --alpha", PARAMETER_NUMBER,                  \
+        "opacity", "1 is opaque; less shows only in a picture that keeps alpha", PARAMETER_NUMBER, \
             .value = &(surface).material.alpha, .min = 0, .max = 1                                 \
     }
 #define SURFACE_PARAMETERS(surface)                                                                \
