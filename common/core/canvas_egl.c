@@ -279,16 +279,6 @@ static void egl_close(void *opened)
     free(opened);
 }
 
-static bool is_software(const char *renderer)
-{
-    static const char *const names[] = {"llvmpipe", "softpipe", "swrast", "SwiftShader",
-                                        "Software Rasterizer"};
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
-        if (strstr(renderer, names[i]))
-            return true;
-    return false;
-}
-
 static bool egl_probe(Message *findings)
 {
     Message message = {0};
@@ -307,17 +297,9 @@ static bool egl_probe(Message *findings)
             message_add(findings, "  %-16s no: %s\n", routes[i].name, reason.text);
             continue;
         }
-        message_add(findings, "  %-16s works: EGL %s, config with RGBA 8888 and 24-bit depth\n",
+        message_add(findings, "  %-16s EGL %s, config with RGBA 8888 and 24-bit depth\n",
                     routes[i].name, egl.QueryString(context.display, EGL_VERSION));
-        if (gl_load(egl_address, &reason)) {
-            const char *renderer = (const char *)glGetString(GL_RENDERER);
-            message_add(findings, "  %-16s renderer %s (%s), %s\n", "", renderer,
-                        is_software(renderer) ? "software" : "hardware",
-                        (const char *)glGetString(GL_VERSION));
-            any = true;
-        } else {
-            message_add(findings, "  %-16s no: %s\n", "", reason.text);
-        }
+        any |= gl_probe(egl_address, findings);
         route_close(&context);
     }
     if (!any)

@@ -104,3 +104,28 @@ const char *gl_error_name(GLenum error)
         return "an unknown GL error";
     }
 }
+
+static bool is_software(const char *renderer)
+{
+    static const char *const names[] = {"llvmpipe", "softpipe", "swrast", "SwiftShader",
+                                        "Software Rasterizer"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        if (strstr(renderer, names[i]))
+            return true;
+    return false;
+}
+
+bool gl_probe(GlFunction (*address)(const char *name), Message *findings)
+{
+    enum { INDENT = 18 };
+    Message reason = {0};
+    if (!gl_load(address, &reason)) {
+        message_add(findings, "%*s no: %s\n", INDENT, "", reason.text);
+        return false;
+    }
+    const char *renderer = (const char *)glGetString(GL_RENDERER);
+    message_add(findings, "%*s works: renderer %s (%s), %s%s\n", INDENT, "", renderer,
+                is_software(renderer) ? "software" : "hardware", gl_desktop() ? "OpenGL " : "",
+                (const char *)glGetString(GL_VERSION));
+    return true;
+}

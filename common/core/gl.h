@@ -126,6 +126,9 @@ typedef void (*GlFunction)(void);
  * False, naming the function, if the driver lacks one of OpenGL ES 2. */
 bool gl_load(GlFunction (*address)(const char *name), Message *message);
 
+/* The same for a backend's probe: appends a line, what draws or why nothing does. */
+bool gl_probe(GlFunction (*address)(const char *name), Message *findings);
+
 /* The version of OpenGL ES as 10 * major + minor: 20 for OpenGL ES 2.0. Desktop OpenGL 3.0 or later
  * counts as 30: it has what this project uses of OpenGL ES 3, under the same names. */
 int gl_version(void);

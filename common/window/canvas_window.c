@@ -538,12 +538,7 @@ static bool window_probe(Message *findings)
         return false;
     }
     message_add(findings, "  library    %s\n", platform);
-    const bool loaded = gl_load(window_address, &message);
-    if (loaded)
-        message_add(findings, "  works: renderer %s, %s\n", (const char *)glGetString(GL_RENDERER),
-                    (const char *)glGetString(GL_VERSION));
-    else
-        message_add(findings, "  no: %s\n", message.text);
+    const bool loaded = gl_probe(window_address, findings);
     window_close(window);
     return loaded;
 }

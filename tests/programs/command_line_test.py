@@ -375,6 +375,8 @@ class Options(Case):
     def test_the_doctor_says_what_works(self):
         text = self.good("--doctor").decode()
         self.assertRegex(text, r"(?s)egl.*works.*renderer.*This machine can draw\.\n$")
+        for works in re.findall(r"^ *works: .*$", text, re.M):  # of every backend in the same words
+            self.assertRegex(works, r"renderer \S.* \((software|hardware)\), OpenGL ")
         self.assertEqual(self.everything(), {})
 
     def test_without_a_driver_one_line_names_the_packages(self):
