@@ -1,6 +1,7 @@
 #include "app/doctor.h"
 
 #include "app/options.h"
+#include "base/cache.h"
 #include "images/animation.h"
 #include "images/drawing.h"
 #include "images/image_file.h"
@@ -28,6 +29,7 @@ int doctor_run(void)
                    {"models", model_probe},
                    {"diagrams", drawing_probe},
                    {"the panel of windows", panel_probe}};
+    cache_prepare_driver();
     const CanvasBackend *usual = backend_default(NULL), *works = NULL;
     for (int i = 0; BACKENDS[i]; i++) {
         printf("%s: %s\n", BACKENDS[i]->name, BACKENDS[i]->summary);

@@ -3,8 +3,10 @@
 #include "base/output.h"
 
 #include <dirent.h>
+#include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
+#include <pwd.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -50,6 +52,23 @@ static bool find_folder(char folder[PATH_MAX], bool create)
         return false;
     strcat(folder, "/lighting");
     return !create || output_folder(folder, NULL);
+}
+
+void cache_prepare_driver(void)
+{
+    char folder[PATH_MAX];
+    struct stat status;
+    const char *cache = getenv("XDG_CACHE_HOME");
+    const struct passwd *user = cache ? NULL : getpwuid(getuid()); /* Mesa does not read HOME */
+    snprintf(folder, sizeof folder, "%s%s",
+             cache  ? cache
+             : user ? user->pw_dir
+                    : "",
+             cache ? "" : "/.cache");
+    const bool there = (mkdir(folder, 0700) == 0 || errno == EEXIST) &&
+                       stat(folder, &status) == 0 && S_ISDIR(status.st_mode);
+    if (!there || access(folder, W_OK | X_OK) != 0)
+        setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
 }
 
 static bool find_path(const char *kind, const CacheKey *key, bool create, char path[PATH_MAX])

@@ -1,5 +1,7 @@
 #include "core/canvas.h"
 
+#include "base/cache.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -220,6 +222,7 @@ bool canvas_open(Canvas *canvas, const CanvasOptions *options, Message *message)
         return false;
     if (is_open)
         return message_set(message, "canvas: another one is open; close it first");
+    cache_prepare_driver();
     if (!backend->open(&opened.context, options, &opened.platform, message))
         return false;
     is_open = true;

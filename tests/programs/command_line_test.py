@@ -12,6 +12,7 @@ import functools
 import itertools
 import os
 import pty
+import pwd
 import re
 import shutil
 import signal
@@ -211,6 +212,18 @@ class Case(unittest.TestCase):
             self.assertFalse(result.stdout)
             self.assertEqual(self.everything(), before)
         return error
+
+    def decimal_comma(self):
+        """The environment of a locale that writes 0,5."""
+        self.make("locales/source", 'LC_NUMERIC\ndecimal_point "<U002C>"\nthousands_sep "<U002E>"\n'
+                                    'grouping 3;3\nEND LC_NUMERIC\n')
+        subprocess.run(["localedef", "-c", "-i", "source", "./comma"], cwd=self.path("locales"),
+                       capture_output=True)  # warns of what is left out
+        made = {"LOCPATH": self.path("locales"), "LC_ALL": "comma"}
+        text = subprocess.run(["printf", "%.1f", "0,5"], env={**os.environ, **made},
+                              capture_output=True).stdout
+        self.assertEqual(text, b"0,5")
+        return made
 
     def need_somebody(self):
         try:
@@ -681,6 +694,19 @@ class Outputs(Case):
         channels = self.read("a.exr").split(b"channels\0chlist\0", 1)[1][4:]
         self.assertEqual(channels[:6], b"B\0" + struct.pack("<I", 2))
         self.refused(1, "folder missing/ does not exist", "-o", "missing/a.exr")
+
+    def test_a_cache_that_cannot_be_made_is_no_word(self):
+        """Mesa would say so: in a home that is read-only, or where XDG_CACHE_HOME is no folder."""
+        self.make("file")
+        for cache in ("", "/proc/none", self.path("file"), self.path("no", "folder")):
+            self.good(*SMALL, "-o", "-", environment={"XDG_CACHE_HOME": cache})
+        self.good(*SMALL, "--error", "2", "-o", "-", environment={"XDG_CACHE_HOME": "/proc/none"},
+                  program="SpotLight")
+        self.need_somebody()
+        home = next((user for user in pwd.getpwall() if user.pw_uid and os.getuid() == 0 and
+                     user.pw_dir.startswith("/usr/") and os.path.isdir(user.pw_dir)), None)
+        if home:  # "daemon", in /usr/sbin
+            self.good(*SMALL, "-o", "-", user=home.pw_uid, group=home.pw_gid, extra_groups=[])
 
     def test_captions_need_a_font_and_no_plugin(self):
         result = self.run_it("-o", "a.png", program="PhongBlinn",
@@ -1166,7 +1192,7 @@ class Again(Case):
             {}, {"TZ": "Asia/Tokyo", "LC_ALL": "C", "LP_NUM_THREADS": "0"},
             {"TZ": "America/Lima", "LC_ALL": "de_DE.UTF-8", "LANG": "de_DE.UTF-8",
              "LP_NUM_THREADS": "1", "HOME": "/nonexistent"},
-            {"LC_ALL": "tr_TR.UTF-8", "LP_NUM_THREADS": "2", "OPENIMAGEIO_THREADS": "1"})
+            {**self.decimal_comma(), "LP_NUM_THREADS": "2", "OPENIMAGEIO_THREADS": "1"})
         films = self.FILMS if shutil.which("ffmpeg") else ("gif",)
         draws = ([(suffix, "LightedCube", (*SMALL, "-t", "0.5"))
                   for suffix in (self.FORMATS if LONG else ("png", "exr", "tif", "webp", "dpx"))] +
