@@ -667,9 +667,13 @@ int options_finish(const char *program, int code)
 /* What is read when a library is loaded. Mesa's llvmpipe and OSMesa choose instructions by the
  * processor: F16C is what computes mediump in 16 bits. glibc's libm has its own variants of sin,
  * pow and others for processors with FMA, whose results differ in the last bit. */
-static const char *const LEAST_PROCESSOR[] = {
-    "GALLIUM_OVERRIDE_CPU_CAPS=sse4.1", "LP_NATIVE_VECTOR_WIDTH=128",
-    "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4", NULL};
+bool options_restart(char *const *arguments, Message *message)
+{
+    static const char *const least[] = {"GALLIUM_OVERRIDE_CPU_CAPS=sse4.1",
+                                        "LP_NATIVE_VECTOR_WIDTH=128",
+                                        "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4", NULL};
+    return process_restart(arguments, least, message);
+}
 
 bool options_begin(Options *options, const Usage *usage, int argc, char *argv[], int *code)
 {
@@ -684,8 +688,7 @@ bool options_begin(Options *options, const Usage *usage, int argc, char *argv[],
     if (!run) {
         *code = result == OPTIONS_ANSWERED ? options_finish(usage->name, 0)
                                            : options_fail(usage->name, &message, EXIT_USAGE);
-    } else if (options->deterministic &&
-               !(given && process_restart(given, LEAST_PROCESSOR, &message))) {
+    } else if (options->deterministic && !(given && options_restart(given, &message))) {
         *code = options_fail(usage->name, &message, EXIT_FAILED);
         run = false;
     }

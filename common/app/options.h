@@ -41,8 +41,8 @@ typedef struct Options {
     int frames;
     bool numbered; /* --frames was given, and the output's name has a number */
     double fps;
-    Part part;  /* of the pictures */
-    bool merge; /* instead of drawing, put together what the parts have drawn */
+    Part part;          /* of the pictures */
+    bool merge;         /* instead of drawing, put together what the parts have drawn */
     const char *format; /* of standard output: "png", "y4m", "rgb", "svg", "pdf"; NULL: not given */
     const char *vector; /* "svg" or "pdf", of a diagram; NULL: pixels */
     const char *animation; /* the format of the one file or stream of all pictures, see animation.h;
@@ -51,7 +51,7 @@ typedef struct Options {
     bool watch;           /* draw again when a shader changes */
     CanvasOptions canvas; /* without size and real */
     ShaderLoader shaders;
-    bool deterministic;   /* options_begin has seen to it */
+    bool deterministic; /* options_begin has seen to it */
     bool alpha;
     int compress;
     bool verbose;
@@ -132,8 +132,13 @@ void options_catch_signals(void (*handler)(int), int flags);
  * before a signal ends the process. */
 void options_prepare_process(void);
 
+/* --deterministic: starts the program again with these arguments in an environment that caps the
+ * processor; true if that is the environment already. */
+bool options_restart(char *const *arguments, Message *message);
+
 /* The beginning of a program: options_prepare_process and options_read, whose message it prints;
- * with --deterministic, starts the program again in an environment that caps the processor. False if the program is to return *code at once. */
+ * with --deterministic, starts the program again in an environment that caps the processor. False
+ * if the program is to return *code at once. */
 bool options_begin(Options *options, const Usage *usage, int argc, char *argv[], int *code);
 
 /* Prints a message on standard error and returns `code`. */

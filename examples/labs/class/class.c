@@ -218,12 +218,19 @@ bool class_main(int argc, char *argv[], int *code)
             argc = 2;
         }
     }
+    const size_t size = ((size_t)argc + 1) * sizeof *argv;
+    char **given = malloc(size); /* the names are moved to the front */
+    if (given)
+        memcpy(given, argv, size);
     if (!class_options_read(&options, argc, argv, &message)) {
         *code = options_fail(PROGRAM, &message, EXIT_USAGE);
     } else if (options.help) {
         *code = options_finish(PROGRAM, 0);
+    } else if (options.deterministic && !(given && options_restart(given, &message))) {
+        *code = options_fail(PROGRAM, &message, EXIT_FAILED);
     } else {
         *code = options.folder ? run_class(&options, &message) : run_merge(&options, &message);
     }
+    free(given);
     return true;
 }

@@ -40,6 +40,8 @@ bool class_options_read(ClassOptions *options, int argc, char *argv[], Message *
          &options->part, .placeholder = "I/N", .read = options_read_part},
         {"merge", "join the results in the folders that are named", PARAMETER_FLAG,
          .value = &merge},
+        {"deterministic", "judge alike on different x86 processors", PARAMETER_FLAG,
+         .value = &options->deterministic},
         {"again", "judge everything again; a worse result replaces none", PARAMETER_FLAG,
          .value = &options->again},
         {"help", "print this text", PARAMETER_FLAG, .letter = 'h'},

@@ -18,6 +18,7 @@ typedef struct ClassOptions {
     char *const *merged; /* folders to merge, NULL-terminated */
     int jobs;
     Part part;
+    bool deterministic;
     double limit;    /* seconds of computing, for each submission */
     uint64_t seed;
     bool again; /* judge what has a result, too */

@@ -76,8 +76,10 @@ static bool take_limits(rlim_t seconds, Message *message)
  */
 static bool set_environment(const char *folder, Message *message)
 {
-    static const char *const kept[] = {"LIGHTING_BACKEND", "ASAN_OPTIONS", "LSAN_OPTIONS",
-                                       "UBSAN_OPTIONS"};
+    static const char *const kept[] = {
+        "LIGHTING_BACKEND", "ASAN_OPTIONS", "LSAN_OPTIONS", "UBSAN_OPTIONS",
+        /* of --deterministic */
+        "GALLIUM_OVERRIDE_CPU_CAPS", "LP_NATIVE_VECTOR_WIDTH", "GLIBC_TUNABLES"};
     enum { KEPT = sizeof kept / sizeof kept[0] };
     const char *values[KEPT];
     for (int i = 0; i < KEPT; i++)
