@@ -247,7 +247,7 @@ class Names(Class):
             (1, r"missing/out: cannot create", "--class", "class", "-o", "missing/out", "--lab", "5"),
         ):
             self.check_refused(said, *arguments, code=code)
-        self.assertIn("--part K/N", self.good("--class", "x", "--help", program=PROGRAM).decode())
+        self.assertIn("--part I/N", self.good("--class", "x", "--help", program=PROGRAM).decode())
 
 
 class Abuse(Class):
