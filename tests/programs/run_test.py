@@ -21,7 +21,8 @@ RUN = os.path.join(base.SOURCE, "examples/run")
 # What meson and ninja do, as far as setup.sh sees it. A program that was built says where it is.
 TOOLS = {
     "dpkg-query": 'shift 3; for package; do echo "$package installed"; done',
-    "meson": '[ "$2" != --reconfigure ] || shift; mkdir -p "$2/meson-info" && '
+    "meson": 'if [ "$1" = test ]; then case $* in *--list*) printf "a / %s\\n" effects matrix; esac; '
+             'exit; fi; [ "$2" != --reconfigure ] || shift; mkdir -p "$2/meson-info" && '
              'echo "  \\"source\\": \\"$3\\"" >"$2/meson-info/meson-info.json" && '
              ': >"$2/build.ninja"',
     "ninja": r'''
@@ -30,7 +31,7 @@ shift 2
 source=$(sed -n 's/.*: "\(.*\)"/\1/p' meson-info/meson-info.json)
 dry=; [ "$1" = -n ] && dry=1 && shift
 for target; do
-    case $target in *-plugin) continue ;; esac
+    case $target in *-plugin | all) continue ;; esac
     [ -x "$target" ] && [ -z "$(find "$source/examples" -newer "$target")" ] && continue
     [ "$dry" ] && echo "[1/1] would build $target" && exit
     mkdir -p "${target%/*}" && printf '#!/bin/sh\necho "ran $0"\n' >"$target" && chmod +x "$target"
@@ -83,6 +84,16 @@ class Names(Case):
         for word, said in (("--jsno", "did you mean --json?"), ("-z", "--help lists them")):
             self.assertEqual(self.start(word),
                              (2, "", f"examples/run: {word}: no such option; {said}\n"))
+
+    def test_a_test_that_was_meant_is_said(self):
+        run = os.path.join(base.SOURCE, "tests/run")
+        self.assertEqual(self.start("--logn", run=run), (
+            2, "", "tests/run: --logn: no such option; did you mean --long?\n"))
+        for word, said in (("matrx", "tests/run: matrx: no such test; did you mean matrix?\n"),
+                           ("xylophone", "tests/run: no test was run; `meson test -C")):
+            code, _, error = self.start(word, run=run,
+                                        environment={"LIGHTING_BUILD": self.path("build")})
+            self.assertEqual((code, said in error), (2, True), error)
 
     def test_the_list_for_tools_has_every_program(self):
         code, text, said = self.start("--json")
