@@ -283,6 +283,18 @@ static void warn_of_missing(const Shader *shader, const char *name, const Shader
         message_add(warning, declared ? "%s is not used" : "%s is not declared", name);
 }
 
+bool shader_complain(const Shader *shader, const char *variable, const char *text, Message *message)
+{
+    Declaration found;
+    for (int stage = 0; stage < 2 && message && !message->text[0]; stage++) {
+        if (!find_declaration(&shader->sources[stage], variable, (int)strlen(variable), &found))
+            continue;
+        message->located = true;
+        return message_set(message, "%s:%d: error: %s", found.file, found.line, text);
+    }
+    return message_set(message, "%s", text);
+}
+
 bool shader_locations(const Shader *shader, const ShaderLocation *locations, Message *message)
 {
     for (const ShaderLocation *one = locations; one->name; one++) {

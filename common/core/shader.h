@@ -110,6 +110,11 @@ typedef struct ShaderLocation {
 } ShaderLocation;
 bool shader_locations(const Shader *shader, const ShaderLocation *locations, Message *message);
 
+/* Sets an error about a variable, at its declaration if the sources are kept: "file:line: error:
+ * u_Light: ...". Always returns false. */
+bool shader_complain(const Shader *shader, const char *variable, const char *text,
+                     Message *message);
+
 /* Sets an attribute for all vertices, or a uniform of the current program; -1 is ignored. */
 void shader_set_attribute(GLint location, Vec3 value);
 void shader_set_vec3(GLint location, Vec3 value);

@@ -30,7 +30,7 @@ static bool init(const ShaderLoader *loader, Message *message)
         own.folder = folder;
     }
     return shader_open(&state.shader, &own, state.lab->file, message) &&
-           binding_check(state.lab, state.shader.program, message);
+           binding_check(state.lab, &state.shader, message);
 }
 
 /* Lab 3: the matrices from the student's C; lab 10: the sphere. */

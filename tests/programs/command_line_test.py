@@ -813,6 +813,16 @@ class Shaders(Case):
                 self.make(name, head + new + tail)
                 self.refused(1, said, "--shaders", "mine", lines=0, program=program)
 
+    def test_a_labs_unknown_variable_is_said_with_its_place(self):
+        shutil.copytree(os.path.join(SOURCE, "examples/labs/lab06_phong"), self.path("mine"),
+                        dirs_exist_ok=True)
+        text = self.read("mine/lab06.frag").decode()
+        self.make("mine/lab06.frag", text.replace("u_AmbientLight", "u_AmbientLigth"))
+        line = 1 + text[:text.index("u_AmbientLight")].count("\n")
+        self.refused(1, rf"^mine/lab06.frag:{line}: error: uniform u_AmbientLigth does not exist in "
+                        r"this lab; did you mean u_AmbientLight\?\n$", "--shaders", "mine",
+                     program="lab06_phong")
+
     def warned(self, warning, program="LightedCube", **more):
         """Draws, with this one line on standard error; the picture."""
         result = self.run_it(*SMALL, "--shaders", "mine", "-o", "-", program=program, **more)

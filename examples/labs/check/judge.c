@@ -90,7 +90,7 @@ static bool open_shader(Session *session, Message *message)
         return open_given(session, message);
     if (!submission_compile(&session->own, session->lab, &session->files, NULL, &own))
         return settle(session, VERDICT_ERROR, &own, shader_advice(own.text));
-    if (!binding_check(session->lab, session->own.program, &own))
+    if (!binding_check(session->lab, &session->own, &own))
         return settle(session, VERDICT_ERROR, &own, NULL);
     if (session->lab->budget) {
         /* The driver draws the very text that is counted. Without the tools nothing is counted. */

@@ -167,16 +167,28 @@ static Uniform uniform_at(GLuint program, GLint i, const Values *values)
     return uniform;
 }
 
-static bool unknown(const char *kind, const char *name, const char *const *names, Message *message)
+static bool unknown(const Shader *shader, const char *kind, const char *name,
+                    const char *const *names, Message *message)
 {
     const char *nearest = parse_nearest(name, names);
-    return message_set(message, "%s %s does not exist in this lab; %s%s%s", kind, name,
-                       nearest ? "did you mean " : "TASK.md lists the names",
-                       nearest ? nearest : "", nearest ? "?" : "");
+    Message text = {0};
+    message_set(&text, "%s %s does not exist in this lab; %s%s%s", kind, name,
+                nearest ? "did you mean " : "TASK.md lists the names", nearest ? nearest : "",
+                nearest ? "?" : "");
+    return shader_complain(shader, name, text.text, message);
 }
 
-static bool check_attributes(GLuint program, Message *message)
+static bool mistyped(const Shader *shader, const char *kind, const char *name, const char *type,
+                     Message *message)
 {
+    Message text = {0};
+    message_set(&text, "%s %s: declare it as %s", kind, name, type);
+    return shader_complain(shader, name, text.text, message);
+}
+
+static bool check_attributes(const Shader *shader, Message *message)
+{
+    const GLuint program = shader->program;
     GLint count = 0;
     glGetProgramiv(program, GL_ACTIVE_ATTRIBUTES, &count);
     for (GLint i = 0; i < count; i++) {
@@ -188,15 +200,16 @@ static bool check_attributes(GLuint program, Message *message)
         for (int k = 0; ATTRIBUTES[k]; k++)
             known |= strcmp(name, ATTRIBUTES[k]) == 0;
         if (!known && strncmp(name, "gl_", 3) != 0)
-            return unknown("attribute", name, ATTRIBUTES, message);
+            return unknown(shader, "attribute", name, ATTRIBUTES, message);
         if (known && type != GL_FLOAT_VEC3 && type != GL_FLOAT_VEC4)
-            return message_set(message, "attribute %s: declare it as vec4 or vec3", name);
+            return mistyped(shader, "attribute", name, "vec4 or vec3", message);
     }
     return true;
 }
 
-bool binding_check(const Lab *lab, GLuint program, Message *message)
+bool binding_check(const Lab *lab, const Shader *shader, Message *message)
 {
+    const GLuint program = shader->program;
     Values values;
     const char *names[MAX_VALUES + 1] = {NULL};
     GLint count = 0;
@@ -210,12 +223,11 @@ bool binding_check(const Lab *lab, GLuint program, Message *message)
         if (strncmp(uniform.name, "gl_", 3) == 0)
             continue;
         if (!uniform.value)
-            return unknown("uniform", uniform.name, names, message);
+            return unknown(shader, "uniform", uniform.name, names, message);
         if (!suits(uniform.value, uniform.type))
-            return message_set(message, "uniform %s: declare it as %s", uniform.name,
-                               type_of(uniform.value));
+            return mistyped(shader, "uniform", uniform.name, type_of(uniform.value), message);
     }
-    return check_attributes(program, message);
+    return check_attributes(shader, message);
 }
 
 static void set_matrix(GLint location, GLenum type, const float m[16])

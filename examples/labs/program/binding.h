@@ -9,6 +9,7 @@
 #define BINDING_H
 
 #include "core/mesh_buffer.h"
+#include "core/shader.h"
 #include "labs/program/lab.h"
 
 /* One object of a scene, drawn with this aspect ratio, width / height. */
@@ -22,7 +23,7 @@ typedef struct Drawn {
 
 /* Checks every active attribute and uniform of a linked program. False, with a message about the
  * first that the lab's interface lacks (naming the nearest) or that has another type. */
-bool binding_check(const Lab *lab, GLuint program, Message *message);
+bool binding_check(const Lab *lab, const Shader *shader, Message *message);
 
 /* Sets the uniforms and the colour, binds the mesh and draws it with the program, which stays in
  * use. False, with a message: the camera is degenerate. */
