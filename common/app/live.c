@@ -83,10 +83,13 @@ LiveResult live_poll(Live *live, double wait, Message *error)
 {
     if (live->watched != last_load(live)->count && !watch_files(live, error))
         return LIVE_FAILED;
-    if (!watch_wait(live->watch, wait))
+    const bool renewed = live->renewed;
+    live->renewed = false;
+    live->changed[0] = '\0';
+    if (!renewed && !watch_wait(live->watch, wait))
         return LIVE_UNCHANGED;
     live->began = clock_now();
-    if (live->watched) {
+    if (live->watched && !renewed) {
         const char *path = shader_files_changed(last_load(live));
         if (!path)
             return LIVE_UNCHANGED;
@@ -94,6 +97,11 @@ LiveResult live_poll(Live *live, double wait, Message *error)
     }
     const LiveResult result = load(live, error);
     return watch_files(live, error) ? result : LIVE_FAILED;
+}
+
+void live_renew(Live *live)
+{
+    live->renewed = true;
 }
 
 bool live_revert(Live *live, const Message *error)

@@ -28,6 +28,7 @@ typedef struct Live {
     ShaderFiles files;      /* of the shaders on the stage */
     ShaderFiles earlier;    /* of those before */
     ShaderFiles refused;    /* of the last load, if it failed */
+    bool renewed;           /* the next live_poll loads */
     int watched;            /* how many of the last load's files */
     double began;           /* clock_now of the last load */
     char changed[PATH_MAX]; /* the file that caused it; empty for the first load */
@@ -43,6 +44,9 @@ bool live_open(Live *live, const Example *example, const Canvas *canvas, Options
  * LIVE_LOADED, which comes after a correction, even back to the earlier text. Without a change and
  * a wait this costs one system call. */
 LiveResult live_poll(Live *live, double wait, Message *error);
+
+/* The options about shaders have changed: the next live_poll loads them again. */
+void live_renew(Live *live);
 
 /* After a draw failed with `error`: a scene compiles some programs only when it first needs them,
  * perhaps long after loading. If the error is a shader's, restores the shaders before it and

@@ -162,6 +162,50 @@ static bool write_terms(const Parameter *parameter, char *text, size_t size)
     return length < size;
 }
 
+/* NUMBER,X,Y,Z for each light, between slashes. */
+static bool read_places(const Parameter *parameter, const char *text, Message *message)
+{
+    static const double min[] = {-1e6, -1e6, -1e6}, max[] = {1e6, 1e6, 1e6};
+    LightPlaces places = {.placed = 0};
+    for (const char *word = text; word; word = strchr(word, '/') ? strchr(word, '/') + 1 : NULL) {
+        char copy[128], *comma;
+        double at[3];
+        int light;
+        snprintf(copy, sizeof copy, "%.*s", (int)strcspn(word, "/"), word);
+        comma = strchr(copy, ',');
+        if (comma)
+            *comma = '\0';
+        if (!comma || !parse_whole(copy, 0, SCENE_MAX_PLACED - 1, &light) ||
+            parse_numbers(comma + 1, min, max, at) != 3)
+            return message_set(message,
+                               "--light-at %s: must be NUMBER,X,Y,Z, a light from 0 to %d and "
+                               "where it is, and for more of them the same after a /",
+                               text, SCENE_MAX_PLACED - 1);
+        places.placed |= 1U << light;
+        places.at[light] = (Vec3){at[0], at[1], at[2]};
+    }
+    *(LightPlaces *)parameter->value = places;
+    return true;
+}
+
+static bool write_places(const Parameter *parameter, char *text, size_t size)
+{
+    const LightPlaces *places = parameter->value;
+    size_t length = 0;
+    text[0] = '\0';
+    for (int i = 0; i < SCENE_MAX_PLACED && length < size; i++) {
+        char x[32], y[32], z[32];
+        if (!(places->placed >> i & 1))
+            continue;
+        parse_number_text(places->at[i].x, x);
+        parse_number_text(places->at[i].y, y);
+        parse_number_text(places->at[i].z, z);
+        length += (size_t)snprintf(text + length, size - length, "%s%d,%s,%s,%s", length ? "/" : "",
+                                   i, x, y, z);
+    }
+    return places->placed && length < size;
+}
+
 /* A diagram is painted by cairo. */
 static bool read_refused_diagram(const Parameter *parameter, const char *text, Message *message)
 {
@@ -307,6 +351,11 @@ int options_table(const Usage *usage, Options *options, OptionsPurpose purpose,
          "lights, by number from 0, as in diffuse,specular,0",
          TEXT(terms), .placeholder = "TERM,...", .standard = "all", .read = read_terms,
          .write = write_terms, .programs = SCENE},
+        {"light-at",
+         "put a light there, by number from 0: its position, or a directional one's direction; more "
+         "of them between slashes, as in 0,1,2,0/1,-1,2,0",
+         TEXT(places), .placeholder = "NUMBER,X,Y,Z", .standard = "", .read = read_places,
+         .write = write_places, .programs = SCENE},
         {"lighting", "off: each surface in its own diffuse colour", PARAMETER_SWITCH,
          &options->terms.unlit, .choices = LIGHTING, .programs = SCENE},
         {"show-clipped", "paint over-exposed pixels magenta", FLAG(show_clipped),

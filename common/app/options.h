@@ -65,6 +65,7 @@ typedef struct Options {
     bool linear;
     bool show_clipped;
     SceneTerms terms;
+    LightPlaces places;
     bool cheap; /* --error: draw as cheaply as an error of `error` steps of 1/255 allows */
     double error;
     bool own_given[OPTIONS_MAX_PARAMETERS]; /* the program's own options, in their order */

@@ -170,8 +170,7 @@ int stage_view_count(const Stage *stage)
     return view_layout(stage, &columns, &rows);
 }
 
-/* A view's part of the picture: x, y, width, height, in pixels from the upper left. False if it is
- * less than a pixel. */
+/* As stage_view_place, in a picture of this size. */
 static bool view_place(const Stage *stage, int view, int width, int height, int place[4])
 {
     int columns, rows;
@@ -184,6 +183,11 @@ static bool view_place(const Stage *stage, int view, int width, int height, int 
     return place[2] > 0 && place[3] > 0;
 }
 
+bool stage_view_place(const Stage *stage, int view, int place[4])
+{
+    return view_place(stage, view, stage->canvas->width, stage->canvas->height, place);
+}
+
 /* Of a view in the picture that the program makes without --size. */
 static double designed_aspect(const Stage *stage)
 {
@@ -194,7 +198,7 @@ static double designed_aspect(const Stage *stage)
     return (double)width * rows / ((double)height * columns);
 }
 
-/* `kept` has the lights and objects of --terms; closed by the caller, whatever is returned. */
+/* `kept` has the lights and objects of --terms and --light-at; closed by the caller, whatever is returned. */
 static bool make_scene(const Stage *stage, const Options *options, double seconds, int number,
                        SceneCopy *kept, Scene *scene, Message *message)
 {
@@ -209,13 +213,15 @@ static bool make_scene(const Stage *stage, const Options *options, double second
         return false;
     if (orbit_text(options->orbit, orbit))
         scene_fit_depth(scene);
-    if (options->terms.left_out || options->terms.lights_left_out || options->terms.unlit) {
-        if (!scene_copy_open(kept, scene, false, message))
-            return false;
-        scene_keep_terms(kept, options->terms);
-        *scene = kept->scene;
-    }
-    return true;
+    const SceneTerms *terms = &options->terms;
+    if (!terms->left_out && !terms->lights_left_out && !terms->unlit && !options->places.placed)
+        return true;
+    if (!scene_copy_open(kept, scene, false, message))
+        return false;
+    scene_place_lights(kept, &options->places);
+    scene_keep_terms(kept, *terms);
+    *scene = kept->scene;
+    return scene_check(scene, message);
 }
 
 /* --error */
@@ -551,6 +557,7 @@ bool stage_error_picture(Stage *stage, const Options *options, double seconds,
                             message))
         return false;
     picture->seconds = seconds;
+    picture->simplified = plain.cheap;
     if (draw_frame(stage, &plain, seconds, false, message) &&
         canvas_read(canvas, &picture->image, message) && add_views(stage, &plain, picture, message))
         return true;

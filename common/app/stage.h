@@ -18,6 +18,7 @@
 
 /* Only examples with scenes come to call these. The lecture's programs are linked without them and
  * the files that they need, a fifth of all: a weak reference asks the linker for nothing. */
+#pragma weak PICTURE_ERROR_COLORS
 #pragma weak cheapest_choose
 #pragma weak cheapest_close
 #pragma weak cheapest_text
@@ -28,6 +29,7 @@
 #pragma weak error_worker_busy
 #pragma weak error_worker_cancel
 #pragma weak error_worker_close
+#pragma weak error_worker_map
 #pragma weak error_worker_open
 #pragma weak error_worker_result
 #pragma weak error_worker_start
@@ -100,6 +102,10 @@ typedef struct StageView {
 } StageView;
 
 int stage_view_count(const Stage *stage);
+
+/* A view's part of the picture: x, y, width, height, in pixels from the upper left. False if it is
+ * less than a pixel. */
+bool stage_view_place(const Stage *stage, int view, int place[4]);
 
 /* With --error makes the choice first, if that is not made yet: draws into the canvas. */
 bool stage_view_open(StageView *view, Stage *stage, const Options *options, double seconds,

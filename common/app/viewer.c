@@ -28,8 +28,10 @@ typedef struct Viewer {
     Window *window;
     Options first; /* at the start; restored by r */
     ParameterValue first_values[OPTIONS_MAX_PARAMETERS];
-    Options options; /* current */
-    double seconds;  /* options.seconds before it was rounded */
+    Options options;       /* current */
+    double seconds;        /* options.seconds before it was rounded */
+    const char *precision; /* that are in use */
+    int samples;
     bool paused, full_screen, left;
     WindowInput input;
     double last; /* when the last frame began */
@@ -46,6 +48,8 @@ typedef struct Viewer {
     ViewerPanel panel;
     bool panel_had_pointer; /* in the previous frame: a press may precede the pointer's current
                                position */
+    bool pressed, holding;  /* in the previous frame: the left button; a light, by its handle */
+    Handle held;            /* where it has been dragged */
     Live live;
     Message broken;  /* error of the shaders on disk */
     Message unmade;  /* why stage_renew failed */
@@ -180,6 +184,19 @@ static void put_back(Viewer *viewer)
         parameter_restore(&parameters[i], viewer->first_values[i]);
 }
 
+/* After a change of options that are not read for each frame. */
+static bool apply_options(Viewer *viewer, Message *message)
+{
+    const char *precision = viewer->options.shaders.precision;
+    const int samples = viewer->options.canvas.samples;
+    if (precision != viewer->precision)
+        live_renew(&viewer->live);
+    viewer->precision = precision;
+    const bool same = samples == viewer->samples;
+    viewer->samples = samples;
+    return same || canvas_set_samples(viewer->canvas, samples, message);
+}
+
 /* Starts again with the arguments of a try, which blanks separate. A given time is held. */
 static void try_arguments(Viewer *viewer, const char *arguments)
 {
@@ -202,6 +219,28 @@ static void try_arguments(Viewer *viewer, const char *arguments)
     viewer->paused = viewer->options.seconds != seconds;
     viewer->seconds = viewer->options.seconds;
     renew(viewer);
+}
+
+static void move_light(Viewer *viewer, double x, double y)
+{
+    const int light = viewer->held.light;
+    LightPlaces *places = &viewer->options.places;
+    StageView view;
+    int place[4];
+    Vec3 at;
+    if (light >= SCENE_MAX_PLACED || !is_made(viewer) ||
+        !stage_view_place(&viewer->live.stage, viewer->held.view, place))
+        return;
+    if (stage_view_open(&view, &viewer->live.stage, &viewer->options, viewer->options.seconds,
+                        viewer->held.view, NULL) &&
+        handle_drag(&view.asked, place, light, x, y, &at)) {
+        places->placed |= 1U << light;
+        places->at[light] = at;
+        viewer_panel_renew(&viewer->panel);
+    }
+    stage_view_close(&view);
+    if (viewer->options.cheap)
+        renew(viewer);
 }
 
 static void type(Viewer *viewer, unsigned character)
@@ -227,6 +266,11 @@ static void type(Viewer *viewer, unsigned character)
     case 'h':
         viewer_panel_toggle_help(&viewer->panel);
         break;
+    case '+':
+    case '=':
+    case '-':
+        viewer_panel_letters(&viewer->panel, character == '-' ? -1 : 1);
+        break;
     default:
         break;
     }
@@ -248,11 +292,41 @@ static void use_keys(Viewer *viewer)
     viewer->left |= input->pressed[WINDOW_KEY_ESCAPE] > 0;
 }
 
+/* Takes the light at whose point the left button went down, and moves it until the button goes up.
+ * False: the pointer has no light. */
+static bool use_handles(Viewer *viewer)
+{
+    static const double REACH = 11;
+    const WindowInput *input = &viewer->input;
+    const double top = input->height - viewer->room[1];
+    if (input->buttons[0] && !viewer->pressed) {
+        const Handle *handle =
+            handles_find(viewer->panel.handles, viewer->panel.handle_count, input->press_x,
+                         input->press_y - top, REACH * input->scale);
+        viewer->holding = handle != NULL;
+        if (handle)
+            viewer->held = *handle;
+    }
+    viewer->pressed = input->buttons[0];
+    if (!viewer->holding)
+        return false;
+    viewer->held.x += input->drag_x;
+    viewer->held.y += input->drag_y;
+    if (input->drag_x != 0 || input->drag_y != 0)
+        move_light(viewer, viewer->held.x, viewer->held.y);
+    viewer->holding = viewer->pressed;
+    return true;
+}
+
 static void use_pointer(Viewer *viewer)
 {
     const WindowInput *input = &viewer->input;
     Orbit *orbit = &viewer->options.orbit;
-    if (viewer->panel.result.wants_pointer || viewer->panel_had_pointer)
+    if (viewer->panel.result.wants_pointer || viewer->panel_had_pointer) {
+        viewer->pressed = input->buttons[0];
+        return;
+    }
+    if (use_handles(viewer))
         return;
     const double degrees = DEGREES_PER_PIXEL / input->scale;
     if (input->drag_x != 0 || input->drag_y != 0) {
@@ -295,7 +369,9 @@ static bool present(Viewer *viewer, const Image *image, Message *message)
 {
     const int width = viewer->input.width, height = viewer->input.height;
     const int *room = viewer->room;
+    const Image *map = viewer_panel_map(&viewer->panel, room[0], room[1]);
     bool done = true;
+    image = map ? map : image;
     if (image)
         done = canvas_present_image(image, room[0], room[1], message);
     else
@@ -413,12 +489,13 @@ static bool use_panel(Viewer *viewer, double elapsed, Message *message)
                                                       : &viewer->trouble;
     if (!viewer_panel_frame(panel, &viewer->input, elapsed,
                             is_made(viewer) ? &viewer->live.stage : NULL, &viewer->options, trouble,
-                            message))
+                            viewer->holding ? &viewer->held : NULL, message))
         return false;
     if (panel->result.tried)
         try_arguments(viewer, panel->result.tried);
-    else if (panel->result.changed)
+    else if (panel->result.changed || panel->result.options)
         renew(viewer);
+    viewer_panel_letters(panel, panel->result.larger);
     return true;
 }
 
@@ -480,6 +557,8 @@ static bool frame(Viewer *viewer, double wait, Message *message)
         return false;
     use_pointer(viewer);
     use_keys(viewer);
+    if (!apply_options(viewer, message))
+        return false;
     viewer->left |= input->closed;
     if (viewer->left || input->width == 0 || input->height == 0)
         return true;
@@ -522,7 +601,9 @@ bool viewer_run(const Example *example, Canvas *canvas, const Options *options,
     if (!live_open(&viewer.live, example, canvas, &viewer.options, message))
         return false;
     viewer.first = viewer.options;
-    viewer_panel_open(&viewer.panel, example, viewer.window, options, defaults);
+    viewer.precision = options->shaders.precision;
+    viewer.samples = options->canvas.samples;
+    viewer_panel_open(&viewer.panel, example, canvas, &viewer.options, defaults);
     viewer_panel_notice(&viewer.panel, "p: panel   h: help");
     window_show(viewer.window);
     viewer.last = viewer.title_time = clock_now();

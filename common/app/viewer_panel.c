@@ -5,12 +5,13 @@
 #include "base/clock.h"
 #include "scene/scene_example.h"
 
-/* See stage.h. */
-#pragma weak explain_effects
-
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* See stage.h. */
+#pragma weak explain_effects
 
 static const double NOTICE_SECONDS = 3, EFFECTS_SECONDS = 0.25, ERROR_SECONDS = 0.5;
 
@@ -24,17 +25,44 @@ static const PanelHelp HELP[] = {
     {"r", "starts again"},
     {"f", "the whole screen, and back"},
     {"p", "the panel"},
+    {"+, -", "larger, smaller letters"},
     {"h", "this help"},
     {"escape", "leaves"},
     {NULL, NULL},
 };
 
-void viewer_panel_open(ViewerPanel *panel, const Example *example, Window *window,
-                       const Options *options, const ParameterValue *defaults)
+/* The common options that change a picture that is shown, from the table of all. */
+static void choose_options(ViewerPanel *panel, const Canvas *canvas, Options *options)
+{
+    static const char *const NAMES[] = {"samples",      "precision", "clamp",
+                                        "linear-light", "lighting",  "show-clipped"};
+    const Usage usage = options_usage(panel->example);
+    Options usual = options_default(&usage);
+    Parameter all[OPTIONS_MAX], of_usual[OPTIONS_MAX];
+    int count = 0;
+    const int common = options_table(&usage, options, OPTIONS_TO_SHOW, all);
+    options_table(&usage, &usual, OPTIONS_TO_SHOW, of_usual);
+    for (size_t k = 0; k < sizeof NAMES / sizeof NAMES[0]; k++) {
+        for (int i = 0; i < common; i++) {
+            if (strcmp(all[i].name, NAMES[k]) != 0)
+                continue;
+            panel->options[count] = all[i];
+            panel->option_defaults[count++] = parameter_save(&of_usual[i]);
+            if (all[i].value == &options->canvas.samples)
+                panel->options[count - 1].max = canvas_max_samples(canvas);
+        }
+    }
+    panel->options[count].name = NULL;
+}
+
+void viewer_panel_open(ViewerPanel *panel, const Example *example, const Canvas *canvas,
+                       Options *options, const ParameterValue *defaults)
 {
     Message message = {0};
-    *panel = (ViewerPanel){.example = example, .window = window, .text = 1, .stale = true};
+    *panel =
+        (ViewerPanel){.example = example, .window = window_of(canvas), .text = 1, .stale = true};
     memcpy(panel->defaults, defaults, sizeof panel->defaults);
+    choose_options(panel, canvas, options);
     if (!panel_open(&panel->panel, &message) ||
         !panel_draw_open(&panel->draw, &options->shaders, &message) ||
         (example->scene && !error_worker_open(&panel->error_worker, &message))) {
@@ -114,6 +142,11 @@ static void update_error(ViewerPanel *panel, Stage *stage, const Options *option
     panel->stale = false;
 }
 
+static PanelErrorPart part_of(const ErrorSum *sum)
+{
+    return (PanelErrorPart){.rms = error_sum_rms(sum), .maximum = sum->maximum};
+}
+
 static PanelError known_error(ViewerPanel *panel)
 {
     ErrorResult result;
@@ -123,9 +156,24 @@ static PanelError known_error(ViewerPanel *panel)
     panel->computing = result.computing;
     return (PanelError){.known = result.known,
                         .computing = result.computing,
-                        .rms = result.known ? error_sum_rms(&result.error.interior) : 0,
-                        .maximum = result.error.interior.maximum,
-                        .seconds = result.seconds};
+                        .of_computing = part_of(&result.of_computing),
+                        .of_mesh = part_of(&result.error.interior),
+                        .at_edges = part_of(&result.error.edges),
+                        .seconds = result.seconds,
+                        .mapped = panel->mapped,
+                        .colors = PICTURE_ERROR_COLORS};
+}
+
+const Image *viewer_panel_map(ViewerPanel *panel, int width, int height)
+{
+    ErrorResult result;
+    if (!panel->mapped || panel->view != PANEL_OPEN || !panel->error_worker)
+        return NULL;
+    error_worker_result(panel->error_worker, &result);
+    if (result.known && result.number != panel->map_number &&
+        error_worker_map(panel->error_worker, &panel->map))
+        panel->map_number = result.number;
+    return panel->map.width == width && panel->map.height == height ? &panel->map : NULL;
 }
 
 static bool has_notice(const ViewerPanel *panel)
@@ -160,21 +208,56 @@ void viewer_panel_room(const ViewerPanel *panel, const WindowInput *input, int r
                input->height, room);
 }
 
-bool viewer_panel_frame(ViewerPanel *panel, const WindowInput *input, double seconds, Stage *stage,
-                        const Options *options, const Message *trouble, Message *message)
+static void find_handles(ViewerPanel *panel, Stage *stage, const Options *options)
 {
-    panel->result = (PanelResult){.view = panel->view};
+    for (int view = 0; panel->example->scene && view < stage_view_count(stage); view++) {
+        StageView shown;
+        int place[4];
+        if (!stage_view_place(stage, view, place))
+            continue;
+        if (stage_view_open(&shown, stage, options, options->seconds, view, NULL))
+            panel->handle_count =
+                handles_add(panel->handles, panel->handle_count, &shown.asked, view, place);
+        stage_view_close(&shown);
+    }
+}
+
+/* The handles in the window. */
+static void mark(const ViewerPanel *panel, const WindowInput *input, const Handle *held,
+                 PanelMark marks[HANDLES_MAX])
+{
+    int room[2];
+    viewer_panel_room(panel, input, room);
+    for (int i = 0; i < panel->handle_count; i++) {
+        const Handle *handle = &panel->handles[i];
+        marks[i] =
+            (PanelMark){.number = handle->light,
+                        .x = handle->x,
+                        .y = handle->y + input->height - room[1],
+                        .held = held && handle->light == held->light && handle->view == held->view};
+    }
+}
+
+bool viewer_panel_frame(ViewerPanel *panel, const WindowInput *input, double seconds, Stage *stage,
+                        const Options *options, const Message *trouble, const Handle *held,
+                        Message *message)
+{
+    PanelMark marks[HANDLES_MAX];
+    panel->handle_count = 0;
+    panel->result = (PanelResult){.view = panel->view, .mapped = panel->mapped};
     if (!panel->panel)
         return true;
     if (panel->view == PANEL_OPEN && stage && !trouble->text[0]) {
         update_error(panel, stage, options);
         update_effects(panel, stage, options);
+        find_handles(panel, stage, options);
         command_write(panel->example, options, panel->defaults, panel->command,
                       sizeof panel->command);
     }
     WindowInput own = *input;
     own.scale = scale_of(panel, input);
     panel->noticed = has_notice(panel);
+    mark(panel, input, held, marks);
     const PanelInput in = {.window = &own,
                            .seconds = seconds,
                            .clipboard = panel->window,
@@ -184,7 +267,12 @@ bool viewer_panel_frame(ViewerPanel *panel, const WindowInput *input, double sec
                                   .view = panel->view,
                                   .parameters = example_parameters(panel->example),
                                   .defaults = panel->defaults,
+                                  .options = panel->options,
+                                  .option_defaults = panel->option_defaults,
+                                  .marks = panel->handle_count ? marks : NULL,
+                                  .mark_count = panel->handle_count,
                                   .tries = panel->example->tries,
+                                  .looks = panel->example->looks,
                                   .milliseconds = 1e3 * panel->seconds,
                                   .frames_per_second = panel->rate,
                                   .error = known_error(panel),
@@ -196,6 +284,7 @@ bool viewer_panel_frame(ViewerPanel *panel, const WindowInput *input, double sec
     if (!panel_frame(panel->panel, &in, &content, &panel->result, message))
         return false;
     panel->view = panel->result.view;
+    panel->mapped = panel->result.mapped;
     return true;
 }
 
@@ -229,6 +318,14 @@ void viewer_panel_toggle(ViewerPanel *panel)
     panel->stale = true;
 }
 
+void viewer_panel_letters(ViewerPanel *panel, int larger)
+{
+    static const double STEP = 1.15, SMALLEST = 0.7, LARGEST = 2.5;
+    panel->text = fmin(fmax(panel->text * pow(STEP, larger), SMALLEST), LARGEST);
+    if (fabs(panel->text - 1) < STEP / 100)
+        panel->text = 1;
+}
+
 void viewer_panel_toggle_help(ViewerPanel *panel)
 {
     panel->help = !panel->help;
@@ -243,5 +340,6 @@ void viewer_panel_close(ViewerPanel *panel)
     panel_draw_close(&panel->draw);
     panel_close(panel->panel);
     free(panel->effects);
+    image_close(&panel->map);
     *panel = (ViewerPanel){0};
 }

@@ -9,6 +9,7 @@
 
 #include "app/stage.h"
 #include "base/clock.h"
+#include "window/handles.h"
 #include "window/panel.h"
 #include "window/panel_draw.h"
 
@@ -23,9 +24,16 @@ typedef struct ViewerPanel {
     PanelResult result; /* of this frame */
     bool help;
     ParameterValue defaults[OPTIONS_MAX_PARAMETERS];
+    Parameter options[8]; /* common ones that the panel changes; their values are the viewer's */
+    ParameterValue option_defaults[8];
+    Handle handles[HANDLES_MAX]; /* the lights of this frame's picture */
+    int handle_count;
     double seconds; /* per frame, smoothed; 0: unknown */
     double rate;    /* frames per second; 0: unknown */
     ErrorWorker *error_worker;
+    bool mapped; /* its map is shown in the picture's place */
+    Image map;   /* of result number: */
+    int map_number;
     double error_time;     /* clock_now when it was last started */
     Options error_options; /* of its picture */
     bool stale;            /* the parameters have changed since */
@@ -41,15 +49,17 @@ typedef struct ViewerPanel {
     double text; /* the size of letters, as a factor */
 } ViewerPanel;
 
-/* `defaults`: of the example's parameters, before the command line was read. Never fails: what is
- * missing is reported on standard error. */
-void viewer_panel_open(ViewerPanel *panel, const Example *example, Window *window,
-                       const Options *options, const ParameterValue *defaults);
+/* `defaults`: of the example's parameters, before the command line was read. The panel changes the
+ * options. Never fails: what is missing is reported on standard error. */
+void viewer_panel_open(ViewerPanel *panel, const Example *example, const Canvas *canvas,
+                       Options *options, const ParameterValue *defaults);
 
 /* One frame of the panel; viewer_panel_draw draws it. Describes the stage's picture at `options`;
- * NULL: there is none. `trouble` is shown as an error unless it is empty. */
+ * NULL: there is none. `trouble` is shown as an error unless it is empty; `held`: the handle that
+ * is dragged; NULL: none. */
 bool viewer_panel_frame(ViewerPanel *panel, const WindowInput *input, double seconds, Stage *stage,
-                        const Options *options, const Message *trouble, Message *message);
+                        const Options *options, const Message *trouble, const Handle *held,
+                        Message *message);
 
 /* The panel's margins in the window, and the size of the picture beside it: see panel.h. */
 void viewer_panel_margins(const ViewerPanel *panel, const WindowInput *input, int margins[2]);
@@ -58,6 +68,10 @@ void viewer_panel_room(const ViewerPanel *panel, const WindowInput *input, int r
 /* Whether it has something new to show although nobody touched it: a result, the end of a notice.
  */
 bool viewer_panel_due(ViewerPanel *panel);
+
+/* What is shown instead of the picture: the map of its error, or of one before it; of this size.
+ * NULL: nothing. */
+const Image *viewer_panel_map(ViewerPanel *panel, int width, int height);
 
 /* Draws it into the bound framebuffer, of the window's size. */
 bool viewer_panel_draw(ViewerPanel *panel, int width, int height, Message *message);
@@ -72,6 +86,7 @@ void viewer_panel_renew(ViewerPanel *panel);
 void viewer_panel_notice(ViewerPanel *panel, const char *text);
 
 void viewer_panel_toggle(ViewerPanel *panel);
+void viewer_panel_letters(ViewerPanel *panel, int larger);
 void viewer_panel_toggle_help(ViewerPanel *panel);
 
 void viewer_panel_close(ViewerPanel *panel);

@@ -106,10 +106,11 @@ static bool framebuffer(GLuint *name, GLuint color, GLuint depth, int width, int
     return true;
 }
 
+enum { MAX_SUPERSAMPLE = 4 };
+
 /* The driver's multisampling, or else supersampling. */
 static bool choose_samples(Canvas *canvas, int samples, Message *message)
 {
-    enum { MAX_SUPERSAMPLE = 4 };
     if (samples <= 1)
         return true;
     if (glRenderbufferStorageMultisample && glBlitFramebuffer) {
@@ -289,6 +290,31 @@ bool canvas_resize(Canvas *canvas, int width, int height, Message *message)
     delete_framebuffers(canvas);
     canvas->width = width;
     canvas->height = height;
+    if (!check_size(canvas, message) || !make_framebuffers(canvas, message))
+        return false;
+    canvas_begin(canvas);
+    return true;
+}
+
+int canvas_max_samples(const Canvas *canvas)
+{
+    GLint max = MAX_SUPERSAMPLE * MAX_SUPERSAMPLE;
+    (void)canvas;
+    if (glRenderbufferStorageMultisample && glBlitFramebuffer)
+        glGetIntegerv(GL_MAX_SAMPLES_ANGLE, &max);
+    return max;
+}
+
+bool canvas_set_samples(Canvas *canvas, int samples, Message *message)
+{
+    Canvas wanted = *canvas;
+    wanted.samples = 0;
+    wanted.supersample = 1;
+    if (!choose_samples(&wanted, samples, message))
+        return false;
+    delete_framebuffers(canvas);
+    canvas->samples = wanted.samples;
+    canvas->supersample = wanted.supersample;
     if (!check_size(canvas, message) || !make_framebuffers(canvas, message))
         return false;
     canvas_begin(canvas);

@@ -81,6 +81,12 @@ bool canvas_open_beside(Canvas *canvas, const Canvas *first, const CanvasOptions
 /* Resizes an open canvas, in the same context. After a failure it can only be closed. */
 bool canvas_resize(Canvas *canvas, int width, int height, Message *message);
 
+/* The most samples that the driver or supersampling has, and another number of them, as
+ * CanvasOptions.samples. False, and the canvas as before, if there are not so many; after another
+ * failure it can only be closed. */
+int canvas_max_samples(const Canvas *canvas);
+bool canvas_set_samples(Canvas *canvas, int samples, Message *message);
+
 /* Starts a frame: binds the framebuffer and sets the viewport to all of it. */
 void canvas_begin(const Canvas *canvas);
 

@@ -15,6 +15,7 @@ struct ErrorWorker {
     ErrorPicture next; /* waits for the thread */
     bool waiting, computing, ended;
     ErrorResult result; /* without `computing` */
+    Image map;          /* of the result */
     atomic_bool stop;   /* what is being computed */
 };
 
@@ -54,8 +55,9 @@ void error_picture_close(ErrorPicture *picture)
 
 /* Computing. */
 
-static bool add_view(PictureError *error, const Image *image, const ErrorView *view, int threads,
-                     const atomic_bool *stop, Message *message)
+/* The map, if it is not NULL, gets its pixels. */
+static bool add_view(PictureError *error, Image *map, const Image *image, const ErrorView *view,
+                     int threads, const atomic_bool *stop, Message *message)
 {
     Reference exact;
     const ReferenceOptions options = {
@@ -63,7 +65,28 @@ static bool add_view(PictureError *error, const Image *image, const ErrorView *v
     if (!reference_open(&exact, &view->scene.scene, &options, message))
         return false;
     picture_error_add(error, image, view->place[0], view->place[1], &exact, &view->scene.scene);
+    if (map)
+        picture_error_map(map, image, view->place[0], view->place[1], &exact);
     reference_close(&exact);
+    return true;
+}
+
+/* Against the meshes, whose edges do not count. */
+static bool add_computing(PictureError *error, const Image *image, const ErrorView *view,
+                          int threads, const atomic_bool *stop, Message *message)
+{
+    Reference meshes;
+    const ReferenceOptions options = {.width = view->place[2],
+                                      .height = view->place[3],
+                                      .meshes = true,
+                                      .centers = true,
+                                      .edge_error = 255,
+                                      .threads = threads,
+                                      .stop = stop};
+    if (!reference_open(&meshes, &view->scene.scene, &options, message))
+        return false;
+    picture_error_add(error, image, view->place[0], view->place[1], &meshes, &view->scene.scene);
+    reference_close(&meshes);
     return true;
 }
 
@@ -72,8 +95,34 @@ bool error_worker_compute(const ErrorPicture *picture, int threads, const atomic
 {
     *error = (PictureError){.all = {0}};
     for (int i = 0; i < picture->view_count; i++)
-        if (!add_view(error, &picture->image, &picture->views[i], threads, stop, message))
+        if (!add_view(error, NULL, &picture->image, &picture->views[i], threads, stop, message))
             return false;
+    return true;
+}
+
+static bool open_map(Image *map, const Image *image, Message *message)
+{
+    if (!image_open(map, image->width, image->height, IMAGE_BYTE, message))
+        return false;
+    for (size_t i = 0; i < (size_t)map->width * (size_t)map->height; i++)
+        memcpy((unsigned char *)map->pixels + 4 * i, (const unsigned char[4]){0, 0, 0, 255}, 4);
+    return true;
+}
+
+static bool compute(const ErrorPicture *picture, const atomic_bool *stop, int threads,
+                    ErrorResult *result, Image *map)
+{
+    PictureError computing = {.all = {0}};
+    Message *message = &result->message;
+    if (!open_map(map, &picture->image, message))
+        return false;
+    for (int i = 0; i < picture->view_count; i++)
+        if (!add_view(&result->error, map, &picture->image, &picture->views[i], threads, stop,
+                      message) ||
+            (!picture->simplified && !add_computing(&computing, &picture->image, &picture->views[i],
+                                                    threads, stop, message)))
+            return false;
+    result->of_computing = computing.interior;
     return true;
 }
 
@@ -98,21 +147,26 @@ static void step_back(void)
 static void compute_next(ErrorWorker *worker)
 {
     ErrorPicture picture = worker->next;
-    ErrorResult result = {.seconds = picture.seconds};
+    ErrorResult result = {.seconds = picture.seconds, .number = worker->result.number + 1};
+    Image map = {.pixels = NULL};
     worker->next = (ErrorPicture){.views = NULL};
     worker->waiting = false;
     worker->computing = true;
     atomic_store(&worker->stop, false);
     pthread_mutex_unlock(&worker->lock);
     const double start = clock_now();
-    result.known = error_worker_compute(&picture, thread_count(), &worker->stop, &result.error,
-                                        &result.message);
+    result.known = compute(&picture, &worker->stop, thread_count(), &result, &map);
     result.milliseconds = 1e3 * (clock_now() - start);
     error_picture_close(&picture);
     pthread_mutex_lock(&worker->lock);
     worker->computing = false;
-    if (!atomic_load(&worker->stop))
+    if (!atomic_load(&worker->stop)) {
+        const Image before = worker->map;
         worker->result = result;
+        worker->map = map;
+        map = before;
+    }
+    image_close(&map);
 }
 
 static void *work(void *argument)
@@ -135,6 +189,7 @@ static void *work(void *argument)
 static void destroy(ErrorWorker *worker)
 {
     error_picture_close(&worker->next);
+    image_close(&worker->map);
     pthread_cond_destroy(&worker->changed);
     pthread_mutex_destroy(&worker->lock);
     free(worker);
@@ -199,11 +254,26 @@ void error_worker_result(ErrorWorker *worker, ErrorResult *result)
     pthread_mutex_unlock(&worker->lock);
 }
 
+bool error_worker_map(ErrorWorker *worker, Image *map)
+{
+    pthread_mutex_lock(&worker->lock);
+    const Image *own = &worker->map;
+    bool done = worker->result.known && own->pixels;
+    if (done && (map->width != own->width || map->height != own->height)) {
+        image_close(map);
+        done = image_open(map, own->width, own->height, IMAGE_BYTE, NULL);
+    }
+    if (done)
+        memcpy(map->pixels, own->pixels, image_row_size(own) * (size_t)own->height);
+    pthread_mutex_unlock(&worker->lock);
+    return done;
+}
+
 void error_worker_cancel(ErrorWorker *worker)
 {
     pthread_mutex_lock(&worker->lock);
     abandon(worker);
-    worker->result = (ErrorResult){.known = false};
+    worker->result = (ErrorResult){.known = false, .number = worker->result.number + 1};
     pthread_mutex_unlock(&worker->lock);
 }
 

@@ -25,6 +25,7 @@ typedef struct ErrorPicture {
     double seconds; /* the moment; comes back with the result */
     ErrorView *views;
     int view_count;
+    bool simplified; /* drawn with other meshes or less lighting than the scenes have */
 } ErrorPicture;
 
 /* Opens it without views, but with room for so many. The image's pixels are the caller's to write.
@@ -39,9 +40,13 @@ void error_picture_close(ErrorPicture *picture); /* NULL or a zeroed picture is 
 
 /* The last picture that was finished, if there is one. */
 typedef struct ErrorResult {
-    bool computing;      /* another one is on its way */
-    bool known;          /* the rest, but for `message`, is set */
-    PictureError error;  /* `worst` is a pixel's number in the image */
+    bool computing;     /* another one is on its way */
+    bool known;         /* the rest, but for `message`, is set */
+    PictureError error; /* `worst` is a pixel's number in the image */
+    /* Inside objects, against the exact picture of the meshes as they are drawn, with the scene's
+     * interpolation: what only computing adds. Empty if the picture is simplified. */
+    ErrorSum of_computing;
+    int number;          /* of this result, counted */
     double seconds;      /* the picture's moment */
     double milliseconds; /* it took */
     Message message;     /* why the last one has no result; else empty */
@@ -61,6 +66,10 @@ bool error_worker_busy(ErrorWorker *worker);
 
 void error_worker_result(ErrorWorker *worker, ErrorResult *result);
 
+/* Copies the map of the last result (picture_error_map), with the alpha of opaque pixels, to an
+ * image of bytes, which is opened again if its size differs. False if there is none. */
+bool error_worker_map(ErrorWorker *worker, Image *map);
+
 /* Abandons what is being computed and forgets what is known: the picture is another one. Returns at
  * once. */
 void error_worker_cancel(ErrorWorker *worker);
@@ -69,7 +78,7 @@ void error_worker_cancel(ErrorWorker *worker);
  * NULL is fine. */
 void error_worker_close(ErrorWorker *worker);
 
-/* The same without a thread of its own, and with `threads` of them, for those who can wait. False,
+/* `error` without a thread of its own, and with `threads` of them, for those who can wait. False,
  * with a message, where memory runs out. `stop` as in ReferenceOptions. */
 bool error_worker_compute(const ErrorPicture *picture, int threads, const atomic_bool *stop,
                           PictureError *error, Message *message);

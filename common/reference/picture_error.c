@@ -56,6 +56,14 @@ bool pixel_is_interior(const Scene *scene, int object, const Image *image, size_
     return covered;
 }
 
+/* In both pictures, wholly. */
+static bool is_background(const Reference *exact, size_t exact_pixel, const Image *image,
+                          size_t pixel)
+{
+    return exact->object[exact_pixel] < 0 && exact->coverage[exact_pixel] >= 1 &&
+           steps(image, 4 * pixel + 3) == 0;
+}
+
 void picture_error_add(PictureError *error, const Image *image, int left, int top,
                        const Reference *exact, const Scene *scene)
 {
@@ -66,8 +74,36 @@ void picture_error_add(PictureError *error, const Image *image, int left, int to
             const PixelError found = pixel_error(image, pixel, &exact->color[3 * exact_pixel]);
             const int object = exact->interior[exact_pixel] ? exact->object[exact_pixel] : -1;
             error_sum_add(&error->all, found, pixel);
-            if (pixel_is_interior(scene, object, image, pixel))
-                error_sum_add(&error->interior, found, pixel);
+            const bool inside = pixel_is_interior(scene, object, image, pixel);
+            if (inside || !is_background(exact, exact_pixel, image, pixel))
+                error_sum_add(inside ? &error->interior : &error->edges, found, pixel);
+        }
+    }
+}
+
+const unsigned char PICTURE_ERROR_COLORS[4][3] = {
+    {70, 110, 255}, {0, 200, 120}, {255, 200, 0}, {255, 255, 255}};
+
+static void color_of(double error, unsigned char *color)
+{
+    static const double LEAST = 0.5, STEP = 8;
+    const double at = fmin(fmax(log(error / LEAST) / log(STEP), 0), 2.999);
+    const int first = (int)at;
+    for (int c = 0; c < 3; c++) {
+        const double from = PICTURE_ERROR_COLORS[first][c], to = PICTURE_ERROR_COLORS[first + 1][c];
+        color[c] =
+            error > LEAST + 1e-3 ? (unsigned char)lround(from + (at - first) * (to - from)) : 0;
+    }
+}
+
+void picture_error_map(Image *map, const Image *image, int left, int top, const Reference *exact)
+{
+    for (int y = 0; y < exact->height; y++) {
+        for (int x = 0; x < exact->width; x++) {
+            const size_t pixel = (size_t)(top + y) * (size_t)image->width + (size_t)(left + x);
+            const size_t exact_pixel = (size_t)y * (size_t)exact->width + (size_t)x;
+            const PixelError found = pixel_error(image, pixel, &exact->color[3 * exact_pixel]);
+            color_of(found.largest, (unsigned char *)map->pixels + 4 * pixel);
         }
     }
 }

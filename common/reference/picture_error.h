@@ -36,6 +36,7 @@ double error_sum_rms(const ErrorSum *sum);
 typedef struct PictureError {
     ErrorSum interior; /* of the pixels inside an object: shading alone */
     ErrorSum all;      /* of every pixel: shading and silhouettes */
+    ErrorSum edges;    /* of the pixels that are neither inside an object nor background alone */
 } PictureError;
 
 /* Whether a pixel is inside an object: the only definition of that in the project.
@@ -53,5 +54,11 @@ bool pixel_is_interior(const Scene *scene, int object, const Image *image, size_
  * after another. */
 void picture_error_add(PictureError *error, const Image *image, int left, int top,
                        const Reference *exact, const Scene *scene);
+
+/* The same pixels as a map: black where the error is at most half a step, which is rounding, else
+ * from blue over green and yellow to white, a color for every factor of 8. `map`: of bytes, of the
+ * image's size. */
+void picture_error_map(Image *map, const Image *image, int left, int top, const Reference *exact);
+extern const unsigned char PICTURE_ERROR_COLORS[4][3]; /* of errors of 0.5, 4, 32 and 255 */
 
 #endif

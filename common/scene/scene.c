@@ -270,6 +270,16 @@ void scene_keep_terms(SceneCopy *copy, SceneTerms terms)
     }
 }
 
+void scene_place_lights(SceneCopy *copy, const LightPlaces *places)
+{
+    for (int i = 0; i < copy->scene.light_count && i < SCENE_MAX_PLACED; i++) {
+        Light *light = &copy->lights[i];
+        if (places->placed >> i & 1)
+            *(light->kind == LIGHT_DIRECTIONAL ? &light->direction : &light->position) =
+                places->at[i];
+    }
+}
+
 Mat4 scene_eye_from_object(const Camera *camera, Mat4 eye_from_world, Mat4 world_from_object)
 {
     Mat4 relative = world_from_object;

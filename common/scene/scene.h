@@ -127,6 +127,16 @@ enum { TERM_AMBIENT = 1, TERM_DIFFUSE = 2, TERM_SPECULAR = 4, TERM_EMISSION = 8,
 /* Removes from a copy's lights and materials what the terms leave out. */
 void scene_keep_terms(SceneCopy *copy, SceneTerms terms);
 
+/* Lights that were moved. Zeroed: none. */
+enum { SCENE_MAX_PLACED = 8 };
+typedef struct LightPlaces {
+    unsigned placed;           /* a bit each */
+    Vec3 at[SCENE_MAX_PLACED]; /* their positions, or directions of directional ones */
+} LightPlaces;
+
+/* Moves a copy's lights. */
+void scene_place_lights(SceneCopy *copy, const LightPlaces *places);
+
 /* eye_from_object, composed relative to the eye: the two translations are subtracted first, in
  * double precision, so that a scene far from the origin is drawn as accurately as one near it.
  * (Cozzi and Ring, 3D Engine Design for Virtual Globes, 2011, chapter 5) */

@@ -86,7 +86,8 @@ struct Window {
     WindowInput pending; /* collected by the callbacks; drags in screen units */
     bool held;           /* the left button, in the order of events */
     double x, y;         /* of the pointer, in the order of events */
-    WindowInput state;   /* of the last input, without events */
+    double press_x, press_y;
+    WindowInput state; /* of the last input, without events */
 };
 
 static void keep_error(int code, const char *text)
@@ -240,8 +241,13 @@ static void on_button(GLFWwindow *handle, int button, int action, int modifiers)
     WindowInput *input = pending(handle);
     if (button < WINDOW_BUTTONS && action == GLFW_PRESS)
         input->buttons[button] = true;
-    if (button == GLFW_MOUSE_BUTTON_LEFT)
-        window->held = action == GLFW_PRESS;
+    if (button != GLFW_MOUSE_BUTTON_LEFT)
+        return;
+    window->held = action == GLFW_PRESS;
+    if (window->held) {
+        window->press_x = window->x;
+        window->press_y = window->y;
+    }
 }
 
 static void on_pointer(GLFWwindow *handle, double x, double y)
@@ -423,6 +429,8 @@ void window_input(Window *window, double seconds, WindowInput *input)
         pixels_per_unit(window, &x, &y);
         window->state.x *= x;
         window->state.y *= y;
+        window->state.press_x = x * window->press_x;
+        window->state.press_y = y * window->press_y;
         events->drag_x *= x;
         events->drag_y *= y;
     }

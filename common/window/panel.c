@@ -95,7 +95,7 @@ bool panel_frame(Panel *panel, const PanelInput *input, const PanelContent *cont
     own.window = &window;
     panel_room(content->view, window.scale, window.width, window.height, own.room);
     own.seconds = within(input->seconds, 0, LONGEST_FRAME, 0);
-    *result = (PanelResult){.view = content->view};
+    *result = (PanelResult){.view = content->view, .mapped = content->error.mapped};
     const bool something =
         content->view != PANEL_HIDDEN || content->help || content->errors || content->notice;
     const bool visible = window.width > 0 && window.height > 0 && window.width <= LARGEST &&

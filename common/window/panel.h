@@ -41,12 +41,28 @@ typedef struct PanelHelp {
     const char *key, *action;
 } PanelHelp;
 
-/* The error of the picture against the exact one. */
+/* In steps of 1/255; rms NaN: there are no such pixels, or it is not known. */
+typedef struct PanelErrorPart {
+    double rms, maximum;
+} PanelErrorPart;
+
+/* The error of the picture against exact ones. */
 typedef struct PanelError {
-    bool known, computing; /* both: the known error is that of an earlier picture */
-    double rms, maximum;   /* in steps of 1/255; rms NaN: no object is visible */
-    double seconds;        /* time of that picture */
+    bool known, computing;            /* both: the known error is that of an earlier picture */
+    PanelErrorPart of_computing;      /* inside objects, against the exact picture of the meshes */
+    PanelErrorPart of_mesh;           /* inside objects, against that of the shapes */
+    PanelErrorPart at_edges;          /* elsewhere, against that of the shapes */
+    double seconds;                   /* time of that picture */
+    bool mapped;                      /* a map of the error is shown in the picture's place */
+    const unsigned char (*colors)[3]; /* of the map: of errors of 0.5, 4, 32 and 255 */
 } PanelError;
+
+/* A point of the picture that can be dragged: a light. */
+typedef struct PanelMark {
+    int number;
+    double x, y; /* pixels of the window */
+    bool held;
+} PanelMark;
 
 /* What to show. Texts are UTF-8; NULL: none. */
 typedef struct PanelContent {
@@ -54,12 +70,17 @@ typedef struct PanelContent {
     PanelView view;
     const Parameter *parameters;    /* ended by a NULL name, at most 32; may be NULL */
     const ParameterValue *defaults; /* of each; NULL: no reset */
-    double milliseconds;            /* per frame; not positive: unknown */
+    const Parameter *options;       /* common ones, in a section of their own; the same */
+    const ParameterValue *option_defaults;
+    const PanelMark *marks; /* drawn over the picture */
+    int mark_count;
+    double milliseconds; /* per frame; not positive: unknown */
     double frames_per_second;
     PanelError error;
     const char *effects;      /* lines, as effects_explain writes them */
     const char *command;      /* that draws this picture */
     const char *const *tries; /* arguments to try, a button each; ended by NULL; may be NULL */
+    const char *const *looks; /* what to look for in each; may be NULL */
     /* Shown also while the panel is hidden: */
     const PanelHelp *help; /* ended by a NULL key */
     const char *errors;    /* lines, "file:line: reason" */
@@ -94,6 +115,9 @@ typedef struct PanelDrawing {
 typedef struct PanelResult {
     PanelView view;       /* a click on the title changes it */
     uint32_t changed;     /* bit i: parameter i changed */
+    uint32_t options;     /* bit i: option i changed */
+    bool mapped;          /* as PanelError has it, or as a click on its switch has set it */
+    int larger;           /* letters by so many sizes, or smaller if negative */
     const char *tried;    /* the arguments of the button that was pressed; NULL: none */
     bool wants_pointer;   /* the panel uses pointer and wheel in this frame */
     bool wants_keys;      /* ... keys and characters */

@@ -87,8 +87,9 @@ ImFont *add_font(const char *name, float size)
                                           "/usr/share/fonts/dejavu-sans-mono-fonts",
                                           "/usr/local/share/fonts"};
     // Latin, Greek, Cyrillic; dashes and quotes; arrows; comparisons.
-    static const ImWchar letters[] = {0x20,   0x17f,  0x370,  0x4ff,  0x2010, 0x2027, 0x2190,
-                                      0x2193, 0x21ba, 0x21ba, 0x2260, 0x2265, 0};
+    static const ImWchar letters[] = {0x20,   0x17f,  0x370,  0x4ff,  0x2010,
+                                      0x2027, 0x2190, 0x2193, 0x21ba, 0x21ba,
+                                      0x2260, 0x2265, 0x25a0, 0x25a0, 0};
     static const unsigned char true_type[4] = {0, 1, 0, 0};
     for (const char *folder : folders) {
         const std::string path = std::string(folder) + "/" + name;
@@ -457,6 +458,37 @@ bool edit_choice(const Parameter &parameter, float right)
     return changed;
 }
 
+// A switch whose states have names: the first is true.
+bool edit_named_switch(const Parameter &parameter, float right)
+{
+    bool *own = static_cast<bool *>(parameter.value);
+    int chosen = *own ? 0 : 1;
+    const bool changed = edit_few_choices(parameter, &chosen, right);
+    if (changed)
+        *own = chosen == 0;
+    return changed;
+}
+
+// A text that is one of a few, or none: then as the program has it.
+bool edit_text_choice(const Parameter &parameter, float right)
+{
+    const char **own = static_cast<const char **>(parameter.value);
+    Parameter named = parameter;
+    std::vector<const char *> names = {parameter.standard ? parameter.standard : "none"};
+    int chosen = 0;
+    for (int i = 0; parameter.choices[i]; i++) {
+        if (*own && std::strcmp(*own, parameter.choices[i]) == 0)
+            chosen = i + 1;
+        names.push_back(parameter.choices[i]);
+    }
+    names.push_back(nullptr);
+    named.choices = names.data();
+    const bool changed = edit_few_choices(named, &chosen, right);
+    if (changed)
+        *own = chosen > 0 ? parameter.choices[chosen - 1] : nullptr;
+    return changed;
+}
+
 bool edit_switch(const Parameter &parameter)
 {
     bool *own = static_cast<bool *>(parameter.value), on = *own;
@@ -538,10 +570,22 @@ bool edit(Context &context, const Parameter &parameter, float width)
         return edit_choice(parameter, right);
     case PARAMETER_SWITCH:
     case PARAMETER_FLAG:
+        if (parameter.kind == PARAMETER_SWITCH && parameter.choices) {
+            ImGui::BeginGroup();
+            const bool changed = edit_named_switch(parameter, right);
+            ImGui::EndGroup();
+            return changed;
+        }
         return edit_switch(parameter);
     case PARAMETER_COLOR:
         return edit_color(context, parameter, width);
     case PARAMETER_TEXT:
+        if (parameter.choices) {
+            ImGui::BeginGroup();
+            const bool changed = edit_text_choice(parameter, right);
+            ImGui::EndGroup();
+            return changed;
+        }
         show_text(parameter, width);
         return false;
     }
@@ -581,12 +625,12 @@ bool reset_button(const Context &context, const Parameter &parameter, const Para
     return pressed;
 }
 
-uint32_t reset_all(const PanelContent &content)
+uint32_t reset_all(const Parameter *parameters, const ParameterValue *defaults)
 {
     uint32_t changed = 0;
-    for (int i = 0; i < MAX_PARAMETERS && content.parameters[i].name; i++) {
-        if (can_reset(content.parameters[i], &content.defaults[i])) {
-            parameter_restore(&content.parameters[i], content.defaults[i]);
+    for (int i = 0; i < MAX_PARAMETERS && parameters[i].name; i++) {
+        if (can_reset(parameters[i], &defaults[i])) {
+            parameter_restore(&parameters[i], defaults[i]);
             changed |= uint32_t(1) << i;
         }
     }
@@ -601,29 +645,26 @@ float widest_name(const Parameter *parameters)
     return widest;
 }
 
-uint32_t parameters_section(Context &context, const PanelContent &content)
+uint32_t edit_all(Context &context, const Parameter *parameters, const ParameterValue *defaults)
 {
     const ImGuiStyle &style = ImGui::GetStyle();
     uint32_t changed = 0;
     bool others = false;
-    if (!content.parameters || !content.parameters[0].name ||
-        !ImGui::CollapsingHeader("Parameters", ImGuiTreeNodeFlags_DefaultOpen))
-        return 0;
     const float all = ImGui::GetContentRegionMax().x;
-    const float left = std::min(
-        style.WindowPadding.x + widest_name(content.parameters) + style.ItemSpacing.x, all / 2);
+    const float left =
+        std::min(style.WindowPadding.x + widest_name(parameters) + style.ItemSpacing.x, all / 2);
     const float right = all - ImGui::GetFrameHeight();
     const float width = std::max(right - left - style.ItemSpacing.x, 8.0f);
-    for (int i = 0; i < MAX_PARAMETERS && content.parameters[i].name; i++) {
-        const Parameter &parameter = content.parameters[i];
-        const ParameterValue *value = content.defaults ? &content.defaults[i] : nullptr;
+    for (int i = 0; i < MAX_PARAMETERS && parameters[i].name; i++) {
+        const Parameter &parameter = parameters[i];
+        const ParameterValue *value = defaults ? &defaults[i] : nullptr;
         ImGui::PushID(i);
         ImGui::AlignTextToFramePadding();
         put_text(parameter.name);
         tooltip(parameter);
         ImGui::SameLine(left);
         bool now = edit(context, parameter, width);
-        if (parameter.kind != PARAMETER_CHOICE && parameter.kind != PARAMETER_COLOR)
+        if (!parameter.choices && parameter.kind != PARAMETER_COLOR)
             tooltip(parameter);
         others |= can_reset(parameter, value);
         now |= reset_button(context, parameter, value, right);
@@ -633,8 +674,32 @@ uint32_t parameters_section(Context &context, const PanelContent &content)
         changed |= uint32_t(now) << i;
     }
     if (others && ImGui::Button("Reset all"))
-        changed |= reset_all(content);
+        changed |= reset_all(parameters, defaults);
     return changed;
+}
+
+uint32_t parameters_section(Context &context, const PanelContent &content)
+{
+    if (!content.parameters || !content.parameters[0].name ||
+        !ImGui::CollapsingHeader("Parameters", ImGuiTreeNodeFlags_DefaultOpen))
+        return 0;
+    return edit_all(context, content.parameters, content.defaults);
+}
+
+// The common options, and the size of letters.
+void options_section(Context &context, const PanelContent &content, PanelResult &result)
+{
+    if (!content.options || !ImGui::CollapsingHeader("Drawing"))
+        return;
+    ImGui::PushID("options");
+    result.options = edit_all(context, content.options, content.option_defaults);
+    ImGui::AlignTextToFramePadding();
+    put_text("letters");
+    ImGui::SameLine();
+    result.larger -= ImGui::Button("smaller");
+    ImGui::SameLine();
+    result.larger += ImGui::Button("larger");
+    ImGui::PopID();
 }
 
 // Returns the arguments whose button was pressed.
@@ -647,46 +712,85 @@ const char *tries_section(const PanelContent &content)
         ImGui::PushID(i);
         if (ImGui::Button(content.tries[i]))
             tried = content.tries[i];
+        if (content.looks && content.looks[i]) {
+            ImGui::PushStyleColor(ImGuiCol_Text, DIM);
+            put_wrapped(content.looks[i]);
+            ImGui::PopStyleColor();
+        }
         ImGui::PopID();
     }
     return tried;
 }
 
-void cost_section(const PanelContent &content)
+// A line that is there always, so that what is below stays where it is. Dim: of an earlier picture,
+// while this one's is computed.
+void error_row(const char *name, const char *help, const PanelErrorPart &part,
+               const PanelError &error, float left)
+{
+    ImGui::TextUnformatted(name);
+    bool hovered = ImGui::IsItemHovered();
+    ImGui::SameLine(left);
+    ImGui::PushStyleColor(ImGuiCol_Text, error.computing || !error.known ? DIM : PLAIN);
+    if (!error.known)
+        ImGui::TextUnformatted("is computed");
+    else if (std::isnan(part.rms))
+        ImGui::TextUnformatted("none");
+    else
+        ImGui::Text("rms %.3g, at most %.3g", part.rms, part.maximum);
+    ImGui::PopStyleColor();
+    hovered |= ImGui::IsItemHovered();
+    if (hovered)
+        ImGui::SetTooltip("%s", help);
+}
+
+// A switch, and what its colors mean.
+void map_row(const PanelError &error, PanelResult &result)
+{
+    static const char *const errors[] = {"0.5", "4", "32", "255"};
+    ImGui::Checkbox("map", &result.mapped);
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("where the picture differs from the exact one of the shapes");
+    for (int i = 0; i < 4 && error.colors; i++) {
+        const unsigned char *color = error.colors[i];
+        ImGui::SameLine();
+        ImGui::TextColored(ImVec4(color[0] / 255.0f, color[1] / 255.0f, color[2] / 255.0f, 1),
+                           "\u25a0 %s", errors[i]);
+    }
+}
+
+void cost_section(const PanelContent &content, PanelResult &result)
 {
     const PanelError &error = content.error;
     if (!ImGui::CollapsingHeader("Cost", ImGuiTreeNodeFlags_DefaultOpen))
         return;
-    const float left = ImGui::GetStyle().WindowPadding.x + ImGui::GetFontSize() * 4;
+    const float left = ImGui::GetStyle().WindowPadding.x + ImGui::GetFontSize() * 7;
     ImGui::TextUnformatted("Frame");
     ImGui::SameLine(left);
-    if (content.milliseconds > 0)
+    if (content.milliseconds > 0 && content.frames_per_second > 0)
         ImGui::Text("%.2f ms; %.0f a second", content.milliseconds, content.frames_per_second);
+    else if (content.milliseconds > 0)
+        ImGui::Text("%.2f ms; time stands still", content.milliseconds);
     else
         ImGui::TextDisabled("not measured yet");
     if (!error.known && !error.computing) // there may be nothing to compare with
         return;
-    ImGui::TextUnformatted("Error");
+    ImGui::TextUnformatted("Errors");
     ImGui::SameLine(left);
-    // Two lines always, so that what is below stays where it is. Dim: of an earlier picture, while
-    // this one's is computed.
-    if (error.known && std::isnan(error.rms)) {
-        ImGui::TextDisabled("there is no object to be seen");
-        ImGui::NewLine();
-    } else if (error.known) {
-        ImGui::PushStyleColor(ImGuiCol_Text, error.computing ? DIM : PLAIN);
-        ImGui::Text("rms %.3g, at most %.3g, inside", error.rms, error.maximum);
-        if (ImGui::IsItemHovered())
-            ImGui::SetTooltip("of the pixels wholly inside one surface\n"
-                              "and covered by what is drawn; edges\ndo not count");
-        ImGui::NewLine();
-        ImGui::SameLine(left);
-        ImGui::Text("steps of 1/255, at %.2f s", error.seconds);
-        ImGui::PopStyleColor();
-    } else {
-        ImGui::TextDisabled("computing the exact picture");
-        ImGui::NewLine();
-    }
+    ImGui::TextDisabled("in steps of 1/255, at %.2f s", error.seconds);
+    error_row("of computing",
+              "inside objects, against the exact picture of the meshes:\n"
+              "rounding and precision; not known of a simplified picture",
+              error.of_computing, error, left);
+    error_row(
+        "of the mesh",
+        "inside objects, against the exact picture of the smooth shapes, lit at every point:\n"
+        "flat triangles and interpolation, and the error of computing",
+        error.of_mesh, error, left);
+    error_row("at edges",
+              "elsewhere, against the exact picture, whose edges are smooth:\n"
+              "steps and corners of outlines",
+              error.at_edges, error, left);
+    map_row(error, result);
 }
 
 // What is left out is dim; what it is the list of, a heading.
@@ -764,8 +868,9 @@ float margin(const Context &context)
 void sections(Context &context, const PanelContent &content, float max, PanelResult &result)
 {
     result.changed = parameters_section(context, content);
+    options_section(context, content, result);
     result.tried = tries_section(content);
-    cost_section(content);
+    cost_section(content, result);
     const float effects = effects_section(context, content, max);
     command_section(context, content);
     const float height = ImGui::GetCursorPosY() + ImGui::GetScrollY() +
@@ -836,6 +941,28 @@ void errors_window(Context &context, const char *errors)
     ImGui::End();
     ImGui::PopStyleVar();
     ImGui::PopStyleColor(2);
+}
+
+// Rings with numbers, behind the panel.
+void draw_marks(const Context &context, const PanelContent &content)
+{
+    ImDrawList *list = ImGui::GetBackgroundDrawList();
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const float right = float(context.input->room[0]);
+    const float top = display.y - float(context.input->room[1]);
+    list->PushClipRect(ImVec2(0, top), ImVec2(right, display.y));
+    for (int i = 0; i < content.mark_count; i++) {
+        const PanelMark &mark = content.marks[i];
+        const ImVec2 at(float(mark.x), float(mark.y));
+        const float radius = 9 * context.scale;
+        const ImU32 color = mark.held ? IM_COL32(255, 210, 80, 255) : IM_COL32(120, 190, 255, 255);
+        char number[16];
+        std::snprintf(number, sizeof number, "%d", mark.number);
+        list->AddCircle(at, radius, IM_COL32(0, 0, 0, 255), 24, 3.5f * context.scale);
+        list->AddCircle(at, radius, color, 24, 1.5f * context.scale);
+        list->AddText(ImVec2(at.x + radius, at.y + radius / 2), color, number);
+    }
+    list->PopClipRect();
 }
 
 void help_window(const PanelHelp *help)
@@ -969,6 +1096,8 @@ void make_frame(Context &context, const PanelContent &content, PanelResult &resu
     const ImGuiIO &io = ImGui::GetIO();
     result.wants_pointer = io.WantCaptureMouse;
     result.wants_keys = io.WantTextInput || popup_open(); // as they were when the keys were hit
+    if (content.view == PANEL_OPEN && content.marks)
+        draw_marks(context, content);
     if (content.view != PANEL_HIDDEN)
         panel_window(context, content, result);
     if (content.errors)

@@ -49,6 +49,7 @@ typedef struct WindowInput {
     double scale;                     /* of text, 1 on a standard screen */
     double x, y;                      /* of the pointer */
     bool buttons[WINDOW_BUTTONS];     /* left, right, middle: down, or pressed and released since */
+    double press_x, press_y;          /* of the pointer when the left one last went down */
     double drag_x, drag_y;            /* pointer movement while the left one was down */
     double scroll;                    /* notches, positive away from the user */
     bool control, shift;              /* held */

@@ -295,7 +295,7 @@ static Parameter terms_row(void)
 TEST(every_set_of_terms_and_lights_is_read_and_written)
 {
     for (unsigned bits = 1; bits < 1 << 8; bits++) {
-        char line[160] = "--terms ", text[PARAMETER_TEXT_SIZE];
+        char line[300] = "--terms ", text[PARAMETER_TEXT_SIZE];
         for (int i = 0; i < 8; i++) {
             const int k = bits & 1 ? i : 7 - i;
             if (bits >> k & 1)
@@ -323,7 +323,7 @@ TEST(every_set_of_terms_and_lights_is_read_and_written)
 /* All lights but one are the longest text. */
 TEST(the_longest_terms_fit)
 {
-    char text[PARAMETER_TEXT_SIZE], line[160];
+    char text[PARAMETER_TEXT_SIZE], line[300];
     for (unsigned left_out = 0; left_out < 32; left_out++) {
         assert_int_equal(read_as(&SCENE, ""), OPTIONS_RUN);
         options.terms.lights_left_out = (uint32_t)1 << left_out;
@@ -332,6 +332,49 @@ TEST(the_longest_terms_fit)
         snprintf(line, sizeof line, "--terms %s", text);
         assert_int_equal(read_as(&SCENE, line), OPTIONS_RUN);
         assert_int_equal(options.terms.lights_left_out, (uint32_t)1 << left_out);
+    }
+}
+
+static Parameter places_row(void)
+{
+    static Parameter table[OPTIONS_MAX];
+    Parameter *row = table;
+    options_table(&SCENE, &options, OPTIONS_TO_WRITE, table);
+    while (row->name && strcmp(row->name, "light-at") != 0)
+        row++;
+    assert_non_null(row->name);
+    return *row;
+}
+
+TEST(lights_are_put_elsewhere)
+{
+    char line[300], text[PARAMETER_TEXT_SIZE];
+    assert_int_equal(read_as(&SCENE, ""), OPTIONS_RUN);
+    assert_int_equal(options.places.placed, 0);
+    Parameter row = places_row();
+    assert_false(row.write(&row, text, sizeof text));
+    assert_int_equal(read_as(&SCENE, "--light-at 1,0.5,-2,1e3/7,0,0,1"), OPTIONS_RUN);
+    assert_int_equal(options.places.placed, 1 << 1 | 1 << 7);
+    assert_true(options.places.at[1].x == 0.5 && options.places.at[1].y == -2 &&
+                options.places.at[1].z == 1000 && options.places.at[7].z == 1);
+    /* All of them, as they are dragged. */
+    options.places.placed = 255;
+    for (int i = 0; i < SCENE_MAX_PLACED; i++)
+        options.places.at[i] = (Vec3){-12.345 - i, -0.001 * i, 100.123};
+    const LightPlaces all = options.places;
+    row = places_row();
+    assert_true(row.write(&row, text, sizeof text));
+    snprintf(line, sizeof line, "--light-at %s", text);
+    assert_int_equal(read_as(&SCENE, line), OPTIONS_RUN);
+    for (int i = 0; i < SCENE_MAX_PLACED; i++)
+        assert_memory_equal(&options.places.at[i], &all.at[i], sizeof all.at[i]);
+    static const char *const wrong[] = {"\"\"",     "0",      "0,1,2",       "0,1,2,3,4", "8,1,2,3",
+                                        "-1,1,2,3", "0,1,2,", "0,1,2,3/",    "/0,1,2,3",  "x,1,2,3",
+                                        "0,1,2,x",  "0,,1,2", "0,1,2,3/0,1", "0,1e7,0,0"};
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        snprintf(line, sizeof line, "--light-at=%s", wrong[i]);
+        if (read_as(&SCENE, line) != OPTIONS_BAD)
+            fail_msg("taken: %s", line);
     }
 }
 

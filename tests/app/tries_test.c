@@ -147,13 +147,11 @@ TEST(every_shape_is_whole)
         check_line(EXAMPLES[e], "", false);
         while (own->name && strcmp(own->name, "shape") != 0)
             own++;
-        /* In all directions; and what takes long is not asked for. */
-        const char *more = EXAMPLES[e] == &ShadingModels ? "--rotating on"
-                           : EXAMPLES[e] == &TermsApart  ? "--costs off"
-                                                         : "";
         for (int i = 0; own->name && own->choices[i]; i++) {
             char line[64];
-            snprintf(line, sizeof line, "--shape %s %s", own->choices[i], more);
+            snprintf(line, sizeof line, "--shape %s%s", own->choices[i],
+                     EXAMPLES[e]->name[0] == 'T' && own->choices == SHAPE_NAMES ? " --costs off"
+                                                                                : "");
             check_line(EXAMPLES[e], line, false);
         }
     }

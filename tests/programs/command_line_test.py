@@ -244,15 +244,6 @@ class Options(Case):
                 self.assertEqual("--explain" in text, program in SCENES)
         self.assertEqual(self.everything(), {})
 
-    def test_what_help_suggests_works(self):
-        # Of the programs with suggestions of their own, tests/app/tries_test.c checks the pictures, too.
-        for program in ["LightedCube"] + DIAGRAMS:
-            text = self.good("--help", program=program).decode()
-            lines = re.findall(rf"^(?:Try:  |      ){program} (.*)\n +\S.*$", text, re.M)
-            self.assertEqual(len(lines), 3, text)
-            for line in lines:
-                self.good(*line.split(), program=program)
-
     def test_every_program_draws_its_picture(self):
         for program in PROGRAMS:
             with self.subTest(program=program):

@@ -9,6 +9,7 @@ X server or a driver.
 """
 import ctypes
 import ctypes.util
+import math
 import os
 import random
 import re
@@ -34,9 +35,9 @@ AWAY = SCREEN[0] - 5, SCREEN[1] - 5
 PANEL = 356  # by which a window with a panel is wider
 
 
-def wait_for(condition, what):
+def wait_for(condition, what, deadline=DEADLINE):
     """The first true value of `condition`; `what` names it in the message of a timeout."""
-    end, pause = time.monotonic() + DEADLINE, 0.01
+    end, pause = time.monotonic() + deadline, 0.01
     while time.monotonic() < end:
         found = condition()
         if found:
@@ -207,6 +208,12 @@ class Shown:
             steps += ["mousemove", *place]
         self.server.xdotool(*steps, "mouseup", 1, "mousemove", *AWAY)
 
+    def click(self, x, y):
+        """A frame, with a saved picture, lies between it and the pointer's leaving."""
+        self.server.xdotool("mousemove", x, y, "click", 1)
+        self.save()
+        self.server.xdotool("mousemove", *AWAY)
+
     def ends(self, code, said=""):
         self.ended = True
         self.case.assertEqual(self.process.wait(DEADLINE), code, self.said())
@@ -222,6 +229,21 @@ class Shown:
         before = self.said()
         self.key("Escape")
         self.ends(0, before)
+
+
+CAMERA = 2, 1, 3  # the eye of ShadingModels, which looks at the origin
+
+
+def pixel_of(point, width, height):
+    """Where the camera of ShadingModels sees a point: 50 degrees high, or wide if that is less."""
+    length = math.hypot(*CAMERA)
+    back = [part / length for part in CAMERA]
+    right = [part / math.hypot(back[2], back[0]) for part in (back[2], 0, -back[0])]
+    up = [back[1] * right[2] - back[2] * right[1], back[2] * right[0] - back[0] * right[2],
+          back[0] * right[1] - back[1] * right[0]]
+    x, y, z = (sum(a * b for a, b in zip(point, axis)) for axis in (right, up, back))
+    scale = min(width, height) / 2 / math.tan(math.radians(25)) / (length - z)
+    return round(width / 2 + x * scale), round(height / 2 - y * scale)
 
 
 def crop(pixels, stride, place):
@@ -595,8 +617,9 @@ class Panel(Case):
         plain = self.visible(shown)
         shown.key("p")
         wait_for(lambda: shown.place()[2:] == (500 + PANEL, 400), "a wider window")
-        left = lambda: crop(self.visible(shown), 500 + PANEL, (0, 0, 500, 400))
-        wait_for(lambda: left() == plain, "the whole picture")
+        # Below the rings at the lights.
+        left = lambda: crop(self.visible(shown), 500 + PANEL, (0, 130, 500, 270))
+        wait_for(lambda: left() == crop(plain, 500, (0, 130, 500, 270)), "the whole picture")
         picture = shown.save()
         self.assertTrue(picture.pixels == plain)
         self.assert_headless(picture, SCENE)
@@ -611,8 +634,9 @@ class Panel(Case):
         shown.resize(400, 300)
         wait_for(lambda: shown.place()[2:] == (400, 300), "the size")
         picture = wait_for(lambda: self.saved_with(shown, (134, 300)), "a narrow picture")
-        screen = lambda: crop(self.visible(shown), 400, (0, 0, 134, 300))
-        wait_for(lambda: screen() == picture.pixels, "the narrow picture")
+        screen = lambda: crop(self.visible(shown), 400, (0, 110, 134, 190))
+        wait_for(lambda: screen() == crop(picture.pixels, 134, (0, 110, 134, 190)),
+                 "the narrow picture")
         self.assert_headless(picture, SCENE)
 
     def saved_with(self, shown, size):
@@ -640,7 +664,7 @@ class Panel(Case):
         shown.key("p")
         found = None
         for x, y in ((600 + x, y) for y in range(68, 150, 7) for x in (94, 106, 118, 130)):
-            self.server.xdotool("mousemove", x, y, "click", 1, "mousemove", *AWAY)
+            shown.click(x, y)
             if shown.save().pixels == wanted:
                 found = x, y
                 break
@@ -650,6 +674,95 @@ class Panel(Case):
         self.assertTrue(shown.save().pixels == plain)
 
 
+    def test_a_light_is_dragged_by_its_point(self):
+        """In the plane parallel to the picture, where the pointer takes it."""
+        shown = self.show("-s", "400x600", program=SCENE, paused=True)
+        shown.key("p")
+        wait_for(lambda: shown.place()[2:] == (400 + PANEL, 600), "a wider window")
+        plain = shown.save().pixels
+        there = pixel_of((0, 1.5, 1.5), 400, 600)
+        shown.drag(there, (there[0] + 30, there[1]), (there[0] + 60, there[1] + 40))
+        picture = shown.save()
+        self.assertIsNone(orbit_of(picture))
+        number, *at = picture.command[picture.command.index("--light-at") + 1].split(",")
+        self.assertEqual(number, "0")
+        self.assertTrue(all(len(part) <= 6 for part in at), at)
+        at = [float(part) for part in at]
+        self.assertAlmostEqual(sum(a * b for a, b in zip(at, CAMERA)), 1.5 + 1.5 * 3, delta=0.02)
+        for got, wanted in zip(pixel_of(at, 400, 600), (there[0] + 60, there[1] + 40)):
+            self.assertAlmostEqual(got, wanted, delta=1.5)
+        self.assert_headless(picture, SCENE)
+        shown.key("r")
+        shown.pause()
+        self.assertNotIn("--light-at", shown.save().command)
+        # Without the panel the camera is what is dragged.
+        shown.key("p")
+        wait_for(lambda: shown.place()[2:] == (400, 600), "the window without the panel")
+        shown.drag(there, (there[0] - 30, there[1]))
+        picture = shown.save()
+        self.assertIsNotNone(orbit_of(picture))
+        self.assertNotIn("--light-at", picture.command)
+
+    def test_common_options_are_in_the_panel(self):
+        """Where they lie is up to the panel: they are looked for about where they are."""
+        shown = self.show("-s", "500x400", program=SCENE, paused=True)
+        shown.key("p")
+        wait_for(lambda: shown.place()[2:] == (500 + PANEL, 400), "a wider window")
+        for y in 52, 77:  # folds the parameters, and unfolds the options
+            shown.click(650, y)
+        for option, x, y in (("--samples", 798, 101), ("--precision", 611, 151),
+                             ("--linear-light", 611, 201)):
+            for step in (0, -6, 6, -12, 12):
+                shown.click(x, y + step)
+                picture = shown.save()
+                if option in picture.command:
+                    break
+            self.assertIn(option, picture.command)
+            self.assert_headless(picture, SCENE)
+        shown.key("r")
+        shown.pause()
+        picture = shown.save()
+        self.assertEqual(len(picture.command), 7, picture.command)  # output, size and time
+        self.assert_headless(picture, SCENE)
+
+    def test_a_map_shows_where_the_error_is(self):
+        """In the picture's place; what is saved stays the picture. Its switch is looked for about
+        where it is."""
+        shown = self.show("-s", "500x400", "--interpolation", "gouraud", program=SCENE, paused=True)
+        shown.key("p")
+        wait_for(lambda: shown.place()[2:] == (500 + PANEL, 400), "a wider window")
+        shown.click(650, 52)
+        # The lower left corner is background; in the middle is the sphere.
+        corner = lambda: crop(self.visible(shown), 500 + PANEL, (10, 380, 4, 4))
+        sphere = lambda: crop(self.visible(shown), 500 + PANEL, (240, 190, 9, 9))
+        plain = shown.save().pixels
+        before = sphere()
+        self.assertNotEqual(corner(), bytes(3 * 16))
+        for y in (247, 241, 253, 235, 259):
+            shown.click(526, y)
+            try:
+                wait_for(lambda: sphere() != before, "a map", 20)
+                break
+            except AssertionError:
+                pass
+        wait_for(lambda: corner() == bytes(3 * 16), "a background without an error")
+        self.assertNotEqual(sphere(), before)
+        self.assertTrue(shown.save().pixels == plain)
+        shown.click(526, y)
+        wait_for(lambda: sphere() == before, "the picture again")
+
+    def test_letters_grow_and_the_panel_with_them(self):
+        shown = self.show("-s", "300x200", program=SCENE, paused=True)
+        shown.key("p")
+        wait_for(lambda: shown.place()[2] == 300 + PANEL, "a wider window")
+        shown.key("plus")
+        wait_for(lambda: shown.place()[2] == 300 + round(1.15 * PANEL), "larger letters")
+        self.assertEqual(shown.save().width, 300)
+        shown.key("minus", "minus")
+        wait_for(lambda: shown.place()[2] == 300 + round(PANEL / 1.15), "smaller letters")
+        shown.key("p")
+        wait_for(lambda: shown.place()[2] == 300, "the window as it was")
+
     @unittest.skipUnless(base.DIAGRAMS, "no cairo")
     def test_the_panel_moves_a_diagram(self):
         """A click on "blinn-phong"; where it lies is up to the panel."""
@@ -657,7 +770,7 @@ class Panel(Case):
         plain, found = shown.save().pixels, False
         shown.key("p")
         for x, y in ((600 + x, y) for y in range(168, 190, 6) for x in (84, 92)):
-            self.server.xdotool("mousemove", x, y, "click", 1, "mousemove", *AWAY)
+            shown.click(x, y)
             picture = shown.save()
             if picture.pixels != plain:
                 self.assertIn("blinn-phong", picture.command)

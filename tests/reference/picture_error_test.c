@@ -17,6 +17,7 @@ typedef struct Plain {
     float color[3 * COUNT];
     unsigned char interior[COUNT];
     int object[COUNT];
+    float coverage[COUNT];
     Reference exact;
     Object objects[3];
     Scene scene;
@@ -28,13 +29,16 @@ static void plain_open(Plain *plain, int width, int height, float value)
         plain->color[i] = value;
     memset(plain->interior, 1, sizeof plain->interior);
     memset(plain->object, 0, sizeof plain->object);
+    for (int i = 0; i < COUNT; i++)
+        plain->coverage[i] = 1;
     memset(plain->objects, 0, sizeof plain->objects);
     plain->objects[0].front.alpha = 1; /* no alpha is less than theirs */
     plain->exact = (Reference){.width = width,
                                .height = height,
                                .color = plain->color,
                                .interior = plain->interior,
-                               .object = plain->object};
+                               .object = plain->object,
+                               .coverage = plain->coverage};
     plain->scene = (Scene){.objects = plain->objects, .object_count = 3};
 }
 
@@ -67,6 +71,37 @@ static PictureError compare(const Image *image, const Plain *plain)
     PictureError error = {.all = {0}};
     picture_error_add(&error, image, 0, 0, &plain->exact, &plain->scene);
     return error;
+}
+
+TEST(a_map_has_a_color_for_each_error)
+{
+    static const struct {
+        double value;
+        unsigned char color[3];
+    } cases[] = {{0, {0, 0, 0}},
+                 {0.5, {0, 0, 0}},
+                 {0.51, {70, 110, 255}},
+                 {4, {0, 200, 120}},
+                 {32, {255, 200, 0}},
+                 {255, {255, 255, 255}},
+                 {(double)NAN, {255, 255, 255}}};
+    Plain plain;
+    plain_open(&plain, WIDTH, HEIGHT, 0);
+    Image image = open_image(WIDTH + 1, HEIGHT + 2, IMAGE_FLOAT, 0);
+    Image map = open_image(WIDTH + 1, HEIGHT + 2, IMAGE_BYTE, 1);
+    for (int i = 0; i < 7; i++)
+        put_float(&image, 1 + i, 2, 1, cases[i].value / 255);
+    picture_error_map(&map, &image, 1, 2, &plain.exact);
+    const unsigned char *pixels = map.pixels;
+    for (int i = 0; i < 7; i++)
+        for (int c = 0; c < 3; c++)
+            assert_in_range(pixels[4 * (2 * (WIDTH + 1) + 1 + i) + c] + 3, cases[i].color[c],
+                            cases[i].color[c] + 6);
+    for (int i = 0; i < 4 * (WIDTH + 1); i++) /* beside it, and its alpha, are as they were */
+        assert_int_equal(pixels[i], 255);
+    assert_int_equal(pixels[4 * (2 * (WIDTH + 1) + 1) + 3], 255);
+    image_close(&image);
+    image_close(&map);
 }
 
 TEST(equal_pictures_have_no_error)
@@ -254,7 +289,8 @@ TEST(what_is_drawn_limits_the_interior)
             bool inside;
         } cases[] = {{0, 1, true},   {0, 0.9985, true}, {0, 0.75, false}, {0, 0, false},
                      {1, 0.5, true}, {1, 0.4, false},   {2, 0.25, true},  {2, 0.2, false},
-                     {2, 0.5, true}, {0, 0.25, true},   {2, 0.6, false},  {-1, 1, false}};
+                     {2, 0.5, true}, {0, 0.25, true},   {2, 0.6, false},  {-1, 1, false},
+                     {-1, 0, false}};
         int inside = COUNT;
         for (int i = 0; i < (int)(sizeof cases / sizeof cases[0]); i++) {
             plain.object[i] = cases[i].object;
@@ -276,6 +312,7 @@ TEST(what_is_drawn_limits_the_interior)
                     plain.color[3 * i + c] = 1;
         const PictureError error = compare(&image, &plain);
         assert_int_equal(error.interior.pixels, inside);
+        assert_int_equal(error.edges.pixels, COUNT - inside - 1); /* all but the background */
         assert_true(fabs(error.interior.maximum - 2) < 1e-5);
         assert_true(fabs(error.all.maximum - 100) < 1e-5);
         image_close(&image);

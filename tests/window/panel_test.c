@@ -519,6 +519,100 @@ PANEL_TEST(test_a_color_has_a_slider_for_each_part)
     assert_false(result.wants_keys);
 }
 
+/* A switch whose states have names, and a text of a few choices or none. */
+PANEL_TEST(test_named_states_lie_side_by_side)
+{
+    static const char *const states[] = {"vertex", "end", NULL};
+    static const char *const precisions[] = {"highp", "mediump", NULL};
+    const char *precision = NULL;
+    const Parameter parameters[] = {
+        {"clamp", "h", PARAMETER_SWITCH, .value = &on, .choices = states},
+        {"precision", "h", PARAMETER_TEXT, .value = &precision, .choices = precisions,
+         .standard = "any"},
+        {.name = NULL}};
+    double rows[MAX_ROWS];
+    Span spans[8];
+    on = false;
+    show(parameters);
+    assert_int_equal(find_rows(rows), 2);
+    assert_int_equal(find_controls(rows[0], spans), 2);
+    assert_int_equal(click(middle(spans[1]), rows[0]), 0);
+    assert_int_equal(click(middle(spans[0]), rows[0]), 1);
+    assert_true(on);
+    assert_int_equal(find_controls(rows[1], spans), 3);
+    assert_int_equal(click(middle(spans[2]), rows[1]), 2);
+    assert_ptr_equal(precision, precisions[1]);
+    assert_int_equal(click(middle(spans[0]), rows[1]), 2);
+    assert_null(precision);
+}
+
+/* Its switch lies below three lines of errors. */
+PANEL_TEST(test_the_map_of_the_error_is_switched)
+{
+    static const unsigned char colors[4][3] = {{0, 0, 255}, {0, 255, 0}, {255, 0, 0}, {9, 9, 9}};
+    content.error = (PanelError){.computing = true, .colors = colors};
+    frames(3);
+    const int computing = result.drawing.vertex_count;
+    content.error.known = true;
+    content.error.of_mesh = (PanelErrorPart){1.5, 20};
+    frames(3);
+    assert_true(result.drawing.vertex_count != computing);
+    assert_false(result.mapped);
+    double y = 150;
+    for (; y < 260 && !content.error.mapped; y += 5) {
+        point(LEFT + 24, y);
+        window.buttons[0] = true;
+        frame();
+        window.buttons[0] = false;
+        frame();
+        content.error.mapped = result.mapped;
+    }
+    assert_true(content.error.mapped);
+    frames(3);
+    assert_true(result.mapped);
+}
+
+PANEL_TEST(test_tries_say_what_to_look_for)
+{
+    static const char *const tries[] = {"--shape cube", "--terms specular", NULL};
+    static const char *const looks[] = {"its edges", "the highlight alone", NULL};
+    const char *tried = NULL;
+    content.tries = tries;
+    frames(3);
+    click(LEFT + 60, 52); /* unfolds them */
+    frames(3);
+    const int before = result.drawing.vertex_count;
+    content.looks = looks;
+    frames(3);
+    assert_true(result.drawing.vertex_count > before + 4 * 15);
+    for (double y = 66; y < 160 && !tried; y += 5) {
+        point(LEFT + 40, y);
+        window.buttons[0] = true;
+        frame();
+        window.buttons[0] = false;
+        frame();
+        tried = result.tried;
+    }
+    assert_string_equal(tried, tries[0]);
+}
+
+/* Rings over the picture, and never over the panel. */
+PANEL_TEST(test_marks_are_drawn_over_the_picture)
+{
+    const PanelMark marks[] = {{0, 100, 200, false}, {1, LEFT - 2, 300, true}, {2, 800, 10, false}};
+    frames(3);
+    const int before = result.drawing.vertex_count;
+    content.marks = marks;
+    content.mark_count = 3;
+    frames(3);
+    assert_true(result.drawing.vertex_count > before);
+    const PanelCommand *first = &result.drawing.commands[0]; /* behind the panel */
+    assert_true(first->x + first->width <= LEFT);
+    content.view = PANEL_FOLDED;
+    frames(3);
+    assert_true(result.drawing.vertex_count < before);
+}
+
 /* All of them. */
 
 PANEL_TEST(test_every_kind_has_a_row_and_keeps_its_bits)
@@ -745,10 +839,12 @@ PANEL_TEST(test_impossible_numbers)
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
         window.x = window.y = window.scale = window.scroll = input.seconds = numbers[i];
         content.milliseconds = content.frames_per_second = numbers[i];
+        const PanelErrorPart part = {numbers[i], numbers[i]};
         content.error = (PanelError){.known = true,
                                      .computing = i % 2,
-                                     .rms = numbers[i],
-                                     .maximum = numbers[i],
+                                     .of_computing = part,
+                                     .of_mesh = part,
+                                     .at_edges = part,
                                      .seconds = numbers[i]};
         frames(2);
         window.typed_count = i % 2 ? -1 : INT32_MAX;
