@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool markdown;
+static bool markdown, brief;
 
 void measure_begin(int *argc, char *argv[])
 {
@@ -15,8 +15,10 @@ void measure_begin(int *argc, char *argv[])
     for (int i = 1; i < *argc; i++) {
         if (strcmp(argv[i], "--markdown") == 0) {
             markdown = true;
+        } else if (strcmp(argv[i], "--short") == 0) {
+            brief = true;
         } else if (strncmp(argv[i], "--", 2) == 0) {
-            fprintf(stderr, "%s: no such option; there is --markdown\n", argv[i]);
+            fprintf(stderr, "%s: no such option; there are --markdown and --short\n", argv[i]);
             exit(2);
         } else {
             argv[kept++] = argv[i];
@@ -33,7 +35,7 @@ bool measure_rounds(Measured *measured, int count, int rounds)
         if (!measured[i].seconds)
             return false;
     }
-    for (int round = -1; round < rounds; round++) {
+    for (int round = brief ? 0 : -1; round < (brief ? 1 : rounds); round++) {
         for (int i = 0; i < count; i++) {
             const double start = clock_now();
             if (!measured[i].run(measured[i].argument)) {
@@ -47,6 +49,9 @@ bool measure_rounds(Measured *measured, int count, int rounds)
         progress_update(&progress, round + 1, rounds);
     }
     progress_end(&progress);
+    for (int i = 0; i < count && brief; i++)
+        for (int round = 1; round < rounds; round++)
+            measured[i].seconds[round] = measured[i].seconds[0];
     return true;
 }
 
@@ -86,7 +91,8 @@ void measure_print_machine(const char *renderer, const char *version)
     char driver[256];
     snprintf(driver, sizeof driver, "%s; %s", renderer ? renderer : "", version ? version : "");
     table_machine(renderer ? driver : NULL, stdout);
-    printf("Medians of interleaved rounds; quartiles in brackets.\n");
+    puts(brief ? "One round, to see that it works: no measurement."
+               : "Medians of interleaved rounds; quartiles in brackets.");
 }
 
 void measure_print_table(const char *title, Table *table)

@@ -10,8 +10,9 @@
 
 #include <stdbool.h>
 
-/* Takes --markdown off the command line: tables are printed as Markdown. Any other option that
- * begins with "--" is an error (exit status 2). */
+/* Takes --markdown and --short off the command line: tables are printed as Markdown; there is one
+ * round, which stands for all, to see that the benchmark works. Any other option that begins with
+ * "--" is an error (exit status 2). */
 void measure_begin(int *argc, char *argv[]);
 
 /* One candidate. */

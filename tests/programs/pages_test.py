@@ -57,6 +57,17 @@ modules = (root / "common/README.md").read_text()
 for header in sorted(root.glob("common/*/*.h")):
     check(f"({header.parent.name}/{header.name})" in modules, root / "common/README.md",
           f"{header.name} is missing; tests/tables --map prints the table")
+# A table of times says what it was measured on; what made it exists.
+for page in pages:
+    for command, table in re.findall(r"<!-- begin: (.+?) -->\n(.*?)<!-- end -->", page.read_text(), re.DOTALL):
+        for path in re.findall(r"(?<!\S)(?:\.\./)?((?:examples|tests)/[\w./]+)", command):
+            name = pathlib.PurePath(path).name
+            check((root / path).is_file() or (examples.parent / path).is_file() or list(root.glob(f"tests/*/{name}.c")),
+                  page, f"{command}: no {path}")
+        if "--markdown" in command:
+            check(re.search(r"\d cores.*; (?:.*; )?gcc [\d.]+ -O\d", table.replace("\n", " ")), page,
+                  f"{command}: the table does not name processor and compiler")
+
 lines = len((root / "README.md").read_text().splitlines())
 check(lines <= 150, root / "README.md", f"{lines} lines; at most 150")
 
