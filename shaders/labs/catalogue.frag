@@ -4,7 +4,8 @@ precision highp float;
 precision highp int;
 
 uniform int u_Facing;     // 0: right; 1: none; 2: not mirrored; 3: swapped; 4: by the light; 5: back; 6:
-                          // by the angle to the eye; 7: and swapped
+                          // by the angle to the eye; 7: and swapped; 8: by that to the camera's axis
+uniform vec3 u_Axis;      // of the camera, towards the eye
 uniform float u_Mirrored; // -1 if the model matrix mirrors
 uniform int u_BackNormal; // 1: reversed on the back
 uniform int u_Discard;    // 1: front faces; 2: back faces
@@ -25,6 +26,8 @@ int side(vec3 normal) {
         return 0;
     if (u_Facing == 5)
         return 1;
+    if (u_Facing == 8)
+        return dot(normal, u_Axis) > 0.0 ? 0 : 1;
     if (u_Facing >= 6)
         return (dot(normal, u_View - v_Place) > 0.0) == (u_Facing == 6) ? 0 : 1;
     if (u_Facing == 0 && u_Mirrored < 0.0)

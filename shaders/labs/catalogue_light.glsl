@@ -24,7 +24,7 @@ uniform vec3 u_Diffuse[4];   // of light 0 and 1 on the front, then on the back
 uniform vec3 u_Highlight[2]; // of light 0 and 1
 uniform float u_Exponent;
 // 0: none; 1: Phong; 2: Blinn-Phong; 3: reflect's sign; 4: L + V halved; 5: L + V; 6: of L - V; 7: N.V;
-// 8: L.V; 9: H.V; 10 and 11: N reflected at -L and L
+// 8: L.V; 9: H.V; 10 and 11: N reflected at -L and L; 12: Blinn-Phong of vectors not normalized
 uniform int u_Reflection;
 uniform int u_Gate;  // 0: if the cosine is positive; 1: always; 2: times the cosine
 // of the cosine: 0: clamped; 1: as it is; 2: absolute; 3: as the exponent; 4: as a factor; 5: clamped
@@ -74,7 +74,7 @@ float cosine_of(float c) {
     return u_Cosine == 11 ? max(c, 0.1) : c;
 }
 
-float highlight(vec3 n, vec3 l, vec3 v) {
+float highlight(vec3 n, vec3 l, vec3 v, vec3 raw) {
     float c = 0.0;
     if (u_Reflection == 1)
         c = dot(reflect(-l, n), v);
@@ -94,6 +94,8 @@ float highlight(vec3 n, vec3 l, vec3 v) {
         c = dot(l, v);
     else if (u_Reflection == 9)
         c = dot(normalize(l + v), v);
+    else if (u_Reflection == 12)
+        c = dot(n, normalize(raw));
     else
         c = dot(reflect(n, u_Reflection == 10 ? -l : l), v);
     if (u_Power == 1)
@@ -148,7 +150,7 @@ void add_light(inout Sum sum, vec3 place, vec3 n, vec3 v, vec3 source, vec3 towa
         shown = pow(max(shown, 0.0), u_CosinePower);
     sum.diffuse += share.x * diffuse * shown;
     if (u_Reflection != 0 && share.y > 0.0 && (c > 0.0 || u_Gate == 1)) {
-        float h = highlight(n, l, v);
+        float h = highlight(n, l, v, way + u_View - place);
         sum.specular += share.y * specular * (u_Gate == 2 ? h * shown : h);
     }
     sum.ambient += share.z * base * (u_Ambient == 3 ? shown : 1.0);

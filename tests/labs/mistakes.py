@@ -418,6 +418,12 @@ THIRD = {
 
 # The names that `check` may give instead; several where the pictures are the same.
 CALLED = {
+    "light direction reversed": {"light direction reversed", "light direction or normal reversed"},
+    "normals not transformed": {
+        "normals not transformed",
+        "normals not transformed, or the light too",
+    },
+    "reflect's sign": {"reflect's or the view vector's sign"},
     "transposed twice": {"inverse without transpose"},
     "normal in eye space": {"world and eye space mixed"},
     "position in eye space": {"world and eye space mixed"},

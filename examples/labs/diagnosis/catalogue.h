@@ -175,6 +175,9 @@ enum {
     COLOR_IGNORED,
     COLOR_ADDED,
     COLOR_SWAPPED,
+    COLOR_LIT_IGNORED, /* these: only where it is lit, not in the ambient term */
+    COLOR_LIT_SQUARED,
+    COLOR_LIT_SWAPPED,
 
     AMBIENT_MISSING = 1,
     AMBIENT_PER_LIGHT,
@@ -198,6 +201,7 @@ enum {
     REFLECTION_H_V,
     REFLECTION_SWAPPED,
     REFLECTION_SWAPPED_SIGN,
+    REFLECTION_RAW_HALF, /* normalized, of L and V that are not */
 
     VIEW_WORLD_ORIGIN = 1, /* -point, in world space */
     VIEW_EYE_SPACE,        /* -point, in eye space */
@@ -224,10 +228,13 @@ enum {
     EXPONENT_PLAIN = 1,
     EXPONENT_ONE,
     EXPONENT_QUARTER,
+    EXPONENT_SQUARED,
 
     HIGHLIGHT_TINTED = 1,
     HIGHLIGHT_WHITE_LIGHT,
     HIGHLIGHT_WHITE,
+    HIGHLIGHT_ENERGY_2, /* times (n + 2) / 2 pi */
+    HIGHLIGHT_ENERGY_8, /* times (n + 8) / 8 pi */
 
     FADE_MISSING = 1,
     FADE_INVERTED,
@@ -271,6 +278,7 @@ enum {
     FACING_BACK,
     FACING_VIEW, /* by the angle to the eye: as right as 0 */
     FACING_VIEW_SWAPPED,
+    FACING_AXIS, /* by the angle to the camera's axis */
 
     BACK_FRONT_COLOR = 1,
     BACK_NOT_REVERSED,
@@ -332,6 +340,7 @@ typedef enum Factor {
     FACTOR_LIGHT_VALUE,
     FACTOR_CUTOFF_VALUE,
     FACTOR_SPOT_EXPONENT_VALUE,
+    FACTOR_PLUS_EXPONENT, /* 20 times this is added to the exponent */
     FACTOR_COUNT,
 } Factor;
 

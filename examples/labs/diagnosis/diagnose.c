@@ -163,12 +163,14 @@ static void say_number(Verdict *verdict, const Suspect *number)
     const size_t used = strlen(verdict->message);
     const Factor factor = number->choices.factor;
     snprintf(verdict->message + used, sizeof verdict->message - used, ": %s %.2g",
-             factor == FACTOR_PLUS_LIGHT || factor == FACTOR_PLUS_COLOR ? "about"
-             : factor == FACTOR_GAMMA                                   ? "the power is about"
-             : factor == FACTOR_LIMIT || factor == FACTOR_COSINE        ? "at about"
-             : factor >= FACTOR_AMBIENT_VALUE                           ? "at about"
-                                                                        : "it is about times",
-             number->choices.value);
+             factor == FACTOR_PLUS_LIGHT || factor == FACTOR_PLUS_COLOR ||
+                     factor == FACTOR_PLUS_EXPONENT
+                 ? "about"
+             : factor == FACTOR_GAMMA                            ? "the power is about"
+             : factor == FACTOR_LIMIT || factor == FACTOR_COSINE ? "at about"
+             : factor >= FACTOR_AMBIENT_VALUE                    ? "at about"
+                                                                 : "it is about times",
+             factor == FACTOR_PLUS_EXPONENT ? 20 * number->choices.value : number->choices.value);
 }
 
 /* Tries single mistakes, then pairs. */

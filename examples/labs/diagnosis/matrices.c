@@ -99,6 +99,15 @@ static bool is_near(const double *a, const double *b)
     return true;
 }
 
+static bool is_identity(const Mat4 *matrix)
+{
+    const Mat4 identity = mat4_identity();
+    for (int i = 0; i < 16; i++)
+        if (!(fabs(matrix->m[i] - identity.m[i]) <= MATRICES_TOLERANCE))
+            return false;
+    return true;
+}
+
 static bool blame(Verdict *verdict, const char *name, const char *sentence, const char *look)
 {
     verdict_add_mistake(verdict, name, sentence, look, 0.9);
@@ -119,7 +128,7 @@ bool matrices_name(const Shots *shots, Verdict *verdict)
 {
     bool turns = true, moved = true, scaled = true, turned = true, same_move = true;
     bool same_scale = true, same_axis = true, about_axis = true, same_turn = true, linear = true;
-    bool as_far = true;
+    bool as_far = true, never_set = true;
     Parts first = {.turns = false};
     double axis[3], rate = 0;
     Vec3 unit;
@@ -131,6 +140,7 @@ bool matrices_name(const Shots *shots, Verdict *verdict)
         const Parts found = take_apart(&shots->world_from_object[i]), right = take_apart(&wanted);
         if (i == 0)
             first = found;
+        never_set &= is_identity(&shots->world_from_object[i]);
         turns &= found.turns;
         moved &= is_near(found.move, right.move);
         scaled &= is_near(found.scale, right.scale);
@@ -160,6 +170,9 @@ bool matrices_name(const Shots *shots, Verdict *verdict)
         linear &= fabs(apart) < 0.1 + 0.002 * seconds;
     }
     const bool good_turn = turned && about_axis;
+    if (never_set)
+        return blame(verdict, "model matrix never set", "The model matrix is still the identity.",
+                     "the assignment to *world_from_model");
     if (!turns)
         return false;
     if (good_turn && scaled && !moved && same_move)

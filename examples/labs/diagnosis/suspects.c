@@ -15,8 +15,9 @@ static const double TOLERANCE = 3, SMALL_TOLERANCE = 4;
  * makes of them. */
 static const double EXPLAINED = 0.03, ROUNDING = 0.002;
 
-/* Squares below which pictures are the same: 25 pixels that are 3 steps apart. */
-static const double FAR = 100;
+/* Squares below which pictures are the same: 25 pixels that are 3 steps apart; 6 if a suspect draws
+ * the very same. */
+static const double FAR = 100, FAR_IF_EQUAL = 25;
 
 /* The share of pixels that may differ, all beside edges. */
 static const double MATCH = 0.004, NEAR = 0.015, SMALL_MATCH = 0.1;
@@ -203,8 +204,9 @@ static int grade(const Image *a, const Image *b, double *squares)
  * either is to the right ones. */
 static bool explains(const Lineup *lineup, const Suspect *suspect)
 {
-    return fmin(lineup->wrong_by, suspect->own) >= FAR &&
-           suspect->apart <= EXPLAINED * fmin(lineup->wrong_by, suspect->own);
+    const double far = fmin(lineup->wrong_by, suspect->own);
+    return suspect->apart <= EXPLAINED * far &&
+           far >= (suspect->apart <= ROUNDING * far ? FAR_IF_EQUAL : FAR);
 }
 
 void lineup_nearest(const Lineup *lineup, Suspect *suspects, int *count)
@@ -306,7 +308,9 @@ static double distance_with(Lineup *lineup, Suspect *suspect, double value, int 
 static double number_at(const Suspect *suspect, double x)
 {
     const Factor factor = suspect->choices.factor;
-    return factor == FACTOR_PLUS_LIGHT || factor == FACTOR_PLUS_COLOR ? x : exp2(x);
+    const bool added = factor == FACTOR_PLUS_LIGHT || factor == FACTOR_PLUS_COLOR ||
+                       factor == FACTOR_PLUS_EXPONENT;
+    return added ? x : exp2(x);
 }
 
 /* The golden section of low to high, which ends early far from any match. */

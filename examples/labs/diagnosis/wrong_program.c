@@ -15,7 +15,8 @@
     X(u_ViewUnit) X(u_Fade) X(u_FadeMode) X(u_FadeOn) X(u_SpotAxis) X(u_SpotCosine)               \
     X(u_SpotExponent) X(u_SpotOutside) X(u_SpotOn) X(u_Facing) X(u_Mirrored) X(u_BackNormal)      \
     X(u_Discard) X(u_Lights) X(u_Gamma) X(u_SpotShape) X(u_Limit)    \
-    X(u_LimitOf) X(u_Plus) X(u_Product) X(u_Output) X(u_NormalOf) X(u_CosineMax) X(u_CosinePower) X(u_PlaceUnit)
+    X(u_LimitOf) X(u_Plus) X(u_Product) X(u_Output) X(u_NormalOf) X(u_CosineMax) X(u_CosinePower) X(u_PlaceUnit)         \
+    X(u_Axis)
 /* clang-format on */
 
 #define NUMBER(name) U_##name,
@@ -387,6 +388,21 @@ static Vec3 surface_color(const Made *made, Vec3 color)
     return choice(made, SLOT_COLOR) == COLOR_IGNORED ? WHITE : color;
 }
 
+/* A colour in the diffuse term, which may be another than in the ambient term. */
+static Vec3 lit_color(const Made *made, Vec3 color)
+{
+    switch (choice(made, SLOT_COLOR)) {
+    case COLOR_LIT_IGNORED:
+        return WHITE;
+    case COLOR_LIT_SQUARED:
+        return product(color, color);
+    case COLOR_LIT_SWAPPED:
+        return (Vec3){color.z, color.y, color.x};
+    default:
+        return color;
+    }
+}
+
 static Vec3 base_color(const Made *made, Vec3 surface)
 {
     const Vec3 ambient = made->choices->factor == FACTOR_AMBIENT_VALUE
@@ -411,6 +427,31 @@ static Vec3 base_color(const Made *made, Vec3 surface)
     default:
         return base;
     }
+}
+
+static double exponent(const Made *made, bool blinn_phong)
+{
+    const double shininess = made->object->front.shininess;
+    const double fitted = made->probe->fitted[made->object - made->probe->objects];
+    const double wrong[] = {
+        0, [EXPONENT_PLAIN] = shininess, [EXPONENT_ONE] = 1, [EXPONENT_QUARTER] = shininess / 4,
+        [EXPONENT_SQUARED] = shininess * shininess};
+    if (choice(made, SLOT_EXPONENT))
+        return wrong[choice(made, SLOT_EXPONENT)];
+    if (choice(made, SLOT_REFLECTION) == REFLECTION_OTHER_FITTED)
+        return blinn_phong ? 4 * shininess : shininess;
+    /* Between the two right exponents: 1 step of 255 from either. */
+    const double right[] = {
+        (4 * shininess + fitted) / 2, [FIT_LEAST_SQUARES] = fitted, [FIT_FOUR] = 4 * shininess};
+    return made->lab->fitted ? right[choice(made, SLOT_FIT)] : shininess;
+}
+
+/* What normalizes the highlight's energy. */
+static double energy(const Made *made)
+{
+    const double n = exponent(made, made->lab->reflection == REFLECTION_BLINN_PHONG);
+    return choice(made, SLOT_HIGHLIGHT_COLOR) == HIGHLIGHT_ENERGY_2 ? (n + 2) / (2 * acos(-1))
+                                                                    : (n + 8) / (8 * acos(-1));
 }
 
 static void set_colors(const WrongProgram *program, const Made *made)
@@ -439,8 +480,8 @@ static void set_colors(const WrongProgram *program, const Made *made)
     Vec3 diffuse[4], specular[2], plus = vec3_scale(front, light);
     for (int i = 0; i < 2; i++) {
         const Vec3 lit = vec3_scale(made->light_color[i], whole * factor(made, FACTOR_DIFFUSE));
-        diffuse[i] = added ? lit : product(front, lit);
-        diffuse[2 + i] = added ? lit : product(back, lit);
+        diffuse[i] = added ? lit : product(lit_color(made, front), lit);
+        diffuse[2 + i] = added ? lit : product(lit_color(made, back), lit);
         specular[i] = product(made->object->front.specular, made->light_color[i]);
         if (of[SLOT_HIGHLIGHT_COLOR] == HIGHLIGHT_TINTED)
             specular[i] = product(specular[i], front);
@@ -448,6 +489,8 @@ static void set_colors(const WrongProgram *program, const Made *made)
             specular[i] = made->light_color[i];
         if (of[SLOT_HIGHLIGHT_COLOR] == HIGHLIGHT_WHITE_LIGHT)
             specular[i] = i < made->lab->lights ? made->object->front.specular : BLACK;
+        if (of[SLOT_HIGHLIGHT_COLOR] >= HIGHLIGHT_ENERGY_2)
+            specular[i] = vec3_scale(specular[i], energy(made));
         if (made->choices->factor == FACTOR_SPECULAR_VALUE)
             specular[i] = vec3_scale(made->light_color[i], made->choices->value);
         specular[i] = vec3_scale(specular[i], whole * factor(made, FACTOR_SPECULAR));
@@ -469,22 +512,6 @@ static void set_colors(const WrongProgram *program, const Made *made)
 
 /* The highlight. */
 
-static double exponent(const Made *made, bool blinn_phong)
-{
-    const double shininess = made->object->front.shininess;
-    const double fitted = made->probe->fitted[made->object - made->probe->objects];
-    const double wrong[] = {
-        0, [EXPONENT_PLAIN] = shininess, [EXPONENT_ONE] = 1, [EXPONENT_QUARTER] = shininess / 4};
-    if (choice(made, SLOT_EXPONENT))
-        return wrong[choice(made, SLOT_EXPONENT)];
-    if (choice(made, SLOT_REFLECTION) == REFLECTION_OTHER_FITTED)
-        return blinn_phong ? 4 * shininess : shininess;
-    /* Between the two right exponents: 1 step of 255 from either. */
-    const double right[] = {
-        (4 * shininess + fitted) / 2, [FIT_LEAST_SQUARES] = fitted, [FIT_FOUR] = 4 * shininess};
-    return made->lab->fitted ? right[choice(made, SLOT_FIT)] : shininess;
-}
-
 static void set_reflection(const WrongProgram *program, const Made *made)
 {
     const int of = choice(made, SLOT_REFLECTION);
@@ -499,7 +526,8 @@ static void set_reflection(const WrongProgram *program, const Made *made)
     set_float(program, U_u_Exponent,
               !reflection ? 1
                           : value(made, FACTOR_EXPONENT_VALUE,
-                                  exponent(made, blinn_phong) * factor(made, FACTOR_EXPONENT)));
+                                  exponent(made, blinn_phong) * factor(made, FACTOR_EXPONENT) +
+                                      20 * value(made, FACTOR_PLUS_EXPONENT, 0)));
     set_choice(program, U_u_Gate, made, SLOT_GATE);
     set_choice(program, U_u_Power, made, SLOT_POWER);
 }
@@ -631,6 +659,8 @@ static void set_rest(const WrongProgram *program, const Made *made)
     set_int(program, U_u_AtVertices, vertices || made->lab->given);
     set_choice(program, U_u_NormalUnit, made, SLOT_NORMAL_UNIT);
     set_int(program, U_u_Facing, made->lab->two_sided ? of[SLOT_FACING] : FACING_NONE);
+    const double *m = made->eye_from_world.m;
+    set_vec3(program, U_u_Axis, m[2], m[6], m[10]);
     set_float(program, U_u_Mirrored, mat4_determinant(made->world) < 0 ? -1 : 1);
     set_int(program, U_u_BackNormal, of[SLOT_BACK] != BACK_NOT_REVERSED);
     const int output = of[SLOT_OUTPUT];
