@@ -163,7 +163,7 @@ def table(rows):
         "error": "reported with the compiler's message",
         "refused": "refused or stopped, with the reason",
         "named": "named rightly",
-        "one of": "among two to four names",
+        "one of": "among two to six names",
         "unknown": "wrong, without a name",
         "MISNAMED": "wrongly named",
     }

@@ -311,6 +311,17 @@ class Holes(Labs):
         result = self.wrong(10, ("frag", "void main() {\n", early))
         self.assertEqual(named(result), ["depends on the picture's size"])
 
+    def test_what_is_right_in_small_pictures_only(self):
+        out = mistakes.OUT[5]
+        late = f"{out}\n    if (gl_FragCoord.x > 200.0) gl_FragColor.rgb *= 0.5;"
+        result = self.wrong(5, ("frag", out, late))
+        self.assertEqual(named(result), ["depends on the picture's size"])
+
+    def test_what_draws_the_same_has_a_name_that_says_so(self):
+        dark = mistakes.COSINE[1].replace("max(", "step(")
+        result = self.wrong(1, ("vert", mistakes.COSINE[1], dark))
+        self.assertEqual(named(result), ["lit where it faces away, without shades"])
+
     def test_legal_words_of_glsl_1_are_counted(self):
         texts = edited(
             10,

@@ -219,10 +219,11 @@ bool shots_check_sizes(const Shots *shots, uint64_t seed, const Painter *painter
     enum { COUNTED = 400 };
     Random random = {seed * 7919 + 17};
     Place place;
-    place.width = (int)random_between(&random, 200, 340);
-    place.height = (int)random_between(&random, 200, 340);
-    place.left = (int)random_between(&random, 1, 300);
-    place.top = (int)random_between(&random, 1, 300);
+    /* About the size at which the lab's own program draws. */
+    place.width = (int)random_between(&random, 380, 420);
+    place.height = (int)random_between(&random, 380, 420);
+    place.left = (int)random_between(&random, 100, 300);
+    place.top = (int)random_between(&random, 100, 300);
     *right = true;
     return (!shots->lab->budget ||
             check_place(shots, painter, canvas, (Place){COUNTED, COUNTED, 0, 0}, right, message)) &&
