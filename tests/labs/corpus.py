@@ -3,9 +3,9 @@
 
 corpus/labNN.txt has those of a lab: a line "=== NAME/FILE" before each file; a file that is not
 plain text is in base64, "=== NAME/FILE base64". The file `label` begins "right", "wrong: MISTAKE",
-"two: MISTAKES" or "cheat: HOW". Half of them, by a hash of their names, was set aside and measured
-once, when `check` was finished: the other half served to improve it. corpus/rulings.txt has, for
-each held-out submission whose given names are not those of its label, why.
+"two: MISTAKES" or "cheat: HOW". Half of them, by a hash of their names, was set aside and only
+measured: the other half served to improve `check`. corpus/rulings.txt has, for each held-out
+submission whose given names are not those of its label, why.
 
 usage: corpus.py CHECK --half open|held [--lab N] [--every N] [--json FILE]   judges, and lists
        corpus.py CHECK --half held --table [--from FILE]   the table of examples/labs/TEACHING.md
