@@ -215,7 +215,7 @@ install() {
             echo $? >&4
         } | while IFS=: read -r kind _ percent text; do
             case $kind in
-            dlstatus | pmstatus) printf '\r\033[K%3.0f%% %.70s' "$percent" "$text" >&2 ;;
+            dlstatus | pmstatus) printf '\r\033[K%3d%% %.70s' "${percent%%.*}" "$text" >&2 ;;
             esac
         done; } 4>&1)
         printf '\r\033[K' >&2
