@@ -311,7 +311,8 @@ bool survey_merge(Survey *survey, const int *scenes, int count, Message *message
 bool survey_again(Survey *survey, int scene, const Quality *qualities, int count, ResultRow *rows,
                   Message *message)
 {
-    static const double SECONDS = 2;
+    enum { MIN_ROUNDS = 3 };
+    static const double SECONDS = 4;
     Quality all[TRIALS_BATCH] = {quality_usual()};
     ResultRow measured[TRIALS_BATCH];
     StudyScene made;
@@ -323,6 +324,7 @@ bool survey_again(Survey *survey, int scene, const Quality *qualities, int count
         all[1 + i] = qualities[i];
     Trials trials = trials_of(survey, scene, &made, &exact);
     trials.usual = 0; /* as of now */
+    trials.min_rounds = MIN_ROUNDS;
     const bool done = trials_measure(&trials, all, 1 + count, SECONDS, measured, message);
     studio_forget(survey->studio);
     reference_close(&exact);

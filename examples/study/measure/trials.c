@@ -214,13 +214,13 @@ static bool run_rounds(Trials *trials, Batch *batch, Message *message)
 }
 
 /* Rounds for each, so that together they take about `seconds` and no setting takes most of it. */
-static void share_rounds(Batch *batch, const double *frames, double seconds)
+static void share_rounds(Batch *batch, const double *frames, double seconds, int min_rounds)
 {
     const double share = seconds / (2 * RESULT_RUNS * (batch->count + 3));
     int max = 2; /* of the usual one, for the noise */
     for (int i = 0; i < batch->count; i++) {
         const double rounds = share / frames[i];
-        batch->timed[i].rounds = rounds < 1                   ? 1
+        batch->timed[i].rounds = rounds < min_rounds          ? min_rounds
                                  : rounds > TRIALS_MAX_ROUNDS ? TRIALS_MAX_ROUNDS
                                                               : (int)rounds;
         max = batch->timed[i].rounds > max ? batch->timed[i].rounds : max;
@@ -260,14 +260,23 @@ static double noise_of(const Batch *batch, int number)
     return fabs(median - 1) + 0.93 * (upper - lower) / sqrt(count);
 }
 
-static double usual_milliseconds(const Batch *batch)
+/* Seconds of a frame that nothing disturbs: what else runs only ever adds to it, up to several
+ * times as much. */
+static double fastest(const Batch *batch, int number)
 {
+    static const double SHARE = 0.1;
+    const Timed *timed = &batch->timed[number];
     double all[RESULT_RUNS * TRIALS_MAX_ROUNDS];
     int count = 0;
     for (int run = 0; run < RESULT_RUNS; run++)
-        for (int i = 0; i < batch->timed[USUAL].rounds; i++)
-            all[count++] = 1e3 * batch->timed[USUAL].wall[run][i];
-    return clock_median(all, count);
+        for (int i = 0; i < timed->rounds; i++)
+            all[count++] = timed->wall[run][i];
+    return clock_quantile(all, count, SHARE);
+}
+
+static double usual_milliseconds(const Batch *batch)
+{
+    return 1e3 * fmin(fastest(batch, USUAL), fastest(batch, AGAIN));
 }
 
 /* By the driver's timer; NAN if it is not plausible: if for the usual setting it reports more than
@@ -283,13 +292,24 @@ static double gpu_milliseconds(Batch *batch, int number)
     return 1e3 * clock_median(timed->gpu, timed->gpu_count);
 }
 
+/* To the usual setting, and its quartiles. Where so much disturbs both that the ratio of a round
+ * says little: that of their fastest frames. */
+static double ratio_of(const Batch *batch, int number, bool noisy, double *lower, double *upper)
+{
+    const double median = median_ratio(batch, number, lower, upper);
+    return noisy ? 1e3 * fastest(batch, number) / usual_milliseconds(batch) : median;
+}
+
 static void fill_times(const Trials *trials, Batch *batch, int number, ResultRow *row)
 {
+    static const double NOISY = 0.05;
     const Quality usual = quality_usual();
     /* The usual setting's spread is that of the A/A measurement. */
     const int from = quality_equal(&row->quality, &usual) ? AGAIN : number;
     double lower, upper, ignored[2];
-    const double ratio = median_ratio(batch, from, &lower, &upper);
+    row->noise = noise_of(batch, from);
+    const bool noisy = row->noise > NOISY;
+    const double ratio = ratio_of(batch, from, noisy, &lower, &upper);
     row->time = from == AGAIN ? trials->usual : trials->usual * ratio;
     row->time_lower = fmin(trials->usual * lower, row->time);
     row->time_upper = fmax(trials->usual * upper, row->time);
@@ -299,9 +319,25 @@ static void fill_times(const Trials *trials, Batch *batch, int number, ResultRow
         row->run_times[run] = trials->usual * clock_median(ratios, count);
     }
     row->net_time =
-        row->time - trials->usual * median_ratio(batch, EMPTY, &ignored[0], &ignored[1]);
+        row->time - trials->usual * ratio_of(batch, EMPTY, noisy, &ignored[0], &ignored[1]);
     row->gpu_time = gpu_milliseconds(batch, number);
-    row->noise = noise_of(batch, from);
+}
+
+/* The approximate time of a frame: of some, unless that takes long, the one disturbed least. */
+static bool estimate(Trials *trials, Drawing *drawing, double *frame, Message *message)
+{
+    enum { FRAMES = 4 };
+    static const double LONG = 0.05;
+    double spent = 0;
+    *frame = INFINITY;
+    for (int i = 0; i < FRAMES && spent < LONG; i++) {
+        double wall, gpu;
+        if (!drawing_frame(drawing, trials->studio, &wall, &gpu, message))
+            return false;
+        *frame = fmin(*frame, wall);
+        spent += wall;
+    }
+    return true;
 }
 
 /* Fills everything but times, and gives the approximate time of a frame. */
@@ -309,10 +345,9 @@ static bool look_at(Trials *trials, Drawing *drawing, ResultRow *row, double *fr
                     Message *message)
 {
     DrawingCounts counts;
-    double gpu;
     *row = trials->like;
     row->quality = drawing->quality;
-    if (!drawing_frame(drawing, trials->studio, frame, &gpu, message) ||
+    if (!estimate(trials, drawing, frame, message) ||
         !drawing_counts(drawing, trials->studio, &counts, message))
         return false;
     const DrawingError error = drawing_error(drawing, trials->exact);
@@ -346,7 +381,8 @@ bool trials_measure(Trials *trials, const Quality *qualities, int count, double 
     done = done && !*trials->interrupted &&
            drawing_open(&batch->drawings[USUAL], trials->studio, trials->scene, &usual, message);
     if (done) {
-        share_rounds(batch, frames, seconds - (clock_now() - start));
+        share_rounds(batch, frames, seconds - (clock_now() - start),
+                     trials->min_rounds > 1 ? trials->min_rounds : 1);
         done = run_rounds(trials, batch, message);
     }
     if (done && trials->usual == 0)

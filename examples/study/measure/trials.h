@@ -4,8 +4,8 @@
  * Settings are measured in batches, together with the usual setting, twice (the A/A noise), and
  * with a frame that draws nothing. Each round visits all of them in random order and draws one
  * frame untimed and one timed. A setting's time is its median ratio to the usual one in the same
- * round, times the usual one's time at the start of the scene: a machine that slows down changes
- * nothing.
+ * round, or if that is noisy the ratio of their fastest tenths, times the fastest tenth of the usual
+ * one's at the start of the scene: neither a machine that slows down nor other programs change much.
  */
 #ifndef TRIALS_H
 #define TRIALS_H
@@ -33,6 +33,7 @@ typedef struct Trials {
     const Reference *exact;
     ResultRow like; /* scene, size, renderer, threads, seed */
     double usual;   /* milliseconds of the usual setting; 0: not known yet */
+    int min_rounds; /* of each run; 0: 1 */
     /* Set by a signal handler: stop. */
     const volatile int *interrupted;
 } Trials;
