@@ -339,12 +339,7 @@ static void tell(Stage *stage, const Options *options, Moments *moments, const C
 {
     Scene scene;
     char text[1024];
-    if (choice->count == 0 || !scene_at(moments, 0, &scene, NULL))
-        return;
-    if (choice->error > options->error)
-        fprintf(stderr, "%s: --error %g: view %d comes to %.2f at best, inside objects; drawn so\n",
-                stage->example->name, options->error, moments->view, choice->error);
-    if (!options->verbose)
+    if (!options->verbose || choice->count == 0 || !scene_at(moments, 0, &scene, NULL))
         return;
     cheapest_text(choice, &scene, text, sizeof text);
     fprintf(stderr,
@@ -384,6 +379,22 @@ static bool choose(Stage *stage, const Options *options, double seconds, int vie
     return done;
 }
 
+/* In one line, the view that is farthest from the error allowed. */
+static void tell_unreached(const Stage *stage, const Options *options)
+{
+    int worst = 0;
+    for (int view = 1; view < stage->choice_count; view++)
+        if (stage->choices[view].error > stage->choices[worst].error)
+            worst = view;
+    if (stage->choices[worst].error <= options->error)
+        return;
+    fprintf(stderr, "%s: --error %g cannot be kept: the least is %.2f, inside objects",
+            stage->example->name, options->error, stage->choices[worst].error);
+    if (stage->choice_count > 1)
+        fprintf(stderr, " of view %d", worst);
+    fprintf(stderr, "; drawn so\n");
+}
+
 /* Chooses for all views, unless that was done. */
 static bool choose_all(Stage *stage, const Options *options, double seconds, Message *message)
 {
@@ -410,6 +421,7 @@ static bool choose_all(Stage *stage, const Options *options, double seconds, Mes
             return false;
         }
     }
+    tell_unreached(stage, options);
     return true;
 }
 

@@ -20,8 +20,13 @@ enum { LEVEL_COUNT = sizeof LEVELS / sizeof LEVELS[0] };
 /* Exact colors are kept in 16 bits, 0.002 steps at most from the exact ones; evaluators round. */
 static const double RESERVE = 0.015;
 
-/* Another setting than the plain one must be expected to save a tenth. */
-static const double WORTH = 0.9;
+/* Another setting than the plain one must be expected to save a tenth of a frame; of that so many
+ * nanoseconds are no object's. */
+static const double WORTH = 0.9, FRAME = 50e3;
+
+/* Where the plain one is more exact, it must be expected to take so much of that one's time at
+ * most: expectations and times differ. */
+static const double WORTH_ERROR = 0.7;
 
 /* The exact picture at one moment: as much as the error needs. */
 typedef struct Exact {
@@ -255,15 +260,23 @@ static bool note(Search *search, int i)
     return passes;
 }
 
-/* Whether other meshes of it can be drawn. */
-static bool has_levels(const Object *object)
-{
-    return object->solid.kind && !object->mesh->colors && !object->mesh->lit_positions;
-}
-
 static bool is_kept(const Search *search, QualityAxis axis)
 {
     return (search->task->kept >> axis) & 1;
+}
+
+/* How many of LEVELS can be drawn of it. A teapot, of four patches around, is not closer to the
+ * exact picture's where it is finer. */
+static int level_count(const Search *search, const Object *object)
+{
+    enum { FINEST = 4 * REFERENCE_TEAPOT_DIVISIONS };
+    int count = 0;
+    if (!object->solid.kind || object->mesh->colors || object->mesh->lit_positions ||
+        is_kept(search, AXIS_DIVISIONS))
+        return 0;
+    while (count < LEVEL_COUNT && (object->solid.kind != SOLID_TEAPOT || LEVELS[count] <= FINEST))
+        count++;
+    return count;
 }
 
 /* All objects with this interpolation, first on their meshes as given, then on the coarsest of the
@@ -285,9 +298,7 @@ static bool try_interpolation(Search *search, const ObjectQuality *plain,
         note(search, i);
     for (int i = 0; i < count; i++) {
         low[i] = 0;
-        high[i] = has_levels(&search->scene.objects[i]) && !is_kept(search, AXIS_DIVISIONS)
-                      ? LEVEL_COUNT
-                      : 0;
+        high[i] = level_count(search, &search->scene.objects[i]);
     }
     for (;;) {
         bool any = false, drawn[sizeof low / sizeof low[0]] = {false};
@@ -382,13 +393,11 @@ static bool refine(const Search *search, const Object *object, const ObjectQuali
     quality->distant_viewer = plain->distant_viewer;
     quality->skip_renormalization = plain->skip_renormalization;
     quality->far_lights = quality->matte_lights = quality->dark_lights = 0;
-    if (has_levels(object) && !is_kept(search, AXIS_DIVISIONS)) {
-        for (int i = 0; i < LEVEL_COUNT; i++) {
-            if (LEVELS[i] > quality->divisions) {
-                /* Of the mesh as given the fineness is not known. */
-                quality->divisions = quality->divisions ? LEVELS[i] : 32;
-                break;
-            }
+    for (int i = 0; i < level_count(search, object); i++) {
+        if (LEVELS[i] > quality->divisions) {
+            /* Of the mesh as given the fineness is not known. */
+            quality->divisions = quality->divisions ? LEVELS[i] : 32;
+            break;
         }
     }
     return !object_quality_equal(&before, quality);
@@ -457,7 +466,9 @@ static bool search_once(Search *search, Cheapest *cheapest, Message *message)
     cheapest->cost = cost_of_all(search, search->current);
     const bool plain_suffices =
         cheapest->plain_error <= search->allowed || cheapest->plain_error <= cheapest->error;
-    if (plain_suffices && cheapest->cost > WORTH * cheapest->plain_cost) {
+    const bool less_exact = cheapest->error > cheapest->plain_error + RESERVE;
+    if (plain_suffices && (cheapest->cost + FRAME > WORTH * (cheapest->plain_cost + FRAME) ||
+                           (less_exact && cheapest->cost > WORTH_ERROR * cheapest->plain_cost))) {
         for (int i = 0; i < search->count; i++)
             cheapest->objects[i] = search->current[i] = plain;
         cheapest->error = cheapest->plain_error;

@@ -52,7 +52,7 @@ typedef struct Cheapest {
 } Cheapest;
 
 /* Where the error cannot be kept, the cheapest of the most exact is chosen: `error` is then above
- * the task's. Never less exact than the plain picture unless cheaper. */
+ * the task's. Never less exact than the plain picture unless expected to save 30% of its time. */
 bool cheapest_choose(Cheapest *cheapest, const CheapestTask *task, Message *message);
 void cheapest_close(Cheapest *cheapest);
 

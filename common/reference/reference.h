@@ -20,6 +20,8 @@
 #include "base/stop.h"
 #include "scene/scene.h"
 
+enum { REFERENCE_TEAPOT_DIVISIONS = 64 }; /* of a patch */
+
 typedef struct ReferenceOptions {
     int width, height; /* 1 and more */
     /* The meshes as given instead of the solids: what a perfect driver would draw, with the scene's

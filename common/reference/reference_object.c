@@ -1,10 +1,9 @@
 #include "reference/reference_object.h"
 
+#include "reference/reference.h"
 #include "shapes/mesh_solids.h"
 
 #include <stdlib.h>
-
-enum { TEAPOT_DIVISIONS = 64 };
 
 static Real3 column(const double m[16], int number)
 {
@@ -157,7 +156,8 @@ bool trace_object_open(TraceObject *ready, const Object *object, const Scene *sc
         return true;
     }
     if (exact && object->solid.kind == SOLID_TEAPOT) {
-        if (!mesh_teapot_until(&ready->own, object->solid.radius, TEAPOT_DIVISIONS, stop, NULL))
+        if (!mesh_teapot_until(&ready->own, object->solid.radius, REFERENCE_TEAPOT_DIVISIONS, stop,
+                               NULL))
             return false;
         ready->mesh = &ready->own;
     }

@@ -331,9 +331,13 @@ class Choices(Study):
         self.assertEqual(self.png("again.png").pixels, self.png("30.png").pixels)
 
     def test_error_draws_the_best_where_it_cannot_be_kept(self):
-        self.says(0, r"^ShadingModels: --error 0.001: view 0 comes to 0\.\d+ at best, inside objects; "
-                  r"drawn so\n$", "--error", "0.001", "-s", "60x60", program="ShadingModels",
-                  environment=self.own)
+        self.says(0, r"^ShadingModels: --error 0.001 cannot be kept: the least is 0\.\d+, inside "
+                  r"objects; drawn so\n$", "--error", "0.001", "-s", "60x60",
+                  program="ShadingModels", environment=self.own)
+        # One line for six views.
+        self.says(0, r"^LightTypes: --error 0.001 cannot be kept: the least is 0\.\d+, inside "
+                  r"objects of view \d; drawn so\n$", "--error", "0.001", "-s", "90x60",
+                  program="LightTypes", environment=self.own)
         self.wrong(2, "--error -1: must be", "--error=-1", program="ShadingModels")
         self.wrong(2, "--error: no such option", "--error", "1", program="LightedCube",
                    lines=1)
@@ -345,6 +349,11 @@ class Choices(Study):
                              program="ShadingModels", environment=self.own).stderr.decode()
             self.assertNotRegex(text, "lit per")
             self.assertEqual("mediump" in more, "precision of fragment shaders: mediump" in text)
+        simpler = r"lights (at infinity|without highlight|off)"
+        for more, found in ([], True), (["--red", "on"], False), (["--terms", "diffuse"], False):
+            text = self.says(0, "view 0: ", "--error", "16", "-v", "-s", "100x75", *more,
+                             program="FourLights", environment=self.own).stderr.decode()
+            self.assertEqual(bool(re.search(simpler, text)), found, more)
 
     def test_without_a_cache_error_draws_the_same(self):
         self.make("file", "no folder")
