@@ -949,9 +949,11 @@ class Scenes(Case):
                 ("FourLights", "--orbit", "0,30"), ("ColoredLights", "--light", "0,1,1"),
                 ("TermsApart", "--costs", "off")):
             with self.subTest(program=program, arguments=arguments):
+                # Captions are left out where there is no room for them.
+                size = ("-s", "600x300" if program == "TermsApart" else "120x120")
                 if program not in plain:
-                    plain[program] = self.drawn("-s", "120x120", program=program).pixels
-                changed = self.drawn("-s", "120x120", *arguments, program=program).pixels
+                    plain[program] = self.drawn(*size, program=program).pixels
+                changed = self.drawn(*size, *arguments, program=program).pixels
                 self.assertNotEqual(plain[program], changed)
 
     def test_options_that_do_nothing_are_said(self):
@@ -971,7 +973,8 @@ class Scenes(Case):
                 *((("Vectors", "--shininess", "--figure=rays", "--shininess=3"),)
                   if DIAGRAMS else ())):
             with self.subTest(program=program, arguments=arguments):
-                draw = functools.partial(self.good_or_unused, "-s", "120x120", program=program)
+                size = "600x300" if program == "TermsApart" else "120x120"  # room for captions
+                draw = functools.partial(self.good_or_unused, "-s", size, program=program)
                 unused = set(unused.split())
                 self.assertEqual(draw(*arguments, "-o", "all.png"), unused)
                 for left_out in [one for one in arguments if one != "--alpha"]:
