@@ -11,6 +11,7 @@
 #include "base/clock.h"
 #include "base/random.h"
 #include "scene/scene_example.h"
+#include "study/results/table.h"
 #include "support/examples.h"
 #include "support/picture_check.h"
 #include "support/testing.h"
@@ -823,8 +824,14 @@ static int print_table(void)
     const char *asked = getenv("LIGHTING_TEST_CASES");
     const int cases = asked && atoi(asked) > 0 && atoi(asked) < MOST ? atoi(asked) : CASES;
     static const double errors[] = {1, 2, 4, 8, 16};
+    Canvas canvas;
+    require(canvas_open(&canvas, &(CanvasOptions){.width = 1, .height = 1}, FAILURE), FAILURE);
+    char renderer[256];
+    snprintf(renderer, sizeof renderer, "%s; %s", canvas.renderer, canvas.version);
+    canvas_close(&canvas);
+    table_machine(renderer, stdout);
     printf(
-        "| E | plain keeps it | kept | cheaper | their time | dearer | their time | median of all |\n"
+        "\n| E | plain keeps it | kept | cheaper | their time | dearer | their time | median of all |\n"
         "|---|---|---|---|---|---|---|---|\n");
     write_models();
     for (size_t e = 0; e < sizeof errors / sizeof errors[0]; e++) {
