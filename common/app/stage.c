@@ -198,7 +198,8 @@ static double designed_aspect(const Stage *stage)
     return (double)width * rows / ((double)height * columns);
 }
 
-/* `kept` has the lights and objects of --terms and --light-at; closed by the caller, whatever is returned. */
+/* `kept` has the lights and objects of --terms and --light-at; closed by the caller, whatever is
+ * returned. */
 static bool make_scene(const Stage *stage, const Options *options, double seconds, int number,
                        SceneCopy *kept, Scene *scene, Message *message)
 {

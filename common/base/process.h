@@ -16,8 +16,8 @@
 int process_start(pid_t *process, const char *const *arguments, const int files[4]);
 
 /* Runs this program again in place of this process, with these arguments and with `settings`,
- * "NAME=VALUE" ended by NULL, in the environment: for what is read before main. Returns true if they
- * are there already, and false if that fails. */
+ * "NAME=VALUE" ended by NULL, in the environment: for what is read before main. Returns true if
+ * they are there already, and false if that fails. */
 bool process_restart(char *const *arguments, const char *const *settings, Message *message);
 
 /* Forks with a pipe for the child's answer. Returns 0 in the child, where *end is to be written,

@@ -252,7 +252,7 @@ TEST_WITH(0, colors_at_centers_are_not_mixed, set_up, tear_down)
     int inside = 0, partial = 0;
     for (size_t pixel = 0; pixel < (size_t)SIZE * SIZE; pixel++) {
         const bool covered = sharp.object[pixel] == 0;
-        assert_float_equal(channel(&sharp, pixel, 0), covered ? 0.8F : 0.1F, 1e-6F);
+        assert_float_equal(channel(&sharp, pixel, 0), (covered ? 0.8F : 0.1F), 1e-6F);
         inside += covered;
         partial += sharp.coverage[pixel] < 1;
     }

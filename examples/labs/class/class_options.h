@@ -19,7 +19,7 @@ typedef struct ClassOptions {
     int jobs;
     Part part;
     bool deterministic;
-    double limit;    /* seconds of computing, for each submission */
+    double limit; /* seconds of computing, for each submission */
     uint64_t seed;
     bool again; /* judge what has a result, too */
     bool help;  /* it has been printed */

@@ -47,8 +47,8 @@ bool shots_draw_huge(Shots *shots, uint64_t seed, const Painter *painter, Canvas
  * explain count as right. */
 bool shots_draw_own(Shots *shots, const Painter *painter, Canvas *canvas, Message *message);
 
-/* Whether the picture is right at a size and an offset drawn by the seed and, in lab 10, at the size
- * whose operations are counted. Not for lab 3, whose shaders are given. */
+/* Whether the picture is right at a size and an offset drawn by the seed and, in lab 10, at the
+ * size whose operations are counted. Not for lab 3, whose shaders are given. */
 bool shots_check_sizes(const Shots *shots, uint64_t seed, const Painter *painter, Canvas *canvas,
                        bool *right, Message *message);
 

@@ -4,8 +4,9 @@
  * Settings are measured in batches, together with the usual setting, twice (the A/A noise), and
  * with a frame that draws nothing. Each round visits all of them in random order and draws one
  * frame untimed and one timed. A setting's time is its median ratio to the usual one in the same
- * round, or if that is noisy the ratio of their fastest tenths, times the fastest tenth of the usual
- * one's at the start of the scene: neither a machine that slows down nor other programs change much.
+ * round, or if that is noisy the ratio of their fastest tenths, times the fastest tenth of the
+ * usual one's at the start of the scene: neither a machine that slows down nor other programs
+ * change much.
  */
 #ifndef TRIALS_H
 #define TRIALS_H
