@@ -202,6 +202,7 @@ TEST(test_all_state_is_as_before)
 /* The panel is at the place that its commands give, its first row on top, and transparent. */
 TEST(test_it_is_drawn_at_its_position)
 {
+    enum { LEFT = 1000 - 8 - 340 };
     PanelContent content = everything(&LightedCube);
     content.help = NULL;
     content.errors = content.notice = NULL;
@@ -212,14 +213,14 @@ TEST(test_it_is_drawn_at_its_position)
     for (int y = 0; y < 700; y++) {
         for (int x = 0; x < 1000; x++) {
             assert_int_equal(pixel(&image, x, y)[3], 255); /* what was opaque is opaque */
-            if (x < 8 || y < 8 || x >= 8 + 340)
+            if (x < LEFT || y < 8 || x >= LEFT + 340)
                 assert_int_equal(pixel(&image, x, y)[0], 255);
         }
     }
     /* Between the rows: the white behind shines through. */
-    const unsigned char *through = pixel(&image, 340, 100);
+    const unsigned char *through = pixel(&image, LEFT + 332, 100);
     assert_true(through[0] > 255 / 20 && through[0] < 255 / 4);
-    assert_true(pixel(&image, 100, 600)[0] == 255);
+    assert_true(pixel(&image, LEFT + 100, 690)[0] == 255);
     close_all();
 }
 
