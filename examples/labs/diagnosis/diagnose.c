@@ -147,13 +147,11 @@ static Suspect *make_pairs(const Lineup *lineup, const Suspect *singles, int cou
 /* Tries the mistakes that are one wrong number. */
 static bool find_number(Lineup *lineup, Suspect *numbers, int *count, bool *near, Message *message)
 {
-    const Lab *lab = lineup->shots->lab;
-    if (lab->given) {
-        *count = 0;
-        return true;
-    }
-    for (int i = 0; i < *count; i++)
-        lineup_fit(lineup, &numbers[i]);
+    const int tried = lineup->shots->lab->given ? 0 : *count;
+    *count = 0;
+    for (int i = 0; i < tried; i++)
+        if (lineup_fit(lineup, &numbers[i]))
+            numbers[(*count)++] = numbers[i];
     return lineup_verify(lineup, numbers, count, near, message);
 }
 

@@ -336,7 +336,7 @@ static double refine(Lineup *lineup, Suspect *suspect, double low, double high, 
     return (low + high) / 2;
 }
 
-void lineup_fit(Lineup *lineup, Suspect *suspect)
+bool lineup_fit(Lineup *lineup, Suspect *suspect)
 {
     enum { STEPS = 18 };
     const double first = number_at(suspect, -9) < 0 ? -0.9 : -9, step = -first / 9;
@@ -351,6 +351,11 @@ void lineup_fit(Lineup *lineup, Suspect *suspect)
         const int number = lineup->order[k];
         wrong += compare_all(&lineup->shots->shots[number].image, &lineup->right[number]);
     }
+    bool one = true; /* in a picture that is all white or black, many numbers look alike */
+    for (int side = -1; side <= 1; side += 2)
+        one &= distance_with(lineup, suspect, number_at(suspect, at + side * step), FIT_SCENES) >
+               0.003 * wrong;
     suspect->choices.value =
         number_at(suspect, refine(lineup, suspect, at - step, at + step, 0.3 * wrong));
+    return one;
 }

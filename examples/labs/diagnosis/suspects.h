@@ -45,7 +45,8 @@ bool lineup_confront(Lineup *lineup, const Probe *probe, Suspect *suspects, int 
  */
 void lineup_nearest(const Lineup *lineup, Suspect *suspects, int *count);
 
-/* Sets a number's value to that with which it is nearest to the submission in the worst scenes. */
-void lineup_fit(Lineup *lineup, Suspect *suspect);
+/* Sets a number's value to that with which it is nearest to the submission in the worst scenes.
+ * False if it could as well be another. */
+bool lineup_fit(Lineup *lineup, Suspect *suspect);
 
 #endif
