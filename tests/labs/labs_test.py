@@ -145,7 +145,7 @@ class Right(Labs):
             names = sorted(os.listdir(folder))
             self.assertGreaterEqual(len(names), 5, folder)
             jobs += [(lab, os.path.join(folder, name), 3) for name in names]
-        self.assert_right(jobs[:: base.step(12)])
+        self.assert_right(jobs[:: 2 * base.step(6)])
 
     def test_the_starters_are_wrong_and_say_so(self):
         jobs = [(lab, self.folder_of(lab, "starter"), 1) for lab in LABS]
@@ -179,7 +179,7 @@ class Corpus(Labs):
     """A sample of what was written without knowledge of `check`."""
 
     def rows(self):
-        todo = list(corpus.jobs(every=6 * base.step(24)))
+        todo = list(corpus.jobs(every=12 * base.step(12)))
         return corpus.judge_all(CHECK, todo)
 
     def test_right_is_right_and_wrong_is_not_called_what_it_is_not(self):
@@ -205,7 +205,7 @@ class Wrong(Labs):
             (lab, name, 5 + i % 3)
             for lab in LABS
             for i, name in enumerate(mistakes.of_lab(lab))
-            if i % (3 * base.step(10)) == lab % 3
+            if i % (6 * base.step(5)) == lab % 6
         ]
         self.assert_named(in_parallel(judge_single, jobs), 0.95)
 
@@ -214,7 +214,7 @@ class Wrong(Labs):
         jobs = [
             (lab, first, second, 9) for lab in LABS for first, second in pairs_of(lab, 4, chance)
         ]
-        self.assert_named(in_parallel(judge_pair, jobs[:: base.step(10)]), 0.7)
+        self.assert_named(in_parallel(judge_pair, jobs[:: 2 * base.step(5)]), 0.7)
 
     def test_an_unknown_mistake_gets_no_name(self):
         names = list(mistakes.ART)[:: base.step(7)]

@@ -26,7 +26,7 @@ import unittest
 
 import command_line_test as base
 
-DEADLINE = base.PATIENCE
+DEADLINE = 240
 SCREEN = 1024, 768
 MOVING = "LightedCube_animation"
 SCENE = "ShadingModels"
@@ -213,6 +213,13 @@ class Shown:
         self.server.xdotool("mousemove", x, y, "click", 1)
         self.save()
         self.server.xdotool("mousemove", *AWAY)
+
+    def open_panel(self, width, height):
+        """Beside a picture of this size; pictures are saved when it is in its place."""
+        self.key("p")
+        wait_for(lambda: self.place()[2:] == (width + PANEL, height), "a wider window")
+        for _ in range(3):
+            self.save()
 
     def ends(self, code, said=""):
         self.ended = True
@@ -615,8 +622,7 @@ class Panel(Case):
     def test_the_panel_lies_over_the_picture_and_not_in_it(self):
         shown = self.show("-s", "500x400", program=SCENE, paused=True)
         plain = self.visible(shown)
-        shown.key("p")
-        wait_for(lambda: shown.place()[2:] == (500 + PANEL, 400), "a wider window")
+        shown.open_panel(500, 400)
         # Below the rings at the lights.
         left = lambda: crop(self.visible(shown), 500 + PANEL, (0, 130, 500, 270))
         wait_for(lambda: left() == crop(plain, 500, (0, 130, 500, 270)), "the whole picture")
@@ -661,7 +667,7 @@ class Panel(Case):
         plain, wanted = self.png("plain.png").pixels, self.png("wanted.png").pixels
         self.assertNotEqual(plain, wanted)
         shown = self.show(*size, "-o", "a.png", program=program)
-        shown.key("p")
+        shown.open_panel(600, 560)
         found = None
         for x, y in ((600 + x, y) for y in range(68, 150, 7) for x in (94, 106, 118, 130)):
             shown.click(x, y)
@@ -677,8 +683,7 @@ class Panel(Case):
     def test_a_light_is_dragged_by_its_point(self):
         """In the plane parallel to the picture, where the pointer takes it."""
         shown = self.show("-s", "400x600", program=SCENE, paused=True)
-        shown.key("p")
-        wait_for(lambda: shown.place()[2:] == (400 + PANEL, 600), "a wider window")
+        shown.open_panel(400, 600)
         plain = shown.save().pixels
         there = pixel_of((0, 1.5, 1.5), 400, 600)
         shown.drag(there, (there[0] + 30, there[1]), (there[0] + 60, there[1] + 40))
@@ -706,8 +711,7 @@ class Panel(Case):
     def test_common_options_are_in_the_panel(self):
         """Where they lie is up to the panel: they are looked for about where they are."""
         shown = self.show("-s", "500x400", program=SCENE, paused=True)
-        shown.key("p")
-        wait_for(lambda: shown.place()[2:] == (500 + PANEL, 400), "a wider window")
+        shown.open_panel(500, 400)
         for y in 52, 77:  # folds the parameters, and unfolds the options
             shown.click(650, y)
         for option, x, y in (("--samples", 798, 101), ("--precision", 611, 151),
@@ -729,8 +733,7 @@ class Panel(Case):
         """In the picture's place; what is saved stays the picture. Its switch is looked for about
         where it is."""
         shown = self.show("-s", "500x400", "--interpolation", "gouraud", program=SCENE, paused=True)
-        shown.key("p")
-        wait_for(lambda: shown.place()[2:] == (500 + PANEL, 400), "a wider window")
+        shown.open_panel(500, 400)
         shown.click(650, 52)
         # The lower left corner is background; in the middle is the sphere.
         corner = lambda: crop(self.visible(shown), 500 + PANEL, (10, 380, 4, 4))
@@ -768,7 +771,7 @@ class Panel(Case):
         """A click on "blinn-phong"; where it lies is up to the panel."""
         shown = self.show("-s", "600x560", "-o", "a.png", program="Vectors")
         plain, found = shown.save().pixels, False
-        shown.key("p")
+        shown.open_panel(600, 560)
         for x, y in ((600 + x, y) for y in range(168, 190, 6) for x in (84, 92)):
             shown.click(x, y)
             picture = shown.save()
