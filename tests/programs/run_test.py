@@ -229,7 +229,7 @@ class Build(unittest.TestCase):
             self.skipTest("not ninja's build folder")
         commands = subprocess.run(["ninja", "-C", build, "-t", "commands", "examples/LightedCube"],
                                   capture_output=True, text=True, check=True).stdout
-        self.assertIn(" -c ../common/core/matrix.c", commands.replace(base.SOURCE, ".."))
+        self.assertRegex(commands, r" -c \S*/common/core/matrix\.c")
         self.assertNotIn("common/reference/", commands.replace("libcommon_reference", ""))
         self.assertLessEqual(commands.count(" -c "), 70)
 
