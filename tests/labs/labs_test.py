@@ -145,7 +145,7 @@ class Right(Labs):
             names = sorted(os.listdir(folder))
             self.assertGreaterEqual(len(names), 5, folder)
             jobs += [(lab, os.path.join(folder, name), 3) for name in names]
-        self.assert_right(jobs[:: 2 * base.step(6)])
+        self.assert_right(jobs[:: base.step(12)])
 
     def test_the_starters_are_wrong_and_say_so(self):
         jobs = [(lab, self.folder_of(lab, "starter"), 1) for lab in LABS]
@@ -217,7 +217,7 @@ class Wrong(Labs):
         self.assert_named(in_parallel(judge_pair, jobs[:: 2 * base.step(5)]), 0.7)
 
     def test_an_unknown_mistake_gets_no_name(self):
-        names = list(mistakes.ART)[:: base.step(7)]
+        names = list(mistakes.ART)[:: base.step(8)]
         jobs = [(*mistakes.art(name), 4) for name in names]
         for name, result in zip(names, in_parallel(check_texts, jobs)):
             self.assertEqual(result["verdict"], "wrong", (name, result["message"]))
