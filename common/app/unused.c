@@ -152,16 +152,6 @@ static void add_material(CacheKey *key, const Material *material, unsigned light
     cache_key_add(key, numbers, sizeof numbers);
 }
 
-static void add_mesh(CacheKey *key, const Mesh *mesh)
-{
-    cache_key_add(key, mesh->vertices, mesh->vertex_count * sizeof *mesh->vertices);
-    cache_key_add(key, mesh->indices, mesh->index_count * sizeof *mesh->indices);
-    if (mesh->colors)
-        cache_key_add(key, mesh->colors, mesh->vertex_count * sizeof *mesh->colors);
-    if (mesh->lit_positions)
-        cache_key_add(key, mesh->lit_positions, mesh->vertex_count * sizeof *mesh->lit_positions);
-}
-
 static void add_object(CacheKey *key, const Object *object, unsigned light, bool alpha)
 {
     const int flags[] = {object->flat,         object->closed,    object->clockwise,
@@ -172,7 +162,7 @@ static void add_object(CacheKey *key, const Object *object, unsigned light, bool
     if (object->two_sided)
         add_material(key, &object->back, light, alpha);
     if (object->mesh)
-        add_mesh(key, object->mesh);
+        scene_key_mesh(key, object->mesh);
 }
 
 static void add_scene(CacheKey *key, const Scene *scene, bool alpha)

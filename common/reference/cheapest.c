@@ -55,16 +55,6 @@ typedef struct Search {
 
 /* Keys. Pointers are not content; padding may differ, which is a miss. */
 
-static void add_mesh(CacheKey *key, const Mesh *mesh)
-{
-    cache_key_add(key, mesh->vertices, mesh->vertex_count * sizeof *mesh->vertices);
-    cache_key_add(key, mesh->indices, mesh->index_count * sizeof *mesh->indices);
-    if (mesh->colors)
-        cache_key_add(key, mesh->colors, mesh->vertex_count * sizeof *mesh->colors);
-    if (mesh->lit_positions)
-        cache_key_add(key, mesh->lit_positions, mesh->vertex_count * sizeof *mesh->lit_positions);
-}
-
 static void add_scene(CacheKey *key, const Scene *scene, bool meshes)
 {
     Scene plain = *scene;
@@ -79,7 +69,7 @@ static void add_scene(CacheKey *key, const Scene *scene, bool meshes)
         cache_key_add(key, &object, sizeof object);
         const bool seen = i > 0 && scene->objects[i - 1].mesh == mesh;
         if ((meshes || object.solid.kind == SOLID_NONE) && !seen)
-            add_mesh(key, mesh);
+            scene_key_mesh(key, mesh);
     }
 }
 

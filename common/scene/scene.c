@@ -349,3 +349,13 @@ void scene_copy_close(SceneCopy *copy)
     free(copy->lights);
     *copy = (SceneCopy){.lights = NULL};
 }
+
+void scene_key_mesh(CacheKey *key, const Mesh *mesh)
+{
+    cache_key_add(key, mesh->vertices, mesh->vertex_count * sizeof *mesh->vertices);
+    cache_key_add(key, mesh->indices, mesh->index_count * sizeof *mesh->indices);
+    if (mesh->colors)
+        cache_key_add(key, mesh->colors, mesh->vertex_count * sizeof *mesh->colors);
+    if (mesh->lit_positions)
+        cache_key_add(key, mesh->lit_positions, mesh->vertex_count * sizeof *mesh->lit_positions);
+}

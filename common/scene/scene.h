@@ -7,6 +7,7 @@
 #ifndef SCENE_H
 #define SCENE_H
 
+#include "base/cache.h"
 #include "core/matrix.h"
 #include "core/mesh.h"
 #include "scene/light.h"
@@ -144,5 +145,8 @@ Mat4 scene_eye_from_object(const Camera *camera, Mat4 eye_from_world, Mat4 world
 
 /* A world point in eye coordinates, in the same way. */
 Vec3 scene_eye_point(const Camera *camera, Mat4 eye_from_world, Vec3 point_world);
+
+/* Adds what a mesh contains to a key. */
+void scene_key_mesh(CacheKey *key, const Mesh *mesh);
 
 #endif
