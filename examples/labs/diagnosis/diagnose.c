@@ -14,9 +14,6 @@ static const uint64_t FURTHER_SEED = 0x0F0E0D0C0B0A0908u;
 /* Of names given to work that was never seen while this was written: see TEACHING.md. */
 static const double SURE = 0.9, LESS_SURE = 0.75;
 
-/* A single mistake that leaves less than this share needs no number tried. */
-static const double EXACT = 0.003;
-
 static bool same_names(const Suspect *a, const Suspect *b)
 {
     return (a->mistakes[0] == b->mistakes[0] && a->mistakes[1] == b->mistakes[1]) ||
@@ -186,7 +183,7 @@ static bool find(Lineup *lineup, Verdict *verdict, bool *named, Message *message
         done = lineup_screen(lineup, tried, &left, message) &&
                lineup_verify(lineup, tried, &left, &near, message);
         /* A wrong number may be nearer than what is nearly the same. */
-        if (done && (left == 0 || tried[0].apart > EXACT * lineup->wrong_by)) {
+        if (done && (left == 0 || tried[0].apart > LINEUP_EXACT * lineup->wrong_by)) {
             done = find_number(lineup, numbers, &number_count, &near, message);
             memcpy(tried + left, numbers, (size_t)number_count * sizeof *tried);
             left += number_count;

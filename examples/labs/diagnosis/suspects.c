@@ -354,7 +354,7 @@ bool lineup_fit(Lineup *lineup, Suspect *suspect)
     bool one = true; /* in a picture that is all white or black, many numbers look alike */
     for (int side = -1; side <= 1; side += 2)
         one &= distance_with(lineup, suspect, number_at(suspect, at + side * step), FIT_SCENES) >
-               0.003 * wrong;
+               LINEUP_EXACT * wrong;
     suspect->choices.value =
         number_at(suspect, refine(lineup, suspect, at - step, at + step, 0.3 * wrong));
     return one;

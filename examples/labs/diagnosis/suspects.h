@@ -7,6 +7,9 @@
 #include "labs/diagnosis/wrong_program.h"
 #include "labs/submission/shots.h"
 
+/* What leaves less than this share of how far the submission is from right draws the same. */
+#define LINEUP_EXACT 0.003
+
 typedef struct Lineup {
     const Shots *shots;
     const Painter *painter; /* the submission */
