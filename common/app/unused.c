@@ -128,7 +128,7 @@ static Light seen_light(Light light)
 
 static void add_light(CacheKey *key, Light light)
 {
-    const int kinds[] = {light.off, (int)light.kind, (int)light.space};
+    const int kinds[] = {light.off, light.shadows, (int)light.kind, (int)light.space};
     const Vec3 vectors[] = {light.position, light.direction, light.ambient, light.diffuse,
                             light.specular};
     const double numbers[] = {light.cutoff, light.exponent, light.constant, light.linear,

@@ -23,6 +23,10 @@ typedef enum LightSpace {
 /* The light source of the OpenGL 1.1 specification, section 2.13.1. */
 typedef struct Light {
     bool off; /* a zeroed light is on */
+    /* A point is lit by it only where the segment to it, or the ray if it is directional, meets no
+     * other surface: every object casts and receives shadows, wherever the camera is and whatever
+     * its alpha. Its ambient term is not shadowed. */
+    bool shadows;
     LightKind kind;
     LightSpace space;
     Vec3 position;  /* point and spot */

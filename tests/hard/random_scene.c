@@ -473,6 +473,7 @@ static void print_light(FILE *file, int number, const Light *light)
     static const char *const kinds[] = {"LIGHT_DIRECTIONAL", "LIGHT_POINT", "LIGHT_SPOT"};
     fprintf(file, ".lights[%d] = {", number);
     print_flag(file, ".off", light->off);
+    print_flag(file, ".shadows", light->shadows);
     fprintf(file, ".kind = %s, ", kinds[light->kind]);
     fputs(light->space == LIGHT_EYE ? ".space = LIGHT_EYE, " : "", file);
     print_vector(file, ".position", light->position);
