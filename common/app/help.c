@@ -119,17 +119,13 @@ static const char *operands(const Usage *usage)
     return usage->gallery ? "[NAME...]" : usage->names ? usage->names : "";
 }
 
-void help_print(const Usage *usage)
+void help_print(const Usage *usage, const Parameter *table)
 {
     char text[DETAILS_SIZE];
-    Options options = options_default(usage);
-    Parameter table[OPTIONS_MAX];
-    Parameter *own = table + options_table(usage, &options, OPTIONS_TO_SHOW, table);
     const char *last = details(usage, text), *names = operands(usage);
-    const bool has_own = own->name != NULL;
+    const bool has_own = usage->parameters && usage->parameters->name;
     printf("Usage: %s [options]%s%s\n\n%s\n\n%s", usage->name, names[0] ? " " : "", names,
            usage->summary, usage->gallery || usage->study ? "" : HEADLESS "\n\n");
-    own->name = NULL;
     help_options(table);
     if (has_own)
         printf("\nOptions of this program:\n");
@@ -289,11 +285,8 @@ static void print_fish(const Usage *usage, const Parameter *table)
     }
 }
 
-void help_generate(const char *form, const Usage *usage)
+void help_generate(const char *form, const Usage *usage, const Parameter *table)
 {
-    Options options = options_default(usage);
-    Parameter table[OPTIONS_MAX];
-    options_table(usage, &options, OPTIONS_TO_SHOW, table);
     (form[0] == 'm'   ? print_man
      : form[0] == 'b' ? print_bash
      : form[0] == 'z' ? print_zsh

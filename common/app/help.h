@@ -4,14 +4,39 @@
 #ifndef HELP_H
 #define HELP_H
 
-#include "app/options.h"
+#include "scene/parameter.h"
 
-void help_print(const Usage *usage);
+/* Exit codes besides 0. */
+enum {
+    EXIT_FAILED = 1, /* of the machine, a file or a driver */
+    EXIT_USAGE = 2,  /* of the command line */
+};
+
+/* What the program accepts, and what --help says besides the options. */
+typedef struct Usage {
+    const char *name;
+    const char *summary;
+    const char *details;      /* the last part of --help; NULL: examples */
+    bool gallery;             /* -o names a folder, names may follow the options, no --frames */
+    bool study;               /* -o names a folder; no options that change a picture */
+    bool scene;               /* the options of programs that draw scenes */
+    bool diagram;             /* draws without OpenGL, and writes SVG and PDF too */
+    const char *names;        /* the operands in --help, "LAB PATH"; NULL: there are none */
+    const char *const *tries; /* as in an Example; may be NULL */
+    const char *const *looks; /* as many */
+    int width, height;        /* of the picture without --size; zero: 400 */
+    void (*resize)(int *width, int *height); /* where that depends on an option; may be NULL */
+    const Parameter *parameters; /* the program's own options; ended by a NULL name; may be NULL */
+} Usage;
+
+/* `table` has the common options of the program, which a NULL name ends. */
+void help_print(const Usage *usage, const Parameter *table);
 
 /* The lines of --help for the options of a table, which a NULL name ends. */
 void help_options(const Parameter *table);
 
-/* "man": a page in roff's man macros; "bash", "zsh", "fish": the completion for that shell. */
-void help_generate(const char *form, const Usage *usage);
+/* "man": a page in roff's man macros; "bash", "zsh", "fish": the completion for that shell. `table`
+ * has all options. */
+void help_generate(const char *form, const Usage *usage, const Parameter *table);
 
 #endif

@@ -1,7 +1,6 @@
 #include "app/options.h"
 
 #include "app/arguments.h"
-#include "app/help.h"
 #include "base/output.h"
 #include "base/process.h"
 #include "base/version.h"
@@ -587,6 +586,20 @@ static bool check(Options *options, const Usage *usage, Message *message)
     return !options->animation || animation_check(&animation, message);
 }
 
+/* Prints --help, or the form of --generate; with the defaults, whatever was given. */
+static void print_about(const Usage *usage, const char *form)
+{
+    Options options = options_default(usage);
+    Parameter table[OPTIONS_MAX];
+    const int common = options_table(usage, &options, OPTIONS_TO_SHOW, table);
+    if (form) {
+        help_generate(form, usage, table);
+        return;
+    }
+    table[common].name = NULL;
+    help_print(usage, table);
+}
+
 OptionsResult options_read(Options *options, const Usage *usage, int argc, char *argv[],
                            Message *message)
 {
@@ -597,11 +610,11 @@ OptionsResult options_read(Options *options, const Usage *usage, int argc, char 
     if (!arguments_read(all, argc, argv, &answer, message))
         return OPTIONS_BAD;
     if (answer && answer->letter == 'h')
-        help_print(usage);
+        print_about(usage, NULL);
     else if (answer)
         printf("%s (lighting) %s\n", usage->name, VERSION);
     else if (options->generate)
-        help_generate(options->generate, usage);
+        print_about(usage, options->generate);
     if (answer || options->generate)
         return OPTIONS_ANSWERED;
     if (!options->size_given)

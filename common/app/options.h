@@ -4,19 +4,13 @@
 #ifndef OPTIONS_H
 #define OPTIONS_H
 
+#include "app/help.h"
 #include "base/parse.h"
 #include "core/canvas.h"
 #include "core/example.h"
 #include "core/orbit.h"
 #include "core/shader.h"
-#include "scene/parameter.h"
 #include "scene/scene.h"
-
-/* Exit codes besides 0. */
-enum {
-    EXIT_FAILED = 1, /* of the machine, a file or a driver */
-    EXIT_USAGE = 2,  /* of the command line */
-};
 
 enum { FRAMES_MAX = 1000000 };
 
@@ -78,23 +72,6 @@ typedef struct Options {
     char *const *names; /* the arguments that are no options; NULL-terminated */
     char default_output[128];
 } Options;
-
-/* What the program accepts, and what --help says besides the options. */
-typedef struct Usage {
-    const char *name;
-    const char *summary;
-    const char *details;      /* the last part of --help; NULL: examples */
-    bool gallery;             /* -o names a folder, names may follow the options, no --frames */
-    bool study;               /* -o names a folder; no options that change a picture */
-    bool scene;               /* the options of programs that draw scenes */
-    bool diagram;             /* draws without OpenGL, and writes SVG and PDF too */
-    const char *names;        /* the operands in --help, "LAB PATH"; NULL: there are none */
-    const char *const *tries; /* as in an Example; may be NULL */
-    const char *const *looks; /* as many */
-    int width, height;        /* of the picture without --size; zero: 400 */
-    void (*resize)(int *width, int *height); /* where that depends on an option; may be NULL */
-    const Parameter *parameters; /* the program's own options; ended by a NULL name; may be NULL */
-} Usage;
 
 typedef enum OptionsResult { OPTIONS_RUN, OPTIONS_ANSWERED, OPTIONS_BAD } OptionsResult;
 
