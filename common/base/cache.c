@@ -1,6 +1,8 @@
 #include "base/cache.h"
 
 #include "base/output.h"
+#include "base/paths.h"
+#include "base/version.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -35,6 +37,38 @@ void cache_key_add(CacheKey *key, const void *bytes, size_t size)
     }
     key->bits[0] = mixed(a);
     key->bits[1] = mixed(b);
+}
+
+static bool add_file(CacheKey *key, const char *path)
+{
+    struct stat status;
+    if (stat(path, &status) != 0 || !S_ISREG(status.st_mode))
+        return false;
+    cache_key_add(key, &status.st_mtim, sizeof status.st_mtim);
+    cache_key_add(key, &status.st_size, sizeof status.st_size);
+    return true;
+}
+
+void cache_key_add_program(CacheKey *key)
+{
+    char path[PATH_MAX];
+    cache_key_add(key, VERSION, sizeof VERSION);
+    if (paths_program(path, NULL))
+        add_file(key, path);
+}
+
+bool cache_key_add_tool(CacheKey *key, const char *name)
+{
+    const char *folder = getenv("PATH");
+    for (size_t length; folder && folder[0]; folder += length + (folder[length] == ':')) {
+        char path[PATH_MAX];
+        length = strcspn(folder, ":");
+        if (length &&
+            snprintf(path, sizeof path, "%.*s/%s", (int)length, folder, name) < PATH_MAX &&
+            access(path, X_OK) == 0 && add_file(key, path))
+            return true;
+    }
+    return false;
 }
 
 /* False where neither is known, or too long. */

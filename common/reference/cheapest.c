@@ -1,8 +1,6 @@
 #include "reference/cheapest.h"
 
 #include "base/cache.h"
-#include "base/paths.h"
-#include "base/version.h"
 #include "reference/picture_error.h"
 #include "reference/reference.h"
 
@@ -10,7 +8,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 /* Of a turn, or a side. */
 static const int LEVELS[] = {4,  6,  8,  10, 12, 14,  16,  20,  24,  28,  32,  40,
@@ -73,18 +70,6 @@ static void add_scene(CacheKey *key, const Scene *scene, bool meshes)
     }
 }
 
-/* Another program may draw otherwise. */
-static void add_program(CacheKey *key)
-{
-    char path[PATH_MAX];
-    struct stat status;
-    cache_key_add(key, VERSION, sizeof VERSION);
-    if (paths_program(path, NULL) && stat(path, &status) == 0) {
-        cache_key_add(key, &status.st_mtim, sizeof status.st_mtim);
-        cache_key_add(key, &status.st_size, sizeof status.st_size);
-    }
-}
-
 /* Exact pictures. */
 
 static void exact_close(Exact *exact)
@@ -110,7 +95,7 @@ static bool exact_make(Exact *exact, const Scene *scene, int width, int height, 
     const int area[2] = {width, height};
     CacheKey key = {{0, 0}};
     size_t have = 0;
-    add_program(&key);
+    cache_key_add_program(&key);
     cache_key_add(&key, area, sizeof area);
     add_scene(&key, scene, false);
     uint16_t *block = cache_read("exact", &key, &have);
@@ -568,7 +553,7 @@ static bool choice_key(CacheKey *key, const CheapestTask *task, Message *message
                               task->moving,   canvas->samples, canvas->real, canvas->supersample,
                               task->place[2], task->place[3]};
     *key = (CacheKey){{1, 0}};
-    add_program(key);
+    cache_key_add_program(key);
     cache_key_add(key, numbers, sizeof numbers);
     cache_key_add(key, canvas->renderer, strlen(canvas->renderer));
     cache_key_add(key, canvas->version, strlen(canvas->version));

@@ -1,5 +1,6 @@
 #include "scene/shader_cost.h"
 
+#include "base/cache.h"
 #include "base/process.h"
 
 #include <errno.h>
@@ -386,7 +387,7 @@ static FILE *translate(const char *text, ShaderStage stage)
     return file;
 }
 
-bool shader_cost(const char *text, ShaderStage stage, ShaderCost *cost, Message *message)
+static bool count(const char *text, ShaderStage stage, ShaderCost *cost, Message *message)
 {
     const char *const compile[] = {"glslangValidator",
                                    "-G",
@@ -417,4 +418,53 @@ bool shader_cost(const char *text, ShaderStage stage, ShaderCost *cost, Message 
     if (!done)
         *cost = (ShaderCost){0};
     return done;
+}
+
+/* Kept between runs: a count takes four processes, and a figure of all terms 16 counts. */
+typedef struct Kept {
+    CacheKey check; /* of key and cost, against damage */
+    ShaderCost cost;
+} Kept;
+
+static CacheKey check_of(CacheKey key, const ShaderCost *cost)
+{
+    cache_key_add(&key, cost, sizeof *cost);
+    return key;
+}
+
+static bool find_kept(const CacheKey *key, ShaderCost *cost)
+{
+    size_t size = 0;
+    Kept *kept = cache_read("cost", key, &size);
+    bool found = kept && size == sizeof *kept;
+    if (found) {
+        const CacheKey check = check_of(*key, &kept->cost);
+        found = memcmp(&check, &kept->check, sizeof check) == 0;
+    }
+    if (found)
+        *cost = kept->cost;
+    free(kept);
+    return found;
+}
+
+bool shader_cost(const char *text, ShaderStage stage, ShaderCost *cost, Message *message)
+{
+    CacheKey key = {{(uint64_t)stage, 0}};
+    cache_key_add(&key, text, strlen(text));
+    cache_key_add_program(&key);
+    const bool keeps = cache_key_add_tool(&key, "glslangValidator") &&
+                       cache_key_add_tool(&key, "spirv-opt") &&
+                       cache_key_add_tool(&key, "spirv-dis");
+    if (keeps && find_kept(&key, cost))
+        return true;
+    if (!count(text, stage, cost, message))
+        return false;
+    if (keeps) {
+        Kept kept;
+        memset(&kept, 0, sizeof kept); /* padding too is written */
+        kept.check = check_of(key, cost);
+        kept.cost = *cost;
+        cache_write("cost", &key, &kept, sizeof kept);
+    }
+    return true;
 }

@@ -1,7 +1,7 @@
 /*
  * shader_cost: operations per invocation of a shader. glslangValidator compiles it to SPIR-V,
  * spirv-opt inlines functions, unrolls loops and removes dead code, and the remaining instructions
- * are counted. No GL; writes no file.
+ * are counted. No GL; writes no file but in the cache (base/cache.h), where counts are kept.
  *
  * Counts do not depend on the machine or the driver, which may optimize further. They are scalar
  * operations: a sum of two vec3 is 3, a dot product of two vec3 is 5, a mat4 times a vec4 is 28.

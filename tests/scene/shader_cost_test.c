@@ -6,6 +6,8 @@
 #include "scene/shader_cost.h"
 #include "support/testing.h"
 
+#include <dirent.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -244,10 +246,52 @@ TEST(no_scene_costs_more_than_the_full_program)
     lighting_close(lighting);
 }
 
+static int entries_that_begin(const char *folder, const char *name)
+{
+    int count = 0;
+    DIR *listing = opendir(folder);
+    assert_non_null(listing);
+    for (const struct dirent *entry; (entry = readdir(listing)) != NULL;)
+        count += strncmp(entry->d_name, name, strlen(name)) == 0;
+    closedir(listing);
+    return count;
+}
+
+/* How often the tools have run: each leaves a file. */
+static int runs_of_count(void)
+{
+    ShaderCost cost;
+    count(SHADER_VERTEX, "v_Color = u_A + u_B;", &cost);
+    assert_int_equal(cost.arithmetic, 3);
+    return entries_that_begin(".", "ran.");
+}
+
+TEST_WITH(0, a_count_is_kept_for_the_same_tools, testing_enter_cache, testing_leave_cache)
+{
+    char path[2 * PATH_MAX], *usual = strdup(getenv("PATH"));
+    assert_non_null(usual);
+    testing_shell("mkdir bin; for tool in glslangValidator spirv-opt spirv-dis; do "
+                  "printf '#!/bin/sh\n: >%s/ran.$$\nexec %s \"$@\"\n' \"$PWD\" "
+                  "\"$(command -v $tool)\" >bin/$tool; chmod +x bin/$tool; done");
+    snprintf(path, sizeof path, "%s/bin:%s", testing_folder, usual);
+    setenv("PATH", path, 1);
+    assert_int_equal(runs_of_count(), 4);
+    assert_int_equal(entries_that_begin("lighting", "cost-"), 1);
+    assert_int_equal(runs_of_count(), 4);
+    testing_shell("touch -d 2001-01-01 bin/spirv-opt"); /* another one */
+    assert_int_equal(runs_of_count(), 8);
+    testing_shell("for file in lighting/cost-*; do "
+                  "printf 'x' | dd of=$file bs=1 seek=17 conv=notrunc status=none; done");
+    assert_int_equal(runs_of_count(), 12);
+    setenv("PATH", usual, 1);
+    free(usual);
+}
+
 int main(void)
 {
     ShaderCost operations;
     Message message = {0};
+    setenv("XDG_CACHE_HOME", "/dev/null", 1); /* what counts now is tested, not what was kept */
     if (!shader_cost("void main() { gl_Position = vec4(0.0); }", SHADER_VERTEX, &operations,
                      &message) &&
         strstr(message.text, "not found")) {
