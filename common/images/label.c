@@ -7,18 +7,34 @@
 #include <stdlib.h>
 
 #define FONT "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
+#define MONO_FONT "/usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf"
 
-/* White over the pixel, whose color is not multiplied by its alpha. */
-static void blend(unsigned char *pixel, int coverage)
+static bool open_font(Font *font, bool mono, Message *message)
+{
+    const char *path = getenv("LIGHTING_FONT");
+    return font_open(font, path ? path : mono ? MONO_FONT : FONT, "fonts-dejavu-core", message);
+}
+
+/* How ink is put into the picture. */
+typedef struct Ink {
+    unsigned char color[3];
+    int spread; /* pixels to all sides */
+} Ink;
+
+static const Ink WHITE = {.color = {255, 255, 255}}, EDGE = {.spread = 1};
+
+/* A color over the pixel's, which is not multiplied by its alpha. */
+static void blend(unsigned char *pixel, const unsigned char color[3], int coverage)
 {
     const int rest = pixel[3] * (255 - coverage), alpha = 255 * coverage + rest;
     for (int c = 0; c < 3; c++)
-        pixel[c] = (unsigned char)((255 * 255 * coverage + pixel[c] * rest + alpha / 2) / alpha);
+        pixel[c] =
+            (unsigned char)((255 * color[c] * coverage + pixel[c] * rest + alpha / 2) / alpha);
     pixel[3] = (unsigned char)((alpha + 127) / 255);
 }
 
-static void draw_coverage(Image *image, const unsigned char *coverage, int left, int top, int width,
-                          int height)
+static void draw_coverage(Image *image, const Ink *ink, const unsigned char *coverage, int left,
+                          int top, int width, int height)
 {
     for (int row = 0; row < height; row++) {
         for (int column = 0; column < width; column++, coverage++) {
@@ -26,7 +42,7 @@ static void draw_coverage(Image *image, const unsigned char *coverage, int left,
             if (*coverage && x >= 0 && y >= 0 && x < image->width && y < image->height)
                 blend((unsigned char *)image->pixels + (size_t)y * image_row_size(image) +
                           4 * (size_t)x,
-                      *coverage);
+                      ink->color, *coverage);
         }
     }
 }
@@ -53,7 +69,7 @@ typedef struct Extent {
 } Extent;
 
 static bool draw_glyph(const stbtt_fontinfo *font, Scale scale, int glyph, float pen, int baseline,
-                       Image *image, Message *message)
+                       const Ink *ink, Image *image, Message *message)
 {
     const float column = floorf(pen);
     int width = 0, height = 0, left, top;
@@ -61,18 +77,20 @@ static bool draw_glyph(const stbtt_fontinfo *font, Scale scale, int glyph, float
                                                            glyph, &width, &height, &left, &top);
     if (!coverage && width && height)
         return message_set(message, "label: not enough memory");
-    if (coverage)
-        draw_coverage(image, coverage, (int)column + left, baseline + top, width, height);
+    for (int y = -ink->spread; coverage && y <= ink->spread; y++)
+        for (int x = -ink->spread; x <= ink->spread; x++)
+            draw_coverage(image, ink, coverage, (int)column + left + x, baseline + top + y, width,
+                          height);
     stbtt_FreeBitmap(coverage, NULL);
     return true;
 }
 
 /* Measures the ink and, unless `image` is NULL, draws it. */
 static bool set_text(const stbtt_fontinfo *font, Scale scale, const char *text, float start,
-                     int baseline, Image *image, Extent *ink, Message *message)
+                     int baseline, const Ink *ink, Image *image, Extent *extent, Message *message)
 {
     float pen = start;
-    *ink = (Extent){INFINITY, -INFINITY};
+    *extent = (Extent){INFINITY, -INFINITY};
     for (int glyph, before = 0; *text; before = glyph) {
         const int code = font_character(&text);
         int advance, bearing, left, bottom, right, top;
@@ -81,9 +99,9 @@ static bool set_text(const stbtt_fontinfo *font, Scale scale, const char *text, 
             pen += scale.x * (float)stbtt_GetGlyphKernAdvance(font, before, glyph);
         if (stbtt_GetGlyphBox(font, glyph, &left, &bottom, &right, &top)) {
             const Extent own = {pen + scale.x * (float)left, pen + scale.x * (float)right};
-            *ink = (Extent){fminf(ink->left, own.left), fmaxf(ink->right, own.right)};
+            *extent = (Extent){fminf(extent->left, own.left), fmaxf(extent->right, own.right)};
             if (image && own.right > 0 && own.left < (float)image->width &&
-                !draw_glyph(font, scale, glyph, pen, baseline, image, message))
+                !draw_glyph(font, scale, glyph, pen, baseline, ink, image, message))
                 return false;
         }
         stbtt_GetGlyphHMetrics(font, glyph, &advance, &bearing);
@@ -92,18 +110,39 @@ static bool set_text(const stbtt_fontinfo *font, Scale scale, const char *text, 
     return true;
 }
 
+/* Centred on x. */
+static bool set_centred(const Font *font, int size, const char *text, int x, int y, const Ink *ink,
+                        Image *image, Message *message)
+{
+    const Scale scale = scale_of(&font->info, size);
+    Extent extent;
+    if (!set_text(&font->info, scale, text, 0, y, NULL, NULL, &extent, message))
+        return false;
+    return extent.left >= extent.right ||
+           set_text(&font->info, scale, text, (float)x - (extent.left + extent.right) / 2, y, ink,
+                    image, &extent, message);
+}
+
 bool image_label(Image *image, int x, int y, int size, const char *text, Message *message)
 {
-    const char *path = getenv("LIGHTING_FONT");
     Font font;
-    Extent ink;
-    if (!font_open(&font, path ? path : FONT, "fonts-dejavu-core", message))
+    if (!open_font(&font, false, message))
         return false;
-    const Scale scale = scale_of(&font.info, size);
-    bool done = set_text(&font.info, scale, text, 0, y, NULL, &ink, message);
-    if (done && ink.left < ink.right)
-        done = set_text(&font.info, scale, text, (float)x - (ink.left + ink.right) / 2, y, image,
-                        &ink, message);
+    const bool done = set_centred(&font, size, text, x, y, &WHITE, image, message);
+    font_close(&font);
+    return done;
+}
+
+bool image_text(Image *image, int x, int y, const TextStyle *style, const char *text,
+                Message *message)
+{
+    const Ink ink = {.color = {style->color[0], style->color[1], style->color[2]}};
+    Extent extent;
+    Font font;
+    if (!open_font(&font, style->mono, message))
+        return false;
+    const bool done = set_text(&font.info, scale_of(&font.info, style->size), text, (float)x, y,
+                               &ink, image, &extent, message);
     font_close(&font);
     return done;
 }
@@ -113,7 +152,7 @@ enum { MOST_LINES = 8, CAPTION_SIZE = 256 };
 static bool fits(const stbtt_fontinfo *font, Scale scale, const char *line, int width)
 {
     Extent ink;
-    return set_text(font, scale, line, 0, 0, NULL, &ink, NULL) &&
+    return set_text(font, scale, line, 0, 0, NULL, NULL, &ink, NULL) &&
            ink.right - ink.left <= (float)width;
 }
 
@@ -155,10 +194,10 @@ static int caption_lines(const Font *font, const int place[4], int size, const c
 bool image_caption_size(const int place[4], const char *text, int *size, Message *message)
 {
     enum { SMALLEST = 7 };
-    const char *path = getenv("LIGHTING_FONT"), *lines[MOST_LINES];
+    const char *lines[MOST_LINES];
     char copy[CAPTION_SIZE];
     Font font;
-    if (!font_open(&font, path ? path : FONT, "fonts-dejavu-core", message))
+    if (!open_font(&font, false, message))
         return false;
     while (*size >= SMALLEST && !caption_lines(&font, place, *size, text, copy, lines))
         --*size;
@@ -169,17 +208,19 @@ bool image_caption_size(const int place[4], const char *text, int *size, Message
 
 bool image_caption(Image *image, const int place[4], int size, const char *text, Message *message)
 {
-    const char *path = getenv("LIGHTING_FONT"), *lines[MOST_LINES];
+    const char *lines[MOST_LINES];
     char copy[CAPTION_SIZE];
     Font font;
-    if (!font_open(&font, path ? path : FONT, "fonts-dejavu-core", message))
+    if (!open_font(&font, false, message))
         return false;
     const int count = caption_lines(&font, place, size, text, copy, lines);
+    bool done = true;
+    for (int i = 0; i < 2 * count && done; i++) { /* all edges, then all letters */
+        const int line = i % count;
+        done = set_centred(&font, size, lines[line], place[0] + place[2] / 2,
+                           place[1] + place[3] - size / 2 - (count - 1 - line) * (size + 2),
+                           i < count ? &EDGE : &WHITE, image, message);
+    }
     font_close(&font);
-    for (int i = 0; i < count; i++)
-        if (!image_label(image, place[0] + place[2] / 2,
-                         place[1] + place[3] - size / 2 - (count - 1 - i) * (size + 2), size,
-                         lines[i], message))
-            return false;
-    return true;
+    return done;
 }
