@@ -265,8 +265,8 @@ static bool run_example(const Example *example, const Options *given,
     /* llvmpipe's threads would compete with those that encode pictures. */
     if (options->frames > 1)
         setenv("LP_NUM_THREADS", "0", 0);
-    /* A diagram is painted in bytes, whatever format a key saves it in. */
-    const bool bytes = !drawing || options->animation || example->diagram;
+    /* Diagrams and pages are painted in bytes, whatever format a key saves them in. */
+    const bool bytes = !drawing || options->animation || example->diagram || example->page;
     if (!stage_open_canvas(&canvas, options, bytes ? "x.png" : first, message))
         return false;
     if (drawing && window_of(&canvas)) {
@@ -366,8 +366,8 @@ int example_main(const Example *example, int argc, char *argv[])
         return options_finish(example->name, doctor_run());
     if (example->scene && !unused_terms_check(example, &options, &message))
         return options_fail(example->name, &message, EXIT_USAGE);
-    if (example_parameters(example) && !options.shaders.print &&
-        !options_in_window(&options)) /* where they can be changed */
+    if ((example->scene || example->diagram) && example_parameters(example) &&
+        !options.shaders.print && !options_in_window(&options)) /* where they can be changed */
         tell_unused(example, &options, defaults);
     if (!run(example, &options, defaults, &message))
         return options_fail(example->name, &message, EXIT_FAILED);

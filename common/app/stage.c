@@ -499,13 +499,17 @@ static Vec3 background(const Example *example, double seconds)
     return scene.background;
 }
 
+static Frame frame_of(const Stage *stage, const Options *options, double seconds)
+{
+    return (Frame){.seconds = seconds,
+                   .aspect = (double)stage->canvas->width / stage->canvas->height,
+                   .orbit = options->orbit};
+}
+
 static bool draw_example(const Stage *stage, const Options *options, double seconds,
                          Message *message)
 {
-    const Canvas *canvas = stage->canvas;
-    const Frame frame = {.seconds = seconds,
-                         .aspect = (double)canvas->width / canvas->height,
-                         .orbit = options->orbit};
+    const Frame frame = frame_of(stage, options, seconds);
     if (!isfinite(seconds))
         return message_set(message, "time %g s: must be finite", seconds);
     if (stage->example->try_draw)
@@ -727,6 +731,11 @@ bool stage_picture(Stage *stage, const Options *options, double seconds, Picture
     if (stage->example->diagram) {
         describe_picture(stage, options, seconds, picture);
         return paint_diagram(stage, options, seconds, image, message);
+    }
+    if (stage->example->page) {
+        const Frame frame = frame_of(stage, options, seconds);
+        describe_picture(stage, options, seconds, picture);
+        return stage->example->page->paint(&frame, canvas, image, message);
     }
     if (!stage_draw(stage, options, seconds, message) || !canvas_read(canvas, image, message))
         return false;

@@ -77,7 +77,8 @@ bool stage_drawing(const Example *example, double seconds, int width, int height
                    Message *message);
 
 /* Draws one frame and reads it back into the picture, whose image gets the canvas's size; a diagram
- * is painted into it, and needs no canvas but that size. The caller sets its path. */
+ * is painted into it, and needs no canvas but that size; so is a page, with canvases beside this
+ * one. The caller sets its path. */
 bool stage_picture(Stage *stage, const Options *options, double seconds, Picture *picture,
                    Message *message);
 

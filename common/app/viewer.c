@@ -289,6 +289,9 @@ static void use_keys(Viewer *viewer)
     const int seconds = input->pressed[WINDOW_KEY_UP] - input->pressed[WINDOW_KEY_DOWN];
     if (frames || seconds)
         step(viewer, frames / viewer->options.fps + seconds);
+    if (example_turn_page(viewer->example, input->pressed[WINDOW_KEY_PAGE_DOWN] -
+                                               input->pressed[WINDOW_KEY_PAGE_UP]))
+        renew(viewer);
     viewer->left |= input->pressed[WINDOW_KEY_ESCAPE] > 0;
 }
 
@@ -345,11 +348,11 @@ static void use_pointer(Viewer *viewer)
     }
 }
 
-/* Retouching, labels and diagrams need the picture on the CPU. */
+/* Retouching, labels, diagrams and pages need the picture on the CPU. */
 static bool is_retouched(const Viewer *viewer)
 {
     const SceneExample *scene = viewer->example->scene;
-    return viewer->example->diagram ||
+    return viewer->example->diagram || viewer->example->page ||
            (viewer->picture.image.type == IMAGE_BYTE && scene && (scene->retouch || scene->label));
 }
 
@@ -604,7 +607,8 @@ bool viewer_run(const Example *example, Canvas *canvas, const Options *options,
     viewer.precision = options->shaders.precision;
     viewer.samples = options->canvas.samples;
     viewer_panel_open(&viewer.panel, example, canvas, &viewer.options, defaults);
-    viewer_panel_notice(&viewer.panel, "p: panel   h: help");
+    viewer_panel_notice(&viewer.panel, example->page ? "page down: the next   p: panel   h: help"
+                                                     : "p: panel   h: help");
     window_show(viewer.window);
     viewer.last = viewer.title_time = clock_now();
     bool done = frame(&viewer, 0, message);

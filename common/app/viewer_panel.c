@@ -16,6 +16,7 @@
 static const double NOTICE_SECONDS = 3, EFFECTS_SECONDS = 0.25, ERROR_SECONDS = 0.5;
 
 static const PanelHelp HELP[] = {
+    {"page down, up", "the next lesson, the one before"}, /* of pages alone */
     {"drag", "turns the camera"},
     {"scroll", "comes nearer, goes away"},
     {"space", "stops time, lets it go on"},
@@ -30,6 +31,11 @@ static const PanelHelp HELP[] = {
     {"escape", "leaves"},
     {NULL, NULL},
 };
+
+static const PanelHelp *help_of(const ViewerPanel *panel)
+{
+    return panel->example->page ? HELP : HELP + 1;
+}
 
 /* The common options that change a picture that is shown, from the table of all. */
 static void choose_options(ViewerPanel *panel, const Canvas *canvas, Options *options)
@@ -278,7 +284,7 @@ bool viewer_panel_frame(ViewerPanel *panel, const WindowInput *input, double sec
                                   .error = known_error(panel),
                                   .effects = panel->effects,
                                   .command = panel->command[0] ? panel->command : NULL,
-                                  .help = panel->help ? HELP : NULL,
+                                  .help = panel->help ? help_of(panel) : NULL,
                                   .errors = trouble->text[0] ? trouble->text : NULL,
                                   .notice = panel->noticed ? panel->notice : NULL};
     if (!panel_frame(panel->panel, &in, &content, &panel->result, message))
@@ -329,8 +335,8 @@ void viewer_panel_letters(ViewerPanel *panel, int larger)
 void viewer_panel_toggle_help(ViewerPanel *panel)
 {
     panel->help = !panel->help;
-    for (const PanelHelp *help = HELP; !panel->panel && help->key; help++)
-        fprintf(stderr, "%-12s %s\n", help->key, help->action);
+    for (const PanelHelp *help = help_of(panel); !panel->panel && help->key; help++)
+        fprintf(stderr, "%-14s %s\n", help->key, help->action);
 }
 
 void viewer_panel_close(ViewerPanel *panel)

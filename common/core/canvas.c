@@ -263,6 +263,32 @@ void canvas_clear(const Canvas *canvas, Vec3 color, double alpha)
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
+CanvasAttribute canvas_attribute(GLuint location)
+{
+    CanvasAttribute attribute = {.location = location, .valued = location > 0 || !gl_desktop()};
+    glGetVertexAttribiv(location, GL_VERTEX_ATTRIB_ARRAY_ENABLED, &attribute.enabled);
+    glGetVertexAttribiv(location, GL_VERTEX_ATTRIB_ARRAY_SIZE, &attribute.size);
+    glGetVertexAttribiv(location, GL_VERTEX_ATTRIB_ARRAY_TYPE, &attribute.type);
+    glGetVertexAttribiv(location, GL_VERTEX_ATTRIB_ARRAY_NORMALIZED, &attribute.normalized);
+    glGetVertexAttribiv(location, GL_VERTEX_ATTRIB_ARRAY_STRIDE, &attribute.stride);
+    glGetVertexAttribiv(location, GL_VERTEX_ATTRIB_ARRAY_BUFFER_BINDING, &attribute.buffer);
+    glGetVertexAttribPointerv(location, GL_VERTEX_ATTRIB_ARRAY_POINTER, &attribute.pointer);
+    if (attribute.valued)
+        glGetVertexAttribfv(location, GL_CURRENT_VERTEX_ATTRIB, attribute.value);
+    return attribute;
+}
+
+void canvas_set_attribute(const CanvasAttribute *attribute)
+{
+    glBindBuffer(GL_ARRAY_BUFFER, (GLuint)attribute->buffer);
+    glVertexAttribPointer(attribute->location, attribute->size, (GLenum)attribute->type,
+                          (GLboolean)attribute->normalized, attribute->stride, attribute->pointer);
+    (attribute->enabled ? glEnableVertexAttribArray
+                        : glDisableVertexAttribArray)(attribute->location);
+    if (attribute->valued)
+        glVertexAttrib4fv(attribute->location, attribute->value);
+}
+
 void canvas_view(const Canvas *canvas, int x, int y, int width, int height)
 {
     const int side = canvas->supersample;

@@ -97,6 +97,17 @@ void canvas_clear(const Canvas *canvas, Vec3 color, double alpha);
  * the top. */
 void canvas_view(const Canvas *canvas, int x, int y, int width, int height);
 
+/* A vertex attribute as it is set, so that what others rely on can be put back. */
+typedef struct CanvasAttribute {
+    GLuint location;
+    GLint enabled, size, type, normalized, stride, buffer;
+    void *pointer;
+    bool valued;      /* in desktop OpenGL attribute 0 has none */
+    GLfloat value[4]; /* without an array; undefined after a draw with one */
+} CanvasAttribute;
+CanvasAttribute canvas_attribute(GLuint location);
+void canvas_set_attribute(const CanvasAttribute *attribute); /* binds its buffer */
+
 /* Whether GL functions still act on the canvas's context and the driver has not reset it. Resets
  * are not reported for a window: GLFW cannot request that. */
 bool canvas_check(const Canvas *canvas, Message *message);

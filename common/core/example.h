@@ -39,6 +39,7 @@ typedef struct Example {
     bool (*try_draw)(const Frame *frame, Message *message); /* drawing that can fail */
     const struct SceneExample *scene;                       /* see scene/scene_example.h */
     const struct DiagramExample *diagram;                   /* the same */
+    const struct PageExample *page;                         /* the same */
 } Example;
 
 /* The lecture's animations turn at this rate, so that --angle selects a time. */

@@ -1,6 +1,6 @@
 /*
  * scene_example: an example that describes a scene, which `lighting` draws, or a diagram, which
- * cairo draws.
+ * cairo draws, or that paints pages.
  */
 #ifndef SCENE_EXAMPLE_H
 #define SCENE_EXAMPLE_H
@@ -131,6 +131,18 @@ typedef struct DiagramExample {
     bool (*compose)(double seconds, struct Drawing *drawing, Message *message);
     const Parameter *parameters;
 } DiagramExample;
+
+struct Canvas;
+
+/* Pages of text and of what is drawn with OpenGL, to be leafed through. */
+typedef struct PageExample {
+    /* Paints an image of bytes, of any size; may draw into canvases beside this one. */
+    bool (*paint)(const Frame *frame, const struct Canvas *canvas, Image *image, Message *message);
+    const Parameter *parameters; /* the first is a choice: the page */
+} PageExample;
+
+/* Turns so many pages, as far as there are; false: none. */
+bool example_turn_page(const Example *example, int pages);
 
 /* An example's own options; NULL: none. */
 const Parameter *example_parameters(const Example *example);

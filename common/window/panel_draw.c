@@ -1,5 +1,7 @@
 #include "window/panel_draw.h"
 
+#include "core/canvas.h"
+
 #include <stddef.h>
 
 bool panel_draw_open(PanelDraw *draw, const ShaderLoader *loader, Message *message)
@@ -21,21 +23,13 @@ bool panel_draw_open(PanelDraw *draw, const ShaderLoader *loader, Message *messa
 
 /* What others set once and rely on. */
 
-typedef struct AttributeState {
-    GLuint location;
-    GLint enabled, size, type, normalized, stride, buffer;
-    void *pointer;
-    bool valued;      /* in desktop OpenGL attribute 0 has none */
-    GLfloat value[4]; /* without an array; undefined after a draw with one */
-} AttributeState;
-
 typedef struct GlState {
     GLint program, array_buffer, element_buffer, unit, texture;
     GLint equation[2], function[4]; /* of blending: color, alpha; source and destination of each */
     GLint scissor[4], viewport[4];
     GLboolean mask[4];
     GLboolean enabled[6]; /* as CAPABILITIES */
-    AttributeState attributes[3];
+    CanvasAttribute attributes[3];
 } GlState;
 
 static const GLenum CAPABILITIES[6] = {GL_BLEND,        GL_CULL_FACE,
@@ -43,39 +37,13 @@ static const GLenum CAPABILITIES[6] = {GL_BLEND,        GL_CULL_FACE,
                                        GL_SCISSOR_TEST, GL_STENCIL_TEST};
 static const bool WANTED[6] = {true, false, false, false, true, false};
 
-static AttributeState save_attribute(GLint location)
-{
-    AttributeState state = {.location = (GLuint)location, .valued = location > 0 || !gl_desktop()};
-    glGetVertexAttribiv(state.location, GL_VERTEX_ATTRIB_ARRAY_ENABLED, &state.enabled);
-    glGetVertexAttribiv(state.location, GL_VERTEX_ATTRIB_ARRAY_SIZE, &state.size);
-    glGetVertexAttribiv(state.location, GL_VERTEX_ATTRIB_ARRAY_TYPE, &state.type);
-    glGetVertexAttribiv(state.location, GL_VERTEX_ATTRIB_ARRAY_NORMALIZED, &state.normalized);
-    glGetVertexAttribiv(state.location, GL_VERTEX_ATTRIB_ARRAY_STRIDE, &state.stride);
-    glGetVertexAttribiv(state.location, GL_VERTEX_ATTRIB_ARRAY_BUFFER_BINDING, &state.buffer);
-    glGetVertexAttribPointerv(state.location, GL_VERTEX_ATTRIB_ARRAY_POINTER, &state.pointer);
-    if (state.valued)
-        glGetVertexAttribfv(state.location, GL_CURRENT_VERTEX_ATTRIB, state.value);
-    return state;
-}
-
-static void restore_attribute(const AttributeState *state)
-{
-    glBindBuffer(GL_ARRAY_BUFFER, (GLuint)state->buffer);
-    glVertexAttribPointer(state->location, state->size, (GLenum)state->type,
-                          (GLboolean)state->normalized, state->stride, state->pointer);
-    if (!state->enabled)
-        glDisableVertexAttribArray(state->location);
-    if (state->valued)
-        glVertexAttrib4fv(state->location, state->value);
-}
-
 static GlState save(const PanelDraw *draw)
 {
     static const GLenum functions[4] = {GL_BLEND_SRC_RGB, GL_BLEND_DST_RGB, GL_BLEND_SRC_ALPHA,
                                         GL_BLEND_DST_ALPHA};
-    GlState state = {.attributes = {save_attribute(draw->a_Position),
-                                    save_attribute(draw->a_TexCoord),
-                                    save_attribute(draw->a_Color)}};
+    GlState state = {.attributes = {canvas_attribute((GLuint)draw->a_Position),
+                                    canvas_attribute((GLuint)draw->a_TexCoord),
+                                    canvas_attribute((GLuint)draw->a_Color)}};
     glGetIntegerv(GL_CURRENT_PROGRAM, &state.program);
     glGetIntegerv(GL_ARRAY_BUFFER_BINDING, &state.array_buffer);
     glGetIntegerv(GL_ELEMENT_ARRAY_BUFFER_BINDING, &state.element_buffer);
@@ -97,7 +65,7 @@ static GlState save(const PanelDraw *draw)
 static void restore(const GlState *state)
 {
     for (int i = 0; i < 3; i++)
-        restore_attribute(&state->attributes[i]);
+        canvas_set_attribute(&state->attributes[i]);
     for (int i = 0; i < 6; i++)
         (state->enabled[i] ? glEnable : glDisable)(CAPABILITIES[i]);
     glColorMask(state->mask[0], state->mask[1], state->mask[2], state->mask[3]);

@@ -30,6 +30,8 @@ typedef enum WindowKey {
     WINDOW_KEY_DOWN,
     WINDOW_KEY_HOME,
     WINDOW_KEY_END,
+    WINDOW_KEY_PAGE_UP,
+    WINDOW_KEY_PAGE_DOWN,
     /* with control, to edit text */
     WINDOW_KEY_A,
     WINDOW_KEY_C,

@@ -361,6 +361,24 @@ class Pictures(Case):
                 self.assert_shown(shown)
                 shown.leave()
 
+    def test_pages_are_turned(self):
+        shown = self.show("-s", "320x240", program="lessons", paused=True)
+
+        def lesson(picture):
+            command = picture.command
+            return command[command.index("--lesson") + 1] if "--lesson" in command else "first"
+
+        for keys, name in (((), "first"), (("Next",), "LightedCube_animation"),
+                           (("Prior", "Prior"), "first"), (("Next", "Next"), "LightedCube_ambient"),
+                           (("Next",) * 12, "PointLightedSphere_perFragment"),
+                           (("Prior",), "PointLightedSphere")):
+            shown.key(*keys) if keys else None
+            picture = wait_for(lambda: (p := shown.save()) and lesson(p) == name and p, name)
+            self.assert_headless(picture, "lessons")
+        self.assert_shown(shown)
+        shown.key("r")
+        wait_for(lambda: lesson(shown.save()) == "first", "the first again")
+
     @unittest.skipUnless(base.DIAGRAMS, "no cairo")
     def test_a_diagram_is_saved_as_svg(self):
         shown = self.show("-s", "240x180", "--light", "-30", "-o", "a.svg", program="Vectors")

@@ -1,0 +1,181 @@
+#include "lessons/changes.h"
+
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { LINES_MAX = 4096 }; /* of a file: the table of lengths is then 32 MiB */
+
+typedef struct Line {
+    const char *text;
+    int length;
+} Line;
+
+static int split(const char *text, Line lines[LINES_MAX])
+{
+    int count = 0;
+    while (*text && count < LINES_MAX) {
+        const int length = (int)strcspn(text, "\n");
+        lines[count++] = (Line){text, length};
+        text += length + (text[length] == '\n');
+    }
+    return count;
+}
+
+bool changes_add(Changes *changes, ChangeKind kind, const char *text, int length, Message *message)
+{
+    if (changes->count == changes->room) {
+        const int room = changes->room ? 2 * changes->room : 64;
+        ChangeLine *lines = realloc(changes->lines, (size_t)room * sizeof *lines);
+        if (!lines)
+            return message_set(message, "changes: not enough memory");
+        changes->lines = lines;
+        changes->room = room;
+    }
+    ChangeLine *line = &changes->lines[changes->count++];
+    line->kind = kind;
+    snprintf(line->text, sizeof line->text, "%.*s", length, text);
+    return true;
+}
+
+bool changes_add_text(Changes *changes, const char *text, Message *message)
+{
+    bool done = true;
+    while (*text && done) {
+        const int length = (int)strcspn(text, "\n");
+        done = changes_add(changes, CHANGE_SAME, text, length, message);
+        text += length + (text[length] == '\n');
+    }
+    return done;
+}
+
+/* Whether a line begins with the name of its program at `i`; its length. */
+static int name_at(Line line, int i, const char *name)
+{
+    const int length = (int)strlen(name);
+    return length <= line.length - i && memcmp(line.text + i, name, (size_t)length) == 0 ? length
+                                                                                         : 0;
+}
+
+static bool same(Line a, const char *name_a, Line b, const char *name_b)
+{
+    int i = 0, j = 0;
+    while (i < a.length && j < b.length) {
+        const int skip_a = name_at(a, i, name_a), skip_b = name_at(b, j, name_b);
+        const bool named = skip_a && skip_b;
+        if (!named && a.text[i] != b.text[j])
+            return false;
+        i += named ? skip_a : 1;
+        j += named ? skip_b : 1;
+    }
+    return i == a.length && j == b.length;
+}
+
+/* Two files, and for each pair of lines the length of the longest common subsequence from there to
+ * the ends. */
+typedef struct Pair {
+    Line lines[2][LINES_MAX];
+    const char *names[2];
+    int count[2];
+    uint16_t *common; /* (count[0] + 1) rows of count[1] + 1 */
+} Pair;
+
+static uint16_t *common_at(const Pair *pair, int i, int j)
+{
+    return &pair->common[(size_t)i * (size_t)(pair->count[1] + 1) + (size_t)j];
+}
+
+static bool same_at(const Pair *pair, int i, int j)
+{
+    return same(pair->lines[0][i], pair->names[0], pair->lines[1][j], pair->names[1]);
+}
+
+static void measure(const Pair *pair)
+{
+    for (int i = pair->count[0] - 1; i >= 0; i--) {
+        for (int j = pair->count[1] - 1; j >= 0; j--) {
+            const uint16_t left = *common_at(pair, i, j + 1), below = *common_at(pair, i + 1, j);
+            *common_at(pair, i, j) = same_at(pair, i, j)
+                                         ? (uint16_t)(*common_at(pair, i + 1, j + 1) + 1)
+                                     : left > below ? left
+                                                    : below;
+        }
+    }
+}
+
+/* All lines of both files, in order. */
+static bool merge(Changes *all, const Pair *pair, Message *message)
+{
+    bool done = true;
+    for (int i = 0, j = 0; (i < pair->count[0] || j < pair->count[1]) && done;) {
+        const bool old = i < pair->count[0], new = j < pair->count[1];
+        ChangeKind kind = CHANGE_ADDED;
+        if (old && new &&same_at(pair, i, j))
+            kind = CHANGE_SAME;
+        else if (old && (!new || *common_at(pair, i + 1, j) >= *common_at(pair, i, j + 1)))
+            kind = CHANGE_REMOVED;
+        const Line line = kind == CHANGE_REMOVED ? pair->lines[0][i] : pair->lines[1][j];
+        done = changes_add(all, kind, line.text, line.length, message);
+        i += kind != CHANGE_ADDED;
+        j += kind != CHANGE_REMOVED;
+    }
+    return done;
+}
+
+static bool is_near_change(const Changes *all, int line, int around)
+{
+    for (int i = line - around; i <= line + around; i++)
+        if (i >= 0 && i < all->count && all->lines[i].kind != CHANGE_SAME)
+            return true;
+    return false;
+}
+
+static bool keep_near(Changes *changes, const Changes *all, int around, int *changed,
+                      Message *message)
+{
+    bool done = true, gap = false;
+    *changed = 0;
+    for (int i = 0; i < all->count && done; i++) {
+        const ChangeLine *line = &all->lines[i];
+        *changed += line->kind != CHANGE_SAME;
+        if (!is_near_change(all, i, around)) {
+            gap = true;
+            continue;
+        }
+        done = (!gap || changes_add(changes, CHANGE_GAP, "", 0, message)) &&
+               changes_add(changes, line->kind, line->text, (int)strlen(line->text), message);
+        gap = false;
+    }
+    return done;
+}
+
+bool changes_between(Changes *changes, ChangeText before, ChangeText after, int around,
+                     int *changed, Message *message)
+{
+    Changes all = {.count = 0};
+    Pair *pair = malloc(sizeof *pair);
+    if (!pair)
+        return message_set(message, "changes: not enough memory");
+    pair->names[0] = before.name;
+    pair->names[1] = after.name;
+    pair->count[0] = split(before.text, pair->lines[0]);
+    pair->count[1] = split(after.text, pair->lines[1]);
+    const size_t cells = (size_t)(pair->count[0] + 1) * (size_t)(pair->count[1] + 1);
+    pair->common = calloc(cells, sizeof *pair->common);
+    bool done = pair->common || message_set(message, "changes: not enough memory");
+    if (done) {
+        measure(pair);
+        done = merge(&all, pair, message) && keep_near(changes, &all, around, changed, message);
+    }
+    changes_close(&all);
+    free(pair->common);
+    free(pair);
+    return done;
+}
+
+void changes_close(Changes *changes)
+{
+    free(changes->lines);
+    *changes = (Changes){.count = 0};
+}

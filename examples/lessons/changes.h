@@ -1,0 +1,48 @@
+/*
+ * changes: which lines of a program or shader differ from its predecessor's.
+ */
+#ifndef CHANGES_H
+#define CHANGES_H
+
+#include "base/message.h"
+
+typedef enum ChangeKind {
+    CHANGE_SAME,
+    CHANGE_REMOVED,
+    CHANGE_ADDED,
+    CHANGE_GAP,   /* lines that are the same are left out here */
+    CHANGE_TITLE, /* of a file */
+} ChangeKind;
+
+enum { CHANGE_TEXT_SIZE = 128 };
+
+typedef struct ChangeLine {
+    ChangeKind kind;
+    char text[CHANGE_TEXT_SIZE]; /* cut if it is longer */
+} ChangeLine;
+
+/* Zeroed: empty. */
+typedef struct Changes {
+    ChangeLine *lines;
+    int count, room;
+} Changes;
+
+/* A file in memory, and the name of its program, which is no difference. */
+typedef struct ChangeText {
+    const char *name, *text;
+} ChangeText;
+
+/* Appends the fewest lines that, removed and added, make `after` of `before`, in order, removed
+ * before added ones, with up to `around` lines that are the same on both sides. `changed` is how
+ * many were removed and added. */
+bool changes_between(Changes *changes, ChangeText before, ChangeText after, int around,
+                     int *changed, Message *message);
+
+bool changes_add(Changes *changes, ChangeKind kind, const char *text, int length, Message *message);
+
+/* Appends all lines of a text, as the same. */
+bool changes_add_text(Changes *changes, const char *text, Message *message);
+
+void changes_close(Changes *changes);
+
+#endif

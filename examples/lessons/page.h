@@ -1,0 +1,37 @@
+/*
+ * page: lays out and paints a lesson: two pictures, their difference, and below them the lines that
+ * changed.
+ */
+#ifndef PAGE_H
+#define PAGE_H
+
+#include "base/image.h"
+#include "lessons/changes.h"
+
+enum { PAGE_BEFORE, PAGE_AFTER, PAGE_DIFFERENCE, PAGE_PICTURES };
+
+/* Where the parts of a page of a size are, in pixels: three squares in a row, and below them the
+ * changed lines. */
+typedef struct PageLayout {
+    int side, left[PAGE_PICTURES], top;
+    int margin, letters; /* of captions */
+    int text_top;
+} PageLayout;
+PageLayout page_layout(int width, int height);
+
+/* Paints the page's background and the changed lines, as large as they all fit; if even small
+ * letters are too large, the last line says how many are missing. */
+bool page_paint_lines(Image *page, const Changes *changes, Message *message);
+
+/* Paints a picture of the layout's side with a line above and one below it, which may be NULL. */
+bool page_paint_picture(Image *page, int number, const Image *picture, const char *above,
+                        const char *below, Message *message);
+
+/* The absolute difference of two pictures of one size, color by color, `factor` times as large so
+ * that it is seen; its largest value, and in how many pixels there is one. */
+typedef struct PageDifference {
+    int largest, pixels, factor;
+} PageDifference;
+PageDifference page_difference(const Image *before, const Image *after, Image *difference);
+
+#endif

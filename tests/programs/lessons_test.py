@@ -1,0 +1,111 @@
+#!/usr/bin/env python3
+"""lessons: its pictures are the lecture programs' own, and below them is what the files say.
+
+usage: lessons_test.py EXAMPLES_FOLDER_OF_THE_BUILD SOURCE_FOLDER [unittest's arguments]
+"""
+import os
+import re
+import shutil
+import sys
+
+import command_line_test as base
+
+SIDE, TOP, LEFT = 400, 34, (20, 440, 860)  # of the pictures in a page of its own size
+TEXT = 475  # the lines begin below
+ADDED, REMOVED = (120, 225, 130), (255, 140, 130)
+SHADERS = os.path.join(base.SOURCE, "shaders/lecture")
+
+
+def predecessors():
+    with open(os.path.join(base.SOURCE, "README.md"), encoding="utf-8") as file:
+        rows = re.findall(r"^\| !\[\].*?\| `(\w+)` \|[^|]*\| (?:`(\w+)` )?\|$", file.read(), re.M)
+    return [(name, before) for name, before in rows if name in base.PROGRAMS]
+
+
+def part(png, number):
+    stride = png.width * png.channels
+    return b"".join(png.pixels[stride * (TOP + row) + png.channels * LEFT[number]:][:3 * SIDE]
+                    for row in range(SIDE))
+
+
+def below(png):
+    return png.pixels[png.width * png.channels * TEXT:]
+
+
+def count(pixels, color):
+    """Exact pixels of a color, as the stems of letters have."""
+    return sum(pixels[i:i + 3] == bytes(color) for i in range(0, len(pixels), 3))
+
+
+class Lessons(base.Case):
+    def page(self, *arguments):
+        return self.drawn(*arguments, program="lessons")
+
+    def test_pictures_are_those_of_the_programs(self):
+        lessons = predecessors()
+        self.assertEqual(len(lessons), 9)
+        pictures = {name: self.drawn("-t", "1", program=name).pixels for name, _ in lessons}
+        for number, (name, before) in enumerate(lessons, 1):
+            page = self.page("-t", "1", "--lesson", str(number))
+            self.assertEqual((page.width, page.height, page.channels), (1280, 960, 3))
+            self.assertTrue(part(page, 1) == pictures[name], name)
+            if not before:
+                continue
+            self.assertTrue(part(page, 0) == pictures[before], before)
+            apart = [abs(a - b) for a, b in zip(pictures[before], pictures[name])]
+            factor = 255 // max(1, *apart)
+            self.assertTrue(part(page, 2) == bytes(factor * by for by in apart), name)
+
+    def test_a_name_is_as_good_as_a_number(self):
+        by_number = self.page("--lesson", "3")
+        by_name = self.page("--lesson", "LightedCube_ambient")
+        self.assertEqual(by_number.pixels, by_name.pixels)
+        self.assertEqual(by_number.texts["Command"], "lessons --lesson LightedCube_ambient")
+        self.refused(2, "^lessons: --lesson 10: must be LightedCube, ", "--lesson", "10",
+                     program="lessons")
+        self.refused(2, "did you mean LightedCube_ambient[?]", "--lesson", "lightedcube_ambint",
+                     program="lessons")
+
+    def test_changed_lines_have_their_colors(self):
+        first, ambient = self.page(), self.page("--lesson", "3")
+        self.assertEqual(count(below(first), ADDED) + count(below(first), REMOVED), 0)
+        self.assertGreater(count(below(ambient), ADDED), count(below(ambient), REMOVED))
+        self.assertGreater(count(below(ambient), REMOVED), 50)
+
+    def test_a_copy_of_a_shader_is_compared_too(self):
+        """The picture stays where a comment is added, and below is one more line."""
+        os.mkdir(self.path("mine"))
+        for name in "LightedCube.vert", "LightedCube_ambient.vert":
+            shutil.copy(os.path.join(SHADERS, name), self.path("mine", name))
+        before = self.page("--lesson", "3")
+        own = "--lesson", "3", "--shaders", "mine"
+        self.assertEqual(self.page(*own).pixels, before.pixels)
+        with open(self.path("mine/LightedCube_ambient.vert"), "a", encoding="utf-8") as file:
+            file.write("// MMMMMMMMMMMMMMMMMMMM\n")
+        after = self.page(*own)
+        for number in range(3):
+            self.assertEqual(part(after, number), part(before, number))
+        self.assertGreater(count(below(after), ADDED), count(below(before), ADDED))
+
+    def test_a_broken_shader_is_one_error(self):
+        self.make("mine/LightedCube.vert", "void main() { gl_Position = nothing; }\n")
+        self.refused(1, "^mine/LightedCube.vert:1: error: ", "--lesson", "3", "--shaders", "mine",
+                     program="lessons", lines=0)
+
+    def test_any_size(self):
+        for size in "1x1", "3x2", "100x400", "400x100", "640x480":
+            page = self.page("-s", size, "--lesson", "7")
+            self.assertEqual(f"{page.width}x{page.height}", size)
+        with_samples = self.page("-s", "640x480", "--samples", "4", "--lesson", "2")
+        self.assertNotEqual(with_samples.pixels, self.page("-s", "640x480", "--lesson", "2").pixels)
+
+    def test_an_animation_has_both_move(self):
+        self.good("--lesson", "7", "-s", "320x240", "-n", "2", "--fps", "1", "-o", "l%d.png",
+                  program="lessons")
+        self.assertNotEqual(self.png("l0.png").pixels, self.png("l1.png").pixels)
+        self.assertEqual(self.png("l1.png").pixels,
+                         self.page("--lesson", "7", "-s", "320x240", "-t", "1").pixels)
+
+
+if __name__ == "__main__":
+    sys.exit(base.main())
