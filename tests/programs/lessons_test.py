@@ -44,8 +44,10 @@ class Lessons(base.Case):
     def test_pictures_are_those_of_the_programs(self):
         lessons = predecessors()
         self.assertEqual(len(lessons), 9)
-        pictures = {name: self.drawn("-t", "1", program=name).pixels for name, _ in lessons}
-        for number, (name, before) in enumerate(lessons, 1):
+        taken = list(enumerate(lessons, 1))[::base.step(3)]
+        names = {name for _, pair in taken for name in pair if name}
+        pictures = {name: self.drawn("-t", "1", program=name).pixels for name in names}
+        for number, (name, before) in taken:
             page = self.page("-t", "1", "--lesson", str(number))
             self.assertEqual((page.width, page.height, page.channels), (1280, 960, 3))
             self.assertTrue(part(page, 1) == pictures[name], name)
@@ -93,11 +95,11 @@ class Lessons(base.Case):
                      program="lessons", lines=0)
 
     def test_any_size(self):
-        for size in "1x1", "3x2", "100x400", "400x100", "640x480":
+        for size in "1x1", "100x400", "400x100":
             page = self.page("-s", size, "--lesson", "7")
             self.assertEqual(f"{page.width}x{page.height}", size)
-        with_samples = self.page("-s", "640x480", "--samples", "4", "--lesson", "2")
-        self.assertNotEqual(with_samples.pixels, self.page("-s", "640x480", "--lesson", "2").pixels)
+        plain = "-s", "320x240", "--lesson", "2"
+        self.assertNotEqual(self.page(*plain, "--samples", "4").pixels, self.page(*plain).pixels)
 
     def test_an_animation_has_both_move(self):
         self.good("--lesson", "7", "-s", "320x240", "-n", "2", "--fps", "1", "-o", "l%d.png",
