@@ -108,17 +108,26 @@ static bool framebuffer(GLuint *name, GLuint color, GLuint depth, int width, int
 
 enum { MAX_SUPERSAMPLE = 4 };
 
+/* The most samples of the driver's own multisampling; 1: it has none. softpipe has the functions,
+ * and one sample. */
+static int driver_max_samples(void)
+{
+    GLint max = 1;
+    if (glRenderbufferStorageMultisample && glBlitFramebuffer)
+        glGetIntegerv(GL_MAX_SAMPLES_ANGLE, &max);
+    return max;
+}
+
 /* The driver's multisampling, or else supersampling. */
 static bool choose_samples(Canvas *canvas, int samples, Message *message)
 {
+    const int max = driver_max_samples();
     if (samples <= 1)
         return true;
-    if (glRenderbufferStorageMultisample && glBlitFramebuffer) {
-        GLint max = 0;
-        glGetIntegerv(GL_MAX_SAMPLES_ANGLE, &max);
+    if (max > 1) {
         if (samples > max)
             return message_set(message, "%d samples: %s has at most %d", samples, canvas->renderer,
-                               (int)max);
+                               max);
         canvas->samples = samples;
         return true;
     }
@@ -324,11 +333,9 @@ bool canvas_resize(Canvas *canvas, int width, int height, Message *message)
 
 int canvas_max_samples(const Canvas *canvas)
 {
-    GLint max = MAX_SUPERSAMPLE * MAX_SUPERSAMPLE;
+    const int max = driver_max_samples();
     (void)canvas;
-    if (glRenderbufferStorageMultisample && glBlitFramebuffer)
-        glGetIntegerv(GL_MAX_SAMPLES_ANGLE, &max);
-    return max;
+    return max > 1 ? max : MAX_SUPERSAMPLE * MAX_SUPERSAMPLE;
 }
 
 bool canvas_set_samples(Canvas *canvas, int samples, Message *message)
