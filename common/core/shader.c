@@ -135,16 +135,28 @@ static bool link_program(GLuint program, const ShaderSource *vertex, const Shade
                        log[0] ? log : "the driver rejected it without a reason");
 }
 
-static bool check_precision(const ShaderLoader *loader, Message *message)
+/* Whether fragment shaders may say highp: asked of the compiler, because what the driver says of
+ * its precision need not be so. */
+static bool has_highp(void)
 {
-    if (!loader->precision || strcmp(loader->precision, "highp") != 0)
-        return true;
-    GLint range[2] = {0, 0}, precision = 0;
-    glGetShaderPrecisionFormat(GL_FRAGMENT_SHADER, GL_HIGH_FLOAT, range, &precision);
-    if (range[1] > 0)
-        return true;
-    return message_set(message, "precision highp: %s has none in fragment shaders",
-                       (const char *)glGetString(GL_RENDERER));
+    static const GLchar *const text = "#version 100\nprecision highp float;\nvoid main() {}\n";
+    GLint compiled = GL_FALSE;
+    const GLuint shader = glCreateShader(GL_FRAGMENT_SHADER);
+    glShaderSource(shader, 1, &text, NULL);
+    glCompileShader(shader);
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
+    glDeleteShader(shader);
+    return compiled;
+}
+
+/* After a fragment shader was refused. */
+static void explain_precision(const ShaderLoader *loader, Message *message)
+{
+    if (!message || !loader->precision || strcmp(loader->precision, "highp") != 0 || has_highp())
+        return;
+    *message = (Message){0};
+    message_set(message, "precision highp: %s has none in fragment shaders",
+                (const char *)glGetString(GL_RENDERER));
 }
 
 static void close_sources(Shader *shader)
@@ -164,8 +176,7 @@ bool shader_open(Shader *shader, const ShaderLoader *loader, const char *name, M
     *shader = (Shader){0};
     snprintf(shader->name, sizeof shader->name, "%s", name);
     snprintf(file, sizeof file, "%s.vert", name);
-    if (!check_precision(loader, message) ||
-        !shader_source_open(&vertex_source, loader, file, SHADER_VERTEX, message))
+    if (!shader_source_open(&vertex_source, loader, file, SHADER_VERTEX, message))
         goto end;
     snprintf(file, sizeof file, "%s.frag", name);
     if (!shader_source_open(&fragment_source, loader, file, SHADER_FRAGMENT, message))
@@ -177,6 +188,8 @@ bool shader_open(Shader *shader, const ShaderLoader *loader, const char *name, M
         !(fragment = compile(&fragment_source, SHADER_FRAGMENT, message))) {
         if (loader->advise)
             shader_advise(vertex ? fragment_source.text : vertex_source.text, message);
+        if (vertex)
+            explain_precision(loader, message);
         goto end;
     }
     shader->program = glCreateProgram();
