@@ -25,7 +25,7 @@ class Lies(base.Case):
 
     def lying(self, lie):
         return {"__EGL_VENDOR_LIBRARY_FILENAMES": self.path("vendor.json"), "LIGHTING_LIAR": lie,
-                "XDG_CACHE_HOME": self.path("cache-" + lie), "LIGHTING_BACKEND": "egl"}
+                "XDG_CACHE_HOME": self.path("cache", lie), "LIGHTING_BACKEND": "egl"}
 
     def pixels(self, program, precision, lie=None):
         return self.drawn("-s", "90x60", "--precision", precision, program=program,
