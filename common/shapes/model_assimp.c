@@ -111,7 +111,8 @@ static bool importer_is(const struct aiScene *scene, const char *name)
 }
 
 /* Assimp itself turns z of 3DS files to y, and the axis that a COLLADA file names (unless
- * read_file forbids it). It reports an FBX file's axis and leaves it as it is. */
+ * read_file forbids it). It reports an FBX file's axis, and leaves it as it is or, since 5.4, turns
+ * the root by the file's three axes: by a singular matrix where the file names one only. */
 static Mat4 stand_up(const struct aiScene *scene, ModelUp up)
 {
     int axis = 1, sign = 1;
@@ -132,6 +133,8 @@ static bool collect(const struct aiScene *scene, ModelUp up, Mesh *mesh, char *r
     const Mat4 world_from_file = stand_up(scene, up);
     Walk count = {.scene = scene}, fill = {.scene = scene, .mesh = mesh};
     Message message = {0};
+    if (importer_is(scene, "FBX"))
+        aiIdentityMatrix4(&scene->mRootNode->mTransformation);
     visit(&count, scene->mRootNode, world_from_file);
     if (count.vertex_count > MODEL_VERTICES_MAX || count.index_count / 3 > MODEL_TRIANGLES_MAX) {
         snprintf(reason, reason_size, "%zu vertices and %zu triangles; at most %d and %d are read",

@@ -377,21 +377,29 @@ static Bytes pyramid_collada(char up)
     return text(file);
 }
 
-static Bytes pyramid_fbx(int axis, int sign)
+/* All three axes, as exporters write them, or the one that is up alone. */
+static Bytes pyramid_fbx(int axis, int sign, bool all)
 {
-    char file[2048];
+    char file[2048], others[512] = "";
+    if (all)
+        snprintf(others, sizeof others,
+                 "\t\tP: \"FrontAxis\", \"int\", \"Integer\", \"\",%d\n"
+                 "\t\tP: \"FrontAxisSign\", \"int\", \"Integer\", \"\",%d\n"
+                 "\t\tP: \"CoordAxis\", \"int\", \"Integer\", \"\",%d\n"
+                 "\t\tP: \"CoordAxisSign\", \"int\", \"Integer\", \"\",1\n",
+                 (axis + 1) % 3, sign, (axis + 2) % 3);
     snprintf(file, sizeof file,
              "; FBX 7.3.0 project file\nFBXHeaderExtension:  {\n\tFBXHeaderVersion: 1003\n"
              "\tFBXVersion: 7300\n}\nGlobalSettings:  {\n\tVersion: 1000\n\tProperties70:  {\n"
              "\t\tP: \"UpAxis\", \"int\", \"Integer\", \"\",%d\n"
-             "\t\tP: \"UpAxisSign\", \"int\", \"Integer\", \"\",%d\n\t}\n}\n"
+             "\t\tP: \"UpAxisSign\", \"int\", \"Integer\", \"\",%d\n%s\t}\n}\n"
              "Objects:  {\n\tGeometry: 1, \"Geometry::g\", \"Mesh\" {\n\t\tVertices: *15 {\n"
              "\t\t\ta: -1,-2,0,1,-2,0,1,2,0,-1,2,0,0,0,4\n\t\t}\n"
              "\t\tPolygonVertexIndex: *18 {\n"
              "\t\t\ta: 0,2,-2,0,3,-3,0,1,-5,1,2,-5,2,3,-5,3,0,-5\n\t\t}\n\t}\n"
              "\tModel: 2, \"Model::m\", \"Mesh\" {\n\t\tVersion: 232\n\t}\n}\n"
              "Connections:  {\n\tC: \"OO\",2,0\n\tC: \"OO\",1,2\n}\n",
-             axis, sign);
+             axis, sign, others);
     return text(file);
 }
 
@@ -414,9 +422,9 @@ TEST(models_stand_upright)
         {"p.dae", pyramid_collada('X'), MODEL_UP_X},
         {"p.dae", pyramid_collada('Y'), MODEL_UP_Y},
         {"p.dae", pyramid_collada('Z'), MODEL_UP_Z},
-        {"p.fbx", pyramid_fbx(0, 1), MODEL_UP_X},
-        {"p.fbx", pyramid_fbx(1, 1), MODEL_UP_Y},
-        {"p.fbx", pyramid_fbx(2, 1), MODEL_UP_Z},
+        {"p.fbx", pyramid_fbx(0, 1, true), MODEL_UP_X},
+        {"p.fbx", pyramid_fbx(1, 1, true), MODEL_UP_Y},
+        {"p.fbx", pyramid_fbx(2, 1, true), MODEL_UP_Z},
         {"p.obj",
          text("v -1 -2 0\nv 1 -2 0\nv 1 2 0\nv -1 2 0\nv 0 0 4\n"
               "f 1 3 2\nf 1 4 3\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n"),
@@ -434,7 +442,7 @@ TEST(models_stand_upright)
         }
     }
     CLOSED(mesh_close)
-    Mesh mesh = read_sound("p.fbx", pyramid_fbx(2, -1));
+    Mesh mesh = read_sound("p.fbx", pyramid_fbx(2, -1, false));
     assert_bounds(&mesh, (Vec3){-1, -4, -2}, (Vec3){1, 0, 2}, 0);
 }
 
