@@ -625,7 +625,9 @@ class Results(Class):
         os.makedirs(self.path("theirs"))
         os.chmod(self.path("theirs"), 0o777)
         lines = self.lab5(out="theirs/out", **base.SOMEBODY)
-        self.assertEqual(len(lines), 1)
+        if len(lines) == 2:  # as in a chroot, where only root may make a name space
+            self.assertRegex(lines.pop(0), "^check: bubblewrap: bwrap: ")
+        self.assert_one_line(lines, "evil", "error", "/etc/passwd: no such file beside it")
         self.assertEqual(self.verdicts("theirs/out")["a"], "right")
 
     @unittest.skipIf(os.getuid() != 0, "only root judges as another user")
