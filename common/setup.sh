@@ -29,7 +29,8 @@ packages_to_study="gnuplot-nox glslang-tools spirv-tools"
 # check: archives, JSON, the sandbox of a submission, and counts.
 packages_to_check="libarchive-dev libjansson-dev libseccomp-dev zlib1g-dev bubblewrap glslang-tools \
 spirv-tools"
-packages_to_test="libcmocka-dev libosmesa6-dev python3 libwebpdemux2 xvfb xauth xdotool poppler-utils"
+packages_to_test="libcmocka-dev libosmesa6-dev python3 libwebpdemux2 locales xvfb xauth xdotool \
+poppler-utils"
 # tests/run --long: what the pages show of several processes and machines.
 packages_to_cluster="make munge parallel slurm-client slurmctld slurmd"
 # What a release may not have; without it some tests are skipped. OSMesa left Mesa with 25.1.
