@@ -198,16 +198,27 @@ static bool count_disassembly(FILE *file, ShaderCost *cost, Message *message)
                                    : done;
 }
 
+/* What a tool that failed said first. glslangValidator reports errors on standard output, since 14
+ * on standard error. */
+static void first_words(FILE *output, FILE *errors, char said[static 200])
+{
+    rewind(errors);
+    if (fscanf(errors, " %199[^\n]", said) != 1)
+        (void)!fscanf(output, " %199[^\n]", said);
+}
+
 /* Runs a tool from `input`, which is closed, to the file that is returned; NULL on failure. */
 static FILE *run_tool(const char *const *arguments, const char *package, FILE *input,
                       Message *message)
 {
     FILE *output = input ? tmpfile() : NULL;
+    FILE *errors = output ? tmpfile() : NULL;
     pid_t child;
     int status = 0, error = ENOMEM;
-    if (output) {
+    if (errors) {
         rewind(input); /* and writes what is buffered */
-        error = process_start(&child, arguments, (int[]){fileno(input), fileno(output), -1, -1});
+        const int files[] = {fileno(input), fileno(output), fileno(errors), -1};
+        error = process_start(&child, arguments, files);
     }
     if (!error)
         status = process_wait(child);
@@ -215,15 +226,17 @@ static FILE *run_tool(const char *const *arguments, const char *package, FILE *i
         fclose(input);
     if (output)
         rewind(output);
-    if (!error && status == 0)
-        return output;
     char said[200] = "failed";
     if (error == ENOENT)
         snprintf(said, sizeof said, "not found; install the package %s", package);
     else if (error)
         snprintf(said, sizeof said, "%s", strerror(error));
-    else /* glslangValidator reports errors on standard output */
-        (void)!fscanf(output, " %199[^\n]", said);
+    else if (status != 0)
+        first_words(output, errors, said);
+    if (errors)
+        fclose(errors);
+    if (!error && status == 0)
+        return output;
     message_set(message, "operations: %s: %s", arguments[0], said);
     if (output)
         fclose(output);

@@ -40,7 +40,7 @@ def tool(*arguments, **more):
 
 def decode(path, size, pixels="rgb24", codec=()):
     """The pictures as ffmpeg reads them, each its bytes."""
-    raw = tool("ffmpeg", "-v", "error", *codec, "-i", path, "-vsync", "passthrough", "-f",
+    raw = tool("ffmpeg", "-v", "error", *codec, "-i", path, "-fps_mode", "passthrough", "-f",
                "rawvideo", "-pix_fmt", pixels, "-")
     assert len(raw) % size == 0, (path, len(raw), size)
     return [raw[at:at + size] for at in range(0, len(raw), size)]
