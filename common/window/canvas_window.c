@@ -166,6 +166,8 @@ static bool glfw_load(Message *message)
     }
     GLFW_FUNCTIONS(GLFW_LOAD)
 #undef GLFW_LOAD
+    /* What Mesa lacks for acceleration, as DRI3 on Xvfb, is no warning to a user. */
+    setenv("EGL_LOG_LEVEL", "fatal", 0);
     glfw.library = library;
     return true;
 }
