@@ -20,6 +20,8 @@ static const double DEGREES_PER_PIXEL = 0.4, NEARER_PER_NOTCH = 0.9;
 /* What moves by hand or by the clock is rounded to these parts, so that the command which draws the
  * picture is short: milliseconds, tenths of a degree, thousandths of the distance. */
 static const double PARTS_OF_SECOND = 1000, PARTS_OF_DEGREE = 10, PARTS_OF_DISTANCE = 1000;
+enum { SETTLE = 3 }; /* frames until the panel shows all that follows from an event */
+
 static const double NEAREST = 0.1, FARTHEST = 10; /* factors of the example's distance */
 
 typedef struct Viewer {
@@ -37,8 +39,8 @@ typedef struct Viewer {
     double last; /* when the last frame began */
     int due;     /* frames to draw although time stands still: something has changed */
     int drawn, drawn_paused;
-    int margins[2];         /* that the panel has in the window's size */
-    int room[2];            /* the picture's size in the window */
+    int margins[PANEL_MARGINS]; /* that the panel has in the window's size */
+    int place[4];               /* the picture's in the window: x, y, width, height */
     int plain[2], asked[2]; /* the window's size without the panel, and the one asked for with it */
     /* Since the title was last updated: */
     double title_time;
@@ -301,11 +303,10 @@ static bool use_handles(Viewer *viewer)
 {
     static const double REACH = 11;
     const WindowInput *input = &viewer->input;
-    const double top = input->height - viewer->room[1];
     if (input->buttons[0] && !viewer->pressed) {
         const Handle *handle =
             handles_find(viewer->panel.handles, viewer->panel.handle_count, input->press_x,
-                         input->press_y - top, REACH * input->scale);
+                         input->press_y - viewer->place[1], REACH * input->scale);
         viewer->holding = handle != NULL;
         if (handle)
             viewer->held = *handle;
@@ -367,26 +368,29 @@ static bool draw_moment(Viewer *viewer)
     return stage_draw(&viewer->live.stage, options, options->seconds, &viewer->trouble);
 }
 
-/* Copies what was drawn to the window's lower left corner, and clears what the panel lies on. */
+/* Copies what was drawn to its place in the window, and clears what the panel lies on. */
 static bool present(Viewer *viewer, const Image *image, Message *message)
 {
     const int width = viewer->input.width, height = viewer->input.height;
-    const int *room = viewer->room;
-    const Image *map = viewer_panel_map(&viewer->panel, room[0], room[1]);
+    const int *place = viewer->place, below = height - place[1] - place[3];
+    const Image *map = viewer_panel_map(&viewer->panel, place[2], place[3]);
+    const int from_below[4] = {place[0], below, place[2], place[3]};
+    const int around[3][4] = {{place[2], 0, width - place[2], height},
+                              {0, 0, width, below},
+                              {0, below + place[3], width, place[1]}};
     bool done = true;
     image = map ? map : image;
     if (image)
-        done = canvas_present_image(image, room[0], room[1], message);
+        done = canvas_present_image(image, from_below, message);
     else
-        canvas_present(viewer->canvas, room[0], room[1]);
-    if (room[0] == width && room[1] == height)
-        return done;
+        canvas_present(viewer->canvas, from_below);
     glEnable(GL_SCISSOR_TEST);
     glClearColor(0, 0, 0, 1);
-    glScissor(room[0], 0, width - room[0], height);
-    glClear(GL_COLOR_BUFFER_BIT);
-    glScissor(0, room[1], width, height - room[1]);
-    glClear(GL_COLOR_BUFFER_BIT);
+    for (int i = 0; i < 3; i++) {
+        glScissor(around[i][0], around[i][1], around[i][2], around[i][3]);
+        if (around[i][2] > 0 && around[i][3] > 0)
+            glClear(GL_COLOR_BUFFER_BIT);
+    }
     glDisable(GL_SCISSOR_TEST);
     return done;
 }
@@ -462,13 +466,13 @@ static bool load(Viewer *viewer, Message *message)
     case LIVE_FAILED:
         return message_set(message, "%s", error.text);
     case LIVE_BROKEN:
-        viewer->due = 1;
+        viewer->due = SETTLE;
         options_fail(viewer->example->name, &error, EXIT_FAILED);
         viewer->broken = error;
         viewer->unmade = (Message){0}; /* the stage was opened again */
         return true;
     case LIVE_LOADED:
-        viewer->due = 1;
+        viewer->due = SETTLE;
         stage_warn(&viewer->live.stage);
         if (viewer->live.changed[0] || viewer->live.stage.warning.text[0])
             viewer_panel_notice(&viewer->panel, viewer->live.stage.warning.text[0]
@@ -508,10 +512,10 @@ static bool use_size(Viewer *viewer, Message *message)
     const WindowInput *input = &viewer->input;
     if (input->width <= 0 || input->height <= 0)
         return true;
-    viewer_panel_room(&viewer->panel, input, viewer->room);
-    viewer->options.width = viewer->room[0];
-    viewer->options.height = viewer->room[1];
-    return canvas_resize(viewer->canvas, viewer->room[0], viewer->room[1], message);
+    viewer_panel_place(&viewer->panel, input, viewer->place);
+    viewer->options.width = viewer->place[2];
+    viewer->options.height = viewer->place[3];
+    return canvas_resize(viewer->canvas, viewer->place[2], viewer->place[3], message);
 }
 
 /* When the panel comes, goes or changes its width, so does the window, and the picture keeps its
@@ -520,17 +524,18 @@ static void make_room(Viewer *viewer)
 {
     const WindowInput *input = &viewer->input;
     const int *before = viewer->margins, window[2] = {input->width, input->height};
-    int now[2], size[2];
+    int now[PANEL_MARGINS], size[2];
     viewer_panel_margins(&viewer->panel, input, now);
-    if (now[0] == before[0] && now[1] == before[1])
+    const int all[2] = {now[PANEL_RIGHT], now[PANEL_ABOVE] + now[PANEL_BELOW]};
+    const int had[2] = {before[PANEL_RIGHT], before[PANEL_ABOVE] + before[PANEL_BELOW]};
+    if (memcmp(now, before, sizeof now) == 0)
         return;
-    if (before[0] == 0 && before[1] == 0) {
+    if (had[0] == 0 && had[1] == 0)
         memcpy(viewer->plain, window, sizeof window);
-    }
-    const bool back = now[0] == 0 && now[1] == 0 && viewer->asked[0] == window[0] &&
+    const bool back = all[0] == 0 && all[1] == 0 && viewer->asked[0] == window[0] &&
                       viewer->asked[1] == window[1];
     for (int i = 0; i < 2; i++)
-        size[i] = back ? viewer->plain[i] : window[i] + now[i] - before[i];
+        size[i] = back ? viewer->plain[i] : window[i] + all[i] - had[i];
     memcpy(viewer->margins, now, sizeof now);
     if (!viewer->full_screen)
         window_resize(viewer->window, &size[0], &size[1]);
@@ -539,7 +544,6 @@ static void make_room(Viewer *viewer)
 
 static bool frame(Viewer *viewer, double wait, Message *message)
 {
-    enum { SETTLE = 3 }; /* frames until the panel shows all that follows from an event */
     WindowInput *input = &viewer->input;
     window_input(viewer->window, wait, input);
     const double now = clock_now(), elapsed = now - viewer->last;

@@ -203,15 +203,17 @@ static double scale_of(const ViewerPanel *panel, const WindowInput *input)
     return input->scale * panel->text;
 }
 
-void viewer_panel_margins(const ViewerPanel *panel, const WindowInput *input, int margins[2])
+void viewer_panel_margins(const ViewerPanel *panel, const WindowInput *input,
+                          int margins[PANEL_MARGINS])
 {
-    panel_margins(panel->panel ? panel->view : PANEL_HIDDEN, scale_of(panel, input), margins);
+    panel_margins(panel->panel ? panel->view : PANEL_HIDDEN, panel->troubled,
+                  scale_of(panel, input), margins);
 }
 
-void viewer_panel_room(const ViewerPanel *panel, const WindowInput *input, int room[2])
+void viewer_panel_place(const ViewerPanel *panel, const WindowInput *input, int place[4])
 {
-    panel_room(panel->panel ? panel->view : PANEL_HIDDEN, scale_of(panel, input), input->width,
-               input->height, room);
+    panel_place(panel->panel ? panel->view : PANEL_HIDDEN, panel->troubled, scale_of(panel, input),
+                input->width, input->height, place);
 }
 
 static void find_handles(ViewerPanel *panel, Stage *stage, const Options *options)
@@ -232,14 +234,14 @@ static void find_handles(ViewerPanel *panel, Stage *stage, const Options *option
 static void mark(const ViewerPanel *panel, const WindowInput *input, const Handle *held,
                  PanelMark marks[HANDLES_MAX])
 {
-    int room[2];
-    viewer_panel_room(panel, input, room);
+    int place[4];
+    viewer_panel_place(panel, input, place);
     for (int i = 0; i < panel->handle_count; i++) {
         const Handle *handle = &panel->handles[i];
         marks[i] =
             (PanelMark){.number = handle->light,
                         .x = handle->x,
-                        .y = handle->y + input->height - room[1],
+                        .y = handle->y + place[1],
                         .held = held && handle->light == held->light && handle->view == held->view};
     }
 }
@@ -253,6 +255,7 @@ bool viewer_panel_frame(ViewerPanel *panel, const WindowInput *input, double sec
     panel->result = (PanelResult){.view = panel->view, .mapped = panel->mapped};
     if (!panel->panel)
         return true;
+    panel->troubled = trouble->text[0] != '\0';
     if (panel->view == PANEL_OPEN && stage && !trouble->text[0]) {
         update_error(panel, stage, options);
         update_effects(panel, stage, options);

@@ -44,7 +44,7 @@ typedef struct ViewerPanel {
     char notice[PATH_MAX + 64];
     double notice_time;
     /* As in the last frame: */
-    bool noticed, error_wanted, effects_wanted;
+    bool noticed, troubled, error_wanted, effects_wanted;
     bool computing;
     double text; /* the size of letters, as a factor */
 } ViewerPanel;
@@ -61,9 +61,10 @@ bool viewer_panel_frame(ViewerPanel *panel, const WindowInput *input, double sec
                         const Options *options, const Message *trouble, const Handle *held,
                         Message *message);
 
-/* The panel's margins in the window, and the size of the picture beside it: see panel.h. */
-void viewer_panel_margins(const ViewerPanel *panel, const WindowInput *input, int margins[2]);
-void viewer_panel_room(const ViewerPanel *panel, const WindowInput *input, int room[2]);
+/* The panel's margins in the window, and the picture's place between them: see panel.h. */
+void viewer_panel_margins(const ViewerPanel *panel, const WindowInput *input,
+                          int margins[PANEL_MARGINS]);
+void viewer_panel_place(const ViewerPanel *panel, const WindowInput *input, int place[4]);
 
 /* Whether it has something new to show although nobody touched it: a result, the end of a notice.
  */

@@ -460,25 +460,27 @@ bool canvas_check(const Canvas *canvas, Message *message)
 }
 
 /* Copies the bound framebuffer to framebuffer 0; `flipped`: its first row is the top. */
-static void present(int from_width, int from_height, int width, int height, bool flipped)
+static void present(int from_width, int from_height, const int place[4], bool flipped)
 {
-    const bool equal = width == from_width && height == from_height;
+    const bool equal = place[2] == from_width && place[3] == from_height;
+    const int bottom = place[1], top = place[1] + place[3];
     glDisable(GL_SCISSOR_TEST);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER_ANGLE, 0);
-    glBlitFramebuffer(0, 0, from_width, from_height, 0, flipped ? height : 0, width,
-                      flipped ? 0 : height, GL_COLOR_BUFFER_BIT, equal ? GL_NEAREST : GL_LINEAR);
+    glBlitFramebuffer(0, 0, from_width, from_height, place[0], flipped ? top : bottom,
+                      place[0] + place[2], flipped ? bottom : top, GL_COLOR_BUFFER_BIT,
+                      equal ? GL_NEAREST : GL_LINEAR);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    glViewport(0, 0, width, height);
+    glViewport(place[0], place[1], place[2], place[3]);
 }
 
-void canvas_present(const Canvas *canvas, int width, int height)
+void canvas_present(const Canvas *canvas, const int place[4])
 {
     const int side = canvas->supersample;
     resolve(canvas);
-    present(canvas->width * side, canvas->height * side, width, height, false);
+    present(canvas->width * side, canvas->height * side, place, false);
 }
 
-bool canvas_present_image(const Image *image, int width, int height, Message *message)
+bool canvas_present_image(const Image *image, const int place[4], Message *message)
 {
     GLuint texture = 0, framebuffer = 0;
     glGenTextures(1, &texture);
@@ -489,7 +491,7 @@ bool canvas_present_image(const Image *image, int width, int height, Message *me
     glGenFramebuffers(1, &framebuffer);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
-    present(image->width, image->height, width, height, true);
+    present(image->width, image->height, place, true);
     glDeleteFramebuffers(1, &framebuffer);
     glDeleteTextures(1, &texture);
     const GLenum error = glGetError();

@@ -52,23 +52,35 @@ static double within(double value, double min, double max, double otherwise)
     return isfinite(value) ? fmin(fmax(value, min), max) : otherwise;
 }
 
-void panel_margins(PanelView view, double scale, int margins[2])
+void panel_margins(PanelView view, bool errors, double scale, int margins[PANEL_MARGINS])
 {
     const double own = within(scale, MIN_SCALE, MAX_SCALE, 1);
-    const int wide = PANEL_WIDTH + 2 * PANEL_MARGIN, high = PANEL_FOLDED_HEIGHT + 2 * PANEL_MARGIN;
-    margins[0] = view == PANEL_OPEN ? (int)lrint(own * wide) : 0;
-    margins[1] = view == PANEL_FOLDED ? (int)lrint(own * high) : 0;
+    const int around = 2 * PANEL_MARGIN;
+    const int wanted[PANEL_MARGINS] = {
+        [PANEL_RIGHT] = view == PANEL_OPEN ? PANEL_WIDTH + around : 0,
+        [PANEL_ABOVE] = view == PANEL_FOLDED ? PANEL_FOLDED_HEIGHT + around : 0,
+        [PANEL_BELOW] = errors ? PANEL_ERRORS_HEIGHT + around : 0};
+    for (int i = 0; i < PANEL_MARGINS; i++)
+        margins[i] = (int)lrint(own * wanted[i]);
 }
 
-void panel_room(PanelView view, double scale, int width, int height, int room[2])
+static int least(int a, int b)
 {
-    const int size[2] = {width, height};
-    int margins[2];
-    panel_margins(view, scale, margins);
-    for (int i = 0; i < 2; i++) {
-        const int most = (int)(2LL * size[i] / 3);
-        room[i] = size[i] - (margins[i] < most ? margins[i] : most);
-    }
+    return a < b ? a : b;
+}
+
+void panel_place(PanelView view, bool errors, double scale, int width, int height, int place[4])
+{
+    const int most[2] = {(int)(2LL * width / 3), (int)(2LL * height / 3)};
+    int margins[PANEL_MARGINS];
+    panel_margins(view, errors, scale, margins);
+    const int right = least(margins[PANEL_RIGHT], most[0]);
+    const int above = least(margins[PANEL_ABOVE], most[1]);
+    const int below = least(margins[PANEL_BELOW], most[1] - above);
+    place[0] = 0;
+    place[1] = above;
+    place[2] = width - right;
+    place[3] = height - above - below;
 }
 
 /* Dear ImGui aborts on invalid numbers. */
@@ -93,7 +105,8 @@ bool panel_frame(Panel *panel, const PanelInput *input, const PanelContent *cont
     const WindowInput window = sane(input->window);
     PanelInput own = *input;
     own.window = &window;
-    panel_room(content->view, window.scale, window.width, window.height, own.room);
+    panel_place(content->view, content->errors != NULL, window.scale, window.width, window.height,
+                own.place);
     own.seconds = within(input->seconds, 0, LONGEST_FRAME, 0);
     *result = (PanelResult){.view = content->view, .mapped = content->error.mapped};
     const bool something =

@@ -21,20 +21,21 @@ typedef enum PanelView { PANEL_HIDDEN, PANEL_FOLDED, PANEL_OPEN } PanelView;
 typedef struct PanelInput {
     const WindowInput *window; /* invalid sizes and positions are ignored */
     double seconds;            /* since the last frame */
-    int room[2];               /* of the picture; panel_frame sets it */
+    int place[4];              /* of the picture; panel_frame sets it */
     /* The clipboard and its functions, which may be NULL. */
     void *clipboard;
     const char *(*get_clipboard)(void *clipboard);
     void (*set_clipboard)(void *clipboard, const char *text);
 } PanelInput;
 
-/* What the panel wants of the window beside the picture: to the right of it, and above it. Pixels.
- */
-void panel_margins(PanelView view, double scale, int margins[2]);
+/* What the panel wants of the window around the picture: to the right of it, above it, and below it
+ * for errors. Pixels. */
+enum { PANEL_RIGHT, PANEL_ABOVE, PANEL_BELOW, PANEL_MARGINS };
+void panel_margins(PanelView view, bool errors, double scale, int margins[PANEL_MARGINS]);
 
-/* The size of the picture in a window of this size, from its lower left corner. The picture gets at
- * least a third of the window, and a pixel. */
-void panel_room(PanelView view, double scale, int width, int height, int room[2]);
+/* Where the picture is in a window of this size: x, y, width, height, from the upper left. It gets
+ * at least a third of the width and of the height, and a pixel. */
+void panel_place(PanelView view, bool errors, double scale, int width, int height, int place[4]);
 
 /* A line of help: "space", "pauses". */
 typedef struct PanelHelp {

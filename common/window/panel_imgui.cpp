@@ -51,8 +51,7 @@ struct Context {
     const char *reset_sign = "<";
     unsigned generation = 0;
     Typing typing = {};
-    float other_height = 0;  // of the panel without its list of effects, in the frame before
-    float errors_height = 0; // of their box
+    float other_height = 0; // of the panel without its list of effects, in the frame before
     const PanelInput *input = nullptr; // of this frame
     std::vector<PanelVertex> vertices;
     std::vector<uint16_t> indices;
@@ -898,10 +897,10 @@ void panel_window(Context &context, const PanelContent &content, PanelResult &re
     const char *name = content.name ? content.name : "";
     const float own_width = ImGui::CalcTextSize(name).x + ImGui::GetFontSize() +
                             4 * style.FramePadding.x + 2 * style.WindowPadding.x;
-    // Beside the picture, or above it.
-    const float left = open ? float(context.input->room[0]) : 0;
-    const float below = content.errors ? context.errors_height + edge : 0;
-    const float bottom = open ? display.y - below : display.y - float(context.input->room[1]);
+    // Beside the picture, or above it; the errors are below.
+    const int *place = context.input->place;
+    const float left = open ? float(place[2]) : 0;
+    const float bottom = float(open ? place[1] + place[3] : place[1]);
     const float most = display.x - left - 2 * edge, max = bottom - 2 * edge;
     if (most < 4 * edge || max < 2 * edge)
         return;
@@ -918,25 +917,26 @@ void panel_window(Context &context, const PanelContent &content, PanelResult &re
     ImGui::End();
 }
 
-// Monospaced, in a red frame at the bottom.
+// Monospaced, in a red frame below the picture.
 void errors_window(Context &context, const char *errors)
 {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float edge = margin(context);
-    const float width = std::max(display.x - 2 * edge, 4.0f);
-    ImGui::SetNextWindowPos(ImVec2(edge, display.y - edge), ImGuiCond_Always, ImVec2(0, 1));
-    ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0),
-                                        ImVec2(width, std::max(display.y / 2, 4.0f)));
+    const float top = float(context.input->place[1] + context.input->place[3]) + edge;
+    const ImVec2 size(display.x - 2 * edge, display.y - top - edge);
+    if (size.x < 4 || size.y < 4)
+        return;
+    ImGui::SetNextWindowPos(ImVec2(edge, top));
+    ImGui::SetNextWindowSize(size);
     ImGui::PushStyleColor(ImGuiCol_Border, ERROR);
     ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4(0.13f, 0.04f, 0.04f, 0.93f));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 2 * context.scale);
     if (ImGui::Begin("errors", nullptr,
-                     (FIXED & ~ImGuiWindowFlags_NoScrollbar) |
+                     (FIXED & ~(ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_AlwaysAutoResize)) |
                          ImGuiWindowFlags_NoFocusOnAppearing)) {
         ImGui::PushFont(context.mono);
         put_wrapped(errors);
         ImGui::PopFont();
-        context.errors_height = ImGui::GetWindowHeight();
     }
     ImGui::End();
     ImGui::PopStyleVar();
@@ -947,10 +947,9 @@ void errors_window(Context &context, const char *errors)
 void draw_marks(const Context &context, const PanelContent &content)
 {
     ImDrawList *list = ImGui::GetBackgroundDrawList();
-    const ImVec2 display = ImGui::GetIO().DisplaySize;
-    const float right = float(context.input->room[0]);
-    const float top = display.y - float(context.input->room[1]);
-    list->PushClipRect(ImVec2(0, top), ImVec2(right, display.y));
+    const int *place = context.input->place;
+    list->PushClipRect(ImVec2(0, float(place[1])),
+                       ImVec2(float(place[2]), float(place[1] + place[3])));
     for (int i = 0; i < content.mark_count; i++) {
         const PanelMark &mark = content.marks[i];
         const ImVec2 at(float(mark.x), float(mark.y));
@@ -992,7 +991,7 @@ void notice_window(const Context &context, const char *notice)
     const float padding = 2 * ImGui::GetStyle().WindowPadding.x;
     const float width = std::min(ImGui::CalcTextSize(notice).x + padding + 1, max);
     // In the picture's upper left corner.
-    const float top = display.y - float(context.input->room[1]);
+    const float top = float(context.input->place[1]);
     ImGui::SetNextWindowPos(ImVec2(edge, top + edge));
     ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0), ImVec2(width, FLT_MAX));
     if (ImGui::Begin("notice", nullptr, OVERLAY))

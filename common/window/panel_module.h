@@ -11,9 +11,9 @@ extern "C" {
 
 #include "window/panel.h"
 
-/* In pixels of an ordinary screen: the panel's width, its height folded, and what is left around
- * it. */
-enum { PANEL_WIDTH = 340, PANEL_FOLDED_HEIGHT = 36, PANEL_MARGIN = 8 };
+/* In pixels of an ordinary screen: the panel's width, its height folded, the height of the errors'
+ * box, and what is left around them. */
+enum { PANEL_WIDTH = 340, PANEL_FOLDED_HEIGHT = 36, PANEL_ERRORS_HEIGHT = 120, PANEL_MARGIN = 8 };
 
 /* Functions return true, or false with the reason in `reason` (without a subject). A frame's window
  * is at least 1x1, and its numbers are finite; a place that was none is outside the window. */

@@ -46,7 +46,7 @@ static bool headless_frames(void *argument)
 
 static void copy(const Run *run)
 {
-    canvas_present(run->canvas, run->canvas->width, run->canvas->height);
+    canvas_present(run->canvas, (const int[4]){0, 0, run->canvas->width, run->canvas->height});
     window_swap(window_of(run->canvas));
     glFinish();
 }

@@ -691,7 +691,7 @@ TEST(a_context_unbound_by_others_is_reported_and_can_be_closed)
     clear(1, 0, 0, 1);
     canvas_begin(&canvas);
     if (backend == &CANVAS_WINDOW)
-        canvas_present(&canvas, 4, 4);
+        canvas_present(&canvas, (const int[4]){0, 0, 4, 4});
     assert_lost(&canvas);
     canvas_close(&canvas);
     canvas = open_canvas((CanvasOptions){.width = 4, .height = 4});

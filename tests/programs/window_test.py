@@ -33,6 +33,7 @@ SCENE = "ShadingModels"
 # Beside every window of the tests, because the server draws the pointer into its picture.
 AWAY = SCREEN[0] - 5, SCREEN[1] - 5
 PANEL = 356  # by which a window with a panel is wider
+ERRORS = 136  # by which a window with errors is higher
 
 
 def wait_for(condition, what, deadline=DEADLINE):
@@ -839,10 +840,16 @@ class Shaders(Case):
             self.edit(self.broken, replace)
             wait_for(lambda: "broken" in shown.title(), "a title that says broken")
             self.assertRegex(shown.said()[len(said):], rf"^{self.FRAGMENT}:\d+: .*v_Colour")
-            # The last one that could be drawn still is.
+            # The last one that could be drawn still is, whole; the error is below.
+            wait_for(lambda: shown.place()[2:] == (160, 160 + ERRORS), "a higher window")
+            picture = wait_for(lambda: (p := shown.save()).height == 160 and p, "its size")
+            screen = lambda: crop(self.visible(shown), 160, (0, 60, 160, 100))
+            wait_for(lambda: screen() == crop(picture.pixels, 160, (0, 60, 160, 100)), "it whole")
             self.assert_drawn(shown, self.original)
             self.edit(self.dark, replace)
             wait_for(lambda: "broken" not in shown.title(), "a title that no longer says so")
+            wait_for(lambda: shown.place()[2:] == (160, 160), "a lower window")
+            wait_for(lambda: shown.save().height == 160, "its size")
             picture = self.assert_drawn(shown, self.dark)
             self.edit(self.original, replace)
             wait_for(lambda: shown.save().pixels != picture.pixels, "the first shader again")

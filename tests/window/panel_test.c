@@ -685,7 +685,7 @@ PANEL_TEST(test_the_title_collapses_it)
 }
 
 /* No visible part of a triangle is over the picture. */
-static void assert_beside(const int room[2])
+static void assert_beside(const int place[4])
 {
     const PanelDrawing *drawing = &result.drawing;
     for (int i = 0; i < drawing->command_count; i++) {
@@ -694,12 +694,13 @@ static void assert_beside(const int room[2])
             const PanelVertex *vertex = &drawing->vertices[command->vertex + drawing->indices[k]];
             const double right = fmax(vertex->x, command->x);
             const double bottom = fmin(vertex->y, command->y + command->height);
-            assert_true(right >= room[0] || bottom <= window.height - room[1]);
+            const double top = fmax(vertex->y, command->y);
+            assert_true(right >= place[2] || bottom <= place[1] || top >= place[1] + place[3]);
         }
     }
 }
 
-/* Open beside the picture, folded above it; at every size of a window. */
+/* Open beside the picture, folded above it, errors below; at every size of a window. */
 PANEL_TEST(test_the_panel_covers_nothing_of_the_picture)
 {
     static const int sides[] = {1, 2, 30, 170, 400, 868, 5000};
@@ -707,28 +708,54 @@ PANEL_TEST(test_the_panel_covers_nothing_of_the_picture)
     set_every();
     content.parameters = EVERY;
     content.effects = content.command = "some text";
-    for (int i = 0; i < 7 * 7 * 3 * 2; i++) {
-        int room[2];
+    for (int i = 0; i < 7 * 7 * 3 * 2 * 2; i++) {
+        int place[4];
         window.width = sides[i % 7];
         window.height = sides[i / 7 % 7];
-        window.scale = i / 147 + 1;
+        window.scale = i / 147 % 2 + 1;
         content.view = views[i / 49 % 3];
-        panel_room(content.view, window.scale, window.width, window.height, room);
-        assert_true(room[0] >= (window.width + 2) / 3 && room[1] >= (window.height + 2) / 3);
-        assert_true(room[0] <= window.width && room[1] <= window.height);
+        content.errors =
+            i / 294 ? "shader.frag:23: error\n a line\n of source\n and\n a\n hint" : NULL;
+        panel_place(content.view, content.errors, window.scale, window.width, window.height, place);
+        assert_true(place[2] >= (window.width + 2) / 3 && place[3] >= (window.height + 2) / 3);
+        assert_true(place[0] == 0 && place[2] <= window.width);
+        assert_true(place[1] >= 0 && place[1] + place[3] <= window.height);
         for (int k = 0; k < 3; k++)
             frame();
-        assert_beside(room);
+        assert_beside(place);
     }
     /* A window that grows by the margins keeps its picture. */
-    int margins[2], room[2];
-    panel_margins(PANEL_OPEN, 1, margins);
-    assert_true(margins[0] >= 340 && margins[1] == 0);
-    panel_room(PANEL_OPEN, 1, 512 + margins[0], 512, room);
-    assert_true(room[0] == 512 && room[1] == 512);
-    panel_margins(PANEL_FOLDED, NAN, margins);
-    panel_room(PANEL_FOLDED, NAN, 512, 512 + margins[1], room);
-    assert_true(margins[0] == 0 && margins[1] > 20 && room[0] == 512 && room[1] == 512);
+    int margins[PANEL_MARGINS], place[4];
+    panel_margins(PANEL_OPEN, false, 1, margins);
+    assert_true(margins[PANEL_RIGHT] >= 340 && !margins[PANEL_ABOVE] && !margins[PANEL_BELOW]);
+    panel_place(PANEL_OPEN, false, 1, 512 + margins[PANEL_RIGHT], 512, place);
+    assert_true(place[1] == 0 && place[2] == 512 && place[3] == 512);
+    panel_margins(PANEL_FOLDED, true, NAN, margins);
+    panel_place(PANEL_FOLDED, true, NAN, 512, 512 + margins[PANEL_ABOVE] + margins[PANEL_BELOW],
+                place);
+    assert_true(!margins[PANEL_RIGHT] && margins[PANEL_ABOVE] > 20 && margins[PANEL_BELOW] > 80);
+    assert_true(place[1] == margins[PANEL_ABOVE] && place[2] == 512 && place[3] == 512);
+}
+
+/* More lines than fit are scrolled. */
+PANEL_TEST(test_errors_are_scrolled)
+{
+    static PanelVertex before[1 << 16];
+    content.view = PANEL_HIDDEN;
+    content.errors = "1\n2\n3\n4\n5\n6\n7\n8\n9\n10\n11\n12\n13\n14\n15\n16\n17\n18\n19\n20";
+    frames(3);
+    point(100, window.height - 60);
+    frames(2);
+    assert_true(result.wants_pointer);
+    const size_t size = (size_t)result.drawing.vertex_count * sizeof before[0];
+    assert_true(size <= sizeof before);
+    memcpy(before, result.drawing.vertices, size);
+    window.scroll = -3;
+    frame();
+    window.scroll = 0;
+    frames(2);
+    assert_true((size_t)result.drawing.vertex_count * sizeof before[0] != size ||
+                memcmp(before, result.drawing.vertices, size) != 0);
 }
 
 PANEL_TEST(test_the_command_is_copied)
