@@ -205,6 +205,73 @@ static bool write_places(const Parameter *parameter, char *text, size_t size)
     return places->placed && length < size;
 }
 
+/* NUMBER,R,G,B or NUMBER,R,G,B,R,G,B for each light, between slashes. */
+static bool read_tint(const char *text, LightTints *tints)
+{
+    static const double LARGEST = 10;
+    char copy[256], *place = NULL;
+    double values[6];
+    int light, count = 0;
+    if (snprintf(copy, sizeof copy, "%s", text) >= (int)sizeof copy || strstr(text, ",,") ||
+        text[0] == ',' || (text[0] && text[strlen(text) - 1] == ','))
+        return false;
+    const char *word = strtok_r(copy, ",", &place);
+    if (!word || !parse_whole(word, 0, SCENE_MAX_PLACED - 1, &light))
+        return false;
+    while ((word = strtok_r(NULL, ",", &place)) && count < 6)
+        if (!parse_number(word, 0, LARGEST, &values[count++]))
+            return false;
+    if (word || (count != 3 && count != 6))
+        return false;
+    const double *specular = values + count - 3;
+    tints->tinted |= 1U << light;
+    tints->diffuse[light] = (Vec3){values[0], values[1], values[2]};
+    tints->specular[light] = (Vec3){specular[0], specular[1], specular[2]};
+    return true;
+}
+
+static bool read_tints(const Parameter *parameter, const char *text, Message *message)
+{
+    LightTints tints = {.tinted = 0};
+    for (const char *word = text; word; word = strchr(word, '/') ? strchr(word, '/') + 1 : NULL) {
+        char copy[256];
+        snprintf(copy, sizeof copy, "%.*s", (int)strcspn(word, "/"), word);
+        if (!read_tint(copy, &tints))
+            return message_set(message,
+                               "--light-color %s: must be NUMBER,R,G,B, a light from 0 to %d and "
+                               "its colour, each part 0 to 10; a second colour, ,R,G,B, is the "
+                               "specular one; and for more lights the same after a /",
+                               text, SCENE_MAX_PLACED - 1);
+    }
+    *(LightTints *)parameter->value = tints;
+    return true;
+}
+
+static void put_color(FILE *file, Vec3 color)
+{
+    const double parts[3] = {color.x, color.y, color.z};
+    for (int k = 0; k < 3; k++) {
+        char number[32];
+        parse_number_text(parts[k], number);
+        fprintf(file, ",%s", number);
+    }
+}
+
+static bool write_tints(const Parameter *parameter, char *text, size_t size)
+{
+    const LightTints *tints = parameter->value;
+    FILE *file = fmemopen(text, size, "w");
+    for (int i = 0, written = 0; i < SCENE_MAX_PLACED && file; i++) {
+        if (!(tints->tinted >> i & 1))
+            continue;
+        fprintf(file, "%s%d", written++ ? "/" : "", i);
+        put_color(file, tints->diffuse[i]);
+        if (memcmp(&tints->diffuse[i], &tints->specular[i], sizeof(Vec3)) != 0)
+            put_color(file, tints->specular[i]);
+    }
+    return file && fclose(file) == 0 && tints->tinted;
+}
+
 /* A diagram is painted by cairo. */
 static bool read_refused_diagram(const Parameter *parameter, const char *text, Message *message)
 {
@@ -355,6 +422,11 @@ int options_table(const Usage *usage, Options *options, OptionsPurpose purpose,
          "of them between slashes, as in 0,1,2,0/1,-1,2,0",
          TEXT(places), .placeholder = "NUMBER,X,Y,Z", .standard = "", .read = read_places,
          .write = write_places, .programs = SCENE},
+        {"light-color",
+         "another colour of a light, by number from 0, diffuse and specular, or the specular one "
+         "after it; more of them between slashes, as in 0,1,0.5,0/1,0,0,1,1,1,1",
+         TEXT(tints), .placeholder = "NUMBER,R,G,B[,R,G,B]", .standard = "", .read = read_tints,
+         .write = write_tints, .programs = SCENE},
         {"lighting", "off: each surface in its own diffuse colour", PARAMETER_SWITCH,
          &options->terms.unlit, .choices = LIGHTING, .programs = SCENE},
         {"show-clipped", "paint over-exposed pixels magenta", FLAG(show_clipped),

@@ -60,6 +60,7 @@ typedef struct Options {
     bool show_clipped;
     SceneTerms terms;
     LightPlaces places;
+    LightTints tints;
     bool cheap; /* --error: draw as cheaply as an error of `error` steps of 1/255 allows */
     double error;
     bool own_given[OPTIONS_MAX_PARAMETERS]; /* the program's own options, in their order */

@@ -198,8 +198,8 @@ static double designed_aspect(const Stage *stage)
     return (double)width * rows / ((double)height * columns);
 }
 
-/* `kept` has the lights and objects of --terms and --light-at; closed by the caller, whatever is
- * returned. */
+/* `kept` has the lights and objects of --terms, --light-at and --light-color; closed by the caller,
+ * whatever is returned. */
 static bool make_scene(const Stage *stage, const Options *options, double seconds, int number,
                        SceneCopy *kept, Scene *scene, Message *message)
 {
@@ -215,11 +215,13 @@ static bool make_scene(const Stage *stage, const Options *options, double second
     if (orbit_text(options->orbit, orbit))
         scene_fit_depth(scene);
     const SceneTerms *terms = &options->terms;
-    if (!terms->left_out && !terms->lights_left_out && !terms->unlit && !options->places.placed)
+    if (!terms->left_out && !terms->lights_left_out && !terms->unlit && !options->places.placed &&
+        !options->tints.tinted)
         return true;
     if (!scene_copy_open(kept, scene, false, message))
         return false;
     scene_place_lights(kept, &options->places);
+    scene_tint_lights(kept, &options->tints);
     scene_keep_terms(kept, *terms);
     *scene = kept->scene;
     return scene_check(scene, message);

@@ -57,6 +57,13 @@ static unsigned terms_of(const Scene *scene)
     return terms;
 }
 
+static bool list_lights(int lights, Message *message)
+{
+    if (lights == 1)
+        return message_add(message, "light 0");
+    return message_add(message, lights ? "lights 0 to %d" : "no lights", lights - 1);
+}
+
 static bool list_terms(unsigned terms, int lights, Message *message)
 {
     bool any = false;
@@ -68,15 +75,25 @@ static bool list_terms(unsigned terms, int lights, Message *message)
     }
     if (!any)
         message_add(message, "no term that is not black");
-    if (lights == 1)
-        return message_add(message, "; light 0");
-    return message_add(message, lights ? "; lights 0 to %d" : "; no lights", lights - 1);
+    message_add(message, "; ");
+    return list_lights(lights, message);
+}
+
+/* Of options that name lights the scene has not. */
+static bool refuse_lights(const Options *options, int lights, Message *message)
+{
+    const bool placed = options->places.placed >> lights;
+    const unsigned absent = (placed ? options->places.placed : options->tints.tinted) >> lights;
+    message_set(message, "--light-%s: there is no light %d; the scene has ",
+                placed ? "at" : "color", lights + __builtin_ctz(absent));
+    return list_lights(lights, message);
 }
 
 bool unused_terms_check(const Example *example, const Options *options, Message *message)
 {
     const SceneTerms named = options->terms;
-    if (!example->scene || (!named.left_out && !named.lights_left_out))
+    const unsigned changed = options->places.placed | options->tints.tinted;
+    if (!example->scene || (!named.left_out && !named.lights_left_out && !changed))
         return true;
     int columns, rows, lights = 0, missing = -1;
     unsigned terms = 0;
@@ -90,6 +107,10 @@ bool unused_terms_check(const Example *example, const Options *options, Message 
         }
         for (int i = LIGHTS_MAX - 1; i >= lights && named.lights_left_out; i--)
             missing = named.lights_left_out >> i & 1 ? missing : i;
+        if (changed >> lights) {
+            example->finish();
+            return refuse_lights(options, lights, message);
+        }
     } else {
         terms = TERM_ALL; /* drawing says why */
     }

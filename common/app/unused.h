@@ -7,7 +7,8 @@
 #include "app/options.h"
 #include "core/example.h"
 
-/* Whether the scene has the terms and lights that --terms names; the message lists those it has. */
+/* Whether the scene has the terms that --terms names, and the lights that --terms, --light-at and
+ * --light-color do; the message lists those it has. */
 bool unused_terms_check(const Example *example, const Options *options, Message *message);
 
 /* Names the program's own options that were given and change nothing: without one of them the

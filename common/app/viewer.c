@@ -498,6 +498,11 @@ static bool use_panel(Viewer *viewer, double elapsed, Message *message)
                             is_made(viewer) ? &viewer->live.stage : NULL, &viewer->options, trouble,
                             viewer->holding ? &viewer->held : NULL, message))
         return false;
+    if (viewer_panel_tint(panel, &viewer->options.tints)) {
+        viewer_panel_renew(panel);
+        if (viewer->options.cheap)
+            renew(viewer);
+    }
     if (panel->result.tried)
         try_arguments(viewer, panel->result.tried);
     else if (panel->result.changed || panel->result.options)

@@ -230,6 +230,62 @@ static void find_handles(ViewerPanel *panel, Stage *stage, const Options *option
     }
 }
 
+static void add_light(ViewerPanel *panel, int number, const Light *light, const LightTints *tints)
+{
+    static const char *const words[] = {"diffuse", "specular"};
+    const bool tinted = tints->tinted >> number & 1;
+    const Vec3 plain[] = {light->diffuse, light->specular};
+    const Vec3 own[] = {tints->diffuse[number], tints->specular[number]};
+    for (int k = 0; k < 2; k++) {
+        const int row = 2 * number + k;
+        snprintf(panel->light_names[row], sizeof panel->light_names[row], "%d %s", number,
+                 words[k]);
+        panel->light_values[row] = tinted ? own[k] : plain[k];
+        panel->light_defaults[row].color = plain[k];
+        panel->lights[row] = (Parameter){.name = panel->light_names[row],
+                                         .help = "of this light: --light-color",
+                                         .kind = PARAMETER_COLOR,
+                                         .value = &panel->light_values[row],
+                                         .max = 1};
+    }
+    panel->lights[2 * number + 2].name = NULL;
+}
+
+/* The lights of all views as the example has them, and their colors as the options do. */
+static void find_lights(ViewerPanel *panel, Stage *stage, const Options *options)
+{
+    Options plain = *options;
+    int count = 0;
+    plain.terms = (SceneTerms){.left_out = 0};
+    plain.tints = (LightTints){.tinted = 0};
+    plain.cheap = false;
+    for (int view = 0; panel->example->scene && view < stage_view_count(stage); view++) {
+        StageView shown;
+        if (stage_view_open(&shown, stage, &plain, options->seconds, view, NULL))
+            for (; count < shown.asked.light_count && count < SCENE_MAX_PLACED; count++)
+                add_light(panel, count, &shown.asked.lights[count], &options->tints);
+        stage_view_close(&shown);
+    }
+    panel->lights[2 * count].name = NULL;
+}
+
+bool viewer_panel_tint(const ViewerPanel *panel, LightTints *tints)
+{
+    for (int i = 0; i < SCENE_MAX_PLACED; i++) {
+        const Vec3 *own = &panel->light_values[2 * i];
+        const ParameterValue *plain = &panel->light_defaults[2 * i];
+        if (!(panel->result.lights >> 2 * i & 3))
+            continue;
+        tints->diffuse[i] = own[0];
+        tints->specular[i] = own[1];
+        tints->tinted |= 1U << i;
+        if (memcmp(&own[0], &plain[0].color, sizeof(Vec3)) == 0 &&
+            memcmp(&own[1], &plain[1].color, sizeof(Vec3)) == 0)
+            tints->tinted &= ~(1U << i);
+    }
+    return panel->result.lights != 0;
+}
+
 /* The handles in the window. */
 static void mark(const ViewerPanel *panel, const WindowInput *input, const Handle *held,
                  PanelMark marks[HANDLES_MAX])
@@ -260,6 +316,7 @@ bool viewer_panel_frame(ViewerPanel *panel, const WindowInput *input, double sec
         update_error(panel, stage, options);
         update_effects(panel, stage, options);
         find_handles(panel, stage, options);
+        find_lights(panel, stage, options);
         command_write(panel->example, options, panel->defaults, panel->command,
                       sizeof panel->command);
     }
@@ -278,6 +335,8 @@ bool viewer_panel_frame(ViewerPanel *panel, const WindowInput *input, double sec
                                   .defaults = panel->defaults,
                                   .options = panel->options,
                                   .option_defaults = panel->option_defaults,
+                                  .lights = panel->lights,
+                                  .light_defaults = panel->light_defaults,
                                   .marks = panel->handle_count ? marks : NULL,
                                   .mark_count = panel->handle_count,
                                   .tries = panel->example->tries,

@@ -26,6 +26,11 @@ typedef struct ViewerPanel {
     ParameterValue defaults[OPTIONS_MAX_PARAMETERS];
     Parameter options[8]; /* common ones that the panel changes; their values are the viewer's */
     ParameterValue option_defaults[8];
+    /* Colors of the lights, diffuse and specular of each, by number. */
+    Parameter lights[2 * SCENE_MAX_PLACED + 1];
+    char light_names[2 * SCENE_MAX_PLACED][24];
+    Vec3 light_values[2 * SCENE_MAX_PLACED];
+    ParameterValue light_defaults[2 * SCENE_MAX_PLACED];
     Handle handles[HANDLES_MAX]; /* the lights of this frame's picture */
     int handle_count;
     double seconds; /* per frame, smoothed; 0: unknown */
@@ -60,6 +65,9 @@ void viewer_panel_open(ViewerPanel *panel, const Example *example, const Canvas 
 bool viewer_panel_frame(ViewerPanel *panel, const WindowInput *input, double seconds, Stage *stage,
                         const Options *options, const Message *trouble, const Handle *held,
                         Message *message);
+
+/* Sets the options to the colors of lights that were changed in this frame; false: none. */
+bool viewer_panel_tint(const ViewerPanel *panel, LightTints *tints);
 
 /* The panel's margins in the window, and the picture's place between them: see panel.h. */
 void viewer_panel_margins(const ViewerPanel *panel, const WindowInput *input,

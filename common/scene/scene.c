@@ -280,6 +280,16 @@ void scene_place_lights(SceneCopy *copy, const LightPlaces *places)
     }
 }
 
+void scene_tint_lights(SceneCopy *copy, const LightTints *tints)
+{
+    for (int i = 0; i < copy->scene.light_count && i < SCENE_MAX_PLACED; i++) {
+        if (!(tints->tinted >> i & 1))
+            continue;
+        copy->lights[i].diffuse = tints->diffuse[i];
+        copy->lights[i].specular = tints->specular[i];
+    }
+}
+
 Mat4 scene_eye_from_object(const Camera *camera, Mat4 eye_from_world, Mat4 world_from_object)
 {
     Mat4 relative = world_from_object;

@@ -138,6 +138,15 @@ typedef struct LightPlaces {
 /* Moves a copy's lights. */
 void scene_place_lights(SceneCopy *copy, const LightPlaces *places);
 
+/* Lights that were given other colors. Zeroed: none. */
+typedef struct LightTints {
+    unsigned tinted; /* a bit each */
+    Vec3 diffuse[SCENE_MAX_PLACED], specular[SCENE_MAX_PLACED];
+} LightTints;
+
+/* Colors a copy's lights. */
+void scene_tint_lights(SceneCopy *copy, const LightTints *tints);
+
 /* eye_from_object, composed relative to the eye: the two translations are subtracted first, in
  * double precision, so that a scene far from the origin is drawn as accurately as one near it.
  * (Cozzi and Ring, 3D Engine Design for Virtual Globes, 2011, chapter 5) */

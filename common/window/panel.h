@@ -73,6 +73,8 @@ typedef struct PanelContent {
     const ParameterValue *defaults; /* of each; NULL: no reset */
     const Parameter *options;       /* common ones, in a section of their own; the same */
     const ParameterValue *option_defaults;
+    const Parameter *lights; /* colors of the scene's lights, the same; no row: no section */
+    const ParameterValue *light_defaults;
     const PanelMark *marks; /* drawn over the picture */
     int mark_count;
     double milliseconds; /* per frame; not positive: unknown */
@@ -117,6 +119,7 @@ typedef struct PanelResult {
     PanelView view;       /* a click on the title changes it */
     uint32_t changed;     /* bit i: parameter i changed */
     uint32_t options;     /* bit i: option i changed */
+    uint32_t lights;      /* bit i: color i of the lights changed */
     bool mapped;          /* as PanelError has it, or as a click on its switch has set it */
     int larger;           /* letters by so many sizes, or smaller if negative */
     const char *tried;    /* the arguments of the button that was pressed; NULL: none */

@@ -685,6 +685,16 @@ uint32_t parameters_section(Context &context, const PanelContent &content)
     return edit_all(context, content.parameters, content.defaults);
 }
 
+// The lights have the numbers of their rings.
+void lights_section(Context &context, const PanelContent &content, PanelResult &result)
+{
+    if (!content.lights || !content.lights[0].name || !ImGui::CollapsingHeader("Lights"))
+        return;
+    ImGui::PushID("lights");
+    result.lights = edit_all(context, content.lights, content.light_defaults);
+    ImGui::PopID();
+}
+
 // The common options, and the size of letters.
 void options_section(Context &context, const PanelContent &content, PanelResult &result)
 {
@@ -868,6 +878,7 @@ void sections(Context &context, const PanelContent &content, float max, PanelRes
 {
     result.changed = parameters_section(context, content);
     options_section(context, content, result);
+    lights_section(context, content, result);
     result.tried = tries_section(content);
     cost_section(content, result);
     const float effects = effects_section(context, content, max);

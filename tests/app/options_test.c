@@ -10,6 +10,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <float.h>
+#include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -295,7 +296,7 @@ static Parameter terms_row(void)
 TEST(every_set_of_terms_and_lights_is_read_and_written)
 {
     for (unsigned bits = 1; bits < 1 << 8; bits++) {
-        char line[300] = "--terms ", text[PARAMETER_TEXT_SIZE];
+        char line[600] = "--terms ", text[PARAMETER_TEXT_SIZE];
         for (int i = 0; i < 8; i++) {
             const int k = bits & 1 ? i : 7 - i;
             if (bits >> k & 1)
@@ -323,7 +324,7 @@ TEST(every_set_of_terms_and_lights_is_read_and_written)
 /* All lights but one are the longest text. */
 TEST(the_longest_terms_fit)
 {
-    char text[PARAMETER_TEXT_SIZE], line[300];
+    char text[PARAMETER_TEXT_SIZE], line[600];
     for (unsigned left_out = 0; left_out < 32; left_out++) {
         assert_int_equal(read_as(&SCENE, ""), OPTIONS_RUN);
         options.terms.lights_left_out = (uint32_t)1 << left_out;
@@ -348,7 +349,7 @@ static Parameter places_row(void)
 
 TEST(lights_are_put_elsewhere)
 {
-    char line[300], text[PARAMETER_TEXT_SIZE];
+    char line[600], text[PARAMETER_TEXT_SIZE];
     assert_int_equal(read_as(&SCENE, ""), OPTIONS_RUN);
     assert_int_equal(options.places.placed, 0);
     Parameter row = places_row();
@@ -373,6 +374,54 @@ TEST(lights_are_put_elsewhere)
                                         "0,1,2,x",  "0,,1,2", "0,1,2,3/0,1", "0,1e7,0,0"};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         snprintf(line, sizeof line, "--light-at=%s", wrong[i]);
+        if (read_as(&SCENE, line) != OPTIONS_BAD)
+            fail_msg("taken: %s", line);
+    }
+}
+
+static Parameter tints_row(void)
+{
+    static Parameter table[OPTIONS_MAX];
+    Parameter *row = table;
+    options_table(&SCENE, &options, OPTIONS_TO_WRITE, table);
+    while (row->name && strcmp(row->name, "light-color") != 0)
+        row++;
+    assert_non_null(row->name);
+    return *row;
+}
+
+TEST(lights_get_other_colors)
+{
+    char line[600], text[PARAMETER_TEXT_SIZE];
+    assert_int_equal(read_as(&SCENE, ""), OPTIONS_RUN);
+    Parameter row = tints_row();
+    assert_false(row.write(&row, text, sizeof text));
+    assert_int_equal(read_as(&SCENE, "--light-color 1,0.5,0,1/7,0,0,1,1,1,10"), OPTIONS_RUN);
+    assert_int_equal(options.tints.tinted, 1 << 1 | 1 << 7);
+    assert_true(options.tints.diffuse[1].x == 0.5 && options.tints.specular[1].z == 1 &&
+                options.tints.diffuse[7].z == 1 && options.tints.specular[7].z == 10);
+    row = tints_row();
+    assert_true(row.write(&row, text, sizeof text));
+    assert_string_equal(text, "1,0.5,0,1/7,0,0,1,1,1,10");
+    /* All of them, as the panel rounds them. */
+    options.tints.tinted = 255;
+    for (int i = 0; i < SCENE_MAX_PLACED; i++) {
+        options.tints.diffuse[i] = (Vec3){0.123 + 0.1 * i, 0.999, 0.001};
+        options.tints.specular[i] = (Vec3){0.111, 0.222, 0.333};
+        options.tints.diffuse[i].x = rint(1000 * options.tints.diffuse[i].x) / 1000;
+    }
+    const LightTints all = options.tints;
+    row = tints_row();
+    assert_true(row.write(&row, text, sizeof text));
+    snprintf(line, sizeof line, "--light-color %s", text);
+    assert_int_equal(read_as(&SCENE, line), OPTIONS_RUN);
+    assert_memory_equal(&options.tints, &all, sizeof all);
+    static const char *const wrong[] = {
+        "\"\"",     "0",           "0,1,1",    "0,1,1,1,1", "8,1,1,1",        "-1,1,1,1",
+        "0,1,1,-1", "0,1,1,11",    "0,1,1,1/", "/0,1,1,1",  "0,1,1,1,",       "0,,1,1",
+        "0,1,1,x",  "0,1,1,1,1,1", ",0,1,1,1", "0,1,1,nan", "0,1,1,1,1,1,1,1"};
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        snprintf(line, sizeof line, "--light-color=%s", wrong[i]);
         if (read_as(&SCENE, line) != OPTIONS_BAD)
             fail_msg("taken: %s", line);
     }

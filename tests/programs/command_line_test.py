@@ -1000,6 +1000,20 @@ class Scenes(Case):
                 ("Materials", "--terms difuse,0: difuse: did you mean diffuse?", "difuse,0"),
                 ("Materials", "--terms 32: must be some of ", "32"), ("Materials", "--terms : must be", "")):
             self.refused(2, f"^{program}: {said}", "--terms", terms, program=program)
+        for option in "--light-at", "--light-color":
+            self.refused(2, f"^FourLights: {option}: there is no light 4; the scene has lights 0 to 3",
+                         option, "1,1,1,1/4,0,0,1", program="FourLights")
+
+    def test_a_light_has_the_color_that_it_is_given(self):
+        """As the option for the colors of all of them, in a scene with one."""
+        of_all = "--light-diffuse", "1,0.5,0", "--light-specular", "0,0,1"
+        wanted = self.drawn(*SMALL, *of_all, program="Materials").pixels
+        own = self.drawn(*SMALL, "--light-color", "0,1,0.5,0,0,0,1", program="Materials")
+        self.assertEqual(own.pixels, wanted)
+        self.assertIn("--light-color 0,1,0.5,0,0,0,1", own.texts["Command"])
+        both = self.drawn(*SMALL, "--light-color", "0,1,0.5,0", program="Materials").pixels
+        self.assertEqual(both, self.drawn(*SMALL, "--light-diffuse", "1,0.5,0",
+                                          "--light-specular", "1,0.5,0", program="Materials").pixels)
 
     def test_a_named_material_can_be_changed_in_any_order(self):
         mixed = self.drawn("--material", "gold", "--diffuse", "0,0,1", program="Materials").pixels

@@ -727,6 +727,27 @@ class Panel(Case):
         self.assertIsNotNone(orbit_of(picture))
         self.assertNotIn("--light-at", picture.command)
 
+    def test_a_light_gets_another_color(self):
+        """By a click into a slider; where it lies is up to the panel."""
+        shown = self.show("-s", "500x400", program=SCENE, paused=True)
+        shown.open_panel(500, 400)
+        plain = shown.save().pixels
+        for y in 52, 102:  # folds the parameters, and unfolds the lights
+            shown.click(650, y)
+        for step in (0, -6, 6, -12, 12):
+            shown.click(620, 127 + step)
+            picture = shown.save()
+            if "--light-color" in picture.command:
+                break
+        number, *colors = picture.command[picture.command.index("--light-color") + 1].split(",")
+        self.assertEqual((number, len(colors)), ("0", 6))
+        self.assertNotEqual(colors[0], colors[1])
+        self.assertNotEqual(picture.pixels, plain)
+        self.assert_headless(picture, SCENE)
+        shown.key("r")
+        shown.pause()
+        self.assertNotIn("--light-color", shown.save().command)
+
     def test_common_options_are_in_the_panel(self):
         """Where they lie is up to the panel: they are looked for about where they are."""
         shown = self.show("-s", "500x400", program=SCENE, paused=True)
@@ -760,7 +781,7 @@ class Panel(Case):
         plain = shown.save().pixels
         before = sphere()
         self.assertNotEqual(corner(), bytes(3 * 16))
-        for y in (247, 241, 253, 235, 259):
+        for y in (272, 266, 278, 260, 284):
             shown.click(526, y)
             try:
                 wait_for(lambda: sphere() != before, "a map", 20)
