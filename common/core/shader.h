@@ -74,11 +74,11 @@ void shader_source_close(ShaderSource *source);
  * "file:line: rest"; the first is followed by that line of source. Always returns false. */
 bool shader_explain_log(const ShaderSource *source, const char *log, Message *message);
 
-/* One sentence on what an error of the driver usually means; NULL: unknown. */
-const char *shader_advice(const char *message);
+/* What an unknown name was probably meant to be, of those in the source, and a sentence on what the
+ * driver's error usually means; false: neither is known. */
+bool shader_advice(const char *source, const char *message, char *advice, size_t size);
 
-/* Adds that sentence as a last line, "  hint: ...", which also names what an unknown name in the
- * source was probably meant to be. */
+/* Adds that as a last line, "  hint: ...". */
 void shader_advise(const char *source, Message *message);
 
 /* Whether a line of a source is a #line directive, and the file and line it gives the next. */

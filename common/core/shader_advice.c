@@ -111,10 +111,8 @@ static void first_error(const char *message, char *line, size_t size)
     snprintf(line, size, "%.*s", (int)strcspn(start, "\n"), start);
 }
 
-const char *shader_advice(const char *message)
+static const char *usual_meaning(const char *line)
 {
-    char line[1024];
-    first_error(message, line, sizeof line);
     for (size_t i = 0; i < sizeof ADVICE / sizeof ADVICE[0]; i++) {
         const char *part = strstr(line, ADVICE[i].part);
         if (part && strstr(part, ADVICE[i].then))
@@ -193,17 +191,20 @@ static bool find_meant(const char *source, const char *unknown, char meant[WORD_
     return nearest != NULL;
 }
 
-void shader_advise(const char *source, Message *message)
+bool shader_advice(const char *source, const char *message, char *advice, size_t size)
 {
     char line[1024], unknown[WORD_SIZE], meant[WORD_SIZE];
-    if (!message || !message->text[0])
-        return;
-    const char *advice = shader_advice(message->text);
-    first_error(message->text, line, sizeof line);
+    first_error(message, line, sizeof line);
+    const char *meaning = usual_meaning(line);
     const bool found = unknown_name(line, unknown) && find_meant(source, unknown, meant);
-    if (found)
-        message_add(message, "\n  hint: did you mean %s?%s%s", meant, advice ? " " : "",
-                    advice ? advice : "");
-    else if (advice)
+    snprintf(advice, size, "%s%s%s%s%s", found ? "did you mean " : "", found ? meant : "",
+             found ? "?" : "", found && meaning ? " " : "", meaning ? meaning : "");
+    return found || meaning;
+}
+
+void shader_advise(const char *source, Message *message)
+{
+    char advice[512];
+    if (message && message->text[0] && shader_advice(source, message->text, advice, sizeof advice))
         message_add(message, "\n  hint: %s", advice);
 }

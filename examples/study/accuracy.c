@@ -85,9 +85,9 @@ static void make_details(void)
     fprintf(file, "\nA setting is one choice on each of these axes; the default is in brackets:\n");
     for (int axis = 0; axis < AXIS_COUNT; axis++) {
         const QualityAxisInfo *info = &QUALITY_AXES[axis];
-        fprintf(file, "  %-14s %s:\n%17s", info->name, info->help, "");
+        fprintf(file, "  %-14s %s:\n%16s", info->name, info->help, "");
         for (int i = 0; i < info->count; i++)
-            fprintf(file, i == info->usual ? "[%s] " : "%s ", info->choices[i]);
+            fprintf(file, i == info->usual ? " [%s]" : " %s", info->choices[i]);
         fputc('\n', file);
     }
     fprintf(file,

@@ -29,12 +29,14 @@ FAULTS = {
         "frag",
         r"1\.0",
     ),
-    "name not declared": fault(5, frag("nDotL = max", "nDotl = max"), "frag", r"declared"),
+    "name not declared": fault(
+        5, frag("nDotL = max", "nDotl = max"), "frag", r"did you mean nDotL[?].*declared"
+    ),
     "uniform not declared": fault(
         5, frag("uniform vec3 u_AmbientLight;\n", ""), "frag", r"declared"
     ),
     "misspelled function": fault(
-        5, frag(NORMAL, "normalise(v_Normal)"), "frag", r"spell|function"
+        5, frag(NORMAL, "normalise(v_Normal)"), "frag", r"did you mean normalize[?].*function"
     ),
     "wrong vec constructor": fault(
         5,

@@ -991,6 +991,11 @@ class Scenes(Case):
                     self.assertEqual(self.png("all.png").pixels == self.png("without.png").pixels,
                                      left_out.split("=")[0] in unused, left_out)
 
+    def test_no_line_of_help_ends_in_a_blank(self):
+        for program in EVERY:
+            if os.path.exists(os.path.join(EXAMPLES, program)):
+                self.assertNotRegex(self.good("--help", program=program), rb"[ \t]\n", program)
+
     def test_terms_and_lights_that_are_not_there_are_said(self):
         has = "the scene has ambient, diffuse, specular"
         for program, said, terms in (

@@ -488,6 +488,14 @@ TEST_WITH(0, a_disk_that_fills_up_leaves_the_file_as_it_was, testing_enter_folde
         free(after);
     }
     free(before);
+    const pid_t child = fork(); /* a new file */
+    if (child == 0) {
+        const struct rlimit limit = {100, 100};
+        signal(SIGXFSZ, SIG_IGN);
+        _exit(setrlimit(RLIMIT_FSIZE, &limit) != 0 || results_append("b.csv", rows, 2, fresh()));
+    }
+    assert_done(child);
+    assert_int_equal(access("b.csv", F_OK), -1);
 }
 
 TEST_WITH(0, rows_appended_concurrently_do_not_mix, testing_enter_folder, leave)

@@ -81,6 +81,21 @@ static bool has_mediump(const SubmissionFiles *files)
     return false;
 }
 
+/* The text of the file that an error is in, where the names are that could have been meant. */
+static const char *text_with_error(const Session *session, const char *message)
+{
+    const char *error = strstr(message, ": error:"), *line = error ? error : message;
+    while (line > message && line[-1] != '\n')
+        line--;
+    for (int i = 0; i < session->files.count; i++) {
+        const ShaderText *file = &session->files.texts[i];
+        const size_t length = strlen(file->name);
+        if (strncmp(line, file->name, length) == 0 && line[length] == ':')
+            return file->text;
+    }
+    return "";
+}
+
 /* Compiles with the file's own precision, as the student's program does, then with highp: 16-bit
  * errors are judged separately. Lab 10 lets the student choose the precision. */
 static bool open_shader(Session *session, Message *message)
@@ -88,8 +103,12 @@ static bool open_shader(Session *session, Message *message)
     Message own = {0};
     if (session->lab->given)
         return open_given(session, message);
-    if (!submission_compile(&session->own, session->lab, &session->files, NULL, &own))
-        return settle(session, VERDICT_ERROR, &own, shader_advice(own.text));
+    if (!submission_compile(&session->own, session->lab, &session->files, NULL, &own)) {
+        char advice[512];
+        const bool known =
+            shader_advice(text_with_error(session, own.text), own.text, advice, sizeof advice);
+        return settle(session, VERDICT_ERROR, &own, known ? advice : NULL);
+    }
     if (!binding_check(session->lab, &session->own, &own))
         return settle(session, VERDICT_ERROR, &own, NULL);
     if (session->lab->budget) {

@@ -387,6 +387,8 @@ bool results_append(const char *path, const ResultRow *rows, int count, Message 
     Tail tail;
     char *text = NULL;
     size_t size = 0;
+    struct stat status;
+    const bool created = access(path, F_OK) != 0;
     const int file = open_file(path, O_RDWR | O_CREAT | O_APPEND, &missing, message);
     if (file < 0)
         return false;
@@ -395,6 +397,8 @@ bool results_append(const char *path, const ResultRow *rows, int count, Message 
     bool done = tail_find(&tail, file, path, message) &&
                 rows_text(path, tail.header, rows, count, &text, &size, message) &&
                 append_text(file, path, &tail, text, size, message);
+    if (!done && created && fstat(file, &status) == 0 && status.st_size == 0)
+        unlink(path);             /* of a run that a full disk ended nothing is left */
     if (close(file) != 0 && done) /* some file systems report a full disk only here */
         done = message_set(message, "%s: cannot write: %s", path, strerror(errno));
     if (done && tail.header)
