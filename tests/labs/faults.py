@@ -30,7 +30,7 @@ FAULTS = {
         r"1\.0",
     ),
     "name not declared": fault(
-        5, frag("nDotL = max", "nDotl = max"), "frag", r"did you mean nDotL[?].*declared"
+        5, frag("nDotL = max", "nDotl = max"), "frag", r"did you mean nDotl[?].*declared"
     ),
     "uniform not declared": fault(
         5, frag("uniform vec3 u_AmbientLight;\n", ""), "frag", r"declared"
