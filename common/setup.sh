@@ -6,7 +6,8 @@
 #
 # Sets $root, the source tree, and $build, the build folder: LIGHTING_BUILD in the environment, or
 # build/ in the source tree; where that cannot be written and is not up to date, a folder in the user's
-# cache. Nothing here uses the network when nothing is missing.
+# cache. Nothing here uses the network when nothing is missing. $cross, if set, is the file of another
+# machine, for which meson is to build: the browser's.
 
 root=$(CDPATH='' cd -- "${self%/*}/.." && pwd -P) || exit 1
 build=${LIGHTING_BUILD:-$root/build}
@@ -29,6 +30,9 @@ packages_to_study="gnuplot-nox glslang-tools spirv-tools"
 # check: archives, JSON, the sandbox of a submission, and counts.
 packages_to_check="libarchive-dev libjansson-dev libseccomp-dev zlib1g-dev bubblewrap glslang-tools \
 spirv-tools"
+# The pages for a browser, and to test them.
+packages_to_web="emscripten node-acorn python3 fonttools meson ninja-build libstb-dev fonts-dejavu-core"
+packages_to_browse="chromium"
 packages_to_test="libcmocka-dev libosmesa6-dev python3 libwebpdemux2 locales xvfb xauth xdotool \
 poppler-utils"
 # tests/run --long: what the pages show of several processes and machines.
@@ -132,7 +136,7 @@ setup_elsewhere() {
     esac
     [ "$cache" ] || return 1
     shared=$build
-    build=$cache/lighting/build-$(printf %s "$root" | cksum | sed 's/ .*//')
+    build=$cache/lighting/build-$(printf %s "$root" | cksum | sed 's/ .*//')${cross:+-web}
     setup_can_write || fail 1 "cannot write to the build folder $shared, nor to $build;" \
         "LIGHTING_BUILD names another"
     setup_is_done "$name" "$@" && return 0
@@ -301,7 +305,7 @@ setup_configure() {
     [ -f "$build/build.ninja" ] && again=--reconfigure
     log=$(mktemp) || exit 1
     # shellcheck disable=SC2086
-    if ! meson setup $again "$build" "$root" >"$log" 2>&1; then
+    if ! meson setup $again ${cross:+--cross-file "$cross"} "$build" "$root" >"$log" 2>&1; then
         tail -n 20 "$log" >&2
         rm -f "$log"
         fail 1 "meson could not configure $build"

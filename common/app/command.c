@@ -2,7 +2,6 @@
 
 #include "scene/scene_example.h"
 #include "window/backends.h"
-#include "window/window.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -93,10 +92,11 @@ static bool put_command(FILE *line, const Usage *usage, Options *own,
     own->size_given = usage->gallery && own->size_given; /* else the size alone counts */
     if (!own->output_given)
         own->output = NULL;
-    if (options_in_window(own)) /* which draws with EGL */
-        own->canvas.backend = &CANVAS_EGL;
-    /* EGL goes without saying, but not where the environment may say otherwise. */
-    usual.canvas.backend = backend_default(NULL) == &CANVAS_EGL ? &CANVAS_EGL : &CANVAS_WINDOW;
+    if (options_in_window(own)) /* which draws as the first does */
+        own->canvas.backend = CANVAS_HEADLESS[0];
+    /* The first goes without saying, but not where the environment may say otherwise. */
+    if (backend_default(NULL) != CANVAS_HEADLESS[0])
+        usual.canvas.backend = backend_find("window", NULL);
     const int common = options_table(usage, &usual, OPTIONS_TO_WRITE, usual_table);
     options_table(usage, own, OPTIONS_TO_WRITE, table);
     if (own->start)

@@ -8,7 +8,6 @@
 #include "images/drawing.h"
 #include "scene/scene_example.h"
 #include "window/backends.h"
-#include "window/window.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -86,9 +85,8 @@ bool options_read_part(const Parameter *parameter, const char *text, Message *me
 
 static bool read_window(const Parameter *parameter, const char *text, Message *message)
 {
-    (void)text, (void)message;
-    *(const CanvasBackend **)parameter->value = &CANVAS_WINDOW;
-    return true;
+    (void)text;
+    return read_backend(parameter, "window", message);
 }
 
 static bool read_print(const Parameter *parameter, const char *text, Message *message)
@@ -471,7 +469,8 @@ int options_table(const Usage *usage, Options *options, OptionsPurpose purpose,
 bool options_in_window(const Options *options)
 {
     const CanvasBackend *given = options->canvas.backend;
-    return (given ? given : backend_default(NULL)) == &CANVAS_WINDOW;
+    const CanvasBackend *backend = given ? given : backend_default(NULL);
+    return backend && backend->presents;
 }
 
 Usage options_usage(const Example *example)
@@ -693,7 +692,7 @@ OptionsResult options_read(Options *options, const Usage *usage, int argc, char 
         options_size(usage, &options->width, &options->height);
     options->names = argv + (argc > 0);
     if (options_in_window(options)) /* by LIGHTING_BACKEND too, which core reads without windows */
-        options->canvas.backend = &CANVAS_WINDOW;
+        options->canvas.backend = backend_find("window", NULL);
     if (options->frames > 1)
         snprintf(options->default_output, sizeof options->default_output, "%s%%04d.png",
                  usage->name);

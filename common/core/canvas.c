@@ -10,8 +10,6 @@
 /* The function pointers of gl.h and EGL's display belong to one canvas. */
 static bool is_open;
 
-static const CanvasBackend *const HEADLESS[] = {&CANVAS_EGL, &CANVAS_OSMESA, NULL};
-
 const CanvasBackend *canvas_backend(const CanvasBackend *const *backends, const char *name,
                                     Message *message)
 {
@@ -225,7 +223,7 @@ static bool make_first(Canvas *canvas, const CanvasOptions *options, Message *me
 bool canvas_open(Canvas *canvas, const CanvasOptions *options, Message *message)
 {
     const CanvasBackend *backend =
-        options->backend ? options->backend : canvas_default_backend(HEADLESS, message);
+        options->backend ? options->backend : canvas_default_backend(CANVAS_HEADLESS, message);
     Canvas opened = {.backend = backend};
     *canvas = (Canvas){0};
     if (!backend)

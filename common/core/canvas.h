@@ -33,6 +33,9 @@ typedef struct CanvasBackend {
 
 extern const CanvasBackend CANVAS_EGL, CANVAS_OSMESA;
 
+/* Those of this platform that need no display, the default first; ended by NULL. */
+extern const CanvasBackend *const CANVAS_HEADLESS[];
+
 /* The backend of that name in a NULL-terminated list; NULL, with a message that lists the names. */
 const CanvasBackend *canvas_backend(const CanvasBackend *const *backends, const char *name,
                                     Message *message);
@@ -42,7 +45,7 @@ const CanvasBackend *canvas_backend(const CanvasBackend *const *backends, const 
 const CanvasBackend *canvas_default_backend(const CanvasBackend *const *backends, Message *message);
 
 struct CanvasOptions {
-    const CanvasBackend *backend; /* NULL: the default of EGL and OSMesa */
+    const CanvasBackend *backend; /* NULL: the default of CANVAS_HEADLESS */
     int width, height;            /* 1 to the driver's limit */
     int samples;       /* 0 or 1: none. More: a multisampled framebuffer that is resolved, or
                           supersampling if the driver has none */

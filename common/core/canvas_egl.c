@@ -316,3 +316,5 @@ const CanvasBackend CANVAS_EGL = {
     .close = egl_close,
     .probe = egl_probe,
 };
+
+const CanvasBackend *const CANVAS_HEADLESS[] = {&CANVAS_EGL, &CANVAS_OSMESA, NULL};

@@ -1,0 +1,119 @@
+"use strict";
+/* A form of a program's options, from the table that the module gives: names, ranges, choices and help are those of the
+ * command line. */
+const Controls = (() => {
+    const LONGEST_RANGE = 1000; /* of a slider */
+
+    function element(name, attributes = {}, ...children) {
+        const made = document.createElement(name);
+        for (const [key, value] of Object.entries(attributes))
+            if (value !== false && value !== undefined)
+                made.setAttribute(key, value === true ? "" : value);
+        made.append(...children);
+        return made;
+    }
+
+    const title = name => name[0].toUpperCase() + name.slice(1).replace(/-/g, " ");
+
+    /* "R,G,B" of 0 to 1 as "#rrggbb". */
+    function toHex(text) {
+        const numbers = text.split(",").map(Number);
+        const three = numbers.length === 1 ? [numbers[0], numbers[0], numbers[0]] : numbers;
+        return "#" + three.map(x => Math.round(255 * Math.min(1, Math.max(0, x || 0))).toString(16).padStart(2, "0"))
+            .join("");
+    }
+
+    const fromHex = hex => [1, 3, 5].map(i => +(parseInt(hex.slice(i, i + 2), 16) / 255).toFixed(4)).join(",");
+
+    function choice(option, id, attributes) {
+        const select = element("select", {id, ...attributes});
+        if (option.kind === "text")
+            select.append(element("option", {value: ""}, option.standard || "default"));
+        select.append(...option.choices.map(name => element("option", {value: name}, name)));
+        return {inputs: [select], read: () => select.value, show: text => { select.value = text; }};
+    }
+
+    function flag(option, id, attributes) {
+        const box = element("input", {type: "checkbox", id, ...attributes});
+        return {inputs: [box], read: () => box.checked, show: text => { box.checked = text === true; }};
+    }
+
+    /* A number, and a slider where the range is short. */
+    function number(option, id, attributes) {
+        const step = option.kind === "whole" ? 1 : "any";
+        const limits = "min" in option ? {min: option.min, max: option.max} : {};
+        const field = element("input", {type: "number", id, step, inputmode: "decimal", ...limits, ...attributes});
+        const inputs = [field];
+        if ("min" in option && option.max - option.min <= LONGEST_RANGE) {
+            const fine = option.kind === "whole" ? 1 : (option.max - option.min) / 200;
+            const slider = element("input", {type: "range", ...limits, step: fine, "aria-label": title(option.name) +
+                ", slider"});
+            slider.addEventListener("input", () => { field.value = slider.value; });
+            field.addEventListener("input", () => { slider.value = field.value; });
+            inputs.push(slider);
+        }
+        return {inputs, read: () => field.value, show: text => inputs.forEach(input => { input.value = text; })};
+    }
+
+    function color(option, id, attributes) {
+        const field = element("input", {type: "text", id, size: 12, ...attributes});
+        const picker = element("input", {type: "color", "aria-label": title(option.name) + ", chosen"});
+        picker.addEventListener("input", () => { field.value = fromHex(picker.value); });
+        return {inputs: [field, picker], read: () => field.value,
+                show: text => { field.value = text; picker.value = toHex(text); }};
+    }
+
+    function text(option, id, attributes) {
+        const field = element("input", {type: "text", id, placeholder: option.standard || option.placeholder,
+                                        ...attributes});
+        return {inputs: [field], read: () => field.value, show: value => { field.value = value; }};
+    }
+
+    function kind(option) {
+        if (option.kind === "flag")
+            return flag;
+        if (option.choices.length)
+            return choice;
+        return {number, whole: number, color}[option.kind] || text;
+    }
+
+    /* Fills `form`; change(name, value) is called for each change by the user. */
+    function fill(form, options, change) {
+        const shown = new Map();
+        for (const [heading, own] of [["Of this program", true], ["Of all programs", false]]) {
+            const group = options.filter(option => option.own === own && option.name !== "time");
+            if (!group.length)
+                continue;
+            const set = element("fieldset", {}, element("legend", {}, heading));
+            for (const option of group) {
+                const id = "option-" + option.name;
+                const control = kind(option)(option, id, {"aria-describedby": id + "-help"});
+                const range = option.range ? " (" + option.range + ")" : "";
+                set.append(element("div", {class: "option"},
+                                   element("label", {for: id}, title(option.name)),
+                                   element("span", {class: "inputs"}, ...control.inputs),
+                                   element("small", {id: id + "-help"}, (option.help || "") + range)));
+                for (const input of control.inputs)
+                    input.addEventListener("input", () => change(option.name, control.read()));
+                shown.set(option.name, control);
+            }
+            form.append(set);
+        }
+        return {
+            /* The values as they are; what is being typed stays. */
+            show(values) {
+                for (const [name, control] of shown)
+                    if (!control.inputs.includes(document.activeElement))
+                        control.show(values[name] === undefined ? "" : values[name]);
+            },
+            /* The option that a message begins with, if any. */
+            blame(message) {
+                for (const [name, control] of shown)
+                    control.inputs[0].setAttribute("aria-invalid", message.startsWith("--" + name + " ") ||
+                                                                   message.startsWith("--" + name + ":"));
+            },
+        };
+    }
+
+    return {element, fill};
+})();

@@ -1,0 +1,62 @@
+"use strict";
+/* The compiled programs. lighting.js, which the build makes, has LIGHTING_WASM, gzip in base64, and lightingFactory(),
+ * which returns Emscripten's createLighting. This file's functions also run in a worker, as their own text. */
+
+/* Instances of the module share what is compiled. */
+async function compileLighting() {
+    const packed = Uint8Array.from(atob(LIGHTING_WASM), letter => letter.charCodeAt(0));
+    const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
+    return WebAssembly.compile(await new Response(stream).arrayBuffer());
+}
+
+/* One instance: examples/web/page.h in JavaScript. `canvas` gets the WebGL context, and is never shown. */
+class Engine {
+    static async open(compiled, canvas) {
+        const engine = new Engine();
+        engine.lines = [];
+        engine.module = await lightingFactory()({
+            canvas,
+            print: line => engine.lines.push(line),
+            printErr: line => engine.lines.push(line),
+            instantiateWasm(imports, done) {
+                WebAssembly.instantiate(compiled, imports).then(instance => done(instance));
+                return {};
+            },
+        });
+        return engine;
+    }
+
+    text(name, ...values) { return this.module.ccall("page_" + name, "string", values.map(() => "string"), values); }
+    json(name) { return JSON.parse(this.text(name) || "null"); }
+    get message() { return this.text("message"); }
+
+    /* A name and its arguments; 0, 1 or 2. */
+    run(lines) { return this.module.ccall("page_open", "number", ["string"], [lines.join("\n")]); }
+
+    draw(seconds, orbit) {
+        return this.module.ccall("page_draw", "number", ["number", "number", "number", "number"],
+                                 [seconds, ...orbit]) === 1;
+    }
+
+    /* A copy of the last picture. */
+    picture() {
+        const call = name => this.module.ccall("page_" + name, "number", [], []);
+        const width = call("width"), height = call("height"), start = call("pixels");
+        const bytes = this.module.HEAPU8.slice(start, start + 4 * width * height);
+        return new ImageData(new Uint8ClampedArray(bytes.buffer), width, height);
+    }
+
+    explain() {
+        this.lines = [];
+        const done = this.module.ccall("page_explain", "number", [], []) === 1;
+        return done ? this.lines.join("\n") : this.message;
+    }
+
+    /* Replaces shader files by a Map of texts; an empty one restores them. False if one is too long. */
+    replace(texts) {
+        const put = (name, text) => this.module.ccall("page_replace", "number", ["string", "string"], [name, text]) === 1;
+        return texts.size ? [...texts].every(([name, text]) => put(name, text)) : put("", "");
+    }
+
+    close() { this.module.ccall("page_close", null, [], []); }
+}

@@ -1,0 +1,133 @@
+"""Packs the module and the pages into a folder that works by double click.
+
+    pack.py SOURCE_FOLDER MODULE_JS FOLDER FOLDER/PROGRAM...
+
+FOLDER gets index.html, a page for each program, and what they share; FOLDER/single has each program's page as one file.
+A browser fetches nothing for a page from file://, so the WebAssembly is a text in a script, and a page names each of its
+scripts.
+"""
+import base64
+import difflib
+import gzip
+import hashlib
+import html
+import os
+import pathlib
+import re
+import shutil
+import sys
+
+PREDECESSORS = {
+    "LightedCube_animation": "LightedCube",
+    "LightedCube_ambient": "LightedCube",
+    "LightedTranslatedRotatedCube": "LightedCube_ambient",
+    "PointLightedCube": "LightedTranslatedRotatedCube",
+    "PointLightedCube_animation": "PointLightedCube",
+    "PointLightedCube_perFragment": "PointLightedCube_animation",
+    "PointLightedSphere": "PointLightedCube",
+    "PointLightedSphere_perFragment": "PointLightedSphere",
+}
+INDEX = ["lighting.js", "module.js", "index.js"]
+PROGRAM = ["lighting.js", "module.js", "worker.js", "png.js", "link.js", "controls.js", "editor.js", "program.js"]
+EXACT = """<p><button type="button" id="compare">Compare with the exact picture</button></p>
+<p id="compared" role="status"></p>
+<figure id="exact" hidden><canvas id="map" width="400" height="400" role="img" aria-label="Map of the errors"></canvas>
+<figcaption><small>Black: at most half a step of 1/255. Blue, green, yellow, white: 0.5, 4, 32, 255 steps.</small></figcaption>
+</figure>"""
+NO_SCENE = """<p>The lecture's programs draw no scene that the exact picture could be computed of; natively a test compares
+their pictures with closed forms.</p>"""
+# Effects are of scenes.
+EXPLAIN = """<details id="explain"><summary>What is computed, and why (<code>--explain</code>)</summary>
+<pre id="explained" tabindex="0"></pre></details>"""
+
+root, module, site = (pathlib.Path(path) for path in sys.argv[1:4])
+programs = [path.split("/") for path in sys.argv[4:]]
+here = root / "examples/web"
+
+
+def lighting_js():
+    """The module in a function, whose text a worker gets too, and the WebAssembly."""
+    packed = gzip.compress(module.with_suffix(".wasm").read_bytes(), 9, mtime=0)
+    return ('"use strict";\nconst LIGHTING_WASM = "%s";\nfunction lightingFactory() {\n%s\nreturn createLighting;\n}\n'
+            % (base64.b64encode(packed).decode(), module.read_text()))
+
+
+def summary(folder, name):
+    text = (root / "examples" / folder / (name + ".c")).read_text()
+    return re.search(r'^    \.summary = "(.*)",$', text, re.MULTILINE).group(1)
+
+
+def diff(before, after):
+    """Of a program and its shaders with those of its predecessor, names aside."""
+    lines = []
+    for path in ("examples/lecture/%s.c", "shaders/lecture/%s.vert", "shaders/lecture/%s.frag"):
+        old, new = ((root / (path % name)).read_text().replace(name, "NAME").splitlines() for name in (before, after))
+        changes = list(difflib.unified_diff(old, new, path % before, path % after, n=2, lineterm=""))
+        for line in changes or [path % after + ": the same"]:
+            tag = {"+": "ins", "-": "del"}.get(line[0])
+            text = html.escape(line)
+            lines.append(f"<{tag}>{text}</{tag}>" if tag else text)
+    return "\n".join(lines)
+
+
+def fill(template, **parts):
+    return re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found.group(1)], (here / template).read_text())
+
+
+def digest(text):
+    return "'sha256-" + base64.b64encode(hashlib.sha256(text.encode()).digest()).decode() + "'"
+
+
+def policy(scripts, styles):
+    return (f"default-src 'none'; script-src {scripts} 'wasm-unsafe-eval'; style-src {styles}; img-src blob: data:; "
+            "worker-src blob:; base-uri 'none'; form-action 'none'")
+
+
+def shared(names):
+    return {"policy": policy("'self'", "'self'"), "style": '<link rel="stylesheet" href="style.css">',
+            "scripts": "\n".join(f'<script src="{name}"></script>' for name in names)}
+
+
+def alone(names):
+    texts = ["\n" + (site / name).read_text().replace("</script", "<\\/script") for name in names]
+    style = "\n" + (site / "style.css").read_text()
+    return {"policy": policy(" ".join(map(digest, texts)), digest(style)), "style": f"<style>{style}</style>",
+            "scripts": "\n".join(f"<script>{text}</script>" for text in texts)}
+
+
+def page(folder, name, parts, single):
+    before = PREDECESSORS.get(name)
+    link = f'<a href="{before}.html">{before}</a>'
+    scene = folder == "lighting"
+    more = EXPLAIN if scene else ""
+    if before:
+        more = (f"<details class=\"diff\"><summary>What differs from {before}</summary>\n<p>The predecessor is {link}.</p>\n"
+                f'<pre tabindex="0">{diff(before, name)}</pre></details>')
+    index = "../index.html" if single else "index.html"
+    links = f'<nav aria-label="Pages"><a href="{index}">All programs</a></nav>'
+    return fill("program.html", name=name, summary=html.escape(summary(folder, name)), links=links, more=more,
+                exact=EXACT if scene else NO_SCENE, only="<code>--error</code>, " if scene else "", **parts)
+
+
+def card(folder, name):
+    text = html.escape(summary(folder, name))
+    return (f'<li><a href="{name}.html"><canvas data-program="{name}" width="400" height="400" aria-hidden="true"></canvas>'
+            f"{name}</a><br>{text}</li>\n")
+
+
+def main():
+    shutil.rmtree(site, ignore_errors=True)
+    (site / "single").mkdir(parents=True)
+    (site / "lighting.js").write_text(lighting_js())
+    for path in [*here.glob("*.js"), here / "style.css"]:
+        shutil.copy(path, site)
+    cards = {group: "".join(card(folder, name) for folder, name in programs if folder == group)
+             for group in ("lecture", "lighting")}
+    version = re.search(r'VERSION "(.*)"', pathlib.Path("common/base/version.h").read_text()).group(1)
+    (site / "index.html").write_text(fill("index.html", version=html.escape(version), **cards, **shared(INDEX)))
+    for folder, name in programs:
+        (site / f"{name}.html").write_text(page(folder, name, shared(PROGRAM), False))
+        (site / "single" / f"{name}.html").write_text(page(folder, name, alone(PROGRAM), True))
+
+
+main()

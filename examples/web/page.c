@@ -1,0 +1,509 @@
+#include "web/page.h"
+
+#include "app/command.h"
+#include "app/explain.h"
+#include "app/stage.h"
+#include "app/unused.h"
+#include "reference/error_worker.h"
+#include "scene/scene_example.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+/* From the build: X(LightedCube) X(LightedCube_animation)... */
+#define X(name) extern const Example name;
+EXAMPLES
+#undef X
+
+static const Example *const ALL[] = {
+#define X(name) &name,
+    EXAMPLES
+#undef X
+};
+enum { COUNT = sizeof ALL / sizeof ALL[0] };
+
+/* Larger pictures would hold the page up, or its memory. */
+enum { MAX_SIDE = 4096 };
+
+/* The common options that a page has; the others are of files, processes or a terminal. */
+static const char *const SHOWN[] = {
+    "size",  "time",         "orbit", "samples",  "precision", "alpha",        "full",
+    "clamp", "linear-light", "terms", "light-at", "lighting",  "show-clipped", NULL};
+/* What a program has itself, but no page: files, and operations, which another process counts. */
+static const char *const ABSENT[] = {"model", "up", "costs", NULL};
+
+static struct {
+    Message message;
+    const Example *example; /* open; NULL: none */
+    Options options;
+    char *lines; /* which the options point into */
+    Canvas canvas;
+    Stage stage;
+    ShaderFiles files;
+    char folder[64]; /* of the files that page_replace wrote; "": there are none */
+    bool replaced;   /* since the last page_open */
+    Picture picture;
+    char *text; /* returned */
+} page;
+
+static ParameterValue defaults[COUNT][OPTIONS_MAX_PARAMETERS];
+
+static bool is_one_of(const char *name, const char *const *names)
+{
+    for (; *names; names++)
+        if (strcmp(name, *names) == 0)
+            return true;
+    return false;
+}
+
+/* Saved before the first command line is read; restored before each. */
+static void restore_defaults(int number)
+{
+    static bool saved;
+    for (int i = 0; i < COUNT && !saved; i++) {
+        const Parameter *own = example_parameters(ALL[i]);
+        for (int k = 0; own && own[k].name; k++)
+            defaults[i][k] = parameter_save(&own[k]);
+    }
+    saved = true;
+    const Parameter *own = example_parameters(ALL[number]);
+    for (int k = 0; own && own[k].name; k++) {
+        parameter_restore(&own[k], defaults[number][k]);
+        if (strcmp(own[k].name, "costs") == 0)
+            parameter_read(&own[k], "off", NULL);
+    }
+}
+
+/* Texts. */
+
+static void put_json(FILE *file, const char *text)
+{
+    fputc('"', file);
+    for (; text && *text; text++) {
+        const unsigned char c = (unsigned char)*text;
+        if (c < 0x20)
+            fprintf(file, "\\u%04x", c);
+        else
+            fprintf(file, "%s%c", c == '"' || c == '\\' ? "\\" : "", c);
+    }
+    fputc('"', file);
+}
+
+static void put_pair(FILE *file, const char *name, const char *text)
+{
+    fprintf(file, ", \"%s\": ", name);
+    put_json(file, text);
+}
+
+/* Replaces the text that was returned last by what is written. */
+static FILE *text_begin(void)
+{
+    static size_t size;
+    free(page.text);
+    page.text = NULL;
+    return open_memstream(&page.text, &size);
+}
+
+static const char *text_end(FILE *file)
+{
+    const bool whole = file && fclose(file) == 0;
+    return whole && page.text ? page.text : "";
+}
+
+static void put_option(FILE *file, const Parameter *option, bool own)
+{
+    static const char *const KINDS[] = {"number", "whole", "choice", "switch",
+                                        "flag",   "color", "text"};
+    char value[PARAMETER_TEXT_SIZE], range[PARAMETER_RANGE_SIZE];
+    const char *const *choices = parameter_choices(option);
+    const char *written = parameter_text(option, value);
+    fputs("{\"name\": ", file);
+    put_json(file, option->name);
+    put_pair(file, "help", option->help);
+    put_pair(file, "kind", KINDS[option->kind]);
+    put_pair(file, "value", written);
+    put_pair(file, "standard", option->standard);
+    put_pair(file, "placeholder", option->placeholder);
+    if (option->kind == PARAMETER_NUMBER || option->kind == PARAMETER_WHOLE ||
+        option->kind == PARAMETER_COLOR)
+        put_pair(file, "range", parameter_range(option, range));
+    if (isfinite(option->min) && isfinite(option->max) && option->min < option->max)
+        fprintf(file, ", \"min\": %.17g, \"max\": %.17g", option->min, option->max);
+    fprintf(file, ", \"own\": %s, \"choices\": [", own ? "true" : "false");
+    for (int i = 0; choices && choices[i]; i++) {
+        fputs(i ? ", " : "", file);
+        put_json(file, choices[i]);
+    }
+    fputs("]}", file);
+}
+
+static void put_program(FILE *file, const Example *example)
+{
+    Parameter table[OPTIONS_MAX];
+    const Usage usage = options_usage(example);
+    Options options = options_default(&usage);
+    const int common = options_table(&usage, &options, OPTIONS_TO_SHOW, table);
+    bool first = true;
+    fputs("{\"name\": ", file);
+    put_json(file, example->name);
+    put_pair(file, "summary", example->summary);
+    fprintf(file, ", \"scene\": %s, \"tries\": [", example->scene ? "true" : "false");
+    for (int i = 0; i < 4 && example->tries[i]; i++) {
+        fprintf(file, "%s{\"arguments\": ", i ? ", " : "");
+        put_json(file, example->tries[i]);
+        put_pair(file, "looks", example->looks[i]);
+        fputc('}', file);
+    }
+    fputs("], \"options\": [", file);
+    for (int i = 0; table[i].name; i++) {
+        if (i < common ? !is_one_of(table[i].name, SHOWN) : is_one_of(table[i].name, ABSENT))
+            continue;
+        fputs(first ? "\n" : ",\n", file);
+        put_option(file, &table[i], i >= common);
+        first = false;
+    }
+    fputs("]}", file);
+}
+
+const char *page_programs(void)
+{
+    FILE *file = text_begin();
+    for (int i = 0; file && i < COUNT; i++) {
+        restore_defaults(i);
+        fputs(i ? ",\n" : "[", file);
+        put_program(file, ALL[i]);
+    }
+    if (file)
+        fputs("]", file);
+    page.example = NULL; /* its options are the defaults now */
+    return text_end(file);
+}
+
+const char *page_message(void)
+{
+    return page.message.text[0] ? page.message.text : page.stage.warning.text;
+}
+
+/* Options. */
+
+/* Only whole names, so that a link means the same when there are more options. */
+static bool check_argument(const Example *example, const char *argument, Message *message)
+{
+    const Usage usage = options_usage(example);
+    Options options = options_default(&usage);
+    Parameter table[OPTIONS_MAX];
+    char name[64];
+    const int common = options_table(&usage, &options, OPTIONS_TO_READ, table);
+    if (strncmp(argument, "--", 2) != 0)
+        return message_set(message, "%.80s: not an option", argument);
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(argument + 2, "="), argument + 2);
+    for (int i = 0; table[i].name; i++)
+        if (strcmp(table[i].name, name) == 0)
+            return (i < common ? is_one_of(name, SHOWN) : !is_one_of(name, ABSENT)) ||
+                   message_set(message, "--%s: not in the browser; the command has it", name);
+    return message_set(message, "--%s: %s has no such option", name, example->name);
+}
+
+/* Reads the arguments of `lines`, whose newlines become zeros. */
+static bool read_options(int number, char *lines, Options *options, Message *message)
+{
+    enum { MAX = 2 * OPTIONS_MAX };
+    const Example *example = ALL[number];
+    const Usage usage = options_usage(example);
+    char *argv[MAX + 1] = {NULL};
+    int argc = 0;
+    for (char *line = lines; line && argc < MAX; argc++) {
+        argv[argc] = line;
+        line = strchr(line, '\n');
+        if (line)
+            *line++ = '\0';
+        if (argc > 0 && !check_argument(example, argv[argc], message))
+            return false;
+    }
+    restore_defaults(number);
+    if (options_read(options, &usage, argc, argv, message) != OPTIONS_RUN)
+        return false;
+    return (options->width <= MAX_SIDE && options->height <= MAX_SIDE) ||
+           message_set(message, "--size %dx%d: a page draws up to %dx%d; the command draws more",
+                       options->width, options->height, MAX_SIDE, MAX_SIDE);
+}
+
+const char *page_values(void)
+{
+    Parameter table[OPTIONS_MAX];
+    char value[PARAMETER_TEXT_SIZE];
+    FILE *file = text_begin();
+    if (!file || !page.example)
+        return text_end(file);
+    const Usage usage = options_usage(page.example);
+    options_table(&usage, &page.options, OPTIONS_TO_SHOW, table);
+    for (int i = 0; table[i].name; i++) {
+        fputs(i ? ", " : "{", file);
+        put_json(file, table[i].name);
+        fputs(": ", file);
+        put_json(file, parameter_text(&table[i], value));
+    }
+    fputc('}', file);
+    return text_end(file);
+}
+
+static int find_example(const char *lines)
+{
+    const size_t length = strcspn(lines, "\n");
+    for (int i = 0; i < COUNT; i++)
+        if (strlen(ALL[i]->name) == length && strncmp(ALL[i]->name, lines, length) == 0)
+            return i;
+    return -1;
+}
+
+/* The canvas. */
+
+static bool same_text(const char *a, const char *b)
+{
+    return a == b || (a && b && strcmp(a, b) == 0);
+}
+
+/* The canvas has another size or other samples, in the same context. */
+static bool fit_canvas(const Options *options, Message *message)
+{
+    if (!page.canvas.backend)
+        return stage_open_canvas(&page.canvas, options, "x.png", message);
+    return canvas_resize(&page.canvas, options->width, options->height, message) &&
+           canvas_set_samples(&page.canvas, options->canvas.samples, message);
+}
+
+static bool open_stage(const Example *example, bool keeps, Message *message)
+{
+    if (keeps)
+        return stage_renew(&page.stage, &page.options, message);
+    stage_close(&page.stage);
+    shader_files_close(&page.files);
+    return stage_open(&page.stage, example, &page.canvas, &page.options, message);
+}
+
+int page_open(const char *lines)
+{
+    Options options;
+    char *copy = strdup(lines);
+    page.message = (Message){0};
+    const int number = find_example(lines);
+    if (number < 0)
+        message_set(&page.message, "%.*s: no such program", (int)strcspn(lines, "\n"), lines);
+    if (!copy || number < 0 || !read_options(number, copy, &options, &page.message) ||
+        (ALL[number]->scene && !unused_terms_check(ALL[number], &options, &page.message))) {
+        free(copy);
+        return EXIT_USAGE;
+    }
+    const bool keeps = page.example == ALL[number] && page.stage.example && !page.replaced &&
+                       same_text(options.shaders.precision, page.options.shaders.precision);
+    options.shaders.folder = page.folder[0] ? page.folder : NULL;
+    options.shaders.files = &page.files;
+    options.defaults = defaults[number];
+    page.options = options;
+    free(page.lines);
+    page.lines = copy;
+    page.replaced = false;
+    page.example = NULL;
+    if (!fit_canvas(&options, &page.message)) {
+        page_close();
+        return EXIT_FAILED;
+    }
+    if (!open_stage(ALL[number], keeps, &page.message)) {
+        stage_close(&page.stage);
+        return EXIT_FAILED;
+    }
+    page.example = ALL[number];
+    return 0;
+}
+
+void page_close(void)
+{
+    stage_close(&page.stage);
+    canvas_close(&page.canvas);
+    shader_files_close(&page.files);
+    page.example = NULL;
+}
+
+/* Pictures. */
+
+int page_draw(double seconds, double azimuth, double elevation, double distance)
+{
+    page.message = (Message){0};
+    if (!page.example)
+        return message_set(&page.message, "no program is open");
+    page.options.seconds = seconds;
+    page.options.orbit = (Orbit){azimuth, elevation, distance};
+    page.picture.image.type = IMAGE_BYTE;
+    snprintf(page.picture.path, sizeof page.picture.path, "x.png");
+    if (!stage_picture(&page.stage, &page.options, seconds, &page.picture, &page.message))
+        return 0;
+    /* What is left of a broken uniform or shader is the next picture's. */
+    return 1;
+}
+
+const unsigned char *page_pixels(void)
+{
+    return page.picture.image.pixels;
+}
+
+int page_width(void)
+{
+    return page.picture.image.width;
+}
+
+int page_height(void)
+{
+    return page.picture.image.height;
+}
+
+const char *page_command(void)
+{
+    char command[4096], start[128];
+    FILE *file = text_begin();
+    Options own = page.options;
+    if (!file || !page.example)
+        return text_end(file);
+    snprintf(start, sizeof start, "examples/run %s", page.example->name);
+    own.start = start;
+    own.shaders.folder = own.shaders.folder ? "mine" : NULL;
+    command_write(page.example, &own, own.defaults, command, sizeof command);
+    fputs(command, file);
+    return text_end(file);
+}
+
+int page_explain(void)
+{
+    page.message = (Message){0};
+    const bool done = page.example && explain_programs(&page.stage, &page.options, &page.message);
+    fflush(stdout);
+    return done;
+}
+
+/* Shaders. */
+
+/* Below the folder of all shaders, or of those that replace them. */
+static const char *shader_name(const char *path)
+{
+    const char *found = strstr(path, "/shaders/");
+    return found ? found + strlen("/shaders/") : path;
+}
+
+const char *page_shaders(void)
+{
+    FILE *file = text_begin();
+    bool first = true;
+    if (!file)
+        return "";
+    fputc('[', file);
+    for (int i = 0; i < page.files.count; i++) {
+        const ShaderFile *shader = &page.files.files[i];
+        if (!shader->text || strstr(shader->path, "overlay."))
+            continue;
+        fputs(first ? "{\"name\": " : ",\n{\"name\": ", file);
+        put_json(file, shader_name(shader->path));
+        put_pair(file, "text", shader->text);
+        fputc('}', file);
+        first = false;
+    }
+    fputc(']', file);
+    return text_end(file);
+}
+
+static bool make_folders(char *path)
+{
+    for (char *slash = strchr(path + 1, '/'); slash; slash = strchr(slash + 1, '/')) {
+        *slash = '\0';
+        mkdir(path, 0700);
+        *slash = '/';
+    }
+    return true;
+}
+
+int page_replace(const char *name, const char *text)
+{
+    char path[256];
+    page.message = (Message){0};
+    page.replaced = true;
+    page.folder[0] = '\0';
+    if (!name[0])
+        return 1;
+    if (name[0] == '/' || strstr(name, "..") || strlen(text) > SHADER_FILE_MAX ||
+        snprintf(path, sizeof path, "/tmp/shaders/%s", name) >= (int)sizeof path)
+        return message_set(&page.message, "%.80s: a shader file has at most %d bytes", name,
+                           SHADER_FILE_MAX);
+    make_folders(path);
+    FILE *file = fopen(path, "w");
+    const bool written = file && fputs(text, file) >= 0;
+    if ((file && fclose(file) != 0) || !written)
+        return message_set(&page.message, "%s: cannot be kept", name);
+    snprintf(page.folder, sizeof page.folder, "/tmp/shaders");
+    return 1;
+}
+
+/* The error. */
+
+static uint64_t add_hash(uint64_t hash, const float *values, size_t count)
+{
+    const unsigned char *bytes = (const unsigned char *)values;
+    for (size_t i = 0; i < count * sizeof *values; i++)
+        hash = (hash ^ bytes[i]) * 0x100000001b3u; /* FNV-1a */
+    return hash;
+}
+
+static bool compute(const ErrorPicture *drawn, PictureError *error, Image *map, uint64_t *hash,
+                    Message *message)
+{
+    for (int i = 0; i < drawn->view_count; i++) {
+        const ErrorView *view = &drawn->views[i];
+        Reference exact;
+        const ReferenceOptions options = {
+            .width = view->place[2], .height = view->place[3], .threads = 1};
+        if (!reference_open(&exact, &view->scene.scene, &options, message))
+            return false;
+        picture_error_add(error, &drawn->image, view->place[0], view->place[1], &exact,
+                          &view->scene.scene);
+        picture_error_map(map, &drawn->image, view->place[0], view->place[1], &exact);
+        *hash = add_hash(*hash, exact.color, 3 * (size_t)exact.width * (size_t)exact.height);
+        reference_close(&exact);
+    }
+    return true;
+}
+
+static void put_sum(FILE *file, const char *name, const ErrorSum *sum)
+{
+    const double rms = sum->pixels ? error_sum_rms(sum) : 0;
+    fprintf(file, "\"%s\": {\"pixels\": %lld, \"wrong\": %lld, \"rms\": %.17g, \"maximum\": %.17g}",
+            name, sum->pixels, sum->wrong, rms, sum->maximum);
+}
+
+const char *page_error(void)
+{
+    ErrorPicture drawn = {.views = NULL};
+    PictureError error = {.all = {0}};
+    uint64_t hash = 0xcbf29ce484222325u;
+    page.message = (Message){0};
+    if (!page.example || !page.example->scene) {
+        message_set(&page.message, "no exact picture: this program draws no scene");
+        return "";
+    }
+    if (!stage_error_picture(&page.stage, &page.options, page.options.seconds, &drawn,
+                             &page.message))
+        return "";
+    Image *map = &page.picture.image;
+    for (size_t i = 0; i < image_row_size(map) * (size_t)map->height; i++)
+        ((unsigned char *)map->pixels)[i] = i % 4 == 3 ? 255 : 0;
+    const bool done = compute(&drawn, &error, map, &hash, &page.message);
+    error_picture_close(&drawn);
+    FILE *file = done ? text_begin() : NULL;
+    if (!file)
+        return "";
+    fputc('{', file);
+    put_sum(file, "inside", &error.interior);
+    fputs(", ", file);
+    put_sum(file, "all", &error.all);
+    fprintf(file, ", \"bits\": \"%016llx\"}", (unsigned long long)hash);
+    return text_end(file);
+}

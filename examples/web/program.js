@@ -1,0 +1,390 @@
+"use strict";
+/* The page of one program. */
+const Page = (() => {
+    const TURN = 12; /* seconds of a turn at 30 degrees per second */
+    const SAMPLES = 31; /* of the frame time */
+    const LONGEST = 1000; /* letters of a message */
+    const {element} = Controls;
+    const part = id => document.getElementById(id);
+    const page = {
+        name: document.body.dataset.program,
+        engine: null, program: null, compiled: null,
+        values: new Map(), /* of options, as the link has them */
+        good: new Map(),   /* the last that could be drawn */
+        texts: new Map(),  /* of edited shaders */
+        seconds: 0, orbit: [0, 0, 1],
+        playing: false, last: 0, times: [], picture: null, scheduled: false, controls: null,
+    };
+
+    /* Of a link a message may quote much. */
+    const fail = message => {
+        const text = message.replace(/\/tmp\/shaders\//g, "");
+        part("error").textContent = text.length > LONGEST ? text.slice(0, LONGEST) + "..." : text;
+    };
+
+    /* What the module is opened with. */
+    function lines(values) {
+        return [page.name, ...[...values].map(([name, value]) => "--" + name + (value === true ? "" : "=" + value))];
+    }
+
+    /* Time and camera as numbers; they change from frame to frame. */
+    function current() {
+        const values = new Map(page.values);
+        const orbit = page.orbit.map(x => +x.toFixed(3));
+        values.delete("time");
+        values.delete("orbit");
+        if (page.seconds)
+            values.set("time", String(+page.seconds.toFixed(3)));
+        if (orbit[0] || orbit[1] || orbit[2] !== 1)
+            values.set("orbit", orbit.join(","));
+        return values;
+    }
+
+    /* Opens the program with page.values; "" or why it cannot be drawn so. */
+    function reopen() {
+        if (page.engine.run(lines(page.values)) === 0)
+            return "";
+        return page.engine.message || "cannot be drawn";
+    }
+
+    /* The same; on failure the picture stays that of the values before. */
+    function update() {
+        const message = reopen();
+        page.controls.blame(message);
+        fail(message);
+        if (message) {
+            page.values = new Map(page.good);
+            reopen();
+            return message;
+        }
+        page.good = new Map(page.values);
+        const values = page.engine.json("values");
+        for (const option of page.program.options)
+            if (option.kind === "flag")
+                values[option.name] = page.values.get(option.name) === true;
+        page.controls.show(values);
+        draw();
+        return "";
+    }
+
+    function change(name, value) {
+        if (name === "angle")
+            name = "time";
+        if (value === "" || value === false)
+            page.values.delete(name);
+        else
+            page.values.set(name, value);
+        if (name === "orbit")
+            page.orbit = readOrbit(value) || page.orbit;
+        update();
+    }
+
+    function readOrbit(text) {
+        const numbers = String(text).split(",").map(Number);
+        return !text ? [0, 0, 1] : numbers.length < 2 || numbers.some(isNaN) ? null : [numbers[0], numbers[1],
+                                                                                       numbers[2] || 1];
+    }
+
+    function paint(picture) {
+        const canvas = part("picture");
+        if (canvas.width !== picture.width || canvas.height !== picture.height) {
+            canvas.width = picture.width;
+            canvas.height = picture.height;
+        }
+        canvas.getContext("2d").putImageData(picture, 0, 0);
+        page.picture = picture;
+    }
+
+    function tellTime(milliseconds) {
+        page.times = [...page.times.slice(1 - SAMPLES), milliseconds];
+        const sorted = [...page.times].sort((a, b) => a - b);
+        part("frame").textContent = sorted[sorted.length >> 1].toFixed(1) + " ms";
+    }
+
+    function draw() {
+        const start = performance.now();
+        if (!page.engine.draw(page.seconds, page.orbit)) {
+            fail(page.engine.message);
+            page.playing = false;
+            return;
+        }
+        paint(page.engine.picture());
+        tellTime(performance.now() - start);
+        part("command").textContent = page.engine.text("command");
+        part("time").value = +page.seconds.toFixed(3);
+        part("slider").value = ((page.seconds % TURN) + TURN) % TURN;
+        if (!page.playing)
+            note();
+    }
+
+    /* What is said of a picture at rest, once. */
+    function note() {
+        const link = Link.write(current());
+        if (page.noted === link && page.notedTexts === page.texts)
+            return;
+        page.noted = link;
+        page.notedTexts = page.texts;
+        if (page.program.scene && !part("exact").hidden) {
+            part("exact").hidden = true;
+            part("compared").textContent = "The picture has changed since it was compared.";
+        }
+        ErrorWorker.cancel();
+        try {
+            history.replaceState(null, "", "#" + link);
+        } catch { /* too often, or not allowed: the link is then an earlier one */ }
+    }
+
+    /* Once a frame, however many events there are. */
+    function schedule() {
+        if (page.scheduled)
+            return;
+        page.scheduled = true;
+        requestAnimationFrame(now => {
+            page.scheduled = false;
+            if (page.playing) {
+                page.seconds += Math.min(0.25, Math.max(0, now - page.last) / 1000);
+                page.last = now;
+            }
+            draw();
+            if (page.playing)
+                schedule();
+        });
+    }
+
+    function play(on) {
+        page.playing = on;
+        page.last = performance.now();
+        part("play").textContent = on ? "Pause" : "Play";
+        part("play").setAttribute("aria-pressed", on);
+        schedule();
+    }
+
+    function setTime(seconds) {
+        if (!Number.isFinite(seconds) || Math.abs(seconds) > 1e9)
+            return fail("--time " + seconds + ": must be a number, -1 billion to 1 billion");
+        page.seconds = seconds;
+        fail("");
+        schedule();
+    }
+
+    function turn(azimuth, elevation, factor) {
+        const limit = (x, min, max) => Math.min(max, Math.max(min, x));
+        page.orbit = [(page.orbit[0] + azimuth) % 360, limit(page.orbit[1] + elevation, -90, 90),
+                      limit(page.orbit[2] * factor, 0.01, 100)];
+        const shown = page.orbit.map(x => +x.toFixed(3)).join(",");
+        page.controls.show({...page.engine.json("values"), orbit: shown});
+        schedule();
+    }
+
+    function reset() {
+        page.orbit = [0, 0, 1];
+        page.values.delete("orbit");
+        turn(0, 0, 1);
+    }
+
+    function press(event) {
+        const step = event.shiftKey ? 1 : 10;
+        const keys = {
+            ArrowLeft: () => turn(-step, 0, 1), ArrowRight: () => turn(step, 0, 1),
+            ArrowUp: () => turn(0, step, 1), ArrowDown: () => turn(0, -step, 1),
+            "+": () => turn(0, 0, 1 / 1.1), "=": () => turn(0, 0, 1 / 1.1), "-": () => turn(0, 0, 1.1),
+            " ": () => play(!page.playing), Home: reset,
+        };
+        if (event.ctrlKey || event.altKey || event.metaKey || !keys[event.key])
+            return;
+        event.preventDefault();
+        keys[event.key]();
+    }
+
+    /* One finger or the mouse turns; two fingers or the wheel, once the picture has the focus, go nearer. */
+    function listenToPointers(canvas) {
+        const down = new Map();
+        const apart = () => {
+            const [a, b] = [...down.values()];
+            return Math.hypot(a.x - b.x, a.y - b.y) || 1;
+        };
+        canvas.addEventListener("pointerdown", event => {
+            canvas.setPointerCapture(event.pointerId);
+            down.set(event.pointerId, {x: event.clientX, y: event.clientY});
+        });
+        canvas.addEventListener("pointermove", event => {
+            const before = down.get(event.pointerId), now = {x: event.clientX, y: event.clientY};
+            if (!before)
+                return;
+            const was = down.size === 2 ? apart() : 0;
+            down.set(event.pointerId, now);
+            if (down.size === 2)
+                turn(0, 0, was / apart());
+            else if (down.size === 1)
+                turn((before.x - now.x) / 2, (now.y - before.y) / 2, 1);
+        });
+        for (const name of ["pointerup", "pointercancel"])
+            canvas.addEventListener(name, event => down.delete(event.pointerId));
+        canvas.addEventListener("wheel", event => {
+            if (document.activeElement !== canvas)
+                return;
+            event.preventDefault();
+            turn(0, 0, Math.exp(event.deltaY / 1000));
+        }, {passive: false});
+    }
+
+    async function save() {
+        const texts = {Title: page.name, Command: page.engine.text("command"), Software: "lighting, in a browser"};
+        const blob = await Png.encode(page.picture, page.values.has("alpha"), texts);
+        const link = element("a", {download: page.name + ".png", href: URL.createObjectURL(blob)});
+        link.click();
+        setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+        return blob;
+    }
+
+    async function compare() {
+        const show = message => { part("compared").textContent = message; };
+        if (page.playing) {
+            play(false);
+            await new Promise(requestAnimationFrame);
+        }
+        show("Computing the exact picture...");
+        const result = await ErrorWorker.compute({compiled: page.compiled, lines: lines(page.values), texts: page.texts,
+                                                  seconds: page.seconds, orbit: page.orbit});
+        if (!result.error)
+            return show(result.message);
+        const tell = ({pixels, wrong, rms, maximum}) => pixels + " pixels, largest " + maximum.toFixed(2) + ", rms " +
+            rms.toFixed(3) + ", " + wrong + " off by more than one step";
+        show("In steps of 1/255. Inside objects: " + tell(result.error.inside) + ". All: " + tell(result.error.all) + ".");
+        const map = part("map");
+        map.width = result.map.width;
+        map.height = result.map.height;
+        map.getContext("2d").putImageData(result.map, 0, 0);
+        part("exact").hidden = false;
+        return result;
+    }
+
+    function tellEffects() {
+        if (part("explain").open)
+            part("explained").textContent = page.engine.explain();
+    }
+
+    function tryOne(text) {
+        const known = new Map(page.program.options.map(option => [option.name, option]));
+        const words = text.trim().split(/\s+/), values = new Map();
+        for (let i = 0; i < words.length; i++) {
+            const [, name, value] = words[i].match(/^--([^=]*)(?:=(.*))?$/) || [];
+            if (!known.has(name))
+                return null;
+            values.set(name, known.get(name).kind === "flag" ? true : value !== undefined ? value : words[++i]);
+        }
+        return values;
+    }
+
+    function start(values) {
+        page.values = values;
+        page.seconds = Number(values.get("time") || 0);
+        page.orbit = readOrbit(values.get("orbit")) || [0, 0, 1];
+        return update();
+    }
+
+    function listTries() {
+        for (const {arguments: text, looks} of page.program.tries) {
+            const values = tryOne(text);
+            if (!values)
+                continue;
+            const button = element("button", {type: "button"}, text);
+            button.addEventListener("click", () => start(values));
+            part("tries").append(element("li", {}, button, " ", looks));
+        }
+        part("tries").closest("section").hidden = !part("tries").childElementCount;
+    }
+
+    /* The module draws into a canvas of its own. When its context is lost, another one takes its place. */
+    function newCanvas() {
+        const canvas = document.createElement("canvas");
+        canvas.width = canvas.height = 1;
+        canvas.addEventListener("webglcontextlost", event => {
+            event.preventDefault();
+            part("status").textContent = "The graphics context was lost; drawing again.";
+            setTimeout(() => recover(10), 0);
+        });
+        return canvas;
+    }
+
+    function recover(attempts) {
+        page.engine.close();
+        page.engine.module.canvas = newCanvas();
+        const message = update();
+        if (!message)
+            part("status").textContent = "Drawn again after the graphics context was lost.";
+        else if (attempts > 1)
+            setTimeout(() => recover(attempts - 1), 1000);
+    }
+
+    function listen() {
+        const click = (id, action) => part(id).addEventListener("click", action);
+        const canvas = part("picture");
+        canvas.addEventListener("keydown", press);
+        listenToPointers(canvas);
+        click("play", () => play(!page.playing));
+        click("back", () => setTime(page.seconds - 0.1));
+        click("forward", () => setTime(page.seconds + 0.1));
+        click("reset", reset);
+        click("save", save);
+        click("default", () => start(new Map()));
+        part("slider").addEventListener("input", event => setTime(Number(event.target.value)));
+        part("time").addEventListener("change", event => setTime(Number(event.target.value)));
+        part("options").addEventListener("submit", event => event.preventDefault());
+        window.addEventListener("hashchange", follow);
+        if (page.program.scene) {
+            click("compare", compare);
+            part("explain").addEventListener("toggle", tellEffects);
+        }
+    }
+
+    /* A link's options; if they are wrong the picture is that without them. */
+    function follow() {
+        let message;
+        try {
+            message = start(Link.read(location.hash));
+        } catch (error) {
+            message = String(error);
+        }
+        if (message && !page.picture)
+            start(new Map());
+        if (message)
+            fail(message);
+    }
+
+    function replace(texts) {
+        page.texts = texts;
+        if (!page.engine.replace(texts))
+            return page.engine.message;
+        const message = reopen() || (page.engine.draw(page.seconds, page.orbit) ? "" : page.engine.message);
+        if (message) {
+            page.engine.replace(page.drawn);
+            page.texts = page.drawn;
+            reopen();
+            return message.replace(/\/tmp\/shaders\//g, "");
+        }
+        page.drawn = texts;
+        draw();
+        return page.engine.message.replace(/\/tmp\/shaders\//g, "");
+    }
+
+    async function open() {
+        const begin = performance.now();
+        page.drawn = new Map();
+        page.compiled = await compileLighting();
+        page.engine = await Engine.open(page.compiled, newCanvas());
+        page.program = page.engine.json("programs").find(({name}) => name === page.name);
+        page.controls = Controls.fill(part("options"), page.program.options, change);
+        listTries();
+        listen();
+        follow();
+        if (!page.picture)
+            return;
+        part("status").textContent = "First picture after " + (performance.now() - begin).toFixed(0) + " ms.";
+        Editor.open(part("editor"), "lighting " + page.name, page.engine.json("shaders"), replace);
+        document.body.dataset.ready = "yes";
+    }
+
+    open().catch(error => fail("This page cannot run: " + error));
+    return {page, save, compare, update, lines, start, play};
+})();

@@ -1,0 +1,182 @@
+"""Drives a headless Chromium through --remote-debugging-pipe (https://chromedevtools.github.io/devtools-protocol)."""
+import base64
+import json
+import os
+import shutil
+import subprocess
+import tempfile
+import time
+
+MESA = ("--use-gl=angle", "--use-angle=gl-egl")
+SWIFTSHADER = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader")
+PATIENCE = 120  # seconds after which a page counts as hanging, also on a busy machine
+KEYS = {" ": ("Space", 32), "Tab": ("Tab", 9), "Enter": ("Enter", 13), "ArrowRight": ("ArrowRight", 39),
+        "ArrowUp": ("ArrowUp", 38), "Home": ("Home", 36), "+": ("Equal", 187)}
+
+
+class Failed(Exception):
+    pass
+
+
+class Browser:
+    """One page at a time."""
+
+    def __init__(self, *options, size=(1280, 900)):
+        self.folder = tempfile.mkdtemp()
+        theirs_in, ours_out = os.pipe()
+        ours_in, theirs_out = os.pipe()
+
+        def pipes():  # 3 and 4 are the protocol's
+            os.dup2(theirs_in, 13)
+            os.dup2(theirs_out, 14)
+            os.dup2(13, 3)
+            os.dup2(14, 4)
+
+        self.process = subprocess.Popen(
+            ["chromium", "--headless=new", "--no-sandbox", "--remote-debugging-pipe", "--no-first-run", "--disable-gpu-sandbox",
+             "--ignore-gpu-blocklist", "--hide-scrollbars", f"--user-data-dir={self.folder}", *options, "about:blank"],
+            stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stdin=subprocess.DEVNULL, close_fds=False,
+            preexec_fn=pipes)
+        os.close(theirs_in)
+        os.close(theirs_out)
+        self.output, self.input = ours_out, os.fdopen(ours_in, "rb")
+        self.number, self.session, self.events, self.rest = 0, None, [], b""
+        target = self.call("Target.createTarget", url="about:blank")["targetId"]
+        self.session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
+        for domain in ("Page", "Runtime", "Log", "Network"):
+            self.call(domain + ".enable")
+        self.resize(*size)
+
+    def close(self):
+        try:
+            self.session = None
+            self.call("Browser.close")
+            self.process.wait(10)
+        except (OSError, Failed, subprocess.TimeoutExpired):
+            self.process.kill()
+            self.process.wait()
+        os.close(self.output)
+        self.input.close()
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def receive(self):
+        while b"\0" not in self.rest:
+            more = self.input.read1(1 << 16)
+            if not more:
+                raise Failed("the browser ended")
+            self.rest += more
+        message, self.rest = self.rest.split(b"\0", 1)
+        return json.loads(message)
+
+    def call(self, method, **parameters):
+        self.number += 1
+        message = {"id": self.number, "method": method, "params": parameters}
+        if self.session:
+            message["sessionId"] = self.session
+        data = json.dumps(message).encode() + b"\0"
+        while data:
+            data = data[os.write(self.output, data):]
+        while True:
+            answer = self.receive()
+            if answer.get("id") == self.number:
+                if "error" in answer:
+                    raise Failed(f"{method}: {answer['error']['message']}")
+                return answer["result"]
+            self.events.append(answer)
+
+    def run(self, script):
+        """The value of an expression, a promise's too."""
+        answer = self.call("Runtime.evaluate", expression=script, awaitPromise=True, returnByValue=True,
+                           userGesture=True, allowUnsafeEvalBlockedByCSP=False)
+        if "exceptionDetails" in answer:
+            details = answer["exceptionDetails"]
+            raise Failed(details.get("exception", {}).get("description") or details["text"])
+        return answer["result"].get("value")
+
+    def wait(self, script):
+        """Until an expression is true; its value."""
+        deadline = time.monotonic() + PATIENCE
+        while time.monotonic() < deadline:
+            value = self.run(script)
+            if value:
+                return value
+            time.sleep(0.05)
+        raise Failed(f"not within {PATIENCE} s: {script}; the page says: {self.run('document.body.innerText')[:800]}")
+
+    def open(self, address, ready="document.body.dataset.ready"):
+        self.events.clear()
+        self.call("Page.navigate", url="about:blank")  # a link that differs after # alone would load nothing
+        self.wait("location.href === 'about:blank'")
+        self.call("Page.navigate", url=address)
+        if ready:
+            self.wait(f"location.href !== 'about:blank' && document.readyState === 'complete' && ({ready})")
+
+    def complaints(self):
+        """What the browser logged: errors of scripts, violations of the policy."""
+        self.run("0")
+        said = []
+        for event in self.events:
+            if event.get("method") == "Runtime.exceptionThrown":
+                details = event["params"]["exceptionDetails"]
+                said.append(details.get("exception", {}).get("description") or details["text"])
+            elif event.get("method") == "Log.entryAdded" and event["params"]["entry"]["level"] == "error":
+                said.append(event["params"]["entry"]["text"])
+        return said
+
+    def requests(self):
+        """The addresses that were asked for."""
+        self.run("0")
+        return [event["params"]["request"]["url"] for event in self.events
+                if event.get("method") == "Network.requestWillBeSent"]
+
+    def resize(self, width, height):
+        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+
+    def dark(self, on):
+        self.call("Emulation.setEmulatedMedia",
+                  features=[{"name": "prefers-color-scheme", "value": "dark" if on else "light"}])
+
+    def screenshot(self, path, whole=True):
+        answer = self.call("Page.captureScreenshot", captureBeyondViewport=whole)
+        with open(path, "wb") as file:
+            file.write(base64.b64decode(answer["data"]))
+
+    def place(self, selector):
+        """The middle of an element, scrolled into view."""
+        return self.run(f"""(() => {{
+            const element = document.querySelector({json.dumps(selector)});
+            element.scrollIntoView({{block: "center"}});
+            const box = element.getBoundingClientRect();
+            return [box.left + box.width / 2, box.top + box.height / 2];
+        }})()""")
+
+    def mouse(self, kind, x, y):
+        self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", buttons=0 if kind == "mouseReleased" else 1,
+                  clickCount=1)
+
+    def click(self, selector):
+        x, y = self.place(selector)
+        self.mouse("mousePressed", x, y)
+        self.mouse("mouseReleased", x, y)
+
+    def drag(self, selector, dx, dy):
+        x, y = self.place(selector)
+        self.mouse("mousePressed", x, y)
+        self.mouse("mouseMoved", x + dx, y + dy)
+        self.mouse("mouseReleased", x + dx, y + dy)
+
+    def type(self, text):
+        self.call("Input.insertText", text=text)
+
+    def key(self, key, modifiers=0):
+        code, number = KEYS[key]
+        text = {"text": key} if len(key) == 1 else {"text": "\r"} if key == "Enter" else {}
+        for kind in ("keyDown", "keyUp"):
+            self.call("Input.dispatchKeyEvent", type=kind, key=key, code=code, windowsVirtualKeyCode=number,
+                      modifiers=modifiers, **(text if kind == "keyDown" else {}))

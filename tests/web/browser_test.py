@@ -1,0 +1,525 @@
+#!/usr/bin/env python3
+"""The pages in a real browser: the same pictures as natively, and every control used as a person would.
+
+usage: browser_test.py EXAMPLES_FOLDER_OF_THE_BUILD PAGE_NATIVE SOURCE_FOLDER [unittest's arguments]
+
+Builds the pages with examples/run web. Exit code: 77 without emscripten or chromium.
+"""
+import base64
+import gzip
+import json
+import os
+import pathlib
+import shlex
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+import urllib.parse
+import zlib
+
+sys.path.insert(0, os.path.dirname(__file__))
+import browser
+
+EXAMPLES, PAGE_NATIVE, SOURCE = (os.path.abspath(path) for path in sys.argv[1:4])
+SITE = os.path.join(os.path.dirname(EXAMPLES), "pages")
+RENDERER = """(() => {
+    const gl = Page.page.engine.module.canvas.getContext("webgl2");
+    return gl.getParameter(gl.getExtension("WEBGL_debug_renderer_info").UNMASKED_RENDERER_WEBGL);
+})()"""
+# Draws by a module of its own: no page in between.
+HARNESS = """(async () => {
+    window.own = await Engine.open(Page.page.compiled, document.createElement("canvas"));
+    window.rgb = (lines) => {
+        const code = own.run(lines), values = code ? {} : own.json("values");
+        const [a, e, d] = (values.orbit || "0,0").split(",").map(Number);
+        if (code || !own.draw(Number(values.time), [a, e, d || 1]))
+            return "! " + own.message;
+        const {data} = own.picture();
+        let text = "";
+        for (let i = 0; i < data.length; i += 4)
+            text += String.fromCharCode(data[i], data[i + 1], data[i + 2]);
+        return btoa(text);
+    };
+})()"""
+MOMENTS = [["--time=0"], ["--time=1.3"], ["--time=7.25"]]
+OPTIONS = [["--samples=4"], ["--precision=highp"], ["--precision=mediump"], ["--orbit=30,20,0.9"], ["--size=257x131"]]
+OF_SCENES = [["--linear-light"], ["--full"], ["--clamp=vertex"], ["--terms=diffuse"]]
+
+
+def address(name, link=""):
+    return pathlib.Path(SITE, name + ".html").as_uri() + (link and "#" + link)
+
+
+def native(name, arguments):
+    """Rows of red, green, blue. A page counts no operations."""
+    if name == "TermsApart" and "--costs" not in arguments:
+        arguments = ["--costs", "off", *arguments]
+    return subprocess.run([os.path.join(EXAMPLES, name), *arguments, "-o", "-", "--format", "rgb"], check=True,
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE).stdout
+
+
+def differences(one, other):
+    """How many bytes differ, and by more than one step."""
+    assert len(one) == len(other), (len(one), len(other))
+    if one == other:
+        return 0, 0
+    apart = [abs(a - b) for a, b in zip(one, other) if a != b]
+    return len(apart), sum(step > 1 for step in apart)
+
+
+def decode_png(data):
+    """Of those that a page saves: rows of filter 0."""
+    chunks, at = {}, 8
+    while at < len(data):
+        size, name = struct.unpack(">I4s", data[at:at + 8])
+        chunks[name] = chunks.get(name, b"") + data[at + 8:at + 8 + size]
+        at += 12 + size
+    width, height, _, kind = struct.unpack(">IIBB", chunks[b"IHDR"][:10])
+    channels = {2: 3, 6: 4}[kind]
+    rows = zlib.decompress(chunks[b"IDAT"])
+    row = 1 + channels * width
+    return chunks, b"".join(rows[y * row + 1:(y + 1) * row] for y in range(height))
+
+
+class Case(unittest.TestCase):
+    options = browser.MESA
+
+    @classmethod
+    def setUpClass(cls):
+        cls.page = browser.Browser(*cls.options)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.page.close()
+
+    def tearDown(self):
+        self.page.resize(1280, 900)
+
+    def open(self, name, link=""):
+        self.page.open(address(name, link))
+
+    def text(self, selector):
+        return self.page.run(f"document.querySelector({json.dumps(selector)}).textContent.trim()")
+
+    def shown(self):
+        """Red, green, blue of the page's picture."""
+        data = base64.b64decode(self.page.run("""(() => {
+            const canvas = document.getElementById("picture");
+            const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+            let text = "";
+            for (let i = 0; i < data.length; i += 4)
+                text += String.fromCharCode(data[i], data[i + 1], data[i + 2]);
+            return btoa(text);
+        })()"""))
+        return data
+
+    def settle(self):
+        """After what was scheduled for the next frame."""
+        self.page.run("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(1))))")
+
+    def assert_native(self):
+        """The picture is that of the command that the page shows."""
+        self.settle()
+        words = shlex.split(self.text("#command"))
+        self.assertEqual(words[0], "examples/run")
+        self.assertEqual(differences(self.shown(), native(words[1], words[2:])), (0, 0), words)
+
+    def programs(self):
+        return self.page.run("Page.page.engine.json('programs')")
+
+
+class Parity(Case):
+    def test_every_program_draws_what_it_draws_natively(self):
+        self.open("LightedCube")
+        self.assertIn("llvmpipe", self.page.run(RENDERER))
+        programs = self.programs()
+        self.page.run(HARNESS)
+        count = 0
+        for program in programs:
+            cases = MOMENTS + OPTIONS + (OF_SCENES if program["scene"] else [])
+            for arguments in cases + [self.joined(words["arguments"]) for words in program["tries"]]:
+                drawn = self.page.run(f"rgb({json.dumps([program['name'], *arguments])})")
+                if "not in the browser" in drawn:
+                    continue
+                with self.subTest(program["name"], arguments=arguments):
+                    self.assertNotIn("!", drawn[:1])
+                    self.assertEqual(differences(base64.b64decode(drawn), native(program["name"], arguments)), (0, 0))
+                count += 1
+        self.assertGreater(count, 200)
+
+    @staticmethod
+    def joined(words):
+        """"--a 1 --b" as arguments of a link."""
+        arguments = []
+        for word in words.split():
+            if word.startswith("--"):
+                arguments.append(word)
+            else:
+                arguments[-1] += "=" + word
+        return arguments
+
+    def test_the_exact_picture_has_the_same_bits(self):
+        self.open("LightedCube")
+        names = [program["name"] for program in self.programs() if program["scene"]]
+        lines = [name + " --size=90x60" + " --samples=4" * (i % 2) for i, name in enumerate(names)]
+        answers = subprocess.run([PAGE_NATIVE], input="\n".join(lines), stdout=subprocess.PIPE, text=True, check=True).stdout
+        for line, answer in zip(lines, answers.splitlines()):
+            with self.subTest(line):
+                result = self.page.run(f"""ErrorWorker.compute({{compiled: Page.page.compiled, texts: new Map(),
+                    lines: {json.dumps(line.split())}, seconds: 0, orbit: [0, 0, 1]}}).then(r => r.error || r)""")
+                self.assertEqual(result, json.loads(answer))
+
+
+class SwiftShader(Case):
+    """Another renderer: in highp at most one step off, edges apart."""
+    options = browser.SWIFTSHADER
+
+    def test_other_renderers_differ_by_a_step(self):
+        self.open("LightedCube")
+        self.assertIn("SwiftShader", self.page.run(RENDERER))
+        programs = self.programs()
+        self.page.run(HARNESS)
+        for program in programs:
+            name, arguments = program["name"], ["--precision=highp", "--time=1.3"]
+            drawn = base64.b64decode(self.page.run(f"rgb({json.dumps([name, *arguments])})"))
+            _, more = differences(drawn, native(name, arguments))
+            with self.subTest(name):
+                self.assertLess(more / len(drawn), 0.004)
+            if not program["scene"]:
+                continue
+            line = f"{name} --precision=highp --size=120x120"
+            answer = json.loads(subprocess.run([PAGE_NATIVE], input=line, stdout=subprocess.PIPE, text=True,
+                                               check=True).stdout)["inside"]
+            inside = self.page.run(f"""ErrorWorker.compute({{compiled: Page.page.compiled, texts: new Map(),
+                lines: {json.dumps(line.split())}, seconds: 0, orbit: [0, 0, 1]}}).then(r => r.error.inside)""")
+            with self.subTest(name):
+                self.assertLessEqual(abs(inside["maximum"] - answer["maximum"]), 1)
+                self.assertLess(abs(inside["rms"] - answer["rms"]), 0.1)
+
+
+class Pages(Case):
+    def test_controls_change_the_picture_and_its_command(self):
+        self.open("Materials")
+        before = self.shown()
+        self.page.run("document.getElementById('option-shininess').value = ''")
+        self.page.click("#option-shininess")
+        self.page.type("90")
+        self.page.run("""(() => {
+            const select = document.getElementById("option-material");
+            select.value = "gold";
+            select.dispatchEvent(new Event("input", {bubbles: true}));
+        })()""")
+        self.assert_native()
+        self.assertEqual(self.text("#command"), "examples/run Materials --material gold --shininess 90")
+        self.assertNotEqual(self.shown(), before)
+        # What follows from another option is shown.
+        self.assertNotEqual(self.page.run("document.getElementById('option-diffuse').value"), "0.6")
+        self.page.click("#option-show-clipped")
+        self.settle()
+        self.assertIn("--show-clipped", self.text("#command"))
+        link = self.page.run("location.href")
+        shown = self.shown()
+        self.page.open(link)
+        self.assertEqual(self.shown(), shown)
+        self.assert_native()
+        self.page.click("#default")
+        self.settle()
+        self.assertEqual(self.shown(), before)
+
+    def test_a_wrong_value_is_said_and_changes_nothing(self):
+        self.open("Materials")
+        before = self.shown()
+        self.page.run("document.getElementById('option-shininess').value = ''")
+        self.page.click("#option-shininess")
+        self.page.type("1000")
+        self.settle()
+        self.assertRegex(self.text("#error"), "^--shininess 1000: must be .*128")
+        self.assertEqual(self.page.run("document.getElementById('option-shininess').getAttribute('aria-invalid')"), "true")
+        self.assertEqual(self.shown(), before)
+
+    def test_the_camera_by_mouse_touch_and_keys(self):
+        self.open("FourLights")
+        before = self.shown()
+        self.page.drag("#picture", 60, 20)
+        self.assert_native()
+        self.assertRegex(self.text("#command"), "--orbit=-30,10")
+        self.page.click("#reset")
+        self.settle()
+        self.assertEqual(self.shown(), before)
+        self.page.run("document.getElementById('picture').focus()")
+        for key in ("ArrowRight", "ArrowUp", "+"):
+            self.page.key(key)
+        self.assert_native()
+        self.assertIn("--orbit 10,10,0.909", self.text("#command"))
+        self.page.key("Home")
+        self.settle()
+        self.assertEqual(self.shown(), before)
+        x, y = self.page.place("#picture")
+        for kind, points in (("touchStart", [[0, 0]]), ("touchMove", [[40, 0]]), ("touchEnd", [])):
+            self.page.call("Input.dispatchTouchEvent", type=kind, touchPoints=[
+                {"x": x + dx, "y": y + dy, "id": i} for i, (dx, dy) in enumerate(points)])
+        self.assert_native()
+        self.assertIn("--orbit=-20,0", self.text("#command"))
+        for kind, points in (("touchStart", [[-20, 0], [20, 0]]), ("touchMove", [[-40, 0], [40, 0]]), ("touchEnd", [])):
+            self.page.call("Input.dispatchTouchEvent", type=kind, touchPoints=[
+                {"x": x + dx, "y": y + dy, "id": i} for i, (dx, dy) in enumerate(points)])
+        self.assert_native()
+        self.assertRegex(self.text("#command"), "--orbit=-20,0,0.5")
+
+    def test_time(self):
+        self.open("PointLightedCube_animation")
+        self.page.click("#forward")
+        self.assert_native()
+        self.assertIn("--time 0.1", self.text("#command"))
+        self.page.click("#play")
+        self.page.wait("Page.page.seconds > 0.5")
+        self.page.click("#play")
+        self.assertEqual(self.text("#play"), "Play")
+        self.assert_native()
+        self.page.run("document.getElementById('time').value = ''")
+        self.page.click("#time")
+        self.page.type("2.5")
+        self.page.key("Tab")
+        self.assert_native()
+        self.assertIn("--time 2.5", self.text("#command"))
+
+    def test_the_editor(self):
+        self.open("LightedCube")
+        before = self.shown()
+        self.assertIn("attribute vec4 a_Position;", self.page.run("document.querySelector('.source').value"))
+        self.edit("v_Color = vec4(diffuse, a_Color.a);", "v_Color = vec4(diffuse.bgr, a_Color.a);")
+        self.page.wait("document.querySelector('.said').textContent.startsWith('Drawn with')")
+        edited = self.shown()
+        self.assertNotEqual(edited, before)
+        self.assertIn("--shaders mine", self.text("#command"))
+        self.edit("a_Color.a);", "a_Colour.a);")
+        self.page.wait("document.querySelectorAll('.errors li').length")
+        self.assertRegex(self.text(".errors li"), r"^lecture/LightedCube.vert:\d+: .*a_Colour")
+        line = int(self.text(".errors li").split(":")[1])
+        self.assertIn(f"✖ {line}", self.text(".gutter"))
+        self.assertEqual(self.shown(), edited)
+        self.page.click(".errors button")
+        self.assertIn("a_Colour", self.page.run(
+            "(() => { const s = document.querySelector('.source');"
+            " return s.value.slice(s.selectionStart, s.selectionEnd); })()"))
+        # The text outlives the page, and is not applied by itself.
+        self.open("LightedCube")
+        self.assertIn("a_Colour", self.page.run("document.querySelector('.source').value"))
+        self.assertEqual(self.shown(), before)
+        self.page.click(".revert")
+        self.settle()
+        self.assertEqual(self.shown(), before)
+        self.assertNotIn("--shaders", self.text("#command"))
+        self.assertEqual(self.page.run("localStorage.length"), 0)
+
+    def edit(self, old, new):
+        """Selects a part of the text and types over it."""
+        self.page.run(f"""(() => {{
+            const field = document.querySelector(".source"), at = field.value.indexOf({json.dumps(old)});
+            field.focus();
+            field.setSelectionRange(at, at + {len(old)});
+        }})()""")
+        self.page.type(new)
+
+    def test_an_included_file_is_edited(self):
+        self.open("Materials")
+        before = self.shown()
+        self.page.run("""(() => {
+            const files = document.querySelector(".files");
+            files.value = "lighting/output.glsl";
+            files.dispatchEvent(new Event("change"));
+            const field = document.querySelector(".source");
+            field.value += "\\n#error here\\n";
+            field.dispatchEvent(new Event("input"));
+        })()""")
+        self.page.wait("document.querySelectorAll('.errors li').length")
+        self.assertRegex(self.text(".errors li"), r"^lighting/output.glsl:\d+: ")
+        self.assertEqual(self.shown(), before)
+        self.page.click(".revert")
+        self.settle()
+
+    def test_a_long_shader_is_refused(self):
+        self.open("LightedCube")
+        before = self.shown()
+        self.page.run("""(() => {
+            const field = document.querySelector(".source");
+            field.value = "/".repeat(10e6);
+            field.dispatchEvent(new Event("input"));
+        })()""")
+        self.page.wait("document.querySelector('.said').textContent.includes('at most 999999 bytes')")
+        self.assertEqual(self.shown(), before)
+        self.page.click(".revert")
+        self.settle()
+
+    def test_the_error_in_a_worker(self):
+        self.open("PhongBlinn")
+        self.page.click("#compare")
+        self.page.wait("!document.getElementById('exact').hidden")
+        self.assertRegex(self.text("#compared"), r"Inside objects: \d+ pixels, largest \d")
+        self.page.click("#forward")
+        self.settle()
+        self.assertIn("has changed", self.text("#compared"))
+
+    def test_effects_are_explained(self):
+        self.open("TwoSidedLighting")
+        self.page.click("#explain summary")
+        self.page.wait("document.getElementById('explained').textContent")
+        explained = subprocess.run([os.path.join(EXAMPLES, "TwoSidedLighting"), "--explain"], stdout=subprocess.PIPE,
+                                   text=True, check=True).stdout
+        said = self.text("#explained")
+        self.assertIn(explained.split("operations")[0].strip(), said)
+        self.assertIn("not counted in the browser", said)
+
+    def test_the_picture_is_saved(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.page.call("Page.setDownloadBehavior", behavior="allow", downloadPath=folder)
+            for link in ("", "alpha&samples=4"):
+                self.open("SmoothFlat", link)
+                self.page.click("#save")
+                path = pathlib.Path(folder, "SmoothFlat.png")
+                while not path.exists():
+                    self.settle()
+                chunks, pixels = decode_png(path.read_bytes())
+                path.unlink()
+                arguments = ["--alpha", "--samples", "4"] if link else []
+                file = os.path.join(folder, "native.png")
+                subprocess.run([os.path.join(EXAMPLES, "SmoothFlat"), *arguments, "--compress", "0", "-o", file], check=True)
+                self.assertEqual(pixels, decode_png(pathlib.Path(file).read_bytes())[1])
+                self.assertIn(b"examples/run SmoothFlat" + b" --samples 4 --alpha" * bool(link), chunks[b"iTXt"])
+
+    def test_hostile_links(self):
+        attack = "<img src=x onerror=window.hacked=1>"
+        for link in (attack, "size=99999x99999", "size=5000x10", "size=NaNxNaN", "time=NaN", "time=inf", "orbit=NaN,1",
+                     f"material={attack}", "material=%E0%A4%A", "size=1x1%0A--output=x", "output=/etc/passwd", "model=/dev/zero",
+                     "terms=" + "a" * 3000, "x" * 100000, "--help", "help", "shaders=/tmp", "=1", "javascript:alert(1)",
+                     "constructor=1", "__proto__=1", "shininess=1e999", "error=1", "samples=65536"):
+            with self.subTest(link[:60]):
+                self.open("Materials", urllib.parse.quote(link, safe="=%"))
+                said = self.text("#error")
+                self.assertTrue(said)
+                self.assertNotIn("\n", said)
+                self.assertLess(len(said), 1200)
+                self.assertEqual(self.text("#command"), "examples/run Materials")
+                self.assertIsNone(self.page.run("window.hacked"))
+                self.assertEqual(self.page.complaints(), [])
+
+    def test_no_script_of_others_runs(self):
+        self.open("Materials")
+        self.page.run("""(() => {
+            const script = document.createElement("script");
+            script.textContent = "window.hacked = 1";
+            document.body.append(script);
+            const box = document.createElement("div");
+            box.innerHTML = "<img src=x onerror='window.hacked = 1'>";
+            document.body.append(box);
+            try { new Function("window.hacked = 1")(); } catch {}
+        })()""")
+        self.settle()
+        self.assertIsNone(self.page.run("window.hacked"))
+        for name in ("Materials", "single/LightedCube", "index"):
+            self.open(name)
+            self.assertEqual([url for url in self.page.requests() if not url.startswith(("file:", "blob:", "data:", "about:"))],
+                             [])
+            self.assertEqual(self.page.complaints(), [])
+
+    def test_a_lost_context_comes_back(self):
+        self.open("FourLights", "time=2")
+        before = self.shown()
+        for _ in range(2):
+            self.page.run("document.getElementById('status').textContent = ''")
+            self.page.run("Page.page.engine.module.canvas.getContext('webgl2').getExtension('WEBGL_lose_context')"
+                          ".loseContext()")
+            self.page.wait("document.getElementById('status').textContent.startsWith('Drawn again')")
+            self.page.click("#forward")
+            self.page.click("#back")
+            self.settle()
+            self.assertEqual(self.shown(), before)
+
+    def test_a_browser_without_webgl(self):
+        for kind in ("webgl2", "webgl"):
+            script = self.page.call("Page.addScriptToEvaluateOnNewDocument", source=f"""
+                const real = HTMLCanvasElement.prototype.getContext;
+                HTMLCanvasElement.prototype.getContext = function (kind, ...more) {{
+                    return kind.startsWith({json.dumps(kind)}) ? null : real.call(this, kind, ...more);
+                }};""")["identifier"]
+            try:
+                self.page.open(address("Materials"), "document.getElementById('error').textContent")
+                self.assertIn("WebGL 2: this browser gives none", self.text("#error"))
+            finally:
+                self.page.call("Page.removeScriptToEvaluateOnNewDocument", identifier=script)
+
+    def test_blocked_storage(self):
+        script = self.page.call("Page.addScriptToEvaluateOnNewDocument", source="""
+            Object.defineProperty(window, "localStorage", {get() { throw new DOMException("blocked"); }});""")["identifier"]
+        try:
+            self.open("LightedCube")
+            self.edit("diffuse,", "diffuse.bgr,")
+            self.page.wait("document.querySelector('.said').textContent.includes('keeps nothing')")
+        finally:
+            self.page.call("Page.removeScriptToEvaluateOnNewDocument", identifier=script)
+
+    def test_names_for_a_screen_reader_and_keys_alone(self):
+        for name in ("Materials", "PointLightedSphere", "index"):
+            self.open(name)
+            nodes = self.page.call("Accessibility.getFullAXTree")["nodes"]
+            for node in nodes:
+                properties = {item["name"]: item["value"].get("value") for item in node.get("properties", [])}
+                if properties.get("focusable") and node["role"]["value"] not in ("RootWebArea", "generic"):
+                    self.assertTrue(node.get("name", {}).get("value"), node)
+            if name == "index":
+                continue
+            reached = []
+            self.page.run("document.activeElement.blur()")
+            for _ in range(12):
+                self.page.key("Tab")
+                reached.append(self.page.run("document.activeElement.id"))
+            for part in ("picture", "play", "slider", "time", "save"):
+                self.assertIn(part, reached)
+
+    def test_narrow_pages(self):
+        self.page.resize(360, 700)
+        for name in ("index", "Materials", "PointLightedCube_perFragment", "single/TermsApart"):
+            self.open(name)
+            self.assertLessEqual(self.page.run("document.documentElement.scrollWidth"), 360, name)
+
+    def test_predecessors(self):
+        self.open("PointLightedCube")
+        self.page.click(".diff summary")
+        self.assertIn("u_LightPosition", self.text(".diff ins"
+                                                   if "u_LightPosition" in self.text(".diff ins") else ".diff pre"))
+        self.assertTrue(self.page.run("document.querySelector('.diff a').href.endsWith('LightedTranslatedRotatedCube.html')"))
+
+    def test_one_file_draws_by_itself(self):
+        with tempfile.TemporaryDirectory() as folder:
+            shutil.copy(os.path.join(SITE, "single/TermsApart.html"), folder)
+            self.page.open(pathlib.Path(folder, "TermsApart.html").as_uri())
+            self.assert_native()
+            self.page.click("#compare")
+            self.page.wait("!document.getElementById('exact').hidden")
+
+    def test_sizes(self):
+        def packed(*paths):
+            return sum(len(gzip.compress(path.read_bytes(), 9)) for path in paths)
+        site = pathlib.Path(SITE)
+        shared = packed(*site.glob("*.js"), site / "style.css", site / "index.html")
+        self.assertLess(shared + packed(site / "PointLightedCube.html"), 250000)
+        self.assertLess(packed(site / "single/PointLightedCube.html"), 250000)
+
+
+def main():
+    for tool in ("emcc", "chromium", "pyftsubset"):
+        if not shutil.which(tool):
+            print(f"{tool}: not found; the pages are not tested")
+            return 77
+    made = subprocess.run([os.path.join(SOURCE, "examples/run"), "web", "-o", SITE],
+                          env={**os.environ, "LIGHTING_BUILD": os.path.dirname(EXAMPLES)})
+    if made.returncode:
+        return made.returncode
+    return not unittest.main(argv=sys.argv[:1] + sys.argv[4:], exit=False, verbosity=2).result.wasSuccessful()
+
+
+if __name__ == "__main__":
+    sys.exit(main())
