@@ -19,9 +19,8 @@ typedef struct MeshBuffer {
  * GL_OES_element_index_uint) or memory runs out. */
 bool mesh_buffer_open(MeshBuffer *buffer, const Mesh *mesh, Message *message);
 
-/* Binds the buffers and the attributes of position and normal, and disables the others; -1 skips an
- * attribute. Draw with glDrawElements(GL_TRIANGLES, buffer->index_count, buffer->index_type, NULL).
- */
+/* Binds the buffers and the attributes of position and normal (-1: none) alone. Draw with
+ * glDrawElements(GL_TRIANGLES, buffer->index_count, buffer->index_type, NULL). */
 void mesh_buffer_bind(const MeshBuffer *buffer, GLint position, GLint normal);
 
 /* Binds the attributes that a mesh may have besides; -1, or none in the mesh, skips one. */

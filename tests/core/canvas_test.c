@@ -807,6 +807,25 @@ TEST(a_mesh_of_more_than_65536_vertices_is_drawn_completely)
     }
 }
 
+/* One that another program left enabled may point to a buffer that is gone. */
+TEST(binding_a_mesh_disables_the_attributes_that_it_does_not_use)
+{
+    CLOSED(canvas_close) Canvas canvas = open_canvas((CanvasOptions){.width = 8, .height = 8});
+    CLOSED(mesh_close) Mesh cube;
+    CLOSED(mesh_buffer_close) MeshBuffer buffer;
+    SUCCEEDS(mesh_cube(&cube, 2, message));
+    SUCCEEDS(mesh_buffer_open(&buffer, &cube, message));
+    for (GLuint i = 0; i < 8; i++)
+        glEnableVertexAttribArray(i);
+    mesh_buffer_bind(&buffer, 5, -1);
+    for (GLuint i = 0; i < 8; i++) {
+        GLint enabled = -1;
+        glGetVertexAttribiv(i, GL_VERTEX_ATTRIB_ARRAY_ENABLED, &enabled);
+        assert_int_equal(enabled, i == 5);
+        glDisableVertexAttribArray(i);
+    }
+}
+
 TEST(a_mesh_buffer_may_be_closed_twice_and_nothing_may_be_closed)
 {
     CLOSED(canvas_close) Canvas canvas = open_canvas((CanvasOptions){.width = 1, .height = 1});

@@ -484,6 +484,12 @@ class Pages(Case):
         for name in ("index", "Materials", "PointLightedCube_perFragment", "single/TermsApart"):
             self.open(name)
             self.assertLessEqual(self.page.run("document.documentElement.scrollWidth"), 360, name)
+        self.open("PointLightedCube_perFragment")
+        self.edit("v_Normal", "v_Norma")
+        self.page.wait("document.querySelectorAll('.errors li').length")
+        self.page.click(".diff summary")
+        self.assertLessEqual(self.page.run("document.documentElement.scrollWidth"), 360)
+        self.page.click(".revert")
 
     def test_predecessors(self):
         self.open("PointLightedCube")
