@@ -54,7 +54,9 @@ class Engine {
 
     /* Replaces shader files by a Map of texts; an empty one restores them. False if one is too long. */
     replace(texts) {
-        const put = (name, text) => this.module.ccall("page_replace", "number", ["string", "string"], [name, text]) === 1;
+        const longest = 1000000; /* is refused; texts go over the module's stack */
+        const put = (name, text) => this.module.ccall("page_replace", "number", ["string", "string"],
+                                                      [name, text.slice(0, longest)]) === 1;
         return texts.size ? [...texts].every(([name, text]) => put(name, text)) : put("", "");
     }
 
