@@ -8,9 +8,17 @@
  * edge, of an object, a face or light, is the mean over its area, by adaptive subdivision: see
  * reference_pixel.h, also for what that may miss.
  *
+ * A light that casts shadows is followed from each such point: see reference_shadow.h. Edges of
+ * shadows are edges. On triangles the segment begins on the triangle and the lighting has the
+ * interpolated normal: with `meshes`, a triangle that faces away from the light is in its own
+ * shadow even where N.L > 0, as it is for stencil volumes; without, solids have neither triangles
+ * nor that terminator. Where light is computed at the corners, shadows are still those of each
+ * point.
+ *
  * Rounding adds less than 1e-9 steps of 1/255 (tests/reference/reference_quad_test.c). Two shapes
  * are triangles: a solid with a singular world_from_object is its mesh as given, and a teapot is
- * its mesh of 64 divisions, 262,000 triangles. At 250 pixels and shininess 40 one of 600 interior
+ * its mesh of 64 divisions, 262,000 triangles, whose segments to lights begin on the smooth surface
+ * that its normals suggest. At 250 pixels and shininess 40 one of 600 interior
  * pixels of the teapot differs by more than half a step from 256 divisions, at most 0.9, and its
  * outline by 2 pixels' area in all.
  */

@@ -56,14 +56,19 @@ Real3 trace_object_normal(const TraceObject *ready, Real3 normal_object)
     return real3_unit(transform(ready->normal_columns, normal_object));
 }
 
+Real3 trace_object_place(const TraceObject *ready, Real3 point_object)
+{
+    return real3_add(transform(ready->columns, point_object), ready->offset);
+}
+
 static Real3 to_real3(const float v[3])
 {
     return (Real3){v[0], v[1], v[2]};
 }
 
 /* A light at the corners, with the normal of the vertex or of the triangle. */
-static Real3 light_corner(const TraceObject *ready, const Scene *scene, const Shading *shading,
-                          size_t vertex, Real3 position, Real3 normal, bool back)
+static Real3 light_corner(const TraceObject *ready, const TraceLayers *layers, int layer,
+                          size_t vertex, Real3 normal, bool back)
 {
     const Object *object = ready->object;
     ShadeSides sides;
@@ -71,11 +76,10 @@ static Real3 light_corner(const TraceObject *ready, const Scene *scene, const Sh
     Material material = reversed ? object->back : object->front;
     if (ready->mesh->colors)
         material.ambient = material.diffuse = vec3_from_float(ready->mesh->colors[vertex]);
-    Real3 color =
-        shade_point(shading, &material, position, real3_scale(normal, reversed ? -1 : 1), &sides);
-    if (scene->clamp_vertex)
-        color = (Real3){real_min(color.x, 1), real_min(color.y, 1), real_min(color.z, 1)};
-    return color;
+    if (layer > 0)
+        material.emission = (Vec3){0, 0, 0};
+    return shade_point(&layers->layers[layer], &material, ready->points[vertex],
+                       real3_scale(normal, reversed ? -1 : 1), NULL, &sides);
 }
 
 /* The normal of a triangle of the mesh, in object coordinates. */
@@ -87,30 +91,32 @@ static Real3 face_normal(const Mesh *mesh, size_t triangle)
     return real3_unit(real3_cross(real3_subtract(v[1], v[0]), real3_subtract(v[2], v[0])));
 }
 
-static bool light_corners(TraceObject *ready, const Scene *scene, const Shading *shading,
-                          const Real3 *points)
+static bool light_corners(TraceObject *ready, const Scene *scene, const TraceLayers *layers)
 {
     const Mesh *mesh = ready->mesh;
     const size_t count = ready->own_corners ? mesh->index_count : mesh->vertex_count;
+    const size_t all = count * (size_t)layers->count;
+    ready->color_count = count;
     const bool constant = scene->interpolation == INTERPOLATION_CONSTANT;
     for (int side = 0; side < (ready->object->two_sided ? 2 : 1); side++) {
-        ready->colors[side] = malloc((count + 1) * sizeof *ready->colors[side]);
+        ready->colors[side] = malloc((all + 1) * sizeof *ready->colors[side]);
         if (!ready->colors[side])
             return false;
-        for (size_t i = 0; i < count; i++) {
+        for (size_t k = 0; k < all; k++) {
+            const size_t i = k % count;
             const size_t corner = constant ? i - i % 3 + 2 : i; /* a triangle's last */
             const size_t vertex = ready->own_corners ? mesh->indices[corner] : i;
             const Real3 normal = ready->own_corners && !constant
                                      ? trace_object_normal(ready, face_normal(mesh, i / 3))
                                      : ready->normals[vertex];
-            ready->colors[side][i] =
-                light_corner(ready, scene, shading, vertex, points[vertex], normal, side == 1);
+            ready->colors[side][k] =
+                light_corner(ready, layers, (int)(k / count), vertex, normal, side == 1);
         }
     }
     return true;
 }
 
-static bool open_triangles(TraceObject *ready, const Scene *scene, const Shading *shading,
+static bool open_triangles(TraceObject *ready, const Scene *scene, const TraceLayers *layers,
                            bool meshes, const atomic_bool *stop)
 {
     const Mesh *mesh = ready->mesh;
@@ -118,21 +124,20 @@ static bool open_triangles(TraceObject *ready, const Scene *scene, const Shading
     const bool flatten = scene->interpolation == INTERPOLATION_FLAT && !ready->object->flat;
     ready->own_corners = at_corners && (flatten || scene->interpolation == INTERPOLATION_CONSTANT);
     Real3 *points = malloc((mesh->vertex_count + 1) * sizeof *points);
+    ready->points = points;
     ready->normals = malloc((mesh->vertex_count + 1) * sizeof *ready->normals);
     bool done = points && ready->normals;
     for (size_t i = 0; done && i < mesh->vertex_count; i++) {
         const MeshVertex *vertex = &mesh->vertices[i];
-        points[i] = real3_add(transform(ready->columns, to_real3(vertex->position)), ready->offset);
+        points[i] = trace_object_place(ready, to_real3(vertex->position));
         ready->normals[i] = trace_object_normal(ready, to_real3(vertex->normal));
     }
-    done = done && triangles_open(&ready->triangles, mesh, points, ready->own_corners, stop) &&
-           (!at_corners || light_corners(ready, scene, shading, points));
-    free(points);
-    return done;
+    return done && triangles_open(&ready->triangles, mesh, points, ready->own_corners, stop) &&
+           (!at_corners || light_corners(ready, scene, layers));
 }
 
 bool trace_object_open(TraceObject *ready, const Object *object, const Scene *scene,
-                       const Shading *shading, bool meshes, const atomic_bool *stop)
+                       const TraceLayers *layers, bool meshes, const atomic_bool *stop)
 {
     const double *m = object->world_from_object.m;
     Real3 rows[3];
@@ -160,14 +165,16 @@ bool trace_object_open(TraceObject *ready, const Object *object, const Scene *sc
                                NULL))
             return false;
         ready->mesh = &ready->own;
+        ready->smooth = true;
     }
-    return open_triangles(ready, scene, shading, meshes, stop);
+    return open_triangles(ready, scene, layers, meshes, stop);
 }
 
 void trace_object_close(TraceObject *ready)
 {
     triangles_close(&ready->triangles);
     mesh_close(&ready->own);
+    free(ready->points);
     free(ready->normals);
     free(ready->colors[0]);
     free(ready->colors[1]);

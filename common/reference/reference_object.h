@@ -26,15 +26,27 @@ typedef struct TraceObject {
     Triangles triangles;
     Mesh own; /* of a teapot: made for its formula, of which it has none */
     const Mesh *mesh;
-    Real3 *normals;
-    Real3 *colors[2];
+    Real3 *points, *normals;
+    bool smooth;      /* the triangles stand for a smooth surface: the teapot's */
+    Real3 *colors[2]; /* one such array after the other for each layer: see TraceLayers */
     bool own_corners;
+    size_t color_count; /* of a layer */
 } TraceObject;
+
+/* Light at the corners in parts: first all but the diffuse and specular light of the lights that
+ * cast shadows, then that of each such light. Without any: everything is in one. */
+typedef struct TraceLayers {
+    const Shading *layers;
+    int count;
+} TraceLayers;
 
 /* False where memory runs out, or it was stopped; to be closed all the same. */
 bool trace_object_open(TraceObject *ready, const Object *object, const Scene *scene,
-                       const Shading *shading, bool meshes, const atomic_bool *stop);
+                       const TraceLayers *layers, bool meshes, const atomic_bool *stop);
 void trace_object_close(TraceObject *ready);
+
+/* A point in object coordinates, as seen from the eye. */
+Real3 trace_object_place(const TraceObject *ready, Real3 point_object);
 
 /* The unit normal that light sees, from one in object coordinates; zero where there is none. */
 Real3 trace_object_normal(const TraceObject *ready, Real3 normal_object);

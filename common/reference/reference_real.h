@@ -28,21 +28,29 @@ typedef __float128 Real;
 
 #define ray_solid quad_ray_solid
 #define solid_normal quad_solid_normal
+#define solid_project quad_solid_project
+#define solid_touched quad_solid_touched
+#define solid_blocks quad_solid_blocks
 #define shade_point quad_shade_point
 #define triangles_open quad_triangles_open
 #define triangles_ray quad_triangles_ray
+#define triangles_block quad_triangles_block
 #define triangles_share quad_triangles_share
 #define triangles_close quad_triangles_close
-#define bounds_build quad_bounds_build
-#define bounds_close quad_bounds_close
 #define trace_open quad_trace_open
 #define trace_sample quad_trace_sample
 #define trace_same_side quad_trace_same_side
 #define trace_agree quad_trace_agree
 #define trace_close quad_trace_close
+#define shadows_open quad_shadows_open
+#define shadows_close quad_shadows_close
+#define shadow_start_solid quad_shadow_start_solid
+#define shadow_start_triangle quad_shadow_start_triangle
+#define shadow_falls quad_shadow_falls
 #define trace_object_open quad_trace_object_open
 #define trace_object_close quad_trace_object_close
 #define trace_object_normal quad_trace_object_normal
+#define trace_object_place quad_trace_object_place
 
 #else
 
@@ -116,6 +124,12 @@ static inline Real3 real3_cross(Real3 a, Real3 b)
 static inline Real real3_length(Real3 a)
 {
     return real_sqrt(real3_dot(a, a));
+}
+
+/* The sum of its components' sizes. */
+static inline Real real3_reach(Real3 a)
+{
+    return real_abs(a.x) + real_abs(a.y) + real_abs(a.z);
 }
 
 static inline Real real3_largest(Real3 a)

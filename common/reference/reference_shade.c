@@ -1,5 +1,7 @@
 #include "reference/reference_shade.h"
 
+#include "reference/reference_shadow.h"
+
 /* What of a positional light arrives at distance d. */
 static Real attenuation(const Light *light, Real d)
 {
@@ -20,15 +22,26 @@ static Real highlight_cosine(const Shading *shading, Real3 n, Real3 l, Real3 v)
     return real_max(real3_dot(n, real3_unit(real3_add(l, v))), 0);
 }
 
-static void note_side(ShadeSides *sides, int number, bool inside, Real jump)
+/* Without what a shadow keeps off. At its edge all of that would change; outside the light's cone
+ * nothing does, but at the cone's edge, about which the points inside tell. `sum` is the light's.
+ */
+static Real3 shadowed(const struct ShadowPoint *shadows, int number, const Real3 *ambient,
+                      bool in_cone, bool faces, Real highlight, Real3 sum, ShadeSides *sides)
 {
-    const uint32_t bit = (uint32_t)1 << (number & 31);
-    sides->bits ^= inside ? bit : 0;
-    sides->matters |= jump > (Real)SHADE_JUMP ? bit : 0;
+    const Real arriving = real3_largest(real3_subtract(sum, *ambient));
+    const bool reaches = in_cone && faces;
+    const bool hidden = reaches && arriving > 0 && shadow_falls(shadows, number);
+    const Real3 left = hidden ? *ambient : sum;
+    shade_note_side(sides, 2 * number + 1, reaches && !hidden,
+                    hidden    ? arriving
+                    : in_cone ? highlight
+                              : 0);
+    shade_note_side(sides, 2 * number, in_cone, in_cone ? real3_largest(left) : 0);
+    return left;
 }
 
 Real3 shade_point(const Shading *shading, const Material *material, Real3 position, Real3 normal,
-                  ShadeSides *sides)
+                  const struct ShadowPoint *shadows, ShadeSides *sides)
 {
     const Real3 ambient = real3(material->ambient), diffuse = real3(material->diffuse);
     const Real3 specular = real3(material->specular);
@@ -66,11 +79,16 @@ Real3 shade_point(const Shading *shading, const Material *material, Real3 positi
         sum = real3_scale(sum, share);
         if (faces)
             sum = real3_add(sum, highlight);
+        if (shadows && light->shadows) {
+            const Real3 kept = real3_scale(real3_product(real3(light->ambient), ambient), share);
+            sum = shadowed(shadows, i, &kept, in_cone, faces, real3_largest(highlight), sum, sides);
+        } else {
+            shade_note_side(sides, 2 * i + 1, faces, in_cone ? real3_largest(highlight) : 0);
+            if (light->kind == LIGHT_SPOT)
+                shade_note_side(sides, 2 * i, in_cone, real3_largest(sum));
+        }
         if (in_cone)
             color = real3_add(color, sum);
-        note_side(sides, 2 * i + 1, faces, in_cone ? real3_largest(highlight) : 0);
-        if (light->kind == LIGHT_SPOT)
-            note_side(sides, 2 * i, in_cone, real3_largest(sum));
     }
     return color;
 }

@@ -14,6 +14,8 @@
 
 #include <stdint.h>
 
+struct ShadowPoint; /* see reference_shadow.h */
+
 typedef struct ShadeLight {
     const Light *light;
     Real3 position;     /* point and spot */
@@ -40,9 +42,18 @@ typedef struct ShadeSides {
 /* Of linear intensity; encoded as sRGB at most 13 times that: a sixth of a step of 1/255. */
 #define SHADE_JUMP 5e-5
 
+/* Notes one bit: on which side of a jump of so much color a point lies. */
+static inline void shade_note_side(ShadeSides *sides, int number, bool inside, Real jump)
+{
+    const uint32_t bit = (uint32_t)1 << (number & 31);
+    sides->bits ^= inside ? bit : 0;
+    sides->matters |= jump > (Real)SHADE_JUMP ? bit : 0;
+}
+
 /* The color of a point whose normal is a unit vector, or zero: then only emission and ambient
- * light count. Not clamped. */
+ * light count. Not clamped. `shadows`: where shadows are looked for; NULL: nowhere. A light that a
+ * shadow keeps off is on the side of those that the point does not face. */
 Real3 shade_point(const Shading *shading, const Material *material, Real3 position, Real3 normal,
-                  ShadeSides *sides);
+                  const struct ShadowPoint *shadows, ShadeSides *sides);
 
 #endif

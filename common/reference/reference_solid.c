@@ -255,7 +255,8 @@ static int torus_hits(const Solid *solid, Real3 origin, Real3 direction,
     return count;
 }
 
-int ray_solid(const Solid *solid, Real3 origin, Real3 direction, SolidHit hits[SOLID_MAX_HITS])
+/* What of a line lies within a convex solid. */
+static inline Span convex_span(const Solid *solid, Real3 origin, Real3 direction)
 {
     const Real radius = solid->radius, height = solid->height;
     Span span = LINE;
@@ -278,15 +279,19 @@ int ray_solid(const Solid *solid, Real3 origin, Real3 direction, SolidHit hits[S
         cut_to_cone(&span, origin, direction, radius / height, height);
         cut_to_slab(&span, origin.z, direction.z, 0, INFINITY, PART_BOTTOM, PART_OPEN);
         break;
-    case SOLID_TORUS:
-        return torus_hits(solid, origin, direction, hits);
-    case SOLID_QUAD:
-    case SOLID_DISC:
-        return plane_hits(solid, origin, direction, hits);
-    case SOLID_TEAPOT:
-    case SOLID_NONE:
-        return 0;
+    default:
+        cut_to_nothing(&span);
     }
+    return span;
+}
+
+int ray_solid(const Solid *solid, Real3 origin, Real3 direction, SolidHit hits[SOLID_MAX_HITS])
+{
+    if (solid->kind == SOLID_TORUS)
+        return torus_hits(solid, origin, direction, hits);
+    if (solid->kind == SOLID_QUAD || solid->kind == SOLID_DISC)
+        return plane_hits(solid, origin, direction, hits);
+    const Span span = convex_span(solid, origin, direction);
     return span_hits(&span, hits);
 }
 
@@ -314,4 +319,214 @@ Real3 solid_normal(const Solid *solid, int part, Real3 p)
     if (solid->kind == SOLID_TORUS)
         return real3_unit(real3_along(p, -(Real)solid->radius, out));
     return out;
+}
+
+/* Shadows. */
+
+static Real clamp_to(Real value, Real low, Real high)
+{
+    return real_max(low, real_min(value, high));
+}
+
+Real3 solid_project(const Solid *solid, int part, Real3 p)
+{
+    const Real radius = solid->radius, height = solid->height;
+    const Real across = real_sqrt(p.x * p.x + p.y * p.y);
+    if (solid->kind == SOLID_SPHERE)
+        return real3_scale(real3_unit(p), radius);
+    if (solid->kind == SOLID_BOX) {
+        const Real3 n = box_normal(part);
+        return (Real3){n.x != 0 ? n.x * radius : p.x, n.y != 0 ? n.y * radius : p.y,
+                       n.z != 0 ? n.z * radius : p.z};
+    }
+    if (solid->kind == SOLID_TORUS) {
+        const Real factor = across > 0 ? solid->radius / across : 0;
+        const Real3 ring = {p.x * factor, p.y * factor, 0};
+        return real3_along(ring, solid->tube, real3_unit(real3_subtract(p, ring)));
+    }
+    if (solid->kind == SOLID_QUAD || solid->kind == SOLID_DISC || part == PART_BOTTOM)
+        return (Real3){p.x, p.y, 0};
+    if (part == PART_TOP)
+        return (Real3){p.x, p.y, height};
+    /* The side of a cylinder or cone at the same height. */
+    const Real z = clamp_to(p.z, 0, height);
+    const Real wanted = solid->kind == SOLID_CONE ? radius * (height - z) / height : radius;
+    const Real factor = across > 0 ? wanted / across : 0;
+    return (Real3){p.x * factor, p.y * factor, z};
+}
+
+/* How far outside a part's surface a point lies; by how much that may be wrong. */
+typedef struct Outside {
+    Real distance, error;
+} Outside;
+
+enum { MAX_PARTS = 6 };
+
+static int outside_box(Real half, Real3 p, Real3 error, Outside outside[MAX_PARTS])
+{
+    const Real more = 4 * REAL_EPSILON * half;
+    outside[0] = (Outside){p.z - half, error.z + more};
+    outside[1] = (Outside){p.x - half, error.x + more};
+    outside[2] = (Outside){p.y - half, error.y + more};
+    outside[3] = (Outside){-p.x - half, error.x + more};
+    outside[4] = (Outside){-p.y - half, error.y + more};
+    outside[5] = (Outside){-p.z - half, error.z + more};
+    return 6;
+}
+
+/* Fills in all parts of the solid's convex hull; a torus's surface; the plane and the border of a
+ * square or disc. Returns their number. */
+static int outside_parts(const Solid *solid, Real3 p, Real3 error, Outside outside[MAX_PARTS])
+{
+    const Real radius = solid->radius, height = solid->height;
+    const Real across = real_sqrt(p.x * p.x + p.y * p.y);
+    const Real sum = real3_reach(error) + 8 * REAL_EPSILON * (radius + height);
+    switch (solid->kind) {
+    case SOLID_SPHERE:
+        outside[0] = (Outside){real3_length(p) - radius, sum};
+        return 1;
+    case SOLID_BOX:
+        return outside_box(radius, p, error, outside);
+    case SOLID_CONE: {
+        const Real slant = real_sqrt(radius * radius + height * height);
+        outside[PART_SIDE] = (Outside){(across * height - radius * (height - p.z)) / slant, sum};
+        outside[PART_TOP] = (Outside){p.z - height, sum};
+        outside[PART_BOTTOM] = (Outside){-p.z, error.z};
+        return 3;
+    }
+    case SOLID_CYLINDER:
+        outside[PART_SIDE] = (Outside){across - radius, sum};
+        outside[PART_TOP] = (Outside){p.z - height, error.z + 4 * REAL_EPSILON * height};
+        outside[PART_BOTTOM] = (Outside){-p.z, error.z};
+        return 3;
+    case SOLID_TORUS: {
+        const Real out = across - radius;
+        outside[0] = (Outside){real_sqrt(out * out + p.z * p.z) - solid->tube, sum};
+        return 1;
+    }
+    case SOLID_DISC:
+        outside[0] = (Outside){real_abs(p.z), error.z};
+        outside[1] = (Outside){across - radius, sum};
+        return 2;
+    case SOLID_QUAD:
+        outside[0] = (Outside){real_abs(p.z), error.z};
+        outside[1] = (Outside){real_max(real_abs(p.x), real_abs(p.y)) - 1,
+                               error.x + error.y + 4 * REAL_EPSILON};
+        return 2;
+    case SOLID_TEAPOT:
+    case SOLID_NONE:
+        break;
+    }
+    return 0;
+}
+
+uint32_t solid_touched(const Solid *solid, Real3 point, Real3 error)
+{
+    Outside outside[MAX_PARTS];
+    const int count = outside_parts(solid, point, error, outside);
+    uint32_t touched = 0;
+    for (int i = 0; i < count; i++) {
+        if (outside[i].distance > outside[i].error)
+            return 0;
+        if (real_abs(outside[i].distance) <= outside[i].error)
+            touched |= (uint32_t)1 << i;
+    }
+    return touched;
+}
+
+static bool between_ends(Real t, Real end)
+{
+    return t > 0 && t < end;
+}
+
+/* Whether a line through a point on the hull of a convex solid lies outside of the solid on the
+ * side of `way`. */
+static bool goes_out(const Solid *solid, uint32_t touched, Real3 point, Real3 way)
+{
+    for (int part = 0; part < MAX_PARTS; part++)
+        if (touched >> part & 1 && real3_dot(solid_normal(solid, part, point), way) >= 0)
+            return true;
+    return false;
+}
+
+static bool convex_blocks(const Solid *solid, const SolidSegment *segment)
+{
+    const Span span = convex_span(solid, segment->from, segment->way);
+    const Real end = segment->endless ? INFINITY : 1;
+    const bool entry = span.entry != PART_OPEN && between_ends(span.from, end);
+    const bool exit = span.exit != PART_OPEN && between_ends(span.to, end);
+    if (!(span.from <= span.to) || !(entry || exit))
+        return false;
+    const uint32_t touched = segment->touched | solid_touched(solid, segment->from, segment->error);
+    const uint32_t at_light = segment->light_touched;
+    if (touched && goes_out(solid, touched, segment->from, segment->way))
+        return false;
+    if (at_light && goes_out(solid, at_light, real3_add(segment->from, segment->way),
+                             real3_scale(segment->way, -1)))
+        return false;
+    /* The ends that touch are the entry and the exit. */
+    return (entry && !touched) || (exit && !at_light);
+}
+
+static bool plane_blocks(const Solid *solid, const SolidSegment *segment)
+{
+    SolidHit hits[SOLID_MAX_HITS];
+    return plane_hits(solid, segment->from, segment->way, hits) > 0 &&
+           between_ends(hits[0].t, segment->endless ? INFINITY : 1) && !segment->touched &&
+           !segment->light_touched && !solid_touched(solid, segment->from, segment->error);
+}
+
+/* The quartic's other roots, on a line through a point of the torus: with q = |(x, y)| - ring the
+ * terms that cancel there, q^2 + z^2 - tube^2, are left out. Counted from that point, in lengths.
+ */
+static void other_roots(const Solid *solid, Real3 p, Real3 unit, Real c[4])
+{
+    const Real ring = solid->radius, across = real_sqrt(p.x * p.x + p.y * p.y);
+    const Real q = across - ring, along = real3_dot(p, unit);
+    c[0] = 8 * ring * (q * (p.x * unit.x + p.y * unit.y) + across * p.z * unit.z);
+    c[1] = 4 * (ring * q + along * along + ring * ring * unit.z * unit.z);
+    c[2] = 4 * along;
+    c[3] = 1;
+}
+
+static bool torus_blocks(const Solid *solid, const SolidSegment *segment)
+{
+    const Real ring = solid->radius, tube = solid->tube;
+    const Real length = real3_length(segment->way), end = segment->endless ? INFINITY : length;
+    const Real3 unit = real3_scale(segment->way, 1 / length);
+    const Real margin = tube / 1024;
+    Span around = LINE;
+    cut_to_slab(&around, segment->from.z, unit.z, -tube, tube, PART_SIDE, PART_SIDE);
+    cut_to_sphere(&around, segment->from, unit, ring + tube);
+    if (!(around.from <= around.to) || around.to < -margin || around.from > end + margin)
+        return false;
+    const bool touched = segment->touched || solid_touched(solid, segment->from, segment->error);
+    Real roots[SOLID_MAX_HITS];
+    int count = 0, nearest = -1;
+    if (touched) {
+        Real c[4];
+        other_roots(solid, segment->from, unit, c);
+        count = roots_between(c, 3, 0, around.to + margin, roots);
+    } else {
+        SolidHit hits[SOLID_MAX_HITS];
+        count = torus_hits(solid, segment->from, unit, hits);
+        for (int i = 0; i < count; i++)
+            roots[i] = hits[i].t;
+    }
+    for (int i = 0; i < count && segment->light_touched; i++)
+        if (nearest < 0 || real_abs(roots[i] - end) < real_abs(roots[nearest] - end))
+            nearest = i; /* the light's own */
+    for (int i = 0; i < count; i++)
+        if (i != nearest && between_ends(roots[i], end))
+            return true;
+    return false;
+}
+
+bool solid_blocks(const Solid *solid, const SolidSegment *segment)
+{
+    if (solid->kind == SOLID_TORUS)
+        return torus_blocks(solid, segment);
+    if (solid->kind == SOLID_QUAD || solid->kind == SOLID_DISC)
+        return plane_blocks(solid, segment);
+    return convex_blocks(solid, segment);
 }

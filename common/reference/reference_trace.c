@@ -1,9 +1,18 @@
 #include "reference/reference_trace.h"
 
-#include "reference/reference_object.h"
+#include "reference/reference_shadow.h"
 #include "reference/reference_solid.h"
 
 #include <stdlib.h>
+
+/* What TraceLayers point at. */
+typedef struct Layers {
+    Shading *layers;
+    ShadeLight *shades;
+    Light *lights;
+    int *number; /* of the light of a layer but the first */
+    int count;
+} Layers;
 
 struct Trace {
     const Scene *scene;
@@ -14,6 +23,9 @@ struct Trace {
     Shading shading;
     ShadeLight *lights;
     TraceObject *objects;
+    bool casts; /* a light casts shadows */
+    Shadows shadows;
+    Layers layers;
 };
 
 /* From eye coordinates. */
@@ -52,6 +64,50 @@ static ShadeLight prepare_light(const Light *light, Vec3 eye, Mat4 eye_from_worl
     return ready;
 }
 
+static void layers_close(Layers *layers)
+{
+    free(layers->layers);
+    free(layers->shades);
+    free(layers->lights);
+    free(layers->number);
+    *layers = (Layers){.layers = NULL};
+}
+
+/* See TraceLayers. */
+static bool layers_open(Layers *layers, const Shading *shading, bool apart)
+{
+    static const Vec3 black = {0, 0, 0};
+    const size_t count = (size_t)shading->light_count;
+    *layers = (Layers){.layers = malloc((count + 1) * sizeof *layers->layers),
+                       .shades = malloc((2 * count + 1) * sizeof *layers->shades),
+                       .lights = malloc((2 * count + 1) * sizeof *layers->lights),
+                       .number = malloc((count + 1) * sizeof *layers->number),
+                       .count = 1};
+    if (!layers->layers || !layers->shades || !layers->lights || !layers->number)
+        return false;
+    layers->layers[0] = *shading;
+    for (size_t i = 0; i < count && apart; i++) {
+        ShadeLight *both[2] = {&layers->shades[i], &layers->shades[count + i]};
+        for (size_t k = 0; k < 2; k++) {
+            layers->lights[k * count + i] = *shading->lights[i].light;
+            *both[k] = shading->lights[i];
+            both[k]->light = &layers->lights[k * count + i];
+        }
+        if (!shading->lights[i].light->shadows)
+            continue;
+        layers->lights[i].diffuse = layers->lights[i].specular = black;
+        layers->lights[count + i].ambient = black;
+        layers->number[layers->count] = (int)i;
+        layers->layers[layers->count] = *shading;
+        layers->layers[layers->count].global_ambient = (Real3){0, 0, 0};
+        layers->layers[layers->count].lights = both[1];
+        layers->layers[layers->count++].light_count = 1;
+    }
+    if (apart)
+        layers->layers[0].lights = layers->shades;
+    return true;
+}
+
 static bool fill(Trace *trace, const Scene *scene, Mat4 eye_from_world, bool meshes,
                  const atomic_bool *stop)
 {
@@ -64,11 +120,17 @@ static bool fill(Trace *trace, const Scene *scene, Mat4 eye_from_world, bool mes
             trace->lights[trace->shading.light_count++] =
                 prepare_light(&scene->lights[i], scene->camera.eye, eye_from_world);
     trace->shading.lights = trace->lights;
+    for (int i = 0; i < trace->shading.light_count; i++)
+        trace->casts |= trace->lights[i].light->shadows;
+    if (!layers_open(&trace->layers, &trace->shading, trace->casts && trace->at_corners))
+        return false;
+    const TraceLayers layers = {trace->layers.layers, trace->layers.count};
     for (int i = 0; i < scene->object_count; i++)
-        if (!trace_object_open(&trace->objects[i], &scene->objects[i], scene, &trace->shading,
-                               meshes, stop))
+        if (!trace_object_open(&trace->objects[i], &scene->objects[i], scene, &layers, meshes,
+                               stop))
             return false;
-    return true;
+    return shadows_open(&trace->shadows, trace->objects, scene->object_count, trace->lights,
+                        trace->casts ? trace->shading.light_count : 0);
 }
 
 bool trace_open(Trace **opened, const Scene *scene, bool meshes, int width, int height,
@@ -104,6 +166,8 @@ void trace_close(Trace *trace)
         return;
     for (int i = 0; trace->objects && i < trace->scene->object_count; i++)
         trace_object_close(&trace->objects[i]);
+    shadows_close(&trace->shadows);
+    layers_close(&trace->layers);
     free(trace->objects);
     free(trace->lights);
     free(trace);
@@ -152,6 +216,7 @@ typedef struct Surface {
     Real3 geometric;         /* the surface's own unit normal */
     Real3 normal;            /* that which light sees */
     const uint32_t *indices; /* of the triangle's corners */
+    Real3 local;             /* of a solid: the point in its coordinates */
 } Surface;
 
 static Surface solid_surface(const TraceObject *ready, const Nearest *nearest, Real3 direction,
@@ -161,9 +226,9 @@ static Surface solid_surface(const TraceObject *ready, const Nearest *nearest, R
     const Real3 d = {real3_dot(ready->inverse[0], direction),
                      real3_dot(ready->inverse[1], direction),
                      real3_dot(ready->inverse[2], direction)};
-    const Real3 normal =
-        solid_normal(solid, nearest->solid.part, real3_along(ready->eye, nearest->t, d));
-    Surface surface = {.normal = trace_object_normal(ready, normal)};
+    const Real3 local = real3_along(ready->eye, nearest->t, d);
+    const Real3 normal = solid_normal(solid, nearest->solid.part, local);
+    Surface surface = {.normal = trace_object_normal(ready, normal), .local = local};
     surface.geometric = surface.normal;
     if (ready->object->wrong_normals) {
         /* n . inverse: the columns of the inverse transpose. */
@@ -192,17 +257,61 @@ static Surface triangle_surface(const TraceObject *ready, const Nearest *nearest
     return surface;
 }
 
-static Real3 corner_color(const TraceObject *ready, const Nearest *nearest, const uint32_t *indices,
-                          bool front)
+/* Where a segment to a light begins. */
+static ShadowPoint shadow_start(const Trace *trace, const Nearest *nearest, const Surface *surface,
+                                Real3 normal)
+{
+    if (trace->objects[nearest->object].exact)
+        return shadow_start_solid(&trace->shadows, nearest->object, nearest->solid.part,
+                                  surface->local, surface->geometric, normal);
+    return shadow_start_triangle(&trace->shadows, nearest->object, nearest->triangle.index,
+                                 nearest->triangle.weights, surface->geometric, normal);
+}
+
+/* The color of a layer at the triangle's corner. */
+static Real3 corner(const TraceObject *ready, const Nearest *nearest, const uint32_t *indices,
+                    bool front, int layer, int k)
 {
     const Real3 *colors = ready->colors[!front && ready->object->two_sided];
     const Triangle *triangle = &ready->triangles.triangles[nearest->triangle.index];
+    return colors[(size_t)layer * ready->color_count +
+                  (ready->own_corners ? 3 * (size_t)triangle->number + (size_t)k : indices[k])];
+}
+
+/* Interpolated: what is left of the light at the corners where some lights are in shadow. */
+static Real3 corner_color(const Trace *trace, const Nearest *nearest, const Surface *surface,
+                          Sample *sample)
+{
+    const TraceObject *ready = &trace->objects[nearest->object];
     const Real *weights = nearest->triangle.weights;
-    if (ready->own_corners) {
-        const Real3 *c = colors + 3 * (size_t)triangle->number;
-        return interpolate(c[0], c[1], c[2], weights);
+    const bool reversed = ready->object->two_sided && !sample->front;
+    ShadowPoint point;
+    ShadeSides sides = {0, 0};
+    Real3 sum[3];
+    for (int layer = 0; layer < trace->layers.count; layer++) {
+        Real3 c[3];
+        for (int k = 0; k < 3; k++)
+            c[k] = corner(ready, nearest, surface->indices, sample->front, layer, k);
+        if (layer == 0) {
+            for (int k = 0; k < 3; k++)
+                sum[k] = c[k];
+            continue;
+        }
+        if (layer == 1)
+            point = shadow_start(trace, nearest, surface,
+                                 real3_scale(surface->normal, reversed ? -1 : 1));
+        const Real arriving = real3_largest(interpolate(c[0], c[1], c[2], weights));
+        const int number = trace->layers.number[layer];
+        const bool hidden = arriving > 0 && shadow_falls(&point, number);
+        shade_note_side(&sides, 2 * number + 1, arriving > 0 && !hidden, hidden ? arriving : 0);
+        for (int k = 0; k < 3 && !hidden; k++)
+            sum[k] = real3_add(sum[k], c[k]);
     }
-    return interpolate(colors[indices[0]], colors[indices[1]], colors[indices[2]], weights);
+    sample->sides = sides.bits;
+    sample->sides_matter = sides.matters;
+    for (int k = 0; k < 3 && trace->scene->clamp_vertex; k++)
+        sum[k] = (Real3){real_min(sum[k].x, 1), real_min(sum[k].y, 1), real_min(sum[k].z, 1)};
+    return interpolate(sum[0], sum[1], sum[2], weights);
 }
 
 /* The mean of a triangle's vertex colors. */
@@ -259,7 +368,7 @@ void trace_sample(const Trace *trace, double x, double y, Sample *sample)
     sample->position = real3_round(position);
     sample->normal = real3_round(surface.geometric);
     if (trace->at_corners) {
-        put_out(trace, corner_color(ready, &nearest, surface.indices, sample->front), sample);
+        put_out(trace, corner_color(trace, &nearest, &surface, sample), sample);
         return;
     }
     const bool reversed = ready->object->two_sided && !sample->front;
@@ -268,8 +377,12 @@ void trace_sample(const Trace *trace, double x, double y, Sample *sample)
     if (!ready->exact && ready->mesh->colors)
         material.ambient = material.diffuse =
             real3_round(vertex_color(ready->mesh, surface.indices, nearest.triangle.weights));
-    const Real3 color = shade_point(&trace->shading, &material, position,
-                                    real3_scale(surface.normal, reversed ? -1 : 1), &sides);
+    const Real3 normal = real3_scale(surface.normal, reversed ? -1 : 1);
+    ShadowPoint point;
+    if (trace->casts)
+        point = shadow_start(trace, &nearest, &surface, normal);
+    const Real3 color = shade_point(&trace->shading, &material, position, normal,
+                                    trace->casts ? &point : NULL, &sides);
     sample->sides = sides.bits;
     sample->sides_matter = sides.matters;
     put_out(trace, color, sample);

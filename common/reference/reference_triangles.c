@@ -11,7 +11,7 @@ typedef struct Places {
     uint32_t mask;
 } Places;
 
-enum { NONE = 0xFFFFFFFF };
+enum { NONE = TRIANGLES_NONE };
 
 /* So many vertices or triangles are a few milliseconds' work. */
 enum { STRIDE = 16384 };
@@ -91,6 +91,180 @@ static void unite(uint32_t *parents, uint32_t a, uint32_t b)
     a = root_of(parents, a);
     b = root_of(parents, b);
     parents[a > b ? a : b] = a > b ? b : a;
+}
+
+/* Boxes. By the surface area heuristic, estimated in bins. (Wald, On fast Construction of SAH-based
+ * Bounding Volume Hierarchies, IEEE Symposium on Interactive Ray Tracing, 2007) */
+
+enum { BINS = 16, LEAF = 4, SAH_DEPTH = 40 };
+
+typedef struct Box {
+    Real low[3], high[3];
+} Box;
+
+typedef struct Builder {
+    Bounds *bounds;
+    const Real (*boxes)[2][3];
+    uint32_t node_count;
+    const atomic_bool *stop;
+} Builder;
+
+static Box empty_box(void)
+{
+    return (Box){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+}
+
+static void extend(Box *box, const Real low[3], const Real high[3])
+{
+    for (int k = 0; k < 3; k++) {
+        box->low[k] = real_min(box->low[k], low[k]);
+        box->high[k] = real_max(box->high[k], high[k]);
+    }
+}
+
+static Real half_area(const Box *box)
+{
+    const Real x = box->high[0] - box->low[0], y = box->high[1] - box->low[1];
+    const Real z = box->high[2] - box->low[2];
+    return x >= 0 ? x * y + y * z + z * x : 0;
+}
+
+static Real center(const Builder *builder, uint32_t item, int axis)
+{
+    return (builder->boxes[item][0][axis] + builder->boxes[item][1][axis]) / 2;
+}
+
+typedef struct Bin {
+    Box box;
+    uint32_t count;
+} Bin;
+
+static int bin_of(Real value, Real low, Real high)
+{
+    /* No number, or infinite, where the box is too small or too large to be divided. */
+    const Real share = (value - low) / (high - low);
+    const int bin = share > 0 ? (int)(BINS * (share < 1 ? share : 1)) : 0;
+    return bin < BINS ? bin : BINS - 1;
+}
+
+/* Whether cutting between two bins beats a leaf; where. */
+static bool best_cut(const Builder *builder, const uint32_t *items, uint32_t count,
+                     const Box *centers, int axis, int *cut)
+{
+    Bin bins[BINS];
+    Real right[BINS], best = INFINITY;
+    Box box = empty_box();
+    uint32_t below = 0, above = 0;
+    for (int i = 0; i < BINS; i++)
+        bins[i] = (Bin){empty_box(), 0};
+    for (uint32_t i = 0; i < count; i++) {
+        Bin *bin =
+            &bins[bin_of(center(builder, items[i], axis), centers->low[axis], centers->high[axis])];
+        bin->count++;
+        extend(&bin->box, builder->boxes[items[i]][0], builder->boxes[items[i]][1]);
+    }
+    for (int i = BINS - 1; i > 0; i--) {
+        above += bins[i].count;
+        extend(&box, bins[i].box.low, bins[i].box.high);
+        right[i] = half_area(&box) * above;
+    }
+    box = empty_box();
+    for (int i = 1; i < BINS; i++) {
+        below += bins[i - 1].count;
+        extend(&box, bins[i - 1].box.low, bins[i - 1].box.high);
+        const Real cost = half_area(&box) * below + right[i];
+        if (below > 0 && below < count && cost < best) {
+            best = cost;
+            *cut = i;
+        }
+    }
+    return best < INFINITY;
+}
+
+/* Puts items with a center below the cut first; returns their number, 0 where nothing separates
+ * them. */
+static uint32_t separate(const Builder *builder, uint32_t *items, uint32_t count, int depth)
+{
+    Box centers = empty_box();
+    int axis = 0, cut = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const Real c[3] = {center(builder, items[i], 0), center(builder, items[i], 1),
+                           center(builder, items[i], 2)};
+        extend(&centers, c, c);
+    }
+    for (int k = 1; k < 3; k++)
+        if (centers.high[k] - centers.low[k] > centers.high[axis] - centers.low[axis])
+            axis = k;
+    /* Items in one place, or a chain of lopsided cuts: any halves. */
+    if (depth > SAH_DEPTH || !(centers.high[axis] > centers.low[axis]) ||
+        !best_cut(builder, items, count, &centers, axis, &cut))
+        return count / 2;
+    uint32_t below = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t item = items[i];
+        if (bin_of(center(builder, item, axis), centers.low[axis], centers.high[axis]) < cut) {
+            items[i] = items[below];
+            items[below++] = item;
+        }
+    }
+    return below;
+}
+
+static void build(Builder *builder, uint32_t number, uint32_t first, uint32_t count, int depth)
+{
+    BoundsNode *node = &builder->bounds->nodes[number];
+    uint32_t *items = builder->bounds->order + first;
+    Box box = empty_box();
+    for (uint32_t i = 0; i < count; i++)
+        extend(&box, builder->boxes[items[i]][0], builder->boxes[items[i]][1]);
+    for (int k = 0; k < 3; k++) {
+        node->low[k] = box.low[k];
+        node->high[k] = box.high[k];
+    }
+    node->first = first;
+    node->count = count;
+    if (count <= LEAF || stop_asked(builder->stop))
+        return;
+    const uint32_t below = separate(builder, items, count, depth);
+    node->first = builder->node_count;
+    node->count = 0;
+    builder->node_count += 2;
+    const uint32_t children = node->first;
+    build(builder, children, first, below, depth + 1);
+    build(builder, children + 1, first + below, count - below, depth + 1);
+}
+
+static void bounds_close(Bounds *bounds)
+{
+    free(bounds->nodes);
+    free(bounds->order);
+    *bounds = (Bounds){NULL, NULL};
+}
+
+/* Builds it over `count` boxes, lows and highs in turn. False where memory runs out, or it was
+ * stopped. */
+static bool bounds_build(Bounds *bounds, const Real (*boxes)[2][3], size_t count,
+                         const atomic_bool *stop)
+{
+    *bounds = (Bounds){NULL, NULL};
+    if (count == 0)
+        return true;
+    if (count > UINT32_MAX / 2)
+        return false;
+    bounds->nodes = calloc(2 * count, sizeof *bounds->nodes);
+    bounds->order = calloc(count, sizeof *bounds->order);
+    if (!bounds->nodes || !bounds->order) {
+        bounds_close(bounds);
+        return false;
+    }
+    for (size_t i = 0; i < count; i++)
+        bounds->order[i] = (uint32_t)i;
+    Builder builder = {bounds, boxes, 1, stop};
+    build(&builder, 0, 0, (uint32_t)count, 0);
+    if (!stop_asked(stop))
+        return true;
+    bounds_close(bounds);
+    return false;
 }
 
 /* Triangles. */
@@ -274,6 +448,74 @@ bool triangles_ray(const Triangles *triangles, Real3 direction, Real near, Real 
         }
     }
     return number != NONE;
+}
+
+/* As in `meet`, with the planes through the segment's beginning: the differences of the positions,
+ * and so the planes, are the same for both triangles at an edge. */
+static bool crosses(const Triangle *triangle, const TriangleSegment *segment)
+{
+    const uint32_t *indices = segment->indices + 3 * (size_t)triangle->number;
+    const Real3 v0 = segment->points[indices[0]], way = segment->way;
+    const Real3 a = real3_subtract(v0, segment->from);
+    const Real3 b = real3_subtract(segment->points[indices[1]], segment->from);
+    const Real3 c = real3_subtract(segment->points[indices[2]], segment->from);
+    const Real bc = real3_dot(way, real3_cross(b, c)), ca = real3_dot(way, real3_cross(c, a));
+    if ((bc > 0 && ca < 0) || (bc < 0 && ca > 0))
+        return false;
+    const Real ab = real3_dot(way, real3_cross(a, b));
+    if (!((bc >= 0 && ca >= 0 && ab >= 0) || (bc <= 0 && ca <= 0 && ab <= 0)))
+        return false;
+    /* Heights of the ends over the plane, times the normal's length. */
+    const Real height = real3_dot(triangle->normal, a), slope = real3_dot(triangle->normal, way);
+    const Real t = height / slope;
+    if (slope == 0 || !(t > 0) || !(segment->endless || t < 1))
+        return false;
+    const Real length = real3_length(triangle->normal);
+    const Real more = 32 * REAL_EPSILON * real3_reach(v0);
+    return real_abs(height) > (segment->error + more) * length &&
+           (segment->endless || real_abs(height - slope) > (segment->light_error + more) * length);
+}
+
+/* Whether a segment meets a box; also if it misses it by rounding. `inverse` is infinite where the
+ * way has no component; on a side of the box the product is then NaN, which says nothing: such a
+ * comparison is false, and what is first in real_max and real_min has no effect. */
+static inline bool passes(const BoundsNode *node, const Real from[3], const Real inverse[3],
+                          Real end)
+{
+    Real enters = 0, leaves = end;
+    for (int k = 0; k < 3; k++) {
+        const bool up = inverse[k] > 0;
+        const Real one = ((up ? node->low : node->high)[k] - from[k]) * inverse[k];
+        const Real other = ((up ? node->high : node->low)[k] - from[k]) * inverse[k];
+        enters = real_max(one, enters);
+        leaves = real_min(other, leaves);
+    }
+    return enters <= leaves * (1 + 8 * REAL_EPSILON);
+}
+
+bool triangles_block(const Triangles *triangles, const TriangleSegment *segment)
+{
+    const Real from[3] = {segment->from.x, segment->from.y, segment->from.z};
+    const Real inverse[3] = {1 / segment->way.x, 1 / segment->way.y, 1 / segment->way.z};
+    const Real end = segment->endless ? INFINITY : 1;
+    const BoundsNode *nodes = triangles->bounds.nodes;
+    uint32_t stack[BOUNDS_MAX_DEPTH];
+    int depth = 0;
+    if (nodes && passes(&nodes[0], from, inverse, end))
+        stack[depth++] = 0;
+    while (depth > 0) {
+        const BoundsNode *node = &nodes[stack[--depth]];
+        if (node->count == 0) {
+            for (uint32_t child = node->first; child < node->first + 2; child++)
+                if (passes(&nodes[child], from, inverse, end))
+                    stack[depth++] = child;
+            continue;
+        }
+        for (uint32_t i = node->first; i < node->first + node->count; i++)
+            if (i != segment->own && crosses(&triangles->triangles[i], segment))
+                return true;
+    }
+    return false;
 }
 
 TrianglesShare triangles_share(const Triangle *a, const Triangle *b)

@@ -1,13 +1,17 @@
 /*
- * reference_triangles: rays from the eye against triangles.
+ * reference_triangles: rays from the eye, and segments to lights, against triangles.
  *
- * Space: the axes are the world's, the origin is the eye, and every ray begins there.
+ * Space: the axes are the world's, the origin is the eye, where every ray begins.
  */
 #ifndef REFERENCE_TRIANGLES_H
 #define REFERENCE_TRIANGLES_H
 
+#include "base/stop.h"
 #include "core/mesh.h"
-#include "reference/reference_bounds.h"
+#include "reference/reference_real.h"
+
+#include <stddef.h>
+#include <stdint.h>
 
 /* With v0, v1, v2 seen from the origin. */
 typedef struct Triangle {
@@ -19,6 +23,22 @@ typedef struct Triangle {
     uint32_t places[3];  /* vertices; of those in one place the first */
     uint32_t piece;      /* a triangle of it: pieces are what hangs together by equal corners */
 } Triangle;
+
+/* A box. An inner node's children are `first` and `first` + 1; a leaf has `count` items from number
+ * `first` of the order on. */
+typedef struct BoundsNode {
+    Real low[3], high[3];
+    uint32_t first, count;
+} BoundsNode;
+
+/* No path from the root is longer. */
+enum { BOUNDS_MAX_DEPTH = 80 };
+
+/* A hierarchy of boxes around triangles, so that a ray meets few of them. */
+typedef struct Bounds {
+    BoundsNode *nodes; /* the root first; NULL where there are no items */
+    uint32_t *order;   /* the items, those of a leaf together */
+} Bounds;
 
 typedef struct Triangles {
     Triangle *triangles; /* in the order of the boxes */
@@ -44,6 +64,23 @@ typedef struct TriangleHit {
  * triangles share meets at least one of them. */
 bool triangles_ray(const Triangles *triangles, Real3 direction, Real near, Real far,
                    TriangleHit *hit);
+
+/* From a point of some surface to a light. */
+typedef struct TriangleSegment {
+    Real3 from, way; /* to from + way; endless to a directional light */
+    bool endless;
+    const uint32_t *indices; /* of the mesh */
+    const Real3 *points;     /* as in triangles_open */
+    uint32_t own;            /* in `triangles`: the one that `from` lies on; else TRIANGLES_NONE */
+    Real error, light_error; /* of distances between the ends and a triangle, but for what the size
+                                of the triangle's coordinates adds */
+} TriangleSegment;
+#define TRIANGLES_NONE 0xFFFFFFFFU
+
+/* Whether a triangle meets the segment between its ends; not where an end lies in its plane, as
+ * far as rounding lets tell: that is a triangle next to the own one, or in the same place. No
+ * segment slips through an edge or corner that triangles share. */
+bool triangles_block(const Triangles *triangles, const TriangleSegment *segment);
 
 /* How many corners two triangles have in common, 3 for one with itself; and how many places. More
  * places than corners make a crease between them. */

@@ -64,9 +64,10 @@ static void open_world(World *world, Solid solid)
                                    .cutoff = uniform(5, 40),
                                    .exponent = uniform(0, 20),
                                    .constant = 1,
-                                   .quadratic = 0.1};
+                                   .quadratic = 0.1,
+                                   .shadows = true};
     world->scene =
-        (Scene){.camera = {{0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 35, 0.5, 20},
+        (Scene){.camera = {{0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 35, 0.5, 20, 0},
                 .global_ambient = {0.2, 0.2, 0.2},
                 .lights = world->lights,
                 .light_count = 3,

@@ -310,7 +310,7 @@ static Real3 shade(Light light, const Material *material, bool phong, Real3 norm
                              .global_ambient = {0.5, 0.5, 0.5},
                              .reflection_phong = phong};
     ShadeSides sides;
-    return shade_point(&shading, material, (Real3){0, 0, -4}, normal, &sides);
+    return shade_point(&shading, material, (Real3){0, 0, -4}, normal, NULL, &sides);
 }
 
 static void assert_color(Real3 color, double red, double green, double blue)
