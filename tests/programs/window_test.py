@@ -677,8 +677,8 @@ class Panel(Case):
         self.assert_shown(shown)
 
     def test_a_switch_in_the_panel_is_the_option(self):
-        """Where the switch lies is up to the panel: it is looked for, in a scene that stands
-        still."""
+        """Where the switch lies is up to the panel: it is looked for from where it is outwards, in a
+        scene that stands still."""
         program, option = "PhongBlinn", ("--fit", "off")
         size = ("-s", "600x560")
         self.good(*size, "-o", "plain.png", program=program)
@@ -688,7 +688,8 @@ class Panel(Case):
         shown = self.show(*size, "-o", "a.png", program=program)
         shown.open_panel(600, 560)
         found = None
-        for x, y in ((600 + x, y) for y in range(68, 150, 7) for x in (94, 106, 118, 130)):
+        places = ((600 + x, y) for y in range(68, 150, 7) for x in (94, 106, 118, 130))
+        for x, y in sorted(places, key=lambda place: math.dist(place, (718, 96))):
             shown.click(x, y)
             if shown.save().pixels == wanted:
                 found = x, y
