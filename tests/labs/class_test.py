@@ -480,7 +480,7 @@ class Results(Class):
         self.assertEqual(picture.texts, {})
 
     def test_a_run_continues_where_another_stopped(self):
-        count = 12 // base.step(2)
+        count = 12 if base.LONG else 6
         for i in range(count):
             self.submit(f"student{i:02}")
         with self.start_class("--jobs", "1", stderr=subprocess.PIPE) as process:
@@ -570,12 +570,16 @@ class Results(Class):
 
     def test_a_finished_result_stays_when_the_next_is_worse(self):
         """The same submission, with a long loop, has too little time in the second run."""
-        loop = ENDLESS.replace("z < 1.0e30", "z < 1.0e30 && n++ < 150")
         draw = "gl_FragColor = "
-        slow = f"int n = 0; {loop} {draw}1.0e-30 * vec4(z) + "
-        self.submit("slow", lab05_frag=self.frag(replace=((draw, slow),)))
-        self.lab5("--limit", "300")
-        before = self.table()["slow"]
+        for turns in (90, 360):
+            loop = ENDLESS.replace("z < 1.0e30", f"z < 1.0e30 && n++ < {turns}")
+            slow = f"int n = 0; {loop} {draw}1.0e-30 * vec4(z) + "
+            shutil.rmtree(self.path("class", "slow"), ignore_errors=True)
+            self.submit("slow", lab05_frag=self.frag(replace=((draw, slow),)))
+            self.lab5("--limit", "300")
+            before = self.table()["slow"]
+            if float(before["seconds"]) >= 2:
+                break
         if float(before["seconds"]) < 2:
             self.skipTest("this machine is too fast for the test's loop")
         lines = self.lab5("--again", "--limit", "1")
@@ -592,7 +596,7 @@ class Results(Class):
         self.lab5()
 
     def test_parts_are_merged_to_the_whole(self):
-        count = 7 // base.step(2) + 1
+        count = 8 if base.LONG else 4
         for i in range(count):
             self.submit(f"student{i}", STARTER if i % 3 == 0 else SOLUTION)
         self.lab5(out="whole")

@@ -167,7 +167,8 @@ class Formats(Animations):
                     self.assertEqual(got, rgb)
 
     def test_every_format_has_the_pictures(self):
-        for size, count in (((40, 30), 6), ((33, 17), 5), ((1, 1), 2), ((2, 1), 1)):
+        sizes = ((40, 30), 6), ((33, 17), 5), ((2, 1), 1), ((1, 1), 2)
+        for size, count in sizes[1::2] if base.step(2) > 1 else sizes:
             wanted = self.numbered(count, "-t", "0.5", "--fps", "10", size=size)
             for kind in FILES:
                 if count == 1 and kind in ("gif", "webp"):

@@ -778,7 +778,7 @@ TEST(random_scenes_keep_the_error_that_is_allowed)
     /* A scene takes 1 to 10 s. LIGHTING_TEST_CASES asks for more of them. */
     enum { CASES = 60 };
     const char *asked = getenv("LIGHTING_TEST_CASES");
-    const int count = asked ? atoi(asked) : CASES / testing_step(10);
+    const int count = asked ? atoi(asked) : testing_part(CASES, 10);
     const bool large = testing_step(2) == 1;
     int broken = 0, unreached = 0;
     randomness.state = testing_seed(1);
@@ -797,8 +797,8 @@ TEST(random_scenes_keep_the_error_that_is_allowed)
 /* Three times as many pictures as moments at which the choice is tested. */
 TEST(animations_keep_the_error_between_the_moments)
 {
-    enum { CASES = 12 };
-    const int count = CASES / testing_step(6);
+    enum { CASES = 4 }; /* of half a minute each */
+    const int count = testing_part(CASES, 2);
     int broken = 0;
     randomness.state = testing_seed(2);
     write_models();
