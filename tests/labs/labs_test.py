@@ -217,7 +217,7 @@ class Wrong(Labs):
         self.assert_named(in_parallel(judge_pair, jobs[:: 3 * base.step(5)]), 0.7)
 
     def test_an_unknown_mistake_gets_no_name(self):
-        names = list(mistakes.ART)[:: 2 * base.step(6)]
+        names = list(mistakes.ART)[:: 2 * base.step(8)]
         jobs = [(*mistakes.art(name), 4) for name in names]
         for name, result in zip(names, in_parallel(check_texts, jobs)):
             self.assertEqual(result["verdict"], "wrong", (name, result["message"]))
