@@ -1,0 +1,380 @@
+#include "study/arithmetic/raster.h"
+
+#include "base/random.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A corner: clip coordinates and a varying. */
+typedef struct Corner {
+    float position[4], value[4];
+} Corner;
+
+enum { CORNERS = 4 }; /* at most, of a strip */
+
+static void draw_strip(GLuint program, GLenum mode, const Corner *corners, int count)
+{
+    const GLuint position = (GLuint)glGetAttribLocation(program, "a_Position");
+    const GLuint value = (GLuint)glGetAttribLocation(program, "a_A");
+    glUseProgram(program);
+    glUniform1fv(glGetUniformLocation(program, "u_One"), 1, (const float[]){1});
+    glBindBuffer(GL_ARRAY_BUFFER, 0);
+    glVertexAttribPointer(position, 4, GL_FLOAT, GL_FALSE, sizeof(Corner), corners->position);
+    glVertexAttribPointer(value, 4, GL_FLOAT, GL_FALSE, sizeof(Corner), corners->value);
+    glEnableVertexAttribArray(position);
+    glEnableVertexAttribArray(value);
+    glDrawArrays(mode, 0, count);
+    glDisableVertexAttribArray(position);
+    glDisableVertexAttribArray(value);
+}
+
+/* The window coordinates of a corner; row 0 is the lowest, as OpenGL has it. */
+static void window_of(const Canvas *canvas, const Corner *corner, double at[2])
+{
+    const double w = (double)corner->position[3];
+    at[0] = ((double)corner->position[0] / w + 1) * canvas->width / 2;
+    at[1] = ((double)corner->position[1] / w + 1) * canvas->height / 2;
+}
+
+/* Twice the signed area of a triangle. */
+static double area_of(const double a[2], const double b[2], const double c[2])
+{
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+/* The exact value of a varying at a point (OpenGL ES 2.0 specification, section 3.5.1): weights
+ * a / w, whose sum makes them 1. */
+static double value_at(const Canvas *canvas, const Corner corners[3], int channel,
+                       const double point[2])
+{
+    double at[3][2], sum = 0, weights = 0;
+    for (int i = 0; i < 3; i++)
+        window_of(canvas, &corners[i], at[i]);
+    for (int i = 0; i < 3; i++) {
+        const double weight =
+            area_of(at[(i + 1) % 3], at[(i + 2) % 3], point) / (double)corners[i].position[3];
+        sum += weight * (double)corners[i].value[channel];
+        weights += weight;
+    }
+    return sum / weights;
+}
+
+static Corner random_corner(Random *random, const Canvas *canvas, double x, double y, double w)
+{
+    Corner corner;
+    corner.position[0] = (float)((2 * x / canvas->width - 1) * w);
+    corner.position[1] = (float)((2 * y / canvas->height - 1) * w);
+    corner.position[2] = 0;
+    corner.position[3] = (float)w;
+    for (int i = 0; i < 4; i++)
+        corner.value[i] = (float)random_between(random, -1, 1);
+    corner.value[3] = (float)random_between(random, 0.5, 1); /* what is drawn is not 0 */
+    return corner;
+}
+
+/* A pixel of floats, of what was read. */
+static const float *pixel_of(const Canvas *canvas, const float *pixels, int x, int y)
+{
+    return pixels + 4 * ((size_t)y * (size_t)canvas->width + (size_t)x);
+}
+
+static void read_floats(const Canvas *canvas, float *pixels)
+{
+    glReadPixels(0, 0, canvas->width, canvas->height, GL_RGBA, GL_FLOAT, pixels);
+}
+
+/* The largest error of a triangle in what was drawn, in units of its largest corner, or of the
+ * corners' differences. */
+static double error_of_triangle(const Canvas *canvas, const Corner corners[3], bool differences,
+                                const float *pixels)
+{
+    static const Format single = {.bits = 24, .min_exponent = -126, .max_exponent = 127};
+    double low[2] = {INFINITY, INFINITY}, high[2] = {0, 0}, largest = 0;
+    for (int i = 0; i < 3; i++) {
+        double at[2];
+        window_of(canvas, &corners[i], at);
+        for (int k = 0; k < 2; k++) {
+            low[k] = fmin(low[k], at[k]);
+            high[k] = fmax(high[k], at[k]);
+        }
+    }
+    for (int y = (int)fmax(low[1], 0); y < (int)fmin(high[1] + 1, canvas->height); y++)
+        for (int x = (int)fmax(low[0], 0); x < (int)fmin(high[0] + 1, canvas->width); x++) {
+            const float *pixel = pixel_of(canvas, pixels, x, y);
+            for (int c = 0; c < 4 && pixel[3] != 0; c++) {
+                const double exact = value_at(canvas, corners, c, (double[]){x + 0.5, y + 0.5});
+                double most = 0;
+                for (int i = 0; i < 3; i++) {
+                    const float other = differences ? corners[(i + 1) % 3].value[c] : 0;
+                    most = fmax(most, fabs((double)(corners[i].value[c] - other)));
+                }
+                largest = fmax(largest, fabs((double)pixel[c] - exact) / format_ulp(&single, most));
+            }
+        }
+    return largest;
+}
+
+/* Triangles with sides of about `size` pixels, whose angles are not very small. */
+static double varyings(const Canvas *canvas, GLuint program, double size, double max_w, int count,
+                       float *pixels)
+{
+    Random random = {(uint64_t)size};
+    double largest = 0;
+    for (int n = 0; n < count; n++) {
+        Corner corners[3];
+        const double x = random_between(&random, 0, canvas->width - size);
+        const double y = random_between(&random, 0, fmax(canvas->height - size, 1));
+        const double turn = random_between(&random, 0, 6.28);
+        for (int i = 0; i < 3; i++) {
+            const double angle = turn + 2.1 * i + random_between(&random, -0.5, 0.5);
+            corners[i] =
+                random_corner(&random, canvas, x + size / 2 * (1 + cos(angle)),
+                              y + size / 2 * (1 + sin(angle)), random_between(&random, 1, max_w));
+            if (max_w == 1)
+                corners[i].position[3] = 1;
+        }
+        canvas_clear(canvas, (Vec3){0, 0, 0}, 0);
+        draw_strip(program, GL_TRIANGLES, corners, 3);
+        read_floats(canvas, pixels);
+        largest = fmax(largest, error_of_triangle(canvas, corners, size < 16, pixels));
+    }
+    return largest;
+}
+
+/* The distance of a pixel's center from a line, in pixels. */
+static double distance_of(const double a[2], const double b[2], const double point[2])
+{
+    return fabs(area_of(a, b, point)) / hypot(b[0] - a[0], b[1] - a[1]);
+}
+
+/* Convex quadrilaterals of two triangles that share an edge. Each triangle adds 1 to a pixel. */
+static void shared_edges(const Canvas *canvas, GLuint program, Raster *raster, float *pixels)
+{
+    Random random = {3};
+    glBlendFuncSeparate(GL_ONE, GL_ONE, GL_ONE, GL_ONE);
+    for (int n = 0; n < 40; n++) {
+        Corner corners[CORNERS];
+        double at[CORNERS][2];
+        const double turn = random_between(&random, 0, 6.28);
+        static const double angles[CORNERS] = {0, 1.6, -1.5, 3.1};
+        for (int i = 0; i < CORNERS; i++) {
+            const double angle = turn + angles[i] + random_between(&random, -0.3, 0.3);
+            corners[i] =
+                random_corner(&random, canvas, 256 + 120 * cos(angle), 128 + 120 * sin(angle), 1);
+            corners[i].value[3] = 1;
+            window_of(canvas, &corners[i], at[i]);
+        }
+        canvas_clear(canvas, (Vec3){0, 0, 0}, 0);
+        glEnable(GL_BLEND);
+        draw_strip(program, GL_TRIANGLE_STRIP, corners, 4);
+        glDisable(GL_BLEND);
+        read_floats(canvas, pixels);
+        for (int y = 0; y < canvas->height; y++)
+            for (int x = 0; x < canvas->width; x++) {
+                const double point[2] = {x + 0.5, y + 0.5};
+                const double along = (point[0] - at[1][0]) * (at[2][0] - at[1][0]) +
+                                     (point[1] - at[1][1]) * (at[2][1] - at[1][1]);
+                const double length = hypot(at[2][0] - at[1][0], at[2][1] - at[1][1]);
+                /* Away from its ends, where the outline is. */
+                if (distance_of(at[1], at[2], point) > 0.71 || along < 4 * length ||
+                    along > (length - 4) * length)
+                    continue;
+                const float *pixel = pixel_of(canvas, pixels, x, y);
+                raster->edge_pixels++;
+                raster->edge_missed += pixel[3] == 0;
+                raster->edge_twice += pixel[3] > 1.5f;
+                double nearest = INFINITY;
+                for (int t = 0; t < 2 && pixel[3] == 1; t++) {
+                    double error = 0;
+                    for (int c = 0; c < 3; c++)
+                        error = fmax(error, fabs((double)pixel[c] -
+                                                 value_at(canvas, corners + t, c, point)));
+                    nearest = fmin(nearest, error);
+                }
+                if (nearest < INFINITY)
+                    raster->edge = fmax(raster->edge, nearest * 0x1p24);
+            }
+    }
+    glBlendFuncSeparate(GL_ONE, GL_ZERO, GL_ONE, GL_ZERO);
+}
+
+/* All kinds of values from 0 to 1, ties included, to bytes. */
+static bool bytes(const Meter *meter, Raster *raster, Message *message)
+{
+    const Canvas *first = &meter->canvas;
+    const CanvasOptions options = {.width = first->width, .height = first->height};
+    const int count = first->width * first->height;
+    float(*values)[4] = malloc(sizeof(float[4]) * (size_t)count);
+    unsigned char(*drawn)[4] = malloc(4 * (size_t)count);
+    Meter byte_meter = *meter;
+    const GLuint program = meter_program("a", METER_FRAGMENT, METER_HIGHP, message);
+    bool done = program && values && drawn;
+    if (!values || !drawn)
+        message_set(message, "not enough memory to measure");
+    if (done && canvas_open_beside(&byte_meter.canvas, first, &options, message)) {
+        for (int i = 0; i < 4 * count; i++)
+            values[i / 4][i % 4] =
+                i < 510 ? (float)((i + 0.5) / 510) : (float)i / (float)(4 * count - 1);
+        meter_load(meter, (const float(*)[4])values, (const float(*)[4])values, count);
+        meter_draw(&byte_meter, program, METER_FRAGMENT, count);
+        glReadPixels(0, 0, first->width, first->height, GL_RGBA, GL_UNSIGNED_BYTE, drawn);
+        for (int i = 0; i < 4 * count; i++)
+            raster->bytes =
+                fmax(raster->bytes, fabs(drawn[i / 4][i % 4] - 255 * (double)values[i / 4][i % 4]));
+        canvas_close(&byte_meter.canvas);
+    } else {
+        done = false;
+    }
+    glDeleteProgram(program);
+    free(values);
+    free(drawn);
+    return done;
+}
+
+/* An edge that moves one pixel to the right over ROWS rows: how many rows of a column it covers
+ * tells its position to 1 / ROWS of a pixel. It is moved by steps of 1 / 1024, within a quarter of
+ * a pixel, and as many positions as differ are resolved. */
+enum { SUBPIXEL_ROWS = 4096, SUBPIXEL_STEPS = 1024 };
+
+static void draw_slope(const Canvas *canvas, GLuint program, int column, double offset)
+{
+    const double x[3] = {column - 2, column + offset, column + offset + 1};
+    Corner corners[3];
+    for (int i = 0; i < 3; i++) {
+        corners[i] =
+            (Corner){{(float)(2 * x[i] / canvas->width - 1), i == 2 ? 1 : -1, 0, 1}, {1, 1, 1, 1}};
+    }
+    draw_strip(program, GL_TRIANGLES, corners, 3);
+}
+
+static bool subpixels(const Canvas *first, GLuint program, Raster *raster, Message *message)
+{
+    enum { WIDTH = 256, APART = 4, QUARTER = SUBPIXEL_STEPS / 4 };
+    const CanvasOptions options = {.width = WIDTH, .height = SUBPIXEL_ROWS};
+    Canvas canvas;
+    Image image = {.pixels = NULL};
+    int covered[QUARTER], positions = 1;
+    GLint claimed = 0;
+    if (!canvas_open_beside(&canvas, first, &options, message))
+        return false;
+    bool done = image_open(&image, WIDTH, SUBPIXEL_ROWS, IMAGE_BYTE, message);
+    for (int step = 0; step < QUARTER && done; step += WIDTH / APART) {
+        canvas_clear(&canvas, (Vec3){0, 0, 0}, 0);
+        for (int i = 0; i < WIDTH / APART - 1; i++) /* the first column has no room */
+            draw_slope(&canvas, program, APART * (i + 1), (double)(step + i) / SUBPIXEL_STEPS);
+        /* canvas_read would turn rows round from now on. */
+        glReadPixels(0, 0, WIDTH, SUBPIXEL_ROWS, GL_RGBA, GL_UNSIGNED_BYTE, image.pixels);
+        for (int i = 0; i < WIDTH / APART - 1 && done; i++) {
+            const unsigned char *pixels = image.pixels;
+            covered[step + i] = 0;
+            for (size_t y = 0; y < SUBPIXEL_ROWS; y++)
+                covered[step + i] += pixels[4 * (y * WIDTH + (size_t)(APART * (i + 1)))] > 0;
+        }
+        covered[step + WIDTH / APART - 1] = covered[step + WIDTH / APART - 2];
+    }
+    for (int i = 1; i < QUARTER && done; i++)
+        positions += covered[i] != covered[i - 1];
+    raster->subpixel_bits = (int)lround(log2(4.0 * positions));
+    glGetIntegerv(GL_SUBPIXEL_BITS, &claimed);
+    raster->claimed_subpixel = claimed;
+    image_close(&image);
+    canvas_close(&canvas);
+    return done;
+}
+
+/* Depth. */
+
+static void draw_plane(GLuint program, const double plane[3], double nearer, bool turned,
+                       float alpha)
+{
+    /* Both cover the picture; the corners are others. */
+    static const double usual[4][2] = {{-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
+    static const double other[4][2] = {{-1.3, -1.1}, {-1.2, 1.4}, {1.4, -1.25}, {1.1, 1.3}};
+    Corner corners[4];
+    for (int i = 0; i < 4; i++) {
+        const double *at = turned ? other[i] : usual[i];
+        const float x = (float)at[0], y = (float)at[1];
+        const double z = plane[0] + plane[1] * (double)x + plane[2] * (double)y - nearer;
+        corners[i] = (Corner){{x, y, (float)z, 1}, {1, 1, 1, alpha}};
+    }
+    draw_strip(program, GL_TRIANGLE_STRIP, corners, 4);
+}
+
+/* The smallest of these steps nearer to the eye, in clip coordinates, with which a plane is in
+ * front of itself at every pixel. */
+static int steps_in_front(const Canvas *canvas, GLuint program, const double plane[3], double step,
+                          int max, bool turned, float *pixels)
+{
+    for (int n = 1; n <= max; n++) {
+        bool all = true;
+        canvas_clear(canvas, (Vec3){0, 0, 0}, 0);
+        glEnable(GL_DEPTH_TEST);
+        draw_plane(program, plane, 0, false, 0.25f);
+        draw_plane(program, plane, n * step, turned, 1);
+        glDisable(GL_DEPTH_TEST);
+        read_floats(canvas, pixels);
+        for (int i = 0; i < canvas->width * canvas->height && all; i++)
+            all = pixels[4 * (size_t)i + 3] == 1;
+        if (all)
+            return n;
+    }
+    return max;
+}
+
+static bool depths(const Canvas *first, GLuint program, Raster *raster, Message *message)
+{
+    enum { SIDE = 64, PLANES = 8, MAX_STEPS = 64 };
+    const CanvasOptions options = {.width = SIDE, .height = SIDE, .real = true};
+    Random random = {5};
+    Canvas canvas;
+    float *pixels = malloc(sizeof(float) * 4 * SIDE * SIDE);
+    if (!pixels)
+        return message_set(message, "not enough memory to measure");
+    if (!canvas_open_beside(&canvas, first, &options, message)) {
+        free(pixels);
+        return false;
+    }
+    /* A plane that faces the eye, in the middle of the range, where floats are finest. */
+    double resolved = 0;
+    for (int i = 0; i < PLANES; i++) {
+        const double plane[3] = {random_between(&random, -1e-3, 1e-3), 0, 0};
+        const int steps =
+            steps_in_front(&canvas, program, plane, 0x1p-26, MAX_STEPS, false, pixels);
+        resolved = fmax(resolved, steps * 0x1p-27); /* the range is 1, of clip coordinates 2 */
+    }
+    raster->depth_bits = (int)floor(-log2(resolved) + 0.1);
+    for (int i = 0; i < PLANES; i++) {
+        const double plane[3] = {random_between(&random, -0.1, 0.1),
+                                 random_between(&random, -0.3, 0.3),
+                                 random_between(&random, -0.3, 0.3)};
+        const double unit = ldexp(1, 1 - raster->depth_bits);
+        const int steps = steps_in_front(&canvas, program, plane, unit, MAX_STEPS, true, pixels);
+        raster->depth_error = fmax(raster->depth_error, steps);
+    }
+    canvas_close(&canvas);
+    free(pixels);
+    return true;
+}
+
+bool raster_measure(const Meter *meter, Raster *raster, Message *message)
+{
+    const Canvas *canvas = &meter->canvas;
+    float *pixels = malloc(sizeof(float) * 4 * (size_t)canvas->width * (size_t)canvas->height);
+    const GLuint program = meter_program("a", METER_VERTEX, METER_HIGHP, message);
+    *raster = (Raster){.flat = 0};
+    bool done = pixels && program;
+    if (!pixels)
+        message_set(message, "not enough memory to measure");
+    if (done) {
+        raster->flat = varyings(canvas, program, 240, 1, 24, pixels);
+        raster->small = varyings(canvas, program, 6, 1, 200, pixels);
+        raster->perspective = varyings(canvas, program, 240, 8, 24, pixels);
+        shared_edges(canvas, program, raster, pixels);
+        done = bytes(meter, raster, message) && subpixels(canvas, program, raster, message) &&
+               depths(canvas, program, raster, message);
+    }
+    glDeleteProgram(program);
+    free(pixels);
+    return done;
+}

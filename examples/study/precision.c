@@ -1,0 +1,130 @@
+/*
+ * precision: what a driver really computes.
+ *
+ * Measures the floating-point numbers of vertex and fragment shaders, the errors of their functions
+ * against the truth, and what happens between vertices and pixels; and says how far pictures can be
+ * off because of that.
+ */
+#include "app/doctor.h"
+#include "app/options.h"
+#include "base/output.h"
+#include "study/arithmetic/tell.h"
+#include "study/results/table.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static bool json, markdown;
+static int inputs;
+
+static const Parameter parameters[] = {
+    {"inputs", "inputs of each function, as a power of two; 0: 24, or fewer on a slow driver",
+     PARAMETER_WHOLE, .value = &inputs, .min = 0, .max = 32},
+    {"json", "print JSON, which DIR gets too, instead of text", PARAMETER_FLAG, .value = &json},
+    {"markdown", "print tables as Markdown, with processor, driver and compiler", PARAMETER_FLAG,
+     .value = &markdown},
+    {.name = NULL},
+};
+
+static bool write_json(const Arithmetics *found, const Forecast *forecast, const char *folder,
+                       Message *message)
+{
+    char path[PATH_MAX], *text = NULL;
+    size_t size = 0;
+    FILE *file = open_memstream(&text, &size);
+    if (!file)
+        return message_set(message, "precision.json: not enough memory");
+    tell_json(found, forecast, file);
+    fclose(file);
+    snprintf(path, sizeof path, "%s/precision.json", folder);
+    const bool done = output_write(path, text, size, message);
+    if (done && json)
+        fwrite(text, 1, size, stdout);
+    free(text);
+    return done;
+}
+
+static bool report(const Arithmetics *found, const Options *options, Message *message)
+{
+    Forecast forecast;
+    Message plot = {0};
+    char driver[300];
+    if (!forecast_make(found, &forecast, message) ||
+        !write_json(found, &forecast, options->output, message))
+        return false;
+    if (!tell_plot(found, options->output, &plot))
+        fprintf(stderr, "precision: no plot: %s\n", plot.text);
+    if (json)
+        return true;
+    if (markdown) {
+        snprintf(driver, sizeof driver, "%s; %s", found->renderer, found->version);
+        table_machine(driver, stdout);
+    }
+    if (!tell_text(found, &forecast, markdown, stdout))
+        return message_set(message, "standard output: not enough memory for the tables");
+    if (!markdown)
+        printf("\nwrote %s/precision.json%s\n", options->output,
+               plot.text[0] ? "" : ", precision.png and precision.svg");
+    return true;
+}
+
+/* For --doctor of all programs. */
+static void keep_line(const Arithmetics *found)
+{
+    char line[ARITHMETIC_LINE];
+    CacheKey key = {{0, 0}};
+    gl_key(&key);
+    arithmetic_line(found, line);
+    cache_write(GL_PRECISION, &key, line, strlen(line));
+}
+
+static bool measure(const Options *options, Message *message)
+{
+    static Arithmetics found;
+    Meter meter;
+    if (!output_folder(options->output, message) ||
+        !meter_open(&meter, options->canvas.backend, message))
+        return false;
+    if (options->verbose)
+        fprintf(stderr, "renderer: %s\n", meter.canvas.renderer);
+    const bool done = arithmetic_measure(&meter, inputs ? 1L << inputs : 0, &found, message);
+    if (done)
+        keep_line(&found);
+    meter_close(&meter);
+    if (done && options->verbose)
+        fprintf(stderr, "measured in %.1f s\n", found.seconds);
+    return done && report(&found, options, message);
+}
+
+static const Usage usage = {
+    .name = "precision",
+    .summary = "what this driver really computes: its floats, its functions, and between vertices",
+    .details =
+        "Nothing is taken from names or from what the driver says of itself: shaders compute,\n"
+        "results are compared with the truth. A unit is one in the last place of the exact\n"
+        "result, of dot, reflect, + and mix of the largest term. The last table is what these\n"
+        "errors can add up to in pictures of 400 rows.\n"
+        "\nTry:  precision\n"
+        "      precision --json\n"
+        "      GALLIUM_OVERRIDE_CPU_CAPS=sse4.1 precision   # without 16-bit floats\n",
+    .study = true,
+    .parameters = parameters,
+};
+
+int main(int argc, char *argv[])
+{
+    Options options;
+    int code;
+    Message message = {0};
+    if (!options_begin(&options, &usage, argc, argv, &code))
+        return code;
+    if (options.doctor)
+        return options_finish(usage.name, doctor_run());
+    if (json && markdown) {
+        message_set(&message, "--json and --markdown: one of them");
+        return options_fail(usage.name, &message, EXIT_USAGE);
+    }
+    if (!measure(&options, &message))
+        return options_fail(usage.name, &message, EXIT_FAILED);
+    return options_finish(usage.name, 0);
+}

@@ -1,0 +1,103 @@
+/*
+ * What measured arithmetic predicts, against pictures: the error of no view of any scene is above
+ * its prediction, in highp and in mediump.
+ */
+#include "app/stage.h"
+#include "reference/picture_error.h"
+#include "scene/lighting.h"
+#include "scene/scene_example.h"
+#include "study/arithmetic/predict.h"
+#include "support/examples.h"
+#include "support/picture_check.h"
+#include "support/testing.h"
+
+#include <math.h>
+#include <stdio.h>
+
+enum { WIDTH = 160, HEIGHT = 120 };
+
+static Arithmetics found;
+
+FIXTURE(measure)
+{
+    Meter meter;
+    require(meter_open(&meter, NULL, FAILURE), FAILURE);
+    require(arithmetic_measure(&meter, 1, &found, FAILURE), FAILURE);
+    meter_close(&meter);
+    return 0;
+}
+
+/* The largest error inside objects, in steps. */
+static double error_in_picture(const Canvas *canvas, Lighting *lighting, const Scene *scene,
+                               const Reference *exact, Image *image)
+{
+    PictureError error = {.all = {0}};
+    canvas_clear(canvas, scene->background, 0);
+    require(lighting_draw(lighting, scene, (double)WIDTH / HEIGHT, false, FAILURE), FAILURE);
+    require(canvas_read(canvas, image, FAILURE), FAILURE);
+    picture_error_add(&error, image, 0, 0, exact, scene);
+    return error.interior.maximum;
+}
+
+static bool check(const Canvas *canvas, Lighting *lightings[2], const char *name,
+                  const Scene *scene, Image *image)
+{
+    const ReferenceOptions options = {
+        .width = WIDTH, .height = HEIGHT, .meshes = true, .centers = true};
+    Reference exact;
+    bool right = true;
+    require(scene_check(scene, FAILURE), FAILURE);
+    require(reference_open(&exact, scene, &options, FAILURE), FAILURE);
+    for (int i = 0; i < 2; i++) {
+        const double predicted = predict_scene(scene, HEIGHT, &found.of[METER_VERTEX][METER_HIGHP],
+                                               &found.of[METER_FRAGMENT][i], &found.raster);
+        const double error = error_in_picture(canvas, lightings[i], scene, &exact, image);
+        print_message("%-24s %-8s predicted %7.3f, is %7.3f\n", name, METER_PRECISION_NAMES[i],
+                      predicted, error);
+        right &= error <= predicted;
+    }
+    reference_close(&exact);
+    return right;
+}
+
+TEST(no_picture_has_a_larger_error_than_predicted)
+{
+    static const char *const precisions[] = {"highp", "mediump"};
+    const CanvasOptions options = {.width = WIDTH, .height = HEIGHT};
+    Lighting *lightings[2];
+    Canvas canvas;
+    Image image;
+    bool all = true;
+    require(canvas_open(&canvas, &options, FAILURE), FAILURE);
+    require(image_open(&image, WIDTH, HEIGHT, IMAGE_BYTE, FAILURE), FAILURE);
+    for (int i = 0; i < 2; i++) {
+        const ShaderLoader loader = {.precision = precisions[i]};
+        require(lighting_open(&lightings[i], &loader, FAILURE), FAILURE);
+    }
+    for (int i = 0; i < EXAMPLE_COUNT; i++) {
+        const Example *example = EXAMPLES[i];
+        const ShaderLoader none = {.only_texts = true};
+        int columns = 1, rows = 1;
+        require(example->init(&none, FAILURE), FAILURE);
+        if (example->scene->layout)
+            example->scene->layout(&columns, &rows);
+        for (int view = 0; view < columns * rows; view += testing_step(3)) {
+            char name[64];
+            Scene scene = {.object_count = 0};
+            example->scene->make(0, view, &scene);
+            snprintf(name, sizeof name, "%s %d", example->name, view);
+            if (scene.object_count > 0)
+                all &= check(&canvas, lightings, name, &scene, &image);
+        }
+        for (int k = 0; k < 2; k++)
+            lighting_forget(lightings[k], NULL);
+        example->finish();
+    }
+    for (int i = 0; i < 2; i++)
+        lighting_close(lightings[i]);
+    image_close(&image);
+    canvas_close(&canvas);
+    assert_true(all);
+}
+
+PICTURE_TEST_MAIN("predict", measure, NULL)
