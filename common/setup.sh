@@ -24,6 +24,8 @@ packages_to_animate="ffmpeg"
 packages_to_diagram="libcairo2-dev fonts-liberation"
 # gallery --manifest and --verify: SHA-256.
 packages_to_verify="libgcrypt20-dev"
+# precision: the truth.
+packages_to_measure="libmpfr-dev gnuplot-nox"
 # accuracy and hard_cases: plots, and counts of operations.
 packages_to_count="glslang-tools spirv-tools" # the operations of a shader
 packages_to_study="gnuplot-nox glslang-tools spirv-tools"

@@ -17,9 +17,20 @@
 static bool json, markdown;
 static int inputs;
 
+static bool read_inputs(const Parameter *parameter, const char *text, Message *message)
+{
+    enum { LEAST = 17, MOST = 32 };
+    int value;
+    if (!parse_whole(text, 0, MOST, &value) || (value > 0 && value < LEAST))
+        return message_set(message, "--%s %s: must be %d to %d, or 0", parameter->name, text, LEAST,
+                           MOST);
+    *(int *)parameter->value = value;
+    return true;
+}
+
 static const Parameter parameters[] = {
     {"inputs", "inputs of each function, as a power of two; 0: 24, or fewer on a slow driver",
-     PARAMETER_WHOLE, .value = &inputs, .min = 0, .max = 32},
+     PARAMETER_WHOLE, .value = &inputs, .min = 0, .max = 32, .read = read_inputs},
     {"json", "print JSON, which DIR gets too, instead of text", PARAMETER_FLAG, .value = &json},
     {"markdown", "print tables as Markdown, with processor, driver and compiler", PARAMETER_FLAG,
      .value = &markdown},
@@ -82,12 +93,12 @@ static bool measure(const Options *options, Message *message)
 {
     static Arithmetics found;
     Meter meter;
-    if (!output_folder(options->output, message) ||
-        !meter_open(&meter, options->canvas.backend, message))
+    if (!meter_open(&meter, options->canvas.backend, message))
         return false;
     if (options->verbose)
         fprintf(stderr, "renderer: %s\n", meter.canvas.renderer);
-    const bool done = arithmetic_measure(&meter, inputs ? 1L << inputs : 0, &found, message);
+    const bool done = output_folder(options->output, message) &&
+                      arithmetic_measure(&meter, inputs ? 1L << inputs : 0, &found, message);
     if (done)
         keep_line(&found);
     meter_close(&meter);

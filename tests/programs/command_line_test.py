@@ -36,7 +36,7 @@ SCENES = sorted(name[:-2] for name in os.listdir(os.path.join(SOURCE, "examples/
                 if name.endswith(".c"))
 # Built where cairo is.
 DIAGRAMS = [name for name in ("Vectors",) if os.path.exists(os.path.join(EXAMPLES, name))]
-EVERY = PROGRAMS + SCENES + DIAGRAMS + ["lessons", "gallery", "accuracy", "hard_cases", "check"] + sorted(
+EVERY = PROGRAMS + SCENES + DIAGRAMS + ["lessons", "gallery", "accuracy", "hard_cases", "precision", "check"] + sorted(
     name for name in os.listdir(os.path.join(SOURCE, "examples/labs")) if re.match(r"lab\d", name)
     and "." not in name)
 MODULE = os.path.join(EXAMPLES, "../common/image_oiio.so")

@@ -14,13 +14,16 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { WIDTH = 160, HEIGHT = 120 };
+/* Larger in the long form. */
+static int width, height;
 
 static Arithmetics found;
 
 FIXTURE(measure)
 {
     Meter meter;
+    width = 240 / testing_step(3);
+    height = 180 / testing_step(3);
     require(meter_open(&meter, NULL, FAILURE), FAILURE);
     require(arithmetic_measure(&meter, 1, &found, FAILURE), FAILURE);
     meter_close(&meter);
@@ -33,7 +36,7 @@ static double error_in_picture(const Canvas *canvas, Lighting *lighting, const S
 {
     PictureError error = {.all = {0}};
     canvas_clear(canvas, scene->background, 0);
-    require(lighting_draw(lighting, scene, (double)WIDTH / HEIGHT, false, FAILURE), FAILURE);
+    require(lighting_draw(lighting, scene, (double)width / height, false, FAILURE), FAILURE);
     require(canvas_read(canvas, image, FAILURE), FAILURE);
     picture_error_add(&error, image, 0, 0, exact, scene);
     return error.interior.maximum;
@@ -43,13 +46,13 @@ static bool check(const Canvas *canvas, Lighting *lightings[2], const char *name
                   const Scene *scene, Image *image)
 {
     const ReferenceOptions options = {
-        .width = WIDTH, .height = HEIGHT, .meshes = true, .centers = true};
+        .width = width, .height = height, .meshes = true, .centers = true};
     Reference exact;
     bool right = true;
     require(scene_check(scene, FAILURE), FAILURE);
     require(reference_open(&exact, scene, &options, FAILURE), FAILURE);
     for (int i = 0; i < 2; i++) {
-        const double predicted = predict_scene(scene, HEIGHT, &found.of[METER_VERTEX][METER_HIGHP],
+        const double predicted = predict_scene(scene, height, &found.of[METER_VERTEX][METER_HIGHP],
                                                &found.of[METER_FRAGMENT][i], &found.raster);
         const double error = error_in_picture(canvas, lightings[i], scene, &exact, image);
         print_message("%-24s %-8s predicted %7.3f, is %7.3f\n", name, METER_PRECISION_NAMES[i],
@@ -63,13 +66,13 @@ static bool check(const Canvas *canvas, Lighting *lightings[2], const char *name
 TEST(no_picture_has_a_larger_error_than_predicted)
 {
     static const char *const precisions[] = {"highp", "mediump"};
-    const CanvasOptions options = {.width = WIDTH, .height = HEIGHT};
+    const CanvasOptions options = {.width = width, .height = height};
     Lighting *lightings[2];
     Canvas canvas;
     Image image;
     bool all = true;
     require(canvas_open(&canvas, &options, FAILURE), FAILURE);
-    require(image_open(&image, WIDTH, HEIGHT, IMAGE_BYTE, FAILURE), FAILURE);
+    require(image_open(&image, width, height, IMAGE_BYTE, FAILURE), FAILURE);
     for (int i = 0; i < 2; i++) {
         const ShaderLoader loader = {.precision = precisions[i]};
         require(lighting_open(&lightings[i], &loader, FAILURE), FAILURE);
@@ -81,7 +84,7 @@ TEST(no_picture_has_a_larger_error_than_predicted)
         require(example->init(&none, FAILURE), FAILURE);
         if (example->scene->layout)
             example->scene->layout(&columns, &rows);
-        for (int view = 0; view < columns * rows; view += testing_step(3)) {
+        for (int view = 0; view < columns * rows; view += testing_step(8)) {
             char name[64];
             Scene scene = {.object_count = 0};
             example->scene->make(0, view, &scene);

@@ -44,7 +44,7 @@ typedef struct FunctionInfo {
 extern const FunctionInfo FUNCTIONS[FUNCTION_COUNT];
 
 /* Invocations whose results are judged at once. */
-enum { BATCH_COUNT = 1 << 17 };
+enum { BATCH_COUNT = 1 << 15 };
 typedef struct Batch {
     float a[BATCH_COUNT][4], b[BATCH_COUNT][4];
     double exact[BATCH_COUNT][4], magnitude[BATCH_COUNT][4];

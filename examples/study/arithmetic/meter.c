@@ -7,7 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { WIDTH = 512, HEIGHT = BATCH_COUNT / WIDTH };
+enum { WIDTH = 512, HEIGHT = 256 };
+_Static_assert(BATCH_COUNT <= WIDTH * HEIGHT, "a batch fits");
 
 const char *const METER_PRECISION_NAMES[METER_PRECISIONS] = {"highp", "mediump", "lowp"};
 const char *const METER_STAGE_NAMES[METER_STAGES] = {"vertex", "fragment"};

@@ -131,7 +131,7 @@ bool format_of(const float sums[FORMAT_PROBES], const float products[FORMAT_PROB
         .min_exponent = low < 1 - high ? 1 - high : low,
         .denormals = low < 1 - high,
         .rounding = rounding_of(sums, bits),
-        .infinity = isinf(products[high + 1 - FIRST_POWER]),
+        .infinity = !isfinite(products[high + 1 - FIRST_POWER]),
         .nan = isnan(sums[SUM_SPECIAL]),
     };
     return true;

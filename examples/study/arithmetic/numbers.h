@@ -32,7 +32,7 @@ typedef struct Format {
                                        2^(max_exponent + 1) */
     bool denormals;                 /* smaller ones are kept, not taken for 0 */
     Rounding rounding;              /* of sums */
-    bool infinity, nan;             /* what overflows is infinite; inf - inf is not a number */
+    bool infinity, nan;             /* what overflows is not finite; inf - inf is not a number */
 } Format;
 
 bool format_equal(const Format *a, const Format *b);

@@ -575,7 +575,7 @@ static void predict_triangle(Prediction *p, const Corner corners[3], int parts)
 
 static void predict_object(Prediction *p, Mat4 eye_from_object)
 {
-    enum { POINTS = 20000 };
+    enum { POINTS = 5000 };
     const Mesh *mesh = p->object->mesh;
     const Mat4 normal = mat4_normal(eye_from_object);
     const double triangles = fmax((double)mesh->index_count / 3, 1);

@@ -235,7 +235,7 @@ static bool bytes(const Meter *meter, Raster *raster, Message *message)
 /* An edge that moves one pixel to the right over ROWS rows: how many rows of a column it covers
  * tells its position to 1 / ROWS of a pixel. It is moved by steps of 1 / 1024, within a quarter of
  * a pixel, and as many positions as differ are resolved. */
-enum { SUBPIXEL_ROWS = 4096, SUBPIXEL_STEPS = 1024 };
+enum { SUBPIXEL_ROWS = 4096, SUBPIXEL_STEPS = 1 << RASTER_SUBPIXELS };
 
 static void draw_slope(const Canvas *canvas, GLuint program, int column, double offset)
 {

@@ -7,6 +7,8 @@
 
 #include "study/arithmetic/meter.h"
 
+enum { RASTER_SUBPIXELS = 10 }; /* as many bits can be told */
+
 typedef struct Raster {
     /* The largest error of a varying in units in the last place (24 bits) of the largest of its
      * corners' values: of triangles hundreds of pixels large, and of such whose depth varies up to
@@ -17,7 +19,8 @@ typedef struct Raster {
     double edge;
     long edge_pixels, edge_twice, edge_missed;
     double bytes;         /* the largest error of rounding to 8 bits, in steps */
-    int subpixel_bits;    /* of positions: of a pixel's width 2^-bits is resolved */
+    int subpixel_bits;    /* of positions: of a pixel's width 2^-bits is resolved; at most
+                             RASTER_SUBPIXELS */
     int claimed_subpixel; /* GL_SUBPIXEL_BITS */
     int depth_bits;       /* 2^-bits of the depth's range is resolved */
     double depth_error;   /* by how much two triangles in one plane differ, in that unit */

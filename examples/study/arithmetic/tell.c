@@ -88,8 +88,9 @@ static void add_name(const Arithmetics *found, int stage, int precision, char na
     const size_t used = strlen(name);
     if (both && stage == METER_FRAGMENT)
         return;
+    const bool said = both || strstr(name, METER_STAGE_NAMES[stage]);
     snprintf(name + used, WAY_NAME - used, "%s%s%s%s", used ? ", " : "",
-             both ? "" : METER_STAGE_NAMES[stage], both ? "" : " ",
+             said ? "" : METER_STAGE_NAMES[stage], said ? "" : " ",
              METER_PRECISION_NAMES[precision]);
 }
 
@@ -119,7 +120,7 @@ static bool tell_formats(const Columns *columns, bool markdown, FILE *file)
         const Format *format = &columns->of[i]->format;
         table_row(&table, "%s|%d|2^%d to 2^%d|%s|%s|%s|%s", columns->names[i], format->bits,
                   format->min_exponent, format->max_exponent + 1, format->denormals ? "kept" : "0",
-                  ROUNDING_NAMES[format->rounding], format->infinity ? "infinite" : "finite",
+                  ROUNDING_NAMES[format->rounding], format->infinity ? "not finite" : "finite",
                   format->nan ? "NaN" : "a number");
     }
     return table_close(&table, markdown, file);
@@ -172,12 +173,14 @@ static void tell_raster(const Raster *raster, FILE *file)
             "twice and %ld not at all.\n",
             raster->flat, raster->perspective, raster->edge, raster->small, raster->edge_pixels,
             raster->edge_twice, raster->edge_missed);
+    fprintf(file, "Corners lie on a grid of 1/%d of a pixel", 1 << raster->subpixel_bits);
+    if (raster->subpixel_bits == RASTER_SUBPIXELS)
+        fputs(" or finer", file);
+    else if (raster->subpixel_bits != raster->claimed_subpixel)
+        fprintf(file, " (the driver says 1/%d)", 1 << (raster->claimed_subpixel & 31));
     fprintf(file,
-            "Corners lie on a grid of 1/%d of a pixel%s. Depth has %d bits; two triangles of one "
-            "plane are up to\n%g units of these apart. Bytes are off by up to %.4f steps.\n",
-            1 << raster->subpixel_bits,
-            raster->subpixel_bits == raster->claimed_subpixel ? ""
-                                                              : ", whatever GL_SUBPIXEL_BITS says",
+            ". Depth has %d bits; two triangles of one plane\nare up to %g units of these apart. "
+            "Bytes are off by up to %.4f steps.\n",
             raster->depth_bits, raster->depth_error, raster->bytes);
 }
 
@@ -189,9 +192,8 @@ static bool tell_forecast(const Forecast *forecast, bool markdown, FILE *file)
         table_row(&table, "%s|%.2f|%.*f", forecast->scenes[i], forecast->steps[i][0],
                   forecast->steps[i][1] < 10 ? 2 : 0, forecast->steps[i][1]);
     for (int i = 0; i < TELL_SHININESSES; i++)
-        table_row(&table, "pow alone, shininess %g|%.4f|%.*f", forecast->shininess[i],
-                  forecast->power[i][0], forecast->power[i][1] < 0.01 ? 4 : 2,
-                  forecast->power[i][1]);
+        table_row(&table, "pow alone, shininess %g|%.2g|%.2g", forecast->shininess[i],
+                  forecast->power[i][0], forecast->power[i][1]);
     return table_close(&table, markdown, file);
 }
 
@@ -343,10 +345,10 @@ bool tell_plot(const Arithmetics *found, const char *folder, Message *message)
         const char *name;
     } shown[SERIES] = {
         {FUNCTION_POW, METER_HIGHP, "pow, highp"},
-        {FUNCTION_EXP2, METER_HIGHP, "exp2"},
-        {FUNCTION_LOG2, METER_HIGHP, "log2"},
-        {FUNCTION_INVERSESQRT, METER_HIGHP, "inversesqrt"},
-        {FUNCTION_DIVIDE, METER_HIGHP, "/"},
+        {FUNCTION_EXP2, METER_HIGHP, "exp2, highp"},
+        {FUNCTION_LOG2, METER_HIGHP, "log2, highp"},
+        {FUNCTION_INVERSESQRT, METER_HIGHP, "inversesqrt, highp"},
+        {FUNCTION_DIVIDE, METER_HIGHP, "/, highp"},
         {FUNCTION_POW, METER_MEDIUMP, "pow, mediump"},
         {FUNCTION_INVERSESQRT, METER_MEDIUMP, "inversesqrt, mediump"},
     };
