@@ -13,10 +13,11 @@ _Static_assert(BATCH_COUNT <= WIDTH * HEIGHT, "a batch fits");
 const char *const METER_PRECISION_NAMES[METER_PRECISIONS] = {"highp", "mediump", "lowp"};
 const char *const METER_STAGE_NAMES[METER_STAGES] = {"vertex", "fragment"};
 
-/* The inputs are highp, so that they arrive whole. They and the result are multiplied by a 1 that
- * the compiler does not know: Mesa computes a single operation between two highp numbers in highp,
- * whatever it is declared as, and only chains of operations as in a scene's shaders in mediump. */
-static const char *const VERTEX[METER_STAGES] = {"precision %s float;\n"
+/* The inputs are highp, so that they arrive whole. They and the result are multiplied by ONE, which
+ * the compiler does not know to be 1: Mesa computes a single operation between two highp numbers in
+ * highp, whatever it is declared as, and only chains of operations as in a scene's shaders in
+ * mediump. */
+static const char *const VERTEX[METER_STAGES] = {"precision PRECISION float;\n"
                                                  "attribute highp vec4 a_Position;\n"
                                                  "attribute highp vec4 a_A, a_B;\n"
                                                  "uniform float u_One;\n"
@@ -25,9 +26,9 @@ static const char *const VERTEX[METER_STAGES] = {"precision %s float;\n"
                                                  "    gl_Position = a_Position;\n"
                                                  "    gl_PointSize = 1.0;\n"
                                                  "    vec4 a = a_A, b = a_B;\n"
-                                                 "    a *= u_One;\n"
-                                                 "    b *= u_One;\n"
-                                                 "    v_Result = u_One * (%s);\n"
+                                                 "    a *= ONE;\n"
+                                                 "    b *= ONE;\n"
+                                                 "    v_Result = ONE * (CODE);\n"
                                                  "}\n",
                                                  "attribute highp vec4 a_Position;\n"
                                                  "varying highp vec2 v_At;\n"
@@ -40,40 +41,40 @@ static const char *const FRAGMENT[METER_STAGES] = {
     "void main() {\n"
     "    gl_FragColor = v_Result;\n"
     "}\n",
-    "precision %s float;\n"
+    "precision PRECISION float;\n"
     "uniform highp sampler2D u_A, u_B;\n"
     "uniform float u_One;\n"
     "varying highp vec2 v_At;\n"
     "void main() {\n"
     "    vec4 a = texture2D(u_A, v_At), b = texture2D(u_B, v_At);\n"
-    "    a *= u_One;\n"
-    "    b *= u_One;\n"
-    "    gl_FragColor = u_One * (%s);\n"
+    "    a *= ONE;\n"
+    "    b *= ONE;\n"
+    "    gl_FragColor = ONE * (CODE);\n"
     "}\n"};
+
+static GLuint program_of(const char *code, const char *one, MeterStage stage,
+                         MeterPrecision precision, Message *message)
+{
+    char defines[3][256];
+    const char *const lines[] = {defines[0], defines[1], defines[2], NULL};
+    const ShaderText texts[] = {
+        {"meter.vert", VERTEX[stage]}, {"meter.frag", FRAGMENT[stage]}, {NULL, NULL}};
+    const ShaderLoader loader = {.texts = texts, .only_texts = true, .defines = lines};
+    Shader shader;
+    snprintf(defines[0], sizeof defines[0], "PRECISION %s", METER_PRECISION_NAMES[precision]);
+    snprintf(defines[1], sizeof defines[1], "ONE %s", one);
+    snprintf(defines[2], sizeof defines[2], "CODE %s", code);
+    return shader_open(&shader, &loader, "meter", message) ? shader.program : 0;
+}
 
 GLuint meter_program(const char *code, MeterStage stage, MeterPrecision precision, Message *message)
 {
-    char sources[2][1024];
-    const char *const formats[2] = {VERTEX[stage], FRAGMENT[stage]};
-    const ShaderText texts[] = {
-        {"meter.vert", sources[0]}, {"meter.frag", sources[1]}, {NULL, NULL}};
-    const ShaderLoader loader = {.texts = texts, .only_texts = true};
-    Shader shader;
-    for (int i = 0; i < 2; i++) {
-        char at[1024];
-        /* Only the measured stage has the two %s. */
-        const char *name = METER_PRECISION_NAMES[precision];
-        const char *first = strstr(formats[i], "%s");
-        if (!first) {
-            snprintf(sources[i], sizeof sources[i], "%s", formats[i]);
-            continue;
-        }
-        const char *second = strstr(first + 2, "%s");
-        snprintf(at, sizeof at, "%.*s%s%.*s%s%s", (int)(first - formats[i]), formats[i], name,
-                 (int)(second - first - 2), first + 2, code, second + 2);
-        memcpy(sources[i], at, sizeof at);
-    }
-    return shader_open(&shader, &loader, "meter", message) ? shader.program : 0;
+    return program_of(code, "u_One", stage, precision, message);
+}
+
+GLuint meter_copy(MeterStage stage, Message *message)
+{
+    return program_of("a", "1.0", stage, METER_HIGHP, message);
 }
 
 static void load_texture(GLuint texture, const float (*values)[4], int rows)
@@ -229,7 +230,7 @@ static bool check_channel(const Meter *meter, Message *message)
         inputs[i / 4][i % 4] = ldexpf((float)(0x800001 + 4097 * i), i % 200 - 123);
     meter_load(meter, (const float(*)[4])inputs, (const float(*)[4])inputs, COUNT);
     for (int stage = 0; stage < METER_STAGES; stage++) {
-        const GLuint program = meter_program("a", (MeterStage)stage, METER_HIGHP, message);
+        const GLuint program = meter_copy((MeterStage)stage, message);
         if (!program || !meter_run(meter, program, (MeterStage)stage, found, COUNT, message))
             return false;
         glDeleteProgram(program);

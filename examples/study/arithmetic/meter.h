@@ -28,10 +28,11 @@ typedef struct Meter {
 bool meter_open(Meter *meter, const CanvasBackend *backend, Message *message);
 void meter_close(Meter *meter);
 
-/* Compiles what computes `code`, an expression of vec4 a and vec4 b; 0, with a message, on failure.
- */
+/* Compiles what computes `code`, an expression of vec4 a and vec4 b; or what passes `a` on, as
+ * highp, and computes nothing. 0, with a message, on failure. */
 GLuint meter_program(const char *code, MeterStage stage, MeterPrecision precision,
                      Message *message);
+GLuint meter_copy(MeterStage stage, Message *message);
 
 /* Invocations of up to BATCH_COUNT inputs, then of results: four numbers each. */
 void meter_load(const Meter *meter, const float (*a)[4], const float (*b)[4], int count);

@@ -208,7 +208,7 @@ static bool bytes(const Meter *meter, Raster *raster, Message *message)
     float(*values)[4] = malloc(sizeof(float[4]) * (size_t)count);
     unsigned char(*drawn)[4] = malloc(4 * (size_t)count);
     Meter byte_meter = *meter;
-    const GLuint program = meter_program("a", METER_FRAGMENT, METER_HIGHP, message);
+    const GLuint program = meter_copy(METER_FRAGMENT, message);
     bool done = program && values && drawn;
     if (!values || !drawn)
         message_set(message, "not enough memory to measure");
@@ -361,7 +361,7 @@ bool raster_measure(const Meter *meter, Raster *raster, Message *message)
 {
     const Canvas *canvas = &meter->canvas;
     float *pixels = malloc(sizeof(float) * 4 * (size_t)canvas->width * (size_t)canvas->height);
-    const GLuint program = meter_program("a", METER_VERTEX, METER_HIGHP, message);
+    const GLuint program = meter_copy(METER_VERTEX, message);
     *raster = (Raster){.flat = 0};
     bool done = pixels && program;
     if (!pixels)
