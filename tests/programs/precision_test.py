@@ -8,10 +8,12 @@ Exit code: 77 where nothing can be drawn.
 import json
 import os
 import sys
+import unittest
 
 import command_line_test as base
 
 PROGRAM = "precision"
+LIAR = os.path.join(base.EXAMPLES, "../tests/libliar.so")
 FEW = ("--inputs", "17")
 
 
@@ -25,11 +27,8 @@ class Precision(base.Case):
             self.assertIn(word, text)
         self.assertEqual(self.everything(), {})
 
-    def test_json_is_what_the_folder_has(self):
-        text = self.precision("--json", "-o", "found", *FEW)
-        self.assertEqual(text.encode(), self.read("found/precision.json"))
-        self.assertEqual(sorted(os.listdir(self.path("found"))),
-                         ["precision.json", "precision.png", "precision.svg"])
+    def found(self, text):
+        """What JSON says, looked through."""
         found = json.loads(text)
         for stage in ("vertex", "fragment"):
             for precision in ("highp", "mediump", "lowp"):
@@ -46,22 +45,56 @@ class Precision(base.Case):
         self.assertGreaterEqual(found["raster"]["depth_bits"], 16)
         for steps in found["pictures"].values():
             self.assertTrue(0 <= steps["highp"] <= steps["mediump"] + 1e-4 <= 256, steps)
+        return found
 
     def test_a_processor_without_16_bits_is_told_apart(self):
-        caps = {"GALLIUM_OVERRIDE_CPU_CAPS": "sse4.1", "XDG_CACHE_HOME": self.path("cache")}
-        text = self.precision(*FEW, environment=caps)
-        lines = text.splitlines()
-        self.assertLess(len(lines), 56)
-        if "llvmpipe" not in lines[0]:
-            self.skipTest("not llvmpipe")
-        self.assertRegex(text, r"\nhighp, mediump, lowp +24 +2\^-126 to 2\^128 ")
-        self.assertIn("mediump is computed as highp", text)
+        cache = {"XDG_CACHE_HOME": self.path("cache")}
+        caps = {"GALLIUM_OVERRIDE_CPU_CAPS": "sse4.1", **cache}
+        text = self.precision("--json", "-o", "found", *FEW, environment=caps)
+        self.assertEqual(text.encode(), self.read("found/precision.json"))
+        self.assertEqual(sorted(os.listdir(self.path("found"))),
+                         ["precision.json", "precision.png", "precision.svg"])
+        found = self.found(text)
+        if "llvmpipe" not in found["renderer"]:
+            return
+        self.assertEqual(found["fragment"]["mediump"]["bits"], 24)
         doctor = self.good("--doctor", program=PROGRAM, environment=caps).decode()
         self.assertIn("fragment shaders compute with 24 bits in highp, 24 in mediump, 24 in lowp",
                       doctor)
-        other = self.good("--doctor", program=PROGRAM,
-                          environment={"XDG_CACHE_HOME": self.path("cache")}).decode()
-        self.assertIn("its arithmetic was not measured", other)
+        other = self.good("--doctor", program=PROGRAM, environment=cache).decode()
+        self.assertIn("its arithmetic was not measured; run precision once", other)
+
+    @unittest.skipUnless(base.LONG, "takes as long as the other one")
+    def test_text_is_a_screen_of_lines(self):
+        text = self.precision(*FEW)
+        lines = text.splitlines()
+        self.assertLess(len(lines), 56)
+        self.assertLessEqual(max(map(len, lines)), 132)
+        found = self.found(self.read("precision/precision.json"))
+        bits = found["fragment"]["mediump"]["bits"]
+        self.assertRegex(text, rf"\n\S*(highp, )?mediump, lowp +{bits} +2\^-")
+        self.assertIn("pow alone, shininess 128", text)
+        self.assertEqual("mediump is computed as highp" in text, bits == 24)
+
+    @unittest.skipUnless(os.path.exists(LIAR), "without the driver that lies")
+    def test_a_highp_that_is_none_is_named(self):
+        self.make("vendor.json", json.dumps({"file_format_version": "1.0.0",
+                                             "ICD": {"library_path": os.path.realpath(LIAR)}}))
+        self.refused(1, rf"^{PROGRAM}: .*: highp of the fragment shader has fewer than 24 bits, "
+                     "whatever the driver says", program=PROGRAM, environment={
+                         "__EGL_VENDOR_LIBRARY_FILENAMES": self.path("vendor.json"),
+                         "LIGHTING_LIAR": "highp", "LIGHTING_BACKEND": "egl"})
+
+    @unittest.skipUnless(base.LONG and os.path.exists(LIAR), "takes as long as the others")
+    def test_false_claims_are_said(self):
+        self.make("vendor.json", json.dumps({"file_format_version": "1.0.0",
+                                             "ICD": {"library_path": os.path.realpath(LIAR)}}))
+        for lie, said in (("mediump", "of mediump in fragment shaders, says 11 bits, computes with 24"),
+                          ("more", "of highp in vertex shaders, says 113 bits, computes with 24")):
+            text = self.precision(*FEW, environment={
+                "__EGL_VENDOR_LIBRARY_FILENAMES": self.path("vendor.json"), "LIGHTING_LIAR": lie,
+                "LIGHTING_BACKEND": "egl"})
+            self.assertIn(said, text)
 
     def test_what_is_wrong_is_said(self):
         for code, said, *arguments in (

@@ -236,8 +236,8 @@ static bool check_channel(const Meter *meter, Message *message)
         glDeleteProgram(program);
         if (memcmp(inputs, found, sizeof found) != 0)
             return message_set(message,
-                               "%s: highp numbers of the %s shader do not come back whole, so "
-                               "nothing can be measured with them",
+                               "%s: highp of the %s shader has fewer than 24 bits, whatever the "
+                               "driver says: results cannot be read",
                                meter->canvas.renderer, METER_STAGE_NAMES[stage]);
     }
     return true;

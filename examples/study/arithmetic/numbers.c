@@ -18,12 +18,12 @@ bool format_is_half(const Format *format)
 
 double format_max(const Format *format)
 {
-    return ldexp(2 - ldexp(1, 1 - format->bits), format->max_exponent);
+    return (2 - power_of_two(1 - format->bits)) * power_of_two(format->max_exponent);
 }
 
 double format_unit(const Format *format)
 {
-    return ldexp(1, -format->bits);
+    return power_of_two(-format->bits);
 }
 
 /* The exponent of a finite number but 0; faster than ilogb. */

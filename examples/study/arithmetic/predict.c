@@ -21,6 +21,12 @@ static Interval just(double value)
 /* What computes; NULL: exactly. */
 typedef const Arithmetic *Machine;
 
+/* fmax of numbers that are not NaN, without a call: this is computed often. */
+static double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
 /* The largest error of a function in units; where it can fail, any. */
 static double units(Machine machine, Function function)
 {
@@ -36,13 +42,13 @@ static Interval widened(Machine machine, Interval a, double ulps, double magnitu
     if (!machine)
         return a;
     const Format *format = &machine->format;
-    const double largest = fmax(fmax(fabs(a.low), fabs(a.high)), magnitude);
+    const double largest = larger(larger(fabs(a.low), fabs(a.high)), magnitude);
     if (largest == 0)
         return a;
     const double most = format_max(format);
-    double error = (fmin(largest, most) > 0 ? ulps * format_ulp(format, fmin(largest, most)) : 0);
+    double error = ulps * format_ulp(format, largest < most ? largest : most);
     if (!format->denormals)
-        error = fmax(error, ldexp(1, format->min_exponent)); /* taken for 0 */
+        error = larger(error, power_of_two(format->min_exponent)); /* taken for 0 */
     if (a.low > -INFINITY)
         a.low -= error;
     if (a.high < INFINITY)
@@ -63,13 +69,13 @@ static Interval input(Machine machine, Interval a)
 
 static double magnitude_of(Interval a)
 {
-    return fmax(fabs(a.low), fabs(a.high));
+    return larger(fabs(a.low), fabs(a.high));
 }
 
 static Interval add(Machine m, Interval a, Interval b)
 {
     const Interval sum = {a.low + b.low, a.high + b.high};
-    return widened(m, sum, m ? units(m, FUNCTION_ADD) : 0, fmax(magnitude_of(a), magnitude_of(b)));
+    return widened(m, sum, m ? units(m, FUNCTION_ADD) : 0, larger(magnitude_of(a), magnitude_of(b)));
 }
 
 static Interval exact_product(Interval a, Interval b)
@@ -79,8 +85,8 @@ static Interval exact_product(Interval a, Interval b)
     for (int i = 0; i < 4; i++) {
         if (isnan(ends[i])) /* 0 times infinity */
             return ANYTHING;
-        product.low = fmin(product.low, ends[i]);
-        product.high = fmax(product.high, ends[i]);
+        product.low = ends[i] < product.low ? ends[i] : product.low;
+        product.high = larger(product.high, ends[i]);
     }
     return product;
 }
@@ -105,7 +111,7 @@ static Interval sum_of_three(Machine m, Interval x, Interval y, Interval z)
 {
     const Interval sum = {x.low + y.low + z.low, x.high + y.high + z.high};
     return widened(m, sum, m ? units(m, FUNCTION_DOT) : 0,
-                   fmax(magnitude_of(x), fmax(magnitude_of(y), magnitude_of(z))));
+                   larger(magnitude_of(x), larger(magnitude_of(y), magnitude_of(z))));
 }
 
 static Interval dot(Machine m, Interval3 a, Interval3 b)
@@ -117,7 +123,7 @@ static Interval dot(Machine m, Interval3 a, Interval3 b)
 static Interval square_length(Machine m, Interval3 a)
 {
     const Interval sum = sum_of_three(m, square_of(a.x), square_of(a.y), square_of(a.z));
-    return (Interval){fmax(sum.low, 0), sum.high};
+    return (Interval){larger(sum.low, 0), sum.high};
 }
 
 static Interval3 scaled(Machine m, Interval3 a, Interval by)
@@ -149,7 +155,7 @@ static double least_of(Machine m)
 static Interval inverse_root(Machine m, Interval square)
 {
     const double least = least_of(m);
-    const Interval root = {1 / sqrt(fmax(square.high, least)), 1 / sqrt(fmax(square.low, least))};
+    const Interval root = {1 / sqrt(larger(square.high, least)), 1 / sqrt(larger(square.low, least))};
     return widened(m, root, m ? units(m, FUNCTION_INVERSESQRT) : 0, 0);
 }
 
@@ -186,7 +192,7 @@ static double power_error(Machine m, double exponent)
     double error = 0;
     const int last = exponent > 0 ? ilogb(exponent) : FIRST;
     for (int i = FIRST; i <= LAST && i <= (last < FIRST ? FIRST : last); i++)
-        error = fmax(error, (double)m->accuracies[FUNCTION_POW].absolute[i - FIRST]);
+        error = larger(error, (double)m->accuracies[FUNCTION_POW].absolute[i - FIRST]);
     return error;
 }
 
@@ -199,7 +205,7 @@ static Interval power(Machine m, Interval base, double exponent)
                                                         : exponent == 0 ? 1
                                                                         : 0;
     const double error = m ? power_error(m, exponent) : 0;
-    return (Interval){fmax(low - error, 0), high + error * fmax(high * high, 1)};
+    return (Interval){larger(low - error, 0), high + error * larger(high * high, 1)};
 }
 
 /* An edge of light, where N.L or the angle to a spot's axis passes a limit: it runs through a pixel
@@ -247,7 +253,7 @@ static Interval fading(Machine m, const Light *light, Interval square)
         light->quadratic > 0 ? exact_product(input(m, just(light->quadratic)), square) : just(0)};
     const Interval sum = sum_of_three(m, parts[0], parts[1], parts[2]);
     const double least = least_of(m);
-    const Interval share = {1 / fmax(sum.high, least), 1 / fmax(sum.low, least)};
+    const Interval share = {1 / larger(sum.high, least), 1 / larger(sum.low, least)};
     return widened(m, share, m ? units(m, FUNCTION_DIVIDE) : 0, 0);
 }
 
@@ -308,7 +314,7 @@ static Interval3 lit_by(Machine m, const Scene *scene, const Light *light, const
             in_cone(m, light, vec3_unit(light->direction), to_light, edges->cone, surface));
     const Material *material = &surface->material;
     const Interval n_dot_l = dot(m, surface->normal, to_light);
-    const Interval cosine = {fmax(n_dot_l.low, 0), fmax(n_dot_l.high, 0)};
+    const Interval cosine = {larger(n_dot_l.low, 0), larger(n_dot_l.high, 0)};
     Interval3 sum = colored(m, surface, light->ambient, material->ambient);
     if (!color_is_black(light->diffuse))
         sum =
@@ -350,12 +356,12 @@ static Interval shown(Machine m, const Scene *scene, Interval a)
 {
     if (!(a.low <= a.high))
         return (Interval){0, 1};
-    a = (Interval){fmin(fmax(a.low, 0), 1), fmin(fmax(a.high, 0), 1)};
+    a = (Interval){fmin(larger(a.low, 0), 1), fmin(larger(a.high, 0), 1)};
     if (!scene->linear)
         return a;
     a = (Interval){encoded(a.low), encoded(a.high)};
     const double error = m ? 2 * power_error(m, 0.5) + 8 * format_unit(&m->format) : 0;
-    return (Interval){fmax(a.low - error, 0), fmin(a.high + error, 1)};
+    return (Interval){larger(a.low - error, 0), fmin(a.high + error, 1)};
 }
 
 /* By how much what is shown can differ from the exact colour, in steps. */
@@ -365,7 +371,7 @@ static double difference(Machine m, const Scene *scene, Interval3 is, Interval3 
     double most = 0;
     for (int c = 0; c < 3; c++) {
         const Interval drawn = shown(m, scene, a[c]), right = shown(NULL, scene, b[c]);
-        most = fmax(most, fmax(drawn.high - right.low, right.high - drawn.low));
+        most = larger(most, larger(drawn.high - right.low, right.high - drawn.low));
     }
     return 255 * most;
 }
@@ -377,7 +383,7 @@ typedef struct Corner {
 
 static double largest_of(Vec3 v)
 {
-    return fmax(fabs(v.x), fmax(fabs(v.y), fabs(v.z)));
+    return larger(fabs(v.x), larger(fabs(v.y), fabs(v.z)));
 }
 
 /* What a varying may be: what the vertex shader computed, interpolated, and rounded again. */
@@ -386,8 +392,8 @@ static Interval varying(Machine vertex, Machine fragment, const Raster *raster, 
 {
     /* A row of the matrix times a vector: a dot product of four terms, and rounded coefficients. */
     const double transform = 2 * units(vertex, FUNCTION_DOT) + 2;
-    const double ulp = format_ulp(&vertex->format, fmax(largest, 1e-30));
-    const double error = (transform + fmax(raster->flat, raster->perspective)) * ulp +
+    const double ulp = format_ulp(&vertex->format, larger(largest, 1e-30));
+    const double error = (transform + larger(raster->flat, raster->perspective)) * ulp +
                          raster->small * format_unit(&vertex->format) * range;
     return input(fragment, (Interval){exact - error, exact + error});
 }
@@ -415,8 +421,8 @@ static Corner between(const Corner corners[3], const double weights[3])
 /* The extent of values over three corners. */
 static double range_of(Vec3 a, Vec3 b, Vec3 c)
 {
-    return fmax(largest_of(vec3_subtract(a, b)),
-                fmax(largest_of(vec3_subtract(b, c)), largest_of(vec3_subtract(a, c))));
+    return larger(largest_of(vec3_subtract(a, b)),
+                larger(largest_of(vec3_subtract(b, c)), largest_of(vec3_subtract(a, c))));
 }
 
 typedef struct Prediction {
@@ -457,8 +463,8 @@ static void predict_point(Prediction *p, const Corner corners[3], const double w
 {
     const Corner at = between(corners, weights);
     const double reach =
-        fmax(largest_of(corners[0].position),
-             fmax(largest_of(corners[1].position), largest_of(corners[2].position)));
+        larger(largest_of(corners[0].position),
+             larger(largest_of(corners[1].position), largest_of(corners[2].position)));
     const double range = range_of(corners[0].position, corners[1].position, corners[2].position);
     const double turn = range_of(corners[0].normal, corners[1].normal, corners[2].normal);
     const Interval3 position =
@@ -468,7 +474,7 @@ static void predict_point(Prediction *p, const Corner corners[3], const double w
     Surface exact = surface_of(p, NULL, exact3(at.normal), exact3(at.position), at.color, back);
     const Interval3 color = lit(p->fragment, p->seen, &is), right = lit(NULL, p->seen, &exact);
     if (!is.on_edge)
-        p->steps = fmax(p->steps, difference(p->fragment, p->seen->scene, color, right));
+        p->steps = larger(p->steps, difference(p->fragment, p->seen->scene, color, right));
 }
 
 /* A corner, lit there; its colour is interpolated and rounded. */
@@ -486,15 +492,15 @@ static void predict_corner(Prediction *p, const Corner *corner, bool back)
     const Interval3 right = lit(NULL, p->seen, &exact);
     Interval *const parts[] = {&color.x, &color.y, &color.z};
     for (int c = 0; c < 3; c++) {
-        const double most = fmin(fmax(magnitude_of(*parts[c]), 1), 4);
+        const double most = fmin(larger(magnitude_of(*parts[c]), 1), 4);
         const double error =
-            (fmax(p->raster->flat, p->raster->perspective) * 2 + p->raster->small) *
+            (larger(p->raster->flat, p->raster->perspective) * 2 + p->raster->small) *
             format_unit(&p->vertex->format) * most;
         parts[c]->low -= error;
         parts[c]->high += error;
         *parts[c] = input(p->fragment, *parts[c]);
     }
-    p->steps = fmax(p->steps, difference(p->fragment, p->seen->scene, color, right));
+    p->steps = larger(p->steps, difference(p->fragment, p->seen->scene, color, right));
 }
 
 static Corner corner_of(const Object *object, const Mesh *mesh, Mat4 eye_from_object, Mat4 normal,
@@ -536,19 +542,19 @@ static void find_edges(Prediction *p, const Corner corners[3])
     double size = 0; /* of the longest side, in pixels */
     for (int k = 0; k < 3; k++) {
         const Vec3 a = corners[k].position, b = corners[(k + 1) % 3].position;
-        const double depth = fmax(-fmax(a.z, b.z), 1e-6);
+        const double depth = larger(-larger(a.z, b.z), 1e-6);
         const Vec3 side = vec3_subtract(a, b);
-        size = fmax(size, sqrt(vec3_dot(side, side)) * p->pixels / depth);
+        size = larger(size, sqrt(vec3_dot(side, side)) * p->pixels / depth);
     }
     for (int i = 0; i < p->seen->light_count; i++) {
         double facing[3], cone[3];
         for (int k = 0; k < 3; k++)
             cosines_at(&p->seen->lights[i], &corners[k], &facing[k], &cone[k]);
-        const double turn = fmax(fmax(facing[0], facing[1]), facing[2]) -
+        const double turn = larger(larger(facing[0], facing[1]), facing[2]) -
                             fmin(fmin(facing[0], facing[1]), facing[2]);
         const double along =
-            fmax(fmax(cone[0], cone[1]), cone[2]) - fmin(fmin(cone[0], cone[1]), cone[2]);
-        p->edges[i] = (LightEdges){turn / fmax(size, 1), along / fmax(size, 1)};
+            larger(larger(cone[0], cone[1]), cone[2]) - fmin(fmin(cone[0], cone[1]), cone[2]);
+        p->edges[i] = (LightEdges){turn / larger(size, 1), along / larger(size, 1)};
     }
 }
 
@@ -578,7 +584,7 @@ static void predict_object(Prediction *p, Mat4 eye_from_object)
     enum { POINTS = 5000 };
     const Mesh *mesh = p->object->mesh;
     const Mat4 normal = mat4_normal(eye_from_object);
-    const double triangles = fmax((double)mesh->index_count / 3, 1);
+    const double triangles = larger((double)mesh->index_count / 3, 1);
     int parts = (int)ceil(sqrt(2 * POINTS / triangles));
     parts = parts < 1 ? 1 : parts;
     for (size_t i = 0; i + 2 < mesh->index_count; i += 3) {
