@@ -10,13 +10,56 @@
 #include "window/panel.h"
 
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
-static bool print_findings(bool (*probe)(Message *findings))
+static bool print_findings(bool (*probe)(Message *findings), Message *findings)
 {
-    Message findings = {0};
-    const bool works = probe(&findings);
-    fputs(findings.text, stdout);
+    *findings = (Message){.text = ""};
+    const bool works = probe(findings);
+    fputs(findings->text, stdout);
     return works;
+}
+
+/* What was measured of a backend's driver. GALLIUM_OVERRIDE_CPU_CAPS changes what llvmpipe computes
+ * with. */
+typedef struct Kept {
+    char renderer[128], version[128], line[256];
+} Kept;
+
+static CacheKey kept_key(const char *backend)
+{
+    const char *caps = getenv("GALLIUM_OVERRIDE_CPU_CAPS");
+    CacheKey key = {{0, 0}};
+    cache_key_add(&key, backend, strlen(backend) + 1);
+    if (caps)
+        cache_key_add(&key, caps, strlen(caps));
+    return key;
+}
+
+void doctor_keep(const Canvas *canvas, const char *line)
+{
+    const CacheKey key = kept_key(canvas->backend->name);
+    Kept kept;
+    memset(&kept, 0, sizeof kept);
+    snprintf(kept.renderer, sizeof kept.renderer, "%s", canvas->renderer);
+    snprintf(kept.version, sizeof kept.version, "%s", canvas->version);
+    snprintf(kept.line, sizeof kept.line, "%s", line);
+    cache_write("precision", &key, &kept, sizeof kept);
+}
+
+static void print_kept(const char *backend, const char *findings)
+{
+    const CacheKey key = kept_key(backend);
+    size_t size = 0;
+    Kept *kept = cache_read("precision", &key, &size);
+    if (kept && size == sizeof *kept && memchr(kept->line, 0, sizeof kept->line) &&
+        memchr(kept->renderer, 0, sizeof kept->renderer) && strstr(findings, kept->renderer) &&
+        memchr(kept->version, 0, sizeof kept->version) && strstr(findings, kept->version))
+        printf("%18s %s\n", "", kept->line);
+    else
+        printf("%18s what it computes with: run precision once\n", "");
+    free(kept);
 }
 
 int doctor_run(void)
@@ -29,16 +72,20 @@ int doctor_run(void)
                    {"models", model_probe},
                    {"diagrams", drawing_probe},
                    {"the panel of windows", panel_probe}};
+    Message findings;
     cache_prepare_driver();
     const CanvasBackend *usual = backend_default(NULL), *works = NULL;
     for (int i = 0; BACKENDS[i]; i++) {
         printf("%s: %s\n", BACKENDS[i]->name, BACKENDS[i]->summary);
-        if (print_findings(BACKENDS[i]->probe) && (!works || BACKENDS[i] == usual))
+        if (!print_findings(BACKENDS[i]->probe, &findings))
+            continue;
+        print_kept(BACKENDS[i]->name, findings.text);
+        if (!works || BACKENDS[i] == usual)
             works = BACKENDS[i];
     }
     for (size_t i = 0; i < sizeof modules / sizeof modules[0]; i++) {
         printf("%s:\n", modules[i].title);
-        print_findings(modules[i].probe);
+        print_findings(modules[i].probe, &findings);
     }
     if (works && works == usual)
         printf("This machine can draw.\n");

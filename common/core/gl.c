@@ -1,7 +1,6 @@
 #include "core/gl.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #define GL_DEFINE(TYPE, name) PFNGL##TYPE##PROC gl##name;
@@ -116,16 +115,6 @@ static bool is_software(const char *renderer)
     return false;
 }
 
-void gl_key(CacheKey *key)
-{
-    /* The latter changes what llvmpipe computes with. */
-    const char *const parts[] = {(const char *)glGetString(GL_RENDERER),
-                                 (const char *)glGetString(GL_VERSION),
-                                 getenv("GALLIUM_OVERRIDE_CPU_CAPS")};
-    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++)
-        cache_key_add(key, parts[i] ? parts[i] : "", parts[i] ? strlen(parts[i]) + 1 : 1);
-}
-
 bool gl_probe(GlFunction (*address)(const char *name), Message *findings)
 {
     enum { INDENT = 18 };
@@ -138,13 +127,5 @@ bool gl_probe(GlFunction (*address)(const char *name), Message *findings)
     message_add(findings, "%*s works: renderer %s (%s), %s%s\n", INDENT, "", renderer,
                 is_software(renderer) ? "software" : "hardware", gl_desktop() ? "OpenGL " : "",
                 (const char *)glGetString(GL_VERSION));
-    CacheKey key = {{0, 0}};
-    size_t size;
-    gl_key(&key);
-    char *line = cache_read(GL_PRECISION, &key, &size);
-    message_add(findings, "%*s %s%.*s\n", INDENT, "",
-                line ? "" : "its arithmetic was not measured; ", line ? (int)size : 18,
-                line ? line : "run precision once");
-    free(line);
     return true;
 }

@@ -6,7 +6,6 @@
 #ifndef GL_H
 #define GL_H
 
-#include "base/cache.h"
 #include "base/message.h"
 
 #define GL_GLES_PROTOTYPES 0
@@ -127,15 +126,7 @@ typedef void (*GlFunction)(void);
  * False, naming the function, if the driver lacks one of OpenGL ES 2. */
 bool gl_load(GlFunction (*address)(const char *name), Message *message);
 
-/* Adds to a key what identifies the driver of the current context. */
-void gl_key(CacheKey *key);
-
-/* The kind, in the cache, of a line about the numbers that a driver computes with, which the
- * program `precision` keeps there. */
-#define GL_PRECISION "precision"
-
-/* The same for a backend's probe: appends two lines, what draws and what numbers it computes with,
- * or one, why nothing does. */
+/* The same for a backend's probe: appends a line, what draws or why nothing does. */
 bool gl_probe(GlFunction (*address)(const char *name), Message *findings);
 
 /* The version of OpenGL ES as 10 * major + minor: 20 for OpenGL ES 2.0. Desktop OpenGL 3.0 or later

@@ -79,16 +79,6 @@ static bool report(const Arithmetics *found, const Options *options, Message *me
     return true;
 }
 
-/* For --doctor of all programs. */
-static void keep_line(const Arithmetics *found)
-{
-    char line[ARITHMETIC_LINE];
-    CacheKey key = {{0, 0}};
-    gl_key(&key);
-    arithmetic_line(found, line);
-    cache_write(GL_PRECISION, &key, line, strlen(line));
-}
-
 static bool measure(const Options *options, Message *message)
 {
     static Arithmetics found;
@@ -99,8 +89,11 @@ static bool measure(const Options *options, Message *message)
         fprintf(stderr, "renderer: %s\n", meter.canvas.renderer);
     const bool done = output_folder(options->output, message) &&
                       arithmetic_measure(&meter, inputs ? 1L << inputs : 0, &found, message);
-    if (done)
-        keep_line(&found);
+    if (done) { /* for --doctor of all programs */
+        char line[ARITHMETIC_LINE];
+        arithmetic_line(&found, line);
+        doctor_keep(&meter.canvas, line);
+    }
     meter_close(&meter);
     if (done && options->verbose)
         fprintf(stderr, "measured in %.1f s\n", found.seconds);

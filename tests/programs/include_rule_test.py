@@ -7,7 +7,7 @@ import sys
 # From the ground up; a program stands on all of them.
 FLOORS = ["base", "core", "shapes", "scene", "reference", "images", "window", "app"]
 # What the programs' own libraries may include besides common/: themselves and those before them.
-STUDY = ["study/results", "study/measure", "study/report", "study/cases"]
+STUDY = ["study/results", "study/measure", "study/report", "study/cases", "study/arithmetic"]
 LABS = ["labs/program", "labs/submission", "labs/diagnosis", "labs/check", "labs/sandbox", "labs/class"]
 DIAGRAMS = ["diagrams"]
 LECTURE_HEADERS, LECTURE_LINES = 9, 700

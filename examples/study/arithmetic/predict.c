@@ -75,7 +75,8 @@ static double magnitude_of(Interval a)
 static Interval add(Machine m, Interval a, Interval b)
 {
     const Interval sum = {a.low + b.low, a.high + b.high};
-    return widened(m, sum, m ? units(m, FUNCTION_ADD) : 0, larger(magnitude_of(a), magnitude_of(b)));
+    return widened(m, sum, m ? units(m, FUNCTION_ADD) : 0,
+                   larger(magnitude_of(a), magnitude_of(b)));
 }
 
 static Interval exact_product(Interval a, Interval b)
@@ -155,7 +156,8 @@ static double least_of(Machine m)
 static Interval inverse_root(Machine m, Interval square)
 {
     const double least = least_of(m);
-    const Interval root = {1 / sqrt(larger(square.high, least)), 1 / sqrt(larger(square.low, least))};
+    const Interval root = {1 / sqrt(larger(square.high, least)),
+                           1 / sqrt(larger(square.low, least))};
     return widened(m, root, m ? units(m, FUNCTION_INVERSESQRT) : 0, 0);
 }
 
@@ -422,7 +424,7 @@ static Corner between(const Corner corners[3], const double weights[3])
 static double range_of(Vec3 a, Vec3 b, Vec3 c)
 {
     return larger(largest_of(vec3_subtract(a, b)),
-                larger(largest_of(vec3_subtract(b, c)), largest_of(vec3_subtract(a, c))));
+                  larger(largest_of(vec3_subtract(b, c)), largest_of(vec3_subtract(a, c))));
 }
 
 typedef struct Prediction {
@@ -464,7 +466,7 @@ static void predict_point(Prediction *p, const Corner corners[3], const double w
     const Corner at = between(corners, weights);
     const double reach =
         larger(largest_of(corners[0].position),
-             larger(largest_of(corners[1].position), largest_of(corners[2].position)));
+               larger(largest_of(corners[1].position), largest_of(corners[2].position)));
     const double range = range_of(corners[0].position, corners[1].position, corners[2].position);
     const double turn = range_of(corners[0].normal, corners[1].normal, corners[2].normal);
     const Interval3 position =
