@@ -13,6 +13,10 @@ typedef struct Explained {
         int view, object;
     } * all;
     int count;
+    /* Not printed yet: objects that are as number `same`, the first and the last by view and
+     * object.
+     */
+    int same, same_count, same_from[2], same_to[2];
 } Explained;
 
 static void explained_close(Explained *explained)
@@ -73,11 +77,12 @@ void explain_effects(Stage *stage, const Options *options, FILE *file)
 }
 
 /* The operations of an object's program and of the full one, or why they are not known. */
-static void print_operations(const Lighting *lighting, const Scene *scene, const Object *object)
+static void print_operations(const Lighting *lighting, const Scene *scene, const Object *object,
+                             bool with_full)
 {
     static const char *const names[] = {"operations", "in the full program"};
     Message message = {0};
-    for (int full = 0; full < 2 && !message.text[0]; full++) {
+    for (int full = 0; full <= with_full && !message.text[0]; full++) {
         ShaderSource sources[2];
         ShaderCost vertex, fragment;
         if (lighting_sources(lighting, scene, object, full, sources, &message) &&
@@ -93,6 +98,173 @@ static void print_operations(const Lighting *lighting, const Scene *scene, const
         printf("%s\n", message.text);
 }
 
+/* --explain without --verbose: the first object in full, of the others what differs. */
+
+/* An object's effects, in which lights that follow each other and have the same are one. */
+static void fold_lights(const char *text, FILE *file)
+{
+    while (*text) {
+        const char *next = text + strcspn(text, "\n") + 1, *body = strchr(text, ':');
+        int first, last, number;
+        if (sscanf(text, "light %d:", &first) != 1 || !body) {
+            fprintf(file, "%.*s", (int)(next - text), text);
+            text = next;
+            continue;
+        }
+        while (strncmp(next, "  ", 2) == 0)
+            next += strcspn(next, "\n") + 1;
+        const size_t size = (size_t)(next - body);
+        for (last = first; sscanf(next, "light %d:", &number) == 1 && number == last + 1; last++) {
+            const char *other = strchr(next, ':');
+            const bool ends = other && strnlen(other, size) == size &&
+                              memcmp(other, body, size) == 0 && strncmp(other + size, "  ", 2) != 0;
+            if (!ends)
+                break;
+            next = other + size;
+        }
+        if (first == last)
+            fprintf(file, "light %d", first);
+        else
+            fprintf(file, "lights %d to %d", first, last);
+        fprintf(file, "%.*s", (int)size, body);
+        text = next;
+    }
+}
+
+/* Whether a text has a line; an indented one below the same light. */
+static bool has_line(const char *text, const char *light, const char *line, size_t length)
+{
+    const char *own_light = "";
+    for (; *text; text += strcspn(text, "\n") + 1) {
+        if (*text != ' ')
+            own_light = text;
+        if (strncmp(text, line, length) == 0 && text[length] == '\n' &&
+            (*line != ' ' || strncmp(own_light, light, strcspn(light, ":")) == 0))
+            return true;
+    }
+    return false;
+}
+
+/* How many lines of a text another has not; writes them, if there is a file. */
+static int write_difference(const char *text, const char *other, FILE *file)
+{
+    const char *light = "", *said = "";
+    int count = 0;
+    for (; *text; text += strcspn(text, "\n") + 1) {
+        const size_t length = strcspn(text, "\n"), blanks = strspn(text, " ");
+        if (!blanks)
+            light = text;
+        if (has_line(other, light, text, length))
+            continue;
+        if (file && blanks && said != light)
+            fprintf(file, "%s%.*s", count ? "; " : "", (int)strcspn(light, ":"), light);
+        if (file)
+            fprintf(file, "%s%.*s",
+                    blanks && said != light ? " "
+                    : count                 ? "; "
+                                            : "",
+                    (int)(length - blanks), text + blanks);
+        said = light;
+        count++;
+    }
+    return count;
+}
+
+/* Prints a paragraph in lines of at most 100 columns. */
+static void print_wrapped(const char *text)
+{
+    enum { WIDTH = 100 };
+    size_t column = 0;
+    while (*text) {
+        const size_t length = strcspn(text, " ");
+        if (column > 0 && column + 1 + length > WIDTH)
+            column = (size_t)printf("\n  ") - 1;
+        else if (column > 0)
+            column += (size_t)printf(" ");
+        column += (size_t)printf("%.*s", (int)length, text);
+        text += length + (text[length] == ' ');
+    }
+    printf("\n");
+}
+
+/* Objects that follow each other and are as the same earlier one. */
+static void print_same(Explained *explained)
+{
+    const int *from = explained->same_from, *to = explained->same_to;
+    if (explained->same_count > 1)
+        printf("view %d, object %d to view %d, object %d", from[0], from[1], to[0], to[1]);
+    else if (explained->same_count == 1)
+        printf("view %d, object %d", from[0], from[1]);
+    if (explained->same_count)
+        printf(": as view %d, object %d\n", explained->all[explained->same].view,
+               explained->all[explained->same].object);
+    explained->same_count = 0;
+}
+
+static void add_same(Explained *explained, int nearest, int view, int object)
+{
+    if (explained->same != nearest)
+        print_same(explained);
+    if (!explained->same_count++) {
+        explained->same_from[0] = view;
+        explained->same_from[1] = object;
+    }
+    explained->same = nearest;
+    explained->same_to[0] = view;
+    explained->same_to[1] = object;
+}
+
+static bool explain_object(const Stage *stage, const Scene *scene, const Object *object, int view,
+                           int number, Explained *explained, Message *message)
+{
+    char *whole = NULL, *text = NULL, *line = NULL;
+    size_t size = 0;
+    int nearest = -1, least = 0;
+    FILE *file = open_memstream(&whole, &size);
+    void *larger = realloc(explained->all, (size_t)(explained->count + 1) * sizeof *explained->all);
+    if (larger)
+        explained->all = larger;
+    if (!file || !larger)
+        return message_set(message, "--explain: not enough memory");
+    effects_explain(scene, object, file);
+    fclose(file);
+    if ((file = open_memstream(&text, &size)) != NULL) {
+        fold_lights(whole, file);
+        fclose(file);
+    }
+    free(whole);
+    for (int i = 0; text && i < explained->count; i++) {
+        const int apart = write_difference(text, explained->all[i].text, NULL);
+        if (nearest < 0 || apart < least) {
+            nearest = i;
+            least = apart;
+        }
+    }
+    if (!text || (nearest >= 0 && least == 0)) {
+        add_same(explained, nearest, view, number);
+        free(text);
+        return true;
+    }
+    print_same(explained);
+    if (nearest < 0) {
+        printf("# %s, view %d, object %d\n%s", stage->example->name, view, number, text);
+    } else if ((file = open_memstream(&line, &size)) != NULL) {
+        fprintf(file, "view %d, object %d: as view %d, object %d, but ", view, number,
+                explained->all[nearest].view, explained->all[nearest].object);
+        write_difference(text, explained->all[nearest].text, file);
+        fclose(file);
+        print_wrapped(line);
+        free(line);
+    }
+    explained->all[explained->count].text = text;
+    explained->all[explained->count].view = view;
+    explained->all[explained->count++].object = number;
+    print_operations(stage->lighting, scene, object, nearest < 0);
+    if (nearest < 0)
+        printf("\n");
+    return true;
+}
+
 static bool explain_view(Stage *stage, const Options *options, int number, Explained *explained,
                          Message *message)
 {
@@ -102,14 +274,19 @@ static bool explain_view(Stage *stage, const Options *options, int number, Expla
         int place = i;
         const Scene *scene = stage_view_part(&view, &place);
         const Object *object = &scene->objects[place];
-        const bool written = write_effects(stage, number, &view, i, explained, stdout);
         done = lighting_program(stage->lighting, scene, object, options->full, message) != 0;
-        if (done && written)
-            print_operations(stage->lighting, scene, object);
+        if (!options->verbose) {
+            done = done && explain_object(stage, scene, object, number, i, explained, message);
+            continue;
+        }
+        if (write_effects(stage, number, &view, i, explained, stdout) && done)
+            print_operations(stage->lighting, scene, object, true);
         printf("\n");
     }
+    if (!options->verbose)
+        print_same(explained);
     if (done && number == 0 && view.scene.object_count > 0) {
-        printf("# what the model leaves out\n");
+        printf("%s# what the model leaves out\n", explained->count > 1 ? "\n" : "");
         done = reality_explain(&view.scene, stdout, message);
         printf("\n");
     }

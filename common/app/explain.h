@@ -9,7 +9,8 @@
 /* Writes the effects at the options' time, by view and object. */
 void explain_effects(Stage *stage, const Options *options, FILE *file);
 
-/* --explain: the same on standard output, with each program's operations. Compiles the programs, so
+/* --explain: the same on standard output, with each program's operations; without --verbose a
+ * screenful, the first object in full and of the others what differs. Compiles the programs, so
  * that the loader prints them if it was asked to. */
 bool explain_programs(Stage *stage, const Options *options, Message *message);
 

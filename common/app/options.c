@@ -396,7 +396,7 @@ int options_table(const Usage *usage, Options *options, OptionsPurpose purpose,
          0, 9, .standard = "fast", .programs = DRAWS},
         {"explain",
          "report which effects the scene needs, which it does not, why, and what they cost; draw "
-         "nothing",
+         "nothing; of several objects what differs, with --verbose all of each",
          FLAG(explain), .programs = SCENE | ASIDE},
         {"full", "draw with the program that has every effect", FLAG(full), .programs = SCENE},
         {"error",

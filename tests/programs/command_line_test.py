@@ -891,13 +891,31 @@ class Scenes(Case):
                 self.assertLess(sum(a > 1 for a in apart), 1e-4 * len(apart))
 
     def test_every_scene_explains_itself_and_draws_nothing(self):
-        for program in SCENES[::step(3)]:
+        for program in SCENES:
             with self.subTest(program=program):
                 text = self.good("--explain", program=program).decode()
-                self.assertIn("light 0: ", text)
-                self.assertIn("operations: ", text)
+                self.assertRegex(text, r"lights? 0[: ]")
+                self.assertIn("\noperations: ", text)
                 self.assertIn("# what the model leaves out\n", text)
                 self.assertNotIn("#version", text)
+                # A screenful.
+                self.assertLess(text.count("\n"), 64)
+                self.assertLessEqual(max(map(len, text.splitlines())), 100)
+
+    def test_what_an_explanation_folds_is_in_the_verbose_one(self):
+        for program in ("LightTypes", "FourLights", "ColoredLights")[::step(3)]:
+            short = self.good("--explain", program=program).decode()
+            result = self.run_it("--explain", "--verbose", program=program)
+            text = result.stdout.decode()
+            self.assertEqual(result.returncode, 0)
+            self.assertGreater(text.count("\n"), short.count("\n"))
+            # Each difference that is named is a line there.
+            said = re.sub(r"\n  (?=\S)", " ", short)
+            for others in re.findall(r"^view \d+, object \d+: as .*?, but (.*)$", said, re.M):
+                for other in others.split("; "):
+                    other = re.sub(r"^lights? [\d to]+ (?=\D)", "", other)
+                    other = re.sub(r"^lights (\d+) to \d+:", r"light \1:", other)
+                    self.assertRegex(text, rf"(?m)^ *{re.escape(other)}$")
         self.assertEqual(self.everything(), {})
 
     def test_antialiasing_changes_edges_alone(self):
