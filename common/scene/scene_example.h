@@ -1,6 +1,6 @@
 /*
  * scene_example: an example that describes a scene, which `lighting` draws, or a diagram, which
- * cairo draws, or that paints pages.
+ * cairo draws, or pages, which it paints.
  */
 #ifndef SCENE_EXAMPLE_H
 #define SCENE_EXAMPLE_H
