@@ -3,7 +3,7 @@
  * Independently written mistakes are in labs_test.py.
  *
  * Environment: LABS_SEEDS and LABS_PAIRS set the number of seeds per mistake and of pairs per lab.
- * Default: every twelfth form of a mistake in one seed, and 3 pairs; a part of them in the short
+ * Default: every sixteenth form of a mistake in one seed, and 3 pairs; a part of them in the short
  * form.
  */
 #include "labs/diagnosis/diagnose.h"
@@ -108,7 +108,7 @@ TEST(test_singles)
 {
     static Verdict verdict;
     const int seeds = number_of("LABS_SEEDS", 1),
-              step = getenv("LABS_SEEDS") ? 1 : 12 * testing_step(10);
+              step = getenv("LABS_SEEDS") ? 1 : 16 * testing_step(8);
     int all_tried = 0, all_named = 0;
     for (int l = 0; l < LAB_COUNT; l++) {
         const Lab *lab = &LABS[l];

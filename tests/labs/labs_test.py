@@ -179,7 +179,7 @@ class Corpus(Labs):
     """A sample of what was written without knowledge of `check`."""
 
     def rows(self):
-        todo = list(corpus.jobs(every=20 * base.step(10)))
+        todo = list(corpus.jobs(every=24 * base.step(10)))
         return corpus.judge_all(CHECK, todo)
 
     def test_right_is_right_and_wrong_is_not_called_what_it_is_not(self):
@@ -205,7 +205,7 @@ class Wrong(Labs):
             (lab, name, 5 + i % 3)
             for lab in LABS
             for i, name in enumerate(mistakes.of_lab(lab))
-            if i % (9 * base.step(6)) == lab % 9
+            if i % (12 * base.step(5)) == lab % 12
         ]
         self.assert_named(in_parallel(judge_single, jobs), 0.95)
 
@@ -214,7 +214,7 @@ class Wrong(Labs):
         jobs = [
             (lab, first, second, 9) for lab in LABS for first, second in pairs_of(lab, 4, chance)
         ]
-        self.assert_named(in_parallel(judge_pair, jobs[:: 3 * base.step(5)]), 0.7)
+        self.assert_named(in_parallel(judge_pair, jobs[:: 4 * base.step(5)]), 0.7)
 
     def test_an_unknown_mistake_gets_no_name(self):
         names = list(mistakes.ART)[:: 2 * base.step(8)]
