@@ -14,7 +14,8 @@
 /* In steps of 1/255, against the exact picture of the meshes as given, inside objects: at least the
  * half step of rounding, at most 255. `height`: of the picture, in pixels. `fragment`: of the
  * precision that its fragment shader declares. The scene has passed scene_check, and its objects
- * have meshes. It is sampled at the corners of the triangles and between: 5000 points and more. */
+ * have meshes. Shadows are left out. It is sampled at the corners of the triangles and between, at
+ * 5000 points and more. */
 double predict_scene(const Scene *scene, int height, const Arithmetic *vertex,
                      const Arithmetic *fragment, const Raster *raster);
 

@@ -115,13 +115,13 @@ static const char *const ROUNDING_NAMES[] = {"nearest, ties to even", "nearest",
 static bool tell_formats(const Columns *columns, bool markdown, FILE *file)
 {
     Table table;
-    table_open(&table, "floats|bits|normal range|smaller|rounding|overflow|inf - inf");
+    table_open(&table, "floats|bits|normal range|smaller ones|rounding|overflow|inf - inf");
     for (int i = 0; i < columns->count; i++) {
         const Format *format = &columns->of[i]->format;
         table_row(&table, "%s|%d|2^%d to 2^%d|%s|%s|%s|%s", columns->names[i], format->bits,
-                  format->min_exponent, format->max_exponent + 1, format->denormals ? "kept" : "0",
-                  ROUNDING_NAMES[format->rounding], format->infinity ? "not finite" : "finite",
-                  format->nan ? "NaN" : "a number");
+                  format->min_exponent, format->max_exponent + 1,
+                  format->denormals ? "are kept" : "become 0", ROUNDING_NAMES[format->rounding],
+                  format->infinity ? "not finite" : "finite", format->nan ? "NaN" : "a number");
     }
     return table_close(&table, markdown, file);
 }
@@ -138,7 +138,7 @@ static void error_text(const Accuracy *accuracy, char text[64])
 static bool tell_functions(const Columns *columns, bool markdown, FILE *file)
 {
     Table table;
-    char row[WAYS * 96] = "error in units, largest, mean";
+    char row[WAYS * 96] = "error in units: largest, mean";
     for (int i = 0; i < columns->count; i++)
         snprintf(row + strlen(row), sizeof row - strlen(row), "|%s", columns->names[i]);
     snprintf(row + strlen(row), sizeof row - strlen(row), "|worst at (first column)");
