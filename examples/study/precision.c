@@ -30,7 +30,8 @@ static bool read_inputs(const Parameter *parameter, const char *text, Message *m
 
 static const Parameter parameters[] = {
     {"inputs", "inputs of each function, as a power of two; 0: 24, or fewer on a slow driver",
-     PARAMETER_WHOLE, .value = &inputs, .min = 0, .max = 32, .read = read_inputs},
+     PARAMETER_WHOLE, .value = &inputs, .min = 0, .max = 32, .placeholder = "17..32",
+     .read = read_inputs},
     {"json", "print JSON, which DIR gets too, instead of text", PARAMETER_FLAG, .value = &json},
     {"markdown", "print tables as Markdown, with processor, driver and compiler", PARAMETER_FLAG,
      .value = &markdown},
@@ -60,7 +61,7 @@ static bool report(const Arithmetics *found, const Options *options, Message *me
     Forecast forecast;
     Message plot = {0};
     char driver[300];
-    if (!forecast_make(found, &forecast, message) ||
+    if (!forecast_make(found, options->height, &forecast, message) ||
         !write_json(found, &forecast, options->output, message))
         return false;
     if (!tell_plot(found, options->output, &plot))
@@ -107,7 +108,7 @@ static const Usage usage = {
         "Nothing is taken from names or from what the driver says of itself: shaders compute,\n"
         "results are compared with the truth. A unit is one in the last place of the exact\n"
         "result, of dot, reflect, + and mix of the largest term. The last table is what these\n"
-        "errors can add up to in pictures of 400 rows.\n"
+        "errors can add up to in pictures of --size's height.\n"
         "\nTry:  precision\n"
         "      precision --json\n"
         "      GALLIUM_OVERRIDE_CPU_CAPS=sse4.1 precision   # without 16-bit floats\n",

@@ -10,10 +10,9 @@
 #include <math.h>
 #include <string.h>
 
-enum { HEIGHT = 400 }; /* of the pictures that are spoken of */
-
-static bool forecast_scene(const Arithmetics *found, const char *name, Interpolation interpolation,
-                           SolidMeshes *meshes, double steps[2], Message *message)
+static bool forecast_scene(const Arithmetics *found, int height, const char *name,
+                           Interpolation interpolation, SolidMeshes *meshes, double steps[2],
+                           Message *message)
 {
     const Quality quality = quality_with(quality_usual(), AXIS_INTERPOLATION, (int)interpolation);
     StudyScene study;
@@ -22,13 +21,13 @@ static bool forecast_scene(const Arithmetics *found, const char *name, Interpola
     if (!quality_scene_open(&made, &study.scene, &quality, meshes, message))
         return false;
     for (int i = 0; i < 2; i++)
-        steps[i] = predict_scene(&made.scene, HEIGHT, &found->of[METER_VERTEX][METER_HIGHP],
+        steps[i] = predict_scene(&made.scene, height, &found->of[METER_VERTEX][METER_HIGHP],
                                  &found->of[METER_FRAGMENT][i], &found->raster);
     quality_scene_close(&made);
     return true;
 }
 
-bool forecast_make(const Arithmetics *found, Forecast *forecast, Message *message)
+bool forecast_make(const Arithmetics *found, int height, Forecast *forecast, Message *message)
 {
     static const struct {
         const char *what, *scene;
@@ -46,9 +45,10 @@ bool forecast_make(const Arithmetics *found, Forecast *forecast, Message *messag
     static const double shininesses[TELL_SHININESSES] = {8, 32, 128};
     SolidMeshes meshes = {.first = NULL};
     bool done = true;
+    forecast->height = height;
     for (int i = 0; i < TELL_SCENES && done; i++) {
         forecast->scenes[i] = classes[i].what;
-        done = forecast_scene(found, classes[i].scene, classes[i].interpolation, &meshes,
+        done = forecast_scene(found, height, classes[i].scene, classes[i].interpolation, &meshes,
                               forecast->steps[i], message);
     }
     for (int i = 0; i < TELL_SHININESSES; i++) {
@@ -187,7 +187,10 @@ static void tell_raster(const Raster *raster, FILE *file)
 static bool tell_forecast(const Forecast *forecast, bool markdown, FILE *file)
 {
     Table table;
-    table_open(&table, "in pictures, at most, in steps of 1/255|highp|mediump");
+    char head[96];
+    snprintf(head, sizeof head, "in pictures of %d rows, at most, in steps of 1/255|highp|mediump",
+             forecast->height);
+    table_open(&table, head);
     for (int i = 0; i < TELL_SCENES; i++)
         table_row(&table, "%s|%.2f|%.*f", forecast->scenes[i], forecast->steps[i][0],
                   forecast->steps[i][1] < 10 ? 2 : 0, forecast->steps[i][1]);
@@ -324,7 +327,7 @@ void tell_json(const Arithmetics *found, const Forecast *forecast, FILE *file)
         }
     }
     put_raster(&found->raster, file);
-    fputs("  \"pictures\": {\n", file);
+    fprintf(file, "  \"picture_height\": %d,\n  \"pictures\": {\n", forecast->height);
     for (int i = 0; i < TELL_SCENES; i++)
         fprintf(file, "    \"%s\": {\"highp\": %.4f, \"mediump\": %.4f},\n", forecast->scenes[i],
                 forecast->steps[i][0], forecast->steps[i][1]);
