@@ -173,6 +173,22 @@ class Parity(Case):
                 self.assertEqual(result, json.loads(answer))
 
 
+def far_from_edges(one, other, width):
+    """How many pixels differ by more than one step, of those whose neighbours in `other` are all within 4 steps."""
+    def apart(a, i, b, k):
+        return max(abs(a[i + c] - b[k + c]) for c in range(3))
+
+    count, height = 0, len(other) // 3 // width
+    for i in range(0, len(other), 3):
+        if one[i:i + 3] == other[i:i + 3] or apart(one, i, other, i) <= 1:
+            continue
+        x, y = i // 3 % width, i // 3 // width
+        around = [3 * (v * width + u) for v in range(max(0, y - 1), min(height, y + 2))
+                  for u in range(max(0, x - 1), min(width, x + 2))]
+        count += all(apart(other, i, other, k) <= 4 for k in around)
+    return count
+
+
 class SwiftShader(Case):
     """Another renderer: in highp at most one step off, edges apart."""
     options = browser.SWIFTSHADER
@@ -184,20 +200,14 @@ class SwiftShader(Case):
         self.page.run(HARNESS)
         for program in programs:
             name, arguments = program["name"], ["--precision=highp", "--time=1.3"]
+            if name == "PhongBlinn":  # else its difference of two pictures is drawn eight times as bright
+                arguments.append("--gain=1")
             drawn = base64.b64decode(self.page.run(f"rgb({json.dumps([name, *arguments])})"))
-            _, more = differences(drawn, native(name, arguments))
+            width = int(self.page.run("own.json('values').size").split("x")[0])
+            expected = native(name, arguments)
             with self.subTest(name):
-                self.assertLess(more / len(drawn), 0.004)
-            if not program["scene"]:
-                continue
-            line = f"{name} --precision=highp --size=120x120"
-            answer = json.loads(subprocess.run([PAGE_NATIVE], input=line, stdout=subprocess.PIPE, text=True,
-                                               check=True).stdout)["inside"]
-            inside = self.page.run(f"""ErrorWorker.compute({{compiled: Page.page.compiled, texts: new Map(),
-                lines: {json.dumps(line.split())}, seconds: 0, orbit: [0, 0, 1]}}).then(r => r.error.inside)""")
-            with self.subTest(name):
-                self.assertLessEqual(abs(inside["maximum"] - answer["maximum"]), 1)
-                self.assertLess(abs(inside["rms"] - answer["rms"]), 0.1)
+                self.assertLess(differences(drawn, expected)[1] / len(drawn), 0.004)
+                self.assertLessEqual(far_from_edges(drawn, expected, width), 4)  # at faint edges
 
 
 class Pages(Case):
