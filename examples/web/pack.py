@@ -17,16 +17,6 @@ import re
 import shutil
 import sys
 
-PREDECESSORS = {
-    "LightedCube_animation": "LightedCube",
-    "LightedCube_ambient": "LightedCube",
-    "LightedTranslatedRotatedCube": "LightedCube_ambient",
-    "PointLightedCube": "LightedTranslatedRotatedCube",
-    "PointLightedCube_animation": "PointLightedCube",
-    "PointLightedCube_perFragment": "PointLightedCube_animation",
-    "PointLightedSphere": "PointLightedCube",
-    "PointLightedSphere_perFragment": "PointLightedSphere",
-}
 INDEX = ["lighting.js", "module.js", "index.js"]
 PROGRAM = ["lighting.js", "module.js", "worker.js", "png.js", "link.js", "controls.js", "editor.js", "program.js"]
 EXACT = """<p><button type="button" id="compare">Compare with the exact picture</button></p>
@@ -43,6 +33,8 @@ EXPLAIN = """<details id="explain"><summary>What is computed, and why (<code>--e
 root, module, site = (pathlib.Path(path) for path in sys.argv[1:4])
 programs = [path.split("/") for path in sys.argv[4:]]
 here = root / "examples/web"
+# As the lessons have them.
+predecessors = dict(re.findall(r"\{&(\w+), &(\w+)\}", (root / "examples/lessons/lessons.c").read_text()))
 
 
 def lighting_js():
@@ -96,7 +88,7 @@ def alone(names):
 
 
 def page(folder, name, parts, single):
-    before = PREDECESSORS.get(name)
+    before = predecessors.get(name)
     link = f'<a href="{before}.html">{before}</a>'
     scene = folder == "lighting"
     more = EXPLAIN if scene else ""

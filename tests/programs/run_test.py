@@ -95,6 +95,16 @@ class Names(Case):
                                         environment={"LIGHTING_BUILD": self.path("build")})
             self.assertEqual((code, said in error), (2, True), error)
 
+    def test_pages_replace_only_pages(self):
+        for arguments, code, said in (((), 2, "web: -o DIR names the folder for the pages"),
+                                      (("-o",), 2, "-o: name a folder, as in -o pages"),
+                                      (("--size", "9x9"), 2, "web: --size: no such option; -o DIR names the folder"),
+                                      (("-o", self.folder), 1,
+                                       f"web: {self.folder}: is there, and holds no such pages; name another folder")):
+            before = sorted(os.listdir(self.folder))
+            self.assertEqual(self.start("web", *arguments), (code, "", f"examples/run: {said}\n"))
+            self.assertEqual(sorted(os.listdir(self.folder)), before)
+
     def test_the_list_for_tools_has_every_program(self):
         code, text, said = self.start("--json")
         self.assertEqual((code, said), (0, ""))
