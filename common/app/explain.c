@@ -3,6 +3,7 @@
 #include "scene/reality.h"
 #include "scene/shader_cost.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -265,6 +266,16 @@ static bool explain_object(const Stage *stage, const Scene *scene, const Object 
     return true;
 }
 
+/* A depth d is kept as far (d - near) / (d (far - near)), whose derivative says how far apart in
+ * depth neighbouring values are. */
+static void print_depth(const Canvas *canvas, const Camera *camera)
+{
+    const double near = camera->near, far = camera->far;
+    const double step = (far - near) / (far * near) / exp2(canvas->depth_bits);
+    printf("# depth: %d bits from %.4g to %.4g, in steps of %.2g in front and %.2g at the back\n",
+           canvas->depth_bits, near, far, near * near * step, far * far * step);
+}
+
 static bool explain_view(Stage *stage, const Options *options, int number, Explained *explained,
                          Message *message)
 {
@@ -289,6 +300,7 @@ static bool explain_view(Stage *stage, const Options *options, int number, Expla
         printf("%s# what the model leaves out\n", explained->count > 1 ? "\n" : "");
         done = reality_explain(&view.scene, stdout, message);
         printf("\n");
+        print_depth(stage->canvas, &view.scene.camera);
     }
     stage_view_close(&view);
     return done;

@@ -918,6 +918,20 @@ class Scenes(Case):
                     self.assertRegex(text, rf"(?m)^ *{re.escape(other)}$")
         self.assertEqual(self.everything(), {})
 
+    def test_the_precision_of_depth_is_explained(self):
+        """Values next to each other, as the buffer has them, are so far apart in depth."""
+        for distance in (1, 27):
+            text = self.good("--explain", "--orbit", f"0,0,{distance}", program="ShadingModels")
+            bits, *numbers = re.search(
+                r"\n# depth: (\d+) bits from (\S+) to (\S+), in steps of (\S+) in front and (\S+) "
+                r"at the back\n", text.decode()).groups()
+            near, far, *apart = map(float, numbers)
+            for at, said in zip((near, far), apart):
+                kept = (1 / near - 1 / at) / (1 / near - 1 / far)
+                value = kept + (1 if at == near else -1) * 2.0 ** -int(bits)
+                next_to_it = 1 / (1 / near - value * (1 / near - 1 / far))
+                self.assertAlmostEqual(abs(next_to_it - at) / said, 1, delta=0.05)
+
     def test_antialiasing_changes_edges_alone(self):
         for program in SCENES[::step(2)]:
             with self.subTest(program=program):
