@@ -40,7 +40,7 @@ varying vec3 v_Position;
 #ifdef FRAGMENT_BASE
 #include "lighting/base.glsl"
 #endif
-#ifdef FRAGMENT_LIGHTS
+#if defined(FRAGMENT_LIGHTS) || defined(VERTEX_SHADOWS)
 #include "lighting/fragment_groups.glsl"
 #endif
 
@@ -64,9 +64,15 @@ void main() {
 #ifdef FRAGMENT_COLOR
     surface_color = v_Color;
 #endif
+#ifdef LOOK_UP_SHADOWS
+    look_up_shadows();
+#endif
     vec3 color = vec3(0.0);
 #ifdef VERTEX_LIGHTS
     color = SIDE(v_FrontColor, v_BackColor); // with the base
+#ifdef VERTEX_SHADOWS
+    color += SHADOWED_LIGHT;
+#endif
 #elif defined(FRAGMENT_BASE)
     color = SIDE(FRONT_BASE, BACK_BASE);
 #endif

@@ -57,8 +57,15 @@ varying vec3 v_BackColor;
 #include "lighting/vertex_groups.glsl"
 #endif
 
+#ifdef MASK_PLACE
+varying vec3 v_MaskPlace;
+#endif
+
 void main() {
     gl_Position = u_ClipFromObject * a_Position;
+#ifdef MASK_PLACE
+    v_MaskPlace = gl_Position.xyw;
+#endif
 
 #ifdef VERTEX_COLOR
     surface_color = a_Color;

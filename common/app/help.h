@@ -20,6 +20,7 @@ typedef struct Usage {
     bool gallery;             /* -o names a folder, names may follow the options, no --frames */
     bool study;               /* -o names a folder; no options that change a picture */
     bool scene;               /* the options of programs that draw scenes */
+    bool shadows;             /* which its lights have without --shadows */
     bool diagram;             /* draws without OpenGL, and writes SVG and PDF too */
     const char *names;        /* the operands in --help, "LAB PATH"; NULL: there are none */
     const char *const *tries; /* as in an Example; may be NULL */

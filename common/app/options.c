@@ -425,6 +425,10 @@ int options_table(const Usage *usage, Options *options, OptionsPurpose purpose,
          "after it; more of them between slashes, as in 0,1,0.5,0/1,0,0,1,1,1,1",
          TEXT(tints), .placeholder = "NUMBER,R,G,B[,R,G,B]", .standard = "", .read = read_tints,
          .write = write_tints, .programs = SCENE},
+        {"shadows",
+         "whether surfaces keep the light from others, and how that is found: volumes are exact, to "
+         "the pixel",
+         PARAMETER_CHOICE, &options->shadows, .choices = SHADOW_NAMES, .programs = SCENE},
         {"lighting", "off: each surface in its own diffuse colour", PARAMETER_SWITCH,
          &options->terms.unlit, .choices = LIGHTING, .programs = SCENE},
         {"show-clipped", "paint over-exposed pixels magenta", FLAG(show_clipped),
@@ -473,11 +477,17 @@ bool options_in_window(const Options *options)
     return backend && backend->presents;
 }
 
+bool options_have_shadows(const Options *options)
+{
+    return options->shadows != SHADOWS_OFF;
+}
+
 Usage options_usage(const Example *example)
 {
     return (Usage){.name = example->name,
                    .summary = example->summary,
                    .scene = example->scene != NULL,
+                   .shadows = example->scene && example->scene->shadows,
                    .diagram = example->diagram != NULL,
                    .width = example->width,
                    .height = example->height,
@@ -500,6 +510,7 @@ Options options_default(const Usage *usage)
     Options options = {.frames = 1, .fps = OPTIONS_FPS, .compress = IMAGE_COMPRESS_DEFAULT};
     options_size(usage, &options.width, &options.height);
     options.canvas.samples = usage->gallery ? 4 : 0;
+    options.shadows = usage->shadows ? SHADOWS_VOLUMES : SHADOWS_OFF;
     snprintf(options.default_output, sizeof options.default_output, "%s%s", usage->name,
              usage->gallery || usage->study ? "" : ".png");
     return options;

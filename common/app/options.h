@@ -59,6 +59,7 @@ typedef struct Options {
     bool linear;
     bool show_clipped;
     SceneTerms terms;
+    int shadows; /* a ShadowWay */
     LightPlaces places;
     LightTints tints;
     bool cheap; /* --error: draw as cheaply as an error of `error` steps of 1/255 allows */
@@ -100,6 +101,9 @@ int options_table(const Usage *usage, Options *options, OptionsPurpose purpose,
                   Parameter table[OPTIONS_MAX]);
 
 bool options_in_window(const Options *options);
+
+/* Whether a light may have shadows: then several samples of a pixel are pixels of their own. */
+bool options_have_shadows(const Options *options);
 
 /* Sets a handler, with sigaction's flags, for SIGINT, SIGTERM and SIGHUP; not for those that are
  * ignored, as under nohup. */

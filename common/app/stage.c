@@ -52,6 +52,7 @@ bool stage_open_canvas(Canvas *canvas, const Options *options, const char *outpu
     wanted.width = options->width;
     wanted.height = options->height;
     wanted.lost = end_without_display;
+    wanted.supersampled = options_have_shadows(options);
     if (!wanted.backend) /* canvas_open does not know the window */
         wanted.backend = backend_default(message);
     if (!wanted.backend || !image_format(output, format, message))
@@ -215,14 +216,18 @@ static bool make_scene(const Stage *stage, const Options *options, double second
     if (orbit_text(options->orbit, orbit))
         scene_fit_depth(scene);
     const SceneTerms *terms = &options->terms;
+    const bool shadows = options->shadows != SHADOWS_OFF;
+    const bool own = stage->example->scene->shadows;
     if (!terms->left_out && !terms->lights_left_out && !terms->unlit && !options->places.placed &&
-        !options->tints.tinted)
+        !options->tints.tinted && shadows == own)
         return true;
     if (!scene_copy_open(kept, scene, false, message))
         return false;
     scene_place_lights(kept, &options->places);
     scene_tint_lights(kept, &options->tints);
     scene_keep_terms(kept, *terms);
+    for (int i = 0; i < scene->light_count && shadows != own; i++)
+        kept->lights[i].shadows = shadows;
     *scene = kept->scene;
     return scene_check(scene, message);
 }
@@ -294,16 +299,16 @@ static unsigned kept_axes(const Stage *stage, const Options *options)
                 kept |= 1U << all[k].axis;
     if (options->terms.left_out || options->terms.lights_left_out)
         kept |= 1U << AXIS_LIGHTS;
+    /* Another mesh, and another place of the light, have another shadow. */
+    if (options_have_shadows(options))
+        kept |= 1U << AXIS_DIVISIONS | 1U << AXIS_LIGHTS;
     return kept;
 }
 
 static bool draw_parts(const Stage *stage, const QualityParts *made, double aspect, bool full,
                        Message *message)
 {
-    for (int i = 0; i < made->scene.object_count; i++)
-        if (!lighting_draw(stage->lighting, &made->parts[i], aspect, full, message))
-            return false;
-    return true;
+    return lighting_draw_parts(stage->lighting, &made->scene, made->parts, aspect, full, message);
 }
 
 /* The time to draw a view with these qualities over that of the plain ones: the median of frames

@@ -176,7 +176,8 @@ static void add_material(CacheKey *key, const Material *material, unsigned light
 static void add_object(CacheKey *key, const Object *object, unsigned light, bool alpha)
 {
     const int flags[] = {object->flat,         object->closed,    object->clockwise,
-                         object->behind_lines, object->two_sided, object->wrong_normals};
+                         object->behind_lines, object->two_sided, object->wrong_normals,
+                         object->lamp};
     cache_key_add(key, flags, sizeof flags);
     cache_key_add(key, &object->world_from_object, sizeof object->world_from_object);
     add_material(key, &object->front, light, alpha);

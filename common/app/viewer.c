@@ -196,7 +196,8 @@ static bool apply_options(Viewer *viewer, Message *message)
     viewer->precision = precision;
     const bool same = samples == viewer->samples;
     viewer->samples = samples;
-    return same || canvas_set_samples(viewer->canvas, samples, message);
+    return same || canvas_set_samples(viewer->canvas, samples,
+                                      options_have_shadows(&viewer->options), message);
 }
 
 /* Starts again with the arguments of a try, which blanks separate. A given time is held. */

@@ -122,7 +122,7 @@ static bool choose_samples(Canvas *canvas, int samples, Message *message)
     const int max = driver_max_samples();
     if (samples <= 1)
         return true;
-    if (max > 1) {
+    if (!canvas->supersampled && max > 1) {
         if (samples > max)
             return message_set(message, "%d samples: %s has at most %d", samples, canvas->renderer,
                                max);
@@ -133,10 +133,10 @@ static bool choose_samples(Canvas *canvas, int samples, Message *message)
     while (side * side < samples)
         side++;
     if (side > MAX_SUPERSAMPLE)
-        return message_set(message,
-                           "%d samples: %s has none of its own, and supersampling gives "
-                           "at most %d",
-                           samples, canvas->renderer, MAX_SUPERSAMPLE * MAX_SUPERSAMPLE);
+        return message_set(message, "%d samples: %s, and supersampling gives at most %d", samples,
+                           canvas->supersampled ? "shadows have one for each pixel"
+                                                : "the driver has none of its own",
+                           MAX_SUPERSAMPLE * MAX_SUPERSAMPLE);
     canvas->supersample *= side;
     return true;
 }
@@ -190,6 +190,7 @@ static bool make_canvas(Canvas *canvas, const CanvasOptions *options, Message *m
     canvas->width = options->width;
     canvas->height = options->height;
     canvas->supersample = options->supersample > 1 ? options->supersample : 1;
+    canvas->supersampled = options->supersampled;
     canvas->real = options->real && gl_draws_floats();
     if (!choose_samples(canvas, options->samples, message) || !check_size(canvas, message) ||
         !make_framebuffers(canvas, message))
@@ -331,21 +332,22 @@ bool canvas_resize(Canvas *canvas, int width, int height, Message *message)
 
 int canvas_max_samples(const Canvas *canvas)
 {
-    const int max = driver_max_samples();
-    (void)canvas;
+    const int max = canvas->supersampled ? 0 : driver_max_samples();
     return max > 1 ? max : MAX_SUPERSAMPLE * MAX_SUPERSAMPLE;
 }
 
-bool canvas_set_samples(Canvas *canvas, int samples, Message *message)
+bool canvas_set_samples(Canvas *canvas, int samples, bool supersampled, Message *message)
 {
     Canvas wanted = *canvas;
     wanted.samples = 0;
     wanted.supersample = 1;
+    wanted.supersampled = supersampled;
     if (!choose_samples(&wanted, samples, message))
         return false;
     delete_framebuffers(canvas);
     canvas->samples = wanted.samples;
     canvas->supersample = wanted.supersample;
+    canvas->supersampled = supersampled;
     if (!check_size(canvas, message) || !make_framebuffers(canvas, message))
         return false;
     canvas_begin(canvas);

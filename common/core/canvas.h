@@ -49,6 +49,7 @@ struct CanvasOptions {
     int width, height;            /* 1 to the driver's limit */
     int samples;       /* 0 or 1: none. More: a multisampled framebuffer that is resolved, or
                           supersampling if the driver has none */
+    bool supersampled; /* never a multisampled framebuffer */
     int supersample;   /* 0 or 1: none. K: the mean of K x K pixels */
     bool real;         /* unclamped float colours, if the driver can draw to them */
     const char *title; /* of a window */
@@ -66,6 +67,7 @@ typedef struct Canvas {
     int width, height;
     int samples;     /* as the driver gave them; 0 for none */
     int supersample; /* 1 for none */
+    bool supersampled;
     bool real;
     int red_bits, green_bits, blue_bits, alpha_bits, depth_bits;
     GLuint framebuffer, color, depth;          /* drawn to */
@@ -85,10 +87,10 @@ bool canvas_open_beside(Canvas *canvas, const Canvas *first, const CanvasOptions
 bool canvas_resize(Canvas *canvas, int width, int height, Message *message);
 
 /* The most samples that the driver or supersampling has, and another number of them, as
- * CanvasOptions.samples. False, and the canvas as before, if there are not so many; after another
+ * CanvasOptions has them. False, and the canvas as before, if there are not so many; after another
  * failure it can only be closed. */
 int canvas_max_samples(const Canvas *canvas);
-bool canvas_set_samples(Canvas *canvas, int samples, Message *message);
+bool canvas_set_samples(Canvas *canvas, int samples, bool supersampled, Message *message);
 
 /* Starts a frame: binds the framebuffer and sets the viewport to all of it. */
 void canvas_begin(const Canvas *canvas);

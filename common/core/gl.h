@@ -27,16 +27,20 @@
     X(CHECKFRAMEBUFFERSTATUS, CheckFramebufferStatus)                                              \
     X(CLEAR, Clear)                                                                                \
     X(CLEARCOLOR, ClearColor)                                                                      \
+    X(CLEARSTENCIL, ClearStencil)                                                                  \
     X(COLORMASK, ColorMask)                                                                        \
     X(COMPILESHADER, CompileShader)                                                                \
     X(CREATEPROGRAM, CreateProgram)                                                                \
     X(CREATESHADER, CreateShader)                                                                  \
+    X(CULLFACE, CullFace)                                                                          \
     X(DELETEBUFFERS, DeleteBuffers)                                                                \
     X(DELETEFRAMEBUFFERS, DeleteFramebuffers)                                                      \
     X(DELETEPROGRAM, DeleteProgram)                                                                \
     X(DELETERENDERBUFFERS, DeleteRenderbuffers)                                                    \
     X(DELETESHADER, DeleteShader)                                                                  \
     X(DELETETEXTURES, DeleteTextures)                                                              \
+    X(DEPTHFUNC, DepthFunc)                                                                        \
+    X(DEPTHMASK, DepthMask)                                                                        \
     X(DISABLE, Disable)                                                                            \
     X(DISABLEVERTEXATTRIBARRAY, DisableVertexAttribArray)                                          \
     X(DRAWARRAYS, DrawArrays)                                                                      \
@@ -76,6 +80,8 @@
     X(RENDERBUFFERSTORAGE, RenderbufferStorage)                                                    \
     X(SCISSOR, Scissor)                                                                            \
     X(SHADERSOURCE, ShaderSource)                                                                  \
+    X(STENCILFUNC, StencilFunc)                                                                    \
+    X(STENCILOPSEPARATE, StencilOpSeparate)                                                        \
     X(TEXIMAGE2D, TexImage2D)                                                                      \
     X(TEXPARAMETERI, TexParameteri)                                                                \
     X(UNIFORM1FV, Uniform1fv)                                                                      \
@@ -132,19 +138,13 @@ bool gl_probe(GlFunction (*address)(const char *name), Message *findings);
 /* The version of OpenGL ES as 10 * major + minor: 20 for OpenGL ES 2.0. Desktop OpenGL 3.0 or later
  * counts as 30: it has what this project uses of OpenGL ES 3, under the same names. */
 int gl_version(void);
-
-/* Whether the context is desktop OpenGL. */
-bool gl_desktop(void);
-
-/* Whether framebuffers can have 32-bit float colours. */
-bool gl_draws_floats(void);
+bool gl_desktop(void);      /* whether the context is desktop OpenGL */
+bool gl_draws_floats(void); /* whether framebuffers can have 32-bit float colours */
 
 /* Whether a list of names separated by spaces (may be NULL) has this one; whether the context has
  * the extension ("GL_OES_element_index_uint"). */
 bool gl_lists(const char *names, const char *name);
 bool gl_has(const char *extension);
-
-/* The name of a GL error code: "GL_INVALID_VALUE". */
-const char *gl_error_name(GLenum error);
+const char *gl_error_name(GLenum error); /* "GL_INVALID_VALUE" */
 
 #endif

@@ -155,10 +155,8 @@ static bool draw_parts(const CheapestTask *task, const Scene *scene, const Objec
         return false;
     canvas_clear(task->canvas, scene->background, 0);
     canvas_view(task->canvas, place[0], place[1], place[2], place[3]);
-    bool done = true;
-    for (int i = 0; i < scene->object_count && done; i++)
-        done = lighting_draw(task->lighting, &made->parts[i], aspect, task->full, message);
-    return done;
+    return lighting_draw_parts(task->lighting, &made->scene, made->parts, aspect, task->full,
+                               message);
 }
 
 /* Draws `current` at all moments. The errors of objects that are nowhere inside stay 0. */

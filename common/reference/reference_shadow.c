@@ -148,11 +148,14 @@ bool shadow_falls(const ShadowPoint *point, int light)
     const Real3 way = shade->light->kind == LIGHT_DIRECTIONAL
                           ? shade->direction
                           : real3_subtract(shade->position, point->from);
-    if (!(real3_dot(point->normal, way) > 0))
+    const bool convex = object_is_convex(shadows->objects[point->object].object);
+    if (!convex && !(real3_dot(point->normal, way) > 0))
         return true;
     for (int i = 0; i < shadows->object_count; i++)
-        if (shadows->objects[i].exact ? solid_between(point, i, light)
-                                      : triangles_between(point, i, light, way))
+        if (shadows->objects[i].object->lamp || (convex && i == point->object))
+            continue;
+        else if (shadows->objects[i].exact ? solid_between(point, i, light)
+                                           : triangles_between(point, i, light, way))
             return true;
     return false;
 }

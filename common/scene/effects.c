@@ -1,7 +1,11 @@
 #include "scene/effects.h"
 
+#include "shadows/between.h"
+#include "shadows/shadow_mask.h"
+
 #include <math.h>
 #include <stdarg.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* One walk over the scene decides everything and writes each reason to `file`, unless that is NULL,
@@ -116,11 +120,15 @@ static void explain_light(FILE *file, const Scene *scene, int number, const Ligh
     if (terms->kind == LIGHT_SPOT)
         say(file, "  spot: only within its cone, %s",
             terms->exponent ? "with falloff" : "without falloff: its exponent is 0");
+    if (scene->lights[number].shadows)
+        say(file, "  %s",
+            terms->shadow ? "shadow: looked up in a mask, because a surface may come between"
+                          : "without shadow: no surface can come between");
 }
 
 /* The terms of one light on one object; false if it has none. */
 static bool light_terms(const Scene *scene, const Object *object, int number, const Light *light,
-                        Sphere sphere, bool both, LightTerms *terms, FILE *file)
+                        Sphere sphere, bool both, bool shadowed, LightTerms *terms, FILE *file)
 {
     const Material front_side = effects_material(object, false), *front = &front_side;
     const Material back_side = effects_material(object, true), *back = &back_side;
@@ -152,7 +160,10 @@ static bool light_terms(const Scene *scene, const Object *object, int number, co
                          scene->reflection == REFLECTION_BLINN_PHONG;
     const bool same_over_triangle =
         object->flat && !positional && (!terms->specular || scene->distant_viewer);
-    terms->at_vertex = scene->interpolation != INTERPOLATION_PHONG || same_over_triangle;
+    if (shadowed && (terms->diffuse || terms->specular))
+        terms->shadow = 1 + effects_channel(scene, number) / SHADOW_CHANNELS;
+    terms->at_vertex =
+        scene->interpolation != INTERPOLATION_PHONG || (same_over_triangle && !terms->shadow);
     explain_light(file, scene, number, terms);
     if (terms->attenuation)
         say(file, attenuation_guarded(light, sphere)
@@ -232,6 +243,16 @@ static void decide_normals(const Scene *scene, const Object *object, Effects *ef
                        : "the scene skips it");
 }
 
+/* Shadows */
+
+int effects_channel(const Scene *scene, int light)
+{
+    int channel = 0;
+    for (int i = 0; i < light; i++)
+        channel += scene->lights[i].shadows;
+    return channel;
+}
+
 /* Whether the object is closed, seen from outside, and not cut by the near plane. */
 static bool outside_of(const Scene *scene, const Object *object, Sphere sphere, FILE *file)
 {
@@ -247,6 +268,59 @@ static bool outside_of(const Scene *scene, const Object *object, Sphere sphere, 
         : object->clockwise ? "front faces are clockwise"
                             : "the near plane may cut the object");
     return outside;
+}
+
+bool effects_unshadowed(const Scene *scene, const Object *object, const MeshBox *box)
+{
+    const bool flat = object->solid.kind == SOLID_QUAD || object->solid.kind == SOLID_DISC;
+    return object_is_convex(object) &&
+           (flat || outside_of(scene, object, scene_sphere(object, box), NULL));
+}
+
+bool effects_may_shadow(const Scene *scene, int light, int occluder, int receiver,
+                        const MeshBox *boxes)
+{
+    const Object *before = &scene->objects[occluder], *behind = &scene->objects[receiver];
+    const Light *given = &scene->lights[light];
+    if (!given->shadows || given->off || before->lamp ||
+        (color_is_black(given->diffuse) && color_is_black(given->specular)))
+        return false;
+    const Light world = scene_world_light(scene, light);
+    if (world.kind == LIGHT_SPOT && (cone_misses(&world, scene_sphere(before, &boxes[occluder])) ||
+                                     cone_misses(&world, scene_sphere(behind, &boxes[receiver]))))
+        return false;
+    /* What is seen from the eye sees a light there. */
+    const Vec3 to_eye = vec3_subtract(world.position, scene->camera.eye);
+    if (world.kind != LIGHT_DIRECTIONAL && vec3_length(to_eye) == 0)
+        return false;
+    if (occluder == receiver)
+        return !effects_unshadowed(scene, before, &boxes[occluder]);
+    const Vec3 place = world.kind == LIGHT_DIRECTIONAL ? world.direction : world.position;
+    const PlacedBox first = placed_box(&boxes[occluder], before->world_from_object);
+    const PlacedBox second = placed_box(&boxes[receiver], behind->world_from_object);
+    return may_come_between(
+        &first, &second,
+        (Vec4){place.x, place.y, place.z, world.kind == LIGHT_DIRECTIONAL ? 0 : 1});
+}
+
+/* The lights in whose shadow an object may lie; all that have one if it is not the scene's. */
+static uint32_t shadowed_by(const Scene *scene, const Object *object)
+{
+    uint32_t lights = 0;
+    bool any = false;
+    for (int l = 0; l < scene->light_count; l++)
+        any |= scene->lights[l].shadows;
+    MeshBox *boxes = any ? malloc((size_t)(scene->object_count + 1) * sizeof *boxes) : NULL;
+    for (int i = 0; boxes && i < scene->object_count; i++)
+        boxes[i] = mesh_bounds(scene->objects[i].mesh);
+    const bool own = object >= scene->objects && object < scene->objects + scene->object_count;
+    for (int l = 0; any && l < scene->light_count && l < EFFECTS_MAX_LIGHTS; l++)
+        for (int o = 0; o < scene->object_count; o++)
+            if (!boxes || !own ||
+                effects_may_shadow(scene, l, o, (int)(object - scene->objects), boxes))
+                lights |= scene->lights[l].shadows ? (uint32_t)1 << l : 0;
+    free(boxes);
+    return lights;
 }
 
 static void decide_output(const Scene *scene, Effects *effects, bool at_vertices, FILE *file)
@@ -267,7 +341,8 @@ static void decide_output(const Scene *scene, Effects *effects, bool at_vertices
         effects->linear ? "sRGB encoding: requested" : "without sRGB encoding: not requested");
 }
 
-static Effects decide(const Scene *scene, const Object *object, const MeshBox *box, FILE *file)
+static Effects decide(const Scene *scene, const Object *object, const MeshBox *box,
+                      uint32_t shadowed, FILE *file)
 {
     Effects effects;
     bool at_vertices = false, at_fragments = false;
@@ -290,7 +365,8 @@ static Effects decide(const Scene *scene, const Object *object, const MeshBox *b
     for (int i = 0; i < scene->light_count && i < EFFECTS_MAX_LIGHTS; i++) {
         LightTerms terms;
         const Light light = scene_world_light(scene, i);
-        if (!light_terms(scene, object, i, &light, sphere, effects.two_sided, &terms, file))
+        if (!light_terms(scene, object, i, &light, sphere, effects.two_sided, shadowed >> i & 1,
+                         &terms, file))
             continue;
         add_light(&effects, i, &terms, attenuation_guarded(&light, sphere));
         effects.normals |= terms.diffuse || terms.specular;
@@ -317,21 +393,22 @@ static Effects decide(const Scene *scene, const Object *object, const MeshBox *b
     return effects;
 }
 
-Effects effects_of_boxed(const Scene *scene, const Object *object, const MeshBox *box)
+Effects effects_of_boxed(const Scene *scene, const Object *object, const MeshBox *box,
+                         uint32_t shadowed)
 {
-    return decide(scene, object, box, NULL);
+    return decide(scene, object, box, shadowed, NULL);
 }
 
 Effects effects_of(const Scene *scene, const Object *object)
 {
     const MeshBox box = mesh_bounds(object->mesh);
-    return decide(scene, object, &box, NULL);
+    return decide(scene, object, &box, shadowed_by(scene, object), NULL);
 }
 
 void effects_explain(const Scene *scene, const Object *object, FILE *file)
 {
     const MeshBox box = mesh_bounds(object->mesh);
-    decide(scene, object, &box, file);
+    decide(scene, object, &box, shadowed_by(scene, object), file);
 }
 
 Effects effects_full(const Scene *scene, const Object *object)
@@ -346,15 +423,16 @@ Effects effects_full(const Scene *scene, const Object *object)
     full.reflection = scene->reflection;
     full.lit_positions = scene->interpolation == INTERPOLATION_CONSTANT;
     decide_output(scene, &full, true, NULL);
-    if (scene->light_count == 0)
-        return full;
-    LightGroup *group = &full.groups[0];
-    full.group_count = 1;
-    group->terms.kind = LIGHT_SPOT;
-    group->terms.any = group->terms.ambient = group->terms.diffuse = group->terms.specular = true;
-    group->terms.attenuation = group->terms.exponent = group->guard_attenuation = true;
-    group->terms.at_vertex = scene->interpolation != INTERPOLATION_PHONG;
-    for (int i = 0; i < scene->light_count && i < EFFECTS_MAX_LIGHTS; i++)
-        group->lights[group->count++] = i;
+    for (int i = 0; i < scene->light_count && i < EFFECTS_MAX_LIGHTS; i++) {
+        LightTerms terms;
+        memset(&terms, 0, sizeof terms);
+        terms.kind = LIGHT_SPOT;
+        terms.any = terms.ambient = terms.diffuse = terms.specular = true;
+        terms.attenuation = terms.exponent = true;
+        terms.at_vertex = scene->interpolation != INTERPOLATION_PHONG;
+        if (scene->lights[i].shadows)
+            terms.shadow = 1 + effects_channel(scene, i) / SHADOW_CHANNELS;
+        add_light(&full, i, &terms, true);
+    }
     return full;
 }

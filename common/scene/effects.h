@@ -25,6 +25,8 @@ typedef struct LightTerms {
     bool half_vector; /* constant over the surface: a uniform */
     bool at_vertex;   /* computed per vertex: interpolation is exact, or requested */
     bool any;         /* full program: any kind, selected by coefficients */
+    /* Another surface may come between: 1 plus the number of the mask that knows where; or 0. */
+    int shadow;
 } LightTerms;
 
 /* Lights with equal terms, as indices into the scene's lights. */
@@ -65,11 +67,26 @@ Material effects_material(const Object *object, bool back);
 /* The effects that an object in a scene needs. The scene has passed scene_check. */
 Effects effects_of(const Scene *scene, const Object *object);
 
-/* The same for a mesh whose bounds are known, which takes no time. */
-Effects effects_of_boxed(const Scene *scene, const Object *object, const MeshBox *box);
+/* The same for a mesh whose bounds are known, and the lights (a bit each) in whose shadow it may
+ * lie, which takes no time. */
+Effects effects_of_boxed(const Scene *scene, const Object *object, const MeshBox *box,
+                         uint32_t shadowed);
+
+/* Whether an occluder may come between a receiver, perhaps itself, and a light that has shadows and
+ * something to light there. An object that is convex does not shadow itself: where N.L > 0 it sees
+ * the light. `boxes`: of the objects' meshes. */
+bool effects_may_shadow(const Scene *scene, int light, int occluder, int receiver,
+                        const MeshBox *boxes);
+
+/* Whether the object is convex, and its inside is not seen. */
+bool effects_unshadowed(const Scene *scene, const Object *object, const MeshBox *box);
+
+/* The number of a light among those that have shadows, for which the masks have a channel each. */
+int effects_channel(const Scene *scene, int light);
 
 /* The whole model, for comparison: terms that the scene lacks have coefficients of 0. Colors of
- * vertices take a uniform's place, so they are not a matter of coefficients. */
+ * vertices take a uniform's place, and shadows are looked up, so they are not a matter of
+ * coefficients: there are shadows if a light of the scene has them. */
 Effects effects_full(const Scene *scene, const Object *object);
 
 /* Writes a line for each effect and for each one left out, with the reason: "specular: in light and

@@ -3,6 +3,8 @@
 #include "base/clock.h"
 #include "core/mesh_buffer.h"
 #include "core/mesh_make.h"
+#include "shadows/between.h"
+#include "shadows/shadow_mask.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -31,10 +33,19 @@ typedef struct Buffered {
     struct Buffered *next;
 } Buffered;
 
+/* What throws a shadow. */
+typedef struct Caster {
+    const Mesh *mesh;
+    ShadowCaster shadow;
+    struct Caster *next;
+} Caster;
+
 struct Lighting {
     ShaderLoader loader;
     Variant *variants;
     Buffered *buffers;
+    Caster *casters;
+    ShadowMask mask; /* opened when a scene first needs it */
     LightingCounts counts;
     LightingTransforms transforms;
     LightingNormalMatrix *normal_matrix; /* NULL: mat4_normal */
@@ -70,7 +81,7 @@ static const char *const GROUP_UNIFORMS[] = {
 enum { GROUP_UNIFORM_COUNT = sizeof GROUP_UNIFORMS / sizeof GROUP_UNIFORMS[0] };
 
 /* The defines of group.glsl. 16-bit floats need the guard of the attenuation for any light. */
-enum { MAX_GROUP_DEFINES = 10 };
+enum { MAX_GROUP_DEFINES = 11 };
 static int group_defines(const LightGroup *group, bool mediump,
                          const char *defines[MAX_GROUP_DEFINES])
 {
@@ -89,6 +100,7 @@ static int group_defines(const LightGroup *group, bool mediump,
         {terms->attenuation, "ATTENUATION"},
         {terms->exponent, "EXPONENT"},
         {terms->attenuation && (group->guard_attenuation || mediump), "GUARD_ATTENUATION"},
+        {terms->shadow && !terms->at_vertex, "SHADOW"},
     };
     int count = 0;
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
@@ -97,15 +109,77 @@ static int group_defines(const LightGroup *group, bool mediump,
     return count;
 }
 
+static int masks_of(const Effects *effects)
+{
+    int count = 0;
+    for (int g = 0; g < effects->group_count; g++)
+        count = effects->groups[g].terms.shadow > count ? effects->groups[g].terms.shadow : count;
+    return count;
+}
+
+/* Masks of shadows, looked up once for all groups. In mediump gl_FragCoord has 11 bits, too few
+ * for the size of a framebuffer: the place comes from the vertex shader. */
+static void write_masks(const Effects *effects, bool mediump, FILE *file)
+{
+    const int count = masks_of(effects);
+    if (!count)
+        return;
+    /* The loader replaces highp. */
+    fprintf(file, mediump ? "#undef highp\nvarying highp vec3 v_MaskPlace;\n" : "");
+    fprintf(file, "uniform highp vec4 u_MaskPlace;\n");
+    for (int m = 0; m < count; m++)
+        fprintf(file, "uniform sampler2D u_Mask%d;\nvec4 shadow_mask%d;\n", m, m);
+    fprintf(file,
+            "#define LOOK_UP_SHADOWS\nvoid look_up_shadows() {\n"
+            "    highp vec2 place = %s * u_MaskPlace.xy + u_MaskPlace.zw;\n",
+            mediump ? "(v_MaskPlace.xy / v_MaskPlace.z)" : "gl_FragCoord.xy");
+    for (int m = 0; m < count; m++)
+        fprintf(file, "    shadow_mask%d = texture2D(u_Mask%d, place);\n", m, m);
+    fprintf(file, "}\n%s", mediump ? "#define highp mediump\n" : "");
+}
+
+/* Of light that is computed at the vertices the part that a shadow keeps off is interpolated for
+ * each light alone. In the vertex shader: where; in the fragment shader: their sum. */
+static void write_vertex_shadows(const Effects *effects, const Scene *scene, bool at_vertex,
+                                 FILE *file)
+{
+    int count = 0;
+    for (int g = 0; g < effects->group_count; g++)
+        if (effects->groups[g].terms.at_vertex && effects->groups[g].terms.shadow)
+            count += effects->groups[g].count;
+    if (!count)
+        return;
+    fprintf(file, "varying vec3 v_FrontDirect[%d];\n", count);
+    if (effects->two_sided)
+        fprintf(file, "varying vec3 v_BackDirect[%d];\n", count);
+    if (at_vertex)
+        return;
+    fprintf(file, "#define SHADOWED_LIGHT vec3(0.0)");
+    for (int g = 0, first = 0; g < effects->group_count; g++) {
+        const LightGroup *group = &effects->groups[g];
+        for (int i = 0; group->terms.at_vertex && group->terms.shadow && i < group->count; i++) {
+            const int channel = effects_channel(scene, group->lights[i]) % SHADOW_CHANNELS;
+            fprintf(file, " + (1.0 - shadow_mask%d.%c) * SIDE(v_FrontDirect[%d], v_BackDirect[%d])",
+                    group->terms.shadow - 1, "rgba"[channel], first, first);
+            first++;
+        }
+    }
+    fprintf(file, "\n");
+}
+
 /* The text of "lighting/vertex_groups.glsl" or "lighting/fragment_groups.glsl": a function per
  * group, and add_lights, which calls them. */
-static char *groups_text(const Effects *effects, bool at_vertex, bool mediump)
+static char *groups_text(const Effects *effects, const Scene *scene, bool at_vertex, bool mediump)
 {
     char *text = NULL;
     size_t size = 0;
+    int shadowed = 0; /* at the vertices, so far */
     FILE *file = open_memstream(&text, &size);
     if (!file)
         return NULL;
+    if (!at_vertex)
+        write_masks(effects, mediump, file);
+    write_vertex_shadows(effects, scene, at_vertex, file);
     for (int g = 0; g < effects->group_count; g++) {
         const LightGroup *group = &effects->groups[g];
         const char *defines[MAX_GROUP_DEFINES];
@@ -117,11 +191,20 @@ static char *groups_text(const Effects *effects, bool at_vertex, bool mediump)
             fprintf(file, "#define %s\n", defines[i]);
         for (int i = 0; i < GROUP_UNIFORM_COUNT; i++)
             fprintf(file, "#define %s %s%d\n", GROUP_UNIFORMS[i], GROUP_UNIFORMS[i], g);
+        if (group->terms.shadow && at_vertex)
+            fprintf(file, "#define VERTEX_SHADOW %d\n", shadowed);
+        else if (group->terms.shadow)
+            fprintf(file, "#define u_Channel u_Channel%d\n#define SHADOW_MASK shadow_mask%d\n", g,
+                    group->terms.shadow - 1);
+        shadowed += group->terms.shadow ? group->count : 0;
         fprintf(file, "#include \"lighting/group.glsl\"\n#undef GROUP\n#undef COUNT\n");
         for (int i = 0; i < count; i++)
             fprintf(file, "#undef %s\n", defines[i]);
         for (int i = 0; i < GROUP_UNIFORM_COUNT; i++)
             fprintf(file, "#undef %s\n", GROUP_UNIFORMS[i]);
+        if (group->terms.shadow)
+            fprintf(file, at_vertex ? "#undef VERTEX_SHADOW\n"
+                                    : "#undef u_Channel\n#undef SHADOW_MASK\n");
     }
     fprintf(file, "void add_lights(vec3 normal, vec3 position, vec3 viewer, bool front, inout vec3 "
                   "color) {\n");
@@ -139,14 +222,14 @@ static bool is_mediump(const ShaderLoader *loader)
     return loader->precision && strcmp(loader->precision, "mediump") == 0;
 }
 
-static bool recipe_open(Recipe *recipe, const Effects *effects, const ShaderLoader *loader,
-                        Message *message)
+static bool recipe_open(Recipe *recipe, const Effects *effects, const Scene *scene,
+                        const ShaderLoader *loader, Message *message)
 {
     const bool mediump = is_mediump(loader);
     /* By ShaderStage. What is clamped at the vertices is computed there, the base too. */
     bool lights[2] = {[SHADER_VERTEX] = effects->clamp_vertex}, position[2] = {false};
     bool normals[2] = {false}, colored[2] = {false};
-    bool specular = false, full = false;
+    bool specular = false, full = false, vertex_shadows = false;
     for (int g = 0; g < effects->group_count; g++) {
         const LightTerms *terms = &effects->groups[g].terms;
         const int stage = terms->at_vertex ? SHADER_VERTEX : SHADER_FRAGMENT;
@@ -157,6 +240,7 @@ static bool recipe_open(Recipe *recipe, const Effects *effects, const ShaderLoad
         colored[stage] |= effects->vertex_color && (terms->ambient || terms->diffuse);
         specular |= terms->specular;
         full |= terms->any;
+        vertex_shadows |= terms->shadow && terms->at_vertex;
     }
     colored[lights[SHADER_VERTEX] ? SHADER_VERTEX : SHADER_FRAGMENT] |=
         effects->vertex_color && effects->base;
@@ -174,6 +258,8 @@ static bool recipe_open(Recipe *recipe, const Effects *effects, const ShaderLoad
         {effects->two_sided, "TWO_SIDED"},
         {lights[SHADER_VERTEX], "VERTEX_LIGHTS"},
         {lights[SHADER_FRAGMENT], "FRAGMENT_LIGHTS"},
+        {vertex_shadows, "VERTEX_SHADOWS"},
+        {mediump && masks_of(effects), "MASK_PLACE"},
         {position[SHADER_VERTEX] || position[SHADER_FRAGMENT], "POSITION"},
         {position[SHADER_FRAGMENT], "FRAGMENT_POSITION"},
         {normals[SHADER_VERTEX] || normals[SHADER_FRAGMENT], "NORMALS"},
@@ -193,8 +279,8 @@ static bool recipe_open(Recipe *recipe, const Effects *effects, const ShaderLoad
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         if (all[i].there)
             recipe->defines[count++] = all[i].define;
-    recipe->groups[SHADER_VERTEX] = groups_text(effects, true, mediump);
-    recipe->groups[SHADER_FRAGMENT] = groups_text(effects, false, mediump);
+    recipe->groups[SHADER_VERTEX] = groups_text(effects, scene, true, mediump);
+    recipe->groups[SHADER_FRAGMENT] = groups_text(effects, scene, false, mediump);
     if (recipe->groups[SHADER_VERTEX] && recipe->groups[SHADER_FRAGMENT])
         return true;
     return message_set(message, "lighting: not enough memory");
@@ -229,11 +315,12 @@ static ShaderLoader recipe_loader(const Recipe *recipe, const ShaderLoader *base
 
 /* Programs and buffers. */
 
-static const Variant *find_variant(Lighting *lighting, const Effects *effects, Message *message)
+static const Variant *find_variant(Lighting *lighting, const Scene *scene, const Effects *effects,
+                                   Message *message)
 {
     Recipe recipe;
     ShaderText texts[3];
-    if (!recipe_open(&recipe, effects, &lighting->loader, message)) {
+    if (!recipe_open(&recipe, effects, scene, &lighting->loader, message)) {
         recipe_close(&recipe);
         return NULL;
     }
@@ -307,8 +394,23 @@ static const Buffered *find_buffer(Lighting *lighting, const Mesh *mesh, Interpo
     return buffered;
 }
 
+static void forget_casters(Lighting *lighting, const Mesh *mesh)
+{
+    for (Caster **link = &lighting->casters; *link;) {
+        Caster *caster = *link;
+        if (mesh && caster->mesh != mesh) {
+            link = &caster->next;
+            continue;
+        }
+        *link = caster->next;
+        shadow_caster_close(&caster->shadow);
+        free(caster);
+    }
+}
+
 void lighting_forget(Lighting *lighting, const Mesh *mesh)
 {
+    forget_casters(lighting, mesh);
     for (Buffered **link = &lighting->buffers; *link;) {
         Buffered *buffered = *link;
         if (mesh && buffered->mesh != mesh) {
@@ -421,6 +523,15 @@ static Light eye_light(const LightingTransforms *transforms, const Camera *camer
     return light;
 }
 
+/* Each light's channel of its mask. */
+static void set_channels(GLuint program, const Scene *scene, const LightGroup *group, int g)
+{
+    float channels[4 * EFFECTS_MAX_LIGHTS] = {0};
+    for (int i = 0; i < group->count; i++)
+        channels[4 * i + effects_channel(scene, group->lights[i]) % SHADOW_CHANNELS] = 1;
+    set_array(program, "u_Channel", g, 4, group->count, channels);
+}
+
 static void set_group(GLuint program, const LightingTransforms *transforms, const Scene *scene,
                       Mat4 eye_from_world, const LightGroup *group, int g)
 {
@@ -459,6 +570,8 @@ static void set_group(GLuint program, const LightingTransforms *transforms, cons
     set_array(program, "u_Attenuation", g, 3, group->count, attenuation);
     set_array(program, "u_Spot", g, 4, group->count, spot);
     set_array(program, "u_Exponent", g, 1, group->count, exponent);
+    if (group->terms.shadow)
+        set_channels(program, scene, group, g);
 }
 
 /* Emission and constant ambient light; with vertex colors, which the latter is multiplied by, in
@@ -498,20 +611,321 @@ static void set_materials(GLuint program, const Scene *scene, const Object *obje
         set_colors(program, scene, &effects->groups[g], g, behind, mediump, back);
 }
 
+/* Shadows. */
+
+/* Which light's shadows may fall on what, a bit for each light: empty without shadows. */
+typedef struct ShadowPlan {
+    int count;                   /* of objects */
+    uint32_t *receives, *throws; /* of each object */
+    MeshBox *boxes;
+    uint32_t all; /* the lights that something receives */
+} ShadowPlan;
+
+static void plan_close(ShadowPlan *plan)
+{
+    free(plan->receives);
+    free(plan->throws);
+    free(plan->boxes);
+    *plan = (ShadowPlan){.count = 0};
+}
+
+static void plan_pair(ShadowPlan *plan, const Scene *scene, int occluder, int receiver)
+{
+    for (int l = 0; l < scene->light_count; l++) {
+        if (!effects_may_shadow(scene, l, occluder, receiver, plan->boxes))
+            continue;
+        plan->receives[receiver] |= (uint32_t)1 << l;
+        plan->throws[occluder] |= (uint32_t)1 << l;
+        plan->all |= (uint32_t)1 << l;
+    }
+}
+
+static bool plan_open(ShadowPlan *plan, Lighting *lighting, const Scene *scene, Message *message)
+{
+    const size_t count = (size_t)scene->object_count;
+    bool any = false;
+    *plan = (ShadowPlan){.count = 0};
+    for (int l = 0; l < scene->light_count; l++)
+        any |= scene->lights[l].shadows && !scene->lights[l].off;
+    if (!any)
+        return true;
+    if (scene->clamp_vertex && scene->interpolation != INTERPOLATION_PHONG)
+        return message_set(message, "shadows are looked up at the fragments: light that is clamped "
+                                    "at the vertices has none");
+    *plan = (ShadowPlan){.count = scene->object_count,
+                         .receives = calloc(count + 1, sizeof *plan->receives),
+                         .throws = calloc(count + 1, sizeof *plan->throws),
+                         .boxes = calloc(count + 1, sizeof *plan->boxes)};
+    if (!plan->receives || !plan->throws || !plan->boxes) {
+        plan_close(plan);
+        return message_set(message, "shadows: not enough memory for %zu objects", count);
+    }
+    for (size_t i = 0; i < count; i++) {
+        const Buffered *buffered =
+            find_buffer(lighting, scene->objects[i].mesh, INTERPOLATION_PHONG, message);
+        if (!buffered) {
+            plan_close(plan);
+            return false;
+        }
+        plan->boxes[i] = buffered->box;
+    }
+    for (int o = 0; o < scene->object_count; o++)
+        for (int r = 0; r < scene->object_count; r++)
+            plan_pair(plan, scene, o, r);
+    return true;
+}
+
+static const Caster *find_caster(Lighting *lighting, const Mesh *mesh, Message *message)
+{
+    for (const Caster *caster = lighting->casters; caster; caster = caster->next)
+        if (caster->mesh == mesh)
+            return caster;
+    Caster *caster = calloc(1, sizeof *caster);
+    if (!caster || !shadow_caster_open(&caster->shadow, mesh, message)) {
+        message_set(message, "shadows: not enough memory");
+        free(caster);
+        return NULL;
+    }
+    caster->mesh = mesh;
+    caster->next = lighting->casters;
+    lighting->casters = caster;
+    return caster;
+}
+
+/* What the masks of a frame are drawn from. */
+typedef struct ShadowFrame {
+    const Scene *scene;
+    const ShadowPlan *plan;
+    Mat4 eye_from_world, clip_from_eye;
+    bool full;
+} ShadowFrame;
+
+static ShadowSurface surface_of(Lighting *lighting, const ShadowFrame *frame, int number)
+{
+    const LightingTransforms *transforms = &lighting->transforms;
+    const Object *object = &frame->scene->objects[number];
+    const Mat4 eye_from_object = transforms->eye_from_object(
+        &frame->scene->camera, frame->eye_from_world, object->world_from_object);
+    const Effects effects = effects_of_boxed(frame->scene, object, &frame->plan->boxes[number], 0);
+    return (ShadowSurface){
+        .buffer = &find_buffer(lighting, object->mesh, INTERPOLATION_PHONG, NULL)->buffer,
+        .clip_from_object =
+            transforms->clip_from_object(frame->clip_from_eye, frame->eye_from_world,
+                                         object->world_from_object, eye_from_object),
+        .mirrored = mat4_determinant(eye_from_object) < 0,
+        .clockwise = object->clockwise,
+        .cull = effects.cull,
+        .behind_lines = object->behind_lines};
+}
+
+/* A closed mesh may leave out half of its triangles: see SilhouetteFacing. */
+static SilhouetteFacing facing_of(const ShadowFrame *frame, int number, bool closed, Vec4 light)
+{
+    const Object *object = &frame->scene->objects[number];
+    const MeshBox *box = &frame->plan->boxes[number];
+    const bool outside = light.w == 0 || light.x < box->low.x || light.x > box->high.x ||
+                         light.y < box->low.y || light.y > box->high.y || light.z < box->low.z ||
+                         light.z > box->high.z;
+    if (!closed)
+        return SILHOUETTE_ALL;
+    if (effects_unshadowed(frame->scene, object, box))
+        return SILHOUETTE_UNLIT;
+    return outside ? SILHOUETTE_LIT : SILHOUETTE_ALL;
+}
+
+/* Whether the near plane, as far as it is seen, may lie in the shadow: then the eye may, too. */
+static bool eye_in_shadow(const ShadowFrame *frame, int number, const Light *light)
+{
+    const Camera *camera = &frame->scene->camera;
+    const bool directional = light->kind == LIGHT_DIRECTIONAL;
+    const Vec3 place = directional ? light->direction : light->position;
+    /* Eye coordinates, of the rotation: its rows are the axes. */
+    const double *m = frame->eye_from_world.m, *p = frame->clip_from_eye.m;
+    const Vec3 right = {m[0], m[4], m[8]}, up = {m[1], m[5], m[9]}, back = {m[2], m[6], m[10]};
+    /* From the eye to the near plane. */
+    const PlacedBox seen = {.center = vec3_add(camera->eye, vec3_scale(back, -0.5 * camera->near)),
+                            .half = {vec3_scale(right, camera->near / p[0]),
+                                     vec3_scale(up, camera->near / p[5]),
+                                     vec3_scale(back, 0.5 * camera->near)}};
+    const PlacedBox box =
+        placed_box(&frame->plan->boxes[number], frame->scene->objects[number].world_from_object);
+    return may_come_between(&box, &seen, (Vec4){place.x, place.y, place.z, directional ? 0 : 1});
+}
+
+/* How far a box reaches along a direction, and before it. */
+static double box_least(const PlacedBox *box, Vec3 way)
+{
+    double least = vec3_dot(box->center, way);
+    for (int i = 0; i < 3; i++)
+        least -= fabs(vec3_dot(box->half[i], way));
+    return least;
+}
+
+/* The least of what receives a light's shadows along a direction, less a little. */
+static double receivers_least(const ShadowFrame *frame, int light, Vec3 way)
+{
+    double least = INFINITY, most = -INFINITY;
+    for (int r = 0; r < frame->plan->count; r++) {
+        if (!(frame->full || frame->plan->receives[r] >> light & 1))
+            continue;
+        const PlacedBox box =
+            placed_box(&frame->plan->boxes[r], frame->scene->objects[r].world_from_object);
+        least = fmin(least, box_least(&box, way));
+        most = fmax(most, -box_least(&box, vec3_scale(way, -1)));
+    }
+    return least - 1e-3 * (most - least) - 1e-5 * fabs(least);
+}
+
+/* Looks for the plane before which all receivers lie that ends a caster's volume the soonest: of
+ * those along the sides of the receivers' boxes. Infinity, if there is none. */
+static Vec4 find_end(const ShadowFrame *frame, int number, int light_number, const Light *light)
+{
+    static const double FAR = 1e6; /* a light's distance that leaves no digits of a float */
+    const Vec4 none = {0, 0, 0, 1};
+    const PlacedBox caster =
+        placed_box(&frame->plan->boxes[number], frame->scene->objects[number].world_from_object);
+    const bool directional = light->kind == LIGHT_DIRECTIONAL;
+    double soonest = INFINITY;
+    Vec4 found = none;
+    if (!directional && vec3_length(vec3_subtract(light->position, caster.center)) >
+                            FAR * vec3_length(vec3_add(caster.half[0], caster.half[1])))
+        return none;
+    for (int k = 0; k < 6 * frame->plan->count; k++) {
+        const PlacedBox box =
+            placed_box(&frame->plan->boxes[k / 6], frame->scene->objects[k / 6].world_from_object);
+        Vec3 way;
+        if (!vec3_normalize(vec3_cross(box.half[k / 2 % 3], box.half[(k / 2 + 1) % 3]), &way))
+            continue;
+        way = vec3_scale(way, k % 2 ? -1 : 1);
+        /* The light is on the plane's other side, and the caster between them. */
+        const double least = receivers_least(frame, light_number, way);
+        const double most = -box_least(&caster, vec3_scale(way, -1));
+        const double lights =
+            directional ? vec3_dot(light->direction, way) : vec3_dot(light->position, way) - most;
+        const double steps = (vec3_dot(caster.center, way) - least) / lights;
+        if (lights > 0 && box_least(&caster, way) > least && steps < soonest) {
+            soonest = steps;
+            found = (Vec4){way.x, way.y, way.z, -least};
+        }
+    }
+    return found;
+}
+
+/* In object coordinates. */
+static Vec4 plane_of_object(Vec4 plane, Mat4 world_from_object)
+{
+    return mat4_transform(mat4_transpose(world_from_object), plane);
+}
+
+static bool cast_shadow(Lighting *lighting, const ShadowFrame *frame, const Light *light,
+                        int light_number, int number, Message *message)
+{
+    const Object *object = &frame->scene->objects[number];
+    const bool directional = light->kind == LIGHT_DIRECTIONAL;
+    const Vec3 place = directional ? light->direction : light->position;
+    Mat4 object_from_world;
+    if (!mat4_inverse(object->world_from_object, &object_from_world))
+        return message_set(message, "object %d is flattened, and throws no shadow by volumes",
+                           number);
+    ShadowThrow thrown = {.surface = surface_of(lighting, frame, number),
+                          .two_sided = object->two_sided,
+                          .behind = eye_in_shadow(frame, number, light),
+                          .own = frame->full || frame->plan->receives[number] >> light_number & 1};
+    const Caster *caster = find_caster(lighting, object->mesh, message);
+    if (!caster)
+        return false;
+    thrown.caster = &caster->shadow;
+    thrown.light_object =
+        mat4_transform(object_from_world, (Vec4){place.x, place.y, place.z, directional ? 0 : 1});
+    thrown.end =
+        plane_of_object(find_end(frame, number, light_number, light), object->world_from_object);
+    thrown.facing = facing_of(frame, number, thrown.caster->silhouette.closed, thrown.light_object);
+    return shadow_mask_cast(&lighting->mask, &thrown, message);
+}
+
+static bool draw_light_mask(Lighting *lighting, const ShadowFrame *frame, int number,
+                            Message *message)
+{
+    Light light = scene_world_light(frame->scene, number);
+    vec3_normalize(light.direction, &light.direction);
+    for (int o = 0; o < frame->scene->object_count; o++)
+        if (frame->plan->throws[o] >> number & 1 &&
+            !cast_shadow(lighting, frame, &light, number, o, message))
+            return false;
+    shadow_mask_light(&lighting->mask, effects_channel(frame->scene, number));
+    return true;
+}
+
+/* The number of textures that the programs of this scene look up. */
+static int mask_count(const Scene *scene, const ShadowPlan *plan, bool full)
+{
+    int count = 0;
+    for (int l = 0; l < scene->light_count; l++)
+        if (full ? scene->lights[l].shadows : plan->all >> l & 1)
+            count = effects_channel(scene, l) / SHADOW_CHANNELS + 1;
+    return count;
+}
+
+static bool draw_masks(Lighting *lighting, const ShadowFrame *frame, int count, Message *message)
+{
+    ShadowMask *mask = &lighting->mask;
+    if ((!mask->framebuffer && !shadow_mask_open(mask, &lighting->loader, message)) ||
+        !shadow_mask_begin(mask, count, frame->scene->camera.near, message))
+        return false;
+    for (int o = 0; o < frame->scene->object_count; o++) {
+        const ShadowSurface surface = surface_of(lighting, frame, o);
+        shadow_mask_surface(mask, &surface);
+    }
+    bool done = true;
+    for (int l = 0; l < frame->scene->light_count && done; l++)
+        if (frame->plan->all >> l & 1)
+            done = draw_light_mask(lighting, frame, l, message);
+    return shadow_mask_end(mask, message) && done;
+}
+
+/* Where the masks are looked up: at places in the framebuffer, or in mediump in its viewport, from
+ * -1 to 1. */
+static void set_masks(GLuint program, const ShadowMask *mask, bool mediump, int count)
+{
+    const double size[2] = {mask->width, mask->height};
+    float place[4] = {0};
+    char name[32];
+    for (int i = 0; i < 2; i++) {
+        const double half = mask->place[2 + i] / 2.0;
+        place[i] = (float)((mediump ? half : 1) / size[i]);
+        place[2 + i] = (float)((mediump ? mask->place[i] + half : 0) / size[i]);
+    }
+    for (int i = 0; i < count; i++) {
+        snprintf(name, sizeof name, "u_Mask%d", i);
+        glUniform1i(glGetUniformLocation(program, name), i);
+    }
+    if (count)
+        glUniform4fv(glGetUniformLocation(program, "u_MaskPlace"), 1, place);
+}
+
 /* Drawing. */
 
+/* What is the same for all objects of a frame. */
+typedef struct LightingFrame {
+    Mat4 eye_from_world, clip_from_eye;
+    bool full;
+    int masks;
+} LightingFrame;
+
 static bool draw_object(Lighting *lighting, const Scene *scene, const Object *object,
-                        Mat4 eye_from_world, Mat4 clip_from_eye, bool full, Message *message)
+                        const LightingFrame *frame, uint32_t shadowed, Message *message)
 {
+    const Mat4 eye_from_world = frame->eye_from_world, clip_from_eye = frame->clip_from_eye;
+    const bool full = frame->full;
     const Buffered *buffered =
         find_buffer(lighting, object->mesh, remade_for(scene, object), message);
     if (!buffered)
         return false;
-    Effects effects =
-        full ? effects_full(scene, object) : effects_of_boxed(scene, object, &buffered->box);
+    Effects effects = full ? effects_full(scene, object)
+                           : effects_of_boxed(scene, object, &buffered->box, shadowed);
     if (lighting->normal_matrix && effects.normals)
         effects.normal_matrix = effects.normalize_vertex = true;
-    const Variant *variant = find_variant(lighting, &effects, message);
+    const Variant *variant = find_variant(lighting, scene, &effects, message);
     if (!variant)
         return false;
 
@@ -537,6 +951,7 @@ static bool draw_object(Lighting *lighting, const Scene *scene, const Object *ob
     set_materials(program, scene, object, &effects, full, is_mediump(&lighting->loader));
     for (int g = 0; g < effects.group_count; g++)
         set_group(program, transforms, scene, eye_from_world, &effects.groups[g], g);
+    set_masks(program, &lighting->mask, is_mediump(&lighting->loader), frame->masks);
 
     /* A reflection reverses the winding. */
     glFrontFace((mat4_determinant(eye_from_object) < 0) != object->clockwise ? GL_CW : GL_CCW);
@@ -562,29 +977,55 @@ static bool draw_object(Lighting *lighting, const Scene *scene, const Object *ob
     return true;
 }
 
-bool lighting_draw(Lighting *lighting, const Scene *scene, double aspect, bool full,
-                   Message *message)
+/* Object `i` as parts[i] says, if there are parts. */
+static bool draw_objects(Lighting *lighting, const Scene *scene, const Scene *parts,
+                         const LightingFrame *frame, const ShadowPlan *plan, Message *message)
 {
-    Mat4 eye_from_world, clip_from_eye;
-    if (!scene_camera(&scene->camera, aspect, &eye_from_world, &clip_from_eye, message))
-        return false;
-    if (scene->light_count > EFFECTS_MAX_LIGHTS)
-        return message_set(message, "scene: %d lights: at most %d fit into one program",
-                           scene->light_count, EFFECTS_MAX_LIGHTS);
-    glEnable(GL_DEPTH_TEST);
     bool done = true;
     for (int i = 0; i < scene->object_count && done; i++) {
         Message why = {.located = false};
-        done = draw_object(lighting, scene, &scene->objects[i], eye_from_world, clip_from_eye, full,
-                           &why);
+        done = draw_object(lighting, parts ? &parts[i] : scene,
+                           parts ? &parts[i].objects[0] : &scene->objects[i], frame,
+                           plan->count ? plan->receives[i] : 0, &why);
         if (!done && why.located && message)
             *message = why; /* a shader's, which begins with file:line */
         else if (!done)
             message_set(message, "object %d: %s", i, why.text);
     }
+    return done;
+}
+
+bool lighting_draw_parts(Lighting *lighting, const Scene *scene, const Scene *parts, double aspect,
+                         bool full, Message *message)
+{
+    LightingFrame frame = {.full = full};
+    ShadowPlan plan;
+    if (!scene_camera(&scene->camera, aspect, &frame.eye_from_world, &frame.clip_from_eye, message))
+        return false;
+    if (scene->light_count > EFFECTS_MAX_LIGHTS)
+        return message_set(message, "scene: %d lights: at most %d fit into one program",
+                           scene->light_count, EFFECTS_MAX_LIGHTS);
+    if (!plan_open(&plan, lighting, scene, message))
+        return false;
+    frame.masks = mask_count(scene, &plan, full);
+    const ShadowFrame shadows = {scene, &plan, frame.eye_from_world, frame.clip_from_eye, full};
+    bool done = !frame.masks || draw_masks(lighting, &shadows, frame.masks, message);
+    glEnable(GL_DEPTH_TEST);
+    if (frame.masks)
+        shadow_mask_bind(&lighting->mask, frame.masks);
+    done = done && draw_objects(lighting, scene, parts, &frame, &plan, message);
+    if (frame.masks)
+        shadow_mask_bind(NULL, frame.masks);
+    plan_close(&plan);
     glDisable(GL_CULL_FACE);
     glFrontFace(GL_CCW);
     return done;
+}
+
+bool lighting_draw(Lighting *lighting, const Scene *scene, double aspect, bool full,
+                   Message *message)
+{
+    return lighting_draw_parts(lighting, scene, NULL, aspect, full, message);
 }
 
 bool lighting_open(Lighting **opened, const ShaderLoader *loader, Message *message)
@@ -602,7 +1043,7 @@ GLuint lighting_program(Lighting *lighting, const Scene *scene, const Object *ob
                         Message *message)
 {
     const Effects effects = full ? effects_full(scene, object) : effects_of(scene, object);
-    const Variant *variant = find_variant(lighting, &effects, message);
+    const Variant *variant = find_variant(lighting, scene, &effects, message);
     return variant ? variant->shader.program : 0;
 }
 
@@ -612,7 +1053,7 @@ bool lighting_sources(const Lighting *lighting, const Scene *scene, const Object
     const Effects effects = full ? effects_full(scene, object) : effects_of(scene, object);
     Recipe recipe;
     ShaderText texts[3];
-    bool done = recipe_open(&recipe, &effects, &lighting->loader, message);
+    bool done = recipe_open(&recipe, &effects, scene, &lighting->loader, message);
     const ShaderLoader loader = recipe_loader(&recipe, &lighting->loader, texts);
     sources[SHADER_VERTEX] = sources[SHADER_FRAGMENT] = (ShaderSource){0};
     done = done &&
@@ -628,7 +1069,10 @@ bool lighting_sources(const Lighting *lighting, const Scene *scene, const Object
 
 LightingCounts lighting_counts(const Lighting *lighting)
 {
-    return lighting->counts;
+    LightingCounts counts = lighting->counts;
+    counts.volumes = lighting->mask.volumes;
+    counts.volume_triangles = lighting->mask.triangles;
+    return counts;
 }
 
 void lighting_close(Lighting *lighting)
@@ -642,11 +1086,7 @@ void lighting_close(Lighting *lighting)
         recipe_close(&variant->recipe);
         free(variant);
     }
-    while (lighting->buffers) {
-        Buffered *buffered = lighting->buffers;
-        lighting->buffers = buffered->next;
-        mesh_buffer_close(&buffered->buffer);
-        free(buffered);
-    }
+    lighting_forget(lighting, NULL);
+    shadow_mask_close(&lighting->mask);
     free(lighting);
 }

@@ -15,6 +15,7 @@ typedef struct Lighting Lighting;
 typedef struct LightingCounts {
     int programs; /* compiled so far */
     double compile_seconds;
+    long long volumes, volume_triangles; /* of shadows, drawn so far */
 } LightingCounts;
 
 /* `loader` is copied; its strings must outlive the Lighting. */
@@ -39,9 +40,15 @@ void lighting_use_normal_matrix(Lighting *lighting, LightingNormalMatrix *normal
 
 /* Draws a scene that has passed scene_check into the current canvas, without clearing it. `full`
  * uses the program with every effect, for comparison. Mesh buffers are cached by the mesh's
- * address: a mesh must not change before lighting_forget or lighting_close. */
+ * address: a mesh must not change before lighting_forget or lighting_close. Where a light has
+ * shadows that may fall on something, masks of them are drawn first (shadows/shadow_mask.h). */
 bool lighting_draw(Lighting *lighting, const Scene *scene, double aspect, bool full,
                    Message *message);
+
+/* The same of a scene whose objects are drawn as `parts` say, scenes of one object each, with as
+ * many lights: shadows are those of the scene. */
+bool lighting_draw_parts(Lighting *lighting, const Scene *scene, const Scene *parts, double aspect,
+                         bool full, Message *message);
 
 /* Drops the buffers of a mesh before it changes or closes; NULL: of all meshes. */
 void lighting_forget(Lighting *lighting, const Mesh *mesh);

@@ -158,8 +158,8 @@ static int shadow_lights(const Scene *scene, const Placed *occluder, const Place
     int count = 0;
     for (int l = 0; l < scene->light_count && count < SAMPLES; l++) {
         const Light light = scene_world_light(scene, l);
-        const bool on =
-            !light.off && !(color_is_black(light.diffuse) && color_is_black(light.specular));
+        const bool on = !light.off && !light.shadows &&
+                        !(color_is_black(light.diffuse) && color_is_black(light.specular));
         if (on && throws_shadow(occluder, receiver, &light, size))
             lights[count++] = l;
     }

@@ -16,6 +16,7 @@ const char *const INTERPOLATION_NAMES[] = {[INTERPOLATION_PHONG] = "phong",
                                            [INTERPOLATION_FLAT] = "flat",
                                            [INTERPOLATION_CONSTANT] = "constant",
                                            NULL};
+const char *const SHADOW_NAMES[] = {[SHADOWS_OFF] = "off", [SHADOWS_VOLUMES] = "volumes", NULL};
 
 /* Each check leaves a message that begins with its subject, "light 2: cutoff". */
 
@@ -174,6 +175,22 @@ double scene_fovy(const Camera *camera, double aspect)
     if (!(aspect < camera->aspect))
         return camera->fovy;
     return 2 / RADIANS * atan(tan(camera->fovy * RADIANS / 2) * camera->aspect / aspect);
+}
+
+bool object_is_convex(const Object *object)
+{
+    switch (object->solid.kind) {
+    case SOLID_QUAD:
+    case SOLID_DISC:
+        return true;
+    case SOLID_SPHERE:
+    case SOLID_BOX:
+    case SOLID_CONE:
+    case SOLID_CYLINDER:
+        return object->closed && !object->two_sided; /* else both sides are seen */
+    default:
+        return false;
+    }
 }
 
 Sphere scene_sphere(const Object *object, const MeshBox *box)

@@ -44,12 +44,20 @@ enum { VIEWER_LOCAL, VIEWER_INFINITE };
 extern const char *const VIEWER_NAMES[];        /* "local", "infinite" */
 extern const char *const INTERPOLATION_NAMES[]; /* "phong", "gouraud", "flat", "constant" */
 
+/* How the shadows of lights that have them are drawn. */
+typedef enum ShadowWay {
+    SHADOWS_OFF, /* no light has any */
+    SHADOWS_VOLUMES,
+} ShadowWay;
+extern const char *const SHADOW_NAMES[]; /* "off", "volumes" */
+
 typedef struct Object {
     const Mesh *mesh;
     Solid solid;       /* the exact shape; zeroed, or if the mesh has colors: the triangles */
     bool flat;         /* the three normals of each triangle are equal */
     bool closed;       /* no back face is visible from outside */
     bool clockwise;    /* front faces are clockwise, as glFrontFace(GL_CW) has it */
+    bool lamp;         /* stands for a light within: throws no shadow */
     bool behind_lines; /* pushed back by polygon offset, so that its edges are drawn whole */
     Mat4 world_from_object;
     /* If the mesh has colors, they are the ambient and diffuse reflectivity (glColorMaterial). */
@@ -106,6 +114,11 @@ double scene_fovy(const Camera *camera, double aspect);
 /* Moves the near and far planes outwards where an object lies before or behind them, as far as the
  * depth buffer's precision lets them: near is not less than far / 1e5. */
 void scene_fit_depth(Scene *scene);
+
+/* Whether no point of an object hides a light from another that faces it: it stands for a flat or a
+ * closed convex solid. Such an object does not shadow itself, whatever the facets of its mesh are:
+ * where N.L > 0 it sees the light. */
+bool object_is_convex(const Object *object);
 
 /* A sphere around an object's box, in world coordinates. */
 typedef struct Sphere {

@@ -30,6 +30,7 @@ typedef struct SceneExample {
     const char *(*label)(int view); /* at the bottom of a view; NULL: none */
     /* Instead where an option of all scenes changes what a view computes; may be NULL. */
     const char *(*plain_label)(int view);
+    bool shadows;                  /* its lights have them, unless the option says otherwise */
     void (*retouch)(Image *image); /* changes the finished picture, in bytes */
     const Parameter *parameters;   /* the program's own options, terminated by a NULL name */
 } SceneExample;

@@ -3,6 +3,7 @@
 #include "base/cache.h"
 #include "base/process.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -89,6 +90,7 @@ static const Rule RULES[] = {
     {.name = "Acos", .special_each = 1},
     {.name = "Atan", .special_each = 1},
     {.name = "Atan2", .special_each = 1},
+    {.name = "OpImageSampleImplicitLod", .special = 1},
     /* Moves and bookkeeping. */
     {.name = "OpLoad"},
     {.name = "OpStore"},
@@ -368,6 +370,20 @@ static const char *const LATER[] = {
     "noise4",
 };
 
+static bool in_word(char c)
+{
+    return isalnum((unsigned char)c) || c == '_';
+}
+
+static bool has_word(const char *text, const char *word)
+{
+    const size_t length = strlen(word);
+    for (const char *at = strstr(text, word); at; at = strstr(at + 1, word))
+        if ((at == text || !in_word(at[-1])) && !in_word(at[length]))
+            return true;
+    return false;
+}
+
 /* The preprocessed shader as GLSL ES 3.10, the oldest that becomes SPIR-V; NULL on failure. */
 static FILE *translate(const char *text, ShaderStage stage)
 {
@@ -385,14 +401,14 @@ static FILE *translate(const char *text, ShaderStage stage)
               "layout(location = 0) out highp vec4 operations_FragData[1];\n",
               file);
     for (size_t i = 0; i < sizeof LATER / sizeof LATER[0]; i++)
-        if (strstr(text, LATER[i]))
+        if (has_word(text, LATER[i]))
             fprintf(file, "#define %s operations_%s\n", LATER[i], LATER[i]);
     if (stage == SHADER_VERTEX)
         fputs("#define attribute in\n#define varying out\n", file);
     else if (strstr(text, "gl_FragData"))
         fputs("#define varying in\n", file);
     else
-        fputs("#define varying in\n"
+        fputs("#define varying in\n#define texture2D texture\n"
               "#define gl_FragColor operations_FragColor\n"
               "out highp vec4 operations_FragColor;\n",
               file);

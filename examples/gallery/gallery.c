@@ -94,6 +94,7 @@ static Options options_of(const Example *example, const Options *options)
     const Usage usage = options_usage(example);
     if (!options->size_given)
         options_size(&usage, &own.width, &own.height);
+    own.shadows = options_default(&usage).shadows;
     return own;
 }
 
@@ -154,7 +155,10 @@ static bool draw_one(const Example *example, Canvas *canvas, const Options *opti
 {
     Stage stage;
     const Options own = options_of(example, options);
-    if (!canvas_resize(canvas, own.width, own.height, message) ||
+    const bool shadows = options_have_shadows(&own);
+    if ((shadows != canvas->supersampled &&
+         !canvas_set_samples(canvas, own.canvas.samples, shadows, message)) ||
+        !canvas_resize(canvas, own.width, own.height, message) ||
         !stage_open(&stage, example, canvas, options, message))
         return false;
     stage_warn(&stage);

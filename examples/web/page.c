@@ -272,7 +272,8 @@ static bool fit_canvas(const Options *options, Message *message)
     if (!page.canvas.backend)
         return stage_open_canvas(&page.canvas, options, "x.png", message);
     return canvas_resize(&page.canvas, options->width, options->height, message) &&
-           canvas_set_samples(&page.canvas, options->canvas.samples, message);
+           canvas_set_samples(&page.canvas, options->canvas.samples, options_have_shadows(options),
+                              message);
 }
 
 static bool open_stage(const Example *example, bool keeps, Message *message)

@@ -39,6 +39,12 @@ uniform vec4 u_Spot[COUNT]; // the cone's axis, away from the light, unit; the c
 #ifdef EXPONENT
 uniform float u_Exponent[COUNT];
 #endif
+#ifdef SHADOW
+uniform vec4 u_Channel[COUNT]; // 1 in that of the light, of the mask that the group looks up
+#define LIT(value) (lit * (value))
+#else
+#define LIT(value) (value)
+#endif
 
 #ifdef TWO_SIDED
 #define PICK(front_value, back_value) (front ? front_value : back_value)
@@ -83,12 +89,22 @@ void GROUP(vec3 normal, vec3 position, vec3 viewer, bool front, inout vec3 color
         vec3 sum = vec3(0.0);
 #ifdef AMBIENT
         sum += PICK(u_FrontAmbient[i], u_BackAmbient[i]);
+#ifdef VERTEX_SHADOW // which does not fall on ambient light
+#ifdef VERTEX_COLOR
+        sum *= surface_color;
+#endif
+        color += share * sum;
+        sum = vec3(0.0);
+#endif
 #endif
 #if defined(DIFFUSE) || defined(SPECULAR)
         float n_dot_l = dot(normal, to_light);
 #endif
+#ifdef SHADOW
+        float lit = 1.0 - dot(SHADOW_MASK, u_Channel[i]);
+#endif
 #ifdef DIFFUSE
-        sum += PICK(u_FrontDiffuse[i], u_BackDiffuse[i]) * max(n_dot_l, 0.0);
+        sum += PICK(u_FrontDiffuse[i], u_BackDiffuse[i]) * LIT(max(n_dot_l, 0.0));
 #endif
 #if defined(VERTEX_COLOR) && defined(AMBIENT) || defined(VERTEX_COLOR) && defined(DIFFUSE)
         sum *= surface_color;
@@ -102,10 +118,20 @@ void GROUP(vec3 normal, vec3 position, vec3 viewer, bool front, inout vec3 color
 #else
         float power = highlight(normal, safe_normalize(to_light + viewer), shininess);
 #endif
-        sum += PICK(u_FrontSpecular[i], u_BackSpecular[i]) * facing(n_dot_l, power);
+        sum += PICK(u_FrontSpecular[i], u_BackSpecular[i]) * LIT(facing(n_dot_l, power));
 #endif
+#ifdef VERTEX_SHADOW // looked up at the fragments
+        if (front)
+            v_FrontDirect[VERTEX_SHADOW + i] = share * sum;
+#ifdef TWO_SIDED
+        else
+            v_BackDirect[VERTEX_SHADOW + i] = share * sum;
+#endif
+#else
         color += share * sum;
+#endif
     }
 }
 
 #undef PICK
+#undef LIT

@@ -1,0 +1,24 @@
+/*
+ * between: whether an object may come between another and a light, from their boxes. No GL.
+ */
+#ifndef BETWEEN_H
+#define BETWEEN_H
+
+#include "core/mesh.h"
+
+/* A mesh's box in the world: its center, and the ways from there to the middles of three sides. */
+typedef struct PlacedBox {
+    Vec3 center, half[3];
+} PlacedBox;
+
+PlacedBox placed_box(const MeshBox *box, Mat4 world_from_object);
+
+/* Whether the boxes have a point in common. */
+bool boxes_meet(const PlacedBox *a, const PlacedBox *b);
+
+/* Whether a segment from the receiver to the light may meet the occluder. `light`: its position
+ * with w = 1, or the direction towards it with w = 0. False is certain, up to a millionth of the
+ * boxes' sizes: a plane lies between the occluder and all those segments. */
+bool may_come_between(const PlacedBox *occluder, const PlacedBox *receiver, Vec4 light);
+
+#endif

@@ -1,0 +1,82 @@
+/*
+ * shadow_mask: which pixels are in the shadow of which light, as textures that a program looks up:
+ * one channel for each light, 1 in shadow, 0 in light.
+ *
+ * By stencil volumes (Crow, Shadow algorithms for computer graphics, 1977), whose faces are counted
+ * behind the surfaces, where they fail the depth test: right too if the eye is in shadow, and if
+ * the near plane cuts a volume (Everitt and Kilgard, Practical and Robust Stenciled Shadow Volumes
+ * for Hardware-Accelerated Rendering, 2002). If no segment from the near plane to the light meets
+ * the caster's box, they are counted before the surfaces, which needs no caps. A pixel is in shadow
+ * if between the surface at its center and the light there is a triangle other than the surface's
+ * own, or if the light is on the other side of the surface's own than its normal. Where a cap is
+ * the surface itself, both have bitwise the same depth.
+ */
+#ifndef SHADOW_MASK_H
+#define SHADOW_MASK_H
+
+#include "core/mesh_buffer.h"
+#include "core/shader.h"
+#include "shadows/silhouette.h"
+
+enum { SHADOW_MASKS = 8, SHADOW_CHANNELS = 4 }; /* textures at most; lights in each */
+
+/* A mesh that throws shadows. */
+typedef struct ShadowCaster {
+    Silhouette silhouette;
+    GLuint vertices; /* two for each of the mesh: as it is, and to be moved to infinity */
+} ShadowCaster;
+
+bool shadow_caster_open(ShadowCaster *caster, const Mesh *mesh, Message *message);
+void shadow_caster_close(ShadowCaster *caster); /* NULL or zeroed is fine */
+
+typedef struct ShadowMask {
+    Shader shader;
+    GLuint framebuffer, depth, textures[SHADOW_MASKS], stream, square;
+    int width, height;
+    ShadowVolume volume;
+    /* While it is drawn: */
+    GLint target, place[4]; /* what is drawn to afterwards, and its viewport */
+    double near;
+    long long volumes, triangles; /* drawn so far, for tests and --explain's reader */
+} ShadowMask;
+
+/* False if the shaders do not compile or the driver has no packed depth and stencil. */
+bool shadow_mask_open(ShadowMask *mask, const ShaderLoader *loader, Message *message);
+void shadow_mask_close(ShadowMask *mask); /* NULL or zeroed is fine */
+
+/* In this order: begins a mask for the framebuffer and viewport that are bound, with `count`
+ * textures; draws the surfaces; for each light its casters, then what is left of the mask; ends,
+ * and binds what was bound. `near` is the camera's. */
+bool shadow_mask_begin(ShadowMask *mask, int count, double near, Message *message);
+
+typedef struct ShadowSurface {
+    const MeshBuffer *buffer;
+    Mat4 clip_from_object;
+    bool mirrored, clockwise; /* by the transform; front faces are clockwise in the mesh */
+    bool cull;                /* its back faces are not drawn */
+    bool behind_lines;        /* pushed back, as Object.behind_lines */
+} ShadowSurface;
+void shadow_mask_surface(ShadowMask *mask, const ShadowSurface *surface);
+
+/* What a caster keeps from a light. */
+typedef struct ShadowThrow {
+    ShadowSurface surface;
+    const ShadowCaster *caster;
+    Vec4 light_object; /* in object coordinates: its position, or w = 0: the direction towards it */
+    /* A plane in object coordinates, before which everything lies that the shadow may fall on: the
+     * dot product with (x, y, z, 1) is not negative. (0, 0, 0, 1): infinity. */
+    Vec4 end;
+    SilhouetteFacing facing;
+    bool two_sided; /* the back has the opposite normal */
+    bool behind;    /* count behind the surfaces (depth fail), because the eye may be in the volume;
+                       else before them, where only sides are */
+    bool own;       /* the caster's own surface looks up this light */
+} ShadowThrow;
+bool shadow_mask_cast(ShadowMask *mask, const ShadowThrow *thrown, Message *message);
+void shadow_mask_light(ShadowMask *mask, int channel);
+bool shadow_mask_end(ShadowMask *mask, Message *message);
+
+/* Binds the textures of the last mask to the units from 0 on; NULL: unbinds so many. */
+void shadow_mask_bind(const ShadowMask *mask, int count);
+
+#endif

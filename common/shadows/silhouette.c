@@ -1,0 +1,258 @@
+#include "shadows/silhouette.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* A hash table of numbers of items, with a comparison by the caller: open addressing. */
+typedef struct Table {
+    uint32_t *slots; /* a number plus 1; 0: free */
+    size_t mask;
+} Table;
+
+static bool table_open(Table *table, size_t items)
+{
+    size_t size = 16;
+    while (size < 2 * items)
+        size *= 2;
+    *table = (Table){calloc(size, sizeof *table->slots), size - 1};
+    return table->slots != NULL;
+}
+
+static uint64_t mix(uint64_t a, uint64_t b)
+{
+    uint64_t x = (a + 0x9e3779b97f4a7c15U) ^ (b * 0xbf58476d1ce4e5b9U);
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
+    return x ^ (x >> 31);
+}
+
+/* As bits; zero has two signs. */
+static uint64_t place_hash(const float place[3])
+{
+    uint32_t bits[3];
+    for (int i = 0; i < 3; i++) {
+        const float value = place[i] + 0.0F;
+        memcpy(&bits[i], &value, sizeof value);
+    }
+    return mix(mix(bits[0], bits[1]), bits[2]);
+}
+
+static bool same_place(const float a[3], const float b[3])
+{
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
+/* For each vertex the first one at the same position. */
+static bool weld(const Mesh *mesh, uint32_t *first)
+{
+    Table table;
+    if (!table_open(&table, mesh->vertex_count))
+        return false;
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
+        const float *place = mesh->vertices[i].position;
+        size_t slot = place_hash(place) & table.mask;
+        while (table.slots[slot] &&
+               !same_place(place, mesh->vertices[table.slots[slot] - 1].position))
+            slot = (slot + 1) & table.mask;
+        if (!table.slots[slot])
+            table.slots[slot] = (uint32_t)i + 1;
+        first[i] = table.slots[slot] - 1;
+    }
+    free(table.slots);
+    return true;
+}
+
+/* The number of the edge between two vertices, new or known, doubled, plus 1 if `from` is not its
+ * lesser end. */
+static uint32_t find_edge(Silhouette *made, Table *table, uint32_t from, uint32_t to)
+{
+    const uint32_t low = from < to ? from : to, high = from < to ? to : from;
+    size_t slot = mix(low, high) & table->mask;
+    for (; table->slots[slot]; slot = (slot + 1) & table->mask) {
+        const uint32_t *ends = made->ends[table->slots[slot] - 1];
+        if (ends[0] == low && ends[1] == high)
+            break;
+    }
+    if (!table->slots[slot]) {
+        made->ends[made->edge_count][0] = low;
+        made->ends[made->edge_count][1] = high;
+        table->slots[slot] = (uint32_t)++made->edge_count;
+    }
+    return 2 * (table->slots[slot] - 1) + (from > to);
+}
+
+static Vec3 corner(const Mesh *mesh, size_t index)
+{
+    return vec3_from_float(mesh->vertices[mesh->indices[index]].position);
+}
+
+/* Nets of zero when all triangles are as they are, and a positive volume. */
+static bool is_closed(const Silhouette *made)
+{
+    double volume = 0;
+    memset(made->nets, 0, made->edge_count * sizeof *made->nets);
+    for (size_t t = 0; t < made->triangle_count; t++) {
+        volume +=
+            vec3_dot(vec3_subtract(corner(made->mesh, 3 * t), made->center), made->normals[t]);
+        for (size_t k = 3 * t; k < 3 * t + 3 && made->edges[k] != UINT32_MAX; k++)
+            made->nets[made->edges[k] / 2] += made->edges[k] % 2 ? -1 : 1;
+    }
+    for (size_t e = 0; e < made->edge_count; e++)
+        if (made->nets[e] != 0)
+            return false;
+    return volume > 0;
+}
+
+static bool find_edges(Silhouette *made, uint32_t *first)
+{
+    const Mesh *mesh = made->mesh;
+    Table table;
+    if (!weld(mesh, first) || !table_open(&table, mesh->index_count))
+        return false;
+    for (size_t t = 0; t < made->triangle_count; t++) {
+        const uint32_t *indices = mesh->indices + 3 * t;
+        const Vec3 a = corner(mesh, 3 * t);
+        made->normals[t] = vec3_cross(vec3_subtract(corner(mesh, 3 * t + 1), a),
+                                      vec3_subtract(corner(mesh, 3 * t + 2), a));
+        const bool flat = vec3_length(made->normals[t]) == 0;
+        Vec3 shading = {0, 0, 0};
+        for (size_t k = 0; k < 3; k++)
+            shading = vec3_add(shading, vec3_from_float(mesh->vertices[indices[k]].normal));
+        made->turned[t] = vec3_dot(shading, made->normals[t]) < 0;
+        for (size_t k = 0; k < 3; k++)
+            made->edges[3 * t + k] =
+                flat ? UINT32_MAX
+                     : find_edge(made, &table, first[indices[k]], first[indices[(k + 1) % 3]]);
+    }
+    free(table.slots);
+    return true;
+}
+
+bool silhouette_open(Silhouette *silhouette, const Mesh *mesh, Message *message)
+{
+    const MeshBox box = mesh_bounds(mesh);
+    const size_t edges = mesh->index_count + 1;
+    uint32_t *first = malloc((mesh->vertex_count + 1) * sizeof *first);
+    float center[3];
+    vec3_to_float(vec3_add(box.low, vec3_scale(vec3_subtract(box.high, box.low), 0.5)), center);
+    *silhouette = (Silhouette){.mesh = mesh,
+                               .triangle_count = mesh->index_count / 3,
+                               .normals = malloc(edges * sizeof(Vec3)),
+                               .turned = malloc(edges * sizeof(bool)),
+                               .edges = malloc(edges * sizeof(uint32_t)),
+                               .ends = malloc(edges * sizeof(uint32_t[2])),
+                               .nets = malloc(edges * sizeof(int)),
+                               .center = vec3_from_float(center)};
+    const bool done = first && silhouette->normals && silhouette->turned && silhouette->edges &&
+                      silhouette->ends && silhouette->nets && find_edges(silhouette, first);
+    free(first);
+    if (!done) {
+        silhouette_close(silhouette);
+        return message_set(message, "shadows: not enough memory for the edges of %zu triangles",
+                           mesh->index_count / 3);
+    }
+    silhouette->closed = is_closed(silhouette);
+    return true;
+}
+
+void silhouette_close(Silhouette *silhouette)
+{
+    if (!silhouette)
+        return;
+    free(silhouette->normals);
+    free(silhouette->turned);
+    free(silhouette->edges);
+    free(silhouette->ends);
+    free(silhouette->nets);
+    *silhouette = (Silhouette){.mesh = NULL};
+}
+
+/* Volumes */
+
+static bool make_room(ShadowVolume *volume, const Silhouette *silhouette)
+{
+    const size_t count = silhouette->triangle_count + 1;
+    if (count > volume->capacity) {
+        shadow_volume_close(volume);
+        /* Two triangles for each of three edges, and the far cap. */
+        volume->sides = malloc(21 * count * sizeof(uint32_t));
+        for (int i = 0; i < 4; i++)
+            volume->caps[i] = malloc(3 * count * sizeof(uint32_t));
+        volume->capacity = count;
+    }
+    volume->side_count = 0;
+    memset(volume->cap_counts, 0, sizeof volume->cap_counts);
+    return volume->sides && volume->caps[0] && volume->caps[1] && volume->caps[2] &&
+           volume->caps[3];
+}
+
+static void add_triangle(ShadowVolume *volume, const Silhouette *silhouette, size_t triangle,
+                         bool lit)
+{
+    const int which = shadow_volume_caps(lit, silhouette->turned[triangle]);
+    memcpy(volume->caps[which] + volume->cap_counts[which],
+           silhouette->mesh->indices + 3 * triangle, 3 * sizeof(uint32_t));
+    volume->cap_counts[which] += 3;
+}
+
+/* A triangle of the volume, and its share in its edges' nets. */
+static void add_cap(ShadowVolume *volume, const Silhouette *silhouette, size_t triangle, bool lit,
+                    bool far)
+{
+    const uint32_t *indices = silhouette->mesh->indices + 3 * triangle;
+    const uint32_t *edges = silhouette->edges + 3 * triangle;
+    add_triangle(volume, silhouette, triangle, lit);
+    for (size_t k = 0; k < 3; k++) {
+        silhouette->nets[edges[k] / 2] += (edges[k] % 2 == 1) == lit ? -1 : 1;
+        if (far)
+            volume->sides[volume->side_count++] = 2 * indices[lit ? 2 - k : k] + 1;
+    }
+}
+
+/* The side below an edge from a to b, seen counter-clockwise from the light. */
+static void add_side(ShadowVolume *volume, uint32_t a, uint32_t b, ShadowEnd end)
+{
+    const uint32_t quad[6] = {2 * b, 2 * a, 2 * a + 1, 2 * b, 2 * a + 1, 2 * b + 1};
+    const size_t count = end == SHADOW_END_POINT ? 3 : 6;
+    memcpy(volume->sides + volume->side_count, quad, count * sizeof *quad);
+    volume->side_count += count;
+}
+
+bool shadow_volume_make(ShadowVolume *volume, const Silhouette *silhouette, Vec4 light,
+                        SilhouetteFacing facing, ShadowEnd end, Message *message)
+{
+    const Vec3 place = {light.x, light.y, light.z};
+    const bool near = light.w != 0;
+    if (!make_room(volume, silhouette))
+        return message_set(message, "shadows: not enough memory for a volume of %zu triangles",
+                           silhouette->triangle_count);
+    memset(silhouette->nets, 0, silhouette->edge_count * sizeof *silhouette->nets);
+    for (size_t t = 0; t < silhouette->triangle_count; t++) {
+        if (silhouette->edges[3 * t] == UINT32_MAX)
+            continue;
+        const Vec3 way = near ? vec3_subtract(place, corner(silhouette->mesh, 3 * t)) : place;
+        const bool lit = vec3_dot(silhouette->normals[t], way) > 0;
+        if (facing == SILHOUETTE_ALL || lit == (facing == SILHOUETTE_LIT))
+            add_cap(volume, silhouette, t, lit, end == SHADOW_END_CAPS);
+        else
+            add_triangle(volume, silhouette, t, lit);
+    }
+    for (size_t e = 0; e < silhouette->edge_count; e++) {
+        const uint32_t *two = silhouette->ends[e];
+        for (int net = silhouette->nets[e]; net > 0; net--)
+            add_side(volume, two[0], two[1], end);
+        for (int net = silhouette->nets[e]; net < 0; net++)
+            add_side(volume, two[1], two[0], end);
+    }
+    return true;
+}
+
+void shadow_volume_close(ShadowVolume *volume)
+{
+    if (!volume)
+        return;
+    for (int i = 0; i < 4; i++)
+        free(volume->caps[i]);
+    free(volume->sides);
+    *volume = (ShadowVolume){.capacity = 0};
+}

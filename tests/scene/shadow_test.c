@@ -1,0 +1,443 @@
+/*
+ * Shadows as drawn, against the exact picture of the meshes: every view of the programs that are
+ * scenes, all of whose lights get shadows, and hard cases. Inside surfaces, where no edge and no
+ * shadow's edge runs through the pixel, no pixel may be off by more than one step of 1/255: none is
+ * lit that is in shadow, or the other way round.
+ */
+#include "core/canvas.h"
+#include "core/mesh_make.h"
+#include "reference/picture_error.h"
+#include "scene/lighting.h"
+#include "scene/scene_example.h"
+#include "shapes/mesh_solids.h"
+#include "support/examples.h"
+#include "support/picture_check.h"
+#include "support/testing.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { WIDTH = 120, HEIGHT = 96 };
+static const double MOST = 1; /* step of 1/255 */
+
+static Canvas canvas;
+static Lighting *lighting;
+static Image image;
+
+FIXTURE(open_all)
+{
+    const CanvasOptions options = {.width = WIDTH, .height = HEIGHT};
+    SUCCEEDS(canvas_open(&canvas, &options, message));
+    SUCCEEDS(lighting_open(&lighting, &(ShaderLoader){.precision = "highp"}, message));
+    SUCCEEDS(image_open(&image, WIDTH, HEIGHT, IMAGE_BYTE, message));
+    return 0;
+}
+
+FIXTURE(close_all)
+{
+    image_close(&image);
+    lighting_close(lighting);
+    canvas_close(&canvas);
+    return 0;
+}
+
+static void draw(const Scene *scene, bool full)
+{
+    SUCCEEDS(scene_check(scene, message));
+    canvas_clear(&canvas, scene->background, 1);
+    SUCCEEDS(lighting_draw(lighting, scene, (double)WIDTH / HEIGHT, full, message));
+    SUCCEEDS(canvas_read(&canvas, &image, message));
+}
+
+/* Whether no pixel inside an object is farther than a step from the exact picture. */
+static bool check(const char *name, const Scene *scene)
+{
+    const ReferenceOptions options = {.width = WIDTH, .height = HEIGHT, .meshes = true};
+    Reference exact;
+    PictureError error = {.all = {0}};
+    draw(scene, false);
+    SUCCEEDS(reference_open(&exact, scene, &options, message));
+    picture_error_add(&error, &image, 0, 0, &exact, scene);
+    const bool right = error.interior.pixels > 100 && error.interior.maximum <= MOST;
+    print_message("%-40s %6lld pixels inside, largest error %.3f, %lld wrong\n", name,
+                  error.interior.pixels, error.interior.maximum, error.interior.wrong);
+    if (!right) {
+        printf("%s: at column %zu, row %zu\n", name, error.interior.worst % WIDTH,
+               error.interior.worst / WIDTH);
+        picture_check_keep_exact(name, &image, &exact);
+    }
+    reference_close(&exact);
+    return right;
+}
+
+/* All lights get shadows. */
+static void give_shadows(SceneCopy *copy, const Scene *scene)
+{
+    SUCCEEDS(scene_copy_open(copy, scene, false, message));
+    for (int i = 0; i < copy->scene.light_count; i++)
+        copy->lights[i].shadows = true;
+}
+
+TEST(programs_draw_the_shadows_of_the_reference)
+{
+    static const double times[] = {0, 2.3};
+    const int step = testing_step(10);
+    int number = 0;
+    bool all = true;
+    for (int i = 0; i < EXAMPLE_COUNT; i++) {
+        const Example *example = EXAMPLES[i];
+        int columns = 1, rows = 1;
+        SUCCEEDS(example->init(&(ShaderLoader){.precision = "highp"}, message));
+        if (example->scene->layout)
+            example->scene->layout(&columns, &rows);
+        for (int view = 0; view < columns * rows; view++) {
+            for (int t = 0; t < 2; t++) {
+                char name[96];
+                Scene scene = {.object_count = 0};
+                SceneCopy copy;
+                example->scene->make(times[t], view, &scene);
+                if (scene.object_count == 0 || (number++ % step && example != &Shadows))
+                    continue;
+                give_shadows(&copy, &scene);
+                snprintf(name, sizeof name, "%s-%d-%d", example->name, view, t);
+                all &= check(name, &copy.scene);
+                scene_copy_close(&copy);
+            }
+        }
+        lighting_forget(lighting, NULL);
+        example->finish();
+    }
+    assert_true(all);
+}
+
+/* Hard cases: an object over a floor in the light of a point. */
+
+static Mesh ball, coarse_ring, pipe_mesh, box, plane, pot, doubled, with_t;
+static struct {
+    Light lights[8];
+    Object objects[4];
+    Scene scene;
+} world;
+
+/* A square of three triangles, at one side of which a vertex lies on the others' edge; and twice
+ * the same triangle, once turned over. */
+static void make_odd_meshes(void)
+{
+    static const float places[5][3] = {
+        {-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0.1F, 0.1F, 0}};
+    static const uint32_t of_t[9] = {0, 1, 2, 0, 4, 3, 4, 2, 3}, of_doubled[6] = {0, 1, 2, 0, 2, 1};
+    SUCCEEDS(mesh_open(&with_t, 5, 9, message));
+    SUCCEEDS(mesh_open(&doubled, 3, 6, message));
+    for (size_t i = 0; i < 5; i++) {
+        const MeshVertex vertex = {{places[i][0], places[i][1], places[i][2]}, {0, 0, 1}};
+        with_t.vertices[i] = vertex;
+        if (i < 3)
+            doubled.vertices[i] = vertex;
+    }
+    memcpy(with_t.indices, of_t, sizeof of_t);
+    memcpy(doubled.indices, of_doubled, sizeof of_doubled);
+}
+
+FIXTURE(open_meshes)
+{
+    SUCCEEDS(mesh_sphere(&ball, 1, 24, 12, message));
+    SUCCEEDS(mesh_torus(&coarse_ring, 0.35, 0.8, 7, 10, message));
+    SUCCEEDS(mesh_cylinder(&pipe_mesh, 0.7, 1.5, 24, 2, MESH_CAP_NONE, message));
+    SUCCEEDS(mesh_cube(&box, 0.8, message));
+    SUCCEEDS(mesh_quad(&plane, 1, message));
+    SUCCEEDS(mesh_teapot(&pot, 0.8, 5, message));
+    make_odd_meshes();
+    return 0;
+}
+
+FIXTURE(close_meshes)
+{
+    Mesh *const all[] = {&ball, &coarse_ring, &pipe_mesh, &box, &plane, &pot, &doubled, &with_t};
+    for (int i = 0; i < 8; i++)
+        mesh_close(all[i]);
+    lighting_forget(lighting, NULL);
+    return 0;
+}
+
+static void make_world(const Mesh *mesh)
+{
+    const Material grey = {{0.3, 0.3, 0.3}, {0.6, 0.6, 0.5}, {0.2, 0.2, 0.2}, {0, 0, 0}, 1, 10};
+    const Mat4 lying = mat4_rotate(-90, (Vec3){1, 0, 0});
+    memset(&world, 0, sizeof world);
+    world.lights[0] = (Light){.kind = LIGHT_POINT,
+                              .shadows = true,
+                              .position = {1.1, 3.2, 1.7},
+                              .ambient = {0.1, 0.1, 0.1},
+                              .diffuse = {1, 0.9, 0.8},
+                              .specular = {0.3, 0.3, 0.3}};
+    world.objects[0] = (Object){.mesh = mesh,
+                                .closed = mesh == &ball || mesh == &box || mesh == &coarse_ring,
+                                .flat = mesh == &box || mesh == &doubled || mesh == &with_t,
+                                .world_from_object = mat4_identity(),
+                                .front = grey,
+                                .back = grey};
+    if (mesh == &ball)
+        world.objects[0].solid = (Solid){.kind = SOLID_SPHERE, .radius = 1};
+    world.objects[1] = (Object){.mesh = &plane,
+                                .solid = {.kind = SOLID_QUAD},
+                                .flat = true,
+                                .world_from_object =
+                                    mat4_product(mat4_translate((Vec3){0, -1.2, 0}),
+                                                 mat4_product(lying, mat4_scale((Vec3){4, 4, 4}))),
+                                .front = grey};
+    world.scene = (Scene){.camera = {{0.3, 2.4, 5}, {0, -0.2, 0}, {0, 1, 0}, 45, 0.5, 30, 0},
+                          .background = {0.1, 0.2, 0.3},
+                          .global_ambient = {0.2, 0.2, 0.2},
+                          .lights = world.lights,
+                          .light_count = 1,
+                          .objects = world.objects,
+                          .object_count = 2};
+}
+
+/* Moves all by an offset, after scaling it. */
+static void move_world(double scale, Vec3 offset)
+{
+    Camera *camera = &world.scene.camera;
+    const Mat4 moved =
+        mat4_product(mat4_translate(offset), mat4_scale((Vec3){scale, scale, scale}));
+    camera->eye = mat4_transform_point(moved, camera->eye);
+    camera->center = mat4_transform_point(moved, camera->center);
+    camera->near *= scale;
+    camera->far *= scale;
+    for (int i = 0; i < world.scene.light_count; i++)
+        world.lights[i].position = mat4_transform_point(moved, world.lights[i].position);
+    for (int i = 0; i < world.scene.object_count; i++)
+        world.objects[i].world_from_object =
+            mat4_product(moved, world.objects[i].world_from_object);
+}
+
+static void turn_first(Mat4 matrix)
+{
+    world.objects[0].world_from_object = matrix;
+}
+
+TEST_WITH(0, any_mesh_throws_the_shadow_of_its_triangles, open_meshes, close_meshes)
+{
+    const Mesh *const meshes[] = {&ball, &coarse_ring, &pipe_mesh, &box, &pot, &doubled, &with_t};
+    static const char *const names[] = {"ball",   "coarse ring",      "open pipe", "box",
+                                        "teapot", "doubled triangle", "T-junction"};
+    const Mat4 turned = mat4_rotate(-65, (Vec3){1, 0.3, 0.2});
+    const Mat4 mirrored = mat4_product(turned, mat4_scale((Vec3){-1, 0.9, 1}));
+    bool all = true;
+    for (int i = 0; i < 7; i++) {
+        for (int way = 0; way < 4; way++) {
+            char name[64];
+            if (meshes[i] == &doubled && way == 2)
+                continue; /* two surfaces in one place, with opposite normals on each side */
+            make_world(meshes[i]);
+            turn_first(way == 1 ? mirrored : turned);
+            world.objects[0].two_sided = way == 2;
+            if (way == 3) {
+                world.lights[0].kind = LIGHT_DIRECTIONAL;
+                world.lights[0].direction = (Vec3){1.1, 3.2, 1.7};
+            }
+            snprintf(name, sizeof name, "%s-%d", names[i], way);
+            all &= check(name, &world.scene);
+        }
+    }
+    assert_true(all);
+}
+
+TEST_WITH(0, eyes_and_lights_may_be_anywhere, open_meshes, close_meshes)
+{
+    bool all = true;
+    make_world(&box); /* over the eye, between it and the light */
+    turn_first(mat4_product(mat4_translate((Vec3){0.6, 2.6, 3.5}), mat4_scale((Vec3){3, 0.05, 3})));
+    world.lights[0].position = (Vec3){0.5, 6, 4};
+    all &= check("eye in shadow", &world.scene);
+
+    make_world(&box); /* cut by the near plane, light behind the eye */
+    turn_first(mat4_translate((Vec3){0.9, 2.2, 4.2}));
+    world.lights[0].position = (Vec3){2, 5, 8};
+    all &= check("occluder through the near plane", &world.scene);
+
+    make_world(&coarse_ring); /* volumes go beyond the far plane */
+    world.scene.camera.far = 9;
+    world.lights[0].position = (Vec3){0.3, 0.4, 3};
+    all &= check("cap beyond the far plane", &world.scene);
+
+    make_world(&box);
+    world.lights[0].position = (Vec3){0.1, 0.2, -0.1};
+    all &= check("light in a box", &world.scene);
+
+    make_world(&coarse_ring);
+    world.lights[0].position = (Vec3){0.82, 0.02, 0.03};
+    all &= check("light in a ring", &world.scene);
+
+    make_world(&box);
+    world.lights[0].position = (Vec3){0.3, 0.8, 0.2};
+    all &= check("light on a box", &world.scene);
+
+    make_world(&coarse_ring);
+    world.lights[0].kind = LIGHT_DIRECTIONAL;
+    world.lights[0].direction = (Vec3){1, 0.02, 0.3};
+    all &= check("grazing light", &world.scene);
+
+    make_world(&pot);
+    world.lights[0].kind = LIGHT_SPOT;
+    world.lights[0].direction = (Vec3){-0.8, -3.2, -1.2};
+    world.lights[0].cutoff = 14;
+    all &= check("cone's edge in a shadow", &world.scene);
+
+    make_world(&box); /* two boxes, a hundredth apart */
+    turn_first(mat4_translate((Vec3){-0.805, 0, 0}));
+    world.objects[2] = world.objects[0];
+    world.objects[2].world_from_object = mat4_translate((Vec3){0.805, 0, 0});
+    world.scene.object_count = 3;
+    world.lights[0].position = (Vec3){0, 4, 0.3};
+    all &= check("slit", &world.scene);
+    assert_true(all);
+}
+
+TEST_WITH(0, the_scale_and_the_place_do_not_matter, open_meshes, close_meshes)
+{
+    static const double scales[] = {1e-6, 1e6, 1};
+    bool all = true;
+    for (int i = 0; i < 3; i++) {
+        char name[64];
+        make_world(&pot);
+        move_world(scales[i], i == 2 ? (Vec3){1e6, -2e6, 1e6} : (Vec3){0, 0, 0});
+        snprintf(name, sizeof name, "scale %g%s", scales[i], i == 2 ? ", far away" : "");
+        all &= check(name, &world.scene);
+    }
+    assert_true(all);
+}
+
+TEST_WITH(0, light_at_the_vertices_is_shadowed_at_the_fragments, open_meshes, close_meshes)
+{
+    bool all = true;
+    for (int kind = INTERPOLATION_GOURAUD; kind <= INTERPOLATION_CONSTANT; kind++) {
+        make_world(&coarse_ring);
+        world.scene.interpolation = (Interpolation)kind;
+        all &= check(INTERPOLATION_NAMES[kind], &world.scene);
+    }
+    assert_true(all);
+}
+
+TEST_WITH(0, eight_lights_have_two_masks, open_meshes, close_meshes)
+{
+    bool all = true;
+    for (int way = 0; way < 2; way++) {
+        make_world(&pot);
+        world.scene.light_count = 8;
+        for (int i = 0; i < 8; i++) {
+            const double angle = 0.7 + 0.785398 * i;
+            world.lights[i] = world.lights[0];
+            world.lights[i].position = (Vec3){2 * cos(angle), 2.5 + 0.1 * i, 2 * sin(angle)};
+            world.lights[i].direction = world.lights[i].position;
+            world.lights[i].kind = i % 3 == 0 ? LIGHT_DIRECTIONAL : LIGHT_POINT;
+            world.lights[i].diffuse = (Vec3){0.02 + 0.02 * i, 0.1, 0.16 - 0.02 * i};
+            world.lights[i].ambient = (Vec3){0, 0, 0};
+            world.lights[i].shadows = i != 3;
+        }
+        all &= check(way ? "eight lights, at vertices" : "eight lights", &world.scene);
+    }
+    assert_true(all);
+}
+
+/* What is left out draws nothing: with it the picture is the same. */
+TEST_WITH(0, the_full_program_draws_the_same_shadows, open_meshes, close_meshes)
+{
+    static unsigned char before[4 * WIDTH * HEIGHT];
+    const Mesh *const meshes[] = {&ball, &coarse_ring, &pot};
+    for (int i = 0; i < 3; i++) {
+        make_world(meshes[i]);
+        world.lights[1] = world.lights[0];
+        world.lights[1].position = (Vec3){0, -4, 0}; /* nothing between it and the floor's back */
+        world.scene.light_count = 2;
+        draw(&world.scene, false);
+        memcpy(before, image.pixels, sizeof before);
+        draw(&world.scene, true);
+        int apart = 0;
+        for (size_t k = 0; k < sizeof before; k++)
+            apart += abs(before[k] - ((unsigned char *)image.pixels)[k]) > 1;
+        assert_int_equal(apart, 0);
+    }
+}
+
+static void get_sources(const Scene *scene, int object, ShaderSource sources[2])
+{
+    SUCCEEDS(lighting_sources(lighting, scene, &scene->objects[object], false, sources, message));
+}
+
+/* No volume is drawn and no code is there where nothing can come between. */
+TEST_WITH(0, what_needs_no_shadow_has_none, open_meshes, close_meshes)
+{
+    static const struct {
+        const char *name;
+        Vec3 light;
+        double cutoff;    /* of a spot that shines down; 0: a point */
+        bool needed[2];   /* by the ball, by the floor */
+        bool alone, bare; /* the floor is missing; the light has no shadows */
+    } cases[] = {
+        {"over both", {1, 3, 1}, 0, {false, true}, false, false},
+        {"a ball alone", {1, 3, 1}, 0, {false, false}, true, false},
+        {"between them", {0.2, -1.1, 0}, 0, {false, false}, false, false},
+        {"below the floor", {1, -3, 1}, 0, {true, false}, false, false},
+        {"a cone beside the ball", {3, 3, 1}, 20, {false, false}, false, false},
+        {"without shadows", {1, 3, 1}, 0, {false, false}, false, true},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const long long volumes = lighting_counts(lighting).volumes;
+        make_world(&ball);
+        world.scene.object_count = cases[i].alone ? 1 : 2;
+        world.lights[0].position = cases[i].light;
+        world.lights[0].shadows = !cases[i].bare;
+        if (cases[i].cutoff > 0) {
+            world.lights[0].kind = LIGHT_SPOT;
+            world.lights[0].direction = (Vec3){0, -1, 0};
+            world.lights[0].cutoff = cases[i].cutoff;
+        }
+        draw(&world.scene, false);
+        const bool needed = cases[i].needed[0] || cases[i].needed[1];
+        if ((lighting_counts(lighting).volumes > volumes) != needed)
+            fail_msg("%s: a volume is %s", cases[i].name, needed ? "missing" : "drawn");
+        for (int o = 0; o < world.scene.object_count; o++) {
+            ShaderSource with[2], without[2];
+            get_sources(&world.scene, o, with);
+            world.lights[0].shadows = false;
+            get_sources(&world.scene, o, without);
+            world.lights[0].shadows = !cases[i].bare;
+            const bool same = strcmp(with[0].text, without[0].text) == 0 &&
+                              strcmp(with[1].text, without[1].text) == 0;
+            if (same == cases[i].needed[o])
+                fail_msg("%s: object %d %s a shadow", cases[i].name, o, same ? "lacks" : "has");
+            for (int stage = 0; stage < 2; stage++) {
+                shader_source_close(&with[stage]);
+                shader_source_close(&without[stage]);
+            }
+        }
+    }
+}
+
+/* Attachments of a canvas with several samples would need as many masks. */
+TEST(several_samples_of_a_pixel_are_supersampled)
+{
+    Message why = {0};
+    Canvas other;
+    SUCCEEDS(canvas_open_beside(
+        &other, &canvas,
+        &(CanvasOptions){.width = 40, .height = 30, .samples = 4, .supersampled = true}, message));
+    assert_int_equal(other.samples, 0);
+    assert_int_equal(other.supersample, 2);
+    SUCCEEDS(canvas_set_samples(&other, 4, false, message));
+    if (other.samples > 1) { /* the driver has them */
+        open_meshes(NULL);
+        make_world(&ball);
+        canvas_clear(&other, (Vec3){0, 0, 0}, 1);
+        assert_false(lighting_draw(lighting, &world.scene, 1.3, false, &why));
+        assert_non_null(strstr(why.text, "supersampling"));
+        close_meshes(NULL);
+    }
+    canvas_close(&other);
+    canvas_begin(&canvas);
+}
+
+PICTURE_TEST_MAIN("shadows", open_all, close_all)
