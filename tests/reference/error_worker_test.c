@@ -59,7 +59,7 @@ static Case cases[WAY_COUNT][EXAMPLE_COUNT];
 static bool is_drawn(int way, int example)
 {
     const bool teapot = EXAMPLES[example] == &Materials || EXAMPLES[example] == &FourLights ||
-                        EXAMPLES[example] == &TermsApart;
+                        EXAMPLES[example] == &TermsApart || EXAMPLES[example] == &Shadows;
     const int step = testing_step(3);
     if (step > 1 && EXAMPLES[example] == &TermsApart) /* the teapot eight times: half of the time */
         return false;
@@ -115,6 +115,7 @@ static void draw_case(Stage *stage, int way, Case *made)
     const Example *example = stage->example;
     Options options = WAYS[way].options;
     options.shaders.precision = "highp";
+    options.shadows = example->scene->shadows ? SHADOWS_VOLUMES : SHADOWS_OFF;
     snprintf(made->name, sizeof made->name, "%s %s", example->name, WAYS[way].name);
     require(stage_error_picture(stage, &options, SECONDS, &made->picture, FAILURE), FAILURE);
     made->expected = expect(example, &options, &made->picture.image);
@@ -128,6 +129,7 @@ FIXTURE(draw_all)
             Canvas canvas;
             Stage stage;
             options.shaders.precision = "highp";
+            options.shadows = EXAMPLES[i]->scene->shadows ? SHADOWS_VOLUMES : SHADOWS_OFF;
             if (!is_drawn(way, i))
                 continue;
             require(stage_open_canvas(&canvas, &options, WAYS[way].output, FAILURE), FAILURE);
