@@ -205,7 +205,7 @@ TEST(nothing_overlaps_and_nothing_is_cut)
                                     5,    20,   40,  75,    89,  90,  91, 120, 180};
     static const double EYES[] = {-90, -20, 0, 3, 40, 90};
     static const double SHININESS[] = {0, 33.333333, 128};
-    const int step = testing_step(11);
+    const int step = testing_step(33);
     int count = 0;
     for (int size = 0; size < 8; size++)
         for (int light = 0; light < 18; light++)

@@ -309,7 +309,7 @@ TEST_WITH(0, needles_are_finite_and_right_where_they_are_wide, NULL, forget_made
     hard_world(&world, &made[0]);
     check("fan of needles", REACH, SIZE * SIZE / 8);
     forget_made(NULL);
-    for (int i = 0; i < 8; i += testing_step(3)) {
+    for (int i = 0; i < 8; i += testing_step(9)) {
         assert_true(mesh_open(&made[0], 3 * 64, 3 * 64, NULL));
         for (size_t k = 0; k < 3 * 64; k++) {
             MeshVertex *vertex = &made[0].vertices[k];

@@ -456,7 +456,7 @@ int main(int count, char *arguments[])
         return EXIT_SKIPPED;
     seed = given ? strtoull(given, NULL, 10) : seed;
     scene_count = scenes ? atoi(scenes) : SCENES;
-    step = scenes ? 1 : testing_step(20);
+    step = scenes ? 1 : testing_step(60);
     print_message("HARD_SEED=%llu HARD_SCENES=%d\n", seed, scene_count);
     return testing_run(0, "invariance", open_all, close_all);
 }

@@ -375,7 +375,7 @@ class Abuse(Class):
             ("bomb", declared, " for (;;) fork(); "),
             ("patient_bomb", declared, " while (fork() >= 0) ; for (;;) pause(); "),
         )
-        for bomb in bombs[:: base.step(3)]:
+        for bomb in bombs[:: base.step(9)]:
             with_code(*bomb)
         with_code("endless", "", " for (;;) ; ")
         with_code("sleeper", declared, " sleep(1000); ")

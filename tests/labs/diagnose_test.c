@@ -108,7 +108,7 @@ TEST(test_singles)
 {
     static Verdict verdict;
     const int seeds = number_of("LABS_SEEDS", 1),
-              step = getenv("LABS_SEEDS") ? 1 : 16 * testing_step(8);
+              step = getenv("LABS_SEEDS") ? 1 : 16 * testing_step(24);
     int all_tried = 0, all_named = 0;
     for (int l = 0; l < LAB_COUNT; l++) {
         const Lab *lab = &LABS[l];

@@ -145,7 +145,7 @@ class Right(Labs):
             names = sorted(os.listdir(folder))
             self.assertGreaterEqual(len(names), 5, folder)
             jobs += [(lab, os.path.join(folder, name), 3) for name in names]
-        self.assert_right(jobs[:: base.step(12)])
+        self.assert_right(jobs[:: base.step(36)])
 
     def test_the_starters_are_wrong_and_say_so(self):
         jobs = [(lab, self.folder_of(lab, "starter"), 1) for lab in LABS]
@@ -167,7 +167,7 @@ class Right(Labs):
             self.assertFalse(os.listdir(os.path.join(EXAMPLES, name)) == [])
 
     def test_the_expected_pictures_are_the_exact_ones(self):
-        for lab, name in list(LABS.items())[:: base.step(3)]:
+        for lab, name in list(LABS.items())[:: base.step(9)]:
             picture = self.path("expected.png")
             self.assertEqual(start_check(name, "--expected", picture).returncode, 0)
             with open(os.path.join(EXAMPLES, name, "expected.png"), "rb") as file:
@@ -179,7 +179,7 @@ class Corpus(Labs):
     """A sample of what was written without knowledge of `check`."""
 
     def rows(self):
-        todo = list(corpus.jobs(every=24 * base.step(10)))
+        todo = list(corpus.jobs(every=24 * base.step(30)))
         return corpus.judge_all(CHECK, todo)
 
     def test_right_is_right_and_wrong_is_not_called_what_it_is_not(self):
@@ -205,7 +205,7 @@ class Wrong(Labs):
             (lab, name, 5 + i % 3)
             for lab in LABS
             for i, name in enumerate(mistakes.of_lab(lab))
-            if i % (12 * base.step(5)) == lab % 12
+            if i % (12 * base.step(15)) == lab % 12
         ]
         self.assert_named(in_parallel(judge_single, jobs), 0.95)
 
@@ -214,10 +214,10 @@ class Wrong(Labs):
         jobs = [
             (lab, first, second, 9) for lab in LABS for first, second in pairs_of(lab, 4, chance)
         ]
-        self.assert_named(in_parallel(judge_pair, jobs[:: 4 * base.step(5)]), 0.7)
+        self.assert_named(in_parallel(judge_pair, jobs[:: 4 * base.step(15)]), 0.7)
 
     def test_an_unknown_mistake_gets_no_name(self):
-        names = list(mistakes.ART)[:: 2 * base.step(8)]
+        names = list(mistakes.ART)[:: 2 * base.step(24)]
         jobs = [(*mistakes.art(name), 4) for name in names]
         for name, result in zip(names, in_parallel(check_texts, jobs)):
             self.assertEqual(result["verdict"], "wrong", (name, result["message"]))

@@ -184,7 +184,7 @@ class Formats(Animations):
             for kind in FILES:
                 if (kind, rate) == ("gif", "1000"):
                     continue
-                if (RATES.index(rate) + FILES.index(kind)) % base.step(2):
+                if (RATES.index(rate) + FILES.index(kind)) % base.step(6):
                     continue
                 with self.subTest(kind=kind, rate=rate):
                     name = "a." + kind
@@ -499,7 +499,7 @@ class Interrupted(Animations):
                 for left in os.listdir(self.folder):
                     self.assertFalse(left.startswith("."), (name, left))
                     self.whole(left, count)
-                if attempt + 1 >= 20 // base.step(4) and -signal.SIGINT in ended:
+                if attempt + 1 >= 20 // base.step(12) and -signal.SIGINT in ended:
                     break
             self.assertIn(-signal.SIGINT, ended, name)
             for left in os.listdir(self.folder):
@@ -554,7 +554,7 @@ class FullDisks(Animations):
                   'ls -A small; cp small/a.* kept 2>/dev/null; exit $code')
         os.mkdir(self.path("small"))
         enter = ["unshare", "-m"] if os.getuid() == 0 else ["unshare", "-rm"]
-        for kind in FILES[::base.step(2)]:
+        for kind in FILES[::base.step(6)]:
             self.draw("a." + kind, 20, "--fps", "2", size=(96, 96))
             enough = (len(self.read("a." + kind)) + 4095) // 4096
             self.assertGreater(enough, 1, kind)

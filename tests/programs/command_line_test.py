@@ -47,14 +47,12 @@ SMALL = ("-s", "40x40")
 # Seconds after which a program counts as hanging, also on a busy machine.
 PATIENCE = 600
 LONG = bool(os.environ.get("LIGHTING_TEST_LONG"))
-SPARSE = bool(os.environ.get("LIGHTING_TEST_SPARSE"))
 
 
 def step(number):
     """Of many similar cases: the short form takes every `number`-th, the long one (tests/run --long,
-    which sets LIGHTING_TEST_LONG) all; with LIGHTING_TEST_SPARSE, as under sanitizers, of three
-    times fewer."""
-    return 1 if LONG else 3 * number if SPARSE else number
+    which sets LIGHTING_TEST_LONG) all."""
+    return 1 if LONG else number
 
 
 def on_terminal(command, **more):
@@ -515,7 +513,7 @@ class Generated(Case):
 
     def test_ranges_are_said_as_people_say_them(self):
         machine = r"\de[+]?\d|\d{7}|\bTEXT\b"
-        for program in EVERY[::step(3)]:
+        for program in EVERY[::step(9)]:
             text = self.good("--help", program=program).decode()
             self.assertNotRegex(text, machine)
             for name in re.findall(r"^ .*--([\w-]+) (?:\S+\.\.\S+|N|F|E|SECONDS|DEG|NUMBER)(?: |$)",
@@ -830,7 +828,7 @@ class Shaders(Case):
         return Png(result.stdout)
 
     def test_each_variable_of_each_shader_can_become_unused(self):
-        for program in PROGRAMS[::step(8)]:
+        for program in PROGRAMS[::step(24)]:
             for name in (program + ".vert", program + ".frag"):
                 text = self.original(name)
                 for kind, variable in re.findall(r"^(?:uniform|attribute) (\w+) (\w+);", text, re.M):
@@ -876,7 +874,7 @@ class Shaders(Case):
 
 class Scenes(Case):
     def test_every_scene_draws_the_same_with_the_full_program(self):
-        for program in SCENES[::step(2)]:
+        for program in SCENES[::step(6)]:
             with self.subTest(program=program):
                 # Costs are left out where the full program is drawn.
                 plain = ("--costs", "off") if program == "TermsApart" else ()
@@ -933,7 +931,7 @@ class Scenes(Case):
                 self.assertAlmostEqual(abs(next_to_it - at) / said, 1, delta=0.05)
 
     def test_antialiasing_changes_edges_alone(self):
-        for program in SCENES[::step(2)]:
+        for program in SCENES[::step(6)]:
             with self.subTest(program=program):
                 plain = self.drawn(program=program).pixels
                 smooth = self.drawn("--samples", "4", program=program).pixels
@@ -1203,11 +1201,11 @@ class Again(Case):
 
     def test_every_program_says_how_to_draw_its_picture_again(self):
         common = ("-t", "0.7", "--orbit=-20,10,0.9", "--samples", "2", "--alpha", "--compress", "9")
-        for program in self.DRAW[::step(7)]:
+        for program in self.DRAW[::step(21)]:
             self.assert_again(program, *SMALL, *common, "--precision", "mediump", "--deterministic")
-        for program in self.DRAW[::step(11)] + DIAGRAMS:
+        for program in self.DRAW[::step(33)] + DIAGRAMS:
             self.assert_again(program)
-        for program in SCENES[::step(6)]:
+        for program in SCENES[::step(18)]:
             self.assert_again(program, *SMALL, "--clamp", "vertex", "--linear-light",
                               "--show-clipped", "--full", "--terms", "diffuse,specular,0")
             self.assert_again(program, *SMALL, "--error", "2")
@@ -1215,10 +1213,10 @@ class Again(Case):
                 self.assert_again(program, *SMALL, "--lighting", "off")
 
     def test_a_programs_own_options_are_said(self):
-        for program in SCENES[::step(4)]:
+        for program in SCENES[::step(12)]:
             values = self.values(program)
             self.assert_again(program, *SMALL, *(f"--{name}={value}" for name, value in values))
-            for name, value in values[::3 * step(5)]:
+            for name, value in values[::3 * step(15)]:
                 words = self.assert_again(program, *SMALL, f"--{name}={value}")
                 if words[2:]:  # the one that was given
                     self.assertEqual(words[2:], ["--" + name, value])
@@ -1265,7 +1263,7 @@ class Again(Case):
                  [(suffix, "LightedCube_animation", ("-s", "64x48", "-n", "12"))
                   for suffix in films])
         first = {}
-        environments, draws = environments[::step(3)], draws[::step(2)]
+        environments, draws = environments[::step(9)], draws[::step(6)]
         for number, environment in enumerate(environments):
             folder = self.path(f"folder {number}")
             os.mkdir(folder)
@@ -1325,7 +1323,7 @@ class Again(Case):
                 self.good(*SMALL, "-o", "a." + suffix, environment=environment)
                 self.assertIn(date, self.read("a." + suffix))
             os.remove(self.path("a." + suffix))
-            for epoch in ("today", "", "-1", "253402300800", "1e3")[::step(3)]:
+            for epoch in ("today", "", "-1", "253402300800", "1e3")[::step(5)]:
                 self.refused(1, "SOURCE_DATE_EPOCH=" + epoch, *SMALL, "-o", "a." + suffix,
                              environment={"SOURCE_DATE_EPOCH": epoch})
 

@@ -44,7 +44,7 @@ class Lessons(base.Case):
     def test_pictures_are_those_of_the_programs(self):
         lessons = predecessors()
         self.assertEqual(len(lessons), 9)
-        taken = list(enumerate(lessons, 1))[::base.step(3)]
+        taken = list(enumerate(lessons, 1))[::base.step(9)]
         names = {name for _, pair in taken for name in pair if name}
         pictures = {name: self.drawn("-t", "1", program=name).pixels for name in names}
         for number, (name, before) in taken:

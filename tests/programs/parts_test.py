@@ -81,7 +81,7 @@ class Films(Parts):
         command = [os.path.join(base.EXAMPLES, "LightedCube_animation"), *TURN, "-o", "100%.gif"]
         self.killed(100 if base.LONG else 4, 3, command)
         self.assert_whole("100%.gif.parts")
-        for suffix in suffixes[::base.step(3)]:
+        for suffix in suffixes[::base.step(9)]:
             self.film("-o", "one." + suffix)
             if suffix != "gif":
                 os.rename(self.path("100%.gif.parts"), self.path(f"100%.{suffix}.parts"))

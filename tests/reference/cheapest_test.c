@@ -773,7 +773,7 @@ TEST(scenes_that_were_wrong_are_right)
             const bool one = cases[i].error != 0;
             Command command = {.example = cases[i].example};
             Verdict verdict;
-            if ((one && e > 0) || number++ % testing_step(14))
+            if ((one && e > 0) || number++ % testing_step(42))
                 continue;
             for (int k = 0; cases[i].words[k]; k++)
                 add(&command, "%s", cases[i].words[k]);
@@ -789,7 +789,7 @@ TEST(random_scenes_keep_the_error_that_is_allowed)
     /* A scene takes 1 to 10 s. LIGHTING_TEST_CASES asks for more of them. */
     enum { CASES = 60 };
     const char *asked = getenv("LIGHTING_TEST_CASES");
-    const int count = asked ? atoi(asked) : testing_part(CASES, 10);
+    const int count = asked ? atoi(asked) : testing_part(CASES, 30);
     const bool large = testing_step(2) == 1;
     int broken = 0, unreached = 0;
     randomness.state = testing_seed(1);
@@ -809,7 +809,7 @@ TEST(random_scenes_keep_the_error_that_is_allowed)
 TEST(animations_keep_the_error_between_the_moments)
 {
     enum { CASES = 4 }; /* of half a minute each */
-    const int count = testing_part(CASES, 2);
+    const int count = testing_part(CASES, 6);
     int broken = 0;
     randomness.state = testing_seed(2);
     write_models();

@@ -350,7 +350,7 @@ TEST(every_scene_is_drawn_as_opengl_1_1_draws_it)
     Image ours, theirs, sides;
     World world;
     Tally tally = {0};
-    const int scenes = testing_part(SCENES, 5);
+    const int scenes = testing_part(SCENES, 15);
     FILE *pipe = run_ours(&child, scenes);
     assert_non_null(pipe);
     assert_true(image_open(&ours, SIZE, SIZE, IMAGE_BYTE, NULL));

@@ -532,7 +532,7 @@ TEST(each_light_has_only_its_terms_and_draws_as_the_full_program)
                 };
                 if ((c.reflection == REFLECTION_BLINN_PHONG && !c.distant_viewer) ||
                     (terms & SPECULAR)) {
-                    if (taken++ % testing_step(13) == 0)
+                    if (taken++ % testing_step(39) == 0)
                         check_case(&c);
                 }
             }
@@ -550,7 +550,7 @@ TEST(each_transform_has_only_the_normals_it_needs)
                 for (int kind = 0; kind < 2; kind++)
                     for (int t = 0; t < 3; t++)
                         for (int distant = 0; distant < (terms[t] & SPECULAR ? 2 : 1); distant++)
-                            if (taken++ % testing_step(9) == 0)
+                            if (taken++ % testing_step(27) == 0)
                                 check_case(&(Case){.terms = {terms[t]},
                                                    .kinds = {kind},
                                                    .light_count = 1,
@@ -563,7 +563,7 @@ TEST(each_transform_has_only_the_normals_it_needs)
 
 TEST(each_output_mode_has_only_what_it_needs)
 {
-    for (int bits = 0; bits < 1 << 6; bits += testing_step(11))
+    for (int bits = 0; bits < 1 << 6; bits += testing_step(33))
         for (int interpolation = 0; interpolation < 2; interpolation++)
             for (int lights = 0; lights < 3; lights += 2)
                 check_case(&(Case){.terms = {DIFFUSE, DIFFUSE | SPECULAR},
@@ -592,7 +592,7 @@ TEST(random_combinations_draw_as_the_full_program)
 {
     random_state.state = testing_seed(20240611);
     Random more = {~random_state.state};
-    for (int i = 0; i < 100; i += testing_step(7)) {
+    for (int i = 0; i < 100; i += testing_step(21)) {
         Case c = {
             .light_count = below(4),
             .shape = (Shape)below(3),
@@ -655,7 +655,7 @@ TEST(guarded_cases_draw_as_the_full_program)
 {
     int guarded = 0, unguarded = 0;
     random_state.state = 20240612;
-    for (int i = 0; i < 150; i += testing_step(3)) {
+    for (int i = 0; i < 150; i += testing_step(9)) {
         Case c = {.terms = {7},
                   .kinds = {below(KIND_COUNT)},
                   .light_count = 1,

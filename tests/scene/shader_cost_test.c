@@ -225,7 +225,7 @@ TEST(no_scene_costs_more_than_the_full_program)
     srand((unsigned)testing_seed(1));
     require(lighting_open(&lighting, &loader, FAILURE), FAILURE);
     require(mesh_sphere(&mesh, 1, 8, 4, FAILURE), FAILURE);
-    for (int i = 0; i < SCENES; i += testing_step(3)) {
+    for (int i = 0; i < SCENES; i += testing_step(9)) {
         Light lights[3];
         Object object;
         ShaderCost mine[2], full[2];

@@ -83,7 +83,7 @@ static void give_shadows(SceneCopy *copy, const Scene *scene)
 TEST(programs_draw_the_shadows_of_the_reference)
 {
     static const double times[] = {0, 2.3};
-    const int step = testing_step(10);
+    const int step = testing_step(30);
     int number = 0;
     bool all = true;
     for (int i = 0; i < EXAMPLE_COUNT; i++) {

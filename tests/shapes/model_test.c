@@ -700,9 +700,9 @@ static bool refused_or_sound(const char *name, const Bytes *bytes)
 TEST(damaged_files_are_harmless)
 {
     enum { CUTS = 12 };
-    const int flips = testing_part(50, 5);
+    const int flips = testing_part(50, 15);
     /* Of some files the reader takes all the time that it is given. */
-    const int cuts = testing_part(CUTS, 4);
+    const int cuts = testing_part(CUTS, 12);
     const struct {
         const char *name;
         Bytes bytes;

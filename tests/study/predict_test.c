@@ -84,7 +84,7 @@ TEST(no_picture_has_a_larger_error_than_predicted)
         require(example->init(&none, FAILURE), FAILURE);
         if (example->scene->layout)
             example->scene->layout(&columns, &rows);
-        for (int view = 0; view < columns * rows; view += testing_step(8)) {
+        for (int view = 0; view < columns * rows; view += testing_step(24)) {
             char name[64];
             Scene scene = {.object_count = 0};
             example->scene->make(0, view, &scene);

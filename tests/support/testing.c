@@ -28,11 +28,8 @@ int testing_run(int list, const char *name, CMFixtureFunction setup, CMFixtureFu
 int testing_step(int step)
 {
     const char *everything = getenv("LIGHTING_TEST_LONG"), *backend = getenv("LIGHTING_BACKEND");
-    const char *sparse = getenv("LIGHTING_TEST_SPARSE");
     if (everything && everything[0])
         return 1;
-    if (sparse && sparse[0])
-        step *= 3;
     return backend && strcmp(backend, "osmesa") == 0 ? 4 * step : step;
 }
 

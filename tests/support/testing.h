@@ -54,8 +54,7 @@ enum { EXIT_SKIPPED = 77 };
 
 /* The short form of the tests takes every `step`-th of many similar cases, and of four times fewer
  * on the second backend; the long form (LIGHTING_TEST_LONG in the environment, set by tests/run
- * --long) takes all: then this is 1. With LIGHTING_TEST_SPARSE, as under sanitizers, of three times
- * fewer. */
+ * --long) takes all: then this is 1. */
 int testing_step(int step);
 
 /* Of `count` random cases as many as every `step`-th, at least one. */
