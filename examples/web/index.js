@@ -6,8 +6,10 @@
         const engine = await Engine.open(await compileLighting(), document.createElement("canvas"));
         for (const canvas of document.querySelectorAll("canvas[data-program]")) {
             await new Promise(requestAnimationFrame);
-            if (engine.run([canvas.dataset.program]) !== 0 || !engine.draw(0, [0, 0, 1]))
-                throw engine.message;
+            if (engine.run([canvas.dataset.program]) !== 0 || !engine.draw(0, [0, 0, 1])) {
+                said.textContent += `${canvas.dataset.program} cannot be drawn: ${engine.message} `;
+                continue;
+            }
             const picture = engine.picture();
             canvas.width = picture.width;
             canvas.height = picture.height;
