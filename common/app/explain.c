@@ -140,7 +140,7 @@ static bool has_line(const char *text, const char *light, const char *line, size
         if (*text != ' ')
             own_light = text;
         if (strncmp(text, line, length) == 0 && text[length] == '\n' &&
-            (*line != ' ' || strncmp(own_light, light, strcspn(light, ":")) == 0))
+            (*line != ' ' || strncmp(own_light, light, strcspn(light, ":") + 1) == 0))
             return true;
     }
     return false;
@@ -225,23 +225,26 @@ static bool explain_object(const Stage *stage, const Scene *scene, const Object 
     void *larger = realloc(explained->all, (size_t)(explained->count + 1) * sizeof *explained->all);
     if (larger)
         explained->all = larger;
-    if (!file || !larger)
-        return message_set(message, "--explain: not enough memory");
-    effects_explain(scene, object, file);
-    fclose(file);
-    if ((file = open_memstream(&text, &size)) != NULL) {
+    if (file)
+        effects_explain(scene, object, file);
+    bool done = file && fclose(file) == 0 && larger;
+    if (done && (file = open_memstream(&text, &size)) != NULL) {
         fold_lights(whole, file);
-        fclose(file);
+        done = fclose(file) == 0;
     }
     free(whole);
-    for (int i = 0; text && i < explained->count; i++) {
+    if (!done || !text) {
+        free(text);
+        return message_set(message, "--explain: not enough memory");
+    }
+    for (int i = 0; i < explained->count; i++) {
         const int apart = write_difference(text, explained->all[i].text, NULL);
         if (nearest < 0 || apart < least) {
             nearest = i;
             least = apart;
         }
     }
-    if (!text || (nearest >= 0 && least == 0)) {
+    if (nearest >= 0 && least == 0) {
         add_same(explained, nearest, view, number);
         free(text);
         return true;

@@ -267,7 +267,9 @@ static bool write_tints(const Parameter *parameter, char *text, size_t size)
         if (memcmp(&tints->diffuse[i], &tints->specular[i], sizeof(Vec3)) != 0)
             put_color(file, tints->specular[i]);
     }
-    return file && fclose(file) == 0 && tints->tinted;
+    /* fmemopen's last byte is for the NUL. */
+    const bool fits = file && fflush(file) == 0 && ftell(file) < (long)size;
+    return file && fclose(file) == 0 && fits && tints->tinted;
 }
 
 /* A diagram is painted by cairo. */

@@ -299,9 +299,11 @@ static unsigned kept_axes(const Stage *stage, const Options *options)
                 kept |= 1U << all[k].axis;
     if (options->terms.left_out || options->terms.lights_left_out)
         kept |= 1U << AXIS_LIGHTS;
-    /* Another mesh, and another place of the light, have another shadow. */
+    /* Another mesh, and another place of the light, have another shadow, whose edge is off by the
+     * whole light: what else is off by would not count. */
     if (options_have_shadows(options))
-        kept |= 1U << AXIS_DIVISIONS | 1U << AXIS_LIGHTS;
+        kept |= 1U << AXIS_DIVISIONS | 1U << AXIS_LIGHTS | 1U << AXIS_INTERPOLATION |
+                1U << AXIS_NORMALS | 1U << AXIS_VIEWER;
     return kept;
 }
 
@@ -471,12 +473,13 @@ static bool draw_marks(Stage *stage, double seconds, int number, const Scene *sc
                        Message *message)
 {
     static const double POINT_SIZE = 10;
+    const int side = stage->canvas->supersample; /* of a pixel of the picture */
     Overlay *overlay = &stage->overlay;
     Annotations marks = {{.count = 0}, {.count = 0}};
     stage->example->scene->annotate(seconds, number, scene, &marks);
     const bool done =
-        overlay_draw(overlay, &marks.lines, GL_LINES, 1, scene, aspect, message) &&
-        overlay_draw(overlay, &marks.points, GL_POINTS, POINT_SIZE, scene, aspect, message);
+        overlay_draw(overlay, &marks.lines, GL_LINES, side, scene, aspect, message) &&
+        overlay_draw(overlay, &marks.points, GL_POINTS, side * POINT_SIZE, scene, aspect, message);
     overlay_list_close(&marks.lines);
     overlay_list_close(&marks.points);
     return done;

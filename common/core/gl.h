@@ -73,6 +73,7 @@
     X(GETVERTEXATTRIBIV, GetVertexAttribiv)                                                        \
     X(GETVERTEXATTRIBPOINTERV, GetVertexAttribPointerv)                                            \
     X(ISENABLED, IsEnabled)                                                                        \
+    X(LINEWIDTH, LineWidth)                                                                        \
     X(LINKPROGRAM, LinkProgram)                                                                    \
     X(PIXELSTOREI, PixelStorei)                                                                    \
     X(POLYGONOFFSET, PolygonOffset)                                                                \

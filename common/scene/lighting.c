@@ -274,9 +274,8 @@ static bool recipe_open(Recipe *recipe, const Effects *effects, const Scene *sce
         {effects->linear, "LINEAR"},
         {effects->show_clipped, "SHOW_CLIPPED"},
     };
-    int count = 0;
     *recipe = (Recipe){{NULL}, {NULL}};
-    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+    for (size_t i = 0, count = 0; i < sizeof all / sizeof all[0]; i++)
         if (all[i].there)
             recipe->defines[count++] = all[i].define;
     recipe->groups[SHADER_VERTEX] = groups_text(effects, scene, true, mediump);
@@ -643,13 +642,15 @@ static void plan_pair(ShadowPlan *plan, const Scene *scene, int occluder, int re
 static bool plan_open(ShadowPlan *plan, Lighting *lighting, const Scene *scene, Message *message)
 {
     const size_t count = (size_t)scene->object_count;
-    bool any = false;
+    bool any = false, on = false;
     *plan = (ShadowPlan){.count = 0};
-    for (int l = 0; l < scene->light_count; l++)
-        any |= scene->lights[l].shadows && !scene->lights[l].off;
+    for (int l = 0; l < scene->light_count; l++) {
+        any |= scene->lights[l].shadows;
+        on |= scene->lights[l].shadows && !scene->lights[l].off;
+    }
     if (!any)
-        return true;
-    if (scene->clamp_vertex && scene->interpolation != INTERPOLATION_PHONG)
+        return true; /* the full program has masks of lights that are off, too */
+    if (on && scene->clamp_vertex && scene->interpolation != INTERPOLATION_PHONG)
         return message_set(message, "shadows are looked up at the fragments: light that is clamped "
                                     "at the vertices has none");
     *plan = (ShadowPlan){.count = scene->object_count,
@@ -912,6 +913,20 @@ typedef struct LightingFrame {
     int masks;
 } LightingFrame;
 
+static void draw_buffer(GLuint program, const MeshBuffer *buffer)
+{
+    const GLint position = glGetAttribLocation(program, "a_Position");
+    const GLint normal = glGetAttribLocation(program, "a_Normal");
+    const GLint others[] = {normal, glGetAttribLocation(program, "a_Color"),
+                            glGetAttribLocation(program, "a_LitPosition")};
+    mesh_buffer_bind(buffer, position, normal);
+    mesh_buffer_bind_more(buffer, others[1], others[2]);
+    glDrawElements(GL_TRIANGLES, buffer->index_count, buffer->index_type, NULL);
+    for (int i = 0; i < 3; i++)
+        if (others[i] >= 0)
+            glDisableVertexAttribArray((GLuint)others[i]);
+}
+
 static bool draw_object(Lighting *lighting, const Scene *scene, const Object *object,
                         const LightingFrame *frame, uint32_t shadowed, Message *message)
 {
@@ -963,16 +978,7 @@ static bool draw_object(Lighting *lighting, const Scene *scene, const Object *ob
         glEnable(GL_CULL_FACE);
     else
         glDisable(GL_CULL_FACE);
-    const GLint position = glGetAttribLocation(program, "a_Position");
-    const GLint normal = glGetAttribLocation(program, "a_Normal");
-    const GLint others[] = {normal, glGetAttribLocation(program, "a_Color"),
-                            glGetAttribLocation(program, "a_LitPosition")};
-    mesh_buffer_bind(&buffered->buffer, position, normal);
-    mesh_buffer_bind_more(&buffered->buffer, others[1], others[2]);
-    glDrawElements(GL_TRIANGLES, buffered->buffer.index_count, buffered->buffer.index_type, NULL);
-    for (int i = 0; i < 3; i++)
-        if (others[i] >= 0)
-            glDisableVertexAttribArray((GLuint)others[i]);
+    draw_buffer(program, &buffered->buffer);
     glDisable(GL_POLYGON_OFFSET_FILL);
     return true;
 }

@@ -171,11 +171,11 @@ bool overlay_draw(const Overlay *overlay, const OverlayList *list, GLenum mode, 
         return false;
     const GLuint position = (GLuint)overlay->a_Position, color = (GLuint)overlay->a_Color;
     const GLsizei stride = (GLsizei)sizeof(OverlayVertex);
-    const float point_size = (float)size;
+    const float width = (float)size;
     const Mat4 clip_from_world = mat4_product(clip_from_eye, eye_from_world);
     glUseProgram(overlay->shader.program);
     shader_set_mat4(overlay->u_ClipFromWorld, clip_from_world);
-    glUniform1fv(overlay->u_PointSize, 1, &point_size);
+    glUniform1fv(overlay->u_PointSize, 1, &width);
     glBindBuffer(GL_ARRAY_BUFFER, overlay->buffer);
     glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)((size_t)list->count * sizeof *list->vertices),
                  list->vertices, GL_STREAM_DRAW);
@@ -185,6 +185,7 @@ bool overlay_draw(const Overlay *overlay, const OverlayList *list, GLenum mode, 
                           (const void *)offsetof(OverlayVertex, position));
     glVertexAttribPointer(color, 3, GL_FLOAT, GL_FALSE, stride,
                           (const void *)offsetof(OverlayVertex, color));
+    glLineWidth(mode == GL_LINES ? width : 1);
     if (mode == GL_POINTS)
         draw_points(list, clip_from_world);
     else

@@ -44,7 +44,7 @@ typedef struct Overlay {
 
 bool overlay_open(Overlay *overlay, const ShaderLoader *loader, Message *message);
 
-/* Draws a list as GL_LINES, or as GL_POINTS of `size` pixels, with the scene's camera. */
+/* Draws a list as GL_LINES or GL_POINTS `size` pixels wide, with the scene's camera. */
 bool overlay_draw(const Overlay *overlay, const OverlayList *list, GLenum mode, double size,
                   const Scene *scene, double aspect, Message *message);
 void overlay_close(Overlay *overlay);

@@ -69,7 +69,7 @@ bool parameter_equal(const Parameter *parameter, const ParameterValue *value);
 /* The value as the command line takes it, in the fewest digits from which parameter_read makes the
  * same value; "" for a flag that is true. In `buffer`, or where the value points. NULL if no option
  * sets this value: a flag that is false, a text that is NULL, a number that is not finite. */
-enum { PARAMETER_TEXT_SIZE = 512 };
+enum { PARAMETER_TEXT_SIZE = 2048 };
 const char *parameter_text(const Parameter *parameter, char buffer[PARAMETER_TEXT_SIZE]);
 
 /* Copies parameter_text. False, and an empty text, if that is NULL or does not fit. */

@@ -178,12 +178,16 @@ static bool make_room(ShadowVolume *volume, const Silhouette *silhouette)
         volume->sides = malloc(21 * count * sizeof(uint32_t));
         for (int i = 0; i < 4; i++)
             volume->caps[i] = malloc(3 * count * sizeof(uint32_t));
+        if (!volume->sides || !volume->caps[0] || !volume->caps[1] || !volume->caps[2] ||
+            !volume->caps[3]) {
+            shadow_volume_close(volume);
+            return false;
+        }
         volume->capacity = count;
     }
     volume->side_count = 0;
     memset(volume->cap_counts, 0, sizeof volume->cap_counts);
-    return volume->sides && volume->caps[0] && volume->caps[1] && volume->caps[2] &&
-           volume->caps[3];
+    return true;
 }
 
 static void add_triangle(ShadowVolume *volume, const Silhouette *silhouette, size_t triangle,

@@ -12,6 +12,7 @@ typedef struct Line {
     int length;
 } Line;
 
+/* The number of lines; -1 if there are too many. */
 static int split(const char *text, Line lines[LINES_MAX])
 {
     int count = 0;
@@ -20,7 +21,7 @@ static int split(const char *text, Line lines[LINES_MAX])
         lines[count++] = (Line){text, length};
         text += length + (text[length] == '\n');
     }
-    return count;
+    return *text ? -1 : count;
 }
 
 bool changes_add(Changes *changes, ChangeKind kind, const char *text, int length, Message *message)
@@ -161,6 +162,11 @@ bool changes_between(Changes *changes, ChangeText before, ChangeText after, int 
     pair->names[1] = after.name;
     pair->count[0] = split(before.text, pair->lines[0]);
     pair->count[1] = split(after.text, pair->lines[1]);
+    if (pair->count[0] < 0 || pair->count[1] < 0) {
+        const char *name = pair->count[0] < 0 ? before.name : after.name;
+        free(pair);
+        return message_set(message, "%s: more than %d lines", name, LINES_MAX);
+    }
     const size_t cells = (size_t)(pair->count[0] + 1) * (size_t)(pair->count[1] + 1);
     pair->common = calloc(cells, sizeof *pair->common);
     bool done = pair->common || message_set(message, "changes: not enough memory");

@@ -206,9 +206,12 @@ static bool draw(Slot *slot, const Frame *frame, const Canvas *page, int side, M
     if (slot->canvas.width != side) {
         canvas_close(&slot->canvas);
         image_close(&slot->picture);
-        if (!canvas_open_beside(&slot->canvas, page, &options, message) ||
-            !image_open(&slot->picture, side, side, IMAGE_BYTE, message))
+        if (!canvas_open_beside(&slot->canvas, page, &options, message))
             return false;
+        if (!image_open(&slot->picture, side, side, IMAGE_BYTE, message)) {
+            canvas_close(&slot->canvas); /* so that the next frame tries again */
+            return false;
+        }
     }
     for (int i = 0; i < MAX_ATTRIBUTES; i++)
         canvas_set_attribute(&slot->attributes[i]);
@@ -224,8 +227,10 @@ static bool paint_lines(Image *page, Message *message)
     if (lines->width != page->width || lines->height != page->height) {
         image_close(lines);
         if (!image_open(lines, page->width, page->height, IMAGE_BYTE, message) ||
-            !page_paint_lines(lines, &state.changes, message))
+            !page_paint_lines(lines, &state.changes, message)) {
+            image_close(lines); /* so that the next frame tries again */
             return false;
+        }
     }
     memcpy(page->pixels, lines->pixels, (size_t)page->height * image_row_size(page));
     return true;
@@ -236,14 +241,14 @@ static bool paint_difference(Image *page, Message *message)
     const Image *before = &state.slots[PAGE_BEFORE].picture;
     const Image *after = &state.slots[PAGE_AFTER].picture;
     Image *difference = &state.difference;
-    char text[80] = "no pixel differs", name[80] = "the difference";
+    char text[80] = "no pixel differs at this time", name[80] = "the difference";
     if (difference->width != after->width) {
         image_close(difference);
         if (!image_open(difference, after->width, after->height, IMAGE_BYTE, message))
             return false;
     }
     const PageDifference found = page_difference(before, after, difference);
-    if (found.factor > 1)
+    if (found.pixels && found.factor > 1)
         snprintf(name, sizeof name, "the difference, %d times as bright", found.factor);
     if (found.pixels)
         snprintf(text, sizeof text, "%d pixels differ, by at most %d steps of 255", found.pixels,

@@ -13,6 +13,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static bool json, markdown;
 static int inputs;
@@ -47,13 +48,28 @@ static bool write_json(const Arithmetics *found, const Forecast *forecast, const
     if (!file)
         return message_set(message, "precision.json: not enough memory");
     tell_json(found, forecast, file);
-    fclose(file);
+    const bool whole = !ferror(file), closed = fclose(file) == 0;
+    if (!whole || !closed) {
+        free(text);
+        return message_set(message, "precision.json: not enough memory");
+    }
     snprintf(path, sizeof path, "%s/precision.json", folder);
     const bool done = output_write(path, text, size, message);
     if (done && json)
         fwrite(text, 1, size, stdout);
     free(text);
     return done;
+}
+
+/* An earlier run's show other numbers. */
+static void remove_plots(const char *folder)
+{
+    static const char *const endings[] = {"png", "svg"};
+    for (int i = 0; i < 2; i++) {
+        char path[PATH_MAX];
+        if (snprintf(path, sizeof path, "%s/precision.%s", folder, endings[i]) < PATH_MAX)
+            unlink(path);
+    }
 }
 
 static bool report(const Arithmetics *found, const Options *options, Message *message)
@@ -64,8 +80,10 @@ static bool report(const Arithmetics *found, const Options *options, Message *me
     if (!forecast_make(found, options->height, &forecast, message) ||
         !write_json(found, &forecast, options->output, message))
         return false;
-    if (!tell_plot(found, options->output, &plot))
+    if (!tell_plot(found, options->output, &plot)) {
+        remove_plots(options->output);
         fprintf(stderr, "precision: no plot: %s\n", plot.text);
+    }
     if (json)
         return true;
     if (markdown) {

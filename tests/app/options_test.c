@@ -296,7 +296,7 @@ static Parameter terms_row(void)
 TEST(every_set_of_terms_and_lights_is_read_and_written)
 {
     for (unsigned bits = 1; bits < 1 << 8; bits++) {
-        char line[600] = "--terms ", text[PARAMETER_TEXT_SIZE];
+        char line[PARAMETER_TEXT_SIZE + 100] = "--terms ", text[PARAMETER_TEXT_SIZE];
         for (int i = 0; i < 8; i++) {
             const int k = bits & 1 ? i : 7 - i;
             if (bits >> k & 1)
@@ -324,7 +324,7 @@ TEST(every_set_of_terms_and_lights_is_read_and_written)
 /* All lights but one are the longest text. */
 TEST(the_longest_terms_fit)
 {
-    char text[PARAMETER_TEXT_SIZE], line[600];
+    char text[PARAMETER_TEXT_SIZE], line[PARAMETER_TEXT_SIZE + 100];
     for (unsigned left_out = 0; left_out < 32; left_out++) {
         assert_int_equal(read_as(&SCENE, ""), OPTIONS_RUN);
         options.terms.lights_left_out = (uint32_t)1 << left_out;
@@ -349,7 +349,7 @@ static Parameter places_row(void)
 
 TEST(lights_are_put_elsewhere)
 {
-    char line[600], text[PARAMETER_TEXT_SIZE];
+    char line[PARAMETER_TEXT_SIZE + 100], text[PARAMETER_TEXT_SIZE];
     assert_int_equal(read_as(&SCENE, ""), OPTIONS_RUN);
     assert_int_equal(options.places.placed, 0);
     Parameter row = places_row();
@@ -392,7 +392,7 @@ static Parameter tints_row(void)
 
 TEST(lights_get_other_colors)
 {
-    char line[600], text[PARAMETER_TEXT_SIZE];
+    char line[PARAMETER_TEXT_SIZE + 100], text[PARAMETER_TEXT_SIZE];
     assert_int_equal(read_as(&SCENE, ""), OPTIONS_RUN);
     Parameter row = tints_row();
     assert_false(row.write(&row, text, sizeof text));

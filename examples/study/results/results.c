@@ -381,19 +381,36 @@ static bool append_text(int file, const char *path, const Tail *tail, const char
                        restored ? "" : "; its last row may be truncated");
 }
 
+/* Opens and locks it. Who waits for the lock may get that of a file that a failed run has removed:
+ * then again. -1 with a message on failure. */
+static int open_locked(const char *path, Message *message)
+{
+    for (;;) {
+        struct stat named, locked;
+        bool missing;
+        const int file = open_file(path, O_RDWR | O_CREAT | O_APPEND, &missing, message);
+        if (file < 0)
+            return -1;
+        while (flock(file, LOCK_EX) != 0 && errno == EINTR) /* two programs may append to one */
+            continue;
+        if (fstat(file, &locked) != 0 ||
+            (stat(path, &named) == 0 && named.st_ino == locked.st_ino &&
+             named.st_dev == locked.st_dev))
+            return file;
+        close(file);
+    }
+}
+
 bool results_append(const char *path, const ResultRow *rows, int count, Message *message)
 {
-    bool missing;
     Tail tail;
     char *text = NULL;
     size_t size = 0;
     struct stat status;
     const bool created = access(path, F_OK) != 0;
-    const int file = open_file(path, O_RDWR | O_CREAT | O_APPEND, &missing, message);
+    const int file = open_locked(path, message);
     if (file < 0)
         return false;
-    while (flock(file, LOCK_EX) != 0 && errno == EINTR) /* two programs may append to one file */
-        continue;
     bool done = tail_find(&tail, file, path, message) &&
                 rows_text(path, tail.header, rows, count, &text, &size, message) &&
                 append_text(file, path, &tail, text, size, message);
