@@ -403,12 +403,11 @@ TEST(lights_get_other_colors)
     row = tints_row();
     assert_true(row.write(&row, text, sizeof text));
     assert_string_equal(text, "1,0.5,0,1/7,0,0,1,1,1,10");
-    /* All of them, as the panel rounds them. */
+    /* All of them, in as many digits as there are. */
     options.tints.tinted = 255;
     for (int i = 0; i < SCENE_MAX_PLACED; i++) {
-        options.tints.diffuse[i] = (Vec3){0.123 + 0.1 * i, 0.999, 0.001};
-        options.tints.specular[i] = (Vec3){0.111, 0.222, 0.333};
-        options.tints.diffuse[i].x = rint(1000 * options.tints.diffuse[i].x) / 1000;
+        options.tints.diffuse[i] = vec3_scale((Vec3){1, 2, 3}, 1.2345678901234501e-5 * (i + 1));
+        options.tints.specular[i] = vec3_scale(options.tints.diffuse[i], 1.0 / 3);
     }
     const LightTints all = options.tints;
     row = tints_row();

@@ -105,6 +105,18 @@ TEST(both_files_follow_from_the_fewest_changes)
     }
 }
 
+TEST(files_of_too_many_lines_are_an_error)
+{
+    static char text[2 * 5000 + 1];
+    Changes changes = {.count = 0};
+    int changed;
+    memset(text, '\n', 5000);
+    assert_false(changes_between(&changes, (ChangeText){"old", ""}, (ChangeText){"new", text}, 1,
+                                 &changed, &message));
+    assert_string_equal(message.text, "new: more than 4096 lines");
+    changes_close(&changes);
+}
+
 TEST(a_line_that_is_too_long_is_cut)
 {
     char text[1000];

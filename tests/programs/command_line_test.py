@@ -888,6 +888,11 @@ class Scenes(Case):
                 # or the sign of a normal decides, a pixel may be on either side.
                 self.assertLess(sum(a > 1 for a in apart), 1e-4 * len(apart))
 
+    def test_the_full_program_without_a_light(self):
+        self.good(*SMALL, "--lighting", "off", program="Shadows")
+        self.good(*SMALL, "--lighting", "off", "--full", "-o", "full.png", program="Shadows")
+        self.assertEqual(self.png("Shadows.png").pixels, self.png("full.png").pixels)
+
     def test_every_scene_explains_itself_and_draws_nothing(self):
         for program in SCENES:
             with self.subTest(program=program):
