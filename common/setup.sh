@@ -107,8 +107,9 @@ setup_is_done() {
         *) return 1 ;;
         esac
     done
+    # The pages have the shaders in them.
     [ -z "$(find "$root/meson.build" "$root/meson_options.txt" "$root/common" "$root/examples" \
-        -newer "$stamp" -print -quit 2>&1)" ]
+        ${cross:+"$root/shaders"} -newer "$stamp" -print -quit 2>&1)" ]
 }
 
 # Whether ninja, which writes nothing then, finds nothing to do for TARGETS. Of a moved tree it would
@@ -286,7 +287,7 @@ setup_tree() {
 }
 
 # $build/.configured is as old as the configuration, which is done again if the tree was moved or
-# packages were installed.
+# packages were installed, or, for the pages, which list them then, shaders came or went.
 setup_configure() {
     stamp=$build/.configured
     if [ -f "$build/build.ninja" ]; then
@@ -296,7 +297,8 @@ setup_configure() {
                 fail 1 "the build folder $build belongs to $tree; LIGHTING_BUILD names another"
             }
             rm -rf "$build"/meson-* "$build/build.ninja" # the tree was moved
-        elif [ -f "$stamp" ] && ! [ /var/lib/dpkg/status -nt "$stamp" ]; then
+        elif [ -f "$stamp" ] && ! [ /var/lib/dpkg/status -nt "$stamp" ] &&
+            [ -z "${cross:+$(find "$root/shaders" -type d -newer "$stamp" -print -quit)}" ]; then
             return 0
         fi
     else

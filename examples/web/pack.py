@@ -2,7 +2,8 @@
 
     pack.py SOURCE_FOLDER MODULE_JS FOLDER FOLDER/PROGRAM...
 
-FOLDER gets index.html, a page for each program, and what they share; FOLDER/single has each program's page as one file.
+FOLDER gets index.html, a page for each program, what they share, and .lighting, the list of all; FOLDER/single has each
+program's page as one file.
 A browser fetches nothing for a page from file://, so the WebAssembly is a text in a script, and a page names each of its
 scripts.
 """
@@ -33,19 +34,30 @@ EXPLAIN = """<details id="explain"><summary>What is computed, and why (<code>--e
 root, module, site = (pathlib.Path(path) for path in sys.argv[1:4])
 programs = [path.split("/") for path in sys.argv[4:]]
 here = root / "examples/web"
+
+
+def read(path):
+    """In UTF-8 in any locale: the policy has digests of the bytes."""
+    return path.read_text(encoding="utf-8")
+
+
+def write(path, text):
+    path.write_text(text, encoding="utf-8")
+
+
 # As the lessons have them.
-predecessors = dict(re.findall(r"\{&(\w+), &(\w+)\}", (root / "examples/lessons/lessons.c").read_text()))
+predecessors = dict(re.findall(r"\{&(\w+), &(\w+)\}", read(root / "examples/lessons/lessons.c")))
 
 
 def lighting_js():
     """The module in a function, whose text a worker gets too, and the WebAssembly."""
     packed = gzip.compress(module.with_suffix(".wasm").read_bytes(), 9, mtime=0)
     return ('"use strict";\nconst LIGHTING_WASM = "%s";\nfunction lightingFactory() {\n%s\nreturn createLighting;\n}\n'
-            % (base64.b64encode(packed).decode(), module.read_text()))
+            % (base64.b64encode(packed).decode(), read(module)))
 
 
 def summary(folder, name):
-    text = (root / "examples" / folder / (name + ".c")).read_text()
+    text = read(root / "examples" / folder / (name + ".c"))
     return re.search(r'^    \.summary = "(.*)",$', text, re.MULTILINE).group(1)
 
 
@@ -53,7 +65,7 @@ def diff(before, after):
     """Of a program and its shaders with those of its predecessor, names aside."""
     lines = []
     for path in ("examples/lecture/%s.c", "shaders/lecture/%s.vert", "shaders/lecture/%s.frag"):
-        old, new = ((root / (path % name)).read_text().replace(name, "NAME").splitlines() for name in (before, after))
+        old, new = (read(root / (path % name)).replace(name, "NAME").splitlines() for name in (before, after))
         changes = list(difflib.unified_diff(old, new, path % before, path % after, n=2, lineterm=""))
         for line in changes or [path % after + ": the same"]:
             tag = {"+": "ins", "-": "del"}.get(line[0])
@@ -63,7 +75,7 @@ def diff(before, after):
 
 
 def fill(template, **parts):
-    return re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found.group(1)], (here / template).read_text())
+    return re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found.group(1)], read(here / template))
 
 
 def digest(text):
@@ -76,27 +88,27 @@ def policy(scripts, styles):
 
 
 def shared(names):
-    return {"policy": policy("'self'", "'self'"), "style": '<link rel="stylesheet" href="style.css">',
+    # Of a file Firefox takes no other for 'self'.
+    return {"policy": policy("'self' file:", "'self' file:"), "style": '<link rel="stylesheet" href="style.css">',
             "scripts": "\n".join(f'<script src="{name}"></script>' for name in names)}
 
 
 def alone(names):
-    texts = ["\n" + (site / name).read_text().replace("</script", "<\\/script") for name in names]
-    style = "\n" + (site / "style.css").read_text()
+    texts = ["\n" + read(site / name).replace("</script", "<\\/script") for name in names]
+    style = "\n" + read(site / "style.css")
     return {"policy": policy(" ".join(map(digest, texts)), digest(style)), "style": f"<style>{style}</style>",
             "scripts": "\n".join(f"<script>{text}</script>" for text in texts)}
 
 
 def page(folder, name, parts, single):
     before = predecessors.get(name)
-    link = f'<a href="{before}.html">{before}</a>'
+    link = before if single else f'<a href="{before}.html">{before}</a>'
     scene = folder == "lighting"
     more = EXPLAIN if scene else ""
     if before:
         more = (f"<details class=\"diff\"><summary>What differs from {before}</summary>\n<p>The predecessor is {link}.</p>\n"
                 f'<pre tabindex="0">{diff(before, name)}</pre></details>')
-    index = "../index.html" if single else "index.html"
-    links = f'<nav aria-label="Pages"><a href="{index}">All programs</a></nav>'
+    links = "" if single else '<nav aria-label="Pages"><a href="index.html">All programs</a></nav>'
     return fill("program.html", name=name, summary=html.escape(summary(folder, name)), links=links, more=more,
                 exact=EXACT if scene else NO_SCENE, only="<code>--error</code>, " if scene else "", **parts)
 
@@ -110,16 +122,18 @@ def card(folder, name):
 def main():
     shutil.rmtree(site, ignore_errors=True)
     (site / "single").mkdir(parents=True)
-    (site / "lighting.js").write_text(lighting_js())
+    write(site / "lighting.js", lighting_js())
     for path in [*here.glob("*.js"), here / "style.css"]:
         shutil.copy(path, site)
     cards = {group: "".join(card(folder, name) for folder, name in programs if folder == group)
              for group in ("lecture", "lighting")}
-    version = re.search(r'VERSION "(.*)"', pathlib.Path("common/base/version.h").read_text()).group(1)
-    (site / "index.html").write_text(fill("index.html", version=html.escape(version), **cards, **shared(INDEX)))
+    version = re.search(r'VERSION "(.*)"', read(pathlib.Path("common/base/version.h"))).group(1)
+    write(site / "index.html", fill("index.html", version=html.escape(version), **cards, **shared(INDEX)))
     for folder, name in programs:
-        (site / f"{name}.html").write_text(page(folder, name, shared(PROGRAM), False))
-        (site / "single" / f"{name}.html").write_text(page(folder, name, alone(PROGRAM), True))
+        write(site / f"{name}.html", page(folder, name, shared(PROGRAM), False))
+        write(site / "single" / f"{name}.html", page(folder, name, alone(PROGRAM), True))
+    files = sorted(str(path.relative_to(site)) for path in site.rglob("*") if path.is_file())
+    write(site / ".lighting", "\n".join(files) + "\n")
 
 
 main()

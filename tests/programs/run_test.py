@@ -22,7 +22,8 @@ RUN = os.path.join(base.SOURCE, "examples/run")
 TOOLS = {
     "dpkg-query": 'shift 3; for package; do echo "$package installed"; done',
     "meson": 'if [ "$1" = test ]; then case $* in *--list*) printf "a / %s\\n" effects matrix; esac; '
-             'exit; fi; [ "$2" != --reconfigure ] || shift; mkdir -p "$2/meson-info" && '
+             'exit; fi; [ "$2" != --reconfigure ] || shift; '
+             '[ "$2" != --cross-file ] || shift 2; mkdir -p "$2/meson-info" && '
              'echo "  \\"source\\": \\"$3\\"" >"$2/meson-info/meson-info.json" && '
              ': >"$2/build.ninja"',
     "ninja": r'''
@@ -105,6 +106,16 @@ class Names(Case):
             self.assertEqual(self.start("web", *arguments), (code, "", f"examples/run: {said}\n"))
             self.assertEqual(sorted(os.listdir(self.folder)), before)
 
+    def test_a_folder_of_systems_is_ones_own(self):
+        self.make("systems/trixie/notes", "mine")
+        self.tool("id", "echo 0")
+        self.tool("debootstrap", "exit 1")
+        self.assertEqual(self.start("trixie", run=os.path.join(base.SOURCE, "tests/systems/run"),
+                                    environment={"LIGHTING_SYSTEMS": self.path("systems")}), (
+            1, "", f"tests/systems/run: LIGHTING_SYSTEMS: {self.path('systems')}: is not empty, and of no earlier call; "
+                   "name another folder\n"))
+        self.assertTrue(os.path.exists(self.path("systems/trixie/notes")))
+
     def test_the_list_for_tools_has_every_program(self):
         code, text, said = self.start("--json")
         self.assertEqual((code, said), (0, ""))
@@ -130,6 +141,69 @@ class Names(Case):
             self.assertEqual(code, 2)
             self.assertEqual(said.startswith("\x1b[31mexamples/run:\x1b[0m xylophone: "), red, said)
             self.assertEqual("\x1b" in said, red, said)
+
+
+class Pages(Case):
+    """examples/run web, with a ninja that makes the pages that PAGES names."""
+
+    def setUp(self):
+        super().setUp()
+        for name in ("examples/run", "common/setup.sh"):
+            os.makedirs(os.path.dirname(self.path("tree", name)), exist_ok=True)
+            shutil.copy(os.path.join(base.SOURCE, name), self.path("tree", name))
+        for name in ("meson.build", "meson_options.txt", "shaders/some/a.glsl", "shaders/some/b.glsl"):
+            self.make("tree/" + name, "")
+        self.tool("ninja", 'cd "$2" && rm -rf "$3" && mkdir -p "$3/single" && cd "$3" || exit 1\n'
+                           'for page in $PAGES; do echo "$page" | tee -a .lighting >"$page"; done')
+
+    def web(self, folder, pages):
+        code, text, said = self.start("web", "-o", folder, run=self.path("tree/examples/run"), environment={"PAGES": pages})
+        self.assertEqual((code, text), (0, ""), said)
+        return said
+
+    def files(self, folder):
+        return sorted(os.path.relpath(os.path.join(parent, file), self.path(folder))
+                      for parent, _, files in os.walk(self.path(folder)) for file in files)
+
+    def change(self, path):
+        os.utime(self.path("tree", path), (time.time() + 60,) * 2)
+
+    def test_only_pages_are_replaced(self):
+        first = [".lighting", "index.html", "old.html", "single/a.html"]
+        self.web("pages/", "index.html old.html single/a.html")
+        self.assertEqual(self.files("pages"), first)
+        self.make("pages/notes.html", "mine")
+        self.make("pages/.git/HEAD", "mine")
+        os.symlink("pages", self.path("link"))
+        self.change("examples/run")
+        self.web("link", "index.html new.html single/b.html")
+        self.assertTrue(os.path.islink(self.path("link")))
+        self.assertEqual(self.files("pages"), [".git/HEAD", ".lighting", "index.html", "new.html", "notes.html",
+                                               "single/b.html"])
+
+    def test_a_list_names_nothing_elsewhere(self):
+        self.make("mine.html", "mine")
+        self.make("pages/.lighting", f"../mine.html\nsingle/../../mine.html\n{self.path('mine.html')}\n")
+        self.web("pages", "index.html")
+        self.assertEqual(self.files("pages"), [".lighting", "index.html"])
+        self.assertTrue(os.path.exists(self.path("mine.html")))
+
+    def test_pages_that_cannot_be_written_leave_the_old_ones(self):
+        self.web("pages", "index.html old.html")
+        self.change("examples/run")
+        self.tool("cp", "exit 1")
+        self.assertEqual(self.start("web", "-o", "pages", run=self.path("tree/examples/run"),
+                                    environment={"PAGES": "index.html"}),
+                         (1, "", "examples/run: web: pages: cannot be written\n"))
+        self.assertEqual(self.files("pages"), [".lighting", "index.html", "old.html"])
+
+    def test_shaders_that_come_or_go_are_listed_again(self):
+        self.assertIn("configuring", self.web("pages", "index.html"))
+        self.change("shaders/some/a.glsl")
+        self.assertNotIn("configuring", self.web("pages", "index.html new.html"))
+        self.assertIn("new.html", self.files("pages"))
+        self.change("shaders/some")
+        self.assertIn("configuring", self.web("pages", "index.html"))
 
 
 class Folders(Case):

@@ -16,6 +16,7 @@ import struct
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 import urllib.parse
 import zlib
@@ -390,7 +391,9 @@ class Pages(Case):
                 self.open("SmoothFlat", link)
                 self.page.click("#save")
                 path = pathlib.Path(folder, "SmoothFlat.png")
+                deadline = time.monotonic() + browser.PATIENCE
                 while not path.exists():
+                    self.assertLess(time.monotonic(), deadline, "the picture is not saved")
                     self.settle()
                 chunks, pixels = decode_png(path.read_bytes())
                 path.unlink()
@@ -507,6 +510,10 @@ class Pages(Case):
         self.assertIn("u_LightPosition", self.text(".diff ins"
                                                    if "u_LightPosition" in self.text(".diff ins") else ".diff pre"))
         self.assertTrue(self.page.run("document.querySelector('.diff a').href.endsWith('LightedTranslatedRotatedCube.html')"))
+        # A page that is sent has no others beside it.
+        self.open("single/PointLightedCube")
+        self.assertIn("The predecessor is LightedTranslatedRotatedCube.", self.text(".diff"))
+        self.assertEqual(self.page.run("document.querySelectorAll('a[href$=\".html\"]').length"), 0)
 
     def test_one_file_draws_by_itself(self):
         with tempfile.TemporaryDirectory() as folder:
