@@ -1,7 +1,6 @@
 /*
- * gl: the OpenGL ES 2 functions under their own names, as pointers that canvas_open loads from its
- * backend (gl_load). No GL library is linked, so a program cannot call one library's functions in
- * another's context.
+ * gl: the OpenGL ES 2 functions under their own names, as pointers that canvas_open loads. No GL
+ * library is linked, so a program cannot call one library's functions in another's context.
  */
 #ifndef GL_H
 #define GL_H
