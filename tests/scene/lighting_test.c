@@ -655,7 +655,7 @@ TEST(guarded_cases_draw_as_the_full_program)
 {
     int guarded = 0, unguarded = 0;
     random_state.state = 20240612;
-    for (int i = 0; i < 150; i += testing_step(9)) {
+    for (int i = 0; i < 150; i += testing_step(3)) {
         Case c = {.terms = {7},
                   .kinds = {below(KIND_COUNT)},
                   .light_count = 1,
