@@ -270,13 +270,6 @@ static bool outside_of(const Scene *scene, const Object *object, Sphere sphere, 
     return outside;
 }
 
-bool effects_unshadowed(const Scene *scene, const Object *object, const MeshBox *box)
-{
-    const bool flat = object->solid.kind == SOLID_QUAD || object->solid.kind == SOLID_DISC;
-    return object_is_convex(object) &&
-           (flat || outside_of(scene, object, scene_sphere(object, box), NULL));
-}
-
 bool effects_may_shadow(const Scene *scene, int light, int occluder, int receiver,
                         const MeshBox *boxes)
 {
@@ -294,7 +287,7 @@ bool effects_may_shadow(const Scene *scene, int light, int occluder, int receive
     if (world.kind != LIGHT_DIRECTIONAL && vec3_length(to_eye) == 0)
         return false;
     if (occluder == receiver)
-        return !effects_unshadowed(scene, before, &boxes[occluder]);
+        return !object_is_convex(before);
     const Vec3 place = world.kind == LIGHT_DIRECTIONAL ? world.direction : world.position;
     const PlacedBox first = placed_box(&boxes[occluder], before->world_from_object);
     const PlacedBox second = placed_box(&boxes[receiver], behind->world_from_object);

@@ -78,9 +78,6 @@ Effects effects_of_boxed(const Scene *scene, const Object *object, const MeshBox
 bool effects_may_shadow(const Scene *scene, int light, int occluder, int receiver,
                         const MeshBox *boxes);
 
-/* Whether the object is convex, and its inside is not seen. */
-bool effects_unshadowed(const Scene *scene, const Object *object, const MeshBox *box);
-
 /* The number of a light among those that have shadows, for which the masks have a channel each. */
 int effects_channel(const Scene *scene, int light);
 

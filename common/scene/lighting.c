@@ -729,27 +729,32 @@ static SilhouetteFacing facing_of(const ShadowFrame *frame, int number, bool clo
                          light.z > box->high.z;
     if (!closed)
         return SILHOUETTE_ALL;
-    if (effects_unshadowed(frame->scene, object, box))
+    if (object_is_convex(object))
         return SILHOUETTE_UNLIT;
     return outside ? SILHOUETTE_LIT : SILHOUETTE_ALL;
 }
 
-/* Whether the near plane, as far as it is seen, may lie in the shadow: then the eye may, too. */
-static bool eye_in_shadow(const ShadowFrame *frame, int number, const Light *light)
+/* From the eye to the near plane, as far as it is seen. */
+static PlacedBox eye_box(const ShadowFrame *frame)
 {
     const Camera *camera = &frame->scene->camera;
-    const bool directional = light->kind == LIGHT_DIRECTIONAL;
-    const Vec3 place = directional ? light->direction : light->position;
     /* Eye coordinates, of the rotation: its rows are the axes. */
     const double *m = frame->eye_from_world.m, *p = frame->clip_from_eye.m;
     const Vec3 right = {m[0], m[4], m[8]}, up = {m[1], m[5], m[9]}, back = {m[2], m[6], m[10]};
-    /* From the eye to the near plane. */
-    const PlacedBox seen = {.center = vec3_add(camera->eye, vec3_scale(back, -0.5 * camera->near)),
-                            .half = {vec3_scale(right, camera->near / p[0]),
-                                     vec3_scale(up, camera->near / p[5]),
-                                     vec3_scale(back, 0.5 * camera->near)}};
-    const PlacedBox box =
-        placed_box(&frame->plan->boxes[number], frame->scene->objects[number].world_from_object);
+    return (PlacedBox){.center = vec3_add(camera->eye, vec3_scale(back, -0.5 * camera->near)),
+                       .half = {vec3_scale(right, camera->near / p[0]),
+                                vec3_scale(up, camera->near / p[5]),
+                                vec3_scale(back, 0.5 * camera->near)}};
+}
+
+/* Whether the near plane may lie in the shadow: then the eye may, too. */
+static bool eye_in_shadow(const ShadowFrame *frame, int number, const Light *light)
+{
+    const bool directional = light->kind == LIGHT_DIRECTIONAL;
+    const Vec3 place = directional ? light->direction : light->position;
+    const PlacedBox seen = eye_box(frame),
+                    box = placed_box(&frame->plan->boxes[number],
+                                     frame->scene->objects[number].world_from_object);
     return may_come_between(&box, &seen, (Vec4){place.x, place.y, place.z, directional ? 0 : 1});
 }
 
@@ -812,6 +817,13 @@ static Vec4 find_end(const ShadowFrame *frame, int number, int light_number, con
     return found;
 }
 
+/* Whether the near plane may lie beyond the end of a volume: then the eye sees into it there. */
+static bool eye_beyond(const ShadowFrame *frame, Vec4 end)
+{
+    const PlacedBox seen = eye_box(frame);
+    return box_least(&seen, (Vec3){end.x, end.y, end.z}) + end.w < 0;
+}
+
 /* In object coordinates. */
 static Vec4 plane_of_object(Vec4 plane, Mat4 world_from_object)
 {
@@ -833,13 +845,14 @@ static bool cast_shadow(Lighting *lighting, const ShadowFrame *frame, const Ligh
                           .behind = eye_in_shadow(frame, number, light),
                           .own = frame->full || frame->plan->receives[number] >> light_number & 1};
     const Caster *caster = find_caster(lighting, object->mesh, message);
+    const Vec4 end = find_end(frame, number, light_number, light);
     if (!caster)
         return false;
     thrown.caster = &caster->shadow;
     thrown.light_object =
         mat4_transform(object_from_world, (Vec4){place.x, place.y, place.z, directional ? 0 : 1});
-    thrown.end =
-        plane_of_object(find_end(frame, number, light_number, light), object->world_from_object);
+    thrown.end = plane_of_object(end, object->world_from_object);
+    thrown.beyond = eye_beyond(frame, end);
     thrown.facing = facing_of(frame, number, thrown.caster->silhouette.closed, thrown.light_object);
     return shadow_mask_cast(&lighting->mask, &thrown, message);
 }

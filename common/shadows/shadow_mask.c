@@ -354,13 +354,14 @@ static bool draw_caps(const ShadowMask *mask, const ShadowThrow *thrown, Caps ca
     return true;
 }
 
-/* Caps at the end are only counted behind surfaces; parallel rays meet in one point at infinity. */
+/* Before the surfaces caps are counted only at an end that the eye looks through; parallel rays
+ * meet in one point at infinity. */
 static ShadowEnd end_of(const ShadowThrow *thrown)
 {
     const Vec4 end = thrown->end;
     const bool infinite = end.x == 0 && end.y == 0 && end.z == 0;
     return infinite && thrown->light_object.w == 0 ? SHADOW_END_POINT
-           : thrown->behind                        ? SHADOW_END_CAPS
+           : thrown->behind || thrown->beyond      ? SHADOW_END_CAPS
                                                    : SHADOW_END_OPEN;
 }
 

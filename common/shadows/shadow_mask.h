@@ -6,10 +6,11 @@
  * behind the surfaces, where they fail the depth test: right too if the eye is in shadow, and if
  * the near plane cuts a volume (Everitt and Kilgard, Practical and Robust Stenciled Shadow Volumes
  * for Hardware-Accelerated Rendering, 2002). If no segment from the near plane to the light meets
- * the caster's box, they are counted before the surfaces, which needs no caps. A pixel is in shadow
- * if between the surface at its center and the light there is a triangle other than the surface's
- * own, or if the light is on the other side of the surface's own than its normal. Where a cap is
- * the surface itself, both have bitwise the same depth.
+ * the caster's box, they are counted before the surfaces, which needs no caps, except at an end
+ * that the eye lies beyond. A pixel is in shadow if between the surface at its center and the light
+ * there is a triangle other than the surface's own, or if the light is on the other side of the
+ * surface's own than its normal. Where a cap is the surface itself, both have bitwise the same
+ * depth.
  */
 #ifndef SHADOW_MASK_H
 #define SHADOW_MASK_H
@@ -69,7 +70,8 @@ typedef struct ShadowThrow {
     SilhouetteFacing facing;
     bool two_sided; /* the back has the opposite normal */
     bool behind;    /* count behind the surfaces (depth fail), because the eye may be in the volume;
-                       else before them, where only sides are */
+                       else before them: no caps on the mesh */
+    bool beyond;    /* the eye may be beyond the end, and look into the volume through it */
     bool own;       /* the caster's own surface looks up this light */
 } ShadowThrow;
 bool shadow_mask_cast(ShadowMask *mask, const ShadowThrow *thrown, Message *message);

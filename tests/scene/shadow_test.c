@@ -4,6 +4,7 @@
  * shadow's edge runs through the pixel, no pixel may be off by more than one step of 1/255: none is
  * lit that is in shadow, or the other way round.
  */
+#include "base/random.h"
 #include "core/canvas.h"
 #include "core/mesh_make.h"
 #include "reference/picture_error.h"
@@ -109,6 +110,80 @@ TEST(programs_draw_the_shadows_of_the_reference)
         lighting_forget(lighting, NULL);
         example->finish();
     }
+    assert_true(all);
+}
+
+/* Lights below the floor, behind the wall, and anywhere; eyes in front, at the side, above, behind
+ * the wall and below the floor: on either side of the planes that volumes end at. */
+
+static const Vec3 eyes[] = {{0, 2.8, 8.2}, {5, 4.4, 4.8}, {0.3, 8, 0.5}, {-4, 2, -7}, {1, -4, 6}};
+enum { EYES = sizeof eyes / sizeof eyes[0] };
+
+/* One light of the program alone, at a place or in a direction. */
+static bool check_lit_from(const char *name, double seconds, int light, Vec3 place, Vec3 eye)
+{
+    char full_name[160];
+    Scene scene = {.object_count = 0};
+    SceneCopy copy;
+    Shadows.scene->make(seconds, 0, &scene);
+    SUCCEEDS(scene_copy_open(&copy, &scene, false, message));
+    copy.scene.camera.eye = eye;
+    for (int i = 0; i < copy.scene.light_count; i++)
+        copy.lights[i].off = i != light;
+    if (copy.lights[light].kind == LIGHT_DIRECTIONAL)
+        copy.lights[light].direction = place;
+    else
+        copy.lights[light].position = place;
+    snprintf(full_name, sizeof full_name, "%s, light %d at %.17g,%.17g,%.17g, eye %.3g,%.3g,%.3g",
+             name, light, place.x, place.y, place.z, eye.x, eye.y, eye.z);
+    const bool right = check(full_name, &copy.scene);
+    scene_copy_close(&copy);
+    return right;
+}
+
+static Vec3 random_place(Random *random, double size)
+{
+    Vec3 place;
+    place.x = random_between(random, -size, size);
+    place.y = random_between(random, -size, size);
+    place.z = random_between(random, -size, size);
+    return place;
+}
+
+TEST(lights_may_be_behind_floor_and_wall)
+{
+    enum { DIRECTIONAL, POINT, RANDOM = 60 };
+    static const struct {
+        const char *name;
+        int light;
+        Vec3 place;
+    } cases[] = {
+        {"below the floor", POINT, {0, -6, 2}},
+        {"from below", DIRECTIONAL, {0, -1, 0}},
+        {"behind the wall", POINT, {0, 2, -5}},
+        {"from behind", DIRECTIONAL, {0, 0.3, -1}},
+        {"close below the floor", POINT, {0, -2, 0}},
+        {"from below, aslant", DIRECTIONAL, {0.1, -1, 0.3}},
+        {"behind and below", POINT, {-1, -3, -4}},
+        {"from the side", DIRECTIONAL, {-1, 0.05, 0.1}},
+    };
+    enum { CASES = sizeof cases / sizeof cases[0] };
+    const int step = testing_step(3);
+    Random random = {testing_seed(20261122)};
+    bool all = true;
+    SUCCEEDS(Shadows.init(&(ShaderLoader){.precision = "highp"}, message));
+    for (int i = 0; i < CASES * EYES; i += step)
+        all &= check_lit_from(cases[i % CASES].name, 0, cases[i % CASES].light,
+                              cases[i % CASES].place, eyes[i / CASES]);
+    for (int i = 0; i < RANDOM; i += step) {
+        const double seconds = random_between(&random, 0, 12);
+        const Vec3 place = random_place(&random, i % 2 ? 6 : 3);
+        all &= check_lit_from("anywhere", seconds, i / step % 2, place,
+                              i % 4 < 2 ? eyes[random_below(&random, EYES)]
+                                        : random_place(&random, 8));
+    }
+    lighting_forget(lighting, NULL);
+    Shadows.finish();
     assert_true(all);
 }
 
