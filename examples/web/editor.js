@@ -3,11 +3,14 @@
  * it lets us. */
 const Editor = (() => {
     const WAIT = 300; /* ms after the last key */
+    const NOT_KEPT = " This browser keeps nothing: save your text before you leave.";
     const {element} = Controls;
 
     function stored(key) {
         try {
-            return new Map(JSON.parse(localStorage.getItem(key) || "[]"));
+            const pairs = JSON.parse(localStorage.getItem(key) || "[]");
+            return new Map(pairs.filter(pair => Array.isArray(pair) && pair.length === 2 &&
+                                                pair.every(text => typeof text === "string")));
         } catch {
             return new Map();
         }
@@ -43,12 +46,15 @@ const Editor = (() => {
         const field = part("source"), gutter = part("gutter"), files = part("files"), list = part("errors");
         const live = part("live"), said = part("said");
         const originals = new Map(shaders.map(({name, text}) => [name, text]));
-        const names = [...originals.keys()], edited = stored(key);
+        const names = [...originals.keys()], edited = new Map(), others = stored(key);
         let marks = [], timer = 0;
 
-        for (const name of edited.keys())
-            if (!originals.has(name))
-                edited.delete(name);
+        /* Others may be read with other options. */
+        for (const name of names.filter(name => others.has(name))) {
+            edited.set(name, others.get(name));
+            others.delete(name);
+        }
+        const keep = () => store(key, new Map([...edited, ...others])) || !edited.size;
         const text = name => edited.has(name) ? edited.get(name) : originals.get(name);
 
         function number() {
@@ -83,17 +89,19 @@ const Editor = (() => {
                 return element("li", {}, button);
             });
             list.replaceChildren(...places);
-            said.textContent = message && !marks.length ? message : message ? message.split("\n").filter(line =>
-                !/^[\w./-]+:\d+: /.test(line)).join("\n") : edited.size ? "Drawn with your text." : "";
+            const bad = marks.filter(mark => !mark.text.startsWith("warning:")).length;
+            const count = bad ? "Errors: " + bad + "\n" : "Warnings: " + marks.length + "\n";
+            said.textContent = marks.length ? count + message.split("\n").filter(line =>
+                !/^[\w./-]+:\d+: /.test(line)).join("\n") : message || (edited.size ? "Drawn with your text." : "");
             number();
         }
 
         function run() {
             clearTimeout(timer);
-            const kept = store(key, edited);
+            const kept = keep();
             tell(apply(edited.size ? new Map(names.map(name => [name, text(name)])) : new Map()));
-            if (!kept && edited.size)
-                said.textContent += " This browser keeps nothing: save your text before you leave.";
+            if (!kept)
+                said.textContent += NOT_KEPT;
         }
 
         function change() {
@@ -102,13 +110,19 @@ const Editor = (() => {
             else
                 edited.set(files.value, field.value);
             number();
+            if (!keep())
+                said.textContent = NOT_KEPT;
             clearTimeout(timer);
             if (live.checked)
                 timer = setTimeout(run, WAIT);
         }
 
         function revert() {
+            const lost = [...edited.keys(), ...others.keys()];
+            if (lost.length && !confirm("Discard your text of " + lost.join(", ") + "?"))
+                return;
             edited.clear();
+            others.clear();
             show();
             run();
         }

@@ -14,15 +14,16 @@ class Engine {
     static async open(compiled, canvas) {
         const engine = new Engine();
         engine.lines = [];
-        engine.module = await lightingFactory()({
+        /* Emscripten waits for done() for ever. */
+        engine.module = await new Promise((resolve, reject) => lightingFactory()({
             canvas,
             print: line => engine.lines.push(line),
             printErr: line => engine.lines.push(line),
             instantiateWasm(imports, done) {
-                WebAssembly.instantiate(compiled, imports).then(instance => done(instance));
+                WebAssembly.instantiate(compiled, imports).then(instance => done(instance)).catch(reject);
                 return {};
             },
-        });
+        }).then(resolve, reject));
         return engine;
     }
 

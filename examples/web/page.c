@@ -29,9 +29,10 @@ enum { COUNT = sizeof ALL / sizeof ALL[0] };
 enum { MAX_SIDE = 4096 };
 
 /* The common options that a page has; the others are of files, processes or a terminal. */
-static const char *const SHOWN[] = {
-    "size",  "time",         "orbit", "samples",  "precision", "alpha",        "full",
-    "clamp", "linear-light", "terms", "light-at", "lighting",  "show-clipped", NULL};
+static const char *const SHOWN[] = {"size",         "time",    "orbit",        "samples",
+                                    "precision",    "alpha",   "full",         "clamp",
+                                    "linear-light", "terms",   "light-at",     "light-color",
+                                    "lighting",     "shadows", "show-clipped", NULL};
 /* What a program has itself, but no page: files, and operations, which another process counts. */
 static const char *const ABSENT[] = {"model", "up", "costs", NULL};
 

@@ -68,15 +68,14 @@ const Page = (() => {
     }
 
     function change(name, value) {
+        const values = new Map(page.values);
         if (name === "angle")
             name = "time";
         if (value === "" || value === false)
-            page.values.delete(name);
+            values.delete(name);
         else
-            page.values.set(name, value);
-        if (name === "orbit")
-            page.orbit = readOrbit(value) || page.orbit;
-        update();
+            values.set(name, value);
+        start(values, page.seconds, name === "orbit" && readOrbit(value) || page.orbit);
     }
 
     function readOrbit(text) {
@@ -105,7 +104,7 @@ const Page = (() => {
         const start = performance.now();
         if (!page.engine.draw(page.seconds, page.orbit)) {
             fail(page.engine.message);
-            page.playing = false;
+            setPlaying(false);
             return;
         }
         paint(page.engine.picture());
@@ -128,7 +127,7 @@ const Page = (() => {
             part("exact").hidden = true;
             part("compared").textContent = "The picture has changed since it was compared.";
         }
-        ErrorWorker.cancel();
+        ErrorWorker.cancel("The picture has changed; compare again.");
         try {
             history.replaceState(null, "", "#" + link);
         } catch { /* too often, or not allowed: the link is then an earlier one */ }
@@ -151,11 +150,14 @@ const Page = (() => {
         });
     }
 
-    function play(on) {
+    function setPlaying(on) {
         page.playing = on;
-        page.last = performance.now();
         part("play").textContent = on ? "Pause" : "Play";
-        part("play").setAttribute("aria-pressed", on);
+    }
+
+    function play(on) {
+        setPlaying(on);
+        page.last = performance.now();
         schedule();
     }
 
@@ -247,7 +249,7 @@ const Page = (() => {
         const result = await ErrorWorker.compute({compiled: page.compiled, lines: lines(page.values), texts: page.texts,
                                                   seconds: page.seconds, orbit: page.orbit});
         if (!result.error)
-            return show(result.message);
+            return result.message && show(result.message);
         const tell = ({pixels, wrong, rms, maximum}) => pixels + " pixels, largest " + maximum.toFixed(2) + ", rms " +
             rms.toFixed(3) + ", " + wrong + " off by more than one step";
         show("In steps of 1/255. Inside objects: " + tell(result.error.inside) + ". All: " + tell(result.error.all) + ".");
@@ -276,11 +278,15 @@ const Page = (() => {
         return values;
     }
 
-    function start(values) {
-        page.values = values;
-        page.seconds = Number(values.get("time") || 0);
-        page.orbit = readOrbit(values.get("orbit")) || [0, 0, 1];
-        return update();
+    /* What is refused changes neither time nor camera. */
+    function start(values, seconds = Number(values.get("time") || 0),
+                   orbit = readOrbit(values.get("orbit")) || [0, 0, 1]) {
+        const before = {seconds: page.seconds, orbit: page.orbit};
+        Object.assign(page, {values, seconds, orbit});
+        const message = update();
+        if (message)
+            Object.assign(page, before);
+        return message;
     }
 
     function listTries() {

@@ -2,7 +2,7 @@
 /* The exact picture takes a second or more: it is computed in a worker, which has the module and a canvas of its own. A
  * worker from a file is not allowed without a server, one from a text is. */
 const ErrorWorker = (() => {
-    let worker = null;
+    let worker = null, answer = null;
 
     function work() {
         self.onmessage = async ({data}) => {
@@ -18,21 +18,25 @@ const ErrorWorker = (() => {
         };
     }
 
-    function cancel() {
-        if (worker)
-            worker.terminate();
+    /* What is being computed is answered by `message`. */
+    function cancel(message) {
+        if (!worker)
+            return;
+        worker.terminate();
         worker = null;
+        answer({message});
     }
 
-    /* {error, map} or {message}. One that is being computed is abandoned. */
+    /* {error, map} or {message}; no message if another one is computed instead. */
     function compute(task) {
         cancel();
         return new Promise(resolve => {
+            answer = resolve;
             const text = ['"use strict";', lightingFactory, Engine, "(" + work + ")();"].join("\n");
             const address = URL.createObjectURL(new Blob([text], {type: "text/javascript"}));
             worker = new Worker(address);
-            worker.onmessage = ({data}) => { cancel(); resolve(data); };
-            worker.onerror = event => { cancel(); resolve({message: event.message || "this browser starts no worker"}); };
+            worker.onmessage = ({data}) => { resolve(data); cancel(); };
+            worker.onerror = event => cancel(event.message || "this browser starts no worker");
             worker.postMessage(task);
             URL.revokeObjectURL(address);
         });
