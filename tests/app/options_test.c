@@ -34,7 +34,7 @@ static Message message;
 /* Reads a command line whose arguments are separated by blanks; "" stands for an empty one. */
 static OptionsResult read_as(const Usage *usage, const char *line)
 {
-    static char text[512];
+    static char text[PARAMETER_TEXT_SIZE + 200];
     static char *arguments[MAX_ARGUMENTS + 2];
     int count = 0;
     snprintf(text, sizeof text, "%s %s", usage->name, line);
