@@ -632,7 +632,7 @@ class Sizes(Case):
 class Panel(Case):
     def test_h_shows_help_and_hides_it(self):
         shown = self.show("-s", "400x400", paused=True)
-        plain = self.visible(shown)
+        plain = wait_for(lambda: self.still(shown), "a picture that stands still")
         shown.key("h")
         wait_for(lambda: self.visible(shown) != plain, "help")
         shown.key("h")
@@ -640,7 +640,7 @@ class Panel(Case):
 
     def test_the_panel_lies_over_the_picture_and_not_in_it(self):
         shown = self.show("-s", "500x400", program=SCENE, paused=True)
-        plain = self.visible(shown)
+        plain = wait_for(lambda: self.still(shown), "a picture that stands still")
         shown.open_panel(500, 400)
         # Below the rings at the lights.
         left = lambda: crop(self.visible(shown), 500 + PANEL, (0, 130, 500, 270))
