@@ -216,7 +216,7 @@ static bool make_scene(const Stage *stage, const Options *options, double second
     if (orbit_text(options->orbit, orbit))
         scene_fit_depth(scene);
     const SceneTerms *terms = &options->terms;
-    const bool shadows = options->shadows != SHADOWS_OFF;
+    const bool shadows = options_have_shadows(options);
     const bool own = stage->example->scene->shadows;
     if (!terms->left_out && !terms->lights_left_out && !terms->unlit && !options->places.placed &&
         !options->tints.tinted && shadows == own)

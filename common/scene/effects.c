@@ -1,6 +1,5 @@
 #include "scene/effects.h"
 
-#include "shadows/between.h"
 #include "shadows/shadow_mask.h"
 
 #include <math.h>
@@ -271,7 +270,7 @@ static bool outside_of(const Scene *scene, const Object *object, Sphere sphere, 
 }
 
 bool effects_may_shadow(const Scene *scene, int light, int occluder, int receiver,
-                        const MeshBox *boxes)
+                        const MeshBox *boxes, const PlacedBox *placed)
 {
     const Object *before = &scene->objects[occluder], *behind = &scene->objects[receiver];
     const Light *given = &scene->lights[light];
@@ -288,12 +287,7 @@ bool effects_may_shadow(const Scene *scene, int light, int occluder, int receive
         return false;
     if (occluder == receiver)
         return !object_is_convex(before);
-    const Vec3 place = world.kind == LIGHT_DIRECTIONAL ? world.direction : world.position;
-    const PlacedBox first = placed_box(&boxes[occluder], before->world_from_object);
-    const PlacedBox second = placed_box(&boxes[receiver], behind->world_from_object);
-    return may_come_between(
-        &first, &second,
-        (Vec4){place.x, place.y, place.z, world.kind == LIGHT_DIRECTIONAL ? 0 : 1});
+    return may_come_between(&placed[occluder], &placed[receiver], light_place(&world));
 }
 
 /* The lights in whose shadow an object may lie; all that have one if it is not the scene's. */
@@ -303,16 +297,21 @@ static uint32_t shadowed_by(const Scene *scene, const Object *object)
     bool any = false;
     for (int l = 0; l < scene->light_count; l++)
         any |= scene->lights[l].shadows;
-    MeshBox *boxes = any ? malloc((size_t)(scene->object_count + 1) * sizeof *boxes) : NULL;
-    for (int i = 0; boxes && i < scene->object_count; i++)
+    const size_t count = (size_t)scene->object_count + 1;
+    MeshBox *boxes = any ? malloc(count * sizeof *boxes) : NULL;
+    PlacedBox *placed = any ? malloc(count * sizeof *placed) : NULL;
+    for (int i = 0; boxes && placed && i < scene->object_count; i++) {
         boxes[i] = mesh_bounds(scene->objects[i].mesh);
+        placed[i] = placed_box(&boxes[i], scene->objects[i].world_from_object);
+    }
     const bool own = object >= scene->objects && object < scene->objects + scene->object_count;
     for (int l = 0; any && l < scene->light_count && l < EFFECTS_MAX_LIGHTS; l++)
         for (int o = 0; o < scene->object_count; o++)
-            if (!boxes || !own ||
-                effects_may_shadow(scene, l, o, (int)(object - scene->objects), boxes))
+            if (!boxes || !placed || !own ||
+                effects_may_shadow(scene, l, o, (int)(object - scene->objects), boxes, placed))
                 lights |= scene->lights[l].shadows ? (uint32_t)1 << l : 0;
     free(boxes);
+    free(placed);
     return lights;
 }
 

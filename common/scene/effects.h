@@ -9,6 +9,7 @@
 #define EFFECTS_H
 
 #include "scene/scene.h"
+#include "shadows/between.h"
 
 #include <stdio.h>
 
@@ -74,9 +75,9 @@ Effects effects_of_boxed(const Scene *scene, const Object *object, const MeshBox
 
 /* Whether an occluder may come between a receiver, perhaps itself, and a light that has shadows and
  * something to light there. An object that is convex does not shadow itself: where N.L > 0 it sees
- * the light. `boxes`: of the objects' meshes. */
+ * the light. `boxes`: of the objects' meshes; `placed`: the same in the world. */
 bool effects_may_shadow(const Scene *scene, int light, int occluder, int receiver,
-                        const MeshBox *boxes);
+                        const MeshBox *boxes, const PlacedBox *placed);
 
 /* The number of a light among those that have shadows, for which the masks have a channel each. */
 int effects_channel(const Scene *scene, int light);

@@ -40,6 +40,14 @@ typedef struct Light {
     double constant, linear, quadratic;
 } Light;
 
+/* As OpenGL's GL_POSITION has it: a position with w = 1, or the direction towards it with w = 0. */
+static inline Vec4 light_place(const Light *light)
+{
+    return light->kind == LIGHT_DIRECTIONAL
+               ? (Vec4){light->direction.x, light->direction.y, light->direction.z, 0}
+               : (Vec4){light->position.x, light->position.y, light->position.z, 1};
+}
+
 /* Whether a light or reflectivity of this color contributes nothing. */
 static inline bool color_is_black(Vec3 color)
 {

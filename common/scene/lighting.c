@@ -3,7 +3,6 @@
 #include "base/clock.h"
 #include "core/mesh_buffer.h"
 #include "core/mesh_make.h"
-#include "shadows/between.h"
 #include "shadows/shadow_mask.h"
 
 #include <math.h>
@@ -617,7 +616,8 @@ typedef struct ShadowPlan {
     int count;                   /* of objects */
     uint32_t *receives, *throws; /* of each object */
     MeshBox *boxes;
-    uint32_t all; /* the lights that something receives */
+    PlacedBox *placed; /* the same in the world */
+    uint32_t all;      /* the lights that something receives */
 } ShadowPlan;
 
 static void plan_close(ShadowPlan *plan)
@@ -625,13 +625,14 @@ static void plan_close(ShadowPlan *plan)
     free(plan->receives);
     free(plan->throws);
     free(plan->boxes);
+    free(plan->placed);
     *plan = (ShadowPlan){.count = 0};
 }
 
 static void plan_pair(ShadowPlan *plan, const Scene *scene, int occluder, int receiver)
 {
     for (int l = 0; l < scene->light_count; l++) {
-        if (!effects_may_shadow(scene, l, occluder, receiver, plan->boxes))
+        if (!effects_may_shadow(scene, l, occluder, receiver, plan->boxes, plan->placed))
             continue;
         plan->receives[receiver] |= (uint32_t)1 << l;
         plan->throws[occluder] |= (uint32_t)1 << l;
@@ -656,8 +657,9 @@ static bool plan_open(ShadowPlan *plan, Lighting *lighting, const Scene *scene, 
     *plan = (ShadowPlan){.count = scene->object_count,
                          .receives = calloc(count + 1, sizeof *plan->receives),
                          .throws = calloc(count + 1, sizeof *plan->throws),
-                         .boxes = calloc(count + 1, sizeof *plan->boxes)};
-    if (!plan->receives || !plan->throws || !plan->boxes) {
+                         .boxes = calloc(count + 1, sizeof *plan->boxes),
+                         .placed = calloc(count + 1, sizeof *plan->placed)};
+    if (!plan->receives || !plan->throws || !plan->boxes || !plan->placed) {
         plan_close(plan);
         return message_set(message, "shadows: not enough memory for %zu objects", count);
     }
@@ -669,6 +671,7 @@ static bool plan_open(ShadowPlan *plan, Lighting *lighting, const Scene *scene, 
             return false;
         }
         plan->boxes[i] = buffered->box;
+        plan->placed[i] = placed_box(&buffered->box, scene->objects[i].world_from_object);
     }
     for (int o = 0; o < scene->object_count; o++)
         for (int r = 0; r < scene->object_count; r++)
@@ -750,21 +753,19 @@ static PlacedBox eye_box(const ShadowFrame *frame)
 /* Whether the near plane may lie in the shadow: then the eye may, too. */
 static bool eye_in_shadow(const ShadowFrame *frame, int number, const Light *light)
 {
-    const bool directional = light->kind == LIGHT_DIRECTIONAL;
-    const Vec3 place = directional ? light->direction : light->position;
-    const PlacedBox seen = eye_box(frame),
-                    box = placed_box(&frame->plan->boxes[number],
-                                     frame->scene->objects[number].world_from_object);
-    return may_come_between(&box, &seen, (Vec4){place.x, place.y, place.z, directional ? 0 : 1});
+    const PlacedBox seen = eye_box(frame);
+    return may_come_between(&frame->plan->placed[number], &seen, light_place(light));
 }
 
-/* How far a box reaches along a direction, and before it. */
+/* Where a box begins along a direction, and where it ends. */
 static double box_least(const PlacedBox *box, Vec3 way)
 {
-    double least = vec3_dot(box->center, way);
-    for (int i = 0; i < 3; i++)
-        least -= fabs(vec3_dot(box->half[i], way));
-    return least;
+    return vec3_dot(box->center, way) - placed_reach(box, way);
+}
+
+static double box_most(const PlacedBox *box, Vec3 way)
+{
+    return vec3_dot(box->center, way) + placed_reach(box, way);
 }
 
 /* The least of what receives a light's shadows along a direction, less a little. */
@@ -774,10 +775,8 @@ static double receivers_least(const ShadowFrame *frame, int light, Vec3 way)
     for (int r = 0; r < frame->plan->count; r++) {
         if (!(frame->full || frame->plan->receives[r] >> light & 1))
             continue;
-        const PlacedBox box =
-            placed_box(&frame->plan->boxes[r], frame->scene->objects[r].world_from_object);
-        least = fmin(least, box_least(&box, way));
-        most = fmax(most, -box_least(&box, vec3_scale(way, -1)));
+        least = fmin(least, box_least(&frame->plan->placed[r], way));
+        most = fmax(most, box_most(&frame->plan->placed[r], way));
     }
     return least - 1e-3 * (most - least) - 1e-5 * fabs(least);
 }
@@ -788,28 +787,26 @@ static Vec4 find_end(const ShadowFrame *frame, int number, int light_number, con
 {
     static const double FAR = 1e6; /* a light's distance that leaves no digits of a float */
     const Vec4 none = {0, 0, 0, 1};
-    const PlacedBox caster =
-        placed_box(&frame->plan->boxes[number], frame->scene->objects[number].world_from_object);
+    const PlacedBox *caster = &frame->plan->placed[number];
     const bool directional = light->kind == LIGHT_DIRECTIONAL;
     double soonest = INFINITY;
     Vec4 found = none;
-    if (!directional && vec3_length(vec3_subtract(light->position, caster.center)) >
-                            FAR * vec3_length(vec3_add(caster.half[0], caster.half[1])))
+    if (!directional && vec3_length(vec3_subtract(light->position, caster->center)) >
+                            FAR * vec3_length(vec3_add(caster->half[0], caster->half[1])))
         return none;
     for (int k = 0; k < 6 * frame->plan->count; k++) {
-        const PlacedBox box =
-            placed_box(&frame->plan->boxes[k / 6], frame->scene->objects[k / 6].world_from_object);
+        const Vec3 *half = frame->plan->placed[k / 6].half;
         Vec3 way;
-        if (!vec3_normalize(vec3_cross(box.half[k / 2 % 3], box.half[(k / 2 + 1) % 3]), &way))
+        if (!vec3_normalize(vec3_cross(half[k / 2 % 3], half[(k / 2 + 1) % 3]), &way))
             continue;
         way = vec3_scale(way, k % 2 ? -1 : 1);
         /* The light is on the plane's other side, and the caster between them. */
         const double least = receivers_least(frame, light_number, way);
-        const double most = -box_least(&caster, vec3_scale(way, -1));
+        const double most = box_most(caster, way);
         const double lights =
             directional ? vec3_dot(light->direction, way) : vec3_dot(light->position, way) - most;
-        const double steps = (vec3_dot(caster.center, way) - least) / lights;
-        if (lights > 0 && box_least(&caster, way) > least && steps < soonest) {
+        const double steps = (vec3_dot(caster->center, way) - least) / lights;
+        if (lights > 0 && box_least(caster, way) > least && steps < soonest) {
             soonest = steps;
             found = (Vec4){way.x, way.y, way.z, -least};
         }
@@ -834,8 +831,6 @@ static bool cast_shadow(Lighting *lighting, const ShadowFrame *frame, const Ligh
                         int light_number, int number, Message *message)
 {
     const Object *object = &frame->scene->objects[number];
-    const bool directional = light->kind == LIGHT_DIRECTIONAL;
-    const Vec3 place = directional ? light->direction : light->position;
     Mat4 object_from_world;
     if (!mat4_inverse(object->world_from_object, &object_from_world))
         return message_set(message, "object %d is flattened, and throws no shadow by volumes",
@@ -849,8 +844,7 @@ static bool cast_shadow(Lighting *lighting, const ShadowFrame *frame, const Ligh
     if (!caster)
         return false;
     thrown.caster = &caster->shadow;
-    thrown.light_object =
-        mat4_transform(object_from_world, (Vec4){place.x, place.y, place.z, directional ? 0 : 1});
+    thrown.light_object = mat4_transform(object_from_world, light_place(light));
     thrown.end = plane_of_object(end, object->world_from_object);
     thrown.beyond = eye_beyond(frame, end);
     thrown.facing = facing_of(frame, number, thrown.caster->silhouette.closed, thrown.light_object);

@@ -15,8 +15,7 @@ PlacedBox placed_box(const MeshBox *box, Mat4 world_from_object)
     return placed;
 }
 
-/* How far the box reaches from its center along a direction. */
-static double reach(const PlacedBox *box, Vec3 way)
+double placed_reach(const PlacedBox *box, Vec3 way)
 {
     return fabs(vec3_dot(box->half[0], way)) + fabs(vec3_dot(box->half[1], way)) +
            fabs(vec3_dot(box->half[2], way));
@@ -57,9 +56,10 @@ static bool plane_separates(const PlacedBox *box, const Hull *hull, Vec3 normal)
         return false;
     if (vec3_dot(way, vec3_subtract(hull->box->center, box->center)) < 0)
         way = vec3_scale(way, -1);
-    const double most = reach(box, way);
+    const double most = placed_reach(box, way);
     const double from = vec3_dot(way, vec3_subtract(hull->box->center, box->center));
-    return from - reach(hull->box, way) >= most - touches && vec3_dot(way, hull->sweep) >= 0 &&
+    return from - placed_reach(hull->box, way) >= most - touches &&
+           vec3_dot(way, hull->sweep) >= 0 &&
            (!hull->has_end || vec3_dot(way, vec3_subtract(hull->end, box->center)) >= most);
 }
 
@@ -101,11 +101,6 @@ static bool separated(const PlacedBox *box, const Hull *hull)
     return search_separates(box, hull);
 }
 
-bool boxes_meet(const PlacedBox *a, const PlacedBox *b)
-{
-    return !separated(a, &(Hull){.box = b});
-}
-
 bool may_come_between(const PlacedBox *occluder, const PlacedBox *receiver, Vec4 light)
 {
     const Vec3 place = {light.x, light.y, light.z};
@@ -115,7 +110,7 @@ bool may_come_between(const PlacedBox *occluder, const PlacedBox *receiver, Vec4
     if (!vec3_normalize(place, &way))
         return true;
     const double beyond = vec3_dot(way, vec3_subtract(occluder->center, receiver->center)) +
-                          reach(occluder, way) + reach(receiver, way);
+                          placed_reach(occluder, way) + placed_reach(receiver, way);
     if (beyond <= 0)
         return false;
     return !separated(occluder, &(Hull){.box = receiver, .sweep = vec3_scale(way, beyond)});

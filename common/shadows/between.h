@@ -13,8 +13,8 @@ typedef struct PlacedBox {
 
 PlacedBox placed_box(const MeshBox *box, Mat4 world_from_object);
 
-/* Whether the boxes have a point in common. */
-bool boxes_meet(const PlacedBox *a, const PlacedBox *b);
+/* How far it reaches from its center along a direction, in lengths of that. */
+double placed_reach(const PlacedBox *box, Vec3 way);
 
 /* Whether a segment from the receiver to the light may meet the occluder. `light`: its position
  * with w = 1, or the direction towards it with w = 0. False is certain, up to a millionth of the

@@ -1,5 +1,7 @@
 #include "shadows/silhouette.h"
 
+#include "base/random.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -20,10 +22,8 @@ static bool table_open(Table *table, size_t items)
 
 static uint64_t mix(uint64_t a, uint64_t b)
 {
-    uint64_t x = (a + 0x9e3779b97f4a7c15U) ^ (b * 0xbf58476d1ce4e5b9U);
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
-    return x ^ (x >> 31);
+    Random first = {a}, second = {random_bits(&first) ^ b};
+    return random_bits(&second);
 }
 
 /* As bits; zero has two signs. */

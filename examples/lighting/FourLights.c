@@ -84,7 +84,7 @@ static bool init(const ShaderLoader *loader, Message *message)
 }
 
 /* The places of the three lights: a frame lasts 30 ms, and turns each by its own angle. */
-static Vec3 light_place(double seconds, int i)
+static Vec3 lamp_place(double seconds, int i)
 {
     static const Vec3 starts[COLORED] = {{10, 7, 0}, {9, 8, 0}, {9.5, 7.5, 0}};
     const double frame = seconds / 0.03;
@@ -96,7 +96,7 @@ static void colored_light(double seconds, int i)
 {
     static const Vec3 colors[COLORED] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     const bool on[COLORED] = {red_on, green_on, blue_on};
-    const Vec3 place = light_place(seconds, i);
+    const Vec3 place = lamp_place(seconds, i);
     state.lights[1 + i] = (Light){.kind = LIGHT_POINT,
                                   .off = !on[i],
                                   .position = place,

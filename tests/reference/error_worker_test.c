@@ -244,14 +244,16 @@ TEST(the_worker_finds_the_error_that_is_computed_here)
 }
 
 /* The exact picture does not follow the setting that was chosen for the drawn one: the error found
- * is then that which was allowed, neither next to none nor that of the usual setting. */
+ * is then that which was allowed, neither next to none nor that of the usual setting. A scene with
+ * shadows is left out: a mesh's shadow ends elsewhere than its solid's, at any setting, and nothing
+ * is promised there. */
 TEST(an_error_that_was_allowed_is_kept)
 {
     bool all = true, differ = false;
     for (int way = 0; way < WAY_COUNT; way++) {
         for (int i = 0; i < EXAMPLE_COUNT && WAYS[way].options.cheap; i++) {
             PictureError error;
-            if (!is_drawn(way, i))
+            if (!is_drawn(way, i) || EXAMPLES[i]->scene->shadows)
                 continue;
             require(error_worker_compute(&cases[way][i].picture, 1, NULL, &error, FAILURE),
                     FAILURE);
