@@ -4,12 +4,14 @@ precision highp float;
 precision highp int;
 
 uniform int u_Facing;     // 0: right; 1: none; 2: not mirrored; 3: swapped; 4: by the light; 5: back; 6:
-                          // by the angle to the eye; 7: and swapped; 8: by that to the camera's axis
+                          // by the angle to the eye; 7: and swapped; 8: by that to the camera's axis; 9: always
+                          // mirrored; 10: by that to the origin; 11: by that to the eye as a direction
 uniform vec3 u_Axis;      // of the camera, towards the eye
 uniform float u_Mirrored; // -1 if the model matrix mirrors
 uniform int u_BackNormal; // 1: reversed on the back
 uniform int u_Discard;    // 1: front faces; 2: back faces
 uniform float u_Gamma;
+uniform float u_Most; // no channel is larger
 uniform int u_Output; // 1: inverted; 2: red and blue swapped; 3: grey; 4: black; 5: white
 
 varying vec3 v_Place;
@@ -28,6 +30,10 @@ int side(vec3 normal) {
         return 1;
     if (u_Facing == 8)
         return dot(normal, u_Axis) > 0.0 ? 0 : 1;
+    if (u_Facing == 9)
+        return front ? 1 : 0;
+    if (u_Facing >= 10)
+        return dot(normal, u_Facing == 10 ? -v_Place : u_View) > 0.0 ? 0 : 1;
     if (u_Facing >= 6)
         return (dot(normal, u_View - v_Place) > 0.0) == (u_Facing == 6) ? 0 : 1;
     if (u_Facing == 0 && u_Mirrored < 0.0)
@@ -56,6 +62,7 @@ void main() {
         color = shade(v_Place, normal, v_Toward[0], v_Toward[1], back);
     if (u_Gamma != 1.0)
         color = pow(max(color, 0.0), vec3(u_Gamma));
+    color = min(color, u_Most);
     if (u_Output == 1)
         color = 1.0 - color;
     else if (u_Output == 2)

@@ -11,6 +11,7 @@
 #include "labs/diagnosis/outline.h"
 #include "labs/diagnosis/symptoms.h"
 #include "labs/diagnosis/text_facts.h"
+#include "labs/submission/conditions.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -96,6 +97,25 @@ static const char *text_with_error(const Session *session, const char *message)
     return "";
 }
 
+/* What the driver gets is what every other compiler would. */
+static bool check_conditions(const Session *session, Message *message)
+{
+    static const char *const endings[] = {[SHADER_VERTEX] = ".vert", [SHADER_FRAGMENT] = ".frag"};
+    const ShaderLoader loader = {.texts = session->files.texts, .only_texts = true};
+    bool done = true;
+    for (int stage = 0; stage < 2 && done; stage++) {
+        char name[64];
+        ShaderSource source = {0};
+        Message why = {0};
+        snprintf(name, sizeof name, "%s%s", session->lab->file, endings[stage]);
+        done = shader_source_open(&source, &loader, name, (ShaderStage)stage, message);
+        if (done && !conditions_check(source.text, &why))
+            done = message_set(message, "%s: %s", name, why.text);
+        shader_source_close(&source);
+    }
+    return done;
+}
+
 /* Compiles with the file's own precision, as the student's program does, then with highp: 16-bit
  * errors are judged separately. Lab 10 lets the student choose the precision. */
 static bool open_shader(Session *session, Message *message)
@@ -111,6 +131,8 @@ static bool open_shader(Session *session, Message *message)
     }
     if (!binding_check(session->lab, &session->own, &own))
         return settle(session, VERDICT_ERROR, &own, NULL);
+    if (!check_conditions(session, &own))
+        return settle(session, VERDICT_REFUSED, &own, NULL);
     if (session->lab->budget) {
         /* The driver draws the very text that is counted. Without the tools nothing is counted. */
         if (!budget_preprocess(&session->files, &session->plain, NULL) ||

@@ -92,6 +92,10 @@ enum {
     CLIP_FLAT,
     CLIP_REVERSED,
     CLIP_NO_MODEL,
+    CLIP_MODEL_TWICE,
+    CLIP_VIEW_LAST, /* view * projection * model */
+    CLIP_NO_VIEW,
+    CLIP_NO_PROJECTION,
 
     PLACE_OBJECT = 1,
     PLACE_W_0,
@@ -118,6 +122,7 @@ enum {
     NORMAL_CLIP, /* by the whole projection */
     NORMAL_VIEW, /* by the view matrix alone */
     NORMAL_NOT_TO_EYE,
+    NORMAL_REVERSED, /* of scale * turn */
 
     UNIT_NEVER = 1,
     UNIT_AT_VERTICES,
@@ -128,6 +133,7 @@ enum {
     SIGN_MIRRORED,       /* of the normal, by u_Mirrored */
     AXIS_NOT_TO_EYE = 2, /* of the cone: left in world space, while all else is in eye space */
     AXIS_TO_EYE,
+    AXIS_W_1, /* transformed to eye space like a point, where all else is too */
 
     LIGHT_FROM_CENTER = 1,
     LIGHT_FROM_ORIGIN,
@@ -149,6 +155,7 @@ enum {
     LIGHTS_FIRST_COLOR,
     LIGHTS_SECOND_COLOR,
     LIGHTS_PRODUCT,
+    LIGHTS_LARGER,
     LIGHTS_FIRST_REVERSED,
     LIGHTS_SECOND_REVERSED,
 
@@ -170,11 +177,17 @@ enum {
     COSINE_FLOOR,
     COSINE_SATURATED,
     COSINE_STEP_REVERSED,
+    COSINE_PLUS_ONE,
+    COSINE_UNCLAMPED_FIRST,
+    COSINE_UNCLAMPED_SECOND,
+    COSINE_INVERTED, /* 1 minus the cosine */
 
     COLOR_SQUARED = 1,
     COLOR_IGNORED,
     COLOR_ADDED,
     COLOR_SWAPPED,
+    COLOR_RBG,
+    COLOR_GRB,
     COLOR_LIT_IGNORED, /* these: only where it is lit, not in the ambient term */
     COLOR_LIT_SQUARED,
     COLOR_LIT_SWAPPED,
@@ -187,7 +200,11 @@ enum {
     AMBIENT_LARGER,
     AMBIENT_WHITE, /* the colour alone */
     AMBIENT_SQUARED,
-    AMBIENT_FRONT, /* also on the back */
+    AMBIENT_FRONT,    /* also on the back */
+    AMBIENT_NOT_LIT,  /* not where a light shines */
+    AMBIENT_NOT_CONE, /* not within the cone */
+    AMBIENT_ONLY_LIT,
+    AMBIENT_NOT_BACK,
 
     REFLECTION_NONE = 1,
     REFLECTION_SIGN,
@@ -202,6 +219,8 @@ enum {
     REFLECTION_SWAPPED,
     REFLECTION_SWAPPED_SIGN,
     REFLECTION_RAW_HALF, /* normalized, of L and V that are not */
+    REFLECTION_R_H,
+    REFLECTION_ONE, /* R = (N . L) N - L */
 
     VIEW_WORLD_ORIGIN = 1, /* -point, in world space */
     VIEW_EYE_SPACE,        /* -point, in eye space */
@@ -224,6 +243,7 @@ enum {
     POWER_FACTOR,
     POWER_CLAMPED_LATE,
     POWER_SATURATED,
+    POWER_SCHLICK,
 
     EXPONENT_PLAIN = 1,
     EXPONENT_ONE,
@@ -250,6 +270,8 @@ enum {
     FADE_ALL_LINEAR,
     FADE_ALL_SQUARED,
     FADE_EYE, /* by the distance to the eye */
+    FADE_TWICE,
+    FADE_TUTORIAL, /* 1 / (1 + 0.09 d + 0.032 d d) */
 
     ON_AMBIENT = 1,
     ON_NO_HIGHLIGHT,
@@ -278,13 +300,17 @@ enum {
     FACING_BACK,
     FACING_VIEW, /* by the angle to the eye: as right as 0 */
     FACING_VIEW_SWAPPED,
-    FACING_AXIS, /* by the angle to the camera's axis */
+    FACING_AXIS,     /* by the angle to the camera's axis */
+    FACING_MIRRORED, /* always taken as mirrored */
+    FACING_ORIGIN,   /* by the angle to the world's origin */
+    FACING_EYE,      /* by that to the eye's position as a direction */
 
     BACK_FRONT_COLOR = 1,
     BACK_NOT_REVERSED,
     BACK_PRODUCT, /* of both colours */
     BACK_COLORS_SWAPPED,
     BACK_COLORS_MIRRORED, /* swapped in a mirror */
+    BACK_NEVER_MIRRORED,  /* the back has the front's colour in a mirror */
 
     CULL_FRONT = 1,
     CULL_BACK,
@@ -301,6 +327,7 @@ enum {
 
     LIMIT_ALL = 1,
     LIMIT_DIFFUSE,
+    LIMIT_EACH,
 
     HIGHLIGHT_LIGHTS_FIRST = 1,
     HIGHLIGHT_LIGHTS_SECOND,
@@ -341,6 +368,9 @@ typedef enum Factor {
     FACTOR_CUTOFF_VALUE,
     FACTOR_SPOT_EXPONENT_VALUE,
     FACTOR_PLUS_EXPONENT, /* 20 times this is added to the exponent */
+    FACTOR_RESULT,        /* the picture's maximum */
+    FACTOR_FADE_LINEAR,   /* 1 / (1 + this d), where nothing is attenuated */
+    FACTOR_FADE_SQUARE,   /* 1 / (1 + this d d) */
     FACTOR_COUNT,
 } Factor;
 

@@ -16,7 +16,7 @@
     X(u_SpotExponent) X(u_SpotOutside) X(u_SpotOn) X(u_Facing) X(u_Mirrored) X(u_BackNormal)      \
     X(u_Discard) X(u_Lights) X(u_Gamma) X(u_SpotShape) X(u_Limit)    \
     X(u_LimitOf) X(u_Plus) X(u_Product) X(u_Output) X(u_NormalOf) X(u_CosineMax) X(u_CosinePower) X(u_PlaceUnit)         \
-    X(u_Axis)
+    X(u_Axis) X(u_Most)
 /* clang-format on */
 
 #define NUMBER(name) U_##name,
@@ -189,9 +189,16 @@ static Mat4 clip_matrix(const Made *made)
     const int clip = choice(made, SLOT_CLIP);
     if (clip == CLIP_NO_MODEL)
         return mat4_product(made->clip_from_eye, made->eye_from_world);
+    if (clip == CLIP_NO_VIEW)
+        return mat4_product(made->clip_from_eye, made->world);
+    if (clip == CLIP_NO_PROJECTION)
+        return mat4_product(made->eye_from_world, made->world);
+    if (clip == CLIP_VIEW_LAST)
+        return product_of(made->eye_from_world, made->clip_from_eye, made->world);
     const Mat4 right = product_of(made->clip_from_eye, made->eye_from_world, made->world);
-    return clip == CLIP_TRANSPOSED ? mat4_transpose(right)
-                                   : mat4_product(mat4_scale(scales[clip]), right);
+    return clip == CLIP_TRANSPOSED    ? mat4_transpose(right)
+           : clip == CLIP_MODEL_TWICE ? mat4_product(right, made->world)
+                                      : mat4_product(mat4_scale(scales[clip]), right);
 }
 
 static Mat4 without_translation(Mat4 matrix)
@@ -262,6 +269,9 @@ static Mat4 normal_matrix(const Made *made)
     case NORMAL_UNTURNED:
         world_parts(made, &move, &turn, &scale);
         return binding_normal_matrix(scale);
+    case NORMAL_REVERSED:
+        world_parts(made, &move, &turn, &scale);
+        return binding_normal_matrix(mat4_product(scale, turn));
     default:
         return binding_normal_matrix(made->world);
     }
@@ -385,6 +395,10 @@ static Vec3 surface_color(const Made *made, Vec3 color)
         return product(color, color);
     if (choice(made, SLOT_COLOR) == COLOR_SWAPPED)
         return (Vec3){color.z, color.y, color.x};
+    if (choice(made, SLOT_COLOR) == COLOR_RBG)
+        return (Vec3){color.x, color.z, color.y};
+    if (choice(made, SLOT_COLOR) == COLOR_GRB)
+        return (Vec3){color.y, color.x, color.z};
     return choice(made, SLOT_COLOR) == COLOR_IGNORED ? WHITE : color;
 }
 
@@ -457,10 +471,11 @@ static double energy(const Made *made)
 static void set_colors(const WrongProgram *program, const Made *made)
 {
     const int *of = made->of;
-    const bool front_only = of[SLOT_BACK] == BACK_FRONT_COLOR || !made->lab->two_sided;
+    const bool mirrored = mat4_determinant(made->world) < 0;
+    const bool front_only = of[SLOT_BACK] == BACK_FRONT_COLOR || !made->lab->two_sided ||
+                            (of[SLOT_BACK] == BACK_NEVER_MIRRORED && mirrored);
     const bool swapped =
-        of[SLOT_BACK] == BACK_COLORS_SWAPPED ||
-        (of[SLOT_BACK] == BACK_COLORS_MIRRORED && mat4_determinant(made->world) < 0);
+        of[SLOT_BACK] == BACK_COLORS_SWAPPED || (of[SLOT_BACK] == BACK_COLORS_MIRRORED && mirrored);
     const Vec3 own_front = surface_color(made, made->object->front.diffuse);
     const Vec3 front = swapped ? surface_color(made, made->object->back.diffuse) : own_front;
     const Vec3 own_back = surface_color(made, made->object->back.diffuse);
@@ -470,8 +485,9 @@ static void set_colors(const WrongProgram *program, const Made *made)
                                                       : own_back;
     const bool added = of[SLOT_COLOR] == COLOR_ADDED;
     const Vec3 back_base = of[SLOT_AMBIENT] == AMBIENT_FRONT ? front : back;
-    const Vec3 base[2] = {base_color(made, added ? WHITE : front),
-                          base_color(made, added ? WHITE : back_base)};
+    const Vec3 base[2] = {
+        base_color(made, added ? WHITE : front),
+        of[SLOT_AMBIENT] == AMBIENT_NOT_BACK ? BLACK : base_color(made, added ? WHITE : back_base)};
     const double whole = factor(made, FACTOR_ALL);
     const double light = made->choices->factor == FACTOR_PLUS_LIGHT ? made->choices->value : 0;
     const double color = made->choices->factor == FACTOR_PLUS_COLOR ? made->choices->value : 0;
@@ -504,7 +520,10 @@ static void set_colors(const WrongProgram *program, const Made *made)
     set_vectors(program, U_u_Plus, &plus, 1);
     set_int(program, U_u_LimitOf,
             made->choices->factor == FACTOR_LIMIT ? LIMIT_ALL : of[SLOT_LIMIT]);
-    set_int(program, U_u_Product, of[SLOT_LIGHTS] == LIGHTS_PRODUCT);
+    set_int(program, U_u_Product,
+            of[SLOT_LIGHTS] == LIGHTS_PRODUCT  ? 1
+            : of[SLOT_LIGHTS] == LIGHTS_LARGER ? 2
+                                               : 0);
     set_vectors(program, U_u_Diffuse, diffuse, 4);
     set_vectors(program, U_u_Highlight, specular, 2);
     set_choice(program, U_u_Ambient, made, SLOT_AMBIENT);
@@ -580,6 +599,10 @@ static void set_fade(const WrongProgram *program, const Made *made)
         c = q = 0, l = 1;
     if (of == FADE_ONE_PLUS_SQUARE)
         c = q = 1, l = 0;
+    if (of == FADE_TUTORIAL)
+        c = 1, l = 0.09, q = 0.032;
+    l = value(made, FACTOR_FADE_LINEAR, l);
+    q = value(made, FACTOR_FADE_SQUARE, q);
     c *= factor(made, FACTOR_CONSTANT);
     l *= factor(made, FACTOR_LINEAR);
     q *= factor(made, FACTOR_QUADRATIC);
@@ -597,7 +620,7 @@ static void set_fade(const WrongProgram *program, const Made *made)
     l *= of != FADE_NO_LINEAR;
     q *= of != FADE_NO_QUADRATIC;
     set_vec3(program, U_u_Fade, c, l, q);
-    set_int(program, U_u_FadeMode, of == FADE_EYE ? 5 : of < 4 ? of : 0);
+    set_int(program, U_u_FadeMode, of == FADE_EYE ? 5 : of == FADE_TWICE ? 6 : of < 4 ? of : 0);
     set_vec3(program, U_u_FadeOn, 1, on != ON_NO_HIGHLIGHT, on == ON_AMBIENT);
 }
 
@@ -639,6 +662,8 @@ static void set_cone(const WrongProgram *program, const Made *made)
         axis = mat4_transform_direction(mat4_transpose(made->eye_from_world), axis);
     if (sign == SIGN_REVERSED)
         axis = vec3_scale(axis, -1);
+    if (sign == AXIS_W_1)
+        axis = vec3_subtract(axis, made->probe->scene.camera.eye);
     shader_set_vec3(program->locations[U_u_SpotAxis], axis);
     set_float(program, U_u_SpotCosine, cosines[of]);
     set_float(program, U_u_SpotExponent, exponents[fall_off]);
@@ -666,6 +691,7 @@ static void set_rest(const WrongProgram *program, const Made *made)
     const int output = of[SLOT_OUTPUT];
     const double powers[] = {factor(made, FACTOR_GAMMA), [OUTPUT_GAMMA] = 1 / 2.2,
                              [OUTPUT_ROOT] = 0.5, [OUTPUT_POWER] = 2.2, [OUTPUT_SQUARE] = 2};
+    set_float(program, U_u_Most, value(made, FACTOR_RESULT, 1e9));
     set_int(program, U_u_Discard, of[SLOT_CULL]);
     set_float(program, U_u_Gamma, output <= OUTPUT_SQUARE ? powers[output] : 1);
     set_int(program, U_u_Output, output >= OUTPUT_INVERTED ? output - OUTPUT_INVERTED + 1 : 0);

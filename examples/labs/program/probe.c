@@ -2,6 +2,7 @@
 
 #include "app/options.h"
 #include "core/example.h"
+#include "labs/program/probe_light.h"
 #include "scene/scene_example.h"
 #include "shapes/mesh_solids.h"
 
@@ -363,6 +364,13 @@ static Vec3 choose_view(ProbeKind kind, Random *random)
     return random_near(random, (Vec3){0, 0.2, 1}, 5, spread);
 }
 
+/* In C, except in lab 10, light goes beyond 1: what clamps it before it meets the colour is wrong.
+ */
+static bool is_strong(const Probe *probe, const Lab *lab)
+{
+    return probe->kind == PROBE_COARSE && !lab->budget && !lab->given;
+}
+
 static void choose_lights(Probe *probe, const Lab *lab, Vec3 view, Random *random)
 {
     const Vec3 origin = {0, 0, 0};
@@ -381,12 +389,10 @@ static void choose_lights(Probe *probe, const Lab *lab, Vec3 view, Random *rando
         const double distance = probe->kind == PROBE_WIDE ? random_between(random, 1.9, 2.3)
                                                           : random_between(random, 2.4, 4.5);
         const double max = i == 0 ? 0.65 * share : 0.45 * share;
-        /* In C, except in lab 10, light goes beyond 1: what clamps it before it meets the colour is
-         * wrong. */
-        const bool strong = probe->kind == PROBE_COARSE && !lab->budget && !lab->given;
-        const double most = lab->lights > 1 ? (strong ? 2.2 : 1) * max : strong ? 1.5 : share;
+        const bool strong = is_strong(probe, lab);
+        const double most = lab->lights > 1 ? max : share;
         set_light(probe, i, vec3_scale(towards, distance),
-                  random_color(random, strong ? 0.7 * most : 0.35 * max, most));
+                  random_color(random, (strong ? 0.7 : 0.35) * most, most));
     }
     if (lab->light != LIGHT_SPOT)
         return;
@@ -483,12 +489,16 @@ static bool open_random(Probe *probe, const Lab *lab, Random *random, Message *m
                 mat4_translate(vec3_add(vec3_scale(view, -1.6), (Vec3){0.9, 0.35, 0})), world);
         if (!add_object(probe, shape, world, message))
             return false;
-        const bool strong = kind == PROBE_COARSE && !lab->budget && !lab->given;
-        const Vec3 color = random_color(random, 0.35, strong ? 0.6 : 0.95);
+        const bool strong = is_strong(probe, lab);
+        const Vec3 color = random_color(random, strong ? 0.25 : 0.35, strong ? 0.5 : 0.95);
         const Vec3 specular = random_color(random, strong ? 0.12 : 0.25, strong ? 0.24 : 0.5);
         const double shininess = choose_shininess(kind, lab, random);
         set_material(probe, lab, i, color, specular, shininess, random_color(random, 0.3, 0.95));
     }
+    if (is_strong(probe, lab))
+        probe_overexpose_light(probe, lab);
+    if (kind == PROBE_WIDE && !lab->budget && !lab->given)
+        probe_overexpose_picture(probe);
     if (kind == PROBE_HUGE && !lab->given && !lab->budget)
         enlarge(probe);
     if (kind == PROBE_ALONG && !lab->budget)

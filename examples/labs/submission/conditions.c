@@ -1,0 +1,209 @@
+#include "labs/submission/conditions.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { NAME_SIZE = 64, MAX_DEPTH = 64, MAX_NAMES = 32 };
+
+/* Reading. */
+
+/* Makes every line end \n. Compilers differ in whether a backslash joins two lines: `join`. */
+static void unify_lines(char *text, bool join)
+{
+    char *to = text;
+    for (const char *p = text; *p; p++) {
+        if (*p == '\r' && p[1] == '\n')
+            continue;
+        if (join && *p == '\\' && (p[1] == '\n' || p[1] == '\r'))
+            p += p[1] == '\r' && p[2] == '\n' ? 2 : 1;
+        else
+            *to++ = *p == '\r' ? '\n' : *p;
+    }
+    *to = '\0';
+}
+
+static void strip_comments(char *text)
+{
+    char *to = text;
+    for (const char *p = text; *p;) {
+        if (p[0] == '/' && p[1] == '/') {
+            p += strcspn(p, "\n");
+        } else if (p[0] == '/' && p[1] == '*') {
+            const char *end = strstr(p + 2, "*/");
+            p = end ? end + 2 : p + strlen(p);
+            *to++ = ' ';
+        } else {
+            *to++ = *p++;
+        }
+    }
+    *to = '\0';
+}
+
+static bool is_word(char c)
+{
+    return isalnum((unsigned char)c) || c == '_';
+}
+
+/* The next word, number or other character, into `token`; the place after it, or NULL at the end of
+ * the line. */
+static const char *next_token(const char *p, char token[NAME_SIZE])
+{
+    p += strspn(p, " \t\v\f");
+    size_t length = 0;
+    while (is_word(p[length]))
+        length++;
+    if (!length && *p && *p != '\n')
+        length = 1;
+    snprintf(token, NAME_SIZE, "%.*s", (int)length, p);
+    return length ? p + length : NULL;
+}
+
+/* The word after # of a directive; false: the line is none. */
+static bool is_directive(const char *line, char word[NAME_SIZE], const char **rest)
+{
+    char mark[NAME_SIZE];
+    const char *p = next_token(line, mark);
+    if (!p || strcmp(mark, "#") != 0)
+        return false;
+    const char *after = next_token(p, word);
+    *rest = after ? after : p;
+    return true;
+}
+
+static const char *next_line(const char *line)
+{
+    line += strcspn(line, "\n");
+    return *line ? line + 1 : line;
+}
+
+static bool is_one_of(const char *word, const char *const *words)
+{
+    for (; *words; words++)
+        if (strcmp(word, *words) == 0)
+            return true;
+    return false;
+}
+
+static const char *const CONDITIONS[] = {"if", "ifdef", "ifndef", "elif", NULL};
+static const char *const PRECISIONS[] = {"lowp", "mediump", "highp", NULL};
+static const char *const UNREAD[] = {"extension", "version", "pragma", "line", "error", NULL};
+static const char *const ALLOWED[] = {"GL_ES", "GL_FRAGMENT_PRECISION_HIGH", NULL};
+
+/* What a text depends on so far. */
+typedef struct Reader {
+    bool restricted[MAX_DEPTH + 1]; /* by depth: within a condition that names an allowed macro */
+    int depth;
+    char names[MAX_NAMES][NAME_SIZE]; /* macros that were defined there */
+    int name_count;
+    Message *message;
+} Reader;
+
+static bool is_dependent(const Reader *reader, const char *token)
+{
+    for (int i = 0; i < reader->name_count; i++)
+        if (strcmp(token, reader->names[i]) == 0)
+            return true;
+    return is_one_of(token, ALLOWED);
+}
+
+/* Whether a line names an allowed macro, or one that depends on such; false, with a message, in
+ * *allowed: it names what nothing may depend on. */
+static bool names_macro(const Reader *reader, const char *p, bool condition, bool *allowed)
+{
+    char token[NAME_SIZE];
+    bool found = false;
+    for (bool pasted = false; (p = next_token(p, token)) && *allowed;) {
+        const bool macro = strncmp(token, "GL_", 3) == 0;
+        if (strcmp(token, "__VERSION__") == 0 || strncmp(token, "gl_Max", 6) == 0 ||
+            (macro && (!condition || !is_one_of(token, ALLOWED))))
+            *allowed = message_set(reader->message,
+                                   "depends on %s, which another compiler gives another value; "
+                                   "remove it",
+                                   token);
+        else if (token[0] == '#' && pasted)
+            *allowed = message_set(reader->message, "has ##, which GLSL ES 1.00 lacks; remove it");
+        pasted = token[0] == '#';
+        found |= is_dependent(reader, token);
+    }
+    return found;
+}
+
+/* Within such a condition: precisions, and macros of a precision or of nothing. */
+static bool check_restricted(const Reader *reader, const char *p, bool define)
+{
+    char token[NAME_SIZE];
+    bool precision = false;
+    if (define)
+        p = next_token(p, token); /* its name */
+    while (p && (p = next_token(p, token))) {
+        precision |= strcmp(token, "precision") == 0 && !define;
+        if (!precision && !is_one_of(token, PRECISIONS))
+            return message_set(reader->message,
+                               "depends on GL_ES or GL_FRAGMENT_PRECISION_HIGH in more than "
+                               "precision, at \"%s\"; remove the condition",
+                               token);
+        precision &= token[0] != ';';
+    }
+    return true;
+}
+
+static bool read_define(Reader *reader, const char *rest, bool dependent)
+{
+    if (!dependent && !reader->restricted[reader->depth])
+        return true;
+    if (reader->name_count == MAX_NAMES)
+        return message_set(reader->message, "has too many macros that depend on GL_ES");
+    next_token(rest, reader->names[reader->name_count++]);
+    return !reader->restricted[reader->depth] || check_restricted(reader, rest, true);
+}
+
+static bool read_line(Reader *reader, const char *line)
+{
+    char word[NAME_SIZE] = "";
+    const char *rest = line;
+    const bool directive = is_directive(line, word, &rest);
+    const bool condition = directive && is_one_of(word, CONDITIONS);
+    bool allowed = true;
+    if (directive && is_one_of(word, UNREAD))
+        return true;
+    const bool dependent = names_macro(reader, rest, condition, &allowed);
+    if (!allowed)
+        return false;
+    if (condition && strcmp(word, "elif") != 0) {
+        if (reader->depth == MAX_DEPTH)
+            return message_set(reader->message, "has conditions that are nested too deep");
+        const bool outer = reader->restricted[reader->depth++];
+        reader->restricted[reader->depth] = outer || dependent;
+    } else if (condition) {
+        reader->restricted[reader->depth] |= dependent;
+    } else if (directive && strcmp(word, "endif") == 0) {
+        reader->depth -= reader->depth > 0;
+    } else if (directive && strcmp(word, "define") == 0) {
+        return read_define(reader, rest, dependent);
+    } else if (!directive || strcmp(word, "else") != 0) {
+        return !reader->restricted[reader->depth] || check_restricted(reader, line, false);
+    }
+    return true;
+}
+
+static bool check_as(const char *text, bool join, Message *message)
+{
+    char *clean = strdup(text);
+    if (!clean)
+        return message_set(message, "not enough memory");
+    unify_lines(clean, join);
+    strip_comments(clean);
+    Reader reader = {.message = message};
+    bool done = true;
+    for (const char *line = clean; *line && done; line = next_line(line))
+        done = read_line(&reader, line);
+    free(clean);
+    return done;
+}
+
+bool conditions_check(const char *text, Message *message)
+{
+    return check_as(text, false, message) && check_as(text, true, message);
+}

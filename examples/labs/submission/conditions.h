@@ -1,0 +1,18 @@
+/*
+ * conditions: whether a shader's text is another for another compiler. No GL.
+ *
+ * What a driver draws must be what others read and count. So a text may not use the version, the
+ * macros of extensions or the limits of an implementation, and where it depends on GL_ES or
+ * GL_FRAGMENT_PRECISION_HIGH, its branches may differ in precision only.
+ */
+#ifndef CONDITIONS_H
+#define CONDITIONS_H
+
+#include "base/message.h"
+
+#include <stdbool.h>
+
+/* False, with a message that says what to remove (without the file's name): it depends on it. */
+bool conditions_check(const char *text, Message *message);
+
+#endif
