@@ -3,18 +3,17 @@
 
 corpus/labNN.txt has those of a lab: a line "=== NAME/FILE" before each file; a file that is not
 plain text is in base64, "=== NAME/FILE base64". The file `label` begins "right", "wrong: MISTAKE",
-"two: MISTAKES" or "cheat: HOW". Half of them, by a hash of their names, was set aside and only
-measured: the other half served to improve `check`. corpus/rulings.txt has, for each held-out
-submission whose given names are not those of its label, why.
+"two: MISTAKES" or "cheat: HOW". Those whose names begin with n are new: they were written by others,
+and only measured. The old ones served to improve `check`. corpus/rulings.txt has, for each new
+submission whose verdict or given names are not those of its label, why.
 
-usage: corpus.py CHECK --half open|held [--lab N] [--every N] [--json FILE]   judges, and lists
-       corpus.py CHECK --half held --table [--from FILE]   the table of examples/labs/TEACHING.md
-       corpus.py --pack FOLDER       makes corpus/labNN.txt from FOLDER/labNN/NAME
+usage: corpus.py CHECK --half old|new [--lab N] [--every N] [--json FILE]   judges, and lists
+       corpus.py CHECK --half new --table [--from FILE]   the table of examples/labs/TEACHING.md
+       corpus.py --add FOLDER PREFIX   adds FOLDER/labNN/NAME to corpus/labNN.txt as PREFIXNAME
 """
 import base64
 import collections
 import concurrent.futures
-import hashlib
 import json
 import os
 import subprocess
@@ -25,15 +24,15 @@ HERE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "corpus")
 
 
 def half_of(name):
-    """`held` if the first hexadecimal digit of the hash of "labNN/NAME" is 0 to 7, else `open`."""
-    return "held" if hashlib.sha256(name.encode()).hexdigest()[0] in "01234567" else "open"
+    """Of "labNN/NAME"."""
+    return "new" if name.split("/")[1].startswith("n") else "old"
 
 
-def pack(folder):
+def add(folder, prefix):
     for lab in sorted(os.listdir(folder)):
         if not lab.startswith("lab") or not os.path.isdir(os.path.join(folder, lab)):
             continue
-        with open(os.path.join(HERE, f"{lab}.txt"), "w", newline="") as out:
+        with open(os.path.join(HERE, f"{lab[:5]}.txt"), "a", newline="") as out:
             for name in sorted(os.listdir(os.path.join(folder, lab))):
                 one = os.path.join(folder, lab, name)
                 if not os.path.isfile(os.path.join(one, "label")):
@@ -46,7 +45,7 @@ def pack(folder):
                     except UnicodeDecodeError:
                         text = "\0"
                     plain = text.endswith("\n") and not set(text) & set("\0\r") and "=== " not in text
-                    out.write(f"=== {name}/{file}{'' if plain else ' base64'}\n")
+                    out.write(f"=== {prefix}{name}/{file}{'' if plain else ' base64'}\n")
                     out.write(text if plain else base64.encodebytes(content).decode())
 
 
@@ -186,8 +185,8 @@ def option(name, otherwise=None):
 
 
 def main():
-    if "--pack" in sys.argv:
-        pack(option("--pack"))
+    if "--add" in sys.argv:
+        add(*sys.argv[sys.argv.index("--add") + 1 :][:2])
         return
     lab = option("--lab")
     todo = list(jobs(option("--half"), lab and int(lab), int(option("--every", 1))))

@@ -114,7 +114,7 @@ static bool names_macro(const Reader *reader, const char *p, bool condition, boo
 {
     char token[NAME_SIZE];
     bool found = false;
-    for (bool pasted = false; (p = next_token(p, token)) && *allowed;) {
+    while ((p = next_token(p, token)) && *allowed) {
         const bool macro = strncmp(token, "GL_", 3) == 0;
         if (strcmp(token, "__VERSION__") == 0 || strncmp(token, "gl_Max", 6) == 0 ||
             (macro && (!condition || !is_one_of(token, ALLOWED))))
@@ -122,9 +122,6 @@ static bool names_macro(const Reader *reader, const char *p, bool condition, boo
                                    "depends on %s, which another compiler gives another value; "
                                    "remove it",
                                    token);
-        else if (token[0] == '#' && pasted)
-            *allowed = message_set(reader->message, "has ##, which GLSL ES 1.00 lacks; remove it");
-        pasted = token[0] == '#';
         found |= is_dependent(reader, token);
     }
     return found;
