@@ -26,6 +26,7 @@ typedef struct Usage {
     const char *const *tries; /* as in an Example; may be NULL */
     const char *const *looks; /* as many */
     int width, height;        /* of the picture without --size; zero: 400 */
+    double seconds;           /* of the picture without --time */
     void (*resize)(int *width, int *height); /* where that depends on an option; may be NULL */
     const Parameter *parameters; /* the program's own options; ended by a NULL name; may be NULL */
 } Usage;

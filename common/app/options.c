@@ -11,6 +11,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdarg.h>
@@ -159,7 +160,7 @@ static bool write_terms(const Parameter *parameter, char *text, size_t size)
     return length < size;
 }
 
-/* NUMBER,X,Y,Z for each light, between slashes. */
+/* LIGHT,X,Y,Z for each light, between slashes. */
 static bool read_places(const Parameter *parameter, const char *text, Message *message)
 {
     static const double min[] = {-1e6, -1e6, -1e6}, max[] = {1e6, 1e6, 1e6};
@@ -175,8 +176,8 @@ static bool read_places(const Parameter *parameter, const char *text, Message *m
         if (!comma || !parse_whole(copy, 0, SCENE_MAX_PLACED - 1, &light) ||
             parse_numbers(comma + 1, min, max, at) != 3)
             return message_set(message,
-                               "--light-at %s: must be NUMBER,X,Y,Z, a light from 0 to %d and "
-                               "where it is, and for more of them the same after a /",
+                               "--light-at %s: must be LIGHT,X,Y,Z, with LIGHT from 0 to %d, as in "
+                               "0,1,2,-3.5; a / begins another light",
                                text, SCENE_MAX_PLACED - 1);
         places.placed |= 1U << light;
         places.at[light] = (Vec3){at[0], at[1], at[2]};
@@ -203,7 +204,7 @@ static bool write_places(const Parameter *parameter, char *text, size_t size)
     return places->placed && length < size;
 }
 
-/* NUMBER,R,G,B or NUMBER,R,G,B,R,G,B for each light, between slashes. */
+/* LIGHT,R,G,B or LIGHT,R,G,B,R,G,B for each light, between slashes. */
 static bool read_tint(const char *text, LightTints *tints)
 {
     static const double LARGEST = 10;
@@ -236,40 +237,40 @@ static bool read_tints(const Parameter *parameter, const char *text, Message *me
         snprintf(copy, sizeof copy, "%.*s", (int)strcspn(word, "/"), word);
         if (!read_tint(copy, &tints))
             return message_set(message,
-                               "--light-color %s: must be NUMBER,R,G,B, a light from 0 to %d and "
-                               "its colour, each part 0 to 10; a second colour, ,R,G,B, is the "
-                               "specular one; and for more lights the same after a /",
+                               "--light-color %s: must be LIGHT,R,G,B, with LIGHT from 0 to %d "
+                               "and R, G and B from 0 to 10, as in 0,1,0.5,0; three more numbers "
+                               "are the specular colour, and a / begins another light",
                                text, SCENE_MAX_PLACED - 1);
     }
     *(LightTints *)parameter->value = tints;
     return true;
 }
 
-static void put_color(FILE *file, Vec3 color)
+static size_t put_color(char *text, size_t size, Vec3 color)
 {
-    const double parts[3] = {color.x, color.y, color.z};
-    for (int k = 0; k < 3; k++) {
-        char number[32];
-        parse_number_text(parts[k], number);
-        fprintf(file, ",%s", number);
-    }
+    char r[32], g[32], b[32];
+    parse_number_text(color.x, r);
+    parse_number_text(color.y, g);
+    parse_number_text(color.z, b);
+    return (size_t)snprintf(text, size, ",%s,%s,%s", r, g, b);
 }
 
 static bool write_tints(const Parameter *parameter, char *text, size_t size)
 {
     const LightTints *tints = parameter->value;
-    FILE *file = fmemopen(text, size, "w");
-    for (int i = 0, written = 0; i < SCENE_MAX_PLACED && file; i++) {
+    size_t length = 0;
+    text[0] = '\0';
+    for (int i = 0; i < SCENE_MAX_PLACED && length < size; i++) {
+        const Vec3 *diffuse = &tints->diffuse[i], *specular = &tints->specular[i];
         if (!(tints->tinted >> i & 1))
             continue;
-        fprintf(file, "%s%d", written++ ? "/" : "", i);
-        put_color(file, tints->diffuse[i]);
-        if (memcmp(&tints->diffuse[i], &tints->specular[i], sizeof(Vec3)) != 0)
-            put_color(file, tints->specular[i]);
+        length += (size_t)snprintf(text + length, size - length, "%s%d", length ? "/" : "", i);
+        if (length < size)
+            length += put_color(text + length, size - length, *diffuse);
+        if (length < size && memcmp(diffuse, specular, sizeof *diffuse) != 0)
+            length += put_color(text + length, size - length, *specular);
     }
-    /* fmemopen's last byte is for the NUL. */
-    const bool fits = file && fflush(file) == 0 && ftell(file) < (long)size;
-    return file && fclose(file) == 0 && fits && tints->tinted;
+    return tints->tinted && length < size;
 }
 
 /* A diagram is painted by cairo. */
@@ -338,7 +339,7 @@ int options_table(const Usage *usage, Options *options, OptionsPurpose purpose,
         {"time", "the time to draw", PARAMETER_NUMBER, &options->seconds, -OPTIONS_MAX_SECONDS,
          OPTIONS_MAX_SECONDS, .letter = 't', .placeholder = "SECONDS", .programs = DRAWS},
         {"angle", "the time at which an animation of 30 degrees per second reaches this angle",
-         TEXT(seconds), .letter = 'a', .placeholder = "DEG", .read = read_angle,
+         TEXT(seconds), .letter = 'a', .placeholder = "DEG", .standard = "", .read = read_angle,
          .programs = DRAWS | ASIDE},
         {"frames",
          "N pictures from --time on: all in one file if that is an animation (.gif, .webp, .apng, "
@@ -365,7 +366,7 @@ int options_table(const Usage *usage, Options *options, OptionsPurpose purpose,
          "bytes: red, green, blue (rgb)",
          TEXT(format), .choices = usage->diagram ? DIAGRAM_FORMATS : FORMATS, .programs = FILM},
         {"samples", "multisampling with N samples per pixel", PARAMETER_WHOLE,
-         &options->canvas.samples, 0, 65536, .placeholder = "N",
+         &options->canvas.samples, 0, INT_MAX, .placeholder = "N",
          .standard = usage->gallery ? "4" : "0 (off)", .programs = GL_DRAWS},
         {"orbit",
          "move the camera about its target: degrees to the right and up, and a factor for the "
@@ -414,18 +415,18 @@ int options_table(const Usage *usage, Options *options, OptionsPurpose purpose,
          .programs = SCENE},
         {"terms",
          "draw only these terms of the sum: ambient, diffuse, specular, emission; and only these "
-         "lights, by number from 0, as in diffuse,specular,0",
+         "lights, which --explain lists, as in diffuse,specular,0",
          TEXT(terms), .placeholder = "TERM,...", .standard = "all", .read = read_terms,
          .write = write_terms, .programs = SCENE},
         {"light-at",
-         "put a light there, by number from 0: its position, or a directional one's direction; more "
-         "of them between slashes, as in 0,1,2,0/1,-1,2,0",
-         TEXT(places), .placeholder = "NUMBER,X,Y,Z", .standard = "", .read = read_places,
+         "put a light there: a position, or the direction towards a directional light; --explain "
+         "lists the lights; more of them after slashes, as in 0,1,2,0/1,-1,2,0",
+         TEXT(places), .placeholder = "LIGHT,X,Y,Z", .standard = "", .read = read_places,
          .write = write_places, .programs = SCENE},
         {"light-color",
-         "another colour of a light, by number from 0, diffuse and specular, or the specular one "
-         "after it; more of them between slashes, as in 0,1,0.5,0/1,0,0,1,1,1,1",
-         TEXT(tints), .placeholder = "NUMBER,R,G,B[,R,G,B]", .standard = "", .read = read_tints,
+         "another colour of a light, diffuse and specular, or one after the other; --explain lists "
+         "the lights; more of them after slashes, as in 0,1,0.5,0/1,0,0,1,1,1,1",
+         TEXT(tints), .placeholder = "LIGHT,R,G,B[,R,G,B]", .standard = "", .read = read_tints,
          .write = write_tints, .programs = SCENE},
         {"shadows",
          "whether surfaces keep the light from others, and how that is found: volumes are exact, to "
@@ -493,6 +494,7 @@ Usage options_usage(const Example *example)
                    .diagram = example->diagram != NULL,
                    .width = example->width,
                    .height = example->height,
+                   .seconds = example->page ? example->page->seconds : 0,
                    .resize = example->scene ? example->scene->size : NULL,
                    .tries = example->tries,
                    .looks = example->looks,
@@ -511,6 +513,7 @@ Options options_default(const Usage *usage)
 {
     Options options = {.frames = 1, .fps = OPTIONS_FPS, .compress = IMAGE_COMPRESS_DEFAULT};
     options_size(usage, &options.width, &options.height);
+    options.seconds = usage->seconds;
     options.canvas.samples = usage->gallery ? 4 : 0;
     options.shadows = usage->shadows ? SHADOWS_VOLUMES : SHADOWS_OFF;
     snprintf(options.default_output, sizeof options.default_output, "%s%s", usage->name,

@@ -124,19 +124,19 @@ static bool choose_samples(Canvas *canvas, int samples, Message *message)
         return true;
     if (!canvas->supersampled && max > 1) {
         if (samples > max)
-            return message_set(message, "%d samples: %s has at most %d", samples, canvas->renderer,
-                               max);
+            return message_set(message, "%d samples: must be 0 to %d, the most that %s has",
+                               samples, max, canvas->renderer);
         canvas->samples = samples;
         return true;
     }
     int side = 2;
-    while (side * side < samples)
+    while (side <= MAX_SUPERSAMPLE && side * side < samples)
         side++;
     if (side > MAX_SUPERSAMPLE)
-        return message_set(message, "%d samples: %s, and supersampling gives at most %d", samples,
-                           canvas->supersampled ? "shadows have one for each pixel"
-                                                : "the driver has none of its own",
-                           MAX_SUPERSAMPLE * MAX_SUPERSAMPLE);
+        return message_set(message, "%d samples: must be 0 to %d, the most %s", samples,
+                           MAX_SUPERSAMPLE * MAX_SUPERSAMPLE,
+                           canvas->supersampled ? "with shadows"
+                                                : "with a driver that has none of its own");
     canvas->supersample *= side;
     return true;
 }

@@ -139,6 +139,7 @@ struct Canvas;
 typedef struct PageExample {
     /* Paints an image of bytes, of any size; may draw into canvases beside this one. */
     bool (*paint)(const Frame *frame, const struct Canvas *canvas, Image *image, Message *message);
+    double seconds;              /* --time without that option */
     const Parameter *parameters; /* the first is a choice: the page */
 } PageExample;
 
