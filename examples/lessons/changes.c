@@ -12,14 +12,38 @@ typedef struct Line {
     int length;
 } Line;
 
-/* The number of lines; -1 if there are too many. */
-static int split(const char *text, Line lines[LINES_MAX])
+static bool begins(const char *text, const char *with)
 {
+    return strncmp(text, with, strlen(with)) == 0;
+}
+
+/* The end of what begins a line of code and does not count: blanks, a comment of its own lines, the
+ * texts of --help. NULL: it counts. */
+static const char *skip_uncounted(const char *text)
+{
+    const char *word = text + strspn(text, " \t"), *end = word;
+    if (begins(word, "/*"))
+        end = strstr(word, "*/");
+    else if (begins(word, ".tries =") || begins(word, ".looks ="))
+        end = strstr(word, "}");
+    else if (*word != '\n' && !begins(word, ".summary ="))
+        return NULL;
+    end = end ? end : word;
+    return end + strcspn(end, "\n");
+}
+
+/* The number of lines; -1 if there are too many. */
+static int split(ChangeText file, Line lines[LINES_MAX])
+{
+    const char *text = file.text;
     int count = 0;
     while (*text && count < LINES_MAX) {
+        const char *skipped = file.code ? skip_uncounted(text) : NULL;
         const int length = (int)strcspn(text, "\n");
-        lines[count++] = (Line){text, length};
-        text += length + (text[length] == '\n');
+        if (!skipped)
+            lines[count++] = (Line){text, length};
+        text = skipped ? skipped : text + length;
+        text += *text == '\n';
     }
     return *text ? -1 : count;
 }
@@ -141,7 +165,7 @@ static bool keep_near(Changes *changes, const Changes *all, int around, int *cha
         const ChangeLine *line = &all->lines[i];
         *changed += line->kind != CHANGE_SAME;
         if (!is_near_change(all, i, around)) {
-            gap = true;
+            gap = around > 0;
             continue;
         }
         done = (!gap || changes_add(changes, CHANGE_GAP, "", 0, message)) &&
@@ -160,8 +184,8 @@ bool changes_between(Changes *changes, ChangeText before, ChangeText after, int 
         return message_set(message, "changes: not enough memory");
     pair->names[0] = before.name;
     pair->names[1] = after.name;
-    pair->count[0] = split(before.text, pair->lines[0]);
-    pair->count[1] = split(after.text, pair->lines[1]);
+    pair->count[0] = split(before, pair->lines[0]);
+    pair->count[1] = split(after, pair->lines[1]);
     if (pair->count[0] < 0 || pair->count[1] < 0) {
         const char *name = pair->count[0] < 0 ? before.name : after.name;
         free(pair);

@@ -30,11 +30,12 @@ typedef struct Changes {
 /* A file in memory, and the name of its program, which is no difference. */
 typedef struct ChangeText {
     const char *name, *text;
+    bool code; /* a C file, of which comments and blank lines, and what --help says, do not count */
 } ChangeText;
 
 /* Appends the fewest lines that, removed and added, make `after` of `before`, in order, removed
- * before added ones, with up to `around` lines that are the same on both sides. `changed` is how
- * many were removed and added. */
+ * before added ones, with up to `around` lines that are the same on both sides; gaps are marked
+ * unless that is 0. `changed` is how many were removed and added. */
 bool changes_between(Changes *changes, ChangeText before, ChangeText after, int around,
                      int *changed, Message *message);
 

@@ -2,7 +2,7 @@
  * lessons: the nine programs of the lecture, one page each.
  *
  * A page shows the program beside its predecessor, the difference of the two pictures, and which
- * lines of the shaders changed; where the shaders are the same, which of the program.
+ * lines of the shaders and of the program changed.
  *
  * Look at the third picture: it is black where the lesson changes nothing.
  */
@@ -18,36 +18,27 @@
 
 enum { AROUND = 2 }; /* lines beside a change that are shown too */
 
-extern const Example LightedCube, LightedCube_animation, LightedCube_ambient,
-    LightedTranslatedRotatedCube, PointLightedCube, PointLightedCube_animation,
-    PointLightedCube_perFragment, PointLightedSphere, PointLightedSphere_perFragment;
-
 /* A program and its predecessor, as README.md has them. */
+#define LESSON_LIST(X)                                                                             \
+    X(LightedCube, NULL)                                                                           \
+    X(LightedCube_animation, &LightedCube)                                                         \
+    X(LightedCube_ambient, &LightedCube)                                                           \
+    X(LightedTranslatedRotatedCube, &LightedCube_ambient)                                          \
+    X(PointLightedCube, &LightedTranslatedRotatedCube)                                             \
+    X(PointLightedCube_animation, &PointLightedCube)                                               \
+    X(PointLightedCube_perFragment, &PointLightedCube_animation)                                   \
+    X(PointLightedSphere, &PointLightedCube)                                                       \
+    X(PointLightedSphere_perFragment, &PointLightedSphere)
+
+#define DECLARED(name, before) extern const Example name;
+#define PAIR(name, before) {&name, before},
+#define NAME(name, before) #name,
+LESSON_LIST(DECLARED)
 static const struct {
     const Example *example, *before;
-} LESSONS[] = {
-    {&LightedCube, NULL},
-    {&LightedCube_animation, &LightedCube},
-    {&LightedCube_ambient, &LightedCube},
-    {&LightedTranslatedRotatedCube, &LightedCube_ambient},
-    {&PointLightedCube, &LightedTranslatedRotatedCube},
-    {&PointLightedCube_animation, &PointLightedCube},
-    {&PointLightedCube_perFragment, &PointLightedCube_animation},
-    {&PointLightedSphere, &PointLightedCube},
-    {&PointLightedSphere_perFragment, &PointLightedSphere},
-};
+} LESSONS[] = {LESSON_LIST(PAIR)};
 enum { LESSON_COUNT = sizeof LESSONS / sizeof LESSONS[0] };
-
-static const char *const NAMES[] = {"LightedCube",
-                                    "LightedCube_animation",
-                                    "LightedCube_ambient",
-                                    "LightedTranslatedRotatedCube",
-                                    "PointLightedCube",
-                                    "PointLightedCube_animation",
-                                    "PointLightedCube_perFragment",
-                                    "PointLightedSphere",
-                                    "PointLightedSphere_perFragment",
-                                    NULL};
+static const char *const NAMES[] = {LESSON_LIST(NAME) NULL};
 
 static int lesson;
 
@@ -133,9 +124,7 @@ static const char *text_of(const Example *example, const char *extension,
         char in_source[PATH_MAX];
         snprintf(in_source, sizeof in_source, "examples/%.*s", PATH_MAX - 16, name);
         paths_find_data(in_source, name, path);
-        text = text_at(path, loader, message);
-        const char *code = text ? strstr(text, "#include") : NULL; /* below what it is about */
-        return code ? code : text;
+        return text_at(path, loader, message);
     }
     if (!shader_source_open(&source, &plain, name, fragment ? SHADER_FRAGMENT : SHADER_VERTEX,
                             message))
@@ -143,19 +132,19 @@ static const char *text_of(const Example *example, const char *extension,
     snprintf(path, sizeof path, "%s", source.files[0]);
     shader_source_close(&source);
     text = text_at(path, loader, message);
-    /* The same. */
+    /* Below what it is about. */
     const char *line = text && strncmp(text, "//", 2) == 0 ? strchr(text, '\n') : NULL;
     return line ? line + 1 + (line[1] == '\n') : text;
 }
 
 /* A title, and below it the changes; of the first program the whole text. */
-static bool add_changes(const char *extension, const ShaderLoader *loader, int *changed,
-                        Message *message)
+static bool add_changes(const char *extension, const ShaderLoader *loader, Message *message)
 {
     const Example *before = LESSONS[lesson].before, *after = LESSONS[lesson].example;
     Changes found = {.count = 0};
     char title[2 * CHANGE_TEXT_SIZE];
-    ChangeText texts[2] = {{.name = ""}, {.name = after->name}};
+    const bool code = strcmp(extension, "c") == 0;
+    ChangeText texts[2] = {{.code = code}, {.name = after->name, .code = code}};
     texts[1].text = text_of(after, extension, loader, message);
     if (before) {
         texts[0].name = before->name;
@@ -163,10 +152,11 @@ static bool add_changes(const char *extension, const ShaderLoader *loader, int *
     }
     if (!texts[1].text || (before && !texts[0].text))
         return false;
-    *changed = 1;
-    bool done = before ? changes_between(&found, texts[0], texts[1], AROUND, changed, message)
-                       : changes_add_text(&found, texts[1].text, message);
-    snprintf(title, sizeof title, "%s.%s%s", after->name, extension, *changed ? "" : ": as before");
+    int changed = 1;
+    bool done =
+        before ? changes_between(&found, texts[0], texts[1], code ? 0 : AROUND, &changed, message)
+               : changes_add_text(&found, texts[1].text, message);
+    snprintf(title, sizeof title, "%s.%s%s", after->name, extension, changed ? "" : ": as before");
     done = done && changes_add(&state.changes, CHANGE_TITLE, title, (int)strlen(title), message);
     for (int i = 0; i < found.count && done; i++)
         done = changes_add(&state.changes, found.lines[i].kind, found.lines[i].text,
@@ -177,10 +167,8 @@ static bool add_changes(const char *extension, const ShaderLoader *loader, int *
 
 static bool find_changes(const ShaderLoader *loader, Message *message)
 {
-    int vertex, fragment, program;
-    return add_changes("vert", loader, &vertex, message) &&
-           add_changes("frag", loader, &fragment, message) &&
-           (vertex || fragment || add_changes("c", loader, &program, message));
+    return add_changes("vert", loader, message) && add_changes("frag", loader, message) &&
+           (!LESSONS[lesson].before || add_changes("c", loader, message));
 }
 
 static bool init(const ShaderLoader *loader, Message *message)
@@ -236,12 +224,14 @@ static bool paint_lines(Image *page, Message *message)
     return true;
 }
 
-static bool paint_difference(Image *page, Message *message)
+/* `text` says what differs. */
+static bool paint_difference(Image *page, const Frame *frame, char *text, size_t size,
+                             Message *message)
 {
     const Image *before = &state.slots[PAGE_BEFORE].picture;
     const Image *after = &state.slots[PAGE_AFTER].picture;
     Image *difference = &state.difference;
-    char text[80] = "no pixel differs at this time", name[80] = "the difference";
+    char name[40] = "the difference";
     if (difference->width != after->width) {
         image_close(difference);
         if (!image_open(difference, after->width, after->height, IMAGE_BYTE, message))
@@ -249,31 +239,34 @@ static bool paint_difference(Image *page, Message *message)
     }
     const PageDifference found = page_difference(before, after, difference);
     if (found.pixels && found.factor > 1)
-        snprintf(name, sizeof name, "the difference, %d times as bright", found.factor);
+        snprintf(name, sizeof name, "%d × the difference", found.factor);
     if (found.pixels)
-        snprintf(text, sizeof text, "%d pixels differ, by at most %d steps of 255", found.pixels,
-                 found.largest);
-    return page_paint_picture(page, PAGE_DIFFERENCE, difference, name, text, message);
+        snprintf(text, size, "at %.2f s: %d pixels differ, by at most %d steps of 255",
+                 frame->seconds, found.pixels, found.largest);
+    else
+        snprintf(text, size, "at %.2f s: no pixel differs", frame->seconds);
+    return page_paint_picture(page, PAGE_DIFFERENCE, difference, name, message);
 }
 
 static bool paint(const Frame *frame, const Canvas *canvas, Image *page, Message *message)
 {
     const int side = page_layout(page->width, page->height).side;
-    char below[2][160];
+    char title[160], below[80];
+    snprintf(title, sizeof title, "lesson %d of %d: %s", lesson + 1, LESSON_COUNT,
+             LESSONS[lesson].example->summary);
+    snprintf(below, sizeof below, "at %.2f s", frame->seconds);
     if (!paint_lines(page, message))
         return false;
     for (int i = 0; i < 2; i++) {
         Slot *slot = &state.slots[i];
-        if (!slot->example)
-            continue;
-        snprintf(below[PAGE_BEFORE], sizeof below[0], "before; both at %.2f s", frame->seconds);
-        snprintf(below[PAGE_AFTER], sizeof below[0], "lesson %d of %d: %s", lesson + 1,
-                 LESSON_COUNT, slot->example->summary);
-        if (!draw(slot, frame, canvas, side, message) ||
-            !page_paint_picture(page, i, &slot->picture, slot->example->name, below[i], message))
+        if (slot->example &&
+            (!draw(slot, frame, canvas, side, message) ||
+             !page_paint_picture(page, i, &slot->picture, slot->example->name, message)))
             return false;
     }
-    return !state.slots[PAGE_BEFORE].example || paint_difference(page, message);
+    return (!state.slots[PAGE_BEFORE].example ||
+            paint_difference(page, frame, below, sizeof below, message)) &&
+           page_paint_captions(page, title, below, message);
 }
 
 static void finish(void)
@@ -296,10 +289,10 @@ const Example lessons = {
     .summary = "the nine lecture programs, each beside its predecessor, with what changed",
     .width = 1280,
     .height = 960,
-    .tries = {"--lesson 3", "--lesson LightedCube_animation -t 1", "--window"},
+    .tries = {"--lesson 3", "--lesson LightedCube_animation -t 3", "--window"},
     .looks = {"each face is lighter by the same amount", "the light stays, so the faces change",
               "page down and page up step through the nine"},
     .init = init,
     .finish = finish,
-    .page = &(const PageExample){.paint = paint, .parameters = parameters},
+    .page = &(const PageExample){.paint = paint, .seconds = 1, .parameters = parameters},
 };

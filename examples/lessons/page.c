@@ -8,17 +8,17 @@
 #include <string.h>
 
 static const unsigned char BACKGROUND[3] = {24, 26, 30};
-static const TextStyle CAPTION = {.color = {230, 232, 236}}, BELOW = {.color = {165, 170, 180}};
+static const TextStyle CAPTION = {.color = {230, 232, 236}}, BELOW = {.color = {180, 185, 195}};
 static const TextStyle LINES[] = {
     [CHANGE_SAME] = {.mono = true, .color = {165, 170, 180}},
     [CHANGE_REMOVED] = {.mono = true, .color = {255, 140, 130}},
     [CHANGE_ADDED] = {.mono = true, .color = {120, 225, 130}},
-    [CHANGE_GAP] = {.mono = true, .color = {110, 115, 125}},
+    [CHANGE_GAP] = {.mono = true, .color = {150, 155, 165}},
     [CHANGE_TITLE] = {.mono = true, .color = {140, 190, 255}},
 };
 static const char *const MARKS[] = {"  ", "- ", "+ ", "  ...", ""};
 
-static const double LINE_HEIGHT = 1.35; /* in em */
+static const double LINE_HEIGHT = 1.3; /* in em */
 
 static int most(int a, int b)
 {
@@ -27,79 +27,105 @@ static int most(int a, int b)
 
 PageLayout page_layout(int width, int height)
 {
-    enum { MARGINS = 64, SMALLEST = 7 };
+    enum { MARGINS = 64, WIDTHS = 53, SMALLEST = 7 };
     const int unit = width < 4 * height / 3 ? width : 4 * height / 3; /* as wide as designed */
-    PageLayout layout = {.margin = most(2, unit / MARGINS), .letters = most(SMALLEST, unit / 72)};
-    const int caption = 2 * layout.letters, gaps = (PAGE_PICTURES + 1) * layout.margin;
+    PageLayout layout = {.margin = most(2, unit / MARGINS),
+                         .letters = most(SMALLEST, unit / WIDTHS)};
+    const int caption = 3 * layout.letters / 2, gaps = (PAGE_PICTURES + 1) * layout.margin;
     const int wide = (width - gaps) / PAGE_PICTURES;
-    const int high = height / 2 - caption;
+    const int high = height / 2 - 2 * caption;
     layout.side = most(1, wide < high ? wide : high);
-    layout.top = caption;
-    layout.text_top = layout.top + layout.side + caption + layout.letters / 2;
+    layout.top = 2 * caption;
+    layout.text_top = layout.top + layout.side + caption;
     for (int i = 0; i < PAGE_PICTURES; i++)
         layout.left[i] =
             layout.margin + i * (most(1, wide) + layout.margin) + (most(1, wide) - layout.side) / 2;
     return layout;
 }
 
-/* One column across the page, or two: the second begins with line `second`. */
+/* Columns of lines: number i begins with line first[i]. */
+enum { MAX_COLUMNS = 3 };
 typedef struct Columns {
-    int count, second, letters;
+    int count, first[MAX_COLUMNS + 1], rows, letters;
 } Columns;
 
-static int rows_of(const Changes *changes, const Columns *columns)
+/* Where a column of so many rows ends that begins with line `first`: before a file's title if that
+ * is in its second half, never after one. */
+static int column_end(const Changes *changes, int first, int rows)
 {
-    return columns->count == 1 ? changes->count
-                               : most(columns->second, changes->count - columns->second);
-}
-
-/* The letters at which the longest line and all rows fit. */
-static int letters_that_fit(const Changes *changes, const Columns *columns, int width, int height,
-                            int largest)
-{
-    int longest = 1;
-    for (int i = 0; i < changes->count; i++) {
-        const ChangeLine *line = &changes->lines[i];
-        longest = most(longest, (int)(strlen(line->text) + strlen(MARKS[line->kind])));
-    }
-    const double wide = width / (longest * IMAGE_MONO_ADVANCE);
-    const double high = height / (most(1, rows_of(changes, columns)) * LINE_HEIGHT);
-    return (int)fmin(largest, fmin(wide, high));
-}
-
-/* The second column begins with the second file, if that is not only its title, else in the middle.
- */
-static int second_column(const Changes *changes)
-{
-    int found = 0;
-    for (int i = 1; i < changes->count; i++)
+    const int end = first + rows;
+    if (end >= changes->count)
+        return changes->count;
+    for (int i = end; i > first + rows / 2; i--)
         if (changes->lines[i].kind == CHANGE_TITLE)
-            found = found ? -1 : i;
-    return found > 1 && found < changes->count - 1 ? found : (changes->count + 1) / 2;
+            return i;
+    return rows > 1 && changes->lines[end - 1].kind == CHANGE_TITLE ? end - 1 : end;
 }
 
+/* The fewest rows, from so many on, in which so many columns have all lines. */
+static Columns split_columns(const Changes *changes, int count, int rows)
+{
+    Columns columns = {.count = count, .rows = rows};
+    for (;; columns.rows++) {
+        for (int i = 0; i < count; i++)
+            columns.first[i + 1] = column_end(changes, columns.first[i], columns.rows);
+        if (columns.first[count] == changes->count)
+            return columns;
+    }
+}
+
+static int column_width(int columns, const PageLayout *layout, int width)
+{
+    return (width - (columns + 1) * layout->margin) / columns;
+}
+
+/* As many columns as give the largest letters at which the longest line and all rows fit. */
 static Columns choose_columns(const Changes *changes, const PageLayout *layout, int width,
                               int height)
 {
     enum { SMALLEST = 7 };
     const int room = height - layout->text_top - layout->margin / 2;
-    const int largest = most(SMALLEST, 4 * layout->letters / 3);
-    Columns one = {.count = 1}, two = {.count = 2, .second = second_column(changes)};
-    one.letters = letters_that_fit(changes, &one, width - 2 * layout->margin, room, largest);
-    two.letters = letters_that_fit(changes, &two, (width - 3 * layout->margin) / 2, room, largest);
-    Columns chosen = two.letters >= one.letters ? two : one;
-    chosen.letters = most(SMALLEST, chosen.letters);
+    Columns chosen = {.letters = -1};
+    int longest = 1;
+    for (int i = 0; i < changes->count; i++) {
+        const ChangeLine *line = &changes->lines[i];
+        longest = most(longest, (int)(strlen(line->text) + strlen(MARKS[line->kind])));
+    }
+    for (int count = 1; count <= MAX_COLUMNS; count++) {
+        Columns columns = split_columns(changes, count, (changes->count + count - 1) / count);
+        const double wide = column_width(count, layout, width) / (longest * IMAGE_MONO_ADVANCE);
+        const double high = room / (most(1, columns.rows) * LINE_HEIGHT);
+        columns.letters = (int)fmin(layout->letters, fmin(wide, high));
+        if (columns.letters > chosen.letters)
+            chosen = columns;
+    }
+    const int letters = most(SMALLEST, chosen.letters);
+    const int rows = (int)(room / (letters * LINE_HEIGHT)); /* to spare, for breaks at titles */
+    chosen = split_columns(changes, chosen.count, most(chosen.rows, rows));
+    chosen.letters = letters;
     return chosen;
 }
 
-static bool paint_line(Image *page, int x, int y, int letters, const ChangeLine *line,
+/* A line that is too wide ends in three points. */
+static bool paint_line(Image *page, int x, int y, int width, int letters, const ChangeLine *line,
                        Message *message)
 {
     char text[CHANGE_TEXT_SIZE + 8];
     TextStyle style = LINES[line->kind];
+    const int fit = (int)(width / (letters * IMAGE_MONO_ADVANCE));
     style.size = letters;
-    snprintf(text, sizeof text, "%s%s", MARKS[line->kind], line->text);
+    if (snprintf(text, sizeof text, "%s%s", MARKS[line->kind], line->text) > fit)
+        snprintf(text + most(0, fit - 3), 4, "...");
     return image_text(page, x, y, &style, text, message);
+}
+
+static void clear(Image *page)
+{
+    unsigned char *pixels = page->pixels;
+    for (size_t i = 0; i < (size_t)page->width * (size_t)page->height; i++) {
+        memcpy(pixels + 4 * i, BACKGROUND, 3);
+        pixels[4 * i + 3] = 255;
+    }
 }
 
 bool page_paint_lines(Image *page, const Changes *changes, Message *message)
@@ -108,26 +134,22 @@ bool page_paint_lines(Image *page, const Changes *changes, Message *message)
     const Columns columns = choose_columns(changes, &layout, page->width, page->height);
     const int step = (int)(LINE_HEIGHT * columns.letters);
     const int rows = (page->height - layout.text_top) / step;
-    unsigned char *pixels = page->pixels;
-    for (size_t i = 0; i < (size_t)page->width * (size_t)page->height; i++) {
-        memcpy(pixels + 4 * i, BACKGROUND, 3);
-        pixels[4 * i + 3] = 255;
-    }
+    const int width = column_width(columns.count, &layout, page->width);
     bool done = true;
-    for (int i = 0; i < changes->count && done; i++) {
-        const bool second = columns.count == 2 && i >= columns.second;
-        const int row = second ? i - columns.second : i;
-        const int end = columns.count == 2 && !second ? columns.second : changes->count;
-        const int x = second ? (page->width + layout.margin) / 2 : layout.margin;
-        ChangeLine line = changes->lines[i];
-        if (row >= rows)
-            continue;
-        if (row == rows - 1 && i + 1 < end) {
-            line.kind = CHANGE_TITLE;
-            snprintf(line.text, sizeof line.text, "%d more lines", end - i);
+    clear(page);
+    for (int column = 0; column < columns.count; column++) {
+        const int first = columns.first[column], end = columns.first[column + 1];
+        for (int i = first; i < end && i - first < rows && done; i++) {
+            const int row = i - first;
+            ChangeLine line = changes->lines[i];
+            if (row == rows - 1 && i + 1 < end) {
+                line.kind = CHANGE_TITLE;
+                snprintf(line.text, sizeof line.text, "%d more lines", end - i);
+            }
+            done = paint_line(page, layout.margin + column * (width + layout.margin),
+                              layout.text_top + (row + 1) * step - step / 4, width, columns.letters,
+                              &line, message);
         }
-        done = paint_line(page, x, layout.text_top + (row + 1) * step - step / 4, columns.letters,
-                          &line, message);
     }
     return done;
 }
@@ -151,17 +173,23 @@ static bool paint_caption(Image *page, TextStyle style, int letters, int x, int 
            (style.size == 0 || image_text(page, x, y, &style, text, message));
 }
 
-bool page_paint_picture(Image *page, int number, const Image *picture, const char *above,
-                        const char *below, Message *message)
+bool page_paint_picture(Image *page, int number, const Image *picture, const char *name,
+                        Message *message)
 {
     const PageLayout layout = page_layout(page->width, page->height);
-    const int left = layout.left[number], bottom = layout.top + layout.side;
-    put(page, left, layout.top, picture);
-    return (!above ||
-            paint_caption(page, CAPTION, layout.letters, left, layout.top - layout.letters / 2,
-                          layout.side, above, message)) &&
-           (!below || paint_caption(page, BELOW, 4 * layout.letters / 5, left,
-                                    bottom + 5 * layout.letters / 4, layout.side, below, message));
+    put(page, layout.left[number], layout.top, picture);
+    return paint_caption(page, CAPTION, layout.letters, layout.left[number],
+                         layout.top - layout.letters / 3, layout.side, name, message);
+}
+
+bool page_paint_captions(Image *page, const char *title, const char *below, Message *message)
+{
+    const PageLayout layout = page_layout(page->width, page->height);
+    const int width = page->width - 2 * layout.margin;
+    return paint_caption(page, CAPTION, layout.letters, layout.margin, 6 * layout.letters / 5,
+                         width, title, message) &&
+           paint_caption(page, BELOW, layout.letters, layout.margin,
+                         layout.top + layout.side + 6 * layout.letters / 5, width, below, message);
 }
 
 PageDifference page_difference(const Image *before, const Image *after, Image *difference)

@@ -10,22 +10,25 @@
 
 enum { PAGE_BEFORE, PAGE_AFTER, PAGE_DIFFERENCE, PAGE_PICTURES };
 
-/* Where the parts of a page of a size are, in pixels: three squares in a row, and below them the
- * changed lines. */
+/* Where the parts of a page of a size are, in pixels: a title, three squares in a row with their
+ * names above and a line below, and then the changed lines. */
 typedef struct PageLayout {
     int side, left[PAGE_PICTURES], top;
-    int margin, letters; /* of captions */
+    int margin, letters; /* of captions: 1/40 of the height in a page of 4:3 */
     int text_top;
 } PageLayout;
 PageLayout page_layout(int width, int height);
 
-/* Paints the page's background and the changed lines, as large as they all fit; if even small
- * letters are too large, the last line says how many are missing. */
+/* Paints the page's background and the changed lines in columns, as large as they all fit; if even
+ * small letters are too large, lines end in ... and the last says how many are missing. */
 bool page_paint_lines(Image *page, const Changes *changes, Message *message);
 
-/* Paints a picture of the layout's side with a line above and one below it, which may be NULL. */
-bool page_paint_picture(Image *page, int number, const Image *picture, const char *above,
-                        const char *below, Message *message);
+/* Paints a picture of the layout's side and its name. */
+bool page_paint_picture(Image *page, int number, const Image *picture, const char *name,
+                        Message *message);
+
+/* Paints the page's title and the line below the pictures. */
+bool page_paint_captions(Image *page, const char *title, const char *below, Message *message);
 
 /* The absolute difference of two pictures of one size, color by color, `factor` times as large so
  * that it is seen; its largest value, and in how many pixels there is one. */

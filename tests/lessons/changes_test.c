@@ -23,8 +23,8 @@ static void assert_changes(const char *before, const char *after, int around, co
     char found[1024];
     Changes changes = {.count = 0};
     int changed, expected_changed = 0;
-    require(changes_between(&changes, (ChangeText){"Old", before}, (ChangeText){"New", after},
-                            around, &changed, &message),
+    require(changes_between(&changes, (ChangeText){"Old", before, false},
+                            (ChangeText){"New", after, false}, around, &changed, &message),
             &message);
     marked(&changes, found);
     assert_string_equal(found, expected);
@@ -43,7 +43,7 @@ TEST(known_pairs)
     assert_changes("", "a\n", 1, "+a|");
     assert_changes("a\n", "", 1, "-a|");
     assert_changes("a\nb\nc\n", "a\nx\nc\n", 1, " a|-b|+x| c|");
-    assert_changes("a\nb\nc\n", "a\nx\nc\n", 0, ".|-b|+x|");
+    assert_changes("a\nb\nc\n", "a\nx\nc\n", 0, "-b|+x|");
     assert_changes("a\nb\nc\n", "a\nc\n", 1, " a|-b| c|");
     assert_changes("1\n2\n3\n4\n5\n6\n7\n", "0\n1\n2\n3\n4\n5\n6\n7\n8\n", 1, "+0| 1|.| 7|+8|");
     assert_changes("a\n\nb\n", "a\n \nb\n", 1, " a|-|+ | b|");
@@ -54,6 +54,29 @@ TEST(the_name_of_the_program_is_no_difference)
     assert_changes("const Old;\nx\n", "const New;\nx\n", 1, "");
     assert_changes("Old\n", "New2\n", 1, "-Old|+New2|");
     assert_changes("New\n", "Old\n", 1, "-New|+Old|");
+}
+
+/* Of a C file, what it does. */
+TEST(comments_and_texts_of_help_do_not_count_in_code)
+{
+    static const char before[] = "/*\n * Old: one thing.\n */\n#include \"a.h\"\n\n/* One. */\n"
+                                 "static const int A = 1; /* one */\nint b;\n"
+                                 "    .summary = \"one\",\n    .tries = {\"-t 1\",\n  \"-t 2\"},\n"
+                                 "    .draw = draw,\n";
+    static const char after[] =
+        "/*\n * New: another thing,\n * and more.\n */\n#include \"a.h\"\n"
+        "/* Two\n * lines. */\nstatic const int A = 2; /* one */\nint b;\n\n"
+        "    .summary = \"two\",\n    .draw = draw,\n";
+    const ChangeText texts[2] = {{"Old", before, true}, {"New", after, true}};
+    char found[1024];
+    Changes changes = {.count = 0};
+    int changed;
+    require(changes_between(&changes, texts[0], texts[1], 0, &changed, &message), &message);
+    marked(&changes, found);
+    assert_string_equal(found, "-static const int A = 1; /* one */|"
+                               "+static const int A = 2; /* one */|");
+    assert_int_equal(changed, 2);
+    changes_close(&changes);
 }
 
 static unsigned next(unsigned *seed)
@@ -91,8 +114,8 @@ TEST(both_files_follow_from_the_fewest_changes)
         Changes changes = {.count = 0};
         int changed;
         const int before = random_text(&seed, texts[0]), after = random_text(&seed, texts[1]);
-        require(changes_between(&changes, (ChangeText){"Old", texts[0]},
-                                (ChangeText){"New", texts[1]}, 100, &changed, &message),
+        require(changes_between(&changes, (ChangeText){"Old", texts[0], false},
+                                (ChangeText){"New", texts[1], false}, 100, &changed, &message),
                 &message);
         assert_int_equal(changed, before + after - 2 * most_common(texts[0], texts[1]));
         for (int i = 0; i < changes.count && changed; i++)
@@ -111,8 +134,8 @@ TEST(files_of_too_many_lines_are_an_error)
     Changes changes = {.count = 0};
     int changed;
     memset(text, '\n', 5000);
-    assert_false(changes_between(&changes, (ChangeText){"old", ""}, (ChangeText){"new", text}, 1,
-                                 &changed, &message));
+    assert_false(changes_between(&changes, (ChangeText){"old", "", false},
+                                 (ChangeText){"new", text, false}, 1, &changed, &message));
     assert_string_equal(message.text, "new: more than 4096 lines");
     changes_close(&changes);
 }

@@ -10,8 +10,8 @@ import sys
 
 import command_line_test as base
 
-SIDE, TOP, LEFT = 400, 34, (20, 440, 860)  # of the pictures in a page of its own size
-TEXT = 475  # the lines begin below
+SIDE, TOP, LEFT = 400, 72, (20, 440, 860)  # of the pictures in a page of its own size
+TEXT = 508  # the lines begin below
 ADDED, REMOVED = (120, 225, 130), (255, 140, 130)
 SHADERS = os.path.join(base.SOURCE, "shaders/lecture")
 
@@ -79,8 +79,9 @@ class Lessons(base.Case):
         os.mkdir(self.path("mine"))
         for name in "LightedCube.vert", "LightedCube_ambient.vert":
             shutil.copy(os.path.join(SHADERS, name), self.path("mine", name))
-        before = self.page("--lesson", "3")
-        own = "--lesson", "3", "--shaders", "mine"
+        high = "--lesson", "3", "-s", "1280x1600"  # room for a line more in the same letters
+        before = self.page(*high)
+        own = *high, "--shaders", "mine"
         self.assertEqual(self.page(*own).pixels, before.pixels)
         with open(self.path("mine/LightedCube_ambient.vert"), "a", encoding="utf-8") as file:
             file.write("// MMMMMMMMMMMMMMMMMMMM\n")
@@ -101,12 +102,29 @@ class Lessons(base.Case):
         plain = "-s", "320x240", "--lesson", "2"
         self.assertNotEqual(self.page(*plain, "--samples", "4").pixels, self.page(*plain).pixels)
 
+    def test_each_lesson_shows_a_difference_in_picture_and_code(self):
+        """Lesson 2 turns from the same place, and lessons 5, 6 and 8 change constants too."""
+        for number in range(2, 10, base.step(3)):
+            page = self.page("--lesson", str(number))
+            self.assertTrue(any(part(page, 2)), number)
+            self.assertGreater(count(below(page), ADDED), 20, number)
+
+    def test_columns_do_not_touch(self):
+        """Between two columns, and at the right, there is nothing but background."""
+        for size, number in (("400x300", 5), ("400x300", 7), ("640x480", 5), ("1280x960", 5)):
+            page = self.page("--lesson", str(number), "-s", size)
+            stride, scale = 3 * page.width, page.width / 1280
+            for x in page.width // 2 - 1, page.width - 3:
+                column = {page.pixels[stride * y + 3 * x:][:3]
+                          for y in range(int(TEXT * scale) + 6, page.height)}
+                self.assertEqual(len(column), 1, (size, number, x))
+
     def test_an_animation_has_both_move(self):
-        self.good("--lesson", "7", "-s", "320x240", "-n", "2", "--fps", "1", "-o", "l%d.png",
+        self.good("--lesson", "7", "-s", "320x240", "-t", "0", "-n", "2", "--fps", "1", "-o", "l%d.png",
                   program="lessons")
         self.assertNotEqual(self.png("l0.png").pixels, self.png("l1.png").pixels)
         self.assertEqual(self.png("l1.png").pixels,
-                         self.page("--lesson", "7", "-s", "320x240", "-t", "1").pixels)
+                         self.page("--lesson", "7", "-s", "320x240").pixels)
 
 
 if __name__ == "__main__":
