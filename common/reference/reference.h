@@ -11,8 +11,9 @@
  * A light that casts shadows is followed from each such point: see reference_shadow.h. Edges of
  * shadows are edges. On triangles the segment begins on the triangle and the lighting has the
  * interpolated normal: with `meshes`, a triangle that faces away from the light is in its own
- * shadow even where N.L > 0, as it is for stencil volumes; without, solids have neither triangles
- * nor that terminator. Where light is computed at the corners, shadows are still those of each
+ * shadow even where N.L > 0, as it is for stencil volumes, except on a convex object
+ * (object_is_convex), which has no shadow on itself. Without `meshes`, solids have no triangles and
+ * so no such terminator. Where light is computed at the corners, shadows are still those of each
  * point.
  *
  * Rounding adds less than 1e-9 steps of 1/255 (tests/reference/reference_quad_test.c). Two shapes

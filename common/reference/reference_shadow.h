@@ -8,7 +8,9 @@
  *   points. If the light is on the other side of the solid's tangent plane, or of the triangle's
  *   plane, the surface itself is between them. On a mesh with smooth normals N.L may be positive
  *   there: these triangles are in shadow, as stencil volumes have it. The teapot's triangles, which
- *   stand for a smooth surface, have the plane of the interpolated normal.
+ *   stand for a smooth surface, have the plane of the interpolated normal. A convex object
+ *   (object_is_convex) never shadows itself: its mesh neither, whose triangles may face away where
+ *   N.L > 0.
  * - Which surface. A triangle does not shadow itself. A solid is met through one of its own points,
  *   so that one root is known: see solid_blocks.
  * - Error bounds. A surface that either end of the segment lies on, as far as the error of its
