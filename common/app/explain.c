@@ -101,12 +101,33 @@ static void print_operations(const Lighting *lighting, const Scene *scene, const
 
 /* --explain without --verbose: the first object in full, of the others what differs. */
 
-/* An object's effects, in which lights that follow each other and have the same are one. */
-static void fold_lights(const char *text, FILE *file)
+/* "without X: not requested" as X; the next one after a comma. */
+static bool fold_request(const char *text, bool another, FILE *file)
 {
+    static const char without[] = "without ", why[] = ": not requested\n";
+    const char *name = text + strlen(without), *end = strchr(text, ':');
+    if (strncmp(text, without, strlen(without)) != 0 || !end || strncmp(end, why, strlen(why)) != 0)
+        return false;
+    fprintf(file, "%s%.*s", another ? ", " : "not requested: ", (int)(end - name), name);
+    return true;
+}
+
+/* An object's effects, in which lights that follow each other and have the same are one, and so are
+ * effects that are not requested. */
+static void fold_lines(const char *text, FILE *file)
+{
+    bool folded = false;
     while (*text) {
         const char *next = text + strcspn(text, "\n") + 1, *body = strchr(text, ':');
         int first, last, number;
+        const bool request = fold_request(text, folded, file);
+        if (folded && !request)
+            fputc('\n', file);
+        folded = request;
+        if (request) {
+            text = next;
+            continue;
+        }
         if (sscanf(text, "light %d:", &first) != 1 || !body) {
             fprintf(file, "%.*s", (int)(next - text), text);
             text = next;
@@ -130,6 +151,8 @@ static void fold_lights(const char *text, FILE *file)
         fprintf(file, "%.*s", (int)size, body);
         text = next;
     }
+    if (folded)
+        fputc('\n', file);
 }
 
 /* Whether a text has a line; an indented one below the same light. */
@@ -229,7 +252,7 @@ static bool explain_object(const Stage *stage, const Scene *scene, const Object 
         effects_explain(scene, object, file);
     bool done = file && fclose(file) == 0 && larger;
     if (done && (file = open_memstream(&text, &size)) != NULL) {
-        fold_lights(whole, file);
+        fold_lines(whole, file);
         done = fclose(file) == 0;
     }
     free(whole);
@@ -309,12 +332,72 @@ static bool explain_view(Stage *stage, const Options *options, int number, Expla
     return done;
 }
 
+/* The lights of all views: each as in the first view that shows most of it. */
+typedef struct Lights {
+    Light lights[EFFECTS_MAX_LIGHTS];
+    int views[EFFECTS_MAX_LIGHTS], shown[EFFECTS_MAX_LIGHTS];
+} Lights;
+
+static void add_lights(const Scene *scene, int view, Lights *all)
+{
+    for (int i = 0; i < scene->light_count && i < EFFECTS_MAX_LIGHTS; i++) {
+        const Light *light = &scene->lights[i];
+        const int shown = 1 + 4 * !light->off + 2 * !color_is_black(light->diffuse) +
+                          !color_is_black(light->specular);
+        if (shown <= all->shown[i])
+            continue;
+        all->lights[i] = *light;
+        all->views[i] = view;
+        all->shown[i] = shown;
+    }
+}
+
+static void print_vector(const char *before, Vec3 vector)
+{
+    printf("%s%.4g,%.4g,%.4g", before, vector.x, vector.y, vector.z);
+}
+
+static void print_light(const Light *light)
+{
+    static const char *const kinds[] = {"directional, from ", "point, at ", "spot, at "};
+    const bool directional = light->kind == LIGHT_DIRECTIONAL;
+    print_vector(kinds[light->kind], directional ? light->direction : light->position);
+    printf("%s", light->space == LIGHT_EYE ? " of the viewer" : "");
+    print_vector("; colour ", light->diffuse);
+    if (memcmp(&light->diffuse, &light->specular, sizeof light->diffuse) != 0)
+        print_vector(", specular ", light->specular);
+    printf("%s\n", light->off ? "; off" : "");
+}
+
+/* As --light-at and --light-color take them. */
+static void print_lights(Stage *stage, const Options *options)
+{
+    Lights all = {.shown = {0}};
+    const int count = stage_view_count(stage);
+    for (int number = 0; number < count; number++) {
+        StageView view;
+        if (stage_view_open(&view, stage, options, options->seconds, number, NULL))
+            add_lights(&view.asked, number, &all);
+        stage_view_close(&view);
+    }
+    printf("# lights, by their numbers in --light-at, --light-color and --terms\n");
+    for (int i = 0; i < EFFECTS_MAX_LIGHTS; i++) {
+        if (!all.shown[i])
+            continue;
+        printf("%d: ", i);
+        if (count > 1)
+            printf("view %d, ", all.views[i]);
+        print_light(&all.lights[i]);
+    }
+}
+
 bool explain_programs(Stage *stage, const Options *options, Message *message)
 {
     if (!stage->example->scene)
         return message_set(message, "--explain: this program's shaders are written by hand");
     Explained explained = {0};
     bool done = true;
+    print_lights(stage, options);
     for (int number = 0; number < stage_view_count(stage) && done; number++)
         done = explain_view(stage, options, number, &explained, message);
     explained_close(&explained);

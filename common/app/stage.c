@@ -595,18 +595,19 @@ bool stage_error_picture(Stage *stage, const Options *options, double seconds,
 /* Pictures */
 
 /* Whether an option of all scenes changes what a view computes. */
-static bool is_changed(const Options *options)
+static bool is_changed(const Example *example, const Options *options)
 {
     const SceneTerms *terms = &options->terms;
     return terms->left_out || terms->lights_left_out || terms->unlit || options->full ||
-           options->cheap || options->clamp_vertex || options->linear || options->show_clipped;
+           options->cheap || options->clamp_vertex || options->linear || options->show_clipped ||
+           options->tints.tinted || options_have_shadows(options) != example->scene->shadows;
 }
 
 /* All captions in one size, or none where one does not fit. */
 static bool label_views(const Stage *stage, const Options *options, Image *image, Message *message)
 {
     const SceneExample *scene = stage->example->scene;
-    const bool plain = scene->plain_label && is_changed(options);
+    const bool plain = scene->plain_label && is_changed(stage->example, options);
     const int count = stage_view_count(stage);
     int size = 12;
     for (int i = 0; i < 2 * count; i++) { /* measured, then drawn */

@@ -2,12 +2,16 @@
 
 #include "base/cache.h"
 #include "images/drawing.h"
+#include "scene/effects.h"
 #include "scene/scene_example.h"
 
 #include <stdio.h>
 #include <string.h>
 
 enum { LIGHTS_MAX = 32 };
+
+/* The times, after the first, at which options are tried. */
+static const double LATER[] = {0, 0.7, 1.9};
 
 /* No shader is needed for a scene's data, and none is loaded. */
 static const ShaderLoader NO_SHADERS = {.only_texts = true};
@@ -278,7 +282,6 @@ static bool add_drawing(CacheKey *key, const Example *example, const Options *op
 /* All that the example hands over, with its parameters as they are now. */
 static bool make_key(const Example *example, const Options *options, CacheKey *key)
 {
-    static const double LATER[] = {0, 0.7, 1.9};
     const Usage usage = options_usage(example);
     int grid[2], size[2] = {options->width, options->height};
     bool done = true;
@@ -318,16 +321,61 @@ static void set_without(const Parameter *table, const Options *options, int left
         }
 }
 
-/* The own options that were given; 0 if one of them names a file. */
+/* The own options that were given; -1 if one of them names a file. */
 static int count_given(const Parameter *table, const Options *options)
 {
     int count = 0;
     for (int i = 0; table && table[i].name; i++) {
         if (options->own_given[i] && table[i].kind == PARAMETER_TEXT)
-            return 0;
+            return -1;
         count += options->own_given[i];
     }
     return count;
+}
+
+/* --shadows */
+
+/* With the lights as the options have them and shadows of all; true too if that is not known. */
+static bool shadow_falls(const Scene *made, const Options *options)
+{
+    SceneCopy kept;
+    bool falls = false;
+    if (!scene_copy_open(&kept, made, false, NULL))
+        return true;
+    scene_place_lights(&kept, &options->places);
+    scene_tint_lights(&kept, &options->tints);
+    scene_keep_terms(&kept, options->terms);
+    for (int i = 0; i < made->light_count; i++)
+        kept.lights[i].shadows = true;
+    falls = !scene_check(&kept.scene, NULL);
+    for (int i = 0; i < made->object_count && !falls; i++) {
+        const Effects effects = effects_of(&kept.scene, &kept.scene.objects[i]);
+        for (int k = 0; k < effects.group_count; k++)
+            falls |= effects.groups[k].terms.shadow > 0;
+    }
+    scene_copy_close(&kept);
+    return falls;
+}
+
+/* Whether the picture is the same with and without shadows. Several samples of a pixel are drawn in
+ * another way with them, and a caption may name what shadows cost. */
+static bool shadows_unused(const Example *example, const Options *options)
+{
+    const SceneExample *own = example->scene;
+    int columns, rows;
+    if (!own || options_have_shadows(options) == own->shadows || options->canvas.samples > 1)
+        return false;
+    bool falls = !example->init(&NO_SHADERS, NULL) || (own->plain_label && own->plain_label(0));
+    view_grid(example, &columns, &rows);
+    for (int k = 0; k < 3; k++)
+        for (int view = 0; view < columns * rows && !falls; view++) {
+            Scene scene = {.light_count = 0};
+            own->make(options->seconds + LATER[k], view, &scene);
+            orbit_move(options->orbit, &scene.camera.eye, scene.camera.center, &scene.camera.up);
+            falls = shadow_falls(&scene, options);
+        }
+    example->finish();
+    return !falls;
 }
 
 void unused_options(const Example *example, const Options *options, const ParameterValue *defaults,
@@ -337,8 +385,13 @@ void unused_options(const Example *example, const Options *options, const Parame
     ParameterValue values[OPTIONS_MAX_PARAMETERS];
     CacheKey all, without;
     text[0] = '\0';
+    const int given = count_given(table, options);
     /* With --error an option that is given stays, whatever else it does. */
-    if (!count_given(table, options) || options->cheap)
+    if (given < 0 || options->cheap)
+        return;
+    if (shadows_unused(example, options))
+        snprintf(text, size, "--shadows");
+    if (given == 0)
         return;
     for (int i = 0; table[i].name; i++)
         values[i] = parameter_save(&table[i]);

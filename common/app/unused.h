@@ -13,9 +13,10 @@ bool unused_terms_check(const Example *example, const Options *options, Message 
 
 /* Names the program's own options that were given and change nothing: without one of them the
  * example hands over the same meshes, scenes, marks, labels and size, at the time to draw and two
- * others. "--shininess, --opacity"; empty if there are none, or if that is not known: with a file,
- * which might take long to read, and with --error. `defaults` as for command_write. Runs init and
- * finish of the example. */
+ * others; and --shadows where no shadow can fall on anything at these times. "--shininess,
+ * --opacity"; empty if there are none, or if that is not known: with a file, which might take long
+ * to read, and with --error. `defaults` as for command_write. Runs init and finish of the example.
+ */
 void unused_options(const Example *example, const Options *options, const ParameterValue *defaults,
                     char *text, size_t size);
 

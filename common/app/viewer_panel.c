@@ -238,7 +238,7 @@ static void add_light(ViewerPanel *panel, int number, const Light *light, const 
     const Vec3 own[] = {tints->diffuse[number], tints->specular[number]};
     for (int k = 0; k < 2; k++) {
         const int row = 2 * number + k;
-        snprintf(panel->light_names[row], sizeof panel->light_names[row], "%d %s", number,
+        snprintf(panel->light_names[row], sizeof panel->light_names[row], "light %d %s", number,
                  words[k]);
         panel->light_values[row] = tinted ? own[k] : plain[k];
         panel->light_defaults[row].color = plain[k];

@@ -291,9 +291,15 @@ void scene_place_lights(SceneCopy *copy, const LightPlaces *places)
 {
     for (int i = 0; i < copy->scene.light_count && i < SCENE_MAX_PLACED; i++) {
         Light *light = &copy->lights[i];
-        if (places->placed >> i & 1)
-            *(light->kind == LIGHT_DIRECTIONAL ? &light->direction : &light->position) =
-                places->at[i];
+        Vec3 *at = light->kind == LIGHT_DIRECTIONAL ? &light->direction : &light->position;
+        if (!(places->placed >> i & 1))
+            continue;
+        const Mat4 move = mat4_translate(vec3_subtract(places->at[i], *at));
+        *at = places->at[i];
+        for (int k = 0; k < copy->scene.object_count; k++)
+            if (copy->objects[k].lamp == 1 + i)
+                copy->objects[k].world_from_object =
+                    mat4_product(move, copy->objects[k].world_from_object);
     }
 }
 
@@ -304,6 +310,9 @@ void scene_tint_lights(SceneCopy *copy, const LightTints *tints)
             continue;
         copy->lights[i].diffuse = tints->diffuse[i];
         copy->lights[i].specular = tints->specular[i];
+        for (int k = 0; k < copy->scene.object_count && !copy->lights[i].off; k++)
+            if (copy->objects[k].lamp == 1 + i)
+                copy->objects[k].front.emission = tints->diffuse[i];
     }
 }
 

@@ -57,7 +57,7 @@ typedef struct Object {
     bool flat;         /* the three normals of each triangle are equal */
     bool closed;       /* no back face is visible from outside */
     bool clockwise;    /* front faces are clockwise, as glFrontFace(GL_CW) has it */
-    bool lamp;         /* stands for a light within: throws no shadow */
+    int lamp;          /* stands for light lamp - 1 within: throws no shadow; 0: for none */
     bool behind_lines; /* pushed back by polygon offset, so that its edges are drawn whole */
     Mat4 world_from_object;
     /* If the mesh has colors, they are the ambient and diffuse reflectivity (glColorMaterial). */
@@ -148,7 +148,7 @@ typedef struct LightPlaces {
     Vec3 at[SCENE_MAX_PLACED]; /* their positions, or directions of directional ones */
 } LightPlaces;
 
-/* Moves a copy's lights. */
+/* Moves a copy's lights, and the objects that stand for them. */
 void scene_place_lights(SceneCopy *copy, const LightPlaces *places);
 
 /* Lights that were given other colors. Zeroed: none. */
@@ -157,7 +157,7 @@ typedef struct LightTints {
     Vec3 diffuse[SCENE_MAX_PLACED], specular[SCENE_MAX_PLACED];
 } LightTints;
 
-/* Colors a copy's lights. */
+/* Colors a copy's lights; objects that stand for them emit the diffuse color. */
 void scene_tint_lights(SceneCopy *copy, const LightTints *tints);
 
 /* eye_from_object, composed relative to the eye: the two translations are subtracted first, in

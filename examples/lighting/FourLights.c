@@ -106,7 +106,7 @@ static void colored_light(double seconds, int i)
     state.objects[1 + i] = (Object){.mesh = &state.marker,
                                     .solid = {.kind = SOLID_SPHERE, .radius = 0.5},
                                     .closed = true,
-                                    .lamp = true,
+                                    .lamp = 1 + (1 + i),
                                     .world_from_object = mat4_translate(place),
                                     .front = {.emission = vec3_scale(colors[i], on[i] ? 0.5 : 0),
                                               .alpha = 1,

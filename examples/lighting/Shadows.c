@@ -148,6 +148,12 @@ static const char *label(int view)
     return sheet ? labels[view] : NULL;
 }
 
+/* Of what is seen with --shadows off, or some of the terms, too. */
+static const char *plain_label(int view)
+{
+    return sheet && view < 2 ? "all lights" : label(view);
+}
+
 static void finish(void)
 {
     for (int i = 0; i < WALL; i++)
@@ -169,5 +175,6 @@ const Example Shadows = {
                                    .layout = layout,
                                    .size = size,
                                    .label = label,
+                                   .plain_label = plain_label,
                                    .parameters = parameters},
 };

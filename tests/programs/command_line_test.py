@@ -1046,6 +1046,55 @@ class Scenes(Case):
             self.refused(2, f"^FourLights: {option}: there is no light 4; the scene has lights 0 to 3",
                          option, "1,1,1,1/4,0,0,1", program="FourLights")
 
+    def test_the_lights_are_listed_with_their_numbers(self):
+        """With --light-at and --light-color, of which a line says what can be given."""
+        text = self.good("--explain", "--light-at", "1,-5,7,0.25", "--light-color", "2,1,0.5,0,0,0,1",
+                         program="FourLights").decode()
+        self.assertTrue(text.startswith("# lights, by their numbers in "), text)
+        for line in ("0: directional, from 0,0,1 of the viewer; colour 0.5,0.5,0.5",
+                     "1: point, at -5,7,0.25; colour 0.5,0,0"):
+            self.assertIn(f"\n{line}\n", text)
+        self.assertRegex(text, r"\n2: point, at \S+; colour 1,0\.5,0, specular 0,0,1\n3: ")
+        self.assertIn("\n0: view 4, point, ", self.good("--explain", program="TermsApart").decode())
+        for option in "--light-color", "--light-at":
+            self.refused(2, f"^FourLights: {option} 0,1: must be LIGHT,[^;]*, with LIGHT from 0 to 7",
+                         option, "0,1", program="FourLights")
+
+    def test_the_lamps_follow_their_lights(self):
+        """Only the lamps emit: one that is moved is drawn where it goes, in its light's color."""
+        def drawn(*arguments):
+            return self.drawn("-s", "64x64", "--terms", "emission", *arguments, program="FourLights")
+
+        def bright(png, channel):
+            return [i // 3 for i in range(channel, len(png.pixels), 3) if png.pixels[i] > 60]
+
+        self.assertTrue(bright(drawn(), 0))
+        red = bright(drawn("--light-at", "1,0,12,0"), 0)
+        self.assertTrue(red)
+        middle = sum(place % 64 for place in red) / len(red)
+        self.assertTrue(28 < middle < 36, middle)
+        self.assertFalse(bright(drawn("--light-color", "1,0,0.5,0"), 0))
+
+    def test_captions_are_true_with_and_without_shadows(self):
+        sheet = "-s", "900x600", "--sheet", "on"
+        without = self.drawn(*sheet, "--shadows", "off", program="Shadows")
+        rows = [without.pixels[3 * 900 * y:][:3 * 600] for y in range(275, 300)]
+        self.assertTrue(any(map(any, rows)))
+        self.assertTrue(all(row[:900] == row[900:] for row in rows))  # two captions say the same
+        costs = [self.drawn("--shadows", "volumes", "--costs", costs, program="TermsApart").pixels
+                 for costs in ("off", "operations")]
+        self.assertEqual(*costs)
+
+    def test_shadows_that_fall_on_nothing_are_said(self):
+        said = "SpotLight: --shadows: no effect here; the picture is the same without\n"
+        self.says(0, f"^{said}$", *SMALL, "--shadows", "volumes", "-o", "with.png", program="SpotLight")
+        self.assertEqual(self.png("with.png").pixels, self.drawn(*SMALL, program="SpotLight").pixels)
+        self.says(0, "^ShadingModels: --shadows, --opacity: no effect here; ", *SMALL, "--shadows",
+                  "volumes", "--opacity", "0.5", program="ShadingModels")
+        for program, *arguments in (("Materials", "--shadows", "volumes"),
+                                    ("Shadows", "--shadows", "off"), ("Shadows", )):
+            self.good(*SMALL, *arguments, program=program)
+
     def test_a_light_has_the_color_that_it_is_given(self):
         """As the option for the colors of all of them, in a scene with one."""
         of_all = "--light-diffuse", "1,0.5,0", "--light-specular", "0,0,1"
