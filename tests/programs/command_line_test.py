@@ -9,6 +9,7 @@ command line. A failing program writes one line and no file, and changes none. E
 """
 import array
 import functools
+import glob
 import itertools
 import os
 import pty
@@ -1239,6 +1240,21 @@ class Again(Case):
             text = data[place + 4:place + 4 + size].decode()
         return subprocess.run(["sh", "-c", f"printf '%s\\0' {text}"], stdout=subprocess.PIPE,
                               check=True).stdout.decode().split("\0")[:-1]
+
+    def test_pictures_of_the_pages_are_current(self):
+        """Drawn again by the command that they contain; but for rounding, and letters by FreeType."""
+        pictures = sorted(glob.glob(os.path.join(SOURCE, "examples", "**", "pictures", "*.png"),
+                                    recursive=True))
+        self.assertGreater(len(pictures), 20)
+        for path in pictures[::step(6)]:
+            data = self.read(path)
+            if b"Command" not in data:
+                continue  # of a window or a page
+            picture, (program, *words) = Png(data), self.command(data)
+            again = self.drawn(*words, program=program)
+            self.assertEqual((picture.width, picture.height), (again.width, again.height), path)
+            other = sum(abs(a - b) > 8 for a, b in zip(picture.pixels, again.pixels))
+            self.assertLess(other, len(again.pixels) / 1000, path)
 
     def assert_again(self, program, *arguments, suffix="png", **more):
         self.good_or_unused(*arguments, "-o", "first." + suffix, program=program, **more)

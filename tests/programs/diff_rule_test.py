@@ -59,7 +59,7 @@ def main():
     source = pathlib.Path(sys.argv[1])
     shaders, programs = source / "shaders/lecture", source / "examples/lecture"
     check({p.stem for p in programs.glob("*.c")} == set(LESSONS), "every program has its lesson here")
-    pages = re.findall(r"\{&(\w+), (?:&(\w+)|NULL)\}", (source / "examples/lessons/lessons.c").read_text())
+    pages = re.findall(r"\bX\((\w+), (?:&(\w+)|NULL)\)", (source / "examples/lessons/lessons.c").read_text())
     check(pages == [(name, before or "") for name, (before, _) in LESSONS.items()], "lessons has the same")
     for name, (before, words) in LESSONS.items():
         length = len((programs / f"{name}.c").read_text().splitlines())
