@@ -205,7 +205,7 @@ class Wrong(Labs):
             (lab, name, 5 + i % 3)
             for lab in LABS
             for i, name in enumerate(mistakes.of_lab(lab))
-            if i % (12 * base.step(15)) == lab % 12
+            if i % (12 * base.step(30)) == lab % 12
         ]
         self.assert_named(in_parallel(judge_single, jobs), 0.95)
 
@@ -214,7 +214,7 @@ class Wrong(Labs):
         jobs = [
             (lab, first, second, 9) for lab in LABS for first, second in pairs_of(lab, 4, chance)
         ]
-        self.assert_named(in_parallel(judge_pair, jobs[:: 4 * base.step(15)]), 0.7)
+        self.assert_named(in_parallel(judge_pair, jobs[:: 4 * base.step(30)]), 0.7)
 
     def test_an_unknown_mistake_gets_no_name(self):
         names = list(mistakes.ART)[:: 2 * base.step(24)]
@@ -366,8 +366,9 @@ class Holes(Labs):
 
 class Faults(Labs):
     def test_a_compile_error_is_reported_with_its_line_and_its_meaning(self):
-        results = in_parallel(check_texts, [job for job, _, _ in faults.FAULTS.values()])
-        for (name, (_, where, meaning)), result in zip(faults.FAULTS.items(), results):
+        tried = list(faults.FAULTS.items())[:: base.step(3)]
+        results = in_parallel(check_texts, [job for _, (job, _, _) in tried])
+        for (name, (_, where, meaning)), result in zip(tried, results):
             said = result["message"] + "\n" + result["details"]
             self.assertEqual(result["verdict"], "error", f"{name}: {said}")
             self.assertEqual(result["points"], 0, name)
@@ -453,7 +454,7 @@ class Faults(Labs):
 
     def test_c_that_does_not_compile_or_end(self):
         head = '#include "lab_code.h"\nvoid lab_matrices(double s, Mat4 *w, Mat4 *n)\n{\n'
-        for name, text, said in (
+        broken = (
             ("semicolon", head + "    *w = mat4_identity()\n}\n", r"matrices\.c:4"),
             ("missing", '#include "lab_code.h"\nstatic int unused;\n', r"function|lab_matrices"),
             ("outside", '#include "/etc/passwd"\n' + head + "}\n", r"No such file"),
@@ -464,7 +465,8 @@ class Faults(Labs):
                 r"file not found|No such file",
             ),
             ("crash", head + "    *(volatile int *)8 = 1;\n}\n", r"."),
-        ):
+        )
+        for name, text, said in broken[:: base.step(2)]:
             self.make(f"{name}/matrices.c", text)
             code, result = run_check(3, self.path(name))
             self.assertEqual(code, 1, name)
