@@ -148,7 +148,7 @@ class Right(Labs):
         self.assert_right(jobs[:: base.step(36)])
 
     def test_the_starters_are_wrong_and_say_so(self):
-        jobs = [(lab, self.folder_of(lab, "starter"), 1) for lab in LABS]
+        jobs = [(lab, self.folder_of(lab, "starter"), 1) for lab in list(LABS)[:: base.step(3)]]
         for (lab, _, _), (code, result) in zip(jobs, in_parallel(run_check, jobs)):
             self.assertEqual((result["verdict"], code), ("wrong", 1), LABS[lab])
             self.assertEqual(result["message"], "unchanged: this is the starter", LABS[lab])
@@ -248,7 +248,7 @@ class Holes(Labs):
         return result
 
     def test_light_that_is_clamped_before_the_colour(self):
-        for lab, limit in ((2, "1.0"), (4, "0.95"), (5, "0.98")):
+        for lab, limit in ((4, "0.95"), (2, "1.0"), (5, "0.98"))[:: base.step(3)]:
             out = mistakes.OUT[lab]
             limited = out.replace("light *", f"min(light, {limit}) *")
             self.wrong(lab, (mistakes.light_file(lab), out, limited))
@@ -261,12 +261,13 @@ class Holes(Labs):
         self.assertEqual(named(result), ["wrong exponent"])
 
     def test_numbers_a_little_off(self):
-        for old, new in (
+        edits = (
             ("{0.5, 0.3, -0.8}", "{0.5, 0.32, -0.8}"),
             ("{0.5, 0.3, -0.8}", "{0.55, 0.3, -0.8}"),
             ("{2, 0.7, 1.2}", "{2, 7 / 10, 1.2}"),
             ("DEGREES_PER_SECOND = 30", "DEGREES_PER_SECOND = 30.1"),
-        ):
+        )
+        for old, new in edits[:: base.step(3)]:
             result = self.wrong(3, ("c", old, new))
             self.assertEqual(len(named(result)), 1, result["message"])
         project = mistakes.PROJECT
