@@ -43,6 +43,7 @@ class Precision(base.Case):
                 self.assertEqual(found[stage]["mediump"]["functions"]["exp2"]["inputs"], 40705)
         self.assertEqual(found["raster"]["edge_twice"] + found["raster"]["edge_missed"], 0)
         self.assertGreaterEqual(found["raster"]["depth_bits"], 16)
+        self.assertTrue(1 <= found["raster"]["depth_step"] <= 3, found["raster"])
         for steps in found["pictures"].values():
             self.assertTrue(0 <= steps["highp"] <= steps["mediump"] + 1e-4 <= 256, steps)
         return found
@@ -58,6 +59,9 @@ class Precision(base.Case):
         if "llvmpipe" not in found["renderer"]:
             return
         self.assertEqual(found["fragment"]["mediump"]["bits"], 24)
+        # What is measured of depth is what every program says of it.
+        self.assertIn(f"# depth: {found['raster']['depth_bits']} bits from ",
+                      self.good("--explain", program="FourLights").decode())
         doctor = self.good("--doctor", program=PROGRAM, environment=caps).decode()
         self.assertIn("fragment shaders compute with 24 bits in highp, 24 in mediump, 24 in lowp",
                       doctor)

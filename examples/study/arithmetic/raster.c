@@ -322,6 +322,31 @@ static int steps_in_front(const Canvas *canvas, GLuint program, const double pla
     return max;
 }
 
+/* Planes that face the eye, in the middle of the range, each as far in front of the last as it
+ * takes to be in front. What these steps are on average tells the bits; a driver that rounds twice
+ * has larger and smaller ones. */
+static void depth_steps(const Canvas *canvas, GLuint program, Random *random, Raster *raster,
+                        float *pixels)
+{
+    enum { STARTS = 8, STEPS = 8, MAX = 64 };
+    const double finest = 0x1p-26; /* of clip coordinates, whose range is 2 */
+    int sum = 0, largest = 0;
+    for (int i = 0; i < STARTS; i++) {
+        double at = random_between(random, -1e-3, 1e-3);
+        for (int k = 0; k <= STEPS; k++) {
+            const int n =
+                steps_in_front(canvas, program, (double[]){at, 0, 0}, finest, MAX, false, pixels);
+            at -= n * finest;
+            if (k == 0) /* begins within a step */
+                continue;
+            sum += n;
+            largest = n > largest ? n : largest;
+        }
+    }
+    raster->depth_bits = (int)lround(-log2(sum * finest / 2 / (STARTS * STEPS)));
+    raster->depth_step = ldexp(largest * finest / 2, raster->depth_bits);
+}
+
 static bool depths(const Canvas *first, GLuint program, Raster *raster, Message *message)
 {
     enum { SIDE = 64, PLANES = 8, MAX_STEPS = 64 };
@@ -335,15 +360,7 @@ static bool depths(const Canvas *first, GLuint program, Raster *raster, Message 
         free(pixels);
         return false;
     }
-    /* A plane that faces the eye, in the middle of the range, where floats are finest. */
-    double resolved = 0;
-    for (int i = 0; i < PLANES; i++) {
-        const double plane[3] = {random_between(&random, -1e-3, 1e-3), 0, 0};
-        const int steps =
-            steps_in_front(&canvas, program, plane, 0x1p-26, MAX_STEPS, false, pixels);
-        resolved = fmax(resolved, steps * 0x1p-27); /* the range is 1, of clip coordinates 2 */
-    }
-    raster->depth_bits = (int)floor(-log2(resolved) + 0.1);
+    depth_steps(&canvas, program, &random, raster, pixels);
     for (int i = 0; i < PLANES; i++) {
         const double plane[3] = {random_between(&random, -0.1, 0.1),
                                  random_between(&random, -0.3, 0.3),

@@ -22,7 +22,8 @@ typedef struct Raster {
     int subpixel_bits;    /* of positions: of a pixel's width 2^-bits is resolved; at most
                              RASTER_SUBPIXELS */
     int claimed_subpixel; /* GL_SUBPIXEL_BITS */
-    int depth_bits;       /* 2^-bits of the depth's range is resolved */
+    int depth_bits;       /* 2^-bits of the depth's range is resolved on average */
+    double depth_step;    /* the largest difference of depths not told apart, in that unit */
     double depth_error;   /* by how much two triangles in one plane differ, in that unit */
 } Raster;
 

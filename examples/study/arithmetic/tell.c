@@ -154,10 +154,10 @@ static bool tell_functions(const Columns *columns, bool markdown, FILE *file)
             snprintf(row + strlen(row), sizeof row - strlen(row), "|%s", text);
         }
         text[0] = '\0';
-        if (info->inputs == 1)
-            snprintf(text, sizeof text, "%.6g", (double)first->at[0]);
+        if (info->inputs == 1) /* nine digits tell every float */
+            snprintf(text, sizeof text, "%.9g", (double)first->at[0]);
         else if (info->inputs == 2)
-            snprintf(text, sizeof text, "%.6g, %.6g", (double)first->at[0], (double)first->at[1]);
+            snprintf(text, sizeof text, "%.9g, %.9g", (double)first->at[0], (double)first->at[1]);
         snprintf(row + strlen(row), sizeof row - strlen(row), "|%s", text);
         table_row(&table, "%s", row);
     }
@@ -178,10 +178,11 @@ static void tell_raster(const Raster *raster, FILE *file)
         fputs(" or finer", file);
     else if (raster->subpixel_bits != raster->claimed_subpixel)
         fprintf(file, " (the driver says 1/%d)", 1 << (raster->claimed_subpixel & 31));
-    fprintf(file,
-            ". Depth has %d bits; two triangles of one plane\nare up to %g units of these apart. "
-            "Bytes are off by up to %.4f steps.\n",
-            raster->depth_bits, raster->depth_error, raster->bytes);
+    fprintf(
+        file,
+        ". Depth has %d bits, in steps of at most %.4g of its units;\ntwo triangles of one plane are up to "
+        "%g units apart. Bytes are off by up to %.4f steps.\n",
+        raster->depth_bits, raster->depth_step, raster->depth_error, raster->bytes);
 }
 
 static bool tell_forecast(const Forecast *forecast, bool markdown, FILE *file)
@@ -307,6 +308,7 @@ static void put_raster(const Raster *raster, FILE *file)
     put_number(file, "bytes", raster->bytes, false);
     put_number(file, "subpixel_bits", raster->subpixel_bits, false);
     put_number(file, "depth_bits", raster->depth_bits, false);
+    put_number(file, "depth_step", raster->depth_step, false);
     put_number(file, "depth_error", raster->depth_error, true);
     fputs("},\n", file);
 }
