@@ -99,6 +99,9 @@ void main() {
 #ifdef LINEAR
     color = srgb_encode(clamp(color, 0.0, 1.0));
 #endif
+#ifdef LIMIT
+    color = min(color, vec3(min(MOST, 1e6))); // what the framebuffer clamps, as an integer
+#endif
     // The sum is clamped once, here, by the framebuffer.
 #ifdef ALPHA
     gl_FragColor = vec4(output_color(color), SIDE(u_FrontAlpha, u_BackAlpha));

@@ -315,6 +315,26 @@ static uint32_t shadowed_by(const Scene *scene, const Object *object)
     return lights;
 }
 
+static double largest_of(Vec3 color)
+{
+    return fmax(fmax(color.x, color.y), color.z);
+}
+
+/* A bound of a scene's colors. */
+static double brightest(const Scene *scene)
+{
+    double sum = 1 + largest_of(scene->global_ambient); /* 1: emission */
+    for (int i = 0; i < scene->light_count; i++) {
+        const Light *light = &scene->lights[i];
+        const double nearest = light->constant != 0 ? light->constant : light_fades(light) ? 0 : 1;
+        const double color =
+            largest_of(light->ambient) + largest_of(light->diffuse) + largest_of(light->specular);
+        if (!light->off && color > 0)
+            sum += color / (light->kind == LIGHT_DIRECTIONAL ? 1 : nearest);
+    }
+    return sum;
+}
+
 static void decide_output(const Scene *scene, Effects *effects, bool at_vertices, FILE *file)
 {
     const bool clamped = scene->clamp_vertex && scene->interpolation != INTERPOLATION_PHONG;
@@ -331,6 +351,10 @@ static void decide_output(const Scene *scene, Effects *effects, bool at_vertices
     effects->linear = scene->linear;
     say(file,
         effects->linear ? "sRGB encoding: requested" : "without sRGB encoding: not requested");
+    /* llvmpipe without AVX makes integers of 255 times a color, and black of what exceeds them. */
+    effects->limit = brightest(scene) > 1e6;
+    if (effects->limit)
+        say(file, "colours limited to 1e6: drivers may draw larger ones as black");
 }
 
 static Effects decide(const Scene *scene, const Object *object, const MeshBox *box,

@@ -58,6 +58,7 @@ typedef struct Effects {
     bool clamp_vertex;
     bool linear;
     bool show_clipped;
+    bool limit; /* colors may be so large that a driver draws them as black */
     bool cull; /* back faces are never visible */
 } Effects;
 

@@ -272,6 +272,7 @@ static bool recipe_open(Recipe *recipe, const Effects *effects, const Scene *sce
         {effects->clamp_vertex, "CLAMP_VERTEX"},
         {effects->linear, "LINEAR"},
         {effects->show_clipped, "SHOW_CLIPPED"},
+        {effects->limit, "LIMIT"},
     };
     *recipe = (Recipe){{NULL}, {NULL}};
     for (size_t i = 0, count = 0; i < sizeof all / sizeof all[0]; i++)

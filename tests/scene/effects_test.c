@@ -93,6 +93,7 @@ static void write_set(const Effects *effects, char text[1024])
     put(text, effects->clamp_vertex, "clamp");
     put(text, effects->linear, "linear");
     put(text, effects->show_clipped, "clipped");
+    put(text, effects->limit, "limit");
     for (int g = 0; g < effects->group_count; g++) {
         const LightGroup *group = &effects->groups[g];
         const LightTerms *terms = &group->terms;
@@ -317,7 +318,7 @@ TEST_WITH(0, attenuation_counts_only_where_it_depends_on_distance, set_up, NULL)
     light->linear = 1;
     assert_set("normals unit_fragment | 0 directional diffuse");
     light->kind = LIGHT_POINT;
-    assert_set("normals unit_fragment | 0 point diffuse attenuation");
+    assert_set("normals unit_fragment limit | 0 point diffuse attenuation");
     assert_said("attenuation: depends on the distance");
     light->linear = 0;
     light->constant = 3;
@@ -454,7 +455,7 @@ TEST_WITH(0, varying_ambient_light_needs_no_normals, set_up, NULL)
     world.lights[0] = (Light){.kind = LIGHT_POINT, .ambient = WHITE, .linear = 1};
     world.object.front.ambient = WHITE;
     transform_by(scaled(1, 2, 3));
-    assert_set("| 0 point ambient attenuation");
+    assert_set("limit | 0 point ambient attenuation");
 }
 
 TEST_WITH(0, a_closed_object_seen_from_outside_is_culled_and_has_no_back, set_up, NULL)
@@ -601,6 +602,35 @@ TEST_WITH(0, attenuation_is_guarded_unless_its_constant_coefficient_bounds_it, s
     assert_guarded(false);
 }
 
+static void assert_limited(bool expected)
+{
+    require(scene_check(&world.scene, FAILURE), FAILURE);
+    assert_int_equal(effects_of(&world.scene, &world.object).limit, expected);
+    assert_int_equal(effects_full(&world.scene, &world.object).limit, expected);
+}
+
+TEST_WITH(0, colours_are_limited_where_they_may_be_large, set_up, NULL)
+{
+    Light *light = &world.lights[0];
+    *light = (Light){.kind = LIGHT_POINT, .position = {0, 1, 0}, .diffuse = WHITE, .constant = 0};
+    assert_limited(false); /* 0 is 1 */
+    light->quadratic = 1;
+    assert_limited(true);
+    assert_said("colours limited to 1e6: drivers may draw larger ones as black");
+    light->off = true;
+    assert_limited(false);
+    light->off = false;
+    light->constant = 1e-3;
+    assert_limited(false);
+    light->specular = (Vec3){0, 2000, 0};
+    assert_limited(true);
+    light->quadratic = 0;
+    assert_limited(true);
+    light->kind = LIGHT_DIRECTIONAL;
+    light->direction = (Vec3){0, 0, -1};
+    assert_limited(false);
+}
+
 TEST_WITH(0, a_group_is_guarded_if_any_of_its_lights_needs_it, set_up, NULL)
 {
     world.lights[0] = (Light){
@@ -609,7 +639,7 @@ TEST_WITH(0, a_group_is_guarded_if_any_of_its_lights_needs_it, set_up, NULL)
     world.scene.light_count = 2;
     assert_guarded(false);
     world.lights[1].constant = 0;
-    assert_set("normals unit_fragment | 0 1 point diffuse attenuation");
+    assert_set("normals unit_fragment limit | 0 1 point diffuse attenuation");
     assert_guarded(true);
     assert_true(effects_full(&world.scene, &world.object).groups[0].guard_attenuation);
 }
