@@ -285,8 +285,56 @@ TEST_WITH(0, pictures_may_be_one_pixel_wide_or_high, NULL, forget_made)
     }
 }
 
+/* A triangle from bottom left to top right, 32 pixels long, over the centers of pixels, whose other
+ * end is `width` pixels wide: its red is 0 at the tip and 1 there, in the drawn picture. The
+ * largest error, from 0 to 1. */
+static double sliver_error(double width)
+{
+    const double side = width * 4 * tan(acos(-1) / 9) / SIZE / sqrt(2); /* half of it */
+    const Vec3 corners[] = {{-1, -1, 0}, {1 + side, 1 - side, 0}, {1 - side, 1 + side, 0}};
+    double largest = 0;
+    assert_true(mesh_open(&made[0], 3, 3, NULL) && mesh_open_colors(&made[0], NULL));
+    for (size_t i = 0; i < 3; i++) {
+        made[0].indices[i] = (uint32_t)i;
+        vec3_to_float(corners[i], made[0].vertices[i].position);
+        vec3_to_float((Vec3){0, 0, 1}, made[0].vertices[i].normal);
+        made[0].colors[i][0] = i > 0;
+    }
+    hard_world(&world, &made[0]);
+    world.scene.background = (Vec3){0, 1, 0};
+    world.scene.global_ambient = (Vec3){1, 1, 1};
+    world.scene.light_count = 0;
+    hard_draw(&hard, &world.scene, HARD_HIGHP, NULL);
+    for (int i = 0; i < SIZE; i++) {
+        const unsigned char *pixel =
+            (const unsigned char *)hard.image.pixels + 4 * ((SIZE - 1 - i) * SIZE + i);
+        const double at = (i + 0.5 - SIZE / 2.0) * 2 / SIZE * 4 * tan(acos(-1) / 9); /* -1 to 1 */
+        if (pixel[1] == 0)
+            largest = fmax(largest, fabs(pixel[0] / 255.0 - (at + 1) / 2));
+    }
+    forget_made(NULL);
+    return largest;
+}
+
+/* The quad's diagonal passes the centers of pixels. Clipping makes slivers along it, of any width,
+ * which drivers draw whose corners are not on a grid; those that divide by the area are wrong
+ * there.
+ */
+static void leave_out_slivers(void)
+{
+    for (int bits = 6; bits < 18 && !hard.skip_diagonal; bits++) {
+        const double off = 255 * sliver_error(ldexp(1, -bits));
+        hard.skip_diagonal = off > 1;
+        if (hard.skip_diagonal)
+            print_message("not supported: colors in triangles 2^-%d of a pixel wide, %.0f steps "
+                          "off, which clipping makes of a quad: its diagonal is left out\n",
+                          bits, off);
+    }
+}
+
 TEST_WITH(0, an_object_may_fill_the_picture, NULL, forget_made)
 {
+    leave_out_slivers();
     for (int i = 0; i < 2; i++) {
         hard_world(&world, i ? &hard.sphere : &hard.quad);
         world.scene.camera.fovy = 8;
@@ -297,6 +345,7 @@ TEST_WITH(0, an_object_may_fill_the_picture, NULL, forget_made)
         world.scene.camera.center = (Vec3){0.1, 0.1, 0};
         check("filled, near", FAR_OFF, SIZE * SIZE * 9 / 10);
     }
+    hard.skip_diagonal = false;
     hard_report(&hard, "an object that fills the picture");
 }
 

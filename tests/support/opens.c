@@ -21,8 +21,9 @@
 enum { WARM_UP = 50, USUAL = 100, SIZE = 64 };
 
 /* Mesa 22.3 leaks some: 130 to 170 bytes for an EGL canvas, up to 300 for an OSMesa one, none for a
- * window; Mesa 25.0 up to 1030 for each of the first hundred OSMesa canvases, 370 to 490 for each of
- * 400. A canvas's colour and depth buffers have 32 KiB. AddressSanitizer does not report its heap.
+ * window; Mesa 25.0 up to 1030 for each of the first hundred OSMesa canvases, 370 to 490 for each
+ * of 400. A canvas's colour and depth buffers have 32 KiB. AddressSanitizer does not report its
+ * heap.
  */
 static const double MAX_BYTES = 2048;
 
