@@ -74,12 +74,24 @@ static Columns split_columns(const Changes *changes, int count, int rows)
     }
 }
 
+/* Whether each column begins with a file. */
+static bool columns_are_files(const Changes *changes, const Columns *columns)
+{
+    bool all = true;
+    for (int i = 1; i < columns->count; i++) {
+        const int first = columns->first[i];
+        all &= first == changes->count || changes->lines[first].kind == CHANGE_TITLE;
+    }
+    return all;
+}
+
 static int column_width(int columns, const PageLayout *layout, int width)
 {
     return (width - (columns + 1) * layout->margin) / columns;
 }
 
-/* As many columns as give the largest letters at which the longest line and all rows fit. */
+/* As many columns as give the largest letters at which the longest line and all rows fit; each with
+ * files of its own if there is room. */
 static Columns choose_columns(const Changes *changes, const PageLayout *layout, int width,
                               int height)
 {
@@ -100,8 +112,15 @@ static Columns choose_columns(const Changes *changes, const PageLayout *layout, 
             chosen = columns;
     }
     const int letters = most(SMALLEST, chosen.letters);
-    const int rows = (int)(room / (letters * LINE_HEIGHT)); /* to spare, for breaks at titles */
-    chosen = split_columns(changes, chosen.count, most(chosen.rows, rows));
+    const int most_rows = (int)(room / (letters * LINE_HEIGHT));
+    /* Rather lines that are cut than lines that are missing. */
+    if (chosen.letters < SMALLEST && chosen.count == 1 && chosen.rows > most_rows)
+        chosen = split_columns(changes, 2, (changes->count + 1) / 2);
+    Columns files = chosen;
+    for (int rows = chosen.rows; rows <= most_rows && !columns_are_files(changes, &files); rows++)
+        files = split_columns(changes, chosen.count, rows);
+    if (columns_are_files(changes, &files))
+        chosen = files;
     chosen.letters = letters;
     return chosen;
 }
