@@ -398,8 +398,9 @@ int options_table(const Usage *usage, Options *options, OptionsPurpose purpose,
         {"compress", "of PNG files: 0 is none, 9 is smallest", PARAMETER_WHOLE, &options->compress,
          0, 9, .standard = "fast", .programs = DRAWS},
         {"explain",
-         "report which effects the scene needs, which it does not, why, and what they cost; draw "
-         "nothing; of several objects what differs, with --verbose all of each",
+         "report the scene's lights and their numbers, the effects that it needs and those that it "
+         "does not, why, and what they cost; draw nothing. Of several objects only what differs; "
+         "with --verbose everything",
          FLAG(explain), .programs = SCENE | ASIDE},
         {"full", "draw with the program that has every effect", FLAG(full), .programs = SCENE},
         {"error",
@@ -424,8 +425,8 @@ int options_table(const Usage *usage, Options *options, OptionsPurpose purpose,
          TEXT(places), .placeholder = "LIGHT,X,Y,Z", .standard = "", .read = read_places,
          .write = write_places, .programs = SCENE},
         {"light-color",
-         "another colour of a light, diffuse and specular, or one after the other; --explain lists "
-         "the lights; more of them after slashes, as in 0,1,0.5,0/1,0,0,1,1,1,1",
+         "another colour of a light, diffuse and specular; or a colour for each; --explain lists the "
+         "lights; more of them after slashes, as in 0,1,0.5,0/1,0,0,1,1,1,1",
          TEXT(tints), .placeholder = "LIGHT,R,G,B[,R,G,B]", .standard = "", .read = read_tints,
          .write = write_tints, .programs = SCENE},
         {"shadows",

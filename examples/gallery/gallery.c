@@ -44,7 +44,7 @@ static const Parameter parameters[] = {
     {"verify",
      "draw the pictures of a manifest in memory, with the same options, and say which differ: by "
      "how many pixels and steps of 255, if the manifest's pictures are still beside it. Exit status "
-     "1 if pixels differ, 0 if only what files say of themselves does",
+     "1 if pixels differ, 0 if only the texts in the files do",
      PARAMETER_TEXT, .value = &verified, .min = 1, .placeholder = "FILE", .standard = ""},
     {.name = NULL},
 };

@@ -57,7 +57,7 @@ static const Parameter parameters[] = {
      .read = options_read_part},
     {"merge", "measure nothing: report what all parts in DIR have measured, as one survey",
      PARAMETER_FLAG, .value = &merge},
-    {"all-rows", "print tables of every setting, not only of the efficient ones as --verbose",
+    {"all-rows", "print tables of every setting, not only of the efficient ones as --verbose does",
      PARAMETER_FLAG, .value = &all_rows},
     {"markdown", "print tables of the findings as Markdown, with processor, driver and compiler",
      PARAMETER_FLAG, .value = &markdown},

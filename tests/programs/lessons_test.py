@@ -119,6 +119,16 @@ class Lessons(base.Case):
                           for y in range(int(TEXT * scale) + 6, page.height)}
                 self.assertEqual(len(column), 1, (size, number, x))
 
+    def test_a_second_column_has_the_lines_that_the_first_has_no_room_for(self):
+        """The title of the next file, at its top: of the first lesson, which is cut in one column,
+        and where the letters leave rows to spare."""
+        for size, lesson, top in (("640x480", "1", 253), ("800x600", "4", 316)):
+            page = self.page("--lesson", lesson, "-s", size)
+            row, half = 3 * page.width, 3 * (page.width // 2)
+            title = b"".join(page.pixels[row * y + half:row * (y + 1)] for y in range(top, top + 10))
+            blue = sum(title[i + 2] > title[i] + 60 for i in range(0, len(title), 3))
+            self.assertGreater(blue, 20, size)
+
     def test_an_animation_has_both_move(self):
         self.good("--lesson", "7", "-s", "320x240", "-t", "0", "-n", "2", "--fps", "1", "-o", "l%d.png",
                   program="lessons")
