@@ -723,7 +723,8 @@ static bool form_applies(const Lab *lab, const Change *form)
             (slot == SLOT_VIEW && !lab->specular) ||
             (slot == SLOT_PLACE && (lab->given || lab->light == LIGHT_DIRECTIONAL)) ||
             (slot == SLOT_LIGHT_SPACE && lab->given) ||
-            (slot == SLOT_CONE && lab->light != LIGHT_SPOT))
+            (slot == SLOT_CONE && lab->light != LIGHT_SPOT) ||
+            (slot == SLOT_AMBIENT && choice == AMBIENT_NOT_CONE && lab->light != LIGHT_SPOT))
             return false;
     }
     return true;
