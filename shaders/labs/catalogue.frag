@@ -33,7 +33,7 @@ int side(vec3 normal) {
     if (u_Facing == 9)
         return front ? 1 : 0;
     if (u_Facing >= 10)
-        return dot(normal, u_Facing == 10 ? -v_Place : u_View) > 0.0 ? 0 : 1;
+        return dot(normal, u_Facing == 10 ? -v_Place : u_View) < 0.0 ? 1 : 0;
     if (u_Facing >= 6)
         return (dot(normal, u_View - v_Place) > 0.0) == (u_Facing == 6) ? 0 : 1;
     if (u_Facing == 0 && u_Mirrored < 0.0)

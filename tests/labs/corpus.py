@@ -3,9 +3,9 @@
 
 corpus/labNN.txt has those of a lab: a line "=== NAME/FILE" before each file; a file that is not
 plain text is in base64, "=== NAME/FILE base64". The file `label` begins "right", "wrong: MISTAKE",
-"two: MISTAKES" or "cheat: HOW". Those whose names begin with n are new: they were written by others,
+"two: MISTAKES", "compile: WHY NOT" or "cheat: HOW". Those whose names begin with n are new: they were written by others,
 and only measured. The old ones served to improve `check`. corpus/rulings.txt has, for each new
-submission whose verdict or given names are not those of its label, why.
+submission whose verdict or given names are not those of its label, what was decided, and why.
 
 usage: corpus.py CHECK --half old|new [--lab N] [--every N] [--json FILE]   judges, and lists
        corpus.py CHECK --half new --table [--from FILE]   the table of examples/labs/TEACHING.md
@@ -104,12 +104,12 @@ def judge_all(check, todo):
 
 
 def rulings():
-    """Names of submissions that `check` names wrongly."""
+    """Submissions that `check` names wrongly."""
     path = os.path.join(HERE, "rulings.txt")
     if not os.path.exists(path):
-        return {}
+        return set()
     with open(path) as file:
-        return dict(line.rstrip("\n").split(": ", 1) for line in file if ": " in line)
+        return {line.split(" ")[0] for line in file if " wrongly named: " in line}
 
 
 def outcome(row, wrongly):
@@ -143,7 +143,7 @@ def table(rows):
     kinds = collections.defaultdict(collections.Counter)
     for row in rows:
         kind = row["label"].split(":")[0]
-        if "not compile" in row["label"] or "not link" in row["label"] or "no valid C" in row["label"]:
+        if kind == "compile" or "not compile" in row["label"] or "not link" in row["label"] or "no valid C" in row["label"]:
             kind = "broken"
         kinds[kind][outcome(row, wrongly)] += 1
     print("| submissions | outcome | count, share, 95% interval |")

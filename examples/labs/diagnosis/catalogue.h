@@ -134,6 +134,7 @@ enum {
     AXIS_NOT_TO_EYE = 2, /* of the cone: left in world space, while all else is in eye space */
     AXIS_TO_EYE,
     AXIS_W_1, /* transformed to eye space like a point, where all else is too */
+    AXIS_W_1_UNIT,
 
     LIGHT_FROM_CENTER = 1,
     LIGHT_FROM_ORIGIN,

@@ -662,8 +662,10 @@ static void set_cone(const WrongProgram *program, const Made *made)
         axis = mat4_transform_direction(mat4_transpose(made->eye_from_world), axis);
     if (sign == SIGN_REVERSED)
         axis = vec3_scale(axis, -1);
-    if (sign == AXIS_W_1)
+    if (sign == AXIS_W_1 || sign == AXIS_W_1_UNIT)
         axis = vec3_subtract(axis, made->probe->scene.camera.eye);
+    if (sign == AXIS_W_1_UNIT)
+        vec3_normalize(axis, &axis);
     shader_set_vec3(program->locations[U_u_SpotAxis], axis);
     set_float(program, U_u_SpotCosine, cosines[of]);
     set_float(program, U_u_SpotExponent, exponents[fall_off]);
