@@ -327,6 +327,8 @@ static bool explain_view(Stage *stage, const Options *options, int number, Expla
         done = reality_explain(&view.scene, stdout, message);
         printf("\n");
         print_depth(stage->canvas, &view.scene.camera);
+        lighting_use_shadows(stage->lighting, &options->shadows);
+        done = done && lighting_explain_shadows(stage->lighting, &view.scene, stdout, message);
     }
     stage_view_close(&view);
     return done;

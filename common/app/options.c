@@ -273,6 +273,52 @@ static bool write_tints(const Parameter *parameter, char *text, size_t size)
     return tints->tinted && length < size;
 }
 
+/* A way, and the size of maps. */
+static bool read_shadows(const Parameter *parameter, const char *text, Message *message)
+{
+    ShadowSettings *settings = parameter->value;
+    Parameter way = *parameter;
+    way.read = NULL;
+    if (strncmp(text, "map:", 4) != 0)
+        return parameter_read(&way, text, message);
+    settings->way = SHADOWS_MAP;
+    return parse_whole(text + 4, SHADOW_MAP_LEAST, SHADOW_MAP_MOST, &settings->map_size) ||
+           message_set(message, "--shadows %s: a map has %d to %d texels each way, as in map:512",
+                       text, SHADOW_MAP_LEAST, SHADOW_MAP_MOST);
+}
+
+static bool write_shadows(const Parameter *parameter, char *text, size_t size)
+{
+    const ShadowSettings *settings = parameter->value;
+    if (settings->way == SHADOWS_MAP && settings->map_size != SHADOWS_DEFAULT.map_size)
+        return snprintf(text, size, "map:%d", settings->map_size) < (int)size;
+    return snprintf(text, size, "%s", SHADOW_NAMES[settings->way]) < (int)size;
+}
+
+static bool read_bias(const Parameter *parameter, const char *text, Message *message)
+{
+    enum { MOST = 1000 };
+    static const double min[] = {0, 0, 0}, max[] = {MOST, MOST, MOST};
+    double values[3];
+    if (parse_numbers(text, min, max, values) != 3)
+        return message_set(message,
+                           "--shadow-bias %s: must be CONSTANT,SLOPE,NORMAL in texels of a map, "
+                           "each 0 to %d",
+                           text, MOST);
+    *(Vec3 *)parameter->value = (Vec3){values[0], values[1], values[2]};
+    return true;
+}
+
+static bool write_bias(const Parameter *parameter, char *text, size_t size)
+{
+    const Vec3 *bias = parameter->value;
+    char x[32], y[32], z[32];
+    parse_number_text(bias->x, x);
+    parse_number_text(bias->y, y);
+    parse_number_text(bias->z, z);
+    return snprintf(text, size, "%s,%s,%s", x, y, z) < (int)size;
+}
+
 /* A diagram is painted by cairo. */
 static bool read_refused_diagram(const Parameter *parameter, const char *text, Message *message)
 {
@@ -431,8 +477,18 @@ int options_table(const Usage *usage, Options *options, OptionsPurpose purpose,
          .write = write_tints, .programs = SCENE},
         {"shadows",
          "whether surfaces keep the light from others, and how that is found: volumes are exact, to "
-         "the pixel",
-         PARAMETER_CHOICE, &options->shadows, .choices = SHADOW_NAMES, .programs = SCENE},
+         "the pixel; so is planar, on what is flat, else volumes; map, or map:N, is a shadow map of "
+         "NxN (1024); on: planar or volumes",
+         PARAMETER_CHOICE, &options->shadows, .choices = SHADOW_NAMES, .read = read_shadows,
+         .write = write_shadows, .programs = SCENE},
+        {"shadow-bias",
+         "against acne in shadow maps, in texels: how far a place is moved towards the light; that "
+         "times the slope; and along the normal",
+         TEXT(shadows.bias), .placeholder = "CONSTANT,SLOPE,NORMAL", .read = read_bias,
+         .write = write_bias, .programs = SCENE},
+        {"shadow-filter", "compare a shadow map's nearest texel, or the four around, weighted",
+         PARAMETER_CHOICE, &options->shadows.smooth, .choices = SHADOW_FILTER_NAMES,
+         .programs = SCENE},
         {"lighting", "off: each surface in its own diffuse colour", PARAMETER_SWITCH,
          &options->terms.unlit, .choices = LIGHTING, .programs = SCENE},
         {"show-clipped", "paint over-exposed pixels magenta", FLAG(show_clipped),
@@ -483,7 +539,7 @@ bool options_in_window(const Options *options)
 
 bool options_have_shadows(const Options *options)
 {
-    return options->shadows != SHADOWS_OFF;
+    return options->shadows.way != SHADOWS_OFF;
 }
 
 Usage options_usage(const Example *example)
@@ -516,7 +572,8 @@ Options options_default(const Usage *usage)
     options_size(usage, &options.width, &options.height);
     options.seconds = usage->seconds;
     options.canvas.samples = usage->gallery ? 4 : 0;
-    options.shadows = usage->shadows ? SHADOWS_VOLUMES : SHADOWS_OFF;
+    options.shadows = SHADOWS_DEFAULT;
+    options.shadows.way = usage->shadows ? SHADOWS_ON : SHADOWS_OFF;
     snprintf(options.default_output, sizeof options.default_output, "%s%s", usage->name,
              usage->gallery || usage->study ? "" : ".png");
     return options;

@@ -59,7 +59,7 @@ typedef struct Options {
     bool linear;
     bool show_clipped;
     SceneTerms terms;
-    int shadows; /* a ShadowWay */
+    ShadowSettings shadows;
     LightPlaces places;
     LightTints tints;
     bool cheap; /* --error: draw as cheaply as an error of `error` steps of 1/255 allows */

@@ -533,6 +533,8 @@ static bool draw_frame(Stage *stage, const Options *options, double seconds, boo
 {
     const Canvas *canvas = stage->canvas;
     int place[4];
+    if (stage->example->scene)
+        lighting_use_shadows(stage->lighting, &options->shadows);
     if (stage->example->scene && !choose_all(stage, options, seconds, message))
         return false;
     /* The exact picture has a background, and alpha says what the objects cover. */

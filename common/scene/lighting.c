@@ -3,7 +3,7 @@
 #include "base/clock.h"
 #include "core/mesh_buffer.h"
 #include "core/mesh_make.h"
-#include "shadows/shadow_mask.h"
+#include "shadows/shadow_map.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -44,7 +44,9 @@ struct Lighting {
     Variant *variants;
     Buffered *buffers;
     Caster *casters;
+    ShadowSettings shadows;
     ShadowMask mask; /* opened when a scene first needs it */
+    ShadowMaps maps; /* likewise */
     LightingCounts counts;
     LightingTransforms transforms;
     LightingNormalMatrix *normal_matrix; /* NULL: mat4_normal */
@@ -62,6 +64,13 @@ static const LightingTransforms USUAL = {scene_eye_from_object, scene_eye_point,
 void lighting_use_transforms(Lighting *lighting, const LightingTransforms *transforms)
 {
     lighting->transforms = transforms ? *transforms : USUAL;
+}
+
+void lighting_use_shadows(Lighting *lighting, const ShadowSettings *settings)
+{
+    lighting->shadows = *settings;
+    if (settings->way == SHADOWS_OFF)
+        lighting->shadows.way = SHADOWS_DEFAULT.way;
 }
 
 void lighting_use_normal_matrix(Lighting *lighting, LightingNormalMatrix *normal_matrix)
@@ -410,6 +419,7 @@ static void forget_casters(Lighting *lighting, const Mesh *mesh)
 void lighting_forget(Lighting *lighting, const Mesh *mesh)
 {
     forget_casters(lighting, mesh);
+    shadow_maps_forget(&lighting->maps);
     for (Buffered **link = &lighting->buffers; *link;) {
         Buffered *buffered = *link;
         if (mesh && buffered->mesh != mesh) {
@@ -828,28 +838,167 @@ static Vec4 plane_of_object(Vec4 plane, Mat4 world_from_object)
     return mat4_transform(mat4_transpose(world_from_object), plane);
 }
 
-static bool cast_shadow(Lighting *lighting, const ShadowFrame *frame, const Light *light,
-                        int light_number, int number, Message *message)
+/* What is the same for volumes and flattened shadows, which end at a plane. */
+static bool make_throw(Lighting *lighting, const ShadowFrame *frame, const Light *light, int number,
+                       Vec4 end, ShadowThrow *thrown, Message *message)
 {
     const Object *object = &frame->scene->objects[number];
     Mat4 object_from_world;
     if (!mat4_inverse(object->world_from_object, &object_from_world))
         return message_set(message, "object %d is flattened, and throws no shadow by volumes",
                            number);
-    ShadowThrow thrown = {.surface = surface_of(lighting, frame, number),
-                          .two_sided = object->two_sided,
-                          .behind = eye_in_shadow(frame, number, light),
-                          .own = frame->full || frame->plan->receives[number] >> light_number & 1};
     const Caster *caster = find_caster(lighting, object->mesh, message);
-    const Vec4 end = find_end(frame, number, light_number, light);
     if (!caster)
         return false;
-    thrown.caster = &caster->shadow;
-    thrown.light_object = mat4_transform(object_from_world, light_place(light));
-    thrown.end = plane_of_object(end, object->world_from_object);
+    *thrown = (ShadowThrow){.surface = surface_of(lighting, frame, number),
+                            .caster = &caster->shadow,
+                            .light_object = mat4_transform(object_from_world, light_place(light)),
+                            .end = plane_of_object(end, object->world_from_object)};
+    return true;
+}
+
+static bool cast_shadow(Lighting *lighting, const ShadowFrame *frame, const Light *light,
+                        int light_number, int number, Message *message)
+{
+    const Vec4 end = find_end(frame, number, light_number, light);
+    ShadowThrow thrown;
+    if (!make_throw(lighting, frame, light, number, end, &thrown, message))
+        return false;
+    thrown.two_sided = frame->scene->objects[number].two_sided;
+    thrown.behind = eye_in_shadow(frame, number, light);
+    thrown.own = frame->full || frame->plan->receives[number] >> light_number & 1;
     thrown.beyond = eye_beyond(frame, end);
     thrown.facing = facing_of(frame, number, thrown.caster->silhouette.closed, thrown.light_object);
     return shadow_mask_cast(&lighting->mask, &thrown, message);
+}
+
+/* The plane of a flat object, with the light on its positive side; false: it is not flat. */
+static bool flat_plane(const ShadowFrame *frame, int number, const Light *light, Vec4 *plane)
+{
+    const MeshBox *box = &frame->plan->boxes[number];
+    const PlacedBox *placed = &frame->plan->placed[number];
+    const double thick[3] = {box->high.x - box->low.x, box->high.y - box->low.y,
+                             box->high.z - box->low.z};
+    const Vec4 place = light_place(light);
+    for (int k = 0; k < 3; k++) {
+        Vec3 way;
+        if (thick[k] != 0 ||
+            !vec3_normalize(vec3_cross(placed->half[(k + 1) % 3], placed->half[(k + 2) % 3]), &way))
+            continue;
+        const double offset = vec3_dot(way, placed->center);
+        const bool before = way.x * place.x + way.y * place.y + way.z * place.z > offset * place.w;
+        way = vec3_scale(way, before ? 1 : -1);
+        *plane = (Vec4){way.x, way.y, way.z, before ? -offset : offset};
+        return true;
+    }
+    return false;
+}
+
+/* The first object that receives a light's shadows and is not flat, or is one too many; -1: none.
+ */
+static int not_flat(const ShadowFrame *frame, int number, const Light *light)
+{
+    int count = 0;
+    Vec4 plane;
+    for (int r = 0; r < frame->plan->count; r++) {
+        if (!(frame->plan->receives[r] >> number & 1))
+            continue;
+        if (count++ >= SHADOW_FLATS || !flat_plane(frame, r, light, &plane))
+            return r;
+    }
+    return -1;
+}
+
+static bool flatten_shadows(Lighting *lighting, const ShadowFrame *frame, const Light *light,
+                            int number, Message *message)
+{
+    ShadowThrow thrown;
+    Vec4 plane;
+    for (int r = frame->plan->count - 1, flats = 0; r >= 0; r--) {
+        if (!(frame->plan->receives[r] >> number & 1) || !flat_plane(frame, r, light, &plane))
+            continue;
+        const ShadowSurface surface = surface_of(lighting, frame, r);
+        shadow_mask_flat(&lighting->mask, &surface, flats);
+        for (int o = 0; o < frame->plan->count; o++)
+            if (frame->plan->throws[o] >> number & 1 && o != r &&
+                (!make_throw(lighting, frame, light, o, plane, &thrown, message) ||
+                 !shadow_mask_flatten(&lighting->mask, &thrown, flats, message)))
+                return false;
+        flats++;
+    }
+    return true;
+}
+
+/* Maps. */
+
+static int fit_maps(const Lighting *lighting, const ShadowFrame *frame, int number,
+                    ShadowFrustum frusta[SHADOW_FACES])
+{
+    static const double RADIANS = 0.017453292519943295;
+    const Light light = scene_world_light(frame->scene, number);
+    const bool spot = light.kind == LIGHT_SPOT;
+    const ShadowFitting fitting = {.light = light_place(&light),
+                                   .axis = spot ? light.direction : (Vec3){0, 0, 0},
+                                   .reach = spot ? tan(light.cutoff * RADIANS) : 0,
+                                   .boxes = frame->plan->placed,
+                                   .throws = frame->plan->throws,
+                                   .receives = frame->plan->receives,
+                                   .count = frame->plan->count,
+                                   .number = number};
+    return shadow_frusta(&fitting, lighting->shadows.map_size, frusta);
+}
+
+static bool draw_map(Lighting *lighting, const ShadowFrame *frame, int number, Message *message)
+{
+    ShadowFrustum frusta[SHADOW_FACES];
+    const Scene *scene = frame->scene;
+    ShadowMapCaster *casters = calloc((size_t)scene->object_count + 1, sizeof *casters);
+    int count = 0;
+    if (!casters)
+        return message_set(message, "shadows: not enough memory");
+    for (int o = 0; o < scene->object_count; o++)
+        if (frame->plan->throws[o] >> number & 1)
+            casters[count++] = (ShadowMapCaster){
+                &find_buffer(lighting, scene->objects[o].mesh, INTERPOLATION_PHONG, NULL)->buffer,
+                scene->objects[o].world_from_object};
+    const int faces = fit_maps(lighting, frame, number, frusta);
+    const bool done = shadow_map_draw(&lighting->maps, number, lighting->shadows.map_size, frusta,
+                                      faces, casters, count, message);
+    free(casters);
+    return done;
+}
+
+static bool open_maps(Lighting *lighting, Message *message)
+{
+    return lighting->maps.framebuffer ||
+           shadow_maps_open(&lighting->maps, &lighting->loader, message);
+}
+
+static bool draw_maps(Lighting *lighting, const ShadowFrame *frame, Message *message)
+{
+    if (!open_maps(lighting, message))
+        return false;
+    for (int l = 0; l < frame->scene->light_count; l++)
+        if (frame->plan->all >> l & 1 && !draw_map(lighting, frame, l, message))
+            return false;
+    return true;
+}
+
+static bool look_up_map(Lighting *lighting, const ShadowFrame *frame, int number, Message *message)
+{
+    const ShadowSettings *settings = &lighting->shadows;
+    const ShadowLookup lookup = {settings->smooth != 0, settings->bias.x, settings->bias.y,
+                                 settings->bias.z};
+    for (int r = frame->plan->count - 1; r >= 0; r--) {
+        if (!(frame->plan->receives[r] >> number & 1))
+            continue;
+        const ShadowSurface surface = surface_of(lighting, frame, r);
+        if (!shadow_map_look(&lighting->maps, &lighting->mask, number,
+                             effects_channel(frame->scene, number), &surface,
+                             frame->scene->objects[r].world_from_object, &lookup, message))
+            return false;
+    }
+    return true;
 }
 
 static bool draw_light_mask(Lighting *lighting, const ShadowFrame *frame, int number,
@@ -857,12 +1006,18 @@ static bool draw_light_mask(Lighting *lighting, const ShadowFrame *frame, int nu
 {
     Light light = scene_world_light(frame->scene, number);
     vec3_normalize(light.direction, &light.direction);
-    for (int o = 0; o < frame->scene->object_count; o++)
-        if (frame->plan->throws[o] >> number & 1 &&
-            !cast_shadow(lighting, frame, &light, number, o, message))
-            return false;
-    shadow_mask_light(&lighting->mask, effects_channel(frame->scene, number));
-    return true;
+    bool done = true;
+    if (lighting->shadows.way == SHADOWS_MAP)
+        return look_up_map(lighting, frame, number, message);
+    if (lighting->shadows.way != SHADOWS_VOLUMES && not_flat(frame, number, &light) < 0)
+        done = flatten_shadows(lighting, frame, &light, number, message);
+    else
+        for (int o = 0; o < frame->scene->object_count && done; o++)
+            done = !(frame->plan->throws[o] >> number & 1) ||
+                   cast_shadow(lighting, frame, &light, number, o, message);
+    if (done)
+        shadow_mask_light(&lighting->mask, effects_channel(frame->scene, number));
+    return done;
 }
 
 /* The number of textures that the programs of this scene look up. */
@@ -878,7 +1033,8 @@ static int mask_count(const Scene *scene, const ShadowPlan *plan, bool full)
 static bool draw_masks(Lighting *lighting, const ShadowFrame *frame, int count, Message *message)
 {
     ShadowMask *mask = &lighting->mask;
-    if ((!mask->framebuffer && !shadow_mask_open(mask, &lighting->loader, message)) ||
+    if ((lighting->shadows.way == SHADOWS_MAP && !draw_maps(lighting, frame, message)) ||
+        (!mask->framebuffer && !shadow_mask_open(mask, &lighting->loader, message)) ||
         !shadow_mask_begin(mask, count, frame->scene->camera.near, message))
         return false;
     for (int o = 0; o < frame->scene->object_count; o++) {
@@ -890,6 +1046,62 @@ static bool draw_masks(Lighting *lighting, const ShadowFrame *frame, int count, 
         if (frame->plan->all >> l & 1)
             done = draw_light_mask(lighting, frame, l, message);
     return shadow_mask_end(mask, message) && done;
+}
+
+static void explain_maps(const Lighting *lighting, const ShadowFrame *frame, int number, FILE *file)
+{
+    ShadowFrustum frusta[SHADOW_FACES];
+    const int count = fit_maps(lighting, frame, number, frusta);
+    const int size = lighting->shadows.map_size, bits = lighting->maps.bits;
+    for (int i = 0; i < count; i++) {
+        const double near = frusta[i].near, far = frusta[i].far;
+        fprintf(
+            file,
+            "light %d: map %d of %d, %dx%d: a texel is %.2g wide at the back; depths of %d bits%s"
+            " from %.4g to %.4g, in steps of %.1g in front and %.1g at the back\n",
+            number, i, count, size, size,
+            frusta[i].width / size * (frusta[i].perspective ? far : 1), bits,
+            lighting->maps.packed ? " in colours" : "", near, far,
+            shadow_depth_step(&frusta[i], bits, near), shadow_depth_step(&frusta[i], bits, far));
+    }
+}
+
+static void explain_light(const Lighting *lighting, const ShadowFrame *frame, int number,
+                          FILE *file)
+{
+    Light light = scene_world_light(frame->scene, number);
+    const int curved = not_flat(frame, number, &light);
+    if (!(frame->plan->all >> number & 1))
+        fprintf(file, "light %d: none, because nothing can come between\n", number);
+    else if (lighting->shadows.way == SHADOWS_MAP)
+        explain_maps(lighting, frame, number, file);
+    else if (lighting->shadows.way == SHADOWS_VOLUMES)
+        fprintf(file, "light %d: volumes\n", number);
+    else if (curved < 0)
+        fprintf(file, "light %d: planar, because all that they may fall on is flat\n", number);
+    else
+        fprintf(file, "light %d: volumes, because object %d, on which they may fall, is not flat\n",
+                number, curved);
+}
+
+bool lighting_explain_shadows(Lighting *lighting, const Scene *scene, FILE *file, Message *message)
+{
+    ShadowPlan plan;
+    bool any = false;
+    for (int l = 0; l < scene->light_count; l++)
+        any |= scene->lights[l].shadows && !scene->lights[l].off;
+    if (!any)
+        return true;
+    if ((lighting->shadows.way == SHADOWS_MAP && !open_maps(lighting, message)) ||
+        !plan_open(&plan, lighting, scene, message))
+        return false;
+    const ShadowFrame frame = {.scene = scene, .plan = &plan};
+    fprintf(file, "# shadows\n");
+    for (int l = 0; l < scene->light_count; l++)
+        if (scene->lights[l].shadows && !scene->lights[l].off)
+            explain_light(lighting, &frame, l, file);
+    plan_close(&plan);
+    return true;
 }
 
 /* Where the masks are looked up: at places in the framebuffer, or in mediump in its viewport, from
@@ -1050,6 +1262,7 @@ bool lighting_open(Lighting **opened, const ShaderLoader *loader, Message *messa
         return message_set(message, "lighting: not enough memory");
     lighting->loader = *loader;
     lighting->transforms = USUAL;
+    lighting->shadows = SHADOWS_DEFAULT;
     return true;
 }
 
@@ -1086,6 +1299,8 @@ LightingCounts lighting_counts(const Lighting *lighting)
     LightingCounts counts = lighting->counts;
     counts.volumes = lighting->mask.volumes;
     counts.volume_triangles = lighting->mask.triangles;
+    counts.maps = lighting->maps.drawn;
+    counts.flattened = lighting->mask.flattened;
     return counts;
 }
 
@@ -1102,5 +1317,6 @@ void lighting_close(Lighting *lighting)
     }
     lighting_forget(lighting, NULL);
     shadow_mask_close(&lighting->mask);
+    shadow_maps_close(&lighting->maps);
     free(lighting);
 }

@@ -16,10 +16,18 @@ typedef struct LightingCounts {
     int programs; /* compiled so far */
     double compile_seconds;
     long long volumes, volume_triangles; /* of shadows, drawn so far */
+    long long maps, flattened;           /* the faces of a cube are several maps */
 } LightingCounts;
 
 /* `loader` is copied; its strings must outlive the Lighting. */
 bool lighting_open(Lighting **lighting, const ShaderLoader *loader, Message *message);
+
+/* From now on, how shadows are drawn, instead of SHADOWS_DEFAULT. SHADOWS_OFF: as that. */
+void lighting_use_shadows(Lighting *lighting, const ShadowSettings *settings);
+
+/* Writes a line for each light with shadows: how they are drawn, or that nothing can come between;
+ * of maps how fine they and their depths are. */
+bool lighting_explain_shadows(Lighting *lighting, const Scene *scene, FILE *file, Message *message);
 
 /* How transforms are composed; replaceable for the study of their accuracy and cost. */
 typedef struct LightingTransforms {

@@ -46,10 +46,24 @@ extern const char *const INTERPOLATION_NAMES[]; /* "phong", "gouraud", "flat", "
 
 /* How the shadows of lights that have them are drawn. */
 typedef enum ShadowWay {
-    SHADOWS_OFF, /* no light has any */
-    SHADOWS_VOLUMES,
+    SHADOWS_OFF,     /* no light has any */
+    SHADOWS_ON,      /* of those that are exact, the cheapest for each light: planar or volumes */
+    SHADOWS_VOLUMES, /* exact, to the pixel */
+    SHADOWS_MAP,
+    SHADOWS_PLANAR, /* exact, where all that receives a light's shadows is flat; else volumes */
 } ShadowWay;
-extern const char *const SHADOW_NAMES[]; /* "off", "volumes" */
+extern const char *const SHADOW_NAMES[]; /* "off", "on", "volumes", "map", "planar" */
+
+typedef struct ShadowSettings {
+    int way;      /* a ShadowWay */
+    int map_size; /* in texels, each way */
+    int smooth;   /* a map's four nearest texels are compared; 0: the nearest */
+    Vec3 bias;    /* of maps, in texels: towards the light, that times the slope, along the normal:
+                     see shadows/shadow_map.h */
+} ShadowSettings;
+extern const ShadowSettings SHADOWS_DEFAULT;    /* exact */
+extern const char *const SHADOW_FILTER_NAMES[]; /* "nearest", "2x2" */
+enum { SHADOW_MAP_LEAST = 16, SHADOW_MAP_MOST = 8192 };
 
 typedef struct Object {
     const Mesh *mesh;

@@ -60,7 +60,7 @@ void shadow_caster_close(ShadowCaster *caster)
 bool shadow_mask_open(ShadowMask *mask, const ShaderLoader *loader, Message *message)
 {
     static const float square[4][4] = {{-1, -1, 0, 1}, {1, -1, 0, 1}, {-1, 1, 0, 1}, {1, 1, 0, 1}};
-    *mask = (ShadowMask){.width = 0};
+    *mask = (ShadowMask){.loader = *loader};
     if (gl_version() < 30 && !gl_has("GL_OES_packed_depth_stencil"))
         return message_set(message,
                            "shadows: %s has no depth with stencil (GL_OES_packed_depth_stencil), "
@@ -100,6 +100,7 @@ void shadow_mask_close(ShadowMask *mask)
         glDeleteBuffers(1, &mask->square);
     }
     shader_close(&mask->shader);
+    shader_close(&mask->flatten);
     shadow_volume_close(&mask->volume);
     *mask = (ShadowMask){.width = 0};
 }
@@ -152,6 +153,12 @@ static void write_color(bool red, bool green, bool blue, bool alpha)
                 alpha ? GL_TRUE : GL_FALSE);
 }
 
+static void use(ShadowMask *mask, const Shader *shader)
+{
+    mask->program = shader->program;
+    glUseProgram(mask->program);
+}
+
 bool shadow_mask_begin(ShadowMask *mask, int count, double near, Message *message)
 {
     GLint samples = 0;
@@ -178,7 +185,7 @@ bool shadow_mask_begin(ShadowMask *mask, int count, double near, Message *messag
         glClear(i ? GL_COLOR_BUFFER_BIT
                   : GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
     }
-    glUseProgram(mask->shader.program);
+    use(mask, &mask->shader);
     write_color(false, false, false, false);
     glEnable(GL_DEPTH_TEST);
     return true;
@@ -186,7 +193,7 @@ bool shadow_mask_begin(ShadowMask *mask, int count, double near, Message *messag
 
 static void set_vector(const ShadowMask *mask, const char *name, int size, const float *values)
 {
-    const GLint location = glGetUniformLocation(mask->shader.program, name);
+    const GLint location = glGetUniformLocation(mask->program, name);
     if (size == 1)
         glUniform1fv(location, 1, values);
     else if (size == 3)
@@ -198,14 +205,13 @@ static void set_vector(const ShadowMask *mask, const char *name, int size, const
 static void set_transform(const ShadowMask *mask, Mat4 clip_from_object, double near)
 {
     const float rounded = (float)near;
-    shader_set_mat4(glGetUniformLocation(mask->shader.program, "u_ClipFromObject"),
-                    clip_from_object);
+    shader_set_mat4(glGetUniformLocation(mask->program, "u_ClipFromObject"), clip_from_object);
     set_vector(mask, "u_Near", 1, &rounded);
 }
 
 static GLuint position_of(const ShadowMask *mask)
 {
-    return (GLuint)glGetAttribLocation(mask->shader.program, "a_Position");
+    return (GLuint)glGetAttribLocation(mask->program, "a_Position");
 }
 
 /* The winding and the offset that the surface is drawn with. */
@@ -218,16 +224,46 @@ static void set_state(const ShadowSurface *surface, bool clockwise)
     }
 }
 
-void shadow_mask_surface(ShadowMask *mask, const ShadowSurface *surface)
+void shadow_mask_draw(ShadowMask *mask, const ShadowSurface *surface, GLint normal)
 {
     set_transform(mask, surface->clip_from_object, mask->near);
     set_state(surface, surface->clockwise);
     if (surface->cull)
         glEnable(GL_CULL_FACE);
-    mesh_buffer_bind(surface->buffer, (GLint)position_of(mask), -1);
+    mesh_buffer_bind(surface->buffer, (GLint)position_of(mask), normal);
     glDrawElements(GL_TRIANGLES, surface->buffer->index_count, surface->buffer->index_type, NULL);
     glDisable(GL_CULL_FACE);
     glDisable(GL_POLYGON_OFFSET_FILL);
+}
+
+void shadow_mask_surface(ShadowMask *mask, const ShadowSurface *surface)
+{
+    shadow_mask_draw(mask, surface, -1);
+}
+
+/* Only the nearest surface of a pixel. Of two in the same place the first is drawn, so the caller
+ * goes through them backwards. */
+static void at_equal_depth(bool on)
+{
+    glDepthMask(on ? GL_FALSE : GL_TRUE);
+    glDepthFunc(on ? GL_EQUAL : GL_LESS);
+}
+
+static void write_channel(const ShadowMask *mask, int channel)
+{
+    const int bit = channel % SHADOW_CHANNELS;
+    attach(mask, channel / SHADOW_CHANNELS);
+    write_color(bit == 0, bit == 1, bit == 2, bit == 3);
+}
+
+void shadow_mask_write(ShadowMask *mask, int channel, const Shader *shader)
+{
+    use(mask, shader ? shader : &mask->shader);
+    at_equal_depth(shader);
+    if (shader)
+        write_channel(mask, channel);
+    else
+        write_color(false, false, false, false);
 }
 
 /* A list of indices in the stream's buffer, in the type that so many vertices need. */
@@ -418,12 +454,57 @@ bool shadow_mask_cast(ShadowMask *mask, const ShadowThrow *thrown, Message *mess
     return true;
 }
 
+/* Flattened shadows. Each flat surface has a count of its own where it is seen, less than NONE;
+ * inverted, which is more than NONE, it is in shadow, and no longer found. */
+
+void shadow_mask_flat(ShadowMask *mask, const ShadowSurface *surface, int number)
+{
+    at_equal_depth(true);
+    glEnable(GL_STENCIL_TEST);
+    glStencilFunc(GL_ALWAYS, 1 + number, 0xff);
+    glStencilOpSeparate(GL_FRONT_AND_BACK, GL_KEEP, GL_KEEP, GL_REPLACE);
+    shadow_mask_draw(mask, surface, -1);
+    glDisable(GL_STENCIL_TEST);
+    at_equal_depth(false);
+}
+
+static bool open_flatten(ShadowMask *mask, Message *message)
+{
+    static const char *const defines[] = {"FLATTEN", NULL};
+    ShaderLoader loader = mask->loader;
+    loader.defines = defines;
+    loader.precision = NULL; /* 16 bits do not tell the sides of a plane apart */
+    return mask->flatten.program || shader_open(&mask->flatten, &loader, "shadow", message);
+}
+
+bool shadow_mask_flatten(ShadowMask *mask, const ShadowThrow *thrown, int number, Message *message)
+{
+    enum { STRIDE = 8 * sizeof(float), MOVED = 4 * sizeof(float) };
+    const MeshBuffer *buffer = thrown->surface.buffer;
+    if (!open_flatten(mask, message))
+        return false;
+    use(mask, &mask->flatten);
+    set_light(mask, thrown, thrown->caster->silhouette.center);
+    glDisable(GL_DEPTH_TEST);
+    glEnable(GL_STENCIL_TEST);
+    glStencilFunc(GL_EQUAL, 1 + number, 0xff);
+    glStencilOpSeparate(GL_FRONT_AND_BACK, GL_KEEP, GL_KEEP, GL_INVERT);
+    mesh_buffer_bind(buffer, (GLint)position_of(mask), -1);
+    glBindBuffer(GL_ARRAY_BUFFER, thrown->caster->vertices);
+    glVertexAttribPointer(position_of(mask), 4, GL_FLOAT, GL_FALSE, STRIDE,
+                          (const void *)(uintptr_t)MOVED);
+    glDrawElements(GL_TRIANGLES, buffer->index_count, buffer->index_type, NULL);
+    glDisable(GL_STENCIL_TEST);
+    glEnable(GL_DEPTH_TEST);
+    use(mask, &mask->shader);
+    mask->flattened++;
+    return true;
+}
+
 void shadow_mask_light(ShadowMask *mask, int channel)
 {
-    const int number = channel / SHADOW_CHANNELS, bit = channel % SHADOW_CHANNELS;
     const GLuint position = position_of(mask);
-    attach(mask, number);
-    write_color(bit == 0, bit == 1, bit == 2, bit == 3);
+    write_channel(mask, channel);
     glDisable(GL_DEPTH_TEST);
     glEnable(GL_STENCIL_TEST);
     glStencilFunc(GL_LESS, NONE, 0xff);

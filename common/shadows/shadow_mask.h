@@ -11,6 +11,9 @@
  * there is a triangle other than the surface's own, or if the light is on the other side of the
  * surface's own than its normal. Where a cap is the surface itself, both have bitwise the same
  * depth.
+ *
+ * Where everything that receives a light's shadows is flat, they may be drawn flattened onto it
+ * (Blinn, Me and my (fake) shadow, IEEE CG&A 8(1), 1988); and shadow_map.h compares depths.
  */
 #ifndef SHADOW_MASK_H
 #define SHADOW_MASK_H
@@ -31,14 +34,17 @@ bool shadow_caster_open(ShadowCaster *caster, const Mesh *mesh, Message *message
 void shadow_caster_close(ShadowCaster *caster); /* NULL or zeroed is fine */
 
 typedef struct ShadowMask {
-    Shader shader;
+    Shader shader, flatten; /* the latter opened when it is needed */
+    ShaderLoader loader;
     GLuint framebuffer, depth, textures[SHADOW_MASKS], stream, square;
     int width, height;
     ShadowVolume volume;
     /* While it is drawn: */
     GLint target, place[4]; /* what is drawn to afterwards, and its viewport */
     double near;
+    GLuint program;
     long long volumes, triangles; /* drawn so far, for tests and --explain's reader */
+    long long flattened;          /* shadows drawn onto planes so far */
 } ShadowMask;
 
 /* False if the shaders do not compile or the driver has no packed depth and stencil. */
@@ -76,6 +82,17 @@ typedef struct ShadowThrow {
 } ShadowThrow;
 bool shadow_mask_cast(ShadowMask *mask, const ShadowThrow *thrown, Message *message);
 void shadow_mask_light(ShadowMask *mask, int channel);
+
+/* Instead of casting: draws a surface that is flat, with a number of its own from 0 on, then what
+ * throws shadows on it, flattened: onto the plane `end`, on whose positive side the light is. */
+enum { SHADOW_FLATS = 126 };
+void shadow_mask_flat(ShadowMask *mask, const ShadowSurface *surface, int number);
+bool shadow_mask_flatten(ShadowMask *mask, const ShadowThrow *thrown, int number, Message *message);
+
+/* Or: what another program draws over the surfaces, at exactly their depths, goes to a channel; -1:
+ * no longer. */
+void shadow_mask_write(ShadowMask *mask, int channel, const Shader *shader);
+void shadow_mask_draw(ShadowMask *mask, const ShadowSurface *surface, GLint normal);
 bool shadow_mask_end(ShadowMask *mask, Message *message);
 
 /* Binds the textures of the last mask to the units from 0 on; NULL: unbinds so many. */

@@ -115,7 +115,7 @@ static void draw_case(Stage *stage, int way, Case *made)
     const Example *example = stage->example;
     Options options = WAYS[way].options;
     options.shaders.precision = "highp";
-    options.shadows = example->scene->shadows ? SHADOWS_VOLUMES : SHADOWS_OFF;
+    options.shadows.way = example->scene->shadows ? SHADOWS_VOLUMES : SHADOWS_OFF;
     snprintf(made->name, sizeof made->name, "%s %s", example->name, WAYS[way].name);
     require(stage_error_picture(stage, &options, SECONDS, &made->picture, FAILURE), FAILURE);
     made->expected = expect(example, &options, &made->picture.image);
@@ -129,7 +129,7 @@ FIXTURE(draw_all)
             Canvas canvas;
             Stage stage;
             options.shaders.precision = "highp";
-            options.shadows = EXAMPLES[i]->scene->shadows ? SHADOWS_VOLUMES : SHADOWS_OFF;
+            options.shadows.way = EXAMPLES[i]->scene->shadows ? SHADOWS_VOLUMES : SHADOWS_OFF;
             if (!is_drawn(way, i))
                 continue;
             require(stage_open_canvas(&canvas, &options, WAYS[way].output, FAILURE), FAILURE);

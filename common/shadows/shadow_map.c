@@ -1,0 +1,277 @@
+#include "shadows/shadow_map.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { FLOAT_BITS = 24 }; /* with which the shader compares, whatever the texture has */
+
+static void set_float4(GLuint program, const char *name, double x, double y, double z, double w)
+{
+    const float values[4] = {(float)x, (float)y, (float)z, (float)w};
+    glUniform4fv(glGetUniformLocation(program, name), 1, values);
+}
+
+static void set_matrix(GLuint program, const char *name, Mat4 value)
+{
+    shader_set_mat4(glGetUniformLocation(program, name), value);
+}
+
+/* Programs. Depths need more bits than mediump has, whatever --precision says. */
+
+static bool open_program(Shader *shader, const ShadowMaps *maps, const char *purpose, bool smooth,
+                         Message *message)
+{
+    const char *defines[4] = {purpose};
+    int count = 1;
+    if (maps->packed)
+        defines[count++] = "PACKED";
+    if (smooth)
+        defines[count++] = "SMOOTH";
+    ShaderLoader loader = maps->loader;
+    loader.precision = NULL;
+    loader.defines = defines;
+    return shader_open(shader, &loader, "shadow", message);
+}
+
+/* Images */
+
+static GLuint make_texture(int size, bool packed)
+{
+    GLuint texture;
+    glGenTextures(1, &texture);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    const GLenum format = packed ? GL_RGBA : GL_DEPTH_COMPONENT;
+    glTexImage2D(GL_TEXTURE_2D, 0, (GLint)format, size, size, 0, format,
+                 packed ? GL_UNSIGNED_BYTE : GL_UNSIGNED_INT, NULL);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glBindTexture(GL_TEXTURE_2D, 0);
+    return texture;
+}
+
+static void attach(const ShadowMaps *maps, GLuint texture)
+{
+    glFramebufferTexture2D(GL_FRAMEBUFFER,
+                           maps->packed ? GL_COLOR_ATTACHMENT0 : GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D,
+                           texture, 0);
+}
+
+/* Whether the driver draws to a depth texture alone, and of how many bits. */
+static bool has_depth_texture(ShadowMaps *maps)
+{
+    enum { PROBE = 16 };
+    if (gl_version() < 30 && !gl_has("GL_OES_depth_texture"))
+        return false;
+    GLint target, bits = 0;
+    glGetIntegerv(GL_FRAMEBUFFER_BINDING, &target);
+    GLuint texture = make_texture(PROBE, false);
+    glBindFramebuffer(GL_FRAMEBUFFER, maps->framebuffer);
+    attach(maps, texture);
+    const bool done = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE &&
+                      glGetError() == GL_NO_ERROR;
+    if (done)
+        glGetIntegerv(GL_DEPTH_BITS, &bits);
+    attach(maps, 0);
+    glBindFramebuffer(GL_FRAMEBUFFER, (GLuint)target);
+    glDeleteTextures(1, &texture);
+    while (glGetError() != GL_NO_ERROR)
+        ;
+    maps->bits = bits < FLOAT_BITS ? bits : FLOAT_BITS;
+    return done && bits >= 16;
+}
+
+bool shadow_maps_open(ShadowMaps *maps, const ShaderLoader *loader, Message *message)
+{
+    *maps = (ShadowMaps){.loader = *loader};
+    glGenFramebuffers(1, &maps->framebuffer);
+    maps->packed = !has_depth_texture(maps);
+    if (maps->packed)
+        maps->bits = FLOAT_BITS; /* 255^3 values, nearly */
+    if (open_program(&maps->draw, maps, "DRAW_MAP", false, message))
+        return true;
+    shadow_maps_close(maps);
+    return false;
+}
+
+static void drop_map(ShadowMap *map)
+{
+    for (int i = 0; i < SHADOW_FACES; i++)
+        if (map->textures[i])
+            glDeleteTextures(1, &map->textures[i]);
+    free(map->drawn);
+    *map = (ShadowMap){.size = 0};
+}
+
+void shadow_maps_forget(ShadowMaps *maps)
+{
+    for (int i = 0; i < SHADOW_MAPS; i++)
+        maps->lights[i].drawn_size = 0;
+}
+
+void shadow_maps_close(ShadowMaps *maps)
+{
+    if (!maps)
+        return;
+    for (int i = 0; i < SHADOW_MAPS; i++)
+        drop_map(&maps->lights[i]);
+    if (maps->framebuffer)
+        glDeleteFramebuffers(1, &maps->framebuffer);
+    if (maps->depth)
+        glDeleteRenderbuffers(1, &maps->depth);
+    shader_close(&maps->draw);
+    shader_close(&maps->look[0]);
+    shader_close(&maps->look[1]);
+    *maps = (ShadowMaps){.bits = 0};
+}
+
+/* Drawing a map */
+
+/* Bytes that differ if the map does. */
+static void *key_of(const ShadowFrustum *frusta, int count, const ShadowMapCaster *casters,
+                    int caster_count, size_t *size)
+{
+    const size_t matrices = 2 * (size_t)count, each = sizeof(Mat4);
+    *size = matrices * each + (size_t)caster_count * (each + sizeof(GLuint));
+    char *key = malloc(*size), *to = key;
+    for (size_t i = 0; key && i < matrices; i++, to += each)
+        memcpy(to, i % 2 ? &frusta[i / 2].map_from_light : &frusta[i / 2].light_from_world, each);
+    for (int i = 0; key && i < caster_count; i++, to += each + sizeof(GLuint)) {
+        memcpy(to, &casters[i].world_from_object, each);
+        memcpy(to + each, &casters[i].buffer->vertices, sizeof(GLuint));
+    }
+    return key;
+}
+
+static bool draw_face(ShadowMaps *maps, ShadowMap *map, int face, const ShadowMapCaster *casters,
+                      int count)
+{
+    const GLuint program = maps->draw.program;
+    const ShadowFrustum *frustum = &map->frusta[face];
+    const GLint position = glGetAttribLocation(program, "a_Position");
+    if (!map->textures[face])
+        map->textures[face] = make_texture(map->size, maps->packed);
+    attach(maps, map->textures[face]);
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+        return false;
+    glClearColor(1, 1, 1, 1);
+    glClear(maps->packed ? GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT : GL_DEPTH_BUFFER_BIT);
+    for (int i = 0; i < count; i++) {
+        set_matrix(
+            program, "u_ClipFromObject",
+            mat4_product(frustum->map_from_light,
+                         mat4_product(frustum->light_from_world, casters[i].world_from_object)));
+        mesh_buffer_bind(casters[i].buffer, position, -1);
+        glDrawElements(GL_TRIANGLES, casters[i].buffer->index_count, casters[i].buffer->index_type,
+                       NULL);
+    }
+    maps->drawn++;
+    return true;
+}
+
+static void make_depth(ShadowMaps *maps, int size)
+{
+    if (!maps->packed || maps->depth_size == size)
+        return;
+    if (!maps->depth)
+        glGenRenderbuffers(1, &maps->depth);
+    glBindRenderbuffer(GL_RENDERBUFFER, maps->depth);
+    glRenderbufferStorage(GL_RENDERBUFFER,
+                          gl_version() >= 30 || gl_has("GL_OES_depth24") ? GL_DEPTH_COMPONENT24_OES
+                                                                         : GL_DEPTH_COMPONENT16,
+                          size, size);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, maps->depth);
+    maps->depth_size = size;
+}
+
+static bool draw_faces(ShadowMaps *maps, ShadowMap *map, const ShadowMapCaster *casters, int count)
+{
+    GLint target, place[4];
+    bool done = true;
+    const bool cut = glIsEnabled(GL_SCISSOR_TEST);
+    glGetIntegerv(GL_FRAMEBUFFER_BINDING, &target);
+    glGetIntegerv(GL_VIEWPORT, place);
+    glBindFramebuffer(GL_FRAMEBUFFER, maps->framebuffer);
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_CULL_FACE);
+    glEnable(GL_DEPTH_TEST);
+    glViewport(0, 0, map->size, map->size);
+    glUseProgram(maps->draw.program);
+    make_depth(maps, map->size);
+    for (int face = 0; face < map->count && done; face++)
+        done = draw_face(maps, map, face, casters, count);
+    attach(maps, 0);
+    if (cut)
+        glEnable(GL_SCISSOR_TEST);
+    glViewport(place[0], place[1], place[2], place[3]);
+    glBindFramebuffer(GL_FRAMEBUFFER, (GLuint)target);
+    return done && glGetError() == GL_NO_ERROR;
+}
+
+bool shadow_map_draw(ShadowMaps *maps, int light, int size, const ShadowFrustum *frusta, int count,
+                     const ShadowMapCaster *casters, int caster_count, Message *message)
+{
+    ShadowMap *map = &maps->lights[light];
+    GLint most = 0;
+    size_t key_size;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    if (size > most)
+        return message_set(message, "shadows: a map of %dx%d: this driver has textures up to %dx%d",
+                           size, size, (int)most, (int)most);
+    void *key = key_of(frusta, count, casters, caster_count, &key_size);
+    if (!key)
+        return message_set(message, "shadows: not enough memory");
+    if (map->size == size && map->drawn_size == key_size &&
+        memcmp(map->drawn, key, key_size) == 0) {
+        free(key);
+        return true;
+    }
+    if (map->size != size)
+        drop_map(map);
+    free(map->drawn);
+    map->size = size;
+    map->count = count;
+    memcpy(map->frusta, frusta, (size_t)count * sizeof *frusta);
+    map->drawn = key;
+    map->drawn_size = key_size;
+    if (draw_faces(maps, map, casters, caster_count))
+        return true;
+    drop_map(map);
+    return message_set(message,
+                       "shadows: the driver cannot draw to a map of %dx%d; use a smaller one", size,
+                       size);
+}
+
+/* Looking it up */
+
+bool shadow_map_look(ShadowMaps *maps, ShadowMask *mask, int light, int channel,
+                     const ShadowSurface *surface, Mat4 world_from_object,
+                     const ShadowLookup *lookup, Message *message)
+{
+    Shader *shader = &maps->look[lookup->smooth];
+    const ShadowMap *map = &maps->lights[light];
+    if (!shader->program && !open_program(shader, maps, "LOOK_UP", lookup->smooth, message))
+        return false;
+    const GLuint program = shader->program;
+    const GLint normal = glGetAttribLocation(program, "a_Normal");
+    shadow_mask_write(mask, channel, shader);
+    set_float4(program, "u_Bias", lookup->constant, lookup->slope, lookup->normal, 0);
+    glUniform1i(glGetUniformLocation(program, "u_Map"), 0);
+    for (int face = 0; face < map->count; face++) {
+        const ShadowFrustum *frustum = &map->frusta[face];
+        const Mat4 light_from_object = mat4_product(frustum->light_from_world, world_from_object);
+        set_matrix(program, "u_LightFromObject", light_from_object);
+        set_matrix(program, "u_LightNormal", mat4_normal(light_from_object));
+        set_matrix(program, "u_MapFromLight", frustum->map_from_light);
+        set_float4(program, "u_MapSize", map->size, 1.0 / map->size, frustum->width / map->size,
+                   frustum->perspective);
+        glBindTexture(GL_TEXTURE_2D, map->textures[face]);
+        shadow_mask_draw(mask, surface, normal);
+    }
+    glBindTexture(GL_TEXTURE_2D, 0);
+    if (normal >= 0)
+        glDisableVertexAttribArray((GLuint)normal);
+    shadow_mask_write(mask, -1, NULL);
+    return true;
+}
