@@ -452,8 +452,9 @@ int options_table(const Usage *usage, Options *options, OptionsPurpose purpose,
         {"error",
          "draw as cheaply as an error of E steps of 1/255 allows; options that are given stay. The "
          "error is against the exact picture of the shapes (solids) or of the mesh as given "
-         "(models), the largest over the pixels inside an object: wholly inside one surface, and "
-         "covered by what is drawn; edges do not count",
+         "(models), the largest over the pixels inside an object: wholly inside one surface, "
+         "covered by what is drawn, and reached by the same lights; edges, also those of shadows, "
+         "do not count",
          PARAMETER_NUMBER, &options->error, 0, 255, .placeholder = "E", .standard = "",
          .given = &options->cheap, .programs = SCENE},
         {"clamp", "where colours are clamped: at each vertex, as in OpenGL 1.1, or at the end",

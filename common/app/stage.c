@@ -299,11 +299,6 @@ static unsigned kept_axes(const Stage *stage, const Options *options)
                 kept |= 1U << all[k].axis;
     if (options->terms.left_out || options->terms.lights_left_out)
         kept |= 1U << AXIS_LIGHTS;
-    /* Another mesh, and another place of the light, have another shadow, whose edge is off by the
-     * whole light: what else is off by would not count. */
-    if (options_have_shadows(options))
-        kept |= 1U << AXIS_DIVISIONS | 1U << AXIS_LIGHTS | 1U << AXIS_INTERPOLATION |
-                1U << AXIS_NORMALS | 1U << AXIS_VIEWER;
     return kept;
 }
 
@@ -352,13 +347,14 @@ static void tell(Stage *stage, const Options *options, Moments *moments, const C
     if (!options->verbose || choice->count == 0 || !scene_at(moments, 0, &scene, NULL))
         return;
     cheapest_text(choice, &scene, text, sizeof text);
+    /* Compiling says lines of its own. */
+    const double ratio = measure(stage, options, &scene, choice, (double)place[2] / place[3]);
     fprintf(stderr,
             "view %d: %s; error %.2f of %g allowed inside objects, edges apart (plain: %.2f)",
             moments->view, text, choice->error, options->error, choice->plain_error);
     if (moments->count > 1)
         fprintf(stderr, ", at %d moments, and %.2f in reserve", moments->count, choice->margin);
-    fprintf(stderr, "; %.2f of the plain time%s\n",
-            measure(stage, options, &scene, choice, (double)place[2] / place[3]),
+    fprintf(stderr, "; %.2f of the plain time%s\n", ratio,
             choice->cached ? "; from the cache" : "");
 }
 
@@ -569,7 +565,8 @@ static bool add_views(Stage *stage, const Options *options, ErrorPicture *pictur
             continue;
         done = stage_view_open(&view, stage, options, picture->seconds, number, message) &&
                (view.asked.object_count == 0 ||
-                error_picture_add(picture, place, &view.asked, message));
+                error_picture_add(picture, place, &view.asked, view.made.parts ? &view.scene : NULL,
+                                  message));
         stage_view_close(&view);
     }
     return done;

@@ -3,6 +3,7 @@
 #include "base/cache.h"
 #include "reference/picture_error.h"
 #include "reference/reference.h"
+#include "reference/reference_trace.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -25,11 +26,17 @@ static const double WORTH = 0.9, FRAME = 50e3;
  * most: expectations and times differ. */
 static const double WORTH_ERROR = 0.7;
 
+/* So many of the pixels inside objects may have the edge of a shadow pass over them, in addition to
+ * those of the plain picture. */
+static const double MOVED = 0.01;
+
 /* The exact picture at one moment: as much as the error needs. */
 typedef struct Exact {
     uint16_t *colors; /* 65535 is 1 */
     int16_t *owner;   /* the object whose inside the pixel is; -1: none */
     int16_t *seen;    /* the object at its center; -1: none */
+    uint32_t *lights; /* see Reference; NULL: no light casts shadows */
+    size_t inside;    /* pixels with an owner */
 } Exact;
 
 typedef struct Search {
@@ -42,8 +49,11 @@ typedef struct Search {
     double *fragments;      /* by object, of the first moment with the most */
     ObjectQuality *current; /* what is drawn */
     double *errors;         /* its errors by object, over all moments */
-    double *every_second;   /* the largest of all objects at even and odd moments */
-    double difference;      /* of these for the last choice */
+    /* Pixels that are off by more than is allowed because other lights reach them, and that is fine
+     * for so many. */
+    size_t moved, most_moved;
+    double *every_second; /* the largest of all objects at even and odd moments */
+    double difference;    /* of these for the last choice */
     /* By object: the cheapest within the error so far; the most exact so far. */
     ObjectQuality *kept, *best;
     double *kept_cost, *best_error, *best_cost;
@@ -78,20 +88,45 @@ static void exact_close(Exact *exact)
     *exact = (Exact){.colors = NULL};
 }
 
-/* One block of colors, owners and objects. */
-static bool exact_open(Exact *exact, uint16_t *block, size_t pixels, Message *message)
+/* One block of colors, owners, objects and lights. */
+static bool exact_open(Exact *exact, uint16_t *block, size_t pixels, bool casts, Message *message)
 {
     if (!block)
         return message_set(message, "cheapest: not enough memory for the exact picture");
-    *exact = (Exact){.colors = block,
-                     .owner = (int16_t *)(block + 3 * pixels),
-                     .seen = (int16_t *)(block + 4 * pixels)};
+    *exact =
+        (Exact){.colors = block,
+                .owner = (int16_t *)(block + 3 * pixels),
+                .seen = (int16_t *)(block + 4 * pixels),
+                .lights = casts ? (uint32_t *)(void *)(block + 5 * pixels + pixels % 2) : NULL};
     return true;
+}
+
+static bool has_shadows(const Scene *scene)
+{
+    for (int i = 0; i < scene->light_count; i++)
+        if (scene->lights[i].shadows && !scene->lights[i].off)
+            return true;
+    return false;
+}
+
+static void exact_fill(Exact *exact, const Reference *reference, size_t pixels)
+{
+    for (size_t i = 0; i < pixels; i++) {
+        for (size_t k = 0; k < 3; k++)
+            exact->colors[3 * i + k] =
+                (uint16_t)lround(65535 * (double)reference->color[3 * i + k]);
+        exact->seen[i] = (int16_t)reference->object[i];
+        exact->owner[i] = reference->interior[i] ? exact->seen[i] : -1;
+    }
+    if (exact->lights)
+        memcpy(exact->lights, reference->lights, pixels * sizeof *exact->lights);
 }
 
 static bool exact_make(Exact *exact, const Scene *scene, int width, int height, Message *message)
 {
-    const size_t pixels = (size_t)width * (size_t)height, size = 5 * pixels * sizeof(uint16_t);
+    const bool casts = has_shadows(scene);
+    const size_t pixels = (size_t)width * (size_t)height;
+    const size_t size = ((casts ? 7 : 5) * pixels + (casts ? pixels % 2 : 0)) * sizeof(uint16_t);
     const int area[2] = {width, height};
     CacheKey key = {{0, 0}};
     size_t have = 0;
@@ -100,22 +135,17 @@ static bool exact_make(Exact *exact, const Scene *scene, int width, int height, 
     add_scene(&key, scene, false);
     uint16_t *block = cache_read("exact", &key, &have);
     if (block && have == size)
-        return exact_open(exact, block, pixels, message);
+        return exact_open(exact, block, pixels, casts, message);
     free(block);
     Reference reference;
     const ReferenceOptions options = {.width = width, .height = height};
-    if (!exact_open(exact, malloc(size), pixels, message))
+    if (!exact_open(exact, calloc(1, size), pixels, casts, message))
         return false;
     if (!reference_open(&reference, scene, &options, message)) {
         exact_close(exact);
         return false;
     }
-    for (size_t i = 0; i < pixels; i++) {
-        for (size_t k = 0; k < 3; k++)
-            exact->colors[3 * i + k] = (uint16_t)lround(65535 * (double)reference.color[3 * i + k]);
-        exact->seen[i] = (int16_t)reference.object[i];
-        exact->owner[i] = reference.interior[i] ? exact->seen[i] : -1;
-    }
+    exact_fill(exact, &reference, pixels);
     reference_close(&reference);
     cache_write("exact", &key, exact->colors, size);
     return true;
@@ -123,8 +153,34 @@ static bool exact_make(Exact *exact, const Scene *scene, int width, int height, 
 
 /* Drawing and comparing. */
 
+/* What is drawn, by its meshes as they are: which lights reach it is asked only where the error is
+ * large. */
+typedef struct Drawn {
+    Scene scene;
+    int width, height;
+    Trace *trace; /* NULL: nothing was asked */
+} Drawn;
+
+/* See pixel_has_its_lights. Where memory runs out it has: then the error counts. */
+static bool has_its_lights(Drawn *drawn, const Exact *exact, int x, int y)
+{
+    Sample samples[3][3];
+    const size_t pixel = (size_t)y * (size_t)drawn->width + (size_t)x;
+    if (!exact->lights || !exact->lights[pixel] ||
+        (!drawn->trace &&
+         !trace_open(&drawn->trace, &drawn->scene, true, drawn->width, drawn->height, NULL, NULL)))
+        return true;
+    for (int row = 0; row < 3; row++)
+        for (int i = 0; i < 3; i++)
+            trace_sample(drawn->trace, x + i / 2.0, y + row / 2.0, &samples[row][i]);
+    return samples[1][1].object != exact->owner[pixel] ||
+           !reference_lights_differ(exact->lights[pixel],
+                                    trace_pixel_lights(samples[0], samples[1], samples[2]));
+}
+
 /* Adds the errors of one moment's drawn picture to those of its objects. */
-static void compare(Search *search, const Exact *exact, const Scene *scene, double *largest)
+static void compare(Search *search, const Exact *exact, const Scene *scene, Drawn *drawn,
+                    double *largest)
 {
     const int *place = search->task->place;
     const Image *image = &search->image;
@@ -140,6 +196,12 @@ static void compare(Search *search, const Exact *exact, const Scene *scene, doub
             for (size_t k = 0; k < 3; k++)
                 color[k] = (float)exact->colors[3 * i + k] / 65535;
             const double error = pixel_error(image, pixel, color).largest;
+            if (error <= fmin(search->errors[owner], *largest))
+                continue;
+            if (!has_its_lights(drawn, exact, x, y)) {
+                search->moved += error > search->allowed;
+                continue;
+            }
             search->errors[owner] = fmax(search->errors[owner], error);
             *largest = fmax(*largest, error);
         }
@@ -165,6 +227,7 @@ static bool evaluate(Search *search, Message *message)
     const CheapestTask *task = search->task;
     memset(search->errors, 0, (size_t)search->count * sizeof *search->errors);
     search->every_second[0] = search->every_second[1] = 0;
+    search->moved = 0;
     for (int moment = 0; moment < task->moments; moment++) {
         Scene scene;
         QualityParts made;
@@ -173,10 +236,14 @@ static bool evaluate(Search *search, Message *message)
             return false;
         const bool done = draw_parts(task, &scene, search->current, &made, message) &&
                           canvas_read(task->canvas, &search->image, message);
+        Drawn drawn = {made.scene, task->place[2], task->place[3], NULL};
+        drawn.scene.interpolation = INTERPOLATION_PHONG;
+        if (done)
+            compare(search, &search->exacts[moment], &scene, &drawn, &largest);
+        trace_close(drawn.trace);
         quality_parts_close(&made);
         if (!done)
             return false;
-        compare(search, &search->exacts[moment], &scene, &largest);
         search->every_second[moment % 2] = fmax(search->every_second[moment % 2], largest);
     }
     return task->scene(task->data, 0, &search->scene, message);
@@ -358,14 +425,16 @@ static bool try_relaxing(Search *search, Message *message)
     return true;
 }
 
-/* The next finer level, without simplifications; false: there is none. */
+/* The next finer level, `plainly`: without simplifications; false: there is none. */
 static bool refine(const Search *search, const Object *object, const ObjectQuality *plain,
-                   ObjectQuality *quality)
+                   bool plainly, ObjectQuality *quality)
 {
     const ObjectQuality before = *quality;
-    quality->distant_viewer = plain->distant_viewer;
-    quality->skip_renormalization = plain->skip_renormalization;
-    quality->far_lights = quality->matte_lights = quality->dark_lights = 0;
+    if (plainly) {
+        quality->distant_viewer = plain->distant_viewer;
+        quality->skip_renormalization = plain->skip_renormalization;
+        quality->far_lights = quality->matte_lights = quality->dark_lights = 0;
+    }
     for (int i = 0; i < level_count(search, object); i++) {
         if (LEVELS[i] > quality->divisions) {
             /* Of the mesh as given the fineness is not known. */
@@ -386,13 +455,17 @@ static bool join(Search *search, const ObjectQuality *plain, Message *message)
         bool any = false;
         if (!evaluate(search, message))
             return false;
-        if (largest_error(search) <= search->allowed || round == 12)
+        const bool within = largest_error(search) <= search->allowed;
+        const bool moved = search->moved > search->most_moved;
+        if ((within && !moved) || round == 16)
             return true;
         for (int i = 0; i < search->count; i++) {
-            /* At first those that fail, then their neighbors too. */
-            const bool fails = search->errors[i] > search->allowed;
-            if ((fails && search->has_kept[i]) || (round % 3 == 2 && search->has_kept[i]))
-                any |= refine(search, &search->scene.objects[i], plain, &search->current[i]);
+            /* At first those that fail, then their neighbors too. Whose shadow has moved is not
+             * known. */
+            const bool fails = search->errors[i] > search->allowed || round % 3 == 2;
+            if (search->has_kept[i] && (moved || fails))
+                any |= refine(search, &search->scene.objects[i], plain, !within && fails,
+                              &search->current[i]);
         }
         if (!any)
             return true;
@@ -405,6 +478,14 @@ static void forget(Search *search)
         search->has_kept[i] = false;
         search->best_error[i] = search->best_cost[i] = INFINITY;
     }
+}
+
+static size_t most_more(const Search *search)
+{
+    double inside = 0;
+    for (int moment = 0; moment < search->task->moments; moment++)
+        inside += (double)search->exacts[moment].inside;
+    return (size_t)(MOVED * inside);
 }
 
 /* One search, its result in `cheapest`. */
@@ -420,6 +501,7 @@ static bool search_once(Search *search, Cheapest *cheapest, Message *message)
     if (!evaluate(search, message))
         return false;
     cheapest->plain_error = largest_error(search);
+    search->most_moved = search->moved + most_more(search);
     cheapest->plain_cost = cost_of_all(search, search->current);
     for (int i = 0; i < search->count; i++)
         note(search, i);
@@ -534,10 +616,11 @@ static bool search_open(Search *search, const CheapestTask *task, int count, Mes
         if (!task->scene(task->data, moment, &scene, message) ||
             !exact_make(exact, &scene, task->place[2], task->place[3], message))
             return false;
-        if (moment == 0)
-            for (size_t i = 0; i < (size_t)task->place[2] * (size_t)task->place[3]; i++)
-                if (exact->seen[i] >= 0)
-                    search->fragments[exact->seen[i]]++;
+        for (size_t i = 0; i < (size_t)task->place[2] * (size_t)task->place[3]; i++) {
+            exact->inside += exact->owner[i] >= 0;
+            if (moment == 0 && exact->seen[i] >= 0)
+                search->fragments[exact->seen[i]]++;
+        }
     }
     return true;
 }

@@ -3,8 +3,10 @@
  * drawing: each candidate is compared with the exact picture of this very scene.
  *
  * The error is that of picture_error's interior: against the exact shapes (solids) or the mesh as
- * given (others), the largest over the pixels that lie wholly inside one surface and that the drawn
- * objects cover. Edges do not count.
+ * given (others), the largest over the pixels that lie wholly inside one surface, that the drawn
+ * objects cover, and that the same lights reach. Edges, and edges of shadows, do not count; but
+ * coarser meshes may move those of shadows over at most a hundredth of these pixels more than the
+ * plain picture's do.
  *
  * Candidates differ per object in the mesh of a solid and in lighting per fragment or per vertex;
  * then, as far as the error still allows, in the viewer and each light at infinity, lights without

@@ -33,21 +33,32 @@ bool error_picture_open(ErrorPicture *picture, int width, int height, ImageType 
     return false;
 }
 
+static bool has_shadows(const Scene *scene)
+{
+    for (int i = 0; i < scene->light_count; i++)
+        if (scene->lights[i].shadows && !scene->lights[i].off)
+            return true;
+    return false;
+}
+
 bool error_picture_add(ErrorPicture *picture, const int place[4], const Scene *scene,
-                       Message *message)
+                       const Scene *drawn, Message *message)
 {
     ErrorView *view = &picture->views[picture->view_count];
     picture->view_count++;
     memcpy(view->place, place, sizeof view->place);
-    return scene_copy_open(&view->scene, scene, true, message);
+    return scene_copy_open(&view->scene, scene, true, message) &&
+           (!drawn || !has_shadows(scene) || scene_copy_open(&view->drawn, drawn, true, message));
 }
 
 void error_picture_close(ErrorPicture *picture)
 {
     if (!picture)
         return;
-    for (int i = 0; i < picture->view_count; i++)
+    for (int i = 0; i < picture->view_count; i++) {
         scene_copy_close(&picture->views[i].scene);
+        scene_copy_close(&picture->views[i].drawn);
+    }
     free(picture->views);
     image_close(&picture->image);
     *picture = (ErrorPicture){.views = NULL};
@@ -55,20 +66,37 @@ void error_picture_close(ErrorPicture *picture)
 
 /* Computing. */
 
+bool error_view_drawn(const ErrorView *view, const ReferenceOptions *exact, Reference *drawn,
+                      Message *message)
+{
+    Scene scene = view->drawn.objects ? view->drawn.scene : view->scene.scene;
+    ReferenceOptions options = *exact;
+    *drawn = (Reference){.lights = NULL};
+    if (!has_shadows(&scene))
+        return true;
+    scene.interpolation = INTERPOLATION_PHONG;
+    options.meshes = options.centers = true;
+    options.edge_error = 255;
+    return reference_open(drawn, &scene, &options, message);
+}
+
 /* The map, if it is not NULL, gets its pixels. */
 static bool add_view(PictureError *error, Image *map, const Image *image, const ErrorView *view,
                      int threads, const atomic_bool *stop, Message *message)
 {
-    Reference exact;
+    Reference exact, drawn = {.lights = NULL};
     const ReferenceOptions options = {
         .width = view->place[2], .height = view->place[3], .threads = threads, .stop = stop};
-    if (!reference_open(&exact, &view->scene.scene, &options, message))
-        return false;
-    picture_error_add(error, image, view->place[0], view->place[1], &exact, &view->scene.scene);
-    if (map)
+    const bool done = reference_open(&exact, &view->scene.scene, &options, message) &&
+                      error_view_drawn(view, &options, &drawn, message);
+    if (done)
+        picture_error_add(error, image, view->place[0], view->place[1], &exact,
+                          drawn.lights ? &drawn : NULL, &view->scene.scene);
+    if (done && map)
         picture_error_map(map, image, view->place[0], view->place[1], &exact);
     reference_close(&exact);
-    return true;
+    reference_close(&drawn);
+    return done;
 }
 
 /* Against the meshes, whose edges do not count. */
@@ -85,7 +113,8 @@ static bool add_computing(PictureError *error, const Image *image, const ErrorVi
                                       .stop = stop};
     if (!reference_open(&meshes, &view->scene.scene, &options, message))
         return false;
-    picture_error_add(error, image, view->place[0], view->place[1], &meshes, &view->scene.scene);
+    picture_error_add(error, image, view->place[0], view->place[1], &meshes, NULL,
+                      &view->scene.scene);
     reference_close(&meshes);
     return true;
 }

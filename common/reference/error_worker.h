@@ -17,6 +17,8 @@
 typedef struct ErrorView {
     int place[4];    /* x, y, width, height, in pixels from the upper left; 1x1 or more */
     SceneCopy scene; /* whose exact picture counts */
+    SceneCopy drawn; /* with the meshes that were drawn, whose shadows they have; zeroed: as `scene`
+                        has them, or there are no shadows */
 } ErrorView;
 
 /* A picture as drawn, of scenes alone, without overlay or text, over a background of alpha 0. */
@@ -33,10 +35,16 @@ typedef struct ErrorPicture {
 bool error_picture_open(ErrorPicture *picture, int width, int height, ImageType type, int max_views,
                         Message *message);
 
-/* Adds a view with a copy of its scene, which has passed scene_check. */
+/* Adds a view with a copy of its scene, which has passed scene_check. `drawn`: the same with the
+ * meshes that were drawn; NULL: with its own. */
 bool error_picture_add(ErrorPicture *picture, const int place[4], const Scene *scene,
-                       Message *message);
+                       const Scene *drawn, Message *message);
 void error_picture_close(ErrorPicture *picture); /* NULL or a zeroed picture is fine */
+
+/* For picture_error_add: opens the meshes as drawn; zeroed where no light casts shadows. `exact`:
+ * the size and the like. */
+bool error_view_drawn(const ErrorView *view, const ReferenceOptions *exact, Reference *drawn,
+                      Message *message);
 
 /* The last picture that was finished, if there is one. */
 typedef struct ErrorResult {

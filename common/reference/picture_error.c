@@ -56,6 +56,12 @@ bool pixel_is_interior(const Scene *scene, int object, const Image *image, size_
     return covered;
 }
 
+bool pixel_has_its_lights(const Reference *exact, const Reference *drawn, size_t pixel)
+{
+    return !exact->lights || !drawn || drawn->object[pixel] != exact->object[pixel] ||
+           !reference_lights_differ(exact->lights[pixel], drawn->lights[pixel]);
+}
+
 /* In both pictures, wholly. */
 static bool is_background(const Reference *exact, size_t exact_pixel, const Image *image,
                           size_t pixel)
@@ -65,7 +71,7 @@ static bool is_background(const Reference *exact, size_t exact_pixel, const Imag
 }
 
 void picture_error_add(PictureError *error, const Image *image, int left, int top,
-                       const Reference *exact, const Scene *scene)
+                       const Reference *exact, const Reference *drawn, const Scene *scene)
 {
     for (int y = 0; y < exact->height; y++) {
         for (int x = 0; x < exact->width; x++) {
@@ -74,7 +80,8 @@ void picture_error_add(PictureError *error, const Image *image, int left, int to
             const PixelError found = pixel_error(image, pixel, &exact->color[3 * exact_pixel]);
             const int object = exact->interior[exact_pixel] ? exact->object[exact_pixel] : -1;
             error_sum_add(&error->all, found, pixel);
-            const bool inside = pixel_is_interior(scene, object, image, pixel);
+            const bool inside = pixel_is_interior(scene, object, image, pixel) &&
+                                pixel_has_its_lights(exact, drawn, exact_pixel);
             if (inside || !is_background(exact, exact_pixel, image, pixel))
                 error_sum_add(inside ? &error->interior : &error->edges, found, pixel);
         }

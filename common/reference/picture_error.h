@@ -46,14 +46,22 @@ typedef struct PictureError {
  * - The drawn objects cover it wholly, whichever of them it shows: alpha, channel 3 of pixel
  * `pixel` of the drawn image, is that of an object, over a background whose alpha is 0. A coarse
  * mesh does not reach its exact shape's outline: what is missing there is an error of the
- * silhouette, not of shading. */
+ * silhouette, not of shading.
+ * - The same lights reach it, where lights cast shadows: one that reaches it in the exact picture
+ * is kept from no part of it by a shadow of the meshes as they are drawn, nor the other way round.
+ * A mesh's shadow ends elsewhere than its exact shape's, and so does the shadow on a mesh itself:
+ * what is between is an error of an outline, too. This part is pixel_has_its_lights. */
 bool pixel_is_interior(const Scene *scene, int object, const Image *image, size_t pixel);
 
+/* `drawn`: the exact picture of the meshes as drawn (ReferenceOptions.meshes), lit at every point;
+ * NULL: no light casts shadows, or `exact` is that picture. */
+bool pixel_has_its_lights(const Reference *exact, const Reference *drawn, size_t pixel);
+
 /* Adds every pixel of the exact picture, whose upper left pixel is (left, top) in the image and
- * which lies within it. `scene`: of the exact picture. Several views of one image are added one
- * after another. */
+ * which lies within it. `scene`: of the exact picture; `drawn`: see pixel_has_its_lights. Several
+ * views of one image are added one after another. */
 void picture_error_add(PictureError *error, const Image *image, int left, int top,
-                       const Reference *exact, const Scene *scene);
+                       const Reference *exact, const Reference *drawn, const Scene *scene);
 
 /* The same pixels as a map: black where the error is at most half a step, which is rounding, else
  * from blue over green and yellow to white, a color for every factor of 8. `map`: of bytes, of the

@@ -62,6 +62,9 @@ static void draw_band(const Worker *worker, int band)
             const Pixel pixel = pixel_resolve(job->trace, job->edge_error, x, y, top + 2 * x,
                                               middle + 2 * x, bottom + 2 * x);
             put_pixel(job, x, y, &middle[2 * x + 1], &pixel);
+            if (reference->lights)
+                reference->lights[(size_t)y * (size_t)reference->width + (size_t)x] =
+                    trace_pixel_lights(top + 2 * x, middle + 2 * x, bottom + 2 * x);
         }
         Sample *above = top;
         top = bottom;
@@ -126,7 +129,7 @@ static bool check(const ReferenceOptions *options, Message *message)
     return true;
 }
 
-static bool open_pixels(Reference *reference)
+static bool open_pixels(Reference *reference, bool casts)
 {
     const size_t count = (size_t)reference->width * (size_t)reference->height;
     reference->color = calloc(count, 3 * sizeof *reference->color);
@@ -134,8 +137,10 @@ static bool open_pixels(Reference *reference)
     reference->object = calloc(count, sizeof *reference->object);
     reference->coverage = calloc(count, sizeof *reference->coverage);
     reference->interior = calloc(count, sizeof *reference->interior);
-    return reference->color && reference->depth && reference->object && reference->coverage &&
-           reference->interior;
+    if (casts)
+        reference->lights = calloc(count, sizeof *reference->lights);
+    return (!casts || reference->lights) && reference->color && reference->depth &&
+           reference->object && reference->coverage && reference->interior;
 }
 
 bool reference_open(Reference *reference, const Scene *scene, const ReferenceOptions *options,
@@ -152,7 +157,8 @@ bool reference_open(Reference *reference, const Scene *scene, const ReferenceOpt
                .edge_error = options->edge_error > 0 ? options->edge_error : EDGE_ERROR,
                .centers = options->centers,
                .stop = options->stop};
-    const bool done = open_pixels(reference) && draw_bands(&job, thread_count(options));
+    const bool done =
+        open_pixels(reference, trace_casts(trace)) && draw_bands(&job, thread_count(options));
     trace_close(trace);
     const bool stopped = stop_asked(options->stop);
     if (done && !stopped)
@@ -173,5 +179,6 @@ void reference_close(Reference *reference)
     free(reference->object);
     free(reference->coverage);
     free(reference->interior);
+    free(reference->lights);
     *reference = (Reference){0};
 }

@@ -56,7 +56,19 @@ typedef struct Reference {
     float *coverage; /* the fraction of the pixel that this object (or background) covers */
     unsigned char *interior; /* 1 if no edge runs through the pixel: one surface, smoothly lit; 0
                                 for the background */
+    /* Of each light that casts shadows two bits (beyond 16 lights some share theirs): whether in a
+     * part of the pixel a shadow keeps it off, and whether it reaches one; of the object at the
+     * center. NULL: no light casts any. */
+    uint32_t *lights;
 } Reference;
+
+/* Whether a light that reaches a pixel in one picture is kept from a part of it in the other; of
+ * Reference.lights. */
+static inline bool reference_lights_differ(uint32_t a, uint32_t b)
+{
+    const uint32_t hidden = 0x55555555;
+    return ((a & b >> 1) | (b & a >> 1)) & hidden;
+}
 
 /* Draws a scene that has passed scene_check. False, with a zeroed reference, if memory runs out, an
  * option is out of range, or it was stopped. Once stopped it returns within some 10 ms, more if a

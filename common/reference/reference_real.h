@@ -42,6 +42,8 @@ typedef __float128 Real;
 #define trace_same_side quad_trace_same_side
 #define trace_agree quad_trace_agree
 #define trace_close quad_trace_close
+#define trace_casts quad_trace_casts
+#define trace_pixel_lights quad_trace_pixel_lights
 #define shadows_open quad_shadows_open
 #define shadows_close quad_shadows_close
 #define shadow_start_solid quad_shadow_start_solid

@@ -32,6 +32,8 @@ static Real3 shadowed(const struct ShadowPoint *shadows, int number, const Real3
     const bool reaches = in_cone && faces;
     const bool hidden = reaches && arriving > 0 && shadow_falls(shadows, number);
     const Real3 left = hidden ? *ambient : sum;
+    if (reaches && arriving > 0)
+        shade_note_light(sides, number, hidden);
     shade_note_side(sides, 2 * number + 1, reaches && !hidden,
                     hidden    ? arriving
                     : in_cone ? highlight
@@ -48,7 +50,7 @@ Real3 shade_point(const Shading *shading, const Material *material, Real3 positi
     const Real3 v = shading->distant_viewer ? shading->view : real3_unit(real3_scale(position, -1));
     Real3 color =
         real3_add(real3(material->emission), real3_product(shading->global_ambient, ambient));
-    *sides = (ShadeSides){0, 0};
+    *sides = (ShadeSides){.bits = 0};
     for (int i = 0; i < shading->light_count; i++) {
         const ShadeLight *shade = &shading->lights[i];
         const Light *light = shade->light;

@@ -34,9 +34,11 @@ typedef struct Shading {
 
 /* On which side of its jumps a point lies: of each light whether it is within the cone, and whether
  * it faces the light, one bit each (beyond 16 lights some share theirs); `matters` has the bits
- * whose change would change the color by more than SHADE_JUMP. */
+ * whose change would change the color by more than SHADE_JUMP. `lights`: of each light that casts
+ * shadows and of which something would arrive two bits: a shadow keeps it off; it reaches the
+ * point. */
 typedef struct ShadeSides {
-    uint32_t bits, matters;
+    uint32_t bits, matters, lights;
 } ShadeSides;
 
 /* Of linear intensity; encoded as sRGB at most 13 times that: a sixth of a step of 1/255. */
@@ -48,6 +50,12 @@ static inline void shade_note_side(ShadeSides *sides, int number, bool inside, R
     const uint32_t bit = (uint32_t)1 << (number & 31);
     sides->bits ^= inside ? bit : 0;
     sides->matters |= jump > (Real)SHADE_JUMP ? bit : 0;
+}
+
+/* Notes whether a light reaches a point, or a shadow keeps it off. */
+static inline void shade_note_light(ShadeSides *sides, int number, bool hidden)
+{
+    sides->lights |= (hidden ? (uint32_t)1 : (uint32_t)2) << (2 * number & 31);
 }
 
 /* The color of a point whose normal is a unit vector, or zero: then only emission and ambient

@@ -286,7 +286,7 @@ static Real3 corner_color(const Trace *trace, const Nearest *nearest, const Surf
     const Real *weights = nearest->triangle.weights;
     const bool reversed = ready->object->two_sided && !sample->front;
     ShadowPoint point;
-    ShadeSides sides = {0, 0};
+    ShadeSides sides = {.bits = 0};
     Real3 sum[3];
     for (int layer = 0; layer < trace->layers.count; layer++) {
         Real3 c[3];
@@ -304,11 +304,14 @@ static Real3 corner_color(const Trace *trace, const Nearest *nearest, const Surf
         const int number = trace->layers.number[layer];
         const bool hidden = arriving > 0 && shadow_falls(&point, number);
         shade_note_side(&sides, 2 * number + 1, arriving > 0 && !hidden, hidden ? arriving : 0);
+        if (arriving > 0)
+            shade_note_light(&sides, number, hidden);
         for (int k = 0; k < 3 && !hidden; k++)
             sum[k] = real3_add(sum[k], c[k]);
     }
     sample->sides = sides.bits;
     sample->sides_matter = sides.matters;
+    sample->lights = sides.lights;
     for (int k = 0; k < 3 && trace->scene->clamp_vertex; k++)
         sum[k] = (Real3){real_min(sum[k].x, 1), real_min(sum[k].y, 1), real_min(sum[k].z, 1)};
     return interpolate(sum[0], sum[1], sum[2], weights);
@@ -385,7 +388,23 @@ void trace_sample(const Trace *trace, double x, double y, Sample *sample)
                                     trace->casts ? &point : NULL, &sides);
     sample->sides = sides.bits;
     sample->sides_matter = sides.matters;
+    sample->lights = sides.lights;
     put_out(trace, color, sample);
+}
+
+bool trace_casts(const Trace *trace)
+{
+    return trace->casts;
+}
+
+uint32_t trace_pixel_lights(const Sample *top, const Sample *middle, const Sample *bottom)
+{
+    const Sample *const rows[] = {top, middle, bottom};
+    uint32_t lights = 0;
+    for (int row = 0; row < 3; row++)
+        for (int i = 0; i < 3; i++)
+            lights |= rows[row][i].object == middle[1].object ? rows[row][i].lights : 0;
+    return lights;
 }
 
 /* A smooth surface's chord is nearly perpendicular to the mean of the normals at its ends: on a

@@ -29,6 +29,7 @@ typedef struct Sample {
     bool front;
     bool clipped;                 /* painted magenta */
     uint32_t sides, sides_matter; /* see ShadeSides */
+    uint32_t lights;              /* the same: which of those that cast shadows reach it */
     float color[3];               /* as in Reference */
     double linear[3];             /* the same before it is rounded to float, and encoded */
     double depth;                 /* as in Reference; INFINITY for the background */
@@ -37,6 +38,13 @@ typedef struct Sample {
 
 /* x in 0..width from the left, y in 0..height from the top, in pixels. */
 void trace_sample(const Trace *trace, double x, double y, Sample *sample);
+
+/* Whether a light of the scene casts shadows. */
+bool trace_casts(const Trace *trace);
+
+/* Sample.lights of the nine samples of a pixel, three of each row of its grid, together: of those
+ * on the object at its center. */
+uint32_t trace_pixel_lights(const Sample *top, const Sample *middle, const Sample *bottom);
 
 /* Whether two samples agree in whatever is discrete: object, face, front or back, and the sides of
  * the jumps of light. */

@@ -338,6 +338,18 @@ static double operations(const Effects *effects, bool at_vertex)
            (effects->linear && !at_vertex ? 20 : 0);
 }
 
+/* Of the volumes of one object, and of finding out which of its fragments are in one, for all
+ * lights: also for those that are off for this object, because it keeps them from others. */
+static double shadow_cost(const Scene *scene, const Object *object, double fragments)
+{
+    static const double TRIANGLE = 130, FRAGMENT = 20;
+    const double triangles = object->lamp ? 0 : (double)object->mesh->index_count / 3;
+    int lights = 0;
+    for (int i = 0; i < scene->light_count; i++)
+        lights += scene->lights[i].shadows && !scene->lights[i].off;
+    return lights * (TRIANGLE * triangles + FRAGMENT * fragments);
+}
+
 double quality_parts_cost(const QualityParts *made, int number, double fragments)
 {
     static const double TRIANGLE = 50, VERTEX = 20, OF_VERTEX = 0.3, FRAGMENT = 3,
@@ -349,7 +361,8 @@ double quality_parts_cost(const QualityParts *made, int number, double fragments
                            (part->interpolation == INTERPOLATION_FLAT && !object->flat);
     const double vertices =
         (double)(flattened ? object->mesh->index_count : object->mesh->vertex_count);
-    return TRIANGLE * (double)object->mesh->index_count / 3 +
+    return shadow_cost(&made->scene, object, fragments) +
+           TRIANGLE * (double)object->mesh->index_count / 3 +
            vertices * (VERTEX + OF_VERTEX * operations(&effects, true)) +
            fragments * (FRAGMENT + OF_FRAGMENT * operations(&effects, false));
 }

@@ -121,8 +121,8 @@ void quality_parts_close(QualityParts *made);
 
 /* The expected time to draw object `number`, in arbitrary units that differ from nanoseconds on
  * llvmpipe (Mesa 22.3, two cores) by a factor of two: from its triangles and vertices, the
- * fragments that it covers, and the operations that its effects call for. The same on every
- * machine, so that what is chosen by it is, too. */
+ * fragments that it covers, the operations that its effects call for, and the volumes of shadows.
+ * The same on every machine, so that what is chosen by it is, too. */
 double quality_parts_cost(const QualityParts *made, int number, double fragments);
 
 /* The shader loader: precision, and replacements for the files of guards, highlight and output. */

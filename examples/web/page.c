@@ -460,13 +460,18 @@ static bool compute(const ErrorPicture *drawn, PictureError *error, Image *map, 
 {
     for (int i = 0; i < drawn->view_count; i++) {
         const ErrorView *view = &drawn->views[i];
-        Reference exact;
+        Reference exact, meshes;
         const ReferenceOptions options = {
             .width = view->place[2], .height = view->place[3], .threads = 1};
         if (!reference_open(&exact, &view->scene.scene, &options, message))
             return false;
+        if (!error_view_drawn(view, &options, &meshes, message)) {
+            reference_close(&exact);
+            return false;
+        }
         picture_error_add(error, &drawn->image, view->place[0], view->place[1], &exact,
-                          &view->scene.scene);
+                          meshes.lights ? &meshes : NULL, &view->scene.scene);
+        reference_close(&meshes);
         picture_error_map(map, &drawn->image, view->place[0], view->place[1], &exact);
         *hash = add_hash(*hash, exact.color, 3 * (size_t)exact.width * (size_t)exact.height);
         reference_close(&exact);

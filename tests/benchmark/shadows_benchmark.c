@@ -212,7 +212,7 @@ static bool add_survey(Setting *setting, const char *name, const ShadowSettings 
                canvas_read(&canvas, &image, message);
     }
     if (done) {
-        picture_error_add(&error, &image, 0, 0, &exact.picture, &ways[1].scene);
+        picture_error_add(&error, &image, 0, 0, &exact.picture, NULL, &ways[1].scene);
         for (size_t i = 0; i < SIZE * SIZE; i++)
             if (exact.near[i])
                 error_sum_add(&near, pixel_error(&image, i, &exact.picture.color[3 * i]), i);

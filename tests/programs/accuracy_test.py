@@ -337,8 +337,8 @@ class Choices(Study):
                       r"\(plain: [\d.]+\); [\d.]+ of the plain time\n", "--error", error, "-v",
                       "-o", error + ".png", program="ShadingModels", environment=self.own)
         self.assertNotEqual(self.png("1.png").pixels, self.png("30.png").pixels)
-        self.says(0, "; from the cache\n", "--error", "30", "-v", "-o", "again.png",
-                  program="ShadingModels", environment=self.own)
+        self.says(0, "view 0: .*; [\\d.]+ of the plain time; from the cache\n", "--error", "30", "-v",
+                  "-o", "again.png", program="ShadingModels", environment=self.own)
         self.assertEqual(self.png("again.png").pixels, self.png("30.png").pixels)
 
     def test_error_draws_the_best_where_it_cannot_be_kept(self):

@@ -1278,8 +1278,7 @@ class Again(Case):
         for program in SCENES[::step(18)]:
             self.assert_again(program, *SMALL, "--clamp", "vertex", "--linear-light",
                               "--show-clipped", "--full", "--terms", "diffuse,specular,0")
-            # Edges of shadows are off by more, and then a line says so.
-            self.assert_again(program, *SMALL, "--error", "99" if program == "Shadows" else "2")
+            self.assert_again(program, *SMALL, "--error", "2")
             if LONG:
                 self.assert_again(program, *SMALL, "--lighting", "off")
 

@@ -246,9 +246,12 @@ static Vec3 lit(const Scene *scene, const Material *material, Vec3 point, Vec3 n
 }
 
 /* The color of a pixel's center in steps of 1/255; false where nothing is met, and for what has no
- * formula here: a teapot, colors of vertices. */
+ * formula here: a teapot, colors of vertices, shadows. */
 static bool own_color(const Scene *scene, int width, int height, int x, int y, double color[3])
 {
+    for (int i = 0; i < scene->light_count; i++)
+        if (scene->lights[i].shadows)
+            return false;
     const Camera *camera = &scene->camera;
     const Vec3 back = vec3_unit(vec3_subtract(camera->eye, camera->center));
     const Vec3 right = vec3_unit(vec3_cross(camera->up, back)), up = vec3_cross(back, right);
@@ -456,15 +459,18 @@ static void any_terms(Command *command)
     add(command, "--terms=%s", text);
 }
 
-/* The evaluator of this file knows no shadows. With them --error chooses nothing: objects and
- * lights stay as the scene has them. */
-static const Example *any_example(void)
+/* Places and colors of lights, and shadows. Those of light that is clamped at the vertices are
+ * refused. */
+static void any_light(Command *command, bool clamped)
 {
-    const Example *example;
-    do
-        example = EXAMPLES[below(EXAMPLE_COUNT)];
-    while (example->scene->shadows);
-    return example;
+    if (below(6) == 0)
+        add(command, "--light-at=0,%.2f,%.2f,%.2f", between(-4, 4), between(-4, 4), between(-4, 4));
+    if (below(6) == 0)
+        add(command, "--light-color=0,%.2f,%.2f,%.2f", between(0, 1), between(0, 1), between(0, 1));
+    if (clamped)
+        add(command, "--shadows=off");
+    else if (below(4) == 0)
+        add(command, "--shadows=volumes");
 }
 
 /* `error`: 0: any; else this one, and nothing is given that can be chosen. */
@@ -472,7 +478,7 @@ static Command any_command(bool large, double error)
 {
     static const double errors[] = {0.6, 1, 2, 4, 8, 16, 32};
     const double any = errors[below(7)];
-    Command command = {.example = any_example()};
+    Command command = {.example = EXAMPLES[below(EXAMPLE_COUNT)]};
     const double most = large ? 1600 : 400;
     const Parameter *own = example_parameters(command.example);
     add(&command, "--error=%g", error > 0 ? error : any);
@@ -485,8 +491,10 @@ static Command any_command(bool large, double error)
             between(0.4, 2));
     if (below(6) == 0)
         add(&command, "--linear-light");
-    if (below(8) == 0)
+    const bool clamped = below(8) == 0;
+    if (clamped)
         add(&command, "--clamp=vertex");
+    any_light(&command, clamped);
     if (below(10) == 0)
         add(&command, "--full");
     if (below(10) == 0)
@@ -560,8 +568,23 @@ static void read_pixel(const Image *image, size_t pixel, double channels[4])
 typedef struct Judged {
     const ErrorPicture *picture;
     const ErrorView *view;
-    Reference exact;
+    Reference exact, meshes; /* the second as drawn, where there are shadows */
 } Judged;
+
+/* Whether a light that reaches the pixel in one of the pictures is kept from a part of it in the
+ * other. */
+static bool is_lit_otherwise(const Judged *judged, int pixel)
+{
+    if (!judged->exact.lights || judged->exact.object[pixel] != judged->meshes.object[pixel])
+        return false;
+    for (int light = 0; light < 16; light++) {
+        const uint32_t exact = judged->exact.lights[pixel] >> 2 * light & 3;
+        const uint32_t drawn = judged->meshes.lights[pixel] >> 2 * light & 3;
+        if ((exact & 2 && drawn & 1) || (exact & 1 && drawn & 2))
+            return true;
+    }
+    return false;
+}
 
 /* The drawn pixel, its exact color, and how far they are apart; -1 outside of either outline. */
 static double look(const Judged *judged, int x, int y, double drawn[4], double color[3])
@@ -570,7 +593,8 @@ static double look(const Judged *judged, int x, int y, double drawn[4], double c
     const Image *image = &judged->picture->image;
     read_pixel(image, (size_t)(place[1] + y) * (size_t)image->width + (size_t)(place[0] + x),
                drawn);
-    if (!judged->exact.interior[i] || !is_covered(&judged->view->scene.scene, drawn[3]))
+    if (!judged->exact.interior[i] || !is_covered(&judged->view->scene.scene, drawn[3]) ||
+        is_lit_otherwise(judged, i))
         return -1;
     for (int k = 0; k < 3; k++)
         color[k] = 255 * (double)judged->exact.color[3 * i + k];
@@ -601,6 +625,13 @@ static void judge_view(const ErrorPicture *picture, const ErrorView *view, int s
     double largest = -1;
     int worst[2] = {0, 0}, inside = 0;
     require(reference_open(&judged.exact, &view->scene.scene, &options, FAILURE), FAILURE);
+    if (judged.exact.lights) {
+        ReferenceOptions meshes = options;
+        Scene scene = view->drawn.objects ? view->drawn.scene : view->scene.scene;
+        scene.interpolation = INTERPOLATION_PHONG;
+        meshes.meshes = true;
+        require(reference_open(&judged.meshes, &scene, &meshes, FAILURE), FAILURE);
+    }
     for (int i = 0; i < place[2] * place[3]; i++)
         inside += judged.exact.interior[i];
     for (int y = 0; y < place[3]; y++) {
@@ -625,6 +656,7 @@ static void judge_view(const ErrorPicture *picture, const ErrorView *view, int s
         verdict->worst[1] = place[1] + worst[1];
     }
     reference_close(&judged.exact);
+    reference_close(&judged.meshes);
 }
 
 static double frame(Stage *stage, const Options *options)

@@ -69,7 +69,7 @@ static void put_float(Image *image, int x, int y, int channel, double value)
 static PictureError compare(const Image *image, const Plain *plain)
 {
     PictureError error = {.all = {0}};
-    picture_error_add(&error, image, 0, 0, &plain->exact, &plain->scene);
+    picture_error_add(&error, image, 0, 0, &plain->exact, NULL, &plain->scene);
     return error;
 }
 
@@ -254,7 +254,7 @@ TEST(views_add_up_to_the_picture)
                 memcpy(&part.color[3 * i], &whole.color[3 * from], 3 * sizeof(float));
                 part.interior[i] = whole.interior[from];
             }
-            picture_error_add(&error, &image, place[0], place[1], &part.exact, &part.scene);
+            picture_error_add(&error, &image, place[0], place[1], &part.exact, NULL, &part.scene);
         }
         const ErrorSum *sums[2][2] = {{&error.interior, &expected.interior},
                                       {&error.all, &expected.all}};

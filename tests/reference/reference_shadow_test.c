@@ -3,6 +3,7 @@
  * evaluator of this file that walks along the segment. No GL.
  */
 #include "base/random.h"
+#include "reference/picture_error.h"
 #include "reference/reference.h"
 #include "reference/reference_trace.h"
 #include "shapes/mesh_solids.h"
@@ -858,6 +859,38 @@ TEST_WITH(0, threads_and_a_stop_leave_pictures_with_shadows_whole, set_up, tear_
         assert_false(reference_open(&none, &world.scene, &options, NULL));
         assert_null(none.color);
     }
+}
+
+/* A square's shadow on the wall instead of a circle's: between the two the whole light is missing
+ * or too much, without an edge in the exact picture; elsewhere nothing is wrong. */
+TEST_WITH(0, between_the_shadows_of_a_solid_and_its_mesh_is_an_edge, set_up, tear_down)
+{
+    add_wall();
+    add_object((Solid){.kind = SOLID_DISC, .radius = 0.4}, 4,
+               mat4_translate((Vec3){-0.7, 0.3, 0.8}));
+    add_light(LIGHT_DIRECTIONAL, (Vec3){-0.9, 0.2, 1});
+    const Reference exact = trace((ReferenceOptions){.meshes = false});
+    const Reference meshes = trace((ReferenceOptions){.meshes = true, .centers = true});
+    PictureError without = {.all = {0}}, with = {.all = {0}};
+    Image image;
+    int on_wall = 0;
+    require(image_open(&image, SIZE, SIZE, IMAGE_FLOAT, FAILURE), FAILURE);
+    for (int i = 0; i < PIXELS; i++) {
+        float *pixel = (float *)image.pixels + 4 * i;
+        memcpy(pixel, &meshes.color[3 * i], 3 * sizeof *pixel);
+        pixel[3] = exact.object[i] == 0; /* what the disc's outline uncovers is another matter */
+        on_wall += exact.interior[i] && exact.object[i] == 0 && meshes.object[i] == 0 &&
+                   reference_lights_differ(exact.lights[i], meshes.lights[i]);
+    }
+    picture_error_add(&without, &image, 0, 0, &exact, NULL, &world.scene);
+    picture_error_add(&with, &image, 0, 0, &exact, &meshes, &world.scene);
+    image_close(&image);
+    assert_true(on_wall > 5);
+    assert_int_equal(with.interior.pixels + on_wall, without.interior.pixels);
+    assert_int_equal(with.edges.pixels - on_wall, without.edges.pixels);
+    assert_true(without.interior.maximum > 100);
+    printf("%d pixels; elsewhere %.3f\n", on_wall, with.interior.maximum);
+    assert_true(with.interior.maximum < 0.01);
 }
 
 TEST_MAIN("reference shadow", NULL, NULL)

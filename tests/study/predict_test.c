@@ -38,7 +38,7 @@ static double error_in_picture(const Canvas *canvas, Lighting *lighting, const S
     canvas_clear(canvas, scene->background, 0);
     require(lighting_draw(lighting, scene, (double)width / height, false, FAILURE), FAILURE);
     require(canvas_read(canvas, image, FAILURE), FAILURE);
-    picture_error_add(&error, image, 0, 0, exact, scene);
+    picture_error_add(&error, image, 0, 0, exact, NULL, scene);
     return error.interior.maximum;
 }
 
