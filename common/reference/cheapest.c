@@ -101,14 +101,6 @@ static bool exact_open(Exact *exact, uint16_t *block, size_t pixels, bool casts,
     return true;
 }
 
-static bool has_shadows(const Scene *scene)
-{
-    for (int i = 0; i < scene->light_count; i++)
-        if (scene->lights[i].shadows && !scene->lights[i].off)
-            return true;
-    return false;
-}
-
 static void exact_fill(Exact *exact, const Reference *reference, size_t pixels)
 {
     for (size_t i = 0; i < pixels; i++) {
@@ -124,7 +116,7 @@ static void exact_fill(Exact *exact, const Reference *reference, size_t pixels)
 
 static bool exact_make(Exact *exact, const Scene *scene, int width, int height, Message *message)
 {
-    const bool casts = has_shadows(scene);
+    const bool casts = scene_has_shadows(scene);
     const size_t pixels = (size_t)width * (size_t)height;
     const size_t size = ((casts ? 7 : 5) * pixels + (casts ? pixels % 2 : 0)) * sizeof(uint16_t);
     const int area[2] = {width, height};

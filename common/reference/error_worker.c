@@ -33,14 +33,6 @@ bool error_picture_open(ErrorPicture *picture, int width, int height, ImageType 
     return false;
 }
 
-static bool has_shadows(const Scene *scene)
-{
-    for (int i = 0; i < scene->light_count; i++)
-        if (scene->lights[i].shadows && !scene->lights[i].off)
-            return true;
-    return false;
-}
-
 bool error_picture_add(ErrorPicture *picture, const int place[4], const Scene *scene,
                        const Scene *drawn, Message *message)
 {
@@ -48,7 +40,8 @@ bool error_picture_add(ErrorPicture *picture, const int place[4], const Scene *s
     picture->view_count++;
     memcpy(view->place, place, sizeof view->place);
     return scene_copy_open(&view->scene, scene, true, message) &&
-           (!drawn || !has_shadows(scene) || scene_copy_open(&view->drawn, drawn, true, message));
+           (!drawn || !scene_has_shadows(scene) ||
+            scene_copy_open(&view->drawn, drawn, true, message));
 }
 
 void error_picture_close(ErrorPicture *picture)
@@ -72,7 +65,7 @@ bool error_view_drawn(const ErrorView *view, const ReferenceOptions *exact, Refe
     Scene scene = view->drawn.objects ? view->drawn.scene : view->scene.scene;
     ReferenceOptions options = *exact;
     *drawn = (Reference){.lights = NULL};
-    if (!has_shadows(&scene))
+    if (!scene_has_shadows(&scene))
         return true;
     scene.interpolation = INTERPOLATION_PHONG;
     options.meshes = options.centers = true;

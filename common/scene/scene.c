@@ -197,6 +197,14 @@ bool object_is_convex(const Object *object)
     }
 }
 
+bool scene_has_shadows(const Scene *scene)
+{
+    for (int i = 0; i < scene->light_count; i++)
+        if (scene->lights[i].shadows && !scene->lights[i].off)
+            return true;
+    return false;
+}
+
 Sphere scene_sphere(const Object *object, const MeshBox *box)
 {
     const Mat4 m = object->world_from_object;

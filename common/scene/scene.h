@@ -134,6 +134,9 @@ void scene_fit_depth(Scene *scene);
  * where N.L > 0 it sees the light. */
 bool object_is_convex(const Object *object);
 
+/* Whether a light that is on casts shadows. */
+bool scene_has_shadows(const Scene *scene);
+
 /* A sphere around an object's box, in world coordinates. */
 typedef struct Sphere {
     Vec3 center;
