@@ -198,7 +198,9 @@ static ErrorPicture copy_of(const ErrorPicture *picture)
     copy.simplified = picture->simplified;
     for (int i = 0; i < picture->view_count; i++) {
         const ErrorView *view = &picture->views[i];
-        require(error_picture_add(&copy, view->place, &view->scene.scene, NULL, FAILURE), FAILURE);
+        require(error_picture_add(&copy, view->place, &view->scene.scene,
+                                  view->drawn.objects ? &view->drawn.scene : NULL, FAILURE),
+                FAILURE);
     }
     return copy;
 }
