@@ -473,12 +473,22 @@ static void any_light(Command *command, bool clamped)
         add(command, "--shadows=volumes");
 }
 
-/* `error`: 0: any; else this one, and nothing is given that can be chosen. */
-static Command any_command(bool large, double error)
+static const Example *any_example(bool shadows)
+{
+    const Example *example;
+    do
+        example = EXAMPLES[below(EXAMPLE_COUNT)];
+    while (!shadows && example->scene->shadows);
+    return example;
+}
+
+/* `error`: 0: any; else this one, and nothing is given that can be chosen. `lit`: lights may be
+ * moved and colored, and have shadows. */
+static Command any_command(bool large, double error, bool lit)
 {
     static const double errors[] = {0.6, 1, 2, 4, 8, 16, 32};
     const double any = errors[below(7)];
-    Command command = {.example = EXAMPLES[below(EXAMPLE_COUNT)]};
+    Command command = {.example = any_example(lit)};
     const double most = large ? 1600 : 400;
     const Parameter *own = example_parameters(command.example);
     add(&command, "--error=%g", error > 0 ? error : any);
@@ -494,7 +504,8 @@ static Command any_command(bool large, double error)
     const bool clamped = below(8) == 0;
     if (clamped)
         add(&command, "--clamp=vertex");
-    any_light(&command, clamped);
+    if (lit)
+        any_light(&command, clamped);
     if (below(10) == 0)
         add(&command, "--full");
     if (below(10) == 0)
@@ -827,7 +838,7 @@ TEST(random_scenes_keep_the_error_that_is_allowed)
     randomness.state = testing_seed(1);
     write_models();
     for (int i = 0; i < count; i++) {
-        Command command = any_command(large && i % 8 == 0, 0);
+        Command command = any_command(large && i % 8 == 0, 0, true);
         Verdict verdict;
         broken += !check(&command, &verdict);
         unreached += verdict.reached > verdict.allowed;
@@ -846,7 +857,7 @@ TEST(animations_keep_the_error_between_the_moments)
     randomness.state = testing_seed(2);
     write_models();
     for (int i = 0; i < count; i++) {
-        Command command = any_command(false, 0);
+        Command command = any_command(false, 0, false);
         Verdict verdict;
         /* Later options replace earlier ones. Two seconds, 60 degrees. */
         add(&command, "--size=%dx%d", 40 + below(60), 40 + below(60));
@@ -882,7 +893,7 @@ static int print_table(void)
         int count = 0, fewer = 0, more = 0, plain = 0;
         randomness.state = 1;
         for (int i = 0; i < cases; i++) {
-            const Command command = any_command(false, errors[e]);
+            const Command command = any_command(false, errors[e], false);
             const Verdict verdict = run(&command, true);
             if (getenv("LIGHTING_TEST_VERBOSE")) {
                 print_command(&command, stderr);
