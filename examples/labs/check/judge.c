@@ -1,7 +1,6 @@
 #include "labs/check/judge.h"
 
 #include "base/clock.h"
-#include "images/image_file.h"
 #include "labs/check/budget.h"
 #include "labs/check/code.h"
 #include "labs/check/judge_pictures.h"
@@ -410,26 +409,5 @@ bool judge(const JudgeOptions *options, Verdict *verdict, Message *message)
     canvas_close(&session.canvas);
     submission_files_close(&session.files);
     verdict->seconds = clock_now() - start;
-    return done;
-}
-
-bool judge_expected(const Lab *lab, const char *path, Message *message)
-{
-    enum { SIZE = 400 };
-    Probe probe;
-    Reference exact = {.width = 0};
-    Image image = {0};
-    Object objects[PROBE_MAX_OBJECTS];
-    const ReferenceOptions options = {.width = SIZE, .height = SIZE, .meshes = !lab->budget};
-    if (!probe_open_usual(&probe, lab, 1, message))
-        return false;
-    const Scene scene = shots_truth_scene(lab, &probe, 0, objects);
-    const ImageOptions file = {.compress = 9};
-    const bool done = reference_open(&exact, &scene, &options, message) &&
-                      judge_exact_image(&exact, &image, message) &&
-                      image_write(&image, path, &file, message);
-    image_close(&image);
-    reference_close(&exact);
-    probe_close(&probe);
     return done;
 }

@@ -1,10 +1,6 @@
 #include "labs/check/judge_pictures.h"
 
-#include "base/output.h"
-#include "images/image_file.h"
-
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -28,9 +24,8 @@ bool judge_exact_image(const Reference *exact, Image *image, Message *message)
     return true;
 }
 
-/* |a - b|, brightened. */
-static bool make_difference(const Image *a, const Image *b, const Reference *exact,
-                            Image *difference, Message *message)
+bool judge_difference(const Image *a, const Image *b, const Reference *exact, Image *difference,
+                      Message *message)
 {
     if (!image_open(difference, a->width, a->height, IMAGE_BYTE, message))
         return false;
@@ -62,29 +57,24 @@ static void paste(const Image *from, int times, int left, Image *to)
     }
 }
 
-bool judge_worst(const Shots *shots, int number, const char *folder, Message *message)
+bool judge_sheet(const Shots *shots, int number, Image *sheet, Message *message)
 {
     const Shot *shot = &shots->shots[number];
-    Image exact = {0}, difference = {0}, sheet = {0};
-    char path[PATH_MAX];
+    const Reference *truth = &shot->truths[shots->truth];
+    Image exact = {0}, difference = {0};
     const int width = shot->image.width, height = shot->image.height;
     const int times = width < 100 ? 3 : width < 200 ? 2 : 1;
-    bool done =
-        judge_exact_image(&shot->truths[shots->truth], &exact, message) &&
-        make_difference(&shot->image, &exact, &shot->truths[shots->truth], &difference, message) &&
-        image_open(&sheet, 3 * times * width + 2 * SPACE, times * height, IMAGE_BYTE, message);
+    const bool done =
+        judge_exact_image(truth, &exact, message) &&
+        judge_difference(&shot->image, &exact, truth, &difference, message) &&
+        image_open(sheet, 3 * times * width + 2 * SPACE, times * height, IMAGE_BYTE, message);
     if (done) {
-        memset(sheet.pixels, 255, image_row_size(&sheet) * (size_t)sheet.height);
-        paste(&shot->image, times, 0, &sheet);
-        paste(&exact, times, times * width + SPACE, &sheet);
-        paste(&difference, times, 2 * (times * width + SPACE), &sheet);
-        if (snprintf(path, sizeof path, "%s/%s", folder, JUDGE_WORST) >= (int)sizeof path)
-            done = message_set(message, "%s: the path is too long", folder);
+        memset(sheet->pixels, 255, image_row_size(sheet) * (size_t)sheet->height);
+        paste(&shot->image, times, 0, sheet);
+        paste(&exact, times, times * width + SPACE, sheet);
+        paste(&difference, times, 2 * (times * width + SPACE), sheet);
     }
-    const ImageOptions options = {.compress = IMAGE_COMPRESS_DEFAULT};
-    done = done && output_folder(folder, message) && image_write(&sheet, path, &options, message);
     image_close(&exact);
     image_close(&difference);
-    image_close(&sheet);
     return done;
 }

@@ -6,14 +6,20 @@
 
 #include "labs/submission/shots.h"
 
+/* The submission's picture, the right one and their difference, enlarged, side by side. */
+bool judge_sheet(const Shots *shots, int shot, Image *sheet, Message *message);
+
 /* The file that judge_worst writes. */
 #define JUDGE_WORST "worst.png"
 
-/* Writes folder/worst.png: the submission's picture, the right one and their brightened difference,
- * enlarged, side by side. */
+/* Writes that sheet as folder/worst.png (in a page: keeps it, see labs/web). */
 bool judge_worst(const Shots *shots, int shot, const char *folder, Message *message);
 
 /* The exact picture as bytes. */
 bool judge_exact_image(const Reference *exact, Image *image, Message *message);
+
+/* |a - b|, brightened, where `exact` has no edge. */
+bool judge_difference(const Image *a, const Image *b, const Reference *exact, Image *difference,
+                      Message *message);
 
 #endif
