@@ -17,10 +17,53 @@
 #define SPELLING "This name is not declared: check its spelling and case"
 #define VARYING "Declare the varying in both shaders with the same name and type"
 
-/* The line contains both parts, in this order. Special cases come first. */
+#define READ_ONLY                                                                                    \
+    "Uniforms, attributes and, in the fragment shader, varyings are read-only: copy the value to a " \
+    "variable of your own."
+#define IN_OUT "`in` and `out` belong to a later GLSL: use attribute and varying."
+#define COMPONENTS "Only vectors have components (.xyzw or .rgba), and only as many as their size."
+#define NO_MAIN "Each of the two files needs a function `void main()`."
+#define LOOPS                                                                                       \
+    "WebGL takes only loops like for (int i = 0; i < 2; i++), with constant bounds (GLSL ES 1.00, " \
+    "appendix A)."
+
+/* The line contains both parts, in this order. Special cases come first. First ANGLE's words, which
+ * browsers have, then Mesa's and others'. */
 static const struct {
     const char *part, *then, *advice;
 } ADVICE[] = {
+    {"'' : syntax error", "", BRACE},
+    {"wrong operand types", "'const int'",
+     "GLSL ES does not convert int to float: write 2.0 instead of 2."},
+    {"wrong operand types", "matrix of float'",
+     "A mat4 multiplies a vec4: write vec4(position, 1.0), or vec4(normal, 0.0) for a direction."},
+    {"wrong operand types", "component vector",
+     "Vectors of different sizes cannot be added or multiplied: " SHORTEN},
+    {"cannot convert from 'const int'", "",
+     "The value and the variable have different types: write 1.0 instead of 1."},
+    {"dimension mismatch", "",
+     "The value and the variable have different types: a vec4 does not fit into a vec3; use .xyz or "
+     ".rgb."},
+    {"cannot convert from", "",
+     "The value and the variable have different types, and GLSL ES never converts."},
+    {"'max' : no matching overloaded function", "",
+     "max takes two numbers of the same type: write max(x, 0.0), not max(x, 0)."},
+    {"'pow' : no matching overloaded function", "",
+     "pow takes two floats: write pow(x, 2.0), not pow(x, 2)."},
+    {"'texture' : no matching overloaded function", "", NO_TEXTURES},
+    {"no matching overloaded function", "",
+     "No function of this name takes these types: check its spelling, count the components, and "
+     "write 0.0 instead of 0."},
+    {"not enough data provided for construction", "",
+     "Count the components: a vec4 needs four numbers, or vec4(rgb, 1.0) from a vec3."},
+    {"too many arguments", "",
+     "Count the components: a vec3 needs three numbers or one vec3; use .xyz or .rgb."},
+    {"l-value required", "", READ_ONLY},
+    {"Missing main()", "", NO_MAIN},
+    {"storage qualifier supported in GLSL ES 3.00", "", IN_OUT},
+    {"field selection", "", COMPONENTS},
+    {"Loop index", "", LOOPS},
+    {"loop is not allowed", "", LOOPS},
     {"No precision specified", "", PRECISION},
     {"has no declared precision", "", PRECISION},
     {"could not implicitly convert", "",
@@ -49,8 +92,7 @@ static const struct {
     {"too many components", "",
      "Count the components: a vec3 needs three numbers or one vec3; use .xyz or .rgb."},
     {"cannot construct", "", "A value in the parentheses is not a number: check each name."},
-    {"cannot access field", "",
-     "Only vectors have components (.xyzw or .rgba), and only as many as their size."},
+    {"cannot access field", "", COMPONENTS},
     {"illegal use of reserved word", "",
      "This word belongs to C or a later GLSL: GLSL ES 1.00 has float, int, bool, vec, mat."},
     {"must be declared at global scope", "",
@@ -65,10 +107,8 @@ static const struct {
     {"initializer of type", "cannot be assigned",
      "The value and the variable have different types: write 1.0 instead of 1, and .xyz or .rgb of "
      "a vec4."},
-    {"assignment to", "read-only",
-     "Uniforms, attributes and, in the fragment shader, varyings are read-only: copy the value to a "
-     "variable of your own."},
-    {"`in' qualifier", "", "`in` and `out` belong to a later GLSL: use attribute and varying."},
+    {"assignment to", "read-only", READ_ONLY},
+    {"`in' qualifier", "", IN_OUT},
     {"texture", "", NO_TEXTURES},
     {"swizzle", "", "This vector has no such component: .xyzw or .rgba, up to its size."},
     {"does not write to", "gl_Position",
@@ -94,7 +134,7 @@ static const struct {
     {"only #version 100", "", "Remove the #version line, or write #version 100."},
     {"no such file beside it", "", "A submission may include only files from its own folder."},
     {"is empty", "", "This file is empty."},
-    {"lacks `main'", "", "Each of the two files needs a function `void main()`."},
+    {"lacks `main'", "", NO_MAIN},
     {"static recursion", "", "A GLSL function must not call itself: use a loop."},
     {"memory exhausted", "", "An expression is nested too deeply."},
     {"linking", "", "The two shaders do not match: compare what both declare."},
@@ -131,17 +171,43 @@ static const char *const BUILT_IN[] = {
     "varying",   "vec2",   "vec3",      "vec4",    "mat3",         "mat4",
 };
 
-/* The name that the compiler does not know: "`v_Colour' undeclared", "no function with name
- * 'normalise'". (Mesa's words) */
+/* Functions of GLSL that ANGLE says the same of with wrong arguments as of what is no function. */
+static const char FUNCTIONS[] =
+    " abs acos all any asin atan bool ceil clamp cos cross degrees distance dot equal exp exp2 "
+    "faceforward float floor fract int inversesqrt length lessThan log log2 mat2 mat3 mat4 "
+    "matrixCompMult max min mix mod normalize not notEqual pow radians reflect refract sign sin "
+    "smoothstep sqrt step tan texture2D vec2 vec3 vec4 ";
+
+static bool is_function(const char *name)
+{
+    char word[WORD_SIZE + 2];
+    snprintf(word, sizeof word, " %s ", name);
+    return strstr(FUNCTIONS, word) != NULL;
+}
+
+/* The word between quotes. */
+static bool quoted(const char *open, char name[WORD_SIZE])
+{
+    const size_t length = strcspn(open + 1, "'");
+    snprintf(name, WORD_SIZE, "%.*s", (int)length, open + 1);
+    return length > 0 && length < WORD_SIZE;
+}
+
+/* The name that the compiler does not know. Mesa: "`v_Colour' undeclared", "no function with name
+ * 'normalise'"; ANGLE: "'v_Colour' : undeclared identifier", "'normalise' : no matching overloaded
+ * function found". */
 static bool unknown_name(const char *line, char name[WORD_SIZE])
 {
     const char *function = strstr(line, "no function with name '");
-    const char *quote = function ? strchr(function, '\'') : strchr(line, '`');
-    if (!quote || (!function && !strstr(line, "' undeclared")))
-        return false;
-    const size_t length = strcspn(quote + 1, "'");
-    snprintf(name, WORD_SIZE, "%.*s", (int)length, quote + 1);
-    return length > 0 && length < WORD_SIZE;
+    const char *quote = strchr(line, '\'');
+    if (function)
+        return quoted(strchr(function, '\''), name);
+    if (strstr(line, "' undeclared") && strchr(line, '`'))
+        return quoted(strchr(line, '`'), name);
+    if (quote && strstr(line, "' : undeclared identifier"))
+        return quoted(quote, name);
+    return quote && strstr(line, "' : no matching overloaded function") && quoted(quote, name) &&
+           !is_function(name);
 }
 
 /* Skips a comment and what is not a word. */

@@ -530,6 +530,9 @@ static void show_line(const ShaderSource *source, int file, int line, Message *m
         message_add(message, "\n  %d | %.*s", line, length < 200 ? length : 200, text);
 }
 
+/* ANGLE's place of what is missing. */
+static const char NOWHERE[] = "ERROR: -1:-1: ";
+
 bool shader_explain_log(const ShaderSource *source, const char *log, Message *message)
 {
     if (!message || message->text[0])
@@ -551,6 +554,9 @@ bool shader_explain_log(const ShaderSource *source, const char *log, Message *me
             if (!shown)
                 show_line(source, file, line, message);
             shown = true;
+        } else if (strncmp(log, NOWHERE, strlen(NOWHERE)) == 0) {
+            message_add(message, "%s%s: %.*s", separator, source->files[0],
+                        length - (int)strlen(NOWHERE), log + strlen(NOWHERE));
         } else if (length > 0) {
             message_add(message, "%s%.*s", separator, length, log);
         }

@@ -569,6 +569,52 @@ SHADER_TEST(log_lines_without_a_location_are_kept)
     }
 }
 
+/* As Chromium says them; other drivers' words are tested with check. */
+SHADER_TEST(what_a_browser_says_is_explained)
+{
+    static const struct {
+        const char *said, *meaning;
+    } lines[] = {
+        {"'nDotL' : undeclared identifier", "did you mean nDotl?"},
+        {"'normalise' : no matching overloaded function found", "did you mean normalize?"},
+        {"'max' : no matching overloaded function found", "max(x, 0.0)"},
+        {"'abs' : no matching overloaded function found", "count the components"},
+        {"'*' : wrong operand types - no operation '*' exists that takes a left-hand operand of type "
+         "'const int' and a right operand of type 'highp float'",
+         "2.0 instead of 2"},
+        {"'*' : wrong operand types - no operation '*' exists that takes a left-hand operand of type "
+         "'uniform highp 4X4 matrix of float' and a right operand of type 'highp 3-component vector "
+         "of float'",
+         "vec4(position, 1.0)"},
+        {"'+' : wrong operand types - no operation '+' exists that takes a left-hand operand of type "
+         "'highp 3-component vector of float' and a right operand of type 'highp 4-component vector "
+         "of float'",
+         ".xyz"},
+        {"'=' : cannot convert from 'const int' to 'highp float'", "1.0 instead of 1"},
+        {"'=' : dimension mismatch", ".xyz"},
+        {"'assign' : l-value required (can't modify a varying \"v_Normal\")", "read-only"},
+        {"'' : Missing main()", "void main()"},
+        {"'' : syntax error", "closing brace"},
+        {"'foo' : syntax error", "line before"},
+        {"'in' : storage qualifier supported in GLSL ES 3.00 and above only",
+         "attribute and varying"},
+        {"'x' :  field selection requires structure or vector on left hand side", "components"},
+        {"'i' : Loop index cannot be compared with non-constant expression", "constant bounds"},
+        {"'while' : This type of loop is not allowed", "constant bounds"},
+    };
+    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
+        char line[512], advice[512];
+        snprintf(line, sizeof line, "lab05.frag:3: %s", lines[i].said);
+        assert_true(shader_advice("float nDotl = 1.0;\n", line, advice, sizeof advice));
+        if (!strstr(advice, lines[i].meaning) || (strstr(advice, "did you mean") && i > 1))
+            fail_msg("%s: %s", line, advice);
+    }
+    parse("void mian() {}\n");
+    shader_explain_log(&source, "ERROR: -1:-1: '' : Missing main()\n", &message);
+    assert_non_null(strstr(message.text, ": '' : Missing main()"));
+    assert_null(strstr(message.text, "-1"));
+}
+
 SHADER_TEST(every_line_of_a_log_is_mapped_and_the_first_is_quoted)
 {
     char log[128];
