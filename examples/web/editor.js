@@ -40,7 +40,8 @@ const Editor = (() => {
         return found;
     }
 
-    /* `shaders`: [{name, text}]; apply(Map of all files) returns a message, "" if they draw. */
+    /* `shaders`: [{name, text}]; apply(Map of all files, or none if all are as they were) returns a message, "" if they draw,
+     * null if others are drawn already; or a promise of it. */
     function open(root, key, shaders, apply) {
         const part = name => root.querySelector("." + name);
         const field = part("source"), gutter = part("gutter"), files = part("files"), list = part("errors");
@@ -96,10 +97,15 @@ const Editor = (() => {
             number();
         }
 
-        function run() {
+        const texts = () => edited.size ? new Map(names.map(name => [name, text(name)])) : new Map();
+
+        async function run() {
             clearTimeout(timer);
             const kept = keep();
-            tell(apply(edited.size ? new Map(names.map(name => [name, text(name)])) : new Map()));
+            const message = await apply(texts());
+            if (message === null)
+                return;
+            tell(message);
             if (!kept)
                 said.textContent += NOT_KEPT;
         }
@@ -154,6 +160,7 @@ const Editor = (() => {
         /* Not applied: if it hung the page, it would again. */
         if (last)
             said.textContent = "Your text of last time; Apply draws with it.";
+        return {run, texts, edited: () => edited.size > 0};
     }
 
     return {open};

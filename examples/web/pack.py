@@ -1,9 +1,9 @@
 """Packs the module and the pages into a folder that works by double click.
 
-    pack.py SOURCE_FOLDER MODULE_JS FOLDER FOLDER/PROGRAM...
+    pack.py SOURCE_FOLDER MODULE_JS LABS_MODULE_JS FOLDER FOLDER/PROGRAM... labs/LAB...
 
-FOLDER gets index.html, a page for each program, what they share, and .lighting, the list of all; FOLDER/single has each
-program's page as one file.
+FOLDER gets index.html and labs.html, a page for each program and lab, what they share, and .lighting, the list of all;
+FOLDER/single has each page of a program or lab as one file.
 A browser fetches nothing for a page from file://, so the WebAssembly is a text in a script, and a page names each of its
 scripts.
 """
@@ -18,8 +18,20 @@ import re
 import shutil
 import sys
 
+import markdown
+
 INDEX = ["lighting.js", "module.js", "index.js"]
 PROGRAM = ["lighting.js", "module.js", "worker.js", "png.js", "link.js", "controls.js", "editor.js", "program.js"]
+LABS = ["progress.js", "labs.js"]
+LAB = ["labs_module.js", "module.js", "progress.js", "lab_worker.js", "png.js", "zip.js", "controls.js", "editor.js", "lab.js"]
+CHECK = """<div class="row"><button type="button" id="check">Check</button></div>
+<p><small>Draws your files in a dozen scenes and says what is wrong, as <code>check</code> does natively.</small></p>"""
+NO_CHECK = """<p>This lab is written in C, which the browser does not compile. Check it natively:
+<code>examples/run check lab03 mine</code>.</p>"""
+NOTES = {"lab03_normal_matrix": "The browser compiles no C: the picture is that of the starter. Your text is kept, and saved "
+                                "below to be handed in.",
+         "lab10_budget": "Of <code>budget.c</code> the browser reads assignments of numbers, as in the starter. Operations are "
+                         "not counted, so Check gives at most five of the ten points."}
 EXACT = """<p><button type="button" id="compare">Compare with the exact picture</button></p>
 <p id="compared" role="status"></p>
 <figure id="exact" hidden><canvas id="map" width="400" height="400" role="img" aria-label="Map of the errors"></canvas>
@@ -31,8 +43,10 @@ their pictures with closed forms.</p>"""
 EXPLAIN = """<details id="explain"><summary>What is computed, and why (<code>--explain</code>)</summary>
 <pre id="explained" tabindex="0"></pre></details>"""
 
-root, module, site = (pathlib.Path(path) for path in sys.argv[1:4])
-programs = [path.split("/") for path in sys.argv[4:]]
+root, module, labs_module, site = (pathlib.Path(path) for path in sys.argv[1:5])
+paths = [path.split("/") for path in sys.argv[5:]]
+programs = [path for path in paths if path[0] != "labs"]
+labs = [name for folder, name in paths if folder == "labs"]
 here = root / "examples/web"
 
 
@@ -49,8 +63,8 @@ def write(path, text):
 predecessors = dict(re.findall(r"\{&(\w+), &(\w+)\}", read(root / "examples/lessons/lessons.c")))
 
 
-def lighting_js():
-    """The module in a function, whose text a worker gets too, and the WebAssembly."""
+def module_js(module):
+    """The module in a function, whose text a worker gets too, and the WebAssembly. A page has one module."""
     packed = gzip.compress(module.with_suffix(".wasm").read_bytes(), 9, mtime=0)
     return ('"use strict";\nconst LIGHTING_WASM = "%s";\nfunction lightingFactory() {\n%s\nreturn createLighting;\n}\n'
             % (base64.b64encode(packed).decode(), read(module)))
@@ -82,14 +96,14 @@ def digest(text):
     return "'sha256-" + base64.b64encode(hashlib.sha256(text.encode()).digest()).decode() + "'"
 
 
-def policy(scripts, styles):
-    return (f"default-src 'none'; script-src {scripts} 'wasm-unsafe-eval'; style-src {styles}; img-src blob: data:; "
+def policy(scripts, styles, images=""):
+    return (f"default-src 'none'; script-src {scripts} 'wasm-unsafe-eval'; style-src {styles}; img-src blob: data:{images}; "
             "worker-src blob:; base-uri 'none'; form-action 'none'")
 
 
 def shared(names):
     # Of a file Firefox takes no other for 'self'.
-    return {"policy": policy("'self' file:", "'self' file:"), "style": '<link rel="stylesheet" href="style.css">',
+    return {"policy": policy("'self' file:", "'self' file:", " 'self' file:"), "style": '<link rel="stylesheet" href="style.css">',
             "scripts": "\n".join(f'<script src="{name}"></script>' for name in names)}
 
 
@@ -119,10 +133,41 @@ def card(folder, name):
             f"{name}</a><br>{text}</li>\n")
 
 
+def title(lab):
+    return re.match(r"# (.*)", read(root / "examples/labs" / lab / "TASK.md")).group(1)
+
+
+def lab_page(name, parts, single):
+    at = labs.index(name)
+    beside = [(labs[i], word) for i, word in ((at - 1, "Previous"), (at + 1, "Next")) if 0 <= i < len(labs)]
+    links = "".join(f' <a href="{lab}.html">{word}</a>' for lab, word in beside)
+    links = "" if single else f'<nav aria-label="Pages"><a href="labs.html">All labs</a>{links}</nav>'
+    # Without the title and the picture.
+    task = re.sub(r"^# .*\n+!\[.*\n+", "", read(root / "examples/labs" / name / "TASK.md"))
+    task = markdown.to_html(task.replace("## Run and check", "## The same natively"))
+    note = f"<p>{NOTES[name]}</p>" if name in NOTES else ""
+    return fill("lab.html", name=name, title=html.escape(title(name)), task=task, links=links, note=note,
+                check=NO_CHECK if name == "lab03_normal_matrix" else CHECK, **parts)
+
+
+def lab_card(name):
+    return (f'<li><a href="{name}.html"><img src="{name}.png" width="400" height="400" alt="" loading="lazy">'
+            f'{html.escape(title(name))}</a><br><small data-lab="{name}"></small></li>\n')
+
+
+def write_labs():
+    write(site / "labs_module.js", module_js(labs_module))
+    write(site / "labs.html", fill("labs.html", cards="".join(map(lab_card, labs)), **shared(LABS)))
+    for name in labs:
+        shutil.copy(root / "examples/labs" / name / "expected.png", site / f"{name}.png")
+        write(site / f"{name}.html", lab_page(name, shared(LAB), False))
+        write(site / "single" / f"{name}.html", lab_page(name, alone(LAB), True))
+
+
 def main():
     shutil.rmtree(site, ignore_errors=True)
     (site / "single").mkdir(parents=True)
-    write(site / "lighting.js", lighting_js())
+    write(site / "lighting.js", module_js(module))
     for path in [*here.glob("*.js"), here / "style.css"]:
         shutil.copy(path, site)
     cards = {group: "".join(card(folder, name) for folder, name in programs if folder == group)
@@ -132,6 +177,7 @@ def main():
     for folder, name in programs:
         write(site / f"{name}.html", page(folder, name, shared(PROGRAM), False))
         write(site / "single" / f"{name}.html", page(folder, name, alone(PROGRAM), True))
+    write_labs()
     files = sorted(str(path.relative_to(site)) for path in site.rglob("*") if path.is_file())
     write(site / ".lighting", "\n".join(files) + "\n")
 

@@ -54,5 +54,5 @@ const Png = (() => {
                          chunk("IDAT", packed), chunk("IEND", new Uint8Array(0))], {type: "image/png"});
     }
 
-    return {encode};
+    return {encode, crc};
 })();

@@ -8,7 +8,7 @@ import sys
 FLOORS = ["base", "core", "shapes", "shadows", "scene", "reference", "images", "window", "app"]
 # What the programs' own libraries may include besides common/: themselves and those before them.
 STUDY = ["study/results", "study/measure", "study/report", "study/cases", "study/arithmetic"]
-LABS = ["labs/program", "labs/submission", "labs/diagnosis", "labs/check", "labs/sandbox", "labs/class"]
+LABS = ["labs/program", "labs/submission", "labs/diagnosis", "labs/check", "labs/web", "labs/sandbox", "labs/class"]
 DIAGRAMS = ["diagrams"]
 LECTURE_HEADERS, LECTURE_LINES = 9, 700
 FILES_PER_FOLDER = 25

@@ -21,11 +21,12 @@ import unittest
 import urllib.parse
 import zlib
 
+sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(__file__))
 import browser
+from labs_pages import Labs, Verdicts
+from pages import EXAMPLES, PAGE_NATIVE, SITE, SOURCE, Case, address, differences, native
 
-EXAMPLES, PAGE_NATIVE, SOURCE = (os.path.abspath(path) for path in sys.argv[1:4])
-SITE = os.path.join(os.path.dirname(EXAMPLES), "pages")
 RENDERER = """(() => {
     const gl = Page.page.engine.module.canvas.getContext("webgl2");
     return gl.getParameter(gl.getExtension("WEBGL_debug_renderer_info").UNMASKED_RENDERER_WEBGL);
@@ -51,29 +52,6 @@ OF_SCENES = [["--linear-light"], ["--full"], ["--clamp=vertex"], ["--terms=diffu
 OF_ONE = {"Shadows": [["--shadows=map"], ["--shadows=planar", "--sheet=on"]],
           "SpotLight": [["--shadows=volumes"], ["--shadows=volumes", "--samples=4"], ["--light-color=0,0.2,1,0.5"]]}
 ABSENT = {"--costs", "--angle"}  # of the tries
-# A dialog would hold the test up.
-CONFIRM = "window.asked = []; window.confirm = text => { asked.push(text); return !window.refuses; };"
-
-
-def address(name, link=""):
-    return pathlib.Path(SITE, name + ".html").as_uri() + (link and "#" + link)
-
-
-def native(name, arguments):
-    """Rows of red, green, blue. A page counts no operations."""
-    if name == "TermsApart" and "--costs" not in arguments:
-        arguments = ["--costs", "off", *arguments]
-    return subprocess.run([os.path.join(EXAMPLES, name), *arguments, "-o", "-", "--format", "rgb"], check=True,
-                          stdout=subprocess.PIPE, stderr=subprocess.PIPE).stdout
-
-
-def differences(one, other):
-    """How many bytes differ, and by more than one step."""
-    assert len(one) == len(other), (len(one), len(other))
-    if one == other:
-        return 0, 0
-    apart = [abs(a - b) for a, b in zip(one, other) if a != b]
-    return len(apart), sum(step > 1 for step in apart)
 
 
 def decode_png(data):
@@ -88,54 +66,6 @@ def decode_png(data):
     rows = zlib.decompress(chunks[b"IDAT"])
     row = 1 + channels * width
     return chunks, b"".join(rows[y * row + 1:(y + 1) * row] for y in range(height))
-
-
-class Case(unittest.TestCase):
-    options = browser.MESA
-
-    @classmethod
-    def setUpClass(cls):
-        cls.page = browser.Browser(*cls.options)
-        cls.page.call("Page.addScriptToEvaluateOnNewDocument", source=CONFIRM)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.page.close()
-
-    def tearDown(self):
-        self.page.resize(1280, 900)
-
-    def open(self, name, link=""):
-        self.page.open(address(name, link))
-
-    def text(self, selector):
-        return self.page.run(f"document.querySelector({json.dumps(selector)}).textContent.trim()")
-
-    def shown(self):
-        """Red, green, blue of the page's picture."""
-        data = base64.b64decode(self.page.run("""(() => {
-            const canvas = document.getElementById("picture");
-            const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
-            let text = "";
-            for (let i = 0; i < data.length; i += 4)
-                text += String.fromCharCode(data[i], data[i + 1], data[i + 2]);
-            return btoa(text);
-        })()"""))
-        return data
-
-    def settle(self):
-        """After what was scheduled for the next frame."""
-        self.page.run("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(1))))")
-
-    def assert_native(self):
-        """The picture is that of the command that the page shows."""
-        self.settle()
-        words = shlex.split(self.text("#command"))
-        self.assertEqual(words[0], "examples/run")
-        self.assertEqual(differences(self.shown(), native(words[1], words[2:])), (0, 0), words)
-
-    def programs(self):
-        return self.page.run("Page.page.engine.json('programs')")
 
 
 class Parity(Case):
@@ -605,9 +535,11 @@ class Pages(Case):
         def packed(*paths):
             return sum(len(gzip.compress(path.read_bytes(), 9)) for path in paths)
         site = pathlib.Path(SITE)
-        shared = packed(*site.glob("*.js"), site / "style.css", site / "index.html")
+        shared = packed(*(path for path in site.glob("*.js") if path.name != "labs_module.js"), site / "style.css", site / "index.html")
         self.assertLess(shared + packed(site / "PointLightedCube.html"), 250000)
         self.assertLess(packed(site / "single/PointLightedCube.html"), 250000)
+        # The labs' module is another one.
+        self.assertLess(packed(site / "single/lab10_budget.html"), 200000)
 
 
 def main():

@@ -101,6 +101,9 @@ static bool find_uninitialized(GLuint program, char name[64])
     for (int i = 0; i < count; i++) {
         static char log[4096];
         log[0] = '\0';
+        /* In a browser a shader that only the program keeps has no name. */
+        if ((GLint)shaders[i] <= 0)
+            continue;
         glGetShaderInfoLog(shaders[i], sizeof log, NULL, log);
         const char *used = strstr(log, "' used uninitialized");
         const char *start = used;

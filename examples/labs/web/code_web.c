@@ -1,0 +1,127 @@
+/*
+ * A page has no C compiler. Lab 3's matrices need one; of lab 10's budget.c it reads the usual
+ * form, assignments of numbers, and leaves everything else to the native check.
+ */
+#include "labs/check/code.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool code_matrices(const Lab *lab, const char *text, const char *folder, const double *seconds,
+                   int count, CodeMatrices *matrices, Verdict *verdict, Message *message)
+{
+    (void)text, (void)folder, (void)seconds, (void)count, (void)matrices, (void)verdict;
+    return message_set(message,
+                       "%s: the browser compiles no C; check natively: examples/run check %s mine",
+                       lab->code, lab->name);
+}
+
+/* Skips white space, comments and #include. */
+static const char *next_token(const char *text)
+{
+    for (;;) {
+        text += strspn(text, " \t\r\n");
+        if (strncmp(text, "//", 2) == 0 || strncmp(text, "#include", 8) == 0)
+            text += strcspn(text, "\n");
+        else if (strncmp(text, "/*", 2) == 0 && strstr(text + 2, "*/"))
+            text = strstr(text + 2, "*/") + 2;
+        else
+            return text;
+    }
+}
+
+static bool is_word(char c)
+{
+    return isalnum((unsigned char)c) || c == '_';
+}
+
+/* Takes a token if it is the next one. */
+static bool take(const char **at, const char *token)
+{
+    const char *text = next_token(*at);
+    const size_t length = strlen(token);
+    if (strncmp(text, token, length) != 0 || (is_word(token[0]) && is_word(text[length])))
+        return false;
+    *at = text + length;
+    return true;
+}
+
+static bool take_word(const char **at, char *word, size_t size)
+{
+    const char *text = next_token(*at);
+    size_t length = 0;
+    while (is_word(text[length]))
+        length++;
+    if (length == 0 || length >= size || isdigit((unsigned char)text[0]))
+        return false;
+    snprintf(word, size, "%.*s", (int)length, text);
+    *at = text + length;
+    return true;
+}
+
+static bool take_number(const char **at, int *number)
+{
+    const char *text = next_token(*at);
+    const size_t length = strspn(text, "0123456789");
+    if (length == 0 || length > 5 || is_word(text[length]) || (text[0] == '0' && length > 1))
+        return false;
+    *number = atoi(text);
+    *at = text + length;
+    return true;
+}
+
+static bool take_truth(const char **at, bool *truth)
+{
+    *truth = take(at, "true");
+    return *truth || take(at, "false");
+}
+
+/* "budget->slices = 12;" */
+static bool take_assignment(const char **at, const char *name, LabBudget *budget)
+{
+    if (!take(at, name) || !take(at, "->"))
+        return false;
+    if (take(at, "slices"))
+        return take(at, "=") && take_number(at, &budget->slices) && take(at, ";");
+    if (take(at, "stacks"))
+        return take(at, "=") && take_number(at, &budget->stacks) && take(at, ";");
+    return take(at, "cull") && take(at, "=") && take_truth(at, &budget->cull) && take(at, ";");
+}
+
+static int line_of(const char *text, const char *at)
+{
+    int line = 1;
+    for (; text < at; text++)
+        line += *text == '\n';
+    return line;
+}
+
+bool code_budget(const Lab *lab, const char *text, const char *folder, LabBudget *budget,
+                 Verdict *verdict, Message *message)
+{
+    char name[64];
+    const char *at = text, *before = text;
+    (void)folder;
+    *budget = (LabBudget){.slices = 16, .stacks = 16};
+    bool done = take(&at, "void") && take(&at, "lab_budget") && take(&at, "(") &&
+                take(&at, "LabBudget") && take(&at, "*") && take_word(&at, name, sizeof name) &&
+                take(&at, ")") && take(&at, "{");
+    while (done && !take(&at, "}")) {
+        before = at;
+        done = take_assignment(&at, name, budget);
+    }
+    if (!done || *next_token(at))
+        return message_set(message,
+                           "%s:%d: error: the browser compiles no C; it reads lines like "
+                           "budget->slices = 64; and what is more is for the native check",
+                           lab->code, line_of(text, next_token(done ? at : before)));
+    if (budget->slices >= 3 && budget->slices <= 512 && budget->stacks >= 2 &&
+        budget->stacks <= 512)
+        return true;
+    verdict->kind = VERDICT_ERROR;
+    snprintf(verdict->message, sizeof verdict->message,
+             "%s: slices must be 3 to 512, stacks 2 to 512", lab->code);
+    return false;
+}

@@ -1,0 +1,19 @@
+#include "labs/web/judge_files_web.h"
+
+#include "labs/check/judge_pictures.h"
+
+static Image kept;
+
+bool judge_worst(const Shots *shots, int shot, const char *folder, Message *message)
+{
+    (void)folder;
+    image_close(&kept);
+    return judge_sheet(shots, shot, &kept, message);
+}
+
+void judge_take_sheet(Image *sheet)
+{
+    image_close(sheet);
+    *sheet = kept;
+    kept = (Image){.width = 0};
+}

@@ -1,0 +1,320 @@
+#include "labs/web/lab_page.h"
+
+#include "labs/check/code.h"
+#include "labs/check/judge.h"
+#include "labs/check/judge_pictures.h"
+#include "labs/web/judge_files_web.h"
+#include "labs/web/verdict_text.h"
+#include "study/results/json.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define FOLDER "/tmp/mine"
+
+enum { SIZE = 400 };
+
+static struct {
+    Message message;
+    const Lab *lab;
+    Canvas canvas;
+    Image drawn, right, shown; /* `shown` is page_pixels */
+    Reference exact;
+    const Lab *exact_lab; /* of which it is, and when; NULL: there is none */
+    double exact_seconds;
+    char *text; /* returned */
+} page;
+
+/* Replaces the text that was returned last by what is written. */
+static FILE *text_begin(void)
+{
+    static size_t size;
+    free(page.text);
+    page.text = NULL;
+    return open_memstream(&page.text, &size);
+}
+
+static const char *text_end(FILE *file)
+{
+    const bool whole = file && fclose(file) == 0;
+    return whole && page.text ? page.text : "";
+}
+
+/* A lab's own files: two shaders, its C, or both. NULL ends the list. */
+static void file_names(const Lab *lab, char names[4][64])
+{
+    int count = 0;
+    memset(names, 0, 4 * sizeof *names);
+    if (!lab->given) {
+        snprintf(names[count++], sizeof *names, "%s.vert", lab->file);
+        snprintf(names[count++], sizeof *names, "%s.frag", lab->file);
+    }
+    if (lab->code)
+        snprintf(names[count], sizeof *names, "%s", lab->code);
+}
+
+static void put_pair(FILE *file, const char *start, const char *name, const char *text)
+{
+    fprintf(file, "%s\"%s\": ", start, name);
+    json_put_string(file, text);
+}
+
+static void put_files(FILE *file, const Lab *lab)
+{
+    char folder[PATH_MAX], names[4][64];
+    SubmissionFiles starter = {.count = 0};
+    if (!lab_folder(lab, folder, &page.message) ||
+        !submission_files_open(&starter, lab, folder, &page.message))
+        return;
+    file_names(lab, names);
+    for (int i = 0; names[i][0]; i++) {
+        put_pair(file, i ? ", {" : "{", "name", names[i]);
+        put_pair(file, ", ", "text", submission_file(&starter, names[i]));
+        fputs("}", file);
+    }
+    submission_files_close(&starter);
+}
+
+const char *page_labs(void)
+{
+    FILE *file = text_begin();
+    page.message = (Message){0};
+    for (int i = 0; file && i < LAB_COUNT; i++) {
+        const Lab *lab = &LABS[i];
+        put_pair(file, i ? ",\n{" : "[{", "name", lab->name);
+        put_pair(file, ", ", "summary", lab->summary);
+        put_pair(file, ", ", "code", lab->code ? lab->code : "");
+        fprintf(file, ", \"shaders\": %s, \"files\": [", lab->given ? "false" : "true");
+        put_files(file, lab);
+        fputs("]}", file);
+    }
+    if (file)
+        fputs("]", file);
+    return text_end(file);
+}
+
+const char *page_message(void)
+{
+    return page.message.text;
+}
+
+static bool write_file(const char *name, const char *text)
+{
+    char path[PATH_MAX];
+    mkdir(FOLDER, 0700);
+    snprintf(path, sizeof path, FOLDER "/%s", name);
+    FILE *file = fopen(path, "w");
+    const bool written = file && fputs(text, file) >= 0;
+    return ((!file || fclose(file) == 0) && written) ||
+           message_set(&page.message, "%s: cannot be kept", name);
+}
+
+/* The starter's files in place of all. */
+static bool restore(void)
+{
+    char folder[PATH_MAX], names[4][64];
+    SubmissionFiles starter;
+    if (!lab_folder(page.lab, folder, &page.message) ||
+        !submission_files_open(&starter, page.lab, folder, &page.message))
+        return false;
+    bool done = true;
+    file_names(page.lab, names);
+    for (int i = 0; names[i][0] && done; i++)
+        done = write_file(names[i], submission_file(&starter, names[i]));
+    submission_files_close(&starter);
+    return done;
+}
+
+int page_open(const char *name)
+{
+    page.message = (Message){0};
+    page.lab = lab_find(name, &page.message);
+    return page.lab && restore() ? 0 : 2;
+}
+
+int page_replace(const char *name, const char *text)
+{
+    char names[4][64];
+    page.message = (Message){0};
+    if (!page.lab)
+        return message_set(&page.message, "no lab is open");
+    if (!name[0])
+        return restore();
+    file_names(page.lab, names);
+    int i = 0;
+    while (names[i][0] && strcmp(names[i], name) != 0)
+        i++;
+    if (!names[i][0])
+        return message_set(&page.message, "%.80s: not a file of %s", name, page.lab->name);
+    if (strlen(text) > SHADER_FILE_MAX)
+        return message_set(&page.message, "%s: has %zu bytes; at most %d are allowed", name,
+                           strlen(text), SHADER_FILE_MAX);
+    return write_file(name, text);
+}
+
+/* Pictures. */
+
+static bool open_shader(Shader *shader)
+{
+    char given[PATH_MAX];
+    if (page.lab->given && !lab_folder(page.lab, given, &page.message))
+        return false;
+    const ShaderLoader loader = {.folder = page.lab->given ? given : FOLDER, .advise = true};
+    return shader_open(shader, &loader, page.lab->file, &page.message) &&
+           binding_check(page.lab, shader, &page.message);
+}
+
+/* Lab 3: the starter's matrices, because its C is not compiled here; lab 10: the sphere. */
+static bool choose(Probe *probe, SubmissionGeometry *geometry)
+{
+    static const Mat4 identity = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
+    if (page.lab->given)
+        geometry->world_from_object = geometry->normal_matrix = &identity;
+    if (!page.lab->budget)
+        return true;
+    static Verdict verdict; /* large */
+    LabBudget budget;
+    SubmissionFiles files;
+    verdict.message[0] = '\0';
+    if (!submission_files_open(&files, page.lab, FOLDER, &page.message))
+        return false;
+    const char *text = submission_file(&files, page.lab->code);
+    const bool read = code_budget(page.lab, text, NULL, &budget, &verdict, &page.message) ||
+                      (verdict.message[0] && message_set(&page.message, "%s", verdict.message));
+    submission_files_close(&files);
+    if (!read)
+        return false;
+    mesh_close(&probe->meshes[0]);
+    geometry->cull = budget.cull;
+    return mesh_sphere(&probe->meshes[0], 1, budget.slices, budget.stacks, &page.message);
+}
+
+static bool draw(Probe *probe, const Shader *shader)
+{
+    SubmissionGeometry geometry = {.cull = false};
+    const Painter painter = {.lab = page.lab, .program = shader->program};
+    probe->width = probe->height = SIZE;
+    return choose(probe, &geometry) &&
+           painter_draw(&painter, probe, &geometry, &page.canvas, &page.drawn, &page.message);
+}
+
+/* What page_pixels are. */
+static bool show(const Image *image)
+{
+    image_close(&page.shown);
+    if (!image_open(&page.shown, image->width, image->height, IMAGE_BYTE, &page.message))
+        return false;
+    memcpy(page.shown.pixels, image->pixels, image_row_size(image) * (size_t)image->height);
+    return true;
+}
+
+int page_draw(double seconds)
+{
+    const CanvasOptions options = {.width = SIZE, .height = SIZE};
+    Shader shader = {0};
+    Probe probe;
+    page.message = (Message){0};
+    if (!page.lab)
+        return message_set(&page.message, "no lab is open");
+    if (!page.canvas.backend && !canvas_open(&page.canvas, &options, &page.message))
+        return 0;
+    if (!page.drawn.pixels && !image_open(&page.drawn, SIZE, SIZE, IMAGE_BYTE, &page.message))
+        return 0;
+    if (!probe_open_usual(&probe, page.lab, seconds, &page.message))
+        return 0;
+    const bool done = open_shader(&shader) && draw(&probe, &shader) && show(&page.drawn);
+    shader_close(&shader);
+    probe_close(&probe);
+    return done;
+}
+
+int page_expected(double seconds)
+{
+    Probe probe;
+    Object objects[PROBE_MAX_OBJECTS];
+    page.message = (Message){0};
+    if (!page.lab)
+        return message_set(&page.message, "no lab is open");
+    if (page.exact_lab == page.lab && page.exact_seconds == seconds)
+        return show(&page.right);
+    const ReferenceOptions options = {
+        .width = SIZE, .height = SIZE, .meshes = !page.lab->budget, .centers = true, .threads = 1};
+    reference_close(&page.exact);
+    image_close(&page.right);
+    page.exact_lab = NULL;
+    if (!probe_open_usual(&probe, page.lab, seconds, &page.message))
+        return 0;
+    const Scene scene = shots_truth_scene(page.lab, &probe, 0, objects);
+    const bool done = reference_open(&page.exact, &scene, &options, &page.message) &&
+                      judge_exact_image(&page.exact, &page.right, &page.message) &&
+                      show(&page.right);
+    probe_close(&probe);
+    page.exact_lab = done ? page.lab : NULL;
+    page.exact_seconds = seconds;
+    return done;
+}
+
+double page_difference(void)
+{
+    Image difference = {0};
+    page.message = (Message){0};
+    if (!page.exact_lab || !page.drawn.pixels) {
+        message_set(&page.message, "nothing is drawn");
+        return -1;
+    }
+    const ErrorSum error = compare_exact(&page.drawn, &page.exact, NULL);
+    const bool done =
+        judge_difference(&page.drawn, &page.right, &page.exact, &difference, &page.message) &&
+        show(&difference);
+    image_close(&difference);
+    return done ? error.maximum : -1;
+}
+
+const unsigned char *page_pixels(void)
+{
+    return page.shown.pixels;
+}
+
+int page_width(void)
+{
+    return page.shown.width;
+}
+
+int page_height(void)
+{
+    return page.shown.height;
+}
+
+const char *page_check(double seed)
+{
+    static Verdict verdict; /* large */
+    page.message = (Message){0};
+    if (!page.lab) {
+        message_set(&page.message, "no lab is open");
+        return "";
+    }
+    const JudgeOptions options = {
+        .lab = page.lab, .folder = FOLDER, .seed = (uint64_t)seed, .pictures = FOLDER};
+    canvas_close(&page.canvas); /* judge opens its own */
+    image_close(&page.shown);
+    if (!judge(&options, &verdict, &page.message))
+        return "";
+    judge_take_sheet(&page.shown);
+    FILE *file = text_begin();
+    if (file)
+        verdict_put(file, &verdict, page.lab);
+    return text_end(file);
+}
+
+void page_close(void)
+{
+    canvas_close(&page.canvas);
+    image_close(&page.drawn);
+    image_close(&page.right);
+    image_close(&page.shown);
+    reference_close(&page.exact);
+    page.exact_lab = page.lab = NULL;
+}

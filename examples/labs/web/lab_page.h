@@ -1,0 +1,46 @@
+/*
+ * lab_page: the labs as one module, as a page of the browser calls it: their pictures and `check`.
+ * One lab is open at a time. What `check` does in processes of its own is in files beside this one.
+ */
+#ifndef LAB_PAGE_H
+#define LAB_PAGE_H
+
+/* Texts that are returned are valid until the next call. */
+
+/* The labs as JSON: [{"name": ..., "summary": ..., "shaders": bool, "code": "budget.c" or "",
+ * "files": [{"name": ..., "text": ...}]}], with the starters' texts. */
+const char *page_labs(void);
+
+/* Opens a lab by its name, with the starter's files. 0, or 2 and page_message. */
+int page_open(const char *name);
+
+/* Why the last call failed, or "". */
+const char *page_message(void);
+
+/* Puts a text in place of one of the lab's files; an empty name: the starter's in place of all. 0
+ * on failure. */
+int page_replace(const char *name, const char *text);
+
+/* Draws the lab's own scene at that time as its program does. 0 on failure. */
+int page_draw(double seconds);
+
+/* The exact picture of the same scene, in page_pixels. 0 on failure. */
+int page_expected(double seconds);
+
+/* The difference of the two last ones of one time, brightened, in page_pixels; the largest error
+ * inside objects in steps of 1/255, or -1 on failure. */
+double page_difference(void);
+
+/* What `check LAB FOLDER --seed SEED` says, as its --json; "text" is what it prints. page_pixels
+ * are then the worst scene (width 0: none is wrong). "" on failure. */
+const char *page_check(double seed);
+
+/* RGBA, row 0 at the top. */
+const unsigned char *page_pixels(void);
+int page_width(void);
+int page_height(void);
+
+/* Closes the lab and its canvas, also when WebGL has lost it. */
+void page_close(void);
+
+#endif

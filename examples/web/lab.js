@@ -1,0 +1,164 @@
+"use strict";
+/* The page of one lab. */
+const Lab = (() => {
+    const WAIT = 200; /* ms after the time's last change until the exact picture */
+    const {element} = Controls;
+    const part = id => document.getElementById(id);
+    const lab = {name: document.body.dataset.lab, compiled: null, files: [], texts: new Map(), seconds: 1, editor: null};
+    const short = message => message.replace(/\/tmp\/mine\//g, "");
+    /* Set while a text is drawn: if it is there when the page opens, that text may have hung the page. */
+    const RUNNING = "lighting drawing " + lab.name;
+
+    function mark(on) {
+        try {
+            if (on)
+                localStorage.setItem(RUNNING, "yes");
+            else
+                localStorage.removeItem(RUNNING);
+        } catch { /* nothing is kept, nothing is drawn again */ }
+    }
+
+    function isMarked() {
+        try {
+            return localStorage.getItem(RUNNING) !== null;
+        } catch {
+            return false;
+        }
+    }
+
+    async function ask(task) {
+        mark(true);
+        const answer = await LabWorker.ask({compiled: lab.compiled, lab: lab.name, texts: lab.texts, ...task});
+        if (answer)
+            mark(false);
+        return answer;
+    }
+
+    function paint(id, picture) {
+        const canvas = part(id);
+        canvas.width = picture.width;
+        canvas.height = picture.height;
+        canvas.getContext("2d").putImageData(picture, 0, 0);
+    }
+
+    /* null: something else is drawn instead; else a message, "" if it is drawn. */
+    async function draw(exact) {
+        const answer = await ask({what: "draw", seconds: lab.seconds, exact});
+        if (!answer)
+            return null;
+        part("error").textContent = "";
+        if (answer.message)
+            return short(answer.message);
+        for (const id of ["drawn", "expected", "difference"])
+            if (answer[id])
+                paint(id, answer[id]);
+        part("compared").textContent = !exact ? "" : answer.largest < 0 ? "" :
+            "Largest difference inside objects: " + answer.largest.toFixed(2) + " steps of 1/255.";
+        return "";
+    }
+
+    async function apply(texts) {
+        lab.texts = texts;
+        const message = await draw(true);
+        return message === "" && texts.size && !part("check") ? "Kept; the browser compiles no C." : message;
+    }
+
+    let timer = 0;
+
+    async function setTime(seconds) {
+        if (!Number.isFinite(seconds) || Math.abs(seconds) > 1e6)
+            return;
+        lab.seconds = seconds;
+        part("compared").textContent = "";
+        part("time").value = part("slider").value = seconds;
+        clearTimeout(timer);
+        timer = setTimeout(() => draw(true), WAIT);
+        part("error").textContent = await draw(false) || "";
+    }
+
+    /* A mistake's name, and what is wrong and where only to those who ask. */
+    function hint({name, sentence, look, sure}) {
+        const more = (title, text) => element("details", {}, element("summary", {}, title), text);
+        return element("li", {}, element("b", {}, name), " (" + Math.round(100 * sure) + "% sure)",
+                       more("Hint: what is wrong", sentence), more("Hint: where to look", "Look at " + look + "."));
+    }
+
+    function tell({verdict, sheet}) {
+        const list = (items, title) => items.length ? [element("ul", {"aria-label": title}, ...items)] : [];
+        const nodes = [element("p", {class: verdict.verdict === "right" ? "right" : "error"},
+                               verdict.verdict + ", " + verdict.points + " of 10 points")];
+        if (verdict.mistakes.length !== 1 || verdict.mistakes[0].name !== verdict.message)
+            nodes.push(element("p", {}, verdict.message));
+        if (verdict.details)
+            nodes.push(element("pre", {tabindex: 0}, verdict.details));
+        if (verdict.one_of)
+            nodes.push(element("p", {}, "One of these, which look alike:"));
+        nodes.push(...list(verdict.mistakes.map(hint), "Mistakes"),
+                   ...list(verdict.symptoms.map(text => element("li", {}, text)), "Symptoms"));
+        if (sheet) {
+            const canvas = element("canvas", {id: "sheet", width: sheet.width, height: sheet.height, role: "img",
+                                              "aria-label": "The worst scene: drawn, right, difference"});
+            canvas.getContext("2d").putImageData(sheet, 0, 0);
+            nodes.push(element("figure", {}, canvas,
+                               element("figcaption", {}, "The worst scene: drawn, right, difference")));
+        }
+        nodes.push(element("details", {}, element("summary", {}, "All scenes"), element("pre", {tabindex: 0}, verdict.text)));
+        part("result").replaceChildren(...nodes);
+    }
+
+    /* As natively: other scenes each time. */
+    async function check(seed = crypto.getRandomValues(new Uint32Array(1))[0] & 0x7fffffff) {
+        part("check").disabled = true;
+        part("result").textContent = "Checking...";
+        lab.texts = lab.editor.texts();
+        const answer = await ask({what: "check", seed});
+        part("check").disabled = false;
+        if (!answer || answer.message) {
+            part("result").textContent = answer ? short(answer.message) : "";
+            return answer;
+        }
+        tell(answer);
+        Progress.keep(lab.name, answer.verdict);
+        return answer.verdict;
+    }
+
+    /* `check --class` tells students apart by the archives' names. */
+    function handIn() {
+        const number = lab.name.slice(0, 5);
+        const student = part("student").value.trim().replace(/[^\p{L}\p{N}._-]+/gu, "_").replace(/^[._-]+/, "");
+        const texts = lab.editor.texts();
+        const all = new Map(lab.files.map(({name, text}) => [name, texts.has(name) ? texts.get(name) : text]));
+        const link = element("a", {download: (student || "mine") + "-" + number + ".zip",
+                                   href: URL.createObjectURL(Zip.encode(all))});
+        link.click();
+        setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+    }
+
+    function listen() {
+        part("slider").addEventListener("input", event => setTime(Number(event.target.value)));
+        part("time").addEventListener("change", event => setTime(Number(event.target.value)));
+        part("hand-in").addEventListener("click", handIn);
+        if (part("check"))
+            part("check").addEventListener("click", () => check());
+        LabWorker.lost = () => draw(true);
+    }
+
+    async function open() {
+        const hung = isMarked();
+        lab.compiled = await compileLighting();
+        const answer = await ask({what: "labs"});
+        if (!answer || answer.message)
+            throw answer ? answer.message : "no answer";
+        lab.files = answer.labs.find(({name}) => name === lab.name).files;
+        lab.editor = Editor.open(part("editor"), "lighting " + lab.name, lab.files, apply);
+        listen();
+        /* The text of last time is drawn, unless it hung the page. */
+        const message = hung && lab.editor.edited() ? await draw(true) : await lab.editor.run();
+        if (message)
+            throw message;
+        document.body.dataset.ready = "yes";
+    }
+
+    open().catch(error => { part("error").textContent = "This page cannot run: " + error; });
+    return {lab, check, draw, setTime};
+})();

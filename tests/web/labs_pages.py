@@ -1,0 +1,265 @@
+"""The labs as pages: used as a student would, and their verdicts against those of `check`."""
+import base64
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import time
+
+import browser
+from pages import EXAMPLES, SITE, SOURCE, Case, differences
+
+sys.path.insert(0, os.path.join(SOURCE, "tests/labs"))
+import faults
+import mistakes
+
+CHECK = os.path.join(EXAMPLES, "check")
+SHADERS = (1, 2, 4, 5, 6, 7, 8, 9)
+SOLUTION = mistakes.read(5)
+
+
+def check(lab, texts):
+    """What `check` says of a submission."""
+    with tempfile.TemporaryDirectory() as folder:
+        for name, text in texts.items():
+            pathlib.Path(folder, name).write_text(text)
+        done = subprocess.run([CHECK, mistakes.NAMES[lab], folder, "--seed", "1", "--json", "-"], stdout=subprocess.PIPE)
+    return json.loads(done.stdout)
+
+
+def said(verdict):
+    """What has to be the same."""
+    return (verdict["verdict"], verdict["points"], [mistake["name"] for mistake in verdict["mistakes"]], verdict["one_of"])
+
+
+def starter(lab):
+    folder = pathlib.Path(SOURCE, "examples/labs", mistakes.NAMES[lab])
+    return {path.name: path.read_text() for path in folder.iterdir() if path.suffix in (".vert", ".frag", ".c")}
+
+
+def made(every):
+    """(name, lab, texts) of every so many mistakes."""
+    all_of_them = [(name, lab, edits) for name, labs in mistakes.MISTAKES.items() for lab, edits in labs.items()
+                   if lab in SHADERS]
+    return [(name, lab, mistakes.applied(mistakes.read(lab), lab, edits)) for name, lab, edits in all_of_them[::every]]
+
+
+class OfLabs(Case):
+    def judge(self, lab, texts):
+        return self.page.run(f"""LabWorker.ask({{compiled: Lab.lab.compiled, lab: {json.dumps(mistakes.NAMES[lab])},
+            what: "check", seed: 1, texts: new Map(Object.entries({json.dumps(texts)}))}})
+            .then(answer => answer.verdict || {{message: answer.message}})""")
+
+
+class Verdicts(OfLabs):
+    def test_verdicts_are_native(self):
+        self.open(mistakes.NAMES[5])
+        cases = [("solution", lab, mistakes.read(lab)) for lab in SHADERS]
+        cases += [("starter", lab, starter(lab)) for lab in SHADERS]
+        for name, lab, texts in cases + made(12):
+            with self.subTest(name, lab=lab):
+                self.assertEqual(said(self.judge(lab, texts)), said(check(lab, texts)))
+        # Operations are not counted.
+        verdict = self.judge(10, mistakes.read(10))
+        self.assertEqual((verdict["verdict"], verdict["points"]), ("right", 5))
+
+    def test_errors_of_the_compiler_are_explained(self):
+        self.open(mistakes.NAMES[5])
+        for name, ((lab, texts), file, meaning) in faults.FAULTS.items():
+            with self.subTest(name):
+                verdict = self.judge(lab, texts)
+                self.assertEqual((verdict["verdict"], verdict["points"]), ("error", 0))
+                if file:
+                    self.assertRegex(verdict["message"], rf"^lab0{lab}\.{file}:\d+: ")
+                self.assertRegex(verdict["message"] + " " + verdict["details"], re.compile(meaning, re.DOTALL))
+
+
+class Labs(OfLabs):
+    def setUp(self):
+        self.open(mistakes.NAMES[5])
+        self.page.run("localStorage.clear()")
+        self.open(mistakes.NAMES[5])
+
+    def put(self, texts):
+        """Types the files, one after another."""
+        for name, text in texts.items():
+            self.page.run(f"""(() => {{
+                const files = document.querySelector(".files"), field = document.querySelector(".source");
+                files.value = {json.dumps(name)};
+                files.dispatchEvent(new Event("change"));
+                field.focus();
+                field.select();
+            }})()""")
+            self.page.type(text)
+
+    def pixels(self, name):
+        return base64.b64decode(self.page.run(f"""(() => {{
+            const canvas = document.getElementById({json.dumps(name)});
+            const {{data}} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+            let text = "";
+            for (let i = 0; i < data.length; i += 4)
+                text += String.fromCharCode(data[i], data[i + 1], data[i + 2]);
+            return btoa(text);
+        }})()"""))
+
+    def compared(self):
+        """The largest error that the page says, once it is below a step or not."""
+        return float(re.search(r"inside objects: ([\d.]+) steps", self.text("#compared")).group(1))
+
+    def finish(self):
+        """Clicks Check and waits for the verdict."""
+        self.page.click("#check")
+        self.page.wait("!document.getElementById('check').disabled")
+
+    def test_a_lab_is_done(self):
+        self.assertGreater(self.compared(), 50)
+        before, expected = self.pixels("drawn"), self.pixels("expected")
+        self.put(SOLUTION)
+        self.page.wait("parseFloat(document.getElementById('compared').textContent.split(': ')[1]) < 1")
+        self.assertTrue(self.pixels("drawn") != before)
+        self.assertTrue(self.pixels("expected") == expected)
+        with tempfile.TemporaryDirectory() as folder:
+            for name, text in SOLUTION.items():
+                pathlib.Path(folder, name).write_text(text)
+            program = os.path.join(EXAMPLES, mistakes.NAMES[5])
+            native = subprocess.run([program, "--shaders", folder, "-t", "1", "-o", "-", "--format", "rgb"], check=True,
+                                    stdout=subprocess.PIPE, stderr=subprocess.DEVNULL).stdout
+        self.assertEqual(differences(self.pixels("drawn"), native), (0, 0))
+        self.finish()
+        self.assertIn("right, 10 of 10 points", self.text("#result"))
+        # Text and progress outlive the page.
+        self.page.open(pathlib.Path(SITE, "labs.html").as_uri())
+        self.assertEqual(self.text("[data-lab=lab05_per_fragment]"), "right, 10 of 10 points")
+        self.open(mistakes.NAMES[5])
+        self.assertLess(self.compared(), 1)
+        self.assertEqual(differences(self.pixels("drawn"), native), (0, 0))
+        self.assertEqual(self.page.complaints(), [])
+
+    def test_a_mistake_is_named_and_hints_are_asked_for(self):
+        self.put({**SOLUTION, "lab05.frag": SOLUTION["lab05.frag"].replace("normalize(v_Normal)", "v_Normal")})
+        self.finish()
+        self.assertIn("not renormalized per fragment", self.text("#result"))
+        self.assertFalse(self.page.run("document.querySelector('#result details').open"))
+        self.page.click("#result summary")
+        self.assertIn("does not have length 1", self.page.run("document.querySelector('#result details').innerText"))
+        self.assertGreater(self.page.run("document.getElementById('sheet').width"), 200)
+        self.assertEqual(self.page.complaints(), [])
+
+    def test_errors_are_at_their_lines(self):
+        self.put({"lab05.frag": SOLUTION["lab05.frag"].replace("nDotL = max", "nDotl = max")})
+        self.page.wait("document.querySelectorAll('.errors li').length")
+        self.assertRegex(self.text(".errors li"), r"^lab05.frag:\d+: .*nDotL")
+        self.assertIn("did you mean nDotl?", self.text(".said"))
+        self.finish()
+        self.assertIn("error, 0 of 10 points", self.text("#result"))
+
+    def test_what_is_handed_in_is_what_check_takes(self):
+        self.put(SOLUTION)
+        self.page.run("document.getElementById('student').focus()")
+        self.page.type("Ada <b> ../Lovelace")
+        with tempfile.TemporaryDirectory() as folder:
+            self.page.call("Page.setDownloadBehavior", behavior="allow", downloadPath=folder)
+            self.page.click("#hand-in")
+            path = pathlib.Path(folder, "Ada_b_.._Lovelace-lab05.zip")
+            deadline = time.monotonic() + browser.PATIENCE
+            while not path.exists():
+                self.assertLess(time.monotonic(), deadline, os.listdir(folder))
+                self.settle()
+            results = os.path.join(folder, "results")
+            subprocess.run([CHECK, "--class", folder, "--lab", "5", "-o", results], check=True, stdout=subprocess.DEVNULL,
+                           stderr=subprocess.DEVNULL)
+            students = json.loads(pathlib.Path(results, "class.json").read_text())["students"]
+            self.assertEqual([student["verdict"] for student in students], ["right"])
+
+    def test_an_endless_loop_costs_no_text(self):
+        loop = SOLUTION["lab05.frag"].replace("void main() {", "void main() {\n    for (int i = 0; i < 2000000000; i++)\n"
+                                              "        if (float(i) < -1.0) discard;")
+        self.page.run("LabWorker.limit = 2000")
+        self.put({"lab05.vert": SOLUTION["lab05.vert"], "lab05.frag": loop})
+        self.page.wait("document.querySelector('.said').textContent.match(/endless loop|Drawn with/)")
+        self.assertEqual(self.page.run("document.querySelector('.source').value"), loop)
+        self.put(SOLUTION)
+        self.page.wait("parseFloat(document.getElementById('compared').textContent.split(': ')[1]) < 1")
+        # What was being drawn when the page ended is not drawn again by itself.
+        self.page.run("localStorage.setItem('lighting drawing lab05_per_fragment', 'yes')")
+        self.open(mistakes.NAMES[5])
+        self.assertGreater(self.compared(), 50)
+        self.assertIn("Your text of last time", self.text(".said"))
+        self.page.click(".apply")
+        self.page.wait("parseFloat(document.getElementById('compared').textContent.split(': ')[1]) < 1")
+
+    def test_labs_with_c(self):
+        self.open(mistakes.NAMES[3])
+        self.assertIn("does not compile", self.text("[aria-labelledby=check-heading]"))
+        self.assertFalse(self.page.run("!!document.getElementById('check')"))
+        self.assertIn("lab_matrices", self.page.run("document.querySelector('.source').value"))
+        self.put({"matrices.c": "mine"})
+        self.page.wait("document.querySelector('.said').textContent.includes('compiles no C')")
+        self.page.click(".revert")
+        self.open(mistakes.NAMES[10])
+        self.put(mistakes.read(10))
+        self.page.wait("parseFloat(document.getElementById('compared').textContent.split(': ')[1]) < 1.3")
+        self.finish()
+        self.assertIn("right, 5 of 10 points", self.text("#result"))
+        self.assertIn("check natively", self.text("#result"))
+        budget = mistakes.read(10)["budget.c"]
+        for text, message in ((budget.replace("112", "56 * 2"), "reads lines like"), (budget.replace("112", "1"), "3 to 512"),
+                              ("#define X\n" + budget, "reads lines like"), ("int" + budget, "reads lines like")):
+            self.put({"budget.c": text})
+            self.page.wait(f"document.querySelector('#editor').textContent.includes({json.dumps(message)})")
+        self.page.click(".revert")
+
+    def test_a_lost_context_comes_back(self):
+        before = self.pixels("drawn")
+        self.page.run("document.getElementById('drawn').width = 1")
+        self.page.run("LabWorker.lose()")
+        self.page.wait("document.getElementById('drawn').width === 400")
+        self.assertTrue(self.pixels("drawn") == before)
+
+    def test_time(self):
+        self.open(mistakes.NAMES[1])
+        before = self.pixels("expected")
+        self.page.run("document.getElementById('time').select()")
+        self.page.type("3.5")
+        self.page.key("Tab")
+        self.page.wait("Lab.lab.seconds === 3.5 && document.getElementById('compared').textContent")
+        self.assertTrue(self.pixels("expected") != before)
+
+    def test_narrow_pages_and_names(self):
+        self.page.resize(360, 700)
+        for name in [*mistakes.NAMES.values(), "labs", "single/lab09_two_sided"]:
+            self.open(name)
+            self.assertLessEqual(self.page.run("document.documentElement.scrollWidth"), 360, name)
+            self.assertEqual(self.page.complaints(), [])
+            for node in self.page.call("Accessibility.getFullAXTree")["nodes"]:
+                properties = {item["name"]: item["value"].get("value") for item in node.get("properties", [])}
+                if properties.get("focusable") and node["role"]["value"] not in ("RootWebArea", "generic"):
+                    self.assertTrue(node.get("name", {}).get("value"), (name, node["role"]))
+
+    def test_storage(self):
+        for value in ("null", "[]", '{"lab05_per_fragment": 5}', '{"lab05_per_fragment": {"verdict": "<b>", "points": "x"}}'):
+            self.page.run(f"localStorage.setItem('lighting labs', {json.dumps(value)})")
+            self.page.open(pathlib.Path(SITE, "labs.html").as_uri())
+            self.assertEqual(self.text("[data-lab=lab05_per_fragment]"), "")
+            self.assertEqual(self.page.complaints(), [])
+        script = self.page.call("Page.addScriptToEvaluateOnNewDocument", source="""
+            Object.defineProperty(window, "localStorage", {get() { throw new DOMException("blocked"); }});""")["identifier"]
+        try:
+            self.open(mistakes.NAMES[1])
+            self.put({"lab01.frag": "x"})
+            self.page.wait("document.querySelector('.said').textContent.includes('keeps nothing')")
+        finally:
+            self.page.call("Page.removeScriptToEvaluateOnNewDocument", identifier=script)
+
+    def test_a_browser_without_webgl(self):
+        script = self.page.call("Page.addScriptToEvaluateOnNewDocument", source="""
+            window.OffscreenCanvas = undefined; window.Worker = class { constructor() { throw "no workers"; } };""")["identifier"]
+        try:
+            self.page.open(pathlib.Path(SITE, "lab01_diffuse.html").as_uri(),
+                           "document.getElementById('error').textContent")
+            self.assertIn("This page cannot run: no workers", self.text("#error"))
+        finally:
+            self.page.call("Page.removeScriptToEvaluateOnNewDocument", identifier=script)

@@ -1,0 +1,86 @@
+"""What the tests of the pages share: where the pages are, and a page that is open."""
+import base64
+import json
+import os
+import pathlib
+import shlex
+import subprocess
+import sys
+import unittest
+
+import browser
+
+EXAMPLES, PAGE_NATIVE, SOURCE = (os.path.abspath(path) for path in sys.argv[1:4])
+SITE = os.path.join(os.path.dirname(EXAMPLES), "pages")
+
+# A dialog would hold the test up.
+CONFIRM = "window.asked = []; window.confirm = text => { asked.push(text); return !window.refuses; };"
+
+
+def address(name, link=""):
+    return pathlib.Path(SITE, name + ".html").as_uri() + (link and "#" + link)
+
+
+def native(name, arguments):
+    """Rows of red, green, blue. A page counts no operations."""
+    if name == "TermsApart" and "--costs" not in arguments:
+        arguments = ["--costs", "off", *arguments]
+    return subprocess.run([os.path.join(EXAMPLES, name), *arguments, "-o", "-", "--format", "rgb"], check=True,
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE).stdout
+
+
+def differences(one, other):
+    """How many bytes differ, and by more than one step."""
+    assert len(one) == len(other), (len(one), len(other))
+    if one == other:
+        return 0, 0
+    apart = [abs(a - b) for a, b in zip(one, other) if a != b]
+    return len(apart), sum(step > 1 for step in apart)
+
+
+class Case(unittest.TestCase):
+    options = browser.MESA
+
+    @classmethod
+    def setUpClass(cls):
+        cls.page = browser.Browser(*cls.options)
+        cls.page.call("Page.addScriptToEvaluateOnNewDocument", source=CONFIRM)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.page.close()
+
+    def tearDown(self):
+        self.page.resize(1280, 900)
+
+    def open(self, name, link=""):
+        self.page.open(address(name, link))
+
+    def text(self, selector):
+        return self.page.run(f"document.querySelector({json.dumps(selector)}).textContent.trim()")
+
+    def shown(self):
+        """Red, green, blue of the page's picture."""
+        data = base64.b64decode(self.page.run("""(() => {
+            const canvas = document.getElementById("picture");
+            const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+            let text = "";
+            for (let i = 0; i < data.length; i += 4)
+                text += String.fromCharCode(data[i], data[i + 1], data[i + 2]);
+            return btoa(text);
+        })()"""))
+        return data
+
+    def settle(self):
+        """After what was scheduled for the next frame."""
+        self.page.run("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(1))))")
+
+    def assert_native(self):
+        """The picture is that of the command that the page shows."""
+        self.settle()
+        words = shlex.split(self.text("#command"))
+        self.assertEqual(words[0], "examples/run")
+        self.assertEqual(differences(self.shown(), native(words[1], words[2:])), (0, 0), words)
+
+    def programs(self):
+        return self.page.run("Page.page.engine.json('programs')")
