@@ -53,12 +53,17 @@ class Engine {
         return done ? this.lines.join("\n") : this.message;
     }
 
-    /* Replaces shader files by a Map of texts; an empty one restores them. False if one is too long. */
+    /* Replaces shader files by a Map of texts; an empty one restores them. False if one is too long, and then none is
+     * replaced. */
     replace(texts) {
         const longest = 1000000; /* is refused; texts go over the module's stack */
-        const put = (name, text) => this.module.ccall("page_replace", "number", ["string", "string"],
-                                                      [name, text.slice(0, longest)]) === 1;
-        return texts.size ? [...texts].every(([name, text]) => put(name, text)) : put("", "");
+        const put = ([name, text]) => this.module.ccall("page_replace", "number", ["string", "string"],
+                                                        [name, text.slice(0, longest)]) === 1;
+        const size = text => new Blob([text]).size;
+        const long = [...texts].find(([, text]) => size(text) >= longest);
+        if (long)
+            return put(long);
+        return texts.size ? [...texts].every(put) : put(["", ""]);
     }
 
     close() { this.module.ccall("page_close", null, [], []); }

@@ -29,10 +29,10 @@ enum { COUNT = sizeof ALL / sizeof ALL[0] };
 enum { MAX_SIDE = 4096 };
 
 /* The common options that a page has; the others are of files, processes or a terminal. */
-static const char *const SHOWN[] = {"size",         "time",    "orbit",        "samples",
-                                    "precision",    "alpha",   "full",         "clamp",
-                                    "linear-light", "terms",   "light-at",     "light-color",
-                                    "lighting",     "shadows", "show-clipped", NULL};
+static const char *const SHOWN[] = {
+    "size",        "time",     "angle",   "orbit",        "samples", "precision",
+    "alpha",       "full",     "clamp",   "linear-light", "terms",   "light-at",
+    "light-color", "lighting", "shadows", "show-clipped", NULL};
 /* What a program has itself, but no page: files, and operations, which another process counts. */
 static const char *const ABSENT[] = {"model", "up", "costs", NULL};
 
@@ -58,6 +58,11 @@ static bool is_one_of(const char *name, const char *const *names)
         if (strcmp(name, *names) == 0)
             return true;
     return false;
+}
+
+static bool is_shown(const Parameter *option, bool own)
+{
+    return own ? !is_one_of(option->name, ABSENT) : is_one_of(option->name, SHOWN);
 }
 
 /* Saved before the first command line is read; restored before each. */
@@ -160,7 +165,7 @@ static void put_program(FILE *file, const Example *example)
     }
     fputs("], \"options\": [", file);
     for (int i = 0; table[i].name; i++) {
-        if (i < common ? !is_one_of(table[i].name, SHOWN) : is_one_of(table[i].name, ABSENT))
+        if (!is_shown(&table[i], i >= common))
             continue;
         fputs(first ? "\n" : ",\n", file);
         put_option(file, &table[i], i >= common);
@@ -240,12 +245,16 @@ const char *page_values(void)
     if (!file || !page.example)
         return text_end(file);
     const Usage usage = options_usage(page.example);
-    options_table(&usage, &page.options, OPTIONS_TO_SHOW, table);
+    const int common = options_table(&usage, &page.options, OPTIONS_TO_SHOW, table);
+    bool first = true;
     for (int i = 0; table[i].name; i++) {
-        fputs(i ? ", " : "{", file);
+        if (!is_shown(&table[i], i >= common))
+            continue;
+        fputs(first ? "{" : ", ", file);
         put_json(file, table[i].name);
         fputs(": ", file);
         put_json(file, parameter_text(&table[i], value));
+        first = false;
     }
     fputc('}', file);
     return text_end(file);
@@ -286,6 +295,14 @@ static bool open_stage(const Example *example, bool keeps, Message *message)
     return stage_open(&page.stage, example, &page.canvas, &page.options, message);
 }
 
+/* Runs the example's init and finish: what it has open is closed before. */
+static bool check_terms(const Example *example, const Options *options, Message *message)
+{
+    if (page.stage.example == example && example->finish)
+        example->finish();
+    return !example->scene || unused_terms_check(example, options, message);
+}
+
 int page_open(const char *lines)
 {
     Options options;
@@ -294,12 +311,14 @@ int page_open(const char *lines)
     const int number = find_example(lines);
     if (number < 0)
         message_set(&page.message, "%.*s: no such program", (int)strcspn(lines, "\n"), lines);
+    /* The parameters change now: what was open cannot be drawn any more. */
+    page.example = NULL;
     if (!copy || number < 0 || !read_options(number, copy, &options, &page.message) ||
-        (ALL[number]->scene && !unused_terms_check(ALL[number], &options, &page.message))) {
+        !check_terms(ALL[number], &options, &page.message)) {
         free(copy);
         return EXIT_USAGE;
     }
-    const bool keeps = page.example == ALL[number] && page.stage.example && !page.replaced &&
+    const bool keeps = page.stage.example == ALL[number] && !page.replaced &&
                        same_text(options.shaders.precision, page.options.shaders.precision);
     options.shaders.folder = page.folder[0] ? page.folder : NULL;
     options.shaders.files = &page.files;
@@ -308,7 +327,6 @@ int page_open(const char *lines)
     free(page.lines);
     page.lines = copy;
     page.replaced = false;
-    page.example = NULL;
     if (!fit_canvas(&options, &page.message)) {
         page_close();
         return EXIT_FAILED;
@@ -428,10 +446,11 @@ int page_replace(const char *name, const char *text)
 {
     char path[256];
     page.message = (Message){0};
-    page.replaced = true;
-    page.folder[0] = '\0';
-    if (!name[0])
+    if (!name[0]) {
+        page.replaced = true;
+        page.folder[0] = '\0';
         return 1;
+    }
     if (name[0] == '/' || strstr(name, "..") || strlen(text) > SHADER_FILE_MAX ||
         snprintf(path, sizeof path, "/tmp/shaders/%s", name) >= (int)sizeof path)
         return message_set(&page.message, "%.80s: a shader file has at most %d bytes", name,
@@ -441,6 +460,7 @@ int page_replace(const char *name, const char *text)
     const bool written = file && fputs(text, file) >= 0;
     if ((file && fclose(file) != 0) || !written)
         return message_set(&page.message, "%s: cannot be kept", name);
+    page.replaced = true;
     snprintf(page.folder, sizeof page.folder, "/tmp/shaders");
     return 1;
 }

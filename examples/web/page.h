@@ -12,7 +12,7 @@ const char *page_programs(void);
 
 /* Opens a program: its name and then arguments "--NAME" or "--NAME=VALUE", a line each. One that
  * only other options were given for keeps its compiled shaders. 0, or 1 or 2 as a program would
- * exit, and page_message. */
+ * exit, and page_message; then none is open. */
 int page_open(const char *lines);
 
 /* Why the last call failed; else a warning about shaders, or "". */
@@ -40,7 +40,7 @@ int page_explain(void);
 const char *page_shaders(void);
 
 /* Puts a text in place of a shader file for the next page_open; an empty name: no file is replaced
- * any more. 0 on failure. */
+ * any more. 0 on failure, which changes nothing. */
 int page_replace(const char *name, const char *text);
 
 /* Computes the exact picture of the last one: a second or more. Returns the errors as JSON, "" on

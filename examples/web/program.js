@@ -57,8 +57,11 @@ const Page = (() => {
             reopen();
             return message;
         }
-        page.good = new Map(page.values);
         const values = page.engine.json("values");
+        /* An angle is a time. */
+        if (page.values.delete("angle"))
+            page.seconds = Number(values.time);
+        page.good = new Map(page.values);
         for (const option of page.program.options)
             if (option.kind === "flag")
                 values[option.name] = page.values.get(option.name) === true;
@@ -69,8 +72,6 @@ const Page = (() => {
 
     function change(name, value) {
         const values = new Map(page.values);
-        if (name === "angle")
-            name = "time";
         if (value === "" || value === false)
             values.delete(name);
         else
@@ -359,9 +360,9 @@ const Page = (() => {
     }
 
     function replace(texts) {
-        page.texts = texts;
         if (!page.engine.replace(texts))
             return page.engine.message;
+        page.texts = texts;
         const message = reopen() || (page.engine.draw(page.seconds, page.orbit) ? "" : page.engine.message);
         if (message) {
             page.engine.replace(page.drawn);

@@ -51,7 +51,7 @@ OPTIONS = [["--samples=4"], ["--precision=highp"], ["--precision=mediump"], ["--
 OF_SCENES = [["--linear-light"], ["--full"], ["--clamp=vertex"], ["--terms=diffuse"]]
 OF_ONE = {"Shadows": [["--shadows=map"], ["--shadows=planar", "--sheet=on"]],
           "SpotLight": [["--shadows=volumes"], ["--shadows=volumes", "--samples=4"], ["--light-color=0,0.2,1,0.5"]]}
-ABSENT = {"--costs", "--angle"}  # of the tries
+ABSENT = {"--costs"}  # of the tries
 
 
 def decode_png(data):
@@ -322,6 +322,32 @@ class Pages(Case):
             field.setSelectionRange(at, at + {len(old)});
         }})()""")
         self.page.type(new)
+
+    def test_an_angle_is_a_time(self):
+        self.open("LightedCube_animation", "angle=45")
+        self.assert_native()
+        self.assertIn("--time 1.5", self.text("#command"))
+        self.page.run("""(() => {
+            const field = document.getElementById("option-angle");
+            field.value = "90";
+            field.dispatchEvent(new Event("input"));
+        })()""")
+        self.assert_native()
+        self.assertIn("--time 3", self.text("#command"))
+        self.page.click("#back")
+        self.assert_native()
+        self.assertIn("--time 2.9", self.text("#command"))
+
+    def test_a_refused_file_changes_nothing(self):
+        self.open("LightedCube")
+        self.page.run(HARNESS)
+        for texts in ({}, {"lecture/LightedCube.frag": "void main() { gl_FragColor = vec4(0.5); }"}):
+            self.page.run(f"own.replace(new Map(Object.entries({json.dumps(texts)})))")
+            before = self.page.run("rgb(['LightedCube'])")
+            self.assertFalse(self.page.run("""own.replace(new Map([["lecture/LightedCube.vert", "void main() {}"],
+                ["lecture/LightedCube.frag", "é".repeat(600000)]]))"""))
+            self.assertIn("at most 999999 bytes", self.page.run("own.message"))
+            self.assertEqual(self.page.run("rgb(['LightedCube'])"), before)
 
     def test_an_included_file_is_edited(self):
         self.open("Materials")

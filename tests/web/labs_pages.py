@@ -68,13 +68,18 @@ class Verdicts(OfLabs):
 
     def test_errors_of_the_compiler_are_explained(self):
         self.open(mistakes.NAMES[5])
-        for name, ((lab, texts), file, meaning) in faults.FAULTS.items():
+        for number, (name, ((lab, texts), file, meaning)) in enumerate(faults.FAULTS.items()):
             with self.subTest(name):
-                verdict = self.judge(lab, texts)
-                self.assertEqual((verdict["verdict"], verdict["points"]), ("error", 0))
+                said = self.page.run(f"""LabWorker.ask({{compiled: Lab.lab.compiled, lab: {json.dumps(mistakes.NAMES[lab])},
+                    what: "draw", seconds: 1, texts: new Map(Object.entries({json.dumps(texts)}))}})
+                    .then(answer => answer.message.replace("/tmp/mine/", ""))""")
                 if file:
-                    self.assertRegex(verdict["message"], rf"^lab0{lab}\.{file}:\d+: ")
-                self.assertRegex(verdict["message"] + " " + verdict["details"], re.compile(meaning, re.DOTALL))
+                    self.assertRegex(said, rf"^lab0{lab}\.{file}:\d+: ")
+                self.assertRegex(said, re.compile(meaning, re.DOTALL))
+                if number % 9 == 0:
+                    verdict = self.judge(lab, texts)
+                    self.assertEqual((verdict["verdict"], verdict["points"]), ("error", 0))
+                    self.assertRegex(verdict["message"] + " " + verdict["details"], re.compile(meaning, re.DOTALL))
 
 
 class Labs(OfLabs):
