@@ -157,7 +157,9 @@ struct Sum {
 
 void add_light(inout Sum sum, int light, vec3 place, vec3 n, vec3 v, vec3 toward, vec3 base,
                vec3 diffuse, vec3 limit) {
-    vec3 source = u_Light[light], specular = u_Highlight[light];
+    // Browsers index by constants alone.
+    vec3 source = light == 0 ? u_Light[0] : u_Light[1];
+    vec3 specular = light == 0 ? u_Highlight[0] : u_Highlight[1];
     vec3 way = source - u_FromPlace * place;
     vec3 l = u_LightSign * (u_LightUnit == 1 ? way : u_LightUnit == 0 ? normalize(way) : toward);
     vec3 share = mix(vec3(1.0), vec3(fading(length(u_FadeMode == 5 ? u_View - place : way))),
