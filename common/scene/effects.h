@@ -59,7 +59,7 @@ typedef struct Effects {
     bool linear;
     bool show_clipped;
     bool limit; /* colors may be so large that a driver draws them as black */
-    bool cull; /* back faces are never visible */
+    bool cull;  /* back faces are never visible */
 } Effects;
 
 /* A side's material; with vertex colors, its ambient and diffuse reflectivity are those, and white
