@@ -485,14 +485,13 @@ static const Example *any_example(bool shadows)
     return example;
 }
 
-/* `error`: 0: any; else this one, and nothing is given that can be chosen. `lit`: lights may be
- * moved and colored, and have shadows. */
-static Command any_command(bool large, double error, bool lit)
+/* `most`: pixels of width. `error`: 0: any; else this one, and nothing is given that can be chosen.
+ * `lit`: lights may be moved and colored, and have shadows. */
+static Command any_command(double most, double error, bool lit)
 {
     static const double errors[] = {0.6, 1, 2, 4, 8, 16, 32};
     const double any = errors[below(7)];
     Command command = {.example = any_example(lit)};
-    const double most = large ? 1600 : testing_step(2) == 2 ? 120 : 400; /* the short form: small */
     const Parameter *own = example_parameters(command.example);
     add(&command, "--error=%g", error > 0 ? error : any);
     add(&command, "--size=%dx%d", (int)(50 * pow(most / 50, between(0, 1))),
@@ -832,16 +831,16 @@ TEST(scenes_that_were_wrong_are_right)
 
 TEST(random_scenes_keep_the_error_that_is_allowed)
 {
-    /* A scene takes 1 to 10 s. LIGHTING_TEST_CASES asks for more of them. */
-    enum { CASES = 60 };
+    /* A scene takes 1 to 10 s, a large one a minute. LIGHTING_TEST_CASES asks for more of them. */
+    enum { CASES = 300 };
     const char *asked = getenv("LIGHTING_TEST_CASES");
-    const int count = asked ? atoi(asked) : testing_part(CASES, 15);
+    const int count = asked ? atoi(asked) : testing_part(CASES, 75);
     const bool large = testing_step(2) == 1;
     int broken = 0, unreached = 0;
     randomness.state = testing_seed(1);
     write_models();
     for (int i = 0; i < count; i++) {
-        Command command = any_command(large && i % 8 == 0, 0, true);
+        Command command = any_command(large && i % 40 == 0 ? 1600 : 160, 0, true);
         Verdict verdict;
         broken += !check(&command, &verdict);
         unreached += verdict.reached > verdict.allowed;
@@ -860,7 +859,7 @@ TEST(animations_keep_the_error_between_the_moments)
     randomness.state = testing_seed(2);
     write_models();
     for (int i = 0; i < count; i++) {
-        Command command = any_command(false, 0, false);
+        Command command = any_command(400, 0, false);
         Verdict verdict;
         /* Later options replace earlier ones. Two seconds, 60 degrees. */
         add(&command, "--size=%dx%d", 40 + below(60), 40 + below(60));
@@ -896,7 +895,7 @@ static int print_table(void)
         int count = 0, fewer = 0, more = 0, plain = 0;
         randomness.state = 1;
         for (int i = 0; i < cases; i++) {
-            const Command command = any_command(false, errors[e], false);
+            const Command command = any_command(400, errors[e], false);
             const Verdict verdict = run(&command, true);
             if (getenv("LIGHTING_TEST_VERBOSE")) {
                 print_command(&command, stderr);
