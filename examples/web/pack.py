@@ -60,7 +60,8 @@ def write(path, text):
 
 
 # As the lessons have them.
-predecessors = dict(re.findall(r"\{&(\w+), &(\w+)\}", read(root / "examples/lessons/lessons.c")))
+predecessors = dict(re.findall(r"X\((\w+), &(\w+)\)", read(root / "examples/lessons/lessons.c")))
+assert predecessors, "lessons.c: no LESSON_LIST"
 
 
 def module_js(module):

@@ -31,7 +31,7 @@ static Image image;
 static void use_way(ShadowWay way)
 {
     ShadowSettings settings = SHADOWS_DEFAULT;
-    settings.way = way;
+    settings.way = (int)way;
     lighting_use_shadows(lighting, &settings);
 }
 
