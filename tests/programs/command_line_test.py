@@ -1254,7 +1254,9 @@ class Again(Case):
             again = self.drawn(*words, program=program)
             self.assertEqual((picture.width, picture.height), (again.width, again.height), path)
             other = sum(abs(a - b) > 8 for a, b in zip(picture.pixels, again.pixels))
-            self.assertLess(other, len(again.pixels) / 1000, path)
+            # A diagram is full of letters, each of which another FreeType places otherwise.
+            share = 1 / 50 if program == "Vectors" else 1 / 1000
+            self.assertLess(other, share * len(again.pixels), path)
 
     def assert_again(self, program, *arguments, suffix="png", **more):
         self.good_or_unused(*arguments, "-o", "first." + suffix, program=program, **more)
