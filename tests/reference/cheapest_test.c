@@ -617,6 +617,8 @@ static double look(const Judged *judged, int x, int y, double drawn[4], double c
 static void judge_by_own(const Judged *judged, int x, int y, Verdict *verdict)
 {
     const int *place = judged->view->place;
+    const double slope =
+        judged->view->scene.scene.linear ? 12.92 : 1; /* of sRGB's encoding, near 0 */
     double drawn[4], color[3], own[3];
     look(judged, x, y, drawn, color);
     if (!own_color(&judged->view->scene.scene, place[2], place[3], x, y, own))
@@ -624,7 +626,7 @@ static void judge_by_own(const Judged *judged, int x, int y, Verdict *verdict)
     verdict->own_pixels++;
     verdict->by_own = fmax(verdict->by_own, apart(drawn, own));
     for (int k = 0; k < 3; k++)
-        verdict->apart = fmax(verdict->apart, fabs(own[k] - color[k]));
+        verdict->apart = fmax(verdict->apart, fabs(own[k] - color[k]) / slope);
 }
 
 /* All pixels by the reference; some, and the worst, by the evaluator of this file. */
@@ -764,7 +766,7 @@ static bool check(const Command *command, Verdict *found)
     *found = verdict;
     const double limit = fmax(verdict.allowed, verdict.reached) + SLACK;
     const bool kept = verdict.by_reference <= limit && verdict.by_own <= limit && !verdict.in_vain;
-    /* The two evaluators agree to a thousandth of a step. */
+    /* The two evaluators agree to a thousandth of a step before encoding. */
     const bool agree = verdict.apart < 1e-3;
     if (!kept || !agree || getenv("LIGHTING_TEST_VERBOSE")) {
         printf("%s", kept && agree ? "" : "FAILED: ");
