@@ -533,27 +533,47 @@ class Results(Class):
             found += more
         return found
 
+    def judging(self, process):
+        """Whether it has come to the check itself, in its sandbox."""
+        try:
+            return b"--inside\0check\0" in read("/proc", str(process), "cmdline", mode="rb")
+        except OSError:
+            return False
+
+    def check_end(self, end, ready):
+        """A class of endless submissions that gets the signal once `ready` is true of what it has
+        started leaves nothing running."""
+        arguments = ("--jobs", "4", "--limit", "1000", "--again")
+        with self.start_class(*arguments, stderr=subprocess.DEVNULL) as process:
+            started = []
+            while process.poll() is None and not ready(started):
+                time.sleep(0.01)
+                started = self.descendants(process.pid)
+            process.send_signal(end)
+            process.wait(timeout=base.PATIENCE)
+            # The kernel ends a process whose parent was killed a moment later.
+            for _ in range(20 * base.PATIENCE):
+                left = [pid for pid in started if self.state(pid)[1] != "Z"]
+                if not left:
+                    break
+                time.sleep(0.05)
+            self.assertEqual(left, [])
+
     def test_what_was_started_ends_with_the_program(self):
         for i in range(4):
             self.submit_endless(f"endless{i}")
-        arguments = ("--jobs", "4", "--limit", "1000")
         for end in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
-            with self.subTest(signal=end), self.start_class(
-                *arguments, stderr=subprocess.DEVNULL
-            ) as process:
-                started = []
-                while process.poll() is None and len(started) < 4 * 3:
-                    time.sleep(0.05)
-                    started = self.descendants(process.pid)
-                process.send_signal(end)
-                process.wait(timeout=base.PATIENCE)
-                # The kernel ends a process whose parent was killed a moment later.
-                for _ in range(20 * base.PATIENCE):
-                    left = [pid for pid in started if self.state(pid)[1] != "Z"]
-                    if not left:
-                        break
-                    time.sleep(0.05)
-                self.assertEqual(left, [])
+            with self.subTest(signal=end):
+                self.check_end(end, lambda started: sum(map(self.judging, started)) >= 4)
+
+    def test_what_was_started_ends_with_the_program_at_any_moment(self):
+        """Bubblewrap alone leaves a sandbox behind if it is killed at its start."""
+        for i in range(4):
+            self.submit_endless(f"endless{i}")
+        for count in range(2, 17, 1 if base.LONG else 5):
+            for end in (signal.SIGINT, signal.SIGKILL):
+                with self.subTest(processes=count, signal=end):
+                    self.check_end(end, lambda started: len(started) >= count)
 
     def test_a_changed_submission_is_judged_again(self):
         self.submit("a", STARTER)

@@ -26,11 +26,14 @@ typedef struct Report {
 } Report;
 
 /* In the child, which ends with its parent; its process group includes its own children. */
-static _Noreturn void judge_apart(const JudgeOptions *options, double limit, int pipe_end)
+static _Noreturn void judge_apart(const JudgeOptions *options, double limit, pid_t parent,
+                                  int pipe_end)
 {
     static Report report;
     setpgid(0, 0);
     prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent)
+        _exit(1); /* it ended before that */
     /* The driver's compiler alone asks for more than 1 GB of address space. */
     process_limit((rlim_t)ceil(limit) + DIAGNOSIS_SECONDS, (rlim_t)2 << 30);
     judge_limit((rlim_t)ceil(limit));
@@ -68,11 +71,12 @@ static bool supervise_in(const JudgeOptions *options, double limit, Verdict *ver
     int end;
     const double start = clock_now(), last = start + BUSY * limit + BUSY_START;
     fflush(NULL);
+    const pid_t self = getpid();
     const pid_t child = process_fork(&end, message);
     if (child < 0)
         return false;
     if (child == 0)
-        judge_apart(options, limit, end);
+        judge_apart(options, limit, self, end);
     setpgid(child, child);
     const bool received = process_read(end, &report, sizeof report, last) == sizeof report;
     const bool late = !received && clock_now() >= last;

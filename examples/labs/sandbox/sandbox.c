@@ -116,7 +116,7 @@ static void add_bubblewrap(Arguments *arguments, const Sandbox *sandbox)
     snprintf(size, sizeof size, "%d", SANDBOX_FOLDER << 20);
     add_words(arguments,
               (const char *const[]){"bwrap", "--unshare-pid", "--unshare-net", "--unshare-ipc",
-                                    "--unshare-uts", "--die-with-parent", "--new-session", NULL});
+                                    "--unshare-uts", "--die-with-parent", NULL});
     /* As root no user namespace, because in it the process limit would not hold. Only the rights to
      * change the user remain. */
     if (getuid() == 0)
@@ -158,11 +158,33 @@ static void leave_network(void)
         write_text("/proc/self/uid_map", map);
 }
 
-/* The process after fork: nothing here may allocate. */
-static void become(char *const words[], const int files[3], bool isolate)
+static void end_group(int signal)
 {
-    setpgid(0, 0);
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    (void)signal;
+    kill(0, SIGKILL);
+}
+
+/* Forks once more. The process between waits, and ends its whole process group when its parent
+ * ends; bubblewrap alone may leave its sandbox behind if it is killed at its start, in spite of
+ * --die-with-parent. */
+static void keep_group(pid_t parent)
+{
+    int status = 0;
+    setsid(); /* also without a terminal */
+    signal(SIGTERM, end_group);
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    const pid_t child = getppid() == parent ? fork() : -1;
+    if (child == 0)
+        return;
+    while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR)
+        continue;
+    _exit(child > 0 && WIFEXITED(status) ? WEXITSTATUS(status) : INSIDE_BROKEN);
+}
+
+/* The process after fork: nothing here may allocate. */
+static void become(char *const words[], const int files[3], bool isolate, pid_t parent)
+{
+    keep_group(parent);
     write_text("/proc/self/oom_score_adj", "1000"); /* killed first if memory runs out */
     if (isolate)
         leave_network();
@@ -182,12 +204,12 @@ static bool spawn(SandboxRun *run, char *const words[], int input, bool isolate,
     if (pipe2(output, O_CLOEXEC) != 0 || pipe2(errors, O_CLOEXEC) != 0)
         goto failed;
     const int files[3] = {input, output[1], errors[1]};
+    const pid_t self = getpid();
     run->pid = fork();
     if (run->pid < 0)
         goto failed;
     if (run->pid == 0)
-        become(words, files, isolate);
-    setpgid(run->pid, run->pid); /* in both processes: either may be first */
+        become(words, files, isolate, self);
     close(output[1]);
     close(errors[1]);
     fcntl(output[0], F_SETFL, O_NONBLOCK);
@@ -259,7 +281,7 @@ static void close_file(int *file)
 
 static void kill_run(SandboxRun *run)
 {
-    /* Its process group; bubblewrap's death ends everything in it. */
+    /* Its process group, if it is one yet. */
     kill(-run->pid, SIGKILL);
     kill(run->pid, SIGKILL);
     close_file(&run->output);
