@@ -39,6 +39,26 @@ EXACT = """<p><button type="button" id="compare">Compare with the exact picture<
 </figure>"""
 NO_SCENE = """<p>The lecture's programs draw no scene that the exact picture could be computed of; natively a test compares
 their pictures with closed forms.</p>"""
+HEAD = """<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta http-equiv="Content-Security-Policy" content="%s">"""
+# See editor.js.
+EDITOR = """<div class="row">
+<label>File <select class="files"></select></label>
+<label><input type="checkbox" class="live" checked> Draw while I type</label>
+</div>
+<div class="text"><pre class="gutter" aria-hidden="true"></pre><textarea class="source" spellcheck="false"
+ autocapitalize="off" autocomplete="off" wrap="off" aria-label="Source of the %s"></textarea></div>
+<div class="row">
+<button type="button" class="apply">Apply (Ctrl+Enter)</button>
+<button type="button" class="revert">Restore all files</button>
+<button type="button" class="save">Save this file</button>
+</div>
+<p class="said" role="status"></p>
+<ul class="errors" aria-label="Errors"></ul>"""
 # Effects are of scenes.
 EXPLAIN = """<details id="explain"><summary>What is computed, and why (<code>--explain</code>)</summary>
 <pre id="explained" tabindex="0"></pre></details>"""
@@ -104,14 +124,14 @@ def policy(scripts, styles, images=""):
 
 def shared(names):
     # Of a file Firefox takes no other for 'self'.
-    return {"policy": policy("'self' file:", "'self' file:", " 'self' file:"), "style": '<link rel="stylesheet" href="style.css">',
-            "scripts": "\n".join(f'<script src="{name}"></script>' for name in names)}
+    return {"head": HEAD % policy("'self' file:", "'self' file:", " 'self' file:"),
+            "style": '<link rel="stylesheet" href="style.css">', "scripts": "\n".join(f'<script src="{name}"></script>' for name in names)}
 
 
 def alone(names):
     texts = ["\n" + read(site / name).replace("</script", "<\\/script") for name in names]
     style = "\n" + read(site / "style.css")
-    return {"policy": policy(" ".join(map(digest, texts)), digest(style)), "style": f"<style>{style}</style>",
+    return {"head": HEAD % policy(" ".join(map(digest, texts)), digest(style)), "style": f"<style>{style}</style>",
             "scripts": "\n".join(f"<script>{text}</script>" for text in texts)}
 
 
@@ -125,7 +145,8 @@ def page(folder, name, parts, single):
                 f'<pre tabindex="0">{diff(before, name)}</pre></details>')
     links = "" if single else '<nav aria-label="Pages"><a href="index.html">All programs</a></nav>'
     return fill("program.html", name=name, summary=html.escape(summary(folder, name)), links=links, more=more,
-                exact=EXACT if scene else NO_SCENE, only="<code>--error</code>, " if scene else "", **parts)
+                editor=EDITOR % "shader file", exact=EXACT if scene else NO_SCENE,
+                only="<code>--error</code>, " if scene else "", **parts)
 
 
 def card(folder, name):
@@ -148,7 +169,7 @@ def lab_page(name, parts, single):
     task = markdown.to_html(task.replace("## Run and check", "## The same natively"))
     note = f"<p>{NOTES[name]}</p>" if name in NOTES else ""
     return fill("lab.html", name=name, title=html.escape(title(name)), task=task, links=links, note=note,
-                check=NO_CHECK if name == "lab03_normal_matrix" else CHECK, **parts)
+                editor=EDITOR % "file", check=NO_CHECK if name == "lab03_normal_matrix" else CHECK, **parts)
 
 
 def lab_card(name):
