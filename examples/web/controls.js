@@ -77,6 +77,19 @@ const Controls = (() => {
         return {number, whole: number, color}[option.kind] || text;
     }
 
+    /* A browser opens a dropped file in place of the page, with the texts in it; say(name) instead. */
+    function refuseFiles(say) {
+        for (const kind of ["dragover", "drop"])
+            window.addEventListener(kind, event => {
+                if (!event.dataTransfer.types.includes("Files"))
+                    return;
+                event.preventDefault();
+                const [file] = event.dataTransfer.files;
+                if (kind === "drop")
+                    say(file ? file.name.replace(/\p{Cc}/gu, " ").slice(0, 100) : "a file");
+            });
+    }
+
     /* Fills `form`; change(name, value) is called for each change by the user. */
     function fill(form, options, change) {
         const shown = new Map();
@@ -115,5 +128,5 @@ const Controls = (() => {
         };
     }
 
-    return {element, fill};
+    return {element, refuseFiles, fill};
 })();

@@ -141,6 +141,9 @@ const Lab = (() => {
         if (part("check"))
             part("check").addEventListener("click", () => check());
         LabWorker.lost = () => draw(true);
+        Controls.refuseFiles(name => {
+            part("error").textContent = name + ": a page reads no files; paste its text into the editor";
+        });
     }
 
     async function open() {

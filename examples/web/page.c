@@ -171,6 +171,15 @@ static void put_program(FILE *file, const Example *example)
         put_option(file, &table[i], i >= common);
         first = false;
     }
+    fputs("], \"absent\": [", file);
+    first = true;
+    for (int i = common; table[i].name; i++) {
+        if (is_shown(&table[i], true))
+            continue;
+        fputs(first ? "" : ", ", file);
+        put_json(file, table[i].name);
+        first = false;
+    }
     fputs("]}", file);
 }
 

@@ -7,7 +7,8 @@
 
 /* Texts that are returned are valid until the next call. */
 
-/* The programs and their options as JSON: what a page needs to make its controls. */
+/* The programs and their options as JSON: what a page needs to make its controls, and the names of
+ * the options that a program has natively only. */
 const char *page_programs(void);
 
 /* Opens a program: its name and then arguments "--NAME" or "--NAME=VALUE", a line each. One that

@@ -324,6 +324,15 @@ const Page = (() => {
             setTimeout(() => recover(attempts - 1), 1000);
     }
 
+    /* What the program has natively only, models among it. */
+    function listAbsent() {
+        const {absent} = page.program;
+        const models = absent.includes("model");
+        part("absent").textContent = absent.length ? " Of this program's own options: --" + absent.join(", --") + "." : "";
+        Controls.refuseFiles(name => fail(name + ": a page reads no files" +
+            (models ? "; models are drawn natively: examples/run " + page.name + " --model FILE" : "")));
+    }
+
     function listen() {
         const click = (id, action) => part(id).addEventListener("click", action);
         const canvas = part("picture");
@@ -383,6 +392,7 @@ const Page = (() => {
         page.program = page.engine.json("programs").find(({name}) => name === page.name);
         page.controls = Controls.fill(part("options"), page.program.options, change);
         listTries();
+        listAbsent();
         listen();
         follow();
         if (!page.picture)

@@ -171,6 +171,21 @@ class Browser:
         self.mouse("mouseMoved", x + dx, y + dy)
         self.mouse("mouseReleased", x + dx, y + dy)
 
+    def drop(self, selector, path):
+        """A file from outside of the browser. The page has to take it itself, else a browser with a window opens the file."""
+        x, y = self.place(selector)
+        self.run("""(() => {
+            window.taken = [];
+            for (const kind of ["dragover", "drop"])
+                window.addEventListener(kind, event => taken.push(event.defaultPrevented), {once: true});
+        })()""")
+        for number, kind in enumerate(("dragEnter", "dragOver", "drop")):
+            self.call("Input.dispatchDragEvent", type=kind, x=x, y=y,
+                      data={"items": [], "files": [path], "dragOperationsMask": 1})
+            self.wait(f"taken.length === {number}")
+            if not self.run("taken.every(taken => taken)"):
+                raise Failed(f"{selector}: a dropped file is opened instead of the page")
+
     def type(self, text):
         self.call("Input.insertText", text=text)
 

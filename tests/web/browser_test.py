@@ -328,6 +328,26 @@ class Pages(Case):
         }})()""")
         self.page.type(new)
 
+    def test_a_dropped_file_leaves_the_page(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "<b>duck.obj")
+            pathlib.Path(path).write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+            for name, said in (("Materials", "; models are drawn natively: examples/run Materials --model FILE"),
+                               ("LightedCube", "")):
+                self.open(name)
+                self.assertEqual("--model, --up" in self.text("#absent"), bool(said))
+                before = self.shown()
+                self.edit("void main", "void /* mine */ main")
+                for selector in ("#picture", ".source", "h1"):
+                    self.page.run("document.getElementById('error').textContent = ''")
+                    self.page.drop(selector, path)
+                    self.page.wait("document.getElementById('error').textContent")
+                    self.assertEqual(self.text("#error"), "<b>duck.obj: a page reads no files" + said)
+                self.settle()
+                self.assertEqual(self.shown(), before)
+                self.assertIn("/* mine */", self.page.run("document.querySelector('.source').value"))
+                self.page.click(".revert")
+
     def test_an_angle_is_a_time(self):
         self.open("LightedCube_animation", "angle=45")
         self.assert_native()

@@ -153,6 +153,12 @@ class Labs(OfLabs):
         self.assertGreater(self.page.run("document.getElementById('sheet').width"), 200)
         self.assertEqual(self.page.complaints(), [])
 
+    def test_a_dropped_file_leaves_the_page(self):
+        self.put(SOLUTION)
+        self.page.drop(".source", os.path.join(SOURCE, "examples/labs/lab05_per_fragment/lab05.frag"))
+        self.page.wait("document.getElementById('error').textContent.startsWith('lab05.frag: a page reads no files')")
+        self.assertIn(self.page.run("document.querySelector('.source').value"), SOLUTION.values())
+
     def test_errors_are_at_their_lines(self):
         self.put({"lab05.frag": SOLUTION["lab05.frag"].replace("nDotL = max", "nDotl = max")})
         self.page.wait("document.querySelectorAll('.errors li').length")
