@@ -282,9 +282,9 @@ static bool read_shadows(const Parameter *parameter, const char *text, Message *
     if (strncmp(text, "map:", 4) != 0)
         return parameter_read(&way, text, message);
     settings->way = SHADOWS_MAP;
-    return parse_whole(text + 4, SHADOW_MAP_LEAST, SHADOW_MAP_MOST, &settings->map_size) ||
+    return parse_whole(text + 4, SHADOW_MAP_MIN, SHADOW_MAP_MAX, &settings->map_size) ||
            message_set(message, "--shadows %s: a map has %d to %d texels each way, as in map:512",
-                       text, SHADOW_MAP_LEAST, SHADOW_MAP_MOST);
+                       text, SHADOW_MAP_MIN, SHADOW_MAP_MAX);
 }
 
 static bool write_shadows(const Parameter *parameter, char *text, size_t size)
@@ -297,14 +297,14 @@ static bool write_shadows(const Parameter *parameter, char *text, size_t size)
 
 static bool read_bias(const Parameter *parameter, const char *text, Message *message)
 {
-    enum { MOST = 1000 };
-    static const double min[] = {0, 0, 0}, max[] = {MOST, MOST, MOST};
+    enum { MAX = 1000 };
+    static const double min[] = {0, 0, 0}, max[] = {MAX, MAX, MAX};
     double values[3];
     if (parse_numbers(text, min, max, values) != 3)
         return message_set(message,
                            "--shadow-bias %s: must be CONSTANT,SLOPE,NORMAL in texels of a map, "
                            "each 0 to %d",
-                           text, MOST);
+                           text, MAX);
     *(Vec3 *)parameter->value = (Vec3){values[0], values[1], values[2]};
     return true;
 }

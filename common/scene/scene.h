@@ -63,7 +63,7 @@ typedef struct ShadowSettings {
 } ShadowSettings;
 extern const ShadowSettings SHADOWS_DEFAULT;    /* exact */
 extern const char *const SHADOW_FILTER_NAMES[]; /* "nearest", "2x2" */
-enum { SHADOW_MAP_LEAST = 16, SHADOW_MAP_MOST = 8192 };
+enum { SHADOW_MAP_MIN = 16, SHADOW_MAP_MAX = 8192 };
 
 typedef struct Object {
     const Mesh *mesh;

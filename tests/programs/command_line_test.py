@@ -1296,7 +1296,7 @@ class Again(Case):
     @unittest.skipUnless(os.path.exists(MODULE), "without OpenImageIO")
     def test_exr_and_tiff_say_it_too(self):
         for number, suffix in enumerate(("exr", "tif", "tiff")[:None if LONG else 2]):
-            for program in (self.DRAW + DIAGRAMS)[number::6] if LONG else ():
+            for program in (self.DRAW + DIAGRAMS)[number::3] if LONG else ():
                 self.assert_again(program, *SMALL, "-t", "1.1", suffix=suffix)
             self.assert_again("Materials", *SMALL, "--material", "gold", "--alpha", suffix=suffix)
 

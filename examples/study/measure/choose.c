@@ -80,13 +80,25 @@ static bool select_finalists(const Survey *survey, const char *name, const Choos
     return entries || message_set(message, "study: not enough memory");
 }
 
-/* The time with a margin for the next measurement: the noise, which on a busy machine says more of
- * the others than of this setting. */
+/* The share by which the next measurement may differ: the noise, which on a busy machine says more
+ * of the others than of this setting. */
+static double margin(const ResultRow *row)
+{
+    static const double MIN = 0.02, MAX = 0.1;
+    return isfinite(row->noise) ? fmin(fmax(row->noise, MIN), MAX) : MAX;
+}
+
 static double surely(const ResultRow *row)
 {
-    static const double LEAST = 0.02, MOST = 0.1;
-    const double noise = isfinite(row->noise) ? row->noise : MOST;
-    return row->time * (1 + fmin(fmax(noise, LEAST), MOST));
+    return row->time * (1 + margin(row));
+}
+
+/* Of time: another measurement may come to the other conclusion. */
+static bool is_at_limit(const ResultRow *row, const ChooseLimit *limit)
+{
+    const double least = fmin(row->time_lower, surely(row) * (1 - margin(row)));
+    const double most = fmax(row->time_upper, surely(row) * (1 + margin(row)));
+    return limit->is_time && least <= limit->value && most > limit->value;
 }
 
 static bool is_within(const ResultRow *row, const ChooseLimit *limit)
@@ -141,10 +153,21 @@ static void say_ties(const Finalists *finalists, const ResultRow *best, const Ch
         quality_text(&row->quality, text);
         if (row != best && is_tied(row, best, limit))
             printf("tied with it: %s, %.3f ms\n", text, row->time);
-        else if (limit->is_time && !is_within(row, limit) && row->time_lower <= limit->value &&
-                 row_error(row, limit->kind) < row_error(best, limit->kind) - FRONT_EQUAL_ERROR)
-            printf("more exact, but not surely within the time: %s, %.3f ms [%.3f, %.3f]\n", text,
-                   row->time, row->time_lower, row->time_upper);
+        else if (is_at_limit(row, limit) && !is_within(row, limit) &&
+                 row_error(row, limit->kind) < row_error(best, limit->kind) + FRONT_EQUAL_ERROR)
+            printf("%s exact, but not surely within the time: %s, %.3f ms [%.3f, %.3f]\n",
+                   row_error(row, limit->kind) < row_error(best, limit->kind) - FRONT_EQUAL_ERROR
+                       ? "more"
+                       : "as",
+                   text, row->time, row->time_lower, row->time_upper);
+    }
+    /* What a run chooses that finds these too slow. */
+    const ResultRow *next = best;
+    for (ChooseLimit less = *limit; next && is_at_limit(next, limit);) {
+        less.value = nextafter(surely(next), 0);
+        next = best_finalist(finalists, &less);
+        if (next && !is_tied(next, best, limit))
+            say("if the next measurement finds that too slow", next, limit->kind);
     }
 }
 
