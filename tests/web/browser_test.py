@@ -6,7 +6,6 @@ usage: browser_test.py EXAMPLES_FOLDER_OF_THE_BUILD PAGE_NATIVE SOURCE_FOLDER [u
 Builds the pages with examples/run web. Exit code: 77 without emscripten or chromium.
 """
 import base64
-import gzip
 import json
 import os
 import pathlib
@@ -25,7 +24,8 @@ import zlib
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(__file__))
 import browser
-from labs_pages import Labs, Verdicts
+import sizes
+from labs_pages import Accessible, Labs, Verdicts
 from pages import EXAMPLES, PAGE_NATIVE, SITE, SOURCE, Case, address, differences, native
 
 RENDERER = """(() => {
@@ -583,16 +583,16 @@ class Pages(Case):
             self.page.wait("!document.getElementById('exact').hidden")
 
     def test_sizes(self):
-        def packed(*paths):
-            return sum(len(gzip.compress(path.read_bytes(), 9)) for path in paths)
-        site = pathlib.Path(SITE)
-        pages = [site / name for name in ("index.html", "PointLightedCube.html")]
-        scripts = {site / name for page in pages for name in re.findall(r'<script src="(.*?)"', page.read_text())}
-        self.assertIn(site / "program.js", scripts)
-        self.assertLess(packed(*scripts, *pages, site / "style.css"), 250000)
-        self.assertLess(packed(site / "single/PointLightedCube.html"), 250000)
-        # The labs' module is another one.
-        self.assertLess(packed(site / "single/lab10_budget.html"), 200000)
+        """At most 250 kB, and what the table of the pages says."""
+        measured = list(sizes.sizes(SITE))
+        said = {name: row for name, *row in sizes.read(pathlib.Path(SOURCE, "examples/web/README.md").read_text())}
+        self.assertGreater(len(measured), 30)
+        self.assertIn(pathlib.Path(SITE, "program.js"), sizes.loaded(pathlib.Path(SITE), "Materials"))
+        for name, *row in measured:
+            self.assertLess(max(row), 200000 if name.startswith("lab") else 250000, name)
+            for new, old in zip(row, said.pop(name)):
+                self.assertLess(abs(new - old), max(0.05 * old, 150), f"{name}: now {row}; run tests/tables sizes")
+        self.assertEqual(said, {})
 
 
 def main():

@@ -8,6 +8,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import unittest
 
 import browser
 from pages import EXAMPLES, SITE, SOURCE, Case, differences
@@ -80,6 +81,58 @@ class Verdicts(OfLabs):
                     verdict = self.judge(lab, texts)
                     self.assertEqual((verdict["verdict"], verdict["points"]), ("error", 0))
                     self.assertRegex(verdict["message"] + " " + verdict["details"], re.compile(meaning, re.DOTALL))
+
+
+# axe.min.js of the npm package axe-core, which Debian does not have.
+AXE = os.environ.get("LIGHTING_AXE", "")
+WRONG = """axe.run(document).then(found => found.violations.map(({id, nodes}) => [id, nodes[0].html, nodes[0].failureSummary]))"""
+
+
+@unittest.skipUnless(AXE, "LIGHTING_AXE names no axe.min.js")
+class Accessible(OfLabs):
+    """What axe-core finds on the pages, at each width and in each colour scheme."""
+
+    def tearDown(self):
+        self.page.dark(False)
+        super().tearDown()
+
+    def assert_accessible(self, *what):
+        script = pathlib.Path(AXE).read_text()
+        self.page.run("for (const part of document.querySelectorAll('details')) part.open = true")
+        self.page.run(script + "\n;0")
+        for dark in (False, True):
+            for width in (1280, 360):
+                self.page.dark(dark)
+                self.page.resize(width, 900)
+                with self.subTest(*what, dark=dark, width=width):
+                    self.assertEqual(self.page.run(WRONG), [])
+
+    def test_programs(self):
+        for name in ("index", "LightedCube_ambient", "Materials", "single/FourLights"):
+            self.open(name)
+            self.assert_accessible(name)
+
+    def test_labs(self):
+        self.page.open(pathlib.Path(SITE, "labs.html").as_uri(), "document.readyState")
+        self.assert_accessible("labs")
+        for name in [*mistakes.NAMES.values(), "single/" + mistakes.NAMES[5]]:
+            self.open(name)
+            if self.page.run("!!document.getElementById('check')"):
+                self.page.run("Lab.check(1)")
+                self.assertTrue(self.text("#result summary"))
+            self.assert_accessible(name)
+        self.open(mistakes.NAMES[5])
+        texts = {**SOLUTION, "lab05.frag": SOLUTION["lab05.frag"].replace("normalize(v_Normal)", "v_Normal")}
+        self.page.run(f"Lab.lab.editor.texts = () => new Map(Object.entries({json.dumps(texts)}))")
+        self.page.run("Lab.check(1)")
+        self.assertIn("renormalized", self.text("[aria-label=Mistakes]"))
+        self.page.run("""(() => {
+            document.querySelector(".source").value = "nonsense;";
+            document.querySelector(".source").dispatchEvent(new Event("input"));
+        })()""")
+        self.page.wait("document.querySelectorAll('.errors li').length")
+        self.assert_accessible("a mistake and an error")
+        self.page.run("localStorage.clear()")
 
 
 class Labs(OfLabs):
