@@ -50,6 +50,7 @@ struct Lighting {
     LightingCounts counts;
     LightingTransforms transforms;
     LightingNormalMatrix *normal_matrix; /* NULL: mat4_normal */
+    bool depth_pass;                     /* even where the eye is in a volume */
 };
 
 static Mat4 clip_from_object(Mat4 clip_from_eye, Mat4 eye_from_world, Mat4 world_from_object,
@@ -76,6 +77,11 @@ void lighting_use_shadows(Lighting *lighting, const ShadowSettings *settings)
 void lighting_use_normal_matrix(Lighting *lighting, LightingNormalMatrix *normal_matrix)
 {
     lighting->normal_matrix = normal_matrix;
+}
+
+void lighting_use_depth_pass(Lighting *lighting, bool depth_pass)
+{
+    lighting->depth_pass = depth_pass;
 }
 
 /* Recipes. */
@@ -865,7 +871,7 @@ static bool cast_shadow(Lighting *lighting, const ShadowFrame *frame, const Ligh
     if (!make_throw(lighting, frame, light, number, end, &thrown, message))
         return false;
     thrown.two_sided = frame->scene->objects[number].two_sided;
-    thrown.behind = eye_in_shadow(frame, number, light);
+    thrown.behind = !lighting->depth_pass && eye_in_shadow(frame, number, light);
     thrown.own = frame->full || frame->plan->receives[number] >> light_number & 1;
     thrown.beyond = eye_beyond(frame, end);
     thrown.facing = facing_of(frame, number, thrown.caster->silhouette.closed, thrown.light_object);

@@ -46,6 +46,10 @@ void lighting_use_transforms(Lighting *lighting, const LightingTransforms *trans
 typedef Mat4 LightingNormalMatrix(Mat4 eye_from_object);
 void lighting_use_normal_matrix(Lighting *lighting, LightingNormalMatrix *normal_matrix);
 
+/* From now on, whether volumes of shadows are counted before the surfaces only, to show what is
+ * wrong with that where the eye is in one. */
+void lighting_use_depth_pass(Lighting *lighting, bool depth_pass);
+
 /* Draws a scene that has passed scene_check into the current canvas, without clearing it. `full`
  * uses the program with every effect, for comparison. Mesh buffers are cached by the mesh's
  * address: a mesh must not change before lighting_forget or lighting_close. Where a light has

@@ -129,6 +129,14 @@ static bool draw_ways(Way *naive, Way *stable, HardResult *result, Message *mess
     return true;
 }
 
+/* Volumes, unless they say otherwise. */
+static void use_shadows(Lighting *lighting, const ShadowSettings *settings)
+{
+    ShadowSettings volumes = SHADOWS_DEFAULT;
+    volumes.way = SHADOWS_VOLUMES;
+    lighting_use_shadows(lighting, settings->way != SHADOWS_OFF ? settings : &volumes);
+}
+
 /* With `first`, only the first of the case's files is replaced. */
 static bool open_naive(Lighting **lighting, const HardCase *of, const ShaderLoader *stable,
                        ShaderReplacement replaced[3], bool first, Message *message)
@@ -144,6 +152,8 @@ static bool open_naive(Lighting **lighting, const HardCase *of, const ShaderLoad
         return false;
     lighting_use_normal_matrix(*lighting, of->normal_matrix);
     lighting_use_transforms(*lighting, of->transforms ? of->transforms() : NULL);
+    use_shadows(*lighting, &of->shadows);
+    lighting_use_depth_pass(*lighting, of->depth_pass);
     return true;
 }
 
@@ -162,12 +172,14 @@ static bool draw_case(const HardCase *of, const Canvas *first, const Options *op
         return false;
     Way naive = {.scene = &made.naive, .canvas = &canvas};
     Way timed = naive, stable = {.scene = &made.scene, .canvas = &canvas};
-    const bool done = hard_scene_open(&made, of, message) &&
-                      open_naive(&naive.lighting, of, &loader, replaced[0], false, message) &&
-                      open_naive(&timed.lighting, of, &loader, replaced[1], true, message) &&
-                      lighting_open(&stable.lighting, &loader, message) &&
-                      draw_ways(&naive, &stable, result, message) &&
-                      measure(&timed, &stable, result, message);
+    bool done = hard_scene_open(&made, of, message) &&
+                open_naive(&naive.lighting, of, &loader, replaced[0], false, message) &&
+                open_naive(&timed.lighting, of, &loader, replaced[1], true, message) &&
+                lighting_open(&stable.lighting, &loader, message);
+    if (done)
+        use_shadows(stable.lighting, &(ShadowSettings){.way = SHADOWS_OFF});
+    done = done && draw_ways(&naive, &stable, result, message) &&
+           measure(&timed, &stable, result, message);
     lighting_close(naive.lighting);
     lighting_close(timed.lighting);
     lighting_close(stable.lighting);
@@ -205,7 +217,19 @@ static bool print_table(const HardResult *results, int count, Message *message)
            message_set(message, "standard output: not enough memory for the table");
 }
 
-/* Each case to its own sheet; several also to a common one. */
+/* A common sheet of several cases. */
+static bool draw_sheet(const Options *options, const char *name, const HardResult *results,
+                       int count, Message *message)
+{
+    char path[PATH_MAX];
+    const double scale =
+        fmin((double)SHEET_WIDTH / options->width, (double)SHEET_HEIGHT / options->height);
+    snprintf(path, sizeof path, "%s/%s", options->output, name);
+    return hard_sheet(results, count, 2, (int)fmax(1, scale * options->width),
+                      (int)fmax(1, scale * options->height), path, message);
+}
+
+/* Each case to its own sheet; all also to one of formulas and one of shadows. */
 static bool draw_cases(const Options *options, const Canvas *canvas, int from, int count,
                        HardResult *results, Message *message)
 {
@@ -221,13 +245,10 @@ static bool draw_cases(const Options *options, const Canvas *canvas, int from, i
                hard_sheet(&results[i], 1, 1, width, height, path, message);
         progress_update(&progress, i + 1, count + 1);
     }
-    if (done && count > 1) {
-        const double scale =
-            fmin((double)SHEET_WIDTH / options->width, (double)SHEET_HEIGHT / options->height);
-        snprintf(path, sizeof path, "%s/hard_cases.png", options->output);
-        done = hard_sheet(results, count, 2, (int)fmax(1, scale * options->width),
-                          (int)fmax(1, scale * options->height), path, message);
-    }
+    if (done && count > 1)
+        done = draw_sheet(options, "hard_cases.png", results, HARD_FORMULA_COUNT, message) &&
+               draw_sheet(options, "hard_shadows.png", results + HARD_FORMULA_COUNT,
+                          HARD_SHADOW_COUNT, message);
     progress_end(&progress);
     return done;
 }
@@ -265,8 +286,9 @@ static const Usage usage = {
     .name = "hard_cases",
     .summary = "scenes on which plain formulas fail and stable ones do not",
     .details = "The folder has a sheet for each case, drawn with the plain formula, with the\n"
-               "stable one, and exactly; and hard_cases.png, all of them. Errors are of pixels\n"
-               "inside the objects, in steps of 1/255. Times are of frames drawn in turn, of the\n"
+               "stable one, and exactly; hard_cases.png has all but those of shadows, and\n"
+               "hard_shadows.png those. Errors are of pixels inside the objects, away from edges\n"
+               "of shadows, in steps of 1/255. Times are of frames drawn in turn, of the\n"
                "processor where it draws; the noise is the difference between frames of the\n"
                "same program.\n"
                "\nTry:  hard_cases\n"

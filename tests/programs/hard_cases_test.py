@@ -60,7 +60,7 @@ class Study(base.Case):
 class Cases(Study):
     def test_help_and_list_draw_nothing(self):
         text = self.hard_cases("--help")
-        for word in ("--list", "--case", "hard_cases.png", "Try:"):
+        for word in ("--list", "--case", "hard_cases.png", "hard_shadows.png", "Try:"):
             self.assertIn(word, text)
         self.assertNotIn("--samples", text)
         lines = self.hard_cases("--list").splitlines()
@@ -98,11 +98,12 @@ class Cases(Study):
         for name, row in rows.items():
             self.assert_kept(row, name)
         self.assertEqual(sorted(os.listdir(self.path("all"))),
-                         sorted([f"{name}.png" for name in names] + ["hard_cases.png"]))
+                         sorted([f"{name}.png" for name in names] + ["hard_cases.png", "hard_shadows.png"]))
         for name in names:
             self.assertEqual(self.size(f"all/{name}.png")[0], width(280), name)
-        across, down = self.size("all/hard_cases.png")  # shown at half of that
-        self.assertTrue(1700 < across < 1900 and 1500 < down <= 2000, (across, down))
+        for name, least in ("hard_cases", 1500), ("hard_shadows", 700):
+            across, down = self.size(f"all/{name}.png")  # shown at half of that
+            self.assertTrue(1700 < across < 1900 and least < down <= 2000, (name, across, down))
 
     def test_another_size_is_drawn_and_small_ones_are_enlarged(self):
         self.hard_cases("--case", "leak", *SMALL)

@@ -2,6 +2,7 @@
 
 #include "shapes/mesh_solids.h"
 #include "study/cases/hard_cases_naive.h"
+#include "study/cases/hard_cases_shadows.h"
 
 #include <string.h>
 
@@ -453,13 +454,71 @@ const HardCase HARD_CASES[HARD_CASE_COUNT] = {
      .stable = "gl_FrontFacing",
      .make = make_two_sided,
      .replaced = {{"lighting/side.glsl", "study/side_by_normal.glsl"}}},
+    {.name = "acne",
+     .what = "a shadow map in grazing light: a texel is one depth",
+     .naive = "map of 256, no bias",
+     .stable = "volumes",
+     .make = make_acne,
+     .shadows = {SHADOWS_MAP, 256, 0, {0, 0, 0}}},
+    {.name = "peter-panning",
+     .what = "a shadow map with a large bias: the shadow leaves its plate",
+     .naive = "map of 128, bias 24",
+     .stable = "volumes",
+     .make = make_panning,
+     .shadows = {SHADOWS_MAP, 128, 0, {24, 0, 0}}},
+    {.name = "slit",
+     .what = "light through a slit that is narrower than a map's texel",
+     .naive = "map of 32",
+     .stable = "volumes",
+     .make = make_slit,
+     .shadows = {SHADOWS_MAP, 32, 0, {1, 1.5, 0}}},
+    {.name = "eye-in-shadow",
+     .what = "the eye in a shadow volume: under a roof",
+     .naive = "counted before surfaces",
+     .stable = "counted behind them",
+     .make = make_roof,
+     .depth_pass = true},
+    {.name = "far-plane",
+     .what = "a shadow volume that goes on beyond the far plane",
+     .naive = "cut off there",
+     .stable = "projected without it",
+     .make = make_far_plane,
+     .replaced = {{"shadow.vert", "study/shadow_far_plane.vert"}}},
+    {.name = "terminator",
+     .what = "a coarse sphere with smooth normals, in its own shadow",
+     .naive = "that of its facets",
+     .stable = "convex: by N.L alone",
+     .make = make_terminator,
+     .spoil = spoil_solid},
+    {.name = "far-shadow",
+     .what = "what throws the shadow is a million units from the origin",
+     .naive = "float, view x model",
+     .stable = "relative to the eye",
+     .make = make_distant,
+     .transforms = naive_float_lecture},
+    {.name = "sheet",
+     .what = "an open sheet, and a map of back faces, which needs no bias",
+     .naive = "back faces in the map",
+     .stable = "volumes, open or closed",
+     .make = make_sheet,
+     .replaced = {{"shadow.frag", "study/shadow_back_faces.frag"}},
+     .shadows = {SHADOWS_MAP, 1024, 0, {0, 0, 0}}},
+    {.name = "turned",
+     .what = "a mirrored ring, and a map of back faces: they are its front",
+     .naive = "back faces in the map",
+     .stable = "volumes, mirrored or not",
+     .make = make_mirrored,
+     .replaced = {{"shadow.frag", "study/shadow_back_faces.frag"}},
+     .shadows = {SHADOWS_MAP, 1024, 0, {0, 0, 0}}},
 };
 
 const char *const HARD_CASE_NAMES[HARD_CASE_COUNT + 2] = {
-    "singular", "mirror",       "uneven",     "tiny",      "look-at",  "far",
-    "unit",     "zero-normals", "cancelling", "pow",       "negative", "leak",
-    "opposite", "touching",     "spot",       "highlight", "wide",     "indices",
-    "depth",    "two-sided",    "all",        NULL};
+    "singular",  "mirror",       "uneven",     "tiny",          "look-at",  "far",
+    "unit",      "zero-normals", "cancelling", "pow",           "negative", "leak",
+    "opposite",  "touching",     "spot",       "highlight",     "wide",     "indices",
+    "depth",     "two-sided",    "acne",       "peter-panning", "slit",     "eye-in-shadow",
+    "far-plane", "terminator",   "far-shadow", "sheet",         "turned",   "all",
+    NULL};
 
 bool hard_scene_open(HardScene *made, const HardCase *hard_case, Message *message)
 {
@@ -481,4 +540,5 @@ void hard_scene_close(HardScene *made)
 {
     mesh_close(&made->mesh);
     mesh_close(&made->naive_mesh);
+    mesh_close(&made->floor);
 }

@@ -11,8 +11,9 @@
 typedef struct HardScene {
     Scene scene, naive;
     Light lights[2];
-    Object objects[2], naive_objects[2]; /* copies, changed by `spoil` */
+    Object objects[3], naive_objects[3]; /* copies, changed by `spoil` */
     Mesh mesh, naive_mesh;               /* naive_mesh may be empty: then `mesh` */
+    Mesh floor;                          /* may be empty */
 } HardScene;
 
 typedef struct HardCase {
@@ -27,10 +28,14 @@ typedef struct HardCase {
     const char *precision;
     LightingNormalMatrix *normal_matrix;
     const LightingTransforms *(*transforms)(void);
-    int width, height; /* of the picture, which is then enlarged; 0: the user's */
+    ShadowSettings shadows; /* of the plain way; zeroed: volumes, as in the stable one */
+    bool depth_pass;        /* see lighting_use_depth_pass */
+    int width, height;      /* of the picture, which is then enlarged; 0: the user's */
 } HardCase;
 
-enum { HARD_CASE_COUNT = 20 };
+/* Those of shadows are the last. */
+enum { HARD_FORMULA_COUNT = 20, HARD_SHADOW_COUNT = 9 };
+enum { HARD_CASE_COUNT = HARD_FORMULA_COUNT + HARD_SHADOW_COUNT };
 extern const HardCase HARD_CASES[HARD_CASE_COUNT];
 
 /* Their names and "all", NULL-terminated, for a PARAMETER_CHOICE. */
