@@ -430,7 +430,7 @@ static void pixels_per_unit(Window *window, double *x, double *y)
 void window_input(Window *window, double seconds, WindowInput *input)
 {
     WindowInput *events = &window->pending;
-    if (seconds > 0)
+    if (seconds > 0 && !events->touched)
         glfw.WaitEventsTimeout(seconds);
     else
         glfw.PollEvents();
@@ -462,6 +462,9 @@ void window_input(Window *window, double seconds, WindowInput *input)
 
 void window_swap(Window *window)
 {
+    /* Mesa's software renderer writes to a display that was lost during drawing again and again,
+     * for many seconds; polling notices the loss. What happened is for the next window_input. */
+    glfw.PollEvents();
     glfw.SwapBuffers(window->handle);
 }
 
