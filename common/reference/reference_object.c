@@ -136,6 +136,31 @@ static bool open_triangles(TraceObject *ready, const Scene *scene, const TraceLa
            (!at_corners || light_corners(ready, scene, layers));
 }
 
+/* Around a solid's middle. A linear map makes a vector longer by at most the root of the largest
+ * sum of a row of M^T M. (Gershgorin, 1931) */
+static Ball ball_around(const TraceObject *ready)
+{
+    const Solid *solid = &ready->object->solid;
+    const Real radius = solid->radius, half = (Real)solid->height / 2;
+    const bool high = solid->kind == SOLID_CYLINDER || solid->kind == SOLID_CONE;
+    const Real reach = solid->kind == SOLID_BOX     ? real_sqrt(3) * radius
+                       : solid->kind == SOLID_TORUS ? radius + solid->tube
+                       : solid->kind == SOLID_QUAD  ? real_sqrt(2)
+                       : high                       ? real_sqrt(radius * radius + half * half)
+                                                    : radius;
+    const Ball ball = {.center = trace_object_place(ready, (Real3){0, 0, high ? half : 0})};
+    Real longer = 0;
+    for (int i = 0; i < 3; i++) {
+        Real sum = 0;
+        for (int k = 0; k < 3; k++)
+            sum += real_abs(real3_dot(ready->columns[i], ready->columns[k]));
+        longer = real_max(longer, sum);
+    }
+    const Real around = (1 + (Real)1e-9) * reach * real_sqrt(longer) +
+                        (Real)1e-13 * (real3_reach(ball.center) + real3_reach(ready->offset));
+    return (Ball){ball.center, around * around};
+}
+
 bool trace_object_open(TraceObject *ready, const Object *object, const Scene *scene,
                        const TraceLayers *layers, bool meshes, const atomic_bool *stop)
 {
@@ -158,6 +183,7 @@ bool trace_object_open(TraceObject *ready, const Object *object, const Scene *sc
         const Real3 eye = real3_scale(ready->offset, -1);
         ready->eye = (Real3){real3_dot(ready->inverse[0], eye), real3_dot(ready->inverse[1], eye),
                              real3_dot(ready->inverse[2], eye)};
+        ready->ball = ball_around(ready);
         return true;
     }
     if (exact && object->solid.kind == SOLID_TEAPOT) {

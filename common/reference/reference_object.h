@@ -11,6 +11,12 @@
 #include "reference/reference_triangles.h"
 #include "scene/scene.h"
 
+/* It contains an object, with room for rounding. */
+typedef struct Ball {
+    Real3 center;
+    Real square; /* of its radius */
+} Ball;
+
 typedef struct TraceObject {
     const Object *object;
     Real3 columns[3];        /* of world_from_object */
@@ -18,8 +24,9 @@ typedef struct TraceObject {
     Real3 offset;            /* its translation, from the eye */
     bool mirrored;           /* determinant below 0 */
     bool exact;              /* a solid by its formula; else triangles */
-    /* Exact: rows of object_from_world, and the eye in object coordinates. */
+    /* Exact: rows of object_from_world, the eye in object coordinates, and what contains it. */
     Real3 inverse[3], eye;
+    Ball ball;
     /* Triangles, and for each of their vertices the unit normal; or, where light is computed there,
      * the colors of the front and of the back: for each vertex, or, for flat triangles, for each
      * corner. */
@@ -44,6 +51,21 @@ typedef struct TraceLayers {
 bool trace_object_open(TraceObject *ready, const Object *object, const Scene *scene,
                        const TraceLayers *layers, bool meshes, const atomic_bool *stop);
 void trace_object_close(TraceObject *ready);
+
+/* Whether a line from `from` along `way`, or a segment to from + way, surely misses a ball. */
+static inline bool ball_missed(const Ball *ball, Real3 from, Real3 way, bool endless)
+{
+    const Real3 there = real3_subtract(ball->center, from);
+    const Real square = real3_dot(there, there), length = real3_dot(way, way);
+    const Real along = real3_dot(there, way), rounding = (Real)1e-13;
+    /* Of the distance to where the line touches the ball. */
+    const Real tangent = square - ball->square - rounding * square;
+    if (!(tangent > 0))
+        return false; /* it may begin inside */
+    const Real beyond = square - 2 * along + length - rounding * (square + length);
+    return along < 0 || tangent * length > along * along ||
+           (!endless && along > length && beyond > ball->square);
+}
 
 /* A point in object coordinates, as seen from the eye. */
 Real3 trace_object_place(const TraceObject *ready, Real3 point_object);

@@ -105,13 +105,36 @@ ShadowPoint shadow_start_triangle(const Shadows *shadows, int object, uint32_t t
     return point;
 }
 
-static bool solid_between(const ShadowPoint *point, int number, int light)
+static bool is_plane(const Solid *solid)
+{
+    return solid->kind == SOLID_QUAD || solid->kind == SOLID_DISC;
+}
+
+/* Whether both ends of a segment surely lie on the same side of a plane. */
+static bool beside_plane(const TraceObject *ready, const ShadowPoint *point, Real3 way,
+                         bool endless)
+{
+    const Real3 up = ready->inverse[2];
+    const Real height = real3_dot(up, real3_subtract(point->from, ready->offset));
+    const Real steps = real3_dot(up, way);
+    const Real error = ROUNDINGS * real3_reach(up) *
+                       (point->reach + real3_reach(ready->offset) + real3_reach(way));
+    const Real other = endless ? steps : height + steps, margin = endless ? 0 : error;
+    return height > error ? other > margin : height < -error && other < -margin;
+}
+
+static bool solid_between(const ShadowPoint *point, int number, int light, Real3 way)
 {
     const Shadows *shadows = point->shadows;
     const TraceObject *ready = &shadows->objects[number];
+    const bool endless = shadows->lights[light].light->kind == LIGHT_DIRECTIONAL;
+    if (ball_missed(&ready->ball, point->from, way, endless) ||
+        (is_plane(&ready->object->solid) &&
+         (number == point->object || beside_plane(ready, point, way, endless))))
+        return false;
     const ShadowEnd *end = &shadows->ends[number * shadows->light_count + light];
     SolidSegment segment = {.way = end->place, .light_touched = end->touched};
-    segment.endless = shadows->lights[light].light->kind == LIGHT_DIRECTIONAL;
+    segment.endless = endless;
     if (number == point->object) {
         segment.from = point->local;
         segment.touched = (uint32_t)1 << point->part;
@@ -154,7 +177,7 @@ bool shadow_falls(const ShadowPoint *point, int light)
     for (int i = 0; i < shadows->object_count; i++)
         if (shadows->objects[i].object->lamp || (convex && i == point->object))
             continue;
-        else if (shadows->objects[i].exact ? solid_between(point, i, light)
+        else if (shadows->objects[i].exact ? solid_between(point, i, light, way)
                                            : triangles_between(point, i, light, way))
             return true;
     return false;

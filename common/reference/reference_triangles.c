@@ -102,9 +102,15 @@ typedef struct Box {
     Real low[3], high[3];
 } Box;
 
+/* A triangle while the hierarchy is built: moved as a whole, so that memory is read in order. */
+typedef struct Item {
+    Box box;
+    uint32_t number; /* in the mesh */
+} Item;
+
 typedef struct Builder {
-    Bounds *bounds;
-    const Real (*boxes)[2][3];
+    BoundsNode *nodes;
+    Item *items;
     uint32_t node_count;
     const atomic_bool *stop;
 } Builder;
@@ -129,9 +135,9 @@ static Real half_area(const Box *box)
     return x >= 0 ? x * y + y * z + z * x : 0;
 }
 
-static Real center(const Builder *builder, uint32_t item, int axis)
+static Real center(const Item *item, int axis)
 {
-    return (builder->boxes[item][0][axis] + builder->boxes[item][1][axis]) / 2;
+    return (item->box.low[axis] + item->box.high[axis]) / 2;
 }
 
 typedef struct Bin {
@@ -148,8 +154,7 @@ static int bin_of(Real value, Real low, Real high)
 }
 
 /* Whether cutting between two bins beats a leaf; where. */
-static bool best_cut(const Builder *builder, const uint32_t *items, uint32_t count,
-                     const Box *centers, int axis, int *cut)
+static bool best_cut(const Item *items, uint32_t count, const Box *centers, int axis, int *cut)
 {
     Bin bins[BINS];
     Real right[BINS], best = INFINITY;
@@ -158,10 +163,9 @@ static bool best_cut(const Builder *builder, const uint32_t *items, uint32_t cou
     for (int i = 0; i < BINS; i++)
         bins[i] = (Bin){empty_box(), 0};
     for (uint32_t i = 0; i < count; i++) {
-        Bin *bin =
-            &bins[bin_of(center(builder, items[i], axis), centers->low[axis], centers->high[axis])];
+        Bin *bin = &bins[bin_of(center(&items[i], axis), centers->low[axis], centers->high[axis])];
         bin->count++;
-        extend(&bin->box, builder->boxes[items[i]][0], builder->boxes[items[i]][1]);
+        extend(&bin->box, items[i].box.low, items[i].box.high);
     }
     for (int i = BINS - 1; i > 0; i--) {
         above += bins[i].count;
@@ -183,26 +187,20 @@ static bool best_cut(const Builder *builder, const uint32_t *items, uint32_t cou
 
 /* Puts items with a center below the cut first; returns their number, 0 where nothing separates
  * them. */
-static uint32_t separate(const Builder *builder, uint32_t *items, uint32_t count, int depth)
+static uint32_t separate(Item *items, uint32_t count, const Box *centers, int depth)
 {
-    Box centers = empty_box();
     int axis = 0, cut = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        const Real c[3] = {center(builder, items[i], 0), center(builder, items[i], 1),
-                           center(builder, items[i], 2)};
-        extend(&centers, c, c);
-    }
     for (int k = 1; k < 3; k++)
-        if (centers.high[k] - centers.low[k] > centers.high[axis] - centers.low[axis])
+        if (centers->high[k] - centers->low[k] > centers->high[axis] - centers->low[axis])
             axis = k;
     /* Items in one place, or a chain of lopsided cuts: any halves. */
-    if (depth > SAH_DEPTH || !(centers.high[axis] > centers.low[axis]) ||
-        !best_cut(builder, items, count, &centers, axis, &cut))
+    if (depth > SAH_DEPTH || !(centers->high[axis] > centers->low[axis]) ||
+        !best_cut(items, count, centers, axis, &cut))
         return count / 2;
     uint32_t below = 0;
     for (uint32_t i = 0; i < count; i++) {
-        const uint32_t item = items[i];
-        if (bin_of(center(builder, item, axis), centers.low[axis], centers.high[axis]) < cut) {
+        if (bin_of(center(&items[i], axis), centers->low[axis], centers->high[axis]) < cut) {
+            const Item item = items[i];
             items[i] = items[below];
             items[below++] = item;
         }
@@ -212,11 +210,14 @@ static uint32_t separate(const Builder *builder, uint32_t *items, uint32_t count
 
 static void build(Builder *builder, uint32_t number, uint32_t first, uint32_t count, int depth)
 {
-    BoundsNode *node = &builder->bounds->nodes[number];
-    uint32_t *items = builder->bounds->order + first;
-    Box box = empty_box();
-    for (uint32_t i = 0; i < count; i++)
-        extend(&box, builder->boxes[items[i]][0], builder->boxes[items[i]][1]);
+    BoundsNode *node = &builder->nodes[number];
+    Item *items = builder->items + first;
+    Box box = empty_box(), centers = empty_box();
+    for (uint32_t i = 0; i < count; i++) {
+        const Real c[3] = {center(&items[i], 0), center(&items[i], 1), center(&items[i], 2)};
+        extend(&box, items[i].box.low, items[i].box.high);
+        extend(&centers, c, c);
+    }
     for (int k = 0; k < 3; k++) {
         node->low[k] = box.low[k];
         node->high[k] = box.high[k];
@@ -225,7 +226,7 @@ static void build(Builder *builder, uint32_t number, uint32_t first, uint32_t co
     node->count = count;
     if (count <= LEAF || stop_asked(builder->stop))
         return;
-    const uint32_t below = separate(builder, items, count, depth);
+    const uint32_t below = separate(items, count, &centers, depth);
     node->first = builder->node_count;
     node->count = 0;
     builder->node_count += 2;
@@ -234,40 +235,29 @@ static void build(Builder *builder, uint32_t number, uint32_t first, uint32_t co
     build(builder, children + 1, first + below, count - below, depth + 1);
 }
 
-static void bounds_close(Bounds *bounds)
+/* Builds it over items, and puts those of a leaf together. The nodes; NULL where memory runs out,
+ * or it was stopped. */
+static BoundsNode *bounds_build(Item *items, size_t count, const atomic_bool *stop)
 {
-    free(bounds->nodes);
-    free(bounds->order);
-    *bounds = (Bounds){NULL, NULL};
-}
-
-/* Builds it over `count` boxes, lows and highs in turn. False where memory runs out, or it was
- * stopped. */
-static bool bounds_build(Bounds *bounds, const Real (*boxes)[2][3], size_t count,
-                         const atomic_bool *stop)
-{
-    *bounds = (Bounds){NULL, NULL};
-    if (count == 0)
-        return true;
     if (count > UINT32_MAX / 2)
-        return false;
-    bounds->nodes = calloc(2 * count, sizeof *bounds->nodes);
-    bounds->order = calloc(count, sizeof *bounds->order);
-    if (!bounds->nodes || !bounds->order) {
-        bounds_close(bounds);
-        return false;
-    }
-    for (size_t i = 0; i < count; i++)
-        bounds->order[i] = (uint32_t)i;
-    Builder builder = {bounds, boxes, 1, stop};
-    build(&builder, 0, 0, (uint32_t)count, 0);
+        return NULL;
+    Builder builder = {malloc((2 * count + 1) * sizeof *builder.nodes), items, 1, stop};
+    if (builder.nodes && count > 0)
+        build(&builder, 0, 0, (uint32_t)count, 0);
     if (!stop_asked(stop))
-        return true;
-    bounds_close(bounds);
-    return false;
+        return builder.nodes;
+    free(builder.nodes);
+    return NULL;
 }
 
 /* Triangles. */
+
+static Real3 normal_of(const uint32_t *indices, const Real3 *points)
+{
+    const Real3 v0 = points[indices[0]];
+    return real3_cross(real3_subtract(points[indices[1]], v0),
+                       real3_subtract(points[indices[2]], v0));
+}
 
 static Triangle make_triangle(const uint32_t *indices, uint32_t number, const Real3 *points,
                               const uint32_t *equal, const uint32_t *in_place)
@@ -277,7 +267,7 @@ static Triangle make_triangle(const uint32_t *indices, uint32_t number, const Re
     triangle.edges[0] = real3_cross(v1, v2);
     triangle.edges[1] = real3_cross(v2, v0);
     triangle.edges[2] = real3_cross(v0, v1);
-    triangle.normal = real3_cross(real3_subtract(v1, v0), real3_subtract(v2, v0));
+    triangle.normal = normal_of(indices, points);
     triangle.offset = real3_dot(triangle.normal, v0);
     for (int k = 0; k < 3; k++) {
         triangle.corners[k] = equal[indices[k]];
@@ -286,15 +276,14 @@ static Triangle make_triangle(const uint32_t *indices, uint32_t number, const Re
     return triangle;
 }
 
-static void set_box(Real box[2][3], const uint32_t *indices, const Real3 *points)
+static Box box_of(const uint32_t *indices, const Real3 *points)
 {
+    Box box = empty_box();
     for (int k = 0; k < 3; k++) {
         const Real v[3] = {points[indices[k]].x, points[indices[k]].y, points[indices[k]].z};
-        for (int axis = 0; axis < 3; axis++) {
-            box[0][axis] = k == 0 ? v[axis] : real_min(box[0][axis], v[axis]);
-            box[1][axis] = k == 0 ? v[axis] : real_max(box[1][axis], v[axis]);
-        }
+        extend(&box, v, v);
     }
+    return box;
 }
 
 static bool has_area(Real3 normal)
@@ -305,37 +294,46 @@ static bool has_area(Real3 normal)
 /* What is needed while triangles are opened. */
 typedef struct Work {
     uint32_t *equal, *in_place, *parents;
-    Triangle *unordered;
-    Real (*boxes)[2][3];
+    Item *items;
+    size_t count;
 } Work;
 
-static bool fill(Triangles *triangles, const Mesh *mesh, const Real3 *points, bool apart,
-                 const Work *work, const atomic_bool *stop)
+/* The triangles that have an area, and what hangs together. */
+static bool find_items(Work *work, const Mesh *mesh, const Real3 *points, const atomic_bool *stop)
 {
-    const size_t max = mesh->index_count / 3;
-    if (!work->equal || !work->parents || !work->in_place || !work->unordered || !work->boxes ||
-        !triangles->triangles || !find_equal(mesh, work->equal, work->in_place, stop))
-        return false;
     for (uint32_t i = 0; i < mesh->vertex_count; i++)
         work->parents[i] = i;
-    for (uint32_t i = 0; i < max; i++) {
+    for (uint32_t i = 0; i < mesh->index_count / 3; i++) {
         if (i % STRIDE == 0 && stop_asked(stop))
             return false;
-        const uint32_t *indices = mesh->indices + 3 * (size_t)i;
-        const Triangle triangle = make_triangle(indices, i, points, work->equal, work->in_place);
-        if (!has_area(triangle.normal))
+        const uint32_t *indices = mesh->indices + 3 * (size_t)i, *equal = work->equal;
+        if (!has_area(normal_of(indices, points)))
             continue;
-        unite(work->parents, triangle.corners[0], triangle.corners[1]);
-        unite(work->parents, triangle.corners[1], triangle.corners[2]);
-        set_box(work->boxes[triangles->count], indices, points);
-        work->unordered[triangles->count++] = triangle;
+        unite(work->parents, equal[indices[0]], equal[indices[1]]);
+        unite(work->parents, equal[indices[1]], equal[indices[2]]);
+        work->items[work->count++] = (Item){box_of(indices, points), i};
     }
-    if (!bounds_build(&triangles->bounds, (const Real(*)[2][3])work->boxes, triangles->count, stop))
+    return true;
+}
+
+static bool fill(Triangles *triangles, const Mesh *mesh, const Real3 *points, bool apart,
+                 Work *work, const atomic_bool *stop)
+{
+    if (!work->equal || !work->parents || !work->in_place || !work->items ||
+        !find_equal(mesh, work->equal, work->in_place, stop) ||
+        !find_items(work, mesh, points, stop))
         return false;
-    for (size_t i = 0; i < triangles->count; i++) {
+    triangles->count = work->count;
+    triangles->nodes = bounds_build(work->items, work->count, stop);
+    triangles->triangles = malloc((work->count + 1) * sizeof *triangles->triangles);
+    if (!triangles->nodes || !triangles->triangles)
+        return false;
+    for (size_t i = 0; i < work->count; i++) {
         Triangle *triangle = &triangles->triangles[i];
-        *triangle = work->unordered[triangles->bounds.order[i]];
-        triangle->piece = apart ? triangle->number : root_of(work->parents, triangle->corners[0]);
+        const uint32_t number = work->items[i].number;
+        *triangle = make_triangle(mesh->indices + 3 * (size_t)number, number, points, work->equal,
+                                  work->in_place);
+        triangle->piece = apart ? number : root_of(work->parents, triangle->corners[0]);
     }
     return true;
 }
@@ -343,19 +341,16 @@ static bool fill(Triangles *triangles, const Mesh *mesh, const Real3 *points, bo
 bool triangles_open(Triangles *triangles, const Mesh *mesh, const Real3 *points, bool apart,
                     const atomic_bool *stop)
 {
-    const size_t max = mesh->index_count / 3;
-    const Work work = {malloc((mesh->vertex_count + 1) * sizeof *work.equal),
-                       malloc((mesh->vertex_count + 1) * sizeof *work.in_place),
-                       malloc((mesh->vertex_count + 1) * sizeof *work.parents),
-                       malloc((max + 1) * sizeof *work.unordered),
-                       malloc((max + 1) * sizeof *work.boxes)};
-    *triangles = (Triangles){.triangles = malloc((max + 1) * sizeof *triangles->triangles)};
+    Work work = {malloc((mesh->vertex_count + 1) * sizeof *work.equal),
+                 malloc((mesh->vertex_count + 1) * sizeof *work.in_place),
+                 malloc((mesh->vertex_count + 1) * sizeof *work.parents),
+                 malloc((mesh->index_count / 3 + 1) * sizeof *work.items), 0};
+    *triangles = (Triangles){.triangles = NULL};
     const bool done = fill(triangles, mesh, points, apart, &work, stop);
     free(work.equal);
-    free(work.parents);
     free(work.in_place);
-    free(work.unordered);
-    free(work.boxes);
+    free(work.parents);
+    free(work.items);
     if (!done)
         triangles_close(triangles);
     return done;
@@ -364,7 +359,7 @@ bool triangles_open(Triangles *triangles, const Mesh *mesh, const Real3 *points,
 void triangles_close(Triangles *triangles)
 {
     free(triangles->triangles);
-    bounds_close(&triangles->bounds);
+    free(triangles->nodes);
     *triangles = (Triangles){.triangles = NULL};
 }
 
@@ -397,19 +392,17 @@ static bool meet(const Triangle *triangle, Real3 direction, Real near, Real far,
 }
 
 /* Where the ray enters a box, or INFINITY; a little early, so that rounding loses nothing.
- * `inverse` has 1 over each component of the direction, and 0 where that is 0. */
-static Real enter(const BoundsNode *node, const Real inverse[3], Real near, Real far)
+ * `inverse` has 1 over each component of the direction; where that is 0 it is infinite, and its
+ * product with a side at 0 is not a number, which has no effect: it is first in the comparison. */
+static inline Real enter(const BoundsNode *node, const Real inverse[3], Real near, Real far)
 {
     Real from = near, to = far;
     for (int k = 0; k < 3; k++) {
-        if (inverse[k] == 0) {
-            if (node->low[k] > 0 || node->high[k] < 0)
-                return INFINITY;
-            continue;
-        }
-        const Real one = node->low[k] * inverse[k], other = node->high[k] * inverse[k];
-        from = real_max(from, real_min(one, other));
-        to = real_min(to, real_max(one, other));
+        const bool up = inverse[k] > 0;
+        const Real one = (up ? node->low : node->high)[k] * inverse[k];
+        const Real other = (up ? node->high : node->low)[k] * inverse[k];
+        from = real_max(one, from);
+        to = real_min(other, to);
     }
     return from * (1 - 8 * REAL_EPSILON) <= to ? from * (1 - 8 * REAL_EPSILON) : INFINITY;
 }
@@ -417,14 +410,12 @@ static Real enter(const BoundsNode *node, const Real inverse[3], Real near, Real
 bool triangles_ray(const Triangles *triangles, Real3 direction, Real near, Real far,
                    TriangleHit *hit)
 {
-    const Real inverse[3] = {direction.x != 0 ? 1 / direction.x : 0,
-                             direction.y != 0 ? 1 / direction.y : 0,
-                             direction.z != 0 ? 1 / direction.z : 0};
-    const BoundsNode *nodes = triangles->bounds.nodes;
+    const Real inverse[3] = {1 / direction.x, 1 / direction.y, 1 / direction.z};
+    const BoundsNode *nodes = triangles->nodes;
     uint32_t stack[BOUNDS_MAX_DEPTH];
     uint32_t number = NONE; /* of the triangle that is hit */
     int depth = 0;
-    if (nodes && enter(&nodes[0], inverse, near, far) < INFINITY)
+    if (triangles->count > 0 && enter(&nodes[0], inverse, near, far) < INFINITY)
         stack[depth++] = 0;
     while (depth > 0) {
         const BoundsNode *node = &nodes[stack[--depth]];
@@ -498,10 +489,10 @@ bool triangles_block(const Triangles *triangles, const TriangleSegment *segment)
     const Real from[3] = {segment->from.x, segment->from.y, segment->from.z};
     const Real inverse[3] = {1 / segment->way.x, 1 / segment->way.y, 1 / segment->way.z};
     const Real end = segment->endless ? INFINITY : 1;
-    const BoundsNode *nodes = triangles->bounds.nodes;
+    const BoundsNode *nodes = triangles->nodes;
     uint32_t stack[BOUNDS_MAX_DEPTH];
     int depth = 0;
-    if (nodes && passes(&nodes[0], from, inverse, end))
+    if (triangles->count > 0 && passes(&nodes[0], from, inverse, end))
         stack[depth++] = 0;
     while (depth > 0) {
         const BoundsNode *node = &nodes[stack[--depth]];

@@ -25,7 +25,7 @@ typedef struct Triangle {
 } Triangle;
 
 /* A box. An inner node's children are `first` and `first` + 1; a leaf has `count` items from number
- * `first` of the order on. */
+ * `first` on. */
 typedef struct BoundsNode {
     Real low[3], high[3];
     uint32_t first, count;
@@ -34,16 +34,10 @@ typedef struct BoundsNode {
 /* No path from the root is longer. */
 enum { BOUNDS_MAX_DEPTH = 80 };
 
-/* A hierarchy of boxes around triangles, so that a ray meets few of them. */
-typedef struct Bounds {
-    BoundsNode *nodes; /* the root first; NULL where there are no items */
-    uint32_t *order;   /* the items, those of a leaf together */
-} Bounds;
-
 typedef struct Triangles {
     Triangle *triangles; /* in the order of the boxes */
     size_t count;
-    Bounds bounds;
+    BoundsNode *nodes; /* a hierarchy of boxes, so that a ray meets few triangles; the root first */
 } Triangles;
 
 /* The triangles of a mesh with its vertices at `points`; without those that have no area. Vertices

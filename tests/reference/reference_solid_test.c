@@ -2,6 +2,7 @@
  * The basis of the exact picture: rays against solids and triangles, and the lighting equation at a
  * point. No GL.
  */
+#include "reference/reference_object.h"
 #include "reference/reference_shade.h"
 #include "reference/reference_solid.h"
 #include "reference/reference_triangles.h"
@@ -125,6 +126,42 @@ TEST(no_hit_is_missed_or_made_up)
     }
 }
 
+/* Through points of the solid, and past it; unevenly scaled, sheared and mirrored. */
+TEST(what_misses_the_ball_of_an_object_misses_the_object)
+{
+    static const Vec3 eye = {0.3, -0.2, 5};
+    const Scene scene = {.camera = {.eye = eye}};
+    int missed = 0, met = 0;
+    for (int i = 0; i < 20000; i++) {
+        const Solid sheets[2] = {{.kind = SOLID_QUAD}, {.kind = SOLID_DISC, .radius = 1.2}};
+        const int s = i % (CLOSED_COUNT + 2);
+        Object object = {.solid = s < CLOSED_COUNT ? CLOSED[s] : sheets[s - CLOSED_COUNT]};
+        TraceObject ready;
+        for (int k = 0; k < 15; k++)
+            object.world_from_object.m[k] = k % 4 == 3 ? 0 : uniform(-2, 2);
+        object.world_from_object.m[15] = 1;
+        assert_true(trace_object_open(&ready, &object, &scene, NULL, false, NULL) && ready.exact);
+        const Real3 from = real3_add(ready.offset, vector(-6, 6));
+        const Real3 to = trace_object_place(&ready, vector(-1, 1));
+        const Real3 way = real3_scale(real3_subtract(to, from), uniform(-1, 2));
+        SolidSegment segment = {.endless = i % 2};
+        const Real3 start = real3_subtract(from, ready.offset);
+        segment.from =
+            (Real3){real3_dot(ready.inverse[0], start), real3_dot(ready.inverse[1], start),
+                    real3_dot(ready.inverse[2], start)};
+        segment.way = (Real3){real3_dot(ready.inverse[0], way), real3_dot(ready.inverse[1], way),
+                              real3_dot(ready.inverse[2], way)};
+        const bool blocks = solid_blocks(&object.solid, &segment);
+        const bool passes = ball_missed(&ready.ball, from, way, segment.endless);
+        assert_false(blocks && passes);
+        met += blocks;
+        missed += passes;
+        trace_object_close(&ready);
+    }
+    printf("%d met, %d missed their balls\n", met, missed);
+    assert_true(met > 2000 && missed > 2000);
+}
+
 TEST(rays_along_axes_and_tangents_give_finite_hits)
 {
     static const double places[] = {-2, -1.1, -1, -0.8, -0.4, 0, 0.4, 0.7, 0.8, 0.9, 1, 1.1, 1.4};
@@ -226,10 +263,8 @@ TEST(boxes_contain_their_triangles)
     Real3 *points;
     assert_true(mesh_teapot(&mesh, 1, 9, NULL));
     Triangles triangles = open_mesh(&mesh, (Real3){0.1, -0.2, -4}, &points);
-    Triangles each = {.count = 1};
     BoundsNode node = {.count = 1};
-    uint32_t first = 0;
-    each.bounds = (Bounds){&node, &first};
+    Triangles each = {.count = 1, .nodes = &node};
     for (int i = 0; i < 1000; i++) {
         const Real3 direction = {uniform(-0.5, 0.5), uniform(-0.3, 0.3), -1};
         TriangleHit hit = {.t = INFINITY}, nearest = {.t = INFINITY};
