@@ -24,6 +24,7 @@ typedef struct Job {
 typedef struct Worker {
     Job *job;
     Sample *samples; /* three rows */
+    PixelRecent *recent;
     pthread_t thread;
 } Worker;
 
@@ -59,8 +60,8 @@ static void draw_band(const Worker *worker, int band)
         sample_row(job, 2 * y + 1, middle);
         sample_row(job, 2 * y + 2, bottom);
         for (int x = 0; x < reference->width; x++) {
-            const Pixel pixel = pixel_resolve(job->trace, job->edge_error, x, y, top + 2 * x,
-                                              middle + 2 * x, bottom + 2 * x);
+            const Pixel pixel = pixel_resolve(job->trace, job->edge_error, worker->recent, x, y,
+                                              top + 2 * x, middle + 2 * x, bottom + 2 * x);
             put_pixel(job, x, y, &middle[2 * x + 1], &pixel);
             if (reference->lights)
                 reference->lights[(size_t)y * (size_t)reference->width + (size_t)x] =
@@ -98,8 +99,10 @@ static bool draw_bands(Job *job, int count)
     Worker *workers = calloc((size_t)count, sizeof *workers);
     int ready = 0, running = 1;
     while (workers && ready < count) {
-        workers[ready] = (Worker){job, malloc(length * sizeof(Sample)), 0};
-        if (!workers[ready].samples)
+        workers[ready] = (Worker){.job = job,
+                                  .samples = malloc(length * sizeof(Sample)),
+                                  .recent = calloc(PIXEL_RECENT, sizeof(PixelRecent))};
+        if (!workers[ready].samples || !workers[ready].recent)
             break;
         ready++;
     }
@@ -110,8 +113,10 @@ static bool draw_bands(Job *job, int count)
         work(&workers[0]);
     for (int i = 1; i < running && i < ready; i++)
         pthread_join(workers[i].thread, NULL);
-    for (int i = 0; i < ready; i++)
+    for (int i = 0; workers && i < count; i++) {
         free(workers[i].samples);
+        free(workers[i].recent);
+    }
     free(workers);
     return ready > 0;
 }

@@ -1,6 +1,7 @@
 #include "reference/reference_pixel.h"
 
 #include <math.h>
+#include <string.h>
 
 /* A square of the picture; corners go round: upper left, upper right, lower right, lower left. */
 typedef struct Square {
@@ -16,11 +17,27 @@ static const double SMALLEST = 1.0 / 128;
 
 typedef struct Work {
     const Trace *trace;
+    PixelRecent *recent;
     double error; /* E */
     int object;   /* at the pixel's center */
     double color[3], coverage;
     bool edge; /* one was found */
 } Work;
+
+static void sample_at(const Work *work, double x, double y, Sample *sample)
+{
+    uint64_t bits[2];
+    memcpy(&bits[0], &x, sizeof x);
+    memcpy(&bits[1], &y, sizeof y);
+    /* Fibonacci hashing. (Knuth, The Art of Computer Programming, volume 3, section 6.4) */
+    const uint64_t hash = (bits[0] * 0x9E3779B97F4A7C15U ^ bits[1]) * 0x9E3779B97F4A7C15U;
+    PixelRecent *recent = &work->recent[(hash >> 32) % PIXEL_RECENT];
+    if (!recent->taken || recent->x != x || recent->y != y) {
+        *recent = (PixelRecent){.taken = true, .x = x, .y = y};
+        trace_sample(work->trace, x, y, &recent->sample);
+    }
+    *sample = recent->sample;
+}
 
 static void add(Work *work, const Sample *sample, double area)
 {
@@ -110,7 +127,7 @@ static bool find_edge(const Work *work, Point *a, Sample *at_a, Point *b, Sample
     while (fabs(a->x - b->x) + fabs(a->y - b->y) > near) {
         const Point middle = between(*a, *b);
         Sample sample;
-        trace_sample(work->trace, middle.x, middle.y, &sample);
+        sample_at(work, middle.x, middle.y, &sample);
         const bool is_a = trace_agree(work->trace, at_a, &sample);
         if (is_a == trace_agree(work->trace, at_b, &sample))
             return false;
@@ -190,7 +207,7 @@ static bool straight(const Work *work, const Square *square, const Part parts[2]
         if (point.x < square->x || point.x > square->x + square->side || point.y < square->y ||
             point.y > square->y + square->side)
             continue;
-        trace_sample(work->trace, point.x, point.y, &sample);
+        sample_at(work, point.x, point.y, &sample);
         if (!agrees(work, &parts[i], &sample) || agrees(work, &parts[!i], &sample))
             return false;
     }
@@ -236,7 +253,7 @@ static bool add_parted(Work *work, const Square *square, double difference)
         middles[i] = *part->members[part->member_count - 1];
         if (part->area < width * square->side)
             continue;
-        trace_sample(work->trace, part->middle.x, part->middle.y, &middles[i]);
+        sample_at(work, part->middle.x, part->middle.y, &middles[i]);
         if (!agrees(work, part, &middles[i]) ||
             bend(&middles[i], part->members, part->member_count) * part->area >
                 work->error * square->side)
@@ -302,7 +319,7 @@ static void add_square(Work *work, const Square *square)
     Sample samples[4];
     for (int i = 0; i < 4; i++) {
         const Point middle = between(corner_point(square, i), corner_point(square, (i + 1) % 4));
-        trace_sample(work->trace, middle.x, middle.y, &samples[i]);
+        sample_at(work, middle.x, middle.y, &samples[i]);
     }
     add_quarters(work, square,
                  (const Sample *const[4]){&samples[0], &samples[1], &samples[2], &samples[3]});
@@ -317,7 +334,7 @@ static void add_quarters(Work *work, const Square *square, const Sample *const m
                           .y = square->y + CORNERS[i][1] * half,
                           .side = half,
                           .center = &center};
-        trace_sample(work->trace, quarter.x + half / 2, quarter.y + half / 2, &center);
+        sample_at(work, quarter.x + half / 2, quarter.y + half / 2, &center);
         /* A quarter's corners: the square's in the same place, the square's center across from it,
          * and between them the middles of the sides. */
         quarter.corners[i] = square->corners[i];
@@ -328,8 +345,8 @@ static void add_quarters(Work *work, const Square *square, const Sample *const m
     }
 }
 
-Pixel pixel_resolve(const Trace *trace, double edge_error, int x, int y, const Sample *top,
-                    const Sample *middle, const Sample *bottom)
+Pixel pixel_resolve(const Trace *trace, double edge_error, PixelRecent recent[PIXEL_RECENT], int x,
+                    int y, const Sample *top, const Sample *middle, const Sample *bottom)
 {
     const Sample *center = &middle[1];
     const Sample *const middles[4] = {&top[1], &middle[2], &bottom[1], &middle[0]};
@@ -338,7 +355,8 @@ Pixel pixel_resolve(const Trace *trace, double edge_error, int x, int y, const S
                            .side = 1,
                            .corners = {&top[0], &top[2], &bottom[2], &bottom[0]},
                            .center = center};
-    Work work = {.trace = trace, .error = edge_error / 255, .object = center->object};
+    Work work = {
+        .trace = trace, .recent = recent, .error = edge_error / 255, .object = center->object};
     bool agree = smooth(&work, &square);
     for (int i = 0; i < 4; i++)
         agree = agree && trace_agree(trace, center, middles[i]);

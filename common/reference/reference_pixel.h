@@ -28,9 +28,18 @@ typedef struct Pixel {
     bool interior;
 } Pixel;
 
+/* Samples taken lately, because squares, and pixels, share their sides. Zeroed: none; for one
+ * picture and one thread. */
+enum { PIXEL_RECENT = 512 };
+typedef struct PixelRecent {
+    bool taken;
+    double x, y;
+    Sample sample;
+} PixelRecent;
+
 /* The pixel whose upper left corner is (x, y), from the samples of the three rows of its grid, each
  * three of them, at distances of half a pixel. */
-Pixel pixel_resolve(const Trace *trace, double edge_error, int x, int y, const Sample *top,
-                    const Sample *middle, const Sample *bottom);
+Pixel pixel_resolve(const Trace *trace, double edge_error, PixelRecent recent[PIXEL_RECENT], int x,
+                    int y, const Sample *top, const Sample *middle, const Sample *bottom);
 
 #endif
