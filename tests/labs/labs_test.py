@@ -325,6 +325,7 @@ class Holes(Labs):
             (9, "#if defined(GL_OES_standard_derivatives)", "#else", "GL_OES"),
             (7, "#define A __VER\\\nSION__\n#if A == 100", "#else", "__VERSION__"),
             (2, "#ifdef GL_ES\n#define A\n#endif\n#ifndef A\n#else", "#endif\n#ifndef A", "GL_ES"),
+            (4, "#if 1\n#define A (1.0 - gl_PointCoord.x)", "#else", "gl_PointCoord"),
         ):
             texts = edited(lab)
             for name in texts:

@@ -122,6 +122,9 @@ static bool names_macro(const Reader *reader, const char *p, bool condition, boo
                                    "depends on %s, which another compiler gives another value; "
                                    "remove it",
                                    token);
+        if (strcmp(token, "gl_PointCoord") == 0)
+            *allowed = message_set(
+                reader->message, "reads gl_PointCoord, which has no value in triangles; remove it");
         found |= is_dependent(reader, token);
     }
     return found;

@@ -3,7 +3,8 @@
  *
  * What a driver draws must be what others read and count. So a text may not use the version, the
  * macros of extensions or the limits of an implementation, and where it depends on GL_ES or
- * GL_FRAGMENT_PRECISION_HIGH, its branches may differ in precision only.
+ * GL_FRAGMENT_PRECISION_HIGH, its branches may differ in precision only. Nor may it read
+ * gl_PointCoord, which is undefined in triangles.
  */
 #ifndef CONDITIONS_H
 #define CONDITIONS_H
