@@ -58,17 +58,23 @@ static bool choose(Probe *probe, Drawn *drawn, double seconds, Message *message)
 static bool draw_lab(const Frame *frame, Message *message)
 {
     Probe probe;
-    MeshBuffer mesh = {0};
-    Drawn drawn = {.scene = &probe.scene, .aspect = frame->aspect};
+    ProbeMap map = {0};
+    Drawn drawn = {.scene = &probe.scene, .aspect = frame->aspect, .map = &map};
     if (!probe_open_usual(&probe, state.lab, frame->seconds, message))
         return false;
     Camera *camera = &probe.scene.camera;
     orbit_move(frame->orbit, &camera->eye, camera->center, &camera->up);
     glEnable(GL_DEPTH_TEST);
-    const bool done = choose(&probe, &drawn, frame->seconds, message) &&
-                      mesh_buffer_open(&mesh, &probe.meshes[0], message) &&
-                      binding_draw(state.lab, state.shader.program, &mesh, &drawn, message);
-    mesh_buffer_close(&mesh);
+    bool done =
+        choose(&probe, &drawn, frame->seconds, message) && probe_map_open(&map, &probe, message);
+    for (int i = 0; i < probe.scene.object_count && done; i++) {
+        MeshBuffer mesh = {0};
+        drawn.object = i;
+        done = mesh_buffer_open(&mesh, &probe.meshes[i], message) &&
+               binding_draw(state.lab, state.shader.program, &mesh, &drawn, message);
+        mesh_buffer_close(&mesh);
+    }
+    probe_map_close(&map);
     probe_close(&probe);
     return done;
 }

@@ -21,6 +21,46 @@ varying vec3 v_Color;
 
 #include "catalogue_light.glsl"
 
+#ifdef SHADOWS
+uniform highp sampler2D u_Map;
+uniform int u_MapPlace;   // 0: right; 1: not divided by w; 2: from -1 to 1; 3: only the depth; 4: only
+                          // the place; 5: y reversed; 6: x reversed; 8: 1 and 2
+uniform int u_MapDepth;   // 1: only red
+uniform vec3 u_MapBias;   // constant; times one minus the cosine, if that is more
+uniform int u_MapTest;    // 1: inverted; 2: never in shadow; 3: always
+uniform int u_MapOutside; // 0: lit; 1: as the edge; 2: dark
+uniform float u_ShadowLight; // what a shadow leaves
+
+varying vec4 v_Map;
+
+float visibility(vec3 normal) {
+    vec3 place = u_MapPlace == 1 || u_MapPlace == 8 ? v_Map.xyz : v_Map.xyz / v_Map.w;
+    vec3 at = 0.5 * place + 0.5;
+    if (u_MapPlace == 2 || u_MapPlace == 3 || u_MapPlace == 8)
+        at.z = place.z;
+    if (u_MapPlace == 2 || u_MapPlace == 4 || u_MapPlace == 8)
+        at.xy = place.xy;
+    if (u_MapPlace == 5)
+        at.y = 1.0 - at.y;
+    if (u_MapPlace == 6)
+        at.x = 1.0 - at.x;
+    if (u_MapOutside != 1 && (at.x < 0.0 || at.x > 1.0 || at.y < 0.0 || at.y > 1.0))
+        return u_MapOutside == 2 || u_MapTest == 3 ? u_ShadowLight : 1.0;
+    vec3 texel = texture2D(u_Map, at.xy).rgb;
+    float depth =
+        u_MapDepth == 1 ? texel.r : dot(texel, vec3(1.0, 1.0 / 255.0, 1.0 / 65025.0));
+    float bias = u_MapBias.x;
+    if (u_MapBias.y != 0.0)
+        bias = max(u_MapBias.y * (1.0 - dot(normal, normalize(u_Light[0] - v_Place))), bias);
+    bool lit = at.z - bias <= depth;
+    if (u_MapTest == 1)
+        lit = !lit;
+    else if (u_MapTest != 0)
+        lit = u_MapTest == 2;
+    return lit ? 1.0 : u_ShadowLight;
+}
+#endif
+
 // 1 on the back.
 int side(vec3 normal) {
     bool front = gl_FrontFacing;
@@ -58,6 +98,9 @@ void main() {
     if (back == 1 && u_BackNormal == 1)
         normal = -normal;
     vec3 color = v_Color;
+#ifdef SHADOWS
+    g_Visible = visibility(normal);
+#endif
     if (u_AtVertices == 0)
         color = shade(v_Place, normal, v_Toward[0], v_Toward[1], back);
     if (u_Gamma != 1.0)

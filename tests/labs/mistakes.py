@@ -7,8 +7,8 @@ import os
 
 SOLUTIONS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "solutions")
 NAMES = {int(name[3:5]): name for name in sorted(os.listdir(SOLUTIONS))}
-SHADERS = (1, 2, 4, 5, 6, 7, 8, 9, 10)  # labs whose shaders the student writes
-FRAGMENTS = (5, 6, 7, 8, 9, 10)  # labs lit at the fragments
+SHADERS = (1, 2, 4, 5, 6, 7, 8, 9, 10, 11)  # labs whose shaders the student writes
+FRAGMENTS = (5, 6, 7, 8, 9, 10, 11)  # labs lit at the fragments
 
 # Texts of the solutions.
 HIGHP = "precision highp float;"
@@ -26,6 +26,7 @@ TO_LIGHT = {
     8: "toLight / distance",
     9: "normalize(u_LightPosition - v_Position)",
     10: "normalize(u_LightPosition - v_Position)",
+    11: "normalize(u_LightPosition - v_Position)",
 }
 COSINE = {
     1: "max(dot(u_LightDirection, normal), 0.0)",
@@ -33,6 +34,7 @@ COSINE = {
     4: "max(dot(lightDirection, normal), 0.0)",
     5: "max(dot(lightDirection, normal), 0.0)",
     9: "max(dot(normal, lightDirection), 0.0)",
+    11: "max(dot(lightDirection, normal), 0.0)",
 }
 VIEW = "normalize(u_EyePosition - v_Position)"
 LIT = "        if (nDotL > 0.0) {\n            color += u_LightColor[i] * v_Color.rgb * nDotL;\n"
@@ -46,9 +48,17 @@ OUT = {
     8: "gl_FragColor = vec4(color, v_Color.a);",
     9: "gl_FragColor = vec4(light * color.rgb, color.a);",
     10: "gl_FragColor = vec4(color, v_Color.a);",
+    11: "gl_FragColor = vec4(light * v_Color.rgb, v_Color.a);",
 }
 ATTENUATION = """1.0 / (u_Attenuation.x + u_Attenuation.y * distance +
                                    u_Attenuation.z * distance * distance)"""
+# Lab 11.
+SUM = "u_AmbientLight + visibility() * u_LightColor * nDotL"
+PLACE = "0.5 * v_LightPosition.xyz / v_LightPosition.w + 0.5"
+COMPARE = "place.z - BIAS <= mapDepth(place.xy)"
+OUTSIDE = """    if (place.x < 0.0 || place.x > 1.0 || place.y < 0.0 || place.y > 1.0)
+        return 1.0;
+"""
 PROJECT = "gl_Position = u_MvpMatrix * a_Position;"
 
 
@@ -111,7 +121,7 @@ def color_twice(lab):
     color = "a_Color.rgb" if lab in (1, 2, 4) else "color.rgb" if lab == 9 else "v_Color.rgb"
     if lab == 1:
         return vert(f"u_LightColor * {color}", f"u_LightColor * {color} * {color}")
-    if lab in (2, 4, 5, 9):
+    if lab in (2, 4, 5, 9, 11):
         return edits((OUT[lab], OUT[lab].replace(color, f"{color} * {color}")), file=lab)
     return vert("v_Color = a_Color;", "v_Color = a_Color * a_Color;")
 
@@ -123,7 +133,7 @@ def light_color_ignored(lab):
         return sum((frag(f"u_LightColor[i] * {of}", of) for of in ("v_Color", "u_Specular")), [])
     if lab == 8:
         return frag("spot * u_LightColor *", "spot *")
-    if lab in (9, 10):
+    if lab in (9, 10, 11):
         return frag("u_LightColor * ", "")
     return edits(("light += u_LightColor[i] * nDotL", "light += vec3(nDotL)"), file=lab)
 
@@ -174,6 +184,8 @@ def ambient_times_cosine(lab):
         )
     if lab == 10:
         return frag(START, START.replace(";", f" * {CLAMPED};"))
+    if lab == 11:
+        return frag(SUM, SUM.replace("u_AmbientLight", "u_AmbientLight * nDotL"))
     return edits(
         ("vec3 light = u_AmbientLight;", "vec3 light = vec3(0.0);"),
         ("light += u_LightColor[i] * nDotL", "light += (u_AmbientLight + u_LightColor[i]) * nDotL"),
@@ -186,6 +198,8 @@ def no_ambient(lab):
         return edits(("vec3 light = u_AmbientLight;", "vec3 light = vec3(0.0);"), file=lab)
     if lab == 9:
         return frag("u_AmbientLight + u_LightColor", "u_LightColor")
+    if lab == 11:
+        return frag(SUM, SUM.replace("u_AmbientLight + ", ""))
     return frag(START, "vec3 color = vec3(0.0);")
 
 
@@ -250,18 +264,21 @@ REFLECTED = "2.0 * nDotL * normal - lightDirection"
 HALFWAY = "vec3 halfway = normalize(lightDirection + viewDirection);"
 REFLECT = "vec3 reflected = reflect(-lightDirection, normal);"
 N_DOT_H, R_DOT_V = "max(dot(normal, halfway), 0.0)", "max(dot(reflected, viewDirection), 0.0)"
-NOT_9, ROUND = (1, 2, 4, 5, 6, 7, 8, 10), (4, 5, 6, 7, 8, 9)
+NOT_9, ROUND = (1, 2, 4, 5, 6, 7, 8, 10, 11), (4, 5, 6, 7, 8, 9, 11)
 TURNED = (1, 2, *ROUND)
 
 # The mistakes to be recognized, under the names that `check` gives them where CALLED has no other.
 MISTAKES = {
-    "light direction reversed": each((1, 2, 4, 5, 6, 7, 9, 10), to_light_reversed),
+    "light direction reversed": each((1, 2, 4, 5, 6, 7, 9, 10, 11), to_light_reversed),
     "light direction not normalized": each(
-        (4, 5, 6, 7, 9, 10), lambda lab: edits((TO_LIGHT[lab], TO_LIGHT[lab][9:]), file=lab)
+        (4, 5, 6, 7, 9, 10, 11), lambda lab: edits((TO_LIGHT[lab], TO_LIGHT[lab][9:]), file=lab)
     ),
     "normal not normalized": {
         4: vert(f"normalize({NORMAL})", NORMAL),
-        9: vert(f"normalize({NORMAL})", NORMAL) + frag("normalize(v_Normal)", "v_Normal"),
+        **each(
+            (9, 11),
+            vert(f"normalize({NORMAL})", NORMAL) + frag("normalize(v_Normal)", "v_Normal"),
+        ),
     },
     "not renormalized per fragment": each((5, 6, 7, 8), frag("normalize(v_Normal)", "v_Normal")),
     "model matrix for normals": {
@@ -317,7 +334,7 @@ MISTAKES = {
     "w = 0 for a point": each(
         ROUND, vert(POSITION, "vec3(u_ModelMatrix * vec4(a_Position.xyz, 0.0))")
     ),
-    "light direction from the object's centre": each((4, 5, 6, 7, 9, 10), at_center),
+    "light direction from the object's centre": each((4, 5, 6, 7, 9, 10, 11), at_center),
     "degrees for radians": {
         3: code(ROTATE, ROTATE.replace("* seconds", "* seconds * 3.14159265 / 180")),
         8: frag("cos(radians(u_SpotCutoff))", "cos(u_SpotCutoff)"),
@@ -327,8 +344,8 @@ MISTAKES = {
         **each(SHADERS, vert("u_MvpMatrix * a_Position", "a_Position * u_MvpMatrix")),
     },
     "ambient added per light": each((2, 4, 5, 6, 7), ambient_per_light),
-    "ambient multiplied by the cosine": each((2, 4, 5, 9, 10), ambient_times_cosine),
-    "ambient missing": each((2, 4, 5, 6, 7, 8, 9, 10), no_ambient),
+    "ambient multiplied by the cosine": each((2, 4, 5, 9, 10, 11), ambient_times_cosine),
+    "ambient missing": each((2, 4, 5, 6, 7, 8, 9, 10, 11), no_ambient),
     "colour used twice": each(SHADERS, color_twice),
     "light colour ignored": each(SHADERS, light_color_ignored),
     "attenuation by the square": {
@@ -367,7 +384,7 @@ MISTAKES = {
             "    gl_Position = projection * u_ModelViewMatrix * a_Position;",
         ),
     ),
-    "mediump overflow": each((5, 6, 7, 8, 9), frag(HIGHP, "precision mediump float;")),
+    "mediump overflow": each((5, 6, 7, 8, 9, 11), frag(HIGHP, "precision mediump float;")),
     "pow of a negative number": {
         **each((6, 8), frag(R_DOT_V, R_DOT_V[4:-6])),
         10: frag(f"max(dot({REFLECTED}, viewDirection), 0.0)", f"dot({REFLECTED}, viewDirection)"),
@@ -391,6 +408,35 @@ MISTAKES = {
     "back's normal not reversed": {9: frag("        normal = -normal;\n", "")},
     "back in the front's colour": {9: frag("        color = u_BackColor;\n", "")},
     "front and back swapped": {9: frag("if (!front)", "if (front)")},
+    "no bias: shadow acne": {11: frag("place.z - BIAS", "place.z")},
+    "bias in the wrong direction": {11: frag("place.z - BIAS", "place.z + BIAS")},
+    "bias too large": {11: frag("BIAS = 0.002", "BIAS = 0.06")},
+    "not divided by w": {11: frag(PLACE, "0.5 * v_LightPosition.xyz + 0.5")},
+    "range from -1 to 1": {11: frag(PLACE, "v_LightPosition.xyz / v_LightPosition.w")},
+    "map upside down": {
+        11: frag("mapDepth(place.xy)", "mapDepth(vec2(place.x, 1.0 - place.y))")
+    },
+    "map mirrored": {11: frag("mapDepth(place.xy)", "mapDepth(vec2(1.0 - place.x, place.y))")},
+    "place on the map from the wrong space": {
+        11: vert("u_LightMatrix * u_ModelMatrix * a_Position", "u_LightMatrix * a_Position")
+    },
+    "depth of one channel": {
+        11: frag(
+            "dot(texture2D(u_ShadowMap, place).rgb, vec3(1.0, 1.0 / 255.0, 1.0 / 65025.0))",
+            "texture2D(u_ShadowMap, place).r",
+        )
+    },
+    "comparison inverted": {11: frag("<= mapDepth", "> mapDepth")},
+    "no shadow": {11: frag(SUM, SUM.replace("visibility() * ", ""))},
+    "outside of the map not asked for": {11: frag(OUTSIDE, "")},
+    "outside of the map dark": {11: frag(OUTSIDE, OUTSIDE.replace("1.0;", "0.0;"))},
+    "ambient light in shadow, too": {
+        11: frag(SUM, "visibility() * (u_AmbientLight + u_LightColor * nDotL)")
+    },
+    "shadow on the ambient light only": {
+        11: frag(SUM, "visibility() * u_AmbientLight + u_LightColor * nDotL")
+    },
+    "light in the shadow": {11: frag("1.0 : 0.0", "1.0 : 0.4")},
     "turned the wrong way": {
         3: code(ROTATE, f"{ROTATE}\n    rotation = mat4_transpose(rotation);")
     },

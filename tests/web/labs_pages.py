@@ -18,7 +18,7 @@ import faults
 import mistakes
 
 CHECK = os.path.join(EXAMPLES, "check")
-SHADERS = (1, 2, 4, 5, 6, 7, 8, 9)
+SHADERS = (1, 2, 4, 5, 6, 7, 8, 9, 11)
 SOLUTION = mistakes.read(5)
 
 

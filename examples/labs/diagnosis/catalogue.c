@@ -5,12 +5,12 @@
 
 #define L(n) (1u << (n))
 enum {
-    SHADED = L(1) | L(2) | L(4) | L(5) | L(6) | L(7) | L(8) | L(9) | L(10),
-    AMBIENT = L(2) | L(4) | L(5) | L(6) | L(7) | L(8) | L(9) | L(10),
+    SHADED = L(1) | L(2) | L(4) | L(5) | L(6) | L(7) | L(8) | L(9) | L(10) | L(11),
+    AMBIENT = L(2) | L(4) | L(5) | L(6) | L(7) | L(8) | L(9) | L(10) | L(11),
     SEVERAL = L(2) | L(4) | L(5) | L(6) | L(7),
-    POINTS = L(4) | L(5) | L(6) | L(7) | L(8) | L(9) | L(10),
-    MOVING = L(4) | L(5) | L(6) | L(7) | L(8) | L(9), /* point lights, moving objects */
-    SCALED = L(3) | L(4) | L(5) | L(6) | L(7) | L(8) | L(9),
+    POINTS = L(4) | L(5) | L(6) | L(7) | L(8) | L(9) | L(10) | L(11),
+    MOVING = L(4) | L(5) | L(6) | L(7) | L(8) | L(9) | L(11), /* point lights, moving objects */
+    SCALED = L(3) | L(4) | L(5) | L(6) | L(7) | L(8) | L(9) | L(11),
     MOVED = L(1) | L(2) | SCALED,
     ROUND = L(5) | L(6) | L(7) | L(8) | L(10),
     SHINY = L(6) | L(7) | L(8) | L(10),
@@ -202,7 +202,7 @@ const Mistake MISTAKES[] = {
      "Normals are not turned: their matrix has only the scale.", WHOLE_INVERSE},
     {"normal reversed", L(3) | SHINY, ONE(NORMAL_SIGN, SIGN_REVERSED), "Normals point inwards.",
      "the sign of the normal"},
-    {"normal not normalized", L(4) | L(9), ONE(NORMAL_UNIT, UNIT_NEVER),
+    {"normal not normalized", L(4) | L(9) | L(11), ONE(NORMAL_UNIT, UNIT_NEVER),
      "Scaled objects are too bright or too dark: the transformed normal does not have length 1.",
      "the normal: normalize(...) after u_NormalMatrix"},
     {"not renormalized per fragment",
@@ -282,8 +282,9 @@ const Mistake MISTAKES[] = {
      "the cosine: dot(N.xyz, L.xyz)"},
     {"cosine inverted", SHADED, ONE(COSINE, COSINE_INVERTED),
      "What faces the light is dark: the cosine is subtracted from 1.", CLAMPED_COSINE},
+    /* Where the cosine is negative, lab 11 has the objects' own shadows. */
     {"missing clamp",
-     AMBIENT,
+     AMBIENT & ~L(11),
      {CHANGE(COSINE, COSINE_UNCLAMPED), CHANGE(COSINE, COSINE_UNCLAMPED_FIRST),
       CHANGE(COSINE, COSINE_UNCLAMPED_SECOND)},
      "The unlit side is darker than the ambient light: its cosine is negative.",
@@ -300,11 +301,11 @@ const Mistake MISTAKES[] = {
     {"lit or not, without shades", SHADED, ONE(COSINE, COSINE_STEP),
      "Every lit part is equally bright: the cosine only decides whether it is lit.",
      "the diffuse term: multiply it by max(dot(N, L), 0.0)"},
-    {"lit where it faces away, without shades", SHADED, ONE(COSINE, COSINE_STEP_REVERSED),
+    {"lit where it faces away, without shades", SHADED & ~L(11), ONE(COSINE, COSINE_STEP_REVERSED),
      "All that faces away from the light is lit, equally bright: the arguments of step are swapped, "
      "or the light direction is reversed and the cosine only decides whether it is lit.",
      "the diffuse term: multiply it by max(dot(N, L), 0.0)"},
-    {"min for max", SHADED, ONE(COSINE, COSINE_MIN),
+    {"min for max", SHADED & ~L(11), ONE(COSINE, COSINE_MIN),
      "The lit side is dark: the cosine is clamped from above.", CLAMPED_COSINE ", not min"},
     {"cosine clamped above 0", SHADED, ONE(COSINE, COSINE_FLOOR),
      "The shade is too bright: the cosine is clamped to a number above 0.", CLAMPED_COSINE},
@@ -314,7 +315,7 @@ const Mistake MISTAKES[] = {
       CHANGE(NUMBER, FACTOR_LIMIT)},
      "Strong light is cut off at 1 before it is multiplied by the object's colour.",
      "min or clamp: the sum of the light may exceed 1"},
-    {"absolute value of the cosine", SHADED, ONE(COSINE, COSINE_ABSOLUTE),
+    {"absolute value of the cosine", SHADED & ~L(11), ONE(COSINE, COSINE_ABSOLUTE),
      "The side facing away from the light is lit too.", CLAMPED_COSINE ", not abs"},
     {"no cosine", SHADED, ONE(COSINE, COSINE_NONE),
      "Every side is equally bright: the cosine is missing.",
@@ -623,8 +624,67 @@ const Mistake MISTAKES[] = {
      "The side depends on the light; it must depend on the eye.",
      "dot(N, V), with the view vector, not dot(N, L)"},
 
+    /* The shadow map. */
+    {"no bias: shadow acne",
+     L(11),
+     {CHANGE(MAP_BIAS, MAP_BIAS_NONE), CHANGE(NUMBER, FACTOR_BIAS_SMALL)},
+     "What is lit has dark stripes: a surface shadows itself, because a texel has one depth for all "
+     "points within, and the bias is missing or too small.",
+     "the comparison: place.z - 0.002 <= depth"},
+    {"bias in the wrong direction",
+     L(11),
+     {CHANGE(MAP_BIAS, MAP_BIAS_REVERSED), CHANGE(NUMBER, FACTOR_BIAS_REVERSED)},
+     "All that the map shows is dark: the bias moves each point away from the light, behind itself.",
+     "the bias's sign: less depth is nearer to the light, so place.z - bias <= depth"},
+    {"bias too large",
+     L(11),
+     {CHANGE(NUMBER, FACTOR_BIAS_LARGE), CHANGE(NUMBER, FACTOR_BIAS_SLOPE)},
+     "Shadows begin beside what casts them (peter-panning), and thin things cast none: the bias is "
+     "too large.",
+     "the bias: a few thousandths of the depth's range, 0 to 1"},
+    {"not divided by w", L(11), EITHER(MAP_PLACE, MAP_PLACE_NO_W, MAP_PLACE_NO_W_RANGE),
+     "The place on the map is in clip space: the light's projection needs a division by w.",
+     "v_LightPosition.xyz / v_LightPosition.w, at each fragment"},
+    {"range from -1 to 1",
+     L(11),
+     {CHANGE(MAP_PLACE, MAP_PLACE_NO_RANGE), CHANGE(MAP_PLACE, MAP_PLACE_NO_RANGE_DEPTH),
+      CHANGE(MAP_PLACE, MAP_PLACE_NO_RANGE_XY)},
+     "After the division by w the place, the depth or both still go from -1 to 1; those of the map "
+     "go from 0 to 1.",
+     "0.5 * xyz + 0.5, for all three"},
+    {"map upside down", L(11), ONE(MAP_PLACE, MAP_PLACE_FLIPPED),
+     "Shadows fall on the wrong side: the map's y is reversed. Both begin at the bottom.",
+     "the place on the map: no 1.0 - y"},
+    {"map mirrored", L(11), ONE(MAP_PLACE, MAP_PLACE_MIRRORED),
+     "Shadows fall on the wrong side: the map's x is reversed.",
+     "the place on the map: no 1.0 - x"},
+    {"place on the map from the wrong space", L(11), ONE(MAP_PLACE, MAP_PLACE_OBJECT),
+     "u_LightMatrix is applied to a point that is not in world space.",
+     "u_LightMatrix * u_ModelMatrix * a_Position"},
+    {"depth of one channel", L(11), ONE(MAP_DEPTH, MAP_DEPTH_RED),
+     "The map's depth has steps: only its red channel is read.", "mapDepth: all three channels"},
+    {"comparison inverted", L(11), ONE(MAP_TEST, MAP_TEST_INVERTED),
+     "What is lit is dark, and shadows are lit.",
+     "the comparison: in light if place.z - bias <= depth"},
+    {"no shadow", L(11), ONE(MAP_TEST, MAP_TEST_NEVER), "Nothing is in shadow.",
+     "the diffuse term: multiply it by visibility()"},
+    {"all in shadow", L(11), ONE(MAP_TEST, MAP_TEST_ALWAYS), "No light arrives anywhere.",
+     "the comparison and what visibility() returns"},
+    {"outside of the map not asked for", L(11), ONE(MAP_OUTSIDE, MAP_OUTSIDE_CLAMPED),
+     "Beside the map it is as dark as at its edge: there texture2D returns the nearest texel.",
+     "the place on the map: return 1.0 if x or y is below 0.0 or above 1.0"},
+    {"outside of the map dark", L(11), ONE(MAP_OUTSIDE, MAP_OUTSIDE_DARK),
+     "What is not on the map is dark; nothing is known to shadow it, so it is lit.",
+     "the place on the map: return 1.0 if x or y is below 0.0 or above 1.0"},
+    {"ambient light in shadow, too", L(11), ONE(SHADOW_ON, SHADOW_ON_ALL),
+     "Shadows are black: they keep off the ambient light too.",
+     "the sum: u_AmbientLight + visibility() * diffuse"},
+    {"shadow on the ambient light only", L(11), ONE(SHADOW_ON, SHADOW_ON_AMBIENT),
+     "Shadows keep off the ambient light instead of the diffuse light.",
+     "the sum: u_AmbientLight + visibility() * diffuse"},
+
     /* Not drawn: looked for in scene G, with the precision that the file asks for. */
-    {"mediump overflow", L(5) | L(6) | L(7) | L(8) | L(9), ONE(STAGE, 0),
+    {"mediump overflow", L(5) | L(6) | L(7) | L(8) | L(9) | L(11), ONE(STAGE, 0),
      "It fails at large distances: their squares overflow 16 bits.",
      "the fragment shader's precision: highp float"},
     /* Found by drawing with a fine mesh, or in 32 bits. */
@@ -698,6 +758,8 @@ const Mistake MISTAKES[] = {
      "The quadratic part of the attenuation has a wrong factor.", ATTENUATION},
     {"wrong constant attenuation", L(8), ONE(NUMBER, FACTOR_CONSTANT),
      "The constant part of the attenuation has a wrong factor.", ATTENUATION},
+    {"light in the shadow", L(11), EITHER(NUMBER, FACTOR_SHADOW, FACTOR_SHADOW_ALL),
+     "A share of the light arrives in shadows.", "what visibility() returns: 1.0 or 0.0"},
     {"light from nowhere", SHADED, ONE(NUMBER, FACTOR_PLUS_LIGHT),
      "A constant is added to the light.", "numbers that are added to the light"},
     {"picture clamped below 1", SHADED, ONE(NUMBER, FACTOR_RESULT),
@@ -820,6 +882,12 @@ static bool is_common(const Suspect *suspect)
         [SLOT_BACK] = BACK_NOT_REVERSED,
         [SLOT_CULL] = CULL_FRONT,
         [SLOT_OUTPUT] = OUTPUT_GAMMA,
+        [SLOT_MAP_PLACE] = MAP_PLACE_FLIPPED,
+        [SLOT_MAP_DEPTH] = MAP_DEPTH_RED,
+        [SLOT_MAP_BIAS] = MAP_BIAS_NONE, /* reversed, with the comparison inverted: no shadow */
+        [SLOT_MAP_TEST] = MAP_TEST_INVERTED,
+        [SLOT_MAP_OUTSIDE] = MAP_OUTSIDE_DARK,
+        [SLOT_SHADOW_ON] = SHADOW_ON_ALL,
     };
     for (int i = 0; i < SLOT_COUNT; i++)
         if (suspect->choices.of[i] > LAST[i])
@@ -853,6 +921,25 @@ bool catalogue_moves(const Suspect *suspect)
     const int *of = suspect->choices.of;
     /* Depth does not change the outline. */
     return of[SLOT_CLIP] && of[SLOT_CLIP] != CLIP_FLAT && of[SLOT_CLIP] != CLIP_REVERSED;
+}
+
+double factor_value(const Choices *choices)
+{
+    const double value = choices->value;
+    switch (choices->factor) {
+    case FACTOR_PLUS_EXPONENT:
+        return 20 * value;
+    case FACTOR_BIAS_LARGE:
+        return 0.004 + value / 512;
+    case FACTOR_BIAS_SMALL:
+        return 0.0005 / (1 + value);
+    case FACTOR_BIAS_REVERSED:
+        return -value / 512;
+    case FACTOR_BIAS_SLOPE:
+        return value / 512;
+    default:
+        return value;
+    }
 }
 
 int catalogue_find(const char *name)

@@ -55,7 +55,13 @@ typedef enum Slot {
     SLOT_OUTPUT,
     SLOT_LIMIT, /* of the light, before it is multiplied by the colour */
     SLOT_HIGHLIGHT_LIGHTS,
-    SLOT_NUMBER, /* of Factor: any value, found by trying */
+    SLOT_MAP_PLACE, /* lab 11: the place on the shadow map */
+    SLOT_MAP_DEPTH, /* what is read there */
+    SLOT_MAP_BIAS,
+    SLOT_MAP_TEST,    /* the comparison */
+    SLOT_MAP_OUTSIDE, /* what is not on the map */
+    SLOT_SHADOW_ON,   /* what a shadow keeps off */
+    SLOT_NUMBER,      /* of Factor: any value, found by trying */
     SLOT_COUNT,
 } Slot;
 
@@ -332,6 +338,30 @@ enum {
 
     HIGHLIGHT_LIGHTS_FIRST = 1,
     HIGHLIGHT_LIGHTS_SECOND,
+
+    MAP_PLACE_NO_W = 1, /* not divided by w */
+    MAP_PLACE_NO_RANGE, /* -1 to 1, as it is */
+    MAP_PLACE_NO_RANGE_DEPTH,
+    MAP_PLACE_NO_RANGE_XY,
+    MAP_PLACE_FLIPPED,
+    MAP_PLACE_MIRRORED,
+    MAP_PLACE_OBJECT,     /* of the object's vertex */
+    MAP_PLACE_NO_W_RANGE, /* neither */
+
+    MAP_DEPTH_RED = 1, /* one channel of three */
+
+    MAP_BIAS_NONE = 1,
+    MAP_BIAS_REVERSED,
+
+    MAP_TEST_INVERTED = 1,
+    MAP_TEST_NEVER, /* no shadow */
+    MAP_TEST_ALWAYS,
+
+    MAP_OUTSIDE_CLAMPED = 1, /* as its nearest edge */
+    MAP_OUTSIDE_DARK,
+
+    SHADOW_ON_ALL = 1,
+    SHADOW_ON_AMBIENT, /* alone */
 };
 
 typedef struct Change {
@@ -372,6 +402,14 @@ typedef enum Factor {
     FACTOR_RESULT,        /* the picture's maximum */
     FACTOR_FADE_LINEAR,   /* 1 / (1 + this d), where nothing is attenuated */
     FACTOR_FADE_SQUARE,   /* 1 / (1 + this d d) */
+    /* Lab 11; the biases are 0.004 and this / 512, 0.0005 / (1 + this), less 0, and by the slope.
+     */
+    FACTOR_BIAS_LARGE,
+    FACTOR_BIAS_SMALL,
+    FACTOR_BIAS_REVERSED,
+    FACTOR_BIAS_SLOPE,
+    FACTOR_SHADOW,     /* the light in a shadow */
+    FACTOR_SHADOW_ALL, /* and the ambient light there */
     FACTOR_COUNT,
 } Factor;
 
@@ -414,6 +452,9 @@ bool catalogue_pair(const Suspect *a, const Suspect *b, Suspect *pair);
 /* Whether the outline differs from the right one. Not for lab 3, whose outline also depends on the
  * submission's C. */
 bool catalogue_moves(const Suspect *suspect);
+
+/* What a number is: the value of its factor, in the units that a student writes. */
+double factor_value(const Choices *choices);
 
 /* The index of a name; -1: none. */
 int catalogue_find(const char *name);

@@ -165,7 +165,7 @@ static void say_number(Verdict *verdict, const Suspect *number)
              : factor == FACTOR_LIMIT || factor == FACTOR_COSINE ? "at about"
              : factor >= FACTOR_AMBIENT_VALUE                    ? "at about"
                                                                  : "it is about times",
-             factor == FACTOR_PLUS_EXPONENT ? 20 * number->choices.value : number->choices.value);
+             factor_value(&number->choices));
 }
 
 /* Tries single mistakes, then pairs. */

@@ -87,7 +87,7 @@ bool lineup_open(Lineup *lineup, const Shots *shots, const Painter *painter, boo
 {
     *lineup = (Lineup){.shots = shots, .painter = painter, .moved = moved, .canvas = canvas};
     const CanvasOptions sheet = {.width = SHEET, .height = SHEET};
-    if (!wrong_program_open(&lineup->wrong, message) ||
+    if (!wrong_program_open(&lineup->wrong, shots->lab, message) ||
         !canvas_open_beside(&lineup->sheet, canvas, &sheet, message))
         return false;
     for (int i = 0; i < shots->count; i++) {

@@ -16,7 +16,8 @@
     X(u_SpotExponent) X(u_SpotOutside) X(u_SpotOn) X(u_Facing) X(u_Mirrored) X(u_BackNormal)      \
     X(u_Discard) X(u_Lights) X(u_Gamma) X(u_SpotShape) X(u_Limit)    \
     X(u_LimitOf) X(u_Plus) X(u_Product) X(u_Output) X(u_NormalOf) X(u_CosineMax) X(u_CosinePower) X(u_PlaceUnit)         \
-    X(u_Axis) X(u_Most)
+    X(u_Axis) X(u_Most) X(u_MapMatrix) X(u_Map) X(u_MapPlace) X(u_MapDepth) X(u_MapBias)         \
+    X(u_MapTest) X(u_MapOutside) X(u_ShadowOn) X(u_ShadowLight)
 /* clang-format on */
 
 #define NUMBER(name) U_##name,
@@ -39,9 +40,10 @@ typedef struct Made {
     Vec3 light[LAB_MAX_LIGHTS], light_color[LAB_MAX_LIGHTS];
 } Made;
 
-bool wrong_program_open(WrongProgram *program, Message *message)
+bool wrong_program_open(WrongProgram *program, const Lab *lab, Message *message)
 {
-    const ShaderLoader loader = {.precision = "highp"};
+    static const char *const SHADOWS[] = {"SHADOWS", NULL};
+    const ShaderLoader loader = {.precision = "highp", .defines = lab->shadow ? SHADOWS : NULL};
     *program = (WrongProgram){.position = -1};
     if (!shader_open(&program->shader, &loader, "labs/catalogue", message))
         return false;
@@ -71,7 +73,10 @@ bool probe_buffers_open(ProbeBuffers *buffers, const Probe *probe,
             return false;
         }
     }
-    return true;
+    if (probe_map_open(&buffers->map, probe, message))
+        return true;
+    probe_buffers_close(buffers);
+    return false;
 }
 
 void probe_buffers_close(ProbeBuffers *buffers)
@@ -80,6 +85,7 @@ void probe_buffers_close(ProbeBuffers *buffers)
         return;
     for (int i = 0; i < PROBE_MAX_OBJECTS; i++)
         mesh_buffer_close(&buffers->buffers[i]);
+    probe_map_close(&buffers->map);
 }
 
 static int choice(const Made *made, Slot slot)
@@ -699,6 +705,37 @@ static void set_rest(const WrongProgram *program, const Made *made)
     set_int(program, U_u_Output, output >= OUTPUT_INVERTED ? output - OUTPUT_INVERTED + 1 : 0);
 }
 
+/* The shadow map. */
+
+static void set_shadow(const WrongProgram *program, const Made *made, const ProbeMap *map)
+{
+    const double biases[] = {0.002, [MAP_BIAS_NONE] = 0, [MAP_BIAS_REVERSED] = -0.002};
+    const double value = made->choices->value;
+    const Factor which = made->choices->factor;
+    const double bias = which >= FACTOR_BIAS_LARGE && which <= FACTOR_BIAS_SLOPE
+                            ? factor_value(made->choices)
+                            : biases[choice(made, SLOT_MAP_BIAS)];
+    const double slope = which == FACTOR_BIAS_SLOPE ? 10 * bias : 0;
+    const int on = choice(made, SLOT_SHADOW_ON);
+    const double left = which == FACTOR_SHADOW || which == FACTOR_SHADOW_ALL ? fmin(value, 1) : 0;
+    if (!map->texture)
+        return;
+    glBindTexture(GL_TEXTURE_2D, map->texture);
+    set_int(program, U_u_Map, 0);
+    const bool placed = choice(made, SLOT_MAP_PLACE) != MAP_PLACE_OBJECT;
+    shader_set_mat4(program->locations[U_u_MapMatrix],
+                    placed ? mat4_product(map->clip_from_world, made->world)
+                           : map->clip_from_world);
+    set_choice(program, U_u_MapPlace, made, SLOT_MAP_PLACE);
+    set_choice(program, U_u_MapDepth, made, SLOT_MAP_DEPTH);
+    set_choice(program, U_u_MapTest, made, SLOT_MAP_TEST);
+    set_choice(program, U_u_MapOutside, made, SLOT_MAP_OUTSIDE);
+    set_vec3(program, U_u_MapBias, bias, slope, 0);
+    set_vec3(program, U_u_ShadowOn, on != SHADOW_ON_AMBIENT, 0,
+             on != 0 || which == FACTOR_SHADOW_ALL);
+    set_float(program, U_u_ShadowLight, left);
+}
+
 bool wrong_program_draw(const WrongProgram *program, const Lab *lab, const Probe *probe,
                         const ProbeBuffers *buffers, const Choices *choices)
 {
@@ -724,6 +761,7 @@ bool wrong_program_draw(const WrongProgram *program, const Lab *lab, const Probe
         set_colors(program, &made);
         set_reflection(program, &made);
         set_rest(program, &made);
+        set_shadow(program, &made, &buffers->map);
         mesh_buffer_bind(mesh, program->position, program->normal);
         glDrawElements(GL_TRIANGLES, mesh->index_count, mesh->index_type, NULL);
     }

@@ -8,7 +8,7 @@
 #include "labs/diagnosis/catalogue.h"
 #include "labs/submission/submission.h"
 
-enum { WRONG_PROGRAM_UNIFORMS = 47 };
+enum { WRONG_PROGRAM_UNIFORMS = 56 };
 
 typedef struct WrongProgram {
     Shader shader;
@@ -16,14 +16,15 @@ typedef struct WrongProgram {
     GLint locations[WRONG_PROGRAM_UNIFORMS];
 } WrongProgram;
 
-/* Loads shaders/labs/catalogue. */
-bool wrong_program_open(WrongProgram *program, Message *message);
+/* Loads shaders/labs/catalogue, with or without shadows. */
+bool wrong_program_open(WrongProgram *program, const Lab *lab, Message *message);
 void wrong_program_close(WrongProgram *program);
 
 /* A probe's meshes, uploaded once for many draw calls. */
 typedef struct ProbeBuffers {
     MeshBuffer buffers[PROBE_MAX_OBJECTS];
     bool cull; /* back faces */
+    ProbeMap map;
 } ProbeBuffers;
 bool probe_buffers_open(ProbeBuffers *buffers, const Probe *probe,
                         const SubmissionGeometry *geometry, Message *message);

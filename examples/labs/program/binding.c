@@ -4,7 +4,14 @@
 
 #include <string.h>
 
-typedef enum Kind { KIND_MATRIX, KIND_POINT, KIND_DIRECTION, KIND_COLOR, KIND_NUMBER } Kind;
+typedef enum Kind {
+    KIND_MATRIX,
+    KIND_POINT,
+    KIND_DIRECTION,
+    KIND_COLOR,
+    KIND_NUMBER,
+    KIND_MAP
+} Kind;
 
 /* A uniform of the interface. */
 typedef struct Value {
@@ -119,6 +126,12 @@ static bool gather(Values *values, const Lab *lab, const Drawn *drawn, Message *
         add_vector(values, "u_SpecularColor", KIND_COLOR, object->front.specular);
         add_number(values, "u_Shininess", object->front.shininess);
     }
+    if (lab->shadow) {
+        add_matrix(values, "u_LightMatrix",
+                   drawn && drawn->map ? drawn->map->clip_from_world : mat4_identity());
+        add(values, "u_ShadowMap", KIND_MAP);
+        add_number(values, "u_ShadowMapSize", PROBE_MAP_SIZE);
+    }
     if (lab->two_sided) {
         add_vector(values, "u_BackColor", KIND_COLOR, object->back.diffuse);
         add_number(values, "u_Mirrored", mat4_determinant(world) < 0 ? -1 : 1);
@@ -140,12 +153,14 @@ static bool suits(const Value *value, GLenum type)
         return type == GL_FLOAT_MAT4 || type == GL_FLOAT_MAT3;
     if (value->kind == KIND_NUMBER)
         return type == GL_FLOAT || type == GL_INT;
+    if (value->kind == KIND_MAP)
+        return type == GL_SAMPLER_2D;
     return type == GL_FLOAT_VEC3 || type == GL_FLOAT_VEC4;
 }
 
 static const char *type_of(const Value *value)
 {
-    static const char *const NAMES[] = {"mat4", "vec3", "vec3", "vec3", "float"};
+    static const char *const NAMES[] = {"mat4", "vec3", "vec3", "vec3", "float", "sampler2D"};
     return NAMES[value->kind];
 }
 
@@ -250,6 +265,8 @@ static void set_value(GLint location, const Uniform *uniform)
         return;
     if (value->kind == KIND_MATRIX) {
         set_matrix(location, type, value->m);
+    } else if (value->kind == KIND_MAP) {
+        glUniform1i(location, 0); /* the unit it is bound to */
     } else if (type == GL_INT) {
         glUniform1i(location, (GLint)value->number);
     } else if (type == GL_FLOAT) {
@@ -292,6 +309,8 @@ bool binding_draw(const Lab *lab, GLuint program, const MeshBuffer *mesh, const 
         glDisableVertexAttribArray((GLuint)color);
         glVertexAttrib4fv((GLuint)color, rgba);
     }
+    if (drawn->map)
+        glBindTexture(GL_TEXTURE_2D, drawn->map->texture);
     glDrawElements(GL_TRIANGLES, mesh->index_count, mesh->index_type, NULL);
     return true;
 }

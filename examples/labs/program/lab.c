@@ -45,6 +45,9 @@ const Lab LABS[LAB_COUNT] = {
      .summary = "lab 10: at most one step of error, as cheap as possible (C)",
      .light = LIGHT_POINT, .lights = 1, .ambient = true, .specular = true, .rigid = true,
      .budget = true, .reflection = REFLECTION_PHONG},
+    {.number = 11, .name = "lab11_shadow_map", .file = "lab11",
+     .summary = "lab 11: shadows, by looking up a shadow map",
+     .light = LIGHT_POINT, .lights = 1, .ambient = true, .flat = true, .shadow = true},
 };
 /* clang-format on */
 
@@ -70,7 +73,7 @@ const Lab *lab_find(const char *text, Message *message)
     }
     const char *nearest = parse_nearest(text, names);
     message_set(message, "%s: no such lab; %s%s%s", text, nearest ? "did you mean " : "there are ",
-                nearest ? nearest : "lab01 to lab10", nearest ? "?" : "");
+                nearest ? nearest : "lab01 to lab11", nearest ? "?" : "");
     return NULL;
 }
 

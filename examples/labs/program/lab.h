@@ -1,6 +1,6 @@
 /*
- * lab: the ten labs as data: names, what their scenes contain, which uniforms the shaders may use.
- * No GL.
+ * lab: the eleven labs as data: names, what their scenes contain, which uniforms the shaders may
+ * use. No GL.
  *
  * A lab has a folder of its name with its task and starter, examples/labs/NAME in the source tree
  * and share/lighting/labs/NAME in an installation. Its shaders are NN.vert and NN.frag
@@ -13,7 +13,7 @@
 
 #include <limits.h>
 
-enum { LAB_COUNT = 10, LAB_MAX_LIGHTS = 2 };
+enum { LAB_COUNT = 11, LAB_MAX_LIGHTS = 2 };
 
 typedef struct Lab {
     int number;          /* 1 to LAB_COUNT */
@@ -31,6 +31,7 @@ typedef struct Lab {
     bool either;    /* light at the vertices is as right as at the fragments */
     bool two_sided; /* the back has its own colour; objects may be mirrored */
     bool given;     /* the shaders are given, the submission is only C */
+    bool shadow;    /* its light casts shadows: the shaders get its map (probe_map.h) */
     bool budget;    /* the submission chooses the mesh and is scored by its cost */
     Reflection reflection;
 } Lab;

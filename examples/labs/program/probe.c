@@ -3,6 +3,8 @@
 #include "app/options.h"
 #include "core/example.h"
 #include "labs/program/probe_light.h"
+#include "labs/program/probe_random.h"
+#include "labs/program/probe_shadow.h"
 #include "scene/scene_example.h"
 #include "shapes/mesh_solids.h"
 
@@ -12,48 +14,6 @@ const char *const PROBE_NAMES[PROBE_KIND_COUNT] = {"A", "B", "C", "D", "E", "F",
 
 /* Of PROBE_HUGE: squared distances then exceed the largest 16-bit float, 65504. */
 static const double HUGE_FACTOR = 300;
-
-/* Random numbers. */
-
-/* Three different numbers, so that swapped channels show. */
-static Vec3 random_color(Random *random, double min, double max)
-{
-    Vec3 color;
-    const double step = 0.12 * (max - min);
-    do {
-        color.x = random_between(random, min, max);
-        color.y = random_between(random, min, max);
-        color.z = random_between(random, min, max);
-    } while (fabs(color.x - color.y) < step || fabs(color.y - color.z) < step ||
-             fabs(color.z - color.x) < step);
-    return color;
-}
-
-/* Evenly over the unit sphere. */
-static Vec3 random_direction(Random *random)
-{
-    const double z = random_between(random, -1, 1), a = random_between(random, 0, 2 * acos(-1));
-    const double r = sqrt(1 - z * z);
-    return (Vec3){r * cos(a), r * sin(a), z};
-}
-
-/* A unit direction at min to max degrees from the axis. */
-static Vec3 random_near(Random *random, Vec3 axis, double min, double max)
-{
-    Vec3 direction;
-    double angle;
-    vec3_normalize(axis, &axis);
-    do {
-        direction = random_direction(random);
-        angle = acos(vec3_dot(direction, axis)) * 180 / acos(-1);
-    } while (!(angle >= min && angle <= max));
-    return direction;
-}
-
-static bool random_chance(Random *random)
-{
-    return random_between(random, 0, 1) < 0.5;
-}
 
 static Mat4 rotated(double degrees, Vec3 axis)
 {
@@ -186,7 +146,7 @@ static void begin(Probe *probe, const Lab *lab, ProbeKind kind)
         .reflection = lab->reflection,
     };
     for (int i = 0; i < lab->lights; i++)
-        probe->lights[i] = (Light){.kind = lab->light};
+        probe->lights[i] = (Light){.kind = lab->light, .shadows = lab->shadow};
 }
 
 static void set_light(Probe *probe, int i, Vec3 place, Vec3 color)
@@ -283,6 +243,12 @@ static bool open_plain(Probe *probe, const Lab *lab, double seconds, Message *me
             mat4_product(turned, mat4_scale((Vec3){fmod(floor(seconds), 2) == 0 ? 1 : -1, 1, 1}));
         set_light(probe, 0, (Vec3){1, 2.5, 3}, WHITE);
         break;
+    case 11:
+        camera->eye = (Vec3){-2, 4.5, 5.5};
+        camera->center = (Vec3){0.2, -0.35, 0};
+        world = mat4_product(turned, mat4_scale((Vec3){0.65, 0.65, 0.65}));
+        set_light(probe, 0, (Vec3){-2.2, 3.6, 1.2}, WHITE);
+        break;
     default:
         shape = SHAPE_OF_SPHERE;
         camera->eye = (Vec3){0, 0, 6};
@@ -294,7 +260,10 @@ static bool open_plain(Probe *probe, const Lab *lab, double seconds, Message *me
     if (!add_object(probe, shape, world, message))
         return false;
     set_material(probe, lab, 0, color, specular, shininess, back);
-    return true;
+    if (!lab->shadow)
+        return true;
+    probe->objects[0].world_from_object = probe_on_floor(&probe->meshes[0], world);
+    return probe_add_floor(probe, (Vec3){0.6, 0.75, 0.7}, message);
 }
 
 bool probe_open_usual(Probe *probe, const Lab *lab, double seconds, Message *message)
@@ -463,13 +432,12 @@ static void look_from_origin(Probe *probe)
         probe->lights[i].position = vec3_add(probe->lights[i].position, way);
 }
 
-static bool open_random(Probe *probe, const Lab *lab, Random *random, Message *message)
+/* The camera, the lights and the objects of all labs but lab 11. */
+static bool choose_scene(Probe *probe, const Lab *lab, Random *random, Message *message)
 {
     const ProbeKind kind = probe->kind;
     Scene *scene = &probe->scene;
     const int count = kind == PROBE_CROWD && !lab->given && !lab->budget ? 2 : 1;
-    choose_size(probe, random);
-    probe->seconds = floor(random_between(random, 1, 12) * 8) / 8;
     const Vec3 view = choose_view(kind, random);
     const double distance = lab->given ? 12.5 : lab->budget ? 6 : kind == PROBE_CROWD ? 8.5 : 7;
     scene->camera.center = lab->budget  ? (Vec3){0, 0, 0}
@@ -495,6 +463,17 @@ static bool open_random(Probe *probe, const Lab *lab, Random *random, Message *m
         const double shininess = choose_shininess(kind, lab, random);
         set_material(probe, lab, i, color, specular, shininess, random_color(random, 0.3, 0.95));
     }
+    return true;
+}
+
+static bool open_random(Probe *probe, const Lab *lab, Random *random, Message *message)
+{
+    const ProbeKind kind = probe->kind;
+    choose_size(probe, random);
+    probe->seconds = floor(random_between(random, 1, 12) * 8) / 8;
+    if (lab->shadow ? !probe_choose_shadow(probe, random, message)
+                    : !choose_scene(probe, lab, random, message))
+        return false;
     if (is_strong(probe, lab))
         probe_overexpose_light(probe, lab);
     if (kind == PROBE_WIDE && !lab->budget && !lab->given)

@@ -13,7 +13,8 @@
  *
  * H and I serve to tell mistakes apart: they show highlights near the line of sight. Each scene has
  * a known form, always the same, and one per seed, with other colours, positions, sizes and times.
- * In lab 3 the time gives the model matrix; lab 10 always has the unit sphere.
+ * In lab 3 the time gives the model matrix; lab 10 always has the unit sphere; lab 11 has a floor,
+ * and its eye is always above it (probe_shadow.h).
  */
 #ifndef PROBE_H
 #define PROBE_H
@@ -39,7 +40,7 @@ typedef enum ProbeKind {
 /* "A" to "I". */
 extern const char *const PROBE_NAMES[PROBE_KIND_COUNT];
 
-enum { PROBE_MAX_OBJECTS = 2 };
+enum { PROBE_MAX_OBJECTS = 3 };
 
 typedef struct Probe {
     ProbeKind kind;

@@ -125,7 +125,7 @@ static double *channel(Vec3 *v, int i)
 void probe_overexpose_light(Probe *probe, const Lab *lab)
 {
     const double wanted = 1.15;
-    if (lab->flat)
+    if (lab->flat && !lab->shadow)
         face_light(probe);
     const double found = brightest(probe, false);
     if (found > 0)

@@ -55,6 +55,10 @@ bool shots_check_sizes(const Shots *shots, uint64_t seed, const Painter *painter
 /* Lab 10: sets the sphere. Pixels at its outline or at that of the exact sphere do not count. */
 bool shots_use_sphere(Shots *shots, int slices, int stacks, Message *message);
 
+/* Lab 11: pixels near an edge of a shadow, or of an object, are no longer interior: a map has
+ * texels, and a bias moves its shadows. */
+bool shots_leave_out_edges(Reference *exact, Message *message);
+
 /* What replaces scene i's own geometry. */
 SubmissionGeometry shots_geometry(const Shots *shots, int i);
 

@@ -137,14 +137,15 @@ bool submission_compile(Shader *shader, const Lab *lab, const SubmissionFiles *f
 }
 
 static bool draw_object(const Lab *lab, GLuint program, const Probe *probe, int i,
-                        const SubmissionGeometry *geometry, Message *message)
+                        const SubmissionGeometry *geometry, const ProbeMap *map, Message *message)
 {
     MeshBuffer mesh;
     const Drawn drawn = {.scene = &probe->scene,
                          .object = i,
                          .aspect = (double)probe->width / probe->height,
                          .world_from_object = geometry->world_from_object,
-                         .normal_matrix = geometry->normal_matrix};
+                         .normal_matrix = geometry->normal_matrix,
+                         .map = map};
     const Mesh *shape = geometry->mesh ? geometry->mesh : probe->objects[i].mesh;
     if (!mesh_buffer_open(&mesh, shape, message))
         return false;
@@ -156,10 +157,12 @@ static bool draw_object(const Lab *lab, GLuint program, const Probe *probe, int 
 static bool paint(const Painter *painter, const Probe *probe, const SubmissionGeometry *geometry,
                   Message *message)
 {
-    for (int i = 0; i < probe->scene.object_count; i++)
-        if (!draw_object(painter->lab, painter->program, probe, i, geometry, message))
-            return false;
-    return true;
+    ProbeMap map;
+    bool done = probe_map_open(&map, probe, message);
+    for (int i = 0; i < probe->scene.object_count && done; i++)
+        done = draw_object(painter->lab, painter->program, probe, i, geometry, &map, message);
+    probe_map_close(&map);
+    return done;
 }
 
 static bool read_part(const Canvas *canvas, int left, int top, Image *image, Message *message)

@@ -249,6 +249,7 @@ int page_expected(double seconds)
         return 0;
     const Scene scene = shots_truth_scene(page.lab, &probe, 0, objects);
     const bool done = reference_open(&page.exact, &scene, &options, &page.message) &&
+                      shots_leave_out_edges(&page.exact, &page.message) &&
                       judge_exact_image(&page.exact, &page.right, &page.message) &&
                       show(&page.right);
     probe_close(&probe);

@@ -1,0 +1,148 @@
+#include "labs/program/probe_map.h"
+
+#include "core/mesh_buffer.h"
+#include "core/shader.h"
+
+#include <math.h>
+
+/* The middle of the objects that cast shadows, and the radius around it. */
+static double casters(const Probe *probe, Vec3 *center)
+{
+    const int count = probe->scene.object_count - 1;
+    Vec3 low = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high = vec3_scale(low, -1);
+    double radius = 0;
+    for (int pass = 0; pass < 2; pass++) {
+        for (int i = 0; i < count; i++) {
+            const Object *object = &probe->objects[i];
+            for (size_t v = 0; v < object->mesh->vertex_count; v++) {
+                const Vec3 at = mat4_transform_point(
+                    object->world_from_object, vec3_from_float(object->mesh->vertices[v].position));
+                low = (Vec3){fmin(low.x, at.x), fmin(low.y, at.y), fmin(low.z, at.z)};
+                high = (Vec3){fmax(high.x, at.x), fmax(high.y, at.y), fmax(high.z, at.z)};
+                if (pass == 1)
+                    radius = fmax(radius, vec3_length(vec3_subtract(at, *center)));
+            }
+        }
+        *center = vec3_scale(vec3_add(low, high), 0.5);
+    }
+    return radius;
+}
+
+Mat4 probe_map_matrix(const Probe *probe)
+{
+    /* A few texels more than the objects need; from before them to beyond the floor. */
+    const double margin = 1.05, near = 0.25, far = 5;
+    const Vec3 light = probe->lights[0].position;
+    Vec3 center;
+    const double radius = casters(probe, &center);
+    const double distance = vec3_length(vec3_subtract(light, center));
+    const double degrees = 2 * asin(fmin(margin * radius / distance, 0.9)) * 180 / acos(-1);
+    /* The light is above, so z is never its direction. */
+    return mat4_product(mat4_perspective(degrees, 1, near * distance, far * distance),
+                        mat4_look_at(light, center, (Vec3){0, 0, -1}));
+}
+
+static GLuint make_texture(void)
+{
+    GLuint texture;
+    glGenTextures(1, &texture);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, PROBE_MAP_SIZE, PROBE_MAP_SIZE, 0, GL_RGBA,
+                 GL_UNSIGNED_BYTE, NULL);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glBindTexture(GL_TEXTURE_2D, 0);
+    return texture;
+}
+
+static bool draw_objects(const ProbeMap *map, const Probe *probe, const Shader *shader,
+                         Message *message)
+{
+    const GLint position = glGetAttribLocation(shader->program, "a_Position");
+    const GLint clip = glGetUniformLocation(shader->program, "u_ClipFromObject");
+    glUseProgram(shader->program);
+    for (int i = 0; i < probe->scene.object_count; i++) {
+        const Object *object = &probe->objects[i];
+        MeshBuffer mesh;
+        if (!mesh_buffer_open(&mesh, object->mesh, message))
+            return false;
+        shader_set_mat4(clip, mat4_product(map->clip_from_world, object->world_from_object));
+        mesh_buffer_bind(&mesh, position, -1);
+        glDrawElements(GL_TRIANGLES, mesh.index_count, mesh.index_type, NULL);
+        mesh_buffer_close(&mesh);
+    }
+    return true;
+}
+
+static bool draw_map(const ProbeMap *map, const Probe *probe, const Shader *shader,
+                     Message *message)
+{
+    GLuint framebuffer, depth;
+    glGenFramebuffers(1, &framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, map->texture, 0);
+    glGenRenderbuffers(1, &depth);
+    glBindRenderbuffer(GL_RENDERBUFFER, depth);
+    glRenderbufferStorage(GL_RENDERBUFFER,
+                          gl_version() >= 30 || gl_has("GL_OES_depth24") ? GL_DEPTH_COMPONENT24_OES
+                                                                         : GL_DEPTH_COMPONENT16,
+                          PROBE_MAP_SIZE, PROBE_MAP_SIZE);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth);
+    bool done = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE ||
+                message_set(message, "the driver cannot draw a shadow map of %dx%d", PROBE_MAP_SIZE,
+                            PROBE_MAP_SIZE);
+    if (done) {
+        glViewport(0, 0, PROBE_MAP_SIZE, PROBE_MAP_SIZE);
+        glClearColor(1, 1, 1, 1); /* beyond all depths */
+        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+        done = draw_objects(map, probe, shader, message);
+    }
+    glDeleteFramebuffers(1, &framebuffer);
+    glDeleteRenderbuffers(1, &depth);
+    return done;
+}
+
+bool probe_map_open(ProbeMap *map, const Probe *probe, Message *message)
+{
+    const ShaderLoader loader = {.precision = "highp"};
+    GLint target, place[4];
+    Shader shader;
+    *map = (ProbeMap){.texture = 0};
+    if (!probe->lights[0].shadows)
+        return true;
+    if (!shader_open(&shader, &loader, "labs/map", message))
+        return false;
+    const bool cut = glIsEnabled(GL_SCISSOR_TEST), cull = glIsEnabled(GL_CULL_FACE);
+    const bool hidden = glIsEnabled(GL_DEPTH_TEST);
+    glGetIntegerv(GL_FRAMEBUFFER_BINDING, &target);
+    glGetIntegerv(GL_VIEWPORT, place);
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_CULL_FACE);
+    glEnable(GL_DEPTH_TEST);
+    map->clip_from_world = probe_map_matrix(probe);
+    map->texture = make_texture();
+    const bool done = draw_map(map, probe, &shader, message);
+    if (cut)
+        glEnable(GL_SCISSOR_TEST);
+    if (cull)
+        glEnable(GL_CULL_FACE);
+    if (!hidden)
+        glDisable(GL_DEPTH_TEST);
+    glViewport(place[0], place[1], place[2], place[3]);
+    glBindFramebuffer(GL_FRAMEBUFFER, (GLuint)target);
+    shader_close(&shader);
+    if (!done)
+        probe_map_close(map);
+    return done;
+}
+
+void probe_map_close(ProbeMap *map)
+{
+    if (!map)
+        return;
+    if (map->texture)
+        glDeleteTextures(1, &map->texture);
+    *map = (ProbeMap){.texture = 0};
+}
