@@ -302,13 +302,13 @@ static Mat4 choose_world(const Lab *lab, ProbeKind kind, bool flat, double secon
 {
     Vec3 factors = {1, 1, 1}, offset = {0, 0, 0};
     Vec3 axis = random_direction(random);
-    const double degrees = random_between(random, 35, 145) * (random_chance(random) ? 1 : -1);
+    const double degrees = random_signed(random, 35, 145);
     const double first = random_between(random, 0.5, 0.75), second = random_between(random, 1, 1.3);
     const double third = random_between(random, 0.75, 1);
     const int turn = (int)random_between(random, 0, 2.999);
-    offset.x = random_between(random, 0.2, 0.45) * (random_chance(random) ? 1 : -1);
-    offset.y = random_between(random, 0.2, 0.45) * (random_chance(random) ? 1 : -1);
-    offset.z = random_between(random, 0.2, 0.6) * (random_chance(random) ? 1 : -1);
+    offset.x = random_signed(random, 0.2, 0.45);
+    offset.y = random_signed(random, 0.2, 0.45);
+    offset.z = random_signed(random, 0.2, 0.6);
     if (lab->given)
         return world_from_model(seconds);
     if (lab->budget)
@@ -370,9 +370,9 @@ static void choose_lights(Probe *probe, const Lab *lab, Vec3 view, Random *rando
     const bool wide = probe->kind == PROBE_CROWD || probe->kind == PROBE_WIDE;
     const Vec3 aside = vec3_scale(random_direction(random), wide ? 0.9 : 0.25);
     light->diffuse = light->specular = vec3_scale(light->diffuse, 1.35);
-    set_spot(probe, vec3_add(origin, aside),
-             wide ? random_between(random, 26, 40) : random_between(random, 14, 24),
-             random_between(random, 3, 12));
+    const double exponent = random_between(random, 3, 12);
+    const double cutoff = wide ? random_between(random, 26, 40) : random_between(random, 14, 24);
+    set_spot(probe, vec3_add(origin, aside), cutoff, exponent);
     light->constant = random_between(random, 0.5, 0.8);
     light->linear = random_between(random, 0.05, 0.15);
     light->quadratic = random_between(random, 0.02, 0.06);

@@ -38,3 +38,9 @@ bool random_chance(Random *random)
 {
     return random_between(random, 0, 1) < 0.5;
 }
+
+double random_signed(Random *random, double min, double max)
+{
+    const double size = random_between(random, min, max);
+    return random_chance(random) ? size : -size;
+}

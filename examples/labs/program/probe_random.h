@@ -20,4 +20,8 @@ Vec3 random_near(Random *random, Vec3 axis, double min, double max);
 
 bool random_chance(Random *random);
 
+/* A size, of either sign. One number in a statement: compilers differ in the order of operands and
+ * arguments. */
+double random_signed(Random *random, double min, double max);
+
 #endif

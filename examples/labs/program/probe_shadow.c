@@ -65,7 +65,7 @@ static double least_cosine(const Probe *probe, const Object *object)
 static Mat4 choose_world(const Mesh *mesh, Vec3 at, Random *random)
 {
     const Vec3 axis = random_direction(random);
-    const double degrees = random_between(random, 35, 145) * (random_chance(random) ? 1 : -1);
+    const double degrees = random_signed(random, 35, 145);
     const double first = random_between(random, 0.35, 0.5);
     const double second = random_between(random, 0.7, 0.85);
     const double third = random_between(random, 0.5, 0.7);
@@ -80,7 +80,7 @@ static Mat4 choose_board(const Probe *probe, const Mesh *mesh, Vec3 at, Random *
 {
     const Vec3 light = probe->lights[0].position;
     const double towards = atan2(light.x - at.x, light.z - at.z) * 180 / acos(-1);
-    const double aside = random_between(random, 5, 25) * (random_chance(random) ? 1 : -1);
+    const double aside = random_signed(random, 5, 25);
     const double lean = random_between(random, 15, 25), width = random_between(random, 0.55, 0.7);
     const Vec3 factors = {width, random_between(random, 0.4, 0.5), 0.02};
     const Mat4 turn = mat4_product(mat4_rotate(towards + aside, (Vec3){0, 1, 0}),
