@@ -1,8 +1,10 @@
 """The labs as pages: used as a student would, and their verdicts against those of `check`."""
 import base64
+import concurrent.futures
 import json
 import os
 import pathlib
+import random
 import re
 import subprocess
 import sys
@@ -14,6 +16,7 @@ import browser
 from pages import EXAMPLES, SITE, SOURCE, Case, differences
 
 sys.path.insert(0, os.path.join(SOURCE, "tests/labs"))
+import corpus
 import faults
 import mistakes
 
@@ -34,6 +37,24 @@ def check(lab, texts):
 def said(verdict):
     """What has to be the same."""
     return (verdict["verdict"], verdict["points"], [mistake["name"] for mistake in verdict["mistakes"]], verdict["one_of"])
+
+
+def scenes(verdict):
+    """What was judged, and how."""
+    return [(probe["set"], probe["name"], probe["seconds"], probe["width"], probe["height"], probe["passed"])
+            for probe in verdict["probes"]]
+
+
+def sampled(count, seed):
+    """(lab, name, texts) of so many submissions of the corpus in each lab. The browser refuses the suffix of 1.0f."""
+    dice = random.Random(seed)
+    for lab in SHADERS:
+        submissions = {name: {file: text.decode() for file, text in files.items() if file != "label"}
+                       for name, files in corpus.read(lab).items()}
+        names = [name for name in sorted(submissions)
+                 if not any(re.search(r"[\d.]f\b", text, re.IGNORECASE) for text in submissions[name].values())]
+        for name in dice.sample(names, min(count, len(names))):
+            yield lab, name, submissions[name]
 
 
 def starter(lab):
@@ -66,6 +87,19 @@ class Verdicts(OfLabs):
         # Operations are not counted.
         verdict = self.judge(10, mistakes.read(10))
         self.assertEqual((verdict["verdict"], verdict["points"]), ("right", 5))
+
+    def test_verdicts_of_the_corpus_are_native(self):
+        seed = int(os.environ.get("LIGHTING_TEST_SEED", 1))
+        self.open(mistakes.NAMES[5])
+        todo = list(sampled(int(os.environ.get("LIGHTING_TEST_CASES", 5)), seed))
+        self.assertGreaterEqual(len(todo), len(SHADERS))
+        with concurrent.futures.ThreadPoolExecutor(1) as pool:
+            natively = pool.map(lambda one: check(one[0], one[2]), todo)
+            for (lab, name, texts), expected in zip(todo, natively):
+                with self.subTest(name, lab=lab, LIGHTING_TEST_SEED=seed):
+                    verdict = self.judge(lab, texts)
+                    self.assertEqual(said(verdict), said(expected))
+                    self.assertEqual(scenes(verdict), scenes(expected))
 
     def test_errors_of_the_compiler_are_explained(self):
         self.open(mistakes.NAMES[5])
