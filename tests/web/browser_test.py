@@ -26,12 +26,8 @@ sys.path.insert(0, os.path.dirname(__file__))
 import browser
 import sizes
 from labs_pages import Accessible, Labs, Verdicts
-from pages import EXAMPLES, PAGE_NATIVE, SITE, SOURCE, Case, address, differences, native
+from pages import EXAMPLES, PAGE_NATIVE, RENDERER, SITE, SOURCE, Case, address, differences, make, native
 
-RENDERER = """(() => {
-    const gl = Page.page.engine.module.canvas.getContext("webgl2");
-    return gl.getParameter(gl.getExtension("WEBGL_debug_renderer_info").UNMASKED_RENDERER_WEBGL);
-})()"""
 # Draws by a module of its own: no page in between.
 HARNESS = """(async () => {
     window.own = await Engine.open(Page.page.compiled, document.createElement("canvas"));
@@ -596,14 +592,9 @@ class Pages(Case):
 
 
 def main():
-    for tool in ("emcc", "chromium", "pyftsubset"):
-        if not shutil.which(tool):
-            print(f"{tool}: not found; the pages are not tested")
-            return 77
-    made = subprocess.run([os.path.join(SOURCE, "examples/run"), "web", "-o", SITE],
-                          env={**os.environ, "LIGHTING_BUILD": os.path.dirname(EXAMPLES)})
-    if made.returncode:
-        return made.returncode
+    code = make()
+    if code:
+        return code
     return not unittest.main(argv=sys.argv[:1] + sys.argv[4:], exit=False, verbosity=2).result.wasSuccessful()
 
 

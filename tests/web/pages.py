@@ -4,6 +4,7 @@ import json
 import os
 import pathlib
 import shlex
+import shutil
 import subprocess
 import sys
 import unittest
@@ -13,8 +14,22 @@ import browser
 EXAMPLES, PAGE_NATIVE, SOURCE = (os.path.abspath(path) for path in sys.argv[1:4])
 SITE = os.path.join(os.path.dirname(EXAMPLES), "pages")
 
+RENDERER = """(() => {
+    const gl = Page.page.engine.module.canvas.getContext("webgl2");
+    return gl.getParameter(gl.getExtension("WEBGL_debug_renderer_info").UNMASKED_RENDERER_WEBGL);
+})()"""
 # A dialog would hold the test up.
 CONFIRM = "window.asked = []; window.confirm = text => { asked.push(text); return !window.refuses; };"
+
+
+def make():
+    """Builds the pages with examples/run web; 0, or what a test exits with."""
+    for tool in ("emcc", "chromium", "pyftsubset"):
+        if not shutil.which(tool):
+            print(f"{tool}: not found; the pages are not tested")
+            return 77
+    return subprocess.run([os.path.join(SOURCE, "examples/run"), "web", "-o", SITE], stdout=sys.stderr,
+                          env={**os.environ, "LIGHTING_BUILD": os.path.dirname(EXAMPLES)}).returncode
 
 
 def address(name, link=""):
