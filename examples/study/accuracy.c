@@ -11,6 +11,7 @@
 #include "study/measure/choose.h"
 #include "study/measure/models.h"
 #include "study/measure/scenes.h"
+#include "study/measure/shadow_ways.h"
 #include "study/measure/survey.h"
 #include "study/report/conclusions.h"
 #include "study/report/findings.h"
@@ -208,16 +209,17 @@ static bool write_tables(const Survey *survey, const Options *options, const cha
     return done;
 }
 
-/* The tables of models and matrices, as text of its own. */
-static bool measure_more(Survey *survey, const Options *options, ModelsApart *apart, char **text,
-                         Message *message)
+/* The tables of models, matrices and shadows, as text of its own. */
+static bool measure_more(Survey *survey, const Options *options, ModelsApart *apart,
+                         ShadowWays *ways, char **text, Message *message)
 {
     size_t size = 0;
     FILE *file = open_memstream(text, &size);
     bool done = file || message_set(message, "table.txt: not enough memory");
     done = done && models_report(survey, options->output, markdown, file, apart, message) &&
            (findings_matrices(&survey->results, markdown, file) ||
-            message_set(message, "table.txt: not enough memory"));
+            message_set(message, "table.txt: not enough memory")) &&
+           shadow_ways_report(survey, options->output, markdown, file, ways, message);
     if (file && fclose(file) != 0 && done)
         done = message_set(message, "table.txt: not enough memory");
     return done;
@@ -225,7 +227,7 @@ static bool measure_more(Survey *survey, const Options *options, ModelsApart *ap
 
 /* Without gnuplot there are no plots, and one line says so. */
 static void draw_plots(const Survey *survey, const Options *options, const int *scenes, int count,
-                       Progress *progress)
+                       const ShadowWays *ways, Progress *progress)
 {
     Message message = {0};
     for (int i = 0; i < count; i++) {
@@ -237,7 +239,8 @@ static void draw_plots(const Survey *survey, const Options *options, const int *
         progress_update(progress, count + i + 1, 2 * count);
     }
     if (!message.text[0])
-        findings_plot(&survey->results, options->output, &message);
+        (void)(findings_plot(&survey->results, options->output, &message) &&
+               shadow_ways_plot(ways, options->output, &message));
     if (message.text[0])
         fprintf(stderr, "accuracy: no plots: %s\n", message.text);
 }
@@ -273,13 +276,14 @@ static bool report(Survey *survey, const Options *options, const int *scenes, in
 {
     char path[PATH_MAX], *more = NULL;
     ModelsApart apart;
+    ShadowWays ways;
     Sheet sheets[] = {
         {"usual", quality_usual()}, {"gouraud", quality_usual()}, {"mediump", quality_usual()}};
     if (!quality_parse(&sheets[1].quality, "interpolation=gouraud divisions=24", message))
         return false;
     sheets[2].quality = quality_with(quality_usual(), AXIS_PRECISION, PRECISION_MEDIUMP);
     bool done =
-        measure_more(survey, options, &apart, &more, message) &&
+        measure_more(survey, options, &apart, &ways, &more, message) &&
         write_tables(survey, options, more, message) &&
         results_write_json(&survey->results, in_folder(options, "results.json", path), message);
     Progress progress = progress_start("plots and sheets");
@@ -288,7 +292,7 @@ static bool report(Survey *survey, const Options *options, const int *scenes, in
         progress_update(&progress, i + 1, 2 * count);
     }
     if (done)
-        draw_plots(survey, options, scenes, count, &progress);
+        draw_plots(survey, options, scenes, count, &ways, &progress);
     progress_end(&progress);
     if (done) {
         const Conclusions conclusions = conclusions_of(&survey->results, scenes, count, &apart);

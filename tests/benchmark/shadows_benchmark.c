@@ -1,18 +1,15 @@
 /*
  * What shadows cost: a teapot over a floor in the light of one and of three lights, and the scene
- * of Shadows, each without shadows, without again, and in each way; and how far shadow maps of each
- * size, bias and filter are from the exact picture of the same meshes.
+ * of Shadows, each without shadows, without again, and in each way. How exact they are:
+ * examples/study/measure/shadow_ways.h.
  */
 #include "benchmark/measure.h"
 #include "core/canvas.h"
 #include "core/example.h"
-#include "reference/picture_error.h"
-#include "reference/reference.h"
 #include "scene/lighting.h"
 #include "scene/scene_example.h"
 #include "shapes/mesh_solids.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -147,124 +144,7 @@ static bool measure_setting(Setting *setting, Table *table)
     return done;
 }
 
-/* How far from the exact picture. */
-
-typedef struct Exact {
-    Reference picture;
-    unsigned char near[SIZE * SIZE]; /* within two pixels of a shadow's edge */
-} Exact;
-static Exact exact;
-static Image image;
-
-static bool is_dark(const Reference *with, const Reference *without, size_t pixel)
-{
-    double most = 0;
-    for (size_t k = 0; k < 3; k++)
-        most = fmax(
-            most, fabs((double)with->color[3 * pixel + k] - (double)without->color[3 * pixel + k]));
-    return most > 0.5 / 255;
-}
-
-static bool find_exact(const Setting *setting, Message *message)
-{
-    enum { NEAR = 2 };
-    const ReferenceOptions options = {.width = SIZE, .height = SIZE, .meshes = true};
-    Reference bare;
-    if (!reference_open(&exact.picture, &setting->ways[VOLUMES].scene, &options, message) ||
-        !reference_open(&bare, &setting->ways[WITHOUT].scene, &options, message))
-        return false;
-    for (int y = 0; y < SIZE; y++) {
-        for (int x = 0; x < SIZE; x++) {
-            bool dark = false, lit = false;
-            for (int v = y - NEAR; v <= y + NEAR; v++) {
-                for (int u = x - NEAR; u <= x + NEAR; u++) {
-                    if (u < 0 || v < 0 || u >= SIZE || v >= SIZE)
-                        continue;
-                    const bool here = is_dark(&exact.picture, &bare, (size_t)(v * SIZE + u));
-                    dark |= here;
-                    lit |= !here;
-                }
-            }
-            exact.near[y * SIZE + x] = dark && lit;
-        }
-    }
-    reference_close(&bare);
-    return true;
-}
-
-static bool add_survey(Setting *setting, const char *name, const ShadowSettings *shadows,
-                       Table *table, Message *message)
-{
-    static Way ways[2];
-    PictureError error = {.all = {0}};
-    ErrorSum near = {0};
-    ways[0] = setting->ways[WITHOUT];
-    ways[1] = setting->ways[VOLUMES];
-    for (int w = 0; w < 2; w++)
-        ways[w].scene.lights = ways[w].lights;
-    ways[1].shadows = *shadows;
-    Measured measured[2] = {{name, draw, &ways[0], NULL}, {name, draw, &ways[1], NULL}};
-    const int rounds = ROUNDS / 2;
-    bool done = measure_rounds(measured, 2, rounds) && canvas_read(&canvas, &image, message);
-    if (done) {
-        canvas_clear(&canvas, ways[1].scene.background, 0);
-        done = lighting_draw(lighting, &ways[1].scene, 1, false, message) &&
-               canvas_read(&canvas, &image, message);
-    }
-    if (done) {
-        picture_error_add(&error, &image, 0, 0, &exact.picture, NULL, &ways[1].scene);
-        for (size_t i = 0; i < SIZE * SIZE; i++)
-            if (exact.near[i])
-                error_sum_add(&near, pixel_error(&image, i, &exact.picture.color[3 * i]), i);
-        table_row(table, "%s|%.2f|%.2f|%lld|%s", name, error_sum_rms(&error.all),
-                  error_sum_rms(&near), error.interior.wrong,
-                  measure_cell(measure_ratio(&measured[1], &measured[0], 1, rounds), 1, 2).text);
-    }
-    measure_finish(measured, 2);
-    return done;
-}
-
-static bool survey(Setting *setting, Message *message)
-{
-    static const struct {
-        const char *name;
-        Vec3 bias;
-    } biases[] = {{"without bias", {0, 0, 0}},
-                  {"constant bias of 2", {2, 0, 0}},
-                  {"slope-scaled bias of 1", {0.5, 1, 0}},
-                  {"along the normal by 1", {0.5, 0, 1}}};
-    char title[96], name[64];
-    Table table;
-    ShadowSettings shadows = SHADOWS_DEFAULT;
-    if (!find_exact(setting, message))
-        return false;
-    snprintf(title, sizeof title, "%s, against the exact picture", setting->name);
-    table_open(&table, "|error, all pixels|near shadows' edges|wrong inside|time over none");
-    shadows.way = SHADOWS_VOLUMES;
-    bool done = add_survey(setting, "volumes", &shadows, &table, message);
-    shadows.way = SHADOWS_PLANAR;
-    done = done && add_survey(setting, "planar", &shadows, &table, message);
-    shadows.way = SHADOWS_MAP;
-    for (int size = 64; size <= 4096 && done; size *= 2) {
-        for (int smooth = 0; smooth < 2 && done; smooth++) {
-            shadows.map_size = size;
-            shadows.smooth = smooth;
-            snprintf(name, sizeof name, "map:%d%s", size, smooth ? ", 2x2" : "");
-            done = add_survey(setting, name, &shadows, &table, message);
-        }
-    }
-    shadows = (ShadowSettings){.way = SHADOWS_MAP, .map_size = SHADOWS_DEFAULT.map_size};
-    for (size_t i = 0; i < sizeof biases / sizeof biases[0] && done; i++) {
-        shadows.bias = biases[i].bias;
-        snprintf(name, sizeof name, "map:%d %s", shadows.map_size, biases[i].name);
-        done = add_survey(setting, name, &shadows, &table, message);
-    }
-    reference_close(&exact.picture);
-    measure_print_table(title, &table);
-    return done;
-}
-
-static bool measure_all(Message *message)
+static bool measure_all(void)
 {
     Table table;
     bool done = true;
@@ -279,7 +159,7 @@ static bool measure_all(Message *message)
     for (int i = 0; i < SCENES; i++)
         done = done && measure_setting(&settings[i], &table);
     measure_print_table("shadows", &table);
-    return done && survey(&settings[3], message) && survey(&settings[4], message);
+    return done;
 }
 
 int main(int argc, char *argv[])
@@ -289,18 +169,16 @@ int main(int argc, char *argv[])
     const bool done =
         canvas_open(&canvas, &(CanvasOptions){.width = SIZE, .height = SIZE}, &message) &&
         lighting_open(&lighting, &(ShaderLoader){0}, &message) &&
-        image_open(&image, SIZE, SIZE, IMAGE_BYTE, &message) &&
         mesh_teapot(&teapot, 1, 10, &message) && mesh_quad(&plane, 1, &message) &&
         mesh_sphere(&ball, 0.75, 48, 24, &message) && Shadows.init(&(ShaderLoader){0}, &message);
     if (done)
         measure_print_machine(canvas.renderer, canvas.version);
-    const bool measured = done && measure_all(&message);
+    const bool measured = done && measure_all();
     if (!measured)
         fprintf(stderr, "shadows_benchmark: %s\n", message.text);
     if (done)
         Shadows.finish();
     lighting_close(lighting);
-    image_close(&image);
     mesh_close(&teapot);
     mesh_close(&plane);
     mesh_close(&ball);

@@ -101,8 +101,32 @@ class Surveys(Study):
         self.assertEqual(len(data["rows"]), 15)
         sheet = self.png("accuracy/cube-usual.png")
         self.assertGreater(len(set(zip(*[iter(sheet.pixels)] * sheet.channels))), 50)
-        for name in ("cube.png", "cube.svg", "models.csv", "finding-precision.svg"):
+        for name in ("cube.png", "cube.svg", "models.csv", "finding-precision.svg", "shadows.csv",
+                     "finding-shadows-sphere.png", "finding-shadows-sphere.svg",
+                     "finding-shadows-sphere-time.png", "finding-shadows-sphere-time.svg"):
             self.assertGreater(len(self.read("accuracy/" + name)), 500)
+
+    def test_shadows_are_measured_by_each_way(self):
+        self.survey()
+        text = self.read("accuracy/shadows.csv").decode()
+        rows = list(csv.DictReader(io.StringIO(text, newline="")))
+        maps = {name: [row for row in rows if row["way"] == name] for name in ("map", "map, 2x2")}
+        exact = [row for row in rows if row["way"] in ("volumes", "planar")]
+        self.assertEqual((len(exact), len(rows)), (2, 8))
+        for row in rows:
+            self.assertGreater(float(row["ratio"]), 0, row)
+            self.assertGreater(float(row["moving_ratio"]), 0, row)
+        for row in exact:
+            self.assertEqual(row["wrong"], "0")
+        for name, of_sizes in maps.items():
+            self.assertEqual([row["size"] for row in of_sizes], ["64", "512", "4096"])
+            errors = [float(row["near_rms"]) for row in of_sizes]
+            self.assertEqual(errors, sorted(errors, reverse=True), name)
+            self.assertGreater(errors[0], 2 * float(exact[0]["near_rms"]), name)
+        for name in ("", "-time"):  # every way is a line of the plot
+            plot = self.read(f"accuracy/finding-shadows-sphere{name}.svg").decode()
+            for word in ("map", "2x2", "volumes", "planar", "4096"):
+                self.assertIn(word, plot, name)
 
     def test_the_page_has_sentence_plots_and_tables(self):
         self.survey()
@@ -139,7 +163,7 @@ class Surveys(Study):
         self.assertEqual(self.read("accuracy/results.csv"), before)
         self.assertRegex(text, r"^.* cores; .*; LP_NUM_THREADS .*\n\n")
         for head in ("divisions | Phong: error", "scene | usual: error", "antialiasing |",
-                     "model | s |", "setting | ns |"):
+                     "model | s |", "setting | ns |", "scene | shadows |"):
             self.assertRegex(text, rf"\n\| {re.escape(head)}.*\n\|---")
         self.assertRegex(text, r"\n\| cube \| 0\.50 \| [\d.]+ \|")
         if base.LONG:

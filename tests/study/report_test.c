@@ -278,7 +278,8 @@ TEST_WITH(0, curves_leave_out_unknown_values, enter, leave)
     static const double nothing[] = {NAN, NAN, NAN, NAN, NAN};
     const ReportSeries series[] = {{"one", x, y, 5}, {"none's", x, nothing, 5}, {"empty", x, y, 0}};
     for (int i = 0; i < 4; i++) {
-        const ReportAxes axes = {"title", "x", "y", i % 2 == 1, i / 2 == 1, i ? "a foot" : NULL};
+        const ReportAxes axes = {"title", "x", "y", i % 2 == 1, i / 2 == 1, i ? "a foot" : NULL,
+                                 i == 3};
         if (!report_curves(&axes, series, 3, "out", "curves", fresh()))
             fail_msg("%s", message.text);
         char *svg = drawn("curves");
@@ -333,7 +334,7 @@ TEST_WITH(0, a_plot_without_a_folder_is_refused, enter, leave)
     add_four();
     assert_false(report_plot(&results, "sphere", "", ERROR_ALL_RMS, "nowhere", fresh()));
     assert_non_null(strstr(message.text, "nowhere/sphere.svg: the folder nowhere/ does not exist"));
-    assert_false(report_curves(&(ReportAxes){"", "", "", false, false, NULL}, NULL, 0, "out",
+    assert_false(report_curves(&(ReportAxes){"", "", "", false, false, NULL, false}, NULL, 0, "out",
                                "../x", fresh()));
     assert_non_null(strstr(message.text, "../x: cannot be a file's name"));
 }

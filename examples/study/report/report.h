@@ -48,6 +48,7 @@ typedef struct ReportAxes {
     const char *title, *x, *y; /* labels with units */
     bool log_x, log_y;
     const char *foot; /* a small footer; NULL: none */
+    bool doubling_x;  /* its tics are powers of two */
 } ReportAxes;
 bool report_curves(const ReportAxes *axes, const ReportSeries *series, int count,
                    const char *folder, const char *name, Message *message);

@@ -74,6 +74,17 @@ static void put_curve_axis(FILE *script, char axis, const char *label, const Ran
     fputc('\n', script);
 }
 
+/* Instead of tics at 1, 2 and 5 times powers of ten. */
+static void put_doubling(FILE *script, const Range *x)
+{
+    int written = 0;
+    fputs("set xtics nomirror out (", script);
+    for (double value = 1; value <= x->max; value *= 2)
+        if (value >= x->min)
+            fprintf(script, "%s'%.0f' %.0f", written++ ? ", " : "", value, value);
+    fputs(")\n", script);
+}
+
 /* The approximate number of lines of the key. */
 static int key_lines(const ReportSeries *series, int count)
 {
@@ -106,6 +117,8 @@ bool report_curves(const ReportAxes *axes, const ReportSeries *series, int count
             "set key at screen 0.5,0.937 center top horizontal reverse Left samplen 2.5 width 1\n",
             1 - (62.0 + 24 * lines) / GNUPLOT_HEIGHT);
     put_curve_axis(file, 'x', axes->x, &x);
+    if (axes->doubling_x)
+        put_doubling(file, &x);
     put_curve_axis(file, 'y', axes->y, &y);
     for (int i = 0; i < count; i++)
         put_series(file, i, &series[i], &x, &y);

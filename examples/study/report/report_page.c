@@ -143,6 +143,11 @@ static void put_findings(FILE *file, const Conclusions *conclusions, const char 
         {"viewer", "The error of a local viewer and one at infinity, scene by scene"},
         {"antialiasing", "The error of all pixels over time"},
         {"matrices", "The error by arithmetic and order of the matrices"},
+        {"shadows-sphere", "The error of a sphere's shadow by the size of the map"},
+        {"shadows-sphere-time", "The time of a sphere's shadow by the size of the map"},
+        {"shadows-teapot", "The error of a teapot's and a torus' shadows by the size of the map"},
+        {"shadows-teapot-time",
+         "The time of a teapot's and a torus' shadows by the size of the map"},
     };
     fputs("<section id=\"findings\">\n<h2>Conclusions</h2>\n<ul>\n", file);
     for (int i = 0; i < conclusions->count; i++) {
