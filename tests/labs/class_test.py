@@ -35,6 +35,9 @@ SOLUTIONS = os.path.join(HERE, "solutions")
 SOLUTION = os.path.join(SOLUTIONS, "lab05_per_fragment")
 STARTER = os.path.join(base.SOURCE, "examples/labs/lab05_per_fragment")
 VERT, FRAG = "lab05.vert", "lab05.frag"
+# Seconds of processor time until an attack that never ends is ended, twice; the right ones need 0.4,
+# under a sanitizer (.ci/run) more.
+LIMIT = "2" if base.LONG or "ASAN_OPTIONS" in os.environ else "1"
 SANDBOXED = r"each submission runs in bubblewrap: no network, no files but its own, "
 # A loop whose end no compiler finds, heavy enough that the driver's own limit of iterations does not
 # end it in time.
@@ -255,7 +258,7 @@ class Abuse(Class):
 
     def archive(self, name, *entries):
         """A .tar of entries: (name, content), or a TarInfo."""
-        with tarfile.open(self.path("class", name), "w:gz") as tar:
+        with tarfile.open(self.path("class", name), "w:gz", compresslevel=1) as tar:
             for entry in entries:
                 if isinstance(entry, tarfile.TarInfo):
                     tar.addfile(entry)
@@ -297,16 +300,16 @@ class Abuse(Class):
         through = (self.link("x", self.folder), ("x/climbed.frag", b"x"))
         self.archive("through_link.tar.gz", *files, *through)
         self.archive("many.tar.gz", *[(f"{i}.frag", b"") for i in range(5000)])
-        with zipfile.ZipFile(self.path("class/bomb.zip"), "w", zipfile.ZIP_DEFLATED) as bomb:
+        with zipfile.ZipFile(self.path("class/bomb.zip"), "w", zipfile.ZIP_DEFLATED, True, 1) as bomb:
             bomb.writestr(VERT, read(SOLUTION, VERT))
-            bomb.writestr(FRAG, b" " * 300_000_000)
+            bomb.writestr(FRAG, b" " * 270_000_000)
         with zipfile.ZipFile(self.path("class/climbing_zip.zip"), "w") as archive:
             archive.writestr("..\\..\\climbed.frag", "x")
-        self.archive("solid_bomb.tar.gz", ("large.bin", bytes(400_000_000)), *files)
+        self.archive("solid_bomb.tar.gz", ("large.bin", bytes(270_000_000)), *files)
         self.make("class/no_archive.zip", b"PK\3\4 and then something else")
         before = sorted(os.listdir(self.folder))
 
-        lines = self.lab5("--limit", "2")
+        lines = self.lab5("--limit", LIMIT)
         for student, verdict, said in (
             ("ten_megabytes", "refused", "9.5 MB; at most"),
             ("another_file", "refused|error", r"lab05\.frag"),
@@ -377,9 +380,10 @@ class Abuse(Class):
         )
         for bomb in bombs[:: base.step(9)]:
             with_code(*bomb)
-        with_code("endless", "", " for (;;) ; ")
+        if base.LONG:  # labs_test.py has another: a call has 2 s, and a class is patient twice
+            with_code("endless", "", " for (;;) ; ")
         with_code("sleeper", declared, " sleep(1000); ")
-        eating = " for (;;) { char *p = malloc(1 << 20); if (p) memset(p, 1, 1 << 20); } "
+        eating = " for (;;) { char *p = malloc(1 << 20); if (!p) abort(); memset(p, 1, 1 << 20); } "
         with_code("eater", declared, eating)
         with_code("crash", "", " *(volatile int *)8 = 1; ")
 
@@ -397,7 +401,7 @@ class Abuse(Class):
         places = [f"{folder}out/verdict.json" for folder in ("/tmp/", "", "../")]
         forging = "".join(writing(place, forged) for place in places)
         with_code("forger", declared, forging + " abort(); ")
-        lines = self.check_class("--lab", "3", "--limit", "2")
+        lines = self.check_class("--lab", "3", "--limit", LIMIT)
         verdicts = self.verdicts()
         self.assertEqual(verdicts.pop("good"), "right")
         # Their calls fail, but the rest of their code may be right.
@@ -496,14 +500,10 @@ class Results(Class):
         second = self.judged()
         self.assertEqual(len(second), count)
         self.assertEqual({name: second[name] for name in first}, first)
-        # With --again everything.
-        self.lab5("--again")
-        third = self.judged()
-        self.assertTrue(all(third[name] > second[name] for name in second))
 
     def test_signals_that_are_ignored_do_not_interrupt(self):
         """As with nohup."""
-        for i in range(4):
+        for i in range(3):
             self.submit(f"student{i}")
         ignore = lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN)
         with self.start_class(
@@ -513,7 +513,7 @@ class Results(Class):
             process.send_signal(signal.SIGHUP)
             error = process.communicate(timeout=base.PATIENCE)[1].decode()
         self.assertEqual(process.returncode, 0, error)
-        self.assertEqual(len(self.judged()), 4)
+        self.assertEqual(len(self.judged()), 3)
 
     def state(self, process):
         """Its parent's id and its state's letter; (0, "Z") if it has ended."""
@@ -585,13 +585,18 @@ class Results(Class):
             shutil.copy(os.path.join(SOLUTION, name), self.path("class/a"))
         self.lab5()
         self.assertEqual(self.verdicts(), {"a": "right", "b": "right"})
-        self.assertGreater(self.judged()["a"], before["a"])
-        self.assertEqual(self.judged()["b"], before["b"])
+        second = self.judged()
+        self.assertGreater(second["a"], before["a"])
+        self.assertEqual(second["b"], before["b"])
+        # With --again everything.
+        self.lab5("--again")
+        third = self.judged()
+        self.assertTrue(all(third[name] > second[name] for name in second))
 
     def test_a_finished_result_stays_when_the_next_is_worse(self):
         """The same submission, with a long loop, has too little time in the second run."""
         draw = "gl_FragColor = "
-        for turns in (90, 360):
+        for turns in (60, 360):
             loop = ENDLESS.replace("z < 1.0e30", f"z < 1.0e30 && n++ < {turns}")
             slow = f"int n = 0; {loop} {draw}1.0e-30 * vec4(z) + "
             shutil.rmtree(self.path("class", "slow"), ignore_errors=True)
@@ -677,7 +682,7 @@ class Results(Class):
         os.makedirs(self.path("tmp"))
         nothing = {"PATH": self.folder, "TMPDIR": self.path("tmp")}
         self.need_somebody()
-        lines = self.lab5("--limit", "2", environment=nothing)
+        lines = self.lab5("--limit", LIMIT, environment=nothing)
         self.assertIn("bubblewrap: bwrap: No such file", lines[0])
         self.assertEqual(self.verdicts(), {"a": "right", "endless": "timeout"})
         self.assertEqual(os.listdir(self.path("tmp")), [])

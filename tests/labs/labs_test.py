@@ -10,6 +10,7 @@ Exit code: 77 if nothing can be drawn.
 """
 import collections
 import concurrent.futures
+import functools
 import json
 import os
 import random
@@ -46,6 +47,12 @@ def run_check(lab, folder, seed=1, *more):
     done = start_check(LABS[lab], folder, *options)
     assert done.stdout.startswith(b"{"), (folder, done)
     return done.returncode, json.loads(done.stdout)
+
+
+@functools.cache
+def check_solution(lab):
+    """Of seed 1; several tests need it."""
+    return run_check(lab, os.path.join(HERE, "solutions", LABS[lab]))
 
 
 def check_texts(lab, texts, seed=1):
@@ -124,7 +131,11 @@ class Labs(base.Case):
         return os.path.join(EXAMPLES if kind == "starter" else os.path.join(HERE, kind), LABS[lab])
 
     def assert_right(self, jobs):
-        for (lab, folder, seed), (code, result) in zip(jobs, in_parallel(run_check, jobs)):
+        def run(lab, folder, seed):
+            known = seed == 1 and folder == self.folder_of(lab)
+            return check_solution(lab) if known else run_check(lab, folder, seed)
+
+        for (lab, folder, seed), (code, result) in zip(jobs, in_parallel(run, jobs)):
             worst = max((probe["maximum"] for probe in result["probes"]), default=None)
             said = (folder, seed, result["message"], result.get("details"), named(result), worst)
             self.assertEqual((result["verdict"], code), ("right", 0), said)
@@ -187,7 +198,7 @@ class Corpus(Labs):
     """A sample of what was written without knowledge of `check`."""
 
     def rows(self):
-        todo = list(corpus.jobs(every=33 * base.step(30)))
+        todo = list(corpus.jobs(every=33 * base.step(30)))[:: base.step(2)]
         return corpus.judge_all(CHECK, todo)
 
     def test_right_is_right_and_wrong_is_not_called_what_it_is_not(self):
@@ -214,6 +225,8 @@ class Wrong(Labs):
             for lab in LABS
             for i, name in enumerate(mistakes.of_lab(lab))
             if i % (12 * base.step(30)) == lab % 12
+            # Those of the other labs that have a name are in Holes.
+            and (base.LONG or lab in (2, 4, 7, 8))
         ]
         self.assert_named(in_parallel(judge_single, jobs), 0.95)
 
@@ -312,7 +325,7 @@ class Holes(Labs):
         self.assertIn("mesh too coarse", named(result))
 
     def test_what_is_drawn_is_what_is_counted(self):
-        right = check_texts(10, edited(10))
+        right = check_solution(10)[1]
         if right["cost"]["operations"] is None:
             self.skipTest(right["details"])
         texts = edited(10)
@@ -498,10 +511,14 @@ class Faults(Labs):
             done = start_check(*arguments)
             self.assertEqual((done.returncode, done.stdout), (code, b""), arguments)
             self.assertRegex(done.stderr.decode(), rf"^check: .*{said}.*\n$", arguments)
-        for name in ("5", "05", "lab5", "lab05"):
-            done = start_check(name, self.folder_of(5), "--seed", "1")
-            self.assertEqual((done.returncode, done.stderr), (0, b""), done.stdout)
-            self.assertRegex(done.stdout.decode(), r"^lab05_per_fragment: right, 10 of 10 points")
+        done = start_check("lab05", self.folder_of(5), "--seed", "1")
+        self.assertEqual((done.returncode, done.stderr), (0, b""), done.stdout)
+        self.assertRegex(done.stdout.decode(), r"^lab05_per_fragment: right, 10 of 10 points")
+        os.mkdir(self.path("empty"))
+        for name in ("5", "05", "lab5"):
+            done = start_check(name, self.path("empty"))
+            self.assertEqual((done.returncode, done.stderr), (1, b""), done.stdout)
+            self.assertRegex(done.stdout.decode(), r"^lab05_per_fragment: \w+, 0 of 10 points")
 
     def test_the_worst_scene_is_drawn(self):
         wrong = self.folder_of(5, "starter")
@@ -513,7 +530,7 @@ class Faults(Labs):
 
     def test_points_for_cost_depend_on_counts_and_not_on_time(self):
         folder = self.folder_of(10)
-        first, second = (run_check(10, folder)[1] for _ in range(2))
+        first, second = check_solution(10)[1], run_check(10, folder)[1]
         cost = first["cost"]
         for name in ("operations", "operations_ratio"):
             self.assertEqual(cost[name], second["cost"][name], name)

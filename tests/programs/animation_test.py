@@ -231,7 +231,7 @@ class Formats(Animations):
             self.assertLess(rms(yuva[-area:], rgba[3::4]), 4)
 
     def test_an_animation_can_be_made_again(self):
-        for kind in FILES:
+        for kind in FILES[:: base.step(2)]:
             self.draw("a." + kind, 5)
             self.draw("b." + kind, 5)
             self.assertEqual(self.read("a." + kind), self.read("b." + kind), kind)
@@ -538,8 +538,8 @@ class FullDisks(Animations):
             self.assertEqual(content, before[path])
 
     def test_of_an_animation_nothing_stays(self):
-        for kind in FILES:
-            for there in (False, True):
+        for i, kind in enumerate(FILES):
+            for there in (False, True) if base.LONG else (i % 2 > 0,):
                 if there:
                     self.make("a." + kind)
                 before = self.everything()
