@@ -11,7 +11,7 @@
 #include "study/measure/choose.h"
 #include "study/measure/models.h"
 #include "study/measure/scenes.h"
-#include "study/measure/shadow_ways.h"
+#include "study/report/shadow_ways.h"
 #include "study/measure/survey.h"
 #include "study/report/conclusions.h"
 #include "study/report/findings.h"

@@ -1,4 +1,4 @@
-#include "study/measure/shadow_ways.h"
+#include "study/report/shadow_ways.h"
 
 #include "base/clock.h"
 #include "base/output.h"
