@@ -277,6 +277,31 @@ class Holes(Labs):
         result = self.wrong(9, ("frag", out, f"min({out}, 0.9)"))
         self.assertEqual(named(result), ["picture clamped below 1"])
 
+    def test_a_sphere_that_the_fragment_shader_cuts_out_of_a_larger_mesh(self):
+        """Its outline is the exact one, not the mesh's."""
+        texts = mistakes.read(10)
+        grow = "    vec4 place = vec4(1.05 * a_Position.xyz, 1.0);\n"
+        texts["lab10.vert"] = (
+            texts["lab10.vert"].replace("* a_Position", "* place").replace("main() {\n", "main() {\n" + grow)
+        )
+        cut = "    if (b * b < c) discard;"
+        texts["lab10.frag"] = (
+            texts["lab10.frag"]
+            .replace("    vec3 normal = normalize(v_Normal);\n", "")
+            .replace("    vec3 lightDirection = normalize(u_LightPosition - v_Position);", self.RAY + cut)
+            .replace("v_Position);\n        float rDotV", "place);\n        float rDotV")
+        )
+        texts["budget.c"] = texts["budget.c"].replace("112", "20").replace("80", "14")
+        result = check_texts(10, texts)
+        self.assertEqual(result["verdict"], "right", result["message"])
+
+    def test_a_mesh_that_is_just_too_coarse_has_no_other_name(self):
+        texts = mistakes.read(10)
+        texts["budget.c"] = texts["budget.c"].replace("112", "64").replace("80", "44")
+        result = check_texts(10, texts)
+        self.assertEqual(result["verdict"], "wrong", result["message"])
+        self.assertIn(named(result), ([], ["mesh too coarse"]))
+
     def test_an_exponent_a_little_off(self):
         result = self.wrong(6, ("frag", "u_Shininess)", "0.95 * u_Shininess)"))
         self.assertEqual(named(result), ["wrong exponent"])

@@ -292,7 +292,10 @@ static bool explain(Session *session, const Painter *painter, const char *number
         return true;
     }
     if (numbers[0] && !session->lab->given) {
-        blame_known(verdict, "depends on the picture's size");
+        if (text_has_word(&session->files, "gl_FragCoord"))
+            blame_known(verdict, "depends on the picture's size");
+        else
+            snprintf(verdict->message, sizeof verdict->message, "right in small scenes only");
         verdict_add_symptom(verdict, "%s", numbers);
         return true;
     }
@@ -330,9 +333,12 @@ static bool look_closer(Session *session, const Painter *painter, int worst, boo
         return false;
     if (!right) {
         *wrong = true;
-        snprintf(numbers, VERDICT_SENTENCE_SIZE,
-                 "The picture is right at small sizes only: it depends on the picture's size or "
-                 "place, as by gl_FragCoord.");
+        snprintf(numbers, VERDICT_SENTENCE_SIZE, "%s",
+                 text_has_word(&session->files, "gl_FragCoord")
+                     ? "The picture is right at small sizes only: it depends on the picture's size "
+                       "or place, as by gl_FragCoord."
+                     : "The scenes are right, but in a picture of some 400x400 pixels the error is "
+                       "too large: as by a mesh or a precision that is just too coarse.");
     }
     return true;
 }

@@ -159,6 +159,17 @@ bool text_find_fault(const Lab *lab, const SubmissionFiles *files, GLuint progra
     return found;
 }
 
+bool text_has_word(const SubmissionFiles *files, const char *word)
+{
+    bool found = false;
+    for (int i = 0; i < files->count && !found; i++) {
+        char *plain = plain_text(files->texts[i].text, true);
+        found = plain && count_word(plain, word) > 0;
+        free(plain);
+    }
+    return found;
+}
+
 bool text_find_suspicion(const Lab *lab, const SubmissionFiles *files, Verdict *verdict)
 {
     char name[64];

@@ -13,6 +13,9 @@ bool text_is_same(const char *a, const char *b);
 /* Whether a lab's files are the starter's, except for comments and white space. */
 bool text_is_starter(const Lab *lab, const SubmissionFiles *files);
 
+/* Whether one of the files has the word, comments aside. */
+bool text_has_word(const SubmissionFiles *files, const char *word);
+
 /* Adds a mistake for the fault that explains any picture: no gl_FragColor, a varying that is never
  * set, a variable that the compiler calls uninitialized in the linked program's log. False: none.
  */
