@@ -12,7 +12,7 @@
 
 #define PRECISION "Floats have no default precision here: add `precision highp float;` at the top."
 #define BRACE "A closing brace } is missing."
-#define NO_TEXTURES "These programs have no textures."
+#define TEXTURES "GLSL ES 1.00 reads a sampler2D by texture2D(sampler, point)."
 #define SHORTEN "use .xyz or .rgb of the longer one, or vec4(..., 1.0) of the shorter one."
 #define SPELLING "This name is not declared: check its spelling and case"
 #define VARYING "Declare the varying in both shaders with the same name and type"
@@ -50,7 +50,7 @@ static const struct {
      "max takes two numbers of the same type: write max(x, 0.0), not max(x, 0)."},
     {"'pow' : no matching overloaded function", "",
      "pow takes two floats: write pow(x, 2.0), not pow(x, 2)."},
-    {"'texture' : no matching overloaded function", "", NO_TEXTURES},
+    {"'texture' : no matching overloaded function", "", TEXTURES},
     {"no matching overloaded function", "",
      "No function of this name takes these types: check its spelling, count the components, and "
      "write 0.0 instead of 0."},
@@ -97,7 +97,7 @@ static const struct {
      "This word belongs to C or a later GLSL: GLSL ES 1.00 has float, int, bool, vec, mat."},
     {"must be declared at global scope", "",
      "Declare attributes, uniforms and varyings outside all functions, above main."},
-    {"no function with name 'texture'", "", NO_TEXTURES},
+    {"no function with name 'texture'", "", TEXTURES},
     {"no function with name", "", "There is no such function: check its spelling."},
     {"undeclared", "", SPELLING "; declare a varying or uniform in each shader that uses it."},
     {"redeclar", "", "This name is declared twice: remove one declaration, or only its type."},
@@ -109,7 +109,7 @@ static const struct {
      "a vec4."},
     {"assignment to", "read-only", READ_ONLY},
     {"`in' qualifier", "", IN_OUT},
-    {"texture", "", NO_TEXTURES},
+    {"texture", "", TEXTURES},
     {"swizzle", "", "This vector has no such component: .xyzw or .rgba, up to its size."},
     {"does not write to", "gl_Position",
      "The vertex shader must set gl_Position, the fragment shader gl_FragColor."},
@@ -129,6 +129,10 @@ static const struct {
     {"not written", "",
      "The fragment shader reads a varying that the vertex shader lacks: compare the names."},
     {"not declared", "", SPELLING "."},
+    {"initializer of global variable", "constant",
+     "A variable outside all functions starts as a constant: set it in main instead."},
+    {"global variable initializers", "constant",
+     "A variable outside all functions starts as a constant: set it in main instead."},
     {"must be", "constant",
      "In GLSL ES 1.00 loop bounds and, in the fragment shader, array indices must be constant."},
     {"only #version 100", "", "Remove the #version line, or write #version 100."},

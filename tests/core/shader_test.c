@@ -601,6 +601,7 @@ SHADER_TEST(what_a_browser_says_is_explained)
         {"'x' :  field selection requires structure or vector on left hand side", "components"},
         {"'i' : Loop index cannot be compared with non-constant expression", "constant bounds"},
         {"'while' : This type of loop is not allowed", "constant bounds"},
+        {"'eye' : global variable initializers must be constant expressions", "in main"},
     };
     for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
         char line[512], advice[512];
