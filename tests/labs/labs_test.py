@@ -302,6 +302,23 @@ class Holes(Labs):
         self.assertEqual(result["verdict"], "wrong", result["message"])
         self.assertIn(named(result), ([], ["mesh too coarse"]))
 
+    def test_an_index_beyond_the_array(self):
+        """Which reads 0 here, and passed."""
+        loop = "i < 2"
+        for lab, edits in (
+            (2, (("i < 2", "i <= 2"),)),
+            (4, (("for (int i = 0; i < 2; i++)", "for (int i=0;i<3;++i)"),)),
+            (5, (("i < 2", "i < LIGHTS"), ("void main", "#define LIGHTS 3\nvoid main"))),
+        ):
+            texts = mistakes.read(lab)
+            name = next(name for name in texts if loop in texts[name])
+            for old, new in edits:
+                self.assertIn(old, texts[name])
+                texts[name] = texts[name].replace(old, new, 1)
+            result = check_texts(lab, texts)
+            self.assertEqual(result["verdict"], "wrong", (lab, result["message"]))
+            self.assertEqual(named(result), ["index beyond the array"])
+
     def test_an_exponent_a_little_off(self):
         result = self.wrong(6, ("frag", "u_Shininess)", "0.95 * u_Shininess)"))
         self.assertEqual(named(result), ["wrong exponent"])

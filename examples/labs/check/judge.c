@@ -364,7 +364,9 @@ static bool judge_pictures(Session *session, Message *message)
     int worst = add_probes(&session->shots, verdict);
     if (!look_closer(session, &painter, worst, &outside, numbers, message))
         return false;
-    const bool wrong = worst >= 0 || outside;
+    const bool overrun = worst < 0 && !outside && !session->lab->given &&
+                         text_find_overrun(&session->files, verdict);
+    const bool wrong = worst >= 0 || outside || overrun;
     verdict->kind = wrong ? VERDICT_WRONG : VERDICT_RIGHT;
     if (!wrong) {
         if (!look_at_precision(session, message))
@@ -373,7 +375,7 @@ static bool judge_pictures(Session *session, Message *message)
         worst = add_probes(&session->shots, verdict);
         snprintf(verdict->message, sizeof verdict->message, "Right in all %d scenes",
                  verdict->probe_count);
-    } else if (!explain(session, &painter, numbers, message)) {
+    } else if (!overrun && !explain(session, &painter, numbers, message)) {
         return false;
     }
     verdict_score(verdict);

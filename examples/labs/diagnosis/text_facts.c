@@ -170,6 +170,155 @@ bool text_has_word(const SubmissionFiles *files, const char *word)
     return found;
 }
 
+static const char *skip_spaces(const char *p)
+{
+    return p + strspn(p, " \t\r\n");
+}
+
+/* Reads an identifier and what is white after it; NULL: there is none, or it is too long. */
+static const char *read_name(const char *p, char name[64])
+{
+    size_t length = 0;
+    p = skip_spaces(p);
+    while (is_word(p[length]))
+        length++;
+    if (length == 0 || length >= 64 || isdigit((unsigned char)p[0]))
+        return NULL;
+    snprintf(name, 64, "%.*s", (int)length, p);
+    return skip_spaces(p + length);
+}
+
+/* Reads a number, or a macro of one. NULL: it is something else. */
+static const char *read_size(const char *plain, const char *p, int *size)
+{
+    char name[64], other[64];
+    char *end;
+    p = skip_spaces(p);
+    if (isdigit((unsigned char)*p)) {
+        *size = (int)strtol(p, &end, 10);
+        return is_word(*end) || *end == '.' ? NULL : skip_spaces(end);
+    }
+    const char *rest = read_name(p, name);
+    const char *define = rest ? plain : NULL;
+    while (define && (define = strstr(define, "#define"))) {
+        define = read_name(define + 7, other);
+        if (define && strcmp(name, other) == 0 && isdigit((unsigned char)*define)) {
+            *size = (int)strtol(define, &end, 10);
+            return *end == '\n' || *end == '\r' || *end == ' ' ? rest : NULL;
+        }
+    }
+    return NULL;
+}
+
+/* The size of a uniform array; 0: there is none, or it is not known. */
+static int array_size(const char *plain, const char *array)
+{
+    char name[64];
+    int size = 0;
+    for (const char *at = plain; (at = strstr(at, "uniform")); at += 7) {
+        const char *end = strchr(at, ';');
+        for (const char *p = at; end && p < end; p++) {
+            if (is_word(*p) && (p == at || !is_word(p[-1]))) {
+                const char *rest = read_name(p, name);
+                if (rest && strcmp(name, array) == 0 && *rest == '[')
+                    return read_size(plain, rest + 1, &size) ? size : 0;
+            }
+        }
+    }
+    return 0;
+}
+
+/* "int COUNTER = N; COUNTER < N; COUNTER++)": the counter, its last value, and what follows. NULL:
+ * something else. */
+static const char *read_header(const char *plain, const char *p, char counter[64], int *last)
+{
+    char word[64];
+    int first;
+    if (*(p = skip_spaces(p)) != '(' || !(p = read_name(p + 1, word)) || strcmp(word, "int") != 0 ||
+        !(p = read_name(p, counter)) || *p != '=' || !(p = read_size(plain, p + 1, &first)) ||
+        *p != ';' || !(p = read_name(p + 1, word)) || strcmp(word, counter) != 0 || *p != '<')
+        return NULL;
+    const bool up_to = p[1] == '=';
+    if (!(p = read_size(plain, p + 1 + up_to, last)) || *p != ';')
+        return NULL;
+    *last -= !up_to;
+    const size_t length = strcspn(p + 1, ");");
+    const char *step = strstr(p, "++");
+    return step && step < p + 1 + length && p[1 + length] == ')' ? skip_spaces(p + length + 2)
+                                                                 : NULL;
+}
+
+/* The end of a statement. NULL: one that is not a block or simple. */
+static const char *statement_end(const char *p)
+{
+    int depth = 0;
+    if (*p != '{')
+        return strncmp(p, "for", 3) == 0 || strncmp(p, "if", 2) == 0 ? NULL : strchr(p, ';');
+    for (; *p; p++) {
+        depth += (*p == '{') - (*p == '}');
+        if (depth == 0)
+            return p;
+    }
+    return NULL;
+}
+
+/* Whether the loop's counter is an index alone, and which array ends before its last value. */
+static bool overruns(const char *plain, const char *body, const char *end, const char *counter,
+                     int last, char array[64])
+{
+    bool found = false;
+    for (const char *p = body; p < end; p++) {
+        char word[64];
+        if (!is_word(*p) || is_word(p[-1]))
+            continue;
+        const char *rest = read_name(p, word);
+        if (rest && (strcmp(word, "break") == 0 || strcmp(word, "return") == 0))
+            return false;
+        if (!rest || strcmp(word, counter) != 0)
+            continue;
+        const char *open = p - 1;
+        while (open > body && isspace((unsigned char)*open))
+            open--;
+        const char *name = open;
+        while (name > body && isspace((unsigned char)name[-1]))
+            name--;
+        while (name > body && is_word(name[-1]))
+            name--;
+        if (*open != '[' || *rest != ']')
+            return false;
+        const int size = read_name(name, word) ? array_size(plain, word) : 0;
+        if (size > 0 && last >= size && !found) {
+            snprintf(array, 64, "%s", word);
+            found = true;
+        }
+    }
+    return found;
+}
+
+bool text_find_overrun(const SubmissionFiles *files, Verdict *verdict)
+{
+    char counter[64], array[64];
+    int last;
+    bool found = false;
+    for (int i = 0; i < files->count && !found; i++) {
+        char *plain = plain_text(files->texts[i].text, true);
+        for (const char *at = plain; at && (at = strstr(at, "for")) && !found; at += 3) {
+            if ((at > plain && is_word(at[-1])) || is_word(at[3]))
+                continue;
+            const char *body = read_header(plain, at + 3, counter, &last);
+            const char *end = body ? statement_end(body) : NULL;
+            found = end && overruns(plain, body, end, counter, last, array);
+        }
+        free(plain);
+    }
+    if (found)
+        blame(verdict, "index beyond the array", array,
+              "A loop reads beyond the last element, where anything may be: here it is 0, with "
+              "another driver the last light once more.",
+              "the loop's condition: i < 2 for an array of two");
+    return found;
+}
+
 bool text_find_suspicion(const Lab *lab, const SubmissionFiles *files, Verdict *verdict)
 {
     char name[64];

@@ -22,6 +22,11 @@ bool text_has_word(const SubmissionFiles *files, const char *word);
 bool text_find_fault(const Lab *lab, const SubmissionFiles *files, GLuint program,
                      Verdict *verdict);
 
+/* Adds a mistake for a loop that counts beyond the last element of a uniform array, and uses its
+ * counter as an index alone: what it reads there is undefined, and nothing with some drivers.
+ * False: none. */
+bool text_find_overrun(const SubmissionFiles *files, Verdict *verdict);
+
 /* Adds a mistake for what only may be the fault: lowp. False: none. */
 bool text_find_suspicion(const Lab *lab, const SubmissionFiles *files, Verdict *verdict);
 
