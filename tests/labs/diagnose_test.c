@@ -156,9 +156,9 @@ TEST(test_pairs)
 {
     static Verdict verdict;
     const int pairs = number_of("LABS_PAIRS", testing_part(3, 3));
-    int all_named = 0;
+    int all_named = 0, all_tried = 0;
     Random random = {7};
-    for (int l = 0; l < LAB_COUNT; l++) {
+    for (int l = 0; l < LAB_COUNT; l += testing_step(3)) {
         const Lab *lab = &LABS[l];
         int count = 0, named = 0, misnamed = 0;
         Suspect *singles = catalogue_singles(lab, &count), pair;
@@ -180,8 +180,9 @@ TEST(test_pairs)
         printf("%s: %d of %d pairs named, %d misnamed\n", lab->file, named, pairs, misnamed);
         assert_int_equal(misnamed, 0);
         all_named += named;
+        all_tried += pairs;
     }
-    assert_true(all_named >= 0.7 * pairs * LAB_COUNT);
+    assert_true(all_named >= 0.7 * all_tried);
 }
 
 int main(void)
