@@ -7,7 +7,7 @@
 #include "app/options.h"
 #include "core/example.h"
 
-/* How a person starts the program again in the same folder, quoted for a shell: with the script
+/* How to start the program again in the same folder, quoted for a shell: with the script
  * that started it, which the environment names (LIGHTING_RUN=examples/run), or else as argv[0] has
  * it. False, and an empty text, if `size` bytes are too few. */
 bool command_start(const char *name, const char *argv0, char *text, size_t size);

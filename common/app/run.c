@@ -316,8 +316,8 @@ static void tell_unused(const Example *example, const Options *options,
 }
 
 /* Drawing, or all parts of an animation together. */
-static bool run(const Example *example, const Options *options, const ParameterValue *defaults,
-                Message *message)
+static bool run_once(const Example *example, const Options *options, const ParameterValue *defaults,
+                     Message *message)
 {
     Parts parts;
     if (options->merge)
@@ -369,7 +369,7 @@ int example_main(const Example *example, int argc, char *argv[])
     if ((example->scene || example->diagram) && example_parameters(example) &&
         !options.shaders.print && !options_in_window(&options)) /* where they can be changed */
         tell_unused(example, &options, defaults);
-    if (!run(example, &options, defaults, &message))
+    if (!run_once(example, &options, defaults, &message))
         return options_fail(example->name, &message, EXIT_FAILED);
     tell_written(example, &options);
     return options_finish(example->name, 0);

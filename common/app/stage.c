@@ -255,7 +255,7 @@ static bool scene_at(void *data, int number, Scene *scene, Message *message)
  * on, four of a turn; else the one. */
 static Moments moments_of(const Stage *stage, const Options *options, double seconds, int view)
 {
-    enum { MOST = 17, WINDOW = 4, FEWEST = 3 };
+    enum { MAX = 17, WINDOW = 4, MIN = 3 };
     static const double PIXELS = 3e7, TURN = 360 / DEGREES_PER_SECOND;
     const double pixels = (double)stage->canvas->width * stage->canvas->height;
     Moments made = {.stage = stage, .options = options, .view = view, .count = 1, .first = seconds};
@@ -263,7 +263,7 @@ static Moments moments_of(const Stage *stage, const Options *options, double sec
         made.count = WINDOW;
         made.step = TURN / WINDOW;
     } else if (options->frames > 1) {
-        const double most = fmax(FEWEST, fmin(MOST, PIXELS / pixels));
+        const double most = fmax(MIN, fmin(MAX, PIXELS / pixels));
         made.count = options->frames < most ? options->frames : (int)most;
         made.first = options->seconds;
         made.step = (options->frames - 1) / options->fps / (made.count - 1);

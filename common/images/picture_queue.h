@@ -27,7 +27,7 @@ bool picture_write(const Picture *picture, Message *message);
 /* The same, but only encodes, as PNG. */
 bool picture_encode(const Picture *picture, ImageFile *file, Message *message);
 
-/* Reads what picture_write has written to picture->path, a PNG: the image, which is opened anew if
+/* Reads what picture_write has written to picture->path, a PNG: the image, which is reopened if
  * its size differs, alpha, and the texts. An image that was zeroed is to be closed even on failure.
  * picture_decode: from memory, and the path is for messages. */
 bool picture_read(Picture *picture, Message *message);

@@ -93,13 +93,13 @@ const unsigned char PICTURE_ERROR_COLORS[4][3] = {
 
 static void color_of(double error, unsigned char *color)
 {
-    static const double LEAST = 0.5, STEP = 8;
-    const double at = fmin(fmax(log(error / LEAST) / log(STEP), 0), 2.999);
+    static const double MIN = 0.5, STEP = 8;
+    const double at = fmin(fmax(log(error / MIN) / log(STEP), 0), 2.999);
     const int first = (int)at;
     for (int c = 0; c < 3; c++) {
         const double from = PICTURE_ERROR_COLORS[first][c], to = PICTURE_ERROR_COLORS[first + 1][c];
         color[c] =
-            error > LEAST + 1e-3 ? (unsigned char)lround(from + (at - first) * (to - from)) : 0;
+            error > MIN + 1e-3 ? (unsigned char)lround(from + (at - first) * (to - from)) : 0;
     }
 }
 

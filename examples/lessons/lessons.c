@@ -186,7 +186,8 @@ static bool init(const ShaderLoader *loader, Message *message)
 }
 
 /* The picture that the program draws, in a canvas beside that of the page. */
-static bool draw(Slot *slot, const Frame *frame, const Canvas *page, int side, Message *message)
+static bool draw_slot(Slot *slot, const Frame *frame, const Canvas *page, int side,
+                      Message *message)
 {
     const CanvasOptions options = {
         .width = side, .height = side, .samples = page->samples, .supersample = page->supersample};
@@ -260,7 +261,7 @@ static bool paint(const Frame *frame, const Canvas *canvas, Image *page, Message
     for (int i = 0; i < 2; i++) {
         Slot *slot = &state.slots[i];
         if (slot->example &&
-            (!draw(slot, frame, canvas, side, message) ||
+            (!draw_slot(slot, frame, canvas, side, message) ||
              !page_paint_picture(page, i, &slot->picture, slot->example->name, message)))
             return false;
     }

@@ -20,11 +20,11 @@ static int inputs;
 
 static bool read_inputs(const Parameter *parameter, const char *text, Message *message)
 {
-    enum { LEAST = 17, MOST = 32 };
+    enum { MIN = 17, MAX = 32 };
     int value;
-    if (!parse_whole(text, 0, MOST, &value) || (value > 0 && value < LEAST))
-        return message_set(message, "--%s %s: must be %d to %d, or 0", parameter->name, text, LEAST,
-                           MOST);
+    if (!parse_whole(text, 0, MAX, &value) || (value > 0 && value < MIN))
+        return message_set(message, "--%s %s: must be %d to %d, or 0", parameter->name, text, MIN,
+                           MAX);
     *(int *)parameter->value = value;
     return true;
 }

@@ -111,7 +111,7 @@ static void make_world(const Mesh *mesh)
     world.scene.camera.fovy = 2 * atan(TANGENT) * 57.29577951308232;
 }
 
-static void draw(const Scene *scene, Image *image)
+static void draw_scene(const Scene *scene, Image *image)
 {
     canvas_clear(&canvas, scene->background, 1);
     require(scene_check(scene, FAILURE) && lighting_draw(lighting, scene, 1, false, FAILURE) &&
@@ -124,7 +124,7 @@ static void draw_terms(SceneTerms terms, Image *image)
     CLOSED(scene_copy_close) SceneCopy copy = {.lights = NULL};
     require(scene_copy_open(&copy, &world.scene, false, FAILURE), FAILURE);
     scene_keep_terms(&copy, terms);
-    draw(&copy.scene, image);
+    draw_scene(&copy.scene, image);
 }
 
 static const float *pixel(const Image *image, int x, int y)
@@ -163,17 +163,17 @@ TEST(a_sphere_lit_by_the_viewer_looks_the_same_from_every_side)
     world.scene.light_count = 2;
     world.lights[0].space = LIGHT_EYE;
     world.lights[0].position.z -= 4;
-    draw(&world.scene, &picture);
+    draw_scene(&world.scene, &picture);
     for (int i = 0; i < 12; i++) {
         const double z = random_between(&random, -0.9, 0.9), a = random_between(&random, 0, 6);
         const double r = sqrt(1 - z * z);
         world.scene.camera.eye = (Vec3){4 * r * cos(a), 4 * r * sin(a), 4 * z};
         world.scene.camera.up = (Vec3){random_between(&random, -0.2, 0.2), 0, 1};
-        draw(&world.scene, &other);
+        draw_scene(&world.scene, &other);
         assert_true(largest_difference(&picture, &other, inside_sphere) < 1e-3);
     }
     world.lights[0].space = LIGHT_WORLD; /* which moves over the picture */
-    draw(&world.scene, &other);
+    draw_scene(&world.scene, &other);
     assert_true(largest_difference(&picture, &other, inside_sphere) > 0.05);
 }
 
@@ -274,7 +274,7 @@ static void check_terms(void)
             assert_true(largest_difference(&picture, &both, NULL) < ROUNDING);
         }
     }
-    draw(&world.scene, &picture);
+    draw_scene(&world.scene, &picture);
     assert_true((double)pixel(&picture, SIZE / 2, SIZE / 2)[1] > 0.05);
     assert_true(largest_difference(&sum, &picture, NULL) < ROUNDING);
 }
@@ -296,7 +296,7 @@ static void check_lights(void)
     }
     draw_terms((SceneTerms){.lights_left_out = ~0U}, &other);
     add_picture(&sum, &other, 1 - LIGHTS);
-    draw(&world.scene, &picture);
+    draw_scene(&world.scene, &picture);
     assert_true(largest_difference(&sum, &picture, NULL) < ROUNDING);
 }
 
@@ -419,7 +419,7 @@ TEST(constant_interpolation_has_the_color_of_the_last_vertex)
             mat4_transform_point(turn, vec3_from_float(triangle.vertices[last].position)),
             mat4_transform_direction(turn, (Vec3){0, 0, 1}),
             vec3_from_float(triangle.colors[last]));
-        draw(&world.scene, &picture);
+        draw_scene(&world.scene, &picture);
         for (int y = 0; y < SIZE; y++) {
             for (int x = 0; x < SIZE; x++) {
                 double w[3];
@@ -441,9 +441,9 @@ TEST(constant_interpolation_has_the_color_of_the_last_vertex)
 TEST(polygon_offset_does_not_change_colors)
 {
     make_world(&sphere);
-    draw(&world.scene, &picture);
+    draw_scene(&world.scene, &picture);
     world.object.behind_lines = true;
-    draw(&world.scene, &other);
+    draw_scene(&world.scene, &other);
     assert_memory_equal(picture.pixels, other.pixels, image_row_size(&picture) * SIZE);
 }
 

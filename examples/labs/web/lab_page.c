@@ -192,7 +192,7 @@ static bool choose(Probe *probe, SubmissionGeometry *geometry)
     return mesh_sphere(&probe->meshes[0], 1, budget.slices, budget.stacks, &page.message);
 }
 
-static bool draw(Probe *probe, const Shader *shader)
+static bool draw_probe(Probe *probe, const Shader *shader)
 {
     SubmissionGeometry geometry = {.cull = false};
     const Painter painter = {.lab = page.lab, .program = shader->program};
@@ -225,7 +225,7 @@ int page_draw(double seconds)
         return 0;
     if (!probe_open_usual(&probe, page.lab, seconds, &page.message))
         return 0;
-    const bool done = open_shader(&shader) && draw(&probe, &shader) && show(&page.drawn);
+    const bool done = open_shader(&shader) && draw_probe(&probe, &shader) && show(&page.drawn);
     shader_close(&shader);
     probe_close(&probe);
     return done;

@@ -52,7 +52,7 @@ typedef struct Survey {
     int done, total; /* batches times ways */
 } Survey;
 
-/* What the helper does with a work: judge what was computed, then fill it anew. */
+/* What the helper does with a work: judge what was computed, then fill it again. */
 typedef struct Help {
     Survey *survey;
     Work *work;
