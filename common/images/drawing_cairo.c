@@ -38,7 +38,7 @@ static void follow(cairo_t *cairo, const Drawing *drawing, const DrawingPath *pa
 }
 
 /* The one function that draws, on every kind of surface. */
-static const char *paint(cairo_t *cairo, const Drawing *drawing, bool transparent)
+static const char *paint_all(cairo_t *cairo, const Drawing *drawing, bool transparent)
 {
     cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
     cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
@@ -70,7 +70,7 @@ static const char *draw_on(cairo_surface_t *surface, const Drawing *drawing, boo
 {
     cairo_t *cairo = cairo_create(surface);
     cairo_scale(cairo, scale_x, scale_y);
-    const char *reason = paint(cairo, drawing, transparent);
+    const char *reason = paint_all(cairo, drawing, transparent);
     cairo_destroy(cairo);
     return reason;
 }

@@ -351,8 +351,9 @@ static void decide_output(const Scene *scene, Effects *effects, bool at_vertices
     effects->linear = scene->linear;
     say(file,
         effects->linear ? "sRGB encoding: requested" : "without sRGB encoding: not requested");
-    /* llvmpipe without AVX makes integers of 255 times a color, and black of what exceeds them. */
-    effects->limit = brightest(scene) > 1e6;
+    /* llvmpipe without AVX makes integers of 255 times a color, and black of what exceeds them;
+     * colors of the vertices that exceed 16 bits are infinite in mediump. */
+    effects->limit = brightest(scene) > 6e4;
     if (effects->limit)
         say(file, "colours limited to 1e6: drivers may draw larger ones as black");
 }
