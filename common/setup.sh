@@ -34,7 +34,7 @@ packages_to_check="libarchive-dev libjansson-dev libseccomp-dev zlib1g-dev bubbl
 spirv-tools"
 # The pages for a browser, and to test them.
 packages_to_web="emscripten node-acorn python3 fonttools meson ninja-build libstb-dev fonts-dejavu-core"
-packages_to_browse="chromium"
+packages_to_browse="chromium firefox-esr"
 packages_to_test="libcmocka-dev libosmesa6-dev python3 libwebpdemux2 locales xvfb xauth xdotool \
 poppler-utils"
 # tests/run --long: what the pages show of several processes and machines.

@@ -123,7 +123,7 @@ def policy(scripts, styles, images=""):
 
 
 def shared(names):
-    # Of a file Firefox takes no other for 'self'.
+    # To versions of Firefox before 153 a file may have no 'self'.
     return {"head": HEAD % policy("'self' file:", "'self' file:", " 'self' file:"),
             "style": '<link rel="stylesheet" href="style.css">', "scripts": "\n".join(f'<script src="{name}"></script>' for name in names)}
 

@@ -18,9 +18,35 @@ class Failed(Exception):
     pass
 
 
-class Browser:
-    """One page at a time."""
+class Page:
+    """What the browsers have in common: one page at a time."""
 
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def wait(self, script):
+        """Until an expression is true; its value."""
+        deadline = time.monotonic() + PATIENCE
+        while time.monotonic() < deadline:
+            value = self.run(script)
+            if value:
+                return value
+            time.sleep(0.05)
+        raise Failed(f"not within {PATIENCE} s: {script}; the page says: {self.run('document.body.innerText')[:800]}")
+
+    def open(self, address, ready="document.body.dataset.ready"):
+        self.events.clear()
+        self.navigate("about:blank")  # a link that differs after # alone would load nothing
+        self.wait("location.href === 'about:blank'")
+        self.navigate(address)
+        if ready:
+            self.wait(f"location.href !== 'about:blank' && document.readyState === 'complete' && ({ready})")
+
+
+class Browser(Page):
     def __init__(self, *options, size=(1280, 900)):
         self.folder = tempfile.mkdtemp()
         theirs_in, ours_out = os.pipe()
@@ -59,12 +85,6 @@ class Browser:
         self.input.close()
         shutil.rmtree(self.folder, ignore_errors=True)
 
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self.close()
-
     def receive(self):
         while b"\0" not in self.rest:
             more = self.input.read1(1 << 16)
@@ -99,23 +119,11 @@ class Browser:
             raise Failed(details.get("exception", {}).get("description") or details["text"])
         return answer["result"].get("value")
 
-    def wait(self, script):
-        """Until an expression is true; its value."""
-        deadline = time.monotonic() + PATIENCE
-        while time.monotonic() < deadline:
-            value = self.run(script)
-            if value:
-                return value
-            time.sleep(0.05)
-        raise Failed(f"not within {PATIENCE} s: {script}; the page says: {self.run('document.body.innerText')[:800]}")
-
-    def open(self, address, ready="document.body.dataset.ready"):
-        self.events.clear()
-        self.call("Page.navigate", url="about:blank")  # a link that differs after # alone would load nothing
-        self.wait("location.href === 'about:blank'")
+    def navigate(self, address):
         self.call("Page.navigate", url=address)
-        if ready:
-            self.wait(f"location.href !== 'about:blank' && document.readyState === 'complete' && ({ready})")
+
+    def before_pages(self, script):
+        self.call("Page.addScriptToEvaluateOnNewDocument", source=script)
 
     def complaints(self):
         """What the browser logged: errors of scripts, violations of the policy."""

@@ -57,9 +57,13 @@ class Case(unittest.TestCase):
     options = browser.MESA
 
     @classmethod
+    def start(cls):
+        return browser.Browser(*cls.options)
+
+    @classmethod
     def setUpClass(cls):
-        cls.page = browser.Browser(*cls.options)
-        cls.page.call("Page.addScriptToEvaluateOnNewDocument", source=CONFIRM)
+        cls.page = cls.start()
+        cls.page.before_pages(CONFIRM)
 
     @classmethod
     def tearDownClass(cls):
@@ -96,6 +100,15 @@ class Case(unittest.TestCase):
         words = shlex.split(self.text("#command"))
         self.assertEqual(words[0], "examples/run")
         self.assertEqual(differences(self.shown(), native(words[1], words[2:])), (0, 0), words)
+
+    def assert_exact_bits(self, names):
+        lines = [name + " --size=90x60" + " --samples=4" * (i % 2) for i, name in enumerate(names)]
+        answers = subprocess.run([PAGE_NATIVE], input="\n".join(lines), stdout=subprocess.PIPE, text=True, check=True).stdout
+        for line, answer in zip(lines, answers.splitlines()):
+            with self.subTest(line):
+                result = self.page.run(f"""ErrorWorker.compute({{compiled: Page.page.compiled, texts: new Map(),
+                    lines: {json.dumps(line.split())}, seconds: 0, orbit: [0, 0, 1]}}).then(r => r.error || r)""")
+                self.assertEqual(result, json.loads(answer))
 
     def programs(self):
         return self.page.run("Page.page.engine.json('programs')")

@@ -1,0 +1,73 @@
+"""The pages in Firefox: they draw what they draw natively, and judge as `check` does."""
+import json
+import unittest
+
+import firefox
+from labs_pages import SHADERS, SOLUTION, OfLabs, check, mistakes, said
+from pages import RENDERER, differences, native
+
+MISSING = firefox.missing()
+SAYS_MEDIUMP = ("PointLightedCube_perFragment", "PointLightedSphere_perFragment")
+
+
+@unittest.skipIf(MISSING, f"{MISSING}: not found")
+class InFirefox(OfLabs):
+    @classmethod
+    def start(cls):
+        return firefox.Firefox()
+
+    def tearDown(self):
+        self.assertEqual(self.page.complaints(), [])
+        super().tearDown()
+
+    def of_page(self, name, link):
+        """How many bytes of a page's picture are not the native ones, and how many are off by more than a step."""
+        self.assertEqual(self.page.complaints(), [])  # of the page before
+        self.open(name, link)
+        return differences(self.shown(), native(name, ["--" + option for option in link.split("&")]))
+
+    def test_every_program_draws_what_it_draws_natively(self):
+        """On the same Mesa, where a comparison that fails says which renderer it was."""
+        self.open("LightedCube")
+        renderer = self.page.run(RENDERER)
+        self.assertIn("llvmpipe", renderer)
+        for program in self.programs():
+            with self.subTest(program["name"], renderer=renderer):
+                self.assertEqual(self.of_page(program["name"], "time=1.3&precision=highp"), (0, 0))
+        # Firefox makes desktop OpenGL of the shaders, which has no mediump: here it is highp, natively 11 bits. These are 0.50
+        # and at most 0.96 steps from the exact colour (tests/README.md), so that bytes are at most one step apart.
+        for name in SAYS_MEDIUMP:
+            with self.subTest(name, renderer=renderer):
+                self.assertEqual(self.of_page(name, "time=1.3")[1], 0)
+
+    def test_a_page_as_one_file(self):
+        self.open("single/Shadows", "precision=highp")
+        self.assertEqual(differences(self.shown(), native("Shadows", ["--precision=highp"])), (0, 0))
+
+    def test_the_exact_picture_has_the_same_bits(self):
+        self.open("LightedCube")
+        self.assert_exact_bits([program["name"] for program in self.programs() if program["scene"]])
+
+    def test_a_lost_context_comes_back(self):
+        self.open("FourLights", "time=2")
+        before = self.shown()
+        self.page.run("Page.page.engine.module.canvas.getContext('webgl2').getExtension('WEBGL_lose_context').loseContext()")
+        self.page.wait("document.getElementById('status').textContent.startsWith('Drawn again')")
+        self.page.run("document.getElementById('forward').click(), document.getElementById('back').click()")
+        self.settle()
+        self.assertEqual(self.shown(), before)
+
+    def test_labs(self):
+        for name in ("index", "labs", *mistakes.NAMES.values()):
+            self.open(name)
+            self.assertEqual(self.page.complaints(), [], name)
+        self.open(mistakes.NAMES[5])
+        for lab in SHADERS:
+            with self.subTest(lab=lab):
+                texts = mistakes.read(lab)
+                self.assertEqual(said(self.judge(lab, texts)), said(check(lab, texts)))
+        texts = {**SOLUTION, "lab05.frag": SOLUTION["lab05.frag"].replace("normalize(v_Normal)", "v_Normal")}
+        self.page.run(f"Lab.lab.editor.texts = () => new Map(Object.entries({json.dumps(texts)}))")
+        self.page.run("document.getElementById('check').click()")
+        self.page.wait("!document.getElementById('check').disabled")
+        self.assertIn("not renormalized per fragment", self.text("#result"))
