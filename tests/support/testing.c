@@ -1,6 +1,7 @@
 #include "support/testing.h"
 
 #include <dirent.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -39,6 +40,35 @@ int testing_part(int count, int step)
     return part > 0 ? part : 1;
 }
 
+static struct {
+    int number, count;
+} part = {0, 1};
+
+bool testing_mine(int number)
+{
+    return number % part.count == part.number;
+}
+
+int testing_in_parts(int (*body)(void))
+{
+    int worst = 0, status;
+    fflush(NULL);
+    part.count = testing_step(2) == 1 ? (int)sysconf(_SC_NPROCESSORS_ONLN) : 1;
+    for (int number = 1; number < part.count; number++) {
+        const pid_t child = fork();
+        part.number = child == 0 ? number : 0;
+        if (child == 0)
+            return body();
+        if (child < 0)
+            worst = 1;
+    }
+    const int own = body();
+    while (wait(&status) > 0)
+        if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+            worst = WIFEXITED(status) ? WEXITSTATUS(status) : 1;
+    return own ? own : worst;
+}
+
 unsigned long long testing_seed(unsigned long long usual)
 {
     const char *text = getenv("LIGHTING_TEST_SEED");
@@ -74,6 +104,15 @@ int testing_leave_folder(void **state)
 
 int testing_enter_cache(void **state)
 {
+    const char *cache = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
+    char folder[PATH_MAX];
+    snprintf(folder, sizeof folder, "%s%s",
+             cache  ? cache
+             : home ? home
+                    : "",
+             cache ? "" : "/.cache");
+    if (cache || home)
+        setenv("MESA_SHADER_CACHE_DIR", folder, 0);
     return testing_enter_folder(state) || setenv("XDG_CACHE_HOME", testing_folder, 1);
 }
 

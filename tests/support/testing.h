@@ -60,6 +60,12 @@ int testing_step(int step);
 /* Of `count` random cases as many as every `step`-th, at least one. */
 int testing_part(int count, int step);
 
+/* Runs `body` in one process of the short form, and in as many as there are processors of the long
+ * one, before anything is drawn; returns its worst exit code. testing_mine: whether a case is to be
+ * tested in this process. */
+int testing_in_parts(int (*body)(void));
+bool testing_mine(int number);
+
 /* LIGHTING_TEST_SEED of the environment, or `usual`; prints it. */
 unsigned long long testing_seed(unsigned long long usual);
 
@@ -81,7 +87,8 @@ extern char testing_folder[];
 int testing_enter_folder(void **state);
 int testing_leave_folder(void **state);
 
-/* The same, with the cache (base/cache.h) in that folder. */
+/* The same, with the cache (base/cache.h) in that folder, but not Mesa's: to compile the shaders
+ * takes most of the time of a test that draws many scenes. */
 int testing_enter_cache(void **state);
 int testing_leave_cache(void **state);
 
