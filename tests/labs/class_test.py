@@ -593,7 +593,7 @@ class Results(Class):
     def test_a_finished_result_stays_when_the_next_is_worse(self):
         """The same submission, with a long loop, has too little time in the second run."""
         draw = "gl_FragColor = "
-        for turns in (120, 480, 1920):  # until one is long enough for this machine
+        for turns in (120, 480, 1920, 7680):  # until one is long enough for this machine
             loop = ENDLESS.replace("z < 1.0e30", f"z < 1.0e30 && n++ < {turns}")
             slow = f"int n = 0; {loop} {draw}1.0e-30 * vec4(z) + "
             shutil.rmtree(self.path("class", "slow"), ignore_errors=True)
