@@ -31,6 +31,10 @@ for number in (signal.SIGINT, signal.SIGHUP):
     if signal.getsignal(number) == signal.SIG_IGN:
         signal.signal(number, signal.SIG_DFL)
 
+# Hundreds of processes: without the leak checker. Leaks show in the tests in C.
+if "ASAN_OPTIONS" in os.environ:
+    os.environ["ASAN_OPTIONS"] += ":detect_leaks=0"
+
 EXAMPLES, SOURCE = (os.path.abspath(path) for path in sys.argv[1:3])
 PROGRAMS = sorted(name[:-2] for name in os.listdir(os.path.join(SOURCE, "examples/lecture")))
 SCENES = sorted(name[:-2] for name in os.listdir(os.path.join(SOURCE, "examples/lighting"))
@@ -895,7 +899,7 @@ class Scenes(Case):
         self.assertEqual(self.png("Shadows.png").pixels, self.png("full.png").pixels)
 
     def test_every_scene_explains_itself_and_draws_nothing(self):
-        for program in SCENES:
+        for program in SCENES[::step(3)]:  # a fresh build counts all operations
             with self.subTest(program=program):
                 text = self.good("--explain", program=program).decode()
                 self.assertRegex(text, r"lights? 0[: ]")
@@ -1377,10 +1381,12 @@ class Again(Case):
     @unittest.skipUnless(LONG and shutil.which("qemu-x86_64") and os.uname().machine == "x86_64",
                          "the long form, on x86-64 with qemu-user")
     def test_deterministic_pictures_are_those_of_other_processors(self):
-        for program in ("PhongBlinn", "PointLightedSphere_perFragment", "Materials"):
+        """An emulated one compiles the shaders: every program on two, every processor once."""
+        processors = ("Penryn", "Nehalem", "SandyBridge", "Haswell", "EPYC", "max")
+        for number, program in enumerate(("PhongBlinn", "PointLightedSphere_perFragment", "Materials")):
             draw = ("-s", "90x60", "--deterministic", "-o", "-")
             picture = self.good(*draw, program=program)
-            for processor in ("Penryn", "Nehalem", "SandyBridge", "Haswell", "EPYC", "max"):
+            for processor in processors[number::3]:
                 result = subprocess.run(
                     ["qemu-x86_64", "-cpu", processor, os.path.join(EXAMPLES, program), *draw],
                     env={**os.environ, **self.LEAST, "LP_NUM_THREADS": "0"}, capture_output=True)
