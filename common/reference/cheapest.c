@@ -159,8 +159,8 @@ static bool has_its_lights(Drawn *drawn, const Exact *exact, int x, int y)
     Sample samples[3][3];
     const size_t pixel = (size_t)y * (size_t)drawn->width + (size_t)x;
     if (!exact->lights || !exact->lights[pixel] ||
-        (!drawn->trace &&
-         !trace_open(&drawn->trace, &drawn->scene, true, drawn->width, drawn->height, NULL, NULL)))
+        (!drawn->trace && !trace_open(&drawn->trace, &drawn->scene, true, drawn->width,
+                                      drawn->height, 1, NULL, NULL)))
         return true;
     for (int row = 0; row < 3; row++)
         for (int i = 0; i < 3; i++)

@@ -73,11 +73,16 @@ static void draw_band(const Worker *worker, int band)
     }
 }
 
+static int band_count(const Reference *reference)
+{
+    return (reference->height + BAND - 1) / BAND;
+}
+
 static void *work(void *argument)
 {
     const Worker *worker = argument;
     Job *job = worker->job;
-    const int count = (job->reference->height + BAND - 1) / BAND;
+    const int count = band_count(job->reference);
     for (int band = atomic_fetch_add(&job->next, 1); band < count && !stop_asked(job->stop);
          band = atomic_fetch_add(&job->next, 1))
         draw_band(worker, band);
@@ -86,16 +91,15 @@ static void *work(void *argument)
 
 static int thread_count(const ReferenceOptions *options)
 {
-    const int bands = (options->height + BAND - 1) / BAND;
-    long count = options->threads > 0 ? options->threads : sysconf(_SC_NPROCESSORS_ONLN);
-    count = count < bands ? count : bands;
+    const long count = options->threads > 0 ? options->threads : sysconf(_SC_NPROCESSORS_ONLN);
     return count < 1 ? 1 : count > MAX_THREADS ? MAX_THREADS : (int)count;
 }
 
 /* This thread works too: where others cannot be had it does all. */
-static bool draw_bands(Job *job, int count)
+static bool draw_bands(Job *job, int threads)
 {
     const size_t length = 3 * (2 * (size_t)job->reference->width + 1);
+    const int bands = band_count(job->reference), count = threads < bands ? threads : bands;
     Worker *workers = calloc((size_t)count, sizeof *workers);
     int ready = 0, running = 1;
     while (workers && ready < count) {
@@ -152,9 +156,10 @@ bool reference_open(Reference *reference, const Scene *scene, const ReferenceOpt
                     Message *message)
 {
     Trace *trace = NULL;
+    const int threads = thread_count(options);
     *reference = (Reference){0};
     if (!check(options, message) || !trace_open(&trace, scene, options->meshes, options->width,
-                                                options->height, options->stop, message))
+                                                options->height, threads, options->stop, message))
         return false;
     *reference = (Reference){.width = options->width, .height = options->height};
     Job job = {.reference = reference,
@@ -162,8 +167,7 @@ bool reference_open(Reference *reference, const Scene *scene, const ReferenceOpt
                .edge_error = options->edge_error > 0 ? options->edge_error : EDGE_ERROR,
                .centers = options->centers,
                .stop = options->stop};
-    const bool done =
-        open_pixels(reference, trace_casts(trace)) && draw_bands(&job, thread_count(options));
+    const bool done = open_pixels(reference, trace_casts(trace)) && draw_bands(&job, threads);
     trace_close(trace);
     const bool stopped = stop_asked(options->stop);
     if (done && !stopped)

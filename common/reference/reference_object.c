@@ -117,7 +117,7 @@ static bool light_corners(TraceObject *ready, const Scene *scene, const TraceLay
 }
 
 static bool open_triangles(TraceObject *ready, const Scene *scene, const TraceLayers *layers,
-                           bool meshes, const atomic_bool *stop)
+                           bool meshes, int threads, const atomic_bool *stop)
 {
     const Mesh *mesh = ready->mesh;
     const bool at_corners = meshes && scene->interpolation != INTERPOLATION_PHONG;
@@ -132,7 +132,8 @@ static bool open_triangles(TraceObject *ready, const Scene *scene, const TraceLa
         points[i] = trace_object_place(ready, to_real3(vertex->position));
         ready->normals[i] = trace_object_normal(ready, to_real3(vertex->normal));
     }
-    return done && triangles_open(&ready->triangles, mesh, points, ready->own_corners, stop) &&
+    return done &&
+           triangles_open(&ready->triangles, mesh, points, ready->own_corners, threads, stop) &&
            (!at_corners || light_corners(ready, scene, layers));
 }
 
@@ -162,7 +163,7 @@ static Ball ball_around(const TraceObject *ready)
 }
 
 bool trace_object_open(TraceObject *ready, const Object *object, const Scene *scene,
-                       const TraceLayers *layers, bool meshes, const atomic_bool *stop)
+                       const TraceLayers *layers, bool meshes, int threads, const atomic_bool *stop)
 {
     const double *m = object->world_from_object.m;
     Real3 rows[3];
@@ -193,7 +194,7 @@ bool trace_object_open(TraceObject *ready, const Object *object, const Scene *sc
         ready->mesh = &ready->own;
         ready->smooth = true;
     }
-    return open_triangles(ready, scene, layers, meshes, stop);
+    return open_triangles(ready, scene, layers, meshes, threads, stop);
 }
 
 void trace_object_close(TraceObject *ready)

@@ -49,7 +49,8 @@ typedef struct TraceLayers {
 
 /* False where memory runs out, or it was stopped; to be closed all the same. */
 bool trace_object_open(TraceObject *ready, const Object *object, const Scene *scene,
-                       const TraceLayers *layers, bool meshes, const atomic_bool *stop);
+                       const TraceLayers *layers, bool meshes, int threads,
+                       const atomic_bool *stop);
 void trace_object_close(TraceObject *ready);
 
 /* Whether a line from `from` along `way`, or a segment to from + way, surely misses a ball. */

@@ -72,6 +72,73 @@ typedef double Real;
 
 #endif
 
+/* Two numbers at once. The second of what is not a number or equal is the maximum and minimum. */
+#if defined(__SSE2__) && !defined(REFERENCE_QUAD)
+
+#include <emmintrin.h>
+
+typedef __m128d Real2;
+#define real2 _mm_set1_pd
+#define real2_load _mm_loadu_pd
+#define real2_store _mm_storeu_pd
+#define real2_subtract _mm_sub_pd
+#define real2_multiply _mm_mul_pd
+#define real2_max _mm_max_pd
+#define real2_min _mm_min_pd
+/* Bit 0: of the first number, bit 1: of the second. */
+#define real2_at_most(a, b) _mm_movemask_pd(_mm_cmple_pd(a, b))
+
+#else
+
+typedef struct Real2 {
+    Real first, second;
+} Real2;
+
+static inline Real2 real2(Real both)
+{
+    return (Real2){both, both};
+}
+
+static inline Real2 real2_load(const Real *from)
+{
+    return (Real2){from[0], from[1]};
+}
+
+static inline void real2_store(Real *to, Real2 a)
+{
+    to[0] = a.first;
+    to[1] = a.second;
+}
+
+static inline Real2 real2_subtract(Real2 a, Real2 b)
+{
+    return (Real2){a.first - b.first, a.second - b.second};
+}
+
+static inline Real2 real2_multiply(Real2 a, Real2 b)
+{
+    return (Real2){a.first * b.first, a.second * b.second};
+}
+
+static inline Real2 real2_max(Real2 a, Real2 b)
+{
+    return (Real2){a.first > b.first ? a.first : b.first,
+                   a.second > b.second ? a.second : b.second};
+}
+
+static inline Real2 real2_min(Real2 a, Real2 b)
+{
+    return (Real2){a.first < b.first ? a.first : b.first,
+                   a.second < b.second ? a.second : b.second};
+}
+
+static inline int real2_at_most(Real2 a, Real2 b)
+{
+    return (a.first <= b.first) + 2 * (a.second <= b.second);
+}
+
+#endif
+
 typedef struct Real3 {
     Real x, y, z;
 } Real3;

@@ -156,8 +156,6 @@ static bool triangles_between(const ShadowPoint *point, int number, int light, R
         .from = point->from,
         .way = way,
         .endless = shade->light->kind == LIGHT_DIRECTIONAL,
-        .indices = ready->mesh->indices,
-        .points = ready->points,
         .own = number == point->object ? point->triangle : TRIANGLES_NONE,
         .error = ROUNDINGS * (point->reach + offset),
         .light_error = ROUNDINGS * (real3_reach(shade->position) + point->reach + offset)};

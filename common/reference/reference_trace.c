@@ -108,7 +108,7 @@ static bool layers_open(Layers *layers, const Shading *shading, bool apart)
     return true;
 }
 
-static bool fill(Trace *trace, const Scene *scene, Mat4 eye_from_world, bool meshes,
+static bool fill(Trace *trace, const Scene *scene, Mat4 eye_from_world, bool meshes, int threads,
                  const atomic_bool *stop)
 {
     trace->lights = calloc((size_t)scene->light_count + 1, sizeof *trace->lights);
@@ -127,13 +127,13 @@ static bool fill(Trace *trace, const Scene *scene, Mat4 eye_from_world, bool mes
     const TraceLayers layers = {trace->layers.layers, trace->layers.count};
     for (int i = 0; i < scene->object_count; i++)
         if (!trace_object_open(&trace->objects[i], &scene->objects[i], scene, &layers, meshes,
-                               stop))
+                               threads, stop))
             return false;
     return shadows_open(&trace->shadows, trace->objects, scene->object_count, trace->lights,
                         trace->casts ? trace->shading.light_count : 0);
 }
 
-bool trace_open(Trace **opened, const Scene *scene, bool meshes, int width, int height,
+bool trace_open(Trace **opened, const Scene *scene, bool meshes, int width, int height, int threads,
                 const atomic_bool *stop, Message *message)
 {
     Mat4 eye_from_world, clip_from_eye;
@@ -151,7 +151,7 @@ bool trace_open(Trace **opened, const Scene *scene, bool meshes, int width, int 
     trace->shading.reflection_phong = scene->reflection == REFLECTION_PHONG;
     trace->shading.distant_viewer = scene->distant_viewer;
     set_camera(trace, &scene->camera, eye_from_world, width, height);
-    if (!fill(trace, scene, eye_from_world, meshes, stop)) {
+    if (!fill(trace, scene, eye_from_world, meshes, threads, stop)) {
         trace_close(trace);
         return message_set(message, "reference: %s",
                            stop_asked(stop) ? "stopped" : "not enough memory for the scene");
@@ -249,11 +249,12 @@ static Surface triangle_surface(const TraceObject *ready, const Nearest *nearest
     const Triangle *triangle = &ready->triangles.triangles[nearest->triangle.index];
     const uint32_t *indices = ready->mesh->indices + 3 * (size_t)triangle->number;
     const Real3 *n = ready->normals;
-    Surface surface = {.geometric = real3_unit(triangle->normal), .indices = indices};
+    const Real3 normal = triangle_normal(triangle);
+    Surface surface = {.geometric = real3_unit(normal), .indices = indices};
     surface.normal = real3_unit(
         interpolate(n[indices[0]], n[indices[1]], n[indices[2]], nearest->triangle.weights));
-    sample->front = (real3_dot(triangle->normal, direction) < 0) !=
-                    (ready->mirrored != ready->object->clockwise);
+    sample->front =
+        (real3_dot(normal, direction) < 0) != (ready->mirrored != ready->object->clockwise);
     sample->piece = triangle->piece;
     sample->triangle = nearest->triangle.index;
     return surface;
@@ -414,21 +415,21 @@ uint32_t trace_pixel_lights(const Sample *top, const Sample *middle, const Sampl
  * view. */
 static bool in_tangent_planes(const Sample *a, const Sample *b)
 {
-    const Vec3 chord = vec3_subtract(b->position, a->position);
-    const double out = vec3_dot(chord, vec3_add(a->normal, b->normal));
-    return out * out <= 0.0025 * vec3_dot(chord, chord);
+    const Real3 chord = real3_subtract(real3(b->position), real3(a->position));
+    const Real out = real3_dot(chord, real3_add(real3(a->normal), real3(b->normal)));
+    return out * out <= (Real)0.0025 * real3_dot(chord, chord);
 }
 
 /* Whether triangles hang together smoothly: by an edge, with its normals; else not where a crease
  * is between them; else by a corner at which they are not folded, or as far as their planes tell.
  */
-static bool joined(const Triangle *a, const Triangle *b, const Sample *at_a, const Sample *at_b)
+static bool joined(const Triangles *triangles, const Sample *a, const Sample *b)
 {
-    const TrianglesShare share = triangles_share(a, b);
+    const TrianglesShare share = triangles_share(triangles, a->triangle, b->triangle);
     if (share.corners >= 2 || share.places > share.corners)
         return share.corners >= 2;
-    return vec3_dot(at_a->normal, at_b->normal) > 0.7 &&
-           (share.corners == 1 || in_tangent_planes(at_a, at_b));
+    return real3_dot(real3(a->normal), real3(b->normal)) > (Real)0.7 &&
+           (share.corners == 1 || in_tangent_planes(a, b));
 }
 
 static bool like_colors(const Sample *a, const Sample *b)
@@ -456,8 +457,7 @@ bool trace_agree(const Trace *trace, const Sample *a, const Sample *b)
     if (!like_colors(a, b))
         return false;
     if (!ready->exact)
-        return joined(&ready->triangles.triangles[a->triangle],
-                      &ready->triangles.triangles[b->triangle], a, b);
+        return joined(&ready->triangles, a, b);
     /* Of all solids only a torus lies before itself with the same side outwards. */
     return ready->object->solid.kind != SOLID_TORUS || in_tangent_planes(a, b);
 }

@@ -15,9 +15,10 @@
 
 typedef struct Trace Trace;
 
-/* Prepares a scene that has passed scene_check, for a picture of so many pixels; `meshes` as in
- * ReferenceOptions, as is `stop`. A trace may be used by several threads. */
-bool trace_open(Trace **trace, const Scene *scene, bool meshes, int width, int height,
+/* Prepares a scene that has passed scene_check, for a picture of so many pixels, with so many
+ * threads; `meshes` as in ReferenceOptions, as is `stop`. A trace may be used by several threads.
+ */
+bool trace_open(Trace **trace, const Scene *scene, bool meshes, int width, int height, int threads,
                 const atomic_bool *stop, Message *message);
 void trace_close(Trace *trace); /* NULL is fine */
 

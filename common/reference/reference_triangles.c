@@ -1,5 +1,6 @@
 #include "reference/reference_triangles.h"
 
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -98,6 +99,10 @@ static void unite(uint32_t *parents, uint32_t a, uint32_t b)
 
 enum { BINS = 16, LEAF = 4, SAH_DEPTH = 40 };
 
+/* Below that depth parts are halves: no path is longer than 72 cuts, two in a node, of which three
+ * children wait. */
+enum { BOUNDS_STACK = 128 };
+
 typedef struct Box {
     Real low[3], high[3];
 } Box;
@@ -106,14 +111,8 @@ typedef struct Box {
 typedef struct Item {
     Box box;
     uint32_t number; /* in the mesh */
+    int bin;
 } Item;
-
-typedef struct Builder {
-    BoundsNode *nodes;
-    Item *items;
-    uint32_t node_count;
-    const atomic_bool *stop;
-} Builder;
 
 static Box empty_box(void)
 {
@@ -135,118 +134,225 @@ static Real half_area(const Box *box)
     return x >= 0 ? x * y + y * z + z * x : 0;
 }
 
-static Real center(const Item *item, int axis)
+/* Items, and what contains them and their centers. */
+typedef struct Part {
+    Box box, centers;
+    uint32_t count;
+} Part;
+
+static Part no_part(void)
 {
-    return (item->box.low[axis] + item->box.high[axis]) / 2;
+    return (Part){empty_box(), empty_box(), 0};
 }
 
-typedef struct Bin {
-    Box box;
-    uint32_t count;
-} Bin;
-
-static int bin_of(Real value, Real low, Real high)
+static inline void add_item(Part *part, const Item *item)
 {
+    Real center[3];
+    for (int k = 0; k < 3; k++)
+        center[k] = (item->box.low[k] + item->box.high[k]) / 2;
+    extend(&part->box, item->box.low, item->box.high);
+    extend(&part->centers, center, center);
+    part->count++;
+}
+
+static void add_part(Part *part, const Part *other)
+{
+    extend(&part->box, other->box.low, other->box.high);
+    extend(&part->centers, other->centers.low, other->centers.high);
+    part->count += other->count;
+}
+
+static int bin_of(const Item *item, const Box *centers, int axis)
+{
+    const Real low = centers->low[axis], high = centers->high[axis];
+    const Real center = (item->box.low[axis] + item->box.high[axis]) / 2;
     /* No number, or infinite, where the box is too small or too large to be divided. */
-    const Real share = (value - low) / (high - low);
+    const Real share = (center - low) / (high - low);
     const int bin = share > 0 ? (int)(BINS * (share < 1 ? share : 1)) : 0;
     return bin < BINS ? bin : BINS - 1;
 }
 
-/* Whether cutting between two bins beats a leaf; where. */
-static bool best_cut(const Item *items, uint32_t count, const Box *centers, int axis, int *cut)
+/* The cut between two bins that costs least, and the parts on its sides; 0 where nothing separates
+ * the items. */
+static int best_cut(const Part bins[BINS], Part parts[2])
 {
-    Bin bins[BINS];
-    Real right[BINS], best = INFINITY;
-    Box box = empty_box();
-    uint32_t below = 0, above = 0;
-    for (int i = 0; i < BINS; i++)
-        bins[i] = (Bin){empty_box(), 0};
-    for (uint32_t i = 0; i < count; i++) {
-        Bin *bin = &bins[bin_of(center(&items[i], axis), centers->low[axis], centers->high[axis])];
-        bin->count++;
-        extend(&bin->box, items[i].box.low, items[i].box.high);
-    }
+    Real right[BINS + 1], best = INFINITY;
+    Part part = no_part();
+    int cut = 0;
     for (int i = BINS - 1; i > 0; i--) {
-        above += bins[i].count;
-        extend(&box, bins[i].box.low, bins[i].box.high);
-        right[i] = half_area(&box) * above;
+        if (bins[i].count > 0)
+            add_part(&part, &bins[i]);
+        right[i] = half_area(&part.box) * part.count;
     }
-    box = empty_box();
+    const uint32_t count = part.count + bins[0].count;
+    part = no_part();
     for (int i = 1; i < BINS; i++) {
-        below += bins[i - 1].count;
-        extend(&box, bins[i - 1].box.low, bins[i - 1].box.high);
-        const Real cost = half_area(&box) * below + right[i];
-        if (below > 0 && below < count && cost < best) {
+        if (bins[i - 1].count == 0)
+            continue; /* the same as one bin before */
+        add_part(&part, &bins[i - 1]);
+        const Real cost = half_area(&part.box) * part.count + right[i];
+        if (part.count < count && cost < best) {
             best = cost;
-            *cut = i;
+            cut = i;
+            parts[0] = part;
         }
     }
-    return best < INFINITY;
+    parts[1] = no_part();
+    for (int i = cut; i < BINS; i++)
+        if (bins[i].count > 0)
+            add_part(&parts[1], &bins[i]);
+    return cut;
 }
 
-/* Puts items with a center below the cut first; returns their number, 0 where nothing separates
- * them. */
-static uint32_t separate(Item *items, uint32_t count, const Box *centers, int depth)
+static void halve(const Item *items, const Part *whole, Part parts[2])
 {
+    parts[0] = parts[1] = no_part();
+    for (uint32_t i = 0; i < whole->count; i++)
+        add_item(&parts[i >= whole->count / 2], &items[i]);
+}
+
+/* Parts items in two, and puts those of the first part first. */
+static void separate(Item *items, const Part *whole, int depth, Part parts[2])
+{
+    const Box *centers = &whole->centers;
+    Part bins[BINS];
     int axis = 0, cut = 0;
     for (int k = 1; k < 3; k++)
         if (centers->high[k] - centers->low[k] > centers->high[axis] - centers->low[axis])
             axis = k;
     /* Items in one place, or a chain of lopsided cuts: any halves. */
-    if (depth > SAH_DEPTH || !(centers->high[axis] > centers->low[axis]) ||
-        !best_cut(items, count, centers, axis, &cut))
-        return count / 2;
-    uint32_t below = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        if (bin_of(center(&items[i], axis), centers->low[axis], centers->high[axis]) < cut) {
+    if (depth > SAH_DEPTH || !(centers->high[axis] > centers->low[axis])) {
+        halve(items, whole, parts);
+        return;
+    }
+    for (int i = 0; i < BINS; i++)
+        bins[i].count = 0;
+    for (uint32_t i = 0; i < whole->count; i++) {
+        items[i].bin = bin_of(&items[i], centers, axis);
+        Part *bin = &bins[items[i].bin];
+        if (bin->count == 0)
+            *bin = no_part();
+        add_item(bin, &items[i]);
+    }
+    cut = best_cut(bins, parts);
+    if (cut == 0) {
+        halve(items, whole, parts);
+        return;
+    }
+    for (uint32_t i = 0, below = 0; below < parts[0].count; i++) {
+        if (items[i].bin < cut) {
             const Item item = items[i];
             items[i] = items[below];
             items[below++] = item;
         }
     }
-    return below;
 }
 
-static void build(Builder *builder, uint32_t number, uint32_t first, uint32_t count, int depth)
+static void put_box(BoundsNode *node, int child, const Box *box)
 {
-    BoundsNode *node = &builder->nodes[number];
-    Item *items = builder->items + first;
-    Box box = empty_box(), centers = empty_box();
-    for (uint32_t i = 0; i < count; i++) {
-        const Real c[3] = {center(&items[i], 0), center(&items[i], 1), center(&items[i], 2)};
-        extend(&box, items[i].box.low, items[i].box.high);
-        extend(&centers, c, c);
-    }
     for (int k = 0; k < 3; k++) {
-        node->low[k] = box.low[k];
-        node->high[k] = box.high[k];
+        node->sides[0][k][child] = box->low[k];
+        node->sides[1][k][child] = box->high[k];
     }
-    node->first = first;
-    node->count = count;
-    if (count <= LEAF || stop_asked(builder->stop))
-        return;
-    const uint32_t below = separate(items, count, &centers, depth);
-    node->first = builder->node_count;
-    node->count = 0;
-    builder->node_count += 2;
-    const uint32_t children = node->first;
-    build(builder, children, first, below, depth + 1);
-    build(builder, children + 1, first + below, count - below, depth + 1);
+}
+
+/* A node to be made of the items from number `first` on, with nodes below it from number `next` on;
+ * there are fewer than items. */
+typedef struct Branch {
+    BoundsNode *nodes;
+    Item *items;
+    uint32_t number, next, first;
+    Part part;
+    int depth, threads;
+    const atomic_bool *stop;
+    pthread_t thread;
+} Branch;
+
+/* The node's children: halves of halves, as long as they are no leaves. */
+static void divide(const Branch *branch, Part parts[BOUNDS_WIDTH])
+{
+    int count = 1;
+    parts[0] = branch->part;
+    for (int level = 0; level < 2; level++) {
+        Part halves[BOUNDS_WIDTH];
+        Item *items = branch->items + branch->first;
+        int made = 0;
+        for (int i = 0; i < count; i++) {
+            if (parts[i].count > LEAF) {
+                separate(items, &parts[i], branch->depth + level, &halves[made]);
+                made += 2;
+            } else {
+                halves[made++] = parts[i];
+            }
+            items += parts[i].count;
+        }
+        count = made;
+        memcpy(parts, halves, (size_t)made * sizeof parts[0]);
+    }
+    while (count < BOUNDS_WIDTH)
+        parts[count++] = no_part();
+}
+
+static void *build(void *argument)
+{
+    Branch *branch = argument, below[BOUNDS_WIDTH];
+    BoundsNode *node = &branch->nodes[branch->number];
+    const bool parallel = branch->threads > 1 && branch->part.count > STRIDE;
+    uint32_t first = branch->first;
+    int count = 0, running = 1;
+    Part parts[BOUNDS_WIDTH];
+    divide(branch, parts);
+    for (int i = 0; i < BOUNDS_WIDTH; first += parts[i++].count) {
+        put_box(node, i, &parts[i].box);
+        node->children[i] = (BoundsChild){first, parts[i].count};
+        if (parts[i].count <= LEAF || stop_asked(branch->stop))
+            continue;
+        Branch *child = &below[count++];
+        *child = *branch;
+        child->number = branch->next;
+        child->next = branch->next + 1;
+        child->first = first;
+        child->part = parts[i];
+        child->depth = branch->depth + 2;
+        child->threads = (branch->threads + 1) / 2;
+        node->children[i] = (BoundsChild){child->number, 0};
+        if (parallel) {
+            branch->next += parts[i].count - 1;
+        } else {
+            build(child);
+            branch->next = child->next;
+        }
+    }
+    while (parallel && running < count &&
+           pthread_create(&below[running].thread, NULL, build, &below[running]) == 0)
+        running++;
+    for (int i = 0; parallel && i < count; i++)
+        if (i == 0 || i >= running)
+            build(&below[i]);
+    for (int i = 1; parallel && i < running && i < count; i++)
+        pthread_join(below[i].thread, NULL);
+    return NULL;
 }
 
 /* Builds it over items, and puts those of a leaf together. The nodes; NULL where memory runs out,
  * or it was stopped. */
-static BoundsNode *bounds_build(Item *items, size_t count, const atomic_bool *stop)
+static BoundsNode *bounds_build(Item *items, size_t count, int threads, const atomic_bool *stop)
 {
     if (count > UINT32_MAX / 2)
         return NULL;
-    Builder builder = {malloc((2 * count + 1) * sizeof *builder.nodes), items, 1, stop};
-    if (builder.nodes && count > 0)
-        build(&builder, 0, 0, (uint32_t)count, 0);
+    Branch root = {.nodes = malloc((count + 1) * sizeof *root.nodes),
+                   .items = items,
+                   .next = 1,
+                   .part = no_part(),
+                   .threads = threads,
+                   .stop = stop};
+    for (size_t i = 0; i < count; i++)
+        add_item(&root.part, &items[i]);
+    if (root.nodes)
+        build(&root);
     if (!stop_asked(stop))
-        return builder.nodes;
-    free(builder.nodes);
+        return root.nodes;
+    free(root.nodes);
     return NULL;
 }
 
@@ -257,23 +363,6 @@ static Real3 normal_of(const uint32_t *indices, const Real3 *points)
     const Real3 v0 = points[indices[0]];
     return real3_cross(real3_subtract(points[indices[1]], v0),
                        real3_subtract(points[indices[2]], v0));
-}
-
-static Triangle make_triangle(const uint32_t *indices, uint32_t number, const Real3 *points,
-                              const uint32_t *equal, const uint32_t *in_place)
-{
-    Triangle triangle = {.number = number};
-    const Real3 v0 = points[indices[0]], v1 = points[indices[1]], v2 = points[indices[2]];
-    triangle.edges[0] = real3_cross(v1, v2);
-    triangle.edges[1] = real3_cross(v2, v0);
-    triangle.edges[2] = real3_cross(v0, v1);
-    triangle.normal = normal_of(indices, points);
-    triangle.offset = real3_dot(triangle.normal, v0);
-    for (int k = 0; k < 3; k++) {
-        triangle.corners[k] = equal[indices[k]];
-        triangle.places[k] = in_place[indices[k]];
-    }
-    return triangle;
 }
 
 static Box box_of(const uint32_t *indices, const Real3 *points)
@@ -293,62 +382,92 @@ static bool has_area(Real3 normal)
 
 /* What is needed while triangles are opened. */
 typedef struct Work {
-    uint32_t *equal, *in_place, *parents;
+    Triangles *triangles;
+    const Mesh *mesh;
+    const Real3 *points;
+    uint32_t *parents;
     Item *items;
-    size_t count;
+    const atomic_bool *stop;
 } Work;
 
-/* The triangles that have an area, and what hangs together. */
-static bool find_items(Work *work, const Mesh *mesh, const Real3 *points, const atomic_bool *stop)
+/* Finds what is equal, and what hangs together. */
+static void *find_pieces(void *argument)
 {
+    const Work *work = argument;
+    const Mesh *mesh = work->mesh;
+    const uint32_t *equal = work->triangles->equal;
+    if (!find_equal(mesh, work->triangles->equal, work->triangles->in_place, work->stop))
+        return NULL;
     for (uint32_t i = 0; i < mesh->vertex_count; i++)
         work->parents[i] = i;
     for (uint32_t i = 0; i < mesh->index_count / 3; i++) {
-        if (i % STRIDE == 0 && stop_asked(stop))
-            return false;
-        const uint32_t *indices = mesh->indices + 3 * (size_t)i, *equal = work->equal;
-        if (!has_area(normal_of(indices, points)))
+        const uint32_t *indices = mesh->indices + 3 * (size_t)i;
+        if (i % STRIDE == 0 && stop_asked(work->stop))
+            return NULL;
+        if (!has_area(normal_of(indices, work->points)))
             continue;
         unite(work->parents, equal[indices[0]], equal[indices[1]]);
         unite(work->parents, equal[indices[1]], equal[indices[2]]);
-        work->items[work->count++] = (Item){box_of(indices, points), i};
     }
-    return true;
+    return argument;
 }
 
-static bool fill(Triangles *triangles, const Mesh *mesh, const Real3 *points, bool apart,
-                 Work *work, const atomic_bool *stop)
+/* Boxes of the triangles that have an area, and a hierarchy of them. */
+static bool find_boxes(const Work *work, int threads)
 {
-    if (!work->equal || !work->parents || !work->in_place || !work->items ||
-        !find_equal(mesh, work->equal, work->in_place, stop) ||
-        !find_items(work, mesh, points, stop))
+    Triangles *triangles = work->triangles;
+    for (uint32_t i = 0; i < work->mesh->index_count / 3; i++) {
+        const uint32_t *indices = work->mesh->indices + 3 * (size_t)i;
+        if (has_area(normal_of(indices, work->points)))
+            work->items[triangles->count++] = (Item){box_of(indices, work->points), i, 0};
+    }
+    triangles->nodes = bounds_build(work->items, triangles->count, threads, work->stop);
+    triangles->triangles = malloc((triangles->count + 1) * sizeof *triangles->triangles);
+    return triangles->nodes && triangles->triangles;
+}
+
+static bool fill(Work *work, bool apart, int threads)
+{
+    Triangles *triangles = work->triangles;
+    const Real3 *points = work->points;
+    pthread_t thread;
+    void *pieces = NULL;
+    if (!triangles->equal || !triangles->in_place || !work->parents || !work->items)
         return false;
-    triangles->count = work->count;
-    triangles->nodes = bounds_build(work->items, work->count, stop);
-    triangles->triangles = malloc((work->count + 1) * sizeof *triangles->triangles);
-    if (!triangles->nodes || !triangles->triangles)
+    const bool parallel = threads > 1 && work->mesh->index_count > STRIDE &&
+                          pthread_create(&thread, NULL, find_pieces, work) == 0;
+    const bool found = find_boxes(work, threads);
+    if (parallel)
+        pthread_join(thread, &pieces);
+    else if (found)
+        pieces = find_pieces(work);
+    if (!found || !pieces)
         return false;
-    for (size_t i = 0; i < work->count; i++) {
-        Triangle *triangle = &triangles->triangles[i];
+    for (size_t i = 0; i < triangles->count; i++) {
         const uint32_t number = work->items[i].number;
-        *triangle = make_triangle(mesh->indices + 3 * (size_t)number, number, points, work->equal,
-                                  work->in_place);
-        triangle->piece = apart ? number : root_of(work->parents, triangle->corners[0]);
+        const uint32_t *indices = work->mesh->indices + 3 * (size_t)number;
+        triangles->triangles[i] = (Triangle){
+            .corners = {points[indices[0]], points[indices[1]], points[indices[2]]},
+            .number = number,
+            .piece = apart ? number : root_of(work->parents, triangles->equal[indices[0]])};
     }
     return true;
 }
 
 bool triangles_open(Triangles *triangles, const Mesh *mesh, const Real3 *points, bool apart,
-                    const atomic_bool *stop)
+                    int threads, const atomic_bool *stop)
 {
-    Work work = {malloc((mesh->vertex_count + 1) * sizeof *work.equal),
-                 malloc((mesh->vertex_count + 1) * sizeof *work.in_place),
-                 malloc((mesh->vertex_count + 1) * sizeof *work.parents),
-                 malloc((mesh->index_count / 3 + 1) * sizeof *work.items), 0};
-    *triangles = (Triangles){.triangles = NULL};
-    const bool done = fill(triangles, mesh, points, apart, &work, stop);
-    free(work.equal);
-    free(work.in_place);
+    const size_t vertex_count = mesh->vertex_count + 1;
+    *triangles = (Triangles){.indices = mesh->indices,
+                             .equal = malloc(vertex_count * sizeof *triangles->equal),
+                             .in_place = malloc(vertex_count * sizeof *triangles->in_place)};
+    Work work = {.triangles = triangles,
+                 .mesh = mesh,
+                 .points = points,
+                 .parents = malloc(vertex_count * sizeof *work.parents),
+                 .items = malloc((mesh->index_count / 3 + 1) * sizeof *work.items),
+                 .stop = stop};
+    const bool done = fill(&work, apart, threads);
     free(work.parents);
     free(work.items);
     if (!done)
@@ -360,6 +479,8 @@ void triangles_close(Triangles *triangles)
 {
     free(triangles->triangles);
     free(triangles->nodes);
+    free(triangles->equal);
+    free(triangles->in_place);
     *triangles = (Triangles){.triangles = NULL};
 }
 
@@ -371,15 +492,19 @@ void triangles_close(Triangles *triangles)
 static bool meet(const Triangle *triangle, Real3 direction, Real near, Real far, TriangleHit *hit,
                  uint32_t number)
 {
-    const Real a = real3_dot(direction, triangle->edges[0]);
-    const Real b = real3_dot(direction, triangle->edges[1]);
-    const Real c = real3_dot(direction, triangle->edges[2]);
+    const Real3 *v = triangle->corners;
+    const Real a = real3_dot(direction, real3_cross(v[1], v[2]));
+    const Real b = real3_dot(direction, real3_cross(v[2], v[0]));
+    if ((a > 0 && b < 0) || (a < 0 && b > 0))
+        return false;
+    const Real c = real3_dot(direction, real3_cross(v[0], v[1]));
     if (!((a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0)))
         return false;
-    const Real sum = a + b + c, slope = real3_dot(direction, triangle->normal);
+    const Real3 normal = triangle_normal(triangle);
+    const Real sum = a + b + c, slope = real3_dot(direction, normal);
     if (sum == 0 || slope == 0)
         return false;
-    const Real t = triangle->offset / slope;
+    const Real t = real3_dot(normal, v[0]) / slope;
     if (!(t >= near && t <= far) || t > hit->t)
         return false;
     if (t == hit->t && (number == NONE || triangle->number > number))
@@ -391,47 +516,92 @@ static bool meet(const Triangle *triangle, Real3 direction, Real near, Real far,
     return true;
 }
 
-/* Where the ray enters a box, or INFINITY; a little early, so that rounding loses nothing.
- * `inverse` has 1 over each component of the direction; where that is 0 it is infinite, and its
- * product with a side at 0 is not a number, which has no effect: it is first in the comparison. */
-static inline Real enter(const BoundsNode *node, const Real inverse[3], Real near, Real far)
+/* A line, to meet the boxes of a node. `inverse` has 1 over each component of its direction:
+ * infinite where that is 0; its product with a side at 0 is then NaN, which has no effect, because
+ * it is first in the comparisons. */
+typedef struct Line {
+    Real2 from[3], inverse[3];
+    int enters[3]; /* through the low or the high sides */
+} Line;
+
+static inline Line line_along(Real3 from, Real3 way)
 {
-    Real from = near, to = far;
-    for (int k = 0; k < 3; k++) {
-        const bool up = inverse[k] > 0;
-        const Real one = (up ? node->low : node->high)[k] * inverse[k];
-        const Real other = (up ? node->high : node->low)[k] * inverse[k];
-        from = real_max(one, from);
-        to = real_min(other, to);
+    const Real3 inverse = {1 / way.x, 1 / way.y, 1 / way.z};
+    return (Line){{real2(from.x), real2(from.y), real2(from.z)},
+                  {real2(inverse.x), real2(inverse.y), real2(inverse.z)},
+                  {!(inverse.x > 0), !(inverse.y > 0), !(inverse.z > 0)}};
+}
+
+/* What of a line, between `from` and `to`, lies in two boxes. */
+typedef struct Spans {
+    Real2 from, to;
+} Spans;
+
+static inline void cut(const BoundsNode *node, const Line *line, int axis, int child, Spans *spans)
+{
+    const Real2 one = real2_load(&node->sides[line->enters[axis]][axis][child]);
+    const Real2 other = real2_load(&node->sides[!line->enters[axis]][axis][child]);
+    const Real2 from = line->from[axis], inverse = line->inverse[axis];
+    spans->from = real2_max(real2_multiply(real2_subtract(one, from), inverse), spans->from);
+    spans->to = real2_min(real2_multiply(real2_subtract(other, from), inverse), spans->to);
+}
+
+/* The same in the boxes of children number `child` and `child` + 1. */
+static inline Spans spans_in(const BoundsNode *node, const Line *line, int child, Real from,
+                             Real to)
+{
+    Spans spans = {real2(from), real2(to)};
+    cut(node, line, 0, child, &spans);
+    cut(node, line, 1, child, &spans);
+    cut(node, line, 2, child, &spans);
+    return spans;
+}
+
+typedef struct Waiting {
+    BoundsChild child;
+    Real enters;
+} Waiting;
+
+/* Puts the children that a line meets on a stack, the nearest last. */
+static inline int push_met(const BoundsNode *node, const Line *line, Real near, Real far,
+                           Waiting *stack)
+{
+    Real enters[BOUNDS_WIDTH];
+    int met = 0, count = 0;
+    for (int i = 0; i < BOUNDS_WIDTH; i += 2) {
+        /* A little early, so that rounding loses nothing. */
+        const Spans spans = spans_in(node, line, i, near, far);
+        const Real2 from = real2_multiply(spans.from, real2(1 - 8 * REAL_EPSILON));
+        real2_store(&enters[i], from);
+        met |= real2_at_most(from, spans.to) << i;
     }
-    return from * (1 - 8 * REAL_EPSILON) <= to ? from * (1 - 8 * REAL_EPSILON) : INFINITY;
+    for (int i = 0; i < BOUNDS_WIDTH; i++) {
+        if (!(met >> i & 1))
+            continue;
+        int k = count++;
+        for (; k > 0 && stack[k - 1].enters < enters[i]; k--)
+            stack[k] = stack[k - 1];
+        stack[k] = (Waiting){node->children[i], enters[i]};
+    }
+    return count;
 }
 
 bool triangles_ray(const Triangles *triangles, Real3 direction, Real near, Real far,
                    TriangleHit *hit)
 {
-    const Real inverse[3] = {1 / direction.x, 1 / direction.y, 1 / direction.z};
-    const BoundsNode *nodes = triangles->nodes;
-    uint32_t stack[BOUNDS_MAX_DEPTH];
+    const Line line = line_along((Real3){0, 0, 0}, direction);
+    Waiting stack[BOUNDS_STACK];
     uint32_t number = NONE; /* of the triangle that is hit */
-    int depth = 0;
-    if (triangles->count > 0 && enter(&nodes[0], inverse, near, far) < INFINITY)
-        stack[depth++] = 0;
+    int depth = 1;
+    stack[0] = (Waiting){{0, 0}, near};
     while (depth > 0) {
-        const BoundsNode *node = &nodes[stack[--depth]];
-        if (node->count == 0) {
-            const uint32_t left = node->first, right = left + 1;
-            const Real limit = real_min(far, hit->t);
-            const Real to_left = enter(&nodes[left], inverse, near, limit);
-            const Real to_right = enter(&nodes[right], inverse, near, limit);
-            const bool left_first = to_left <= to_right;
-            if (real_max(to_left, to_right) < INFINITY)
-                stack[depth++] = left_first ? right : left;
-            if (real_min(to_left, to_right) < INFINITY)
-                stack[depth++] = left_first ? left : right;
+        const BoundsChild child = stack[--depth].child;
+        if (stack[depth].enters > hit->t)
             continue;
-        }
-        for (uint32_t i = node->first; i < node->first + node->count; i++) {
+        if (child.count == 0)
+            depth += push_met(&triangles->nodes[child.first], &line, near, real_min(far, hit->t),
+                              &stack[depth]);
+        for (uint32_t i = child.first; i < child.first + child.count; i++) {
             if (meet(&triangles->triangles[i], direction, near, far, hit, number)) {
                 number = triangles->triangles[i].number;
                 hit->index = i;
@@ -445,11 +615,10 @@ bool triangles_ray(const Triangles *triangles, Real3 direction, Real near, Real 
  * and so the planes, are the same for both triangles at an edge. */
 static bool crosses(const Triangle *triangle, const TriangleSegment *segment)
 {
-    const uint32_t *indices = segment->indices + 3 * (size_t)triangle->number;
-    const Real3 v0 = segment->points[indices[0]], way = segment->way;
-    const Real3 a = real3_subtract(v0, segment->from);
-    const Real3 b = real3_subtract(segment->points[indices[1]], segment->from);
-    const Real3 c = real3_subtract(segment->points[indices[2]], segment->from);
+    const Real3 *v = triangle->corners, way = segment->way;
+    const Real3 a = real3_subtract(v[0], segment->from);
+    const Real3 b = real3_subtract(v[1], segment->from);
+    const Real3 c = real3_subtract(v[2], segment->from);
     const Real bc = real3_dot(way, real3_cross(b, c)), ca = real3_dot(way, real3_cross(c, a));
     if ((bc > 0 && ca < 0) || (bc < 0 && ca > 0))
         return false;
@@ -457,65 +626,60 @@ static bool crosses(const Triangle *triangle, const TriangleSegment *segment)
     if (!((bc >= 0 && ca >= 0 && ab >= 0) || (bc <= 0 && ca <= 0 && ab <= 0)))
         return false;
     /* Heights of the ends over the plane, times the normal's length. */
-    const Real height = real3_dot(triangle->normal, a), slope = real3_dot(triangle->normal, way);
+    const Real3 normal = triangle_normal(triangle);
+    const Real height = real3_dot(normal, a), slope = real3_dot(normal, way);
     const Real t = height / slope;
     if (slope == 0 || !(t > 0) || !(segment->endless || t < 1))
         return false;
-    const Real length = real3_length(triangle->normal);
-    const Real more = 32 * REAL_EPSILON * real3_reach(v0);
+    const Real length = real3_length(normal);
+    const Real more = 32 * REAL_EPSILON * real3_reach(v[0]);
     return real_abs(height) > (segment->error + more) * length &&
            (segment->endless || real_abs(height - slope) > (segment->light_error + more) * length);
 }
 
-/* Whether a segment meets a box; also if it misses it by rounding. `inverse` is infinite where the
- * way has no component; on a side of the box the product is then NaN, which says nothing: such a
- * comparison is false, and what is first in real_max and real_min has no effect. */
-static inline bool passes(const BoundsNode *node, const Real from[3], const Real inverse[3],
-                          Real end)
+/* Which children of a node a segment meets, a bit each; also if it misses them by rounding. */
+static inline int children_met(const BoundsNode *node, const Line *line, Real end)
 {
-    Real enters = 0, leaves = end;
-    for (int k = 0; k < 3; k++) {
-        const bool up = inverse[k] > 0;
-        const Real one = ((up ? node->low : node->high)[k] - from[k]) * inverse[k];
-        const Real other = ((up ? node->high : node->low)[k] - from[k]) * inverse[k];
-        enters = real_max(one, enters);
-        leaves = real_min(other, leaves);
-    }
-    return enters <= leaves * (1 + 8 * REAL_EPSILON);
+    const Real2 more = real2(1 + 8 * REAL_EPSILON);
+    const Spans one = spans_in(node, line, 0, 0, end), other = spans_in(node, line, 2, 0, end);
+    return real2_at_most(one.from, real2_multiply(one.to, more)) |
+           real2_at_most(other.from, real2_multiply(other.to, more)) << 2;
 }
 
+/* Any order gives the same answer: each step of `cut` is monotonic, also when rounded, so that
+ * whoever meets a leaf's box meets the boxes around it. */
 bool triangles_block(const Triangles *triangles, const TriangleSegment *segment)
 {
-    const Real from[3] = {segment->from.x, segment->from.y, segment->from.z};
-    const Real inverse[3] = {1 / segment->way.x, 1 / segment->way.y, 1 / segment->way.z};
+    const Line line = line_along(segment->from, segment->way);
     const Real end = segment->endless ? INFINITY : 1;
-    const BoundsNode *nodes = triangles->nodes;
-    uint32_t stack[BOUNDS_MAX_DEPTH];
-    int depth = 0;
-    if (triangles->count > 0 && passes(&nodes[0], from, inverse, end))
-        stack[depth++] = 0;
+    uint32_t stack[BOUNDS_STACK];
+    int depth = 1;
+    stack[0] = 0;
     while (depth > 0) {
-        const BoundsNode *node = &nodes[stack[--depth]];
-        if (node->count == 0) {
-            for (uint32_t child = node->first; child < node->first + 2; child++)
-                if (passes(&nodes[child], from, inverse, end))
-                    stack[depth++] = child;
-            continue;
+        const BoundsNode *node = &triangles->nodes[stack[--depth]];
+        const BoundsChild *child = node->children;
+        for (int met = children_met(node, &line, end); met != 0; met >>= 1, child++) {
+            if (!(met & 1))
+                continue;
+            if (child->count == 0)
+                stack[depth++] = child->first;
+            for (uint32_t i = child->first; i < child->first + child->count; i++)
+                if (i != segment->own && crosses(&triangles->triangles[i], segment))
+                    return true;
         }
-        for (uint32_t i = node->first; i < node->first + node->count; i++)
-            if (i != segment->own && crosses(&triangles->triangles[i], segment))
-                return true;
     }
     return false;
 }
 
-TrianglesShare triangles_share(const Triangle *a, const Triangle *b)
+TrianglesShare triangles_share(const Triangles *triangles, uint32_t a, uint32_t b)
 {
+    const uint32_t *one = triangles->indices + 3 * (size_t)triangles->triangles[a].number;
+    const uint32_t *other = triangles->indices + 3 * (size_t)triangles->triangles[b].number;
     TrianglesShare share = {0, 0};
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
-            share.corners += a->corners[i] == b->corners[j];
-            share.places += a->places[i] == b->places[j];
+            share.corners += triangles->equal[one[i]] == triangles->equal[other[j]];
+            share.places += triangles->in_place[one[i]] == triangles->in_place[other[j]];
         }
     return share;
 }

@@ -13,39 +13,46 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* With v0, v1, v2 seen from the origin. */
 typedef struct Triangle {
-    Real3 edges[3];  /* v1 x v2, v2 x v0, v0 x v1: normals of the planes through origin and edge */
-    Real3 normal;    /* (v1 - v0) x (v2 - v0) */
-    Real offset;     /* normal . v0 */
-    uint32_t number; /* in the mesh */
-    uint32_t corners[3]; /* vertices; of those that are equal the first */
-    uint32_t places[3];  /* vertices; of those in one place the first */
-    uint32_t piece;      /* a triangle of it: pieces are what hangs together by equal corners */
+    Real3 corners[3]; /* from the origin */
+    uint32_t number;  /* in the mesh */
+    uint32_t piece;   /* a triangle of it: pieces are what hangs together by equal corners */
 } Triangle;
 
-/* A box. An inner node's children are `first` and `first` + 1; a leaf has `count` items from number
- * `first` on. */
-typedef struct BoundsNode {
-    Real low[3], high[3];
+/* Inner: `count` is 0, and `first` the number of a node; else so many triangles from `first` on. */
+typedef struct BoundsChild {
     uint32_t first, count;
-} BoundsNode;
+} BoundsChild;
 
-/* No path from the root is longer. */
-enum { BOUNDS_MAX_DEPTH = 80 };
+/* Four boxes side by side, so that one step meets them all; those that are not needed are empty. */
+enum { BOUNDS_WIDTH = 4 };
+typedef struct BoundsNode {
+    Real sides[2][3][BOUNDS_WIDTH]; /* [low or high][axis][child] */
+    BoundsChild children[BOUNDS_WIDTH];
+} BoundsNode;
 
 typedef struct Triangles {
     Triangle *triangles; /* in the order of the boxes */
     size_t count;
     BoundsNode *nodes; /* a hierarchy of boxes, so that a ray meets few triangles; the root first */
+    const uint32_t *indices;    /* of the mesh */
+    uint32_t *equal, *in_place; /* of each vertex the first that equals it; in the same place */
 } Triangles;
 
 /* The triangles of a mesh with its vertices at `points`; without those that have no area. Vertices
  * are equal where position and normal are, the normal but for 1e-3. Where `apart` is set no two
- * triangles hang together. False where memory runs out, or it was stopped. */
+ * triangles hang together. About so many threads work at a large mesh. The mesh stays in use. False
+ * where memory runs out, or it was stopped. */
 bool triangles_open(Triangles *triangles, const Mesh *mesh, const Real3 *points, bool apart,
-                    const atomic_bool *stop);
+                    int threads, const atomic_bool *stop);
 void triangles_close(Triangles *triangles);
+
+/* Not a unit vector. */
+static inline Real3 triangle_normal(const Triangle *triangle)
+{
+    const Real3 *v = triangle->corners;
+    return real3_cross(real3_subtract(v[1], v[0]), real3_subtract(v[2], v[0]));
+}
 
 typedef struct TriangleHit {
     Real t;
@@ -63,8 +70,6 @@ bool triangles_ray(const Triangles *triangles, Real3 direction, Real near, Real 
 typedef struct TriangleSegment {
     Real3 from, way; /* to from + way; endless to a directional light */
     bool endless;
-    const uint32_t *indices; /* of the mesh */
-    const Real3 *points;     /* as in triangles_open */
     uint32_t own;            /* in `triangles`: the one that `from` lies on; else TRIANGLES_NONE */
     Real error, light_error; /* of distances between the ends and a triangle, but for what the size
                                 of the triangle's coordinates adds */
@@ -81,6 +86,6 @@ bool triangles_block(const Triangles *triangles, const TriangleSegment *segment)
 typedef struct TrianglesShare {
     int corners, places;
 } TrianglesShare;
-TrianglesShare triangles_share(const Triangle *a, const Triangle *b);
+TrianglesShare triangles_share(const Triangles *triangles, uint32_t a, uint32_t b);
 
 #endif

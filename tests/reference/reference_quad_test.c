@@ -12,7 +12,7 @@
 
 /* The names of reference_trace.h if REFERENCE_QUAD is defined. */
 bool quad_trace_open(Trace **trace, const Scene *scene, bool meshes, int width, int height,
-                     const atomic_bool *stop, Message *message);
+                     int threads, const atomic_bool *stop, Message *message);
 void quad_trace_sample(const Trace *trace, double x, double y, Sample *sample);
 void quad_trace_close(Trace *trace);
 
@@ -86,8 +86,8 @@ typedef struct Error {
 static void compare(const World *world, bool meshes, Error *error)
 {
     Trace *trace, *quad;
-    assert_true(trace_open(&trace, &world->scene, meshes, SIZE, SIZE, NULL, NULL));
-    assert_true(quad_trace_open(&quad, &world->scene, meshes, SIZE, SIZE, NULL, NULL));
+    assert_true(trace_open(&trace, &world->scene, meshes, SIZE, SIZE, 1, NULL, NULL));
+    assert_true(quad_trace_open(&quad, &world->scene, meshes, SIZE, SIZE, 1, NULL, NULL));
     for (int i = 0; i < POINTS; i++) {
         const double x = uniform(0, SIZE), y = uniform(0, SIZE);
         Sample sample, exact;

@@ -347,7 +347,7 @@ static void sample_points(bool meshes, bool shadows, Sample samples[POINTS])
     Random random = {1};
     Trace *rays;
     let_shadow(shadows);
-    require(trace_open(&rays, &world.scene, meshes, SIZE, SIZE, NULL, FAILURE), FAILURE);
+    require(trace_open(&rays, &world.scene, meshes, SIZE, SIZE, 1, NULL, FAILURE), FAILURE);
     let_shadow(true);
     for (int i = 0; i < POINTS; i++) {
         const double x = random_between(&random, 0, SIZE), y = random_between(&random, 0, SIZE);
@@ -820,7 +820,7 @@ TEST_WITH(0, edges_of_shadows_are_the_means_of_their_pixels, set_up, tear_down)
     Random random = {testing_seed(37)};
     open_group(&random, 2);
     const Reference picture = trace((ReferenceOptions){0});
-    require(trace_open(&rays, &world.scene, false, SIZE, SIZE, NULL, FAILURE), FAILURE);
+    require(trace_open(&rays, &world.scene, false, SIZE, SIZE, 1, NULL, FAILURE), FAILURE);
     for (int i = 0; i < PIXELS; i++) {
         double sums[3] = {0, 0, 0};
         if (picture.interior[i] || picture.object[i] != 0 || i % 7 != 0)

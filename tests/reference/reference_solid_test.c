@@ -140,7 +140,8 @@ TEST(what_misses_the_ball_of_an_object_misses_the_object)
         for (int k = 0; k < 15; k++)
             object.world_from_object.m[k] = k % 4 == 3 ? 0 : uniform(-2, 2);
         object.world_from_object.m[15] = 1;
-        assert_true(trace_object_open(&ready, &object, &scene, NULL, false, NULL) && ready.exact);
+        assert_true(trace_object_open(&ready, &object, &scene, NULL, false, 1, NULL) &&
+                    ready.exact);
         const Real3 from = real3_add(ready.offset, vector(-6, 6));
         const Real3 to = trace_object_place(&ready, vector(-1, 1));
         const Real3 way = real3_scale(real3_subtract(to, from), uniform(-1, 2));
@@ -237,7 +238,7 @@ TEST(open_cylinders_and_sheets_have_their_faces)
 
 /* Triangles. */
 
-static Triangles open_mesh(const Mesh *mesh, Real3 offset, Real3 **points)
+static Triangles open_mesh(const Mesh *mesh, Real3 offset, int threads, Real3 **points)
 {
     Triangles triangles;
     *points = malloc(mesh->vertex_count * sizeof **points);
@@ -246,7 +247,7 @@ static Triangles open_mesh(const Mesh *mesh, Real3 offset, Real3 **points)
         const float *p = mesh->vertices[i].position;
         (*points)[i] = real3_add((Real3){(Real)p[0], (Real)p[1], (Real)p[2]}, offset);
     }
-    assert_true(triangles_open(&triangles, mesh, *points, false, NULL));
+    assert_true(triangles_open(&triangles, mesh, *points, false, threads, NULL));
     return triangles;
 }
 
@@ -257,30 +258,73 @@ static void close_mesh(Mesh *mesh, Triangles *triangles, Real3 *points)
     mesh_close(mesh);
 }
 
+/* What a ray or segment meets if every triangle is tried. */
+static bool any_of_all(const Triangles *triangles, Real3 direction, TriangleHit *nearest,
+                       const TriangleSegment *segment)
+{
+    BoundsNode node = {.children = {{0, 1}}};
+    Triangles each = {.count = 1, .nodes = &node};
+    bool blocked = false;
+    for (int axis = 0; axis < 3; axis++)
+        for (int child = 0; child < BOUNDS_WIDTH; child++) {
+            node.sides[0][axis][child] = child == 0 ? -100 : INFINITY;
+            node.sides[1][axis][child] = child == 0 ? 100 : -INFINITY;
+        }
+    for (size_t k = 0; k < triangles->count; k++) {
+        each.triangles = &triangles->triangles[k];
+        triangles_ray(&each, direction, 0.1, 100, nearest);
+        blocked |= triangles_block(&each, segment);
+    }
+    return blocked;
+}
+
 TEST(boxes_contain_their_triangles)
 {
     Mesh mesh;
     Real3 *points;
+    int blocked = 0;
     assert_true(mesh_teapot(&mesh, 1, 9, NULL));
-    Triangles triangles = open_mesh(&mesh, (Real3){0.1, -0.2, -4}, &points);
-    BoundsNode node = {.count = 1};
-    Triangles each = {.count = 1, .nodes = &node};
+    Triangles triangles = open_mesh(&mesh, (Real3){0.1, -0.2, -4}, 1, &points);
     for (int i = 0; i < 1000; i++) {
         const Real3 direction = {uniform(-0.5, 0.5), uniform(-0.3, 0.3), -1};
+        const TriangleSegment segment = {
+            .from = {uniform(-2, 2), uniform(-1, 1), uniform(-5, -3)},
+            /* Some along an axis, where what the boxes are met by is infinite. */
+            .way = {i % 4 == 0 ? 0 : uniform(-3, 3), i % 8 == 0 ? -0.0 : uniform(-3, 3), 1},
+            .endless = i % 2,
+            .own = TRIANGLES_NONE};
         TriangleHit hit = {.t = INFINITY}, nearest = {.t = INFINITY};
         const bool met = triangles_ray(&triangles, direction, 0.1, 100, &hit);
-        for (size_t k = 0; k < triangles.count; k++) {
-            each.triangles = &triangles.triangles[k];
-            for (int axis = 0; axis < 3; axis++) {
-                node.low[axis] = -100;
-                node.high[axis] = 100;
-            }
-            triangles_ray(&each, direction, 0.1, 100, &nearest);
-        }
+        const bool any = any_of_all(&triangles, direction, &nearest, &segment);
         assert_int_equal(met, nearest.t < INFINITY);
         assert_true(hit.t == nearest.t);
+        assert_int_equal(triangles_block(&triangles, &segment), any);
+        blocked += any;
     }
+    assert_in_range(blocked, 200, 800);
     close_mesh(&mesh, &triangles, points);
+}
+
+/* The same triangles in the same boxes, whose numbers differ. */
+TEST(threads_build_the_same_hierarchy)
+{
+    Mesh mesh;
+    Real3 *points, *same;
+    assert_true(mesh_teapot(&mesh, 1, 24, NULL));
+    Triangles one = open_mesh(&mesh, (Real3){0, 0, -4}, 1, &points);
+    Triangles many = open_mesh(&mesh, (Real3){0, 0, -4}, 5, &same);
+    assert_int_equal(one.count, many.count);
+    assert_memory_equal(one.triangles, many.triangles, one.count * sizeof *one.triangles);
+    for (int i = 0; i < 1000; i++) {
+        const Real3 direction = {uniform(-0.5, 0.5), uniform(-0.3, 0.3), -1};
+        TriangleHit hit = {.t = INFINITY}, other = {.t = INFINITY};
+        assert_int_equal(triangles_ray(&one, direction, 0.1, 100, &hit),
+                         triangles_ray(&many, direction, 0.1, 100, &other));
+        assert_true(hit.t == other.t && hit.index == other.index);
+    }
+    triangles_close(&many);
+    free(same);
+    close_mesh(&mesh, &one, points);
 }
 
 /* At the corners and on the sides of triangles, as seen from the eye. */
@@ -289,7 +333,7 @@ TEST(no_ray_passes_between_triangles)
     Mesh mesh;
     Real3 *points;
     assert_true(mesh_sphere(&mesh, 1, 24, 16, NULL));
-    Triangles triangles = open_mesh(&mesh, (Real3){0, 0, -3}, &points);
+    Triangles triangles = open_mesh(&mesh, (Real3){0, 0, -3}, 1, &points);
     for (size_t i = 0; i < mesh.index_count; i++) {
         const Real3 a = points[mesh.indices[i]];
         const Real3 b = points[mesh.indices[i % 3 == 2 ? i - 2 : i + 1]];
@@ -312,7 +356,7 @@ TEST(faces_of_a_cube_are_pieces_and_a_sphere_is_one)
     Mesh mesh;
     Real3 *points;
     assert_true(solid_mesh(&(Solid){.kind = SOLID_BOX, .radius = 1}, 4, &mesh, NULL));
-    Triangles triangles = open_mesh(&mesh, (Real3){0, 0, -4}, &points);
+    Triangles triangles = open_mesh(&mesh, (Real3){0, 0, -4}, 1, &points);
     for (size_t i = 0; i < triangles.count; i++)
         for (size_t k = 0; k < triangles.count; k++) {
             const Triangle *a = &triangles.triangles[i], *b = &triangles.triangles[k];
@@ -320,7 +364,7 @@ TEST(faces_of_a_cube_are_pieces_and_a_sphere_is_one)
         }
     close_mesh(&mesh, &triangles, points);
     assert_true(mesh_sphere(&mesh, 1, 12, 12, NULL)); /* with a seam, and copies of its poles */
-    triangles = open_mesh(&mesh, (Real3){0, 0, -4}, &points);
+    triangles = open_mesh(&mesh, (Real3){0, 0, -4}, 1, &points);
     for (size_t i = 0; i < triangles.count; i++)
         assert_int_equal(triangles.triangles[i].piece, triangles.triangles[0].piece);
     close_mesh(&mesh, &triangles, points);
