@@ -77,6 +77,21 @@ const Controls = (() => {
         return {number, whole: number, color}[option.kind] || text;
     }
 
+    /* A download. Some browsers read the blob after the click. */
+    function save(name, blob) {
+        const link = element("a", {download: name, href: URL.createObjectURL(blob)});
+        link.click();
+        setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+    }
+
+    function paint(canvas, picture) {
+        if (canvas.width !== picture.width || canvas.height !== picture.height) {
+            canvas.width = picture.width;
+            canvas.height = picture.height;
+        }
+        canvas.getContext("2d").putImageData(picture, 0, 0);
+    }
+
     /* A browser opens a dropped file in place of the page, with the texts in it; say(name) instead. */
     function refuseFiles(say) {
         for (const kind of ["dragover", "drop"])
@@ -128,5 +143,5 @@ const Controls = (() => {
         };
     }
 
-    return {element, refuseFiles, fill};
+    return {element, save, paint, refuseFiles, fill};
 })();

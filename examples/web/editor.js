@@ -133,12 +133,7 @@ const Editor = (() => {
             run();
         }
 
-        function save() {
-            const link = element("a", {download: files.value.replace(/.*\//, ""),
-                                       href: URL.createObjectURL(new Blob([field.value], {type: "text/plain"}))});
-            link.click();
-            URL.revokeObjectURL(link.href);
-        }
+        const save = () => Controls.save(files.value.replace(/.*\//, ""), new Blob([field.value], {type: "text/plain"}));
 
         files.append(...names.map(name => element("option", {value: name}, name)));
         files.addEventListener("change", show);

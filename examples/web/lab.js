@@ -34,13 +34,6 @@ const Lab = (() => {
         return answer;
     }
 
-    function paint(id, picture) {
-        const canvas = part(id);
-        canvas.width = picture.width;
-        canvas.height = picture.height;
-        canvas.getContext("2d").putImageData(picture, 0, 0);
-    }
-
     /* null: something else is drawn instead; else a message, "" if it is drawn. */
     async function draw(exact) {
         const answer = await ask({what: "draw", seconds: lab.seconds, exact});
@@ -51,7 +44,7 @@ const Lab = (() => {
             return short(answer.message);
         for (const id of ["drawn", "expected", "difference"])
             if (answer[id])
-                paint(id, answer[id]);
+                Controls.paint(part(id), answer[id]);
         part("compared").textContent = !exact ? "" : answer.largest < 0 ? "" :
             "Largest difference inside objects: " + answer.largest.toFixed(2) + " steps of 1/255.";
         return "";
@@ -96,9 +89,9 @@ const Lab = (() => {
         nodes.push(...list(verdict.mistakes.map(hint), "Mistakes"),
                    ...list(verdict.symptoms.map(text => element("li", {}, text)), "Symptoms"));
         if (sheet) {
-            const canvas = element("canvas", {id: "sheet", width: sheet.width, height: sheet.height, role: "img",
+            const canvas = element("canvas", {id: "sheet", role: "img",
                                               "aria-label": "The worst scene: drawn, right, difference"});
-            canvas.getContext("2d").putImageData(sheet, 0, 0);
+            Controls.paint(canvas, sheet);
             nodes.push(element("figure", {}, canvas,
                                element("figcaption", {}, "The worst scene: drawn, right, difference")));
         }
@@ -128,10 +121,7 @@ const Lab = (() => {
         const student = part("student").value.trim().replace(/[^\p{L}\p{N}._-]+/gu, "_").replace(/^[._-]+/, "");
         const texts = lab.editor.texts();
         const all = new Map(lab.files.map(({name, text}) => [name, texts.has(name) ? texts.get(name) : text]));
-        const link = element("a", {download: (student || "mine") + "-" + number + ".zip",
-                                   href: URL.createObjectURL(Zip.encode(all))});
-        link.click();
-        setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+        Controls.save((student || "mine") + "-" + number + ".zip", Zip.encode(all));
     }
 
     function listen() {

@@ -54,12 +54,9 @@ const LabWorker = (() => {
     }
 
     function start() {
-        const text = ['"use strict";', lightingFactory, Engine, "(" + work + ")();"].join("\n");
-        const address = URL.createObjectURL(new Blob([text], {type: "text/javascript"}));
-        worker = new Worker(address);
+        worker = startWorker(work);
         worker.onmessage = ({data}) => data.lost ? again() : finish(data);
         worker.onerror = event => end(event.message || "this browser starts no worker");
-        URL.revokeObjectURL(address);
     }
 
     function finish(answer) {

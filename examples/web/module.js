@@ -9,6 +9,15 @@ async function compileLighting() {
     return WebAssembly.compile(await new Response(stream).arrayBuffer());
 }
 
+/* A worker that has Engine and runs a function. From a file none is allowed without a server, from a text one is. */
+function startWorker(work) {
+    const text = ['"use strict";', lightingFactory, Engine, "(" + work + ")();"].join("\n");
+    const address = URL.createObjectURL(new Blob([text], {type: "text/javascript"}));
+    const worker = new Worker(address);
+    URL.revokeObjectURL(address);
+    return worker;
+}
+
 /* One instance: examples/web/page.h in JavaScript. `canvas` gets the WebGL context, and is never shown. */
 class Engine {
     static async open(compiled, canvas) {

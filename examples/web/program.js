@@ -86,12 +86,7 @@ const Page = (() => {
     }
 
     function paint(picture) {
-        const canvas = part("picture");
-        if (canvas.width !== picture.width || canvas.height !== picture.height) {
-            canvas.width = picture.width;
-            canvas.height = picture.height;
-        }
-        canvas.getContext("2d").putImageData(picture, 0, 0);
+        Controls.paint(part("picture"), picture);
         page.picture = picture;
     }
 
@@ -234,9 +229,7 @@ const Page = (() => {
     async function save() {
         const texts = {Title: page.name, Command: page.engine.text("command"), Software: "lighting, in a browser"};
         const blob = await Png.encode(page.picture, page.values.has("alpha"), texts);
-        const link = element("a", {download: page.name + ".png", href: URL.createObjectURL(blob)});
-        link.click();
-        setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+        Controls.save(page.name + ".png", blob);
         return blob;
     }
 
@@ -254,10 +247,7 @@ const Page = (() => {
         const tell = ({pixels, wrong, rms, maximum}) => pixels + " pixels, largest " + maximum.toFixed(2) + ", rms " +
             rms.toFixed(3) + ", " + wrong + " off by more than one step";
         show("In steps of 1/255. Inside objects: " + tell(result.error.inside) + ". All: " + tell(result.error.all) + ".");
-        const map = part("map");
-        map.width = result.map.width;
-        map.height = result.map.height;
-        map.getContext("2d").putImageData(result.map, 0, 0);
+        Controls.paint(part("map"), result.map);
         part("exact").hidden = false;
         return result;
     }

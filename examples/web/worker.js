@@ -1,6 +1,5 @@
 "use strict";
-/* The exact picture takes a second or more: it is computed in a worker, which has the module and a canvas of its own. A
- * worker from a file is not allowed without a server, one from a text is. */
+/* The exact picture takes a second or more: it is computed in a worker, which has the module and a canvas of its own. */
 const ErrorWorker = (() => {
     let worker = null, answer = null;
 
@@ -32,13 +31,10 @@ const ErrorWorker = (() => {
         cancel();
         return new Promise(resolve => {
             answer = resolve;
-            const text = ['"use strict";', lightingFactory, Engine, "(" + work + ")();"].join("\n");
-            const address = URL.createObjectURL(new Blob([text], {type: "text/javascript"}));
-            worker = new Worker(address);
+            worker = startWorker(work);
             worker.onmessage = ({data}) => { resolve(data); cancel(); };
             worker.onerror = event => cancel(event.message || "this browser starts no worker");
             worker.postMessage(task);
-            URL.revokeObjectURL(address);
         });
     }
 

@@ -7,6 +7,7 @@ Prints a table in Markdown, either way; --short measures one round, to see that 
 Chromium or a driver that draws.
 """
 import os
+import re
 import statistics
 import subprocess
 import sys
@@ -52,6 +53,9 @@ def cell(values, digits):
 
 
 def measure(process, page, rounds):
+    emcc = subprocess.run(["emcc", "--version"], stdout=subprocess.PIPE, text=True, check=True).stdout
+    print(f"In the browser: {re.search(r'Chrome/[0-9]+', page.run('navigator.userAgent'))[0]}; "
+          f"{page.run(pages.RENDERER)}; emcc {re.search(r'[0-9]+[.][0-9.]+', emcc)[0]} -Oz\n")
     print("| frames of 400x400 | natively, ms | in Chromium, ms | Chromium over native | native again (the noise) |")
     print("|---|---|---|---|---|")
     for program in PROGRAMS:
