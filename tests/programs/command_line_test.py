@@ -36,7 +36,8 @@ if "ASAN_OPTIONS" in os.environ:
     os.environ["ASAN_OPTIONS"] += ":detect_leaks=0"
 
 EXAMPLES, SOURCE = (os.path.abspath(path) for path in sys.argv[1:3])
-PROGRAMS = sorted(name[:-2] for name in os.listdir(os.path.join(SOURCE, "examples/lecture")))
+PROGRAMS = sorted(name[:-2] for name in os.listdir(os.path.join(SOURCE, "examples/lecture"))
+                  if name.endswith(".c"))
 SCENES = sorted(name[:-2] for name in os.listdir(os.path.join(SOURCE, "examples/lighting"))
                 if name.endswith(".c"))
 # Built where cairo is.
