@@ -56,7 +56,8 @@ class Server:
         reading, writing = os.pipe()
         size = f"{SCREEN[0]}x{SCREEN[1]}x24"
         self.process = subprocess.Popen(
-            ["Xvfb", "-displayfd", str(writing), "-screen", "0", size, "-fbdir", self.folder,
+            # -r: on a busy machine the release comes late, and the key would repeat.
+            ["Xvfb", "-displayfd", str(writing), "-r", "-screen", "0", size, "-fbdir", self.folder,
              "-nolisten", "tcp", "-noreset", "-ac", *options],
             pass_fds=[writing], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(writing)
