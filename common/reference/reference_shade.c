@@ -1,7 +1,5 @@
 #include "reference/reference_shade.h"
 
-#include "reference/reference_shadow.h"
-
 /* What of a positional light arrives at distance d. */
 static Real attenuation(const Light *light, Real d)
 {
@@ -25,12 +23,13 @@ static Real highlight_cosine(const Shading *shading, Real3 n, Real3 l, Real3 v)
 /* Without what a shadow keeps off. At its edge all of that would change; outside the light's cone
  * nothing does, but at the cone's edge, about which the points inside tell. `sum` is the light's.
  */
-static Real3 shadowed(const struct ShadowPoint *shadows, int number, const Real3 *ambient,
-                      bool in_cone, bool faces, Real highlight, Real3 sum, ShadeSides *sides)
+static Real3 shadowed(const Shading *shading, const struct ShadowPoint *shadows, int number,
+                      const Real3 *ambient, bool in_cone, bool faces, Real highlight, Real3 sum,
+                      ShadeSides *sides)
 {
     const Real arriving = real3_largest(real3_subtract(sum, *ambient));
     const bool reaches = in_cone && faces;
-    const bool hidden = reaches && arriving > 0 && shadow_falls(shadows, number);
+    const bool hidden = reaches && arriving > 0 && shading->shadow_falls(shadows, number);
     const Real3 left = hidden ? *ambient : sum;
     if (reaches && arriving > 0)
         shade_note_light(sides, number, hidden);
@@ -83,7 +82,8 @@ Real3 shade_point(const Shading *shading, const Material *material, Real3 positi
             sum = real3_add(sum, highlight);
         if (shadows && light->shadows) {
             const Real3 kept = real3_scale(real3_product(real3(light->ambient), ambient), share);
-            sum = shadowed(shadows, i, &kept, in_cone, faces, real3_largest(highlight), sum, sides);
+            sum = shadowed(shading, shadows, i, &kept, in_cone, faces, real3_largest(highlight),
+                           sum, sides);
         } else {
             shade_note_side(sides, 2 * i + 1, faces, in_cone ? real3_largest(highlight) : 0);
             if (light->kind == LIGHT_SPOT)

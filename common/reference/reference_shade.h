@@ -14,7 +14,9 @@
 
 #include <stdint.h>
 
-struct ShadowPoint; /* see reference_shadow.h */
+/* Where shadows are looked for: of reference_shadow.h, which is above this. */
+struct ShadowPoint;
+typedef bool ShadowFalls(const struct ShadowPoint *point, int light);
 
 typedef struct ShadeLight {
     const Light *light;
@@ -29,7 +31,8 @@ typedef struct Shading {
     Real3 global_ambient;
     bool reflection_phong;
     bool distant_viewer;
-    Real3 view; /* unit, towards the viewer where that is distant */
+    Real3 view;                /* unit, towards the viewer where that is distant */
+    ShadowFalls *shadow_falls; /* needed where `shadows` of shade_point is not NULL */
 } Shading;
 
 /* On which side of its jumps a point lies: of each light whether it is within the cone, and whether

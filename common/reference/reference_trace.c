@@ -150,6 +150,7 @@ bool trace_open(Trace **opened, const Scene *scene, bool meshes, int width, int 
     trace->shading.global_ambient = real3(scene->global_ambient);
     trace->shading.reflection_phong = scene->reflection == REFLECTION_PHONG;
     trace->shading.distant_viewer = scene->distant_viewer;
+    trace->shading.shadow_falls = shadow_falls;
     set_camera(trace, &scene->camera, eye_from_world, width, height);
     if (!fill(trace, scene, eye_from_world, meshes, threads, stop)) {
         trace_close(trace);
