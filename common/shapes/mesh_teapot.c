@@ -100,14 +100,6 @@ static Vec3 weighted(const Vec3 points[4], const double weights[4])
                     vec3_add(vec3_scale(points[1], weights[1]), vec3_scale(points[2], weights[2])));
 }
 
-static Vec3 patch_at(const Vec3 control[4][4], const double down[4], const double around[4])
-{
-    Vec3 points[4];
-    for (int i = 0; i < 4; i++)
-        points[i] = weighted(control[i], around);
-    return weighted(points, down);
-}
-
 /* Converts to GLUT's coordinates: y up, 1.5 lower, half the size. (x, y, z) to (x, z, -y) is a
  * rotation. */
 static void set_vertex(MeshVertex *vertex, Vec3 position, Vec3 normal, double size)
@@ -120,19 +112,33 @@ static void set_vertex(MeshVertex *vertex, Vec3 position, Vec3 normal, double si
     vec3_to_float((Vec3){normal.x + 0.0, normal.z + 0.0, -normal.y + 0.0}, vertex->normal);
 }
 
-static void patch_vertex(MeshVertex *vertex, const Vec3 control[4][4], const Basis *down,
-                         const Basis *around, double size)
+/* A curve down a patch, by its control points, and their derivatives around it. */
+typedef struct Curve {
+    Vec3 value[4], slope[4];
+} Curve;
+
+static Curve curve_at(const Vec3 control[4][4], const Basis *around)
 {
-    const Vec3 along_down = patch_at(control, down->slope, around->value);
-    Vec3 along_around = patch_at(control, down->value, around->slope);
+    Curve curve;
+    for (int i = 0; i < 4; i++) {
+        curve.value[i] = weighted(control[i], around->value);
+        curve.slope[i] = weighted(control[i], around->slope);
+    }
+    return curve;
+}
+
+static void curve_vertex(MeshVertex *vertex, const Curve *curve, const Basis *down, double size)
+{
+    const Vec3 along_down = weighted(curve->value, down->slope);
+    Vec3 along_around = weighted(curve->slope, down->value);
     Vec3 normal;
     /* Where a row degenerates to a point, the limit direction: the mixed derivative, away from the
      * point. */
     if (vec3_length(along_around) == 0)
         along_around =
-            vec3_scale(patch_at(control, down->slope, around->slope), down->value[0] == 1 ? 1 : -1);
+            vec3_scale(weighted(curve->slope, down->slope), down->value[0] == 1 ? 1 : -1);
     vec3_normalize(vec3_cross(along_down, along_around), &normal);
-    set_vertex(vertex, patch_at(control, down->value, around->value), normal, size);
+    set_vertex(vertex, weighted(curve->value, down->value), normal, size);
 }
 
 /* False if stopped. */
@@ -148,13 +154,14 @@ static bool part_vertices(MeshVertex *vertices, const Part *part, double size, i
             return false;
         for (int i = 0; i < 4; i++)
             part->control(part->lines[3 * down + i], across, control[i]);
-        for (int j = 0; j <= divisions; j++) {
-            const Basis at_row = basis_at(j, divisions);
-            for (int i = 0; i <= divisions; i++) {
-                const Basis at_column = basis_at(i, divisions);
-                patch_vertex(&vertices[(size_t)(down * divisions + j) * row +
-                                       (size_t)(across * divisions + i)],
-                             control, &at_row, &at_column, size);
+        for (int i = 0; i <= divisions; i++) {
+            const Basis around = basis_at(i, divisions);
+            const Curve curve = curve_at(control, &around);
+            MeshVertex *column =
+                &vertices[(size_t)(down * divisions) * row + (size_t)(across * divisions + i)];
+            for (int j = 0; j <= divisions; j++) {
+                const Basis at_row = basis_at(j, divisions);
+                curve_vertex(&column[(size_t)j * row], &curve, &at_row, size);
             }
         }
     }
