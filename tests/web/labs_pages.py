@@ -85,8 +85,11 @@ class Verdicts(OfLabs):
             with self.subTest(name, lab=lab):
                 self.assertEqual(said(self.judge(lab, texts)), said(check(lab, texts)))
         # Operations are not counted.
-        verdict = self.judge(10, mistakes.read(10))
-        self.assertEqual((verdict["verdict"], verdict["points"]), ("right", 5))
+        texts = mistakes.read(10)
+        named = texts["budget.c"].replace("lices = 112;", "lices = SLICES;").replace("\nvoid", "\n#define SLICES 112\nvoid")
+        for text in (texts["budget.c"], named, named.replace("#define SLICES 112", "").replace("{", "{ const int SLICES = 112;")):
+            verdict = self.judge(10, {**texts, "budget.c": text})
+            self.assertEqual((verdict["verdict"], verdict["points"]), ("right", 5), text)
 
     def test_verdicts_of_the_corpus_are_native(self):
         seed = int(os.environ.get("LIGHTING_TEST_SEED", 1))

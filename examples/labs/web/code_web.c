@@ -1,6 +1,6 @@
 /*
  * A page has no C compiler. Lab 3's matrices need one; of lab 10's budget.c it reads the usual
- * form, assignments of numbers, and leaves everything else to the native check.
+ * form, assignments of numbers that may have names, and leaves everything else to the native check.
  */
 #include "labs/check/code.h"
 
@@ -74,19 +74,85 @@ static bool take_number(const char **at, int *number)
 
 static bool take_truth(const char **at, bool *truth)
 {
-    *truth = take(at, "true");
-    return *truth || take(at, "false");
+    *truth = take(at, "true") || take(at, "1");
+    return *truth || take(at, "false") || take(at, "0");
+}
+
+/* Numbers by name; the parameter's name has -1. */
+typedef struct {
+    char names[8][64];
+    int values[8];
+    int count;
+} Constants;
+
+static int find_constant(const Constants *constants, const char *name)
+{
+    int i = 0;
+    while (i < constants->count && strcmp(constants->names[i], name) != 0)
+        i++;
+    return i;
+}
+
+/* A name that means nothing else here or in C. */
+static bool take_new_name(const char **at, Constants *constants)
+{
+    static const char TAKEN[] =
+        " auto bool break case char const continue default do double else enum extern false float "
+        "for goto if inline int long register restrict return short signed sizeof static struct "
+        "switch true typedef union unsigned void volatile while slices stacks cull lab_budget "
+        "LabBudget ";
+    char name[64], word[66];
+    const int i = constants->count;
+    if (i == 8 || !take_word(at, name, sizeof name) || find_constant(constants, name) < i)
+        return false;
+    snprintf(word, sizeof word, " %s ", name);
+    if (strstr(TAKEN, word))
+        return false;
+    snprintf(constants->names[i], sizeof constants->names[i], "%s", name);
+    constants->count++;
+    return true;
+}
+
+/* "#define SLICES 64", alone on its line. */
+static bool take_macro(const char **at, Constants *constants)
+{
+    if (!take(at, "#define") || !isblank((unsigned char)**at) || !take_new_name(at, constants) ||
+        !take_number(at, &constants->values[constants->count - 1]))
+        return false;
+    return memchr(*at, '\n', (size_t)(next_token(*at) - *at)) != NULL;
+}
+
+/* "const int slices = 64;", of which "const" is taken already. */
+static bool take_constant(const char **at, Constants *constants)
+{
+    return take(at, "int") && take_new_name(at, constants) && take(at, "=") &&
+           take_number(at, &constants->values[constants->count - 1]) && take(at, ";");
+}
+
+static bool take_value(const char **at, const Constants *constants, int *value)
+{
+    char name[64];
+    if (take_number(at, value))
+        return true;
+    if (!take_word(at, name, sizeof name))
+        return false;
+    const int i = find_constant(constants, name);
+    if (i == constants->count || constants->values[i] < 0)
+        return false;
+    *value = constants->values[i];
+    return true;
 }
 
 /* "budget->slices = 12;" */
-static bool take_assignment(const char **at, const char *name, LabBudget *budget)
+static bool take_assignment(const char **at, const Constants *constants, const char *name,
+                            LabBudget *budget)
 {
     if (!take(at, name) || !take(at, "->"))
         return false;
     if (take(at, "slices"))
-        return take(at, "=") && take_number(at, &budget->slices) && take(at, ";");
+        return take(at, "=") && take_value(at, constants, &budget->slices) && take(at, ";");
     if (take(at, "stacks"))
-        return take(at, "=") && take_number(at, &budget->stacks) && take(at, ";");
+        return take(at, "=") && take_value(at, constants, &budget->stacks) && take(at, ";");
     return take(at, "cull") && take(at, "=") && take_truth(at, &budget->cull) && take(at, ";");
 }
 
@@ -101,16 +167,27 @@ static int line_of(const char *text, const char *at)
 bool code_budget(const Lab *lab, const char *text, const char *folder, LabBudget *budget,
                  Verdict *verdict, Message *message)
 {
-    char name[64];
+    Constants constants = {.count = 0};
     const char *at = text, *before = text;
     (void)folder;
     *budget = (LabBudget){.slices = 16, .stacks = 16};
-    bool done = take(&at, "void") && take(&at, "lab_budget") && take(&at, "(") &&
-                take(&at, "LabBudget") && take(&at, "*") && take_word(&at, name, sizeof name) &&
-                take(&at, ")") && take(&at, "{");
+    bool done = true;
+    while (done && *next_token(at) == '#') {
+        before = at;
+        done = take_macro(&at, &constants);
+    }
+    before = done ? at : before;
+    done = done && take(&at, "void") && take(&at, "lab_budget") && take(&at, "(") &&
+           take(&at, "LabBudget") && take(&at, "*") && take_new_name(&at, &constants);
+    const int parameter = constants.count - 1;
+    if (done)
+        constants.values[parameter] = -1;
+    done = done && take(&at, ")") && take(&at, "{");
     while (done && !take(&at, "}")) {
         before = at;
-        done = take_assignment(&at, name, budget);
+        done = take(&at, "const")
+                   ? take_constant(&at, &constants)
+                   : take_assignment(&at, &constants, constants.names[parameter], budget);
     }
     if (!done || *next_token(at))
         return message_set(message,
