@@ -95,7 +95,7 @@ static const char *const GROUP_UNIFORMS[] = {
 enum { GROUP_UNIFORM_COUNT = sizeof GROUP_UNIFORMS / sizeof GROUP_UNIFORMS[0] };
 
 /* The defines of group.glsl. 16-bit floats need the guard of the attenuation for any light. */
-enum { MAX_GROUP_DEFINES = 11 };
+enum { MAX_GROUP_DEFINES = 12 };
 static int group_defines(const LightGroup *group, bool mediump,
                          const char *defines[MAX_GROUP_DEFINES])
 {
@@ -115,6 +115,7 @@ static int group_defines(const LightGroup *group, bool mediump,
         {terms->exponent, "EXPONENT"},
         {terms->attenuation && (group->guard_attenuation || mediump), "GUARD_ATTENUATION"},
         {terms->shadow && !terms->at_vertex, "SHADOW"},
+        {terms->shadow && !terms->at_vertex && group->count > 1, "CHANNELS"},
     };
     int count = 0;
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
@@ -181,6 +182,20 @@ static void write_vertex_shadows(const Effects *effects, const Scene *scene, boo
     fprintf(file, "\n");
 }
 
+/* What of a light of the group is in shadow: one channel, if the group has but one light. */
+static void write_shadowed(const Scene *scene, const LightGroup *group, int g, FILE *file)
+{
+    const int mask = group->terms.shadow - 1;
+    if (group->count > 1)
+        fprintf(file,
+                "#define u_Channel u_Channel%d\n"
+                "#define SHADOWED dot(shadow_mask%d, u_Channel[i])\n",
+                g, mask);
+    else
+        fprintf(file, "#define SHADOWED shadow_mask%d.%c\n", mask,
+                "rgba"[effects_channel(scene, group->lights[0]) % SHADOW_CHANNELS]);
+}
+
 /* The text of "lighting/vertex_groups.glsl" or "lighting/fragment_groups.glsl": a function per
  * group, and add_lights, which calls them. */
 static char *groups_text(const Effects *effects, const Scene *scene, bool at_vertex, bool mediump)
@@ -208,8 +223,7 @@ static char *groups_text(const Effects *effects, const Scene *scene, bool at_ver
         if (group->terms.shadow && at_vertex)
             fprintf(file, "#define VERTEX_SHADOW %d\n", shadowed);
         else if (group->terms.shadow)
-            fprintf(file, "#define u_Channel u_Channel%d\n#define SHADOW_MASK shadow_mask%d\n", g,
-                    group->terms.shadow - 1);
+            write_shadowed(scene, group, g, file);
         shadowed += group->terms.shadow ? group->count : 0;
         fprintf(file, "#include \"lighting/group.glsl\"\n#undef GROUP\n#undef COUNT\n");
         for (int i = 0; i < count; i++)
@@ -218,7 +232,7 @@ static char *groups_text(const Effects *effects, const Scene *scene, bool at_ver
             fprintf(file, "#undef %s\n", GROUP_UNIFORMS[i]);
         if (group->terms.shadow)
             fprintf(file, at_vertex ? "#undef VERTEX_SHADOW\n"
-                                    : "#undef u_Channel\n#undef SHADOW_MASK\n");
+                                    : "#undef u_Channel\n#undef SHADOWED\n");
     }
     fprintf(file, "void add_lights(vec3 normal, vec3 position, vec3 viewer, bool front, inout vec3 "
                   "color) {\n");
@@ -585,7 +599,7 @@ static void set_group(GLuint program, const LightingTransforms *transforms, cons
     set_array(program, "u_Attenuation", g, 3, group->count, attenuation);
     set_array(program, "u_Spot", g, 4, group->count, spot);
     set_array(program, "u_Exponent", g, 1, group->count, exponent);
-    if (group->terms.shadow)
+    if (group->terms.shadow && group->count > 1)
         set_channels(program, scene, group, g);
 }
 
@@ -873,6 +887,7 @@ static bool cast_shadow(Lighting *lighting, const ShadowFrame *frame, const Ligh
     thrown.two_sided = frame->scene->objects[number].two_sided;
     thrown.behind = !lighting->depth_pass && eye_in_shadow(frame, number, light);
     thrown.own = frame->full || frame->plan->receives[number] >> light_number & 1;
+    thrown.odd = frame->scene->objects[number].wrong_normals || lighting->normal_matrix;
     thrown.beyond = eye_beyond(frame, end);
     thrown.facing = facing_of(frame, number, thrown.caster->silhouette.closed, thrown.light_object);
     return shadow_mask_cast(&lighting->mask, &thrown, message);

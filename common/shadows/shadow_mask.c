@@ -424,7 +424,7 @@ bool shadow_mask_cast(ShadowMask *mask, const ShadowThrow *thrown, Message *mess
     ShadowVolume *volume = &mask->volume;
     Uploaded sides;
     if (!shadow_volume_make(volume, silhouette, thrown->light_object, thrown->facing,
-                            end_of(thrown), message))
+                            end_of(thrown), thrown->behind || thrown->odd, message))
         return false;
     set_light(mask, thrown, silhouette->center);
     set_state(&thrown->surface, false);

@@ -2,8 +2,12 @@
 
 #include "base/random.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* The sine of how far a normal is turned away from a light that a program in 16 bits sees so. */
+static const double CLEARLY = 0.02;
 
 /* A hash table of numbers of items, with a comparison by the caller: open addressing. */
 typedef struct Table {
@@ -103,6 +107,19 @@ static bool is_closed(const Silhouette *made)
     return volume > 0;
 }
 
+/* For is_dark. */
+static void find_lows(Silhouette *made)
+{
+    const Mesh *mesh = made->mesh;
+    for (size_t i = 0; i < 3 * made->triangle_count; i++) {
+        const Vec3 normal = vec3_from_float(mesh->vertices[mesh->indices[i]].normal);
+        const size_t first = i - i % 3;
+        made->lows[i] = vec3_dot(normal, corner(mesh, first));
+        for (size_t k = first + 1; k < first + 3; k++)
+            made->lows[i] = fmin(made->lows[i], vec3_dot(normal, corner(mesh, k)));
+    }
+}
+
 static bool find_edges(Silhouette *made, uint32_t *first)
 {
     const Mesh *mesh = made->mesh;
@@ -134,7 +151,8 @@ bool silhouette_open(Silhouette *silhouette, const Mesh *mesh, Message *message)
     const size_t edges = mesh->index_count + 1;
     uint32_t *first = malloc((mesh->vertex_count + 1) * sizeof *first);
     float center[3];
-    vec3_to_float(vec3_add(box.low, vec3_scale(vec3_subtract(box.high, box.low), 0.5)), center);
+    const Vec3 half = vec3_scale(vec3_subtract(box.high, box.low), 0.5);
+    vec3_to_float(vec3_add(box.low, half), center);
     *silhouette = (Silhouette){.mesh = mesh,
                                .triangle_count = mesh->index_count / 3,
                                .normals = malloc(edges * sizeof(Vec3)),
@@ -142,9 +160,12 @@ bool silhouette_open(Silhouette *silhouette, const Mesh *mesh, Message *message)
                                .edges = malloc(edges * sizeof(uint32_t)),
                                .ends = malloc(edges * sizeof(uint32_t[2])),
                                .nets = malloc(edges * sizeof(int)),
-                               .center = vec3_from_float(center)};
+                               .lows = malloc(edges * sizeof(double)),
+                               .center = vec3_from_float(center),
+                               .radius = 1.001 * vec3_length(half)};
     const bool done = first && silhouette->normals && silhouette->turned && silhouette->edges &&
-                      silhouette->ends && silhouette->nets && find_edges(silhouette, first);
+                      silhouette->ends && silhouette->nets && silhouette->lows &&
+                      find_edges(silhouette, first);
     free(first);
     if (!done) {
         silhouette_close(silhouette);
@@ -152,6 +173,7 @@ bool silhouette_open(Silhouette *silhouette, const Mesh *mesh, Message *message)
                            mesh->index_count / 3);
     }
     silhouette->closed = is_closed(silhouette);
+    find_lows(silhouette);
     return true;
 }
 
@@ -164,6 +186,7 @@ void silhouette_close(Silhouette *silhouette)
     free(silhouette->edges);
     free(silhouette->ends);
     free(silhouette->nets);
+    free(silhouette->lows);
     *silhouette = (Silhouette){.mesh = NULL};
 }
 
@@ -199,13 +222,29 @@ static void add_triangle(ShadowVolume *volume, const Silhouette *silhouette, siz
     volume->cap_counts[which] += 3;
 }
 
-/* A triangle of the volume, and its share in its edges' nets. */
-static void add_cap(ShadowVolume *volume, const Silhouette *silhouette, size_t triangle, bool lit,
-                    bool far)
+/* Whether light falls on no point of a triangle, whose normal is the vertices' interpolated:
+ * N.(L - P) is negative for all pairs of its corners. `reach`: no point is farther from the light.
+ */
+static bool is_dark(const Silhouette *silhouette, size_t triangle, Vec3 light, bool near,
+                    double reach)
+{
+    for (size_t i = 3 * triangle; i < 3 * triangle + 3; i++) {
+        const Mesh *mesh = silhouette->mesh;
+        const Vec3 normal = vec3_from_float(mesh->vertices[mesh->indices[i]].normal);
+        const double most = vec3_dot(normal, light) - (near ? silhouette->lows[i] : 0);
+        const double least = CLEARLY * reach;
+        if (!(most < 0 && most * most > least * least * vec3_dot(normal, normal)))
+            return false;
+    }
+    return true;
+}
+
+/* The share of a triangle of the volume in its edges' nets, and in the cap at the end. */
+static void add_edges(ShadowVolume *volume, const Silhouette *silhouette, size_t triangle, bool lit,
+                      bool far)
 {
     const uint32_t *indices = silhouette->mesh->indices + 3 * triangle;
     const uint32_t *edges = silhouette->edges + 3 * triangle;
-    add_triangle(volume, silhouette, triangle, lit);
     for (size_t k = 0; k < 3; k++) {
         silhouette->nets[edges[k] / 2] += (edges[k] % 2 == 1) == lit ? -1 : 1;
         if (far)
@@ -223,10 +262,13 @@ static void add_side(ShadowVolume *volume, uint32_t a, uint32_t b, ShadowEnd end
 }
 
 bool shadow_volume_make(ShadowVolume *volume, const Silhouette *silhouette, Vec4 light,
-                        SilhouetteFacing facing, ShadowEnd end, Message *message)
+                        SilhouetteFacing facing, ShadowEnd end, bool dark, Message *message)
 {
     const Vec3 place = {light.x, light.y, light.z};
     const bool near = light.w != 0;
+    const double reach =
+        near ? vec3_length(vec3_subtract(place, silhouette->center)) + silhouette->radius
+             : vec3_length(place);
     if (!make_room(volume, silhouette))
         return message_set(message, "shadows: not enough memory for a volume of %zu triangles",
                            silhouette->triangle_count);
@@ -237,8 +279,8 @@ bool shadow_volume_make(ShadowVolume *volume, const Silhouette *silhouette, Vec4
         const Vec3 way = near ? vec3_subtract(place, corner(silhouette->mesh, 3 * t)) : place;
         const bool lit = vec3_dot(silhouette->normals[t], way) > 0;
         if (facing == SILHOUETTE_ALL || lit == (facing == SILHOUETTE_LIT))
-            add_cap(volume, silhouette, t, lit, end == SHADOW_END_CAPS);
-        else
+            add_edges(volume, silhouette, t, lit, end == SHADOW_END_CAPS);
+        if (dark || lit || silhouette->turned[t] || !is_dark(silhouette, t, place, near, reach))
             add_triangle(volume, silhouette, t, lit);
     }
     for (size_t e = 0; e < silhouette->edge_count; e++) {

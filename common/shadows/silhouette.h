@@ -24,9 +24,11 @@ typedef struct Silhouette {
     uint32_t *edges;     /* three for each triangle: twice the edge's number, plus 1 if reversed */
     uint32_t (*ends)[2]; /* of each edge, as vertices of the mesh */
     int *nets;           /* of each edge, while volumes are made */
-    Vec3 center;         /* of the mesh's box, rounded to float */
-    bool closed;         /* as many triangles on the one side of each edge as on the other, and the
-                            outside is where they are counter-clockwise */
+    double *lows;  /* of each corner: its normal's least product with a corner of its triangle */
+    Vec3 center;   /* of the mesh's box, rounded to float */
+    double radius; /* no vertex is farther from there */
+    bool closed;   /* as many triangles on the one side of each edge as on the other, and the
+                      outside is where they are counter-clockwise */
 } Silhouette;
 
 /* False if memory is out. The mesh must outlive the silhouette. */
@@ -60,9 +62,10 @@ typedef enum ShadowEnd {
 } ShadowEnd;
 
 /* `light`, in object coordinates: its position with w = 1, or the direction towards it with w = 0.
- * Triangles without an area are left out. */
+ * Triangles without an area are left out; and without `dark`, of the caps those that face away from
+ * the light as all their vertices' normals do, clearly: no light falls on them anyway. */
 bool shadow_volume_make(ShadowVolume *volume, const Silhouette *silhouette, Vec4 light,
-                        SilhouetteFacing facing, ShadowEnd end, Message *message);
+                        SilhouetteFacing facing, ShadowEnd end, bool dark, Message *message);
 static inline int shadow_volume_caps(bool lit, bool turned)
 {
     return 2 * lit + turned;

@@ -39,8 +39,10 @@ uniform vec4 u_Spot[COUNT]; // the cone's axis, away from the light, unit; the c
 #ifdef EXPONENT
 uniform float u_Exponent[COUNT];
 #endif
-#ifdef SHADOW
+#ifdef CHANNELS
 uniform vec4 u_Channel[COUNT]; // 1 in that of the light, of the mask that the group looks up
+#endif
+#ifdef SHADOW
 #define LIT(value) (lit * (value))
 #else
 #define LIT(value) (value)
@@ -101,7 +103,7 @@ void GROUP(vec3 normal, vec3 position, vec3 viewer, bool front, inout vec3 color
         float n_dot_l = dot(normal, to_light);
 #endif
 #ifdef SHADOW
-        float lit = 1.0 - dot(SHADOW_MASK, u_Channel[i]);
+        float lit = 1.0 - SHADOWED;
 #endif
 #ifdef DIFFUSE
         sum += PICK(u_FrontDiffuse[i], u_BackDiffuse[i]) * LIT(max(n_dot_l, 0.0));
