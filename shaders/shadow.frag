@@ -17,9 +17,10 @@ varying highp vec2 v_Depth;
 #ifdef LOOK_UP
 varying highp vec3 v_Place; // from the light, which looks along -z
 varying highp vec3 v_Normal;
-uniform mat4 u_MapFromLight;
-uniform vec4 u_MapSize; // in texels; 1 over that; a texel's width, at distance 1; 1 if that grows
-uniform vec4 u_Bias;    // in texels: towards the light, that times the slope, along the normal
+uniform vec3 u_MapScale; // to the map's texture and depth, from 0 to 1; in perspective of (x, y, 1)
+uniform vec3 u_MapMove;
+uniform vec3 u_MapSize; // in texels; 1 over that; a texel's width, in perspective at distance 1
+uniform vec3 u_Bias;    // in texels: towards the light, that times the slope, along the normal
 uniform highp sampler2D u_Map; // without it 16 bits are enough for a driver
 
 float map_depth(vec2 at) {
@@ -34,20 +35,56 @@ float hidden(vec3 at) {
     return map_depth(at.xy) < at.z ? 1.0 : 0.0;
 }
 
-// The place on the map, and the depth to compare.
-vec3 map_place() {
-    vec3 to_light = mix(vec3(0.0, 0.0, 1.0), normalize(-v_Place), u_MapSize.w);
-    vec3 normal = v_Normal * inversesqrt(max(dot(v_Normal, v_Normal), 1e-37));
-    float cosine = dot(normal, to_light); // where it is negative, nothing is lit
-    float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
-    float texel = u_MapSize.z * mix(1.0, -v_Place.z, u_MapSize.w);
-    float nearer = u_Bias.x + u_Bias.y * min(sine / max(abs(cosine), 1e-3), 20.0);
-    vec3 moved = v_Place + texel * (nearer * to_light + u_Bias.z * sine * sign(cosine) * normal);
-    vec4 map = u_MapFromLight * vec4(moved, 1.0);
-    if (map.w <= 0.0 || max(abs(map.x), abs(map.y)) >= map.w)
-        discard; // beside all that throws shadows
-    vec3 at = 0.5 * map.xyz / map.w + 0.5;
-    return vec3(at.xy, min(at.z, 1.0)); // nothing throws shadows from beyond the map's depth
+// The place on the map, and the depth to compare. False: beside all that throws shadows.
+bool find_place(out vec3 at) {
+    vec3 place = v_Place;
+#ifdef PERSPECTIVE
+#define TO_LIGHT (-v_Place)
+    float squares = dot(v_Normal, v_Normal) * dot(TO_LIGHT, TO_LIGHT);
+#else
+#define TO_LIGHT vec3(0.0, 0.0, 1.0)
+    float squares = dot(v_Normal, v_Normal);
+#endif
+    float along = dot(v_Normal, TO_LIGHT); // where it is negative, nothing is lit
+    // The tangent of the angle of arrival, up to 20.
+    float sines = max(squares - along * along, 0.0);
+    float slope = sqrt(sines / max(max(along * along, squares / 401.0), 1e-37));
+    float nearer = u_MapSize.z * (u_Bias.x + u_Bias.y * slope);
+#ifdef ALONG_NORMAL
+    float texel = u_MapSize.z * sqrt(sines / max(squares, 1e-37)) *
+                  inversesqrt(max(dot(v_Normal, v_Normal), 1e-37));
+#ifdef PERSPECTIVE
+    texel *= -v_Place.z;
+#endif
+    place += texel * u_Bias.z * sign(along) * v_Normal;
+#endif
+    // Towards the light is straight up from the map; a texel is as much wider as it is farther.
+#ifdef PERSPECTIVE
+    float inverse = 1.0 / max(-place.z, 1e-37);
+    at = inverse * u_MapScale * vec3(place.xy, 1.0 + nearer) + u_MapMove;
+    bool before = place.z < 0.0;
+#else
+    at = u_MapScale * vec3(place.xy, place.z + nearer) + u_MapMove;
+    const bool before = true;
+#endif
+    at.z = min(at.z, 1.0); // nothing throws shadows from beyond the map's depth
+    return before && max(abs(at.x - 0.5), abs(at.y - 0.5)) < 0.5;
+}
+
+float find_shadow() {
+    vec3 at;
+    bool there = find_place(at);
+#ifdef SMOOTH
+    vec2 texels = at.xy * u_MapSize.x - 0.5;
+    vec2 share = fract(texels);
+    vec3 low = vec3((floor(texels) + 0.5) * u_MapSize.y, at.z);
+    vec3 next = vec3(u_MapSize.y, 0.0, 0.0);
+    float shadow = mix(mix(hidden(low), hidden(low + next.xyz), share.x),
+                       mix(hidden(low + next.yxz), hidden(low + next.xxz), share.x), share.y);
+#else
+    float shadow = hidden(at);
+#endif
+    return there ? shadow : 0.0;
 }
 #endif
 
@@ -61,19 +98,11 @@ void main() {
     gl_FragColor = vec4(1.0);
 #endif
 #elif defined(LOOK_UP)
-    vec3 at = map_place();
-#ifdef SMOOTH
-    vec2 texels = at.xy * u_MapSize.x - 0.5;
-    vec2 share = fract(texels);
-    vec3 low = vec3((floor(texels) + 0.5) * u_MapSize.y, at.z);
-    vec3 next = vec3(u_MapSize.y, 0.0, 0.0);
-    float shadow = mix(mix(hidden(low), hidden(low + next.xyz), share.x),
-                       mix(hidden(low + next.yxz), hidden(low + next.xxz), share.x), share.y);
-#else
-    float shadow = hidden(at);
-#endif
+    float shadow = find_shadow();
+#ifndef ALONE
     if (shadow == 0.0)
-        discard;
+        discard; // another map of the same light may know
+#endif
     gl_FragColor = vec4(shadow);
 #else
 #ifdef FLATTEN

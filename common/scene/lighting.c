@@ -231,8 +231,8 @@ static char *groups_text(const Effects *effects, const Scene *scene, bool at_ver
         for (int i = 0; i < GROUP_UNIFORM_COUNT; i++)
             fprintf(file, "#undef %s\n", GROUP_UNIFORMS[i]);
         if (group->terms.shadow)
-            fprintf(file, at_vertex ? "#undef VERTEX_SHADOW\n"
-                                    : "#undef u_Channel\n#undef SHADOWED\n");
+            fprintf(file,
+                    at_vertex ? "#undef VERTEX_SHADOW\n" : "#undef u_Channel\n#undef SHADOWED\n");
     }
     fprintf(file, "void add_lights(vec3 normal, vec3 position, vec3 viewer, bool front, inout vec3 "
                   "color) {\n");
@@ -1005,21 +1005,52 @@ static bool draw_maps(Lighting *lighting, const ShadowFrame *frame, Message *mes
     return true;
 }
 
-static bool look_up_map(Lighting *lighting, const ShadowFrame *frame, int number, Message *message)
+/* On one object. `first`: with its depth. */
+static bool look_up_on(Lighting *lighting, const ShadowFrame *frame, int number, int receiver,
+                       bool first, Message *message)
 {
     const ShadowSettings *settings = &lighting->shadows;
     const ShadowLookup lookup = {settings->smooth != 0, settings->bias.x, settings->bias.y,
                                  settings->bias.z};
-    for (int r = frame->plan->count - 1; r >= 0; r--) {
-        if (!(frame->plan->receives[r] >> number & 1))
-            continue;
-        const ShadowSurface surface = surface_of(lighting, frame, r);
-        if (!shadow_map_look(&lighting->maps, &lighting->mask, number,
-                             effects_channel(frame->scene, number), &surface,
-                             frame->scene->objects[r].world_from_object, &lookup, message))
+    const ShadowSurface surface = surface_of(lighting, frame, receiver);
+    return shadow_map_look(&lighting->maps, &lighting->mask, number,
+                           effects_channel(frame->scene, number), first, &surface,
+                           frame->scene->objects[receiver].world_from_object, &lookup, message);
+}
+
+static bool look_up_map(Lighting *lighting, const ShadowFrame *frame, int number, Message *message)
+{
+    for (int r = frame->plan->count - 1; r >= 0; r--)
+        if (frame->plan->receives[r] >> number & 1 &&
+            !look_up_on(lighting, frame, number, r, false, message))
             return false;
-    }
     return true;
+}
+
+/* The light whose map is looked up where the depths are drawn, which saves drawing all once more:
+ * the first that has one map; -1: none. What receives no shadow would keep that of what it hides,
+ * which only full programs look up. */
+static int first_map(const Lighting *lighting, const ShadowFrame *frame)
+{
+    const bool maps = lighting->shadows.way == SHADOWS_MAP && !frame->full;
+    for (int l = 0; l < frame->scene->light_count && maps; l++)
+        if (frame->plan->all >> l & 1 && lighting->maps.lights[l].count == 1)
+            return l;
+    return -1;
+}
+
+static bool draw_surfaces(Lighting *lighting, const ShadowFrame *frame, int first, Message *message)
+{
+    bool done = true;
+    for (int o = 0; o < frame->scene->object_count && done; o++) {
+        if (first >= 0 && frame->plan->receives[o] >> first & 1) {
+            done = look_up_on(lighting, frame, first, o, true, message);
+        } else {
+            const ShadowSurface surface = surface_of(lighting, frame, o);
+            shadow_mask_surface(&lighting->mask, &surface);
+        }
+    }
+    return done;
 }
 
 static bool draw_light_mask(Lighting *lighting, const ShadowFrame *frame, int number,
@@ -1058,13 +1089,10 @@ static bool draw_masks(Lighting *lighting, const ShadowFrame *frame, int count, 
         (!mask->framebuffer && !shadow_mask_open(mask, &lighting->loader, message)) ||
         !shadow_mask_begin(mask, count, frame->scene->camera.near, message))
         return false;
-    for (int o = 0; o < frame->scene->object_count; o++) {
-        const ShadowSurface surface = surface_of(lighting, frame, o);
-        shadow_mask_surface(mask, &surface);
-    }
-    bool done = true;
+    const int first = first_map(lighting, frame);
+    bool done = draw_surfaces(lighting, frame, first, message);
     for (int l = 0; l < frame->scene->light_count && done; l++)
-        if (frame->plan->all >> l & 1)
+        if (frame->plan->all >> l & 1 && l != first)
             done = draw_light_mask(lighting, frame, l, message);
     return shadow_mask_end(mask, message) && done;
 }

@@ -5,10 +5,9 @@
 
 enum { FLOAT_BITS = 24 }; /* with which the shader compares, whatever the texture has */
 
-static void set_float4(GLuint program, const char *name, double x, double y, double z, double w)
+static void set_vec3(GLuint program, const char *name, double x, double y, double z)
 {
-    const float values[4] = {(float)x, (float)y, (float)z, (float)w};
-    glUniform4fv(glGetUniformLocation(program, name), 1, values);
+    shader_set_vec3(glGetUniformLocation(program, name), (Vec3){x, y, z});
 }
 
 static void set_matrix(GLuint program, const char *name, Mat4 value)
@@ -18,15 +17,17 @@ static void set_matrix(GLuint program, const char *name, Mat4 value)
 
 /* Programs. Depths need more bits than mediump has, whatever --precision says. */
 
-static bool open_program(Shader *shader, const ShadowMaps *maps, const char *purpose, bool smooth,
+static bool open_program(Shader *shader, const ShadowMaps *maps, const char *purpose, int look,
                          Message *message)
 {
-    const char *defines[4] = {purpose};
+    static const char *const looks[] = {"SMOOTH", "ALONG_NORMAL", "ALONE", "PERSPECTIVE"};
+    const char *defines[7] = {purpose};
     int count = 1;
     if (maps->packed)
         defines[count++] = "PACKED";
-    if (smooth)
-        defines[count++] = "SMOOTH";
+    for (int i = 0; i < 4; i++)
+        if (look >> i & 1)
+            defines[count++] = looks[i];
     ShaderLoader loader = maps->loader;
     loader.precision = NULL;
     loader.defines = defines;
@@ -89,7 +90,7 @@ bool shadow_maps_open(ShadowMaps *maps, const ShaderLoader *loader, Message *mes
     maps->packed = !has_depth_texture(maps);
     if (maps->packed)
         maps->bits = FLOAT_BITS; /* 255^3 values, nearly */
-    if (open_program(&maps->draw, maps, "DRAW_MAP", false, message))
+    if (open_program(&maps->draw, maps, "DRAW_MAP", 0, message))
         return true;
     shadow_maps_close(maps);
     return false;
@@ -121,8 +122,8 @@ void shadow_maps_close(ShadowMaps *maps)
     if (maps->depth)
         glDeleteRenderbuffers(1, &maps->depth);
     shader_close(&maps->draw);
-    shader_close(&maps->look[0]);
-    shader_close(&maps->look[1]);
+    for (int i = 0; i < LOOKS; i++)
+        shader_close(&maps->look[i]);
     *maps = (ShadowMaps){.bits = 0};
 }
 
@@ -245,33 +246,54 @@ bool shadow_map_draw(ShadowMaps *maps, int light, int size, const ShadowFrustum 
 
 /* Looking it up */
 
-bool shadow_map_look(ShadowMaps *maps, ShadowMask *mask, int light, int channel,
+static Shader *find_look(ShadowMaps *maps, const ShadowMap *map, int face,
+                         const ShadowLookup *lookup, Message *message)
+{
+    const int look =
+        (lookup->smooth ? LOOK_SMOOTH : 0) | (lookup->normal != 0 ? LOOK_ALONG_NORMAL : 0) |
+        (map->count == 1 ? LOOK_ALONE : 0) | (map->frusta[face].perspective ? LOOK_PERSPECTIVE : 0);
+    Shader *shader = &maps->look[look];
+    return shader->program || open_program(shader, maps, "LOOK_UP", look, message) ? shader : NULL;
+}
+
+/* From the light's coordinates to the map's: what of the projection is not zero, from 0 to 1. */
+static void set_map(GLuint program, const ShadowMap *map, int face)
+{
+    const ShadowFrustum *frustum = &map->frusta[face];
+    const double *m = frustum->map_from_light.m;
+    set_vec3(program, "u_MapScale", m[0] / 2, m[5] / 2, m[frustum->perspective ? 14 : 10] / 2);
+    if (frustum->perspective)
+        set_vec3(program, "u_MapMove", (1 - m[8]) / 2, (1 - m[9]) / 2, (1 - m[10]) / 2);
+    else
+        set_vec3(program, "u_MapMove", (1 + m[12]) / 2, (1 + m[13]) / 2, (1 + m[14]) / 2);
+    set_vec3(program, "u_MapSize", map->size, 1.0 / map->size, frustum->width / map->size);
+}
+
+bool shadow_map_look(ShadowMaps *maps, ShadowMask *mask, int light, int channel, bool first,
                      const ShadowSurface *surface, Mat4 world_from_object,
                      const ShadowLookup *lookup, Message *message)
 {
-    Shader *shader = &maps->look[lookup->smooth];
     const ShadowMap *map = &maps->lights[light];
-    if (!shader->program && !open_program(shader, maps, "LOOK_UP", lookup->smooth, message))
-        return false;
-    const GLuint program = shader->program;
-    const GLint normal = glGetAttribLocation(program, "a_Normal");
-    shadow_mask_write(mask, channel, shader);
-    set_float4(program, "u_Bias", lookup->constant, lookup->slope, lookup->normal, 0);
-    glUniform1i(glGetUniformLocation(program, "u_Map"), 0);
     for (int face = 0; face < map->count; face++) {
-        const ShadowFrustum *frustum = &map->frusta[face];
-        const Mat4 light_from_object = mat4_product(frustum->light_from_world, world_from_object);
+        Shader *shader = find_look(maps, map, face, lookup, message);
+        if (!shader)
+            return false;
+        const GLuint program = shader->program;
+        const GLint normal = glGetAttribLocation(program, "a_Normal");
+        shadow_mask_write(mask, channel, first, shader);
+        const Mat4 light_from_object =
+            mat4_product(map->frusta[face].light_from_world, world_from_object);
         set_matrix(program, "u_LightFromObject", light_from_object);
         set_matrix(program, "u_LightNormal", mat4_normal(light_from_object));
-        set_matrix(program, "u_MapFromLight", frustum->map_from_light);
-        set_float4(program, "u_MapSize", map->size, 1.0 / map->size, frustum->width / map->size,
-                   frustum->perspective);
+        set_vec3(program, "u_Bias", lookup->constant, lookup->slope, lookup->normal);
+        set_map(program, map, face);
+        glUniform1i(glGetUniformLocation(program, "u_Map"), 0);
         glBindTexture(GL_TEXTURE_2D, map->textures[face]);
         shadow_mask_draw(mask, surface, normal);
+        if (normal >= 0)
+            glDisableVertexAttribArray((GLuint)normal);
     }
     glBindTexture(GL_TEXTURE_2D, 0);
-    if (normal >= 0)
-        glDisableVertexAttribArray((GLuint)normal);
-    shadow_mask_write(mask, -1, NULL);
+    shadow_mask_write(mask, -1, false, NULL);
     return true;
 }

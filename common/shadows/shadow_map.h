@@ -30,8 +30,17 @@ typedef struct ShadowMap {
     size_t drawn_size;
 } ShadowMap;
 
+/* What programs that look a map up differ in, as bits. */
+enum {
+    LOOK_SMOOTH = 1,       /* the lookup is */
+    LOOK_ALONG_NORMAL = 2, /* its bias has that part */
+    LOOK_ALONE = 4,        /* the light has one map */
+    LOOK_PERSPECTIVE = 8,  /* the map is */
+    LOOKS = 16
+};
+
 typedef struct ShadowMaps {
-    Shader draw, look[2]; /* the latter: nearest, smooth; opened when they are needed */
+    Shader draw, look[LOOKS]; /* the latter opened when they are needed */
     ShaderLoader loader;
     GLuint framebuffer, depth; /* the latter for packed maps */
     int depth_size;
@@ -54,8 +63,9 @@ typedef struct ShadowMapCaster {
 bool shadow_map_draw(ShadowMaps *maps, int light, int size, const ShadowFrustum *frusta, int count,
                      const ShadowMapCaster *casters, int caster_count, Message *message);
 
-/* Within a mask, after the surfaces: marks in a light's channel what of a surface is in shadow. */
-bool shadow_map_look(ShadowMaps *maps, ShadowMask *mask, int light, int channel,
+/* Within a mask, after the surfaces: marks in a light's channel what of a surface is in shadow.
+ * `first`: instead of shadow_mask_surface, if the light has one map. */
+bool shadow_map_look(ShadowMaps *maps, ShadowMask *mask, int light, int channel, bool first,
                      const ShadowSurface *surface, Mat4 world_from_object,
                      const ShadowLookup *lookup, Message *message);
 

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool markdown, brief;
+static bool markdown, brief, processor;
 
 void measure_begin(int *argc, char *argv[])
 {
@@ -17,14 +17,22 @@ void measure_begin(int *argc, char *argv[])
             markdown = true;
         } else if (strcmp(argv[i], "--short") == 0) {
             brief = true;
+        } else if (strcmp(argv[i], "--processor") == 0) {
+            processor = true;
         } else if (strncmp(argv[i], "--", 2) == 0) {
-            fprintf(stderr, "%s: no such option; there are --markdown and --short\n", argv[i]);
+            fprintf(stderr, "%s: no such option; there are --markdown, --processor and --short\n",
+                    argv[i]);
             exit(2);
         } else {
             argv[kept++] = argv[i];
         }
     }
     *argc = kept;
+}
+
+static double now(void)
+{
+    return processor ? clock_processor() : clock_now();
 }
 
 bool measure_rounds(Measured *measured, int count, int rounds)
@@ -37,14 +45,14 @@ bool measure_rounds(Measured *measured, int count, int rounds)
     }
     for (int round = brief ? 0 : -1; round < (brief ? 1 : rounds); round++) {
         for (int i = 0; i < count; i++) {
-            const double start = clock_now();
+            const double start = now();
             if (!measured[i].run(measured[i].argument)) {
                 progress_end(&progress);
                 fprintf(stderr, "%s: failed\n", measured[i].name);
                 return false;
             }
             if (round >= 0)
-                measured[i].seconds[round] = clock_now() - start;
+                measured[i].seconds[round] = now() - start;
         }
         progress_update(&progress, round + 1, rounds);
     }
@@ -91,8 +99,10 @@ void measure_print_machine(const char *renderer, const char *version)
     char driver[256];
     snprintf(driver, sizeof driver, "%s; %s", renderer ? renderer : "", version ? version : "");
     table_machine(renderer ? driver : NULL, stdout);
-    puts(brief ? "One round, to see that it works: no measurement."
-               : "Medians of interleaved rounds; quartiles in brackets.");
+    puts(brief       ? "One round, to see that it works: no measurement."
+         : processor ? "Processor time of all threads; medians of interleaved rounds; quartiles in "
+                       "brackets."
+                     : "Medians of interleaved rounds; quartiles in brackets.");
 }
 
 void measure_print_table(const char *title, Table *table)

@@ -10,7 +10,8 @@
 
 #include <stdbool.h>
 
-/* Takes --markdown and --short off the command line: tables are printed as Markdown; there is one
+/* Takes --markdown, --processor and --short off the command line: tables are printed as Markdown;
+ * processor time of all threads is measured, which other programs hardly change; there is one
  * round, which stands for all, to see that the benchmark works. Any other option that begins with
  * "--" is an error (exit status 2). */
 void measure_begin(int *argc, char *argv[]);
