@@ -24,17 +24,24 @@ varying vec3 v_Color;
 #ifdef SHADOWS
 uniform highp sampler2D u_Map;
 uniform int u_MapPlace;   // 0: right; 1: not divided by w; 2: from -1 to 1; 3: only the depth; 4: only
-                          // the place; 5: y reversed; 6: x reversed; 8: 1 and 2
-uniform int u_MapDepth;   // 1: only red
-uniform vec3 u_MapBias;   // constant; times one minus the cosine, if that is more
-uniform int u_MapTest;    // 1: inverted; 2: never in shadow; 3: always
-uniform int u_MapOutside; // 0: lit; 1: as the edge; 2: dark
+                          // the place; 5: y reversed; 6: x reversed; 8: 1 and 2; 9: x and y swapped;
+                          // 10: y and z swapped; 11: divided by w at the vertices
+uniform int u_MapDepth;   // 1: only red; 2: red and blue swapped
+uniform vec3 u_MapBias;   // constant; times one minus the cosine, if that is more; divided by w
+uniform int u_MapTest;    // 1: inverted; 2: never in shadow; 3: always; 4: beside the map inverted, too
+uniform int u_MapOutside; // 0: lit; 1: as the edge; 2: dark; 3: from 0 to 1 before it is halved; 4: from
+                          // -1 to 1 after
 uniform float u_ShadowLight; // what a shadow leaves
+uniform float u_MapLight;    // the visibility of what the map shows in light
 
 varying vec4 v_Map;
+varying vec3 v_MapDivided;
+varying vec3 v_Shade;
 
 float visibility(vec3 normal) {
     vec3 place = u_MapPlace == 1 || u_MapPlace == 8 ? v_Map.xyz : v_Map.xyz / v_Map.w;
+    if (u_MapPlace == 11)
+        place = v_MapDivided;
     vec3 at = 0.5 * place + 0.5;
     if (u_MapPlace == 2 || u_MapPlace == 3 || u_MapPlace == 8)
         at.z = place.z;
@@ -44,20 +51,27 @@ float visibility(vec3 normal) {
         at.y = 1.0 - at.y;
     if (u_MapPlace == 6)
         at.x = 1.0 - at.x;
-    if (u_MapOutside != 1 && (at.x < 0.0 || at.x > 1.0 || at.y < 0.0 || at.y > 1.0))
+    if (u_MapPlace == 9)
+        at = at.yxz;
+    if (u_MapPlace == 10)
+        at = at.xzy;
+    vec2 asked = u_MapOutside == 3 ? place.xy : u_MapOutside == 4 ? 0.5 * at.xy + 0.5 : at.xy;
+    if (u_MapOutside != 1 && (asked.x < 0.0 || asked.x > 1.0 || asked.y < 0.0 || asked.y > 1.0))
         return u_MapOutside == 2 || u_MapTest == 3 ? u_ShadowLight : 1.0;
     vec3 texel = texture2D(u_Map, at.xy).rgb;
+    if (u_MapDepth == 2)
+        texel = texel.bgr;
     float depth =
         u_MapDepth == 1 ? texel.r : dot(texel, vec3(1.0, 1.0 / 255.0, 1.0 / 65025.0));
-    float bias = u_MapBias.x;
+    float bias = u_MapBias.x + u_MapBias.z / v_Map.w;
     if (u_MapBias.y != 0.0)
         bias = max(u_MapBias.y * (1.0 - dot(normal, normalize(u_Light[0] - v_Place))), bias);
     bool lit = at.z - bias <= depth;
     if (u_MapTest == 1)
         lit = !lit;
-    else if (u_MapTest != 0)
+    else if (u_MapTest == 2 || u_MapTest == 3)
         lit = u_MapTest == 2;
-    return lit ? 1.0 : u_ShadowLight;
+    return lit ? u_MapLight : u_ShadowLight;
 }
 #endif
 
@@ -100,6 +114,9 @@ void main() {
     vec3 color = v_Color;
 #ifdef SHADOWS
     g_Visible = visibility(normal);
+    if (u_MapTest == 4)
+        g_Visible = 1.0 + u_ShadowLight - g_Visible;
+    color = mix(v_Shade, v_Color, g_Visible);
 #endif
     if (u_AtVertices == 0)
         color = shade(v_Place, normal, v_Toward[0], v_Toward[1], back);

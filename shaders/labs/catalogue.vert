@@ -18,6 +18,8 @@ varying vec3 v_Color;
 #ifdef SHADOWS
 uniform mat4 u_MapMatrix; // to clip space of the light
 varying vec4 v_Map;
+varying vec3 v_MapDivided;
+varying vec3 v_Shade; // the colour in shadow
 #endif
 
 #include "catalogue_light.glsl"
@@ -32,10 +34,18 @@ void main() {
     v_Color = vec3(0.0);
 #ifdef SHADOWS
     v_Map = u_MapMatrix * a_Position;
+    v_MapDivided = v_Map.xyz / v_Map.w;
+    v_Shade = vec3(0.0);
 #endif
     vec3 unit = u_NormalUnit == 4 ? normal * inversesqrt(dot(normal, normal) + 1.0)
                                   : normalize(normal);
+    if (u_NormalUnit == 1)
+        unit = normal;
     if (u_AtVertices == 1)
-        v_Color = shade(v_Place, u_NormalUnit == 1 ? normal : unit, v_Toward[0],
-                        v_Toward[1], 0);
+        v_Color = shade(v_Place, unit, v_Toward[0], v_Toward[1], 0);
+#ifdef SHADOWS
+    g_Visible = 0.0;
+    if (u_AtVertices == 1)
+        v_Shade = shade(v_Place, unit, v_Toward[0], v_Toward[1], 0);
+#endif
 }

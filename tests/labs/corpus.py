@@ -4,7 +4,8 @@
 corpus/labNN.txt has those of a lab: a line "=== NAME/FILE" before each file; a file that is not
 plain text is in base64, "=== NAME/FILE base64". The file `label` begins "right", "wrong: MISTAKE",
 "two: MISTAKES", "compile: WHY NOT" or "cheat: HOW". Those whose names begin with n are new: they were written by others,
-and only measured. The old ones served to improve `check`. corpus/rulings.txt has, for each new
+and only measured. The old ones served to improve `check`. In lab 11 those whose names begin with h, drawn by a hash of
+their names, were held out until both halves had been measured; then all served. corpus/rulings.txt has, for each new
 submission whose verdict or given names are not those of its label, what was decided, and why.
 
 usage: corpus.py CHECK --half old|new [--lab N] [--every N] [--json FILE]   judges, and lists
@@ -92,7 +93,7 @@ def judge(check, lab, name, files, seed=3):
 
 
 def jobs(half=None, lab=None, every=1):
-    for number in [lab] if lab else range(1, 11):
+    for number in [lab] if lab else range(1, 12):
         for i, (name, files) in enumerate(sorted(read(number).items())):
             if half in (None, half_of(f"lab{number:02}/{name}")) and i % every == 0:
                 yield number, name, files

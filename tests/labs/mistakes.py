@@ -232,6 +232,22 @@ def gouraud(lab):
     )
 
 
+def divided_at_vertices():
+    """Lab 11's place on the map."""
+    return edits(
+        ("varying vec4 v_LightPosition", "varying vec3 v_LightPosition"),
+        (PLACE, "0.5 * v_LightPosition + 0.5"),
+        file="frag",
+    ) + edits(
+        ("varying vec4 v_LightPosition", "varying vec3 v_LightPosition"),
+        (
+            "v_LightPosition = u_LightMatrix * u_ModelMatrix * a_Position;",
+            "vec4 p = u_LightMatrix * u_ModelMatrix * a_Position;\n    v_LightPosition = p.xyz / p.w;",
+        ),
+        file="vert",
+    )
+
+
 def read(lab):
     folder = os.path.join(SOLUTIONS, NAMES[lab])
     texts = {}
@@ -409,7 +425,7 @@ MISTAKES = {
     "back in the front's colour": {9: frag("        color = u_BackColor;\n", "")},
     "front and back swapped": {9: frag("if (!front)", "if (front)")},
     "no bias: shadow acne": {11: frag("place.z - BIAS", "place.z")},
-    "bias in the wrong direction": {11: frag("place.z - BIAS", "place.z + BIAS")},
+    "all that the map shows in shadow": {11: frag("place.z - BIAS", "place.z + BIAS")},
     "bias too large": {11: frag("BIAS = 0.002", "BIAS = 0.06")},
     "not divided by w": {11: frag(PLACE, "0.5 * v_LightPosition.xyz + 0.5")},
     "range from -1 to 1": {11: frag(PLACE, "v_LightPosition.xyz / v_LightPosition.w")},
@@ -437,6 +453,14 @@ MISTAKES = {
         11: frag(SUM, "visibility() * u_AmbientLight + u_LightColor * nDotL")
     },
     "light in the shadow": {11: frag("1.0 : 0.0", "1.0 : 0.4")},
+    "shadow darker than none": {11: frag("1.0 : 0.0", "1.0 : -0.125")},
+    "wrong weights of the map's texels": {11: frag("1.0 : 0.0", "1.5 : 0.0")},
+    "divided by w at the vertices": {11: divided_at_vertices()},
+    "components of the place swapped": {11: frag("mapDepth(place.xy)", "mapDepth(place.yx)")},
+    "channels of the depth in the wrong order": {11: frag("place).rgb", "place).bgr")},
+    "outside of the map in another range": {
+        11: frag(OUTSIDE, "    if (abs(place.x) > 1.0 || abs(place.y) > 1.0)\n        return 1.0;\n")
+    },
     "turned the wrong way": {
         3: code(ROTATE, f"{ROTATE}\n    rotation = mat4_transpose(rotation);")
     },

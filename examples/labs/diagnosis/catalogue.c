@@ -480,7 +480,7 @@ const Mistake MISTAKES[] = {
      "The highlight is too bright: the specular colour is missing.",
      "the specular term: multiply it by u_SpecularColor"},
 
-    {"light at the vertices", ROUND, ONE(STAGE, STAGE_VERTICES),
+    {"light at the vertices", ROUND | L(11), ONE(STAGE, STAGE_VERTICES),
      "The mesh shows: the light is computed at the vertices and interpolated.",
      "the fragment shader: compute the light there; pass on normal and point"},
 
@@ -627,15 +627,18 @@ const Mistake MISTAKES[] = {
     /* The shadow map. */
     {"no bias: shadow acne",
      L(11),
-     {CHANGE(MAP_BIAS, MAP_BIAS_NONE), CHANGE(NUMBER, FACTOR_BIAS_SMALL)},
+     {CHANGE(MAP_BIAS, MAP_BIAS_NONE), CHANGE(NUMBER, FACTOR_BIAS_SMALL),
+      CHANGE(NUMBER, FACTOR_BIAS_CLIP)},
      "What is lit has dark stripes: a surface shadows itself, because a texel has one depth for all "
      "points within, and the bias is missing or too small.",
-     "the comparison: place.z - 0.002 <= depth"},
-    {"bias in the wrong direction",
+     "the comparison: place.z - 0.002 <= depth, after the division by w"},
+    /* A depth that is not the map's draws the same. */
+    {"all that the map shows in shadow",
      L(11),
      {CHANGE(MAP_BIAS, MAP_BIAS_REVERSED), CHANGE(NUMBER, FACTOR_BIAS_REVERSED)},
-     "All that the map shows is dark: the bias moves each point away from the light, behind itself.",
-     "the bias's sign: less depth is nearer to the light, so place.z - bias <= depth"},
+     "All that the map shows is dark: each point is behind itself. The bias has the wrong sign, or the "
+     "depth is not that of the map: not divided by w, or a distance.",
+     "the comparison: place.z - bias <= depth, and at what is made of place.z before"},
     {"bias too large",
      L(11),
      {CHANGE(NUMBER, FACTOR_BIAS_LARGE), CHANGE(NUMBER, FACTOR_BIAS_SLOPE)},
@@ -655,24 +658,50 @@ const Mistake MISTAKES[] = {
     {"map upside down", L(11), ONE(MAP_PLACE, MAP_PLACE_FLIPPED),
      "Shadows fall on the wrong side: the map's y is reversed. Both begin at the bottom.",
      "the place on the map: no 1.0 - y"},
+    {"divided by w at the vertices", L(11), ONE(MAP_PLACE, MAP_PLACE_VERTICES),
+     "The place on the map is divided by w at the vertices; what is interpolated after that is not "
+     "the quotient between them.",
+     "v_LightPosition.xyz / v_LightPosition.w: pass on all four, and divide at each fragment"},
+    {"components of the place swapped", L(11), EITHER(MAP_PLACE, MAP_PLACE_YXZ, MAP_PLACE_XZY),
+     "Shadows are elsewhere: two components of the place on the map are swapped.",
+     "the place on the map: xy is the place, z the depth"},
     {"map mirrored", L(11), ONE(MAP_PLACE, MAP_PLACE_MIRRORED),
      "Shadows fall on the wrong side: the map's x is reversed.",
      "the place on the map: no 1.0 - x"},
-    {"place on the map from the wrong space", L(11), ONE(MAP_PLACE, MAP_PLACE_OBJECT),
-     "u_LightMatrix is applied to a point that is not in world space.",
+    {"place on the map from the wrong space",
+     L(11),
+     {CHANGE(MAP_PLACE, MAP_PLACE_OBJECT), CHANGE(MAP_PLACE, MAP_PLACE_CLIP),
+      CHANGE(MAP_PLACE, MAP_PLACE_ORDER)},
+     "The place on the map is not u_LightMatrix times a point in world space: the point or the matrix "
+     "is another, or the matrices are in the wrong order.",
      "u_LightMatrix * u_ModelMatrix * a_Position"},
     {"depth of one channel", L(11), ONE(MAP_DEPTH, MAP_DEPTH_RED),
      "The map's depth has steps: only its red channel is read.", "mapDepth: all three channels"},
-    {"comparison inverted", L(11), ONE(MAP_TEST, MAP_TEST_INVERTED),
+    {"channels of the depth in the wrong order", L(11), ONE(MAP_DEPTH, MAP_DEPTH_BGR),
+     "The map's depth is put together in the wrong order: red counts most, blue least.",
+     "mapDepth: dot(texel.rgb, vec3(1.0, 1.0 / 255.0, 1.0 / 65025.0))"},
+    {"comparison inverted", L(11), EITHER(MAP_TEST, MAP_TEST_INVERTED, MAP_TEST_ALL_INVERTED),
      "What is lit is dark, and shadows are lit.",
-     "the comparison: in light if place.z - bias <= depth"},
+     "the comparison: in light if place.z - bias <= depth; visibility() returns 1.0 in light"},
+    /* Whatever the reason: all draw the same. */
     {"no shadow", L(11), ONE(MAP_TEST, MAP_TEST_NEVER), "Nothing is in shadow.",
-     "the diffuse term: multiply it by visibility()"},
+     "the diffuse term: multiply it by visibility(); if it is, at whether place and mapDepth(place.xy) "
+     "are from 0 to 1 and from the same space, and at what visibility() returns"},
     {"all in shadow", L(11), ONE(MAP_TEST, MAP_TEST_ALWAYS), "No light arrives anywhere.",
      "the comparison and what visibility() returns"},
-    {"outside of the map not asked for", L(11), ONE(MAP_OUTSIDE, MAP_OUTSIDE_CLAMPED),
+    {"outside of the map not asked for",
+     L(11),
+     {CHANGE(MAP_OUTSIDE, MAP_OUTSIDE_CLAMPED),
+      BOTH(MAP_OUTSIDE, MAP_OUTSIDE_CLAMPED, MAP_BIAS, MAP_BIAS_SMALL),
+      BOTH(MAP_OUTSIDE, MAP_OUTSIDE_CLAMPED, MAP_BIAS, MAP_BIAS_MIDDLE),
+      BOTH(MAP_OUTSIDE, MAP_OUTSIDE_CLAMPED, MAP_BIAS, MAP_BIAS_LARGE)},
      "Beside the map it is as dark as at its edge: there texture2D returns the nearest texel.",
      "the place on the map: return 1.0 if x or y is below 0.0 or above 1.0"},
+    {"outside of the map in another range", L(11),
+     EITHER(MAP_OUTSIDE, MAP_OUTSIDE_UNHALVED, MAP_OUTSIDE_HALVED),
+     "What counts as beside the map is not: it is asked for 0 to 1 before the place is mapped to that "
+     "range, or for -1 to 1 after.",
+     "the place on the map: return 1.0 if x or y is below 0.0 or above 1.0, of 0.5 * xy + 0.5"},
     {"outside of the map dark", L(11), ONE(MAP_OUTSIDE, MAP_OUTSIDE_DARK),
      "What is not on the map is dark; nothing is known to shadow it, so it is lit.",
      "the place on the map: return 1.0 if x or y is below 0.0 or above 1.0"},
@@ -760,6 +789,12 @@ const Mistake MISTAKES[] = {
      "The constant part of the attenuation has a wrong factor.", ATTENUATION},
     {"light in the shadow", L(11), EITHER(NUMBER, FACTOR_SHADOW, FACTOR_SHADOW_ALL),
      "A share of the light arrives in shadows.", "what visibility() returns: 1.0 or 0.0"},
+    {"shadow darker than none", L(11), ONE(NUMBER, FACTOR_SHADOW_BELOW),
+     "Shadows take from the ambient light: the visibility is below 0 there.",
+     "what visibility() returns: 1.0 or 0.0; the weights of several texels sum to 1"},
+    {"wrong weights of the map's texels", L(11), ONE(NUMBER, FACTOR_MAP_LIGHT),
+     "What the map shows in light has a wrong factor, what is beside the map has not.",
+     "what visibility() returns: at most 1.0; the weights of several texels sum to 1"},
     {"light from nowhere", SHADED, ONE(NUMBER, FACTOR_PLUS_LIGHT),
      "A constant is added to the light.", "numbers that are added to the light"},
     {"picture clamped below 1", SHADED, ONE(NUMBER, FACTOR_RESULT),
@@ -786,7 +821,8 @@ static bool form_applies(const Lab *lab, const Change *form)
             (slot == SLOT_PLACE && (lab->given || lab->light == LIGHT_DIRECTIONAL)) ||
             (slot == SLOT_LIGHT_SPACE && lab->given) ||
             (slot == SLOT_CONE && lab->light != LIGHT_SPOT) ||
-            (slot == SLOT_AMBIENT && choice == AMBIENT_NOT_CONE && lab->light != LIGHT_SPOT))
+            (slot == SLOT_AMBIENT && choice == AMBIENT_NOT_CONE && lab->light != LIGHT_SPOT &&
+             !lab->shadow))
             return false;
     }
     return true;
@@ -929,6 +965,8 @@ double factor_value(const Choices *choices)
     switch (choices->factor) {
     case FACTOR_PLUS_EXPONENT:
         return 20 * value;
+    case FACTOR_BIAS_CLIP:
+        return 0.016 / (1 + value);
     case FACTOR_BIAS_LARGE:
         return 0.004 + value / 512;
     case FACTOR_BIAS_SMALL:

@@ -347,18 +347,30 @@ enum {
     MAP_PLACE_MIRRORED,
     MAP_PLACE_OBJECT,     /* of the object's vertex */
     MAP_PLACE_NO_W_RANGE, /* neither */
+    MAP_PLACE_YXZ,        /* components swapped */
+    MAP_PLACE_XZY,
+    MAP_PLACE_VERTICES, /* divided by w there */
+    MAP_PLACE_CLIP,     /* the eye's clip space */
+    MAP_PLACE_ORDER,    /* the two matrices in the wrong order */
 
     MAP_DEPTH_RED = 1, /* one channel of three */
+    MAP_DEPTH_BGR,
 
     MAP_BIAS_NONE = 1,
     MAP_BIAS_REVERSED,
+    MAP_BIAS_SMALL, /* right, but beside the map, if that is not asked for, others are dark */
+    MAP_BIAS_MIDDLE,
+    MAP_BIAS_LARGE,
 
     MAP_TEST_INVERTED = 1,
     MAP_TEST_NEVER, /* no shadow */
     MAP_TEST_ALWAYS,
+    MAP_TEST_ALL_INVERTED, /* also beside the map */
 
     MAP_OUTSIDE_CLAMPED = 1, /* as its nearest edge */
     MAP_OUTSIDE_DARK,
+    MAP_OUTSIDE_UNHALVED, /* asks for 0 to 1 of what goes from -1 to 1 */
+    MAP_OUTSIDE_HALVED,   /* asks for -1 to 1 of what goes from 0 to 1 */
 
     SHADOW_ON_ALL = 1,
     SHADOW_ON_AMBIENT, /* alone */
@@ -402,14 +414,17 @@ typedef enum Factor {
     FACTOR_RESULT,        /* the picture's maximum */
     FACTOR_FADE_LINEAR,   /* 1 / (1 + this d), where nothing is attenuated */
     FACTOR_FADE_SQUARE,   /* 1 / (1 + this d d) */
-    /* Lab 11; the biases are 0.004 and this / 512, 0.0005 / (1 + this), less 0, and by the slope.
-     */
+    /* Lab 11; the biases are 0.016 / (1 + this) before the division by w, 0.004 and this / 512,
+     * 0.0005 / (1 + this), less 0, and by the slope. */
+    FACTOR_BIAS_CLIP,
     FACTOR_BIAS_LARGE,
     FACTOR_BIAS_SMALL,
     FACTOR_BIAS_REVERSED,
     FACTOR_BIAS_SLOPE,
-    FACTOR_SHADOW,     /* the light in a shadow */
-    FACTOR_SHADOW_ALL, /* and the ambient light there */
+    FACTOR_SHADOW,       /* the light in a shadow */
+    FACTOR_SHADOW_ALL,   /* and the ambient light there */
+    FACTOR_SHADOW_BELOW, /* less than none */
+    FACTOR_MAP_LIGHT,    /* of what the map shows in light */
     FACTOR_COUNT,
 } Factor;
 

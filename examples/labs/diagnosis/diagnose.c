@@ -141,15 +141,47 @@ static Suspect *make_pairs(const Lineup *lineup, const Suspect *singles, int cou
     return made;
 }
 
+/* All of the lab, and what is left of them. */
+typedef struct Suspects {
+    Suspect *singles, *numbers, *tried;
+    int single_count, number_count, left;
+    bool fitted; /* the numbers have their values */
+} Suspects;
+
 /* Tries the mistakes that are one wrong number. */
-static bool find_number(Lineup *lineup, Suspect *numbers, int *count, bool *near, Message *message)
+static bool find_number(Lineup *lineup, Suspects *all, bool *near, Message *message)
 {
-    const int tried = lineup->shots->lab->given ? 0 : *count;
-    *count = 0;
-    for (int i = 0; i < tried; i++)
-        if (lineup_fit(lineup, &numbers[i]))
-            numbers[(*count)++] = numbers[i];
-    return lineup_verify(lineup, numbers, count, near, message);
+    if (!all->fitted) {
+        const int count = lineup->shots->lab->given ? 0 : all->number_count;
+        all->number_count = 0;
+        for (int i = 0; i < count; i++)
+            if (lineup_fit(lineup, &all->numbers[i]))
+                all->numbers[all->number_count++] = all->numbers[i];
+        all->fitted = true;
+    }
+    Suspect *numbers = all->tried + all->left;
+    int count = all->number_count;
+    memcpy(numbers, all->numbers, (size_t)count * sizeof *numbers);
+    if (!lineup_verify(lineup, numbers, &count, near, message))
+        return false;
+    all->left += count;
+    return true;
+}
+
+static bool find_alone(Lineup *lineup, uint64_t seed, Suspects *all, bool *near, Message *message)
+{
+    all->left = all->single_count;
+    memcpy(all->tried, all->singles, (size_t)all->left * sizeof *all->tried);
+    if (!lineup_screen(lineup, all->tried, &all->left, message) ||
+        !lineup_verify(lineup, all->tried, &all->left, near, message))
+        return false;
+    /* A wrong number may be nearer than what is nearly the same. */
+    if (all->left == 0 || all->tried[0].apart > LINEUP_EXACT * lineup->wrong_by) {
+        if (!find_number(lineup, all, near, message))
+            return false;
+        lineup_nearest(lineup, all->tried, &all->left);
+    }
+    return all->left == 0 || tell_apart(lineup, seed, all->tried, &all->left, *near, message);
 }
 
 /* Appends the number, which is the only suspect. */
@@ -168,43 +200,41 @@ static void say_number(Verdict *verdict, const Suspect *number)
              factor_value(&number->choices));
 }
 
-/* Tries single mistakes, then pairs. */
+/* Tries single mistakes; then, where edges may be smoothed, those with other edges; then pairs. */
 static bool find(Lineup *lineup, Verdict *verdict, bool *named, Message *message)
 {
-    int count, left, number_count, pair_count = 0;
-    bool near = false, done = false;
-    Suspect *singles = catalogue_singles(lineup->shots->lab, &count), *pairs = NULL;
-    Suspect *numbers = catalogue_numbers(lineup->shots->lab, &number_count);
-    Suspect *tried = malloc(((size_t)count + (size_t)number_count + 1) * sizeof *tried);
+    int pair_count = 0;
+    bool near = false;
+    Suspects all = {.left = 0};
+    Suspect *pairs = NULL;
     *named = false;
-    left = count;
-    if (singles && numbers && tried) {
-        memcpy(tried, singles, (size_t)count * sizeof *tried);
-        done = lineup_screen(lineup, tried, &left, message) &&
-               lineup_verify(lineup, tried, &left, &near, message);
-        /* A wrong number may be nearer than what is nearly the same. */
-        if (done && (left == 0 || tried[0].apart > LINEUP_EXACT * lineup->wrong_by)) {
-            done = find_number(lineup, numbers, &number_count, &near, message);
-            memcpy(tried + left, numbers, (size_t)number_count * sizeof *tried);
-            left += number_count;
-            lineup_nearest(lineup, tried, &left);
-        }
-        done =
-            done && (left == 0 || tell_apart(lineup, verdict->seed, tried, &left, near, message));
-        *named = done && name(verdict, tried, left, near);
-        if (*named && left > 0 && verdict->mistake_count == 1 && tried[0].choices.factor)
-            say_number(verdict, &tried[0]);
-        if (done && left == 0) {
-            pairs = make_pairs(lineup, singles, count, &pair_count);
-            done = pairs && narrow(lineup, verdict->seed, pairs, &pair_count, &near, message);
-            *named = done && name(verdict, pairs, pair_count, near);
-        }
+    all.singles = catalogue_singles(lineup->shots->lab, &all.single_count);
+    all.numbers = catalogue_numbers(lineup->shots->lab, &all.number_count);
+    all.tried =
+        malloc(((size_t)all.single_count + (size_t)all.number_count + 1) * sizeof *all.tried);
+    bool done = all.singles && all.numbers && all.tried &&
+                find_alone(lineup, verdict->seed, &all, &near, message);
+    if (done && all.left == 0 && lineup->shots->lab->shadow) {
+        lineup->soft = true;
+        done = find_alone(lineup, verdict->seed, &all, &near, message);
+        lineup->soft = false;
+        near = true;
+    }
+    if (done) {
+        *named = name(verdict, all.tried, all.left, near);
+        if (*named && verdict->mistake_count == 1 && all.tried[0].choices.factor)
+            say_number(verdict, &all.tried[0]);
+    }
+    if (done && all.left == 0) {
+        pairs = make_pairs(lineup, all.singles, all.single_count, &pair_count);
+        done = pairs && narrow(lineup, verdict->seed, pairs, &pair_count, &near, message);
+        *named = done && name(verdict, pairs, pair_count, near);
     }
     if (!done)
         message_set(message, "not enough memory"); /* unless there is another message */
-    free(singles);
-    free(numbers);
-    free(tried);
+    free(all.singles);
+    free(all.numbers);
+    free(all.tried);
     free(pairs);
     return done;
 }

@@ -42,9 +42,9 @@ static bool draw_suspect(Lineup *lineup, const Probe *probe, const ProbeBuffers 
     return canvas_read(lineup->canvas, image, message);
 }
 
-static double compare_all(const Image *a, const Image *b)
+static double compare_all(const Lineup *lineup, const Image *a, const Image *b)
 {
-    return compare_drawn(a, b, TOLERANCE, a->width * a->height).squares;
+    return compare_drawn(a, b, TOLERANCE, a->width * a->height, lineup->soft).squares;
 }
 
 static void sort_shots(Lineup *lineup)
@@ -77,7 +77,7 @@ static bool draw_right(Lineup *lineup, Message *message)
             !draw_suspect(lineup, &shot->probe, &lineup->buffers[i], &lineup->right_choices,
                           &lineup->right[i], message))
             return false;
-        lineup->wrong_by += compare_all(&shot->image, &lineup->right[i]);
+        lineup->wrong_by += compare_all(lineup, &shot->image, &lineup->right[i]);
     }
     return true;
 }
@@ -127,14 +127,14 @@ static void cut_tile(const Image *sheet, int number, Image *tile)
 }
 
 /* Keeps the suspects of one sheet whose tile is like the submission's. */
-static int keep_like(const Image *sheet, const Image *wanted, Suspect *suspects, int from,
-                     int count, int kept)
+static int keep_like(bool soft, const Image *sheet, const Image *wanted, Suspect *suspects,
+                     int from, int count, int kept)
 {
     unsigned char pixels[4 * TILE * TILE];
     Image tile = {TILE, TILE, IMAGE_BYTE, pixels};
     for (int i = 0; i < count; i++) {
         cut_tile(sheet, i, &tile);
-        const Likeness like = compare_drawn(wanted, &tile, SMALL_TOLERANCE, TILE * TILE);
+        const Likeness like = compare_drawn(wanted, &tile, SMALL_TOLERANCE, TILE * TILE, soft);
         if (like.differing <= 2 + SMALL_MATCH * like.pixels)
             suspects[kept++] = suspects[from + i];
     }
@@ -167,7 +167,7 @@ static bool screen_shot(Lineup *lineup, int shot, Image *sheet, Suspect *suspect
         canvas_begin(&lineup->sheet);
         done = canvas_read(&lineup->sheet, sheet, message);
         if (done)
-            kept = keep_like(sheet, &wanted, suspects, from, part, kept);
+            kept = keep_like(lineup->soft, sheet, &wanted, suspects, from, part, kept);
     }
     probe_buffers_close(&buffers);
     image_close(&wanted);
@@ -190,10 +190,10 @@ bool lineup_screen(Lineup *lineup, Suspect *suspects, int *count, Message *messa
 /* Whole pictures. */
 
 /* 0: no match; 1: nearly; 2: a match. Adds to *squares. */
-static int grade(const Image *a, const Image *b, double *squares)
+static int grade(bool soft, const Image *a, const Image *b, double *squares)
 {
     const int max = (int)(NEAR * a->width * a->height) + 1;
-    const Likeness like = compare_drawn(a, b, TOLERANCE, max);
+    const Likeness like = compare_drawn(a, b, TOLERANCE, max, soft);
     *squares += like.squares;
     if (like.differing > max || like.differing > 1 + NEAR * like.pixels)
         return 0;
@@ -240,9 +240,9 @@ bool lineup_verify(Lineup *lineup, Suspect *suspects, int *count, bool *near, Me
                 !draw_suspect(lineup, &shot->probe, &lineup->buffers[number], &suspect.choices,
                               &lineup->drawn, message))
                 return false;
-            const int found = grade(&shot->image, &lineup->drawn, &suspect.apart);
+            const int found = grade(lineup->soft, &shot->image, &lineup->drawn, &suspect.apart);
             worst = found < worst ? found : worst;
-            suspect.own += compare_all(&lineup->right[number], &lineup->drawn);
+            suspect.own += compare_all(lineup, &lineup->right[number], &lineup->drawn);
         }
         if (worst == 2)
             suspects[kept++] = suspect;
@@ -269,12 +269,13 @@ bool lineup_confront(Lineup *lineup, const Probe *probe, Suspect *suspects, int 
     bool done = image_open(&right, probe->width, probe->height, IMAGE_BYTE, message) &&
                 draw_suspect(lineup, probe, &buffers, &lineup->right_choices, &right, message);
     if (done)
-        lineup->wrong_by += compare_all(&lineup->image, &right);
+        lineup->wrong_by += compare_all(lineup, &lineup->image, &right);
     for (int i = 0; i < *count && done; i++) {
         Suspect suspect = suspects[i];
         done = draw_suspect(lineup, probe, &buffers, &suspect.choices, &lineup->drawn, message);
-        const bool matches = done && grade(&lineup->image, &lineup->drawn, &suspect.apart) == 2;
-        suspect.own += done ? compare_all(&right, &lineup->drawn) : 0;
+        const bool matches =
+            done && grade(lineup->soft, &lineup->image, &lineup->drawn, &suspect.apart) == 2;
+        suspect.own += done ? compare_all(lineup, &right, &lineup->drawn) : 0;
         if (matches)
             suspects[kept++] = suspect;
     }

@@ -18,6 +18,7 @@ typedef struct Lineup {
     WrongProgram wrong;
     int order[SHOTS_MAX]; /* scenes by the submission's error, the worst first */
     bool moved;           /* its outline is wrong */
+    bool soft;            /* smoothed edges are as right */
     Image image, drawn;   /* of the canvas's last size */
     Image right[SHOTS_MAX];
     Choices right_choices;

@@ -17,7 +17,7 @@
     X(u_Discard) X(u_Lights) X(u_Gamma) X(u_SpotShape) X(u_Limit)    \
     X(u_LimitOf) X(u_Plus) X(u_Product) X(u_Output) X(u_NormalOf) X(u_CosineMax) X(u_CosinePower) X(u_PlaceUnit)         \
     X(u_Axis) X(u_Most) X(u_MapMatrix) X(u_Map) X(u_MapPlace) X(u_MapDepth) X(u_MapBias)         \
-    X(u_MapTest) X(u_MapOutside) X(u_ShadowOn) X(u_ShadowLight)
+    X(u_MapTest) X(u_MapOutside) X(u_ShadowOn) X(u_ShadowLight) X(u_MapLight)
 /* clang-format on */
 
 #define NUMBER(name) U_##name,
@@ -707,33 +707,53 @@ static void set_rest(const WrongProgram *program, const Made *made)
 
 /* The shadow map. */
 
+static Mat4 map_matrix(const Made *made, const ProbeMap *map)
+{
+    switch (choice(made, SLOT_MAP_PLACE)) {
+    case MAP_PLACE_OBJECT:
+        return map->clip_from_world;
+    case MAP_PLACE_CLIP:
+        return mat4_product(made->clip_from_eye, mat4_product(made->eye_from_world, made->world));
+    case MAP_PLACE_ORDER:
+        return mat4_product(made->world, map->clip_from_world);
+    default:
+        return mat4_product(map->clip_from_world, made->world);
+    }
+}
+
 static void set_shadow(const WrongProgram *program, const Made *made, const ProbeMap *map)
 {
-    const double biases[] = {0.002, [MAP_BIAS_NONE] = 0, [MAP_BIAS_REVERSED] = -0.002};
+    const double biases[] = {0.002,
+                             [MAP_BIAS_NONE] = 0,
+                             [MAP_BIAS_REVERSED] = -0.002,
+                             [MAP_BIAS_SMALL] = 0.001,
+                             [MAP_BIAS_MIDDLE] = 0.003,
+                             [MAP_BIAS_LARGE] = 0.005};
     const double value = made->choices->value;
     const Factor which = made->choices->factor;
     const double bias = which >= FACTOR_BIAS_LARGE && which <= FACTOR_BIAS_SLOPE
                             ? factor_value(made->choices)
                             : biases[choice(made, SLOT_MAP_BIAS)];
     const double slope = which == FACTOR_BIAS_SLOPE ? 10 * bias : 0;
+    const bool clip = which == FACTOR_BIAS_CLIP;
     const int on = choice(made, SLOT_SHADOW_ON);
-    const double left = which == FACTOR_SHADOW || which == FACTOR_SHADOW_ALL ? fmin(value, 1) : 0;
+    const double left = which == FACTOR_SHADOW || which == FACTOR_SHADOW_ALL ? fmin(value, 1)
+                        : which == FACTOR_SHADOW_BELOW                       ? -value
+                                                                             : 0;
     if (!map->texture)
         return;
     glBindTexture(GL_TEXTURE_2D, map->texture);
     set_int(program, U_u_Map, 0);
-    const bool placed = choice(made, SLOT_MAP_PLACE) != MAP_PLACE_OBJECT;
-    shader_set_mat4(program->locations[U_u_MapMatrix],
-                    placed ? mat4_product(map->clip_from_world, made->world)
-                           : map->clip_from_world);
+    shader_set_mat4(program->locations[U_u_MapMatrix], map_matrix(made, map));
     set_choice(program, U_u_MapPlace, made, SLOT_MAP_PLACE);
     set_choice(program, U_u_MapDepth, made, SLOT_MAP_DEPTH);
     set_choice(program, U_u_MapTest, made, SLOT_MAP_TEST);
     set_choice(program, U_u_MapOutside, made, SLOT_MAP_OUTSIDE);
-    set_vec3(program, U_u_MapBias, bias, slope, 0);
+    set_vec3(program, U_u_MapBias, clip ? 0 : bias, slope, clip ? factor_value(made->choices) : 0);
     set_vec3(program, U_u_ShadowOn, on != SHADOW_ON_AMBIENT, 0,
              on != 0 || which == FACTOR_SHADOW_ALL);
     set_float(program, U_u_ShadowLight, left);
+    set_float(program, U_u_MapLight, factor(made, FACTOR_MAP_LIGHT));
 }
 
 bool wrong_program_draw(const WrongProgram *program, const Lab *lab, const Probe *probe,

@@ -8,7 +8,7 @@
 #include "labs/diagnosis/catalogue.h"
 #include "labs/submission/submission.h"
 
-enum { WRONG_PROGRAM_UNIFORMS = 56 };
+enum { WRONG_PROGRAM_UNIFORMS = 57 };
 
 typedef struct WrongProgram {
     Shader shader;

@@ -90,6 +90,27 @@ static bool is_near(const Image *a, const Image *b, int x, int y, double toleran
     return false;
 }
 
+/* Whether each channel of a pixel of one picture is between two within two of the same place in the
+ * other. */
+static bool is_between(const Image *a, const Image *b, int x, int y, double tolerance)
+{
+    const unsigned char *here = pixel(a, x, y);
+    int low[3] = {255, 255, 255}, high[3] = {0, 0, 0};
+    for (int v = y > 1 ? y - 2 : 0; v <= y + 2 && v < a->height; v++) {
+        for (int u = x > 1 ? x - 2 : 0; u <= x + 2 && u < a->width; u++) {
+            for (int c = 0; c < 3; c++) {
+                const int value = pixel(b, u, v)[c];
+                low[c] = value < low[c] ? value : low[c];
+                high[c] = value > high[c] ? value : high[c];
+            }
+        }
+    }
+    for (int c = 0; c < 3; c++)
+        if (here[c] < low[c] - tolerance || here[c] > high[c] + tolerance)
+            return false;
+    return true;
+}
+
 /* Whether a neighbor differs by more than EDGE, which smooth shading does not. */
 static bool at_edge(const Image *image, int x, int y)
 {
@@ -106,7 +127,7 @@ static bool is_dark(const unsigned char *p)
     return p[0] == 0 && p[1] == 0 && p[2] == 0;
 }
 
-Likeness compare_drawn(const Image *a, const Image *b, double tolerance, int max)
+Likeness compare_drawn(const Image *a, const Image *b, double tolerance, int max, bool soft)
 {
     Likeness found = {.maximum = 0};
     if (memcmp(a->pixels, b->pixels, 4 * (size_t)a->width * (size_t)a->height) == 0)
@@ -121,11 +142,13 @@ Likeness compare_drawn(const Image *a, const Image *b, double tolerance, int max
                 found.squares += d > 1 ? (d - 1) * (d - 1) : 0;
                 continue;
             }
-            if ((at_edge(a, x, y) || at_edge(b, x, y)) && is_near(a, b, x, y, tolerance) &&
-                is_near(b, a, x, y, tolerance))
+            const bool edge = at_edge(a, x, y) || at_edge(b, x, y);
+            if (edge && is_near(a, b, x, y, tolerance) && is_near(b, a, x, y, tolerance))
+                continue;
+            if (soft && is_between(a, b, x, y, tolerance) && is_between(b, a, x, y, tolerance))
                 continue;
             found.maximum = fmax(found.maximum, d);
-            found.squares += (d - 1) * (d - 1);
+            found.squares += soft && edge ? 0 : (d - 1) * (d - 1);
             if (++found.differing > max)
                 return found;
         }

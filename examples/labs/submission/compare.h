@@ -30,8 +30,9 @@ typedef struct Likeness {
 } Likeness;
 
 /* A pixel at an edge, of a shape or of light, may be like a neighbor of the same place in the other
- * picture instead: two programs may round a vertex differently. Stops once more than `max` pixels
- * differ. */
-Likeness compare_drawn(const Image *a, const Image *b, double tolerance, int max);
+ * picture instead: two programs may round a vertex differently. `soft`: or between two pixels
+ * within two of it, because one of them may smooth its edges, of which `squares` has none. Stops
+ * once more than `max` pixels differ. */
+Likeness compare_drawn(const Image *a, const Image *b, double tolerance, int max, bool soft);
 
 #endif
