@@ -732,7 +732,7 @@ typedef struct ShadowFrame {
     const Scene *scene;
     const ShadowPlan *plan;
     Mat4 eye_from_world, clip_from_eye;
-    bool full;
+    bool full, in_parts; /* the latter: lights of an object may be others than the scene's */
 } ShadowFrame;
 
 static ShadowSurface surface_of(Lighting *lighting, const ShadowFrame *frame, int number)
@@ -877,6 +877,17 @@ static bool make_throw(Lighting *lighting, const ShadowFrame *frame, const Light
     return true;
 }
 
+/* Whether light may fall where the mesh's normals say that none does: the object is drawn with
+ * others, with a normal of the triangle, with another light, in 16 bits, or its back is where the
+ * mesh has its front. */
+static bool has_odd_normals(const Lighting *lighting, const ShadowFrame *frame,
+                            const Object *object)
+{
+    return object->wrong_normals || lighting->normal_matrix || frame->in_parts ||
+           frame->scene->interpolation == INTERPOLATION_FLAT || is_mediump(&lighting->loader) ||
+           (object->two_sided && object->clockwise);
+}
+
 static bool cast_shadow(Lighting *lighting, const ShadowFrame *frame, const Light *light,
                         int light_number, int number, Message *message)
 {
@@ -887,7 +898,7 @@ static bool cast_shadow(Lighting *lighting, const ShadowFrame *frame, const Ligh
     thrown.two_sided = frame->scene->objects[number].two_sided;
     thrown.behind = !lighting->depth_pass && eye_in_shadow(frame, number, light);
     thrown.own = frame->full || frame->plan->receives[number] >> light_number & 1;
-    thrown.odd = frame->scene->objects[number].wrong_normals || lighting->normal_matrix;
+    thrown.odd = has_odd_normals(lighting, frame, &frame->scene->objects[number]);
     thrown.beyond = eye_beyond(frame, end);
     thrown.facing = facing_of(frame, number, thrown.caster->silhouette.closed, thrown.light_object);
     return shadow_mask_cast(&lighting->mask, &thrown, message);
@@ -1283,7 +1294,8 @@ bool lighting_draw_parts(Lighting *lighting, const Scene *scene, const Scene *pa
     if (!plan_open(&plan, lighting, scene, message))
         return false;
     frame.masks = mask_count(scene, &plan, full);
-    const ShadowFrame shadows = {scene, &plan, frame.eye_from_world, frame.clip_from_eye, full};
+    const ShadowFrame shadows = {scene, &plan,        frame.eye_from_world, frame.clip_from_eye,
+                                 full,  parts != NULL};
     bool done = !frame.masks || draw_masks(lighting, &shadows, frame.masks, message);
     glEnable(GL_DEPTH_TEST);
     if (frame.masks)

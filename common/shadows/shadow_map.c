@@ -274,10 +274,12 @@ bool shadow_map_look(ShadowMaps *maps, ShadowMask *mask, int light, int channel,
                      const ShadowLookup *lookup, Message *message)
 {
     const ShadowMap *map = &maps->lights[light];
-    for (int face = 0; face < map->count; face++) {
+    bool done = true;
+    for (int face = 0; face < map->count && done; face++) {
         Shader *shader = find_look(maps, map, face, lookup, message);
-        if (!shader)
-            return false;
+        done = shader != NULL;
+        if (!done)
+            break;
         const GLuint program = shader->program;
         const GLint normal = glGetAttribLocation(program, "a_Normal");
         shadow_mask_write(mask, channel, first, shader);
@@ -295,5 +297,5 @@ bool shadow_map_look(ShadowMaps *maps, ShadowMask *mask, int light, int channel,
     }
     glBindTexture(GL_TEXTURE_2D, 0);
     shadow_mask_write(mask, -1, false, NULL);
-    return true;
+    return done;
 }

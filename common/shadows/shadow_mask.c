@@ -316,12 +316,26 @@ typedef struct Caps {
     bool lit, turned;
 } Caps;
 
+/* `front`: seen from the side from which the triangle is counter-clockwise. The object's back is
+ * the other side, unless its front faces are clockwise. */
+static bool is_back(const ShadowThrow *thrown, bool front)
+{
+    return front == thrown->surface.clockwise;
+}
+
 /* Whether the surface that is a cap itself counts as outside the volume, in light: on the side that
  * its normal is on. That of a two-sided object seen from the back is on the other. */
 static bool cap_is_outside(const ShadowThrow *thrown, Caps caps, bool front)
 {
-    const bool normal_lit = caps.lit != caps.turned, back = thrown->two_sided && !front;
+    const bool normal_lit = caps.lit != caps.turned;
+    const bool back = thrown->two_sided && is_back(thrown, front);
     return thrown->facing == SILHOUETTE_UNLIT || normal_lit != back;
+}
+
+/* Whether the triangles are of the volume's boundary. */
+static bool is_counted(const ShadowThrow *thrown, Caps caps)
+{
+    return thrown->facing == SILHOUETTE_ALL || caps.lit == (thrown->facing == SILHOUETTE_LIT);
 }
 
 /* Triangles that are both cap and surface, seen from the front or the back: what to add to the
@@ -331,9 +345,11 @@ static bool cap_is_outside(const ShadowThrow *thrown, Caps caps, bool front)
 static int own_count(const ShadowThrow *thrown, Caps caps, bool front)
 {
     const bool outside = cap_is_outside(thrown, caps, front), looks_out = front == caps.lit;
-    if (!thrown->own || (!front && thrown->surface.cull))
+    if (!thrown->own || (thrown->surface.cull && is_back(thrown, front)))
         return 0;
-    return !outside ? 1 : looks_out || thrown->behind ? 0 : -1;
+    if (!outside)
+        return 1;
+    return looks_out || thrown->behind || !is_counted(thrown, caps) ? 0 : -1;
 }
 
 static void draw_own(const ShadowThrow *thrown, Caps caps, Uploaded list)
@@ -374,8 +390,7 @@ static void draw_behind(const ShadowThrow *thrown, Caps caps, Uploaded list)
 static bool draw_caps(const ShadowMask *mask, const ShadowThrow *thrown, Caps caps)
 {
     const size_t vertices = thrown->caster->silhouette.mesh->vertex_count;
-    const bool counted =
-        thrown->facing == SILHOUETTE_ALL || caps.lit == (thrown->facing == SILHOUETTE_LIT);
+    const bool counted = is_counted(thrown, caps);
     const bool wanted = (thrown->behind && counted) || own_count(thrown, caps, true) != 0 ||
                         own_count(thrown, caps, false) != 0;
     Uploaded list;

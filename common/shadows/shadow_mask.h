@@ -79,7 +79,7 @@ typedef struct ShadowThrow {
                        else before them: no caps on the mesh */
     bool beyond;    /* the eye may be beyond the end, and look into the volume through it */
     bool own;       /* the caster's own surface looks up this light */
-    bool odd;       /* its normals are not those of the mesh */
+    bool odd;       /* light may fall where the mesh's normals say that none does */
 } ShadowThrow;
 bool shadow_mask_cast(ShadowMask *mask, const ShadowThrow *thrown, Message *message);
 void shadow_mask_light(ShadowMask *mask, int channel);

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The sine of how far a normal is turned away from a light that a program in 16 bits sees so. */
+/* The sine of an angle that rounding to floats does not change the sign of, by far. */
 static const double CLEARLY = 0.02;
 
 /* A hash table of numbers of items, with a comparison by the caller: open addressing. */

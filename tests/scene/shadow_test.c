@@ -336,6 +336,28 @@ TEST_WITH(0, any_mesh_throws_the_shadow_of_its_triangles, open_meshes, close_mes
     assert_true(all);
 }
 
+/* Whose front is on the side that its normals are not on, if it has a back. */
+TEST_WITH(0, clockwise_meshes_are_lit_as_the_others, open_meshes, close_meshes)
+{
+    const Mesh *const meshes[] = {&pipe_mesh, &pot, &coarse_ring};
+    const Mat4 turned = mat4_rotate(-65, (Vec3){1, 0.3, 0.2});
+    bool all = true;
+    for (int i = 0; i < 3; i++) {
+        for (int way = 0; way < 8; way++) {
+            char name[64];
+            make_world(meshes[i]);
+            turn_first(way & 1 ? mat4_product(turned, mat4_scale((Vec3){-1, 0.9, 1})) : turned);
+            world.objects[0].clockwise = true;
+            world.objects[0].two_sided = way & 2;
+            if (way & 4)
+                world.lights[0].position = (Vec3){0.3, 0.1, 0.2};
+            snprintf(name, sizeof name, "clockwise-%d-%d", i, way);
+            all &= check(name, &world.scene);
+        }
+    }
+    assert_true(all);
+}
+
 TEST_WITH(0, eyes_and_lights_may_be_anywhere, open_meshes, close_meshes)
 {
     bool all = true;
