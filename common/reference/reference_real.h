@@ -72,7 +72,7 @@ typedef double Real;
 
 #endif
 
-/* Two numbers at once. The second of what is not a number or equal is the maximum and minimum. */
+/* Two numbers at once. Of NaN or equal numbers the maximum and minimum are the second argument. */
 #if defined(__SSE2__) && !defined(REFERENCE_QUAD)
 
 #include <emmintrin.h>

@@ -314,7 +314,7 @@ static void *build(void *argument)
         child->first = first;
         child->part = parts[i];
         child->depth = branch->depth + 2;
-        child->threads = (branch->threads + 1) / 2;
+        child->threads = (branch->threads + BOUNDS_WIDTH - 1) / BOUNDS_WIDTH;
         node->children[i] = (BoundsChild){child->number, 0};
         if (parallel) {
             branch->next += parts[i].count - 1;
@@ -532,6 +532,12 @@ static inline Line line_along(Real3 from, Real3 way)
                   {!(inverse.x > 0), !(inverse.y > 0), !(inverse.z > 0)}};
 }
 
+/* What is infinite or NaN would meet the boxes of children that are not there. */
+static inline bool is_finite(Real3 a)
+{
+    return 0 * a.x + 0 * a.y + 0 * a.z == 0;
+}
+
 /* What of a line, between `from` and `to`, lies in two boxes. */
 typedef struct Spans {
     Real2 from, to;
@@ -591,6 +597,8 @@ bool triangles_ray(const Triangles *triangles, Real3 direction, Real near, Real 
 {
     const Line line = line_along((Real3){0, 0, 0}, direction);
     Waiting stack[BOUNDS_STACK];
+    if (!is_finite(direction))
+        return false;
     uint32_t number = NONE; /* of the triangle that is hit */
     int depth = 1;
     stack[0] = (Waiting){{0, 0}, near};
@@ -654,6 +662,8 @@ bool triangles_block(const Triangles *triangles, const TriangleSegment *segment)
     const Real end = segment->endless ? INFINITY : 1;
     uint32_t stack[BOUNDS_STACK];
     int depth = 1;
+    if (!is_finite(segment->from) || !is_finite(segment->way))
+        return false;
     stack[0] = 0;
     while (depth > 0) {
         const BoundsNode *node = &triangles->nodes[stack[--depth]];

@@ -1,6 +1,7 @@
 #include "support/testing.h"
 
 #include <dirent.h>
+#include <errno.h>
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -63,8 +64,9 @@ int testing_in_parts(int (*body)(void))
             worst = 1;
     }
     const int own = body();
-    while (wait(&status) > 0)
-        if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+    pid_t ended;
+    while ((ended = wait(&status)) > 0 || (ended < 0 && errno == EINTR))
+        if (ended > 0 && (!WIFEXITED(status) || WEXITSTATUS(status) != 0))
             worst = WIFEXITED(status) ? WEXITSTATUS(status) : 1;
     return own ? own : worst;
 }
