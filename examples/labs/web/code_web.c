@@ -99,8 +99,8 @@ static bool take_new_name(const char **at, Constants *constants)
     static const char TAKEN[] =
         " auto bool break case char const continue default do double else enum extern false float "
         "for goto if inline int long register restrict return short signed sizeof static struct "
-        "switch true typedef union unsigned void volatile while slices stacks cull lab_budget "
-        "LabBudget ";
+        "switch true typedef union unsigned void volatile while lab_budget LabBudget asm typeof "
+        "linux unix ";
     char name[64], word[66];
     const int i = constants->count;
     if (i == 8 || !take_word(at, name, sizeof name) || find_constant(constants, name) < i)
@@ -113,13 +113,21 @@ static bool take_new_name(const char **at, Constants *constants)
     return true;
 }
 
-/* "#define SLICES 64", alone on its line. */
+/* "#define SLICES 64", on a line of its own, with what a comment adds to it. */
 static bool take_macro(const char **at, Constants *constants)
 {
+    static const char *const MEMBERS[] = {"slices", "stacks", "cull"};
+    const char *line = next_token(*at), *end = line + strcspn(line, "\n");
     if (!take(at, "#define") || !isblank((unsigned char)**at) || !take_new_name(at, constants) ||
         !take_number(at, &constants->values[constants->count - 1]))
         return false;
-    return memchr(*at, '\n', (size_t)(next_token(*at) - *at)) != NULL;
+    for (int i = 0; i < 3; i++)
+        if (strcmp(constants->names[constants->count - 1], MEMBERS[i]) == 0)
+            return false;
+    /* What a comment or a backslash continues is not read. */
+    const char *comment = strstr(*at, "/*"), *closed = comment ? strstr(comment, "*/") : NULL;
+    const bool whole = !comment || comment > end || (closed && closed < end);
+    return *at <= end && *end && end[-1] != '\\' && whole && next_token(*at) > end;
 }
 
 /* "const int slices = 64;", of which "const" is taken already. */
