@@ -1,6 +1,8 @@
 "use strict";
 /* A lab in a worker: a student's shaders may take long or for ever, and then it is the worker that is ended, not the page. */
 const LabWorker = (() => {
+    /* So many times the time of a drawing: a check draws all scenes, and those of many mistakes. */
+    const CHECKS = 5;
     const HANGS = "No answer: look for an endless loop. Your text is kept. If nothing is drawn after the next " +
                   "change, reload the page.";
     let worker = null, current = null, waiting = [];
@@ -95,7 +97,7 @@ const LabWorker = (() => {
         current = job;
         if (!worker)
             start();
-        job.timer = setTimeout(() => end(HANGS), api.limit);
+        job.timer = setTimeout(() => end(HANGS), api.limit * (job.task.what === "check" ? CHECKS : 1));
         worker.postMessage(job.task);
     }
 
@@ -113,7 +115,7 @@ const LabWorker = (() => {
 
     const api = {
         ask,
-        limit: 60000, /* ms; a check takes a second, on a slow renderer or a busy machine some more */
+        limit: 60000, /* ms; drawing takes much less than a second, even by a slow renderer on a busy machine */
         lost() {},    /* called when a context is lost that nothing was being drawn with */
         lose() { worker.postMessage({what: "lose"}); }, /* for tests */
     };

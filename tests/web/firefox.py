@@ -31,7 +31,7 @@ class WebSocket:
         key = base64.b64encode(os.urandom(16)).decode()
         self.socket.sendall(f"GET {path} HTTP/1.1\r\nHost: {host}:{port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
                             f"Sec-WebSocket-Key: {key}\r\nSec-WebSocket-Version: 13\r\n\r\n".encode())
-        answer = b"".join(iter(self.input.readline, b"\r\n"))
+        answer = b"".join(iter(lambda: self.input.readline() or b"\r\n", b"\r\n"))
         if b" 101 " not in answer:
             raise Failed(answer.decode())
 
@@ -71,8 +71,8 @@ class WebSocket:
 def display():
     """An X server, and its name."""
     reading, writing = os.pipe()
-    process = subprocess.Popen(["Xvfb", "-displayfd", str(writing), "-screen", "0", "1400x1000x24", "-nolisten", "tcp"],
-                               pass_fds=[writing], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+    process = subprocess.Popen(["Xvfb", "-displayfd", str(writing), "-screen", "0", "1400x1000x24", "-nolisten", "tcp",
+                                "-noreset"], pass_fds=[writing], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                                stderr=subprocess.DEVNULL)
     os.close(writing)
     with os.fdopen(reading) as file:
@@ -96,11 +96,12 @@ class Firefox(Page):
                                                        for name, value in PREFERENCES.items()))
         server, name = display()
         self.processes.append(server)
-        # It writes into the folder of its user, too.
+        # It writes into the folder of its user, too, and with MOZ_HEADLESS has no WebGL.
+        usual = {name: value for name, value in os.environ.items() if not name.startswith(("MOZ_", "XDG_"))}
         self.processes.append(subprocess.Popen(
             ["firefox-esr", "--no-remote", "--profile", profile, "--remote-debugging-port", "0", "about:blank"],
             stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-            env={**os.environ, "HOME": self.folder, "DISPLAY": name, "GDK_BACKEND": "x11"}))
+            env={**usual, "HOME": self.folder, "DISPLAY": name, "GDK_BACKEND": "x11"}))
         address = self.address(profile / "WebDriverBiDiServer.json")
         self.socket = WebSocket(address["ws_host"], address["ws_port"], "/session")
         self.call("session.new", capabilities={})
@@ -120,7 +121,11 @@ class Firefox(Page):
     def close(self):
         for process in reversed(self.processes):
             process.terminate()
-            process.wait()
+            try:
+                process.wait(10)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.wait()
         if self.socket:
             self.socket.close()
         shutil.rmtree(self.folder, ignore_errors=True)

@@ -63,11 +63,8 @@ class Case(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.page = cls.start()
+        cls.addClassCleanup(cls.page.close)
         cls.page.before_pages(CONFIRM)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.page.close()
 
     def tearDown(self):
         self.page.resize(1280, 900)
