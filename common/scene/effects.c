@@ -355,7 +355,7 @@ static void decide_output(const Scene *scene, Effects *effects, bool at_vertices
      * colors of the vertices that exceed 16 bits are infinite in mediump. */
     effects->limit = brightest(scene) > 6e4;
     if (effects->limit)
-        say(file, "colours limited to 1e6: drivers may draw larger ones as black");
+        say(file, "colours limited: drivers may draw very large ones as black");
 }
 
 static Effects decide(const Scene *scene, const Object *object, const MeshBox *box,

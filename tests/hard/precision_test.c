@@ -117,7 +117,8 @@ TEST(the_cross_product_keeps_the_digits_of_a_highlight)
             printf("shininess %g, %s, by the cross product: %.2f in highp, %.2f in mediump "
                    "(derived: at most %.1f), by the cosine %.2f\n",
                    s, reflection ? "Phong" : "Blinn-Phong", high, medium, derived, by_cosine);
-            /* The cosine's own form is up to 75 off. */
+            /* Of vectors derived for s = 1 nothing is left: at most 15.5 was measured (lavapipe).
+             * The cosine's own form is up to 75 off. */
             if (high > 1 || medium > derived || medium > 25)
                 fail_msg("shininess %g, reflection %d", s, reflection);
         }

@@ -616,7 +616,7 @@ TEST_WITH(0, colours_are_limited_where_they_may_be_large, set_up, NULL)
     assert_limited(false); /* 0 is 1 */
     light->quadratic = 1;
     assert_limited(true);
-    assert_said("colours limited to 1e6: drivers may draw larger ones as black");
+    assert_said("colours limited: drivers may draw very large ones as black");
     light->off = true;
     assert_limited(false);
     light->off = false;
