@@ -54,6 +54,8 @@ varying vec3 v_BackColor;
 #include "lighting/base.glsl"
 #endif
 
+#endif
+#if defined(VERTEX_LIGHTS) || defined(SHADOW_MAPS)
 #include "lighting/vertex_groups.glsl"
 #endif
 
@@ -72,6 +74,9 @@ void main() {
 #ifdef FRAGMENT_COLOR
     v_Color = a_Color;
 #endif
+#endif
+#ifdef SHADOW_MAPS
+    place_on_maps();
 #endif
     vec3 position = vec3(0.0);
     vec3 normal = vec3(0.0);

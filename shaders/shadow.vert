@@ -23,8 +23,8 @@ varying highp vec2 v_Depth;
 attribute vec3 a_Normal;
 uniform mat4 u_LightFromObject; // the light looks along -z
 uniform mat4 u_LightNormal;
-varying highp vec3 v_Place;
-varying highp vec3 v_Normal;
+varying highp vec3 v_MapPlace;
+varying highp vec3 v_MapNormal;
 #else
 uniform vec3 u_Center; // in object coordinates, near the vertices
 uniform vec4 u_Light;  // from there; w = 0: the direction towards it
@@ -57,7 +57,7 @@ void main() {
     gl_Position.z = FARTHEST * gl_Position.w - (1.0 + FARTHEST) * u_Near * place.w;
 #endif
 #ifdef LOOK_UP
-    v_Place = (u_LightFromObject * place).xyz;
-    v_Normal = (u_LightNormal * vec4(a_Normal, 0.0)).xyz;
+    v_MapPlace = (u_LightFromObject * place).xyz;
+    v_MapNormal = (u_LightNormal * vec4(a_Normal, 0.0)).xyz;
 #endif
 }

@@ -121,7 +121,7 @@ static void explain_light(FILE *file, const Scene *scene, int number, const Ligh
             terms->exponent ? "with falloff" : "without falloff: its exponent is 0");
     if (scene->lights[number].shadows)
         say(file, "  %s",
-            terms->shadow ? "shadow: looked up in a mask, because a surface may come between"
+            terms->shadow ? "shadow: looked up, because a surface may come between"
                           : "without shadow: no surface can come between");
 }
 

@@ -45,8 +45,10 @@ struct Lighting {
     Buffered *buffers;
     Caster *casters;
     ShadowSettings shadows;
-    ShadowMask mask; /* opened when a scene first needs it */
-    ShadowMaps maps; /* likewise */
+    ShadowMask mask;     /* opened when a scene first needs it */
+    ShadowMaps maps;     /* likewise */
+    uint32_t map_lights; /* a bit for each whose map the programs that light objects look up; the
+                            shadows of others are in masks */
     LightingCounts counts;
     LightingTransforms transforms;
     LightingNormalMatrix *normal_matrix; /* NULL: mat4_normal */
@@ -132,25 +134,117 @@ static int masks_of(const Effects *effects)
     return count;
 }
 
-/* Masks of shadows, looked up once for all groups. In mediump gl_FragCoord has 11 bits, too few
- * for the size of a framebuffer: the place comes from the vertex shader. */
-static void write_masks(const Effects *effects, bool mediump, FILE *file)
+/* Whether fragments may be computed in 16 bits. */
+static bool is_mediump(const ShaderLoader *loader)
 {
+    return loader->precision && strcmp(loader->precision, "mediump") == 0;
+}
+
+static ShadowLookup lookup_of(const ShadowSettings *settings)
+{
+    return (ShadowLookup){settings->smooth != 0, settings->bias.x, settings->bias.y,
+                          settings->bias.z};
+}
+
+/* What each light's code for its map has under a name of its own. */
+static const char *const MAP_NAMES[] = {"u_MapScale", "u_MapMove",  "u_MapSize",   "u_MapBias",
+                                        "u_Map",      "v_MapPlace", "v_MapNormal", "map_depth",
+                                        "hidden",     "find_place", "find_shadow"};
+enum { MAP_NAME_COUNT = sizeof MAP_NAMES / sizeof MAP_NAMES[0] };
+
+/* What a program looks up: maps, a bit for each light; and masks, a bit each. */
+typedef struct Shadows {
+    uint32_t maps, masks;
+} Shadows;
+
+static Shadows shadows_of(const Effects *effects, const Scene *scene, const Lighting *lighting)
+{
+    Shadows shadows = {0, 0};
+    for (int g = 0; g < effects->group_count; g++) {
+        const LightGroup *group = &effects->groups[g];
+        for (int i = 0; group->terms.shadow && i < group->count; i++) {
+            const int light = group->lights[i];
+            if (lighting->map_lights >> light & 1)
+                shadows.maps |= (uint32_t)1 << light;
+            else
+                shadows.masks |= (uint32_t)1 << effects_channel(scene, light) / SHADOW_CHANNELS;
+        }
+    }
+    return shadows;
+}
+
+static void write_map(int light, int look, FILE *file)
+{
+    const char *defines[LOOK_DEFINES];
+    const int count = shadow_map_defines(look, defines);
+    for (int i = 0; i < MAP_NAME_COUNT; i++)
+        fprintf(file, "#define %s %s%d\n", MAP_NAMES[i], MAP_NAMES[i], light);
+    for (int i = 0; i < count; i++)
+        fprintf(file, "#define %s\n", defines[i]);
+    fprintf(file, "#include \"lighting/shadow_map.glsl\"\n");
+    for (int i = 0; i < count; i++)
+        fprintf(file, "#undef %s\n", defines[i]);
+    for (int i = 0; i < MAP_NAME_COUNT; i++)
+        fprintf(file, "#undef %s\n", MAP_NAMES[i]);
+}
+
+/* Where the fragments are on the maps. */
+static void write_map_places(uint32_t maps, FILE *file)
+{
+    for (int l = 0; l < SHADOW_MAPS; l++)
+        if (maps >> l & 1)
+            fprintf(file,
+                    "uniform mat4 u_LightFromObject%d;\nuniform mat4 u_LightNormal%d;\n"
+                    "varying vec3 v_MapPlace%d;\nvarying vec3 v_MapNormal%d;\n",
+                    l, l, l, l);
+    fprintf(file, "void place_on_maps() {\n");
+    for (int l = 0; l < SHADOW_MAPS; l++)
+        if (maps >> l & 1)
+            fprintf(file,
+                    "    v_MapPlace%d = (u_LightFromObject%d * a_Position).xyz;\n"
+                    "    v_MapNormal%d = (u_LightNormal%d * vec4(a_Normal, 0.0)).xyz;\n",
+                    l, l, l, l);
+    fprintf(file, "}\n");
+}
+
+/* Once for all groups: the share of each light that is in shadow, of four lights in a vector.
+ * Depths and places need highp, which the loader replaces in mediump. There gl_FragCoord has 11
+ * bits, too few for the size of a framebuffer: the place comes from the vertex shader. */
+static void write_shadows(const Effects *effects, const Scene *scene, const Lighting *lighting,
+                          FILE *file)
+{
+    const Shadows shadows = shadows_of(effects, scene, lighting);
+    const ShadowLookup lookup = lookup_of(&lighting->shadows);
+    const bool mediump = is_mediump(&lighting->loader);
     const int count = masks_of(effects);
     if (!count)
         return;
-    /* The loader replaces highp. */
-    fprintf(file, mediump ? "#undef highp\nvarying highp vec3 v_MaskPlace;\n" : "");
-    fprintf(file, "uniform highp vec4 u_MaskPlace;\n");
+    fprintf(file, "#define LOOK_UP_SHADOWS\n");
     for (int m = 0; m < count; m++)
-        fprintf(file, "uniform sampler2D u_Mask%d;\nvec4 shadow_mask%d;\n", m, m);
-    fprintf(file,
-            "#define LOOK_UP_SHADOWS\nvoid look_up_shadows() {\n"
-            "    highp vec2 place = %s * u_MaskPlace.xy + u_MaskPlace.zw;\n",
-            mediump ? "(v_MaskPlace.xy / v_MaskPlace.z)" : "gl_FragCoord.xy");
+        fprintf(file, "vec4 shadow_mask%d = vec4(0.0);\n", m);
+    fprintf(file, mediump ? "#undef highp\nprecision highp float;\n" : "");
+    for (int l = 0; l < scene->light_count; l++)
+        if (shadows.maps >> l & 1)
+            write_map(l, shadow_map_look(&lighting->maps, l, 0, &lookup), file);
     for (int m = 0; m < count; m++)
-        fprintf(file, "    shadow_mask%d = texture2D(u_Mask%d, place);\n", m, m);
-    fprintf(file, "}\n%s", mediump ? "#define highp mediump\n" : "");
+        if (shadows.masks >> m & 1)
+            fprintf(file, "uniform sampler2D u_Mask%d;\n", m);
+    if (shadows.masks)
+        fprintf(file,
+                "uniform vec4 u_MaskPlace;\n%s"
+                "vec2 mask_place() { return %s * u_MaskPlace.xy + u_MaskPlace.zw; }\n",
+                mediump ? "varying vec3 v_MaskPlace;\n" : "",
+                mediump ? "(v_MaskPlace.xy / v_MaskPlace.z)" : "gl_FragCoord.xy");
+    fprintf(file, "void look_up_shadows() {\n");
+    for (int m = 0; m < count; m++)
+        if (shadows.masks >> m & 1)
+            fprintf(file, "    shadow_mask%d = texture2D(u_Mask%d, mask_place());\n", m, m);
+    for (int l = 0; l < scene->light_count; l++)
+        if (shadows.maps >> l & 1)
+            fprintf(file, "    shadow_mask%d.%c = find_shadow%d();\n",
+                    effects_channel(scene, l) / SHADOW_CHANNELS,
+                    "rgba"[effects_channel(scene, l) % SHADOW_CHANNELS], l);
+    fprintf(file, "}\n%s", mediump ? "precision mediump float;\n#define highp mediump\n" : "");
 }
 
 /* Of light that is computed at the vertices the part that a shadow keeps off is interpolated for
@@ -198,21 +292,25 @@ static void write_shadowed(const Scene *scene, const LightGroup *group, int g, F
 
 /* The text of "lighting/vertex_groups.glsl" or "lighting/fragment_groups.glsl": a function per
  * group, and add_lights, which calls them. */
-static char *groups_text(const Effects *effects, const Scene *scene, bool at_vertex, bool mediump)
+static char *groups_text(const Effects *effects, const Scene *scene, const Lighting *lighting,
+                         bool at_vertex)
 {
     char *text = NULL;
     size_t size = 0;
     int shadowed = 0; /* at the vertices, so far */
+    const Shadows shadows = shadows_of(effects, scene, lighting);
     FILE *file = open_memstream(&text, &size);
     if (!file)
         return NULL;
     if (!at_vertex)
-        write_masks(effects, mediump, file);
+        write_shadows(effects, scene, lighting, file);
+    else if (shadows.maps)
+        write_map_places(shadows.maps, file);
     write_vertex_shadows(effects, scene, at_vertex, file);
     for (int g = 0; g < effects->group_count; g++) {
         const LightGroup *group = &effects->groups[g];
         const char *defines[MAX_GROUP_DEFINES];
-        const int count = group_defines(group, mediump, defines);
+        const int count = group_defines(group, is_mediump(&lighting->loader), defines);
         if (group->terms.at_vertex != at_vertex)
             continue;
         fprintf(file, "#define GROUP group%d\n#define COUNT %d\n", g, group->count);
@@ -244,16 +342,11 @@ static char *groups_text(const Effects *effects, const Scene *scene, bool at_ver
     return text;
 }
 
-/* Whether fragments may be computed in 16 bits. */
-static bool is_mediump(const ShaderLoader *loader)
-{
-    return loader->precision && strcmp(loader->precision, "mediump") == 0;
-}
-
 static bool recipe_open(Recipe *recipe, const Effects *effects, const Scene *scene,
-                        const ShaderLoader *loader, Message *message)
+                        const Lighting *lighting, Message *message)
 {
-    const bool mediump = is_mediump(loader);
+    const bool mediump = is_mediump(&lighting->loader);
+    const Shadows shadows = shadows_of(effects, scene, lighting);
     /* By ShaderStage. What is clamped at the vertices is computed there, the base too. */
     bool lights[2] = {[SHADER_VERTEX] = effects->clamp_vertex}, position[2] = {false};
     bool normals[2] = {false}, colored[2] = {false};
@@ -287,7 +380,8 @@ static bool recipe_open(Recipe *recipe, const Effects *effects, const Scene *sce
         {lights[SHADER_VERTEX], "VERTEX_LIGHTS"},
         {lights[SHADER_FRAGMENT], "FRAGMENT_LIGHTS"},
         {vertex_shadows, "VERTEX_SHADOWS"},
-        {mediump && masks_of(effects), "MASK_PLACE"},
+        {shadows.maps != 0, "SHADOW_MAPS"},
+        {mediump && shadows.masks, "MASK_PLACE"},
         {position[SHADER_VERTEX] || position[SHADER_FRAGMENT], "POSITION"},
         {position[SHADER_FRAGMENT], "FRAGMENT_POSITION"},
         {normals[SHADER_VERTEX] || normals[SHADER_FRAGMENT], "NORMALS"},
@@ -307,8 +401,8 @@ static bool recipe_open(Recipe *recipe, const Effects *effects, const Scene *sce
     for (size_t i = 0, count = 0; i < sizeof all / sizeof all[0]; i++)
         if (all[i].there)
             recipe->defines[count++] = all[i].define;
-    recipe->groups[SHADER_VERTEX] = groups_text(effects, scene, true, mediump);
-    recipe->groups[SHADER_FRAGMENT] = groups_text(effects, scene, false, mediump);
+    recipe->groups[SHADER_VERTEX] = groups_text(effects, scene, lighting, true);
+    recipe->groups[SHADER_FRAGMENT] = groups_text(effects, scene, lighting, false);
     if (recipe->groups[SHADER_VERTEX] && recipe->groups[SHADER_FRAGMENT])
         return true;
     return message_set(message, "lighting: not enough memory");
@@ -348,7 +442,7 @@ static const Variant *find_variant(Lighting *lighting, const Scene *scene, const
 {
     Recipe recipe;
     ShaderText texts[3];
-    if (!recipe_open(&recipe, effects, scene, &lighting->loader, message)) {
+    if (!recipe_open(&recipe, effects, scene, lighting, message)) {
         recipe_close(&recipe);
         return NULL;
     }
@@ -1016,52 +1110,36 @@ static bool draw_maps(Lighting *lighting, const ShadowFrame *frame, Message *mes
     return true;
 }
 
-/* On one object. `first`: with its depth. */
-static bool look_up_on(Lighting *lighting, const ShadowFrame *frame, int number, int receiver,
-                       bool first, Message *message)
-{
-    const ShadowSettings *settings = &lighting->shadows;
-    const ShadowLookup lookup = {settings->smooth != 0, settings->bias.x, settings->bias.y,
-                                 settings->bias.z};
-    const ShadowSurface surface = surface_of(lighting, frame, receiver);
-    return shadow_map_look(&lighting->maps, &lighting->mask, number,
-                           effects_channel(frame->scene, number), first, &surface,
-                           frame->scene->objects[receiver].world_from_object, &lookup, message);
-}
-
 static bool look_up_map(Lighting *lighting, const ShadowFrame *frame, int number, Message *message)
 {
-    for (int r = frame->plan->count - 1; r >= 0; r--)
-        if (frame->plan->receives[r] >> number & 1 &&
-            !look_up_on(lighting, frame, number, r, false, message))
-            return false;
-    return true;
-}
-
-/* The light whose map is looked up where the depths are drawn, which saves drawing all once more:
- * the first that has one map; -1: none. What receives no shadow would keep that of what it hides,
- * which only full programs look up. */
-static int first_map(const Lighting *lighting, const ShadowFrame *frame)
-{
-    const bool maps = lighting->shadows.way == SHADOWS_MAP && !frame->full;
-    for (int l = 0; l < frame->scene->light_count && maps; l++)
-        if (frame->plan->all >> l & 1 && lighting->maps.lights[l].count == 1)
-            return l;
-    return -1;
-}
-
-static bool draw_surfaces(Lighting *lighting, const ShadowFrame *frame, int first, Message *message)
-{
+    const ShadowLookup lookup = lookup_of(&lighting->shadows);
     bool done = true;
-    for (int o = 0; o < frame->scene->object_count && done; o++) {
-        if (first >= 0 && frame->plan->receives[o] >> first & 1) {
-            done = look_up_on(lighting, frame, first, o, true, message);
-        } else {
-            const ShadowSurface surface = surface_of(lighting, frame, o);
-            shadow_mask_surface(&lighting->mask, &surface);
-        }
+    for (int r = frame->plan->count - 1; r >= 0 && done; r--) {
+        if (!(frame->plan->receives[r] >> number & 1))
+            continue;
+        const ShadowSurface surface = surface_of(lighting, frame, r);
+        done = shadow_map_mark(&lighting->maps, &lighting->mask, number,
+                               effects_channel(frame->scene, number), &surface,
+                               frame->scene->objects[r].world_from_object, &lookup, message);
     }
     return done;
+}
+
+/* The lights whose maps programs look up themselves: those that have one, as many as a program has
+ * room for, with two varyings for each, two for what is lit at its vertices, and six others. Full
+ * programs have masks of all lights, with or without a map. */
+static uint32_t find_map_lights(const Lighting *lighting, const ShadowFrame *frame)
+{
+    GLint varyings = 0, units = 0;
+    glGetIntegerv(GL_MAX_VARYING_VECTORS, &varyings);
+    glGetIntegerv(GL_MAX_TEXTURE_IMAGE_UNITS, &units);
+    const int masks = (frame->scene->light_count + SHADOW_CHANNELS - 1) / SHADOW_CHANNELS;
+    int room = (varyings - 6) / 4 < units - masks ? (varyings - 6) / 4 : units - masks;
+    uint32_t lights = 0;
+    for (int l = 0; l < frame->scene->light_count && !frame->full; l++)
+        if (frame->plan->all >> l & 1 && lighting->maps.lights[l].count == 1 && room-- > 0)
+            lights |= (uint32_t)1 << l;
+    return lights;
 }
 
 static bool draw_light_mask(Lighting *lighting, const ShadowFrame *frame, int number,
@@ -1083,29 +1161,74 @@ static bool draw_light_mask(Lighting *lighting, const ShadowFrame *frame, int nu
     return done;
 }
 
-/* The number of textures that the programs of this scene look up. */
-static int mask_count(const Scene *scene, const ShadowPlan *plan, bool full)
+/* The number of masks that the programs of this scene look up. */
+static int mask_count(const Lighting *lighting, const ShadowFrame *frame)
 {
     int count = 0;
-    for (int l = 0; l < scene->light_count; l++)
-        if (full ? scene->lights[l].shadows : plan->all >> l & 1)
-            count = effects_channel(scene, l) / SHADOW_CHANNELS + 1;
+    for (int l = 0; l < frame->scene->light_count; l++)
+        if (frame->full ? frame->scene->lights[l].shadows
+                        : frame->plan->all & ~lighting->map_lights & (uint32_t)1 << l)
+            count = effects_channel(frame->scene, l) / SHADOW_CHANNELS + 1;
     return count;
 }
 
 static bool draw_masks(Lighting *lighting, const ShadowFrame *frame, int count, Message *message)
 {
     ShadowMask *mask = &lighting->mask;
-    if ((lighting->shadows.way == SHADOWS_MAP && !draw_maps(lighting, frame, message)) ||
-        (!mask->framebuffer && !shadow_mask_open(mask, &lighting->loader, message)) ||
+    if ((!mask->framebuffer && !shadow_mask_open(mask, &lighting->loader, message)) ||
         !shadow_mask_begin(mask, count, frame->scene->camera.near, message))
         return false;
-    const int first = first_map(lighting, frame);
-    bool done = draw_surfaces(lighting, frame, first, message);
+    for (int o = 0; o < frame->scene->object_count; o++) {
+        const ShadowSurface surface = surface_of(lighting, frame, o);
+        shadow_mask_surface(mask, &surface);
+    }
+    bool done = true;
     for (int l = 0; l < frame->scene->light_count && done; l++)
-        if (frame->plan->all >> l & 1 && l != first)
+        if ((frame->plan->all & ~lighting->map_lights) >> l & 1)
             done = draw_light_mask(lighting, frame, l, message);
     return shadow_mask_end(mask, message) && done;
+}
+
+/* Maps, and `count` masks. */
+static bool draw_shadows(Lighting *lighting, const ShadowFrame *frame, int *count, Message *message)
+{
+    const bool maps = lighting->shadows.way == SHADOWS_MAP && frame->plan->all;
+    lighting->map_lights = 0;
+    if (maps && !draw_maps(lighting, frame, message))
+        return false;
+    if (maps)
+        lighting->map_lights = find_map_lights(lighting, frame);
+    *count = mask_count(lighting, frame);
+    return *count == 0 || draw_masks(lighting, frame, *count, message);
+}
+
+/* To units from `first` on, of the lights in their order; `bind` false: no longer. */
+static void bind_maps(const Lighting *lighting, int first, bool bind)
+{
+    GLenum unit = GL_TEXTURE0 + (GLenum)first;
+    for (int l = 0; l < SHADOW_MAPS; l++) {
+        if (!(lighting->map_lights >> l & 1))
+            continue;
+        glActiveTexture(unit++);
+        glBindTexture(GL_TEXTURE_2D, bind ? lighting->maps.lights[l].textures[0] : 0);
+    }
+    glActiveTexture(GL_TEXTURE0);
+}
+
+/* `first` as bind_maps was given it. */
+static void set_maps(GLuint program, const Lighting *lighting, int first, const Object *object)
+{
+    const ShadowLookup lookup = lookup_of(&lighting->shadows);
+    char name[32], suffix[8];
+    for (int l = 0, unit = first; l < SHADOW_MAPS; l++) {
+        if (!(lighting->map_lights >> l & 1))
+            continue;
+        snprintf(suffix, sizeof suffix, "%d", l);
+        snprintf(name, sizeof name, "u_Map%s", suffix);
+        glUniform1i(glGetUniformLocation(program, name), unit++);
+        shadow_map_uniforms(&lighting->maps, l, 0, &lookup, object->world_from_object, program,
+                            suffix);
+    }
 }
 
 static void explain_maps(const Lighting *lighting, const ShadowFrame *frame, int number, FILE *file)
@@ -1247,6 +1370,7 @@ static bool draw_object(Lighting *lighting, const Scene *scene, const Object *ob
     for (int g = 0; g < effects.group_count; g++)
         set_group(program, transforms, scene, eye_from_world, &effects.groups[g], g);
     set_masks(program, &lighting->mask, is_mediump(&lighting->loader), frame->masks);
+    set_maps(program, lighting, frame->masks, object);
 
     /* A reflection reverses the winding. */
     glFrontFace((mat4_determinant(eye_from_object) < 0) != object->clockwise ? GL_CW : GL_CCW);
@@ -1293,16 +1417,15 @@ bool lighting_draw_parts(Lighting *lighting, const Scene *scene, const Scene *pa
                            scene->light_count, EFFECTS_MAX_LIGHTS);
     if (!plan_open(&plan, lighting, scene, message))
         return false;
-    frame.masks = mask_count(scene, &plan, full);
     const ShadowFrame shadows = {scene, &plan,        frame.eye_from_world, frame.clip_from_eye,
                                  full,  parts != NULL};
-    bool done = !frame.masks || draw_masks(lighting, &shadows, frame.masks, message);
+    bool done = draw_shadows(lighting, &shadows, &frame.masks, message);
     glEnable(GL_DEPTH_TEST);
-    if (frame.masks)
-        shadow_mask_bind(&lighting->mask, frame.masks);
+    shadow_mask_bind(&lighting->mask, frame.masks);
+    bind_maps(lighting, frame.masks, true);
     done = done && draw_objects(lighting, scene, parts, &frame, &plan, message);
-    if (frame.masks)
-        shadow_mask_bind(NULL, frame.masks);
+    shadow_mask_bind(NULL, frame.masks);
+    bind_maps(lighting, frame.masks, false);
     plan_close(&plan);
     glDisable(GL_CULL_FACE);
     glFrontFace(GL_CCW);
@@ -1341,7 +1464,7 @@ bool lighting_sources(const Lighting *lighting, const Scene *scene, const Object
     const Effects effects = full ? effects_full(scene, object) : effects_of(scene, object);
     Recipe recipe;
     ShaderText texts[3];
-    bool done = recipe_open(&recipe, &effects, scene, &lighting->loader, message);
+    bool done = recipe_open(&recipe, &effects, scene, lighting, message);
     const ShaderLoader loader = recipe_loader(&recipe, &lighting->loader, texts);
     sources[SHADER_VERTEX] = sources[SHADER_FRAGMENT] = (ShaderSource){0};
     done = done &&

@@ -1,14 +1,10 @@
 #include "shadows/shadow_map.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { FLOAT_BITS = 24 }; /* with which the shader compares, whatever the texture has */
-
-static void set_vec3(GLuint program, const char *name, double x, double y, double z)
-{
-    shader_set_vec3(glGetUniformLocation(program, name), (Vec3){x, y, z});
-}
 
 static void set_matrix(GLuint program, const char *name, Mat4 value)
 {
@@ -17,17 +13,27 @@ static void set_matrix(GLuint program, const char *name, Mat4 value)
 
 /* Programs. Depths need more bits than mediump has, whatever --precision says. */
 
+int shadow_map_defines(int look, const char *defines[LOOK_DEFINES])
+{
+    static const struct {
+        int look;
+        const char *define;
+    } all[LOOK_DEFINES] = {{LOOK_SMOOTH, "SMOOTH"},
+                           {LOOK_ALONG_NORMAL, "ALONG_NORMAL"},
+                           {LOOK_PERSPECTIVE, "PERSPECTIVE"},
+                           {LOOK_PACKED, "PACKED"}};
+    int count = 0;
+    for (int i = 0; i < LOOK_DEFINES; i++)
+        if (look & all[i].look)
+            defines[count++] = all[i].define;
+    return count;
+}
+
 static bool open_program(Shader *shader, const ShadowMaps *maps, const char *purpose, int look,
                          Message *message)
 {
-    static const char *const looks[] = {"SMOOTH", "ALONG_NORMAL", "ALONE", "PERSPECTIVE"};
-    const char *defines[7] = {purpose};
-    int count = 1;
-    if (maps->packed)
-        defines[count++] = "PACKED";
-    for (int i = 0; i < 4; i++)
-        if (look >> i & 1)
-            defines[count++] = looks[i];
+    const char *defines[LOOK_DEFINES + 2] = {purpose};
+    shadow_map_defines(look, &defines[1]);
     ShaderLoader loader = maps->loader;
     loader.precision = NULL;
     loader.defines = defines;
@@ -90,7 +96,7 @@ bool shadow_maps_open(ShadowMaps *maps, const ShaderLoader *loader, Message *mes
     maps->packed = !has_depth_texture(maps);
     if (maps->packed)
         maps->bits = FLOAT_BITS; /* 255^3 values, nearly */
-    if (open_program(&maps->draw, maps, "DRAW_MAP", 0, message))
+    if (open_program(&maps->draw, maps, "DRAW_MAP", maps->packed ? LOOK_PACKED : 0, message))
         return true;
     shadow_maps_close(maps);
     return false;
@@ -246,56 +252,66 @@ bool shadow_map_draw(ShadowMaps *maps, int light, int size, const ShadowFrustum 
 
 /* Looking it up */
 
-static Shader *find_look(ShadowMaps *maps, const ShadowMap *map, int face,
-                         const ShadowLookup *lookup, Message *message)
+int shadow_map_look(const ShadowMaps *maps, int light, int face, const ShadowLookup *lookup)
 {
-    const int look =
-        (lookup->smooth ? LOOK_SMOOTH : 0) | (lookup->normal != 0 ? LOOK_ALONG_NORMAL : 0) |
-        (map->count == 1 ? LOOK_ALONE : 0) | (map->frusta[face].perspective ? LOOK_PERSPECTIVE : 0);
-    Shader *shader = &maps->look[look];
-    return shader->program || open_program(shader, maps, "LOOK_UP", look, message) ? shader : NULL;
+    return (lookup->smooth ? LOOK_SMOOTH : 0) | (lookup->normal != 0 ? LOOK_ALONG_NORMAL : 0) |
+           (maps->lights[light].frusta[face].perspective ? LOOK_PERSPECTIVE : 0) |
+           (maps->packed ? LOOK_PACKED : 0);
 }
 
-/* From the light's coordinates to the map's: what of the projection is not zero, from 0 to 1. */
-static void set_map(GLuint program, const ShadowMap *map, int face)
+static void set_vec3(GLuint program, const char *name, const char *suffix, Vec3 value)
 {
+    char full_name[32];
+    snprintf(full_name, sizeof full_name, "%s%s", name, suffix);
+    shader_set_vec3(glGetUniformLocation(program, full_name), value);
+}
+
+void shadow_map_uniforms(const ShadowMaps *maps, int light, int face, const ShadowLookup *lookup,
+                         Mat4 world_from_object, GLuint program, const char *suffix)
+{
+    const ShadowMap *map = &maps->lights[light];
     const ShadowFrustum *frustum = &map->frusta[face];
+    const Mat4 light_from_object = mat4_product(frustum->light_from_world, world_from_object);
+    char name[32];
+    snprintf(name, sizeof name, "u_LightFromObject%s", suffix);
+    set_matrix(program, name, light_from_object);
+    snprintf(name, sizeof name, "u_LightNormal%s", suffix);
+    set_matrix(program, name, mat4_normal(light_from_object));
+    /* From the light's coordinates to the map's: what of the projection is not zero, 0 to 1. */
     const double *m = frustum->map_from_light.m;
-    set_vec3(program, "u_MapScale", m[0] / 2, m[5] / 2, m[frustum->perspective ? 14 : 10] / 2);
-    if (frustum->perspective)
-        set_vec3(program, "u_MapMove", (1 - m[8]) / 2, (1 - m[9]) / 2, (1 - m[10]) / 2);
-    else
-        set_vec3(program, "u_MapMove", (1 + m[12]) / 2, (1 + m[13]) / 2, (1 + m[14]) / 2);
-    set_vec3(program, "u_MapSize", map->size, 1.0 / map->size, frustum->width / map->size);
+    const bool perspective = frustum->perspective;
+    set_vec3(program, "u_MapScale", suffix,
+             (Vec3){m[0] / 2, m[5] / 2, m[perspective ? 14 : 10] / 2});
+    set_vec3(program, "u_MapMove", suffix,
+             perspective ? (Vec3){(1 - m[8]) / 2, (1 - m[9]) / 2, (1 - m[10]) / 2}
+                         : (Vec3){(1 + m[12]) / 2, (1 + m[13]) / 2, (1 + m[14]) / 2});
+    set_vec3(program, "u_MapSize", suffix,
+             (Vec3){map->size, 1.0 / map->size, frustum->width / map->size});
+    set_vec3(program, "u_MapBias", suffix, (Vec3){lookup->constant, lookup->slope, lookup->normal});
 }
 
-bool shadow_map_look(ShadowMaps *maps, ShadowMask *mask, int light, int channel, bool first,
+bool shadow_map_mark(ShadowMaps *maps, ShadowMask *mask, int light, int channel,
                      const ShadowSurface *surface, Mat4 world_from_object,
                      const ShadowLookup *lookup, Message *message)
 {
     const ShadowMap *map = &maps->lights[light];
     bool done = true;
     for (int face = 0; face < map->count && done; face++) {
-        Shader *shader = find_look(maps, map, face, lookup, message);
-        done = shader != NULL;
+        const int look = shadow_map_look(maps, light, face, lookup);
+        Shader *shader = &maps->look[look];
+        done = shader->program || open_program(shader, maps, "LOOK_UP", look, message);
         if (!done)
             break;
-        const GLuint program = shader->program;
-        const GLint normal = glGetAttribLocation(program, "a_Normal");
-        shadow_mask_write(mask, channel, first, shader);
-        const Mat4 light_from_object =
-            mat4_product(map->frusta[face].light_from_world, world_from_object);
-        set_matrix(program, "u_LightFromObject", light_from_object);
-        set_matrix(program, "u_LightNormal", mat4_normal(light_from_object));
-        set_vec3(program, "u_Bias", lookup->constant, lookup->slope, lookup->normal);
-        set_map(program, map, face);
-        glUniform1i(glGetUniformLocation(program, "u_Map"), 0);
+        const GLint normal = glGetAttribLocation(shader->program, "a_Normal");
+        shadow_mask_write(mask, channel, shader);
+        shadow_map_uniforms(maps, light, face, lookup, world_from_object, shader->program, "");
+        glUniform1i(glGetUniformLocation(shader->program, "u_Map"), 0);
         glBindTexture(GL_TEXTURE_2D, map->textures[face]);
         shadow_mask_draw(mask, surface, normal);
         if (normal >= 0)
             glDisableVertexAttribArray((GLuint)normal);
     }
     glBindTexture(GL_TEXTURE_2D, 0);
-    shadow_mask_write(mask, -1, false, NULL);
+    shadow_mask_write(mask, -1, NULL);
     return done;
 }

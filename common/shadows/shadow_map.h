@@ -30,12 +30,12 @@ typedef struct ShadowMap {
     size_t drawn_size;
 } ShadowMap;
 
-/* What programs that look a map up differ in, as bits. */
+/* What programs that look a map up differ in: the bits of a look. */
 enum {
     LOOK_SMOOTH = 1,       /* the lookup is */
     LOOK_ALONG_NORMAL = 2, /* its bias has that part */
-    LOOK_ALONE = 4,        /* the light has one map */
-    LOOK_PERSPECTIVE = 8,  /* the map is */
+    LOOK_PERSPECTIVE = 4,  /* the map is */
+    LOOK_PACKED = 8,       /* its depths are in colours */
     LOOKS = 16
 };
 
@@ -63,9 +63,16 @@ typedef struct ShadowMapCaster {
 bool shadow_map_draw(ShadowMaps *maps, int light, int size, const ShadowFrustum *frusta, int count,
                      const ShadowMapCaster *casters, int caster_count, Message *message);
 
-/* Within a mask, after the surfaces: marks in a light's channel what of a surface is in shadow.
- * `first`: instead of shadow_mask_surface, if the light has one map. */
-bool shadow_map_look(ShadowMaps *maps, ShadowMask *mask, int light, int channel, bool first,
+/* For a program that includes lighting/shadow_map.glsl: its look, the defines for it, which are
+ * written and counted, and its uniforms, whose names end in `suffix`. The texture is not bound. */
+enum { LOOK_DEFINES = 4 };
+int shadow_map_look(const ShadowMaps *maps, int light, int face, const ShadowLookup *lookup);
+int shadow_map_defines(int look, const char *defines[LOOK_DEFINES]);
+void shadow_map_uniforms(const ShadowMaps *maps, int light, int face, const ShadowLookup *lookup,
+                         Mat4 world_from_object, GLuint program, const char *suffix);
+
+/* Within a mask, after the surfaces: marks in a light's channel what of a surface is in shadow. */
+bool shadow_map_mark(ShadowMaps *maps, ShadowMask *mask, int light, int channel,
                      const ShadowSurface *surface, Mat4 world_from_object,
                      const ShadowLookup *lookup, Message *message);
 

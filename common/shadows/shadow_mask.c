@@ -256,10 +256,10 @@ static void write_channel(const ShadowMask *mask, int channel)
     write_color(bit == 0, bit == 1, bit == 2, bit == 3);
 }
 
-void shadow_mask_write(ShadowMask *mask, int channel, bool first, const Shader *shader)
+void shadow_mask_write(ShadowMask *mask, int channel, const Shader *shader)
 {
     use(mask, shader ? shader : &mask->shader);
-    at_equal_depth(shader && !first);
+    at_equal_depth(shader != NULL);
     if (shader)
         write_channel(mask, channel);
     else

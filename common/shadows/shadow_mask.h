@@ -90,9 +90,9 @@ enum { SHADOW_FLATS = 126 };
 void shadow_mask_flat(ShadowMask *mask, const ShadowSurface *surface, int number);
 bool shadow_mask_flatten(ShadowMask *mask, const ShadowThrow *thrown, int number, Message *message);
 
-/* Or: what another program draws over the surfaces, at exactly their depths, or in their place
- * (`first`), goes to a channel; -1: no longer. */
-void shadow_mask_write(ShadowMask *mask, int channel, bool first, const Shader *shader);
+/* Or: what another program draws over the surfaces, at exactly their depths, goes to a channel; -1:
+ * no longer. */
+void shadow_mask_write(ShadowMask *mask, int channel, const Shader *shader);
 void shadow_mask_draw(ShadowMask *mask, const ShadowSurface *surface, GLint normal);
 bool shadow_mask_end(ShadowMask *mask, Message *message);
 

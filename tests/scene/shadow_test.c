@@ -597,10 +597,8 @@ TEST_WITH(0, planar_shadows_are_exact_on_what_is_flat, open_meshes, close_meshes
     assert_true(all);
 }
 
-/* Where two casters overlap nothing is darkened twice, and eight lights have their own. */
-TEST_WITH(0, planar_shadows_may_overlap, open_meshes, close_meshes)
+static void make_eight_lights(void)
 {
-    use_way(SHADOWS_PLANAR);
     make_world(&ball);
     world.objects[2] = world.objects[0];
     world.objects[2].world_from_object =
@@ -612,6 +610,13 @@ TEST_WITH(0, planar_shadows_may_overlap, open_meshes, close_meshes)
         world.lights[i].position = (Vec3){3 - 0.8 * i, 4, 1.5};
         world.lights[i].diffuse = (Vec3){0.1, 0.02 * i, 0.1};
     }
+}
+
+/* Where two casters overlap nothing is darkened twice, and eight lights have their own. */
+TEST_WITH(0, planar_shadows_may_overlap, open_meshes, close_meshes)
+{
+    use_way(SHADOWS_PLANAR);
+    make_eight_lights();
     const bool right = check("planar, overlapping", &world.scene);
     use_way(SHADOWS_VOLUMES);
     assert_true(right);
@@ -707,6 +712,24 @@ TEST_WITH(0, a_cube_of_maps_surrounds_a_light, open_meshes, close_meshes)
     assert_in_range(apart, 0, 40);
     lighting_close(lighting);
     lighting = plain;
+    use_way(SHADOWS_VOLUMES);
+    assert_true(all);
+}
+
+/* Of eight lights on this driver six have their map in the program, and two a mask. Measured: 3 and
+ * 8 wrong. */
+TEST_WITH(0, each_light_has_its_map, open_meshes, close_meshes)
+{
+    static const int counts[] = {3, 8};
+    bool all = true;
+    use_map(1024, 0, SHADOWS_DEFAULT.bias);
+    for (int i = 0; i < 2; i++) {
+        char name[32];
+        make_eight_lights();
+        world.scene.light_count = counts[i];
+        snprintf(name, sizeof name, "%d-maps", counts[i]);
+        all &= check_wrong(name, &world.scene, 16);
+    }
     use_way(SHADOWS_VOLUMES);
     assert_true(all);
 }
