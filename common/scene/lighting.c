@@ -533,6 +533,7 @@ static void forget_casters(Lighting *lighting, const Mesh *mesh)
 void lighting_forget(Lighting *lighting, const Mesh *mesh)
 {
     forget_casters(lighting, mesh);
+    shadow_mask_forget(&lighting->mask);
     shadow_maps_forget(&lighting->maps);
     for (Buffered **link = &lighting->buffers; *link;) {
         Buffered *buffered = *link;
@@ -1482,6 +1483,7 @@ LightingCounts lighting_counts(const Lighting *lighting)
 {
     LightingCounts counts = lighting->counts;
     counts.volumes = lighting->mask.volumes;
+    counts.volumes_made = lighting->mask.made;
     counts.volume_triangles = lighting->mask.triangles;
     counts.maps = lighting->maps.drawn;
     counts.flattened = lighting->mask.flattened;

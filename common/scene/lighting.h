@@ -16,6 +16,7 @@ typedef struct LightingCounts {
     int programs; /* compiled so far */
     double compile_seconds;
     long long volumes, volume_triangles; /* of shadows, drawn so far */
+    long long volumes_made;              /* of those: others were as in the last frame */
     long long maps, flattened;           /* the faces of a cube are several maps */
 } LightingCounts;
 

@@ -69,7 +69,6 @@ bool shadow_mask_open(ShadowMask *mask, const ShaderLoader *loader, Message *mes
     if (!shader_open(&mask->shader, loader, "shadow", message))
         return false;
     glGenFramebuffers(1, &mask->framebuffer);
-    glGenBuffers(1, &mask->stream);
     glGenBuffers(1, &mask->square);
     glBindBuffer(GL_ARRAY_BUFFER, mask->square);
     glBufferData(GL_ARRAY_BUFFER, sizeof square, square, GL_STATIC_DRAW);
@@ -89,14 +88,22 @@ static void drop_images(ShadowMask *mask)
     mask->width = mask->height = 0;
 }
 
+void shadow_mask_forget(ShadowMask *mask)
+{
+    for (size_t i = 0; i < mask->uploaded_count; i++)
+        mask->uploaded[i].caster = NULL;
+}
+
 void shadow_mask_close(ShadowMask *mask)
 {
     if (!mask)
         return;
+    for (size_t i = 0; i < mask->uploaded_count; i++)
+        glDeleteBuffers(SHADOW_VOLUME_LISTS, mask->uploaded[i].indices);
+    free(mask->uploaded);
     if (mask->framebuffer) {
         drop_images(mask);
         glDeleteFramebuffers(1, &mask->framebuffer);
-        glDeleteBuffers(1, &mask->stream);
         glDeleteBuffers(1, &mask->square);
     }
     shader_close(&mask->shader);
@@ -171,6 +178,7 @@ bool shadow_mask_begin(ShadowMask *mask, int count, double near, Message *messag
     glGetIntegerv(GL_FRAMEBUFFER_BINDING, &mask->target);
     glGetIntegerv(GL_VIEWPORT, mask->place);
     mask->near = near;
+    mask->next = 0;
     make_images(mask, count);
     glBindFramebuffer(GL_FRAMEBUFFER, mask->framebuffer);
     glClearColor(0, 0, 0, 0);
@@ -266,36 +274,55 @@ void shadow_mask_write(ShadowMask *mask, int channel, const Shader *shader)
         write_color(false, false, false, false);
 }
 
-/* A list of indices in the stream's buffer, in the type that so many vertices need. */
-typedef struct Uploaded {
-    GLsizei count;
-    GLenum type;
-} Uploaded;
+/* Volumes that are uploaded */
+
+/* The next in the frame's order; NULL: no memory. */
+static UploadedVolume *next_volume(ShadowMask *mask)
+{
+    if (mask->next == mask->uploaded_capacity) {
+        const size_t capacity = 2 * mask->uploaded_capacity + 4;
+        UploadedVolume *larger = realloc(mask->uploaded, capacity * sizeof *larger);
+        if (!larger)
+            return NULL;
+        mask->uploaded = larger;
+        mask->uploaded_capacity = capacity;
+    }
+    if (mask->next == mask->uploaded_count) {
+        UploadedVolume *made = &mask->uploaded[mask->uploaded_count++];
+        *made = (UploadedVolume){.caster = NULL};
+        glGenBuffers(SHADOW_VOLUME_LISTS, made->indices);
+    }
+    return &mask->uploaded[mask->next++];
+}
+
+static bool is_wide(size_t vertices)
+{
+    return vertices > MAX_SHORT_VERTICES;
+}
 
 /* Overwrites the indices. False: more than one call draws. */
-static bool upload(const ShadowMask *mask, uint32_t *indices, size_t count, size_t vertices,
-                   Uploaded *list)
+static bool upload(UploadedVolume *to, int which, uint32_t *indices, size_t count, bool wide)
 {
-    const bool wide = vertices > MAX_SHORT_VERTICES;
     if (count > INT_MAX)
         return false;
-    *list = (Uploaded){(GLsizei)count, wide ? GL_UNSIGNED_INT : GL_UNSIGNED_SHORT};
+    to->counts[which] = (GLsizei)count;
     for (size_t i = 0; i < count && !wide; i++) { /* in place */
         const GLushort narrow = (GLushort)indices[i];
         memcpy((char *)indices + i * sizeof narrow, &narrow, sizeof narrow);
     }
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, mask->stream);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, to->indices[which]);
     if (count > 0)
         glBufferData(GL_ELEMENT_ARRAY_BUFFER,
                      (GLsizeiptr)(count * (wide ? sizeof *indices : sizeof(GLushort))), indices,
-                     GL_STREAM_DRAW);
+                     GL_DYNAMIC_DRAW);
     return true;
 }
 
-static void draw_uploaded(Uploaded list)
+static void draw_list(const UploadedVolume *volume, int which, size_t vertices)
 {
-    if (list.count > 0)
-        glDrawElements(GL_TRIANGLES, list.count, list.type, NULL);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, volume->indices[which]);
+    glDrawElements(GL_TRIANGLES, volume->counts[which],
+                   is_wide(vertices) ? GL_UNSIGNED_INT : GL_UNSIGNED_SHORT, NULL);
 }
 
 /* Behind the surface, faces that look out of the volume begin it and the others end it; before the
@@ -311,10 +338,15 @@ static void count_faces(bool behind, bool front_looks_out)
 
 /* Triangles that face the light or not, and whose normals are on the other side or not. */
 typedef struct Caps {
-    uint32_t *indices;
-    size_t count;
+    const UploadedVolume *volume;
     bool lit, turned;
 } Caps;
+
+static void draw_triangles(const ShadowThrow *thrown, Caps caps)
+{
+    draw_list(caps.volume, shadow_volume_caps(caps.lit, caps.turned),
+              thrown->caster->silhouette.mesh->vertex_count);
+}
 
 /* `front`: seen from the side from which the triangle is counter-clockwise. The object's back is
  * the other side, unless its front faces are clockwise. */
@@ -352,7 +384,7 @@ static int own_count(const ShadowThrow *thrown, Caps caps, bool front)
     return looks_out || thrown->behind || !is_counted(thrown, caps) ? 0 : -1;
 }
 
-static void draw_own(const ShadowThrow *thrown, Caps caps, Uploaded list)
+static void draw_own(const ShadowThrow *thrown, Caps caps)
 {
     const int counts[2] = {own_count(thrown, caps, true), own_count(thrown, caps, false)};
     glDepthFunc(GL_EQUAL);
@@ -362,19 +394,19 @@ static void draw_own(const ShadowThrow *thrown, Caps caps, Uploaded list)
         glStencilOpSeparate(GL_FRONT_AND_BACK, GL_KEEP, GL_KEEP,
                             counts[back] > 0 ? GL_INCR_WRAP : GL_DECR_WRAP);
         if (counts[0] == counts[1]) { /* both sides at once */
-            draw_uploaded(list);
+            draw_triangles(thrown, caps);
             return;
         }
         glEnable(GL_CULL_FACE);
         glCullFace(back ? GL_FRONT : GL_BACK);
-        draw_uploaded(list);
+        draw_triangles(thrown, caps);
         glDisable(GL_CULL_FACE);
     }
 }
 
 /* The caps on the mesh, behind the surfaces; before them there are none. Where they are the
  * surface, equal depths decide. */
-static void draw_behind(const ShadowThrow *thrown, Caps caps, Uploaded list)
+static void draw_behind(const ShadowThrow *thrown, Caps caps)
 {
     count_faces(true, caps.lit);
     glEnable(GL_CULL_FACE);
@@ -382,27 +414,19 @@ static void draw_behind(const ShadowThrow *thrown, Caps caps, Uploaded list)
         const bool looks_out = !back == caps.lit;
         glCullFace(back ? GL_FRONT : GL_BACK);
         glDepthFunc(cap_is_outside(thrown, caps, !back) == looks_out ? GL_LESS : GL_LEQUAL);
-        draw_uploaded(list);
+        draw_triangles(thrown, caps);
     }
     glDisable(GL_CULL_FACE);
 }
 
-static bool draw_caps(const ShadowMask *mask, const ShadowThrow *thrown, Caps caps)
+static void draw_caps(const ShadowThrow *thrown, Caps caps)
 {
-    const size_t vertices = thrown->caster->silhouette.mesh->vertex_count;
-    const bool counted = is_counted(thrown, caps);
-    const bool wanted = (thrown->behind && counted) || own_count(thrown, caps, true) != 0 ||
-                        own_count(thrown, caps, false) != 0;
-    Uploaded list;
-    if (!wanted || caps.count == 0)
-        return true;
-    if (!upload(mask, caps.indices, caps.count, vertices, &list))
-        return false;
-    if (thrown->behind && counted)
-        draw_behind(thrown, caps, list);
-    draw_own(thrown, caps, list);
+    if (caps.volume->counts[shadow_volume_caps(caps.lit, caps.turned)] == 0)
+        return;
+    if (thrown->behind && is_counted(thrown, caps))
+        draw_behind(thrown, caps);
+    draw_own(thrown, caps);
     glCullFace(GL_BACK);
-    return true;
 }
 
 /* Before the surfaces caps are counted only at an end that the eye looks through; parallel rays
@@ -432,14 +456,49 @@ static void set_light(ShadowMask *mask, const ShadowThrow *thrown, Vec3 near)
     set_vector(mask, "u_End", 4, plane);
 }
 
+/* Made again only if it is not that of the last frame. NULL: no memory, or too many triangles. */
+static const UploadedVolume *find_volume(ShadowMask *mask, const ShadowThrow *thrown,
+                                         Message *message)
+{
+    const Vec4 light = thrown->light_object;
+    const ShadowEnd end = end_of(thrown);
+    const bool dark = thrown->behind || thrown->odd;
+    const size_t vertices = thrown->caster->silhouette.mesh->vertex_count;
+    UploadedVolume *found = next_volume(mask);
+    if (!found) {
+        message_set(message, "shadows: not enough memory");
+        return NULL;
+    }
+    if (found->caster == thrown->caster && memcmp(&found->light, &light, sizeof light) == 0 &&
+        found->facing == thrown->facing && found->end == end && found->dark == dark)
+        return found;
+    ShadowVolume *volume = &mask->volume;
+    found->caster = NULL;
+    if (!shadow_volume_make(volume, &thrown->caster->silhouette, light, thrown->facing, end, dark,
+                            message))
+        return NULL;
+    bool done = upload(found, SHADOW_VOLUME_SIDES, volume->sides, volume->side_count,
+                       is_wide(2 * vertices));
+    for (int i = 0; i < SHADOW_VOLUME_SIDES; i++)
+        done = done && upload(found, i, volume->caps[i], volume->cap_counts[i], is_wide(vertices));
+    if (!done) {
+        message_set(message, "shadows: a volume has more triangles than one call draws");
+        return NULL;
+    }
+    found->caster = thrown->caster;
+    found->light = light;
+    found->facing = thrown->facing;
+    found->end = end;
+    found->dark = dark;
+    mask->made++;
+    return found;
+}
+
 bool shadow_mask_cast(ShadowMask *mask, const ShadowThrow *thrown, Message *message)
 {
     const Silhouette *silhouette = &thrown->caster->silhouette;
-    const size_t vertices = silhouette->mesh->vertex_count;
-    ShadowVolume *volume = &mask->volume;
-    Uploaded sides;
-    if (!shadow_volume_make(volume, silhouette, thrown->light_object, thrown->facing,
-                            end_of(thrown), thrown->behind || thrown->odd, message))
+    const UploadedVolume *volume = find_volume(mask, thrown, message);
+    if (!volume)
         return false;
     set_light(mask, thrown, silhouette->center);
     set_state(&thrown->surface, false);
@@ -448,24 +507,16 @@ bool shadow_mask_cast(ShadowMask *mask, const ShadowThrow *thrown, Message *mess
     glStencilFunc(GL_ALWAYS, 0, 0xff);
     const GLuint position = position_of(mask);
     mesh_buffer_bind(thrown->surface.buffer, (GLint)position, -1);
-    bool done = true;
-    for (int i = 0; i < 4 && done; i++) {
-        const bool lit = i / 2, turned = i % 2;
-        const int which = shadow_volume_caps(lit, turned);
-        done = draw_caps(mask, thrown,
-                         (Caps){volume->caps[which], volume->cap_counts[which], lit, turned});
-    }
+    for (int i = 0; i < 4; i++)
+        draw_caps(thrown, (Caps){volume, i / 2, i % 2});
     glDisable(GL_POLYGON_OFFSET_FILL);
     glDepthFunc(GL_LESS);
     count_faces(thrown->behind, true);
     glBindBuffer(GL_ARRAY_BUFFER, thrown->caster->vertices);
     glVertexAttribPointer(position, 4, GL_FLOAT, GL_FALSE, 0, NULL);
-    done = done && upload(mask, volume->sides, volume->side_count, 2 * vertices, &sides);
-    if (!done)
-        return message_set(message, "shadows: a volume has more triangles than one call draws");
-    draw_uploaded(sides);
+    draw_list(volume, SHADOW_VOLUME_SIDES, 2 * silhouette->mesh->vertex_count);
     mask->volumes++;
-    mask->triangles += sides.count / 3;
+    mask->triangles += volume->counts[SHADOW_VOLUME_SIDES] / 3;
     return true;
 }
 

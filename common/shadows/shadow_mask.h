@@ -33,23 +33,40 @@ typedef struct ShadowCaster {
 bool shadow_caster_open(ShadowCaster *caster, const Mesh *mesh, Message *message);
 void shadow_caster_close(ShadowCaster *caster); /* NULL or zeroed is fine */
 
+/* The volume of one caster and light, uploaded: its caps by shadow_volume_caps, then its sides. */
+enum { SHADOW_VOLUME_SIDES = 4, SHADOW_VOLUME_LISTS = 5 };
+typedef struct UploadedVolume {
+    /* What it was made from, as shadow_volume_make. */
+    const ShadowCaster *caster; /* NULL: none */
+    Vec4 light;
+    SilhouetteFacing facing;
+    ShadowEnd end;
+    bool dark;
+    GLuint indices[SHADOW_VOLUME_LISTS];
+    GLsizei counts[SHADOW_VOLUME_LISTS];
+} UploadedVolume;
+
 typedef struct ShadowMask {
     Shader shader, flatten; /* the latter opened when it is needed */
     ShaderLoader loader;
-    GLuint framebuffer, depth, textures[SHADOW_MASKS], stream, square;
+    GLuint framebuffer, depth, textures[SHADOW_MASKS], square;
     int width, height;
-    ShadowVolume volume;
+    ShadowVolume volume;      /* while one is made */
+    UploadedVolume *uploaded; /* in the order of the last frame, which the next mostly has, too */
+    size_t uploaded_count, uploaded_capacity, next;
     /* While it is drawn: */
     GLint target, place[4]; /* what is drawn to afterwards, and its viewport */
     double near;
     GLuint program;
     long long volumes, triangles; /* drawn so far, for tests and --explain's reader */
+    long long made;               /* of the volumes: others were as in the last frame */
     long long flattened;          /* shadows drawn onto planes so far */
 } ShadowMask;
 
 /* False if the shaders do not compile or the driver has no packed depth and stencil. */
 bool shadow_mask_open(ShadowMask *mask, const ShaderLoader *loader, Message *message);
-void shadow_mask_close(ShadowMask *mask); /* NULL or zeroed is fine */
+void shadow_mask_forget(ShadowMask *mask); /* makes all volumes again: casters are closed */
+void shadow_mask_close(ShadowMask *mask);  /* NULL or zeroed is fine */
 
 /* In this order: begins a mask for the framebuffer and viewport that are bound, with `count`
  * textures; draws the surfaces; for each light its casters, then what is left of the mask; ends,

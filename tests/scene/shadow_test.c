@@ -742,6 +742,31 @@ static long long maps_drawn(void)
 }
 
 /* Only for a light that needs one, and only when the light or what casts has moved. */
+static long long volumes_made(void)
+{
+    const long long before = lighting_counts(lighting).volumes_made;
+    draw(&world.scene, false);
+    return lighting_counts(lighting).volumes_made - before;
+}
+
+/* The other caster keeps its own. */
+TEST_WITH(0, volumes_are_made_when_something_has_moved, open_meshes, close_meshes)
+{
+    make_eight_lights();
+    world.scene.light_count = 1;
+    assert_int_equal(volumes_made(), 2);
+    assert_int_equal(volumes_made(), 0);
+    world.scene.camera.eye.x += 0.5;
+    assert_int_equal(volumes_made(), 0);
+    world.objects[2].world_from_object =
+        mat4_product(mat4_translate((Vec3){0.1, 0, 0}), world.objects[2].world_from_object);
+    assert_int_equal(volumes_made(), 1);
+    world.lights[0].position.x += 1e-9;
+    assert_int_equal(volumes_made(), 2);
+    lighting_forget(lighting, NULL);
+    assert_int_equal(volumes_made(), 2);
+}
+
 TEST_WITH(0, maps_are_drawn_when_something_has_moved, open_meshes, close_meshes)
 {
     use_map(64, 0, SHADOWS_DEFAULT.bias);
