@@ -54,7 +54,8 @@ void lighting_use_depth_pass(Lighting *lighting, bool depth_pass);
 /* Draws a scene that has passed scene_check into the current canvas, without clearing it. `full`
  * uses the program with every effect, for comparison. Mesh buffers are cached by the mesh's
  * address: a mesh must not change before lighting_forget or lighting_close. Where a light has
- * shadows that may fall on something, masks of them are drawn first (shadows/shadow_mask.h). */
+ * shadows that may fall on something, masks of them are drawn first (shadows/shadow_mask.h), or
+ * maps, which the programs look up (shadows/shadow_map.h). */
 bool lighting_draw(Lighting *lighting, const Scene *scene, double aspect, bool full,
                    Message *message);
 
