@@ -1,5 +1,5 @@
-// lighting.vert: the whole lighting model; common/scene/lighting.c selects by defines what the
-// effects of an object need, and generates the groups of lights.
+// lighting.vert: the whole lighting model; common/lighting/lighting_program.c selects by defines
+// what the effects of an object need, and generates the groups of lights.
 //
 // Lighting is in eye coordinates: the eye at the origin, looking along -z.
 

@@ -10,9 +10,9 @@
 #include "core/example.h"
 #include "images/drawing.h"
 #include "images/picture_queue.h"
+#include "lighting/lighting.h"
 #include "reference/cheapest.h"
 #include "reference/error_worker.h"
-#include "scene/lighting.h"
 #include "scene/overlay.h"
 #include "scene/quality.h"
 

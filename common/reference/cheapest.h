@@ -21,7 +21,7 @@
 #define CHEAPEST_H
 
 #include "core/canvas.h"
-#include "scene/lighting.h"
+#include "lighting/lighting.h"
 #include "scene/quality.h"
 
 typedef struct CheapestTask {

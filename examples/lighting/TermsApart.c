@@ -8,7 +8,7 @@
  * Look at what each term adds, and at its price. Any program has --terms for the same.
  */
 #include "base/clock.h"
-#include "scene/lighting.h"
+#include "lighting/lighting.h"
 #include "scene/scene_example.h"
 #include "scene/shader_cost.h"
 #include "scene/shape.h"

@@ -12,7 +12,7 @@
 #include "benchmark/measure.h"
 #include "core/canvas.h"
 #include "core/mesh_buffer.h"
-#include "scene/lighting.h"
+#include "lighting/lighting.h"
 #include "scene/shader_cost.h"
 
 #include <stdio.h>

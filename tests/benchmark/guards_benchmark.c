@@ -6,7 +6,7 @@
 #include "app/options.h"
 #include "benchmark/measure.h"
 #include "core/canvas.h"
-#include "scene/lighting.h"
+#include "lighting/lighting.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -6,7 +6,7 @@
 #include "benchmark/measure.h"
 #include "core/canvas.h"
 #include "core/example.h"
-#include "scene/lighting.h"
+#include "lighting/lighting.h"
 #include "scene/scene_example.h"
 #include "shapes/mesh_solids.h"
 

@@ -7,8 +7,8 @@
 
 #include "base/random.h"
 #include "core/canvas.h"
+#include "lighting/lighting.h"
 #include "reference/reference.h"
-#include "scene/lighting.h"
 
 typedef struct Hard {
     Canvas bytes, floats;    /* of one size, in one context */

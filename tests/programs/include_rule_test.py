@@ -5,7 +5,7 @@ import re
 import sys
 
 # From the ground up; a program stands on all of them.
-FLOORS = ["base", "core", "shapes", "shadows", "scene", "reference", "images", "window", "app"]
+FLOORS = ["base", "core", "shapes", "shadows", "scene", "lighting", "reference", "images", "window", "app"]
 # What the programs' own libraries may include besides common/: themselves and those before them.
 STUDY = ["study/results", "study/measure", "study/report", "study/cases", "study/arithmetic"]
 LABS = ["labs/program", "labs/submission", "labs/diagnosis", "labs/check", "labs/web", "labs/sandbox", "labs/class"]
@@ -45,16 +45,16 @@ for floor in FLOORS[:-1]:
         found = OPTION.search(code)
         if found and name not in MAY_NAME_OPTIONS:
             failures.append(f"common/{name}: {found.group()}: only app names options of the command line")
-check(root / "common/web", "what differs in a browser", FLOORS[:8])
+check(root / "common/web", "what differs in a browser", FLOORS[:9])
 check(root / "examples/web", "the pages' module", FLOORS + ["web"])
 for group in (STUDY, STUDY + LABS):
     for i, folder in enumerate(group):
         if folder in STUDY and group is not STUDY:
             continue
         check(root / "examples" / folder, folder, FLOORS + group[: i + 1])
-check(root / "examples/diagrams", "a diagram", FLOORS[:7] + DIAGRAMS)
+check(root / "examples/diagrams", "a diagram", FLOORS[:8] + DIAGRAMS)
 check(root / "examples/study", "a program", FLOORS + STUDY)
-check(root / "examples/lighting", "a scene", FLOORS[:5])
+check(root / "examples/lighting", "a scene", FLOORS[:6])
 check(root / "examples/lecture", "a lecture program", ["core"])
 
 

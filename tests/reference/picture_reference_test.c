@@ -8,8 +8,8 @@
  * less than the other half.
  */
 #include "app/stage.h"
+#include "lighting/lighting.h"
 #include "reference/picture_error.h"
-#include "scene/lighting.h"
 #include "scene/scene_example.h"
 #include "support/examples.h"
 #include "support/picture_check.h"

@@ -1,13 +1,13 @@
 /*
- * Random scenes drawn by scene/lighting and by OpenGL 1.1 fixed-function lighting. The two GL
+ * Random scenes drawn by common/lighting and by OpenGL 1.1 fixed-function lighting. The two GL
  * libraries conflict within a process, so the program runs itself again for our side (--ours SEED
  * COUNT), which writes its pixels to a pipe.
  */
 #include "base/random.h"
 #include "core/canvas.h"
 #include "core/mesh_make.h"
+#include "lighting/lighting.h"
 #include "scene/fixed_function_osmesa.h"
-#include "scene/lighting.h"
 #include "shapes/mesh_solids.h"
 #include "support/picture_check.h"
 #include "support/testing.h"

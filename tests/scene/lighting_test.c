@@ -6,7 +6,7 @@
 #include "base/random.h"
 #include "core/canvas.h"
 #include "core/mesh_make.h"
-#include "scene/lighting.h"
+#include "lighting/lighting.h"
 #include "shapes/mesh_solids.h"
 #include "support/picture_check.h"
 #include "support/testing.h"

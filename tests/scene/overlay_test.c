@@ -3,7 +3,7 @@
  */
 #include "core/canvas.h"
 #include "core/mesh_make.h"
-#include "scene/lighting.h"
+#include "lighting/lighting.h"
 #include "scene/overlay.h"
 #include "shapes/mesh_solids.h"
 #include "support/picture_check.h"

@@ -2,7 +2,7 @@
  * The operations of shaders, counted by tools: compared with counts made by hand for small shaders,
  * and for the programs of random scenes. No GL.
  */
-#include "scene/lighting.h"
+#include "lighting/lighting.h"
 #include "scene/shader_cost.h"
 #include "support/testing.h"
 

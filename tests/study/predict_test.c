@@ -3,8 +3,8 @@
  * its prediction, in highp and in mediump.
  */
 #include "app/stage.h"
+#include "lighting/lighting.h"
 #include "reference/picture_error.h"
-#include "scene/lighting.h"
 #include "scene/scene_example.h"
 #include "study/arithmetic/predict.h"
 #include "support/examples.h"

@@ -1,7 +1,7 @@
 #include "labs/check/budget.h"
 
 #include "base/clock.h"
-#include "scene/lighting.h"
+#include "lighting/lighting.h"
 #include "scene/shader_cost.h"
 
 #include <math.h>

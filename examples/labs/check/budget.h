@@ -10,8 +10,8 @@
 #include "labs/submission/verdict.h"
 
 /* Counts the operations of a picture, vertices times those of a vertex plus fragments times those
- * of a fragment, and the same for the chapter's own program (common/scene/lighting, a sphere of 64
- * x 64: the usual setting of `accuracy`); also measures both, alternating frames. Fills in the
+ * of a fragment, and the same for the chapter's own program (common/lighting/lighting, a sphere of
+ * 64 x 64: the usual setting of `accuracy`); also measures both, alternating frames. Fills in the
  * verdict's cost and points: a right submission has 5, and up to 5 more for its operations: all at
  * 0.63 of the plain program's or fewer, none at as many. Counts are the same on every machine;
  * times are not, so they give no points. */

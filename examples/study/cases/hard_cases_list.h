@@ -4,7 +4,7 @@
 #ifndef HARD_CASES_LIST_H
 #define HARD_CASES_LIST_H
 
-#include "scene/lighting.h"
+#include "lighting/lighting.h"
 
 /* A scene for the stable form and one for the plain formula. Not to be copied: points into itself.
  */

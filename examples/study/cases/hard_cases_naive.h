@@ -4,7 +4,7 @@
 #ifndef HARD_CASES_NAIVE_H
 #define HARD_CASES_NAIVE_H
 
-#include "scene/lighting.h"
+#include "lighting/lighting.h"
 
 /* The inverse transpose; of a singular matrix the identity, as if left unchanged. */
 Mat4 naive_inverse_transpose(Mat4 eye_from_object);

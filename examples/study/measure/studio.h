@@ -6,8 +6,8 @@
 #ifndef STUDIO_H
 #define STUDIO_H
 
+#include "lighting/lighting.h"
 #include "reference/reference.h"
-#include "scene/lighting.h"
 #include "scene/quality.h"
 
 typedef struct Studio Studio;

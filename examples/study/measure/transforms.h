@@ -10,7 +10,7 @@
 #ifndef TRANSFORMS_H
 #define TRANSFORMS_H
 
-#include "scene/lighting.h"
+#include "lighting/lighting.h"
 #include "scene/quality.h"
 
 /* For the setting's choices of matrices and order. */

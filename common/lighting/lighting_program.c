@@ -1,0 +1,432 @@
+/* The programs that draw objects: their texts and defines, and those compiled so far. */
+#include "base/clock.h"
+#include "lighting/lighting_parts.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_DEFINES = 32 };
+
+/* What determines a program: equal recipes give equal programs. */
+typedef struct Recipe {
+    const char *defines[MAX_DEFINES];
+    char *groups[2]; /* of lights, by ShaderStage */
+} Recipe;
+
+typedef struct Variant {
+    Recipe recipe;
+    Shader shader;
+    struct Variant *next;
+} Variant;
+
+/* The uniforms of group.glsl, renamed per group. */
+static const char *const GROUP_UNIFORMS[] = {
+    "u_Position",     "u_Direction",   "u_FrontAmbient",  "u_BackAmbient",
+    "u_FrontDiffuse", "u_BackDiffuse", "u_FrontSpecular", "u_BackSpecular",
+    "u_Half",         "u_Attenuation", "u_Spot",          "u_Exponent",
+};
+enum { GROUP_UNIFORM_COUNT = sizeof GROUP_UNIFORMS / sizeof GROUP_UNIFORMS[0] };
+
+/* The defines of group.glsl. 16-bit floats need the guard of the attenuation for any light. */
+enum { MAX_GROUP_DEFINES = 12 };
+static int group_defines(const LightGroup *group, bool mediump,
+                         const char *defines[MAX_GROUP_DEFINES])
+{
+    const LightTerms *terms = &group->terms;
+    const struct {
+        bool there;
+        const char *name;
+    } all[] = {
+        {terms->any, "ANY"},
+        {terms->kind == LIGHT_DIRECTIONAL, "DIRECTIONAL"},
+        {terms->kind == LIGHT_SPOT, "SPOT"},
+        {terms->ambient, "AMBIENT"},
+        {terms->diffuse, "DIFFUSE"},
+        {terms->specular, "SPECULAR"},
+        {terms->half_vector, "HALF_VECTOR"},
+        {terms->attenuation, "ATTENUATION"},
+        {terms->exponent, "EXPONENT"},
+        {terms->attenuation && (group->guard_attenuation || mediump), "GUARD_ATTENUATION"},
+        {terms->shadow && !terms->at_vertex, "SHADOW"},
+        {terms->shadow && !terms->at_vertex && group->count > 1, "CHANNELS"},
+    };
+    int count = 0;
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        if (all[i].there)
+            defines[count++] = all[i].name;
+    return count;
+}
+
+static int masks_of(const Effects *effects)
+{
+    int count = 0;
+    for (int g = 0; g < effects->group_count; g++)
+        count = effects->groups[g].terms.shadow > count ? effects->groups[g].terms.shadow : count;
+    return count;
+}
+
+bool lighting_is_mediump(const Lighting *lighting)
+{
+    const char *precision = lighting->loader.precision;
+    return precision && strcmp(precision, "mediump") == 0;
+}
+
+/* What each light's code for its map has under a name of its own. */
+static const char *const MAP_NAMES[] = {"u_MapScale", "u_MapMove",  "u_MapSize",   "u_MapBias",
+                                        "u_Map",      "v_MapPlace", "v_MapNormal", "map_depth",
+                                        "hidden",     "find_place", "find_shadow"};
+enum { MAP_NAME_COUNT = sizeof MAP_NAMES / sizeof MAP_NAMES[0] };
+
+/* What a program looks up: maps, a bit for each light; and masks, a bit each. */
+typedef struct Shadows {
+    uint32_t maps, masks;
+} Shadows;
+
+static Shadows shadows_of(const Effects *effects, const Scene *scene, const Lighting *lighting)
+{
+    Shadows shadows = {0, 0};
+    for (int g = 0; g < effects->group_count; g++) {
+        const LightGroup *group = &effects->groups[g];
+        for (int i = 0; group->terms.shadow && i < group->count; i++) {
+            const int light = group->lights[i];
+            if (lighting->map_lights >> light & 1)
+                shadows.maps |= (uint32_t)1 << light;
+            else
+                shadows.masks |= (uint32_t)1 << effects_channel(scene, light) / SHADOW_CHANNELS;
+        }
+    }
+    return shadows;
+}
+
+static void write_map(int light, int look, FILE *file)
+{
+    const char *defines[LOOK_DEFINES];
+    const int count = shadow_map_defines(look, defines);
+    for (int i = 0; i < MAP_NAME_COUNT; i++)
+        fprintf(file, "#define %s %s%d\n", MAP_NAMES[i], MAP_NAMES[i], light);
+    for (int i = 0; i < count; i++)
+        fprintf(file, "#define %s\n", defines[i]);
+    fprintf(file, "#include \"lighting/shadow_map.glsl\"\n");
+    for (int i = 0; i < count; i++)
+        fprintf(file, "#undef %s\n", defines[i]);
+    for (int i = 0; i < MAP_NAME_COUNT; i++)
+        fprintf(file, "#undef %s\n", MAP_NAMES[i]);
+}
+
+/* Where the fragments are on the maps. */
+static void write_map_places(uint32_t maps, FILE *file)
+{
+    for (int l = 0; l < SHADOW_MAPS; l++)
+        if (maps >> l & 1)
+            fprintf(file,
+                    "uniform mat4 u_LightFromObject%d;\nuniform mat4 u_LightNormal%d;\n"
+                    "varying vec3 v_MapPlace%d;\nvarying vec3 v_MapNormal%d;\n",
+                    l, l, l, l);
+    fprintf(file, "void place_on_maps() {\n");
+    for (int l = 0; l < SHADOW_MAPS; l++)
+        if (maps >> l & 1)
+            fprintf(file,
+                    "    v_MapPlace%d = (u_LightFromObject%d * a_Position).xyz;\n"
+                    "    v_MapNormal%d = (u_LightNormal%d * vec4(a_Normal, 0.0)).xyz;\n",
+                    l, l, l, l);
+    fprintf(file, "}\n");
+}
+
+/* Once for all groups: the share of each light that is in shadow, of four lights in a vector.
+ * Depths and places need highp, which the loader replaces in mediump. There gl_FragCoord has 11
+ * bits, too few for the size of a framebuffer: the place comes from the vertex shader. */
+static void write_shadows(const Effects *effects, const Scene *scene, const Lighting *lighting,
+                          FILE *file)
+{
+    const Shadows shadows = shadows_of(effects, scene, lighting);
+    const ShadowLookup lookup = lighting_lookup(lighting);
+    const bool mediump = lighting_is_mediump(lighting);
+    const int count = masks_of(effects);
+    if (!count)
+        return;
+    fprintf(file, "#define LOOK_UP_SHADOWS\n");
+    for (int m = 0; m < count; m++)
+        fprintf(file, "vec4 shadow_mask%d = vec4(0.0);\n", m);
+    fprintf(file, mediump ? "#undef highp\nprecision highp float;\n" : "");
+    for (int l = 0; l < scene->light_count; l++)
+        if (shadows.maps >> l & 1)
+            write_map(l, shadow_map_look(&lighting->maps, l, 0, &lookup), file);
+    for (int m = 0; m < count; m++)
+        if (shadows.masks >> m & 1)
+            fprintf(file, "uniform sampler2D u_Mask%d;\n", m);
+    if (shadows.masks)
+        fprintf(file,
+                "uniform vec4 u_MaskPlace;\n%s"
+                "vec2 mask_place() { return %s * u_MaskPlace.xy + u_MaskPlace.zw; }\n",
+                mediump ? "varying vec3 v_MaskPlace;\n" : "",
+                mediump ? "(v_MaskPlace.xy / v_MaskPlace.z)" : "gl_FragCoord.xy");
+    fprintf(file, "void look_up_shadows() {\n");
+    for (int m = 0; m < count; m++)
+        if (shadows.masks >> m & 1)
+            fprintf(file, "    shadow_mask%d = texture2D(u_Mask%d, mask_place());\n", m, m);
+    for (int l = 0; l < scene->light_count; l++)
+        if (shadows.maps >> l & 1)
+            fprintf(file, "    shadow_mask%d.%c = find_shadow%d();\n",
+                    effects_channel(scene, l) / SHADOW_CHANNELS,
+                    "rgba"[effects_channel(scene, l) % SHADOW_CHANNELS], l);
+    fprintf(file, "}\n%s", mediump ? "precision mediump float;\n#define highp mediump\n" : "");
+}
+
+/* Of light that is computed at the vertices the part that a shadow keeps off is interpolated for
+ * each light alone. In the vertex shader: where; in the fragment shader: their sum. */
+static void write_vertex_shadows(const Effects *effects, const Scene *scene, bool at_vertex,
+                                 FILE *file)
+{
+    int count = 0;
+    for (int g = 0; g < effects->group_count; g++)
+        if (effects->groups[g].terms.at_vertex && effects->groups[g].terms.shadow)
+            count += effects->groups[g].count;
+    if (!count)
+        return;
+    fprintf(file, "varying vec3 v_FrontDirect[%d];\n", count);
+    if (effects->two_sided)
+        fprintf(file, "varying vec3 v_BackDirect[%d];\n", count);
+    if (at_vertex)
+        return;
+    fprintf(file, "#define SHADOWED_LIGHT vec3(0.0)");
+    for (int g = 0, first = 0; g < effects->group_count; g++) {
+        const LightGroup *group = &effects->groups[g];
+        for (int i = 0; group->terms.at_vertex && group->terms.shadow && i < group->count; i++) {
+            const int channel = effects_channel(scene, group->lights[i]) % SHADOW_CHANNELS;
+            fprintf(file, " + (1.0 - shadow_mask%d.%c) * SIDE(v_FrontDirect[%d], v_BackDirect[%d])",
+                    group->terms.shadow - 1, "rgba"[channel], first, first);
+            first++;
+        }
+    }
+    fprintf(file, "\n");
+}
+
+/* What of a light of the group is in shadow: one channel, if the group has but one light. */
+static void write_shadowed(const Scene *scene, const LightGroup *group, int g, FILE *file)
+{
+    const int mask = group->terms.shadow - 1;
+    if (group->count > 1)
+        fprintf(file,
+                "#define u_Channel u_Channel%d\n"
+                "#define SHADOWED dot(shadow_mask%d, u_Channel[i])\n",
+                g, mask);
+    else
+        fprintf(file, "#define SHADOWED shadow_mask%d.%c\n", mask,
+                "rgba"[effects_channel(scene, group->lights[0]) % SHADOW_CHANNELS]);
+}
+
+/* The text of "lighting/vertex_groups.glsl" or "lighting/fragment_groups.glsl": a function per
+ * group, and add_lights, which calls them. */
+static char *groups_text(const Effects *effects, const Scene *scene, const Lighting *lighting,
+                         bool at_vertex)
+{
+    char *text = NULL;
+    size_t size = 0;
+    int shadowed = 0; /* at the vertices, so far */
+    const Shadows shadows = shadows_of(effects, scene, lighting);
+    FILE *file = open_memstream(&text, &size);
+    if (!file)
+        return NULL;
+    if (!at_vertex)
+        write_shadows(effects, scene, lighting, file);
+    else if (shadows.maps)
+        write_map_places(shadows.maps, file);
+    write_vertex_shadows(effects, scene, at_vertex, file);
+    for (int g = 0; g < effects->group_count; g++) {
+        const LightGroup *group = &effects->groups[g];
+        const char *defines[MAX_GROUP_DEFINES];
+        const int count = group_defines(group, lighting_is_mediump(lighting), defines);
+        if (group->terms.at_vertex != at_vertex)
+            continue;
+        fprintf(file, "#define GROUP group%d\n#define COUNT %d\n", g, group->count);
+        for (int i = 0; i < count; i++)
+            fprintf(file, "#define %s\n", defines[i]);
+        for (int i = 0; i < GROUP_UNIFORM_COUNT; i++)
+            fprintf(file, "#define %s %s%d\n", GROUP_UNIFORMS[i], GROUP_UNIFORMS[i], g);
+        if (group->terms.shadow && at_vertex)
+            fprintf(file, "#define VERTEX_SHADOW %d\n", shadowed);
+        else if (group->terms.shadow)
+            write_shadowed(scene, group, g, file);
+        shadowed += group->terms.shadow ? group->count : 0;
+        fprintf(file, "#include \"lighting/group.glsl\"\n#undef GROUP\n#undef COUNT\n");
+        for (int i = 0; i < count; i++)
+            fprintf(file, "#undef %s\n", defines[i]);
+        for (int i = 0; i < GROUP_UNIFORM_COUNT; i++)
+            fprintf(file, "#undef %s\n", GROUP_UNIFORMS[i]);
+        if (group->terms.shadow)
+            fprintf(file,
+                    at_vertex ? "#undef VERTEX_SHADOW\n" : "#undef u_Channel\n#undef SHADOWED\n");
+    }
+    fprintf(file, "void add_lights(vec3 normal, vec3 position, vec3 viewer, bool front, inout vec3 "
+                  "color) {\n");
+    for (int g = 0; g < effects->group_count; g++)
+        if (effects->groups[g].terms.at_vertex == at_vertex)
+            fprintf(file, "    group%d(normal, position, viewer, front, color);\n", g);
+    fprintf(file, "}\n");
+    fclose(file);
+    return text;
+}
+
+static bool recipe_open(Recipe *recipe, const Effects *effects, const Scene *scene,
+                        const Lighting *lighting, Message *message)
+{
+    const bool mediump = lighting_is_mediump(lighting);
+    const Shadows shadows = shadows_of(effects, scene, lighting);
+    /* By ShaderStage. What is clamped at the vertices is computed there, the base too. */
+    bool lights[2] = {[SHADER_VERTEX] = effects->clamp_vertex}, position[2] = {false};
+    bool normals[2] = {false}, colored[2] = {false};
+    bool specular = false, full = false, vertex_shadows = false;
+    for (int g = 0; g < effects->group_count; g++) {
+        const LightTerms *terms = &effects->groups[g].terms;
+        const int stage = terms->at_vertex ? SHADER_VERTEX : SHADER_FRAGMENT;
+        lights[stage] = true;
+        position[stage] |=
+            terms->kind != LIGHT_DIRECTIONAL || (terms->specular && effects->local_viewer);
+        normals[stage] |= terms->diffuse || terms->specular;
+        colored[stage] |= effects->vertex_color && (terms->ambient || terms->diffuse);
+        specular |= terms->specular;
+        full |= terms->any;
+        vertex_shadows |= terms->shadow && terms->at_vertex;
+    }
+    colored[lights[SHADER_VERTEX] ? SHADER_VERTEX : SHADER_FRAGMENT] |=
+        effects->vertex_color && effects->base;
+    const struct {
+        bool there;
+        const char *define;
+    } all[] = {
+        {full, "FULL"},
+        {mediump, "MEDIUMP"},
+        {effects->base, "BASE"},
+        {effects->alpha, "ALPHA"},
+        {effects->vertex_color, "VERTEX_COLOR"},
+        {colored[SHADER_FRAGMENT], "FRAGMENT_COLOR"},
+        {effects->lit_positions && lights[SHADER_VERTEX], "LIT_POSITION"},
+        {effects->two_sided, "TWO_SIDED"},
+        {lights[SHADER_VERTEX], "VERTEX_LIGHTS"},
+        {lights[SHADER_FRAGMENT], "FRAGMENT_LIGHTS"},
+        {vertex_shadows, "VERTEX_SHADOWS"},
+        {shadows.maps != 0, "SHADOW_MAPS"},
+        {mediump && shadows.masks, "MASK_PLACE"},
+        {position[SHADER_VERTEX] || position[SHADER_FRAGMENT], "POSITION"},
+        {position[SHADER_FRAGMENT], "FRAGMENT_POSITION"},
+        {normals[SHADER_VERTEX] || normals[SHADER_FRAGMENT], "NORMALS"},
+        {normals[SHADER_FRAGMENT], "FRAGMENT_NORMALS"},
+        {effects->normal_matrix, "NORMAL_MATRIX"},
+        {effects->normalize_vertex, "NORMALIZE_VERTEX"},
+        {effects->normalize_fragment, "NORMALIZE_FRAGMENT"},
+        {effects->local_viewer, "LOCAL_VIEWER"},
+        {specular, "SHININESS"},
+        {specular && effects->reflection == REFLECTION_PHONG, "PHONG"},
+        {effects->clamp_vertex, "CLAMP_VERTEX"},
+        {effects->linear, "LINEAR"},
+        {effects->show_clipped, "SHOW_CLIPPED"},
+        {effects->limit, "LIMIT"},
+    };
+    *recipe = (Recipe){{NULL}, {NULL}};
+    for (size_t i = 0, count = 0; i < sizeof all / sizeof all[0]; i++)
+        if (all[i].there)
+            recipe->defines[count++] = all[i].define;
+    recipe->groups[SHADER_VERTEX] = groups_text(effects, scene, lighting, true);
+    recipe->groups[SHADER_FRAGMENT] = groups_text(effects, scene, lighting, false);
+    if (recipe->groups[SHADER_VERTEX] && recipe->groups[SHADER_FRAGMENT])
+        return true;
+    return message_set(message, "lighting: not enough memory");
+}
+
+static void recipe_close(Recipe *recipe)
+{
+    free(recipe->groups[SHADER_VERTEX]);
+    free(recipe->groups[SHADER_FRAGMENT]);
+    *recipe = (Recipe){{NULL}, {NULL}};
+}
+
+/* The defines are string literals of this file, so pointers are compared. */
+static bool recipe_equal(const Recipe *a, const Recipe *b)
+{
+    return memcmp(a->defines, b->defines, sizeof a->defines) == 0 &&
+           strcmp(a->groups[0], b->groups[0]) == 0 && strcmp(a->groups[1], b->groups[1]) == 0;
+}
+
+/* A loader for this recipe; `texts` has room for three. */
+static ShaderLoader recipe_loader(const Recipe *recipe, const ShaderLoader *base,
+                                  ShaderText texts[3])
+{
+    ShaderLoader loader = *base;
+    texts[0] = (ShaderText){"lighting/vertex_groups.glsl", recipe->groups[SHADER_VERTEX]};
+    texts[1] = (ShaderText){"lighting/fragment_groups.glsl", recipe->groups[SHADER_FRAGMENT]};
+    texts[2] = (ShaderText){NULL, NULL};
+    loader.texts = texts;
+    loader.defines = recipe->defines;
+    return loader;
+}
+
+GLuint lighting_find_program(Lighting *lighting, const Scene *scene, const Effects *effects,
+                             Message *message)
+{
+    Recipe recipe;
+    ShaderText texts[3];
+    if (!recipe_open(&recipe, effects, scene, lighting, message)) {
+        recipe_close(&recipe);
+        return 0;
+    }
+    for (const Variant *variant = lighting->variants; variant; variant = variant->next) {
+        if (recipe_equal(&variant->recipe, &recipe)) {
+            recipe_close(&recipe);
+            return variant->shader.program;
+        }
+    }
+    Variant *variant = calloc(1, sizeof *variant);
+    const ShaderLoader loader = recipe_loader(&recipe, &lighting->loader, texts);
+    const double start = clock_now();
+    if (!variant || !shader_open(&variant->shader, &loader, "lighting", message)) {
+        message_set(message, "lighting: not enough memory");
+        recipe_close(&recipe);
+        free(variant);
+        return 0;
+    }
+    lighting->counts.programs++;
+    lighting->counts.compile_seconds += clock_now() - start;
+    variant->recipe = recipe;
+    variant->next = lighting->variants;
+    lighting->variants = variant;
+    return variant->shader.program;
+}
+
+void lighting_close_programs(Lighting *lighting)
+{
+    while (lighting->variants) {
+        Variant *variant = lighting->variants;
+        lighting->variants = variant->next;
+        shader_close(&variant->shader);
+        recipe_close(&variant->recipe);
+        free(variant);
+    }
+}
+
+GLuint lighting_program(Lighting *lighting, const Scene *scene, const Object *object, bool full,
+                        Message *message)
+{
+    const Effects effects = full ? effects_full(scene, object) : effects_of(scene, object);
+    return lighting_find_program(lighting, scene, &effects, message);
+}
+
+bool lighting_sources(const Lighting *lighting, const Scene *scene, const Object *object, bool full,
+                      ShaderSource sources[2], Message *message)
+{
+    const Effects effects = full ? effects_full(scene, object) : effects_of(scene, object);
+    Recipe recipe;
+    ShaderText texts[3];
+    bool done = recipe_open(&recipe, &effects, scene, lighting, message);
+    const ShaderLoader loader = recipe_loader(&recipe, &lighting->loader, texts);
+    sources[SHADER_VERTEX] = sources[SHADER_FRAGMENT] = (ShaderSource){0};
+    done = done &&
+           shader_source_open(&sources[SHADER_VERTEX], &loader, "lighting.vert", SHADER_VERTEX,
+                              message) &&
+           shader_source_open(&sources[SHADER_FRAGMENT], &loader, "lighting.frag", SHADER_FRAGMENT,
+                              message);
+    if (!done)
+        shader_source_close(&sources[SHADER_VERTEX]);
+    recipe_close(&recipe);
+    return done;
+}
