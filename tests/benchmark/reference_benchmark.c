@@ -1,15 +1,18 @@
 /*
- * The time of the exact picture: solids and the teapot's mesh at the lecture's size, and with one
- * thread.
+ * The time of the exact picture: solids and the teapot's mesh at the lecture's size, with one
+ * thread, and the scene of `Shadows`.
  */
 #include "app/options.h"
 #include "benchmark/measure.h"
 #include "reference/reference.h"
+#include "scene/scene_example.h"
 #include "shapes/mesh_solids.h"
 
 #include <stdio.h>
 
-enum { SIZE = 400, ROUNDS = 7, CASES = 11 };
+extern const Example Shadows;
+
+enum { SIZE = 400, ROUNDS = 7, CASES = 11, PROGRAM = CASES, ROWS };
 
 typedef struct Case {
     const char *name;
@@ -91,26 +94,41 @@ static bool trace_picture(void *argument)
     return done;
 }
 
+static bool trace_program(void *argument)
+{
+    Scene scene = {.object_count = 0};
+    Reference reference;
+    Shadows.scene->make(0, 0, &scene);
+    const bool done = reference_open(&reference, &scene, argument, NULL);
+    reference_close(&reference);
+    return done;
+}
+
 int main(int argc, char *argv[])
 {
+    ReferenceOptions options = EXACT(0);
     measure_begin(&argc, argv);
-    Measured measured[CASES];
+    Measured measured[ROWS];
     Message message = {0};
+    if (!Shadows.init(&(ShaderLoader){0}, &message))
+        return options_fail("reference_benchmark", &message, 1);
+    measured[PROGRAM] = (Measured){"Shadows, with three lights", trace_program, &options, NULL};
     for (int i = 0; i < CASES; i++) {
         if (!solid_mesh(&cases[i].solid, cases[i].divisions, &cases[i].mesh, &message))
             return options_fail("reference_benchmark", &message, 1);
         measured[i] = (Measured){cases[i].name, trace_picture, &cases[i], NULL};
     }
     measure_print_machine(NULL, NULL);
-    const bool done = measure_rounds(measured, CASES, ROUNDS);
+    const bool done = measure_rounds(measured, ROWS, ROUNDS);
     Table table;
     table_open(&table, "the exact picture, 400x400|ms");
-    for (int i = 0; i < CASES && done; i++) {
+    for (int i = 0; i < ROWS && done; i++) {
         const Summary time = measure_summary(measured[i].seconds, ROUNDS);
-        table_row(&table, "%s|%s", cases[i].name, measure_cell(time, 1e3, 1).text);
+        table_row(&table, "%s|%s", measured[i].name, measure_cell(time, 1e3, 1).text);
     }
     measure_print_table(NULL, &table);
-    measure_finish(measured, CASES);
+    measure_finish(measured, ROWS);
+    Shadows.finish();
     for (int i = 0; i < CASES; i++)
         mesh_close(&cases[i].mesh);
     return done ? 0 : 1;
