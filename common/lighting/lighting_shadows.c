@@ -564,13 +564,46 @@ static void explain_maps(const Lighting *lighting, const ShadowFrame *frame, int
     }
 }
 
-static void explain_light(const Lighting *lighting, const ShadowFrame *frame, int number,
-                          FILE *file)
+/* The sides of the volumes of all objects, whether there is need of them or not. */
+static size_t count_triangles(Lighting *lighting, const ShadowFrame *frame, const Light *light)
+{
+    ShadowVolume volume = {.capacity = 0};
+    ShadowThrow thrown;
+    size_t indices = 0;
+    for (int o = 0; o < frame->plan->count; o++) {
+        if (frame->scene->objects[o].lamp ||
+            !make_throw(lighting, frame, light, o, (Vec4){0, 0, 0, 1}, &thrown, NULL))
+            continue;
+        const Silhouette *silhouette = &thrown.caster->silhouette;
+        const SilhouetteFacing facing =
+            facing_of(frame, o, silhouette->closed, thrown.light_object);
+        if (shadow_volume_make(&volume, silhouette, thrown.light_object, facing, SHADOW_END_OPEN,
+                               false, NULL))
+            indices += volume.side_count;
+    }
+    shadow_volume_close(&volume);
+    return indices / 3;
+}
+
+static void explain_none(Lighting *lighting, const ShadowFrame *frame, int number, FILE *file)
+{
+    const Light light = scene_world_light(frame->scene, number);
+    const int size = lighting->shadows.map_size;
+    fprintf(file, "light %d: none, because nothing can come between; that saves ", number);
+    if (lighting->shadows.way == SHADOWS_MAP)
+        fprintf(file, "a map of %dx%d", size, size);
+    else
+        fprintf(file, "volumes of %zu triangles, the depths of all surfaces once more,",
+                count_triangles(lighting, frame, &light));
+    fprintf(file, " and a look-up for each fragment\n");
+}
+
+static void explain_light(Lighting *lighting, const ShadowFrame *frame, int number, FILE *file)
 {
     Light light = scene_world_light(frame->scene, number);
     const int curved = not_flat(frame, number, &light);
     if (!(frame->plan->all >> number & 1))
-        fprintf(file, "light %d: none, because nothing can come between\n", number);
+        explain_none(lighting, frame, number, file);
     else if (lighting->shadows.way == SHADOWS_MAP)
         explain_maps(lighting, frame, number, file);
     else if (lighting->shadows.way == SHADOWS_VOLUMES)

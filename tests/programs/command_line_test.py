@@ -927,6 +927,17 @@ class Scenes(Case):
                     self.assertRegex(text, rf"(?m)^ *{re.escape(other)}$")
         self.assertEqual(self.everything(), {})
 
+    def test_how_shadows_are_drawn_is_explained(self):
+        for program, arguments, line in (
+                ("Shadows", ("--shadows", "map:256"), r"light 0: map 0 of 1, 256x256: .* of 24 bits .*"),
+                ("Shadows", (), r"light 0: volumes, because object \d+, .* is not flat"),
+                ("SpotLight", ("--shadows", "on"),
+                 r"light 0: none, because nothing can come between; that saves volumes of [1-9]\d* triangles, .*"),
+                ("SpotLight", ("--shadows", "map:256"), r"light 0: none, .*; that saves a map of 256x256 .*")):
+            with self.subTest(program=program, arguments=arguments):
+                text = self.run_it("--explain", *arguments, program=program).stdout.decode()
+                self.assertRegex(text, "(?m)^" + line + "$")
+
     def test_the_precision_of_depth_is_explained(self):
         """Values next to each other, as the buffer has them, are so far apart in depth."""
         for distance in (1, 27):
