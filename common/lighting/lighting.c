@@ -311,46 +311,52 @@ static void draw_buffer(GLuint program, const MeshBuffer *buffer)
             glDisableVertexAttribArray((GLuint)others[i]);
 }
 
+static Mat4 normal_matrix_of(const Lighting *lighting, const Object *object, Mat4 eye_from_object)
+{
+    if (lighting->normal_matrix)
+        return lighting->normal_matrix(eye_from_object);
+    if (object->wrong_normals)
+        return eye_from_object;
+    return mat4_normal(eye_from_object); /* zero if the matrix is singular: unlit */
+}
+
+static void set_uniforms(GLuint program, const Lighting *lighting, const Scene *scene,
+                         const Object *object, const Effects *effects, const LightingFrame *frame,
+                         Mat4 eye_from_object)
+{
+    const LightingTransforms *transforms = &lighting->transforms;
+    set_mat4(program, "u_ClipFromObject",
+             transforms->clip_from_object(frame->clip_from_eye, frame->eye_from_world,
+                                          object->world_from_object, eye_from_object));
+    set_mat4(program, "u_EyeFromObject", eye_from_object);
+    set_mat4(program, "u_NormalMatrix", normal_matrix_of(lighting, object, eye_from_object));
+    set_float(program, "u_LocalViewer", scene->distant_viewer ? 0 : 1);
+    set_float(program, "u_VertexLocalViewer", scene->distant_viewer ? 0 : 1);
+    set_materials(program, scene, object, effects, frame->full, lighting_is_mediump(lighting));
+    for (int g = 0; g < effects->group_count; g++)
+        set_group(program, transforms, scene, frame->eye_from_world, &effects->groups[g], g);
+    lighting_set_shadows(program, lighting, frame->masks, object);
+}
+
 static bool draw_object(Lighting *lighting, const Scene *scene, const Object *object,
                         const LightingFrame *frame, uint32_t shadowed, Message *message)
 {
-    const Mat4 eye_from_world = frame->eye_from_world, clip_from_eye = frame->clip_from_eye;
-    const bool full = frame->full;
     const Buffered *buffered =
         lighting_buffer(lighting, object->mesh, remade_for(scene, object), message);
     if (!buffered)
         return false;
-    Effects effects = full ? effects_full(scene, object)
-                           : effects_of_boxed(scene, object, &buffered->box, shadowed);
+    Effects effects = frame->full ? effects_full(scene, object)
+                                  : effects_of_boxed(scene, object, &buffered->box, shadowed);
     if (lighting->normal_matrix && effects.normals)
         effects.normal_matrix = effects.normalize_vertex = true;
     const GLuint program = lighting_find_program(lighting, scene, &effects, message);
     if (!program)
         return false;
 
-    const LightingTransforms *transforms = &lighting->transforms;
-    const Mat4 eye_from_object =
-        transforms->eye_from_object(&scene->camera, eye_from_world, object->world_from_object);
-    Mat4 normal_matrix;
-    if (lighting->normal_matrix)
-        normal_matrix = lighting->normal_matrix(eye_from_object);
-    else if (object->wrong_normals)
-        normal_matrix = eye_from_object;
-    else
-        normal_matrix = mat4_normal(eye_from_object); /* zero if the matrix is singular: unlit */
+    const Mat4 eye_from_object = lighting->transforms.eye_from_object(
+        &scene->camera, frame->eye_from_world, object->world_from_object);
     glUseProgram(program);
-    set_mat4(program, "u_ClipFromObject",
-             transforms->clip_from_object(clip_from_eye, eye_from_world, object->world_from_object,
-                                          eye_from_object));
-    set_mat4(program, "u_EyeFromObject", eye_from_object);
-    set_mat4(program, "u_NormalMatrix", normal_matrix);
-    set_float(program, "u_LocalViewer", scene->distant_viewer ? 0 : 1);
-    set_float(program, "u_VertexLocalViewer", scene->distant_viewer ? 0 : 1);
-    set_materials(program, scene, object, &effects, full, lighting_is_mediump(lighting));
-    for (int g = 0; g < effects.group_count; g++)
-        set_group(program, transforms, scene, eye_from_world, &effects.groups[g], g);
-    lighting_set_shadows(program, lighting, frame->masks, object);
-
+    set_uniforms(program, lighting, scene, object, &effects, frame, eye_from_object);
     /* A reflection reverses the winding. */
     glFrontFace((mat4_determinant(eye_from_object) < 0) != object->clockwise ? GL_CW : GL_CCW);
     if (object->behind_lines) {

@@ -216,6 +216,31 @@ static void write_shadowed(const Scene *scene, const LightGroup *group, int g, F
                 "rgba"[effects_channel(scene, group->lights[0]) % SHADOW_CHANNELS]);
 }
 
+/* A function for a group; `shadowed`: how many lights of those before it have shadows. */
+static void write_group(const Scene *scene, const LightGroup *group, int g, bool mediump,
+                        int shadowed, FILE *file)
+{
+    const bool at_vertex = group->terms.at_vertex;
+    const char *defines[MAX_GROUP_DEFINES];
+    const int count = group_defines(group, mediump, defines);
+    fprintf(file, "#define GROUP group%d\n#define COUNT %d\n", g, group->count);
+    for (int i = 0; i < count; i++)
+        fprintf(file, "#define %s\n", defines[i]);
+    for (int i = 0; i < GROUP_UNIFORM_COUNT; i++)
+        fprintf(file, "#define %s %s%d\n", GROUP_UNIFORMS[i], GROUP_UNIFORMS[i], g);
+    if (group->terms.shadow && at_vertex)
+        fprintf(file, "#define VERTEX_SHADOW %d\n", shadowed);
+    else if (group->terms.shadow)
+        write_shadowed(scene, group, g, file);
+    fprintf(file, "#include \"lighting/group.glsl\"\n#undef GROUP\n#undef COUNT\n");
+    for (int i = 0; i < count; i++)
+        fprintf(file, "#undef %s\n", defines[i]);
+    for (int i = 0; i < GROUP_UNIFORM_COUNT; i++)
+        fprintf(file, "#undef %s\n", GROUP_UNIFORMS[i]);
+    if (group->terms.shadow)
+        fprintf(file, at_vertex ? "#undef VERTEX_SHADOW\n" : "#undef u_Channel\n#undef SHADOWED\n");
+}
+
 /* The text of "lighting/vertex_groups.glsl" or "lighting/fragment_groups.glsl": a function per
  * group, and add_lights, which calls them. */
 static char *groups_text(const Effects *effects, const Scene *scene, const Lighting *lighting,
@@ -223,7 +248,7 @@ static char *groups_text(const Effects *effects, const Scene *scene, const Light
 {
     char *text = NULL;
     size_t size = 0;
-    int shadowed = 0; /* at the vertices, so far */
+    int shadowed = 0; /* lights, so far */
     const Shadows shadows = shadows_of(effects, scene, lighting);
     FILE *file = open_memstream(&text, &size);
     if (!file)
@@ -235,28 +260,10 @@ static char *groups_text(const Effects *effects, const Scene *scene, const Light
     write_vertex_shadows(effects, scene, at_vertex, file);
     for (int g = 0; g < effects->group_count; g++) {
         const LightGroup *group = &effects->groups[g];
-        const char *defines[MAX_GROUP_DEFINES];
-        const int count = group_defines(group, lighting_is_mediump(lighting), defines);
         if (group->terms.at_vertex != at_vertex)
             continue;
-        fprintf(file, "#define GROUP group%d\n#define COUNT %d\n", g, group->count);
-        for (int i = 0; i < count; i++)
-            fprintf(file, "#define %s\n", defines[i]);
-        for (int i = 0; i < GROUP_UNIFORM_COUNT; i++)
-            fprintf(file, "#define %s %s%d\n", GROUP_UNIFORMS[i], GROUP_UNIFORMS[i], g);
-        if (group->terms.shadow && at_vertex)
-            fprintf(file, "#define VERTEX_SHADOW %d\n", shadowed);
-        else if (group->terms.shadow)
-            write_shadowed(scene, group, g, file);
+        write_group(scene, group, g, lighting_is_mediump(lighting), shadowed, file);
         shadowed += group->terms.shadow ? group->count : 0;
-        fprintf(file, "#include \"lighting/group.glsl\"\n#undef GROUP\n#undef COUNT\n");
-        for (int i = 0; i < count; i++)
-            fprintf(file, "#undef %s\n", defines[i]);
-        for (int i = 0; i < GROUP_UNIFORM_COUNT; i++)
-            fprintf(file, "#undef %s\n", GROUP_UNIFORMS[i]);
-        if (group->terms.shadow)
-            fprintf(file,
-                    at_vertex ? "#undef VERTEX_SHADOW\n" : "#undef u_Channel\n#undef SHADOWED\n");
     }
     fprintf(file, "void add_lights(vec3 normal, vec3 position, vec3 viewer, bool front, inout vec3 "
                   "color) {\n");
@@ -268,44 +275,53 @@ static char *groups_text(const Effects *effects, const Scene *scene, const Light
     return text;
 }
 
-static bool recipe_open(Recipe *recipe, const Effects *effects, const Scene *scene,
-                        const Lighting *lighting, Message *message)
+/* What is computed where, by ShaderStage, and anywhere. */
+typedef struct Stages {
+    bool lights[2], position[2], normals[2], colored[2];
+    bool specular, full, vertex_shadows;
+} Stages;
+
+static Stages stages_of(const Effects *effects)
 {
-    const bool mediump = lighting_is_mediump(lighting);
-    const Shadows shadows = shadows_of(effects, scene, lighting);
-    /* By ShaderStage. What is clamped at the vertices is computed there, the base too. */
-    bool lights[2] = {[SHADER_VERTEX] = effects->clamp_vertex}, position[2] = {false};
-    bool normals[2] = {false}, colored[2] = {false};
-    bool specular = false, full = false, vertex_shadows = false;
+    /* What is clamped at the vertices is computed there, the base too. */
+    Stages stages = {.lights = {[SHADER_VERTEX] = effects->clamp_vertex}};
     for (int g = 0; g < effects->group_count; g++) {
         const LightTerms *terms = &effects->groups[g].terms;
         const int stage = terms->at_vertex ? SHADER_VERTEX : SHADER_FRAGMENT;
-        lights[stage] = true;
-        position[stage] |=
+        stages.lights[stage] = true;
+        stages.position[stage] |=
             terms->kind != LIGHT_DIRECTIONAL || (terms->specular && effects->local_viewer);
-        normals[stage] |= terms->diffuse || terms->specular;
-        colored[stage] |= effects->vertex_color && (terms->ambient || terms->diffuse);
-        specular |= terms->specular;
-        full |= terms->any;
-        vertex_shadows |= terms->shadow && terms->at_vertex;
+        stages.normals[stage] |= terms->diffuse || terms->specular;
+        stages.colored[stage] |= effects->vertex_color && (terms->ambient || terms->diffuse);
+        stages.specular |= terms->specular;
+        stages.full |= terms->any;
+        stages.vertex_shadows |= terms->shadow && terms->at_vertex;
     }
-    colored[lights[SHADER_VERTEX] ? SHADER_VERTEX : SHADER_FRAGMENT] |=
+    stages.colored[stages.lights[SHADER_VERTEX] ? SHADER_VERTEX : SHADER_FRAGMENT] |=
         effects->vertex_color && effects->base;
+    return stages;
+}
+
+static void find_defines(const Effects *effects, Shadows shadows, bool mediump,
+                         const char *defines[MAX_DEFINES])
+{
+    const Stages stages = stages_of(effects);
+    const bool *lights = stages.lights, *position = stages.position, *normals = stages.normals;
     const struct {
         bool there;
         const char *define;
     } all[] = {
-        {full, "FULL"},
+        {stages.full, "FULL"},
         {mediump, "MEDIUMP"},
         {effects->base, "BASE"},
         {effects->alpha, "ALPHA"},
         {effects->vertex_color, "VERTEX_COLOR"},
-        {colored[SHADER_FRAGMENT], "FRAGMENT_COLOR"},
+        {stages.colored[SHADER_FRAGMENT], "FRAGMENT_COLOR"},
         {effects->lit_positions && lights[SHADER_VERTEX], "LIT_POSITION"},
         {effects->two_sided, "TWO_SIDED"},
         {lights[SHADER_VERTEX], "VERTEX_LIGHTS"},
         {lights[SHADER_FRAGMENT], "FRAGMENT_LIGHTS"},
-        {vertex_shadows, "VERTEX_SHADOWS"},
+        {stages.vertex_shadows, "VERTEX_SHADOWS"},
         {shadows.maps != 0, "SHADOW_MAPS"},
         {mediump && shadows.masks, "MASK_PLACE"},
         {position[SHADER_VERTEX] || position[SHADER_FRAGMENT], "POSITION"},
@@ -316,17 +332,24 @@ static bool recipe_open(Recipe *recipe, const Effects *effects, const Scene *sce
         {effects->normalize_vertex, "NORMALIZE_VERTEX"},
         {effects->normalize_fragment, "NORMALIZE_FRAGMENT"},
         {effects->local_viewer, "LOCAL_VIEWER"},
-        {specular, "SHININESS"},
-        {specular && effects->reflection == REFLECTION_PHONG, "PHONG"},
+        {stages.specular, "SHININESS"},
+        {stages.specular && effects->reflection == REFLECTION_PHONG, "PHONG"},
         {effects->clamp_vertex, "CLAMP_VERTEX"},
         {effects->linear, "LINEAR"},
         {effects->show_clipped, "SHOW_CLIPPED"},
         {effects->limit, "LIMIT"},
     };
-    *recipe = (Recipe){{NULL}, {NULL}};
     for (size_t i = 0, count = 0; i < sizeof all / sizeof all[0]; i++)
         if (all[i].there)
-            recipe->defines[count++] = all[i].define;
+            defines[count++] = all[i].define;
+}
+
+static bool recipe_open(Recipe *recipe, const Effects *effects, const Scene *scene,
+                        const Lighting *lighting, Message *message)
+{
+    *recipe = (Recipe){{NULL}, {NULL}};
+    find_defines(effects, shadows_of(effects, scene, lighting), lighting_is_mediump(lighting),
+                 recipe->defines);
     recipe->groups[SHADER_VERTEX] = groups_text(effects, scene, lighting, true);
     recipe->groups[SHADER_FRAGMENT] = groups_text(effects, scene, lighting, false);
     if (recipe->groups[SHADER_VERTEX] && recipe->groups[SHADER_FRAGMENT])
