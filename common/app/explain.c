@@ -306,7 +306,9 @@ static bool explain_view(Stage *stage, const Options *options, int number, Expla
                          Message *message)
 {
     StageView view;
-    bool done = stage_view_open(&view, stage, options, options->seconds, number, message);
+    lighting_use_shadows(stage->lighting, &options->shadows);
+    bool done = stage_view_open(&view, stage, options, options->seconds, number, message) &&
+                lighting_find_maps(stage->lighting, &view.scene, options->full, message);
     for (int i = 0; i < view.scene.object_count && done; i++) {
         int place = i;
         const Scene *scene = stage_view_part(&view, &place);
@@ -327,7 +329,6 @@ static bool explain_view(Stage *stage, const Options *options, int number, Expla
         done = reality_explain(&view.scene, stdout, message);
         printf("\n");
         print_depth(stage->canvas, &view.scene.camera);
-        lighting_use_shadows(stage->lighting, &options->shadows);
         done = done && lighting_explain_shadows(stage->lighting, &view.scene, stdout, message);
     }
     stage_view_close(&view);

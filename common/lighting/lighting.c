@@ -26,6 +26,11 @@ void lighting_use_shadows(Lighting *lighting, const ShadowSettings *settings)
         lighting->shadows.way = SHADOWS_DEFAULT.way;
 }
 
+ShadowSettings lighting_shadows(const Lighting *lighting)
+{
+    return lighting->shadows;
+}
+
 void lighting_use_normal_matrix(Lighting *lighting, LightingNormalMatrix *normal_matrix)
 {
     lighting->normal_matrix = normal_matrix;

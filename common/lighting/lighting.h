@@ -26,6 +26,8 @@ bool lighting_open(Lighting **lighting, const ShaderLoader *loader, Message *mes
 /* From now on, how shadows are drawn, instead of SHADOWS_DEFAULT. SHADOWS_OFF: as that. */
 void lighting_use_shadows(Lighting *lighting, const ShadowSettings *settings);
 
+ShadowSettings lighting_shadows(const Lighting *lighting);
+
 /* Writes a line for each light with shadows: how they are drawn, or that nothing can come between;
  * of maps how fine they and their depths are. */
 bool lighting_explain_shadows(Lighting *lighting, const Scene *scene, FILE *file, Message *message);
@@ -67,8 +69,11 @@ bool lighting_draw_parts(Lighting *lighting, const Scene *scene, const Scene *pa
 /* Drops the buffers of a mesh before it changes or closes; NULL: of all meshes. */
 void lighting_forget(Lighting *lighting, const Mesh *mesh);
 
+/* Finds which shadows the programs look up in maps themselves, as a frame of the scene does. */
+bool lighting_find_maps(Lighting *lighting, const Scene *scene, bool full, Message *message);
+
 /* The program that draws this object, compiled if necessary; 0, with a message, on failure. For
- * tests and tools. */
+ * tests and tools; after lighting_find_maps or a frame, if the scene has shadows by maps. */
 GLuint lighting_program(Lighting *lighting, const Scene *scene, const Object *object, bool full,
                         Message *message);
 

@@ -22,10 +22,11 @@ struct Lighting {
     Buffered *buffers;
     struct Caster *casters; /* what throws shadows */
     ShadowSettings shadows;
-    ShadowMask mask;     /* opened when a scene first needs it */
-    ShadowMaps maps;     /* likewise */
-    uint32_t map_lights; /* a bit for each whose map the programs that light objects look up; the
-                            shadows of others are in masks */
+    ShadowMask mask;        /* opened when a scene first needs it */
+    ShadowMaps maps;        /* likewise */
+    int looks[SHADOW_MAPS]; /* shadow_map_look, of those lights: */
+    uint32_t map_lights;    /* a bit for each whose map the programs that light objects look up; the
+                               shadows of others are in masks */
     LightingCounts counts;
     LightingTransforms transforms;
     LightingNormalMatrix *normal_matrix; /* NULL: mat4_normal */

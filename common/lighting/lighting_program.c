@@ -75,7 +75,7 @@ bool lighting_is_mediump(const Lighting *lighting)
 /* What each light's code for its map has under a name of its own. */
 static const char *const MAP_NAMES[] = {"u_MapScale", "u_MapMove",  "u_MapSize",   "u_MapBias",
                                         "u_Map",      "v_MapPlace", "v_MapNormal", "map_depth",
-                                        "hidden",     "find_place", "find_shadow"};
+                                        "is_behind",  "find_place", "find_shadow"};
 enum { MAP_NAME_COUNT = sizeof MAP_NAMES / sizeof MAP_NAMES[0] };
 
 /* What a program looks up: maps, a bit for each light; and masks, a bit each. */
@@ -114,7 +114,7 @@ static void write_map(int light, int look, FILE *file)
         fprintf(file, "#undef %s\n", MAP_NAMES[i]);
 }
 
-/* Where the fragments are on the maps. */
+/* Where the fragments are on the maps, with the normals that are drawn: a triangle's, if flat. */
 static void write_map_places(uint32_t maps, FILE *file)
 {
     for (int l = 0; l < SHADOW_MAPS; l++)
@@ -140,7 +140,6 @@ static void write_shadows(const Effects *effects, const Scene *scene, const Ligh
                           FILE *file)
 {
     const Shadows shadows = shadows_of(effects, scene, lighting);
-    const ShadowLookup lookup = lighting_lookup(lighting);
     const bool mediump = lighting_is_mediump(lighting);
     const int count = masks_of(effects);
     if (!count)
@@ -151,7 +150,7 @@ static void write_shadows(const Effects *effects, const Scene *scene, const Ligh
     fprintf(file, mediump ? "#undef highp\nprecision highp float;\n" : "");
     for (int l = 0; l < scene->light_count; l++)
         if (shadows.maps >> l & 1)
-            write_map(l, shadow_map_look(&lighting->maps, l, 0, &lookup), file);
+            write_map(l, lighting->looks[l], file);
     for (int m = 0; m < count; m++)
         if (shadows.masks >> m & 1)
             fprintf(file, "uniform sampler2D u_Mask%d;\n", m);

@@ -408,21 +408,48 @@ static bool look_up_map(Lighting *lighting, const ShadowFrame *frame, int number
     return done;
 }
 
-/* The lights whose maps programs look up themselves: those that have one, as many as a program has
- * room for, with two varyings for each, two for what is lit at its vertices, and six others. Full
- * programs have masks of all lights, with or without a map. */
-static uint32_t find_map_lights(const Lighting *lighting, const ShadowFrame *frame)
+/* The number of maps that a program has room for. It has two varyings for each; what is lit at the
+ * vertices, two for each light with shadows; and six others. */
+static int map_room(const ShadowFrame *frame)
 {
     GLint varyings = 0, units = 0;
+    int lights = 0;
+    for (int l = 0; l < frame->scene->light_count; l++)
+        lights += (int)(frame->plan->all >> l & 1);
     glGetIntegerv(GL_MAX_VARYING_VECTORS, &varyings);
     glGetIntegerv(GL_MAX_TEXTURE_IMAGE_UNITS, &units);
-    const int masks = (frame->scene->light_count + SHADOW_CHANNELS - 1) / SHADOW_CHANNELS;
-    int room = (varyings - 6) / 4 < units - masks ? (varyings - 6) / 4 : units - masks;
-    uint32_t lights = 0;
-    for (int l = 0; l < frame->scene->light_count && !frame->full; l++)
-        if (frame->plan->all >> l & 1 && lighting->maps.lights[l].count == 1 && room-- > 0)
-            lights |= (uint32_t)1 << l;
-    return lights;
+    varyings -= 6 + (frame->scene->interpolation == INTERPOLATION_PHONG ? 0 : 2 * lights);
+    units -= (frame->scene->light_count + SHADOW_CHANNELS - 1) / SHADOW_CHANNELS; /* masks */
+    return varyings / 2 < units ? varyings / 2 : units;
+}
+
+/* The lights whose maps programs look up themselves: those that have one, as far as there is room.
+ * Full programs have masks of all lights, with or without a map. */
+static void find_map_lights(Lighting *lighting, const ShadowFrame *frame)
+{
+    ShadowFrustum frusta[SHADOW_FACES];
+    const ShadowLookup lookup = lighting_lookup(lighting);
+    int room = map_room(frame);
+    for (int l = 0; l < frame->scene->light_count && !frame->full; l++) {
+        if (!(frame->plan->all >> l & 1) || fit_maps(lighting, frame, l, frusta) != 1 ||
+            room-- <= 0)
+            continue;
+        lighting->map_lights |= (uint32_t)1 << l;
+        lighting->looks[l] = shadow_map_look(&lighting->maps, &frusta[0], &lookup);
+    }
+}
+
+bool lighting_find_maps(Lighting *lighting, const Scene *scene, bool full, Message *message)
+{
+    ShadowPlan plan;
+    lighting->map_lights = 0;
+    if (lighting->shadows.way != SHADOWS_MAP)
+        return true;
+    if (!open_maps(lighting, message) || !shadow_plan_open(&plan, lighting, scene, message))
+        return false;
+    find_map_lights(lighting, &(ShadowFrame){.scene = scene, .plan = &plan, .full = full});
+    shadow_plan_close(&plan);
+    return true;
 }
 
 static bool draw_light_mask(Lighting *lighting, const ShadowFrame *frame, int number,
@@ -480,7 +507,7 @@ bool lighting_draw_shadows(Lighting *lighting, const ShadowFrame *frame, int *ma
     if (maps && !draw_maps(lighting, frame, message))
         return false;
     if (maps)
-        lighting->map_lights = find_map_lights(lighting, frame);
+        find_map_lights(lighting, frame);
     *masks = mask_count(lighting, frame);
     return *masks == 0 || draw_masks(lighting, frame, *masks, message);
 }
@@ -508,9 +535,11 @@ static void set_maps(GLuint program, const Lighting *lighting, int first, const 
             continue;
         snprintf(suffix, sizeof suffix, "%d", l);
         snprintf(name, sizeof name, "u_Map%s", suffix);
-        glUniform1i(glGetUniformLocation(program, name), unit++);
-        shadow_map_uniforms(&lighting->maps, l, 0, &lookup, object->world_from_object, program,
-                            suffix);
+        const GLint map = glGetUniformLocation(program, name);
+        glUniform1i(map, unit++);
+        if (map >= 0)
+            shadow_map_uniforms(&lighting->maps, l, 0, &lookup, object->world_from_object, program,
+                                suffix);
     }
 }
 

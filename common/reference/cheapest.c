@@ -625,8 +625,12 @@ static bool choice_key(CacheKey *key, const CheapestTask *task, Message *message
     const double numbers[] = {task->error,    task->kept,      task->full,   task->moments,
                               task->moving,   canvas->samples, canvas->real, canvas->supersample,
                               task->place[2], task->place[3]};
+    const ShadowSettings shadows = lighting_shadows(task->lighting);
+    const double ways[] = {shadows.way,    shadows.map_size, shadows.smooth,
+                           shadows.bias.x, shadows.bias.y,   shadows.bias.z};
     *key = (CacheKey){{1, 0}};
     cache_key_add_program(key);
+    cache_key_add(key, ways, sizeof ways);
     cache_key_add(key, numbers, sizeof numbers);
     cache_key_add(key, canvas->renderer, strlen(canvas->renderer));
     cache_key_add(key, canvas->version, strlen(canvas->version));
@@ -638,7 +642,8 @@ static bool choice_key(CacheKey *key, const CheapestTask *task, Message *message
         /* The shaders may have been edited. */
         for (int full = 0; full < 2 && moment == 0 && scene.object_count; full++) {
             ShaderSource sources[2];
-            if (!lighting_sources(task->lighting, &scene, &scene.objects[0], full, sources,
+            if (!lighting_find_maps(task->lighting, &scene, full, message) ||
+                !lighting_sources(task->lighting, &scene, &scene.objects[0], full, sources,
                                   message))
                 return false;
             for (int stage = 0; stage < 2; stage++) {

@@ -252,11 +252,11 @@ bool shadow_map_draw(ShadowMaps *maps, int light, int size, const ShadowFrustum 
 
 /* Looking it up */
 
-int shadow_map_look(const ShadowMaps *maps, int light, int face, const ShadowLookup *lookup)
+int shadow_map_look(const ShadowMaps *maps, const ShadowFrustum *frustum,
+                    const ShadowLookup *lookup)
 {
     return (lookup->smooth ? LOOK_SMOOTH : 0) | (lookup->normal != 0 ? LOOK_ALONG_NORMAL : 0) |
-           (maps->lights[light].frusta[face].perspective ? LOOK_PERSPECTIVE : 0) |
-           (maps->packed ? LOOK_PACKED : 0);
+           (frustum->perspective ? LOOK_PERSPECTIVE : 0) | (maps->packed ? LOOK_PACKED : 0);
 }
 
 static void set_vec3(GLuint program, const char *name, const char *suffix, Vec3 value)
@@ -297,7 +297,7 @@ bool shadow_map_mark(ShadowMaps *maps, ShadowMask *mask, int light, int channel,
     const ShadowMap *map = &maps->lights[light];
     bool done = true;
     for (int face = 0; face < map->count && done; face++) {
-        const int look = shadow_map_look(maps, light, face, lookup);
+        const int look = shadow_map_look(maps, &map->frusta[face], lookup);
         Shader *shader = &maps->look[look];
         done = shader->program || open_program(shader, maps, "LOOK_UP", look, message);
         if (!done)

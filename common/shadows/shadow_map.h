@@ -66,7 +66,8 @@ bool shadow_map_draw(ShadowMaps *maps, int light, int size, const ShadowFrustum 
 /* For a program that includes lighting/shadow_map.glsl: its look, the defines for it, which are
  * written and counted, and its uniforms, whose names end in `suffix`. The texture is not bound. */
 enum { LOOK_DEFINES = 4 };
-int shadow_map_look(const ShadowMaps *maps, int light, int face, const ShadowLookup *lookup);
+int shadow_map_look(const ShadowMaps *maps, const ShadowFrustum *frustum,
+                    const ShadowLookup *lookup);
 int shadow_map_defines(int look, const char *defines[LOOK_DEFINES]);
 void shadow_map_uniforms(const ShadowMaps *maps, int light, int face, const ShadowLookup *lookup,
                          Mat4 world_from_object, GLuint program, const char *suffix);

@@ -88,18 +88,24 @@ static void drop_images(ShadowMask *mask)
     mask->width = mask->height = 0;
 }
 
+/* Those of the list from `first` on. */
+static void drop_volumes(ShadowMask *mask, size_t first)
+{
+    for (size_t i = first; i < mask->uploaded_count; i++)
+        glDeleteBuffers(SHADOW_VOLUME_LISTS, mask->uploaded[i].indices);
+    mask->uploaded_count = first < mask->uploaded_count ? first : mask->uploaded_count;
+}
+
 void shadow_mask_forget(ShadowMask *mask)
 {
-    for (size_t i = 0; i < mask->uploaded_count; i++)
-        mask->uploaded[i].caster = NULL;
+    drop_volumes(mask, 0);
 }
 
 void shadow_mask_close(ShadowMask *mask)
 {
     if (!mask)
         return;
-    for (size_t i = 0; i < mask->uploaded_count; i++)
-        glDeleteBuffers(SHADOW_VOLUME_LISTS, mask->uploaded[i].indices);
+    drop_volumes(mask, 0);
     free(mask->uploaded);
     if (mask->framebuffer) {
         drop_images(mask);
@@ -321,8 +327,9 @@ static bool upload(UploadedVolume *to, int which, uint32_t *indices, size_t coun
 static void draw_list(const UploadedVolume *volume, int which, size_t vertices)
 {
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, volume->indices[which]);
-    glDrawElements(GL_TRIANGLES, volume->counts[which],
-                   is_wide(vertices) ? GL_UNSIGNED_INT : GL_UNSIGNED_SHORT, NULL);
+    if (volume->counts[which] > 0)
+        glDrawElements(GL_TRIANGLES, volume->counts[which],
+                       is_wide(vertices) ? GL_UNSIGNED_INT : GL_UNSIGNED_SHORT, NULL);
 }
 
 /* Behind the surface, faces that look out of the volume begin it and the others end it; before the
@@ -597,6 +604,7 @@ bool shadow_mask_end(ShadowMask *mask, Message *message)
     glFrontFace(GL_CCW);
     glBindFramebuffer(GL_FRAMEBUFFER, (GLuint)mask->target);
     const GLenum error = glGetError();
+    drop_volumes(mask, error == GL_NO_ERROR ? mask->next : 0);
     return error == GL_NO_ERROR ||
            message_set(message, "shadows: a mask of %dx%d: %s from the driver", mask->width,
                        mask->height, gl_error_name(error));

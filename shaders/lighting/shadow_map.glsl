@@ -8,7 +8,7 @@ varying highp vec3 v_MapNormal;
 uniform vec3 u_MapScale; // to the map's texture and depth, from 0 to 1; in perspective of (x, y, 1)
 uniform vec3 u_MapMove;
 uniform vec3 u_MapSize; // in texels; 1 over that; a texel's width, in perspective at distance 1
-uniform vec3 u_MapBias;    // in texels: towards the light, that times the slope, along the normal
+uniform vec3 u_MapBias; // in texels: towards the light, that times the slope, along the normal
 uniform highp sampler2D u_Map; // without it 16 bits are enough for a driver
 
 float map_depth(vec2 at) {
@@ -19,7 +19,7 @@ float map_depth(vec2 at) {
 #endif
 }
 
-float hidden(vec3 at) {
+float is_behind(vec3 at) {
     return map_depth(at.xy) < at.z ? 1.0 : 0.0;
 }
 
@@ -67,10 +67,10 @@ float find_shadow() {
     vec2 share = fract(texels);
     vec3 low = vec3((floor(texels) + 0.5) * u_MapSize.y, at.z);
     vec3 next = vec3(u_MapSize.y, 0.0, 0.0);
-    float shadow = mix(mix(hidden(low), hidden(low + next.xyz), share.x),
-                       mix(hidden(low + next.yxz), hidden(low + next.xxz), share.x), share.y);
+    float shadow = mix(mix(is_behind(low), is_behind(low + next.xyz), share.x),
+                       mix(is_behind(low + next.yxz), is_behind(low + next.xxz), share.x), share.y);
 #else
-    float shadow = hidden(at);
+    float shadow = is_behind(at);
 #endif
     return there ? shadow : 0.0;
 }

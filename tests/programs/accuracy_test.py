@@ -365,6 +365,12 @@ class Choices(Study):
                   "-o", "again.png", program="ShadingModels", environment=self.own)
         self.assertEqual(self.png("again.png").pixels, self.png("30.png").pixels)
 
+    def test_each_way_of_shadows_has_a_choice_of_its_own(self):
+        choices = [self.run_it("--error", "8", "-v", "--shadows", way, "-s", "60x60", "-o", "x.png",
+                               program="Shadows", environment=self.own).stderr.decode()
+                   for way in ("map:16", "volumes", "map:16")]
+        self.assertEqual(["from the cache" in choice for choice in choices], [False, False, True])
+
     def test_error_draws_the_best_where_it_cannot_be_kept(self):
         self.says(0, r"^ShadingModels: --error 0.001 cannot be kept: the least is 0\.\d+, inside "
                   r"objects; drawn so\n$", "--error", "0.001", "-s", "60x60",
