@@ -7,7 +7,9 @@ Builds the pages with examples/run web. Exit code: 77 without emscripten or chro
 tested.
 """
 import base64
+import io
 import json
+import multiprocessing
 import os
 import pathlib
 import re
@@ -587,13 +589,35 @@ class Pages(Case):
         self.assertEqual(said, {})
 
 
+# Those that take longest first.
+CLASSES = ["Parity", "Verdicts", "Accessible", "InFirefox", "Labs", "Pages", "SwiftShader"]
+
+
+def run(name):
+    """What the tests of a class say, and whether they passed."""
+    said = io.StringIO()
+    tests = unittest.defaultTestLoader.loadTestsFromName(name, sys.modules[__name__])
+    passed = unittest.TextTestRunner(said, verbosity=2).run(tests).wasSuccessful()
+    return said.getvalue(), passed
+
+
 def main():
     code = make()
     if code:
         return code
     if firefox_pages.MISSING:
         print(f"not checked: the pages in Firefox, because {firefox_pages.MISSING} is not found")
-    return not unittest.main(argv=sys.argv[:1] + sys.argv[4:], exit=False, verbosity=2).result.wasSuccessful()
+    if sys.argv[4:]:
+        return not unittest.main(argv=sys.argv[:1] + sys.argv[4:], exit=False, verbosity=2).result.wasSuccessful()
+    tests = unittest.defaultTestLoader.loadTestsFromModule(sys.modules[__name__])
+    assert {type(test).__name__ for suite in tests for test in suite} == set(CLASSES)
+    # Each class has a browser of its own, and waits for it.
+    with multiprocessing.get_context("fork").Pool(os.cpu_count()) as pool:
+        passed = True
+        for said, right in pool.imap_unordered(run, CLASSES):
+            print(said, end="", file=sys.stderr, flush=True)
+            passed &= right
+    return not passed
 
 
 if __name__ == "__main__":
