@@ -7,7 +7,7 @@
 #include "core/canvas.h"
 #include "core/mesh_make.h"
 #include "lighting/lighting.h"
-#include "scene/fixed_function_osmesa.h"
+#include "lighting/fixed_function_osmesa.h"
 #include "shapes/mesh_solids.h"
 #include "support/picture_check.h"
 #include "support/testing.h"

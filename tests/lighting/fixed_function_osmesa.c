@@ -1,4 +1,4 @@
-#include "scene/fixed_function_osmesa.h"
+#include "lighting/fixed_function_osmesa.h"
 
 #if __has_include(<GL/osmesa.h>)
 
