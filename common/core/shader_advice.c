@@ -23,6 +23,8 @@
 #define IN_OUT "`in` and `out` belong to a later GLSL: use attribute and varying."
 #define COMPONENTS "Only vectors have components (.xyzw or .rgba), and only as many as their size."
 #define NO_MAIN "Each of the two files needs a function `void main()`."
+#define COMMENT "A comment that begins with /* does not end with */."
+#define CONDITION "An #if, #ifdef or #ifndef has no #endif."
 #define LOOPS                                                                                       \
     "WebGL takes only loops like for (int i = 0; i < 2; i++), with constant bounds (GLSL ES 1.00, " \
     "appendix A)."
@@ -113,6 +115,10 @@ static const struct {
     {"swizzle", "", "This vector has no such component: .xyzw or .rgba, up to its size."},
     {"does not write to", "gl_Position",
      "The vertex shader must set gl_Position, the fragment shader gl_FragColor."},
+    {"end of file found in comment", "", COMMENT},
+    {"end of file found in conditional", "", CONDITION},
+    {"Unterminated comment", "", COMMENT},
+    {"Unterminated #if", "", CONDITION},
     {"unexpected $end", "", BRACE},
     {"unexpected end", "", BRACE},
     {"unexpected NEW_IDENTIFIER", "",

@@ -66,13 +66,13 @@ class Engine {
      * replaced. */
     replace(texts) {
         const longest = 1000000; /* is refused; texts go over the module's stack */
-        const put = ([name, text]) => this.module.ccall("page_replace", "number", ["string", "string"],
-                                                        [name, text.slice(0, longest)]) === 1;
-        const size = text => new Blob([text]).size;
-        const long = [...texts].find(([, text]) => size(text) >= longest);
+        const files = [...texts].map(([name, text]) => [name, new TextEncoder().encode(text)]);
+        const put = ([name, bytes]) => this.module.ccall("page_replace", "number", ["string", "array", "number"],
+                                                         [name, bytes.subarray(0, longest), bytes.length]) === 1;
+        const long = files.find(([, bytes]) => bytes.length >= longest);
         if (long)
             return put(long);
-        return texts.size ? [...texts].every(put) : put(["", ""]);
+        return files.length ? files.every(put) : put(["", new Uint8Array()]);
     }
 
     close() { this.module.ccall("page_close", null, [], []); }

@@ -451,7 +451,7 @@ static bool make_folders(char *path)
     return true;
 }
 
-int page_replace(const char *name, const char *text)
+int page_replace(const char *name, const char *text, int size)
 {
     char path[256];
     page.message = (Message){0};
@@ -460,13 +460,13 @@ int page_replace(const char *name, const char *text)
         page.folder[0] = '\0';
         return 1;
     }
-    if (name[0] == '/' || strstr(name, "..") || strlen(text) > SHADER_FILE_MAX ||
+    if (name[0] == '/' || strstr(name, "..") || size > SHADER_FILE_MAX ||
         snprintf(path, sizeof path, "/tmp/shaders/%s", name) >= (int)sizeof path)
-        return message_set(&page.message, "%.80s: a shader file has at most %d bytes", name,
-                           SHADER_FILE_MAX);
+        return message_set(&page.message, "%.80s: has %d bytes; a shader file has at most %d", name,
+                           size, SHADER_FILE_MAX);
     make_folders(path);
     FILE *file = fopen(path, "w");
-    const bool written = file && fputs(text, file) >= 0;
+    const bool written = file && fwrite(text, 1, (size_t)size, file) == (size_t)size;
     if ((file && fclose(file) != 0) || !written)
         return message_set(&page.message, "%s: cannot be kept", name);
     page.replaced = true;

@@ -40,9 +40,9 @@ int page_explain(void);
 /* The shader files of the open program, [{"name": ..., "text": ...}]. */
 const char *page_shaders(void);
 
-/* Puts a text in place of a shader file for the next page_open; an empty name: no file is replaced
- * any more. 0 on failure, which changes nothing. */
-int page_replace(const char *name, const char *text);
+/* Puts a text of so many bytes in place of a shader file for the next page_open; an empty name: no
+ * file is replaced any more. 0 on failure, which changes nothing. */
+int page_replace(const char *name, const char *text, int size);
 
 /* Computes the exact picture of the last one: a second or more. Returns the errors as JSON, "" on
  * failure; page_pixels are then the map of errors. */

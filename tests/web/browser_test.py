@@ -90,6 +90,28 @@ class Parity(Case):
                 count += 1
         self.assertGreater(count, 200)
 
+    def test_what_is_refused_is_refused_natively(self):
+        """With the same first line; where the words are the compiler's, they name the same line."""
+        name = "lecture/LightedCube.frag"
+        text = pathlib.Path(SOURCE, "shaders", name).read_text()
+        self.open("LightedCube")
+        self.page.run(HARNESS)
+        for words, wrong in (("999999", "/" * 1000000), ("byte 0x00", text + "\0"), ("is empty", "\n"),
+                             ("itself", text + '#include "LightedCube.frag"\n'), ("#version", "\n#version 300 es\n" + text),
+                             ("no such shader file", text + '#include "none.glsl"\n'), ("", "#if 1\n" + text),
+                             ("", text + "#endif\n"), ("", text + "\n#error here\n")):
+            with self.subTest(words, end=wrong[-40:]), tempfile.TemporaryDirectory() as folder:
+                pathlib.Path(folder, "LightedCube.frag").write_text(wrong)
+                done = subprocess.run([os.path.join(EXAMPLES, "LightedCube"), "--shaders", folder, "-o", "-"],
+                                      stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+                natively = done.stderr.split("\n")[0].replace("LightedCube: ", "").replace(folder, "lecture")
+                drawn = self.page.run(f"own.replace(new Map([[{json.dumps(name)}, {json.dumps(wrong)}]])) "
+                                      "? rgb(['LightedCube']) : '! ' + own.message")
+                here = drawn[2:].replace("/tmp/shaders/", "").split("\n")[0]
+                self.assertEqual((done.returncode, drawn[:2]), (1, "! "))
+                self.assertIn(words, here)
+                self.assertEqual(here if words else here.split(": ")[0], natively if words else natively.split(": ")[0])
+
     @staticmethod
     def joined(words):
         """"--a 1 --b" as arguments of a link."""
@@ -365,7 +387,7 @@ class Pages(Case):
             before = self.page.run("rgb(['LightedCube'])")
             self.assertFalse(self.page.run("""own.replace(new Map([["lecture/LightedCube.vert", "void main() {}"],
                 ["lecture/LightedCube.frag", "é".repeat(600000)]]))"""))
-            self.assertIn("at most 999999 bytes", self.page.run("own.message"))
+            self.assertIn("has 1200000 bytes; a shader file has at most 999999", self.page.run("own.message"))
             self.assertEqual(self.page.run("rgb(['LightedCube'])"), before)
 
     def test_an_included_file_is_edited(self):
@@ -393,7 +415,7 @@ class Pages(Case):
             field.value = "/".repeat(10e6);
             field.dispatchEvent(new Event("input"));
         })()""")
-        self.page.wait("document.querySelector('.said').textContent.includes('at most 999999 bytes')")
+        self.page.wait("document.querySelector('.said').textContent.includes('at most 999999')")
         self.assertEqual(self.shown(), before)
         self.page.click(".revert")
         self.settle()

@@ -104,6 +104,33 @@ class Verdicts(OfLabs):
                     self.assertEqual(said(verdict), said(expected))
                     self.assertEqual(scenes(verdict), scenes(expected))
 
+    def test_what_is_refused_is_refused_natively(self):
+        """With the same words; where they are the compiler's, the verdict and the advice are the same."""
+        self.open(mistakes.NAMES[5])
+        text = SOLUTION["lab05.frag"]
+        for words, wrong in (("999999", "/" * 1000000), ("not a text file", text + "\0"), ("byte 0x01", text + "\1"),
+                             ("is empty", "\n"), ("#version", "\n#version 300 es\n" + text),
+                             ("no such file beside it", text + '#include "none.glsl"\n'),
+                             ("through lab05.frag", text + '#include "lab05.vert"\n'),
+                             ("depends on __VERSION__", text + "#if __VERSION__ == 100\n#endif\n"),
+                             ("needs a function", text.replace("void main", "void mine")),
+                             ("has no #endif", "#if 1\n" + text), ("does not end with", text + "/* open\n")):
+            texts = {**SOLUTION, "lab05.frag": wrong}
+            if "through" in words:
+                texts["lab05.vert"] += '#include "lab05.frag"\n'
+            with self.subTest(words):
+                here, natively = self.judge(5, texts), check(5, texts)
+                self.assertIn(natively["verdict"], ("error", "refused"))
+                if words in natively["message"]:
+                    self.assertEqual(here["message"], natively["message"])
+                else:
+                    self.assertIn(words, natively["details"])
+                    self.assertIn(words, here["details"])
+                if "verdict" in here:  # else the page does not come to judging
+                    self.assertEqual((here["verdict"], here["points"]), (natively["verdict"], natively["points"]))
+        texts = {**mistakes.read(10), "budget.c": mistakes.read(10)["budget.c"].replace("112", "1")}
+        self.assertEqual(said(self.judge(10, texts)), said(check(10, texts)))
+
     def test_errors_of_the_compiler_are_explained(self):
         self.open(mistakes.NAMES[5])
         for number, (name, ((lab, texts), file, meaning)) in enumerate(faults.FAULTS.items()):

@@ -101,13 +101,13 @@ const char *page_message(void)
     return page.message.text;
 }
 
-static bool write_file(const char *name, const char *text)
+static bool write_file(const char *name, const char *text, size_t size)
 {
     char path[PATH_MAX];
     mkdir(FOLDER, 0700);
     snprintf(path, sizeof path, FOLDER "/%s", name);
     FILE *file = fopen(path, "w");
-    const bool written = file && fputs(text, file) >= 0;
+    const bool written = file && fwrite(text, 1, size, file) == size;
     return ((!file || fclose(file) == 0) && written) ||
            message_set(&page.message, "%s: cannot be kept", name);
 }
@@ -122,8 +122,10 @@ static bool restore(void)
         return false;
     bool done = true;
     file_names(page.lab, names);
-    for (int i = 0; names[i][0] && done; i++)
-        done = write_file(names[i], submission_file(&starter, names[i]));
+    for (int i = 0; names[i][0] && done; i++) {
+        const char *text = submission_file(&starter, names[i]);
+        done = write_file(names[i], text, strlen(text));
+    }
     submission_files_close(&starter);
     return done;
 }
@@ -135,7 +137,7 @@ int page_open(const char *name)
     return page.lab && restore() ? 0 : 2;
 }
 
-int page_replace(const char *name, const char *text)
+int page_replace(const char *name, const char *text, int size)
 {
     char names[4][64];
     page.message = (Message){0};
@@ -149,10 +151,10 @@ int page_replace(const char *name, const char *text)
         i++;
     if (!names[i][0])
         return message_set(&page.message, "%.80s: not a file of %s", name, page.lab->name);
-    if (strlen(text) > SHADER_FILE_MAX)
-        return message_set(&page.message, "%s: has %zu bytes; at most %d are allowed", name,
-                           strlen(text), SHADER_FILE_MAX);
-    return write_file(name, text);
+    if (size > SHADER_FILE_MAX)
+        return message_set(&page.message, "%s: has %d bytes; at most %d are allowed", name, size,
+                           SHADER_FILE_MAX);
+    return write_file(name, text, (size_t)size);
 }
 
 /* Pictures. */

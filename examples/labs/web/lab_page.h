@@ -17,9 +17,9 @@ int page_open(const char *name);
 /* Why the last call failed, or "". */
 const char *page_message(void);
 
-/* Puts a text in place of one of the lab's files; an empty name: the starter's in place of all. 0
- * on failure. */
-int page_replace(const char *name, const char *text);
+/* Puts a text of so many bytes in place of one of the lab's files; an empty name: the starter's in
+ * place of all. 0 on failure. */
+int page_replace(const char *name, const char *text, int size);
 
 /* Draws the lab's own scene at that time as its program does. 0 on failure. */
 int page_draw(double seconds);
