@@ -60,6 +60,7 @@ EDITOR = """<div class="row">
 </div>
 <p class="said" role="status"></p>
 <ul class="errors" aria-label="Errors"></ul>"""
+SHADERS = '<section aria-labelledby="shaders-heading" id="editor">\n<h2 id="shaders-heading">Shaders</h2>\n%s\n</section>\n'
 # Effects are of scenes.
 EXPLAIN = """<details id="explain"><summary>What is computed, and why (<code>--explain</code>)</summary>
 <pre id="explained" tabindex="0"></pre></details>"""
@@ -145,15 +146,17 @@ def page(folder, name, parts, single):
         more = (f"<details class=\"diff\"><summary>What differs from {before}</summary>\n<p>The predecessor is {link}.</p>\n"
                 f'<pre tabindex="0">{diff(before, name)}</pre></details>')
     links = "" if single else '<nav aria-label="Pages"><a href="index.html">All programs</a></nav>'
-    return fill("program.html", name=name, summary=html.escape(summary(folder, name)), links=links, more=more,
-                editor=EDITOR % "shader file", exact=EXACT if scene else NO_SCENE,
+    shaders = SHADERS % (EDITOR % "shader file") + more
+    # A lecture program is its shaders; a scene its options.
+    return fill("program.html", name=name, summary=html.escape(summary(folder, name)), links=links,
+                first="" if scene else shaders, last=shaders if scene else "", exact=EXACT if scene else NO_SCENE,
                 only="<code>--error</code>, " if scene else "", **parts)
 
 
 def card(folder, name):
     text = html.escape(summary(folder, name))
     return (f'<li><a href="{name}.html"><canvas data-program="{name}" width="400" height="400" aria-hidden="true"></canvas>'
-            f"{name}</a><br>{text}</li>\n")
+            f"{re.sub('(?<=[a-z_])(?=[A-Z])|(?<=_)', '<wbr>', name)}</a><br>{text}</li>\n")
 
 
 def title(lab):
