@@ -52,7 +52,9 @@ EDITOR = """<div class="row">
 <label><input type="checkbox" class="live" checked> Draw while I type</label>
 </div>
 <div class="text"><pre class="gutter" aria-hidden="true"></pre><textarea class="source" spellcheck="false"
- autocapitalize="off" autocomplete="off" wrap="off" aria-label="Source of the %s"></textarea></div>
+ autocapitalize="off" autocomplete="off" wrap="off" aria-label="Source of the %s"
+ aria-describedby="editor-keys"></textarea><div class="colours" aria-hidden="true"><pre></pre></div></div>
+<p id="editor-keys"><small>Tab and Shift+Tab indent what you type; Escape, then Tab, leaves.</small></p>
 <div class="row">
 <button type="button" class="apply">Apply (Ctrl+Enter)</button>
 <button type="button" class="revert">Restore all files</button>

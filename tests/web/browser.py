@@ -10,8 +10,10 @@ import time
 MESA = ("--use-gl=angle", "--use-angle=gl-egl")
 SWIFTSHADER = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader")
 PATIENCE = 120  # seconds after which a page counts as hanging, also on a busy machine
+SHIFT = 8
 KEYS = {" ": ("Space", 32), "Tab": ("Tab", 9), "Enter": ("Enter", 13), "ArrowRight": ("ArrowRight", 39),
-        "ArrowUp": ("ArrowUp", 38), "Home": ("Home", 36), "+": ("Equal", 187)}
+        "ArrowUp": ("ArrowUp", 38), "Home": ("Home", 36), "+": ("Equal", 187),
+        "Escape": ("Escape", 27)}
 
 
 class Failed(Exception):

@@ -312,6 +312,79 @@ class Pages(Case):
         self.assertEqual(self.page.run(KEPT), 0)
         self.assertEqual(self.page.run("asked"), ["Discard your text of lecture/LightedCube.vert?"])
 
+    def test_the_editor_has_colours(self):
+        """The same letters in the same places, above the field's own."""
+        self.open("PointLightedCube_perFragment")
+        for size in (1280, 360):
+            self.page.resize(size, 700)
+            self.edit("void main", '#define ONE 1.0 /* <b> */\nvoid main')
+            said = self.page.run("""(() => {
+                const field = document.querySelector(".source"), shown = document.querySelector(".colours pre");
+                const style = element => ["font", "lineHeight", "padding", "letterSpacing", "tabSize", "whiteSpace"].map(
+                    name => getComputedStyle(element)[name]).join();
+                field.scrollTop = 30;
+                field.scrollLeft = 20;
+                field.dispatchEvent(new Event("scroll"));
+                const a = field.getBoundingClientRect(), b = shown.getBoundingClientRect();
+                const words = [...shown.children].map(span => span.className + " " + span.textContent);
+                return [shown.textContent === field.value, style(field) === style(shown), b.left - a.left, b.top - a.top,
+                        field.scrollLeft, field.scrollTop, words];
+            })()""")
+            self.assertEqual(said[:2], [True, True])
+            self.assertEqual(said[2:4], [-said[4], -said[5]])
+            self.assertGreater(said[5], 0)
+            for word in ("special #define", "number 1.0", "comment /* <b> */", "word void", "special gl_Position"):
+                self.assertIn(word, said[6])
+        # A long text has none: it is to be typed in without a pause.
+        self.page.run("(field => { field.value += '/'.repeat(60000); field.dispatchEvent(new Event('input')); })"
+                      "(document.querySelector('.source'))")
+        self.assertEqual(self.text(".colours"), "")
+        self.assertNotEqual(self.page.run("getComputedStyle(document.querySelector('.source')).webkitTextFillColor"),
+                            "rgba(0, 0, 0, 0)")
+        self.page.click(".revert")
+        self.assertIn("void main", self.text(".colours"))
+
+    def test_the_keys_of_the_editor(self):
+        self.open("LightedCube")
+        value, focused = "document.querySelector('.source').value", "document.activeElement.className"
+        text = self.page.run(value)
+        selected = """(field => field.value.slice(field.selectionStart, field.selectionEnd))(document.querySelector(".source"))"""
+        # Who passes by passes.
+        self.page.run("document.querySelector('.live').focus()")
+        for name in ("source", "apply"):
+            self.page.key("Tab")
+            self.assertEqual(self.page.run(focused), name)
+        # Who types indents.
+        self.edit("void main() {", "void main() {")
+        self.page.key("Enter")
+        self.page.key("Tab")
+        self.page.type("float x;")
+        self.page.key("Enter")
+        self.page.type("float y;")
+        self.assertIn("void main() {\n    float x;\n    float y;\n", self.page.run(value))
+        self.page.key("Tab", browser.SHIFT)
+        self.assertIn("    float x;\nfloat y;\n", self.page.run(value))
+        self.page.run("""(field => field.setSelectionRange(field.value.indexOf("    float x"),
+                                                           field.value.indexOf("float y;") + 9))(document.activeElement)""")
+        self.page.key("Tab")
+        self.assertEqual(self.page.run(selected), "        float x;\n    float y;")
+        self.page.key("Tab", browser.SHIFT)
+        self.page.key("Tab", browser.SHIFT)
+        self.page.key("Tab", browser.SHIFT)
+        self.assertIn("void main() {\nfloat x;\nfloat y;\n", self.page.run(value))
+        for _ in range(30):
+            self.page.run("document.execCommand('undo')")
+        self.assertEqual(self.page.run(value), text)
+        # Escape leaves, in both directions.
+        for modifiers, name in ((0, "apply"), (browser.SHIFT, "live")):
+            self.edit("void", "void")
+            self.page.key("Home")
+            self.page.key("Escape")
+            self.page.key("Tab", modifiers)
+            self.assertEqual(self.page.run(focused), name)
+        self.assertEqual(self.page.complaints(), [])
+        self.page.click(".revert")
+
     def test_texts_are_kept(self):
         key = "lighting LightedCube"
         pairs = [["x", 5], "ab", None, ["lighting/other.glsl", "of other options"], ["lecture/LightedCube.frag", "mine"]]
