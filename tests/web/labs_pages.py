@@ -165,15 +165,13 @@ class Accessible(OfLabs):
         if not cls.axe:
             print("not checked: what axe-core finds on the pages, because this Chromium has none")
 
-    def setUp(self):
-        if not self.axe:
-            self.skipTest("no axe-core")
-
     def tearDown(self):
         self.page.dark(False)
         super().tearDown()
 
     def assert_accessible(self, *what):
+        if not self.axe:
+            return
         self.page.run("for (const part of document.querySelectorAll('details')) part.open = true")
         self.page.run(self.axe + "\n;0")
         for dark in (False, True):
