@@ -1,5 +1,6 @@
 """Drives a headless Chromium through --remote-debugging-pipe (https://chromedevtools.github.io/devtools-protocol)."""
 import base64
+import fcntl
 import json
 import os
 import shutil
@@ -54,11 +55,10 @@ class Browser(Page):
         theirs_in, ours_out = os.pipe()
         ours_in, theirs_out = os.pipe()
 
-        def pipes():  # 3 and 4 are the protocol's
-            os.dup2(theirs_in, 13)
-            os.dup2(theirs_out, 14)
-            os.dup2(13, 3)
-            os.dup2(14, 4)
+        def pipes():  # 3 and 4 are the protocol's; the ends may be among them
+            ends = [fcntl.fcntl(end, fcntl.F_DUPFD, 5) for end in (theirs_in, theirs_out)]
+            os.dup2(ends[0], 3)
+            os.dup2(ends[1], 4)
 
         self.process = subprocess.Popen(
             ["chromium", "--headless=new", "--no-sandbox", "--remote-debugging-pipe", "--no-first-run", "--disable-gpu-sandbox",
@@ -158,13 +158,20 @@ class Browser(Page):
             file.write(base64.b64decode(answer["data"]))
 
     def place(self, selector):
-        """The middle of an element, scrolled into view."""
-        return self.run(f"""(() => {{
+        """The middle of an element, scrolled into view, once it has stayed there for a frame."""
+        return self.run(f"""new Promise(resolve => {{
             const element = document.querySelector({json.dumps(selector)});
-            element.scrollIntoView({{block: "center"}});
-            const box = element.getBoundingClientRect();
-            return [box.left + box.width / 2, box.top + box.height / 2];
-        }})()""")
+            const look = before => {{
+                element.scrollIntoView({{block: "center"}});
+                const box = element.getBoundingClientRect();
+                const middle = [box.left + box.width / 2, box.top + box.height / 2];
+                if (String(middle) === before)
+                    resolve(middle);
+                else
+                    requestAnimationFrame(() => look(String(middle)));
+            }};
+            look("");
+        }})""")
 
     def mouse(self, kind, x, y):
         self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", buttons=0 if kind == "mouseReleased" else 1,

@@ -292,6 +292,7 @@ class Labs(OfLabs):
         self.assertIn("not renormalized per fragment", self.text("#result"))
         self.assertFalse(self.page.run("document.querySelector('#result details').open"))
         self.page.click("#result summary")
+        self.page.wait("document.querySelector('#result details').open")
         self.assertIn("does not have length 1", self.page.run("document.querySelector('#result details').innerText"))
         self.assertGreater(self.page.run("document.getElementById('sheet').width"), 200)
         self.assertEqual(self.page.complaints(), [])
