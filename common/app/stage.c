@@ -86,7 +86,7 @@ static ShaderLoader loader_of(const Options *options)
 static void forget_choices(Stage *stage)
 {
     for (int i = 0; i < stage->choice_count; i++)
-        cheapest_close(&stage->choices[i]);
+        cheapest_quality_close(&stage->choices[i]);
     free(stage->choices);
     stage->choices = NULL;
     stage->choice_count = 0;
@@ -311,7 +311,7 @@ static bool draw_parts(const Stage *stage, const QualityParts *made, double aspe
 /* The time to draw a view with these qualities over that of the plain ones: the median of frames
  * drawn in turn, so that what else runs disturbs both. NAN if it cannot be drawn. */
 static double measure(Stage *stage, const Options *options, const Scene *scene,
-                      const Cheapest *choice, double aspect)
+                      const CheapestQuality *choice, double aspect)
 {
     enum { ROUNDS = 9 };
     double times[2], ratios[ROUNDS];
@@ -339,14 +339,14 @@ static double measure(Stage *stage, const Options *options, const Scene *scene,
     return done ? clock_median(ratios, ROUNDS) : NAN;
 }
 
-static void tell(Stage *stage, const Options *options, Moments *moments, const Cheapest *choice,
-                 const int place[4])
+static void tell(Stage *stage, const Options *options, Moments *moments,
+                 const CheapestQuality *choice, const int place[4])
 {
     Scene scene;
     char text[1024];
     if (!options->verbose || choice->count == 0 || !scene_at(moments, 0, &scene, NULL))
         return;
-    cheapest_text(choice, &scene, text, sizeof text);
+    cheapest_quality_text(choice, &scene, text, sizeof text);
     /* Compiling says lines of its own. */
     const double ratio = measure(stage, options, &scene, choice, (double)place[2] / place[3]);
     fprintf(stderr,
@@ -362,20 +362,20 @@ static bool choose(Stage *stage, const Options *options, double seconds, int vie
                    const int place[4], Message *message)
 {
     Moments moments = moments_of(stage, options, seconds, view);
-    Cheapest *choice = &stage->choices[view];
-    const CheapestTask task = {.canvas = stage->canvas,
-                               .place = {place[0], place[1], place[2], place[3]},
-                               .lighting = stage->lighting,
-                               .full = options->full,
-                               .meshes = &stage->meshes,
-                               .error = options->error,
-                               .kept = kept_axes(stage, options),
-                               .moments = moments.count,
-                               .scene = scene_at,
-                               .data = &moments,
-                               .moving =
-                                   options_in_window(options) || options->frames > moments.count};
-    const bool done = cheapest_choose(choice, &task, message);
+    CheapestQuality *choice = &stage->choices[view];
+    const CheapestQualityTask task = {.canvas = stage->canvas,
+                                      .place = {place[0], place[1], place[2], place[3]},
+                                      .lighting = stage->lighting,
+                                      .full = options->full,
+                                      .meshes = &stage->meshes,
+                                      .error = options->error,
+                                      .kept = kept_axes(stage, options),
+                                      .moments = moments.count,
+                                      .scene = scene_at,
+                                      .data = &moments,
+                                      .moving = options_in_window(options) ||
+                                                options->frames > moments.count};
+    const bool done = cheapest_quality_find(choice, &task, message);
     if (done)
         tell(stage, options, &moments, choice, place);
     scene_copy_close(&moments.kept);

@@ -11,17 +11,17 @@
 #include "images/drawing.h"
 #include "images/picture_queue.h"
 #include "lighting/lighting.h"
-#include "reference/cheapest.h"
-#include "reference/error_worker.h"
+#include "choose/cheapest_quality.h"
+#include "choose/error_worker.h"
 #include "scene/overlay.h"
 #include "scene/quality.h"
 
 /* Only examples with scenes come to call these. The lecture's programs are linked without them and
  * the files that they need, a fifth of all: a weak reference asks the linker for nothing. */
 #pragma weak PICTURE_ERROR_COLORS
-#pragma weak cheapest_choose
-#pragma weak cheapest_close
-#pragma weak cheapest_text
+#pragma weak cheapest_quality_find
+#pragma weak cheapest_quality_close
+#pragma weak cheapest_quality_text
 #pragma weak error_picture_add
 #pragma weak error_picture_close
 #pragma weak error_picture_open
@@ -50,7 +50,7 @@ typedef struct Stage {
     SolidMeshes meshes; /* of the choices */
     /* With --error, by view: what is drawn in pictures of this size, at this time or, in a window
      * or an animation, at any. NULL: not chosen yet. */
-    Cheapest *choices;
+    CheapestQuality *choices;
     int choice_count, choice_width, choice_height;
     double choice_seconds;
 } Stage;

@@ -4,7 +4,7 @@
 #include "app/explain.h"
 #include "app/stage.h"
 #include "app/unused.h"
-#include "reference/error_worker.h"
+#include "choose/error_worker.h"
 #include "scene/scene_example.h"
 
 #include <math.h>

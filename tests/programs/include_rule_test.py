@@ -5,7 +5,7 @@ import re
 import sys
 
 # From the ground up; a program stands on all of them.
-FLOORS = ["base", "core", "shapes", "shadows", "scene", "lighting", "reference", "images", "window", "app"]
+FLOORS = ["base", "core", "shapes", "shadows", "scene", "lighting", "reference", "choose", "images", "window", "app"]
 # What the programs' own libraries may include besides common/: themselves and those before them.
 STUDY = ["study/results", "study/measure", "study/report", "study/cases", "study/arithmetic"]
 LABS = ["labs/program", "labs/submission", "labs/diagnosis", "labs/check", "labs/web", "labs/sandbox", "labs/class"]
@@ -33,8 +33,14 @@ def check(folder, name, allowed):
                 failures.append(f"{path.relative_to(root)}: {header}: {name} may include {', '.join(allowed)}")
 
 
-for i, floor in enumerate(FLOORS):
-    check(root / "common" / floor, floor, FLOORS[: i + 1])
+def up_to(floor):
+    """The floors that one may include; the exact picture includes nothing that draws."""
+    below = FLOORS[: FLOORS.index(floor) + 1]
+    return [name for name in below if name not in ("shadows", "lighting")] if floor == "reference" else below
+
+
+for floor in FLOORS:
+    check(root / "common" / floor, floor, up_to(floor))
 for floor in FLOORS[:-1]:
     for path in sorted((root / "common" / floor).glob("*.[ch]*")):
         name = f"{floor}/{path.name}"
@@ -45,16 +51,16 @@ for floor in FLOORS[:-1]:
         found = OPTION.search(code)
         if found and name not in MAY_NAME_OPTIONS:
             failures.append(f"common/{name}: {found.group()}: only app names options of the command line")
-check(root / "common/web", "what differs in a browser", FLOORS[:9])
+check(root / "common/web", "what differs in a browser", up_to("window"))
 check(root / "examples/web", "the pages' module", FLOORS + ["web"])
 for group in (STUDY, STUDY + LABS):
     for i, folder in enumerate(group):
         if folder in STUDY and group is not STUDY:
             continue
         check(root / "examples" / folder, folder, FLOORS + group[: i + 1])
-check(root / "examples/diagrams", "a diagram", FLOORS[:8] + DIAGRAMS)
+check(root / "examples/diagrams", "a diagram", up_to("images") + DIAGRAMS)
 check(root / "examples/study", "a program", FLOORS + STUDY)
-check(root / "examples/lighting", "a scene", FLOORS[:6])
+check(root / "examples/lighting", "a scene", up_to("lighting"))
 check(root / "examples/lecture", "a lecture program", ["core"])
 
 

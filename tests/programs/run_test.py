@@ -314,7 +314,8 @@ class Build(unittest.TestCase):
         commands = subprocess.run(["ninja", "-C", build, "-t", "commands", "examples/LightedCube"],
                                   capture_output=True, text=True, check=True).stdout
         self.assertRegex(commands, r" -c \S*/common/core/matrix\.c")
-        self.assertNotIn("common/reference/", commands.replace("libcommon_reference", ""))
+        for folder in ("reference", "choose"):
+            self.assertNotIn(f"common/{folder}/", commands.replace(f"libcommon_{folder}", ""))
         # keep_loaded.c is compiled for the sanitizers alone.
         files = re.findall(r" -c (\S+)", commands)
         self.assertLessEqual(sum("keep_loaded" not in file for file in files), 72)

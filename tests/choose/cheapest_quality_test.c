@@ -820,7 +820,7 @@ static Verdict run(const Command *command, bool timed)
     verdict.reached = options.error;
     for (int i = 0; i < stage.choice_count; i++) {
         verdict.reached = fmax(verdict.reached, stage.choices[i].error);
-        const Cheapest *choice = &stage.choices[i];
+        const CheapestQuality *choice = &stage.choices[i];
         verdict.plain = fmax(verdict.plain, choice->plain_error);
         verdict.error = fmax(verdict.error, choice->error);
         verdict.cost += choice->cost;

@@ -6,7 +6,7 @@
  */
 #include "app/stage.h"
 #include "base/clock.h"
-#include "reference/error_worker.h"
+#include "choose/error_worker.h"
 #include "scene/scene_example.h"
 #include "shapes/mesh_solids.h"
 #include "support/examples.h"

@@ -1,4 +1,4 @@
-#include "reference/error_worker.h"
+#include "choose/error_worker.h"
 
 #include "base/clock.h"
 

@@ -1,6 +1,6 @@
 /*
- * cheapest: the cheapest way to draw a scene whose error stays within what is allowed, found by
- * drawing: each candidate is compared with the exact picture of this very scene.
+ * cheapest_quality: the cheapest way to draw a scene whose error stays within what is allowed,
+ * found by drawing: each candidate is compared with the exact picture of this very scene.
  *
  * The error is that of picture_error's interior: against the exact shapes (solids) or the mesh as
  * given (others), the largest over the pixels that lie wholly inside one surface, that the drawn
@@ -17,14 +17,14 @@
  *
  * Exact pictures and choices are kept in base/cache.
  */
-#ifndef CHEAPEST_H
-#define CHEAPEST_H
+#ifndef CHEAPEST_QUALITY_H
+#define CHEAPEST_QUALITY_H
 
 #include "core/canvas.h"
 #include "lighting/lighting.h"
 #include "scene/quality.h"
 
-typedef struct CheapestTask {
+typedef struct CheapestQualityTask {
     const Canvas *canvas; /* candidates are drawn into it */
     int place[4];         /* and read from this part: x, y, width, height */
     Lighting *lighting;
@@ -42,24 +42,26 @@ typedef struct CheapestTask {
     /* There are more moments between these: a third of the error is kept in reserve, or twice
      * what the error at every second moment differs from that at the others. */
     bool moving;
-} CheapestTask;
+} CheapestQualityTask;
 
-typedef struct Cheapest {
+typedef struct CheapestQuality {
     ObjectQuality *objects;
     int count;
     double error, plain_error; /* over all moments */
     double cost, plain_cost;   /* expected, see quality_parts_cost */
     double margin;             /* the reserve for the moments between */
     bool cached;
-} Cheapest;
+} CheapestQuality;
 
 /* Where the error cannot be kept, the cheapest of the most exact is chosen: `error` is then above
  * the task's. Never less exact than the plain picture unless expected to save 30% of its time. */
-bool cheapest_choose(Cheapest *cheapest, const CheapestTask *task, Message *message);
-void cheapest_close(Cheapest *cheapest);
+bool cheapest_quality_find(CheapestQuality *cheapest, const CheapestQualityTask *task,
+                           Message *message);
+void cheapest_quality_close(CheapestQuality *cheapest);
 
 /* What the choice leaves away, as text: "object 0: 24 divisions, lit per vertex, viewer at
  * infinity"; at most `size` characters. */
-void cheapest_text(const Cheapest *cheapest, const Scene *scene, char *text, size_t size);
+void cheapest_quality_text(const CheapestQuality *cheapest, const Scene *scene, char *text,
+                           size_t size);
 
 #endif

@@ -1,4 +1,4 @@
-#include "reference/cheapest.h"
+#include "choose/cheapest_quality.h"
 
 #include "base/cache.h"
 #include "reference/picture_error.h"
@@ -40,7 +40,7 @@ typedef struct Exact {
 } Exact;
 
 typedef struct Search {
-    const CheapestTask *task;
+    const CheapestQualityTask *task;
     Scene scene;   /* at the first moment */
     Exact *exacts; /* by moment */
     Image image;
@@ -200,8 +200,8 @@ static void compare(Search *search, const Exact *exact, const Scene *scene, Draw
     }
 }
 
-static bool draw_parts(const CheapestTask *task, const Scene *scene, const ObjectQuality *qualities,
-                       QualityParts *made, Message *message)
+static bool draw_parts(const CheapestQualityTask *task, const Scene *scene,
+                       const ObjectQuality *qualities, QualityParts *made, Message *message)
 {
     const int *place = task->place;
     const double aspect = (double)place[2] / place[3];
@@ -216,7 +216,7 @@ static bool draw_parts(const CheapestTask *task, const Scene *scene, const Objec
 /* Draws `current` at all moments. The errors of objects that are nowhere inside stay 0. */
 static bool evaluate(Search *search, Message *message)
 {
-    const CheapestTask *task = search->task;
+    const CheapestQualityTask *task = search->task;
     memset(search->errors, 0, (size_t)search->count * sizeof *search->errors);
     search->every_second[0] = search->every_second[1] = 0;
     search->moved = 0;
@@ -481,9 +481,9 @@ static size_t most_more(const Search *search)
 }
 
 /* One search, its result in `cheapest`. */
-static bool search_once(Search *search, Cheapest *cheapest, Message *message)
+static bool search_once(Search *search, CheapestQuality *cheapest, Message *message)
 {
-    const CheapestTask *task = search->task;
+    const CheapestQualityTask *task = search->task;
     if (!task->scene(task->data, 0, &search->scene, message))
         return false;
     const ObjectQuality plain = object_quality_plain(&search->scene);
@@ -530,7 +530,7 @@ static bool search_once(Search *search, Cheapest *cheapest, Message *message)
 /* What is allowed at the moments, so that it holds between them: random animations of 51 pictures
  * exceeded the error at 17 of them by up to 30%, one of them; more where every second moment
  * already shows less than the others. */
-static double allowed_at_moments(const CheapestTask *task, double difference)
+static double allowed_at_moments(const CheapestQualityTask *task, double difference)
 {
     static const double BETWEEN = 0.33;
     if (!task->moving)
@@ -538,9 +538,9 @@ static double allowed_at_moments(const CheapestTask *task, double difference)
     return task->error - fmin(fmax(BETWEEN * task->error, 2 * difference), task->error / 2);
 }
 
-static bool search_all(Search *search, Cheapest *cheapest, Message *message)
+static bool search_all(Search *search, CheapestQuality *cheapest, Message *message)
 {
-    const CheapestTask *task = search->task;
+    const CheapestQualityTask *task = search->task;
     search->allowed = allowed_at_moments(task, 0);
     if (!search_once(search, cheapest, message))
         return false;
@@ -578,7 +578,8 @@ static void search_close(Search *search)
     *search = (Search){.task = NULL};
 }
 
-static bool search_open(Search *search, const CheapestTask *task, int count, Message *message)
+static bool search_open(Search *search, const CheapestQualityTask *task, int count,
+                        Message *message)
 {
     const size_t objects = (size_t)count + 1;
     const Canvas *canvas = task->canvas;
@@ -619,7 +620,7 @@ static bool search_open(Search *search, const CheapestTask *task, int count, Mes
 
 /* The choice in the cache. */
 
-static bool choice_key(CacheKey *key, const CheapestTask *task, Message *message)
+static bool choice_key(CacheKey *key, const CheapestQualityTask *task, Message *message)
 {
     const Canvas *canvas = task->canvas;
     const double numbers[] = {task->error,    task->kept,      task->full,   task->moments,
@@ -655,7 +656,7 @@ static bool choice_key(CacheKey *key, const CheapestTask *task, Message *message
     return true;
 }
 
-static bool read_choice(Cheapest *cheapest, const CacheKey *key, int count)
+static bool read_choice(CheapestQuality *cheapest, const CacheKey *key, int count)
 {
     const size_t objects = (size_t)count * sizeof *cheapest->objects;
     size_t size = 0;
@@ -672,11 +673,11 @@ static bool read_choice(Cheapest *cheapest, const CacheKey *key, int count)
     return found && cheapest->count == count;
 }
 
-static void write_choice(const Cheapest *cheapest, const CacheKey *key)
+static void write_choice(const CheapestQuality *cheapest, const CacheKey *key)
 {
     const size_t objects = (size_t)cheapest->count * sizeof *cheapest->objects;
     char *bytes = malloc(sizeof *cheapest + objects);
-    Cheapest plain = *cheapest;
+    CheapestQuality plain = *cheapest;
     plain.objects = NULL;
     if (!bytes)
         return;
@@ -686,18 +687,19 @@ static void write_choice(const Cheapest *cheapest, const CacheKey *key)
     free(bytes);
 }
 
-bool cheapest_choose(Cheapest *cheapest, const CheapestTask *task, Message *message)
+bool cheapest_quality_find(CheapestQuality *cheapest, const CheapestQualityTask *task,
+                           Message *message)
 {
     Scene scene;
     CacheKey key;
-    *cheapest = (Cheapest){.count = 0};
+    *cheapest = (CheapestQuality){.count = 0};
     if (!choice_key(&key, task, message) || !task->scene(task->data, 0, &scene, message))
         return false;
     const int count = scene.object_count;
     if (count > INT16_MAX)
         return message_set(message, "cheapest: %d objects: at most %d", count, INT16_MAX);
-    *cheapest =
-        (Cheapest){.objects = calloc((size_t)count + 1, sizeof *cheapest->objects), .count = count};
+    *cheapest = (CheapestQuality){.objects = calloc((size_t)count + 1, sizeof *cheapest->objects),
+                                  .count = count};
     if (!cheapest->objects)
         return message_set(message, "cheapest: not enough memory");
     if (count == 0 || read_choice(cheapest, &key, count))
@@ -712,16 +714,16 @@ bool cheapest_choose(Cheapest *cheapest, const CheapestTask *task, Message *mess
     if (done)
         write_choice(cheapest, &key);
     else
-        cheapest_close(cheapest);
+        cheapest_quality_close(cheapest);
     return done;
 }
 
-void cheapest_close(Cheapest *cheapest)
+void cheapest_quality_close(CheapestQuality *cheapest)
 {
     if (!cheapest)
         return;
     free(cheapest->objects);
-    *cheapest = (Cheapest){.objects = NULL};
+    *cheapest = (CheapestQuality){.objects = NULL};
 }
 
 static int bits_of(uint32_t bits)
@@ -729,7 +731,8 @@ static int bits_of(uint32_t bits)
     return __builtin_popcount(bits);
 }
 
-void cheapest_text(const Cheapest *cheapest, const Scene *scene, char *text, size_t size)
+void cheapest_quality_text(const CheapestQuality *cheapest, const Scene *scene, char *text,
+                           size_t size)
 {
     const ObjectQuality plain = object_quality_plain(scene);
     FILE *file = fmemopen(text, size, "w");
