@@ -39,7 +39,7 @@ def needs(*programs):
 def blocks(page, heading):
     """The blocks of code below a heading of a page."""
     with open(os.path.join(base.SOURCE, page)) as file:
-        section = file.read().partition(f"\n## {heading}\n")[2].partition("\n## ")[0]
+        section = file.read().partition(f"# {heading}\n")[2].partition("\n## ")[0]
     found = re.findall(r"```\w+\n(.*?)```", section, re.DOTALL)
     for shown, small in SMALLER:
         found = [block.replace(shown, small) for block in found]
@@ -51,7 +51,7 @@ def block(page, heading, word):
 
 
 def films(word):
-    return block("examples/README.md", "Several processes", word)
+    return block("examples/guide/processes.md", "Several processes", word)
 
 
 def classes(word):

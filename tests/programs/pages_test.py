@@ -2,6 +2,7 @@
 
     pages_test.py EXAMPLES_FOLDER_OF_THE_BUILD SOURCE_FOLDER
 """
+import os
 import pathlib
 import re
 import subprocess
@@ -67,6 +68,11 @@ for page in pages:
         if "--markdown" in command:
             check(re.search(r"\d cores.*; (?:.*; )?gcc [\d.]+ -O\d", table.replace("\n", " ")), page,
                   f"{command}: the table does not name processor and compiler")
+
+reference = subprocess.run([root / "tests/tables", "--options"], capture_output=True, text=True, check=True,
+                           env={**os.environ, "LIGHTING_BUILD": str(examples.parent)}).stdout
+check(reference.strip() in (root / "examples/guide/options.md").read_text(), root / "examples/guide/options.md",
+      "not what --help says; tests/tables --options prints it")
 
 lines = len((root / "README.md").read_text().splitlines())
 check(lines <= 150, root / "README.md", f"{lines} lines; at most 150")
