@@ -1,6 +1,6 @@
 #include "app/arguments.h"
 
-#include "base/parse.h"
+#include "base/text.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -27,7 +27,7 @@ static const Parameter *find_long(const Parameter *table, const char *word, Mess
         return first;
     char name[64];
     snprintf(name, sizeof name, "%.*s", (int)length, start);
-    const char *nearest = length > 1 ? parse_nearest(name, names) : NULL;
+    const char *nearest = length > 1 ? text_nearest(name, names) : NULL;
     if (second)
         message_set(message, "%s: could be --%s or --%s", word, first->name, second->name);
     else

@@ -1,5 +1,6 @@
 #include "app/explain.h"
 
+#include "base/text.h"
 #include "scene/reality.h"
 #include "scene/shader_cost.h"
 
@@ -194,23 +195,6 @@ static int write_difference(const char *text, const char *other, FILE *file)
     return count;
 }
 
-/* Prints a paragraph in lines of at most 100 columns. */
-static void print_wrapped(const char *text)
-{
-    enum { WIDTH = 100 };
-    size_t column = 0;
-    while (*text) {
-        const size_t length = strcspn(text, " ");
-        if (column > 0 && column + 1 + length > WIDTH)
-            column = (size_t)printf("\n  ") - 1;
-        else if (column > 0)
-            column += (size_t)printf(" ");
-        column += (size_t)printf("%.*s", (int)length, text);
-        text += length + (text[length] == ' ');
-    }
-    printf("\n");
-}
-
 /* Objects that follow each other and are as the same earlier one. */
 static void print_same(Explained *explained)
 {
@@ -280,7 +264,8 @@ static bool explain_object(const Stage *stage, const Scene *scene, const Object 
                 explained->all[nearest].view, explained->all[nearest].object);
         write_difference(text, explained->all[nearest].text, file);
         fclose(file);
-        print_wrapped(line);
+        text_wrap(stdout, line, 0, 2, 100);
+        printf("\n");
         free(line);
     }
     explained->all[explained->count].text = text;

@@ -1,5 +1,6 @@
 #include "app/help.h"
 
+#include "base/text.h"
 #include "base/version.h"
 
 #include <math.h>
@@ -59,23 +60,6 @@ static const char *meaning(const Parameter *option, char text[TEXT_SIZE])
     return text;
 }
 
-/* Prints a text from `column` on, broken at blanks and after bars. Returns the last column. */
-static int print_wrapped(const char *text, int column, int indent)
-{
-    for (bool blank = false; *text; text += blank) {
-        int length = (int)strcspn(text, " |");
-        length += text[length] == '|';
-        if (column + blank + length > WIDTH)
-            column = printf("\n%*s", indent, "") - 1;
-        else
-            column += printf("%s", blank ? " " : "");
-        column += printf("%.*s", length, text);
-        text += length;
-        blank = *text == ' ';
-    }
-    return column;
-}
-
 void help_options(const Parameter *table)
 {
     char text[TEXT_SIZE];
@@ -85,12 +69,12 @@ void help_options(const Parameter *table)
         int column = table->letter ? printf("  -%c, --%s", table->letter, table->name)
                                    : printf("      --%s", table->name);
         column += printf("%s", optional ? "[=" : value[0] ? " " : "");
-        column = print_wrapped(value, column, 14);
+        column = text_wrap(stdout, value, column, 14, WIDTH);
         column += printf("%s", optional ? "]" : "");
         if (column + 1 > INDENT)
             column = printf("\n") - 1;
         printf("%*s", INDENT - column, "");
-        print_wrapped(meaning(table, text), INDENT, INDENT);
+        text_wrap(stdout, meaning(table, text), INDENT, INDENT, WIDTH);
         printf("\n");
     }
 }

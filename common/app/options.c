@@ -3,6 +3,7 @@
 #include "app/arguments.h"
 #include "base/output.h"
 #include "base/process.h"
+#include "base/text.h"
 #include "base/version.h"
 #include "images/animation.h"
 #include "images/drawing.h"
@@ -109,7 +110,7 @@ static bool unknown_term(const char *text, const char *word, Message *message)
     const char *names[5] = {NULL};
     for (int k = 0; k < 4; k++)
         names[k] = OPTIONS_TERM_NAMES[k];
-    const char *nearest = parse_nearest(word, names);
+    const char *nearest = text_nearest(word, names);
     message_set(message, "--terms %s: ", text);
     return nearest
                ? message_add(message, "%s: did you mean %s?", word, nearest)
@@ -633,7 +634,7 @@ static bool unknown_format(const char *path, const char *format, bool diagram, M
         names[count++] = "pdf";
     }
     names[count] = NULL;
-    const char *nearest = parse_nearest(format, names);
+    const char *nearest = text_nearest(format, names);
     message_set(message, "%s: unknown picture format .%s; ", path, format);
     if (nearest)
         return message_add(message, "did you mean .%s?", nearest);

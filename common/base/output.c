@@ -161,14 +161,13 @@ static bool write_through(const char *path, const Target *target, const void *by
     return true;
 }
 
-/* Names of temporary files, to be removed by a signal that ends the process. A thread that creates
- * one (NAME_CHANGING) blocks signals, so that the thread which handles the signal can wait for it.
- */
-typedef enum NameState { NAME_FREE, NAME_CHANGING, NAME_STANDS } NameState;
-enum { MAX_NAMES = 16 };
+/* Names of temporary files, to be removed by what ends the process: a signal, lack of memory. A
+ * thread that creates one blocks signals, so that the thread which handles the signal can wait for
+ * it. A child process leaves its parent's alone. */
+enum { MAX_NAMES = 16, NAME_FREE = 0 };
 
 typedef struct Name {
-    atomic_int state; /* a NameState */
+    atomic_int state; /* NAME_FREE; P: the file of process P stands; -P: P changes it */
     char path[PATH_MAX + 32];
 } Name;
 
@@ -190,7 +189,7 @@ static Name *name_claim(sigset_t *before)
     pthread_sigmask(SIG_SETMASK, &all, before);
     for (int i = 0; i < MAX_NAMES; i++) {
         int expected = NAME_FREE;
-        if (!atomic_compare_exchange_strong(&names[i].state, &expected, NAME_CHANGING))
+        if (!atomic_compare_exchange_strong(&names[i].state, &expected, -getpid()))
             continue;
         if (!atomic_load(&ending))
             return &names[i];
@@ -202,10 +201,10 @@ static Name *name_claim(sigset_t *before)
     return NULL;
 }
 
-static void name_settle(Name *name, NameState state, const sigset_t *before)
+static void name_settle(Name *name, bool stands, const sigset_t *before)
 {
     const int error = errno;
-    atomic_store(&name->state, state);
+    atomic_store(&name->state, stands ? getpid() : NAME_FREE);
     pthread_sigmask(SIG_SETMASK, before, NULL);
     errno = error;
 }
@@ -216,9 +215,9 @@ void output_unlink_temporaries(void)
     const int error = errno;
     atomic_store(&ending, true);
     for (int i = 0; i < MAX_NAMES; i++) {
-        while (atomic_load(&names[i].state) == NAME_CHANGING)
+        while (atomic_load(&names[i].state) == -getpid())
             nanosleep(&moment, NULL);
-        if (atomic_load(&names[i].state) == NAME_STANDS)
+        if (atomic_load(&names[i].state) == getpid())
             unlink(names[i].path);
     }
     errno = error;
@@ -248,10 +247,10 @@ static bool output_name(Output *output)
         if (output->file < 0)
             output->file = open(name->path, O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, 0666);
         else if (linkat(AT_FDCWD, self, AT_FDCWD, name->path, AT_SYMLINK_FOLLOW) != 0) {
-            name_settle(name, NAME_FREE, &before);
+            name_settle(name, false, &before);
             continue;
         }
-        name_settle(name, output->file < 0 ? NAME_FREE : NAME_STANDS, &before);
+        name_settle(name, output->file >= 0, &before);
         output->name = output->file < 0 ? NULL : name;
     }
     return output->name != NULL;

@@ -27,8 +27,8 @@ int output_file(const Output *output);
 bool output_commit(Output *output, Message *message);
 void output_abort(Output *output);
 
-/* Removes all named temporary files. For a signal handler that ends the process: no output is
- * committed after this. */
+/* Removes all named temporary files of this process. For what ends it, in a signal handler too: no
+ * output is committed after this. */
 void output_unlink_temporaries(void);
 
 /* Writes all bytes to an open file; on failure sets errno. */

@@ -39,9 +39,4 @@ bool part_has(Part part, uint64_t item);
 /* Writes a finite number with the fewest digits, 15 to 17, that parse_number reads back exactly. */
 void parse_number_text(double number, char text[32]);
 
-/* The name that `word` was probably meant to be: the only one that begins so, or the nearest, if at
- * most a third of the word's letters differ. Case does not count. NULL: none. `names` ends with
- * NULL. */
-const char *parse_nearest(const char *word, const char *const *names);
-
 #endif

@@ -4,7 +4,7 @@
 #include "core/shader.h"
 
 #include "base/clock.h"
-#include "base/parse.h"
+#include "base/text.h"
 
 #include <ctype.h>
 #include <stdio.h>
@@ -46,11 +46,6 @@ static GLuint compile(const ShaderSource *source, ShaderStage stage, Message *me
     return 0;
 }
 
-static bool in_name(char c)
-{
-    return isalnum((unsigned char)c) || c == '_';
-}
-
 /* Whether a line declares `word`, followed by a separator: "varying vec3 v_Normal;". */
 static bool declares(const char *line, int length, const char *word, int word_length)
 {
@@ -58,7 +53,7 @@ static bool declares(const char *line, int length, const char *word, int word_le
     bool declaration = false;
     for (int i = 0; i < length;) {
         int n = 0;
-        while (i + n < length && in_name(line[i + n]))
+        while (i + n < length && text_is_word(line[i + n]))
             n++;
         for (int k = 0; k < 3; k++)
             declaration |=
@@ -103,7 +98,7 @@ static bool locate_link_error(const ShaderSource *source, const char *log, Messa
     Declaration found;
     for (const char *word = log; *word;) {
         int length = 0;
-        while (in_name(word[length]))
+        while (text_is_word(word[length]))
             length++;
         if (length > 1 && find_declaration(source, word, length, &found)) {
             message_set(message, "%s:%d: linking: %s\n  %d | %.*s", found.file, found.line, log,
@@ -239,7 +234,7 @@ static void find_similar(const Shader *shader, const char *name, const ShaderLoc
         GLenum type;
         (attribute ? glGetActiveAttrib : glGetActiveUniform)(shader->program, (GLuint)i, NAME_SIZE,
                                                              NULL, &size, &type, active);
-        bool taken = !parse_nearest(name, names);
+        bool taken = !text_nearest(name, names);
         for (const ShaderLocation *other = known; other->name; other++)
             taken |= strcmp(other->name, active) == 0;
         if (!taken)

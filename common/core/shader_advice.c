@@ -3,7 +3,7 @@
  */
 #include "core/shader.h"
 
-#include "base/parse.h"
+#include "base/text.h"
 
 #include <ctype.h>
 #include <stddef.h>
@@ -224,12 +224,8 @@ static bool unknown_name(const char *line, char name[WORD_SIZE])
 static const char *next_word(const char *text)
 {
     while (*text && !isalpha((unsigned char)*text) && *text != '_') {
-        const char *end = strncmp(text, "//", 2) == 0   ? strchr(text, '\n')
-                          : strncmp(text, "/*", 2) == 0 ? strstr(text + 2, "*/")
-                                                        : text;
-        if (!end)
-            return "";
-        text = end + 1;
+        const char *end = text_comment_end(text);
+        text = end ? end : text + 1;
     }
     return text;
 }
@@ -254,14 +250,14 @@ static bool find_meant(const char *source, const char *unknown, char meant[WORD_
         add_name(names, &count, BUILT_IN[i], unknown);
     for (const char *word = next_word(source); *word && count < WORDS_MAX;) {
         size_t length = 0;
-        while (isalnum((unsigned char)word[length]) || word[length] == '_')
+        while (text_is_word(word[length]))
             length++;
         snprintf(words[count], WORD_SIZE, "%.*s", (int)length, word);
         add_name(names, &count, words[count], unknown);
         word = next_word(word + length);
     }
     names[count] = NULL;
-    const char *nearest = parse_nearest(unknown, names);
+    const char *nearest = text_nearest(unknown, names);
     if (nearest)
         snprintf(meant, WORD_SIZE, "%s", nearest);
     return nearest != NULL;

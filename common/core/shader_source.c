@@ -3,6 +3,7 @@
  * file:line.
  */
 #include "base/paths.h"
+#include "base/text.h"
 #include "core/shader.h"
 
 #include <ctype.h>
@@ -283,7 +284,7 @@ static const char *directive(const char *line, size_t length, const char *name, 
     if (length - i < n || strncmp(line + i, name, n) != 0)
         return NULL;
     i += n;
-    if (i < length && (isalnum((unsigned char)line[i]) || line[i] == '_'))
+    if (i < length && text_is_word(line[i]))
         return NULL;
     while (i < length && isspace((unsigned char)line[i]))
         i++;

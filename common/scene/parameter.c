@@ -1,6 +1,7 @@
 #include "scene/parameter.h"
 
 #include "base/parse.h"
+#include "base/text.h"
 
 #include <float.h>
 #include <limits.h>
@@ -22,7 +23,7 @@ static int find_choice(const Parameter *parameter, const char *text, Message *me
     for (int i = 0; choices[i]; i++)
         if (strcmp(text, choices[i]) == 0)
             return i;
-    const char *nearest = parse_nearest(text, choices);
+    const char *nearest = text_nearest(text, choices);
     if (nearest)
         message_set(message, "--%s %s: there is none; did you mean %s?", parameter->name, text,
                     nearest);

@@ -2,8 +2,8 @@
 
 #include "base/cache.h"
 #include "base/process.h"
+#include "base/text.h"
 
-#include <ctype.h>
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -370,16 +370,11 @@ static const char *const LATER[] = {
     "noise4",
 };
 
-static bool in_word(char c)
-{
-    return isalnum((unsigned char)c) || c == '_';
-}
-
 static bool has_word(const char *text, const char *word)
 {
     const size_t length = strlen(word);
     for (const char *at = strstr(text, word); at; at = strstr(at + 1, word))
-        if ((at == text || !in_word(at[-1])) && !in_word(at[length]))
+        if ((at == text || !text_is_word(at[-1])) && !text_is_word(at[length]))
             return true;
     return false;
 }

@@ -12,6 +12,7 @@
 #include "base/output.h"
 #include "base/parse.h"
 #include "base/progress.h"
+#include "base/text.h"
 #include "gallery/manifest.h"
 #include "gallery/sheet.h"
 #include "window/backends.h"
@@ -74,7 +75,7 @@ static bool select_examples(Selection *selection, char *const *names, Message *m
             if (strcmp(*name, known[i]) == 0)
                 found = i;
         if (found < 0) {
-            const char *nearest = parse_nearest(*name, known);
+            const char *nearest = text_nearest(*name, known);
             return message_set(message, "%s: no such program; %s%s%s", *name,
                                nearest ? "did you mean " : "examples/run --list names them",
                                nearest ? nearest : "", nearest ? "?" : "");

@@ -478,49 +478,6 @@ TEST(the_ends_of_a_range_belong_to_it)
     assert_false(parse_number("3.0000001", -2, 3, &number));
 }
 
-TEST(the_nearest_name_has_the_fewest_edits)
-{
-    static const char *const names[] = {
-        "cube", "sphere", "torus", "LightedCube", "LightedCube_ambient", NULL};
-    static const char *const none[] = {NULL};
-    static const struct {
-        const char *word, *nearest;
-    } cases[] = {
-        {"cube", "cube"},
-        {"cub", "cube"},
-        {"cubes", "cube"},
-        {"Cube", "cube"},
-        {"ucbe", "cube"},
-        {"shpere", "sphere"},
-        {"tours", "torus"},
-        {"lightedcube", "LightedCube"},
-        {"LightedCubes", "LightedCube"},
-        {"LightedCube_ambiant", "LightedCube_ambient"},
-        {"LightedCube_a", "LightedCube_ambient"},
-        {"tor", "torus"},
-        {"SPH", "sphere"},
-        {"LightedC", NULL}, /* two begin so */
-        {"square", NULL},   /* half of the letters of sphere */
-        {"teapot", NULL},
-        {"xyz", NULL},
-    };
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        const char *found = parse_nearest(cases[i].word, names);
-        if (!cases[i].nearest && found)
-            fail_msg("%s: found %s", cases[i].word, found);
-        if (cases[i].nearest)
-            assert_string_equal(found ? found : "(none)", cases[i].nearest);
-    }
-    assert_null(parse_nearest("cube", none));
-
-    char endless[5000];
-    memset(endless, 'c', sizeof endless - 1);
-    endless[sizeof endless - 1] = '\0';
-    const char *const long_names[] = {endless, NULL};
-    assert_null(parse_nearest("cube", long_names));
-    parse_nearest(endless, names); /* whatever it finds, it must return */
-}
-
 TEST(the_default_output_is_named_for_the_program)
 {
     accept("");

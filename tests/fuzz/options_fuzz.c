@@ -7,6 +7,7 @@
 #include "app/options.h"
 #include "base/output.h"
 #include "base/parse.h"
+#include "base/text.h"
 
 #include <limits.h>
 #include <math.h>
@@ -30,7 +31,7 @@ static void read_one(const char *argument)
         abort();
     if (parse_number(argument, -1e9, 1e9, &number) && !(fabs(number) <= 1e9))
         abort();
-    parse_nearest(argument, NAMES);
+    text_nearest(argument, NAMES);
     if (output_numbered(argument, 12345, path, sizeof path, &message) != !message.text[0])
         abort();
 }

@@ -1,38 +1,35 @@
 #include "labs/diagnosis/text_facts.h"
 
+#include "base/memory.h"
+#include "base/text.h"
+
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* A copy without comments, which the caller frees; also without white space unless `spaces`. NULL:
- * out of memory. */
-static char *plain_text(const char *text, bool spaces)
+/* A copy without comments, which the caller frees. */
+static char *plain_text(const char *text)
 {
-    char *plain = malloc(strlen(text) + 2), *to = plain;
-    for (const char *p = text; plain && *p;) {
-        if (p[0] == '/' && p[1] == '/') {
-            p += strcspn(p, "\n");
-        } else if (p[0] == '/' && p[1] == '*') {
-            const char *end = strstr(p + 2, "*/");
-            p = end ? end + 2 : p + strlen(p);
-            if (spaces)
-                *to++ = ' ';
-        } else {
-            if (spaces || !isspace((unsigned char)*p))
-                *to++ = *p;
-            p++;
-        }
-    }
-    if (plain)
-        *to = '\0';
+    char *plain = memory_text(text);
+    text_strip_comments(plain);
     return plain;
+}
+
+static const char *skip_white(const char *text)
+{
+    return text + strspn(text, " \t\n\v\f\r");
 }
 
 bool text_is_same(const char *a, const char *b)
 {
-    char *first = a && b ? plain_text(a, false) : NULL, *second = b ? plain_text(b, false) : NULL;
-    const bool same = first && second && strcmp(first, second) == 0;
+    if (!a || !b)
+        return false;
+    char *first = plain_text(a), *second = plain_text(b);
+    const char *p = skip_white(first), *q = skip_white(second);
+    for (; *p && *p == *q; p = skip_white(p + 1))
+        q = skip_white(q + 1);
+    const bool same = *p == *q;
     free(first);
     free(second);
     return same;
@@ -57,17 +54,12 @@ bool text_is_starter(const Lab *lab, const SubmissionFiles *files)
     return same;
 }
 
-static bool is_word(char c)
-{
-    return isalnum((unsigned char)c) || c == '_';
-}
-
 static int count_word(const char *text, const char *word)
 {
     int count = 0;
     const size_t length = strlen(word);
     for (const char *at = text; (at = strstr(at, word)); at += length)
-        count += (at == text || !is_word(at[-1])) && !is_word(at[length]);
+        count += (at == text || !text_is_word(at[-1])) && !text_is_word(at[length]);
     return count;
 }
 
@@ -78,10 +70,10 @@ static bool find_unset(const char *vertex, const char *fragment, char name[64])
         const size_t length = strcspn(at, ";");
         const char *end = at + length;
         /* The last word of the declaration. */
-        while (end > at && !is_word(end[-1]))
+        while (end > at && !text_is_word(end[-1]))
             end--;
         const char *start = end;
-        while (start > at && is_word(start[-1]))
+        while (start > at && text_is_word(start[-1]))
             start--;
         if (!at[length] || memchr(at, ',', length) || memchr(at, '[', length))
             continue;
@@ -133,8 +125,8 @@ bool text_find_fault(const Lab *lab, const SubmissionFiles *files, GLuint progra
     const char *vertex = submission_file(files, name);
     snprintf(name, sizeof name, "%s.frag", lab->file);
     const char *fragment = submission_file(files, name);
-    char *first = vertex ? plain_text(vertex, true) : NULL;
-    char *second = fragment ? plain_text(fragment, true) : NULL;
+    char *first = vertex ? plain_text(vertex) : NULL;
+    char *second = fragment ? plain_text(fragment) : NULL;
     bool found = true;
     if (!first || !second || strstr(first, "#include") || strstr(second, "#include")) {
         found = false;
@@ -163,8 +155,8 @@ bool text_has_word(const SubmissionFiles *files, const char *word)
 {
     bool found = false;
     for (int i = 0; i < files->count && !found; i++) {
-        char *plain = plain_text(files->texts[i].text, true);
-        found = plain && count_word(plain, word) > 0;
+        char *plain = plain_text(files->texts[i].text);
+        found = count_word(plain, word) > 0;
         free(plain);
     }
     return found;
@@ -180,7 +172,7 @@ static const char *read_name(const char *p, char name[64])
 {
     size_t length = 0;
     p = skip_spaces(p);
-    while (is_word(p[length]))
+    while (text_is_word(p[length]))
         length++;
     if (length == 0 || length >= 64 || isdigit((unsigned char)p[0]))
         return NULL;
@@ -196,7 +188,7 @@ static const char *read_size(const char *plain, const char *p, int *size)
     p = skip_spaces(p);
     if (isdigit((unsigned char)*p)) {
         *size = (int)strtol(p, &end, 10);
-        return is_word(*end) || *end == '.' ? NULL : skip_spaces(end);
+        return text_is_word(*end) || *end == '.' ? NULL : skip_spaces(end);
     }
     const char *rest = read_name(p, name);
     const char *define = rest ? plain : NULL;
@@ -218,7 +210,7 @@ static int array_size(const char *plain, const char *array)
     for (const char *at = plain; (at = strstr(at, "uniform")); at += 7) {
         const char *end = strchr(at, ';');
         for (const char *p = at; end && p < end; p++) {
-            if (is_word(*p) && (p == at || !is_word(p[-1]))) {
+            if (text_is_word(*p) && (p == at || !text_is_word(p[-1]))) {
                 const char *rest = read_name(p, name);
                 if (rest && strcmp(name, array) == 0 && *rest == '[')
                     return read_size(plain, rest + 1, &size) ? size : 0;
@@ -269,7 +261,7 @@ static bool overruns(const char *plain, const char *body, const char *end, const
     bool found = false;
     for (const char *p = body; p < end; p++) {
         char word[64];
-        if (!is_word(*p) || is_word(p[-1]))
+        if (!text_is_word(*p) || text_is_word(p[-1]))
             continue;
         const char *rest = read_name(p, word);
         if (rest && (strcmp(word, "break") == 0 || strcmp(word, "return") == 0))
@@ -282,7 +274,7 @@ static bool overruns(const char *plain, const char *body, const char *end, const
         const char *name = open;
         while (name > body && isspace((unsigned char)name[-1]))
             name--;
-        while (name > body && is_word(name[-1]))
+        while (name > body && text_is_word(name[-1]))
             name--;
         if (*open != '[' || *rest != ']')
             return false;
@@ -301,9 +293,9 @@ bool text_find_overrun(const SubmissionFiles *files, Verdict *verdict)
     int last;
     bool found = false;
     for (int i = 0; i < files->count && !found; i++) {
-        char *plain = plain_text(files->texts[i].text, true);
-        for (const char *at = plain; at && (at = strstr(at, "for")) && !found; at += 3) {
-            if ((at > plain && is_word(at[-1])) || is_word(at[3]))
+        char *plain = plain_text(files->texts[i].text);
+        for (const char *at = plain; (at = strstr(at, "for")) && !found; at += 3) {
+            if ((at > plain && text_is_word(at[-1])) || text_is_word(at[3]))
                 continue;
             const char *body = read_header(plain, at + 3, counter, &last);
             const char *end = body ? statement_end(body) : NULL;
@@ -324,7 +316,7 @@ bool text_find_suspicion(const Lab *lab, const SubmissionFiles *files, Verdict *
     char name[64];
     snprintf(name, sizeof name, "%s.frag", lab->file);
     const char *fragment = submission_file(files, name);
-    char *plain = fragment ? plain_text(fragment, true) : NULL;
+    char *plain = fragment ? plain_text(fragment) : NULL;
     const bool found = plain && count_word(plain, "lowp") > 0;
     free(plain);
     if (found)

@@ -1,6 +1,6 @@
 #include "labs/program/binding.h"
 
-#include "base/parse.h"
+#include "base/text.h"
 
 #include <string.h>
 
@@ -185,7 +185,7 @@ static Uniform uniform_at(GLuint program, GLint i, const Values *values)
 static bool unknown(const Shader *shader, const char *kind, const char *name,
                     const char *const *names, Message *message)
 {
-    const char *nearest = parse_nearest(name, names);
+    const char *nearest = text_nearest(name, names);
     Message text = {0};
     message_set(&text, "%s %s does not exist in this lab; %s%s%s", kind, name,
                 nearest ? "did you mean " : "TASK.md lists the names", nearest ? nearest : "",

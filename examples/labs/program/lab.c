@@ -1,7 +1,7 @@
 #include "labs/program/lab.h"
 
-#include "base/parse.h"
 #include "base/paths.h"
+#include "base/text.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -71,7 +71,7 @@ const Lab *lab_find(const char *text, Message *message)
         if (LABS[i].number == number || strcmp(text, names[i]) == 0)
             return &LABS[i];
     }
-    const char *nearest = parse_nearest(text, names);
+    const char *nearest = text_nearest(text, names);
     message_set(message, "%s: no such lab; %s%s%s", text, nearest ? "did you mean " : "there are ",
                 nearest ? nearest : "lab01 to lab11", nearest ? "?" : "");
     return NULL;

@@ -1,6 +1,7 @@
 #include "labs/submission/conditions.h"
 
-#include <ctype.h>
+#include "base/text.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,35 +25,13 @@ static void unify_lines(char *text, bool join)
     *to = '\0';
 }
 
-static void strip_comments(char *text)
-{
-    char *to = text;
-    for (const char *p = text; *p;) {
-        if (p[0] == '/' && p[1] == '/') {
-            p += strcspn(p, "\n");
-        } else if (p[0] == '/' && p[1] == '*') {
-            const char *end = strstr(p + 2, "*/");
-            p = end ? end + 2 : p + strlen(p);
-            *to++ = ' ';
-        } else {
-            *to++ = *p++;
-        }
-    }
-    *to = '\0';
-}
-
-static bool is_word(char c)
-{
-    return isalnum((unsigned char)c) || c == '_';
-}
-
 /* The next word, number or other character, into `token`; the place after it, or NULL at the end of
  * the line. */
 static const char *next_token(const char *p, char token[NAME_SIZE])
 {
     p += strspn(p, " \t\v\f");
     size_t length = 0;
-    while (is_word(p[length]))
+    while (text_is_word(p[length]))
         length++;
     if (!length && *p && *p != '\n')
         length = 1;
@@ -194,7 +173,7 @@ static bool check_as(const char *text, bool join, Message *message)
     if (!clean)
         return message_set(message, "not enough memory");
     unify_lines(clean, join);
-    strip_comments(clean);
+    text_strip_comments(clean);
     Reader reader = {.message = message};
     bool done = true;
     for (const char *line = clean; *line && done; line = next_line(line))

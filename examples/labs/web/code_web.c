@@ -2,6 +2,7 @@
  * A page has no C compiler. Lab 3's matrices need one; of lab 10's budget.c it reads the usual
  * form, assignments of numbers that may have names, and leaves everything else to the native check.
  */
+#include "base/text.h"
 #include "labs/check/code.h"
 
 #include <ctype.h>
@@ -32,17 +33,12 @@ static const char *next_token(const char *text)
     }
 }
 
-static bool is_word(char c)
-{
-    return isalnum((unsigned char)c) || c == '_';
-}
-
 /* Takes a token if it is the next one. */
 static bool take(const char **at, const char *token)
 {
     const char *text = next_token(*at);
     const size_t length = strlen(token);
-    if (strncmp(text, token, length) != 0 || (is_word(token[0]) && is_word(text[length])))
+    if (strncmp(text, token, length) != 0 || (text_is_word(token[0]) && text_is_word(text[length])))
         return false;
     *at = text + length;
     return true;
@@ -52,7 +48,7 @@ static bool take_word(const char **at, char *word, size_t size)
 {
     const char *text = next_token(*at);
     size_t length = 0;
-    while (is_word(text[length]))
+    while (text_is_word(text[length]))
         length++;
     if (length == 0 || length >= size || isdigit((unsigned char)text[0]))
         return false;
@@ -65,7 +61,7 @@ static bool take_number(const char **at, int *number)
 {
     const char *text = next_token(*at);
     const size_t length = strspn(text, "0123456789");
-    if (length == 0 || length > 5 || is_word(text[length]) || (text[0] == '0' && length > 1))
+    if (length == 0 || length > 5 || text_is_word(text[length]) || (text[0] == '0' && length > 1))
         return false;
     *number = atoi(text);
     *at = text + length;

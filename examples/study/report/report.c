@@ -1,5 +1,7 @@
 #include "study/report/report.h"
 
+#include "base/text.h"
+
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -119,23 +121,6 @@ static void put_head(FILE *file, const ResultRow *const *rows, int count, ErrorK
             kinds[kind]);
 }
 
-/* The setting's text, wrapped at blanks in the rest of the line. */
-static void put_text(FILE *file, const char *text, int column)
-{
-    const int width = LINE_WIDTH - column > MIN_TEXT_WIDTH ? LINE_WIDTH - column : MIN_TEXT_WIDTH;
-    int used = 0;
-    for (const char *word = text; *word;) {
-        const int length = (int)strcspn(word, " ");
-        if (used && used + 1 + length > width) {
-            fprintf(file, "\n%*s", column, "");
-            used = 0;
-        }
-        used += fprintf(file, "%s%.*s", used ? " " : "", length, word);
-        word += length + (word[length] == ' ');
-    }
-    fputc('\n', file);
-}
-
 static void put_lines(FILE *file, const ResultRow *const *rows, const Line *lines, int count,
                       const Front *front, bool only_efficient, bool busy)
 {
@@ -169,7 +154,8 @@ static void put_lines(FILE *file, const ResultRow *const *rows, const Line *line
                 fprintf(file, " %*s", widths[i], lines[j].cells[i]);
         fputs("  ", file);
         quality_text(&rows[j]->quality, text);
-        put_text(file, text, column);
+        text_wrap(file, text, column, column, (int)fmax(LINE_WIDTH, column + MIN_TEXT_WIDTH));
+        fputc('\n', file);
     }
 }
 

@@ -1,0 +1,66 @@
+#include "base/memory.h"
+
+#include "base/output.h"
+
+#include <errno.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* Of the system calls only, because buffers and locks of the C library may be in any state. */
+static _Noreturn void end_for_want(void)
+{
+    static const char reason[] = ": not enough memory\n";
+    const char *name = program_invocation_short_name;
+    output_unlink_temporaries();
+    output_append(STDERR_FILENO, name, strlen(name));
+    output_append(STDERR_FILENO, reason, sizeof reason - 1);
+    _exit(MEMORY_EXIT);
+}
+
+void *memory_grow(void *block, size_t count, size_t size)
+{
+    size_t bytes;
+    void *grown = NULL;
+    if (!__builtin_mul_overflow(count, size, &bytes))
+        grown = realloc(block, bytes ? bytes : 1);
+    if (!grown)
+        end_for_want();
+    return grown;
+}
+
+void *memory_new(size_t count, size_t size)
+{
+    void *block = calloc(count ? count : 1, size ? size : 1);
+    if (!block)
+        end_for_want();
+    return block;
+}
+
+void *memory_copy(const void *bytes, size_t size)
+{
+    char *copy = memory_grow(NULL, size + 1, 1);
+    if (size)
+        memcpy(copy, bytes, size);
+    copy[size] = '\0';
+    return copy;
+}
+
+char *memory_text(const char *text)
+{
+    return memory_copy(text, strlen(text));
+}
+
+char *memory_format(const char *format, ...)
+{
+    char *text;
+    va_list arguments;
+    va_start(arguments, format);
+    const int length = vasprintf(&text, format, arguments);
+    va_end(arguments);
+    if (length < 0)
+        end_for_want();
+    return text;
+}

@@ -1,0 +1,34 @@
+/*
+ * memory: small blocks of the heap, of which there always are enough.
+ *
+ * For what is small whatever the user asks for: names, texts, lists, states of modules. If there is
+ * no memory even for these, the process ends: one line on standard error, "PROGRAM: not enough
+ * memory", exit status MEMORY_EXIT; half-written files are removed (see output.h), and what
+ * standard output still holds is dropped. Pictures, meshes and all else whose size the user chooses
+ * are allocated by their modules, which return a message.
+ *
+ * All results are for free(). A block of no bytes is a block, too.
+ */
+#ifndef MEMORY_H
+#define MEMORY_H
+
+#include <stddef.h>
+
+enum { MEMORY_EXIT = 1 };
+
+/* `count` zeroed items. */
+void *memory_new(size_t count, size_t size) __attribute__((malloc, returns_nonnull));
+
+/* The block, NULL or from here, with room for `count` items; new ones are not set. */
+void *memory_grow(void *block, size_t count, size_t size)
+    __attribute__((warn_unused_result, returns_nonnull));
+
+/* A copy, and a zero byte after it. */
+void *memory_copy(const void *bytes, size_t size) __attribute__((malloc, returns_nonnull));
+char *memory_text(const char *text) __attribute__((malloc, returns_nonnull));
+
+/* What printf would print. */
+char *memory_format(const char *format, ...)
+    __attribute__((malloc, returns_nonnull, format(printf, 1, 2)));
+
+#endif

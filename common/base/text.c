@@ -1,0 +1,118 @@
+#include "base/text.h"
+
+#include <ctype.h>
+#include <string.h>
+
+bool text_is_word(char c)
+{
+    return isalnum((unsigned char)c) || c == '_';
+}
+
+const char *text_comment_end(const char *text)
+{
+    if (strncmp(text, "//", 2) == 0)
+        return text + strcspn(text, "\n");
+    if (strncmp(text, "/*", 2) != 0)
+        return NULL;
+    const char *end = strstr(text + 2, "*/");
+    return end ? end + 2 : text + strlen(text);
+}
+
+void text_strip_comments(char *text)
+{
+    char *to = text;
+    while (*text) {
+        const char *end = text_comment_end(text);
+        *to++ = end ? ' ' : *text;
+        text += end ? end - text : 1;
+    }
+    *to = '\0';
+}
+
+/* The length of a text's first piece, which is not broken. */
+static int piece(const char *text)
+{
+    const int length = (int)strcspn(text, " |\n");
+    return length + (text[length] == '|');
+}
+
+int text_line(const char *text, int width)
+{
+    int length = piece(text);
+    while (text[length] && text[length] != '\n') {
+        const int blank = text[length] == ' ';
+        const int longer = length + blank + piece(text + length + blank);
+        if (longer > width)
+            break;
+        length = longer;
+    }
+    return length;
+}
+
+int text_wrap(FILE *file, const char *text, int column, int indent, int width)
+{
+    int length = text_line(text, width - column);
+    if (column > indent && column + length > width)
+        length = 0;
+    column += fprintf(file, "%.*s", length, text);
+    for (text += length; *text; text += length) {
+        text += *text == ' ' || *text == '\n';
+        length = text_line(text, width - indent);
+        column = fprintf(file, "\n%*s%.*s", indent, "", length, text) - 1;
+    }
+    return column;
+}
+
+enum { WORD_MAX = 63 };
+
+/* The first letters of a word, in lower case. Returns their number. */
+static int lower(const char *word, char letters[WORD_MAX + 1])
+{
+    int length = 0;
+    for (; word[length] && length < WORD_MAX; length++)
+        letters[length] = (char)tolower((unsigned char)word[length]);
+    letters[length] = '\0';
+    return length;
+}
+
+static int least(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+/* The edits from one word to the other: letters changed, added, left out, or exchanged with their
+ * neighbour (optimal string alignment). */
+static int distance(const char *a, int length_a, const char *b, int length_b)
+{
+    int rows[3][WORD_MAX + 1]; /* by i mod 3 */
+    for (int j = 0; j <= length_b; j++)
+        rows[0][j] = j;
+    for (int i = 1; i <= length_a; i++) {
+        int *row = rows[i % 3], *above = rows[(i + 2) % 3], *before = rows[(i + 1) % 3];
+        row[0] = i;
+        for (int j = 1; j <= length_b; j++) {
+            row[j] = least(above[j - 1] + (a[i - 1] != b[j - 1]), 1 + least(above[j], row[j - 1]));
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                row[j] = least(row[j], 1 + before[j - 2]);
+        }
+    }
+    return rows[length_a % 3][length_b];
+}
+
+const char *text_nearest(const char *word, const char *const *names)
+{
+    char own[WORD_MAX + 1], other[WORD_MAX + 1];
+    const int length = lower(word, own);
+    const char *nearest = NULL, *beginning = NULL;
+    int min = length / 3 + 1, beginnings = 0;
+    for (; *names; names++) {
+        const int d = distance(own, length, other, lower(*names, other));
+        if (d < min) {
+            nearest = *names;
+            min = d;
+        }
+        if (length && strncmp(own, other, (size_t)length) == 0 && beginnings++ == 0)
+            beginning = *names;
+    }
+    return beginnings == 1 ? beginning : nearest;
+}

@@ -1,0 +1,33 @@
+/*
+ * text: words, lines and comments of texts.
+ */
+#ifndef TEXT_H
+#define TEXT_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+/* Whether a character can be part of a name in C or GLSL: a letter, a digit or an underscore. */
+bool text_is_word(char c);
+
+/* The end of the comment, of C or GLSL, that begins a text: at the line feed after //, else after
+ * its end, or at the end of the text. NULL: no comment begins here. */
+const char *text_comment_end(const char *text);
+
+/* In place, makes each comment a blank. */
+void text_strip_comments(char *text);
+
+/* The length of the first line when a paragraph is set in lines of `width` columns: as many words
+ * as fit, at least one. Breaks at blanks, which are not counted, after bars, and at line feeds. */
+int text_line(const char *text, int width);
+
+/* Writes a paragraph broken in this way. It begins in `column`, other lines after `indent` blanks;
+ * `width` counts both. Ends without a line feed; returns the column it ends in. */
+int text_wrap(FILE *file, const char *text, int column, int indent, int width);
+
+/* The name that `word` was probably meant to be: the only one that begins so, or the nearest, if at
+ * most a third of the word's letters differ. Case does not count. NULL: none. `names` ends with
+ * NULL. */
+const char *text_nearest(const char *word, const char *const *names);
+
+#endif

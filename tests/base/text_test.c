@@ -1,0 +1,109 @@
+/*
+ * Texts: lines, comments, and names that were misspelled.
+ */
+#include "base/text.h"
+#include "support/testing.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+TEST(comments_become_blanks)
+{
+    static const struct {
+        const char *text, *plain;
+    } cases[] = {
+        {"", ""},
+        {"a / b * c", "a / b * c"},
+        {"a // b\nc", "a  \nc"},
+        {"a // b", "a  "},
+        {"a/* // */b", "a b"},
+        {"a/**/b/***/c", "a b c"},
+        {"a /*/ b */ c", "a   c"},
+        {"a // b /* c\nd */", "a  \nd */"},
+        {"a /* b", "a  "},
+        {"a //", "a  "},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char text[32];
+        strcpy(text, cases[i].text);
+        text_strip_comments(text);
+        assert_string_equal(text, cases[i].plain);
+    }
+}
+
+TEST(a_paragraph_breaks_at_blanks_and_after_bars)
+{
+    static const struct {
+        int column, indent, width;
+        const char *text, *set;
+        int end;
+    } cases[] = {
+        {0, 2, 9, "", "", 0},
+        {0, 2, 9, "one two three four", "one two\n  three\n  four", 6},
+        {0, 2, 13, "one two three four", "one two three\n  four", 6},
+        {0, 0, 3, "one two", "one\ntwo", 3},
+        {0, 4, 2, "three four", "three\n    four", 8}, /* at least a word in each line */
+        {7, 2, 9, "one two", "\n  one two", 9},        /* not beside what is there */
+        {6, 2, 9, "one two", "one\n  two", 5},
+        {4, 4, 6, "three", "three", 9},
+        {0, 1, 8, "one|two|three", "one|two|\n three", 6},
+        {0, 1, 20, "one\ntwo", "one\n two", 4},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char *set;
+        size_t size;
+        FILE *file = open_memstream(&set, &size);
+        assert_non_null(file);
+        const int end =
+            text_wrap(file, cases[i].text, cases[i].column, cases[i].indent, cases[i].width);
+        assert_int_equal(fclose(file), 0);
+        assert_string_equal(set, cases[i].set);
+        assert_int_equal(end, cases[i].end);
+        free(set);
+    }
+}
+
+TEST(the_nearest_name_has_the_fewest_edits)
+{
+    static const char *const names[] = {
+        "cube", "sphere", "torus", "LightedCube", "LightedCube_ambient", NULL};
+    static const char *const none[] = {NULL};
+    static const struct {
+        const char *word, *nearest;
+    } cases[] = {
+        {"cube", "cube"},
+        {"cub", "cube"},
+        {"cubes", "cube"},
+        {"Cube", "cube"},
+        {"ucbe", "cube"},
+        {"shpere", "sphere"},
+        {"tours", "torus"},
+        {"lightedcube", "LightedCube"},
+        {"LightedCubes", "LightedCube"},
+        {"LightedCube_ambiant", "LightedCube_ambient"},
+        {"LightedCube_a", "LightedCube_ambient"},
+        {"tor", "torus"},
+        {"SPH", "sphere"},
+        {"LightedC", NULL}, /* two begin so */
+        {"square", NULL},   /* half of the letters of sphere */
+        {"teapot", NULL},
+        {"xyz", NULL},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const char *found = text_nearest(cases[i].word, names);
+        if (!cases[i].nearest && found)
+            fail_msg("%s: found %s", cases[i].word, found);
+        if (cases[i].nearest)
+            assert_string_equal(found ? found : "(none)", cases[i].nearest);
+    }
+    assert_null(text_nearest("cube", none));
+
+    char endless[5000];
+    memset(endless, 'c', sizeof endless - 1);
+    endless[sizeof endless - 1] = '\0';
+    const char *const long_names[] = {endless, NULL};
+    assert_null(text_nearest("cube", long_names));
+    text_nearest(endless, names); /* whatever it finds, it must return */
+}
+
+TEST_MAIN("text", NULL, NULL)
