@@ -12,12 +12,12 @@
 #include "base/output.h"
 #include "base/parse.h"
 #include "base/progress.h"
+#include "base/template.h"
 #include "base/text.h"
 #include "gallery/manifest.h"
 #include "gallery/sheet.h"
 #include "window/backends.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -99,55 +99,25 @@ static Options options_of(const Example *example, const Options *options)
     return own;
 }
 
-/* The command that draws the picture; --shaders is cut because its folder is private. */
-static void print_command(FILE *file, const Example *example, const Options *options)
-{
-    char command[512]; /* longer than any */
-    Options own = options_of(example, options);
-    own.output_given = false;
-    own.shaders.folder = own.shaders.folder ? "..." : NULL;
-    command_write(example, &own, NULL, command, sizeof command);
-    fprintf(file, "examples/run %s", command);
-}
-
 static bool write_page(const char *folder, const Selection *selection, const Options *options,
                        Message *message)
 {
-    static const char head[] =
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-        "<meta name=\"viewport\" content=\"width=device-width\">\n"
-        "<title>Lighting: the gallery</title>\n<style>\n"
-        "body { font-family: sans-serif; background: #222; color: #eee; margin: 2em; }\n"
-        "main { display: grid; gap: 1.5em; "
-        "grid-template-columns: repeat(auto-fill, minmax(min(16em, 100%), 1fr)); }\n"
-        "figure { margin: 0; min-width: 0; overflow-wrap: anywhere; }\n"
-        "img { width: 100%; aspect-ratio: 1; object-fit: contain; background: #000; }\n"
-        "a { color: #9cf; }\ncode { color: #fc9; overflow-wrap: anywhere; }\n"
-        "</style>\n</head>\n<body>\n<h1>Lighting</h1>\n"
-        "<p><a href=\"contact-sheet.png\">All on one sheet</a></p>\n<main>\n";
-    char *text = NULL, path[PATH_MAX];
-    size_t size = 0;
-    FILE *file = open_memstream(&text, &size);
-    if (!file)
-        return message_set(message, "index.html: %s", strerror(errno));
-    fputs(head, file);
+    char path[PATH_MAX], command[512]; /* longer than any */
+    TemplateValues *page = template_values();
     for (int i = 0; i < selection->count; i++) {
         const Example *example = selection->examples[i];
-        fprintf(
-            file,
-            "<figure>\n<a href=\"%s.png\"><img src=\"%s.png\" alt=\"%s: %s\" loading=\"lazy\"></a>\n"
-            "<figcaption><strong>%s</strong><br>%s<br><code>",
-            example->name, example->name, example->name, example->summary, example->name,
-            example->summary);
-        print_command(file, example, options);
-        fputs("</code></figcaption>\n</figure>\n", file);
+        TemplateValues *picture = template_add(page, "picture");
+        Options own = options_of(example, options);
+        own.output_given = false;
+        own.shaders.folder = own.shaders.folder ? "..." : NULL; /* the folder is private */
+        command_write(example, &own, NULL, command, sizeof command);
+        template_set(picture, "name", "%s", example->name);
+        template_set(picture, "summary", "%s", example->summary);
+        template_set(picture, "command", "examples/run %s", command);
     }
-    fputs("</main>\n</body>\n</html>\n", file);
-    const bool whole = fclose(file) == 0;
     snprintf(path, sizeof path, "%s/index.html", folder);
-    const bool written = whole ? output_write(path, text, size, message)
-                               : message_set(message, "index.html: not enough memory");
-    free(text);
+    const bool written = template_write("examples/gallery/gallery.html", page, path, message);
+    template_close(page);
     return written;
 }
 
