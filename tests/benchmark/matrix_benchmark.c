@@ -10,6 +10,7 @@
 #include "base/random.h"
 #include "benchmark/measure.h"
 #include "core/matrix.h"
+#include "support/quad.h"
 
 #ifdef HAVE_CGLM
 #include <cglm/cglm.h>
@@ -19,12 +20,6 @@
 #include <stdalign.h>
 #include <stdio.h>
 #include <string.h>
-
-#if defined(__SIZEOF_FLOAT128__)
-__extension__ typedef __float128 Quad;
-#else
-typedef long double Quad; /* 113 bits on machines without __float128 */
-#endif
 
 enum { ROUNDS = 101, COUNT = 1000, REPEATS = 4, DECADES = 7 };
 
@@ -211,65 +206,27 @@ enum { NORMAL_COUNT = sizeof NORMALS / sizeof *NORMALS };
 
 /* Errors. */
 
-/* Cofactors and determinant of the upper left 3x3 part, with a relative error of 1e-34 * condition.
- */
-static Quad quad_cofactors(const double m[16], Quad cofactor[3][3])
+static Mat4 matrix_of(const double *numbers)
 {
-    Quad determinant = 0;
-    for (int i = 0; i < 3; i++) {
-        for (int j = 0; j < 3; j++) {
-            const int p = (i + 1) % 3, q = (i + 2) % 3, r = (j + 1) % 3, s = (j + 2) % 3;
-            cofactor[i][j] =
-                (Quad)m[4 * r + p] * (Quad)m[4 * s + q] - (Quad)m[4 * s + p] * (Quad)m[4 * r + q];
-        }
-    }
-    for (int j = 0; j < 3; j++)
-        determinant += (Quad)m[4 * j] * cofactor[0][j];
-    return determinant;
+    Mat4 a;
+    memcpy(a.m, numbers, sizeof a.m);
+    return a;
 }
 
-/* || X - A^-1 || / || A^-1 ||, Frobenius; 1 (no correct digit) if it is larger or NaN. */
+/* 1 (no correct digit) if it is larger or not a number. */
 static double inverse_error(int i, bool real)
 {
-    Quad cofactor[3][3], error = 0, norm = 1;
-    const Quad determinant = quad_cofactors(doubles[i], cofactor);
-    for (int row = 0; row < 4; row++) {
-        for (int column = 0; column < 4; column++) {
-            const int k = 4 * column + row;
-            const Quad got = real ? (Quad)float_results[i][k] : (Quad)double_results[i][k];
-            const Quad right =
-                row < 3 && column < 3 ? cofactor[column][row] / determinant : (Quad)(row == column);
-            error += (got - right) * (got - right);
-            norm += row < 3 && column < 3 ? right * right : 0;
-        }
-    }
-    const double relative = sqrt((double)(error / norm));
+    Mat4 got = matrix_of(double_results[i]);
+    for (int k = 0; k < 16 && real; k++)
+        got.m[k] = (double)float_results[i][k];
+    const double relative = quad_inverse_error(matrix_of(doubles[i]), got);
     return relative < 1 ? relative : 1;
 }
 
-/* The angle between the exact normal and a vertex shader's, from a matrix of floats; pi if it is
- * NaN. */
 static double normal_error(int i, bool real)
 {
-    Quad cofactor[3][3], dot = 0, cross = 0, right[3];
-    const Quad sign = quad_cofactors(doubles[i], cofactor) < 0 ? -1 : 1;
-    const float *m = float_results[i], *n = normals[i];
-    float got[3];
     (void)real;
-    for (int k = 0; k < 3; k++) {
-        got[k] = m[k] * n[0] + m[4 + k] * n[1] + m[8 + k] * n[2];
-        right[k] = 0;
-        for (int j = 0; j < 3; j++)
-            right[k] += sign * cofactor[k][j] * (Quad)n[j];
-        dot += right[k] * (Quad)got[k];
-    }
-    for (int k = 0; k < 3; k++) {
-        const int p = (k + 1) % 3, q = (k + 2) % 3;
-        const Quad part = right[p] * (Quad)got[q] - right[q] * (Quad)got[p];
-        cross += part * part;
-    }
-    const double pi = acos(-1), angle = atan2(sqrt((double)cross), (double)dot);
-    return isfinite(angle) && (cross > 0 || dot > 0) ? angle : pi;
+    return quad_normal_error(matrix_of(doubles[i]), float_results[i], normals[i]);
 }
 
 typedef struct Comparison {

@@ -10,16 +10,8 @@
 
 #include "base/random.h"
 #include "core/matrix.h"
+#include "support/quad.h"
 #include "support/testing.h"
-
-/* The reference type. Only + - * / and comparisons are used, which need no library. */
-#if LDBL_MANT_DIG >= 113
-typedef long double Quad;
-#elif defined(__SIZEOF_FLOAT128__)
-__extension__ typedef __float128 Quad;
-#else
-#error "no floating point type of 113 bits to compare with"
-#endif
 
 /* Unit roundoff u, the largest relative error of one operation: 1.1e-16. */
 #define UNIT (DBL_EPSILON / 2)
@@ -163,140 +155,7 @@ static Mat4 random_conditioned(int n, double condition, double largest)
     return mat4_product(mat4_product(u, s), v);
 }
 
-/* Tools: matrices of 113 bits, element (row, column) at [row][column] */
-
-typedef struct QuadMatrix {
-    Quad a[4][4];
-} QuadMatrix;
-
-static Quad quad_abs(Quad x)
-{
-    return x < 0 ? -x : x;
-}
-
-static QuadMatrix quad_from(Mat4 a)
-{
-    QuadMatrix q;
-    for (int row = 0; row < 4; row++)
-        for (int column = 0; column < 4; column++)
-            q.a[row][column] = (Quad)a.m[4 * column + row];
-    return q;
-}
-
-static QuadMatrix quad_product(const QuadMatrix *a, const QuadMatrix *b)
-{
-    QuadMatrix c;
-    for (int i = 0; i < 4; i++)
-        for (int j = 0; j < 4; j++)
-            c.a[i][j] = 0;
-    for (int k = 0; k < 4; k++)
-        for (int i = 0; i < 4; i++)
-            for (int j = 0; j < 4; j++)
-                c.a[i][j] += a->a[i][k] * b->a[k][j];
-    return c;
-}
-
-/* Squared, because Quad has no square root: the caller takes it of a quotient, in double. */
-static Quad quad_norm_squared(const QuadMatrix *a)
-{
-    Quad sum = 0;
-    for (int i = 0; i < 16; i++)
-        sum += a->a[i / 4][i % 4] * a->a[i / 4][i % 4];
-    return sum;
-}
-
-static QuadMatrix quad_subtract(const QuadMatrix *a, const QuadMatrix *b)
-{
-    QuadMatrix c;
-    for (int i = 0; i < 16; i++)
-        c.a[i / 4][i % 4] = a->a[i / 4][i % 4] - b->a[i / 4][i % 4];
-    return c;
-}
-
-/* Gauss-Jordan elimination with full pivoting. Returns the determinant, 0 without an inverse. */
-static Quad quad_inverse(const QuadMatrix *a, QuadMatrix *inverse)
-{
-    Quad w[4][8], determinant = 1;
-    int unknown[4];
-    for (int i = 0; i < 4; i++) {
-        unknown[i] = i;
-        for (int j = 0; j < 8; j++)
-            w[i][j] = j < 4 ? a->a[i][j] : (Quad)(j == 4 + i);
-    }
-    for (int k = 0; k < 4; k++) {
-        int row = k, column = k;
-        for (int i = k; i < 4; i++) {
-            for (int j = k; j < 4; j++) {
-                if (quad_abs(w[i][j]) > quad_abs(w[row][column])) {
-                    row = i;
-                    column = j;
-                }
-            }
-        }
-        for (int j = 0; j < 8; j++) {
-            Quad swap = w[k][j];
-            w[k][j] = w[row][j];
-            w[row][j] = swap;
-        }
-        for (int i = 0; i < 4; i++) {
-            Quad swap = w[i][k];
-            w[i][k] = w[i][column];
-            w[i][column] = swap;
-        }
-        int swap = unknown[k];
-        unknown[k] = unknown[column];
-        unknown[column] = swap;
-        Quad pivot = w[k][k];
-        determinant *= (row != k) == (column != k) ? pivot : -pivot;
-        if (pivot == 0)
-            return 0;
-        for (int j = k; j < 8; j++)
-            w[k][j] /= pivot;
-        for (int i = 0; i < 4; i++) {
-            Quad factor = w[i][k];
-            for (int j = k; j < 8 && i != k; j++)
-                w[i][j] -= factor * w[k][j];
-        }
-    }
-    for (int i = 0; i < 4; i++)
-        for (int j = 0; j < 4; j++)
-            inverse->a[unknown[i]][j] = w[i][4 + j];
-    return determinant;
-}
-
-/* The angle between the images of a direction under two matrices, as its tangent; pi if opposite.
- */
-static double quad_angle(const QuadMatrix *a, const QuadMatrix *b, Vec3 direction)
-{
-    Quad d[3] = {(Quad)direction.x, (Quad)direction.y, (Quad)direction.z};
-    Quad p[3] = {0, 0, 0}, q[3] = {0, 0, 0}, dot = 0, cross = 0;
-    for (int i = 0; i < 3; i++) {
-        for (int j = 0; j < 3; j++) {
-            p[i] += a->a[i][j] * d[j];
-            q[i] += b->a[i][j] * d[j];
-        }
-        dot += p[i] * q[i];
-    }
-    for (int i = 0; i < 3; i++) {
-        int j = (i + 1) % 3, k = (i + 2) % 3;
-        Quad part = p[j] * q[k] - p[k] * q[j];
-        cross += part * part;
-    }
-    return dot > 0 ? atan(sqrt((double)(cross / (dot * dot)))) : pi;
-}
-
-/* || R R^T - I ||, Frobenius, of the upper left 3x3 part */
-static double orthonormality_error(Mat4 r)
-{
-    QuadMatrix q = quad_from(r), t = quad_from(mat4_transpose(r)), one = quad_from(mat4_identity());
-    for (int i = 0; i < 3; i++) {
-        q.a[i][3] = q.a[3][i] = 0;
-        t.a[i][3] = t.a[3][i] = 0;
-    }
-    QuadMatrix product = quad_product(&q, &t);
-    QuadMatrix error = quad_subtract(&product, &one);
-    return sqrt((double)quad_norm_squared(&error));
-}
+/* Tools: against arithmetic of 113 bits */
 
 /* The error of an inverse, in units of condition * u (Frobenius norms) */
 typedef struct InverseError {
@@ -547,7 +406,7 @@ TEST_WITH(0, rotation_is_orthonormal_for_all_angles_and_axes, start_random, NULL
         /* The axis has a length within 3 u of 1, its square within 6 u. The matrix has at most
          * twice that square along the axis, so 12 u there, 24 u when it is multiplied by its
          * transpose, and as much again for all other roundings. Found: 20 u. */
-        assert_bound(orthonormality_error(r), 48 * UNIT, r);
+        assert_bound(quad_orthonormality_error(r), 48 * UNIT, r);
         assert_bound(fabs(mat4_determinant(r) - 1), 48 * UNIT, r);
         assert_true(vec3_normalize(axis, &unit));
         Vec3 fixed = mat4_transform_direction(r, unit);
@@ -595,7 +454,7 @@ static void assert_rigid(Mat4 view, Vec3 eye)
 {
     QuadMatrix q = quad_from(view);
     Quad e[3] = {(Quad)eye.x, (Quad)eye.y, (Quad)eye.z};
-    assert_bound(orthonormality_error(view), 4e-15, view);
+    assert_bound(quad_orthonormality_error(view), 4e-15, view);
     for (int i = 0; i < 3; i++) {
         Quad sum = q.a[i][3], size = 0;
         for (int j = 0; j < 3; j++) {
@@ -1305,10 +1164,7 @@ TEST_WITH(0, normal_matrix_is_independent_of_scale, start_random, NULL)
             mat4_product(mat4_scale((Vec3){d1[0], d1[1], d1[2]}), random_conditioned(3, 10, 1)),
             mat4_scale((Vec3){d2[0], d2[1], d2[2]}));
         Mat4 normal;
-        QuadMatrix q = quad_from(a), inverse, reference, value;
-        assert_true(quad_inverse(&q, &inverse) != 0);
-        for (int j = 0; j < 16; j++)
-            reference.a[j / 4][j % 4] = inverse.a[j % 4][j / 4];
+        QuadMatrix reference = quad_normal(a), value;
         assert_true(mat4_try_normal(a, &normal));
         assert_normal_form(normal);
         value = quad_from(normal);

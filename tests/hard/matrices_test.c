@@ -9,22 +9,13 @@
 #include "hard/hard.h"
 #include "shapes/mesh_solids.h"
 #include "support/picture_check.h"
+#include "support/quad.h"
 #include "support/testing.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* The reference type, of 113 bits. Only + - * / and comparisons are used. */
-#if LDBL_MANT_DIG >= 113
-typedef long double Quad;
-#elif defined(__SIZEOF_FLOAT128__)
-__extension__ typedef __float128 Quad;
-#else
-#error "no floating point type of 113 bits to compare with"
-#endif
 
 enum { SIZE = 64, SLICES = 48 };
 
@@ -80,98 +71,15 @@ static Mat4 random_dense(Random *random, double condition)
     return a;
 }
 
-/* With 113 bits. */
-
-static Quad quad_abs(Quad x)
-{
-    return x < 0 ? -x : x;
-}
-
-/* The row with the largest entry of `column`, from row `column` on. */
-static int quad_pivot(Quad w[4][8], int column)
-{
-    int pivot = column;
-    for (int i = column + 1; i < 4; i++)
-        if (quad_abs(w[i][column]) > quad_abs(w[pivot][column]))
-            pivot = i;
-    return pivot;
-}
-
-/* Gauss-Jordan elimination with partial pivoting. */
-static void quad_inverse(Mat4 a, Quad inverse[4][4])
-{
-    Quad w[4][8];
-    for (int i = 0; i < 4; i++)
-        for (int j = 0; j < 8; j++)
-            w[i][j] = j < 4 ? (Quad)a.m[4 * j + i] : (Quad)(j == 4 + i);
-    for (int k = 0; k < 4; k++) {
-        const int pivot = quad_pivot(w, k);
-        const Quad largest = w[pivot][k];
-        for (int j = 0; j < 8; j++) {
-            const Quad other = w[k][j];
-            w[k][j] = w[pivot][j] / largest;
-            if (pivot != k)
-                w[pivot][j] = other;
-        }
-        for (int i = 0; i < 4; i++) {
-            const Quad factor = w[i][k];
-            for (int j = 0; j < 8 && i != k; j++)
-                w[i][j] -= factor * w[k][j];
-        }
-    }
-    for (int i = 0; i < 4; i++)
-        for (int j = 0; j < 4; j++)
-            inverse[i][j] = w[i][4 + j];
-}
-
-/* || X - A^-1 || / || A^-1 ||, Frobenius. */
-static double inverse_error(Mat4 a, Mat4 inverse)
-{
-    Quad exact[4][4], error = 0, norm = 0;
-    quad_inverse(a, exact);
-    for (int i = 0; i < 4; i++) {
-        for (int j = 0; j < 4; j++) {
-            const Quad difference = (Quad)inverse.m[4 * j + i] - exact[i][j];
-            error += difference * difference;
-            norm += exact[i][j] * exact[i][j];
-        }
-    }
-    return sqrt((double)(error / norm));
-}
-
-/* Transforms a normal as a vertex shader with floats does, and returns the angle to the exact
- * normal: the cofactors of the matrix, times the sign of its determinant. Pi if they are opposite.
- */
-static double normal_error(Mat4 a, const float n[3])
+/* Of a vertex shader's normal, with the matrix for normals in floats. */
+static double normal_error(Mat4 a, Vec3 n)
 {
     Mat4 normal;
-    float uploaded[16], got[3];
-    Quad exact[3], cofactor[3][3], determinant = 0, dot = 0, cross = 0;
+    float uploaded[16], rounded[3];
     assert_true(mat4_try_normal(a, &normal));
     mat4_to_float(normal, uploaded);
-    for (int i = 0; i < 3; i++)
-        got[i] = uploaded[i] * n[0] + uploaded[4 + i] * n[1] + uploaded[8 + i] * n[2];
-    for (int i = 0; i < 3; i++) {
-        for (int j = 0; j < 3; j++) {
-            const int p = (i + 1) % 3, q = (i + 2) % 3, r = (j + 1) % 3, s = (j + 2) % 3;
-            cofactor[i][j] = (Quad)a.m[4 * r + p] * (Quad)a.m[4 * s + q] -
-                             (Quad)a.m[4 * s + p] * (Quad)a.m[4 * r + q];
-        }
-    }
-    for (int j = 0; j < 3; j++)
-        determinant += (Quad)a.m[4 * j] * cofactor[0][j];
-    for (int i = 0; i < 3; i++) {
-        exact[i] = 0;
-        for (int j = 0; j < 3; j++)
-            exact[i] += (determinant < 0 ? -1 : 1) * cofactor[i][j] * (Quad)n[j];
-        dot += exact[i] * (Quad)got[i];
-    }
-    for (int i = 0; i < 3; i++) {
-        const int j = (i + 1) % 3, k = (i + 2) % 3;
-        const Quad part = exact[j] * (Quad)got[k] - exact[k] * (Quad)got[j];
-        cross += part * part;
-    }
-    return dot > 0 ? atan(sqrt((double)(cross / (dot * dot)))) : acos(-1);
+    vec3_to_float(n, rounded);
+    return quad_normal_error(a, uploaded, rounded);
 }
 
 /* The background of hard_two_lights. */
@@ -492,9 +400,8 @@ TEST(mirror_keeps_normals_outside)
     for (int i = 0; i < 1000; i++) {
         const Mat4 a = mat4_product(scale(-1, 1, 1), random_affine(&random, 10));
         const Vec3 n = hard_random_direction(&random);
-        const float rounded[3] = {(float)n.x, (float)n.y, (float)n.z};
         assert_true(mat4_determinant(a) < 0);
-        assert_true(normal_error(a, rounded) < 1e-5);
+        assert_true(normal_error(a, n) < 1e-5);
     }
 }
 
@@ -573,8 +480,7 @@ TEST(tiny_or_huge_scale_keeps_the_angle_of_normals)
             const Mat4 last = random_rotation(&random), first = random_rotation(&random);
             const Mat4 a = mat4_product(first, mat4_product(scale(s, -s, s), last));
             const Vec3 n = hard_random_direction(&random);
-            const float rounded[3] = {(float)n.x, (float)n.y, (float)n.z};
-            assert_true(normal_error(a, rounded) < 2e-7);
+            assert_true(normal_error(a, n) < 2e-7);
         }
     }
 }
@@ -707,20 +613,6 @@ DRAWN_TEST(rotate_about_a_zero_axis_changes_no_picture)
 enum { STEPS = 1000000 };
 static const double STEP = 0.36; /* a thousand turns */
 
-static double orthonormality_error(Mat4 r)
-{
-    Quad sum = 0;
-    for (int i = 0; i < 3; i++) {
-        for (int j = 0; j < 3; j++) {
-            Quad dot = i == j ? -1 : 0;
-            for (int k = 0; k < 3; k++)
-                dot += (Quad)r.m[4 * k + i] * (Quad)r.m[4 * k + j];
-            sum += dot * dot;
-        }
-    }
-    return sqrt((double)sum);
-}
-
 static Mat4 million_steps(Vec3 axis)
 {
     Mat4 product = mat4_identity();
@@ -743,12 +635,12 @@ TEST(rotation_drift_is_none_when_rebuilt_from_the_angle)
     const Vec3 axis = {1, 2, 3};
     double worst = 0;
     for (int i = 0; i <= STEPS; i += 997)
-        worst = fmax(worst, orthonormality_error(turn(i * STEP, axis)));
+        worst = fmax(worst, quad_orthonormality_error(turn(i * STEP, axis)));
     assert_true(worst < 4e-15);
     /* Repeated steps drift by the rounding of each, at most 1.1e-16 for each of some 20 operations
      * if all have the same sign, and by the step's own error a million times. */
     const Mat4 drifted = million_steps(axis);
-    const double drift = orthonormality_error(drifted);
+    const double drift = quad_orthonormality_error(drifted);
     print_message("a million steps: %.2g from orthonormal; rebuilt: %.2g\n", drift, worst);
     assert_true(drift < STEPS * 20 * 0x1p-53);
 }
@@ -804,7 +696,7 @@ TEST(inverse_table)
                 for (int j = 0; j < 16 && kind == 1; j++)
                     a.m[j] *= 2; /* not affine any more: Gaussian elimination */
                 assert_true(mat4_inverse(a, &inverse));
-                errors[i] = inverse_error(a, inverse);
+                errors[i] = quad_inverse_error(a, inverse);
             }
             const double middle = clock_median(errors, SAMPLES);
             print_message(" %.1e", middle);
@@ -824,8 +716,7 @@ TEST(normal_matrix_table)
         for (int i = 0; i < 25 * SAMPLES; i++) {
             const Mat4 a = random_affine(&random, condition);
             const Vec3 n = hard_random_direction(&random);
-            const float rounded[3] = {(float)n.x, (float)n.y, (float)n.z};
-            errors[i] = normal_error(a, rounded);
+            errors[i] = normal_error(a, n);
         }
         const double middle = clock_median(errors, 25 * SAMPLES), worst = errors[25 * SAMPLES - 1];
         print_message("normals, 1e%d: median %.1e, worst %.1e\n", 2 * d, middle, worst);

@@ -7,6 +7,7 @@
 #include "hard/hard.h"
 #include "shapes/mesh_solids.h"
 #include "support/picture_check.h"
+#include "support/quad.h"
 #include "support/testing.h"
 
 #include <math.h>
@@ -88,22 +89,6 @@ static int apart(const Frame a, const Frame b, const Reference *exact, int *edge
 
 /* Degenerate look-at. */
 
-/* || R R^T - I ||, Frobenius. The sums are of numbers below 1, so their own rounding is below
- * 1e-15. */
-static double orthonormality_error(Mat4 r)
-{
-    double sum = 0;
-    for (int i = 0; i < 3; i++) {
-        for (int j = 0; j < 3; j++) {
-            double dot = i == j ? -1 : 0;
-            for (int k = 0; k < 3; k++)
-                dot = fma(r.m[4 * k + i], r.m[4 * k + j], dot);
-            sum += dot * dot;
-        }
-    }
-    return sqrt(sum);
-}
-
 TEST(look_at_degenerate_is_still_rigid)
 {
     Random random = {seed};
@@ -114,10 +99,10 @@ TEST(look_at_degenerate_is_still_rigid)
         Mat4 eye_from_world;
         for (int k = 0; k < 3; k++) {
             assert_false(mat4_try_look_at(eye, center, ups[k], &eye_from_world));
-            assert_true(orthonormality_error(eye_from_world) < 4e-15);
+            assert_true(quad_orthonormality_error(eye_from_world) < 4e-15);
         }
         assert_false(mat4_try_look_at(eye, eye, view, &eye_from_world));
-        assert_true(orthonormality_error(eye_from_world) < 4e-15);
+        assert_true(quad_orthonormality_error(eye_from_world) < 4e-15);
     }
 }
 
@@ -163,7 +148,7 @@ TEST(look_at_nearly_parallel_stays_orthonormal)
             assert_true(vec3_normalize(vec3_cross(view, hard_random_direction(&random)), &across));
             const Vec3 up = vec3_add(vec3_scale(view, cos(angle)), vec3_scale(across, sin(angle)));
             eye_from_world = mat4_look_at(origin, view, up);
-            worst = fmax(worst, orthonormality_error(eye_from_world));
+            worst = fmax(worst, quad_orthonormality_error(eye_from_world));
             roll = fmax(roll, fabs(mat4_transform_direction(eye_from_world, across).x));
         }
         if (!(worst < 4e-15))
