@@ -1,11 +1,10 @@
 /*
  * --error keeps its word: random scenes of all programs, drawn with random errors allowed, against
  * two judges that share nothing with the choice: the exact picture of the public interface, and for
- * a sample of the pixels an evaluator of this file (rays and the lighting equation in double
- * precision, from the OpenGL 1.1 specification).
+ * a sample of the pixels support/oracle.
  *
- * cheapest_test --markdown: what the same scenes save, as a table.
- * cheapest_test NAME --error E ...: judges this command of a program alone.
+ * cheapest_quality_test --markdown: what the same scenes save, as a table.
+ * cheapest_quality_test NAME --error E ...: judges this command of a program alone.
  */
 #include "app/stage.h"
 #include "base/cache.h"
@@ -14,6 +13,7 @@
 #include "scene/scene_example.h"
 #include "study/results/table.h"
 #include "support/examples.h"
+#include "support/oracle.h"
 #include "support/picture_check.h"
 #include "support/testing.h"
 
@@ -25,289 +25,6 @@
 /* What the judges may differ by from the chooser's comparison: colors are kept there in 16 bits
  * (0.002), and the reserve is 0.015. */
 static const double SLACK = 0.02;
-
-/* An evaluator of its own. */
-
-typedef struct Ray {
-    Vec3 from, along;
-} Ray;
-
-typedef struct Hit {
-    double t;
-    Vec3 normal; /* towards the outside or the triangle's front; of a mesh in world coordinates */
-    Vec3 face;   /* the same of the surface itself, in object coordinates */
-} Hit;
-
-static void meet(Hit *nearest, double t, double near, double far, Vec3 normal, Vec3 face)
-{
-    if (t >= near && t <= far && t < nearest->t)
-        *nearest = (Hit){t, normal, face};
-}
-
-static Vec3 at(const Ray *ray, double t)
-{
-    return vec3_add(ray->from, vec3_scale(ray->along, t));
-}
-
-/* a t^2 + 2 b t + c = 0. */
-static int roots(double a, double b, double c, double t[2])
-{
-    const double d = b * b - a * c;
-    if (a == 0 || d < 0)
-        return 0;
-    t[0] = (-b - sqrt(d)) / a;
-    t[1] = (-b + sqrt(d)) / a;
-    return 2;
-}
-
-static void meet_disc(Hit *hit, const Ray *ray, double near, double far, double z, double radius,
-                      double up)
-{
-    const double t = (z - ray->from.z) / ray->along.z;
-    const Vec3 p = at(ray, t), n = {0, 0, up};
-    if (ray->along.z != 0 && hypot(p.x, p.y) <= radius)
-        meet(hit, t, near, far, n, n);
-}
-
-static double torus_value(const Solid *solid, Vec3 p)
-{
-    return hypot(hypot(p.x, p.y) - solid->radius, p.z) - solid->tube;
-}
-
-/* The distance from the surface along the ray, in steps short enough for this tube. */
-static void meet_torus(Hit *hit, const Ray *ray, double near, double far, const Solid *solid)
-{
-    enum { STEPS = 2000 };
-    double t[2];
-    const double bound = solid->radius + solid->tube;
-    if (!roots(vec3_dot(ray->along, ray->along), vec3_dot(ray->along, ray->from),
-               vec3_dot(ray->from, ray->from) - bound * bound, t))
-        return;
-    const double step = (t[1] - t[0]) / STEPS;
-    double before = torus_value(solid, at(ray, t[0]));
-    for (int i = 1; i <= STEPS; i++) {
-        double low = t[0] + (i - 1) * step, high = low + step;
-        const double after = torus_value(solid, at(ray, high));
-        if ((before < 0) != (after < 0)) {
-            for (int k = 0; k < 50; k++) {
-                const double middle = (low + high) / 2;
-                if ((torus_value(solid, at(ray, middle)) < 0) == (before < 0))
-                    low = middle;
-                else
-                    high = middle;
-            }
-            const Vec3 p = at(ray, low);
-            const double r = hypot(p.x, p.y), share = (r - solid->radius) / r;
-            const Vec3 n = vec3_unit((Vec3){p.x * share, p.y * share, p.z});
-            meet(hit, low, near, far, n, n);
-        }
-        before = after;
-    }
-}
-
-/* Normals are of unit length at the vertices, where the transform has put them. */
-static void meet_mesh(Hit *hit, const Ray *ray, double near, double far, const Mesh *mesh,
-                      Mat4 world_normals)
-{
-    for (size_t i = 0; i < mesh->index_count; i += 3) {
-        Vec3 v[3], n[3];
-        for (size_t k = 0; k < 3; k++) {
-            const MeshVertex *vertex = &mesh->vertices[mesh->indices[i + k]];
-            v[k] = vec3_from_float(vertex->position);
-            n[k] =
-                vec3_unit(mat4_transform_direction(world_normals, vec3_from_float(vertex->normal)));
-        }
-        const Vec3 a = vec3_subtract(v[1], v[0]), b = vec3_subtract(v[2], v[0]);
-        const Vec3 face = vec3_cross(a, b), s = vec3_subtract(ray->from, v[0]);
-        const double determinant = -vec3_dot(ray->along, face);
-        if (determinant == 0)
-            continue;
-        const Vec3 m = vec3_cross(s, ray->along);
-        const double first = vec3_dot(b, m) / determinant, second = -vec3_dot(a, m) / determinant;
-        if (first < 0 || second < 0 || first + second > 1)
-            continue;
-        const Vec3 normal = vec3_add(vec3_scale(n[0], 1 - first - second),
-                                     vec3_add(vec3_scale(n[1], first), vec3_scale(n[2], second)));
-        meet(hit, vec3_dot(s, face) / determinant, near, far, normal, face);
-    }
-}
-
-static void meet_object(Hit *hit, const Ray *ray, double near, double far, const Object *object,
-                        Mat4 world_normals)
-{
-    const Solid *solid = &object->solid;
-    const double r = solid->radius, h = solid->height;
-    const Vec3 o = ray->from, d = ray->along;
-    double t[2];
-    switch (solid->kind) {
-    case SOLID_SPHERE:
-        for (int i = roots(vec3_dot(d, d), vec3_dot(d, o), vec3_dot(o, o) - r * r, t); i-- > 0;) {
-            const Vec3 n = vec3_scale(at(ray, t[i]), 1 / r);
-            meet(hit, t[i], near, far, n, n);
-        }
-        break;
-    case SOLID_DISC:
-        meet_disc(hit, ray, near, far, 0, r, 1);
-        break;
-    case SOLID_CYLINDER:
-        for (int i = roots(d.x * d.x + d.y * d.y, d.x * o.x + d.y * o.y,
-                           o.x * o.x + o.y * o.y - r * r, t);
-             i-- > 0;) {
-            const Vec3 p = at(ray, t[i]), n = {p.x / r, p.y / r, 0};
-            if (p.z >= 0 && p.z <= h)
-                meet(hit, t[i], near, far, n, n);
-        }
-        if (solid->caps & MESH_CAP_BOTTOM)
-            meet_disc(hit, ray, near, far, 0, r, -1);
-        if (solid->caps & MESH_CAP_TOP)
-            meet_disc(hit, ray, near, far, h, r, 1);
-        break;
-    case SOLID_CONE: {
-        /* x^2 + y^2 = (r - z r / h)^2 */
-        const double k = r / h, z = r - k * o.z;
-        for (int i = roots(d.x * d.x + d.y * d.y - k * k * d.z * d.z,
-                           d.x * o.x + d.y * o.y + k * z * d.z, o.x * o.x + o.y * o.y - z * z, t);
-             i-- > 0;) {
-            const Vec3 p = at(ray, t[i]);
-            const Vec3 n = vec3_unit((Vec3){p.x, p.y, k * hypot(p.x, p.y)});
-            if (p.z >= 0 && p.z <= h)
-                meet(hit, t[i], near, far, n, n);
-        }
-        meet_disc(hit, ray, near, far, 0, r, -1);
-        break;
-    }
-    case SOLID_TORUS:
-        meet_torus(hit, ray, near, far, solid);
-        break;
-    case SOLID_NONE:
-    case SOLID_BOX: /* the mesh as given is the shape */
-    case SOLID_QUAD:
-    case SOLID_TEAPOT:
-        meet_mesh(hit, ray, near, far, object->mesh, world_normals);
-        break;
-    }
-}
-
-static Vec3 times(Vec3 a, Vec3 b)
-{
-    return (Vec3){a.x * b.x, a.y * b.y, a.z * b.z};
-}
-
-/* From the viewer's coordinates, if the light is given in those. */
-static Vec3 in_world(const Light *light, const Vec3 axes[3], Vec3 v)
-{
-    if (light->space == LIGHT_WORLD)
-        return v;
-    return vec3_add(vec3_scale(axes[0], v.x),
-                    vec3_add(vec3_scale(axes[1], v.y), vec3_scale(axes[2], v.z)));
-}
-
-/* `axes`: of the viewer: right, up, back. */
-static Vec3 lit(const Scene *scene, const Material *material, Vec3 point, Vec3 normal, Vec3 viewer,
-                const Vec3 axes[3])
-{
-    Vec3 sum = vec3_add(material->emission, times(scene->global_ambient, material->ambient));
-    for (int i = 0; i < scene->light_count; i++) {
-        const Light *light = &scene->lights[i];
-        double share = 1;
-        Vec3 to_light = vec3_unit(in_world(light, axes, light->direction));
-        if (light->off)
-            continue;
-        if (light->kind != LIGHT_DIRECTIONAL) {
-            const Vec3 origin = light->space == LIGHT_WORLD ? (Vec3){0, 0, 0} : scene->camera.eye;
-            const Vec3 place = vec3_add(origin, in_world(light, axes, light->position));
-            const Vec3 way = vec3_subtract(place, point), axis = to_light;
-            const double distance = vec3_length(way);
-            const double loss =
-                light->constant + distance * (light->linear + distance * light->quadratic);
-            to_light = vec3_unit(way);
-            if (light->constant != 0 || light->linear != 0 || light->quadratic != 0)
-                share = 1 / loss;
-            if (light->kind == LIGHT_SPOT) {
-                const double along = -vec3_dot(to_light, axis);
-                share *= along >= cos(light->cutoff * acos(-1) / 180)
-                             ? pow(fmax(along, 0), light->exponent)
-                             : 0;
-            }
-        }
-        const double facing = vec3_dot(normal, to_light);
-        Vec3 one = times(light->ambient, material->ambient);
-        if (facing > 0) {
-            const Vec3 mirrored = vec3_subtract(vec3_scale(normal, 2 * facing), to_light);
-            const double cosine = scene->reflection == REFLECTION_PHONG
-                                      ? vec3_dot(mirrored, viewer)
-                                      : vec3_dot(normal, vec3_unit(vec3_add(to_light, viewer)));
-            one = vec3_add(one, vec3_scale(times(light->diffuse, material->diffuse), facing));
-            one = vec3_add(one, vec3_scale(times(light->specular, material->specular),
-                                           pow(fmax(cosine, 0), material->shininess)));
-        }
-        sum = vec3_add(sum, vec3_scale(one, share));
-    }
-    return sum;
-}
-
-/* The color of a pixel's center in steps of 1/255; false where nothing is met, and for what has no
- * formula here: a teapot, colors of vertices, shadows. */
-static bool own_color(const Scene *scene, int width, int height, int x, int y, double color[3])
-{
-    for (int i = 0; i < scene->light_count; i++)
-        if (scene->lights[i].shadows)
-            return false;
-    const Camera *camera = &scene->camera;
-    const Vec3 back = vec3_unit(vec3_subtract(camera->eye, camera->center));
-    const Vec3 right = vec3_unit(vec3_cross(camera->up, back)), up = vec3_cross(back, right);
-    /* What is seen of the width stays in narrow pictures. */
-    const double aspect = (double)width / height;
-    const double size = tan(camera->fovy * acos(-1) / 360) * fmax(1, camera->aspect / aspect);
-    const double across = ((2 * x + 1.0) / width - 1) * size * aspect;
-    const double above = (1 - (2 * y + 1.0) / height) * size;
-    const Vec3 along =
-        vec3_add(vec3_subtract(vec3_scale(right, across), back), vec3_scale(up, above));
-    const Object *seen = NULL;
-    Hit hit = {.t = INFINITY};
-    for (int i = 0; i < scene->object_count; i++) {
-        const Object *object = &scene->objects[i];
-        Mat4 inverse;
-        if (object->solid.kind == SOLID_TEAPOT || object->mesh->colors ||
-            object->mesh->lit_positions || !mat4_inverse(object->world_from_object, &inverse))
-            return false;
-        const Ray ray = {mat4_transform_point(inverse, camera->eye),
-                         mat4_transform_direction(inverse, along)};
-        const double before = hit.t;
-        meet_object(&hit, &ray, camera->near, camera->far, object,
-                    object->wrong_normals ? object->world_from_object : mat4_transpose(inverse));
-        if (hit.t < before)
-            seen = object;
-    }
-    if (!seen)
-        return false;
-    const Mat4 m = seen->world_from_object;
-    Mat4 inverse;
-    mat4_inverse(m, &inverse);
-    const Vec3 point = vec3_add(camera->eye, vec3_scale(along, hit.t));
-    const bool mesh = seen->solid.kind == SOLID_NONE || seen->solid.kind == SOLID_BOX ||
-                      seen->solid.kind == SOLID_QUAD;
-    const Mat4 normals = seen->wrong_normals ? m : mat4_transpose(inverse);
-    Vec3 normal = vec3_unit(mesh ? hit.normal : mat4_transform_direction(normals, hit.normal));
-    const bool behind = vec3_dot(hit.face, mat4_transform_direction(inverse, along)) > 0;
-    const bool back_side = behind != seen->clockwise && seen->two_sided;
-    if (back_side)
-        normal = vec3_scale(normal, -1);
-    const Vec3 sum = lit(scene, back_side ? &seen->back : &seen->front, point, normal,
-                         scene->distant_viewer ? back : vec3_unit(vec3_scale(along, -1)),
-                         (const Vec3[]){right, up, back});
-    const double channels[3] = {sum.x, sum.y, sum.z};
-    const bool clipped = scene->show_clipped && fmax(sum.x, fmax(sum.y, sum.z)) > 1;
-    for (int k = 0; k < 3; k++) {
-        double value = fmin(fmax(channels[k], 0), 1);
-        if (clipped)
-            value = k != 1;
-        if (scene->linear)
-            value = value <= 0.0031308 ? 12.92 * value : 1.055 * pow(value, 1 / 2.4) - 0.055;
-        color[k] = 255 * value;
-    }
-    return true;
-}
 
 /* The exact picture is a function of the scene and the options, and what takes longest: where the
  * choice has asked for one, the judge of the same scene gets its copy. The linker puts
@@ -622,10 +339,10 @@ static Command any_command(double most, double error, bool lit)
 /* Judging. */
 
 typedef struct Verdict {
-    double allowed, reached;            /* what was asked, and what the program says */
-    double by_reference, by_own, apart; /* own from the reference */
-    int worst[2];                       /* by the reference: column, row */
-    long long pixels, own_pixels;
+    double allowed, reached;               /* what was asked, and what the program says */
+    double by_reference, by_oracle, apart; /* own from the reference */
+    int worst[2];                          /* by the reference: column, row */
+    long long pixels, oracle_pixels;
     double plain, error;     /* the plain picture's error, and that of the choice */
     double over_plain;       /* time */
     double cost, plain_cost; /* expected */
@@ -699,22 +416,22 @@ static double look(const Judged *judged, int x, int y, double drawn[4], double c
     return apart(drawn, color);
 }
 
-static void judge_by_own(const Judged *judged, int x, int y, Verdict *verdict)
+static void judge_by_oracle(const Judged *judged, int x, int y, Verdict *verdict)
 {
     const int *place = judged->view->place;
     const double slope =
         judged->view->scene.scene.linear ? 12.92 : 1; /* of sRGB's encoding, near 0 */
     double drawn[4], color[3], own[3];
     look(judged, x, y, drawn, color);
-    if (!own_color(&judged->view->scene.scene, place[2], place[3], x, y, own))
+    if (!oracle_color(&judged->view->scene.scene, place[2], place[3], x, y, own))
         return;
-    verdict->own_pixels++;
-    verdict->by_own = fmax(verdict->by_own, apart(drawn, own));
+    verdict->oracle_pixels++;
+    verdict->by_oracle = fmax(verdict->by_oracle, apart(drawn, own));
     for (int k = 0; k < 3; k++)
         verdict->apart = fmax(verdict->apart, fabs(own[k] - color[k]) / slope);
 }
 
-/* All pixels by the reference; some, and the worst, by the evaluator of this file. */
+/* All pixels by the reference; some, and the worst, by the oracle. */
 static void judge_view(const ErrorPicture *picture, const ErrorView *view, int samples,
                        Verdict *verdict)
 {
@@ -745,11 +462,11 @@ static void judge_view(const ErrorPicture *picture, const ErrorView *view, int s
                 worst[1] = y;
             }
             if (off >= 0 && (inside <= samples || random_below(&randomness, inside / samples) == 0))
-                judge_by_own(&judged, x, y, verdict);
+                judge_by_oracle(&judged, x, y, verdict);
         }
     }
     if (verdict->pixels > before)
-        judge_by_own(&judged, worst[0], worst[1], verdict);
+        judge_by_oracle(&judged, worst[0], worst[1], verdict);
     if (largest > verdict->by_reference) {
         verdict->by_reference = largest;
         verdict->worst[0] = place[0] + worst[0];
@@ -851,17 +568,19 @@ static bool check(const Command *command, Verdict *found)
     const Verdict verdict = run(command, false);
     *found = verdict;
     const double limit = fmax(verdict.allowed, verdict.reached) + SLACK;
-    const bool kept = verdict.by_reference <= limit && verdict.by_own <= limit && !verdict.in_vain;
+    const bool kept =
+        verdict.by_reference <= limit && verdict.by_oracle <= limit && !verdict.in_vain;
     /* The two evaluators agree to a thousandth of a step before encoding. */
     const bool agree = verdict.apart < 1e-3;
     if (!kept || !agree || getenv("LIGHTING_TEST_VERBOSE")) {
         printf("%s", kept && agree ? "" : "FAILED: ");
         print_command(command, stdout);
         printf(": allowed %g, said %.2f, is %.3f by the reference at %d, %d (%lld pixels), "
-               "%.3f by the own evaluator (%lld), which are %.2g apart; plain %.2f%s\n",
+               "%.3f by the oracle (%lld), which are %.2g apart; plain %.2f%s\n",
                verdict.allowed, verdict.reached, verdict.by_reference, verdict.worst[0],
-               verdict.worst[1], verdict.pixels, verdict.by_own, verdict.own_pixels, verdict.apart,
-               verdict.plain, verdict.in_vain ? "; less exact than that, and not cheaper" : "");
+               verdict.worst[1], verdict.pixels, verdict.by_oracle, verdict.oracle_pixels,
+               verdict.apart, verdict.plain,
+               verdict.in_vain ? "; less exact than that, and not cheaper" : "");
     }
     return kept && agree;
 }
@@ -1024,7 +743,7 @@ static int judge_command(int argc, char *argv[])
         if (strcmp(EXAMPLES[i]->name, argv[1]) == 0)
             command.example = EXAMPLES[i];
     if (!command.example || argc - 2 > MAX_WORDS) {
-        fprintf(stderr, "cheapest_test: %s: no program with a scene\n", argv[1]);
+        fprintf(stderr, "cheapest_quality_test: %s: no program with a scene\n", argv[1]);
         return 2;
     }
     for (int i = 2; i < argc; i++)

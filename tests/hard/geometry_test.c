@@ -7,6 +7,7 @@
 #include "hard/hard.h"
 #include "reference/reference_trace.h"
 #include "shapes/mesh_solids.h"
+#include "support/oracle.h"
 #include "support/picture_check.h"
 #include "support/testing.h"
 
@@ -280,7 +281,7 @@ TEST_WITH(0, pictures_may_be_one_pixel_wide_or_high, NULL, forget_made)
             const HardPrecision precision = way & 1 ? HARD_MEDIUMP : HARD_HIGHP;
             world.scene.interpolation = way & 2 ? INTERPOLATION_GOURAUD : INTERPOLATION_PHONG;
             hard_draw_finite(&hard, &world.scene, precision);
-            check_centres(precision ? hard_mediump_max(&world.scene, FAR_OFF) : 1);
+            check_centres(precision ? oracle_mediump_max(&world.scene, FAR_OFF) : 1);
         }
     }
 }

@@ -2,6 +2,7 @@
 
 #include "reference/picture_error.h"
 #include "shapes/mesh_solids.h"
+#include "support/oracle.h"
 #include "support/picture_check.h"
 #include "support/testing.h"
 
@@ -215,76 +216,17 @@ void hard_two_lights(HardWorld *world, const Mesh *mesh, Mat4 world_from_object)
     world->scene.light_count = 2;
 }
 
-/*
- * highp: half a step of rounding, and floats.
- *
- * mediump: half precision, u = 2^-11. Lit at the fragments, each worst error in units of u:
- *   N: the varying 1; its length 3 (sum of squares), halved by the root, and 1 there; the product
- *      1: 4.5;
- *   L: both positions rounded, 1 each of at most 6 where the light is at least 4 away: 3, and 1 of
- *      the difference; normalized 3.5: 7.5; V likewise 1 + 3.5 = 4.5;
- *   N.L: 4.5 + 7.5, and the sum 3: 15;
- *   H: (7.5 + 4.5) / |L + V|, which is at least 1.4 within 90 degrees, 1 of that sum,
- *      normalized 3.5: 13.1; N.H: 4.5 + 13.1 + 3 = 20.6;
- *   (N.H)^s: s times that, and 4 of logarithm, product and power;
- *   the directional light, 0.2: 4.5 + 1 + 3 for N.L, less than 2 in colour; its highlight is none;
- *   four sums of colours below 1: 4.
- * By colour, plus half a step. Lit at the vertices in highp: the varying and a copy, 2 u, and half
- * a step.
- */
+/* highp: half a step of rounding, and floats. mediump lit at the vertices in highp: the varying is
+ * rounded when written and when read. Eye and light are at most 4.7 apart, no point is farther than
+ * 6 from the eye or nearer than 4.1 to the light. */
 double hard_two_lights_max(const Scene *scene, HardPrecision precision)
 {
-    const double u = 0x1p-11;
+    static const double REACH = 3.6;
     if (precision == HARD_HIGHP)
         return 1;
     if (scene->interpolation != INTERPOLATION_PHONG)
-        return 255 * 2 * u + 0.5;
-    return 255 * u * (15 * DIFFUSE + (20.6 * SHININESS + 4) * SPECULAR + 2 + 4) + 0.5;
-}
-
-/* With 11 significant bits every result is off by u = 2^-11 of itself at most. To first order, with
- * all vectors but the light's about unit length, and errors as lengths of vectors:
- *   normalizing a vector   3.5 u: its square 3 u, halved by the root; the root, the product, u each
- *   normal, viewer         4.5 u: rounded as a varying, then normalized
- *   direction to a light   (reach + 3.5) u: light, point and difference rounded, over d; normalized
- *   a dot product          the errors of both, and 3 u
- *   half vector            the errors of light and viewer, over |L + V|, at least 1.58 where they
- *                          lie at most 75 degrees apart; 4.5 u for the sum and its length
- *   reflection             2 (N.L) N - L: twice those of N.L and N, that of L, and 3 u
- * The power s of a cosine that is 1 + e is off by exp(s e) - 1 at most. The power function itself,
- * exp2(s log2(x)), adds less than 2 u. Products with colours, shares and sums: 4 u for each light.
- * Where N.L turns negative the highlight stops: a pixel for which the signs differ is off by all of
- * it, sin(37.5 degrees)^s for Blinn and 0^s for Phong. Rounding to bytes makes 0.5. */
-double hard_mediump_max(const Scene *scene, double reach)
-{
-    static const double U = 0x1p-11;
-    const bool phong = scene->reflection == REFLECTION_PHONG;
-    const double normal = 4.5 * U, viewer = 4.5 * U, light = (reach + 3.5) * U;
-    const double cosine = normal + light + 3 * U;
-    const double half = (light + viewer) / 1.58 + 4.5 * U;
-    const double reflected = 2 * (cosine + normal) + light + 3 * U;
-    const double angle = (phong ? reflected + viewer : half + normal) + 3 * U;
-    double max = 0;
-    for (int i = 0; i < 2 * scene->object_count; i++) {
-        const Object *object = &scene->objects[i / 2];
-        const Material *material = i % 2 ? &object->back : &object->front;
-        double sum = 0;
-        for (int k = 0; k < scene->light_count; k++) {
-            const Light *from = &scene->lights[k];
-            const double diffuse = fmax(
-                from->diffuse.x * material->diffuse.x,
-                fmax(from->diffuse.y * material->diffuse.y, from->diffuse.z * material->diffuse.z));
-            const double specular = fmax(from->specular.x * material->specular.x,
-                                         fmax(from->specular.y * material->specular.y,
-                                              from->specular.z * material->specular.z));
-            const double stops = pow(phong ? 0 : sin(37.5 * acos(-1) / 180), material->shininess);
-            if (!from->off)
-                sum += diffuse * cosine + 4 * U +
-                       specular * fmax(expm1(material->shininess * angle) + 2 * U, stops);
-        }
-        max = fmax(max, sum);
-    }
-    return fmin(0.5 + 255 * (max + U), 255);
+        return 255 * 2 * ORACLE_MEDIUMP_UNIT + 0.5;
+    return oracle_mediump_max(scene, REACH);
 }
 
 void hard_check_ways(Hard *hard, const char *name, const Scene *scene, double reach, int min_pixels)
@@ -293,7 +235,7 @@ void hard_check_ways(Hard *hard, const char *name, const Scene *scene, double re
     Scene way = *scene;
     way.interpolation = INTERPOLATION_PHONG;
     hard_check(hard, name, &way, HARD_HIGHP, 1, min_pixels);
-    hard_check(hard, name, &way, HARD_MEDIUMP, hard_mediump_max(scene, reach), min_pixels);
+    hard_check(hard, name, &way, HARD_MEDIUMP, oracle_mediump_max(scene, reach), min_pixels);
     way.interpolation = INTERPOLATION_GOURAUD;
     hard_check(hard, name, &way, HARD_HIGHP, 1, min_pixels);
     hard_check(hard, name, &way, HARD_MEDIUMP, COLORS_ONLY, min_pixels);

@@ -85,14 +85,8 @@ void hard_world_scale(HardWorld *world, double factor);
 /* After a copy: points the scene to the copy's lights and objects. */
 void hard_world_settle(HardWorld *world);
 
-/* The largest possible distance, in steps of 1/255, between a mediump picture lit at the fragments
- * and the exact one; the derivation is in hard.c. `reach` bounds how far eye and light are relative
- * to the distance between light and surface: the largest (|light| + |point| + d) / d, in eye
- * coordinates; 1 for directional lights. At most 255, which is no bound. */
-double hard_mediump_max(const Scene *scene, double reach);
-
 /* hard_check in both precisions, lit at the fragments and at the vertices: within 1 step in highp,
- * within hard_mediump_max for mediump fragments. At the vertices, which are always highp, mediump
+ * within oracle_mediump_max for mediump fragments. At the vertices, which are always highp, mediump
  * affects only colours: 1.5 steps. */
 void hard_check_ways(Hard *hard, const char *name, const Scene *scene, double reach,
                      int min_pixels);

@@ -5,6 +5,7 @@
 #include "hard/hard.h"
 #include "reference/reference_trace.h"
 #include "shapes/mesh_solids.h"
+#include "support/oracle.h"
 #include "support/picture_check.h"
 #include "support/testing.h"
 
@@ -151,7 +152,7 @@ static void check_at_fragments_and_vertices(const char *name, HardPrecision prec
         world.scene.reflection = (Reflection)reflection;
         world.scene.interpolation = INTERPOLATION_PHONG;
         hard_check(&hard, name, &world.scene, precision,
-                   half ? hard_mediump_max(&world.scene, NEXT_TO_IT) : 1, SIZE * SIZE / 8);
+                   half ? oracle_mediump_max(&world.scene, NEXT_TO_IT) : 1, SIZE * SIZE / 8);
         world.scene.interpolation = INTERPOLATION_GOURAUD;
         hard_check(&hard, name, &world.scene, precision, half ? 1.5 : 1, SIZE * SIZE / 8);
     }
@@ -266,8 +267,8 @@ static double compare_centres(HardPrecision precision, double margin, const Refe
 }
 
 /* In highp a cosine near 1 has a last digit of 6e-8, and the direction an error of a few of them;
- * in mediump the direction's error is that of hard_mediump_max, plus 3 units for the product. Then
- * the power: its error is exp(exponent * error) - 1 of the light. */
+ * in mediump the direction's error is that of oracle_mediump_max, plus 3 units for the product.
+ * Then the power: its error is exp(exponent * error) - 1 of the light. */
 TEST(a_cone_has_its_exact_edge)
 {
     static const double cutoffs[] = {0, 0.001, 1, 7.3, 13.7, 45, 60, 89, 90};
@@ -290,7 +291,7 @@ TEST(a_cone_has_its_exact_edge)
                 const double margin = precision == HARD_HIGHP ? 5e-7 : MEDIUMP;
                 const double max = precision == HARD_HIGHP
                                        ? 1
-                                       : fmin(255, hard_mediump_max(&world.scene, REACH) +
+                                       : fmin(255, oracle_mediump_max(&world.scene, REACH) +
                                                        255 * expm1(exponents[k] * MEDIUMP));
                 const double error = compare_centres(precision, margin, &unused, &compared);
                 worst[precision] = fmax(worst[precision], error);
@@ -387,7 +388,7 @@ TEST(intensities_of_any_size_are_finite)
             if (much < 65504)
                 hard_check(&hard, name, &world.scene, HARD_MEDIUMP,
                            interpolation ? fmin(255, 1.5 + much)
-                                         : hard_mediump_max(&world.scene, REACH),
+                                         : oracle_mediump_max(&world.scene, REACH),
                            SIZE * SIZE / 8);
             else
                 hard_draw_finite(&hard, &world.scene, HARD_MEDIUMP);

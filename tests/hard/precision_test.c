@@ -4,6 +4,7 @@
  * values: which operations are computed in it depends on the driver's compiler.
  */
 #include "hard/hard.h"
+#include "support/oracle.h"
 #include "support/picture_check.h"
 #include "support/testing.h"
 
@@ -56,7 +57,7 @@ static double worst_of(double shininess, Reflection reflection, HardPrecision pr
 }
 
 /* The largest error in steps of 1/255, by reflection: 3, 12, 37 and 8, 25, 82 were measured; the
- * bounds are a third larger. The bound of hard_mediump_max, for which every rounding is at its
+ * bounds are a third larger. The bound of oracle_mediump_max, for which every rounding is at its
  * worst, is several times as large. */
 TEST(a_highlight_loses_digits_in_mediump_as_its_shininess_grows)
 {
@@ -68,7 +69,7 @@ TEST(a_highlight_loses_digits_in_mediump_as_its_shininess_grows)
             const double shininess = rows[i].shininess;
             const double high = worst_of(shininess, (Reflection)reflection, HARD_HIGHP);
             const double medium = worst_of(shininess, (Reflection)reflection, HARD_MEDIUMP);
-            const double derived = hard_mediump_max(&world.scene, REACH);
+            const double derived = oracle_mediump_max(&world.scene, REACH);
             printf("shininess %g, %s: %.2f in highp, %.2f in mediump (derived: at most %.0f)\n",
                    shininess, reflection ? "Phong" : "Blinn-Phong", high, medium, derived);
             assert_true(high <= 1);
@@ -79,12 +80,12 @@ TEST(a_highlight_loses_digits_in_mediump_as_its_shininess_grows)
 }
 
 /* Lagrange's identity: the highlight is (1 - q^2)^(s / 2), where q is the length of a cross
- * product. With u = 2^-11, hard_mediump_max gives the errors e of the two vectors: 17 u for normal
- * and half vector, 54 u for reflection and viewer; the error of q is no larger. The slope of the
- * power over q is at most s / sqrt(s - 1) ((s - 2) / (s - 1))^(s / 2 - 1), about sqrt(s). Rounding
- * 1 - q^2 by u / 2 near 1 adds s u / 4; the square, the power and the product with a color add 9 u.
- * For s below 2 the slope has no bound where the cosine is 0, but the result is bounded by about
- * the square root of the error. The cosine's own form has s e instead of sqrt(s) e. */
+ * product. With u = 2^-11, oracle_mediump_max gives the errors e of the two vectors: 17 u for
+ * normal and half vector, 54 u for reflection and viewer; the error of q is no larger. The slope of
+ * the power over q is at most s / sqrt(s - 1) ((s - 2) / (s - 1))^(s / 2 - 1), about sqrt(s).
+ * Rounding 1 - q^2 by u / 2 near 1 adds s u / 4; the square, the power and the product with a color
+ * add 9 u. For s below 2 the slope has no bound where the cosine is 0, but the result is bounded by
+ * about the square root of the error. The cosine's own form has s e instead of sqrt(s) e. */
 static double cross_max(double s, bool phong)
 {
     const double u = 0x1p-11, e = (phong ? 54 : 17) * u;

@@ -4,6 +4,7 @@
  */
 #include "hard/hard.h"
 #include "shapes/mesh_solids.h"
+#include "support/oracle.h"
 #include "support/picture_check.h"
 #include "support/testing.h"
 
@@ -258,7 +259,7 @@ TEST(alpha_is_kept_and_colours_are_not_premultiplied)
             hard_world(&world, &hard.sphere);
             world.objects[0].front.alpha = alphas[i];
             hard_check(&hard, "alpha", &world.scene, precision,
-                       precision ? hard_mediump_max(&world.scene, REACH) : 1, SIZE * SIZE / 8);
+                       precision ? oracle_mediump_max(&world.scene, REACH) : 1, SIZE * SIZE / 8);
             assert_int_equal(pixel(SIZE / 2, SIZE / 2)[3], (int)lrint(255 * alphas[i]));
         }
     }

@@ -5,6 +5,7 @@
  */
 #include "hard/hard.h"
 #include "study/cases/hard_cases_list.h"
+#include "support/oracle.h"
 #include "support/picture_check.h"
 #include "support/testing.h"
 
@@ -14,7 +15,7 @@
 
 enum { SIZE = 40, MIN_PIXELS = 200 };
 
-/* Of light, eye and surface: see hard_mediump_max. The nearest light is 1.3 from a surface, which
+/* Of light, eye and surface: see oracle_mediump_max. The nearest light is 1.3 from a surface, which
  * is within 8 of the eye. */
 static const double REACH = 16;
 
@@ -108,7 +109,7 @@ static void check(const char *name)
     }
     for (int i = 0; i < made.scene.object_count; i++)
         made.objects[i].front.specular = made.objects[i].back.specular = (Vec3){0, 0, 0};
-    const double most = hard_mediump_max(&made.scene, REACH);
+    const double most = oracle_mediump_max(&made.scene, REACH);
     check_way(full_name, INTERPOLATION_PHONG, HARD_MEDIUMP, most);
     check_way(full_name, INTERPOLATION_GOURAUD, HARD_HIGHP, 1);
     check_way(full_name, INTERPOLATION_GOURAUD, HARD_MEDIUMP, 1.5);

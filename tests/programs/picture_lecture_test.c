@@ -3,13 +3,15 @@
  * colour that geometry and the lighting equation give at its centre, in double precision.
  *
  * Only the pictures come from the programs: shapes, numbers and the projection are written again
- * here, from the lecture. Of core/matrix only the vectors are used.
+ * here, from the lecture; the equation is that of support/oracle. Of core/matrix only the vectors
+ * are used.
  *
  * Columns and rows are in pixels from the upper left corner of a picture; a pixel's centre is at
  * its number plus one half. Colours are in steps, 0 to 255.
  */
 #include "app/stage.h"
 #include "core/matrix.h"
+#include "support/oracle.h"
 #include "support/picture_check.h"
 #include "support/testing.h"
 
@@ -201,81 +203,70 @@ static void place_shape(const Lesson *scene, double seconds, Shape *shape)
 
 /* Light. */
 
-static Vec3 unit(Vec3 v)
-{
-    return vec3_scale(v, 1 / sqrt(vec3_dot(v, v)));
-}
-
 static Vec3 towards_light(const Lesson *scene, Vec3 position)
 {
     return scene->point ? vec3_subtract(scene->light, position) : scene->light;
 }
 
+static Vec3 grey(double value)
+{
+    return (Vec3){value, value, value};
+}
+
 /* The factor of the object's colour, before clamping to 1. */
 static double shade(const Lesson *scene, Vec3 position, Vec3 normal)
 {
-    const double cosine = vec3_dot(unit(towards_light(scene, position)), unit(normal));
-    return scene->ambient + scene->light_color * fmax(cosine, 0);
+    static const Object white = {.front = {.ambient = {1, 1, 1}, .diffuse = {1, 1, 1}}};
+    const Light light = {.kind = scene->point ? LIGHT_POINT : LIGHT_DIRECTIONAL,
+                         .position = scene->light,
+                         .direction = scene->light,
+                         .diffuse = grey(scene->light_color)};
+    const Scene equation = {
+        .global_ambient = grey(scene->ambient), .lights = &light, .light_count = 1};
+    OraclePoint at = {.object = &white, .point = position, .normal = vec3_unit(normal)};
+    return oracle_light(&equation, &at).x;
 }
 
-/*
- * Error bounds for a fragment shader with 11 significant bits, as in half precision, the minimum
- * for `mediump`. A driver may shorten any operation, in any order, with products and sums fused or
- * not (Higham, Accuracy and Stability of Numerical Algorithms, sections 2.2 and 3.1): rounding to
- * 11 bits errs by a factor within 1 +- u, u = 2^-11, and n roundings in a row by a factor within 1
- * +- gamma(n); numbers below TINY may become zero. The length of an error vector is at most u times
- * the vector's, for each of its components is.
- */
-static const double HALF_UNIT = 1.0 / 2048; /* u */
-static const double TINY = 1.0 / 16384;     /* the smallest number with all its 11 bits */
+/* Of a fragment shader with 11 significant bits: numbers below this, the smallest with all its
+ * bits, may become zero. */
+static const double TINY = 1.0 / 16384;
 
-static double gamma_of(int roundings)
-{
-    return roundings * HALF_UNIT / (1 - roundings * HALF_UNIT);
-}
-
-/*
- * The length of the error of normalize(v), where v is `error` away from one of length `length`:
- *   the exact normalize moves by at most 2 |a - b| / (|a| + |b|) (Dunkl and Williams, American
- *   Mathematical Monthly 71, 1964);
- *   v.v has 3 roundings, the root halves their effect; root, reciprocal and product one each: 4.5,
- *   and half a one for two squares that become zero beside a third of at least 1/4 (normals are
- *   handed over at any length from 1/2 to 1): 5;
- *   two components of the result may become zero: less than 2 TINY.
- */
+/* v.v has 3 roundings, the root halves their effect; root, reciprocal and product one each: 4.5,
+ * and half a one for two squares that become zero beside a third of at least 1/4 (normals are
+ * handed over at any length from 1/2 to 1): 5; two components of the result may become zero: less
+ * than 2 TINY. */
 static double normalize_error(double error, double length)
 {
-    return 2 * error / (2 * length - error) + gamma_of(5) + 2 * TINY;
+    return oracle_mediump_normalized(error, length, 5) + 2 * TINY;
 }
 
 /* Per-vertex lighting: the fragment shader copies a positive shade, which is rounded when written
  * at the vertices and when read: 2. */
 static double vertex_shade_error(double shaded)
 {
-    return gamma_of(2) * shaded + TINY;
+    return oracle_mediump_gamma(2) * shaded + TINY;
 }
 
 /*
  * Per-fragment lighting, with L and A the colours of the light and the ambient light, p the
  * position, n the normal, l the light's position: p is rounded at the vertices, at most `radius`
  * from the origin, and where it is read: u each; l is rounded where it is read, l - p once; n as p,
- * at most 1 long, but TINY counts double for one handed over at half its length; normalize as
- * above; the dot product of two vectors of length 1 passes both errors on and has 3 roundings of at
- * most 1 in all; cutting at 0 adds none; (L * color) * dot + A * color: L, A and color are rounded,
- * two products, one sum: at most 6 for each of the two terms, also when color or dot is taken out
- * of the sum.
+ * at most 1 long, but TINY counts double for one handed over at half its length; cutting at 0 adds
+ * none; (L * color) * dot + A * color: L, A and color are rounded, two products, one sum: at most 6
+ * for each of the two terms, also when color or dot is taken out of the sum.
  */
 static double fragment_shade_error(const Lesson *scene, Vec3 position, double normal_length,
                                    double radius, double shaded)
 {
+    const double u = ORACLE_MEDIUMP_UNIT, sum = oracle_mediump_gamma(6);
     const double distance = vec3_length(towards_light(scene, position));
-    const double position_error = 2 * HALF_UNIT * radius + 2 * TINY;
-    const double light_error = position_error + HALF_UNIT * vec3_length(scene->light) +
-                               HALF_UNIT * (distance + position_error);
-    const double a = normalize_error(light_error, distance);
-    const double b = normalize_error(2 * HALF_UNIT + 4 * TINY, normal_length);
-    const double dot_error = a + b + a * b + gamma_of(3) * (1 + a) * (1 + b) + 3 * TINY;
-    return (1 + gamma_of(6)) * scene->light_color * dot_error + gamma_of(6) * shaded + 2 * TINY;
+    const double position_error = 2 * u * radius + 2 * TINY;
+    const double light_error =
+        position_error + u * vec3_length(scene->light) + u * (distance + position_error);
+    const double dot_error = oracle_mediump_dot(normalize_error(light_error, distance),
+                                                normalize_error(2 * u + 4 * TINY, normal_length)) +
+                             3 * TINY;
+    return (1 + sum) * scene->light_color * dot_error + sum * shaded + 2 * TINY;
 }
 
 /* The exact picture. */
@@ -330,8 +321,8 @@ typedef struct Seen {
 static Seen seen(const Lesson *scene, Size size, Vec3 position, Vec3 normal)
 {
     const Vec3 up = {0, 1, 0};
-    const Vec3 forward = unit(vec3_scale(scene->eye, -1));
-    const Vec3 right = unit(vec3_cross(forward, up));
+    const Vec3 forward = vec3_unit(vec3_scale(scene->eye, -1));
+    const Vec3 right = vec3_unit(vec3_cross(forward, up));
     const Vec3 upward = vec3_cross(right, forward);
     const Vec3 from_eye = vec3_subtract(position, scene->eye);
     const double depth = vec3_dot(from_eye, forward);

@@ -1,0 +1,64 @@
+/*
+ * oracle: what a scene shows at the centre of a pixel, in double precision: the judge of pictures
+ * and of the exact picture.
+ *
+ * Shares vectors and matrices with the programs, nothing with lighting, the shaders and reference:
+ * one ray, the formulas of the solids, every triangle of a mesh, and the lighting equation (OpenGL
+ * 1.1 specification, section 2.13.1) written again, for clarity and not for speed. Shadows, teapots
+ * and colours of vertices have no formula here.
+ */
+#ifndef ORACLE_H
+#define ORACLE_H
+
+#include "scene/scene.h"
+
+/* A point of a surface that lights are to reach, in world coordinates. */
+typedef struct OraclePoint {
+    const Object *object;
+    bool back;          /* the side that is lit is the back's, with its material */
+    Vec3 point, normal; /* unit, on the side that is lit */
+    Vec3 viewer;        /* the direction towards it, unit */
+    Vec3 place;         /* the point in object coordinates */
+    double steepness;   /* cosine between ray and surface */
+    double from_jump;   /* oracle_light sets it: how far a cosine is from where light jumps: a
+                           cone's edge, and N.L = 0 if there is a highlight */
+} OraclePoint;
+
+/* What the ray through a pixel's centre meets first; false: nothing, or something without formula.
+ */
+bool oracle_trace(const Scene *scene, int width, int height, int x, int y, OraclePoint *hit);
+
+/* The sum of the lighting equation, not clamped. Of the point are needed: object, back, point,
+ * normal, viewer. */
+Vec3 oracle_light(const Scene *scene, OraclePoint *at);
+
+/* The colour that is shown of a sum, in steps of 1/255: clamped, marked or encoded as the scene
+ * says. */
+void oracle_show(const Scene *scene, Vec3 sum, double color[3]);
+
+/* All three. */
+bool oracle_color(const Scene *scene, int width, int height, int x, int y, double color[3]);
+
+/*
+ * Bounds for a fragment shader in mediump of 11 significant bits, with u = 2^-11 for one rounding.
+ * Lengths of vectors are about 1 but where they are given; errors are lengths of vectors.
+ */
+extern const double ORACLE_MEDIUMP_UNIT; /* u */
+
+/* The relative error of so many roundings in a row. */
+double oracle_mediump_gamma(double roundings);
+
+/* After normalizing a vector of this length with this error, which is rounded so often then. */
+double oracle_mediump_normalized(double error, double length, double roundings);
+
+/* Of the dot product of two unit vectors with these errors. */
+double oracle_mediump_dot(double a, double b);
+
+/* The largest possible distance, in steps of 1/255, between a mediump picture lit at the fragments
+ * and the exact one. `reach` bounds how far eye and light are relative to the distance between
+ * light and surface: the largest (|light| + |point| + d) / d, in eye coordinates; 1 for directional
+ * lights. Light and viewer are at most 75 degrees apart wherever there is a highlight. At most 255,
+ * which is no bound. */
+double oracle_mediump_max(const Scene *scene, double reach);
+
+#endif
