@@ -1,6 +1,12 @@
+/* glslangValidator compiles to SPIR-V, a list of instructions for values that are assigned once;
+ * spirv-opt inlines, unrolls and removes until no instruction is there for nothing. Then the cost
+ * of a shader is a sum over its instructions: each has a rule, by the number of components of what
+ * it makes and of what it takes. The module is read as words, of which only types, constants and
+ * the one function matter. */
 #include "scene/shader_cost.h"
 
 #include "base/cache.h"
+#include "base/memory.h"
 #include "base/process.h"
 #include "base/text.h"
 
@@ -12,192 +18,234 @@
 /* The cost of an instruction whose result has n components, and whose largest operand has m:
  * arithmetic n * each + m * operand + once, special n * special_each + special. */
 typedef struct Rule {
-    const char *name; /* as spirv-dis has it; of OpExtInst, that of the function */
-    int each, operand, once, special_each, special;
+    const char *name; /* for the reader */
+    int number, each, operand, once, special_each, special;
 } Rule;
+
+/* Added to the number of a function of GLSL, an operand of OpExtInst. */
+enum { GLSL = 1000 };
 
 /* What GLSL ES 1.00 can become. (SPIR-V specification, section 3.42; SPIR-V extended instructions
  * for GLSL, section 2) */
 static const Rule RULES[] = {
-    {.name = "OpFNegate", .each = 1},
-    {.name = "OpFAdd", .each = 1},
-    {.name = "OpFSub", .each = 1},
-    {.name = "OpFMul", .each = 1},
-    {.name = "OpFDiv", .special_each = 1},
-    {.name = "OpFMod", .special_each = 1},
-    {.name = "OpSNegate", .each = 1},
-    {.name = "OpIAdd", .each = 1},
-    {.name = "OpISub", .each = 1},
-    {.name = "OpIMul", .each = 1},
-    {.name = "OpSDiv", .special_each = 1},
-    {.name = "OpVectorTimesScalar", .each = 1},
-    {.name = "OpMatrixTimesScalar", .each = 1},
-    {.name = "OpMatrixTimesVector", .each = -1, .operand = 2},
-    {.name = "OpVectorTimesMatrix", .each = -1, .operand = 2},
-    {.name = "OpDot", .operand = 2, .once = -1},
-    {.name = "OpConvertFToS", .each = 1},
-    {.name = "OpConvertSToF", .each = 1},
-    {.name = "OpSelect", .each = 1},
-    {.name = "OpAny", .operand = 1, .once = -1},
-    {.name = "OpAll", .operand = 1, .once = -1},
-    {.name = "OpLogicalNot", .each = 1},
-    {.name = "OpLogicalAnd", .each = 1},
-    {.name = "OpLogicalOr", .each = 1},
-    {.name = "OpLogicalEqual", .each = 1},
-    {.name = "OpLogicalNotEqual", .each = 1},
-    {.name = "OpIEqual", .each = 1},
-    {.name = "OpINotEqual", .each = 1},
-    {.name = "OpSLessThan", .each = 1},
-    {.name = "OpSLessThanEqual", .each = 1},
-    {.name = "OpSGreaterThan", .each = 1},
-    {.name = "OpSGreaterThanEqual", .each = 1},
-    {.name = "OpFOrdEqual", .each = 1},
-    {.name = "OpFOrdNotEqual", .each = 1},
-    {.name = "OpFUnordNotEqual", .each = 1},
-    {.name = "OpFOrdLessThan", .each = 1},
-    {.name = "OpFOrdLessThanEqual", .each = 1},
-    {.name = "OpFOrdGreaterThan", .each = 1},
-    {.name = "OpFOrdGreaterThanEqual", .each = 1},
-    {.name = "FAbs", .each = 1},
-    {.name = "FSign", .each = 1},
-    {.name = "Floor", .each = 1},
-    {.name = "Ceil", .each = 1},
-    {.name = "Fract", .each = 2},
-    {.name = "FMin", .each = 1},
-    {.name = "FMax", .each = 1},
-    {.name = "FClamp", .each = 2},
-    {.name = "FMix", .each = 3},
-    {.name = "Fma", .each = 2},
-    {.name = "Step", .each = 1},
-    {.name = "SmoothStep", .each = 8, .special_each = 1},
-    {.name = "Cross", .each = 3},
-    {.name = "Length", .operand = 2, .once = -1, .special = 1},
-    {.name = "Distance", .operand = 3, .once = -1, .special = 1},
-    {.name = "Normalize", .each = 1, .operand = 2, .once = -1, .special = 1},
-    {.name = "Reflect", .each = 2, .operand = 2},
-    {.name = "FaceForward", .each = 1, .operand = 2},
-    {.name = "Sqrt", .special_each = 1},
-    {.name = "InverseSqrt", .special_each = 1},
-    {.name = "Pow", .special_each = 1},
-    {.name = "Exp", .special_each = 1},
-    {.name = "Exp2", .special_each = 1},
-    {.name = "Log", .special_each = 1},
-    {.name = "Log2", .special_each = 1},
-    {.name = "Sin", .special_each = 1},
-    {.name = "Cos", .special_each = 1},
-    {.name = "Tan", .special_each = 1},
-    {.name = "Asin", .special_each = 1},
-    {.name = "Acos", .special_each = 1},
-    {.name = "Atan", .special_each = 1},
-    {.name = "Atan2", .special_each = 1},
-    {.name = "OpImageSampleImplicitLod", .special = 1},
+    {.name = "OpFNegate", .number = 127, .each = 1},
+    {.name = "OpFAdd", .number = 129, .each = 1},
+    {.name = "OpFSub", .number = 131, .each = 1},
+    {.name = "OpFMul", .number = 133, .each = 1},
+    {.name = "OpFDiv", .number = 136, .special_each = 1},
+    {.name = "OpFMod", .number = 141, .special_each = 1},
+    {.name = "OpSNegate", .number = 126, .each = 1},
+    {.name = "OpIAdd", .number = 128, .each = 1},
+    {.name = "OpISub", .number = 130, .each = 1},
+    {.name = "OpIMul", .number = 132, .each = 1},
+    {.name = "OpSDiv", .number = 135, .special_each = 1},
+    {.name = "OpVectorTimesScalar", .number = 142, .each = 1},
+    {.name = "OpMatrixTimesScalar", .number = 143, .each = 1},
+    {.name = "OpMatrixTimesVector", .number = 145, .each = -1, .operand = 2},
+    {.name = "OpVectorTimesMatrix", .number = 144, .each = -1, .operand = 2},
+    {.name = "OpDot", .number = 148, .operand = 2, .once = -1},
+    {.name = "OpConvertFToS", .number = 110, .each = 1},
+    {.name = "OpConvertSToF", .number = 111, .each = 1},
+    {.name = "OpSelect", .number = 169, .each = 1},
+    {.name = "OpAny", .number = 154, .operand = 1, .once = -1},
+    {.name = "OpAll", .number = 155, .operand = 1, .once = -1},
+    {.name = "OpLogicalNot", .number = 168, .each = 1},
+    {.name = "OpLogicalAnd", .number = 167, .each = 1},
+    {.name = "OpLogicalOr", .number = 166, .each = 1},
+    {.name = "OpLogicalEqual", .number = 164, .each = 1},
+    {.name = "OpLogicalNotEqual", .number = 165, .each = 1},
+    {.name = "OpIEqual", .number = 170, .each = 1},
+    {.name = "OpINotEqual", .number = 171, .each = 1},
+    {.name = "OpSLessThan", .number = 177, .each = 1},
+    {.name = "OpSLessThanEqual", .number = 179, .each = 1},
+    {.name = "OpSGreaterThan", .number = 173, .each = 1},
+    {.name = "OpSGreaterThanEqual", .number = 175, .each = 1},
+    {.name = "OpFOrdEqual", .number = 180, .each = 1},
+    {.name = "OpFOrdNotEqual", .number = 182, .each = 1},
+    {.name = "OpFUnordNotEqual", .number = 183, .each = 1},
+    {.name = "OpFOrdLessThan", .number = 184, .each = 1},
+    {.name = "OpFOrdLessThanEqual", .number = 188, .each = 1},
+    {.name = "OpFOrdGreaterThan", .number = 186, .each = 1},
+    {.name = "OpFOrdGreaterThanEqual", .number = 190, .each = 1},
+    {.name = "FAbs", .number = GLSL + 4, .each = 1},
+    {.name = "FSign", .number = GLSL + 6, .each = 1},
+    {.name = "Floor", .number = GLSL + 8, .each = 1},
+    {.name = "Ceil", .number = GLSL + 9, .each = 1},
+    {.name = "Fract", .number = GLSL + 10, .each = 2},
+    {.name = "FMin", .number = GLSL + 37, .each = 1},
+    {.name = "FMax", .number = GLSL + 40, .each = 1},
+    {.name = "FClamp", .number = GLSL + 43, .each = 2},
+    {.name = "FMix", .number = GLSL + 46, .each = 3},
+    {.name = "Fma", .number = GLSL + 50, .each = 2},
+    {.name = "Step", .number = GLSL + 48, .each = 1},
+    {.name = "SmoothStep", .number = GLSL + 49, .each = 8, .special_each = 1},
+    {.name = "Cross", .number = GLSL + 68, .each = 3},
+    {.name = "Length", .number = GLSL + 66, .operand = 2, .once = -1, .special = 1},
+    {.name = "Distance", .number = GLSL + 67, .operand = 3, .once = -1, .special = 1},
+    {.name = "Normalize", .number = GLSL + 69, .each = 1, .operand = 2, .once = -1, .special = 1},
+    {.name = "Reflect", .number = GLSL + 71, .each = 2, .operand = 2},
+    {.name = "FaceForward", .number = GLSL + 70, .each = 1, .operand = 2},
+    {.name = "Sqrt", .number = GLSL + 31, .special_each = 1},
+    {.name = "InverseSqrt", .number = GLSL + 32, .special_each = 1},
+    {.name = "Pow", .number = GLSL + 26, .special_each = 1},
+    {.name = "Exp", .number = GLSL + 27, .special_each = 1},
+    {.name = "Exp2", .number = GLSL + 29, .special_each = 1},
+    {.name = "Log", .number = GLSL + 28, .special_each = 1},
+    {.name = "Log2", .number = GLSL + 30, .special_each = 1},
+    {.name = "Sin", .number = GLSL + 13, .special_each = 1},
+    {.name = "Cos", .number = GLSL + 14, .special_each = 1},
+    {.name = "Tan", .number = GLSL + 15, .special_each = 1},
+    {.name = "Asin", .number = GLSL + 16, .special_each = 1},
+    {.name = "Acos", .number = GLSL + 17, .special_each = 1},
+    {.name = "Atan", .number = GLSL + 18, .special_each = 1},
+    {.name = "Atan2", .number = GLSL + 25, .special_each = 1},
+    {.name = "OpImageSampleImplicitLod", .number = 87, .special = 1},
     /* Moves and bookkeeping. */
-    {.name = "OpLoad"},
-    {.name = "OpStore"},
-    {.name = "OpAccessChain"},
-    {.name = "OpCompositeConstruct"},
-    {.name = "OpCompositeExtract"},
-    {.name = "OpCompositeInsert"},
-    {.name = "OpVectorExtractDynamic"},
-    {.name = "OpVectorInsertDynamic"},
-    {.name = "OpVectorShuffle"},
-    {.name = "OpCopyObject"},
-    {.name = "OpUndef"},
-    {.name = "OpVariable"},
-    {.name = "OpPhi"},
-    {.name = "OpFunction"},
-    {.name = "OpFunctionEnd"},
-    {.name = "OpLabel"},
-    {.name = "OpSelectionMerge"},
-    {.name = "OpBranch"},
-    {.name = "OpBranchConditional"}, /* counted apart */
-    {.name = "OpSwitch"},            /* spirv-opt's way of leaving a block; the language has none */
-    {.name = "OpReturn"},
-    {.name = "OpKill"},
-    {.name = "OpUnreachable"},
+    {.name = "OpLoad", .number = 61},
+    {.name = "OpStore", .number = 62},
+    {.name = "OpAccessChain", .number = 65},
+    {.name = "OpCompositeConstruct", .number = 80},
+    {.name = "OpCompositeExtract", .number = 81},
+    {.name = "OpCompositeInsert", .number = 82},
+    {.name = "OpVectorExtractDynamic", .number = 77},
+    {.name = "OpVectorInsertDynamic", .number = 78},
+    {.name = "OpVectorShuffle", .number = 79},
+    {.name = "OpCopyObject", .number = 83},
+    {.name = "OpUndef", .number = 1},
+    {.name = "OpVariable", .number = 59},
+    {.name = "OpPhi", .number = 245},
+    {.name = "OpFunction", .number = 54},
+    {.name = "OpFunctionEnd", .number = 56},
+    {.name = "OpLabel", .number = 248},
+    {.name = "OpSelectionMerge", .number = 247},
+    {.name = "OpBranch", .number = 249},
+    {.name = "OpBranchConditional", .number = 250}, /* counted apart */
+    {.name = "OpSwitch",
+     .number = 251}, /* spirv-opt's way of leaving a block; the language has none */
+    {.name = "OpReturn", .number = 253},
+    {.name = "OpKill", .number = 252},
+    {.name = "OpUnreachable", .number = 255},
 };
 
-static const Rule *find_rule(const char *name)
+static const Rule *find_rule(int number)
 {
     for (size_t i = 0; i < sizeof RULES / sizeof RULES[0]; i++)
-        if (strcmp(RULES[i].name, name) == 0)
+        if (RULES[i].number == number)
             return &RULES[i];
     return NULL;
 }
 
-/* What is known of the disassembly so far. */
-typedef struct Disassembly {
+/* Of instructions, by the specification's section 3.42. */
+enum {
+    OP_UNDEF = 1,
+    OP_EXT_INST = 12,
+    OP_TYPE_BOOL = 20,
+    OP_TYPE_INT,
+    OP_TYPE_FLOAT,
+    OP_TYPE_VECTOR,
+    OP_TYPE_MATRIX,
+    OP_FIRST_CONSTANT = 41,
+    OP_CONSTANT = 43,
+    OP_FUNCTION = 54,
+    OP_FUNCTION_END = 56,
+    OP_STORE = 62,
+    OP_DECORATE = 71,
+    OP_LAST_DECORATE = 76,
+    OP_VECTOR_TIMES_SCALAR = 142,
+    OP_LOOP_MERGE = 246,
+    OP_BRANCH_CONDITIONAL = 250,
+};
+
+/* Whether an instruction begins with the ids of its type and its result. */
+static bool is_typed(int op)
+{
+    return op == OP_UNDEF || op == OP_EXT_INST ||
+           (op >= OP_FIRST_CONSTANT && op < OP_LOOP_MERGE && op != OP_FUNCTION_END &&
+            op != OP_STORE && (op < OP_DECORATE || op > OP_LAST_DECORATE));
+}
+
+/* What is known of a module so far. */
+typedef struct Module {
     unsigned bound;            /* ids of types and values are less */
     unsigned char *components; /* of each; 0 if not a number */
     unsigned real, one;        /* the type float, and its constant 1.0 */
     bool function;             /* the shader's only one has begun */
-} Disassembly;
+} Module;
 
-/* Adds what one line of disassembly costs: "%9 = OpDot %6 %7 %8". */
-static bool count_line(Disassembly *known, const char *line, ShaderCost *cost, Message *message)
+/* The components of an instruction's result, which it notes; 0: it has none. */
+static int note_result(Module *module, int op, const uint32_t *operands, int count)
 {
-    unsigned result = 0, type = 0, last = 0;
-    int parts = 1, max = 0;
-    char name[64] = "", function[64] = "";
-    if (sscanf(line, " %%%u = %63s %%%u", &result, name, &type) < 2)
-        sscanf(line, " %63s", name);
-    if (result >= known->bound || type >= known->bound)
-        return message_set(message, "operations: spirv-dis says what is no SPIR-V: %s", line);
-    unsigned char *components = known->components;
-    if (strcmp(name, "OpTypeFloat") == 0 || strcmp(name, "OpTypeInt") == 0 ||
-        strcmp(name, "OpTypeBool") == 0)
-        components[result] = 1;
-    else if (sscanf(line, " %%%*u = OpTypeVector %%%*u %d", &parts) == 1 ||
-             sscanf(line, " %%%*u = OpTypeMatrix %%%*u %d", &parts) == 1)
-        components[result] = (unsigned char)(components[type] * parts);
-    else if (strncmp(name, "OpType", 6) != 0)
-        components[result] = components[type];
-    if (strcmp(name, "OpTypeFloat") == 0)
-        known->real = result;
-    if (strcmp(name, "OpConstant") == 0 && type == known->real && strstr(line, " 1\n"))
-        known->one = result;
-    known->function |= strcmp(name, "OpFunction") == 0;
-    if (!known->function)
-        return true;
+    static const uint32_t ONE = 0x3F800000;
+    const uint32_t first = count > 0 && operands[0] < module->bound ? operands[0] : 0;
+    const uint32_t second = count > 1 && operands[1] < module->bound ? operands[1] : 0;
+    unsigned char *components = module->components;
+    if (op == OP_TYPE_FLOAT || op == OP_TYPE_INT || op == OP_TYPE_BOOL)
+        components[first] = 1;
+    else if ((op == OP_TYPE_VECTOR || op == OP_TYPE_MATRIX) && count > 2)
+        components[first] = (unsigned char)(components[second] * operands[2]);
+    if (op == OP_TYPE_FLOAT)
+        module->real = first;
+    if (!is_typed(op))
+        return 0;
+    components[second] = components[first];
+    if (op == OP_CONSTANT && first == module->real && count > 2 && operands[2] == ONE)
+        module->one = second;
+    return components[second];
+}
 
-    const char *operand = strchr(line, '=');
-    while ((operand = operand ? strchr(operand + 1, '%') : NULL)) {
-        last = (unsigned)strtoul(operand + 1, NULL, 10);
-        if (last != type && last < known->bound && components[last] > max)
-            max = components[last];
-    }
+/* Adds what one instruction costs. */
+static bool count_instruction(Module *module, int op, const uint32_t *operands, int count,
+                              ShaderCost *cost, Message *message)
+{
+    const int each = note_result(module, op, operands, count);
+    const uint32_t last = count > 0 ? operands[count - 1] : 0;
+    const bool function = op == OP_EXT_INST && count > 3;
+    int max = 0;
+    module->function |= op == OP_FUNCTION;
     /* spirv-opt leaves it, no driver does. */
-    if (strcmp(name, "OpVectorTimesScalar") == 0 && last == known->one)
+    if (!module->function || (op == OP_VECTOR_TIMES_SCALAR && last == module->one))
         return true;
-    if (strcmp(name, "OpLoopMerge") == 0)
+    if (op == OP_LOOP_MERGE)
         return message_set(message, "operations: cannot unroll a loop");
-    sscanf(line, " %%%*u = OpExtInst %%%*u %%%*u %63s", function);
-    const Rule *rule = find_rule(function[0] ? function : name);
+    for (int i = function ? 4 : 2; i < count; i++)
+        if (operands[i] < module->bound && module->components[operands[i]] > max)
+            max = module->components[operands[i]];
+    const int number = function ? GLSL + (int)operands[3] : op;
+    const Rule *rule = find_rule(number);
     if (!rule)
-        return message_set(message, "operations: cannot count %s", function[0] ? function : name);
-    const int each = components[result];
+        return message_set(message, "operations: cannot count SPIR-V's %s %d",
+                           function ? "function" : "instruction", number % GLSL);
     cost->arithmetic += each * rule->each + max * rule->operand + rule->once;
     cost->special += each * rule->special_each + rule->special;
-    cost->branches += strcmp(name, "OpBranchConditional") == 0;
+    cost->branches += op == OP_BRANCH_CONDITIONAL;
     return true;
 }
 
-static bool count_disassembly(FILE *file, ShaderCost *cost, Message *message)
+/* A module is a header of five words, the fourth of which is the bound of all ids, and
+ * instructions: a word of their length in words and their number, and the operands. (section 2.3)
+ */
+static bool count_module(FILE *file, ShaderCost *cost, Message *message)
 {
-    Disassembly known = {.bound = 0};
-    char *line = NULL;
-    size_t size = 0;
-    bool done = true;
-    while (done && getline(&line, &size, file) > 0) {
-        if (!known.components && sscanf(line, "; Bound: %u", &known.bound) == 1)
-            known.components = calloc(known.bound, 1);
-        if (known.components && line[0] != ';')
-            done = count_line(&known, line, cost, message);
+    enum { LONGEST = 65535 };
+    static const uint32_t MAGIC = 0x07230203, IDS = 1 << 22;
+    uint32_t header[5], word;
+    Module module = {.bound = 0};
+    bool done = fread(header, sizeof header, 1, file) == 1 && header[0] == MAGIC && header[3] < IDS;
+    if (done) {
+        module.bound = header[3];
+        module.components = memory_new(module.bound + 1, 1);
     }
-    free(known.components);
-    free(line);
-    return done && !known.function ? message_set(message, "operations: spirv-dis says nothing")
-                                   : done;
+    uint32_t *operands = memory_new(LONGEST, sizeof *operands);
+    while (done && fread(&word, sizeof word, 1, file) == 1) {
+        const size_t count = word >> 16 ? (word >> 16) - 1 : 0;
+        done =
+            fread(operands, sizeof *operands, count, file) == count &&
+            count_instruction(&module, (int)(word & 0xFFFF), operands, (int)count, cost, message);
+    }
+    free(operands);
+    free(module.components);
+    return done && !module.function ? message_set(message, "operations: spirv-opt says nothing")
+                                    : done;
 }
 
 /* What a tool that failed said first. glslangValidator reports errors on standard output, since 14
@@ -284,91 +332,16 @@ char *shader_preprocess(const char *text, ShaderStage stage, Message *message)
 }
 
 /* Names that a shader of GLSL ES 1.00 may define, but that 3.10 keeps for itself. */
-static const char *const LATER[] = {
-    "transpose",
-    "inverse",
-    "determinant",
-    "outerProduct",
-    "round",
-    "roundEven",
-    "trunc",
-    "modf",
-    "isnan",
-    "isinf",
-    "sinh",
-    "cosh",
-    "tanh",
-    "asinh",
-    "acosh",
-    "atanh",
-    "fma",
-    "frexp",
-    "ldexp",
-    "bitCount",
-    "texture",
-    "textureSize",
-    "textureLod",
-    "textureGrad",
-    "textureProj",
-    "textureOffset",
-    "texelFetch",
-    "textureGather",
-    "dFdx",
-    "dFdy",
-    "fwidth",
-    "barrier",
-    "memoryBarrier",
-    "findLSB",
-    "findMSB",
-    "layout",
-    "centroid",
-    "smooth",
-    "patch",
-    "sample",
-    "uint",
-    "uvec2",
-    "uvec3",
-    "uvec4",
-    "mat2x2",
-    "mat2x3",
-    "mat2x4",
-    "mat3x2",
-    "mat3x3",
-    "mat3x4",
-    "mat4x2",
-    "mat4x3",
-    "mat4x4",
-    "shared",
-    "coherent",
-    "restrict",
-    "readonly",
-    "writeonly",
-    "buffer",
-    "precise",
-    "subroutine",
-    "resource",
-    "common",
-    "partition",
-    "active",
-    "filter",
-    "image1D",
-    "image2D",
-    "image3D",
-    "imageCube",
-    "isampler2D",
-    "usampler2D",
-    "sampler2DArray",
-    "samplerCubeShadow",
-    "atomic_uint",
-    "uimage2D",
-    "iimage2D",
-    "imageBuffer",
-    "samplerBuffer",
-    "noise1",
-    "noise2",
-    "noise3",
-    "noise4",
-};
+static const char LATER[] =
+    "transpose inverse determinant outerProduct round roundEven trunc modf isnan isinf "
+    "sinh cosh tanh asinh acosh atanh fma frexp ldexp bitCount texture textureSize "
+    "textureLod textureGrad textureProj textureOffset texelFetch textureGather dFdx dFdy "
+    "fwidth barrier memoryBarrier findLSB findMSB layout centroid smooth patch sample "
+    "uint uvec2 uvec3 uvec4 mat2x2 mat2x3 mat2x4 mat3x2 mat3x3 mat3x4 mat4x2 mat4x3 "
+    "mat4x4 shared coherent restrict readonly writeonly buffer precise subroutine "
+    "resource common partition active filter image1D image2D image3D imageCube "
+    "isampler2D usampler2D sampler2DArray samplerCubeShadow atomic_uint uimage2D "
+    "iimage2D imageBuffer samplerBuffer noise1 noise2 noise3 noise4 ";
 
 static bool has_word(const char *text, const char *word)
 {
@@ -395,9 +368,12 @@ static FILE *translate(const char *text, ShaderStage stage)
         fputs("#define gl_FragData operations_FragData\n"
               "layout(location = 0) out highp vec4 operations_FragData[1];\n",
               file);
-    for (size_t i = 0; i < sizeof LATER / sizeof LATER[0]; i++)
-        if (has_word(text, LATER[i]))
-            fprintf(file, "#define %s operations_%s\n", LATER[i], LATER[i]);
+    for (const char *at = LATER; *at; at += strcspn(at, " ") + 1) {
+        char word[32];
+        snprintf(word, sizeof word, "%.*s", (int)strcspn(at, " "), at);
+        if (has_word(text, word))
+            fprintf(file, "#define %s operations_%s\n", word, word);
+    }
     if (stage == SHADER_VERTEX)
         fputs("#define attribute in\n#define varying out\n", file);
     else if (strstr(text, "gl_FragData"))
@@ -424,7 +400,6 @@ static bool count(const char *text, ShaderStage stage, ShaderCost *cost, Message
                                    "/dev/stdout",
                                    NULL};
     static const char *const optimize[] = {"spirv-opt", "-O", "-", "-o", "-", NULL};
-    static const char *const disassemble[] = {"spirv-dis", "--raw-id", NULL};
     char *plain = shader_preprocess(text, stage, message);
     FILE *file = plain ? translate(plain, stage) : NULL;
     *cost = (ShaderCost){0};
@@ -435,8 +410,7 @@ static bool count(const char *text, ShaderStage stage, ShaderCost *cost, Message
         return message_set(message, "operations: no temporary file: %s", strerror(errno));
     file = run_tool(compile, "glslang-tools", file, message);
     file = file ? run_tool(optimize, "spirv-tools", file, message) : NULL;
-    file = file ? run_tool(disassemble, "spirv-tools", file, message) : NULL;
-    const bool done = file && count_disassembly(file, cost, message);
+    const bool done = file && count_module(file, cost, message);
     if (file)
         fclose(file);
     if (!done)
@@ -476,9 +450,8 @@ bool shader_cost(const char *text, ShaderStage stage, ShaderCost *cost, Message 
     CacheKey key = {{(uint64_t)stage, 0}};
     cache_key_add(&key, text, strlen(text));
     cache_key_add_program(&key);
-    const bool keeps = cache_key_add_tool(&key, "glslangValidator") &&
-                       cache_key_add_tool(&key, "spirv-opt") &&
-                       cache_key_add_tool(&key, "spirv-dis");
+    const bool keeps =
+        cache_key_add_tool(&key, "glslangValidator") && cache_key_add_tool(&key, "spirv-opt");
     if (keeps && find_kept(&key, cost))
         return true;
     if (!count(text, stage, cost, message))
