@@ -9,8 +9,8 @@
 #include "app/options.h"
 #include "base/output.h"
 #include "labs/check/judge.h"
-#include "labs/class/alone.h"
 #include "labs/class/class.h"
+#include "labs/sandbox/sandboxed_check.h"
 #include "labs/submission/verdict_json.h"
 
 #include <errno.h>
@@ -66,7 +66,6 @@ static int check(const Options *options, const Lab *lab, const char *folder, Mes
 {
     static Verdict verdict; /* large */
     const JudgeOptions judged = {.lab = lab,
-                                 .folder = folder,
                                  .seed = choose_seed(),
                                  .backend = options->canvas.backend,
                                  .pictures = pictures};
@@ -77,7 +76,7 @@ static int check(const Options *options, const Lab *lab, const char *folder, Mes
     }
     if (json && !output_check(json, message))
         return options_fail(usage.name, message, EXIT_FAILED);
-    if (!alone_judge(&judged, limit, &verdict, message))
+    if (!sandboxed_check(&judged, folder, limit, &verdict, message))
         return options_fail(usage.name, message, EXIT_FAILED);
     const bool quiet = json && json[0] == '-' && !json[1];
     if (!quiet)

@@ -1,5 +1,5 @@
 /*
- * class_fuzz: no name, stream, picture or archive does harm. The first byte selects which one
+ * class_fuzz: no name, file, picture or archive does harm. The first byte selects which one
  * follows.
  */
 #include "labs/class/class_find.h"
@@ -31,17 +31,31 @@ static void check_bundle(void)
         abort();
 }
 
-static void read_stream(const uint8_t *data, size_t size)
+/* A name, a zero byte, a size and so many bytes, again and again. */
+static void read_files(const uint8_t *data, size_t size)
 {
-    Message message = {.text = ""};
-    if (bundle_read(&bundle, data, size, &message) != (message.text[0] == '\0'))
-        abort();
+    const uint8_t *end = data + size, *name_end;
+    while ((name_end = memchr(data, 0, (size_t)(end - data))) && end - name_end > 2) {
+        const size_t rest = (size_t)(end - name_end) - 2;
+        const size_t length = name_end[1] < rest ? name_end[1] : rest;
+        Message message = {.text = ""};
+        if (bundle_add(&bundle, (const char *)data, name_end + 2, length, &message) !=
+            (message.text[0] == '\0'))
+            abort();
+        data = name_end + 2 + length;
+    }
     check_bundle();
     for (int lab = 1; lab <= 2; lab++)
         source_choose(&bundle, &LABS[lab - 1], NULL);
     check_bundle();
     source_normalize(&bundle, &LABS[2]);
     check_bundle();
+    for (int lab = 1; lab <= 3; lab++) {
+        SubmissionFiles files;
+        if (source_files(&bundle, &LABS[lab - 1], &files, NULL) && files.count == 0)
+            abort();
+        submission_files_close(&files);
+    }
     bundle_close(&bundle);
 }
 
@@ -99,7 +113,7 @@ static void read_archive(const uint8_t *data, size_t size)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    static void (*const readers[])(const uint8_t *, size_t) = {read_stream, read_name, read_picture,
+    static void (*const readers[])(const uint8_t *, size_t) = {read_files, read_name, read_picture,
                                                                read_archive};
     if (size > 0)
         readers[data[0] % 4](data + 1, size - 1);

@@ -533,7 +533,8 @@ class Results(Class):
     def judging(self, process):
         """Whether it has come to the check itself, in its sandbox."""
         try:
-            return b"--inside\0check\0" in read("/proc", str(process), "cmdline", mode="rb")
+            words = read("/proc", str(process), "cmdline", mode="rb").split(b"\0")
+            return words[1:3] == [b"--inside", b"check"]
         except OSError:
             return False
 

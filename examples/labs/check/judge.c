@@ -21,7 +21,7 @@ typedef struct Session {
     const Lab *lab;
     Verdict *verdict;
     Canvas canvas;
-    SubmissionFiles files;
+    const SubmissionFiles *files;
     SubmissionFiles plain; /* lab 10: its shaders, preprocessed; none: they cannot be */
     Shader shader, own;    /* the latter with the files' own precision, if that is another */
     Shots shots;
@@ -48,13 +48,6 @@ static bool settle(Session *session, VerdictKind kind, const Message *message, c
     snprintf(verdict->details, sizeof verdict->details, "%.*s%s%s%s", (int)(first - message->text),
              message->text, rest, rest[0] && advice ? "\n" : "", advice ? advice : "");
     return true;
-}
-
-static bool open_files(Session *session)
-{
-    Message own = {0};
-    return submission_files_open(&session->files, session->lab, session->options->folder, &own) ||
-           settle(session, VERDICT_REFUSED, &own, NULL);
 }
 
 static bool open_given(Session *session, Message *message)
@@ -87,8 +80,8 @@ static const char *text_with_error(const Session *session, const char *message)
     const char *error = strstr(message, ": error:"), *line = error ? error : message;
     while (line > message && line[-1] != '\n')
         line--;
-    for (int i = 0; i < session->files.count; i++) {
-        const ShaderText *file = &session->files.texts[i];
+    for (int i = 0; i < session->files->count; i++) {
+        const ShaderText *file = &session->files->texts[i];
         const size_t length = strlen(file->name);
         if (strncmp(line, file->name, length) == 0 && line[length] == ':')
             return file->text;
@@ -100,7 +93,7 @@ static const char *text_with_error(const Session *session, const char *message)
 static bool check_conditions(const Session *session, Message *message)
 {
     static const char *const endings[] = {[SHADER_VERTEX] = ".vert", [SHADER_FRAGMENT] = ".frag"};
-    const ShaderLoader loader = {.texts = session->files.texts, .only_texts = true};
+    const ShaderLoader loader = {.texts = session->files->texts, .only_texts = true};
     bool done = true;
     for (int stage = 0; stage < 2 && done; stage++) {
         char name[64];
@@ -122,7 +115,7 @@ static bool open_shader(Session *session, Message *message)
     Message own = {0};
     if (session->lab->given)
         return open_given(session, message);
-    if (!submission_compile(&session->own, session->lab, &session->files, NULL, &own)) {
+    if (!submission_compile(&session->own, session->lab, session->files, NULL, &own)) {
         char advice[512];
         const bool known =
             shader_advice(text_with_error(session, own.text), own.text, advice, sizeof advice);
@@ -134,20 +127,20 @@ static bool open_shader(Session *session, Message *message)
         return settle(session, VERDICT_REFUSED, &own, NULL);
     if (session->lab->budget) {
         /* The driver draws the very text that is counted. Without the tools nothing is counted. */
-        if (!budget_preprocess(&session->files, &session->plain, NULL) ||
+        if (!budget_preprocess(session->files, &session->plain, NULL) ||
             !submission_compile(&session->shader, session->lab, &session->plain, NULL, NULL))
-            return submission_compile(&session->shader, session->lab, &session->files, NULL,
+            return submission_compile(&session->shader, session->lab, session->files, NULL,
                                       message);
         return true;
     }
-    if (!has_mediump(&session->files)) {
+    if (!has_mediump(session->files)) {
         session->shader = session->own;
         session->own = (Shader){0};
         return true;
     }
     /* What links only as it is, is drawn as it is. */
-    return submission_compile(&session->shader, session->lab, &session->files, "highp", NULL) ||
-           submission_compile(&session->shader, session->lab, &session->files, NULL, message);
+    return submission_compile(&session->shader, session->lab, session->files, "highp", NULL) ||
+           submission_compile(&session->shader, session->lab, session->files, NULL, message);
 }
 
 /* Adds each scene's result; returns the worst, or -1 if all are right. */
@@ -193,7 +186,7 @@ static bool take_matrices(Session *session, const char *text, Message *message)
 static bool take_code(Session *session, Message *message)
 {
     const Lab *lab = session->lab;
-    const char *text = lab->code ? submission_file(&session->files, lab->code) : NULL;
+    const char *text = lab->code ? submission_file(session->files, lab->code) : NULL;
     if (!text)
         return true;
     if (lab->given)
@@ -238,7 +231,7 @@ static bool is_right_with(Session *session, int slices, const char *precision, b
 {
     Shader shader = {0};
     const bool compiled =
-        submission_compile(&shader, session->lab, &session->files, precision, NULL);
+        submission_compile(&shader, session->lab, session->files, precision, NULL);
     const Painter painter = {.lab = session->lab, .program = shader.program};
     Shots *shots = &session->shots;
     *right = false;
@@ -287,12 +280,12 @@ static bool explain(Session *session, const Painter *painter, const char *number
 {
     Verdict *verdict = session->verdict;
     bool found;
-    if (text_is_starter(session->lab, &session->files)) {
+    if (text_is_starter(session->lab, session->files)) {
         snprintf(verdict->message, sizeof verdict->message, "unchanged: this is the starter");
         return true;
     }
     if (numbers[0] && !session->lab->given) {
-        if (text_has_word(&session->files, "gl_FragCoord"))
+        if (text_has_word(session->files, "gl_FragCoord"))
             blame_known(verdict, "depends on the picture's size");
         else
             snprintf(verdict->message, sizeof verdict->message, "right in small scenes only");
@@ -300,7 +293,7 @@ static bool explain(Session *session, const Painter *painter, const char *number
         return true;
     }
     if (!session->lab->given &&
-        text_find_fault(session->lab, &session->files, own_program(session), verdict)) {
+        text_find_fault(session->lab, session->files, own_program(session), verdict)) {
         symptoms_describe(&session->shots, session->moved, verdict);
         return true;
     }
@@ -312,7 +305,7 @@ static bool explain(Session *session, const Painter *painter, const char *number
     if (session->lab->given && verdict->mistake_count == 0)
         matrices_name(&session->shots, verdict);
     if (!session->lab->given && verdict->mistake_count == 0)
-        text_find_suspicion(session->lab, &session->files, verdict);
+        text_find_suspicion(session->lab, session->files, verdict);
     if (numbers[0])
         verdict_add_symptom(verdict, "%s", numbers);
     return true;
@@ -334,7 +327,7 @@ static bool look_closer(Session *session, const Painter *painter, int worst, boo
     if (!right) {
         *wrong = true;
         snprintf(numbers, VERDICT_SENTENCE_SIZE, "%s",
-                 text_has_word(&session->files, "gl_FragCoord")
+                 text_has_word(session->files, "gl_FragCoord")
                      ? "The picture is right at small sizes only: it depends on the picture's size "
                        "or place, as by gl_FragCoord."
                      : "The scenes are right, but in a picture of some 400x400 pixels the error is "
@@ -364,8 +357,8 @@ static bool judge_pictures(Session *session, Message *message)
     int worst = add_probes(&session->shots, verdict);
     if (!look_closer(session, &painter, worst, &outside, numbers, message))
         return false;
-    const bool overrun = worst < 0 && !outside && !session->lab->given &&
-                         text_find_overrun(&session->files, verdict);
+    const bool overrun =
+        worst < 0 && !outside && !session->lab->given && text_find_overrun(session->files, verdict);
     const bool wrong = worst >= 0 || outside || overrun;
     verdict->kind = wrong ? VERDICT_WRONG : VERDICT_RIGHT;
     if (!wrong) {
@@ -393,10 +386,8 @@ static bool judge_pictures(Session *session, Message *message)
 static bool judge_submission(Session *session, Message *message)
 {
     const CanvasOptions canvas = {.backend = session->options->backend, .width = 96, .height = 96};
-    bool done = open_files(session);
-    if (done && !session->settled)
-        done = shots_open(&session->shots, session->lab, session->options->seed, message) &&
-               take_code(session, message);
+    bool done = shots_open(&session->shots, session->lab, session->options->seed, message) &&
+                take_code(session, message);
     if (done && !session->settled)
         done = canvas_open(&session->canvas, &canvas, message) && open_shader(session, message);
     if (done && !session->settled)
@@ -408,14 +399,14 @@ bool judge(const JudgeOptions *options, Verdict *verdict, Message *message)
 {
     const double start = clock_now();
     *verdict = (Verdict){.seed = options->seed};
-    Session session = {.options = options, .lab = options->lab, .verdict = verdict};
+    Session session = {
+        .options = options, .lab = options->lab, .verdict = verdict, .files = options->files};
     const bool done = judge_submission(&session, message);
     shots_close(&session.shots);
     shader_close(&session.shader);
     shader_close(&session.own);
     submission_files_close(&session.plain);
     canvas_close(&session.canvas);
-    submission_files_close(&session.files);
     verdict->seconds = clock_now() - start;
     return done;
 }

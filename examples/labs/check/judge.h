@@ -1,19 +1,21 @@
 /*
  * judge: compares one submission with the exact pictures of a lab's scenes.
  *
- * Submitted shaders may hang or crash the driver: call it in a separate process.
+ * Submitted shaders may hang or crash the driver: call it in a separate process
+ * (sandboxed_check.h).
  */
 #ifndef JUDGE_H
 #define JUDGE_H
 
 #include "core/canvas.h"
+#include "labs/submission/submission.h"
 #include "labs/submission/verdict.h"
 
 #include <sys/resource.h>
 
 typedef struct JudgeOptions {
     const Lab *lab;
-    const char *folder; /* the submission's */
+    const SubmissionFiles *files; /* the submission's */
     uint64_t seed;
     const CanvasBackend *backend; /* NULL: the default one */
     const char *scratch;          /* an empty folder; NULL if the lab has no C */

@@ -1,12 +1,13 @@
 #include "labs/class/class.h"
 
 #include "app/options.h"
+#include "base/memory.h"
 #include "labs/class/class_front.h"
 #include "labs/class/class_html.h"
 #include "labs/class/class_judge.h"
 #include "labs/class/class_options.h"
 #include "labs/class/class_table.h"
-#include "labs/sandbox/inside.h"
+#include "labs/sandbox/sandboxed_main.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -45,8 +46,8 @@ static int lab_in_files(const FoundList *list)
 {
     enum { LOOKED_AT = 20 };
     int number = 0;
-    Bundle *bundle = calloc(1, sizeof *bundle);
-    for (int i = 0; bundle && i < list->count && i < LOOKED_AT && !number; i++) {
+    Bundle *bundle = memory_new(1, sizeof *bundle);
+    for (int i = 0; i < list->count && i < LOOKED_AT && !number; i++) {
         char archive[PATH_MAX];
         if (class_read(&list->items[i], bundle, archive, NULL))
             for (int j = 0; j < bundle->count && !number; j++)
@@ -115,20 +116,19 @@ static bool same_lab(const ClassStore *store, const Lab *lab, Message *message)
 static bool judge_class(const ClassOptions *options, const FoundList *list, const Lab *lab,
                         Message *message)
 {
-    Sandbox *sandbox = calloc(1, sizeof *sandbox);
+    static Sandbox sandbox; /* large */
     ClassStore store = {.lock = -1};
+    const ClassJudging judging = {options, lab, list, &sandbox, &store, &interrupted};
     Message notes = {.text = ""};
-    bool done = sandbox ? true : message_set(message, "%s", strerror(ENOMEM));
-    done = done && class_store_open(&store, options->output, &notes, message) &&
-           same_lab(&store, lab, message) && open_sandbox(options, lab, sandbox, message);
+    bool done = class_store_open(&store, options->output, &notes, message) &&
+                same_lab(&store, lab, message) && open_sandbox(options, lab, &sandbox, message);
     say(&notes);
     options_catch_signals(interrupt, (int)SA_RESETHAND); /* the second ends it at once */
-    done = done && class_judge(options, lab, list, sandbox, &store, &interrupted, message);
+    done = done && class_judge(&judging, message);
     /* Report what is known, even after a failure. */
     if (store.lock >= 0 && store.count > 0 && !report(&store, message))
         done = false;
     class_store_close(&store);
-    free(sandbox);
     return done;
 }
 
@@ -204,7 +204,7 @@ bool class_main(int argc, char *argv[], int *code)
     ClassOptions options;
     Message message = {.text = ""};
     if (argc > 1 && strcmp(argv[1], "--inside") == 0) {
-        *code = inside_main(argc - 2, argv + 2);
+        *code = sandboxed_main(argc - 2, argv + 2);
         return true;
     }
     if (!is_given(argc, argv))
@@ -219,14 +219,12 @@ bool class_main(int argc, char *argv[], int *code)
         }
     }
     const size_t size = ((size_t)argc + 1) * sizeof *argv;
-    char **given = malloc(size); /* the names are moved to the front */
-    if (given)
-        memcpy(given, argv, size);
+    char **given = memory_copy(argv, size); /* the names are moved to the front */
     if (!class_options_read(&options, argc, argv, &message)) {
         *code = options_fail(PROGRAM, &message, EXIT_USAGE);
     } else if (options.help) {
         *code = options_finish(PROGRAM, 0);
-    } else if (options.deterministic && !(given && options_restart(given, &message))) {
+    } else if (options.deterministic && !options_restart(given, &message)) {
         *code = options_fail(PROGRAM, &message, EXIT_FAILED);
     } else {
         *code = options.folder ? run_class(&options, &message) : run_merge(&options, &message);

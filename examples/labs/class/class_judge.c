@@ -1,6 +1,12 @@
+/* Each slot holds a submission that is judged in a process of its own; when one ends, its verdict
+ * goes into the store, and the slot to the next submission. What timed out beside others is judged
+ * once more, alone, at the end: wall time is shared, and a busy machine is no fault of a student.
+ */
 #include "labs/class/class_judge.h"
 
+#include "base/memory.h"
 #include "base/progress.h"
+#include "labs/sandbox/sandboxed_check.h"
 #include "labs/sandbox/source.h"
 #include "labs/submission/verdict_json.h"
 
@@ -8,12 +14,10 @@
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
-enum { LATE_MAX = 4096 };        /* submissions */
 enum { ARCHIVE_MAX = 64 << 20 }; /* bytes */
 
 /* One submission being judged. */
@@ -21,17 +25,12 @@ typedef struct Job {
     const Found *found;
     ClassResult result;
     SandboxRun run;
-    Bundle files; /* the submission's, later the result's */
-    bool unpacking;
 } Job;
 
 typedef struct Judging {
-    const ClassOptions *options;
-    const Lab *lab;
-    const Sandbox *sandbox;
-    ClassStore *store;
+    const ClassJudging *of;
     Job *jobs[CLASS_JOBS_MAX];
-    const Found *late[LATE_MAX]; /* timed out beside others */
+    const Found **late; /* timed out beside others */
     int late_count;
     bool alone; /* these are tried again, one at a time */
     int done, total;
@@ -50,8 +49,11 @@ static bool settle(Judging *judging, Job *job, Message *message)
     bool kept;
     ClassResult *result = &job->result;
     const VerdictKind kind = result->verdict.kind;
+    size_t size;
+    char *picture = sandbox_part(&job->run, 3, &size);
     result->when = (long long)time(NULL);
-    const bool done = class_store_put(judging->store, result, &job->files, &kept, message);
+    const bool done =
+        class_store_put(judging->of->store, result, (unsigned char *)picture, size, &kept, message);
     if (done && kind != VERDICT_RIGHT && kind != VERDICT_WRONG) {
         progress_end(&judging->progress);
         fprintf(stderr, "check: %s: %s: %s%s\n", result->student, VERDICT_NAMES[kind],
@@ -74,117 +76,69 @@ static bool give(Judging *judging, Job *job, VerdictKind kind, const char *sente
     return settle(judging, job, message);
 }
 
-static bool give_timeout(Judging *judging, Job *job, Message *message)
-{
-    char sentence[200];
-    if (!judging->alone && judging->late_count < LATE_MAX) {
-        judging->late[judging->late_count++] = job->found;
-        return true;
-    }
-    snprintf(sentence, sizeof sentence,
-             "stopped after %.0f s of processor time: look for an endless loop",
-             judging->options->limit);
-    return give(judging, job, VERDICT_TIMEOUT, sentence, message);
-}
-
-/* The verdict for a run without a result. */
-static bool settle_failed(Judging *judging, Job *job, SandboxEnd end, Message *message)
-{
-    char line[1024], sentence[1200];
-    sandbox_last_line(&job->run, line);
-    if (end == SANDBOX_REFUSED)
-        return give(judging, job, VERDICT_REFUSED, line[0] ? line : "could not be read", message);
-    if (end == SANDBOX_TIMEOUT)
-        return give_timeout(judging, job, message);
-    snprintf(sentence, sizeof sentence, "judging failed: %s",
-             job->run.too_much ? "too much output"
-             : line[0]         ? line
-                               : "no result");
-    return give(judging, job, VERDICT_ERROR, sentence, message);
-}
-
-/* A file in memory for the sandbox to read; -1, with a message: failed. */
-static int open_input(const Bundle *files, Message *message)
-{
-    const int file = memfd_create("submission", MFD_CLOEXEC);
-    if (file >= 0 && bundle_write(files, file, message) && lseek(file, 0, SEEK_SET) == 0)
-        return file;
-    message_set(message, "a file in memory: %s", strerror(errno));
-    if (file >= 0)
-        close(file);
-    return -1;
-}
-
-/* Starts judging the job's files. *ended: it is settled already. */
-static bool start_judging(Judging *judging, Job *job, int slot, bool *ended, Message *message)
-{
-    char seed[32];
-    Message why = {.text = ""};
-    *ended = !source_choose(&job->files, judging->lab, &why);
-    if (*ended)
-        return give(judging, job, VERDICT_REFUSED, why.text, message);
-    source_normalize(&job->files, judging->lab);
-    const int input = open_input(&job->files, message);
-    bundle_close(&job->files);
-    if (input < 0)
-        return false;
-    job->unpacking = false;
-    snprintf(seed, sizeof seed, "%llu", (unsigned long long)judging->options->seed);
-    const bool done =
-        sandbox_start(judging->sandbox, &job->run, slot, input,
-                      (const char *const[]){"judge", judging->lab->name, seed, NULL}, message);
-    close(input);
-    return done;
-}
-
-/* The hash of an open file; rewinds it. */
-static bool hash_archive(int file, uint64_t *hash, Message *message)
+/* The hash of an archive. */
+static bool hash_archive(const char *path, uint64_t *hash, Message *message)
 {
     unsigned char block[16384];
     struct stat status;
-    ssize_t count;
-    if (fstat(file, &status) != 0 || !S_ISREG(status.st_mode))
-        return message_set(message, "the archive is a link or a device; submit the file itself");
-    if (status.st_size > ARCHIVE_MAX)
-        return message_set(message, "the archive has %.0f MB; at most %d MB",
-                           (double)status.st_size / (1 << 20), ARCHIVE_MAX >> 20);
+    ssize_t count = -1;
+    const int file = open(path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    bool done = false;
     *hash = SOURCE_HASH_START;
-    while ((count = read(file, block, sizeof block)) > 0)
-        *hash = source_hash_bytes(*hash, block, (size_t)count);
-    return count == 0 && lseek(file, 0, SEEK_SET) == 0
-               ? true
-               : message_set(message, "the archive cannot be read: %s", strerror(errno));
+    if (file < 0 || fstat(file, &status) != 0)
+        message_set(message, "the archive cannot be read: %s", strerror(errno));
+    else if (!S_ISREG(status.st_mode))
+        message_set(message, "the archive is a link or a device; submit the file itself");
+    else if (status.st_size > ARCHIVE_MAX)
+        message_set(message, "the archive has %.0f MB; at most %d MB",
+                    (double)status.st_size / (1 << 20), ARCHIVE_MAX >> 20);
+    else {
+        while ((count = read(file, block, sizeof block)) > 0)
+            *hash = source_hash_bytes(*hash, block, (size_t)count);
+        done =
+            count == 0 || message_set(message, "the archive cannot be read: %s", strerror(errno));
+    }
+    if (file >= 0)
+        close(file);
+    return done;
 }
 
 static bool stands(const Judging *judging, const Job *job)
 {
-    return !judging->options->again &&
-           class_result_stands(class_store_find(judging->store, job->found->folder),
-                               judging->lab->name, job->result.hash, judging->options->limit);
+    return !judging->of->options->again &&
+           class_result_stands(class_store_find(judging->of->store, job->found->folder),
+                               judging->of->lab->name, job->result.hash,
+                               judging->of->options->limit);
 }
 
-static bool start_archive(Judging *judging, Job *job, const char *path, int slot, bool *ended,
-                          Message *message)
+/* What the sandbox is to judge. The caller frees the inputs. */
+static SandboxedCheck check_of(const Judging *judging, const Found *found, const char *archive)
 {
-    Message why = {.text = ""};
-    bool done = true;
-    const int file = open(path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-    if (file < 0)
-        message_set(&why, "the archive cannot be read: %s", strerror(errno));
-    *ended = true;
-    if (file < 0 || !hash_archive(file, &job->result.hash, &why)) {
-        done = give(judging, job, VERDICT_REFUSED, why.text, message);
-    } else if (stands(judging, job)) {
-        judging->done++;
-    } else {
-        *ended = false;
-        job->unpacking = true;
-        done = sandbox_start(judging->sandbox, &job->run, slot, file,
-                             (const char *const[]){"unpack", NULL}, message);
-    }
-    if (file >= 0)
-        close(file);
-    return done;
+    const int count = archive[0] || found->kind == FOUND_FOLDER ? 1 : found->count;
+    SandboxInput *inputs = memory_new((size_t)count, sizeof *inputs);
+    inputs[0] = (SandboxInput){archive[0] ? archive : found->path, ""};
+    if (!archive[0] && found->kind == FOUND_FILES)
+        for (int i = 0; i < count; i++)
+            inputs[i] = (SandboxInput){found->files[i].path, found->files[i].name};
+    return (SandboxedCheck){.lab = judging->of->lab,
+                            .seed = judging->of->options->seed,
+                            .kind = archive[0]                    ? SOURCE_ARCHIVE
+                                    : found->kind == FOUND_FOLDER ? SOURCE_FOLDER
+                                                                  : SOURCE_FILES,
+                            .inputs = inputs,
+                            .count = count};
+}
+
+/* Hashes a submission, which has to be readable. *archive: it is in this one. */
+static bool hash_found(const Found *found, char archive[PATH_MAX], uint64_t *hash, Message *why)
+{
+    Bundle *files = memory_new(1, sizeof *files);
+    const bool done = class_read(found, files, archive, why);
+    if (done && !archive[0])
+        *hash = source_hash(files);
+    bundle_close(files);
+    free(files);
+    return done && (!archive[0] || hash_archive(archive, hash, why));
 }
 
 /* Starts one submission. *ended: it is settled already. */
@@ -194,73 +148,46 @@ static bool start(Judging *judging, Job *job, const Found *found, int slot, bool
     char archive[PATH_MAX];
     Message why = {.text = ""};
     job->found = found;
-    job->result =
-        (ClassResult){.limit = judging->options->limit, .verdict.seed = judging->options->seed};
+    job->result = (ClassResult){.limit = judging->of->options->limit,
+                                .verdict.seed = judging->of->options->seed};
     memcpy(job->result.student, found->name.student, sizeof job->result.student);
     memcpy(job->result.id, found->name.id, sizeof job->result.id);
     job->result.attempt = found->attempt;
     memcpy(job->result.folder, found->folder, sizeof job->result.folder);
-    snprintf(job->result.lab, sizeof job->result.lab, "%s", judging->lab->name);
+    snprintf(job->result.lab, sizeof job->result.lab, "%s", judging->of->lab->name);
     *ended = true;
-    if (!class_read(found, &job->files, archive, &why)) {
+    if (!hash_found(found, archive, &job->result.hash, &why)) {
         /* Unreadable: no content to hash, so hash the reason. */
-        job->result.hash = source_hash_bytes(SOURCE_HASH_START, why.text, strlen(why.text));
+        if (!archive[0])
+            job->result.hash = source_hash_bytes(SOURCE_HASH_START, why.text, strlen(why.text));
         return give(judging, job, VERDICT_REFUSED, why.text, message);
     }
-    if (archive[0])
-        return start_archive(judging, job, archive, slot, ended, message);
-    job->result.hash = source_hash(&job->files);
     if (stands(judging, job)) {
         judging->done++;
         return true;
     }
-    return start_judging(judging, job, slot, ended, message);
+    *ended = false;
+    const SandboxedCheck check = check_of(judging, found, archive);
+    const bool done = sandboxed_check_start(judging->of->sandbox, &job->run, slot, &check, message);
+    free((void *)check.inputs);
+    return done;
 }
 
-/* Reads the verdict that the sandbox wrote; false if it is invalid. */
-static bool take_verdict(Judging *judging, Job *job, Message *why)
+/* Settles a run that has ended, or puts it off. */
+static bool end(Judging *judging, Job *job, Message *message)
 {
-    char lab[64];
-    const BundleFile *file = bundle_find(&job->files, "verdict.json");
-    if (!file)
-        return message_set(why, "no result");
-    if (!verdict_read(file->bytes, file->size, lab, &job->result.verdict, why))
-        return false;
-    if (strcmp(lab, judging->lab->name) != 0 || job->result.verdict.seed != judging->options->seed)
-        return message_set(why, "it is of another lab or seed");
-    return true;
-}
-
-static bool settle_judged(Judging *judging, Job *job, Message *message)
-{
-    char sentence[1200];
+    Verdict *verdict = &job->result.verdict;
     Message why = {.text = ""};
-    if (!take_verdict(judging, job, &why)) {
-        job->result.verdict = (Verdict){.seed = judging->options->seed};
-        snprintf(sentence, sizeof sentence, "invalid result: %.1000s", why.text);
-        return give(judging, job, VERDICT_ERROR, sentence, message);
-    }
-    if (job->result.verdict.kind == VERDICT_TIMEOUT)
-        return give_timeout(judging, job, message);
-    job->result.finished = true;
-    return settle(judging, job, message);
-}
-
-/* Continues after a run. *ended: the submission is settled. */
-static bool advance_job(Judging *judging, Job *job, int slot, bool *ended, Message *message)
-{
-    Message why = {.text = ""};
-    *ended = true;
-    const SandboxEnd end = sandbox_end(&job->run);
-    if (end != SANDBOX_DONE)
-        return settle_failed(judging, job, end, message);
-    bundle_close(&job->files);
-    if (!bundle_read(&job->files, job->run.bytes, job->run.size, &why))
+    const SandboxedCheck check = {.lab = judging->of->lab, .seed = judging->of->options->seed};
+    if (!sandboxed_check_end(judging->of->sandbox, &job->run, &check, verdict, &why)) {
+        *verdict = (Verdict){.seed = check.seed};
         return give(judging, job, VERDICT_ERROR, why.text, message);
-    sandbox_close(&job->run);
-    if (!job->unpacking)
-        return settle_judged(judging, job, message);
-    return start_judging(judging, job, slot, ended, message);
+    }
+    job->result.finished = verdict->kind != VERDICT_TIMEOUT;
+    if (job->result.finished || judging->alone)
+        return settle(judging, job, message);
+    judging->late[judging->late_count++] = job->found;
+    return true;
 }
 
 static void free_job(Job *job)
@@ -268,23 +195,25 @@ static void free_job(Job *job)
     if (!job)
         return;
     sandbox_close(&job->run);
-    bundle_close(&job->files);
     free(job);
 }
 
-/* Starts submissions until every slot is busy or none are left. */
-static bool fill(Judging *judging, const FoundList *list, int *next, Message *message)
+static Job *new_job(void)
 {
-    for (int slot = 0; slot < judging->options->jobs; slot++) {
-        while (!judging->jobs[slot] && *next < list->count) {
-            const Found *found = &list->items[(*next)++];
+    Job *job = memory_new(1, sizeof *job);
+    job->run.pipe = -1;
+    return job;
+}
+
+/* Starts submissions until each slot is busy or none are left. */
+static bool fill(Judging *judging, const Found *const queue[], int *next, int slots,
+                 Message *message)
+{
+    for (int slot = 0; slot < slots; slot++) {
+        while (!judging->jobs[slot] && queue[*next]) {
             bool ended = true;
-            if (!class_in_part(judging->options, found->folder))
-                continue;
-            Job *job = calloc(1, sizeof *job);
-            if (!job)
-                return message_set(message, "%s", strerror(ENOMEM));
-            const bool done = start(judging, job, found, slot, &ended, message);
+            Job *job = new_job();
+            const bool done = start(judging, job, queue[(*next)++], slot, &ended, message);
             if (done && !ended)
                 judging->jobs[slot] = job;
             else
@@ -301,7 +230,7 @@ static bool advance(Judging *judging, bool *busy, Message *message)
 {
     SandboxRun *runs[CLASS_JOBS_MAX];
     int count = 0;
-    for (int slot = 0; slot < judging->options->jobs; slot++)
+    for (int slot = 0; slot < CLASS_JOBS_MAX; slot++)
         if (judging->jobs[slot])
             runs[count++] = &judging->jobs[slot]->run;
     *busy = count > 0;
@@ -309,51 +238,46 @@ static bool advance(Judging *judging, bool *busy, Message *message)
         return true;
     sandbox_wait(runs, count, 0.2);
     progress_update(&judging->progress, judging->done, judging->total);
-    for (int slot = 0; slot < judging->options->jobs; slot++) {
+    for (int slot = 0; slot < CLASS_JOBS_MAX; slot++) {
         Job *job = judging->jobs[slot];
-        bool ended = false;
         if (!job || job->run.running)
             continue;
-        if (!advance_job(judging, job, slot, &ended, message))
+        if (!end(judging, job, message))
             return false;
-        if (ended) {
-            free_job(job);
-            judging->jobs[slot] = NULL;
-        }
+        free_job(job);
+        judging->jobs[slot] = NULL;
     }
     return true;
 }
 
-bool class_judge(const ClassOptions *options, const Lab *lab, const FoundList *list,
-                 const Sandbox *sandbox, ClassStore *store,
-                 const volatile sig_atomic_t *interrupted, Message *message)
+/* Judges those of the queue, which ends with NULL, so many at a time. */
+static bool judge_queue(Judging *judging, const Found *const queue[], int slots, Message *message)
 {
-    Judging judging = {.options = options,
-                       .lab = lab,
-                       .sandbox = sandbox,
-                       .store = store,
-                       .progress = progress_start(lab->name)};
     int next = 0;
-    bool done = true, busy = true;
-    for (int i = 0; i < list->count; i++)
-        judging.total += class_in_part(options, list->items[i].folder);
-    while (done && busy && !*interrupted)
-        done = fill(&judging, list, &next, message) && advance(&judging, &busy, message);
-    judging.alone = true;
-    for (int i = 0; i < judging.late_count && done && !*interrupted; i++) {
-        bool ended = true;
-        Job *job = calloc(1, sizeof *job);
-        done = job ? start(&judging, job, judging.late[i], 0, &ended, message)
-                   : message_set(message, "%s", strerror(ENOMEM));
-        if (done && !ended)
-            judging.jobs[0] = job;
-        else
-            free_job(job);
-        for (busy = true; done && busy && !*interrupted;)
-            done = advance(&judging, &busy, message);
+    bool done = true;
+    for (bool busy = true; done && busy && !*judging->of->interrupted;)
+        done = fill(judging, queue, &next, slots, message) && advance(judging, &busy, message);
+    for (int slot = 0; slot < slots; slot++) {
+        free_job(judging->jobs[slot]);
+        judging->jobs[slot] = NULL;
     }
-    for (int slot = 0; slot < options->jobs; slot++)
-        free_job(judging.jobs[slot]);
+    return done;
+}
+
+bool class_judge(const ClassJudging *of, Message *message)
+{
+    Judging judging = {.of = of, .progress = progress_start(of->lab->name)};
+    const size_t size = (size_t)of->list->count + 1;
+    const Found **queue = memory_new(size, sizeof *queue);
+    judging.late = memory_new(size, sizeof *queue);
+    for (int i = 0; i < of->list->count; i++)
+        if (class_in_part(of->options, of->list->items[i].folder))
+            queue[judging.total++] = &of->list->items[i];
+    bool done = judge_queue(&judging, queue, of->options->jobs, message);
+    judging.alone = true;
+    done = done && judge_queue(&judging, judging.late, 1, message);
+    free(queue);
+    free(judging.late);
     progress_end(&judging.progress);
     return done;
 }

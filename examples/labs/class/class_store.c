@@ -1,5 +1,6 @@
 #include "labs/class/class_store.h"
 
+#include "base/memory.h"
 #include "base/output.h"
 #include "labs/sandbox/png_copy.h"
 #include "labs/submission/verdict_json.h"
@@ -85,37 +86,33 @@ static bool read_result(const char *path, ClassResult *result, Message *message)
                               object ? why.text : error.text);
 }
 
-static bool add(ClassStore *store, const ClassResult *result, Message *message)
+static void add(ClassStore *store, const ClassResult *result)
 {
     ClassResult *results =
-        realloc(store->results, ((size_t)store->count + 1) * sizeof *store->results);
-    if (!results)
-        return message_set(message, "%s", strerror(ENOMEM));
+        memory_grow(store->results, (size_t)store->count + 1, sizeof *store->results);
     store->results = results;
     int at = store->count++;
     for (; at > 0 && strcmp(results[at - 1].folder, result->folder) > 0; at--)
         results[at] = results[at - 1];
     results[at] = *result;
-    return true;
 }
 
 static bool read_one(ClassStore *store, const char *name, Message *notes, Message *message)
 {
     char path[PATH_MAX];
     Message why = {.text = ""};
-    ClassResult *result = calloc(1, sizeof *result);
-    bool done = result && class_store_path(store->folder, name, "result.json", path, message);
-    if (!result)
-        message_set(message, "%s", strerror(ENOMEM));
-    if (done && access(path, F_OK) == 0) {
-        memcpy(result->folder, name, strlen(name) + 1);
-        if (read_result(path, result, &why))
-            done = add(store, result, message);
-        else if (notes)
-            message_add(notes, "%s%s", notes->text[0] ? "\n" : "", why.text);
-    }
+    if (!class_store_path(store->folder, name, "result.json", path, message))
+        return false;
+    if (access(path, F_OK) != 0)
+        return true;
+    ClassResult *result = memory_new(1, sizeof *result);
+    memcpy(result->folder, name, strlen(name) + 1);
+    if (read_result(path, result, &why))
+        add(store, result);
+    else if (notes)
+        message_add(notes, "%s%s", notes->text[0] ? "\n" : "", why.text);
     free(result);
-    return done;
+    return true;
 }
 
 bool class_store_read(ClassStore *store, const char *folder, Message *notes, Message *message)
@@ -219,66 +216,55 @@ static bool write_result(const char *path, const ClassResult *result, Message *m
 }
 
 /* Writes the result's picture; if it is invalid, the result names none. */
-static bool write_picture(const ClassStore *store, ClassResult *result, const Bundle *files,
-                          Message *message)
+static bool write_picture(const ClassStore *store, ClassResult *result, unsigned char *picture,
+                          size_t size, Message *message)
 {
     char path[PATH_MAX];
     Verdict *verdict = &result->verdict;
-    const BundleFile *file =
-        files && verdict->picture[0] ? bundle_find(files, verdict->picture) : NULL;
-    size_t size = file ? file->size : 0;
-    if (!file || !png_copy(file->bytes, &size, NULL)) {
+    if (!verdict->picture[0] || !picture || !png_copy(picture, &size, NULL)) {
         verdict->picture[0] = '\0';
         return true;
     }
     return class_store_path(store->folder, result->folder, verdict->picture, path, message) &&
-           output_write(path, file->bytes, size, message);
+           output_write(path, picture, size, message);
 }
 
-bool class_store_put(ClassStore *store, const ClassResult *result, const Bundle *files, bool *kept,
-                     Message *message)
+bool class_store_put(ClassStore *store, const ClassResult *result, unsigned char *picture,
+                     size_t size, bool *kept, Message *message)
 {
     char path[PATH_MAX];
-    ClassResult *old = class_store_find(store, result->folder), *next = malloc(sizeof *next);
-    if (!next)
-        return message_set(message, "%s", strerror(ENOMEM));
-    *next = *result;
+    ClassResult *old = class_store_find(store, result->folder);
+    ClassResult *next = memory_copy(result, sizeof *result);
     const bool keep = !old || !class_result_is_worse(next, old);
-    bool done =
-        !keep || (class_store_path(store->folder, next->folder, NULL, path, message) &&
-                  output_folder(path, message) && write_picture(store, next, files, message) &&
-                  class_store_path(store->folder, next->folder, "result.json", path, message) &&
-                  write_result(path, next, message));
+    const bool done =
+        !keep ||
+        (class_store_path(store->folder, next->folder, NULL, path, message) &&
+         output_folder(path, message) && write_picture(store, next, picture, size, message) &&
+         class_store_path(store->folder, next->folder, "result.json", path, message) &&
+         write_result(path, next, message));
     if (done && keep && old)
         *old = *next;
     else if (done && keep)
-        done = add(store, next, message);
+        add(store, next);
     if (kept)
         *kept = keep;
     free(next);
     return done;
 }
 
-/* Reads the picture of another folder's result, if there is one. */
-static bool read_picture(const ClassStore *from, const ClassResult *result, Bundle *files,
-                         Message *message)
+/* The picture of another folder's result, for the caller to free; NULL: there is none. */
+static unsigned char *read_picture(const ClassStore *from, const ClassResult *result, size_t *size)
 {
     char path[PATH_MAX];
-    size_t size;
-    if (!result->verdict.picture[0])
-        return true;
-    if (!class_store_path(from->folder, result->folder, result->verdict.picture, path, message))
-        return false;
-    unsigned char *bytes = read_file(path, &size, NULL);
-    const bool done = !bytes || bundle_add(files, result->verdict.picture, bytes, size, message);
-    free(bytes);
-    return done;
+    if (!result->verdict.picture[0] ||
+        !class_store_path(from->folder, result->folder, result->verdict.picture, path, NULL))
+        return NULL;
+    return read_file(path, size, NULL);
 }
 
 bool class_store_merge(ClassStore *store, const ClassStore *from, Message *message)
 {
-    Bundle *files = calloc(1, sizeof *files);
-    bool done = files ? true : message_set(message, "%s", strerror(ENOMEM));
+    bool done = true;
     for (int i = 0; i < from->count && done; i++) {
         const ClassResult *next = &from->results[i];
         const ClassResult *old = class_store_find(store, next->folder);
@@ -286,13 +272,12 @@ bool class_store_merge(ClassStore *store, const ClassStore *from, Message *messa
             done = message_set(message, "%s: has results of %s, but %s has those of %s",
                                from->folder, next->lab, store->folder, store->results[0].lab);
         } else if (!old || old->hash == next->hash || old->when <= next->when) {
-            done = read_picture(from, next, files, message) &&
-                   class_store_put(store, next, files, NULL, message);
-            bundle_close(files);
+            size_t size = 0;
+            unsigned char *picture = read_picture(from, next, &size);
+            done = class_store_put(store, next, picture, size, NULL, message);
+            free(picture);
         }
     }
-    bundle_close(files);
-    free(files);
     return done;
 }
 

@@ -54,10 +54,10 @@ bool class_result_stands(const ClassResult *result, const char *lab, uint64_t ha
  * finished, or has fewer points. */
 bool class_result_is_worse(const ClassResult *next, const ClassResult *old);
 
-/* Writes a result, after its picture from `files` (may be NULL), unless it is worse than the
- * existing one. *kept, if not NULL: it was written. */
-bool class_store_put(ClassStore *store, const ClassResult *result, const Bundle *files, bool *kept,
-                     Message *message);
+/* Writes a result, after its picture (may be NULL; is changed, see png_copy), unless it is worse
+ * than the existing one. *kept, if not NULL: it was written. */
+bool class_store_put(ClassStore *store, const ClassResult *result, unsigned char *picture,
+                     size_t size, bool *kept, Message *message);
 
 /* Adds every result of `from`; of two different submissions of a student the one judged last
  * counts. False: the labs differ. */

@@ -38,18 +38,12 @@ bool text_is_same(const char *a, const char *b)
 bool text_is_starter(const Lab *lab, const SubmissionFiles *files)
 {
     SubmissionFiles starter;
-    char folder[PATH_MAX], name[64];
-    static const char *const endings[] = {".vert", ".frag"};
+    char folder[PATH_MAX], names[LAB_MAX_FILES][LAB_NAME_SIZE];
     if (!lab_folder(lab, folder, NULL) || !submission_files_open(&starter, lab, folder, NULL))
         return false;
     bool same = true;
-    for (int i = 0; i < 2 && !lab->given; i++) {
-        snprintf(name, sizeof name, "%s%s", lab->file, endings[i]);
-        same = same && text_is_same(submission_file(files, name), submission_file(&starter, name));
-    }
-    if (lab->code)
-        same = same && text_is_same(submission_file(files, lab->code),
-                                    submission_file(&starter, lab->code));
+    for (int i = 0, count = lab_files(lab, names); i < count && same; i++)
+        same = text_is_same(submission_file(files, names[i]), submission_file(&starter, names[i]));
     submission_files_close(&starter);
     return same;
 }

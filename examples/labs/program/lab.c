@@ -77,6 +77,18 @@ const Lab *lab_find(const char *text, Message *message)
     return NULL;
 }
 
+int lab_files(const Lab *lab, char names[LAB_MAX_FILES][LAB_NAME_SIZE])
+{
+    int count = 0;
+    if (!lab->given) {
+        snprintf(names[count++], LAB_NAME_SIZE, "%s.vert", lab->file);
+        snprintf(names[count++], LAB_NAME_SIZE, "%s.frag", lab->file);
+    }
+    if (lab->code)
+        snprintf(names[count++], LAB_NAME_SIZE, "%s", lab->code);
+    return count;
+}
+
 bool lab_folder(const Lab *lab, char folder[PATH_MAX], Message *message)
 {
     char source[64], tried[PATH_MAX];

@@ -42,6 +42,11 @@ extern const Lab LABS[LAB_COUNT];
  * nearest or all. */
 const Lab *lab_find(const char *text, Message *message);
 
+/* The names of the files that a submission has to have: its two shaders, its C, or all of them.
+ * Returns how many. */
+enum { LAB_MAX_FILES = 3, LAB_NAME_SIZE = 64 };
+int lab_files(const Lab *lab, char names[LAB_MAX_FILES][LAB_NAME_SIZE]);
+
 /* The folder with the lab's task and starter; false, with a message: there is none. */
 bool lab_folder(const Lab *lab, char folder[PATH_MAX], Message *message);
 

@@ -1,8 +1,5 @@
 /*
- * bundle: a few small files in memory, and as one stream of bytes.
- *
- * Everything into and out of a sandbox is such a stream: no folder is shared, and no name chosen by
- * a student reaches the file system outside.
+ * bundle: a few small files in memory, so that no name chosen by a student reaches the file system.
  */
 #ifndef BUNDLE_H
 #define BUNDLE_H
@@ -40,13 +37,6 @@ bool bundle_add(Bundle *bundle, const char *name, const void *bytes, size_t size
 
 /* The file of this name; NULL: there is none. */
 const BundleFile *bundle_find(const Bundle *bundle, const char *name);
-
-/* Writes the stream: for each file a line "SIZE NAME" and its bytes, then a line "end". */
-bool bundle_write(const Bundle *bundle, int file, Message *message);
-
-/* Adds the files of an untrusted stream. False, with a message, if it deviates from what
- * bundle_write writes, or is too large. */
-bool bundle_read(Bundle *bundle, const void *bytes, size_t size, Message *message);
 
 /* NULL or zeroed is fine. */
 void bundle_close(Bundle *bundle);

@@ -1,12 +1,11 @@
 /*
  * sandbox: runs this program again as a process with few rights, to judge untrusted submissions.
  *
- * Input is one open file; output is one stream of bytes (bundle.h) and a few lines of text, both
- * untrusted. If bubblewrap works, the process sees only the system's programs and libraries, this
- * program and the labs' folder, all read-only, and an empty folder in memory; it has no network,
- * sees no other process, and dies with this one. Limits on time, memory, file sizes and processes
- * always hold. If this program runs as root, the process does not, because root has no process
- * limit.
+ * A submission is bound read-only; one pipe brings text and results, both untrusted. If bubblewrap
+ * works, the process sees only the system's programs and libraries, this program, the labs' folder
+ * and the submission, all read-only, and an empty folder in memory; it has no network, sees no
+ * other process, and dies with this one. Limits on time, memory, file sizes and processes always
+ * hold. If this program runs as root, the process does not, because root has no process limit.
  *
  * None of that is taken for granted: sandbox_open first runs a process that tries to break out.
  */
@@ -22,13 +21,13 @@
 
 enum {
     SANDBOX_PROCESSES = 24,        /* threads count; the C compiler needs five */
-    SANDBOX_MEMORY = 3000,         /* MB of address space per process */
+    SANDBOX_MEMORY = 2048,         /* MB of address space per process; compiling takes over 1024 */
     SANDBOX_FILE = 16,             /* MB per file */
     SANDBOX_FOLDER = 64,           /* MB of all files together; only with bubblewrap */
     SANDBOX_OUTPUT_MAX = 32 << 20, /* bytes */
-    SANDBOX_SAID_SIZE = 4096,      /* of its standard error */
     SANDBOX_SECONDS_MAX = 3600,
     SANDBOX_RUNS_MAX = 256, /* at once */
+    SANDBOX_BROKEN = 5,     /* its exit code if not the submission is at fault */
 };
 
 /* What the process tried in vain. */
@@ -43,7 +42,7 @@ typedef struct Sandbox {
     unsigned proven;        /* of SandboxProof */
     char program[PATH_MAX]; /* this one */
     char folder[PATH_MAX];  /* of all labs, readable: it also has the headers for their C */
-    double seconds;         /* of processor time per run; see sandbox_patience */
+    double seconds;         /* of processor time per run */
 } Sandbox;
 
 /* Opens the best sandbox that works for a lab's submissions. `hidden` is an existing path that the
@@ -57,44 +56,61 @@ bool sandbox_admits(const Sandbox *sandbox, const Lab *lab, Message *message);
 /* What is proven, in one line. */
 void sandbox_describe(const Sandbox *sandbox, char text[256]);
 
-/* The wall time allowed for so many seconds of processor time, which runs share. */
-double sandbox_patience(double seconds);
+/* What a submission is on disk. */
+typedef enum SandboxSource {
+    SOURCE_EXACT,   /* a folder with the lab's very files */
+    SOURCE_FOLDER,  /* one with these files somewhere, under whatever names (source.h) */
+    SOURCE_FILES,   /* such files */
+    SOURCE_ARCHIVE, /* an archive of such a folder */
+} SandboxSource;
 
-/* One process, running or ended. Zeroed: none. */
+/* A file or folder that the process may read, and what the student calls it. */
+typedef struct SandboxInput {
+    const char *path, *name;
+} SandboxInput;
+
+/* One process, running or ended. Zeroed: none.
+ *
+ * Standard output and error are one pipe. A zero byte in it says that what follows is the work of
+ * the driver and the compiler on the submission, a second one begins the result, a third one the
+ * picture. */
 typedef struct SandboxRun {
     pid_t pid;
-    int output, errors; /* pipes; -1: closed */
-    unsigned char *bytes;
+    int pipe; /* -1: closed */
+    char *bytes;
     size_t size, capacity;
-    char said[SANDBOX_SAID_SIZE]; /* the end of its standard error */
-    size_t said_size;
-    double deadline;
+    double start, deadline;
     char folder[PATH_MAX]; /* removed at the end; empty: none */
     bool running, timed_out, too_much;
-    int status; /* from waitpid */
+    int status; /* its exit code; 128 more than the number of a signal */
 } SandboxRun;
 
-typedef enum SandboxEnd {
-    SANDBOX_DONE,    /* its stream is in `bytes` */
-    SANDBOX_REFUSED, /* sandbox_last_line says why */
-    SANDBOX_TIMEOUT,
-    SANDBOX_FAILED, /* a signal, too much output, an unknown exit code */
-} SandboxEnd;
-
-/* Starts `PROGRAM --inside ... arguments` with the open file `input` as standard input. `arguments`
- * end with NULL. Each concurrent run has its own `slot`, 0 to SANDBOX_RUNS_MAX - 1. */
-bool sandbox_start(const Sandbox *sandbox, SandboxRun *run, int slot, int input,
-                   const char *const arguments[], Message *message);
+/* Starts `PROGRAM --inside STEP USER SECONDS FOLDER arguments`, then the place and the name of each
+ * input. `arguments` begin with the step and end with NULL. Each concurrent run has its own `slot`,
+ * 0 to SANDBOX_RUNS_MAX - 1. The process ends, if not by the processor time that it may use, at one
+ * deadline. */
+bool sandbox_start(const Sandbox *sandbox, SandboxRun *run, int slot, const char *const arguments[],
+                   const SandboxInput *inputs, int count, Message *message);
 
 /* Reads the runs' output and kills those past their deadline, until one has ended, a signal
  * arrives, or `seconds` have passed. */
 void sandbox_wait(SandboxRun *const runs[], int count, double seconds);
 
+typedef enum SandboxEnd {
+    SANDBOX_DONE,    /* there is a result */
+    SANDBOX_TIMEOUT, /* at the deadline, or out of processor time */
+    SANDBOX_CRASHED, /* while it worked on the submission */
+    SANDBOX_FAILED,  /* sandbox_reason */
+} SandboxEnd;
+
 SandboxEnd sandbox_end(const SandboxRun *run);
 
-/* The last line of its standard error that does not start with a space, as quoted source lines do:
- * at most 1000 bytes, without control characters. */
-void sandbox_last_line(const SandboxRun *run, char text[1024]);
+/* The result (part 2) or the picture (3); NULL: there is none. */
+char *sandbox_part(const SandboxRun *run, int part, size_t *size);
+
+/* Why there is no result: the last line before it that does not start with a space, as quoted
+ * source lines do, of at most 1000 bytes, without control characters. */
+void sandbox_reason(const SandboxRun *run, char text[1024]);
 
 /* Ends it if it still runs. NULL or zeroed is fine. */
 void sandbox_close(SandboxRun *run);

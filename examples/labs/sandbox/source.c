@@ -379,3 +379,24 @@ void source_normalize(Bundle *bundle, const Lab *lab)
     if (lab->code)
         rename_only(bundle, lab->code, code);
 }
+
+bool source_files(const Bundle *bundle, const Lab *lab, SubmissionFiles *files, Message *message)
+{
+    char names[LAB_MAX_FILES][LAB_NAME_SIZE];
+    bool done = true;
+    *files = (SubmissionFiles){.count = 0};
+    for (int i = 0, count = lab_files(lab, names); i < count && done; i++) {
+        const BundleFile *file = bundle_find(bundle, names[i]);
+        done = file ? submission_files_add(files, names[i], file->bytes, file->size, message)
+                    : message_set(message, "%s: " SUBMISSION_MISSING, names[i]);
+    }
+    for (int i = 0; i < bundle->count && done && !lab->given; i++) {
+        const BundleFile *file = &bundle->files[i];
+        if (!strchr(file->name, '/') && submission_may_include(file->name) &&
+            !submission_file(files, file->name))
+            submission_files_add(files, file->name, file->bytes, file->size, NULL);
+    }
+    if (!done)
+        submission_files_close(files);
+    return done;
+}

@@ -6,6 +6,7 @@
 
 #include "labs/program/lab.h"
 #include "labs/sandbox/bundle.h"
+#include "labs/submission/submission.h"
 
 #include <stdint.h>
 
@@ -37,5 +38,9 @@ bool source_choose(Bundle *bundle, const Lab *lab, Message *message);
 /* Gives the files the names and the encoding that the lab needs: lower case, without ".txt" at the
  * end, "lab05.vert" for the only vertex shader, UTF-8 for UTF-16. */
 void source_normalize(Bundle *bundle, const Lab *lab);
+
+/* Of these the lab's files and those that shaders may include. False, with a message: one of the
+ * former is missing, too large or no text. */
+bool source_files(const Bundle *bundle, const Lab *lab, SubmissionFiles *files, Message *message);
 
 #endif

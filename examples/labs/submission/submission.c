@@ -1,5 +1,7 @@
 #include "labs/submission/submission.h"
 
+#include "base/memory.h"
+
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -17,34 +19,24 @@ static bool ends_in(const char *name, const char *end)
     return length > size && strcmp(name + length - size, end) == 0;
 }
 
-static bool read_text(int file, const char *name, size_t size, char **text, Message *message)
+bool submission_files_add(SubmissionFiles *files, const char *name, const void *bytes, size_t size,
+                          Message *message)
 {
-    size_t got = 0;
-    ssize_t part = 0;
-    *text = malloc(size + 1);
-    if (!*text)
-        return message_set(message, "%s: not enough memory", name);
-    while (got < size && (part = read(file, *text + got, size - got)) > 0)
-        got += (size_t)part;
-    (*text)[got] = '\0';
-    if (part >= 0 && strlen(*text) == got)
-        return true;
-    message_set(message, "%s: %s", name, part < 0 ? strerror(errno) : "not a text file");
-    free(*text);
-    return false;
+    if (size > SHADER_FILE_MAX)
+        return message_set(message, "%s: has %zu bytes; at most %d are allowed", name, size,
+                           SHADER_FILE_MAX);
+    if (memchr(bytes, '\0', size))
+        return message_set(message, "%s: not a text file", name);
+    if (files->count == SUBMISSION_MAX_FILES)
+        return message_set(message, "%s: more than %d files", name, SUBMISSION_MAX_FILES);
+    files->texts[files->count++] = (ShaderText){memory_text(name), memory_copy(bytes, size)};
+    return true;
 }
 
-/* Reads one file of an open folder; follows no link and never blocks. */
-static bool read_file(SubmissionFiles *files, int folder, const char *name, Message *message)
+/* Reads and closes a file. */
+static bool read_open(SubmissionFiles *files, int file, const char *name, Message *message)
 {
     struct stat status;
-    char *text = NULL, *copy = NULL;
-    const int file = openat(folder, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-    if (file < 0)
-        return message_set(message, "%s: %s", name,
-                           errno == ELOOP    ? "is a link; submit the file itself"
-                           : errno == ENOENT ? "is missing from the folder"
-                                             : strerror(errno));
     bool done = fstat(file, &status) == 0;
     if (!done)
         message_set(message, "%s: %s", name, strerror(errno));
@@ -53,18 +45,32 @@ static bool read_file(SubmissionFiles *files, int folder, const char *name, Mess
     else if (status.st_size > SHADER_FILE_MAX)
         done = message_set(message, "%s: has %lld bytes; at most %d are allowed", name,
                            (long long)status.st_size, SHADER_FILE_MAX);
-    done = done && read_text(file, name, (size_t)status.st_size, &text, message);
-    close(file);
-    if (!done)
-        return false;
-    copy = strdup(name);
-    if (!copy || files->count == SUBMISSION_MAX_FILES) {
-        free(copy);
-        free(text);
-        return message_set(message, "%s: more than %d files", name, SUBMISSION_MAX_FILES);
+    if (done) {
+        char *bytes = memory_new((size_t)status.st_size, 1);
+        const ssize_t size = read(file, bytes, (size_t)status.st_size);
+        done = size >= 0 ? submission_files_add(files, name, bytes, (size_t)size, message)
+                         : message_set(message, "%s: %s", name, strerror(errno));
+        free(bytes);
     }
-    files->texts[files->count++] = (ShaderText){copy, text};
-    return true;
+    close(file);
+    return done;
+}
+
+/* Reads one file of an open folder; follows no link and never blocks. */
+static bool read_file(SubmissionFiles *files, int folder, const char *name, Message *message)
+{
+    const int file = openat(folder, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (file >= 0)
+        return read_open(files, file, name, message);
+    return message_set(message, "%s: %s", name,
+                       errno == ELOOP    ? "is a link; submit the file itself"
+                       : errno == ENOENT ? SUBMISSION_MISSING
+                                         : strerror(errno));
+}
+
+bool submission_may_include(const char *name)
+{
+    return ends_in(name, ".glsl") || ends_in(name, ".vert") || ends_in(name, ".frag");
 }
 
 /* Files that may be included; unreadable ones are ignored. */
@@ -76,9 +82,7 @@ static void read_others(SubmissionFiles *files, int folder)
         close(again);
     struct dirent *entry;
     for (int i = 0; list && i < MAX_ENTRIES && (entry = readdir(list)); i++)
-        if ((ends_in(entry->d_name, ".glsl") || ends_in(entry->d_name, ".vert") ||
-             ends_in(entry->d_name, ".frag")) &&
-            !submission_file(files, entry->d_name))
+        if (submission_may_include(entry->d_name) && !submission_file(files, entry->d_name))
             read_file(files, folder, entry->d_name, NULL);
     if (list)
         closedir(list);
@@ -87,7 +91,7 @@ static void read_others(SubmissionFiles *files, int folder)
 bool submission_files_open(SubmissionFiles *files, const Lab *lab, const char *folder,
                            Message *message)
 {
-    static const char *const endings[] = {".vert", ".frag"};
+    char names[LAB_MAX_FILES][LAB_NAME_SIZE];
     *files = (SubmissionFiles){.count = 0};
     const int directory = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (directory < 0)
@@ -95,13 +99,8 @@ bool submission_files_open(SubmissionFiles *files, const Lab *lab, const char *f
                            errno == ENOTDIR ? "not a folder; name the folder with the files"
                                             : strerror(errno));
     bool done = true;
-    for (int i = 0; i < 2 && done && !lab->given; i++) {
-        char name[64];
-        snprintf(name, sizeof name, "%s%s", lab->file, endings[i]);
-        done = read_file(files, directory, name, message);
-    }
-    if (done && lab->code)
-        done = read_file(files, directory, lab->code, message);
+    for (int i = 0, count = lab_files(lab, names); i < count && done; i++)
+        done = read_file(files, directory, names[i], message);
     if (done && !lab->given)
         read_others(files, directory);
     close(directory);

@@ -25,6 +25,17 @@ typedef struct SubmissionFiles {
  * or not a regular file of this folder. */
 bool submission_files_open(SubmissionFiles *files, const Lab *lab, const char *folder,
                            Message *message);
+
+/* Adds a copy of a file. False, with a message: it is too large, not a text, or one too many. */
+bool submission_files_add(SubmissionFiles *files, const char *name, const void *bytes, size_t size,
+                          Message *message);
+
+/* Whether a file's name is one that a shader may include. */
+bool submission_may_include(const char *name);
+
+/* What is said of a required file. */
+#define SUBMISSION_MISSING "is missing from the folder"
+
 const char *submission_file(const SubmissionFiles *files, const char *name); /* its text, or NULL */
 void submission_files_close(SubmissionFiles *files);
 

@@ -28,6 +28,12 @@ void verdict_add_mistake(Verdict *verdict, const char *name, const char *sentenc
     mistake->sure = sure;
 }
 
+void verdict_refuse(Verdict *verdict, uint64_t seed, const Message *why)
+{
+    *verdict = (Verdict){.kind = VERDICT_REFUSED, .seed = seed};
+    snprintf(verdict->message, sizeof verdict->message, "%.500s", why->text);
+}
+
 static int passed(const Verdict *verdict)
 {
     int count = 0;

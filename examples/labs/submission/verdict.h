@@ -83,6 +83,9 @@ void verdict_add_symptom(Verdict *verdict, const char *format, ...)
 void verdict_add_mistake(Verdict *verdict, const char *name, const char *sentence, const char *look,
                          double sure);
 
+/* The verdict on a submission whose files cannot be judged. */
+void verdict_refuse(Verdict *verdict, uint64_t seed, const Message *why);
+
 /* Sets the points: 10 if right; otherwise 1 for compiling and drawing, and up to 8 for the share of
  * scenes passed, in halves. Lab 10: see budget_score. */
 void verdict_score(Verdict *verdict);

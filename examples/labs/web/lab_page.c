@@ -43,19 +43,6 @@ static const char *text_end(FILE *file)
     return whole && page.text ? page.text : "";
 }
 
-/* A lab's own files: two shaders, its C, or both. NULL ends the list. */
-static void file_names(const Lab *lab, char names[4][64])
-{
-    int count = 0;
-    memset(names, 0, 4 * sizeof *names);
-    if (!lab->given) {
-        snprintf(names[count++], sizeof *names, "%s.vert", lab->file);
-        snprintf(names[count++], sizeof *names, "%s.frag", lab->file);
-    }
-    if (lab->code)
-        snprintf(names[count], sizeof *names, "%s", lab->code);
-}
-
 static void put_pair(FILE *file, const char *start, const char *name, const char *text)
 {
     fprintf(file, "%s\"%s\": ", start, name);
@@ -64,13 +51,12 @@ static void put_pair(FILE *file, const char *start, const char *name, const char
 
 static void put_files(FILE *file, const Lab *lab)
 {
-    char folder[PATH_MAX], names[4][64];
+    char folder[PATH_MAX], names[LAB_MAX_FILES][LAB_NAME_SIZE];
     SubmissionFiles starter = {.count = 0};
     if (!lab_folder(lab, folder, &page.message) ||
         !submission_files_open(&starter, lab, folder, &page.message))
         return;
-    file_names(lab, names);
-    for (int i = 0; names[i][0]; i++) {
+    for (int i = 0, count = lab_files(lab, names); i < count; i++) {
         put_pair(file, i ? ", {" : "{", "name", names[i]);
         put_pair(file, ", ", "text", submission_file(&starter, names[i]));
         fputs("}", file);
@@ -115,14 +101,13 @@ static bool write_file(const char *name, const char *text, size_t size)
 /* The starter's files in place of all. */
 static bool restore(void)
 {
-    char folder[PATH_MAX], names[4][64];
+    char folder[PATH_MAX], names[LAB_MAX_FILES][LAB_NAME_SIZE];
     SubmissionFiles starter;
     if (!lab_folder(page.lab, folder, &page.message) ||
         !submission_files_open(&starter, page.lab, folder, &page.message))
         return false;
     bool done = true;
-    file_names(page.lab, names);
-    for (int i = 0; names[i][0] && done; i++) {
+    for (int i = 0, count = lab_files(page.lab, names); i < count && done; i++) {
         const char *text = submission_file(&starter, names[i]);
         done = write_file(names[i], text, strlen(text));
     }
@@ -139,17 +124,17 @@ int page_open(const char *name)
 
 int page_replace(const char *name, const char *text, int size)
 {
-    char names[4][64];
+    char names[LAB_MAX_FILES][LAB_NAME_SIZE];
     page.message = (Message){0};
     if (!page.lab)
         return message_set(&page.message, "no lab is open");
     if (!name[0])
         return restore();
-    file_names(page.lab, names);
+    const int count = lab_files(page.lab, names);
     int i = 0;
-    while (names[i][0] && strcmp(names[i], name) != 0)
+    while (i < count && strcmp(names[i], name) != 0)
         i++;
-    if (!names[i][0])
+    if (i == count)
         return message_set(&page.message, "%.80s: not a file of %s", name, page.lab->name);
     if (size > SHADER_FILE_MAX)
         return message_set(&page.message, "%s: has %d bytes; at most %d are allowed", name, size,
@@ -299,11 +284,18 @@ const char *page_check(double seed)
         message_set(&page.message, "no lab is open");
         return "";
     }
-    const JudgeOptions options = {
-        .lab = page.lab, .folder = FOLDER, .seed = (uint64_t)seed, .pictures = FOLDER};
+    SubmissionFiles files;
     canvas_close(&page.canvas); /* judge opens its own */
     image_close(&page.shown);
-    if (!judge(&options, &verdict, &page.message))
+    const JudgeOptions options = {
+        .lab = page.lab, .files = &files, .seed = (uint64_t)seed, .pictures = FOLDER};
+    Message why = {0};
+    bool done = submission_files_open(&files, page.lab, FOLDER, &why);
+    if (!done)
+        verdict_refuse(&verdict, options.seed, &why);
+    done = !done || judge(&options, &verdict, &page.message);
+    submission_files_close(&files);
+    if (!done)
         return "";
     judge_take_sheet(&page.shown);
     FILE *file = text_begin();

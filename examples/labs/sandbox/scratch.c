@@ -1,4 +1,4 @@
-#include "labs/check/scratch.h"
+#include "labs/sandbox/scratch.h"
 
 #include <errno.h>
 #include <ftw.h>

@@ -1,0 +1,117 @@
+/* The process that judges is not trusted: of its output only a valid verdict on this lab and seed
+ * counts, and a valid picture. How it ends is a verdict, too: endless loops and what crashes a
+ * driver are faults of the submission. */
+#include "labs/sandbox/sandboxed_check.h"
+
+#include "base/clock.h"
+#include "base/output.h"
+#include "labs/sandbox/png_copy.h"
+#include "labs/submission/verdict_json.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool sandboxed_check_start(const Sandbox *sandbox, SandboxRun *run, int slot,
+                           const SandboxedCheck *check, Message *message)
+{
+    char seed[32], kind[16];
+    snprintf(seed, sizeof seed, "%llu", (unsigned long long)check->seed);
+    snprintf(kind, sizeof kind, "%d", (int)check->kind);
+    return sandbox_start(sandbox, run, slot,
+                         (const char *const[]){"check", check->lab->name, seed, kind, NULL},
+                         check->inputs, check->count, message);
+}
+
+static void explain_end(const SandboxRun *run, double limit, Verdict *verdict)
+{
+    const int signal = run->status - 128;
+    verdict->seconds = clock_now() - run->start;
+    if (sandbox_end(run) == SANDBOX_TIMEOUT) {
+        verdict->kind = VERDICT_TIMEOUT;
+        snprintf(verdict->message, sizeof verdict->message,
+                 "Timed out after %g s of CPU time: look for an endless loop, or a far too large "
+                 "array or macro.",
+                 limit);
+    } else if (signal > 0) {
+        snprintf(verdict->message, sizeof verdict->message,
+                 "It crashes the driver (signal %d, %s): it is too large or too deeply nested.",
+                 signal, strsignal(signal));
+    } else {
+        snprintf(verdict->message, sizeof verdict->message,
+                 "The driver exits on it (status %d): it needs too much memory.", run->status);
+    }
+}
+
+bool sandboxed_check_end(const Sandbox *sandbox, const SandboxRun *run, const SandboxedCheck *check,
+                         Verdict *verdict, Message *message)
+{
+    char lab[64], reason[1024];
+    size_t size, picture_size;
+    Message why = {.text = ""};
+    const SandboxEnd end = sandbox_end(run);
+    *verdict = (Verdict){.seed = check->seed};
+    if (end == SANDBOX_FAILED) {
+        sandbox_reason(run, reason);
+        return message_set(message, "judging failed: %s", reason);
+    }
+    if (end != SANDBOX_DONE) {
+        explain_end(run, sandbox->seconds, verdict);
+        return true;
+    }
+    const char *result = sandbox_part(run, 2, &size);
+    size -= sandbox_part(run, 3, &picture_size) ? picture_size + 1 : 0;
+    if (!verdict_read(result, size, lab, verdict, &why))
+        return message_set(message, "invalid result: %.1000s", why.text);
+    if (strcmp(lab, check->lab->name) != 0 || verdict->seed != check->seed)
+        return message_set(message, "invalid result: it is of another lab or seed");
+    return true;
+}
+
+/* Keeps the picture beside the others; a verdict without a valid one names none. */
+static bool take_picture(const SandboxRun *run, const char *folder, Verdict *verdict,
+                         Message *message)
+{
+    char path[PATH_MAX];
+    size_t size;
+    char *picture = sandbox_part(run, 3, &size);
+    if (!folder || !verdict->picture[0] || !png_copy((unsigned char *)picture, &size, NULL)) {
+        verdict->picture[0] = '\0';
+        return true;
+    }
+    if (snprintf(path, sizeof path, "%s/%s", folder, verdict->picture) >= (int)sizeof path)
+        return message_set(message, "%s: the path is too long", folder);
+    return output_folder(folder, message) && output_write(path, picture, size, message);
+}
+
+bool sandboxed_check(const JudgeOptions *options, const char *folder, double limit,
+                     Verdict *verdict, Message *message)
+{
+    static Sandbox sandbox; /* large */
+    SubmissionFiles files;
+    Message why = {.text = ""};
+    SandboxRun run = {.pipe = -1};
+    SandboxRun *const runs[] = {&run};
+    const SandboxInput input = {folder, ""};
+    const SandboxedCheck check = {options->lab, options->seed, SOURCE_EXACT, &input, 1};
+    /* A fault of the folder needs no sandbox, and is said with its name. */
+    if (!submission_files_open(&files, options->lab, folder, &why)) {
+        verdict_refuse(verdict, options->seed, &why);
+        return true;
+    }
+    submission_files_close(&files);
+    /* Nothing in a sandbox needs this file, and every system has it. */
+    if (!sandbox_open(&sandbox, options->lab, ceil(limit), "/etc/passwd", message) ||
+        !sandbox_admits(&sandbox, options->lab, message))
+        return false;
+    if (options->backend)
+        setenv("LIGHTING_BACKEND", options->backend->name, 1);
+    bool done = sandboxed_check_start(&sandbox, &run, 0, &check, message);
+    while (run.running)
+        sandbox_wait(runs, 1, 1);
+    done = done && sandboxed_check_end(&sandbox, &run, &check, verdict, message) &&
+           take_picture(&run, options->pictures, verdict, message);
+    sandbox_close(&run);
+    return done;
+}
