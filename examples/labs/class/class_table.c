@@ -1,6 +1,8 @@
 #include "labs/class/class_table.h"
 
+#include "base/memory.h"
 #include "base/output.h"
+#include "base/template.h"
 #include "labs/submission/verdict_json.h"
 
 #include <errno.h>
@@ -8,30 +10,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool class_file_open(ClassFile *file, Message *message)
+static bool file_path(const char *folder, const char *name, char path[PATH_MAX], Message *message)
 {
-    *file = (ClassFile){.text = NULL};
-    file->file = open_memstream(&file->text, &file->size);
-    return file->file ? true : message_set(message, "%s", strerror(errno));
-}
-
-static bool write_text(const char *text, size_t size, const char *folder, const char *name,
-                       Message *message)
-{
-    char path[PATH_MAX];
-    return snprintf(path, sizeof path, "%s/%s", folder, name) < (int)sizeof path
-               ? output_write(path, text, size, message)
-               : message_set(message, "%s: %s", folder, strerror(ENAMETOOLONG));
-}
-
-bool class_file_write(ClassFile *file, const char *folder, const char *name, Message *message)
-{
-    const bool good = !ferror(file->file);
-    const bool done = fclose(file->file) == 0 && good
-                          ? write_text(file->text, file->size, folder, name, message)
-                          : message_set(message, "%s: %s", name, strerror(ENOMEM));
-    free(file->text);
-    return done;
+    return snprintf(path, PATH_MAX, "%s/%s", folder, name) < PATH_MAX ||
+           message_set(message, "%s: %s", folder, strerror(ENAMETOOLONG));
 }
 
 static int by_count(const void *a, const void *b)
@@ -43,9 +25,9 @@ static int by_count(const void *a, const void *b)
 
 ClassMistake *class_mistakes(const ClassStore *store, int *count)
 {
-    ClassMistake *list = calloc((size_t)store->count * VERDICT_MAX_MISTAKES + 1, sizeof *list);
+    ClassMistake *list = memory_new((size_t)store->count * VERDICT_MAX_MISTAKES + 1, sizeof *list);
     *count = 0;
-    for (int i = 0; list && i < store->count; i++) {
+    for (int i = 0; i < store->count; i++) {
         const Verdict *verdict = &store->results[i].verdict;
         for (int j = 0; j < verdict->mistake_count; j++) {
             int at = 0;
@@ -56,8 +38,7 @@ ClassMistake *class_mistakes(const ClassStore *store, int *count)
             *count += at == *count;
         }
     }
-    if (list)
-        qsort(list, (size_t)*count, sizeof *list, by_count);
+    qsort(list, (size_t)*count, sizeof *list, by_count);
     return list;
 }
 
@@ -74,54 +55,66 @@ void class_table_csv_field(FILE *file, const char *text)
     fputc('"', file);
 }
 
-static void put_mistakes(FILE *file, const Verdict *verdict)
+void class_mistake_names(const Verdict *verdict, char names[CLASS_NAMES_SIZE])
 {
-    char names[VERDICT_MAX_MISTAKES * 80] = "";
+    names[0] = '\0';
     for (int i = 0, used = 0; i < verdict->mistake_count; i++)
-        used += snprintf(names + used, sizeof names - (size_t)used, "%s%s", i ? "; " : "",
+        used += snprintf(names + used, CLASS_NAMES_SIZE - (size_t)used, "%s%s", i ? "; " : "",
                          verdict->mistakes[i].name);
+}
+
+static void put_row(FILE *file, const ClassResult *result)
+{
+    const Verdict *verdict = &result->verdict;
+    char names[CLASS_NAMES_SIZE];
+    class_table_csv_field(file, result->student);
+    fputc(',', file);
+    class_table_csv_field(file, result->id);
+    fprintf(file, ",%d,", result->attempt);
+    class_table_csv_field(file, result->lab);
+    fprintf(file, ",%g,%d,%s,", verdict->points, VERDICT_MAX_POINTS, VERDICT_NAMES[verdict->kind]);
+    class_mistake_names(verdict, names);
     class_table_csv_field(file, names);
+    fputc(',', file);
+    class_table_csv_field(file, verdict->message);
+    if (verdict->cost.known)
+        fprintf(file, ",%g,%g,%ld", verdict->cost.error, verdict->cost.time_ratio,
+                verdict->cost.operations);
+    else
+        fputs(",,,", file);
+    fprintf(file, ",%.3g,", verdict->seconds);
+    class_table_csv_field(file, result->folder);
+    fputs("\r\n", file);
 }
 
 bool class_table_csv(const ClassStore *store, Message *message)
 {
-    ClassFile out;
-    if (!class_file_open(&out, message))
+    char path[PATH_MAX];
+    char *text = NULL;
+    size_t size = 0;
+    FILE *file =
+        file_path(store->folder, "class.csv", path, message) ? open_memstream(&text, &size) : NULL;
+    if (!file)
         return false;
     fputs("student,id,attempt,lab,points,most,verdict,mistakes,message,error,time_ratio,operations,"
           "seconds,folder\r\n",
-          out.file);
-    for (int i = 0; i < store->count; i++) {
-        const ClassResult *result = &store->results[i];
-        const Verdict *verdict = &result->verdict;
-        class_table_csv_field(out.file, result->student);
-        fputc(',', out.file);
-        class_table_csv_field(out.file, result->id);
-        fprintf(out.file, ",%d,", result->attempt);
-        class_table_csv_field(out.file, result->lab);
-        fprintf(out.file, ",%g,%d,%s,", verdict->points, VERDICT_MAX_POINTS,
-                VERDICT_NAMES[verdict->kind]);
-        put_mistakes(out.file, verdict);
-        fputc(',', out.file);
-        class_table_csv_field(out.file, verdict->message);
-        if (verdict->cost.known)
-            fprintf(out.file, ",%g,%g,%ld", verdict->cost.error, verdict->cost.time_ratio,
-                    verdict->cost.operations);
-        else
-            fputs(",,,", out.file);
-        fprintf(out.file, ",%.3g,", verdict->seconds);
-        class_table_csv_field(out.file, result->folder);
-        fputs("\r\n", out.file);
-    }
-    return class_file_write(&out, store->folder, "class.csv", message);
+          file);
+    for (int i = 0; i < store->count; i++)
+        put_row(file, &store->results[i]);
+    const bool done = fclose(file) == 0 ? output_write(path, text, size, message)
+                                        : message_set(message, "%s: not enough memory", path);
+    free(text);
+    return done;
 }
 
 /* Takes over `object`. */
 static bool write_json(json_t *object, const char *folder, const char *name, Message *message)
 {
+    char path[PATH_MAX];
     char *text = object ? json_dumps(object, JSON_INDENT(2) | JSON_REAL_PRECISION(9)) : NULL;
     json_decref(object);
-    const bool done = text ? write_text(text, strlen(text), folder, name, message)
+    const bool done = text ? file_path(folder, name, path, message) &&
+                                 output_write(path, text, strlen(text), message)
                            : message_set(message, "%s: %s", name, strerror(ENOMEM));
     free(text);
     return done;
@@ -151,29 +144,6 @@ bool class_table_json(const ClassStore *store, Message *message)
                       store->folder, "class.json", message);
 }
 
-void class_table_markup(FILE *file, const char *text)
-{
-    static const char special[] = "&<>\"'";
-    static const char *const names[] = {"amp", "lt", "gt", "quot", "#39"};
-    for (; *text; text++) {
-        const char *at = strchr(special, *text);
-        if (at)
-            fprintf(file, "&%s;", names[at - special]);
-        else if ((unsigned char)*text >= ' ' || *text == '\n' || *text == '\t')
-            fputc(*text, file); /* XML allows no other control characters */
-    }
-}
-
-void class_table_pieces(FILE *file, const char *const pieces[])
-{
-    for (int i = 0; pieces[i]; i++) {
-        if (i % 2)
-            class_table_markup(file, pieces[i]);
-        else
-            fputs(pieces[i], file);
-    }
-}
-
 /* Everything said about a submission, as lines of plain text, which the caller frees; NULL: out of
  * memory. */
 static char *advice_text(const Verdict *verdict)
@@ -196,48 +166,47 @@ static char *advice_text(const Verdict *verdict)
     return NULL;
 }
 
-static void put_case(FILE *file, const ClassResult *result)
+static void add_case(TemplateValues *suite, const ClassResult *result)
 {
     const Verdict *verdict = &result->verdict;
-    const char *element = verdict->kind == VERDICT_WRONG ? "failure" : "error";
-    MARKUP(file, "    <testcase classname=\"", result->lab, "\" name=\"", result->student, "\"");
-    fprintf(file, " time=\"%.3f\"", verdict->seconds);
-    if (verdict->kind == VERDICT_RIGHT) {
-        fputs("/>\n", file);
+    TemplateValues *values = template_add(suite, "case");
+    template_set(values, "student", "%s", result->student);
+    template_set(values, "time", "%.3f", verdict->seconds);
+    if (verdict->kind == VERDICT_RIGHT)
         return;
-    }
     char *text = advice_text(verdict);
-    fprintf(file, ">\n      <%s type=\"%s\" message=\"%g of %d points: ", element,
-            VERDICT_NAMES[verdict->kind], verdict->points, VERDICT_MAX_POINTS);
-    MARKUP(file, "", verdict->message, "\">", text ? text : "", "</");
-    fprintf(file, "%s>\n    </testcase>\n", element);
+    TemplateValues *fault = template_add(values, "fault");
+    template_set(fault, "element", "%s", verdict->kind == VERDICT_WRONG ? "failure" : "error");
+    template_set(fault, "verdict", "%s", VERDICT_NAMES[verdict->kind]);
+    template_set(fault, "points", "%g", verdict->points);
+    template_set(fault, "most", "%d", VERDICT_MAX_POINTS);
+    template_set(fault, "message", "%s", verdict->message);
+    template_set(fault, "text", "%s", text ? text : "");
     free(text);
 }
 
 bool class_table_junit(const ClassStore *store, Message *message)
 {
-    ClassFile out;
+    char path[PATH_MAX];
     int wrong = 0, errors = 0;
     double seconds = 0;
-    if (!class_file_open(&out, message))
-        return false;
+    TemplateValues *suite = template_values();
     for (int i = 0; i < store->count; i++) {
         const VerdictKind kind = store->results[i].verdict.kind;
         wrong += kind == VERDICT_WRONG;
         errors += kind != VERDICT_WRONG && kind != VERDICT_RIGHT;
         seconds += store->results[i].verdict.seconds;
+        add_case(suite, &store->results[i]);
     }
-    fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n", out.file);
-    for (int i = 0; i < 2; i++) {
-        MARKUP(out.file, i ? "  <testsuite name=\"" : "<testsuites name=\"",
-               store->count ? store->results[0].lab : "");
-        fprintf(out.file, "\" tests=\"%d\" failures=\"%d\" errors=\"%d\" time=\"%.3f\">\n",
-                store->count, wrong, errors, seconds);
-    }
-    for (int i = 0; i < store->count; i++)
-        put_case(out.file, &store->results[i]);
-    fputs("  </testsuite>\n</testsuites>\n", out.file);
-    return class_file_write(&out, store->folder, "junit.xml", message);
+    template_set(suite, "lab", "%s", store->count ? store->results[0].lab : "");
+    template_set(suite, "tests", "%d", store->count);
+    template_set(suite, "failures", "%d", wrong);
+    template_set(suite, "errors", "%d", errors);
+    template_set(suite, "time", "%.3f", seconds);
+    const bool done = file_path(store->folder, "junit.xml", path, message) &&
+                      template_write("examples/labs/class/class_junit.xml", suite, path, message);
+    template_close(suite);
+    return done;
 }
 
 /* The scenes as tests without points of their own. */

@@ -24,12 +24,9 @@ bool class_table_gradescope(const ClassStore *store, Message *message);
 /* One quoted field; a ' precedes what a spreadsheet would take for a formula. For tests. */
 void class_table_csv_field(FILE *file, const char *text);
 
-/* Writes text escaped for XML and HTML; line breaks stay. */
-void class_table_markup(FILE *file, const char *text);
-
-/* Writes pieces, every second one escaped: MARKUP(file, "<b>", name, "</b>"). */
-#define MARKUP(file, ...) class_table_pieces(file, (const char *const[]){__VA_ARGS__, NULL})
-void class_table_pieces(FILE *file, const char *const pieces[]);
+/* The mistakes of a verdict, between semicolons. */
+enum { CLASS_NAMES_SIZE = VERDICT_MAX_MISTAKES * 80 };
+void class_mistake_names(const Verdict *verdict, char names[CLASS_NAMES_SIZE]);
 
 /* A mistake and how many students make it. */
 typedef struct ClassMistake {
@@ -38,16 +35,7 @@ typedef struct ClassMistake {
 } ClassMistake;
 
 /* The mistakes of the class, the most frequent first; the caller frees the list, the store owns its
- * names. NULL, with *count 0: out of memory. */
+ * names. */
 ClassMistake *class_mistakes(const ClassStore *store, int *count);
-
-/* A text in memory that becomes the file FOLDER/NAME. */
-typedef struct ClassFile {
-    FILE *file;
-    char *text;
-    size_t size;
-} ClassFile;
-bool class_file_open(ClassFile *file, Message *message);
-bool class_file_write(ClassFile *file, const char *folder, const char *name, Message *message);
 
 #endif
