@@ -3,15 +3,16 @@
 #include "base/paths.h"
 
 #include <dlfcn.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <unistd.h>
 
-void *plugin_entry(const PluginName *name, Message *message)
+static const void *load(const Plugin *plugin, Message *message)
 {
     char path[PATH_MAX], reason[1024] = "";
     void *library = NULL;
     for (int place = 0; place < PATHS_PLACE_COUNT && !library; place++) {
-        if (!paths_plugin((PathsPlace)place, name->file, path))
+        if (!paths_plugin((PathsPlace)place, plugin->file, path))
             continue;
         library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
         const char *error = library ? NULL : dlerror();
@@ -23,11 +24,34 @@ void *plugin_entry(const PluginName *name, Message *message)
     if (!library) {
         message_set(message,
                     "%s: its module cannot be loaded (%s); install the package %s and build again",
-                    name->library, reason, name->package);
+                    plugin->library, reason, plugin->package);
         return NULL;
     }
-    void *entry = dlsym(library, name->entry);
-    if (!entry)
-        message_set(message, "%s: %s", name->library, dlerror());
-    return entry;
+    const void *variable = dlsym(library, plugin->symbol);
+    if (!variable)
+        message_set(message, "%s: %s", plugin->library, dlerror());
+    return variable;
+}
+
+const void *plugin_open(Plugin *plugin, Message *message)
+{
+    static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER; /* pictures are written by threads */
+    pthread_mutex_lock(&lock);
+    if (!plugin->loaded)
+        plugin->loaded = load(plugin, message);
+    const void *loaded = plugin->loaded;
+    pthread_mutex_unlock(&lock);
+    return loaded;
+}
+
+bool plugin_probe(Plugin *plugin, Message *findings)
+{
+    Message message = {0};
+    PluginVersion *const *found = plugin_open(plugin, &message);
+    if (found)
+        message_add(findings, "  %s%s %s: found\n", plugin->library, plugin->purpose, (*found)());
+    else
+        message_add(findings, "  %s%s missing: %s\n", plugin->library, plugin->purpose,
+                    message.text);
+    return found;
 }

@@ -7,15 +7,23 @@
 
 #include "base/message.h"
 
-typedef struct PluginName {
-    const char *file;    /* "image_oiio.so" */
-    const char *entry;   /* the exported function */
-    const char *library; /* what the plugin links, for messages: "OpenImageIO" */
-    const char *package; /* to install if that is missing */
-} PluginName;
+/* What a plugin exports: a variable of a struct type, whose first member this is. */
+typedef const char *PluginVersion(void); /* of the library that it links: "1.16.0" */
 
-/* Loads the plugin and returns the address of its entry; NULL on failure, with a message that names
- * the package. */
-void *plugin_entry(const PluginName *name, Message *message);
+typedef struct Plugin {
+    const char *file;    /* "image_oiio.so" */
+    const char *symbol;  /* the variable's name */
+    const char *library; /* what the plugin links, for messages: "OpenImageIO" */
+    const char *purpose; /* after that, in findings: " (model files)" */
+    const char *package; /* to install if it is missing */
+    const void *loaded;  /* the variable; plugin_open sets it */
+} Plugin;
+
+/* Loads the plugin at the first call, from any thread, and returns its variable; NULL on failure,
+ * with a message that names the package. */
+const void *plugin_open(Plugin *plugin, Message *message);
+
+/* The same, and appends a line about what was found; true if the plugin was. */
+bool plugin_probe(Plugin *plugin, Message *findings);
 
 #endif

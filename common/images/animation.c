@@ -387,8 +387,10 @@ static bool open_writer(Animation *animation, Message *message)
     case WRITER_FFMPEG:
         return encoder_open(animation, message);
     case WRITER_GIF:
-        return image_gif_open(&animation->gif, output_file(animation->output), options->width,
-                              options->height, options->frames, options->fps, &why) ||
+        return image_gif_open(
+                   &animation->gif, output_file(animation->output),
+                   &(GifOptions){options->width, options->height, options->frames, options->fps},
+                   &why) ||
                encoder_failed(animation, why.text, message);
     default:
         animation->stream = malloc(3 * (size_t)options->width * (size_t)options->height);

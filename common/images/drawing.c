@@ -203,28 +203,16 @@ void drawing_text(Drawing *drawing, DrawingPoint at, double size, Vec3 color, co
 
 /* Files. */
 
-static const DrawingPlugin *open_plugin(Message *message)
-{
-    static const PluginName name = {"drawing_cairo.so", DRAWING_PLUGIN_ENTRY, "cairo",
-                                    "libcairo2-dev"};
-    const DrawingPluginEntry entry = (DrawingPluginEntry)plugin_entry(&name, message);
-    return entry ? entry() : NULL;
-}
+static Plugin cairo = {"drawing_cairo.so", "drawing_plugin", "cairo", "", "libcairo2-dev", NULL};
 
 bool drawing_probe(Message *findings)
 {
-    Message message = {0};
-    const DrawingPlugin *plugin = open_plugin(&message);
-    if (plugin)
-        message_add(findings, "  cairo %s: found\n", plugin->version);
-    else
-        message_add(findings, "  cairo missing: %s\n", message.text);
-    return plugin != NULL;
+    return plugin_probe(&cairo, findings);
 }
 
 bool drawing_paint(const Drawing *drawing, Image *image, bool transparent, Message *message)
 {
-    const DrawingPlugin *plugin = open_plugin(message);
+    const DrawingPlugin *plugin = plugin_open(&cairo, message);
     if (!plugin || !drawing_check(drawing, message))
         return false;
     const char *reason = plugin->paint(drawing, image, transparent);
@@ -256,7 +244,7 @@ static void drop_surface_number(ImageFile *file)
 bool drawing_encode(const Drawing *drawing, const char *format, bool transparent, ImageFile *file,
                     Message *message)
 {
-    const DrawingPlugin *plugin = open_plugin(message);
+    const DrawingPlugin *plugin = plugin_open(&cairo, message);
     char *bytes = NULL;
     *file = (ImageFile){0};
     if (!plugin || !drawing_check(drawing, message))

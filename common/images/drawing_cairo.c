@@ -130,11 +130,5 @@ static const char *encode(const Drawing *drawing, const char *format, bool trans
     return reason ? reason : status ? cairo_status_to_string(status) : NULL;
 }
 
-__attribute__((visibility("default"))) const DrawingPlugin *drawing_plugin(void);
-
-const DrawingPlugin *drawing_plugin(void)
-{
-    static DrawingPlugin plugin = {.paint = paint, .encode = encode};
-    plugin.version = cairo_version_string();
-    return &plugin;
-}
+__attribute__((visibility("default"))) const DrawingPlugin drawing_plugin = {
+    .version = cairo_version_string, .paint = paint, .encode = encode};

@@ -4,18 +4,17 @@
 #ifndef DRAWING_PLUGIN_H
 #define DRAWING_PLUGIN_H
 
-#include "images/drawing.h"
+#include "base/image.h"
+#include "base/plugin.h"
+#include "images/drawing_list.h"
 
 #include <stdio.h>
 
-/* Functions return NULL, or why they failed. */
+/* The variable `drawing_plugin`. Functions return NULL, or why they failed. */
 typedef struct DrawingPlugin {
-    const char *version;
+    PluginVersion *version;
     const char *(*paint)(const Drawing *drawing, Image *image, bool transparent);
     const char *(*encode)(const Drawing *drawing, const char *format, bool transparent, FILE *to);
 } DrawingPlugin;
-
-#define DRAWING_PLUGIN_ENTRY "drawing_plugin"
-typedef const DrawingPlugin *(*DrawingPluginEntry)(void);
 
 #endif

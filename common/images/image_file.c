@@ -1,7 +1,6 @@
 #include "images/image_file.h"
 
 #include "base/output.h"
-#include "base/plugin.h"
 #include "images/image_plugin.h"
 #include "images/image_png.h"
 
@@ -48,37 +47,13 @@ bool image_file_read(ImageFile *file, const char *path, Message *message)
     return message_set(message, "%s: cannot read", path);
 }
 
-/* The plugin. */
-
-/* Pictures are written by several threads: one loads the plugin, and plugin_encode lifts a limit
- * of the whole process. */
-static pthread_mutex_t plugin_lock = PTHREAD_MUTEX_INITIALIZER;
-
-bool image_plugin_open(const ImagePlugin **plugin, Message *message)
-{
-    static const PluginName name = {"image_oiio.so", IMAGE_PLUGIN_ENTRY, "OpenImageIO",
-                                    "libopenimageio-dev"};
-    static const ImagePlugin *loaded; /* the library cannot be unloaded */
-    pthread_mutex_lock(&plugin_lock);
-    const ImagePluginEntry entry = loaded ? NULL : (ImagePluginEntry)plugin_entry(&name, message);
-    if (entry)
-        loaded = entry();
-    *plugin = loaded;
-    pthread_mutex_unlock(&plugin_lock);
-    return *plugin != NULL;
-}
+Plugin image_openimageio = {"image_oiio.so",        "image_plugin",       "OpenImageIO",
+                            " (all other formats)", "libopenimageio-dev", NULL};
 
 bool image_probe(Message *findings)
 {
-    Message message = {0};
-    const ImagePlugin *plugin;
     message_add(findings, "  PNG        libpng %s: found\n", image_png_version());
-    if (!image_plugin_open(&plugin, &message)) {
-        message_add(findings, "  OpenImageIO (all other formats) missing: %s\n", message.text);
-        return false;
-    }
-    message_add(findings, "  OpenImageIO (all other formats) %s: found\n", plugin->version);
-    return true;
+    return plugin_probe(&image_openimageio, findings);
 }
 
 /* Formats. */
@@ -185,19 +160,20 @@ static bool read_memory(int memory, ImageFile *file, char *reason, size_t reason
 static bool plugin_encode(const Image *image, const char *format, const ImageOptions *options,
                           ImageFile *file, Message *message)
 {
-    const ImagePlugin *plugin;
+    static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER; /* the limit is the whole process's */
+    const ImagePlugin *plugin = plugin_open(&image_openimageio, message);
     char reason[1024] = "";
-    if (!image_plugin_open(&plugin, message))
+    if (!plugin)
         return false;
     const int memory = memfd_create("picture", MFD_CLOEXEC);
     if (memory < 0)
         return message_set(message, "%s: %s", format, strerror(errno));
-    pthread_mutex_lock(&plugin_lock);
+    pthread_mutex_lock(&lock);
     const struct rlimit limit = lift_file_limit();
     const bool done = plugin->encode(image, format, options, memory, reason, sizeof reason) &&
                       read_memory(memory, file, reason, sizeof reason);
     setrlimit(RLIMIT_FSIZE, &limit);
-    pthread_mutex_unlock(&plugin_lock);
+    pthread_mutex_unlock(&lock);
     close(memory);
     /* DPX stores the path that the library was given. (SMPTE 268M: 100 bytes from 36 on) */
     if (done && strcmp(format, "dpx") == 0 && file->size > 136)

@@ -12,22 +12,24 @@
 struct ImageGif {
     const ImagePlugin *plugin;
     PluginGif *own;
-    int file, count;
-    double fps;
+    int file;
+    GifOptions options;
     bool failed;
 };
 
-bool image_gif_open(ImageGif **opened, int file, int width, int height, int count, double fps,
-                    Message *message)
+bool image_gif_open(ImageGif **opened, int file, const GifOptions *options, Message *message)
 {
     char reason[1024] = "";
     ImageGif *gif = *opened = calloc(1, sizeof *gif);
     if (!gif)
         return message_set(message, "GIF: not enough memory");
-    *gif = (ImageGif){.file = file, .count = count, .fps = fps, .failed = true};
-    if (!image_plugin_open(&gif->plugin, message))
+    *gif = (ImageGif){.plugin = plugin_open(&image_openimageio, message),
+                      .file = file,
+                      .options = *options,
+                      .failed = true};
+    if (!gif->plugin)
         return false;
-    if (!gif->plugin->gif_open(&gif->own, file, width, height, count, reason, sizeof reason))
+    if (!gif->plugin->gif_open(&gif->own, file, options, reason, sizeof reason))
         return message_set(message, "GIF: %s", reason);
     gif->failed = false;
     return true;
@@ -60,7 +62,8 @@ static void gif_skip_colors(FILE *file, int flags)
 /* In hundredths of a second. */
 static long gif_delay(const ImageGif *gif, int number)
 {
-    return lround(100 * (number + 1) / gif->fps) - lround(100 * number / gif->fps);
+    const double fps = gif->options.fps;
+    return lround(100 * (number + 1) / fps) - lround(100 * number / fps);
 }
 
 /* The library writes the same delay for all pictures: replaces it in their graphic control
@@ -89,7 +92,7 @@ static bool gif_set_delays(const ImageGif *gif, FILE *file)
             break;
     }
     errno = EILSEQ;
-    return kind == 0x3B && number == gif->count;
+    return kind == 0x3B && number == gif->options.count;
 }
 
 bool image_gif_close(ImageGif *gif, Message *message)

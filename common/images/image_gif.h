@@ -7,7 +7,7 @@
 #ifndef IMAGE_GIF_H
 #define IMAGE_GIF_H
 
-#include "images/image_file.h"
+#include "images/image_options.h"
 
 /* Pictures per second: a delay has 16 bits, and is not 0, which viewers interpret differently. */
 #define IMAGE_GIF_SLOWEST (100.0 / 65535)
@@ -17,8 +17,7 @@ typedef struct ImageGif ImageGif;
 
 /* Writes byte images without alpha to an open file that supports reading and seeking; the GIF loops
  * forever. image_gif_close is called after a failure too; NULL is fine. */
-bool image_gif_open(ImageGif **gif, int file, int width, int height, int count, double fps,
-                    Message *message);
+bool image_gif_open(ImageGif **gif, int file, const GifOptions *options, Message *message);
 bool image_gif_add(ImageGif *gif, const Image *image, Message *message);
 bool image_gif_close(ImageGif *gif, Message *message);
 

@@ -130,7 +130,7 @@ std::string gif_error(const PluginGif *gif)
     return errno ? std::strerror(errno) : "cannot write";
 }
 
-bool gif_open(PluginGif **opened, int file, int width, int height, int count, char *reason,
+bool gif_open(PluginGif **opened, int file, const GifOptions *options, char *reason,
               size_t reason_size)
 {
     return guarded(reason, reason_size, [&]() -> std::string {
@@ -147,11 +147,11 @@ bool gif_open(PluginGif **opened, int file, int width, int height, int count, ch
         gif->output = ImageOutput::create("picture.gif");
         if (!gif->output)
             return or_unknown(geterror());
-        gif->spec = ImageSpec(width, height, CHANNELS - 1, TypeDesc::UINT8);
+        gif->spec = ImageSpec(options->width, options->height, CHANNELS - 1, TypeDesc::UINT8);
         gif->spec.attribute("FramesPerSecond", 10.0f); // without it the GIF does not repeat
-        const std::vector<ImageSpec> specs(size_t(count), gif->spec);
+        const std::vector<ImageSpec> specs(size_t(options->count), gif->spec);
         if (!gif->output->set_ioproxy(gif->proxy.get()) ||
-            !gif->output->open("picture.gif", count, specs.data()))
+            !gif->output->open("picture.gif", options->count, specs.data()))
             return or_unknown(gif->output->geterror());
         return "";
     });
@@ -188,12 +188,12 @@ bool gif_close(PluginGif *gif, char *reason, size_t reason_size)
     return done;
 }
 
+const char *version()
+{
+    return OIIO_VERSION_STRING;
+}
+
 } // namespace
 
-extern "C" __attribute__((visibility("default"))) const ImagePlugin *image_plugin(void)
-{
-    static const ImagePlugin plugin = {
-        OIIO_VERSION_STRING, encode, gif_open, gif_add, gif_close,
-    };
-    return &plugin;
-}
+extern "C" __attribute__((visibility("default")))
+const ImagePlugin image_plugin = {version, encode, gif_open, gif_add, gif_close};

@@ -4,7 +4,7 @@
 #ifndef IMAGE_PNG_H
 #define IMAGE_PNG_H
 
-#include "images/image_file.h"
+#include "images/image_options.h"
 
 /* As image_encode. */
 bool image_png_encode(const Image *image, const ImageOptions *options, ImageFile *file,

@@ -1,6 +1,6 @@
 #include "scene/shape.h"
 
-#include "shapes/head.h"
+#include "shapes/fox_head.h"
 #include "shapes/mesh_solids.h"
 #include "shapes/model.h"
 

@@ -1,10 +1,8 @@
 #include "shapes/model.h"
 
 #include "base/output.h"
-#include "base/plugin.h"
 #include "base/process.h"
 #include "core/mesh_make.h"
-#include "shapes/model_module.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -18,31 +16,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-static bool module_open(const ModelModule **module, Message *message)
-{
-    static const PluginName name = {"model_assimp.so", MODEL_MODULE_SYMBOL, "Assimp",
-                                    "libassimp-dev"};
-    static const ModelModule *loaded;
-    if (!loaded) {
-        const ModelModuleEntry entry = (ModelModuleEntry)plugin_entry(&name, message);
-        if (!entry)
-            return false;
-        loaded = entry();
-    }
-    *module = loaded;
-    return true;
-}
+static Plugin assimp = {"model_assimp.so", "model_module",  "Assimp",
+                        " (model files)",  "libassimp-dev", NULL};
 
 bool model_probe(Message *findings)
 {
-    Message message = {0};
-    const ModelModule *module;
-    if (!module_open(&module, &message)) {
-        message_add(findings, "  Assimp (model files) missing: %s\n", message.text);
-        return false;
-    }
-    message_add(findings, "  Assimp (model files) %s: found\n", module->version);
-    return true;
+    return plugin_probe(&assimp, findings);
 }
 
 static bool check_file(const char *path, off_t *size, Message *message)
@@ -261,10 +240,10 @@ bool model_read(const char *path, ModelUp up, Mesh *mesh, Message *message)
     off_t size = 0;
     Mesh parts = {.vertices = NULL};
     *mesh = (Mesh){0};
-    const bool done = check_file(path, &size, message) && module_open(&module, message) &&
-                      read_apart(module, path, up, size, &parts, message) &&
-                      check_mesh(path, &parts, message) && join(path, &parts, mesh, message) &&
-                      complete_normals(mesh, message);
+    const bool done =
+        check_file(path, &size, message) && (module = plugin_open(&assimp, message)) &&
+        read_apart(module, path, up, size, &parts, message) && check_mesh(path, &parts, message) &&
+        join(path, &parts, mesh, message) && complete_normals(mesh, message);
     mesh_close(&parts);
     if (!done)
         mesh_close(mesh);

@@ -8,14 +8,7 @@
 #ifndef MODEL_H
 #define MODEL_H
 
-#include "core/mesh.h"
-
-/* Limits. Vertices count before equal ones are merged. */
-enum { MODEL_BYTES_MAX = 1 << 30, MODEL_VERTICES_MAX = 10000000, MODEL_TRIANGLES_MAX = 20000000 };
-
-/* The axis of the file that points up. MODEL_UP_FILE: the one that the file names (FBX, COLLADA),
- * or its format's custom: z for STL, 3DS and Blender, y for all others. */
-typedef enum ModelUp { MODEL_UP_FILE, MODEL_UP_X, MODEL_UP_Y, MODEL_UP_Z } ModelUp;
+#include "shapes/model_module.h"
 
 /* Reads all meshes of a file into one, transformed by the file's nodes. Polygons are triangulated;
  * points, lines and degenerate triangles are left out; vertices of equal position and normal are

@@ -2,7 +2,6 @@
  * The plugin that reads model files with Assimp.
  */
 #include "core/mesh_make.h"
-#include "shapes/model.h"
 #include "shapes/model_module.h"
 
 #include <assimp/cimport.h>
@@ -169,13 +168,12 @@ static bool read_file(const char *path, ModelUp up, Mesh *mesh, char *reason, si
     return collected;
 }
 
-__attribute__((visibility("default"))) const ModelModule *model_module(void);
-
-const ModelModule *model_module(void)
+static const char *version(void)
 {
-    static char version[32];
-    static const ModelModule module = {version, read_file};
-    snprintf(version, sizeof version, "%u.%u.%u", aiGetVersionMajor(), aiGetVersionMinor(),
+    static char text[32];
+    snprintf(text, sizeof text, "%u.%u.%u", aiGetVersionMajor(), aiGetVersionMinor(),
              aiGetVersionPatch());
-    return &module;
+    return text;
 }
+
+__attribute__((visibility("default"))) const ModelModule model_module = {version, read_file};

@@ -3,8 +3,14 @@
 
 #include <stddef.h>
 
-void *plugin_entry(const PluginName *name, Message *message)
+const void *plugin_open(Plugin *plugin, Message *message)
 {
-    message_set(message, "%s: not in the browser", name->library);
+    message_set(message, "%s: not in the browser", plugin->library);
     return NULL;
+}
+
+bool plugin_probe(Plugin *plugin, Message *findings)
+{
+    message_add(findings, "  %s: not in the browser\n", plugin->library);
+    return false;
 }

@@ -1,6 +1,5 @@
 #include "window/panel.h"
 
-#include "base/plugin.h"
 #include "window/panel_module.h"
 
 #include <math.h>
@@ -14,24 +13,13 @@ struct Panel {
 static const double MIN_SCALE = 0.5, MAX_SCALE = 4, LONGEST_FRAME = 1;
 static const double OUTSIDE = -1e6, MAX_PLACE = 1e6, MAX_SCROLL = 100;
 
-static const PanelModule *load(Message *message)
-{
-    static const PluginName name = {"panel_imgui.so", PANEL_MODULE_SYMBOL, "Dear ImGui",
-                                    "libimgui-dev"};
-    static const PanelModule *loaded; /* once: windows belong to one thread */
-    if (!loaded) {
-        const PanelModuleEntry entry = (PanelModuleEntry)plugin_entry(&name, message);
-        if (!entry)
-            return NULL;
-        loaded = entry();
-    }
-    return loaded;
-}
+static Plugin imgui = {"panel_imgui.so", "panel_module", "Dear ImGui",
+                       " (the panel)",   "libimgui-dev", NULL};
 
 bool panel_open(Panel **panel, Message *message)
 {
     char reason[256];
-    const PanelModule *module = load(message);
+    const PanelModule *module = plugin_open(&imgui, message);
     *panel = NULL;
     if (!module)
         return false;
@@ -135,11 +123,5 @@ PanelView panel_next_view(PanelView view)
 
 bool panel_probe(Message *findings)
 {
-    Message message = {0};
-    const PanelModule *module = load(&message);
-    if (module)
-        message_add(findings, "  Dear ImGui (the panel) %s: found\n", module->version);
-    else
-        message_add(findings, "  Dear ImGui (the panel) missing: %s\n", message.text);
-    return module != NULL;
+    return plugin_probe(&imgui, findings);
 }

@@ -1139,8 +1139,5 @@ bool frame(void *opaque, const PanelInput *input, const PanelContent *content, P
 
 } // namespace
 
-extern "C" __attribute__((visibility("default"))) const PanelModule *panel_module(void)
-{
-    static const PanelModule module = {IMGUI_VERSION, open, frame, close};
-    return &module;
-}
+extern "C" __attribute__((visibility("default")))
+const PanelModule panel_module = {ImGui::GetVersion, open, frame, close};

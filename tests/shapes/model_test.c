@@ -752,17 +752,17 @@ TEST(a_file_that_never_ends_times_out)
 
 TEST(a_missing_plugin_names_its_package)
 {
-    static const PluginName name = {"no_such_module.so", "entry", "Nothing", "libnothing-dev"};
+    Plugin none = {"no_such_module.so", "variable", "Nothing", "", "libnothing-dev", NULL};
     Message message = {0};
-    assert_null(plugin_entry(&name, &message));
+    assert_null(plugin_open(&none, &message));
     assert_memory_equal(message.text, "Nothing: its module cannot be loaded (", 38);
     assert_non_null(strstr(message.text, "no_such_module.so"));
     assert_non_null(strstr(message.text, "; install the package libnothing-dev and build again"));
-    static const PluginName wrong = {"model_assimp.so", "no_such_entry", "Assimp", "libassimp-dev"};
+    Plugin wrong = {"model_assimp.so", "no_such_variable", "Assimp", "", "libassimp-dev", NULL};
     message = (Message){0};
-    assert_null(plugin_entry(&wrong, &message));
+    assert_null(plugin_open(&wrong, &message));
     assert_memory_equal(message.text, "Assimp: ", 8);
-    assert_non_null(strstr(message.text, "no_such_entry"));
+    assert_non_null(strstr(message.text, "no_such_variable"));
 }
 
 int main(void)

@@ -1,4 +1,4 @@
-#include "shapes/head.h"
+#include "shapes/fox_head.h"
 
 #include "core/mesh_make.h"
 

@@ -1,8 +1,8 @@
 /*
- * head: the head of a fox, a small model of our own, and Catmull-Clark subdivision. No GL.
+ * fox_head: the head of a fox, a small model of our own, and Catmull-Clark subdivision. No GL.
  */
-#ifndef HEAD_H
-#define HEAD_H
+#ifndef FOX_HEAD_H
+#define FOX_HEAD_H
 
 #include "core/mesh.h"
 

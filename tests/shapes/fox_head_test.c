@@ -1,7 +1,7 @@
 /*
  * The head in its three styles, and Catmull-Clark subdivision against closed forms. No GL.
  */
-#include "shapes/head.h"
+#include "shapes/fox_head.h"
 #include "support/testing.h"
 #include "support/topology.h"
 
@@ -301,4 +301,4 @@ TEST(half_a_surface_is_subdivided_as_the_whole)
     }
 }
 
-TEST_MAIN("head", NULL, NULL)
+TEST_MAIN("fox head", NULL, NULL)
