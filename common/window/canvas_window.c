@@ -3,78 +3,13 @@
  */
 #include "window/window.h"
 
-#include <dlfcn.h>
+#include "base/memory.h"
+#include "window/glfw_library.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
-
-#ifndef GLFW_PLATFORM /* before 3.4; the library that is loaded may be newer */
-#define GLFW_PLATFORM 0x00050003
-#define GLFW_PLATFORM_X11 0x00060004
-#endif
-
-#define GLFW_PACKAGE "libglfw3"
-
-#define GLFW_FUNCTIONS(X)                                                                          \
-    X(CreateWindow)                                                                                \
-    X(DestroyWindow)                                                                               \
-    X(GetClipboardString)                                                                          \
-    X(GetCursorPos)                                                                                \
-    X(GetFramebufferSize)                                                                          \
-    X(GetKey)                                                                                      \
-    X(GetMouseButton)                                                                              \
-    X(GetPrimaryMonitor)                                                                           \
-    X(GetProcAddress)                                                                              \
-    X(GetVersionString)                                                                            \
-    X(GetVideoMode)                                                                                \
-    X(GetWindowAttrib)                                                                             \
-    X(GetWindowContentScale)                                                                       \
-    X(GetWindowPos)                                                                                \
-    X(GetWindowSize)                                                                               \
-    X(GetWindowUserPointer)                                                                        \
-    X(Init)                                                                                        \
-    X(InitHint)                                                                                    \
-    X(MakeContextCurrent)                                                                          \
-    X(PollEvents)                                                                                  \
-    X(SetCharCallback)                                                                             \
-    X(SetClipboardString)                                                                          \
-    X(SetCursorEnterCallback)                                                                      \
-    X(SetCursorPosCallback)                                                                        \
-    X(SetErrorCallback)                                                                            \
-    X(SetFramebufferSizeCallback)                                                                  \
-    X(SetKeyCallback)                                                                              \
-    X(SetMouseButtonCallback)                                                                      \
-    X(SetScrollCallback)                                                                           \
-    X(SetWindowCloseCallback)                                                                      \
-    X(SetWindowContentScaleCallback)                                                               \
-    X(SetWindowFocusCallback)                                                                      \
-    X(SetWindowIconifyCallback)                                                                    \
-    X(SetWindowMonitor)                                                                            \
-    X(SetWindowRefreshCallback)                                                                    \
-    X(SetWindowSize)                                                                               \
-    X(SetWindowTitle)                                                                              \
-    X(SetWindowUserPointer)                                                                        \
-    X(ShowWindow)                                                                                  \
-    X(SwapBuffers)                                                                                 \
-    X(SwapInterval)                                                                                \
-    X(WaitEventsTimeout)                                                                           \
-    X(WindowHint)                                                                                  \
-    X(WindowHintString)                                                                            \
-    X(WindowShouldClose)
-
-static struct {
-    void *library; /* stays loaded, like drivers */
-#define GLFW_DECLARE(name) __typeof__(&glfw##name) name;
-    GLFW_FUNCTIONS(GLFW_DECLARE)
-#undef GLFW_DECLARE
-    char error[256]; /* the first since the last take_error */
-    void (*lost)(const char *title);
-    char title[64]; /* of the latest window, for `lost` */
-} glfw;
 
 enum { MAX_SIDE = 16384 };
 
@@ -89,88 +24,6 @@ struct Window {
     double press_x, press_y;
     WindowInput state; /* of the last input, without events */
 };
-
-static void keep_error(int code, const char *text)
-{
-    (void)code;
-    if (!glfw.error[0])
-        snprintf(glfw.error, sizeof glfw.error, "%s", text);
-}
-
-/* Returns and clears the kept error, without a final full stop or newline. */
-static const char *take_error(char text[256])
-{
-    snprintf(text, 256, "%s", glfw.error[0] ? glfw.error : "no reason given");
-    for (size_t end = strlen(text); end > 0 && strchr(" .\n", text[end - 1]); end--)
-        text[end - 1] = '\0';
-    glfw.error[0] = '\0';
-    return text;
-}
-
-static int display_lost(void *display)
-{
-    (void)display;
-    glfw.lost(glfw.title);
-    return 0;
-}
-
-/* Through dlsym, without X11's headers. GLFW 3.4 loads the library in glfwInit, which is too late
- * for a display that is lost there; the library stays loaded, like GLFW. */
-static void handle_lost_display(void)
-{
-    typedef int (*Handler)(void *display);
-    Handler (*set)(Handler);
-    void *library = getenv("DISPLAY") ? dlopen("libX11.so.6", RTLD_LAZY) : NULL;
-    if (!library)
-        return;
-    *(void **)&set = dlsym(library, "XSetIOErrorHandler");
-    if (set)
-        set(display_lost);
-}
-
-/* Whether libwayland knows where to look for a display (wl_display_connect). Otherwise it says so
- * on standard error. */
-static bool has_wayland_path(void)
-{
-    const char *socket = getenv("WAYLAND_SOCKET"), *display = getenv("WAYLAND_DISPLAY");
-    const char *folder = getenv("XDG_RUNTIME_DIR");
-    return socket || (display && display[0] == '/') || (folder && folder[0] == '/');
-}
-
-/* GLFW 3.4 tries Wayland first, unless it is told to use X11. */
-static bool choose_platform(Message *message)
-{
-    const char *version = glfw.GetVersionString();
-    if (has_wayland_path() || !strstr(version, "Wayland"))
-        return true;
-    if (!strstr(version, "X11"))
-        return message_set(message, "window: no display (XDG_RUNTIME_DIR is not set)");
-    glfw.InitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
-    return true;
-}
-
-static bool glfw_load(Message *message)
-{
-    if (glfw.library)
-        return true;
-    void *library = dlopen("libglfw.so.3", RTLD_NOW | RTLD_LOCAL);
-    if (!library)
-        return message_set(message,
-                           "window: libglfw.so.3 not found; install the package " GLFW_PACKAGE);
-#define GLFW_LOAD(name)                                                                            \
-    *(void **)&glfw.name = dlsym(library, "glfw" #name);                                           \
-    if (!glfw.name) {                                                                              \
-        dlclose(library);                                                                          \
-        return message_set(message, "window: libglfw.so.3 has no glfw" #name                       \
-                                    "; install a newer " GLFW_PACKAGE);                            \
-    }
-    GLFW_FUNCTIONS(GLFW_LOAD)
-#undef GLFW_LOAD
-    /* What Mesa lacks for acceleration, as DRI3 on Xvfb, is no warning to a user. */
-    setenv("EGL_LOG_LEVEL", "fatal", 0);
-    glfw.library = library;
-    return true;
-}
 
 static WindowInput *pending(GLFWwindow *handle)
 {
@@ -303,27 +156,8 @@ static void *current_context(void)
     return get ? get() : NULL;
 }
 
-static bool window_open(void **opened, const CanvasOptions *options, const char **platform,
-                        Message *message)
+static void set_hints(void)
 {
-    char why[256];
-    const char *title = options->title ? options->title : "lighting";
-    if (!glfw_load(message) || !choose_platform(message))
-        return false;
-    if (options->lost) {
-        glfw.lost = options->lost;
-        snprintf(glfw.title, sizeof glfw.title, "%s", title);
-        handle_lost_display();
-    }
-    Window *window = calloc(1, sizeof *window);
-    if (!window)
-        return message_set(message, "window: not enough memory");
-    glfw.error[0] = '\0';
-    glfw.SetErrorCallback(keep_error);
-    if (!glfw.Init()) {
-        free(window);
-        return message_set(message, "window: no display (%s)", take_error(why));
-    }
     glfw.WindowHint(GLFW_CLIENT_API, GLFW_OPENGL_ES_API);
     glfw.WindowHint(GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API);
     glfw.WindowHint(GLFW_CONTEXT_VERSION_MAJOR, 2);
@@ -336,28 +170,48 @@ static bool window_open(void **opened, const CanvasOptions *options, const char 
     /* GLFW uses each only if both are set. */
     glfw.WindowHintString(GLFW_X11_CLASS_NAME, "lighting");
     glfw.WindowHintString(GLFW_X11_INSTANCE_NAME, "lighting");
+}
+
+static void set_callbacks(GLFWwindow *handle)
+{
+    glfw.SetKeyCallback(handle, on_key);
+    glfw.SetCharCallback(handle, on_character);
+    glfw.SetCursorPosCallback(handle, on_pointer);
+    glfw.SetMouseButtonCallback(handle, on_button);
+    glfw.SetScrollCallback(handle, on_scroll);
+    glfw.SetCursorEnterCallback(handle, on_state);
+    glfw.SetFramebufferSizeCallback(handle, on_size);
+    glfw.SetWindowCloseCallback(handle, on_change);
+    glfw.SetWindowContentScaleCallback(handle, on_scale);
+    glfw.SetWindowFocusCallback(handle, on_state);
+    glfw.SetWindowIconifyCallback(handle, on_state);
+    glfw.SetWindowRefreshCallback(handle, on_change);
+}
+
+static bool window_open(void **opened, const CanvasOptions *options, const char **platform,
+                        Message *message)
+{
+    char why[256];
+    const char *title = options->title ? options->title : "lighting";
+    if (options->lost) {
+        glfw.lost = options->lost;
+        snprintf(glfw.title, sizeof glfw.title, "%s", title);
+    }
+    if (!glfw_open(message))
+        return false;
+    set_hints();
+    Window *window = memory_new(1, sizeof *window);
     /* The canvas rejects sizes beyond the driver's limit. */
     window->handle = glfw.CreateWindow(between(options->width, 1, MAX_SIDE),
                                        between(options->height, 1, MAX_SIDE), title, NULL, NULL);
     if (!window->handle) {
         window_close(window);
-        return message_set(message, "window: %s", take_error(why));
+        return message_set(message, "window: %s", glfw_take_error(why));
     }
     glfw.SetWindowUserPointer(window->handle, window);
     glfw.MakeContextCurrent(window->handle);
     window->context = current_context();
-    glfw.SetKeyCallback(window->handle, on_key);
-    glfw.SetCharCallback(window->handle, on_character);
-    glfw.SetCursorPosCallback(window->handle, on_pointer);
-    glfw.SetMouseButtonCallback(window->handle, on_button);
-    glfw.SetScrollCallback(window->handle, on_scroll);
-    glfw.SetCursorEnterCallback(window->handle, on_state);
-    glfw.SetFramebufferSizeCallback(window->handle, on_size);
-    glfw.SetWindowCloseCallback(window->handle, on_change);
-    glfw.SetWindowContentScaleCallback(window->handle, on_scale);
-    glfw.SetWindowFocusCallback(window->handle, on_state);
-    glfw.SetWindowIconifyCallback(window->handle, on_state);
-    glfw.SetWindowRefreshCallback(window->handle, on_change);
+    set_callbacks(window->handle);
     window->pending.touched = true;
     snprintf(window->platform, sizeof window->platform, "GLFW %s", glfw.GetVersionString());
     window_wait_for_screen(window, true);
@@ -546,7 +400,7 @@ bool window_check(Window *window, Message *message)
 {
     char why[256];
     (void)window;
-    return !glfw.error[0] || message_set(message, "window: %s", take_error(why));
+    return !glfw.error[0] || message_set(message, "window: %s", glfw_take_error(why));
 }
 
 static bool window_probe(Message *findings)
