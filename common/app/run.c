@@ -56,10 +56,13 @@ static bool sink_open(Sink *sink, const Canvas *canvas, const Options *options, 
     *sink = (Sink){.queue = NULL};
     if (options->animation && !animation_open(&sink->animation, &animation, message))
         return false;
-    const PictureSink in_order = {.write = animation_add, .data = sink->animation, .threads = 1};
-    return picture_queue_open(&sink->queue, canvas->width, canvas->height,
-                              canvas->real ? IMAGE_FLOAT : IMAGE_BYTE, options->frames,
-                              sink->animation ? &in_order : NULL, message);
+    const PictureQueueOptions pictures = {.width = canvas->width,
+                                          .height = canvas->height,
+                                          .type = canvas->real ? IMAGE_FLOAT : IMAGE_BYTE,
+                                          .count = options->frames,
+                                          .write = sink->animation ? animation_add : NULL,
+                                          .data = sink->animation};
+    return picture_queue_open(&sink->queue, &pictures, message);
 }
 
 /* Waits for the last picture to be written. Unless all were drawn, no animation is left. */
@@ -206,7 +209,7 @@ static bool write_drawings(const Example *example, const Options *options, Messa
         if (!part_has(options->part, (uint64_t)i))
             continue;
         char path[PATH_MAX];
-        Drawing drawing = {.failed = false};
+        Drawing drawing = {.width = 0};
         done = picture_path(options, i, path, message) &&
                stage_drawing(example, options->seconds + i / options->fps, options->width,
                              options->height, &drawing, message) &&

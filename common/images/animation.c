@@ -1,5 +1,16 @@
+/*
+ * Three ways to write pictures one after the other: OpenImageIO's GIF; an ffmpeg process, which is
+ * sent raw pictures through a pipe and writes to a file that is already open, so that it is renamed
+ * into place only when it is whole, as every output; and two raw streams for pipes, y4m and rgb,
+ * written here. One table says for each format what it can hold, and the words for ffmpeg.
+ *
+ * Formats count time in different units. A rate F is sent as a fraction of integers, the nearest
+ * whose terms a format can hold, found by the continued fraction of F: its convergents are the best
+ * fractions of their size (Hardy and Wright, An introduction to the theory of numbers, chapter 10).
+ */
 #include "images/animation.h"
 
+#include "base/memory.h"
 #include "base/output.h"
 #include "base/process.h"
 #include "images/image_gif.h"
@@ -400,9 +411,7 @@ static bool open_writer(Animation *animation, Message *message)
 
 bool animation_open(Animation **opened, const AnimationOptions *options, Message *message)
 {
-    Animation *animation = *opened = calloc(1, sizeof *animation);
-    if (!animation)
-        return message_set(message, "animation: not enough memory");
+    Animation *animation = *opened = memory_new(1, sizeof *animation);
     const Format *format = find_format(options->format);
     animation->options = *options;
     animation->format = format;

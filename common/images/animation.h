@@ -47,7 +47,7 @@ typedef struct Animation Animation;
 /* False, with nothing left open, if the file cannot be created or ffmpeg is missing. */
 bool animation_open(Animation **animation, const AnimationOptions *options, Message *message);
 
-/* Adds a byte picture; a PictureSink's `write` for one thread, with an Animation as its data. False
+/* Adds a byte picture; a PictureWrite, with an Animation as its data. False
  * without a message if the reader of standard output has closed it. */
 bool animation_add(void *animation, const Picture *picture, Message *message);
 

@@ -1,5 +1,13 @@
+/*
+ * A figure is four lists that grow: paths, the steps of all paths, the points of all steps, and the
+ * texts. A path knows where its steps and points begin, so that any surface can walk it: pixels,
+ * SVG and PDF alike. A letter is a path like others: TrueType's curves are quadratic, with one
+ * control c between the ends a and b; the same curve as a cubic has the controls (a + 2c)/3 and (b
+ * + 2c)/3.
+ */
 #include "images/drawing.h"
 
+#include "base/memory.h"
 #include "base/output.h"
 #include "base/plugin.h"
 #include "images/drawing_plugin.h"
@@ -32,54 +40,41 @@ void drawing_end(Drawing *drawing)
     free(drawing->points);
     free(drawing->paths);
     free(drawing->labels);
-    *drawing = (Drawing){.failed = false};
-}
-
-bool drawing_check(const Drawing *drawing, Message *message)
-{
-    return !drawing->failed || message_set(message, "figure: not enough memory");
+    *drawing = (Drawing){.width = 0};
 }
 
 /* Paths. */
 
-/* Room for one more element of a list; NULL if there is none. */
-static void *one_more(Drawing *drawing, void *list, int *count, int *room, size_t size)
+/* One more element of a list. */
+static void *one_more(void *list, int *count, int *room, size_t size)
 {
     void **elements = list;
-    if (*count == *room && !drawing->failed) {
-        const int wanted = *room ? 2 * *room : 256;
-        void *larger = realloc(*elements, (size_t)wanted * size);
-        drawing->failed = !larger;
-        *elements = larger ? larger : *elements;
-        *room = larger ? wanted : *room;
+    if (*count == *room) {
+        *room = *room ? 2 * *room : 256;
+        *elements = memory_grow(*elements, (size_t)*room, size);
     }
-    return drawing->failed ? NULL : (char *)*elements + size * (size_t)(*count)++;
+    return (char *)*elements + size * (size_t)(*count)++;
 }
 
 #define ONE_MORE(drawing, list, count, room)                                                       \
-    one_more(drawing, &(drawing)->list, &(drawing)->count, &(drawing)->room,                       \
-             sizeof *(drawing)->list)
+    one_more(&(drawing)->list, &(drawing)->count, &(drawing)->room, sizeof *(drawing)->list)
 
 void drawing_path(Drawing *drawing, DrawingStyle style)
 {
     DrawingPath *path = ONE_MORE(drawing, paths, path_count, path_room);
-    if (path)
-        *path = (DrawingPath){
-            .style = style, .first_step = drawing->step_count, .first_point = drawing->point_count};
+    *path = (DrawingPath){
+        .style = style, .first_step = drawing->step_count, .first_point = drawing->point_count};
 }
 
 static void add_step(Drawing *drawing, DrawingStep step, const DrawingPoint *points, int count)
 {
     DrawingStep *added = ONE_MORE(drawing, steps, step_count, step_room);
-    if (added)
-        *added = step;
+    *added = step;
     for (int i = 0; i < count; i++) {
         DrawingPoint *point = ONE_MORE(drawing, points, point_count, point_room);
-        if (point)
-            *point = points[i];
+        *point = points[i];
     }
-    if (!drawing->failed)
-        drawing->paths[drawing->path_count - 1].step_count++;
+    drawing->paths[drawing->path_count - 1].step_count++;
 }
 
 void drawing_move(Drawing *drawing, DrawingPoint to)
@@ -123,7 +118,7 @@ DrawingBox drawing_path_box(const Drawing *drawing, const DrawingPath *path)
 
 /* Text. */
 
-/* The outline of a glyph, whose curves are quadratic in TrueType and cubic here. */
+/* The outline of a glyph. */
 static void add_glyph(Drawing *drawing, const stbtt_fontinfo *font, int glyph, DrawingPoint at,
                       double scale)
 {
@@ -195,8 +190,6 @@ void drawing_text(Drawing *drawing, DrawingPoint at, double size, Vec3 color, co
 {
     drawing_path(drawing, (DrawingStyle){.fill = color, .fill_alpha = 1});
     DrawingLabel *label = ONE_MORE(drawing, labels, label_count, label_room);
-    if (!label)
-        return;
     label->box = set_text(drawing, drawing, at, size, text);
     snprintf(label->text, sizeof label->text, "%s", text);
 }
@@ -213,7 +206,7 @@ bool drawing_probe(Message *findings)
 bool drawing_paint(const Drawing *drawing, Image *image, bool transparent, Message *message)
 {
     const DrawingPlugin *plugin = plugin_open(&cairo, message);
-    if (!plugin || !drawing_check(drawing, message))
+    if (!plugin)
         return false;
     const char *reason = plugin->paint(drawing, image, transparent);
     return !reason || message_set(message, "cairo: %s", reason);
@@ -247,7 +240,7 @@ bool drawing_encode(const Drawing *drawing, const char *format, bool transparent
     const DrawingPlugin *plugin = plugin_open(&cairo, message);
     char *bytes = NULL;
     *file = (ImageFile){0};
-    if (!plugin || !drawing_check(drawing, message))
+    if (!plugin)
         return false;
     FILE *stream = open_memstream(&bytes, &file->size);
     const char *reason =

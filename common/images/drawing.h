@@ -17,9 +17,6 @@
 bool drawing_begin(Drawing *drawing, double width, double height, Message *message);
 void drawing_end(Drawing *drawing);
 
-/* Whether all that was added is there. */
-bool drawing_check(const Drawing *drawing, Message *message);
-
 /* Adds a path, to which the steps that follow belong. */
 void drawing_path(Drawing *drawing, DrawingStyle style);
 void drawing_move(Drawing *drawing, DrawingPoint to);

@@ -50,7 +50,6 @@ typedef struct Drawing {
     DrawingLabel *labels;
     int step_count, point_count, path_count, label_count;
     int step_room, point_room, path_room, label_room;
-    bool failed; /* memory ran out: what was added since is missing */
 } Drawing;
 
 #endif

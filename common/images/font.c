@@ -1,4 +1,11 @@
+/* A font's file is mapped, not read: of 750 KB a label touches a few pages. */
+#include "base/memory.h"
+
+#include <stdlib.h>
+
 #define STB_TRUETYPE_IMPLEMENTATION
+#define STBTT_malloc(size, user) ((void)(user), memory_new(1, size))
+#define STBTT_free(block, user) ((void)(user), free(block))
 #include "images/font.h"
 
 #include <errno.h>

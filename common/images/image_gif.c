@@ -1,5 +1,14 @@
+/*
+ * The times of an animated GIF. A picture is shown for a whole number of hundredths of a second,
+ * and at 30 per second no number is right: 3 makes 33 per second. So delays differ: picture i
+ * begins at the hundredth nearest to i / fps, and is shown until the next begins, which keeps the
+ * error below half a hundredth however long the animation is. OpenImageIO writes the same delay for
+ * all; when the file is complete, its blocks are walked and each delay is replaced in place.
+ * (GIF89a specification, sections 17 to 23)
+ */
 #include "images/image_gif.h"
 
+#include "base/memory.h"
 #include "images/image_plugin.h"
 
 #include <errno.h>
@@ -20,9 +29,7 @@ struct ImageGif {
 bool image_gif_open(ImageGif **opened, int file, const GifOptions *options, Message *message)
 {
     char reason[1024] = "";
-    ImageGif *gif = *opened = calloc(1, sizeof *gif);
-    if (!gif)
-        return message_set(message, "GIF: not enough memory");
+    ImageGif *gif = *opened = memory_new(1, sizeof *gif);
     *gif = (ImageGif){.plugin = plugin_open(&image_openimageio, message),
                       .file = file,
                       .options = *options,
@@ -66,8 +73,7 @@ static long gif_delay(const ImageGif *gif, int number)
     return lround(100 * (number + 1) / fps) - lround(100 * number / fps);
 }
 
-/* The library writes the same delay for all pictures: replaces it in their graphic control
- * extensions. (GIF89a specification, sections 17 to 23) */
+/* Replaces the delay in the graphic control extension of each picture. */
 static bool gif_set_delays(const ImageGif *gif, FILE *file)
 {
     int kind, flags, number = 0;

@@ -1,19 +1,28 @@
+/*
+ * A picture is drawn, then encoded, which takes up to twice as long: so two threads encode while
+ * the next is drawn. Pictures are a fixed number of slots that go round: one for each thread, one
+ * being drawn, and one that waits to even out their times. A slot is free, taken (drawn into),
+ * waiting or being written; one lock guards the states, and whoever changes one wakes all others.
+ * Each picture has its turn in the order in which it was given, so that with a single writer, which
+ * an animation has, they arrive in order. After a failure the others are taken and dropped, so that
+ * nobody waits for a writer that has ended.
+ */
 #include "images/picture_queue.h"
 
+#include "base/memory.h"
 #include "base/version.h"
 
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Encoding a picture takes up to twice as long as drawing it, so two threads encode separate files.
- * A slot for each of them, one being drawn, and one waiting to even out their times. */
 enum { MAX_WRITERS = 2, MAX_SLOTS = MAX_WRITERS + 2 };
 
 typedef enum SlotState { SLOT_FREE, SLOT_TAKEN, SLOT_WAITING, SLOT_WRITING } SlotState;
 
 struct PictureQueue {
-    PictureSink sink;
+    PictureWrite *write;
+    void *data;
     pthread_t writers[MAX_WRITERS];
     int writer_count;
     pthread_mutex_t lock;
@@ -62,8 +71,6 @@ static bool write_file(void *data, const Picture *picture, Message *message)
     return picture_write(picture, message);
 }
 
-static const PictureSink FILES = {.write = write_file, .threads = MAX_WRITERS};
-
 /* The slot in `state` given first, or -1. */
 static int oldest(const PictureQueue *queue, SlotState state)
 {
@@ -90,8 +97,7 @@ static void *write_pictures(void *argument)
         if (!queue->failed) {
             Message message = {0};
             pthread_mutex_unlock(&queue->lock);
-            const bool written =
-                queue->sink.write(queue->sink.data, &queue->pictures[slot], &message);
+            const bool written = queue->write(queue->data, &queue->pictures[slot], &message);
             pthread_mutex_lock(&queue->lock);
             if (!written && !queue->failed) {
                 queue->failed = true;
@@ -114,25 +120,25 @@ static void free_queue(PictureQueue *queue)
     free(queue);
 }
 
-bool picture_queue_open(PictureQueue **opened, int width, int height, ImageType type, int count,
-                        const PictureSink *sink, Message *message)
+bool picture_queue_open(PictureQueue **opened, const PictureQueueOptions *options, Message *message)
 {
-    PictureQueue *queue = calloc(1, sizeof *queue);
+    PictureQueue *queue = memory_new(1, sizeof *queue);
+    const int threads = options->write ? 1 : MAX_WRITERS;
     *opened = NULL;
-    if (!queue)
-        return message_set(message, "pictures: not enough memory");
-    queue->sink = sink ? *sink : FILES;
-    queue->slots = count < MAX_SLOTS ? count : MAX_SLOTS;
+    queue->write = options->write ? options->write : write_file;
+    queue->data = options->data;
+    queue->slots = options->count < MAX_SLOTS ? options->count : MAX_SLOTS;
     pthread_mutex_init(&queue->lock, NULL);
     pthread_cond_init(&queue->changed, NULL);
     for (int i = 0; i < queue->slots; i++) {
-        if (!image_open(&queue->pictures[i].image, width, height, type, message)) {
+        if (!image_open(&queue->pictures[i].image, options->width, options->height, options->type,
+                        message)) {
             free_queue(queue);
             return false;
         }
     }
     int error = 0;
-    for (int i = 0; i < MAX_WRITERS && i < queue->sink.threads && i < queue->slots && !error; i++) {
+    for (int i = 0; i < threads && i < queue->slots && !error; i++) {
         error = pthread_create(&queue->writers[i], NULL, write_pictures, queue);
         queue->writer_count += !error;
     }

@@ -33,20 +33,22 @@ bool picture_encode(const Picture *picture, ImageFile *file, Message *message);
 bool picture_read(Picture *picture, Message *message);
 bool picture_decode(Picture *picture, const ImageFile *file, Message *message);
 
-/* Where a queue's pictures go. */
-typedef struct PictureSink {
-    /* False stops the queue; without a message if that is no error. */
-    bool (*write)(void *data, const Picture *picture, Message *message);
+/* Takes a queue's pictures. False stops the queue; without a message if that is no error. */
+typedef bool PictureWrite(void *data, const Picture *picture, Message *message);
+
+typedef struct PictureQueueOptions {
+    int width, height;
+    ImageType type;
+    int count;           /* of the pictures that will be given */
+    PictureWrite *write; /* called by one thread, in order; NULL: two threads write each picture to
+                            its path */
     void *data;
-    int threads; /* that call it, 1 or 2; one receives the pictures in order */
-} PictureSink;
+} PictureQueueOptions;
 
 typedef struct PictureQueue PictureQueue;
 
-/* Starts the threads for `count` pictures of this size and type. If `sink` is NULL, two threads
- * write each picture to its path. */
-bool picture_queue_open(PictureQueue **queue, int width, int height, ImageType type, int count,
-                        const PictureSink *sink, Message *message);
+/* Starts the threads. */
+bool picture_queue_open(PictureQueue **queue, const PictureQueueOptions *options, Message *message);
 
 /* A picture to draw into; waits while all are in use. */
 Picture *picture_queue_take(PictureQueue *queue);

@@ -76,7 +76,8 @@ bool shape_open(Shape *shape, ShapeKind kind, ShapeStyle style, const ShapeModel
         shape->solid = (Solid){
             .kind = SOLID_CYLINDER, .radius = radius, .height = 2 * radius, .caps = MESH_CAP_BOTH};
         shape->placed = stand(2 * radius);
-        return mesh_cylinder(mesh, radius, 2 * radius, 64, along, MESH_CAP_BOTH, message);
+        return mesh_cylinder(mesh, (MeshCylinder){radius, 2 * radius, 64, along, MESH_CAP_BOTH},
+                             message);
     case SHAPE_TETRAHEDRON:
         shape->flat = true;
         return mesh_tetrahedron(mesh, size, message);

@@ -1,5 +1,17 @@
+/*
+ * A fox's head from 64 points: half of a cage of quadrilaterals, and its mirror image.
+ *
+ * Catmull-Clark subdivision cuts each quadrilateral into four. It adds the middle F of each
+ * quadrilateral; on each edge the mean of its ends and of the two F beside it; and moves each point
+ * P with n edges to ((n - 2) P + R + Q) / n, where R is the mean of the n other ends of its edges
+ * and Q that of the n F around it. Repeated, this converges to bicubic B-splines, smooth everywhere
+ * except for curvature where n is not 4. Only half of the cage is stored; a point in the mirror
+ * plane has its neighbours twice, the second time with opposite x, so that it stays in the plane.
+ * Edges are found by sorting the sides of all quadrilaterals by their two ends.
+ */
 #include "shapes/fox_head.h"
 
+#include "base/memory.h"
 #include "core/mesh_make.h"
 
 #include <stdlib.h>
@@ -54,16 +66,12 @@ enum {
     QUAD_COUNT = sizeof QUADS / sizeof QUADS[0]
 };
 
-static bool cage_open(Cage *cage, size_t point_count, size_t quad_count, Message *message)
+static Cage cage_open(size_t point_count, size_t quad_count)
 {
-    *cage = (Cage){.point_count = point_count, .quad_count = quad_count};
-    cage->points = calloc(point_count, sizeof *cage->points);
-    cage->quads = calloc(quad_count, sizeof *cage->quads);
-    if (cage->points && cage->quads)
-        return true;
-    cage_close(cage);
-    return message_set(message, "cage: not enough memory for %zu points and %zu quadrilaterals",
-                       point_count, quad_count);
+    return (Cage){.points = memory_new(point_count, sizeof(Vec3)),
+                  .quads = memory_new(quad_count, sizeof(uint32_t[4])),
+                  .point_count = point_count,
+                  .quad_count = quad_count};
 }
 
 void cage_close(Cage *cage)
@@ -110,22 +118,13 @@ static Vec3 moved(Vec3 from, Vec3 sum, int corners)
         1 / valence);
 }
 
-bool cage_subdivide(Cage *cage, Message *message)
+void cage_subdivide(Cage *cage)
 {
     const uint32_t points = (uint32_t)cage->point_count, quads = (uint32_t)cage->quad_count;
     const Vec3 *point = cage->points;
-    Cage fine;
-    if (!cage_open(&fine, points + 5 * (size_t)quads, 4 * (size_t)quads, message))
-        return false;
-    Side *sides = calloc(4 * (size_t)quads, sizeof *sides);
-    int *corners = calloc(points, sizeof *corners);
-    if (!sides || !corners) {
-        free(sides);
-        free(corners);
-        cage_close(&fine);
-        return message_set(message, "cage: not enough memory for the sides of %lu quadrilaterals",
-                           (unsigned long)quads);
-    }
+    Cage fine = cage_open(points + 5 * (size_t)quads, 4 * (size_t)quads);
+    Side *sides = memory_new(4 * (size_t)quads, sizeof *sides);
+    int *corners = memory_new(points, sizeof *corners);
     for (uint32_t q = 0; q < quads; q++) {
         const uint32_t *quad = cage->quads[q];
         const Vec3 even = middle(point[quad[0]], point[quad[2]]);
@@ -163,7 +162,6 @@ bool cage_subdivide(Cage *cage, Message *message)
     free(corners);
     cage_close(cage);
     *cage = fine;
-    return true;
 }
 
 /* The cage as triangles; `faceted`: with four vertices for each quadrilateral, and its normal. */
@@ -195,11 +193,9 @@ static bool half_open(Mesh *half, const Cage *cage, bool faceted, Message *messa
 static bool mirror(Mesh *mesh, const Mesh *half, bool faceted, Message *message)
 {
     const size_t count = half->vertex_count, indices = half->index_count;
-    uint32_t *image = calloc(count, sizeof *image);
-    if (!image || !mesh_open(mesh, 2 * count, 2 * indices, message)) {
-        free(image);
-        return message_set(message, "head: not enough memory for %zu vertices", 2 * count);
-    }
+    if (!mesh_open(mesh, 2 * count, 2 * indices, message))
+        return false;
+    uint32_t *image = memory_new(count, sizeof *image);
     memcpy(mesh->vertices, half->vertices, count * sizeof *half->vertices);
     memcpy(mesh->indices, half->indices, indices * sizeof *half->indices);
     mesh->vertex_count = count;
@@ -225,21 +221,19 @@ static bool mirror(Mesh *mesh, const Mesh *half, bool faceted, Message *message)
 
 bool mesh_head(Mesh *mesh, HeadStyle style, Message *message)
 {
-    Cage cage;
+    Cage cage = cage_open(POINT_COUNT, QUAD_COUNT);
     Mesh half = {0};
     *mesh = (Mesh){0};
-    if (!cage_open(&cage, POINT_COUNT, QUAD_COUNT, message))
-        return false;
     for (size_t i = 0; i < POINT_COUNT; i++)
         cage.points[i] = vec3_scale((Vec3){POINTS[i][0], POINTS[i][1], POINTS[i][2]}, 1.0 / UNITS);
     for (size_t i = 0; i < QUAD_COUNT; i++)
         for (size_t k = 0; k < 4; k++)
             cage.quads[i][k] = QUADS[i][k];
     const bool faceted = style == HEAD_FACETED;
-    const bool done = (style != HEAD_SUBDIVIDED ||
-                       (cage_subdivide(&cage, message) && cage_subdivide(&cage, message))) &&
-                      half_open(&half, &cage, faceted, message) &&
-                      mirror(mesh, &half, faceted, message);
+    for (int step = 0; step < 2 && style == HEAD_SUBDIVIDED; step++)
+        cage_subdivide(&cage);
+    const bool done =
+        half_open(&half, &cage, faceted, message) && mirror(mesh, &half, faceted, message);
     mesh_close(&half);
     cage_close(&cage);
     return done;

@@ -27,8 +27,8 @@ typedef struct Cage {
 /* One step of Catmull-Clark subdivision (Catmull and Clark, Recursively generated B-spline surfaces
  * on arbitrary topological meshes, Computer-Aided Design 10(6), 1978). The points are those of the
  * cage, moved, in their order, then the quadrilaterals' and the edges'; quadrilateral q becomes 4 q
- * to 4 q + 3, which begin at its corners. On failure (memory) the cage is unchanged. */
-bool cage_subdivide(Cage *cage, Message *message);
+ * to 4 q + 3, which begin at its corners. */
+void cage_subdivide(Cage *cage);
 
 /* NULL or zeroed is fine. */
 void cage_close(Cage *cage);

@@ -95,9 +95,11 @@ bool mesh_cone(Mesh *mesh, double radius, double height, int slices, int stacks,
     return true;
 }
 
-bool mesh_cylinder(Mesh *mesh, double radius, double height, int slices, int stacks, MeshCaps caps,
-                   Message *message)
+bool mesh_cylinder(Mesh *mesh, MeshCylinder cylinder, Message *message)
 {
+    const double radius = cylinder.radius, height = cylinder.height;
+    const int slices = cylinder.slices, stacks = cylinder.stacks;
+    const MeshCaps caps = cylinder.caps;
     *mesh = (Mesh){0};
     if (!check_round("cylinder", radius, slices, "stacks", stacks, message) ||
         !mesh_check_length("cylinder", "height", height, message))

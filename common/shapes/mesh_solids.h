@@ -24,8 +24,12 @@ typedef enum MeshCaps {
     MESH_CAP_TOP = 2,    /* at z = height */
     MESH_CAP_BOTH = MESH_CAP_BOTTOM | MESH_CAP_TOP,
 } MeshCaps;
-bool mesh_cylinder(Mesh *mesh, double radius, double height, int slices, int stacks, MeshCaps caps,
-                   Message *message);
+typedef struct MeshCylinder {
+    double radius, height;
+    int slices, stacks;
+    MeshCaps caps;
+} MeshCylinder;
+bool mesh_cylinder(Mesh *mesh, MeshCylinder cylinder, Message *message);
 
 /* A torus of the tube radius `tube`, whose centre line is the circle of radius `ring` in the plane
  * z = 0; `sides` around the tube, `rings` along it (3 to MESH_SPHERE_MAX). ring / MESH_TORUS_THIN

@@ -1,5 +1,12 @@
+/*
+ * A formula's mesh of any fineness. The fineness is one number, the parts of a full turn; what else
+ * a shape's mesh needs follows from it, so that triangles stay about as high as they are wide: a
+ * quarter as many stacks of a side, which is a quarter as long as the way around; half as many
+ * parts around a tube.
+ */
 #include "shapes/solid.h"
 
+#include "base/memory.h"
 #include "core/mesh_make.h"
 
 #include <stdlib.h>
@@ -63,7 +70,8 @@ bool solid_mesh(const Solid *solid, int divisions, Mesh *mesh, Message *message)
     case SOLID_DISC:
         return mesh_disc(mesh, radius, divisions, quarter, message);
     case SOLID_CYLINDER:
-        return mesh_cylinder(mesh, radius, height, divisions, quarter, solid->caps, message);
+        return mesh_cylinder(mesh, (MeshCylinder){radius, height, divisions, quarter, solid->caps},
+                             message);
     case SOLID_CONE:
         return mesh_cone(mesh, radius, height, divisions, quarter, message);
     case SOLID_TORUS:
@@ -94,11 +102,7 @@ const Mesh *solid_meshes_find(SolidMeshes *meshes, const Solid *solid, int divis
     for (const SolidMesh *have = meshes->first; have; have = have->next)
         if (have->divisions == divisions && same_solid(&have->solid, solid))
             return &have->mesh;
-    SolidMesh *made = calloc(1, sizeof *made);
-    if (!made) {
-        message_set(message, "solid: not enough memory");
-        return NULL;
-    }
+    SolidMesh *made = memory_new(1, sizeof *made);
     if (!solid_mesh(solid, divisions, &made->mesh, message)) {
         free(made);
         return NULL;

@@ -1,5 +1,10 @@
+/*
+ * What the panel needs of no library: where it leaves the picture, and input made harmless before
+ * Dear ImGui, which aborts on sizes and positions that are not finite, sees it.
+ */
 #include "window/panel.h"
 
+#include "base/memory.h"
 #include "window/panel_module.h"
 
 #include <math.h>
@@ -23,9 +28,7 @@ bool panel_open(Panel **panel, Message *message)
     *panel = NULL;
     if (!module)
         return false;
-    Panel *own = calloc(1, sizeof *own);
-    if (!own)
-        return message_set(message, "panel: not enough memory");
+    Panel *own = memory_new(1, sizeof *own);
     own->module = module;
     if (!module->open(&own->context, reason, sizeof reason)) {
         free(own);
@@ -71,7 +74,6 @@ void panel_place(PanelView view, bool errors, double scale, int width, int heigh
     place[3] = height - above - below;
 }
 
-/* Dear ImGui aborts on invalid numbers. */
 static WindowInput sane(const WindowInput *input)
 {
     WindowInput own = *input;

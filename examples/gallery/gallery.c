@@ -148,8 +148,9 @@ static bool draw_all(const Selection *selection, Canvas *canvas, const Options *
 {
     PictureQueue *queue;
     Progress progress = progress_start("gallery");
-    if (!picture_queue_open(&queue, canvas->width, canvas->height, IMAGE_BYTE, selection->count,
-                            NULL, message))
+    const PictureQueueOptions pictures = {canvas->width, canvas->height, IMAGE_BYTE,
+                                          .count = selection->count};
+    if (!picture_queue_open(&queue, &pictures, message))
         return false;
     bool done = true;
     for (int i = 0; i < selection->count && done; i++) {

@@ -62,7 +62,7 @@ static Vec3 rainbow(double hue)
 static bool open_base(Mesh *mesh, Message *message)
 {
     static const double TURN = 6.283185307179586;
-    if (!mesh_cylinder(mesh, 1, 2, BASE_SLICES, 1, MESH_CAP_BOTH, message) ||
+    if (!mesh_cylinder(mesh, (MeshCylinder){1, 2, BASE_SLICES, 1, MESH_CAP_BOTH}, message) ||
         !mesh_open_colors(mesh, message))
         return false;
     for (size_t i = 0; i < mesh->vertex_count; i++) {

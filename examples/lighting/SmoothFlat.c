@@ -76,7 +76,7 @@ static bool open_square(Mesh *mesh, Message *message)
 /* The band is the half of an open cylinder that is cut into 16. */
 static bool open_band(Mesh *mesh, Message *message)
 {
-    if (!mesh_cylinder(mesh, 4, 2.5, 16, 1, MESH_CAP_NONE, message))
+    if (!mesh_cylinder(mesh, (MeshCylinder){4, 2.5, 16, 1, MESH_CAP_NONE}, message))
         return false;
     mesh->index_count /= 2;
     return true;

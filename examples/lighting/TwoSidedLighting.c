@@ -63,8 +63,9 @@ static struct {
 static bool init(const ShaderLoader *loader, Message *message)
 {
     (void)loader;
-    return shape == CYLINDER ? mesh_cylinder(&state.mesh, 1, 2, 64, 1, MESH_CAP_BOTTOM, message)
-                             : mesh_quad(&state.mesh, 1, message);
+    return shape == CYLINDER
+               ? mesh_cylinder(&state.mesh, (MeshCylinder){1, 2, 64, 1, MESH_CAP_BOTTOM}, message)
+               : mesh_quad(&state.mesh, 1, message);
 }
 
 /* Lit from the viewer, who looks into it. */

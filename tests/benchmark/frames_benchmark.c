@@ -49,8 +49,8 @@ static bool draw_and_write(void *argument)
     (void)argument;
     Message message = {0};
     PictureQueue *queue;
-    bool done =
-        picture_queue_open(&queue, canvas.width, canvas.height, IMAGE_BYTE, FRAMES, NULL, &message);
+    const PictureQueueOptions pictures = {canvas.width, canvas.height, IMAGE_BYTE, .count = FRAMES};
+    bool done = picture_queue_open(&queue, &pictures, &message);
     for (int i = 0; i < FRAMES && done; i++) {
         Picture *picture = picture_queue_take(queue);
         snprintf(picture->path, sizeof picture->path, "%s/frame%03d.png", folder, i);

@@ -25,7 +25,7 @@ static Mesh made; /* of the current test, until forget */
 FIXTURE(open_all)
 {
     hard_open(&hard, SIZE, SIZE);
-    require(mesh_cylinder(&tube, 0.8, 1.6, 24, 4, MESH_CAP_NONE, FAILURE), FAILURE);
+    require(mesh_cylinder(&tube, (MeshCylinder){0.8, 1.6, 24, 4, MESH_CAP_NONE}, FAILURE), FAILURE);
     return 0;
 }
 

@@ -255,11 +255,11 @@ static bool see(void *data, const Picture *picture, Message *reason)
 
 static bool give_all(Seen *seen, int count)
 {
-    const PictureSink sink = {.write = see, .data = seen, .threads = 1};
+    const PictureQueueOptions options = {8, 8, IMAGE_BYTE, count, see, seen};
     PictureQueue *queue;
     bool done = true;
     message = (Message){0};
-    assert_true(picture_queue_open(&queue, 8, 8, IMAGE_BYTE, count, &sink, &message));
+    assert_true(picture_queue_open(&queue, &options, &message));
     for (int i = 1; i <= count && done; i++) {
         Picture *picture = picture_queue_take(queue);
         snprintf(picture->path, sizeof picture->path, "%d", i);

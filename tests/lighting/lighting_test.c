@@ -47,7 +47,7 @@ FIXTURE(open_all)
                 mesh_sphere(&sphere, 1, 24, 12, FAILURE) &&
                 mesh_sphere(&smooth_sphere, 1, 320, 160, FAILURE) &&
                 mesh_cube(&cube, 0.8, FAILURE) &&
-                mesh_cylinder(&tube, 0.8, 1.5, 24, 4, MESH_CAP_NONE, FAILURE) &&
+                mesh_cylinder(&tube, (MeshCylinder){0.8, 1.5, 24, 4, MESH_CAP_NONE}, FAILURE) &&
                 mesh_quad(&quad, 4, FAILURE),
             FAILURE);
     const Mesh *const plain[3] = {&sphere, &cube, &tube};

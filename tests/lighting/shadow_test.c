@@ -235,7 +235,7 @@ FIXTURE(open_meshes)
 {
     SUCCEEDS(mesh_sphere(&ball, 1, 24, 12, message));
     SUCCEEDS(mesh_torus(&coarse_ring, 0.35, 0.8, 7, 10, message));
-    SUCCEEDS(mesh_cylinder(&pipe_mesh, 0.7, 1.5, 24, 2, MESH_CAP_NONE, message));
+    SUCCEEDS(mesh_cylinder(&pipe_mesh, (MeshCylinder){0.7, 1.5, 24, 2, MESH_CAP_NONE}, message));
     SUCCEEDS(mesh_cube(&box, 0.8, message));
     SUCCEEDS(mesh_quad(&plane, 1, message));
     SUCCEEDS(mesh_teapot(&pot, 0.8, 5, message));

@@ -68,8 +68,9 @@ TEST(a_sphere_has_the_sides_of_its_quadrilaterals)
 TEST(an_open_cylinder_has_rings_and_lines)
 {
     Mesh m;
-    assert_int_equal(edges_of_made(&m, mesh_cylinder(&m, 4, 2.5, 16, 1, MESH_CAP_NONE, FAILURE)),
-                     2 * 16 + 16);
+    assert_int_equal(
+        edges_of_made(&m, mesh_cylinder(&m, (MeshCylinder){4, 2.5, 16, 1, MESH_CAP_NONE}, FAILURE)),
+        2 * 16 + 16);
 }
 
 /* Zero has two signs, which are one place; triangles without area have no edges. */

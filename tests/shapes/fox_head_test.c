@@ -218,7 +218,7 @@ TEST(a_cube_becomes_what_the_masks_say_and_converges_to_its_limit)
 {
     CLOSED(cage_close) Cage cage = open_cage(CORNERS, 8, SIDES, 6);
     for (int step = 1; step <= 6; step++) {
-        SUCCEEDS(cage_subdivide(&cage, message));
+        cage_subdivide(&cage);
         assert_int_equal(cage.quad_count, 6u << 2 * step);
         assert_int_equal(cage.point_count, cage.quad_count + 2);
         if (step == 1) {
@@ -255,7 +255,7 @@ TEST(a_step_moves_no_point_of_the_limit)
             const uint32_t count = (uint32_t)cage.point_count;
             for (uint32_t i = 0; i < count; i++)
                 before[i] = limit(&cage, i);
-            SUCCEEDS(cage_subdivide(&cage, message));
+            cage_subdivide(&cage);
             for (uint32_t i = 0; i < count; i++)
                 assert_at(limit(&cage, i), before[i], ROUNDED);
         }
@@ -291,8 +291,8 @@ TEST(half_a_surface_is_subdivided_as_the_whole)
         points[i] = vec3_add(points[i], shift);
     CLOSED(cage_close) Cage whole = open_cage(points, 12, quads, 10);
     for (int step = 0; step < 3; step++) {
-        SUCCEEDS(cage_subdivide(&half, message));
-        SUCCEEDS(cage_subdivide(&whole, message));
+        cage_subdivide(&half);
+        cage_subdivide(&whole);
         /* The first half of the quadrilaterals is the half's, corner by corner. */
         for (size_t q = 0; q < half.quad_count; q++)
             for (size_t k = 0; k < 4; k++)

@@ -148,7 +148,8 @@ TEST(a_cylinder_lies_on_its_surface_with_the_normals_of_it)
             const double r = SIZES[s], h = 0.7 * r;
             const size_t row = (size_t)t.around + 1, side = row * ((size_t)t.along + 1);
             CLOSED(mesh_close) Mesh mesh;
-            SUCCEEDS(mesh_cylinder(&mesh, r, h, t.around, t.along, MESH_CAP_BOTH, message));
+            SUCCEEDS(mesh_cylinder(&mesh, (MeshCylinder){r, h, t.around, t.along, MESH_CAP_BOTH},
+                                   message));
             assert_int_equal(mesh.vertex_count, side + 4 * row);
             assert_seam(mesh.vertices, (size_t)t.along + 5, row - 1);
             for (size_t i = 0; i < side; i++) {
@@ -175,7 +176,8 @@ TEST(a_cylinder_without_a_cap_is_open)
         for (int caps = MESH_CAP_NONE; caps <= MESH_CAP_BOTH; caps++) {
             const bool bottom = caps & MESH_CAP_BOTTOM, top = caps & MESH_CAP_TOP;
             CLOSED(mesh_close) Mesh mesh;
-            assert_true(mesh_cylinder(&mesh, r, h, t.around, t.along, (MeshCaps)caps, NULL));
+            assert_true(mesh_cylinder(
+                &mesh, (MeshCylinder){r, h, t.around, t.along, (MeshCaps)caps}, NULL));
             assert_sound(&mesh, (size_t)t.around * (size_t)(!bottom + !top));
             assert_near(topology_area(&mesh), side + (bottom + top) * polygon(t.around) * r * r,
                         4 * FLT_EPSILON);
@@ -976,18 +978,21 @@ TEST(lengths_out_of_range_are_refused)
                 "disc: radius",        "tetrahedron: radius", "dodecahedron: radius",
                 "icosahedron: radius", "teapot: size"};
             const double x = bad[i];
-            CHECK_REFUSED(shape == 0   ? mesh_cone(mesh, x, 1, 8, 8, message)
-                          : shape == 1 ? mesh_cone(mesh, 1, x, 8, 8, message)
-                          : shape == 2 ? mesh_cylinder(mesh, x, 1, 8, 8, MESH_CAP_BOTH, message)
-                          : shape == 3 ? mesh_cylinder(mesh, 1, x, 8, 8, MESH_CAP_BOTH, message)
-                          : shape == 4 ? mesh_torus(mesh, x, 1, 8, 8, message)
-                          : shape == 5 ? mesh_torus(mesh, 1, x, 8, 8, message)
-                          : shape == 6 ? mesh_disc(mesh, x, 8, 8, message)
-                          : shape == 7 ? mesh_tetrahedron(mesh, x, message)
-                          : shape == 8 ? mesh_dodecahedron(mesh, x, message)
-                          : shape == 9 ? mesh_icosahedron(mesh, x, message)
-                                       : mesh_teapot(mesh, x, 8, message),
-                          "%s %g: must be more than 0 and finite", names[shape], bad[i]);
+            CHECK_REFUSED(
+                shape == 0   ? mesh_cone(mesh, x, 1, 8, 8, message)
+                : shape == 1 ? mesh_cone(mesh, 1, x, 8, 8, message)
+                : shape == 2
+                    ? mesh_cylinder(mesh, (MeshCylinder){x, 1, 8, 8, MESH_CAP_BOTH}, message)
+                : shape == 3
+                    ? mesh_cylinder(mesh, (MeshCylinder){1, x, 8, 8, MESH_CAP_BOTH}, message)
+                : shape == 4 ? mesh_torus(mesh, x, 1, 8, 8, message)
+                : shape == 5 ? mesh_torus(mesh, 1, x, 8, 8, message)
+                : shape == 6 ? mesh_disc(mesh, x, 8, 8, message)
+                : shape == 7 ? mesh_tetrahedron(mesh, x, message)
+                : shape == 8 ? mesh_dodecahedron(mesh, x, message)
+                : shape == 9 ? mesh_icosahedron(mesh, x, message)
+                             : mesh_teapot(mesh, x, 8, message),
+                "%s %g: must be more than 0 and finite", names[shape], bad[i]);
         }
     }
 }
@@ -1005,18 +1010,21 @@ TEST(counts_out_of_range_are_refused)
                           {"disc", "slices", 3, 8192},     {"disc", "loops", 1, 8192},
                           {"quad", "divisions", 1, 8192},  {"teapot", "divisions", 2, 512}};
             const int n = high ? ranges[shape].max + 1 : ranges[shape].min - 1;
-            CHECK_REFUSED(shape == 0   ? mesh_cone(mesh, 1, 1, n, 8, message)
-                          : shape == 1 ? mesh_cone(mesh, 1, 1, 8, n, message)
-                          : shape == 2 ? mesh_cylinder(mesh, 1, 1, n, 8, MESH_CAP_BOTH, message)
-                          : shape == 3 ? mesh_cylinder(mesh, 1, 1, 8, n, MESH_CAP_BOTH, message)
-                          : shape == 4 ? mesh_torus(mesh, 0.5, 1, n, 8, message)
-                          : shape == 5 ? mesh_torus(mesh, 0.5, 1, 8, n, message)
-                          : shape == 6 ? mesh_disc(mesh, 1, n, 8, message)
-                          : shape == 7 ? mesh_disc(mesh, 1, 8, n, message)
-                          : shape == 8 ? mesh_quad(mesh, n, message)
-                                       : mesh_teapot(mesh, 1, n, message),
-                          "%s: %d %s: must be %d to %d", ranges[shape].shape, n, ranges[shape].what,
-                          ranges[shape].min, ranges[shape].max);
+            CHECK_REFUSED(
+                shape == 0   ? mesh_cone(mesh, 1, 1, n, 8, message)
+                : shape == 1 ? mesh_cone(mesh, 1, 1, 8, n, message)
+                : shape == 2
+                    ? mesh_cylinder(mesh, (MeshCylinder){1, 1, n, 8, MESH_CAP_BOTH}, message)
+                : shape == 3
+                    ? mesh_cylinder(mesh, (MeshCylinder){1, 1, 8, n, MESH_CAP_BOTH}, message)
+                : shape == 4 ? mesh_torus(mesh, 0.5, 1, n, 8, message)
+                : shape == 5 ? mesh_torus(mesh, 0.5, 1, 8, n, message)
+                : shape == 6 ? mesh_disc(mesh, 1, n, 8, message)
+                : shape == 7 ? mesh_disc(mesh, 1, 8, n, message)
+                : shape == 8 ? mesh_quad(mesh, n, message)
+                             : mesh_teapot(mesh, 1, n, message),
+                "%s: %d %s: must be %d to %d", ranges[shape].shape, n, ranges[shape].what,
+                ranges[shape].min, ranges[shape].max);
         }
     }
 }

@@ -65,7 +65,7 @@ typedef enum ProbeShape {
 
 static bool open_tube(Mesh *mesh, Message *message)
 {
-    if (!mesh_cylinder(mesh, 0.9, 1.6, 12, 1, MESH_CAP_NONE, message))
+    if (!mesh_cylinder(mesh, (MeshCylinder){0.9, 1.6, 12, 1, MESH_CAP_NONE}, message))
         return false;
     for (size_t i = 0; i < mesh->vertex_count; i++)
         mesh->vertices[i].position[2] -= 0.8F;
