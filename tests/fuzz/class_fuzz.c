@@ -2,6 +2,7 @@
  * class_fuzz: no name, file, picture or archive does harm. The first byte selects which one
  * follows.
  */
+#include "fuzz/fuzz.h"
 #include "labs/class/class_find.h"
 #include "labs/sandbox/bundle.h"
 #include "labs/sandbox/png_copy.h"
@@ -9,13 +10,10 @@
 #include "labs/sandbox/unpack.h"
 
 #include <jansson.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
 #include <unistd.h>
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 static Bundle bundle;
 
@@ -23,12 +21,10 @@ static void check_bundle(void)
 {
     size_t size = 0;
     for (int i = 0; i < bundle.count; i++) {
-        if (!bundle_name_is_safe(bundle.files[i].name))
-            abort();
+        require(bundle_name_is_safe(bundle.files[i].name));
         size += bundle.files[i].size;
     }
-    if (size != bundle.size || size > BUNDLE_BYTES_MAX)
-        abort();
+    require(size == bundle.size && size <= BUNDLE_BYTES_MAX);
 }
 
 /* A name, a zero byte, a size and so many bytes, again and again. */
@@ -39,9 +35,8 @@ static void read_files(const uint8_t *data, size_t size)
         const size_t rest = (size_t)(end - name_end) - 2;
         const size_t length = name_end[1] < rest ? name_end[1] : rest;
         Message message = {.text = ""};
-        if (bundle_add(&bundle, (const char *)data, name_end + 2, length, &message) !=
-            (message.text[0] == '\0'))
-            abort();
+        require(bundle_add(&bundle, (const char *)data, name_end + 2, length, &message) ==
+                !message.text[0]);
         data = name_end + 2 + length;
     }
     check_bundle();
@@ -52,8 +47,7 @@ static void read_files(const uint8_t *data, size_t size)
     check_bundle();
     for (int lab = 1; lab <= 3; lab++) {
         SubmissionFiles files;
-        if (source_files(&bundle, &LABS[lab - 1], &files, NULL) && files.count == 0)
-            abort();
+        require(!source_files(&bundle, &LABS[lab - 1], &files, NULL) || files.count > 0);
         submission_files_close(&files);
     }
     bundle_close(&bundle);
@@ -72,12 +66,10 @@ static void read_name(const uint8_t *data, size_t size)
         if (!class_name_read(entry, is_folder, &name))
             continue;
         class_name_folder(&name, folder);
-        if (!name.student[0] || !bundle_name_is_safe(folder) || strchr(folder, '/') ||
-            folder[0] == '.' || folder[0] == '-')
-            abort();
+        require(name.student[0] && bundle_name_is_safe(folder) && !strchr(folder, '/') &&
+                folder[0] != '.' && folder[0] != '-');
         json_t *text = json_string(name.student); /* refuses what is not UTF-8 */
-        if (!text)
-            abort();
+        require(text);
         json_decref(text);
     }
 }
@@ -91,8 +83,7 @@ static void read_picture(const uint8_t *data, size_t size)
     memcpy(copy, data, size);
     if (png_copy(copy, &kept, NULL)) {
         again = kept;
-        if (kept > size || !png_copy(copy, &again, NULL) || again != kept)
-            abort();
+        require(kept <= size && png_copy(copy, &again, NULL) && again == kept);
     }
     free(copy);
 }
@@ -102,8 +93,7 @@ static void read_archive(const uint8_t *data, size_t size)
     Message message = {.text = ""};
     const int file = memfd_create("archive", MFD_CLOEXEC);
     if (file >= 0 && write(file, data, size) == (ssize_t)size && lseek(file, 0, SEEK_SET) == 0) {
-        if (unpack_sources(&bundle, file, &message) != (message.text[0] == '\0'))
-            abort();
+        require(unpack_sources(&bundle, file, &message) == !message.text[0]);
         check_bundle();
         bundle_close(&bundle);
     }
@@ -111,7 +101,7 @@ static void read_archive(const uint8_t *data, size_t size)
         close(file);
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+FUZZ(data, size)
 {
     static void (*const readers[])(const uint8_t *, size_t) = {read_files, read_name, read_picture,
                                                                read_archive};

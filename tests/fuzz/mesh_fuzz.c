@@ -5,22 +5,13 @@
  * and indices. A solid: its kind, divisions and lengths.
  */
 #include "core/mesh_make.h"
+#include "fuzz/fuzz.h"
 #include "shapes/mesh_solids.h"
 #include "shapes/solid.h"
 
 #include <limits.h>
 #include <math.h>
-#include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-static void require(bool holds)
-{
-    if (!holds)
-        abort();
-}
 
 static bool is_unit(const float v[3])
 {
@@ -202,7 +193,7 @@ static void try_solid(const uint8_t *data, size_t size)
     mesh_close(&mesh);
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+FUZZ(data, size)
 {
     if (size > 0 && data[0] % 2)
         try_solid(data + 1, size - 1);

@@ -8,15 +8,13 @@
 #include "base/output.h"
 #include "base/parse.h"
 #include "base/text.h"
+#include "fuzz/fuzz.h"
 
 #include <limits.h>
 #include <math.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 static const char *const NAMES[] = {"LightedCube", "PointLightedCube", "output", NULL};
 
@@ -26,14 +24,12 @@ static void read_one(const char *argument)
     double number = 0;
     char path[64];
     Message message = {0};
-    if (parse_size(argument, &width, &height) &&
-        (width < 1 || width > PARSE_SIZE_MAX || height < 1 || height > PARSE_SIZE_MAX))
-        abort();
-    if (parse_number(argument, -1e9, 1e9, &number) && !(fabs(number) <= 1e9))
-        abort();
+    if (parse_size(argument, &width, &height))
+        require(width >= 1 && width <= PARSE_SIZE_MAX && height >= 1 && height <= PARSE_SIZE_MAX);
+    if (parse_number(argument, -1e9, 1e9, &number))
+        require(fabs(number) <= 1e9);
     text_nearest(argument, NAMES);
-    if (output_numbered(argument, 12345, path, sizeof path, &message) != !message.text[0])
-        abort();
+    require(output_numbered(argument, 12345, path, sizeof path, &message) == !message.text[0]);
 }
 
 static void read_all(const Usage *usage, int count, char *arguments[])
@@ -41,21 +37,19 @@ static void read_all(const Usage *usage, int count, char *arguments[])
     Options options;
     Message message = {0};
     const OptionsResult result = options_read(&options, usage, count, arguments, &message);
-    if ((result == OPTIONS_BAD) != (message.text[0] != '\0'))
-        abort();
-    if (result == OPTIONS_RUN && (!options.output[0] || options.frames < 1 || !(options.fps > 0) ||
-                                  !isfinite(options.seconds) || options.width < 1))
-        abort();
+    require((result == OPTIONS_BAD) == (message.text[0] != '\0'));
+    if (result == OPTIONS_RUN)
+        require(options.output[0] && options.frames >= 1 && options.fps > 0 &&
+                isfinite(options.seconds) && options.width >= 1);
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+FUZZ(data, size)
 {
     enum { MAX = 16 };
     static const Usage program = {.name = "LightedCube", .summary = "Fuzzed.", .scene = true};
     static const Usage gallery = {.name = "gallery", .summary = "Fuzzed.", .gallery = true};
     static bool quiet;
-    if (!quiet && !freopen("/dev/null", "w", stdout)) /* --help is printed often */
-        abort();
+    require(quiet || freopen("/dev/null", "w", stdout)); /* --help is printed often */
     quiet = true;
 
     char *text = malloc(size + 1);

@@ -3,14 +3,13 @@
  *
  * The input is read as a file, and again as the rows below a header as it is written.
  */
+#include "fuzz/fuzz.h"
 #include "study/results/results.h"
 
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 int LLVMFuzzerInitialize(int *count, char ***arguments);
 
 static const char START[] =
@@ -34,21 +33,17 @@ int LLVMFuzzerInitialize(int *count, char ***arguments)
 static void check_row(const ResultRow *row)
 {
     for (int axis = 0; axis < AXIS_COUNT; axis++)
-        if (row->quality.choice[axis] >= QUALITY_AXES[axis].count)
-            abort();
-    if (!row->scene[0] || strchr(row->scene, '/') || row->width < 1 || row->height < 1 ||
-        row->vertices < -1 || row->vertex_operations < -1 || isinf(row->time) || row->time < 0 ||
-        strlen(row->renderer) >= sizeof row->renderer)
-        abort();
+        require(row->quality.choice[axis] < QUALITY_AXES[axis].count);
+    require(row->scene[0] && !strchr(row->scene, '/') && row->width >= 1 && row->height >= 1 &&
+            row->vertices >= -1 && row->vertex_operations >= -1 && !isinf(row->time) &&
+            !(row->time < 0) && strlen(row->renderer) < sizeof row->renderer);
 }
 
 static int read_text(const char *text, size_t size, const ResultRow *like)
 {
     Results results = {0};
     Message message = {0};
-    if (results_parse(&results, "fuzzed.csv", text, size, like, &message) !=
-        (message.text[0] == '\0'))
-        abort();
+    require(results_parse(&results, "fuzzed.csv", text, size, like, &message) == !message.text[0]);
     for (int i = 0; i < results.count; i++)
         check_row(&results.rows[i]);
     const int count = results.count;
@@ -56,7 +51,7 @@ static int read_text(const char *text, size_t size, const ResultRow *like)
     return count;
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+FUZZ(data, size)
 {
     const ResultRow like = {.width = 400,
                             .height = 400,
@@ -71,8 +66,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         memcpy(text + start, data, size);
     read_text(text + start, size, NULL);
     /* Whatever follows a row, it stays. */
-    if (read_text(text, start + size, NULL) < 1 || read_text(text, start + size, &like) < 1)
-        abort();
+    require(read_text(text, start + size, NULL) >= 1 && read_text(text, start + size, &like) >= 1);
     /* Changed bytes within the row itself, at places that the input names. */
     const size_t header = (size_t)(strchr(START, '\n') - START) + 1;
     for (size_t i = 0; i + 1 < size && i < 8; i += 2)

@@ -6,17 +6,15 @@
  * scene_check accepts has effects that can be explained and an exact picture, as solids and as
  * meshes, all of whose colours are colours.
  */
+#include "fuzz/fuzz.h"
 #include "hard/random_scene.h"
 #include "reference/reference.h"
 #include "scene/effects.h"
 
 #include <float.h>
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 static RandomMeshes meshes;
 
@@ -50,16 +48,13 @@ static double taken_number(Input *input, double old)
                           : number;
 }
 
-static bool seen(const Reference *picture)
+static void check(const Reference *picture)
 {
     for (int i = 0; i < picture->width * picture->height; i++) {
         for (int c = 0; c < 3; c++)
-            if (!(picture->color[3 * i + c] >= 0 && picture->color[3 * i + c] <= 1))
-                return false;
-        if (!(picture->depth[i] > 0) || !(picture->coverage[i] >= 0 && picture->coverage[i] <= 1))
-            return false;
+            require(picture->color[3 * i + c] >= 0 && picture->color[3 * i + c] <= 1);
+        require(picture->depth[i] > 0 && picture->coverage[i] >= 0 && picture->coverage[i] <= 1);
     }
-    return true;
 }
 
 static void render(const Scene *scene, bool as_meshes)
@@ -68,8 +63,8 @@ static void render(const Scene *scene, bool as_meshes)
     Message message = {0};
     const ReferenceOptions options = {
         .width = 2, .height = 1, .meshes = as_meshes, .edge_error = 255, .threads = 1};
-    if (!reference_open(&picture, scene, &options, &message) || !seen(&picture))
-        abort();
+    require(reference_open(&picture, scene, &options, &message));
+    check(&picture);
     reference_close(&picture);
 }
 
@@ -86,13 +81,11 @@ static void decide(const Scene *scene)
         int lights = 0;
         for (int g = 0; g < one.group_count; g++)
             lights += one.groups[g].count;
-        if (lights > scene->light_count)
-            abort();
+        require(lights <= scene->light_count);
         effects_explain(scene, &scene->objects[i], file);
     }
     fclose(file);
-    if (scene->object_count > 0 && size == 0)
-        abort();
+    require(scene->object_count == 0 || size > 0);
     free(text);
 }
 
@@ -114,7 +107,7 @@ static void change_choices(RandomScene *made, uint64_t bits)
         made->scene.interpolation = (Interpolation)(int)((bits >> 42 & 3) + (bits >> 45 & 1));
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+FUZZ(data, size)
 {
     Input input = {data, size};
     RandomScene made;
@@ -132,13 +125,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (meshes.count > 64)
         random_meshes_close(&meshes);
     if (!random_scene_ready(&made, &meshes, &message)) {
-        if (!message.text[0])
-            abort();
+        require(message.text[0]);
         return 0;
     }
     const bool sound = scene_check(&made.scene, &message);
-    if (sound != !message.text[0])
-        abort();
+    require(sound == !message.text[0]);
     if (!sound)
         return 0;
     decide(&made.scene);

@@ -5,13 +5,11 @@
  * that include each other. Seeds: the files of shaders/.
  */
 #include "core/shader.h"
+#include "fuzz/fuzz.h"
 
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 static char folder[] = "/tmp/shader_fuzz-XXXXXX";
 
@@ -35,19 +33,17 @@ static void make_folder(void)
         {"zero", "\x01"},
         {"twice", "#include \"a\"\r#include \"a\"\r\n"},
     };
-    if (!mkdtemp(folder))
-        abort();
+    require(mkdtemp(folder));
     atexit(remove_folder);
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
         char path[64];
         snprintf(path, sizeof path, "%s/%s", folder, files[i][0]);
         FILE *file = fopen(path, "w");
-        if (!file || fputs(files[i][1], file) < 0 || fclose(file) != 0)
-            abort();
+        require(file && fputs(files[i][1], file) >= 0 && fclose(file) == 0);
     }
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+FUZZ(data, size)
 {
     static bool made;
     if (!made)
@@ -68,14 +64,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     Message message = {0};
     if (shader_source_parse(&source, &loader, "main.frag", text, text_size, SHADER_FRAGMENT,
                             &message)) {
-        if (message.text[0] || strlen(source.text) != source.size ||
-            strncmp(source.text, "#version 100\n", 13) != 0)
-            abort();
-        if (shader_explain_log(&source, log, &message))
-            abort();
+        require(!message.text[0] && strlen(source.text) == source.size &&
+                strncmp(source.text, "#version 100\n", 13) == 0);
+        require(!shader_explain_log(&source, log, &message));
         shader_source_close(&source);
-    } else if (!message.text[0] || source.text || source.files) {
-        abort();
+    } else {
+        require(message.text[0] && !source.text && !source.files);
     }
     free(log);
     return 0;

@@ -4,36 +4,29 @@
  * The input is read as JSON; an accepted verdict, written and read again, is the same, and has what
  * pages and tables rely on: UTF-8 text without control characters, numbers in range.
  */
+#include "fuzz/fuzz.h"
 #include "labs/submission/verdict_json.h"
 
 #include <math.h>
-#include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 static void check_text(const char *text, size_t size, bool lines)
 {
-    if (strnlen(text, size) == size)
-        abort();
+    require(strnlen(text, size) < size);
     for (const char *at = text; *at; at++)
-        if (((unsigned char)*at < ' ' && !(lines && *at == '\n')) || *at == 0x7F)
-            abort();
+        require(((unsigned char)*at >= ' ' || (lines && *at == '\n')) && *at != 0x7F);
     json_t *value = json_string(text); /* refuses what is not UTF-8 */
-    if (!value)
-        abort();
+    require(value);
     json_decref(value);
 }
 
 static void check(const Verdict *verdict)
 {
-    if (!(verdict->points >= 0 && verdict->points <= VERDICT_MAX_POINTS) ||
-        verdict->kind > VERDICT_TIMEOUT || verdict->mistake_count > VERDICT_MAX_MISTAKES ||
-        verdict->symptom_count > VERDICT_MAX_SYMPTOMS ||
-        verdict->probe_count > VERDICT_MAX_PROBES || strchr(verdict->picture, '/') ||
-        verdict->picture[0] == '.')
-        abort();
+    require(verdict->points >= 0 && verdict->points <= VERDICT_MAX_POINTS &&
+            verdict->kind <= VERDICT_TIMEOUT && verdict->mistake_count <= VERDICT_MAX_MISTAKES &&
+            verdict->symptom_count <= VERDICT_MAX_SYMPTOMS &&
+            verdict->probe_count <= VERDICT_MAX_PROBES && !strchr(verdict->picture, '/') &&
+            verdict->picture[0] != '.');
     check_text(verdict->message, sizeof verdict->message, false);
     check_text(verdict->details, sizeof verdict->details, true);
     for (int i = 0; i < verdict->mistake_count; i++) {
@@ -47,21 +40,19 @@ static void check(const Verdict *verdict)
         check_text(verdict->probes[i].name, sizeof verdict->probes[i].name, false);
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+FUZZ(data, size)
 {
     static Verdict verdict, again;
     char lab[64], lab_again[64];
     Message message = {.text = ""};
     if (!verdict_read(data, size, lab, &verdict, &message)) {
-        if (!message.text[0])
-            abort();
+        require(message.text[0]);
         return 0;
     }
     check(&verdict);
     json_t *object = verdict_to_json(&verdict, lab);
-    if (!object || !verdict_from_json(object, lab_again, &again, &message) ||
-        strcmp(lab, lab_again) != 0 || memcmp(&verdict, &again, sizeof verdict) != 0)
-        abort();
+    require(object && verdict_from_json(object, lab_again, &again, &message) &&
+            strcmp(lab, lab_again) == 0 && memcmp(&verdict, &again, sizeof verdict) == 0);
     json_decref(object);
     return 0;
 }
