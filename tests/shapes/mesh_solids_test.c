@@ -22,13 +22,7 @@ static unsigned short seed[3];
  * normals, and the given number of open edges. */
 static void assert_sound(const Mesh *mesh, size_t boundary)
 {
-    topology_check_indices(mesh);
-    for (size_t i = 0; i < mesh->vertex_count; i++) {
-        /* Three components, each with an error of at most a quarter of FLT_EPSILON: sqrt(3) / 4. */
-        const double length = vec3_length(topology_vector(mesh->vertices[i].normal));
-        assert_true(fabs(length - 1) <= 0.44 * FLT_EPSILON);
-        assert_true(isfinite(vec3_length(topology_vector(mesh->vertices[i].position))));
-    }
+    topology_check_sound(mesh);
     for (size_t triangle = 0; triangle < mesh->index_count / 3; triangle++) {
         const Vec3 face = topology_face(mesh, triangle);
         assert_true(vec3_length(face) > 0);

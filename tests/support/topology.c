@@ -2,6 +2,8 @@
 
 #include "support/testing.h"
 
+#include <float.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -101,6 +103,17 @@ void topology_check_indices(const Mesh *mesh)
     assert_int_equal(mesh->index_count % 3, 0);
     for (size_t i = 0; i < mesh->index_count; i++)
         assert_true(mesh->indices[i] < mesh->vertex_count);
+}
+
+void topology_check_sound(const Mesh *mesh)
+{
+    topology_check_indices(mesh);
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
+        /* Three components, each with an error of at most a quarter of FLT_EPSILON: sqrt(3) / 4. */
+        const double length = vec3_length(topology_vector(mesh->vertices[i].normal));
+        assert_true(fabs(length - 1) <= 0.44 * FLT_EPSILON);
+        assert_true(isfinite(vec3_length(topology_vector(mesh->vertices[i].position))));
+    }
 }
 
 void topology_check_zeroed(const Mesh *mesh)

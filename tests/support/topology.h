@@ -34,6 +34,9 @@ size_t topology_open_edges(const Mesh *mesh);
 /* Fails the test unless all indices are those of vertices, and of whole triangles. */
 void topology_check_indices(const Mesh *mesh);
 
+/* The same, and unless positions are finite and normals are unit vectors. */
+void topology_check_sound(const Mesh *mesh);
+
 /* Fails the test unless the mesh is zeroed. */
 void topology_check_zeroed(const Mesh *mesh);
 

@@ -101,16 +101,21 @@ static void point(double x, double y)
     frames(2);
 }
 
-/* Returns what the click changed. */
-static uint32_t click(double x, double y)
+/* A click, and the frame in which a button says that it was pressed. Returns what it changed. */
+static uint32_t tap(double x, double y)
 {
     point(x, y);
     window.buttons[0] = true;
     frame();
-    uint32_t changed = result.changed;
+    const uint32_t changed = result.changed;
     window.buttons[0] = false;
     frame();
-    changed |= result.changed;
+    return changed | result.changed;
+}
+
+static uint32_t click(double x, double y)
+{
+    const uint32_t changed = tap(x, y);
     frame();
     return changed | result.changed;
 }
@@ -142,19 +147,35 @@ static bool hovers(double x, double y)
     return result.drawing.command_count > before;
 }
 
-/* The vertical middles of the parameters' rows; returns their number. */
-static int find_rows(double rows[MAX_ROWS])
+typedef struct Span {
+    double from, to, middle;
+} Span;
+
+/* Where tooltips appear along the names of the parameters or, with a row, along it; returns in how
+ * many places. */
+static int find_spans(const double *row, Span spans[MAX_ROWS])
 {
     int count = 0, first = -1;
-    for (int y = 0; y < window.height && count < MAX_ROWS; y++) {
-        const bool here = hovers(LABEL_X, y);
+    for (int at = row ? LEFT : 0; at < (row ? window.width : window.height); at++) {
+        const bool here = hovers(row ? at : LABEL_X, row ? *row : at);
         if (here && first < 0)
-            first = y;
+            first = at;
         if (!here && first >= 0) {
-            rows[count++] = (first + y - 1) / 2.0;
+            assert_true(count < MAX_ROWS);
+            spans[count++] = (Span){first, at - 1, (first + at - 1) / 2.0};
             first = -1;
         }
     }
+    return count;
+}
+
+/* The vertical middles of the parameters' rows; returns their number. */
+static int find_rows(double rows[MAX_ROWS])
+{
+    Span spans[MAX_ROWS];
+    const int count = find_spans(NULL, spans);
+    for (int i = 0; i < count; i++)
+        rows[i] = spans[i].middle;
     return count;
 }
 
@@ -165,38 +186,21 @@ static double only_row(void)
     return rows[0];
 }
 
-typedef struct Span {
-    double from, to;
-} Span;
-
-/* Where the controls of a row are; returns their number. */
-static int find_controls(double y, Span spans[8])
+/* Where the controls of a row are, without its name; returns their number. */
+static int find_controls(double y, Span controls[MAX_ROWS])
 {
-    int count = 0, first = -1;
-    for (int x = LEFT; x < window.width && count < 8; x++) {
-        const bool here = hovers(x, y);
-        if (here && first < 0)
-            first = x;
-        if (!here && first >= 0) {
-            spans[count++] = (Span){first, x - 1};
-            first = -1;
-        }
-    }
+    Span spans[MAX_ROWS];
+    const int count = find_spans(&y, spans);
     assert_true(count > 0);
-    memmove(spans, spans + 1, (size_t)(count - 1) * sizeof *spans); /* except its name */
+    memcpy(controls, spans + 1, (size_t)(count - 1) * sizeof *spans);
     return count - 1;
 }
 
 static Span only_control(double y)
 {
-    Span spans[8];
+    Span spans[MAX_ROWS];
     assert_int_equal(find_controls(y, spans), 1);
     return spans[0];
-}
-
-static double middle(Span span)
-{
-    return (span.from + span.to) / 2;
 }
 
 /* The parameters. */
@@ -219,6 +223,16 @@ static void show(const Parameter *parameters)
 {
     content.parameters = parameters;
     frames(3);
+}
+
+/* Shows one alone; where its control is, and its row. */
+static Span show_one(Parameter parameter, double *y)
+{
+    static Parameter parameters[2];
+    parameters[0] = parameter;
+    show(parameters);
+    *y = only_row();
+    return only_control(*y);
 }
 
 static const Parameter EVERY[] = {
@@ -279,18 +293,16 @@ static void assert_readable(const Parameter *parameters)
 
 PANEL_TEST(test_a_slider_is_dragged)
 {
-    const Parameter parameters[] = {of_number(-1, 3), {.name = NULL}};
+    double y;
     number = 2;
-    show(parameters);
-    const double y = only_row();
-    const Span span = only_control(y);
+    const Span span = show_one(of_number(-1, 3), &y);
     assert_true(span.to - span.from > 100);
     assert_true(number == 2); /* hovering sets nothing */
     point(span.from + 1, y);
     window.buttons[0] = true;
     frames(2);
     assert_true(number == -1);
-    window.x = middle(span);
+    window.x = span.middle;
     frame();
     assert_int_equal(result.changed, 1);
     assert_true(fabs(number - 1) < 0.05);               /* two pixels of 200 */
@@ -311,27 +323,24 @@ PANEL_TEST(test_a_slider_is_dragged)
 
 PANEL_TEST(test_wide_ranges_have_a_logarithmic_slider)
 {
-    const Parameter parameters[] = {of_number(0.001, 1000), {.name = NULL}};
+    double y;
     number = 0.001;
-    show(parameters);
-    const double y = only_row();
-    click(middle(only_control(y)), y);
+    const Span span = show_one(of_number(0.001, 1000), &y);
+    click(span.middle, y);
     assert_true(number > 0.8 && number < 1.25); /* the geometric mean, to two pixels of 200 */
-    click(only_control(y).to - 1, y);
+    click(span.to - 1, y);
     assert_true(number == 1000);
 }
 
 PANEL_TEST(test_whole_numbers_stay_whole)
 {
-    const Parameter parameters[] = {
-        {"whole", "h", PARAMETER_WHOLE, .value = &whole, .min = -3, .max = 5}, {.name = NULL}};
+    double y;
     whole = 0;
-    show(parameters);
-    const double y = only_row();
-    const Span span = only_control(y);
+    const Span span = show_one(
+        (Parameter){"whole", "h", PARAMETER_WHOLE, .value = &whole, .min = -3, .max = 5}, &y);
     click(span.to - 1, y);
     assert_int_equal(whole, 5);
-    click(middle(span), y);
+    click(span.middle, y);
     assert_int_equal(whole, 1);
     click(span.from + 1, y);
     assert_int_equal(whole, -3);
@@ -363,7 +372,6 @@ static uint32_t enter(double x, double y, const char *text)
 
 PANEL_TEST(test_a_value_is_typed)
 {
-    const Parameter parameters[] = {of_number(0, 1), {.name = NULL}};
     static const struct {
         const char *text;
         double before, after;
@@ -373,9 +381,9 @@ PANEL_TEST(test_a_value_is_typed)
         {"-7", 0.5, 0},        {"", 0.5, 0.5}, /* not a number: unchanged */
         {"+-e", 0.5, 0.5},     {"1e999", 0.5, 1},
     };
+    double y;
     number = 0;
-    show(parameters);
-    const double y = only_row(), x = middle(only_control(y));
+    const double x = show_one(of_number(0, 1), &y).middle;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         number = cases[i].before;
         const uint32_t changed = enter(x, y, cases[i].text);
@@ -387,10 +395,9 @@ PANEL_TEST(test_a_value_is_typed)
 
 PANEL_TEST(test_an_incomplete_value_is_ignored)
 {
-    const Parameter parameters[] = {of_number(0, 1), {.name = NULL}};
+    double y;
     number = 1.0 / 3;
-    show(parameters);
-    const double y = only_row(), x = middle(only_control(y));
+    const double x = show_one(of_number(0, 1), &y).middle;
     type_into(x, y, "0.9");
     assert_true(number == 1.0 / 3);
     press_key(WINDOW_KEY_ESCAPE);
@@ -411,10 +418,9 @@ PANEL_TEST(test_an_incomplete_value_is_ignored)
 
 PANEL_TEST(test_the_clipboard_is_pasted)
 {
-    const Parameter parameters[] = {of_number(0, 1), {.name = NULL}};
+    double y;
     number = 0.25;
-    show(parameters);
-    const double y = only_row(), x = middle(only_control(y));
+    const double x = show_one(of_number(0, 1), &y).middle;
     snprintf(clipboard, sizeof clipboard, "0.625");
     type_into(x, y, "");
     window.control = window.down[WINDOW_KEY_V] = true;
@@ -438,27 +444,24 @@ PANEL_TEST(test_the_clipboard_is_pasted)
 
 PANEL_TEST(test_a_few_choices_lie_side_by_side)
 {
-    const Parameter parameters[] = {
-        {"choice", "h", PARAMETER_CHOICE, .value = &choice, .choices = FEW}, {.name = NULL}};
-    Span spans[8];
+    const Parameter parameters[] = {EVERY[2], {.name = NULL}};
+    Span spans[MAX_ROWS];
     choice = 0;
     show(parameters);
     const double y = only_row();
     assert_int_equal(find_controls(y, spans), 3);
     for (int i = 2; i >= 0; i--) {
-        assert_int_equal(click(middle(spans[i]), y), 1);
+        assert_int_equal(click(spans[i].middle, y), 1);
         assert_int_equal(choice, i);
-        assert_int_equal(click(middle(spans[i]), y), 0);
+        assert_int_equal(click(spans[i].middle, y), 0);
     }
 }
 
 PANEL_TEST(test_many_choices_unfold)
 {
-    const Parameter parameters[] = {
-        {"many", "h", PARAMETER_CHOICE, .value = &many, .choices = MANY}, {.name = NULL}};
+    double y;
     many = 6; /* none of them */
-    show(parameters);
-    const double y = only_row(), x = middle(only_control(y));
+    const double x = show_one(EVERY[3], &y).middle;
     click(x, y);
     assert_true(result.wants_keys); /* Escape closes the list, not the window */
     press_key(WINDOW_KEY_ESCAPE);
@@ -499,7 +502,7 @@ PANEL_TEST(test_switches_and_flags_are_ticked)
 PANEL_TEST(test_a_color_has_a_slider_for_each_part)
 {
     double rows[MAX_ROWS];
-    Span spans[8];
+    Span spans[MAX_ROWS];
     set_every();
     show(&EVERY[6]);
     assert_int_equal(find_rows(rows), 2);
@@ -507,7 +510,7 @@ PANEL_TEST(test_a_color_has_a_slider_for_each_part)
     const Vec3 before = color;
     assert_int_equal(click(spans[1].to - 1, rows[0]), 1);
     assert_true(color.x == before.x && color.y == 4 && color.z == before.z);
-    assert_int_equal(enter(middle(spans[0]), rows[0], "3.75"), 1);
+    assert_int_equal(enter(spans[0].middle, rows[0], "3.75"), 1);
     assert_true(color.x == 3.75 && color.y == 4 && color.z == before.z);
     /* The picker keeps the bits of what it does not change. */
     click(spans[2].to + 10, rows[0]);
@@ -531,18 +534,18 @@ PANEL_TEST(test_named_states_lie_side_by_side)
          .standard = "any"},
         {.name = NULL}};
     double rows[MAX_ROWS];
-    Span spans[8];
+    Span spans[MAX_ROWS];
     on = false;
     show(parameters);
     assert_int_equal(find_rows(rows), 2);
     assert_int_equal(find_controls(rows[0], spans), 2);
-    assert_int_equal(click(middle(spans[1]), rows[0]), 0);
-    assert_int_equal(click(middle(spans[0]), rows[0]), 1);
+    assert_int_equal(click(spans[1].middle, rows[0]), 0);
+    assert_int_equal(click(spans[0].middle, rows[0]), 1);
     assert_true(on);
     assert_int_equal(find_controls(rows[1], spans), 3);
-    assert_int_equal(click(middle(spans[2]), rows[1]), 2);
+    assert_int_equal(click(spans[2].middle, rows[1]), 2);
     assert_ptr_equal(precision, precisions[1]);
-    assert_int_equal(click(middle(spans[0]), rows[1]), 2);
+    assert_int_equal(click(spans[0].middle, rows[1]), 2);
     assert_null(precision);
 }
 
@@ -558,13 +561,8 @@ PANEL_TEST(test_the_map_of_the_error_is_switched)
     frames(3);
     assert_true(result.drawing.vertex_count != computing);
     assert_false(result.mapped);
-    double y = 150;
-    for (; y < 260 && !content.error.mapped; y += 5) {
-        point(LEFT + 24, y);
-        window.buttons[0] = true;
-        frame();
-        window.buttons[0] = false;
-        frame();
+    for (double y = 150; y < 260 && !content.error.mapped; y += 5) {
+        tap(LEFT + 24, y);
         content.error.mapped = result.mapped;
     }
     assert_true(content.error.mapped);
@@ -586,11 +584,7 @@ PANEL_TEST(test_tries_say_what_to_look_for)
     frames(3);
     assert_true(result.drawing.vertex_count > before + 4 * 15);
     for (double y = 66; y < 160 && !tried; y += 5) {
-        point(LEFT + 40, y);
-        window.buttons[0] = true;
-        frame();
-        window.buttons[0] = false;
-        frame();
+        tap(LEFT + 40, y);
         tried = result.tried;
     }
     assert_string_equal(tried, tries[0]);
@@ -764,11 +758,7 @@ PANEL_TEST(test_the_command_is_copied)
     content.command = "LightedCube --size 400x400 # 100%s";
     frames(3);
     for (double y = 60; y < 400 && !copied; y += 5) {
-        point(LEFT + 30, y);
-        window.buttons[0] = true;
-        frame();
-        window.buttons[0] = false;
-        frame();
+        tap(LEFT + 30, y);
         copied = clipboard[0] != '\0';
         if (!copied && click(LEFT + 30, y) == 0)
             frame(); /* a collapsed section is expanded again */
@@ -967,44 +957,8 @@ PANEL_TEST(test_a_value_out_of_its_range_is_shown_and_stays)
     assert_int_equal(choice, 77);
 }
 
-/* A copy of this program outside the build folder finds no plugin, unless one is installed. */
-TEST(test_a_missing_module_is_named)
+int main(void)
 {
-    char program[4096], command[8400], text[4096];
-    char folder[] = "/tmp/panel_test.XXXXXX";
-    const ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
-    assert_true(length > 0);
-    program[length] = '\0';
-    assert_non_null(mkdtemp(folder));
-    snprintf(command, sizeof command, "cp '%s' %s/copy && %s/copy say; rm -r %s", program, folder,
-             folder, folder);
-    FILE *said = popen(command, "r");
-    assert_non_null(said);
-    const size_t size = fread(text, 1, sizeof text - 1, said);
-    text[size] = '\0';
-    assert_int_equal(pclose(said), 0);
-    if (strcmp(text, "opened") == 0)
-        skip();
-    assert_int_equal(strncmp(text, "Dear ImGui: its module cannot be loaded (", 41), 0);
-    assert_non_null(strstr(text, "; install the package libimgui-dev and build again"));
-    assert_null(strchr(text, '\n'));
-}
-
-/* The output of opening a panel, for the test above. */
-static int say(void)
-{
-    Panel *opened;
-    Message message = {0};
-    if (panel_open(&opened, &message))
-        panel_close(opened);
-    printf("%s", opened ? "opened" : message.text);
-    return 0;
-}
-
-int main(int argc, char *argv[])
-{
-    if (argc == 2 && strcmp(argv[1], "say") == 0)
-        return say();
     if (!panel_probe(NULL))
         return EXIT_SKIPPED; /* the module was not built */
     return testing_run(0, "panel", NULL, NULL);
