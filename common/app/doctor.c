@@ -2,10 +2,9 @@
 
 #include "app/options.h"
 #include "base/cache.h"
+#include "base/plugin.h"
 #include "images/animation.h"
-#include "images/drawing.h"
 #include "images/image_file.h"
-#include "shapes/model.h"
 #include "window/backends.h"
 #include "window/panel.h"
 
@@ -60,6 +59,18 @@ static void print_kept(const char *backend, const char *findings)
     else
         printf("%18s what it computes with: run precision once\n", "");
     free(kept);
+}
+
+static bool model_probe(Message *findings)
+{
+    static Plugin models = PLUGIN_MODELS;
+    return plugin_probe(&models, findings);
+}
+
+static bool drawing_probe(Message *findings)
+{
+    static Plugin drawings = PLUGIN_DRAWINGS;
+    return plugin_probe(&drawings, findings);
 }
 
 int doctor_run(void)

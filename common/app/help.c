@@ -14,7 +14,7 @@ enum { WIDTH = 88, INDENT = 25, TEXT_SIZE = 1024, DETAILS_SIZE = 8192 };
 
 static bool takes_file(const Parameter *option)
 {
-    return option->kind == PARAMETER_TEXT && !option->choices && !option->read;
+    return option->kind == PARAMETER_TEXT && !option->choices && !option->codec;
 }
 
 /* "egl|osmesa|window"; "" without choices. */
@@ -32,8 +32,8 @@ static const char *join_choices(const Parameter *option, const char *bar, char t
 /* The placeholder of the value; "" for a flag. */
 static const char *placeholder(const Parameter *option, char text[TEXT_SIZE])
 {
-    if (option->placeholder)
-        return option->placeholder;
+    if (parameter_placeholder(option))
+        return parameter_placeholder(option);
     if (join_choices(option, "|", text)[0] || option->kind == PARAMETER_FLAG)
         return text;
     if (option->kind == PARAMETER_TEXT)

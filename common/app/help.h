@@ -5,6 +5,7 @@
 #define HELP_H
 
 #include "scene/parameter.h"
+#include "scene/scene.h"
 
 /* Exit codes besides 0. */
 enum {
@@ -16,17 +17,16 @@ enum {
 typedef struct Usage {
     const char *name;
     const char *summary;
-    const char *details;      /* the last part of --help; NULL: examples */
-    bool gallery;             /* -o names a folder, names may follow the options, no --frames */
-    bool study;               /* -o names a folder; no options that change a picture */
-    bool scene;               /* the options of programs that draw scenes */
-    bool shadows;             /* which its lights have without --shadows */
-    bool diagram;             /* draws without OpenGL, and writes SVG and PDF too */
-    const char *names;        /* the operands in --help, "LAB PATH"; NULL: there are none */
-    const char *const *tries; /* as in an Example; may be NULL */
-    const char *const *looks; /* as many */
-    int width, height;        /* of the picture without --size; zero: 400 */
-    double seconds;           /* of the picture without --time */
+    const char *details; /* the last part of --help; NULL: examples */
+    bool gallery;        /* -o names a folder, names may follow the options, no --frames */
+    bool study;          /* -o names a folder; no options that change a picture */
+    const struct ExampleKind *kind; /* of the example that it draws; NULL: it draws none */
+    ShadowSettings shadows;         /* without --shadows */
+    const char *names;              /* the operands in --help, "LAB PATH"; NULL: there are none */
+    const char *const *tries;       /* as in an Example; may be NULL */
+    const char *const *looks;       /* as many */
+    int width, height;              /* of the picture without --size; zero: 400 */
+    double seconds;                 /* of the picture without --time */
     void (*resize)(int *width, int *height); /* where that depends on an option; may be NULL */
     const Parameter *parameters; /* the program's own options; ended by a NULL name; may be NULL */
 } Usage;

@@ -4,13 +4,9 @@
 #ifndef OPTIONS_H
 #define OPTIONS_H
 
+#include "app/example_kind.h"
 #include "app/help.h"
 #include "base/parse.h"
-#include "core/canvas.h"
-#include "core/example.h"
-#include "core/orbit.h"
-#include "core/shader.h"
-#include "scene/scene.h"
 
 enum { FRAMES_MAX = 1000000 };
 
@@ -20,13 +16,11 @@ enum { OPTIONS_MAX_PARAMETERS = 32, OPTIONS_MAX = 72 };
 /* The defaults of --size in pixels and of --fps. */
 enum { OPTIONS_SIDE = 400, OPTIONS_FPS = 30 };
 
-/* By bit of SceneTerms. */
-extern const char *const OPTIONS_TERM_NAMES[4];
-
 /* The range of --time, before and after 0. */
 enum { OPTIONS_MAX_SECONDS = 1000000000 };
 
 typedef struct Options {
+    char *const *names; /* the arguments that are no options; NULL-terminated */
     const char *output; /* a file, "-", a name with %d; for a gallery or a study a folder */
     bool output_given;
     int width, height;
@@ -50,20 +44,15 @@ typedef struct Options {
     int compress;
     bool verbose;
     bool doctor;
-    const char
-        *generate; /* "man", "bash", "zsh", "fish": what options_read prints; NULL: nothing */
+    const char *generate; /* "man", "bash", "zsh", "fish": what is printed; NULL: nothing */
     /* Of programs that draw scenes. */
-    bool explain;      /* report the effects that the scene needs, and draw nothing */
-    bool full;         /* draw with the program that has every effect */
-    bool clamp_vertex; /* see scene.h */
-    bool linear;
-    bool show_clipped;
+    bool explain; /* report the effects that the scene needs, and draw nothing */
+    bool full, clamp_vertex, linear, show_clipped, cheap; /* as in DrawRequest */
+    double error;
     SceneTerms terms;
     ShadowSettings shadows;
     LightPlaces places;
     LightTints tints;
-    bool cheap; /* --error: draw as cheaply as an error of `error` steps of 1/255 allows */
-    double error;
     bool own_given[OPTIONS_MAX_PARAMETERS]; /* the program's own options, in their order */
     /* Of the example's own parameters before the command line was read; NULL: they are unchanged.
      */
@@ -71,7 +60,6 @@ typedef struct Options {
     /* The first words of the command that started the program, for a shell: see command_start.
      * NULL: its name alone. */
     const char *start;
-    char *const *names; /* the arguments that are no options; NULL-terminated */
     char default_output[128];
 } Options;
 
@@ -83,9 +71,12 @@ OptionsResult options_read(Options *options, const Usage *usage, int argc, char 
                            Message *message);
 
 /* The value of an option --part, a Part. */
-bool options_read_part(const Parameter *parameter, const char *text, Message *message);
+extern const ParameterCodec OPTION_PART;
 
 Usage options_usage(const Example *example);
+
+/* What they ask for of an example. */
+DrawRequest options_request(const Options *options, const Example *example);
 
 /* The size of the picture without --size. */
 void options_size(const Usage *usage, int *width, int *height);

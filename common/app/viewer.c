@@ -2,12 +2,11 @@
 
 #include "app/arguments.h"
 #include "app/command.h"
-#include "app/live.h"
-#include "app/stage.h"
+#include "app/picture_texts.h"
+#include "app/shader_reload.h"
 #include "app/viewer_panel.h"
 #include "base/clock.h"
 #include "base/output.h"
-#include "scene/scene_example.h"
 #include "window/window.h"
 
 #include <ctype.h>
@@ -52,11 +51,12 @@ typedef struct Viewer {
                                position */
     bool pressed, holding;  /* in the previous frame: the left button; a light, by its handle */
     Handle held;            /* where it has been dragged */
-    Live live;
-    Message broken;  /* error of the shaders on disk */
-    Message unmade;  /* why stage_renew failed */
-    Picture picture; /* read back, to be saved or retouched */
-    Message trouble; /* why drawing failed */
+    ShaderReload reload;
+    DrawRequest request; /* of the options: see current */
+    Message broken;      /* error of the shaders on disk */
+    Message unmade;      /* why renderer_renew failed */
+    Picture picture;     /* read back, to be saved or retouched */
+    Message trouble;     /* why drawing failed */
 } Viewer;
 
 /* The first unused file of a numbered name. */
@@ -104,24 +104,38 @@ static void report_saved(Viewer *viewer)
 
 static bool is_made(const Viewer *viewer)
 {
-    return viewer->live.stage.example && !viewer->unmade.text[0];
+    return viewer->reload.renderer.example && !viewer->unmade.text[0];
+}
+
+/* As the options are now. */
+static const DrawRequest *current(Viewer *viewer)
+{
+    viewer->request = options_request(&viewer->options, viewer->example);
+    return &viewer->request;
+}
+
+static bool read_picture(Viewer *viewer, Message *message)
+{
+    return renderer_picture(&viewer->reload.renderer, current(viewer), viewer->options.seconds,
+                            &viewer->picture.image, message);
 }
 
 /* As the headless program writes it. */
 static bool write_picture(Viewer *viewer, Message *message)
 {
     const Options *options = &viewer->options;
+    const ExampleKind *kind = example_kind(viewer->example);
     Picture *picture = &viewer->picture;
-    if (!viewer->example->diagram || !drawing_format(picture->path))
-        return stage_picture(&viewer->live.stage, options, options->seconds, picture, message) &&
-               picture_write(picture, message);
-    Drawing drawing;
-    const bool done = stage_drawing(viewer->example, options->seconds, options->width,
-                                    options->height, &drawing, message) &&
-                      drawing_write(&drawing, picture->path, drawing_format(picture->path),
-                                    options->alpha, message);
-    drawing_end(&drawing);
-    return done;
+    const char *vector = kind->vector_format ? kind->vector_format(picture->path) : NULL;
+    if (vector) {
+        const VectorFile file = {picture->path, vector, options->width, options->height,
+                                 options->alpha};
+        return kind->write_vector(viewer->example, options->seconds, &file, message);
+    }
+    if (!read_picture(viewer, message))
+        return false;
+    picture_texts_set(viewer->example, viewer->canvas, options, options->seconds, picture);
+    return picture_write(picture, message);
 }
 
 static void save(Viewer *viewer)
@@ -164,8 +178,8 @@ static void renew(Viewer *viewer)
     const Message before = viewer->unmade;
     viewer_panel_renew(&viewer->panel);
     viewer->unmade = (Message){0};
-    if (!viewer->live.stage.example ||
-        stage_renew(&viewer->live.stage, &viewer->options, &viewer->unmade) ||
+    if (!viewer->reload.renderer.example ||
+        renderer_renew(&viewer->reload.renderer, current(viewer), &viewer->unmade) ||
         strcmp(viewer->unmade.text, before.text) == 0)
         return;
     options_fail(viewer->example->name, &viewer->unmade, EXIT_FAILED);
@@ -175,7 +189,7 @@ static void renew(Viewer *viewer)
  */
 static void put_back(Viewer *viewer)
 {
-    const Parameter *parameters = example_parameters(viewer->example);
+    const Parameter *parameters = viewer->example->parameters;
     const int width = viewer->options.width, height = viewer->options.height;
     viewer->options = viewer->first;
     viewer->options.width = width;
@@ -192,7 +206,7 @@ static bool apply_options(Viewer *viewer, Message *message)
     const char *precision = viewer->options.shaders.precision;
     const int samples = viewer->options.canvas.samples;
     if (precision != viewer->precision)
-        live_renew(&viewer->live);
+        shader_reload_renew(&viewer->reload);
     viewer->precision = precision;
     const bool same = samples == viewer->samples;
     viewer->samples = samples;
@@ -224,24 +238,19 @@ static void try_arguments(Viewer *viewer, const char *arguments)
     renew(viewer);
 }
 
-static void move_light(Viewer *viewer, double x, double y)
+static void move_light(Viewer *viewer)
 {
-    const int light = viewer->held.light;
+    const Handle *held = &viewer->held;
     LightPlaces *places = &viewer->options.places;
-    StageView view;
-    int place[4];
+    const PanelKind *panel = example_kind(viewer->example)->panel;
     Vec3 at;
-    if (light >= SCENE_MAX_PLACED || !is_made(viewer) ||
-        !stage_view_place(&viewer->live.stage, viewer->held.view, place))
+    if (!is_made(viewer) || !panel)
         return;
-    if (stage_view_open(&view, &viewer->live.stage, &viewer->options, viewer->options.seconds,
-                        viewer->held.view, NULL) &&
-        handle_drag(&view.asked, place, light, x, y, &at)) {
-        places->placed |= 1U << light;
-        places->at[light] = at;
+    if (panel->drag(&viewer->reload.renderer, current(viewer), held, &at)) {
+        places->placed |= 1U << held->light;
+        places->at[held->light] = at;
         viewer_panel_renew(&viewer->panel);
     }
-    stage_view_close(&view);
     if (viewer->options.cheap)
         renew(viewer);
 }
@@ -292,8 +301,9 @@ static void use_keys(Viewer *viewer)
     const int seconds = input->pressed[WINDOW_KEY_UP] - input->pressed[WINDOW_KEY_DOWN];
     if (frames || seconds)
         step(viewer, frames / viewer->options.fps + seconds);
-    if (example_turn_page(viewer->example, input->pressed[WINDOW_KEY_PAGE_DOWN] -
-                                               input->pressed[WINDOW_KEY_PAGE_UP]))
+    const ExampleKind *kind = example_kind(viewer->example);
+    if (kind->turn_page && kind->turn_page(viewer->example, input->pressed[WINDOW_KEY_PAGE_DOWN] -
+                                                                input->pressed[WINDOW_KEY_PAGE_UP]))
         renew(viewer);
     viewer->left |= input->pressed[WINDOW_KEY_ESCAPE] > 0;
 }
@@ -306,8 +316,8 @@ static bool use_handles(Viewer *viewer)
     const WindowInput *input = &viewer->input;
     if (input->buttons[0] && !viewer->pressed) {
         const Handle *handle =
-            handles_find(viewer->panel.handles, viewer->panel.handle_count, input->press_x,
-                         input->press_y - viewer->place[1], REACH * input->scale);
+            viewer_panel_find_handle(&viewer->panel, input->press_x,
+                                     input->press_y - viewer->place[1], REACH * input->scale);
         viewer->holding = handle != NULL;
         if (handle)
             viewer->held = *handle;
@@ -318,7 +328,7 @@ static bool use_handles(Viewer *viewer)
     viewer->held.x += input->drag_x;
     viewer->held.y += input->drag_y;
     if (input->drag_x != 0 || input->drag_y != 0)
-        move_light(viewer, viewer->held.x, viewer->held.y);
+        move_light(viewer);
     viewer->holding = viewer->pressed;
     return true;
 }
@@ -350,23 +360,14 @@ static void use_pointer(Viewer *viewer)
     }
 }
 
-/* Retouching, labels, diagrams and pages need the picture on the CPU. */
-static bool is_retouched(const Viewer *viewer)
-{
-    const SceneExample *scene = viewer->example->scene;
-    return viewer->example->diagram || viewer->example->page ||
-           (viewer->picture.image.type == IMAGE_BYTE && scene && (scene->retouch || scene->label));
-}
-
 /* As a headless program draws it. */
 static bool draw_moment(Viewer *viewer)
 {
-    const Options *options = &viewer->options;
     viewer->trouble = (Message){0};
-    if (is_retouched(viewer))
-        return stage_picture(&viewer->live.stage, options, options->seconds, &viewer->picture,
-                             &viewer->trouble);
-    return stage_draw(&viewer->live.stage, options, options->seconds, &viewer->trouble);
+    if (renderer_finishes_on_cpu(viewer->example, viewer->picture.image.type))
+        return read_picture(viewer, &viewer->trouble);
+    return renderer_draw(&viewer->reload.renderer, current(viewer), viewer->options.seconds,
+                         &viewer->trouble);
 }
 
 /* Copies what was drawn to its place in the window, and clears what the panel lies on. */
@@ -409,7 +410,7 @@ static bool show_picture(Viewer *viewer, Message *message)
     const bool had_trouble = viewer->trouble.text[0];
     bool drawn = draw_moment(viewer);
     /* A program that is first needed now may not compile although earlier ones did. */
-    if (!drawn && live_revert(&viewer->live, &viewer->trouble)) {
+    if (!drawn && shader_reload_revert(&viewer->reload, &viewer->trouble)) {
         viewer->broken = viewer->trouble;
         options_fail(viewer->example->name, &viewer->broken, EXIT_FAILED);
         drawn = draw_moment(viewer);
@@ -419,7 +420,9 @@ static bool show_picture(Viewer *viewer, Message *message)
             options_fail(viewer->example->name, &viewer->trouble, EXIT_FAILED);
         return show_nothing(viewer, message);
     }
-    return present(viewer, is_retouched(viewer) ? &viewer->picture.image : NULL, message);
+    const Image *image = &viewer->picture.image;
+    return present(viewer, renderer_finishes_on_cpu(viewer->example, image->type) ? image : NULL,
+                   message);
 }
 
 static bool show(Viewer *viewer, Message *message)
@@ -462,27 +465,29 @@ static void update_title(Viewer *viewer)
 
 static bool load(Viewer *viewer, Message *message)
 {
+    const Message *warning = &viewer->reload.renderer.warning;
     Message error = {0};
-    switch (live_poll(&viewer->live, 0, &error)) {
-    case LIVE_FAILED:
+    current(viewer);
+    switch (shader_reload_poll(&viewer->reload, 0, &error)) {
+    case RELOAD_FAILED:
         return message_set(message, "%s", error.text);
-    case LIVE_BROKEN:
+    case RELOAD_BROKEN:
         viewer->due = SETTLE;
         options_fail(viewer->example->name, &error, EXIT_FAILED);
         viewer->broken = error;
-        viewer->unmade = (Message){0}; /* the stage was opened again */
+        viewer->unmade = (Message){0}; /* it was opened again */
         return true;
-    case LIVE_LOADED:
+    case RELOAD_LOADED:
         viewer->due = SETTLE;
-        stage_warn(&viewer->live.stage);
-        if (viewer->live.changed[0] || viewer->live.stage.warning.text[0])
-            viewer_panel_notice(&viewer->panel, viewer->live.stage.warning.text[0]
-                                                    ? viewer->live.stage.warning.text
-                                                    : "shaders loaded");
+        if (warning->text[0])
+            options_warn(viewer->example->name, warning);
+        if (viewer->reload.changed[0] || warning->text[0])
+            viewer_panel_notice(&viewer->panel,
+                                warning->text[0] ? warning->text : "shaders loaded");
         viewer->broken = viewer->unmade = (Message){0};
         viewer_panel_renew(&viewer->panel);
         return true;
-    case LIVE_UNCHANGED:
+    case RELOAD_UNCHANGED:
         break;
     }
     return true;
@@ -495,9 +500,13 @@ static bool use_panel(Viewer *viewer, double elapsed, Message *message)
     const Message *trouble = viewer->broken.text[0]   ? &viewer->broken
                              : viewer->unmade.text[0] ? &viewer->unmade
                                                       : &viewer->trouble;
-    if (!viewer_panel_frame(panel, &viewer->input, elapsed,
-                            is_made(viewer) ? &viewer->live.stage : NULL, &viewer->options, trouble,
-                            viewer->holding ? &viewer->held : NULL, message))
+    const ViewerPanelInput input = {.window = &viewer->input,
+                                    .seconds = elapsed,
+                                    .renderer = is_made(viewer) ? &viewer->reload.renderer : NULL,
+                                    .options = &viewer->options,
+                                    .trouble = trouble,
+                                    .held = viewer->holding ? &viewer->held : NULL};
+    if (!viewer_panel_frame(panel, &input, message))
         return false;
     if (viewer_panel_tint(panel, &viewer->options.tints)) {
         viewer_panel_renew(panel);
@@ -602,7 +611,7 @@ static double wait_time(const Viewer *viewer)
 bool viewer_run(const Example *example, Canvas *canvas, const Options *options,
                 const ParameterValue *defaults, Message *message)
 {
-    const Parameter *parameters = example_parameters(example);
+    const Parameter *parameters = example->parameters;
     Viewer viewer = {.example = example,
                      .canvas = canvas,
                      .window = window_of(canvas),
@@ -611,14 +620,16 @@ bool viewer_run(const Example *example, Canvas *canvas, const Options *options,
                      .picture.image.type = canvas->real ? IMAGE_FLOAT : IMAGE_BYTE};
     for (int i = 0; parameters && parameters[i].name; i++)
         viewer.first_values[i] = parameter_save(&parameters[i]);
-    if (!live_open(&viewer.live, example, canvas, &viewer.options, message))
+    if (!shader_reload_open(&viewer.reload, example, canvas, &viewer.request, message))
         return false;
+    viewer.options.shaders.files = viewer.request.shaders.files;
     viewer.first = viewer.options;
     viewer.precision = options->shaders.precision;
     viewer.samples = options->canvas.samples;
     viewer_panel_open(&viewer.panel, example, canvas, &viewer.options, defaults);
-    viewer_panel_notice(&viewer.panel, example->page ? "page down: the next   p: panel   h: help"
-                                                     : "p: panel   h: help");
+    viewer_panel_notice(&viewer.panel, example_kind(example)->turn_page
+                                           ? "page down: the next   p: panel   h: help"
+                                           : "p: panel   h: help");
     window_show(viewer.window);
     viewer.last = viewer.title_time = clock_now();
     bool done = frame(&viewer, 0, message);
@@ -629,6 +640,6 @@ bool viewer_run(const Example *example, Canvas *canvas, const Options *options,
                 viewer.drawn, viewer.drawn_paused);
     viewer_panel_close(&viewer.panel);
     image_close(&viewer.picture.image);
-    live_close(&viewer.live);
+    shader_reload_close(&viewer.reload);
     return done;
 }

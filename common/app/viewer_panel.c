@@ -1,17 +1,12 @@
 #include "app/viewer_panel.h"
 
 #include "app/command.h"
-#include "app/explain.h"
 #include "base/clock.h"
-#include "scene/scene_example.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* See stage.h. */
-#pragma weak explain_effects
 
 static const double NOTICE_SECONDS = 3, EFFECTS_SECONDS = 0.25, ERROR_SECONDS = 0.5;
 
@@ -34,7 +29,7 @@ static const PanelHelp HELP[] = {
 
 static const PanelHelp *help_of(const ViewerPanel *panel)
 {
-    return panel->example->page ? HELP : HELP + 1;
+    return example_kind(panel->example)->turn_page ? HELP : HELP + 1;
 }
 
 /* The common options that change a picture that is shown, from the table of all. */
@@ -65,13 +60,16 @@ void viewer_panel_open(ViewerPanel *panel, const Example *example, const Canvas 
                        Options *options, const ParameterValue *defaults)
 {
     Message message = {0};
-    *panel =
-        (ViewerPanel){.example = example, .window = window_of(canvas), .text = 1, .stale = true};
+    *panel = (ViewerPanel){.example = example,
+                           .kind = example_kind(example)->panel,
+                           .window = window_of(canvas),
+                           .text = 1,
+                           .stale = true};
     memcpy(panel->defaults, defaults, sizeof panel->defaults);
     choose_options(panel, canvas, options);
     if (!panel_open(&panel->panel, &message) ||
         !panel_draw_open(&panel->draw, &options->shaders, &message) ||
-        (example->scene && !error_worker_open(&panel->error_worker, &message))) {
+        (panel->kind && !panel->kind->open(&panel->worker, &message))) {
         options_fail(example->name, &message, 0);
         panel_close(panel->panel);
         panel->panel = NULL;
@@ -88,21 +86,34 @@ static void set_clipboard(void *window, const char *text)
     window_set_clipboard(window, text);
 }
 
-static bool same_picture(const Options *a, const Options *b)
+static bool same_picture(const DrawRequest *a, const DrawRequest *b)
 {
-    return a->seconds == b->seconds && a->width == b->width && a->height == b->height &&
-           a->orbit.azimuth == b->orbit.azimuth && a->orbit.elevation == b->orbit.elevation &&
-           a->orbit.distance == b->orbit.distance;
+    return a->seconds == b->seconds && a->orbit.azimuth == b->orbit.azimuth &&
+           a->orbit.elevation == b->orbit.elevation && a->orbit.distance == b->orbit.distance;
+}
+
+/* Whether what was found for a picture is not that of the request, in this canvas. */
+static bool is_other(const PanelPicture *picture, const Renderer *renderer,
+                     const DrawRequest *request)
+{
+    const Canvas *canvas = renderer->canvas;
+    return picture->width != canvas->width || picture->height != canvas->height ||
+           !same_picture(&picture->request, request);
+}
+
+static PanelPicture picture_of(const Renderer *renderer, const DrawRequest *request)
+{
+    return (PanelPicture){
+        .request = *request, .width = renderer->canvas->width, .height = renderer->canvas->height};
 }
 
 /* Lists the effects that the scene calls for, a few times per second. */
-static void update_effects(ViewerPanel *panel, Stage *stage, const Options *options)
+static void update_effects(ViewerPanel *panel, Renderer *renderer, const DrawRequest *request)
 {
     const double now = clock_now();
     size_t size = 0;
     const bool known = panel->effects && panel->effects_time > 0;
-    panel->effects_wanted =
-        panel->example->scene && !(known && same_picture(&panel->effects_options, options));
+    panel->effects_wanted = !known || is_other(&panel->effects_of, renderer, request);
     if (!panel->effects_wanted || (known && now - panel->effects_time < EFFECTS_SECONDS))
         return;
     panel->effects_wanted = false;
@@ -111,74 +122,54 @@ static void update_effects(ViewerPanel *panel, Stage *stage, const Options *opti
     FILE *file = open_memstream(&panel->effects, &size);
     if (!file)
         return;
-    explain_effects(stage, options, file);
+    panel->kind->write_effects(renderer, request, file);
     fclose(file);
     panel->effects_time = now;
-    panel->effects_options = *options;
+    panel->effects_of = picture_of(renderer, request);
 }
 
-static bool busy(ViewerPanel *panel)
+static bool busy(const ViewerPanel *panel)
 {
-    return panel->error_worker && error_worker_busy(panel->error_worker);
+    return panel->worker && panel->kind->busy(panel->worker);
 }
 
-static bool may_start(ViewerPanel *panel)
+static bool may_start(const ViewerPanel *panel)
 {
     return !busy(panel) && clock_now() - panel->error_time >= ERROR_SECONDS;
 }
 
 /* Starts computing the error of a picture that has changed: at once after a change of a parameter,
  * twice per second as time passes. */
-static void update_error(ViewerPanel *panel, Stage *stage, const Options *options)
+static void update_error(ViewerPanel *panel, Renderer *renderer, const DrawRequest *request)
 {
-    ErrorPicture picture;
-    panel->error_wanted =
-        panel->example->scene && (panel->stale || !same_picture(&panel->error_options, options));
+    panel->error_wanted = panel->stale || is_other(&panel->error_of, renderer, request);
     if (!panel->error_wanted || (!panel->stale && !may_start(panel)))
         return;
     panel->error_wanted = false;
     if (panel->stale)
-        error_worker_cancel(panel->error_worker);
-    /* If this fails, drawing the frame fails too and reports why. */
-    if (!stage_error_picture(stage, options, options->seconds, &picture, NULL))
+        panel->kind->cancel(panel->worker);
+    if (!panel->kind->start(panel->worker, renderer, request))
         return;
-    error_worker_start(panel->error_worker, &picture);
-    panel->error_options = *options;
+    panel->error_of = picture_of(renderer, request);
     panel->error_time = clock_now();
     panel->stale = false;
 }
 
-static PanelErrorPart part_of(const ErrorSum *sum)
-{
-    return (PanelErrorPart){.rms = error_sum_rms(sum), .maximum = sum->maximum};
-}
-
 static PanelError known_error(ViewerPanel *panel)
 {
-    ErrorResult result;
-    if (!panel->error_worker)
+    if (!panel->worker)
         return (PanelError){.known = false};
-    error_worker_result(panel->error_worker, &result);
-    panel->computing = result.computing;
-    return (PanelError){.known = result.known,
-                        .computing = result.computing,
-                        .of_computing = part_of(&result.of_computing),
-                        .of_mesh = part_of(&result.error.interior),
-                        .at_edges = part_of(&result.error.edges),
-                        .seconds = result.seconds,
-                        .mapped = panel->mapped,
-                        .colors = PICTURE_ERROR_COLORS};
+    PanelError error = panel->kind->error(panel->worker);
+    panel->computing = error.computing;
+    error.mapped = panel->mapped;
+    return error;
 }
 
 const Image *viewer_panel_map(ViewerPanel *panel, int width, int height)
 {
-    ErrorResult result;
-    if (!panel->mapped || panel->view != PANEL_OPEN || !panel->error_worker)
+    if (!panel->mapped || panel->view != PANEL_OPEN || !panel->worker)
         return NULL;
-    error_worker_result(panel->error_worker, &result);
-    if (result.known && result.number != panel->map_number &&
-        error_worker_map(panel->error_worker, &panel->map))
-        panel->map_number = result.number;
+    panel->kind->map(panel->worker, &panel->map, &panel->map_number);
     return panel->map.width == width && panel->map.height == height ? &panel->map : NULL;
 }
 
@@ -216,20 +207,6 @@ void viewer_panel_place(const ViewerPanel *panel, const WindowInput *input, int 
                 input->width, input->height, place);
 }
 
-static void find_handles(ViewerPanel *panel, Stage *stage, const Options *options)
-{
-    for (int view = 0; panel->example->scene && view < stage_view_count(stage); view++) {
-        StageView shown;
-        int place[4];
-        if (!stage_view_place(stage, view, place))
-            continue;
-        if (stage_view_open(&shown, stage, options, options->seconds, view, NULL))
-            panel->handle_count =
-                handles_add(panel->handles, panel->handle_count, &shown.asked, view, place);
-        stage_view_close(&shown);
-    }
-}
-
 static void add_light(ViewerPanel *panel, int number, const Light *light, const LightTints *tints)
 {
     static const char *const words[] = {"diffuse", "specular"};
@@ -251,22 +228,21 @@ static void add_light(ViewerPanel *panel, int number, const Light *light, const 
     panel->lights[2 * number + 2].name = NULL;
 }
 
-/* The lights of all views as the example has them, and their colors as the options do. */
-static void find_lights(ViewerPanel *panel, Stage *stage, const Options *options)
+/* The lights as the example has them, and their colors as the options do. */
+static void find_lights(ViewerPanel *panel, Renderer *renderer, const DrawRequest *request)
 {
-    Options plain = *options;
-    int count = 0;
-    plain.terms = (SceneTerms){.left_out = 0};
-    plain.tints = (LightTints){.tinted = 0};
-    plain.cheap = false;
-    for (int view = 0; panel->example->scene && view < stage_view_count(stage); view++) {
-        StageView shown;
-        if (stage_view_open(&shown, stage, &plain, options->seconds, view, NULL))
-            for (; count < shown.asked.light_count && count < SCENE_MAX_PLACED; count++)
-                add_light(panel, count, &shown.asked.lights[count], &options->tints);
-        stage_view_close(&shown);
-    }
+    Light lights[SCENE_MAX_PLACED];
+    const int count = panel->kind->lights(renderer, request, lights);
+    for (int i = 0; i < count; i++)
+        add_light(panel, i, &lights[i], &request->tints);
     panel->lights[2 * count].name = NULL;
+}
+
+const Handle *viewer_panel_find_handle(const ViewerPanel *panel, double x, double y, double reach)
+{
+    return panel->handle_count
+               ? panel->kind->find_handle(panel->handles, panel->handle_count, x, y, reach)
+               : NULL;
 }
 
 bool viewer_panel_tint(const ViewerPanel *panel, LightTints *tints)
@@ -302,53 +278,64 @@ static void mark(const ViewerPanel *panel, const WindowInput *input, const Handl
     }
 }
 
-bool viewer_panel_frame(ViewerPanel *panel, const WindowInput *input, double seconds, Stage *stage,
-                        const Options *options, const Message *trouble, const Handle *held,
-                        Message *message)
+/* What the panel shows of the picture. */
+static void update(ViewerPanel *panel, Renderer *renderer, const Options *options)
+{
+    const DrawRequest request = options_request(options, panel->example);
+    if (panel->kind) {
+        update_error(panel, renderer, &request);
+        update_effects(panel, renderer, &request);
+        panel->handle_count = panel->kind->handles(renderer, &request, panel->handles);
+        find_lights(panel, renderer, &request);
+    }
+    command_write(panel->example, options, panel->defaults, panel->command, sizeof panel->command);
+}
+
+static PanelContent content_of(ViewerPanel *panel, const Message *trouble, const PanelMark *marks)
+{
+    const Example *example = panel->example;
+    return (PanelContent){.name = example->name,
+                          .view = panel->view,
+                          .parameters = example->parameters,
+                          .defaults = panel->defaults,
+                          .options = panel->options,
+                          .option_defaults = panel->option_defaults,
+                          .lights = panel->lights,
+                          .light_defaults = panel->light_defaults,
+                          .marks = panel->handle_count ? marks : NULL,
+                          .mark_count = panel->handle_count,
+                          .tries = example->tries,
+                          .looks = example->looks,
+                          .milliseconds = 1e3 * panel->seconds,
+                          .frames_per_second = panel->rate,
+                          .error = known_error(panel),
+                          .effects = panel->effects,
+                          .command = panel->command[0] ? panel->command : NULL,
+                          .help = panel->help ? help_of(panel) : NULL,
+                          .errors = trouble->text[0] ? trouble->text : NULL,
+                          .notice = panel->noticed ? panel->notice : NULL};
+}
+
+bool viewer_panel_frame(ViewerPanel *panel, const ViewerPanelInput *input, Message *message)
 {
     PanelMark marks[HANDLES_MAX];
     panel->handle_count = 0;
     panel->result = (PanelResult){.view = panel->view, .mapped = panel->mapped};
     if (!panel->panel)
         return true;
-    panel->troubled = trouble->text[0] != '\0';
-    if (panel->view == PANEL_OPEN && stage && !trouble->text[0]) {
-        update_error(panel, stage, options);
-        update_effects(panel, stage, options);
-        find_handles(panel, stage, options);
-        find_lights(panel, stage, options);
-        command_write(panel->example, options, panel->defaults, panel->command,
-                      sizeof panel->command);
-    }
-    WindowInput own = *input;
-    own.scale = scale_of(panel, input);
+    panel->troubled = input->trouble->text[0] != '\0';
+    if (panel->view == PANEL_OPEN && input->renderer && !panel->troubled)
+        update(panel, input->renderer, input->options);
+    WindowInput own = *input->window;
+    own.scale = scale_of(panel, input->window);
     panel->noticed = has_notice(panel);
-    mark(panel, input, held, marks);
+    mark(panel, input->window, input->held, marks);
     const PanelInput in = {.window = &own,
-                           .seconds = seconds,
+                           .seconds = input->seconds,
                            .clipboard = panel->window,
                            .get_clipboard = get_clipboard,
                            .set_clipboard = set_clipboard};
-    const PanelContent content = {.name = panel->example->name,
-                                  .view = panel->view,
-                                  .parameters = example_parameters(panel->example),
-                                  .defaults = panel->defaults,
-                                  .options = panel->options,
-                                  .option_defaults = panel->option_defaults,
-                                  .lights = panel->lights,
-                                  .light_defaults = panel->light_defaults,
-                                  .marks = panel->handle_count ? marks : NULL,
-                                  .mark_count = panel->handle_count,
-                                  .tries = panel->example->tries,
-                                  .looks = panel->example->looks,
-                                  .milliseconds = 1e3 * panel->seconds,
-                                  .frames_per_second = panel->rate,
-                                  .error = known_error(panel),
-                                  .effects = panel->effects,
-                                  .command = panel->command[0] ? panel->command : NULL,
-                                  .help = panel->help ? help_of(panel) : NULL,
-                                  .errors = trouble->text[0] ? trouble->text : NULL,
-                                  .notice = panel->noticed ? panel->notice : NULL};
+    const PanelContent content = content_of(panel, input->trouble, marks);
     if (!panel_frame(panel->panel, &in, &content, &panel->result, message))
         return false;
     panel->view = panel->result.view;
@@ -403,8 +390,8 @@ void viewer_panel_toggle_help(ViewerPanel *panel)
 
 void viewer_panel_close(ViewerPanel *panel)
 {
-    if (panel->error_worker)
-        error_worker_close(panel->error_worker);
+    if (panel->worker)
+        panel->kind->close(panel->worker);
     panel_draw_close(&panel->draw);
     panel_close(panel->panel);
     free(panel->effects);

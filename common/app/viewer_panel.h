@@ -7,16 +7,22 @@
 #ifndef VIEWER_PANEL_H
 #define VIEWER_PANEL_H
 
-#include "app/stage.h"
+#include "app/options.h"
+#include "app/panel_kind.h"
 #include "base/clock.h"
-#include "window/handles.h"
-#include "window/panel.h"
 #include "window/panel_draw.h"
 
 enum { VIEWER_COMMAND_SIZE = 16384 };
 
+/* A picture of which something was found. */
+typedef struct PanelPicture {
+    DrawRequest request;
+    int width, height;
+} PanelPicture;
+
 typedef struct ViewerPanel {
     const Example *example;
+    const PanelKind *kind; /* NULL: there is no more to show than parameters */
     Window *window;
     Panel *panel; /* NULL: there is none */
     PanelDraw draw;
@@ -35,16 +41,16 @@ typedef struct ViewerPanel {
     int handle_count;
     double seconds; /* per frame, smoothed; 0: unknown */
     double rate;    /* frames per second; 0: unknown */
-    ErrorWorker *error_worker;
-    bool mapped; /* its map is shown in the picture's place */
-    Image map;   /* of result number: */
+    void *worker;   /* the kind's */
+    bool mapped;    /* its map is shown in the picture's place */
+    Image map;      /* of result number: */
     int map_number;
-    double error_time;     /* clock_now when it was last started */
-    Options error_options; /* of its picture */
-    bool stale;            /* the parameters have changed since */
+    double error_time; /* clock_now when it was last started */
+    PanelPicture error_of;
+    bool stale; /* the parameters have changed since */
     char *effects;
-    double effects_time;     /* clock_now when they were listed; 0: the parameters have changed */
-    Options effects_options; /* of their picture */
+    double effects_time; /* clock_now when they were listed; 0: the parameters have changed */
+    PanelPicture effects_of;
     char command[VIEWER_COMMAND_SIZE];
     char notice[PATH_MAX + 64];
     double notice_time;
@@ -59,12 +65,20 @@ typedef struct ViewerPanel {
 void viewer_panel_open(ViewerPanel *panel, const Example *example, const Canvas *canvas,
                        Options *options, const ParameterValue *defaults);
 
-/* One frame of the panel; viewer_panel_draw draws it. Describes the stage's picture at `options`;
- * NULL: there is none. `trouble` is shown as an error unless it is empty; `held`: the handle that
- * is dragged; NULL: none. */
-bool viewer_panel_frame(ViewerPanel *panel, const WindowInput *input, double seconds, Stage *stage,
-                        const Options *options, const Message *trouble, const Handle *held,
-                        Message *message);
+typedef struct ViewerPanelInput {
+    const WindowInput *window;
+    double seconds;         /* since the last frame */
+    Renderer *renderer;     /* of the picture; NULL: there is none */
+    const Options *options; /* that it was drawn with */
+    const Message *trouble; /* shown as an error unless it is empty */
+    const Handle *held;     /* that is dragged; NULL: none */
+} ViewerPanelInput;
+
+/* One frame of the panel; viewer_panel_draw draws it. */
+bool viewer_panel_frame(ViewerPanel *panel, const ViewerPanelInput *input, Message *message);
+
+/* The light's handle nearest to a point of the picture; NULL: there is none within `reach`. */
+const Handle *viewer_panel_find_handle(const ViewerPanel *panel, double x, double y, double reach);
 
 /* Sets the options to the colors of lights that were changed in this frame; false: none. */
 bool viewer_panel_tint(const ViewerPanel *panel, LightTints *tints);

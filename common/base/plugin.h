@@ -19,6 +19,16 @@ typedef struct Plugin {
     const void *loaded;  /* the variable; plugin_open sets it */
 } Plugin;
 
+/* Of modules that a program may lack, and --doctor reports all the same. */
+#define PLUGIN_MODELS                                                                              \
+    {                                                                                              \
+        "model_assimp.so", "model_module", "Assimp", " (model files)", "libassimp-dev", NULL       \
+    }
+#define PLUGIN_DRAWINGS                                                                            \
+    {                                                                                              \
+        "drawing_cairo.so", "drawing_plugin", "cairo", "", "libcairo2-dev", NULL                   \
+    }
+
 /* Loads the plugin at the first call, from any thread, and returns its variable; NULL on failure,
  * with a message that names the package. */
 const void *plugin_open(Plugin *plugin, Message *message);

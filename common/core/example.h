@@ -35,11 +35,10 @@ typedef struct Example {
     /* Draws one frame into the canvas, which is already cleared. */
     void (*draw)(const Frame *frame);
 
-    /* Instead of `draw`: */
-    bool (*try_draw)(const Frame *frame, Message *message); /* drawing that can fail */
-    const struct SceneExample *scene;                       /* see scene/scene_example.h */
-    const struct DiagramExample *diagram;                   /* the same */
-    const struct PageExample *page;                         /* the same */
+    /* Of a program that does not draw itself: what draws, and what it is given. NULL: `draw`. */
+    const struct ExampleKind *kind;     /* see app/example_kind.h */
+    const void *content;                /* of the type that the kind says */
+    const struct Parameter *parameters; /* its own options, ended by a NULL name; NULL: none */
 } Example;
 
 /* The lecture's animations turn at this rate, so that --angle selects a time. */

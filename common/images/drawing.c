@@ -196,12 +196,7 @@ void drawing_text(Drawing *drawing, DrawingPoint at, double size, Vec3 color, co
 
 /* Files. */
 
-static Plugin cairo = {"drawing_cairo.so", "drawing_plugin", "cairo", "", "libcairo2-dev", NULL};
-
-bool drawing_probe(Message *findings)
-{
-    return plugin_probe(&cairo, findings);
-}
+static Plugin cairo = PLUGIN_DRAWINGS;
 
 bool drawing_paint(const Drawing *drawing, Image *image, bool transparent, Message *message)
 {

@@ -49,7 +49,4 @@ bool drawing_encode(const Drawing *drawing, const char *format, bool transparent
 bool drawing_write(const Drawing *drawing, const char *path, const char *format, bool transparent,
                    Message *message);
 
-/* Loads the plugin and appends a line about what was found; true if the plugin was. */
-bool drawing_probe(Message *findings);
-
 #endif

@@ -16,6 +16,12 @@ const char *const *parameter_choices(const Parameter *parameter)
     return parameter->kind == PARAMETER_SWITCH && !parameter->choices ? ON_OFF : parameter->choices;
 }
 
+const char *parameter_placeholder(const Parameter *parameter)
+{
+    return parameter->placeholder || !parameter->codec ? parameter->placeholder
+                                                       : parameter->codec->placeholder;
+}
+
 /* The index of a choice; -1 with a message. */
 static int find_choice(const Parameter *parameter, const char *text, Message *message)
 {
@@ -118,10 +124,11 @@ static bool read_kind(const Parameter *parameter, const char *text, int choice, 
 
 bool parameter_read(const Parameter *parameter, const char *text, Message *message)
 {
-    const bool choose = !parameter->read && parameter_choices(parameter);
+    const ParameterCodec *codec = parameter->codec;
+    const bool choose = !codec && parameter_choices(parameter);
     const int choice = choose ? find_choice(parameter, text, message) : 0;
-    if (choice < 0 || !(parameter->read ? parameter->read(parameter, text, message)
-                                        : read_kind(parameter, text, choice, message)))
+    if (choice < 0 || !(codec ? codec->read(parameter, text, message)
+                              : read_kind(parameter, text, choice, message)))
         return false;
     if (parameter->given)
         *parameter->given = true;
@@ -182,10 +189,9 @@ static const char *write_color(Vec3 color, char buffer[PARAMETER_TEXT_SIZE])
 
 const char *parameter_text(const Parameter *parameter, char buffer[PARAMETER_TEXT_SIZE])
 {
-    if (parameter->write)
-        return parameter->write(parameter, buffer, PARAMETER_TEXT_SIZE) ? buffer : NULL;
-    if (parameter->read) /* which sets another option's value */
-        return NULL;
+    const ParameterCodec *codec = parameter->codec;
+    if (codec)
+        return codec->write && codec->write(parameter, buffer, PARAMETER_TEXT_SIZE) ? buffer : NULL;
     const ParameterValue value = parameter_save(parameter);
     switch (parameter->kind) {
     case PARAMETER_NUMBER:

@@ -20,6 +20,16 @@ typedef enum ParameterKind {
     PARAMETER_TEXT,   /* const char *: any text, as a file's name */
 } ParameterKind;
 
+struct Parameter;
+
+/* How a value is read and written that is of none of these kinds. */
+typedef struct ParameterCodec {
+    const char *placeholder; /* as in Parameter */
+    bool (*read)(const struct Parameter *parameter, const char *text, Message *message);
+    /* False if the value cannot be written. NULL: it is another option's. */
+    bool (*write)(const struct Parameter *parameter, char *text, size_t size);
+} ParameterCodec;
+
 typedef struct Parameter {
     const char *name; /* of the option; NULL ends a list */
     const char *help; /* what it is, in a few words, with its unit; NULL: --help omits it */
@@ -29,18 +39,21 @@ typedef struct Parameter {
     /* NULL-terminated. Of a switch: the words for true and false; of a text: what it may be; of a
      * flag: what may follow, as in --NAME=CHOICE. */
     const char *const *choices;
-    char letter;             /* the short option; 0: none */
-    const char *placeholder; /* of the value in --help; NULL: the range or the kind */
-    const char *standard;    /* the default in --help; NULL: as `value` has it; "": not shown */
-    bool *given;             /* set when the option is read; may be NULL */
-    /* What the kind cannot do; NULL: as the kind does. */
-    bool (*read)(const struct Parameter *parameter, const char *text, Message *message);
-    bool (*write)(const struct Parameter *parameter, char *text, size_t size);
+    char letter;                 /* the short option; 0: none */
+    const char *placeholder;     /* of the value in --help; NULL: the range or the kind */
+    const char *standard;        /* the default in --help; NULL: as `value` has it; "": not shown */
+    bool *given;                 /* set when the option is read; may be NULL */
+    const ParameterCodec *codec; /* NULL: read and written as the kind is */
     /* Called when the value was set, to set others that follow from it; NULL: nothing follows. Such
      * options take effect before all others, in the order of the table. */
     void (*changed)(const struct Parameter *parameter);
-    int programs; /* of a common option: which have it, see app/options.c */
+    /* Axes of quality (1 << QualityAxis, scene/quality.h) that --error leaves alone where this
+     * option is given. */
+    unsigned fixes;
 } Parameter;
+
+/* Of the value in --help; NULL: the range or the kind. */
+const char *parameter_placeholder(const Parameter *parameter);
 
 /* Its `choices`, or on and off for a switch; NULL: none. */
 const char *const *parameter_choices(const Parameter *parameter);

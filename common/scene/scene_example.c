@@ -3,26 +3,9 @@
 #include <math.h>
 #include <stddef.h>
 
-const Parameter *example_parameters(const Example *example)
+const SceneExample *example_scene(const Example *example)
 {
-    return example->scene     ? example->scene->parameters
-           : example->diagram ? example->diagram->parameters
-           : example->page    ? example->page->parameters
-                              : NULL;
-}
-
-bool example_turn_page(const Example *example, int pages)
-{
-    if (!example->page)
-        return false;
-    const char *const *names = example->page->parameters[0].choices;
-    int *page = example->page->parameters[0].value;
-    const int before = *page;
-    for (; pages > 0 && names[*page + 1]; pages--)
-        ++*page;
-    for (; pages < 0 && *page > 0; pages++)
-        --*page;
-    return *page != before;
+    return example->kind == &SCENE_KIND ? example->content : NULL;
 }
 
 void scene_shading_apply(const SceneShading *shading, Scene *scene)

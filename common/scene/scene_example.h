@@ -1,6 +1,7 @@
 /*
- * scene_example: an example that describes a scene, which `lighting` draws, or a diagram, which
- * cairo draws, or pages, which it paints.
+ * scene_example: what an example hands over that does not draw itself: a scene, which `lighting`
+ * draws, a diagram, which cairo draws, or pages, which it paints. It names one of these kinds, and
+ * its content is of that kind's type.
  */
 #ifndef SCENE_EXAMPLE_H
 #define SCENE_EXAMPLE_H
@@ -9,6 +10,7 @@
 #include "core/example.h"
 #include "scene/overlay.h"
 #include "scene/parameter.h"
+#include "scene/quality.h"
 #include "scene/scene.h"
 
 /* Lines and points of the overlay, in world coordinates. */
@@ -16,8 +18,16 @@ typedef struct Annotations {
     OverlayList lines, points;
 } Annotations;
 
-/* The init of such an example may be called with a loader of `only_texts` and without texts, when
- * its scenes are wanted as data: it loads no shader then. */
+extern const struct ExampleKind SCENE_KIND, DIAGRAM_KIND, PAGES_KIND; /* common/kinds */
+
+/* The kind of programs that draw themselves, and may fail. */
+extern const struct ExampleKind FALLIBLE_KIND;
+typedef struct FallibleExample {
+    bool (*draw)(const Frame *frame, Message *message);
+} FallibleExample;
+
+/* SCENE_KIND. The init of such an example may be called with a loader of `only_texts` and without
+ * texts, when its scenes are wanted as data: it loads no shader then. */
 typedef struct SceneExample {
     /* Fills in the scene at a time. The example owns what it points to, until the next call. */
     void (*make)(double seconds, int view, Scene *scene);
@@ -32,8 +42,10 @@ typedef struct SceneExample {
     const char *(*plain_label)(int view);
     bool shadows;                  /* its lights have them, unless the option says otherwise */
     void (*retouch)(Image *image); /* changes the finished picture, in bytes */
-    const Parameter *parameters;   /* the program's own options, terminated by a NULL name */
 } SceneExample;
+
+/* NULL: the example describes no scene. */
+const SceneExample *example_scene(const Example *example);
 
 /* What a program lets its user choose about shading, with its own defaults. */
 typedef struct SceneShading {
@@ -45,10 +57,14 @@ void scene_shading_apply(const SceneShading *shading, Scene *scene);
 #define INTERPOLATION_PARAMETERS(shading)                                                          \
     {"interpolation",                                                                              \
      "of normals, of colours; flat: one normal for each triangle; constant: one colour",           \
-     PARAMETER_CHOICE, .value = &(shading).interpolation, .choices = INTERPOLATION_NAMES},         \
+     PARAMETER_CHOICE,                                                                             \
+     .value = &(shading).interpolation,                                                            \
+     .choices = INTERPOLATION_NAMES,                                                               \
+     .fixes = 1U << AXIS_INTERPOLATION},                                                           \
     {                                                                                              \
         "viewer", "where the highlight is computed for: the eye, or a viewer at infinity",         \
-            PARAMETER_CHOICE, .value = &(shading).viewer, .choices = VIEWER_NAMES                  \
+            PARAMETER_CHOICE, .value = &(shading).viewer, .choices = VIEWER_NAMES,                 \
+                              .fixes = 1U << AXIS_VIEWER                                           \
     }
 #define SHADING_PARAMETERS(shading)                                                                \
     {"reflection", "the model of the highlight", PARAMETER_CHOICE, .value = &(shading).reflection, \
@@ -126,28 +142,21 @@ Camera example_camera(Vec3 eye, double extent);
 
 struct Drawing;
 
-/* A figure of lines and text, which needs no OpenGL. */
+/* DIAGRAM_KIND: a figure of lines and text, which needs no OpenGL. */
 typedef struct DiagramExample {
     /* Fills an empty drawing (images/drawing.h) of any size. */
     bool (*compose)(double seconds, struct Drawing *drawing, Message *message);
-    const Parameter *parameters;
 } DiagramExample;
 
 struct Canvas;
 
-/* Pages of text and of what is drawn with OpenGL, to be leafed through. */
+/* PAGES_KIND: pages of text and of what is drawn with OpenGL, to be leafed
+ * through; the first of the program's own options is a choice: the page. */
 typedef struct PageExample {
     /* Paints an image of bytes, of any size; may draw into canvases beside this one. */
     bool (*paint)(const Frame *frame, const struct Canvas *canvas, Image *image, Message *message);
-    double seconds;              /* --time without that option */
-    const Parameter *parameters; /* the first is a choice: the page */
+    double seconds; /* --time without that option */
 } PageExample;
-
-/* Turns so many pages, as far as there are; false: none. */
-bool example_turn_page(const Example *example, int pages);
-
-/* An example's own options; NULL: none. */
-const Parameter *example_parameters(const Example *example);
 
 /* As in the lecture: axes of length 2, and the lights as points. */
 void example_annotate(double seconds, int view, const Scene *scene, Annotations *annotations);

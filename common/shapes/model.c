@@ -16,13 +16,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-static Plugin assimp = {"model_assimp.so", "model_module",  "Assimp",
-                        " (model files)",  "libassimp-dev", NULL};
-
-bool model_probe(Message *findings)
-{
-    return plugin_probe(&assimp, findings);
-}
+static Plugin assimp = PLUGIN_MODELS;
 
 static bool check_file(const char *path, off_t *size, Message *message)
 {

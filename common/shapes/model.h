@@ -21,7 +21,4 @@
  * finite. */
 bool model_read(const char *path, ModelUp up, Mesh *mesh, Message *message);
 
-/* Loads the plugin and appends a line with its version, or why it is missing, to `findings`. */
-bool model_probe(Message *findings);
-
 #endif

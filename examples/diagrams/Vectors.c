@@ -66,5 +66,7 @@ const Example Vectors = {
     .looks = {"the lobe is a half disc: a highlight for every eye",
               "a flat beam lights a wider place, so each part gets less",
               "diffuse: the same everywhere; specular: about R"},
-    .diagram = &(const DiagramExample){.compose = compose, .parameters = parameters},
+    .kind = &DIAGRAM_KIND,
+    .content = &(const DiagramExample){.compose = compose},
+    .parameters = parameters,
 };

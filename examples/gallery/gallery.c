@@ -7,7 +7,9 @@
  */
 #include "app/command.h"
 #include "app/doctor.h"
-#include "app/stage.h"
+#include "app/options_canvas.h"
+#include "app/picture_texts.h"
+#include "app/renderer.h"
 #include "base/clock.h"
 #include "base/output.h"
 #include "base/parse.h"
@@ -124,17 +126,20 @@ static bool write_page(const char *folder, const Selection *selection, const Opt
 static bool draw_one(const Example *example, Canvas *canvas, const Options *options,
                      Picture *picture, Message *message)
 {
-    Stage stage;
+    Renderer renderer;
     const Options own = options_of(example, options);
+    const DrawRequest request = options_request(&own, example);
     const bool shadows = options_have_shadows(&own);
     if ((shadows != canvas->supersampled &&
          !canvas_set_samples(canvas, own.canvas.samples, shadows, message)) ||
         !canvas_resize(canvas, own.width, own.height, message) ||
-        !stage_open(&stage, example, canvas, options, message))
+        !renderer_open(&renderer, example, canvas, &request, message))
         return false;
-    stage_warn(&stage);
-    const bool drawn = stage_picture(&stage, &own, options->seconds, picture, message);
-    stage_close(&stage);
+    if (renderer.warning.text[0])
+        options_warn(example->name, &renderer.warning);
+    const bool drawn = renderer_picture(&renderer, &request, own.seconds, &picture->image, message);
+    renderer_close(&renderer);
+    picture_texts_set(example, canvas, &own, own.seconds, picture);
     return drawn;
 }
 
@@ -178,15 +183,14 @@ static bool read_all(const Selection *selection, const Options *options, Image *
     const CanvasBackend *backend = given ? given : backend_default(message);
     Picture *picture = calloc(1, sizeof *picture);
     bool done = picture ? backend != NULL : message_set(message, "gallery: not enough memory");
-    char drivers[2][STAGE_DRIVER_SIZE] = {"", ""}; /* of diagrams and of others */
+    char drivers[2][PICTURE_DRIVER_SIZE] = {"", ""}; /* of diagrams and of others */
     for (int i = 0; i < selection->count && done; i++) {
         const Example *example = selection->examples[i];
         const Options own = options_of(example, options);
         const Canvas canvas = {.width = own.width, .height = own.height, .backend = backend};
-        const Stage stage = {.example = example, .canvas = &canvas};
         set_path(picture, example, options);
-        done = stage_picture_part(&stage, &own, options->seconds, drivers[!example->diagram],
-                                  picture, message);
+        picture_texts_set(example, &canvas, &own, own.seconds, picture);
+        done = picture_texts_check(picture, drivers[!example_kind(example)->without_gl], message);
         if (done)
             sheet_put(sheet, i, &picture->image);
     }
@@ -249,7 +253,7 @@ static bool open_canvas(Canvas *canvas, const Options *options, Message *message
     if (!shader_loader_check(&options->shaders, message))
         return false;
     setenv("LP_NUM_THREADS", "0", 0); /* as in run.c: other threads encode */
-    return stage_open_canvas(canvas, options, "gallery.png", message);
+    return options_open_canvas(canvas, options, "gallery.png", message);
 }
 
 static bool merge_gallery(const Selection *selection, const Options *options, Message *message)
@@ -265,15 +269,16 @@ static bool merge_gallery(const Selection *selection, const Options *options, Me
 static bool write_gallery(const Selection *selection, const Options *options, Message *message)
 {
     Canvas canvas = {0};
-    Stage stage;
+    Renderer renderer;
     Image sheet = {0};
     const bool whole = !options->part.count;
     bool done = open_canvas(&canvas, options, message);
     /* Each is opened once before anything is written: a failure must not leave half a gallery. */
     for (int i = 0; i < selection->count && done; i++) {
-        done = stage_open(&stage, selection->examples[i], &canvas, options, message);
+        const DrawRequest request = options_request(options, selection->examples[i]);
+        done = renderer_open(&renderer, selection->examples[i], &canvas, &request, message);
         if (done)
-            stage_close(&stage);
+            renderer_close(&renderer);
     }
     if (done && !options->shaders.print)
         done = output_folder(options->output, message) &&

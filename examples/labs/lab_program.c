@@ -9,6 +9,7 @@
 #include "core/example.h"
 #include "labs/program/binding.h"
 #include "labs/program/probe.h"
+#include "scene/scene_example.h"
 
 #if LAB == 3 || LAB == 10
 #include "labs/program/lab_code.h"
@@ -90,7 +91,8 @@ int main(int argc, char *argv[])
     const Example example = {.name = lab->name,
                              .summary = lab->summary,
                              .init = init,
-                             .try_draw = draw_lab,
-                             .finish = finish};
+                             .finish = finish,
+                             .kind = &FALLIBLE_KIND,
+                             .content = &(const FallibleExample){draw_lab}};
     return example_main(&example, argc, argv);
 }

@@ -46,7 +46,7 @@ static bool read_lesson(const Parameter *parameter, const char *text, Message *m
 {
     Parameter by_name = *parameter;
     int number;
-    by_name.read = NULL;
+    by_name.codec = NULL;
     if (!parse_whole(text, 1, LESSON_COUNT, &number))
         return parameter_read(&by_name, text, message);
     *(int *)parameter->value = number - 1;
@@ -58,9 +58,11 @@ static bool write_lesson(const Parameter *parameter, char *text, size_t size)
     return snprintf(text, size, "%s", NAMES[*(const int *)parameter->value]) < (int)size;
 }
 
+static const ParameterCodec LESSON = {NULL, read_lesson, write_lesson};
+
 static const Parameter parameters[] = {
     {"lesson", "the program that is shown, by name or by number from 1", PARAMETER_CHOICE,
-     .value = &lesson, .choices = NAMES, .read = read_lesson, .write = write_lesson},
+     .value = &lesson, .choices = NAMES, .codec = &LESSON},
     {.name = NULL},
 };
 
@@ -295,5 +297,7 @@ const Example lessons = {
               "page down and page up step through the nine"},
     .init = init,
     .finish = finish,
-    .page = &(const PageExample){.paint = paint, .seconds = 1, .parameters = parameters},
+    .kind = &PAGES_KIND,
+    .content = &(const PageExample){.paint = paint, .seconds = 1},
+    .parameters = parameters,
 };

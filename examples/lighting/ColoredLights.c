@@ -107,7 +107,7 @@ const Example ColoredLights = {
               "highlights have the light's colour on every surface"},
     .init = init,
     .finish = finish,
-    .scene =
-        &(const SceneExample){
-            .make = scene, .layout = layout, .label = label, .parameters = parameters},
+    .kind = &SCENE_KIND,
+    .content = &(const SceneExample){.make = scene, .layout = layout, .label = label},
+    .parameters = parameters,
 };

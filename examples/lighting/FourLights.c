@@ -28,10 +28,11 @@ static Surface surface = {.name = MATERIAL_COUNT,
                                        .shininess = 32}};
 
 static const Parameter parameters[] = {
-    {"viewpoint", "the dim grey light at the viewer", PARAMETER_SWITCH, .value = &viewpoint_on},
-    {"red", "the red light", PARAMETER_SWITCH, .value = &red_on},
-    {"green", "the green light", PARAMETER_SWITCH, .value = &green_on},
-    {"blue", "the blue light", PARAMETER_SWITCH, .value = &blue_on},
+    {"viewpoint", "the dim grey light at the viewer", PARAMETER_SWITCH, .value = &viewpoint_on,
+     .fixes = 1U << AXIS_LIGHTS},
+    {"red", "the red light", PARAMETER_SWITCH, .value = &red_on, .fixes = 1U << AXIS_LIGHTS},
+    {"green", "the green light", PARAMETER_SWITCH, .value = &green_on, .fixes = 1U << AXIS_LIGHTS},
+    {"blue", "the blue light", PARAMETER_SWITCH, .value = &blue_on, .fixes = 1U << AXIS_LIGHTS},
     {"ambient", "global ambient light", PARAMETER_SWITCH, .value = &ambient_on},
     {"base", "the coloured disc below the teapot", PARAMETER_SWITCH, .value = &base},
     MATERIAL_PARAMETER(surface),
@@ -170,5 +171,7 @@ const Example FourLights = {
               "each surface in its own colour: no depth"},
     .init = init,
     .finish = finish,
-    .scene = &(const SceneExample){.make = scene, .parameters = parameters},
+    .kind = &SCENE_KIND,
+    .content = &(const SceneExample){.make = scene},
+    .parameters = parameters,
 };

@@ -126,9 +126,8 @@ const Example LightTypes = {
               "highlights alone: in one place, weaker where attenuated"},
     .init = init,
     .finish = finish,
-    .scene = &(const SceneExample){.make = scene,
-                                   .annotate = annotate,
-                                   .layout = layout,
-                                   .label = label,
-                                   .parameters = parameters},
+    .kind = &SCENE_KIND,
+    .content = &(
+        const SceneExample){.make = scene, .annotate = annotate, .layout = layout, .label = label},
+    .parameters = parameters,
 };

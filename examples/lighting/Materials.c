@@ -117,9 +117,7 @@ const Example Materials = {
               "shininess 0: the highlight is everywhere"},
     .init = init,
     .finish = finish,
-    .scene = &(const SceneExample){.make = scene,
-                                   .layout = layout,
-                                   .size = size,
-                                   .label = label,
-                                   .parameters = parameters},
+    .kind = &SCENE_KIND,
+    .content = &(const SceneExample){.make = scene, .layout = layout, .size = size, .label = label},
+    .parameters = parameters,
 };

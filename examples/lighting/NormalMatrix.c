@@ -23,7 +23,8 @@ static SceneShading shading = {REFLECTION_PHONG, INTERPOLATION_PHONG, VIEWER_LOC
 static const Parameter parameters[] = {
     {"matrix", "by which normals are transformed", PARAMETER_CHOICE, .value = &matrix,
      .choices = MATRICES},
-    {"normals", "draw normals as lines", PARAMETER_SWITCH, .value = &normals},
+    {"normals", "draw normals as lines", PARAMETER_SWITCH, .value = &normals,
+     .fixes = 1U << AXIS_NORMALS},
     SURFACE_PARAMETERS(surface),
     SHADING_PARAMETERS(shading),
     LIGHT_PARAMETERS(light_colors, global_ambient),
@@ -106,10 +107,9 @@ const Example NormalMatrix = {
               "the light's border is in the wrong place", "wrong normals move the highlight"},
     .init = init,
     .finish = finish,
-    .scene = &(const SceneExample){.make = scene,
-                                   .annotate = annotate,
-                                   .layout = layout,
-                                   .size = size,
-                                   .label = label,
-                                   .parameters = parameters},
+    .kind = &SCENE_KIND,
+    .content =
+        &(const SceneExample){
+            .make = scene, .annotate = annotate, .layout = layout, .size = size, .label = label},
+    .parameters = parameters,
 };

@@ -119,9 +119,8 @@ const Example PhongBlinn = {
               "what differs although it is fitted, 16 times as bright"},
     .init = init,
     .finish = finish,
-    .scene = &(const SceneExample){.make = scene,
-                                   .layout = layout,
-                                   .label = label,
-                                   .retouch = retouch,
-                                   .parameters = parameters},
+    .kind = &SCENE_KIND,
+    .content =
+        &(const SceneExample){.make = scene, .layout = layout, .label = label, .retouch = retouch},
+    .parameters = parameters,
 };

@@ -81,5 +81,7 @@ const Example ShininessRow = {
               "highlights alone, smaller from left to right"},
     .init = init,
     .finish = finish,
-    .scene = &(const SceneExample){.make = scene, .parameters = parameters},
+    .kind = &SCENE_KIND,
+    .content = &(const SceneExample){.make = scene},
+    .parameters = parameters,
 };

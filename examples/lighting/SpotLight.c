@@ -82,6 +82,7 @@ const Example SpotLight = {
               "a cone of 180 degrees lights all that faces it"},
     .init = init,
     .finish = finish,
-    .scene = &(
-        const SceneExample){.make = scene, .annotate = example_annotate, .parameters = parameters},
+    .kind = &SCENE_KIND,
+    .content = &(const SceneExample){.make = scene, .annotate = example_annotate},
+    .parameters = parameters,
 };

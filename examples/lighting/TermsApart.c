@@ -216,9 +216,9 @@ const Example TermsApart = {
               "shininess 0: the highlight covers all that is lit"},
     .init = init,
     .finish = finish,
-    .scene = &(const SceneExample){.make = scene,
-                                   .layout = layout,
-                                   .label = label,
-                                   .plain_label = plain_label,
-                                   .parameters = parameters},
+    .kind = &SCENE_KIND,
+    .content =
+        &(const SceneExample){
+            .make = scene, .layout = layout, .label = label, .plain_label = plain_label},
+    .parameters = parameters,
 };

@@ -138,7 +138,7 @@ const Example TwoSidedLighting = {
               "the inside has the outside's colour, and the wrong normals"},
     .init = init,
     .finish = finish,
-    .scene =
-        &(const SceneExample){
-            .make = scene, .annotate = annotate, .size = size, .parameters = parameters},
+    .kind = &SCENE_KIND,
+    .content = &(const SceneExample){.make = scene, .annotate = annotate, .size = size},
+    .parameters = parameters,
 };

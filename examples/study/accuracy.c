@@ -54,8 +54,7 @@ static const Parameter parameters[] = {
     {"part",
      "measure only the I-th of N parts of the settings, for several processes or machines, into "
      "results-I-of-N.csv",
-     PARAMETER_TEXT, .value = &part, .placeholder = "I/N", .standard = "",
-     .read = options_read_part},
+     PARAMETER_TEXT, .value = &part, .standard = "", .codec = &OPTION_PART},
     {"merge", "measure nothing: report what all parts in DIR have measured, as one survey",
      PARAMETER_FLAG, .value = &merge},
     {"all-rows", "print tables of every setting, not only of the efficient ones as --verbose does",

@@ -29,10 +29,11 @@ static bool read_inputs(const Parameter *parameter, const char *text, Message *m
     return true;
 }
 
+static const ParameterCodec INPUTS = {"17..32", read_inputs, NULL};
+
 static const Parameter parameters[] = {
     {"inputs", "inputs of each function, as a power of two; 0: 24, or fewer on a slow driver",
-     PARAMETER_WHOLE, .value = &inputs, .min = 0, .max = 32, .placeholder = "17..32",
-     .read = read_inputs},
+     PARAMETER_WHOLE, .value = &inputs, .min = 0, .max = 32, .codec = &INPUTS},
     {"json", "print JSON, which DIR gets too, instead of text", PARAMETER_FLAG, .value = &json},
     {"markdown", "print tables as Markdown, with processor, driver and compiler", PARAMETER_FLAG,
      .value = &markdown},

@@ -1,11 +1,10 @@
 #include "web/page.h"
 
 #include "app/command.h"
-#include "app/explain.h"
-#include "app/stage.h"
-#include "app/unused.h"
+#include "app/options_canvas.h"
+#include "app/renderer.h"
 #include "choose/error_worker.h"
-#include "scene/scene_example.h"
+#include "kinds/scene_views.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -42,11 +41,11 @@ static struct {
     Options options;
     char *lines; /* which the options point into */
     Canvas canvas;
-    Stage stage;
+    Renderer renderer;
     ShaderFiles files;
     char folder[64]; /* of the files that page_replace wrote; "": there are none */
     bool replaced;   /* since the last page_open */
-    Picture picture;
+    Image image;
     char *text; /* returned */
 } page;
 
@@ -70,12 +69,12 @@ static void restore_defaults(int number)
 {
     static bool saved;
     for (int i = 0; i < COUNT && !saved; i++) {
-        const Parameter *own = example_parameters(ALL[i]);
+        const Parameter *own = ALL[i]->parameters;
         for (int k = 0; own && own[k].name; k++)
             defaults[i][k] = parameter_save(&own[k]);
     }
     saved = true;
-    const Parameter *own = example_parameters(ALL[number]);
+    const Parameter *own = ALL[number]->parameters;
     for (int k = 0; own && own[k].name; k++) {
         parameter_restore(&own[k], defaults[number][k]);
         if (strcmp(own[k].name, "costs") == 0)
@@ -132,7 +131,7 @@ static void put_option(FILE *file, const Parameter *option, bool own)
     put_pair(file, "kind", KINDS[option->kind]);
     put_pair(file, "value", written);
     put_pair(file, "standard", option->standard);
-    put_pair(file, "placeholder", option->placeholder);
+    put_pair(file, "placeholder", parameter_placeholder(option));
     if (option->kind == PARAMETER_NUMBER || option->kind == PARAMETER_WHOLE ||
         option->kind == PARAMETER_COLOR)
         put_pair(file, "range", parameter_range(option, range));
@@ -156,7 +155,7 @@ static void put_program(FILE *file, const Example *example)
     fputs("{\"name\": ", file);
     put_json(file, example->name);
     put_pair(file, "summary", example->summary);
-    fprintf(file, ", \"scene\": %s, \"tries\": [", example->scene ? "true" : "false");
+    fprintf(file, ", \"scene\": %s, \"tries\": [", example_scene(example) ? "true" : "false");
     for (int i = 0; i < 4 && example->tries[i]; i++) {
         fprintf(file, "%s{\"arguments\": ", i ? ", " : "");
         put_json(file, example->tries[i]);
@@ -199,7 +198,7 @@ const char *page_programs(void)
 
 const char *page_message(void)
 {
-    return page.message.text[0] ? page.message.text : page.stage.warning.text;
+    return page.message.text[0] ? page.message.text : page.renderer.warning.text;
 }
 
 /* Options. */
@@ -289,27 +288,30 @@ static bool same_text(const char *a, const char *b)
 static bool fit_canvas(const Options *options, Message *message)
 {
     if (!page.canvas.backend)
-        return stage_open_canvas(&page.canvas, options, "x.png", message);
+        return options_open_canvas(&page.canvas, options, "x.png", message);
     return canvas_resize(&page.canvas, options->width, options->height, message) &&
            canvas_set_samples(&page.canvas, options->canvas.samples, options_have_shadows(options),
                               message);
 }
 
-static bool open_stage(const Example *example, bool keeps, Message *message)
+static bool open_renderer(const Example *example, bool keeps, Message *message)
 {
+    const DrawRequest request = options_request(&page.options, example);
     if (keeps)
-        return stage_renew(&page.stage, &page.options, message);
-    stage_close(&page.stage);
+        return renderer_renew(&page.renderer, &request, message);
+    renderer_close(&page.renderer);
     shader_files_close(&page.files);
-    return stage_open(&page.stage, example, &page.canvas, &page.options, message);
+    return renderer_open(&page.renderer, example, &page.canvas, &request, message);
 }
 
 /* Runs the example's init and finish: what it has open is closed before. */
 static bool check_terms(const Example *example, const Options *options, Message *message)
 {
-    if (page.stage.example == example && example->finish)
+    const DrawRequest request = options_request(options, example);
+    if (page.renderer.example == example && example->finish)
         example->finish();
-    return !example->scene || unused_terms_check(example, options, message);
+    return !example_kind(example)->check ||
+           example_kind(example)->check(example, &request, message);
 }
 
 int page_open(const char *lines)
@@ -327,7 +329,7 @@ int page_open(const char *lines)
         free(copy);
         return EXIT_USAGE;
     }
-    const bool keeps = page.stage.example == ALL[number] && !page.replaced &&
+    const bool keeps = page.renderer.example == ALL[number] && !page.replaced &&
                        same_text(options.shaders.precision, page.options.shaders.precision);
     options.shaders.folder = page.folder[0] ? page.folder : NULL;
     options.shaders.files = &page.files;
@@ -340,8 +342,8 @@ int page_open(const char *lines)
         page_close();
         return EXIT_FAILED;
     }
-    if (!open_stage(ALL[number], keeps, &page.message)) {
-        stage_close(&page.stage);
+    if (!open_renderer(ALL[number], keeps, &page.message)) {
+        renderer_close(&page.renderer);
         return EXIT_FAILED;
     }
     page.example = ALL[number];
@@ -350,7 +352,7 @@ int page_open(const char *lines)
 
 void page_close(void)
 {
-    stage_close(&page.stage);
+    renderer_close(&page.renderer);
     canvas_close(&page.canvas);
     shader_files_close(&page.files);
     page.example = NULL;
@@ -365,9 +367,9 @@ int page_draw(double seconds, double azimuth, double elevation, double distance)
         return message_set(&page.message, "no program is open");
     page.options.seconds = seconds;
     page.options.orbit = (Orbit){azimuth, elevation, distance};
-    page.picture.image.type = IMAGE_BYTE;
-    snprintf(page.picture.path, sizeof page.picture.path, "x.png");
-    if (!stage_picture(&page.stage, &page.options, seconds, &page.picture, &page.message))
+    page.image.type = IMAGE_BYTE;
+    const DrawRequest request = options_request(&page.options, page.example);
+    if (!renderer_picture(&page.renderer, &request, seconds, &page.image, &page.message))
         return 0;
     /* What is left of a broken uniform or shader is the next picture's. */
     return 1;
@@ -375,17 +377,17 @@ int page_draw(double seconds, double azimuth, double elevation, double distance)
 
 const unsigned char *page_pixels(void)
 {
-    return page.picture.image.pixels;
+    return page.image.pixels;
 }
 
 int page_width(void)
 {
-    return page.picture.image.width;
+    return page.image.width;
 }
 
 int page_height(void)
 {
-    return page.picture.image.height;
+    return page.image.height;
 }
 
 const char *page_command(void)
@@ -406,7 +408,10 @@ const char *page_command(void)
 int page_explain(void)
 {
     page.message = (Message){0};
-    const bool done = page.example && explain_programs(&page.stage, &page.options, &page.message);
+    if (!page.example)
+        return 0;
+    const DrawRequest request = options_request(&page.options, page.example);
+    const bool done = renderer_explain(&page.renderer, &request, &page.message);
     fflush(stdout);
     return done;
 }
@@ -521,14 +526,14 @@ const char *page_error(void)
     PictureError error = {.all = {0}};
     uint64_t hash = 0xcbf29ce484222325u;
     page.message = (Message){0};
-    if (!page.example || !page.example->scene) {
+    if (!page.example || !example_scene(page.example)) {
         message_set(&page.message, "no exact picture: this program draws no scene");
         return "";
     }
-    if (!stage_error_picture(&page.stage, &page.options, page.options.seconds, &drawn,
-                             &page.message))
+    const DrawRequest request = options_request(&page.options, page.example);
+    if (!scene_error_picture(&page.renderer, &request, request.seconds, &drawn, &page.message))
         return "";
-    Image *map = &page.picture.image;
+    Image *map = &page.image;
     for (size_t i = 0; i < image_row_size(map) * (size_t)map->height; i++)
         ((unsigned char *)map->pixels)[i] = i % 4 == 3 ? 255 : 0;
     const bool done = compute(&drawn, &error, map, &hash, &page.message);

@@ -62,10 +62,11 @@ static void no_scene(double seconds, int view, Scene *scene)
     (void)seconds, (void)view, (void)scene;
 }
 
-static const Example example = {
-    .name = "Example",
-    .width = 500,
-    .scene = &(const SceneExample){.make = no_scene, .parameters = PARAMETERS}};
+static const Example example = {.name = "Example",
+                                .width = 500,
+                                .kind = &SCENE_KIND,
+                                .content = &(const SceneExample){.make = no_scene},
+                                .parameters = PARAMETERS};
 
 static void put_back(const ParameterValue *values)
 {
@@ -384,14 +385,14 @@ static char *any_name(const char *end, bool numbered)
     return strdup(name);
 }
 
-typedef struct Quality {
+typedef struct Setting {
     Options options;
     ParameterValue values[PARAMETER_COUNT];
     char *names[4]; /* what is to be freed */
     char *command;
-} Quality;
+} Setting;
 
-static void any_output(Quality *setting)
+static void any_output(Setting *setting)
 {
     Options *options = &setting->options;
     options->output_given = true;
@@ -406,7 +407,7 @@ static void any_output(Quality *setting)
     options->output = setting->names[0] = any_name(".png", options->numbered);
 }
 
-static void any_options(Quality *setting)
+static void any_options(Setting *setting)
 {
     static const CanvasBackend *const backends[] = {NULL, &CANVAS_EGL, &CANVAS_OSMESA};
     Options *options = &setting->options;
@@ -438,7 +439,7 @@ static void any_options(Quality *setting)
         options->shaders.precision = below(2) ? "highp" : "mediump";
 }
 
-static void any_parameters(Quality *setting)
+static void any_parameters(Setting *setting)
 {
     ParameterValue *values = setting->values;
     memcpy(values, defaults, sizeof setting->values);
@@ -465,7 +466,7 @@ static void any_parameters(Quality *setting)
         values[2].whole = 3;
 }
 
-static void write_setting(Quality *setting)
+static void write_setting(Setting *setting)
 {
     static char text[16384];
     put_back(setting->values);
@@ -502,7 +503,7 @@ static bool same_options(const Options *a, const Options *b)
 }
 
 /* The words of a command, as the shell splits it: their number, and then each. */
-static void check_words(const Quality *setting, int count, char *words[])
+static void check_words(const Setting *setting, int count, char *words[])
 {
     const Usage usage = options_usage(&example);
     Options options;
@@ -521,7 +522,7 @@ static void check_words(const Quality *setting, int count, char *words[])
 }
 
 /* Runs every command with a function of the shell that writes its words, each ended by a NUL. */
-static FILE *run_shell(const Quality *settings, const char *script)
+static FILE *run_shell(const Setting *settings, const char *script)
 {
     char shell[64];
     FILE *file = fopen(script, "w");
@@ -537,7 +538,7 @@ static FILE *run_shell(const Quality *settings, const char *script)
 
 COMMAND_TEST(any_settings_survive_a_shell)
 {
-    Quality *settings = calloc(COUNT, sizeof *settings);
+    Setting *settings = calloc(COUNT, sizeof *settings);
     char script[] = "/tmp/command-XXXXXX";
     const int descriptor = mkstemp(script);
     size_t length = 0;

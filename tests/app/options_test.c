@@ -2,6 +2,7 @@
  * options: every option, every bad value, and the edge of a program.
  */
 #include "app/options.h"
+#include "scene/scene_example.h"
 #include "base/parse.h"
 #include "base/version.h"
 #include "images/image_file.h"
@@ -25,7 +26,11 @@ static void twice_as_wide(int *width, int *height)
     *width = 2 * *height;
 }
 
-static const Usage SCENE = {.name = "Scene", .summary = "A summary.", .scene = true};
+static const Example SCENE_PROGRAM = {.name = "Scene",
+                                      .summary = "A summary.",
+                                      .kind = &SCENE_KIND,
+                                      .content = &(const SceneExample){.make = NULL}};
+static Usage SCENE; /* its own */
 static const Usage GALLERY = {.name = "gallery", .summary = "A summary.", .gallery = true};
 
 static Options options;
@@ -281,12 +286,13 @@ static const char *const LIGHT_NUMBERS[] = {"0", "1", "2", "31"};
 static const char *const TERMS[] = {"ambient", "diffuse", "specular", "emission"};
 
 /* The row --terms of `options`. */
-static Parameter terms_row(void)
+/* An option of scenes, with its value in `options`. */
+static Parameter scene_row(const char *name)
 {
     static Parameter table[OPTIONS_MAX];
     Parameter *row = table;
     options_table(&SCENE, &options, OPTIONS_TO_WRITE, table);
-    while (row->name && strcmp(row->name, "terms") != 0)
+    while (row->name && strcmp(row->name, name) != 0)
         row++;
     assert_non_null(row->name);
     return *row;
@@ -311,8 +317,8 @@ TEST(every_set_of_terms_and_lights_is_read_and_written)
         assert_int_equal(read.left_out, bits & 15 ? TERM_ALL & ~bits : 0);
         assert_int_equal(read.lights_left_out, lights ? ~lights : 0);
         assert_false(read.unlit);
-        const Parameter row = terms_row();
-        assert_true(row.write(&row, text, sizeof text));
+        const Parameter row = scene_row("terms");
+        assert_true(parameter_write(&row, text, sizeof text));
         snprintf(line, sizeof line, "--terms %s", text);
         assert_int_equal(read_as(&SCENE, line), OPTIONS_RUN);
         assert_memory_equal(&options.terms, &read, sizeof read);
@@ -328,23 +334,12 @@ TEST(the_longest_terms_fit)
     for (unsigned left_out = 0; left_out < 32; left_out++) {
         assert_int_equal(read_as(&SCENE, ""), OPTIONS_RUN);
         options.terms.lights_left_out = (uint32_t)1 << left_out;
-        const Parameter row = terms_row();
-        assert_true(row.write(&row, text, sizeof text));
+        const Parameter row = scene_row("terms");
+        assert_true(parameter_write(&row, text, sizeof text));
         snprintf(line, sizeof line, "--terms %s", text);
         assert_int_equal(read_as(&SCENE, line), OPTIONS_RUN);
         assert_int_equal(options.terms.lights_left_out, (uint32_t)1 << left_out);
     }
-}
-
-static Parameter places_row(void)
-{
-    static Parameter table[OPTIONS_MAX];
-    Parameter *row = table;
-    options_table(&SCENE, &options, OPTIONS_TO_WRITE, table);
-    while (row->name && strcmp(row->name, "light-at") != 0)
-        row++;
-    assert_non_null(row->name);
-    return *row;
 }
 
 TEST(lights_are_put_elsewhere)
@@ -352,8 +347,8 @@ TEST(lights_are_put_elsewhere)
     char line[PARAMETER_TEXT_SIZE + 100], text[PARAMETER_TEXT_SIZE];
     assert_int_equal(read_as(&SCENE, ""), OPTIONS_RUN);
     assert_int_equal(options.places.placed, 0);
-    Parameter row = places_row();
-    assert_false(row.write(&row, text, sizeof text));
+    Parameter row = scene_row("light-at");
+    assert_false(parameter_write(&row, text, sizeof text));
     assert_int_equal(read_as(&SCENE, "--light-at 1,0.5,-2,1e3/7,0,0,1"), OPTIONS_RUN);
     assert_int_equal(options.places.placed, 1 << 1 | 1 << 7);
     assert_true(options.places.at[1].x == 0.5 && options.places.at[1].y == -2 &&
@@ -363,8 +358,8 @@ TEST(lights_are_put_elsewhere)
     for (int i = 0; i < SCENE_MAX_PLACED; i++)
         options.places.at[i] = (Vec3){-12.345 - i, -0.001 * i, 100.123};
     const LightPlaces all = options.places;
-    row = places_row();
-    assert_true(row.write(&row, text, sizeof text));
+    row = scene_row("light-at");
+    assert_true(parameter_write(&row, text, sizeof text));
     snprintf(line, sizeof line, "--light-at %s", text);
     assert_int_equal(read_as(&SCENE, line), OPTIONS_RUN);
     for (int i = 0; i < SCENE_MAX_PLACED; i++)
@@ -379,29 +374,18 @@ TEST(lights_are_put_elsewhere)
     }
 }
 
-static Parameter tints_row(void)
-{
-    static Parameter table[OPTIONS_MAX];
-    Parameter *row = table;
-    options_table(&SCENE, &options, OPTIONS_TO_WRITE, table);
-    while (row->name && strcmp(row->name, "light-color") != 0)
-        row++;
-    assert_non_null(row->name);
-    return *row;
-}
-
 TEST(lights_get_other_colors)
 {
     char line[PARAMETER_TEXT_SIZE + 100], text[PARAMETER_TEXT_SIZE];
     assert_int_equal(read_as(&SCENE, ""), OPTIONS_RUN);
-    Parameter row = tints_row();
-    assert_false(row.write(&row, text, sizeof text));
+    Parameter row = scene_row("light-color");
+    assert_false(parameter_write(&row, text, sizeof text));
     assert_int_equal(read_as(&SCENE, "--light-color 1,0.5,0,1/7,0,0,1,1,1,10"), OPTIONS_RUN);
     assert_int_equal(options.tints.tinted, 1 << 1 | 1 << 7);
     assert_true(options.tints.diffuse[1].x == 0.5 && options.tints.specular[1].z == 1 &&
                 options.tints.diffuse[7].z == 1 && options.tints.specular[7].z == 10);
-    row = tints_row();
-    assert_true(row.write(&row, text, sizeof text));
+    row = scene_row("light-color");
+    assert_true(parameter_write(&row, text, sizeof text));
     assert_string_equal(text, "1,0.5,0,1/7,0,0,1,1,1,10");
     /* All of them, in as many digits as there are. */
     options.tints.tinted = 255;
@@ -410,8 +394,8 @@ TEST(lights_get_other_colors)
         options.tints.specular[i] = vec3_scale(options.tints.diffuse[i], 1.0 / 3);
     }
     const LightTints all = options.tints;
-    row = tints_row();
-    assert_true(row.write(&row, text, sizeof text));
+    row = scene_row("light-color");
+    assert_true(parameter_write(&row, text, sizeof text));
     snprintf(line, sizeof line, "--light-color %s", text);
     assert_int_equal(read_as(&SCENE, line), OPTIONS_RUN);
     assert_memory_equal(&options.tints, &all, sizeof all);
@@ -735,5 +719,6 @@ TEST(output_that_does_not_arrive_is_a_failure)
 
 int main(void)
 {
+    SCENE = options_usage(&SCENE_PROGRAM);
     return testing_run(0, "options", NULL, NULL);
 }

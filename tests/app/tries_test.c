@@ -2,7 +2,9 @@
  * What each --help suggests, and each shape of each scene: it is drawn, and every object lies
  * within the picture, however wide or narrow that is.
  */
-#include "app/stage.h"
+#include "app/options.h"
+#include "app/renderer.h"
+#include "kinds/scene_views.h"
 #include "scene/scene_example.h"
 #include "scene/shape.h"
 #include "support/examples.h"
@@ -78,15 +80,15 @@ static void check_whole(const Scene *scene, double aspect, const char *what)
 }
 
 /* In pictures of any shape, at moments of a turn. */
-static void check_scene(Stage *stage, const Options *options, const char *what)
+static void check_scene(Renderer *renderer, const DrawRequest *request, const char *what)
 {
-    for (double seconds = options->seconds; seconds < options->seconds + 12; seconds += 3.1) {
-        for (int view = 0; view < stage_view_count(stage); view++) {
-            StageView opened;
-            require(stage_view_open(&opened, stage, options, seconds, view, FAILURE), FAILURE);
+    for (double seconds = request->seconds; seconds < request->seconds + 12; seconds += 3.1) {
+        for (int view = 0; view < scene_view_count(renderer); view++) {
+            SceneView opened;
+            require(scene_view_open(&opened, renderer, request, seconds, view, FAILURE), FAILURE);
             for (double aspect = 0.25; aspect <= 4; aspect *= 16)
                 check_whole(&opened.scene, aspect, what);
-            stage_view_close(&opened);
+            scene_view_close(&opened);
         }
     }
 }
@@ -95,22 +97,23 @@ static void check_scene(Stage *stage, const Options *options, const char *what)
 static void check_line(const Example *example, const char *line, bool drawn)
 {
     char what[256];
-    Stage stage;
+    Renderer renderer;
     ParameterValue before[MOST_PARAMETERS];
-    const Parameter *own = example_parameters(example);
+    const Parameter *own = example->parameters;
     int count = 0;
     for (; own && own[count].name; count++)
         before[count] = parameter_save(&own[count]);
     const Options options = read_line(example, line);
+    const DrawRequest request = options_request(&options, example);
     snprintf(what, sizeof what, "%s %s", example->name, line);
-    require(stage_open(&stage, example, &canvas, &options, FAILURE), FAILURE);
-    if (example->scene)
-        check_scene(&stage, &options, what);
+    require(renderer_open(&renderer, example, &canvas, &request, FAILURE), FAILURE);
+    if (example_scene(example))
+        check_scene(&renderer, &request, what);
     if (drawn) {
         CLOSED(image_close) Image image;
         int colors = 0;
         SUCCEEDS(image_open(&image, SIZE, SIZE, IMAGE_BYTE, message));
-        require(stage_draw(&stage, &options, options.seconds, FAILURE) &&
+        require(renderer_draw(&renderer, &request, options.seconds, FAILURE) &&
                     canvas_read(&canvas, &image, FAILURE),
                 FAILURE);
         for (size_t i = 4; i < 4 * SIZE * SIZE; i += 4)
@@ -118,7 +121,7 @@ static void check_line(const Example *example, const char *line, bool drawn)
         if (colors < 8)
             fail_msg("%s: an empty picture", what);
     }
-    stage_close(&stage);
+    renderer_close(&renderer);
     for (int i = 0; i < count; i++)
         parameter_restore(&own[i], before[i]);
 }
@@ -143,7 +146,7 @@ TEST(what_help_suggests_is_a_whole_picture)
 TEST(every_shape_is_whole)
 {
     for (int e = 0; e < EXAMPLE_COUNT; e++) {
-        const Parameter *own = example_parameters(EXAMPLES[e]);
+        const Parameter *own = EXAMPLES[e]->parameters;
         check_line(EXAMPLES[e], "", false);
         while (own->name && strcmp(own->name, "shape") != 0)
             own++;

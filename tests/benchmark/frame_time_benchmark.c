@@ -2,7 +2,8 @@
  * The frame time of every example relative to a cleared frame, both finished and not read back; in
  * the shader's own precision and in highp.
  */
-#include "app/stage.h"
+#include "app/options.h"
+#include "app/renderer.h"
 #include "benchmark/measure.h"
 
 #include <string.h>
@@ -20,9 +21,9 @@ static const Example *const ALL[] = {
 enum { COUNT = sizeof ALL / sizeof ALL[0], ROUNDS = 31, FRAMES = 10 };
 
 typedef struct Run {
-    Stage *stage; /* NULL: only clears */
+    Renderer *renderer; /* NULL: only clears */
     Canvas *canvas;
-    Options *options;
+    const DrawRequest *request;
 } Run;
 
 static bool draw_frames(void *argument)
@@ -30,9 +31,9 @@ static bool draw_frames(void *argument)
     const Run *run = argument;
     Message message = {0};
     for (int i = 0; i < FRAMES; i++) {
-        if (!run->stage) {
+        if (!run->renderer) {
             canvas_clear(run->canvas, (Vec3){0, 0, 0}, 1);
-        } else if (!stage_draw(run->stage, run->options, 0.1 * i, &message)) {
+        } else if (!renderer_draw(run->renderer, run->request, 0.1 * i, &message)) {
             return false;
         }
         glFinish();
@@ -44,12 +45,12 @@ static bool draw_frames(void *argument)
 static bool measure_example(const Example *example, Canvas *canvas, const char *precision,
                             Table *table, Message *message)
 {
-    Options options = {.shaders = {.precision = precision}};
-    Stage stage;
-    Run clear = {.canvas = canvas}, draw = {&stage, canvas, &options};
+    const DrawRequest request = {.shaders = {.precision = precision}};
+    Renderer renderer;
+    Run clear = {.canvas = canvas}, draw = {&renderer, canvas, &request};
     Measured measured[2] = {{example->name, draw_frames, &draw, NULL},
                             {"a cleared frame", draw_frames, &clear, NULL}};
-    if (!stage_open(&stage, example, canvas, &options, message))
+    if (!renderer_open(&renderer, example, canvas, &request, message))
         return false;
     const bool done = measure_rounds(measured, 2, ROUNDS);
     if (done) {
@@ -59,7 +60,7 @@ static bool measure_example(const Example *example, Canvas *canvas, const char *
                   measure_cell(time, 1e3 / FRAMES, 2).text, measure_cell(ratio, 1, 1).text);
     }
     measure_finish(measured, 2);
-    stage_close(&stage);
+    renderer_close(&renderer);
     return done ? true : message_set(message, "%s: measuring failed", example->name);
 }
 
@@ -76,7 +77,7 @@ int main(int argc, char *argv[])
     table_open(&table, "a frame of 400x400|precision|ms|over a cleared frame");
     bool done = true;
     for (int i = 0; i < COUNT && done; i++)
-        done = ALL[i]->diagram || /* drawn without OpenGL */
+        done = example_kind(ALL[i])->without_gl || /* drawn without OpenGL */
                (measure_example(ALL[i], &canvas, NULL, &table, &message) &&
                 measure_example(ALL[i], &canvas, "highp", &table, &message));
     measure_print_table(NULL, &table);

@@ -3,7 +3,10 @@
  * process: drawing and encoding in parallel, compared with drawing and reading back alone, and with
  * libpng's defaults in sequence.
  */
-#include "app/stage.h"
+#include "app/options_canvas.h"
+#include "app/options.h"
+#include "app/picture_texts.h"
+#include "app/renderer.h"
 #include "benchmark/measure.h"
 
 #include <ftw.h>
@@ -20,9 +23,10 @@ enum { FRAMES = 200, ROUNDS = 7 };
 static const Example *const EXAMPLE_DRAWN = &PointLightedCube_perFragment;
 
 static Canvas canvas;
-static Stage stage;
+static Renderer renderer;
 static Options options = {
     .width = 400, .height = 400, .frames = FRAMES, .fps = 30, .compress = IMAGE_COMPRESS_DEFAULT};
+static DrawRequest request;
 static char folder[] = "/tmp/lighting-benchmark-XXXXXX";
 
 static double moment(int frame)
@@ -38,7 +42,7 @@ static bool draw_only(void *argument)
     Picture picture = {.path = ""};
     bool done = image_open(&picture.image, canvas.width, canvas.height, IMAGE_BYTE, &message);
     for (int i = 0; i < FRAMES && done; i++)
-        done = stage_picture(&stage, &options, moment(i), &picture, &message);
+        done = renderer_picture(&renderer, &request, moment(i), &picture.image, &message);
     image_close(&picture.image);
     return done;
 }
@@ -54,8 +58,9 @@ static bool draw_and_write(void *argument)
     for (int i = 0; i < FRAMES && done; i++) {
         Picture *picture = picture_queue_take(queue);
         snprintf(picture->path, sizeof picture->path, "%s/frame%03d.png", folder, i);
-        done = stage_picture(&stage, &options, moment(i), picture, &message) &&
-               picture_queue_give(queue, picture, &message);
+        done = renderer_picture(&renderer, &request, moment(i), &picture->image, &message);
+        picture_texts_set(EXAMPLE_DRAWN, &canvas, &options, moment(i), picture);
+        done = done && picture_queue_give(queue, picture, &message);
     }
     done = picture_queue_close(queue, &message) && done;
     if (!done)
@@ -91,7 +96,7 @@ static bool draw_then_write_default(void *argument)
     bool done = image_open(&picture.image, canvas.width, canvas.height, IMAGE_BYTE, &message);
     for (int i = 0; i < FRAMES && done; i++) {
         snprintf(path, sizeof path, "%s/frame%03d.png", folder, i);
-        done = stage_picture(&stage, &options, moment(i), &picture, &message) &&
+        done = renderer_picture(&renderer, &request, moment(i), &picture.image, &message) &&
                write_default_png(path, &picture.image);
     }
     image_close(&picture.image);
@@ -113,8 +118,9 @@ int main(int argc, char *argv[])
         perror(folder);
         return 1;
     }
-    if (!stage_open_canvas(&canvas, &options, "x.png", &message) ||
-        !stage_open(&stage, EXAMPLE_DRAWN, &canvas, &options, &message)) {
+    request = options_request(&options, EXAMPLE_DRAWN);
+    if (!options_open_canvas(&canvas, &options, "x.png", &message) ||
+        !renderer_open(&renderer, EXAMPLE_DRAWN, &canvas, &request, &message)) {
         canvas_close(&canvas);
         rmdir(folder);
         return options_fail("frames_benchmark", &message, 77);
@@ -143,7 +149,7 @@ int main(int argc, char *argv[])
         measure_print_table(NULL, &table);
     }
     measure_finish(measured, COUNT);
-    stage_close(&stage);
+    renderer_close(&renderer);
     canvas_close(&canvas);
     nftw(folder, remove_entry, 8, FTW_DEPTH | FTW_PHYS);
     return done ? 0 : 1;

@@ -98,7 +98,7 @@ static bool trace_program(void *argument)
 {
     Scene scene = {.object_count = 0};
     Reference reference;
-    Shadows.scene->make(0, 0, &scene);
+    example_scene(&Shadows)->make(0, 0, &scene);
     const bool done = reference_open(&reference, &scene, argument, NULL);
     reference_close(&reference);
     return done;

@@ -97,7 +97,7 @@ static void make_program(Setting *setting)
     setting->name = "Shadows";
     for (int way = 0; way < WAYS; way++) {
         Scene *scene = &setting->ways[way].scene;
-        Shadows.scene->make(0, 0, scene);
+        example_scene(&Shadows)->make(0, 0, scene);
         for (int i = 0; i < scene->light_count; i++)
             setting->ways[way].lights[i] = scene->lights[i];
     }

@@ -2,7 +2,8 @@
  * The time of a window's frame relative to its parts: the headless frame and the copy to the
  * screen. Same context, vertical sync off, every step finished before the next is timed.
  */
-#include "app/stage.h"
+#include "app/options.h"
+#include "app/renderer.h"
 #include "benchmark/measure.h"
 #include "window/window.h"
 
@@ -22,15 +23,15 @@ enum {
 };
 
 typedef struct Run {
-    Stage *stage;
+    Renderer *renderer;
     Canvas *canvas;
-    const Options *options;
+    const DrawRequest *request;
 } Run;
 
 static bool draw_frame(const Run *run, int number)
 {
     Message message = {0};
-    return stage_draw(run->stage, run->options, 0.1 * number, &message) ||
+    return renderer_draw(run->renderer, run->request, 0.1 * number, &message) ||
            options_fail("window_benchmark", &message, 0);
 }
 
@@ -82,15 +83,15 @@ static Summary frame_ratio(const Measured *headless, const Measured *copied, con
 
 static bool measure_example(const Example *example, Canvas *canvas, Table *table, Message *message)
 {
-    const Options options = {.fps = 30};
-    Stage stage;
-    Run run = {&stage, canvas, &options};
+    const DrawRequest request = {.fps = 30};
+    Renderer renderer;
+    Run run = {&renderer, canvas, &request};
     Measured measured[] = {{"a headless frame", headless_frames, &run, NULL},
                            {"the copy", copies, &run, NULL},
                            {"a window's frame", window_frames, &run, NULL},
                            {"the same again", window_frames, &run, NULL}};
     enum { COUNT = sizeof measured / sizeof measured[0] };
-    if (!stage_open(&stage, example, canvas, &options, message))
+    if (!renderer_open(&renderer, example, canvas, &request, message))
         return false;
     const bool done = measure_rounds(measured, COUNT, ROUNDS);
     if (done) {
@@ -104,7 +105,7 @@ static bool measure_example(const Example *example, Canvas *canvas, Table *table
                   measure_cell(again, 1, 2).text);
     }
     measure_finish(measured, COUNT);
-    stage_close(&stage);
+    renderer_close(&renderer);
     return done || message_set(message, "%s: measuring failed", example->name);
 }
 

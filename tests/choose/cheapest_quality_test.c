@@ -6,7 +6,10 @@
  * cheapest_quality_test --markdown: what the same scenes save, as a table.
  * cheapest_quality_test NAME --error E ...: judges this command of a program alone.
  */
-#include "app/stage.h"
+#include "app/options_canvas.h"
+#include "app/options.h"
+#include "app/renderer.h"
+#include "kinds/scene_views.h"
 #include "base/cache.h"
 #include "base/clock.h"
 #include "base/random.h"
@@ -283,7 +286,7 @@ static const Example *any_example(bool shadows)
     const Example *example;
     do
         example = EXAMPLES[below(EXAMPLE_COUNT)];
-    while (!shadows && example->scene->shadows);
+    while (!shadows && example_scene(example)->shadows);
     return example;
 }
 
@@ -294,7 +297,7 @@ static Command any_command(double most, double error, bool lit)
     static const double errors[] = {0.6, 1, 2, 4, 8, 16, 32};
     const double any = errors[below(7)];
     Command command = {.example = any_example(lit)};
-    const Parameter *own = example_parameters(command.example);
+    const Parameter *own = command.example->parameters;
     add(&command, "--error=%g", error > 0 ? error : any);
     add(&command, "--size=%dx%d", (int)(50 * pow(most / 50, between(0, 1))),
         (int)(50 * pow(0.75 * most / 50, between(0, 1))));
@@ -476,27 +479,27 @@ static void judge_view(const ErrorPicture *picture, const ErrorView *view, int s
     reference_close(&judged.meshes);
 }
 
-static double frame(Stage *stage, const Options *options)
+static double frame(Renderer *renderer, const DrawRequest *request)
 {
     glFinish();
     const double start = clock_now();
-    require(stage_draw(stage, options, options->seconds, FAILURE), FAILURE);
+    require(renderer_draw(renderer, request, request->seconds, FAILURE), FAILURE);
     glFinish();
     return clock_now() - start;
 }
 
 /* The median of the ratios of frames drawn in turn, after one each that compiles. */
-static double measure(Stage *stage, const Options *options)
+static double measure(Renderer *renderer, const DrawRequest *request)
 {
     enum { FRAMES = 9 };
     double ratios[FRAMES];
-    Options plain = *options;
+    DrawRequest plain = *request;
     plain.cheap = false;
-    frame(stage, options);
-    frame(stage, &plain);
+    frame(renderer, request);
+    frame(renderer, &plain);
     for (int i = 0; i < FRAMES; i++) {
-        const double own = frame(stage, options);
-        ratios[i] = own / frame(stage, &plain);
+        const double own = frame(renderer, request);
+        ratios[i] = own / frame(renderer, &plain);
     }
     return clock_median(ratios, FRAMES);
 }
@@ -506,12 +509,12 @@ static Verdict run(const Command *command, bool timed)
 {
     const Example *example = command->example;
     const Usage usage = options_usage(example);
-    const Parameter *own = example_parameters(example);
+    const Parameter *own = example->parameters;
     ParameterValue before[OPTIONS_MAX_PARAMETERS];
     char *words[MAX_WORDS + 2] = {(char *)example->name};
     Options options;
     Canvas canvas;
-    Stage stage;
+    Renderer renderer;
     ErrorPicture picture;
     Verdict verdict = {.allowed = 0};
     for (int i = 0; own && own[i].name; i++)
@@ -521,13 +524,16 @@ static Verdict run(const Command *command, bool timed)
     require(options_read(&options, &usage, command->count + 1, words, FAILURE) == OPTIONS_RUN,
             FAILURE);
     require(
-        stage_open_canvas(&canvas, &options, options.output ? options.output : "x.png", FAILURE),
+        options_open_canvas(&canvas, &options, options.output ? options.output : "x.png", FAILURE),
         FAILURE);
-    require(stage_open(&stage, example, &canvas, &options, FAILURE), FAILURE);
+    const DrawRequest request = options_request(&options, example);
+    require(renderer_open(&renderer, example, &canvas, &request, FAILURE), FAILURE);
+    const SceneState *state = scene_state(&renderer);
     verdict.allowed = options.error;
     for (int frame_number = 0; frame_number < options.frames; frame_number++) {
-        require(stage_error_picture(&stage, &options, options.seconds + frame_number / options.fps,
-                                    &picture, FAILURE),
+        require(scene_error_picture(&renderer, &request,
+                                    options.seconds + frame_number / options.fps, &picture,
+                                    FAILURE),
                 FAILURE);
         for (int i = 0; i < picture.view_count && !timed; i++)
             judge_view(&picture, &picture.views[i], 300 / (options.frames * picture.view_count) + 1,
@@ -535,9 +541,9 @@ static Verdict run(const Command *command, bool timed)
         error_picture_close(&picture);
     }
     verdict.reached = options.error;
-    for (int i = 0; i < stage.choice_count; i++) {
-        verdict.reached = fmax(verdict.reached, stage.choices[i].error);
-        const CheapestQuality *choice = &stage.choices[i];
+    for (int i = 0; i < state->choice_count; i++) {
+        verdict.reached = fmax(verdict.reached, state->choices[i].error);
+        const CheapestQuality *choice = &state->choices[i];
         verdict.plain = fmax(verdict.plain, choice->plain_error);
         verdict.error = fmax(verdict.error, choice->error);
         verdict.cost += choice->cost;
@@ -546,8 +552,8 @@ static Verdict run(const Command *command, bool timed)
             choice->error > choice->plain_error + SLACK && choice->cost > 0.7 * choice->plain_cost;
     }
     if (timed && verdict.reached <= verdict.allowed)
-        verdict.over_plain = measure(&stage, &options);
-    stage_close(&stage);
+        verdict.over_plain = measure(&renderer, &request);
+    renderer_close(&renderer);
     canvas_close(&canvas);
     forget();
     for (int i = 0; own && own[i].name; i++)

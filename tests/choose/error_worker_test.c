@@ -4,7 +4,10 @@
  * closed, before the first thread starts, so that a thread checker sees only this project's
  * threads.
  */
-#include "app/stage.h"
+#include "app/options_canvas.h"
+#include "app/options.h"
+#include "app/renderer.h"
+#include "kinds/scene_views.h"
 #include "base/clock.h"
 #include "choose/error_worker.h"
 #include "scene/scene_example.h"
@@ -72,13 +75,13 @@ static bool is_drawn(int way, int example)
 static Scene scene_of(const Example *example, const Options *options, int view)
 {
     Scene scene = {.object_count = 0};
-    example->scene->make(SECONDS, view, &scene);
+    example_scene(example)->make(SECONDS, view, &scene);
     orbit_move(options->orbit, &scene.camera.eye, scene.camera.center, &scene.camera.up);
     const Usage usage = options_usage(example);
     int width, height, columns = 1, rows = 1;
     options_size(&usage, &width, &height);
-    if (example->scene->layout)
-        example->scene->layout(&columns, &rows);
+    if (example_scene(example)->layout)
+        example_scene(example)->layout(&columns, &rows);
     scene.camera.aspect = (double)width * rows / ((double)height * columns);
     scene.clamp_vertex |= options->clamp_vertex;
     scene.linear |= options->linear;
@@ -94,8 +97,8 @@ static PictureError expect(const Example *example, const Options *options,
     int seen = 0;
     PictureError error = {.all = {0}};
     int columns = 1, rows = 1;
-    if (example->scene->layout)
-        example->scene->layout(&columns, &rows);
+    if (example_scene(example)->layout)
+        example_scene(example)->layout(&columns, &rows);
     for (int view = 0; view < columns * rows; view++) {
         const int column = view % columns, row = view / columns;
         const int left = column * (image->width / columns), top = row * (image->height / rows);
@@ -122,14 +125,15 @@ static PictureError expect(const Example *example, const Options *options,
     return error;
 }
 
-static void draw_case(Stage *stage, int way, Case *made)
+static void draw_case(Renderer *renderer, int way, Case *made)
 {
-    const Example *example = stage->example;
+    const Example *example = renderer->example;
     Options options = WAYS[way].options;
     options.shaders.precision = "highp";
-    options.shadows.way = example->scene->shadows ? SHADOWS_VOLUMES : SHADOWS_OFF;
+    options.shadows.way = example_scene(example)->shadows ? SHADOWS_VOLUMES : SHADOWS_OFF;
     snprintf(made->name, sizeof made->name, "%s %s", example->name, WAYS[way].name);
-    require(stage_error_picture(stage, &options, SECONDS, &made->picture, FAILURE), FAILURE);
+    const DrawRequest request = options_request(&options, example);
+    require(scene_error_picture(renderer, &request, SECONDS, &made->picture, FAILURE), FAILURE);
     made->expected = expect(example, &options, &made->picture);
 }
 
@@ -139,15 +143,17 @@ FIXTURE(draw_all)
         for (int i = 0; i < EXAMPLE_COUNT; i++) {
             Options options = WAYS[way].options;
             Canvas canvas;
-            Stage stage;
+            Renderer renderer;
             options.shaders.precision = "highp";
-            options.shadows.way = EXAMPLES[i]->scene->shadows ? SHADOWS_VOLUMES : SHADOWS_OFF;
+            options.shadows.way =
+                example_scene(EXAMPLES[i])->shadows ? SHADOWS_VOLUMES : SHADOWS_OFF;
             if (!is_drawn(way, i))
                 continue;
-            require(stage_open_canvas(&canvas, &options, WAYS[way].output, FAILURE), FAILURE);
-            require(stage_open(&stage, EXAMPLES[i], &canvas, &options, FAILURE), FAILURE);
-            draw_case(&stage, way, &cases[way][i]);
-            stage_close(&stage);
+            require(options_open_canvas(&canvas, &options, WAYS[way].output, FAILURE), FAILURE);
+            const DrawRequest request = options_request(&options, EXAMPLES[i]);
+            require(renderer_open(&renderer, EXAMPLES[i], &canvas, &request, FAILURE), FAILURE);
+            draw_case(&renderer, way, &cases[way][i]);
+            renderer_close(&renderer);
             canvas_close(&canvas);
         }
     }
@@ -302,8 +308,8 @@ TEST(every_pixel_of_every_view_counts_once)
             if (!is_drawn(way, i))
                 continue;
             int columns = 1, rows = 1;
-            if (EXAMPLES[i]->scene->layout)
-                EXAMPLES[i]->scene->layout(&columns, &rows);
+            if (example_scene(EXAMPLES[i])->layout)
+                example_scene(EXAMPLES[i])->layout(&columns, &rows);
             /* PhongBlinn's third view is the difference of the others, not a scene. */
             const int views = EXAMPLES[i] == &PhongBlinn ? 2 : columns * rows;
             assert_int_equal(pixels, views * (options->width / columns) * (options->height / rows));

@@ -1,7 +1,10 @@
 /*
  * Images to files: PNG read back by libpng, all other formats by OpenImageIO.
  */
-#include "app/stage.h"
+#include "app/options_canvas.h"
+#include "app/options.h"
+#include "app/renderer.h"
+#include "images/picture_queue.h"
 #include "images/image_file.h"
 #include "images/image_read.h"
 #include "support/picture_check.h"
@@ -218,16 +221,17 @@ TEST(pngs_have_at_most_1_8_times_the_size_of_libpngs)
         skip();
     const Options options = {.width = 400, .height = 400, .compress = IMAGE_COMPRESS_DEFAULT};
     CLOSED(canvas_close) Canvas canvas;
-    Stage stage;
+    Renderer renderer;
     Picture picture = {.path = ""};
     Message message = {0};
-    require(stage_open_canvas(&canvas, &options, "picture.png", &message), &message);
+    require(options_open_canvas(&canvas, &options, "picture.png", &message), &message);
     picture.image = new_image(400, 400, IMAGE_BYTE);
     for (size_t i = 0; i < sizeof examples / sizeof examples[0]; i++) {
-        if (!stage_open(&stage, examples[i], &canvas, &options, &message) ||
-            !stage_picture(&stage, &options, 0.5, &picture, &message))
+        const DrawRequest request = options_request(&options, examples[i]);
+        if (!renderer_open(&renderer, examples[i], &canvas, &request, &message) ||
+            !renderer_picture(&renderer, &request, 0.5, &picture.image, &message))
             fail_msg("%s: %s", examples[i]->name, message.text);
-        stage_close(&stage);
+        renderer_close(&renderer);
         CLOSED(image_file_close)
         ImageFile file = encode_png(&picture.image, &(ImageOptions){.compress = options.compress});
         const size_t usual = default_png_size(&picture.image);

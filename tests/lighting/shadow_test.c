@@ -107,14 +107,14 @@ TEST(programs_draw_the_shadows_of_the_reference)
         const Example *example = EXAMPLES[i];
         int columns = 1, rows = 1;
         SUCCEEDS(example->init(&(ShaderLoader){.precision = "highp"}, message));
-        if (example->scene->layout)
-            example->scene->layout(&columns, &rows);
+        if (example_scene(example)->layout)
+            example_scene(example)->layout(&columns, &rows);
         for (int view = 0; view < columns * rows; view++) {
             for (int t = 0; t < 2; t++) {
                 char name[96];
                 Scene scene = {.object_count = 0};
                 SceneCopy copy;
-                example->scene->make(times[t], view, &scene);
+                example_scene(example)->make(times[t], view, &scene);
                 if (scene.object_count == 0 || (number++ % step && example != &Shadows))
                     continue;
                 give_shadows(&copy, &scene);
@@ -141,7 +141,7 @@ static bool check_lit_from(const char *name, double seconds, int light, Vec3 pla
     char full_name[160];
     Scene scene = {.object_count = 0};
     SceneCopy copy;
-    Shadows.scene->make(seconds, 0, &scene);
+    example_scene(&Shadows)->make(seconds, 0, &scene);
     SUCCEEDS(scene_copy_open(&copy, &scene, false, message));
     copy.scene.camera.eye = eye;
     for (int i = 0; i < copy.scene.light_count; i++)
@@ -644,7 +644,7 @@ TEST(maps_are_nearly_right)
             char name[64];
             Scene scene = {.object_count = 0};
             SceneCopy copy;
-            Shadows.scene->make(1, 0, &scene);
+            example_scene(&Shadows)->make(1, 0, &scene);
             SUCCEEDS(scene_copy_open(&copy, &scene, false, message));
             for (int k = 0; k < 3; k++)
                 copy.lights[k].off = k != light;

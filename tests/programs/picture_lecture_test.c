@@ -9,7 +9,10 @@
  * Columns and rows are in pixels from the upper left corner of a picture; a pixel's centre is at
  * its number plus one half. Colours are in steps, 0 to 255.
  */
-#include "app/stage.h"
+#include "app/options_canvas.h"
+#include "app/options.h"
+#include "app/renderer.h"
+#include "images/picture_queue.h"
 #include "core/matrix.h"
 #include "support/oracle.h"
 #include "support/picture_check.h"
@@ -586,7 +589,7 @@ static Options options_for(Size size, const char *precision)
 
 static void open_canvas(Canvas *canvas, const Options *options)
 {
-    SUCCEEDS(stage_open_canvas(canvas, options, "picture.png", message));
+    SUCCEEDS(options_open_canvas(canvas, options, "picture.png", message));
 }
 
 static void open_picture(Picture *picture, Size size)
@@ -595,15 +598,18 @@ static void open_picture(Picture *picture, Size size)
     SUCCEEDS(image_open(&picture->image, size.width, size.height, IMAGE_BYTE, message));
 }
 
-static void open_stage(Stage *stage, const Lesson *scene, const Canvas *canvas,
-                       const Options *options)
+static void open_example(Renderer *renderer, const Lesson *scene, const Canvas *canvas,
+                         const Options *options)
 {
-    SUCCEEDS(stage_open(stage, scene->example, canvas, options, message));
+    const DrawRequest request = options_request(options, scene->example);
+    SUCCEEDS(renderer_open(renderer, scene->example, canvas, &request, message));
 }
 
-static void draw_picture(Stage *stage, const Options *options, double seconds, Picture *picture)
+static void draw_picture(Renderer *renderer, const Options *options, double seconds,
+                         Picture *picture)
 {
-    SUCCEEDS(stage_picture(stage, options, seconds, picture, message));
+    const DrawRequest request = options_request(options, renderer->example);
+    SUCCEEDS(renderer_picture(renderer, &request, seconds, &picture->image, message));
 }
 
 /* One picture, on a canvas of its own. */
@@ -611,11 +617,11 @@ static void draw_alone(const Lesson *scene, const Options *options, double secon
                        Picture *picture)
 {
     CLOSED(canvas_close) Canvas canvas;
-    CLOSED(stage_close) Stage stage;
+    CLOSED(renderer_close) Renderer renderer;
     open_canvas(&canvas, options);
     open_picture(picture, (Size){options->width, options->height});
-    open_stage(&stage, scene, &canvas, options);
-    draw_picture(&stage, options, seconds, picture);
+    open_example(&renderer, scene, &canvas, options);
+    draw_picture(&renderer, options, seconds, picture);
 }
 
 static void picture_name(char name[128], const Lesson *scene, Size size, double seconds, bool half)
@@ -676,18 +682,18 @@ static void check_all(bool half)
     for (int s = 0; s < SIZE_COUNT; s++) {
         const Options options = options_for(SIZES[s], precision_of(half));
         CLOSED(canvas_close) Canvas canvas;
-        Stage stage;
+        Renderer renderer;
         Picture picture;
         open_canvas(&canvas, &options);
         open_picture(&picture, SIZES[s]);
         for (int i = 0; i < SCENE_COUNT; i++) {
-            open_stage(&stage, &SCENES[i], &canvas, &options);
+            open_example(&renderer, &SCENES[i], &canvas, &options);
             /* A static scene only at the first and the last time. */
             for (int t = 0; t < TIME_COUNT; t += moves(&SCENES[i]) ? 1 : TIME_COUNT - 1) {
-                draw_picture(&stage, &options, TIMES[t], &picture);
+                draw_picture(&renderer, &options, TIMES[t], &picture);
                 check_picture(&SCENES[i], SIZES[s], TIMES[t], &picture.image, half, &sums[i]);
             }
-            stage_close(&stage);
+            renderer_close(&renderer);
         }
         image_close(&picture.image);
     }
@@ -855,15 +861,15 @@ TEST(drawing_twice_gives_the_same_bits)
         const Lesson *scene = &SCENES[i];
         Picture alone, again;
         Canvas canvas;
-        Stage stage;
+        Renderer renderer;
         draw_alone(scene, &options, TIMES[2], &alone);
         /* On a canvas that has drawn another time before. */
         open_canvas(&canvas, &options);
         open_picture(&again, SIZES[0]);
-        open_stage(&stage, scene, &canvas, &options);
-        draw_picture(&stage, &options, TIMES[1], &again);
-        draw_picture(&stage, &options, TIMES[2], &again);
-        stage_close(&stage);
+        open_example(&renderer, scene, &canvas, &options);
+        draw_picture(&renderer, &options, TIMES[1], &again);
+        draw_picture(&renderer, &options, TIMES[2], &again);
+        renderer_close(&renderer);
         canvas_close(&canvas);
         assert_true(picture_check_same(scene->example->name, &again.image, &alone.image, 0));
         image_close(&alone.image);

@@ -7,7 +7,10 @@
  * off: rounding to 8 bits alone makes 0.5, and arithmetic in 32 bits with a shininess up to 128
  * less than the other half.
  */
-#include "app/stage.h"
+#include "app/options_canvas.h"
+#include "app/options.h"
+#include "app/renderer.h"
+#include "images/picture_queue.h"
 #include "lighting/lighting.h"
 #include "reference/picture_error.h"
 #include "scene/scene_example.h"
@@ -150,9 +153,9 @@ TEST(lecture_programs_draw_the_reference)
                            .frames = 1,
                            .shaders = {.precision = "highp"}};
         Canvas canvas;
-        Stage stage;
+        Renderer renderer;
         Picture picture = {.path = ""};
-        require(stage_open_canvas(&canvas, &options, "x.png", FAILURE), FAILURE);
+        require(options_open_canvas(&canvas, &options, "x.png", FAILURE), FAILURE);
         require(image_open(&picture.image, canvas.width, canvas.height, IMAGE_BYTE, FAILURE),
                 FAILURE);
         for (int i = 0; i < LESSON_COUNT; i++) {
@@ -161,19 +164,21 @@ TEST(lecture_programs_draw_the_reference)
             require(lesson->half_side > 0 ? mesh_cube(&mesh, lesson->half_side, FAILURE)
                                           : mesh_sphere(&mesh, 1, 13, 13, FAILURE),
                     FAILURE);
-            require(stage_open(&stage, lesson->example, &canvas, &options, FAILURE), FAILURE);
+            const DrawRequest request = options_request(&options, lesson->example);
+            require(renderer_open(&renderer, lesson->example, &canvas, &request, FAILURE), FAILURE);
             for (size_t t = 0; t < sizeof times / sizeof times[0]; t++) {
                 char name[96];
                 LessonScene made;
                 Reference exact;
                 lesson_scene(lesson, &mesh, times[t], &made);
                 open_exact(&exact, &made.scene, canvas.width, canvas.height, true);
-                require(stage_picture(&stage, &options, times[t], &picture, FAILURE), FAILURE);
+                require(renderer_picture(&renderer, &request, times[t], &picture.image, FAILURE),
+                        FAILURE);
                 snprintf(name, sizeof name, "%s-%d-%zu", lesson->example->name, canvas.width, t);
                 all &= check(name, &picture.image, &exact, &made.scene, MAX);
                 reference_close(&exact);
             }
-            stage_close(&stage);
+            renderer_close(&renderer);
             mesh_close(&mesh);
         }
         image_close(&picture.image);
@@ -209,8 +214,8 @@ TEST(scenes_are_drawn_as_the_reference_has_them)
         require(image_open(&image, canvas.width, canvas.height, IMAGE_BYTE, FAILURE), FAILURE);
         require(example->init(&loader, FAILURE), FAILURE);
         require(lighting_open(&lighting, &loader, FAILURE), FAILURE);
-        if (example->scene->layout)
-            example->scene->layout(&columns, &rows);
+        if (example_scene(example)->layout)
+            example_scene(example)->layout(&columns, &rows);
         for (int view = 0; view < columns * rows; view++) {
             /* In the short form one of the moments. */
             const size_t every = (size_t)testing_step(2);
@@ -219,7 +224,7 @@ TEST(scenes_are_drawn_as_the_reference_has_them)
                 char name[96];
                 Scene scene = {.object_count = 0};
                 Reference exact;
-                example->scene->make(times[t], view, &scene);
+                example_scene(example)->make(times[t], view, &scene);
                 if (scene.object_count == 0)
                     continue; /* PhongBlinn's third view is their difference */
                 render(&canvas, lighting, &scene, &image);

@@ -2,7 +2,8 @@
  * What measured arithmetic predicts, against pictures: the error of no view of any scene is above
  * its prediction, in highp and in mediump.
  */
-#include "app/stage.h"
+#include "app/options.h"
+#include "app/renderer.h"
 #include "lighting/lighting.h"
 #include "reference/picture_error.h"
 #include "scene/scene_example.h"
@@ -82,12 +83,12 @@ TEST(no_picture_has_a_larger_error_than_predicted)
         const ShaderLoader none = {.only_texts = true};
         int columns = 1, rows = 1;
         require(example->init(&none, FAILURE), FAILURE);
-        if (example->scene->layout)
-            example->scene->layout(&columns, &rows);
+        if (example_scene(example)->layout)
+            example_scene(example)->layout(&columns, &rows);
         for (int view = 0; view < columns * rows; view += testing_step(24)) {
             char name[64];
             Scene scene = {.object_count = 0};
-            example->scene->make(0, view, &scene);
+            example_scene(example)->make(0, view, &scene);
             snprintf(name, sizeof name, "%s %d", example->name, view);
             if (scene.object_count > 0)
                 all &= check(&canvas, lightings, name, &scene, &image);

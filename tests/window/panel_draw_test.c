@@ -2,7 +2,9 @@
  * The panel over the pictures of examples: what is drawn, where, and that the examples draw the
  * same picture, bit for bit, before and after.
  */
-#include "app/stage.h"
+#include "app/options_canvas.h"
+#include "app/options.h"
+#include "app/renderer.h"
 #include "scene/scene_example.h"
 #include "support/picture_check.h"
 #include "support/testing.h"
@@ -15,15 +17,17 @@ extern const Example LightedCube, PointLightedSphere_perFragment, ShadingModels,
 static const PanelHelp HELP[] = {{"space", "pauses"}, {"h", "help"}, {NULL, NULL}};
 
 static Canvas canvas;
-static Stage stage;
+static Renderer renderer;
 static Panel *panel;
 static PanelDraw draw;
 static Options options;
+static DrawRequest request;
 
 static void open_all(int width, int height)
 {
     options = (Options){.width = width, .height = height, .fps = 30, .frames = 1};
-    SUCCEEDS(stage_open_canvas(&canvas, &options, "x.png", message));
+    request = options_request(&options, &LightedCube);
+    SUCCEEDS(options_open_canvas(&canvas, &options, "x.png", message));
     SUCCEEDS(panel_open(&panel, message));
     SUCCEEDS(panel_draw_open(&draw, &options.shaders, message));
 }
@@ -47,7 +51,7 @@ static Image read_picture(void)
 
 static Image example_picture(void)
 {
-    SUCCEEDS(stage_draw(&stage, &options, 0.75, message));
+    SUCCEEDS(renderer_draw(&renderer, &request, 0.75, message));
     return read_picture();
 }
 
@@ -55,7 +59,7 @@ static PanelContent everything(const Example *example)
 {
     return (PanelContent){.name = example->name,
                           .view = PANEL_OPEN,
-                          .parameters = example_parameters(example),
+                          .parameters = example->parameters,
                           .milliseconds = 2,
                           .frames_per_second = 500,
                           .effects = "# object 0\ndiffuse: both have it\nwithout a back: closed",
@@ -107,14 +111,14 @@ TEST(test_an_example_draws_the_same_before_and_after)
     for (size_t i = 0; i < sizeof examples / sizeof *examples; i++) {
         const Example *example = examples[i];
         const PanelContent content = everything(example);
-        SUCCEEDS(stage_open(&stage, example, &canvas, &options, message));
+        SUCCEEDS(renderer_open(&renderer, example, &canvas, &request, message));
         CLOSED(image_close) Image before = example_picture();
         draw_panel(&content, 1);
         CLOSED(image_close) Image with = read_picture();
         CLOSED(image_close) Image after = example_picture();
         assert_same(&after, &before, "panel-after");
         assert_false(same_pixel(&with, &before, 30, 30));
-        stage_close(&stage);
+        renderer_close(&renderer);
     }
     close_all();
 }
@@ -233,13 +237,13 @@ TEST(test_every_size_and_scale)
                  {16, 16, 1},   {16, 400, 4},   {2000, 16, 1.5}, {333, 250, 0.5}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         open_all(cases[i].width, cases[i].height);
-        SUCCEEDS(stage_open(&stage, &ShadingModels, &canvas, &options, message));
+        SUCCEEDS(renderer_open(&renderer, &ShadingModels, &canvas, &request, message));
         CLOSED(image_close) Image before = example_picture();
         const PanelContent content = everything(&ShadingModels);
         draw_panel(&content, cases[i].scale);
         CLOSED(image_close) Image with = read_picture(), after = example_picture();
         assert_same(&after, &before, "panel-size");
-        stage_close(&stage);
+        renderer_close(&renderer);
         close_all();
     }
 }

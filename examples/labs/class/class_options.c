@@ -37,7 +37,7 @@ bool class_options_read(ClassOptions *options, int argc, char *argv[], Message *
         {"seed", "of the scenes that the students do not know", PARAMETER_WHOLE, &seed, 0,
          2147483647, .placeholder = "N"},
         {"part", "only the I-th of N parts; -o another folder for each part", PARAMETER_TEXT,
-         &options->part, .placeholder = "I/N", .read = options_read_part},
+         &options->part, .codec = &OPTION_PART},
         {"merge", "join the results in the folders that are named", PARAMETER_FLAG,
          .value = &merge},
         {"deterministic", "judge alike on different x86 processors", PARAMETER_FLAG,

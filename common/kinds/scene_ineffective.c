@@ -1,27 +1,18 @@
-#include "app/unused.h"
+/* Which options of a program with scenes name what is not there, or change nothing: all that its
+ * scenes hand over at three moments is added to a key, less what cannot be seen of it. */
+#include "kinds/scene_ineffective.h"
 
 #include "base/cache.h"
-#include "images/drawing.h"
-#include "scene/effects.h"
-#include "scene/scene_example.h"
+#include "kinds/scene_options.h"
+#include "kinds/scene_views.h"
 
 #include <stdio.h>
 #include <string.h>
 
 enum { LIGHTS_MAX = 32 };
 
-/* The times, after the first, at which options are tried. */
-static const double LATER[] = {0, 0.7, 1.9};
-
 /* No shader is needed for a scene's data, and none is loaded. */
 static const ShaderLoader NO_SHADERS = {.only_texts = true};
-
-static void view_grid(const Example *example, int *columns, int *rows)
-{
-    *columns = *rows = 1;
-    if (example->scene->layout)
-        example->scene->layout(columns, rows);
-}
 
 /* --terms */
 
@@ -74,7 +65,7 @@ static bool list_terms(unsigned terms, int lights, Message *message)
     message_add(message, "the scene has ");
     for (int k = 0; k < 4; k++) {
         if (terms >> k & 1)
-            message_add(message, "%s%s", any ? ", " : "", OPTIONS_TERM_NAMES[k]);
+            message_add(message, "%s%s", any ? ", " : "", SCENE_TERM_NAMES[k]);
         any |= terms >> k & 1;
     }
     if (!any)
@@ -84,51 +75,65 @@ static bool list_terms(unsigned terms, int lights, Message *message)
 }
 
 /* Of options that name lights the scene has not. */
-static bool refuse_lights(const Options *options, int lights, Message *message)
+static bool refuse_lights(const DrawRequest *request, int lights, Message *message)
 {
-    const bool placed = options->places.placed >> lights;
-    const unsigned absent = (placed ? options->places.placed : options->tints.tinted) >> lights;
+    const bool placed = request->places.placed >> lights;
+    const unsigned absent = (placed ? request->places.placed : request->tints.tinted) >> lights;
     message_set(message, "--light-%s: there is no light %d; the scene has ",
                 placed ? "at" : "color", lights + __builtin_ctz(absent));
     return list_lights(lights, message);
 }
 
-bool unused_terms_check(const Example *example, const Options *options, Message *message)
+/* What the views of an example have at the request's time. */
+typedef struct Found {
+    unsigned terms;
+    int lights;
+} Found;
+
+static Found find_terms(const Example *example, const DrawRequest *request)
 {
-    const SceneTerms named = options->terms;
-    const unsigned changed = options->places.placed | options->tints.tinted;
-    if (!example->scene || (!named.left_out && !named.lights_left_out && !changed))
-        return true;
-    int columns, rows, lights = 0, missing = -1;
-    unsigned terms = 0;
-    if (example->init(&NO_SHADERS, NULL)) {
-        view_grid(example, &columns, &rows);
-        for (int view = 0; view < columns * rows; view++) {
-            Scene scene = {.light_count = 0};
-            example->scene->make(options->seconds, view, &scene);
-            terms |= terms_of(&scene);
-            lights = scene.light_count > lights ? scene.light_count : lights;
-        }
-        for (int i = LIGHTS_MAX - 1; i >= lights && named.lights_left_out; i--)
-            missing = named.lights_left_out >> i & 1 ? missing : i;
-        if (changed >> lights) {
-            example->finish();
-            return refuse_lights(options, lights, message);
-        }
-    } else {
-        terms = TERM_ALL; /* drawing says why */
+    Found found = {.terms = 0};
+    int columns, rows;
+    const int views = scene_view_grid(example_scene(example), &columns, &rows);
+    for (int view = 0; view < views; view++) {
+        Scene scene = {.light_count = 0};
+        example_scene(example)->make(request->seconds, view, &scene);
+        found.terms |= terms_of(&scene);
+        found.lights = scene.light_count > found.lights ? scene.light_count : found.lights;
     }
-    example->finish();
-    int absent = 0;
-    while (absent < 4 && (!named.left_out || (named.left_out | terms) >> absent & 1))
+    return found;
+}
+
+/* Of --terms that names what the scene has not. */
+static bool refuse_terms(SceneTerms named, Found found, Message *message)
+{
+    int missing = -1, absent = 0;
+    for (int i = LIGHTS_MAX - 1; i >= found.lights && named.lights_left_out; i--)
+        missing = named.lights_left_out >> i & 1 ? missing : i;
+    while (absent < 4 && (!named.left_out || (named.left_out | found.terms) >> absent & 1))
         absent++;
     if (missing < 0 && absent == 4)
         return true;
     if (missing >= 0)
         message_set(message, "--terms: there is no light %d; ", missing);
     else
-        message_set(message, "--terms: there is no %s; ", OPTIONS_TERM_NAMES[absent]);
-    return list_terms(terms, lights, message);
+        message_set(message, "--terms: there is no %s; ", SCENE_TERM_NAMES[absent]);
+    return list_terms(found.terms, found.lights, message);
+}
+
+bool scene_check_names(const Example *example, const DrawRequest *request, Message *message)
+{
+    const SceneTerms named = request->terms;
+    const unsigned changed = request->places.placed | request->tints.tinted;
+    if (!named.left_out && !named.lights_left_out && !changed)
+        return true;
+    const bool made = example->init(&NO_SHADERS, NULL);
+    const Found found = made ? find_terms(example, request) : (Found){.terms = 0};
+    example->finish();
+    if (!made) /* drawing says why */
+        return true;
+    return changed >> found.lights ? refuse_lights(request, found.lights, message)
+                                   : refuse_terms(named, found, message);
 }
 
 /* Options */
@@ -220,7 +225,7 @@ static void add_marks(CacheKey *key, Annotations *marks)
 static bool add_view(CacheKey *key, const Example *example, const Options *options, double seconds,
                      int view)
 {
-    const SceneExample *own = example->scene;
+    const SceneExample *own = example_scene(example);
     Scene scene = {.light_count = 0};
     SceneCopy kept;
     Annotations marks = {{.count = 0}, {.count = 0}};
@@ -255,81 +260,25 @@ static bool add_retouched(CacheKey *key, const SceneExample *own)
     return true;
 }
 
-static bool add_drawing(CacheKey *key, const Example *example, const Options *options,
-                        double seconds)
+static bool add_scenes(const Example *example, const Options *options, CacheKey *key)
 {
-    Drawing drawing;
-    const bool done = drawing_begin(&drawing, options->width, options->height, NULL) &&
-                      example->diagram->compose(seconds, &drawing, NULL);
-    for (int i = 0; done && i < drawing.path_count; i++) {
-        const DrawingPath *path = &drawing.paths[i];
-        const DrawingStyle *style = &path->style;
-        const Vec3 colors[] = {style->fill, style->stroke};
-        const double numbers[] = {style->fill_alpha, style->width, style->dash};
-        cache_key_add(key, colors, sizeof colors);
-        cache_key_add(key, numbers, sizeof numbers);
-        cache_key_add(key, &path->step_count, sizeof path->step_count);
-    }
-    if (done) {
-        cache_key_add(key, drawing.steps, (size_t)drawing.step_count * sizeof *drawing.steps);
-        cache_key_add(key, drawing.points, (size_t)drawing.point_count * sizeof *drawing.points);
-    }
-    drawing_end(&drawing);
-    return done;
+    int grid[2];
+    const int views = scene_view_grid(example_scene(example), &grid[0], &grid[1]);
+    cache_key_add(key, grid, sizeof grid);
+    for (int k = 0; k < INEFFECTIVE_MOMENTS; k++)
+        for (int view = 0; view < views; view++)
+            if (!add_view(key, example, options, options->seconds + INEFFECTIVE_LATER[k], view))
+                return false;
+    return true;
 }
 
-/* All that the example hands over, with its parameters as they are now. */
 static bool make_key(const Example *example, const Options *options, CacheKey *key)
 {
-    const Usage usage = options_usage(example);
-    int grid[2], size[2] = {options->width, options->height};
-    bool done = true;
-    *key = (CacheKey){{0, 0}};
-    if (!options->size_given)
-        options_size(&usage, &size[0], &size[1]);
-    cache_key_add(key, size, sizeof size);
-    for (int k = 0; k < 3 && done && example->diagram; k++)
-        done = add_drawing(key, example, options, options->seconds + LATER[k]);
-    if (example->diagram)
-        return done;
-    done = example->init(&NO_SHADERS, NULL) && add_retouched(key, example->scene);
-    view_grid(example, &grid[0], &grid[1]);
-    cache_key_add(key, grid, sizeof grid);
-    for (int k = 0; k < 3; k++)
-        for (int view = 0; view < grid[0] * grid[1] && done; view++)
-            done = add_view(key, example, options, options->seconds + LATER[k], view);
+    const bool done = example->init(&NO_SHADERS, NULL) &&
+                      add_retouched(key, example_scene(example)) &&
+                      add_scenes(example, options, key);
     example->finish();
     return done;
-}
-
-/* Sets the parameters as if the options had been given without one: those from which others follow
- * first, as when they are read. */
-static void set_without(const Parameter *table, const Options *options, int left_out,
-                        const ParameterValue *defaults, const ParameterValue *values)
-{
-    for (int i = 0; table[i].name; i++)
-        parameter_restore(&table[i], defaults[i]);
-    for (int turn = 0; turn < 2; turn++)
-        for (int i = 0; table[i].name; i++) {
-            if (i == left_out || !options->own_given[i] ||
-                (turn == 0) != (table[i].changed != NULL))
-                continue;
-            parameter_restore(&table[i], values[i]);
-            if (table[i].changed)
-                table[i].changed(&table[i]);
-        }
-}
-
-/* The own options that were given; -1 if one of them names a file. */
-static int count_given(const Parameter *table, const Options *options)
-{
-    int count = 0;
-    for (int i = 0; table && table[i].name; i++) {
-        if (options->own_given[i] && table[i].kind == PARAMETER_TEXT)
-            return -1;
-        count += options->own_given[i];
-    }
-    return count;
 }
 
 /* --shadows */
@@ -358,18 +307,18 @@ static bool shadow_falls(const Scene *made, const Options *options)
 
 /* Whether the picture is the same with and without shadows. Several samples of a pixel are drawn in
  * another way with them, and a caption may name what shadows cost. */
-static bool shadows_unused(const Example *example, const Options *options)
+static bool shadows_ineffective(const Example *example, const Options *options)
 {
-    const SceneExample *own = example->scene;
+    const SceneExample *own = example_scene(example);
     int columns, rows;
-    if (!own || options_have_shadows(options) == own->shadows || options->canvas.samples > 1)
+    if (options_have_shadows(options) == own->shadows || options->canvas.samples > 1)
         return false;
     bool falls = !example->init(&NO_SHADERS, NULL) || (own->plain_label && own->plain_label(0));
-    view_grid(example, &columns, &rows);
-    for (int k = 0; k < 3; k++)
-        for (int view = 0; view < columns * rows && !falls; view++) {
+    const int views = scene_view_grid(own, &columns, &rows);
+    for (int k = 0; k < INEFFECTIVE_MOMENTS; k++)
+        for (int view = 0; view < views && !falls; view++) {
             Scene scene = {.light_count = 0};
-            own->make(options->seconds + LATER[k], view, &scene);
+            own->make(options->seconds + INEFFECTIVE_LATER[k], view, &scene);
             orbit_move(options->orbit, &scene.camera.eye, scene.camera.center, &scene.camera.up);
             falls = shadow_falls(&scene, options);
         }
@@ -377,33 +326,13 @@ static bool shadows_unused(const Example *example, const Options *options)
     return !falls;
 }
 
-void unused_options(const Example *example, const Options *options, const ParameterValue *defaults,
-                    char *text, size_t size)
+void ineffective_scene_options(const Example *example, const Options *options,
+                               const ParameterValue *defaults, char *text, size_t size)
 {
-    const Parameter *table = example_parameters(example);
-    ParameterValue values[OPTIONS_MAX_PARAMETERS];
-    CacheKey all, without;
-    text[0] = '\0';
-    const int given = count_given(table, options);
     /* With --error an option that is given stays, whatever else it does. */
-    if (given < 0 || options->cheap)
+    if (options->cheap || ineffective_unknown(example, options))
         return;
-    if (shadows_unused(example, options))
+    if (shadows_ineffective(example, options))
         snprintf(text, size, "--shadows");
-    if (given == 0)
-        return;
-    for (int i = 0; table[i].name; i++)
-        values[i] = parameter_save(&table[i]);
-    bool done = make_key(example, options, &all);
-    for (int i = 0; table[i].name && done; i++) {
-        if (!options->own_given[i] || parameter_equal(&table[i], &defaults[i]))
-            continue;
-        set_without(table, options, i, defaults, values);
-        done = make_key(example, options, &without);
-        const size_t length = strlen(text);
-        if (done && memcmp(&all, &without, sizeof all) == 0)
-            snprintf(text + length, size - length, "%s--%s", length ? ", " : "", table[i].name);
-        for (int k = 0; table[k].name; k++)
-            parameter_restore(&table[k], values[k]);
-    }
+    ineffective_options(example, options, defaults, make_key, text, size);
 }

@@ -1,19 +1,26 @@
-#include "app/explain.h"
+/* --explain. Effects are lists of lines; objects that have the same, or nearly, are told by what
+ * differs from the nearest one before, so that a scene of many objects stays a screenful. */
+#include "kinds/explain.h"
 
+#include "base/memory.h"
 #include "base/text.h"
-#include "scene/reality.h"
+#include "kinds/scene_views.h"
 #include "scene/shader_cost.h"
+#include "scene/unmodelled.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* The objects written so far; `text` is what effects_explain says of one. */
+/* What is said of an object, and which it is. */
+typedef struct ExplainedObject {
+    char *text;
+    int view, object;
+} ExplainedObject;
+
+/* The objects written so far. */
 typedef struct Explained {
-    struct {
-        char *text;
-        int view, object;
-    } * all;
+    ExplainedObject *all;
     int count;
     /* Not printed yet: objects that are as number `same`, the first and the last by view and
      * object.
@@ -29,51 +36,57 @@ static void explained_close(Explained *explained)
     *explained = (Explained){0};
 }
 
-/* Writes an object's effects, or which earlier object has the same; false then. */
-static bool write_effects(const Stage *stage, int number, const StageView *view, int object,
-                          Explained *explained, FILE *file)
+/* Takes the text over. */
+static void explained_add(Explained *explained, ExplainedObject object)
+{
+    explained->all = memory_grow(explained->all, (size_t)explained->count + 1, sizeof object);
+    explained->all[explained->count++] = object;
+}
+
+/* What effects_explain says of an object; NULL if memory is out. */
+static char *effects_text(const Scene *scene, const Object *object)
 {
     char *text = NULL;
     size_t size = 0;
-    int place = object;
-    const Scene *scene = stage_view_part(view, &place);
     FILE *memory = open_memstream(&text, &size);
-    void *larger = realloc(explained->all, (size_t)(explained->count + 1) * sizeof *explained->all);
-    if (larger)
-        explained->all = larger;
-    if (memory) {
-        effects_explain(scene, &scene->objects[place], memory);
-        fclose(memory);
-    }
-    fprintf(file, "# %s, view %d, object %d\n", stage->example->name, number, object);
+    if (!memory)
+        return NULL;
+    effects_explain(scene, object, memory);
+    fclose(memory);
+    return text;
+}
+
+/* Writes an object's effects, or which earlier object has the same; false then. */
+static bool write_effects(const Renderer *renderer, int number, const SceneView *view, int object,
+                          Explained *explained, FILE *file)
+{
+    int place = object;
+    const Scene *scene = scene_view_part(view, &place);
+    char *text = effects_text(scene, &scene->objects[place]);
+    fprintf(file, "# %s, view %d, object %d\n", renderer->example->name, number, object);
     for (int i = 0; text && i < explained->count; i++) {
-        if (strcmp(explained->all[i].text, text) == 0) {
-            fprintf(file, "as view %d, object %d\n", explained->all[i].view,
-                    explained->all[i].object);
+        const ExplainedObject *earlier = &explained->all[i];
+        if (strcmp(earlier->text, text) == 0) {
+            fprintf(file, "as view %d, object %d\n", earlier->view, earlier->object);
             free(text);
             return false;
         }
     }
     fputs(text ? text : "", file);
-    if (!text || !larger) {
-        free(text);
-        return true;
-    }
-    explained->all[explained->count].text = text;
-    explained->all[explained->count].view = number;
-    explained->all[explained->count++].object = object;
+    if (text)
+        explained_add(explained, (ExplainedObject){text, number, object});
     return true;
 }
 
-void explain_effects(Stage *stage, const Options *options, FILE *file)
+void explain_effects(Renderer *renderer, const DrawRequest *request, FILE *file)
 {
     Explained explained = {0};
-    for (int number = 0; number < stage_view_count(stage); number++) {
-        StageView view;
-        if (stage_view_open(&view, stage, options, options->seconds, number, NULL))
+    for (int number = 0; number < scene_view_count(renderer); number++) {
+        SceneView view;
+        if (scene_view_open(&view, renderer, request, request->seconds, number, NULL))
             for (int i = 0; i < view.scene.object_count; i++)
-                write_effects(stage, number, &view, i, &explained, file);
-        stage_view_close(&view);
+                write_effects(renderer, number, &view, i, &explained, file);
+        scene_view_close(&view);
     }
     explained_close(&explained);
 }
@@ -222,56 +235,73 @@ static void add_same(Explained *explained, int nearest, int view, int object)
     explained->same_to[1] = object;
 }
 
-static bool explain_object(const Stage *stage, const Scene *scene, const Object *object, int view,
-                           int number, Explained *explained, Message *message)
+/* Whose text differs in the fewest lines, and in how many; -1: there are none. */
+static int find_nearest(const Explained *explained, const char *text, int *apart)
 {
-    char *whole = NULL, *text = NULL, *line = NULL;
-    size_t size = 0;
-    int nearest = -1, least = 0;
-    FILE *file = open_memstream(&whole, &size);
-    void *larger = realloc(explained->all, (size_t)(explained->count + 1) * sizeof *explained->all);
-    if (larger)
-        explained->all = larger;
-    if (file)
-        effects_explain(scene, object, file);
-    bool done = file && fclose(file) == 0 && larger;
-    if (done && (file = open_memstream(&text, &size)) != NULL) {
-        fold_lines(whole, file);
-        done = fclose(file) == 0;
-    }
-    free(whole);
-    if (!done || !text) {
-        free(text);
-        return message_set(message, "--explain: not enough memory");
-    }
+    int nearest = -1;
     for (int i = 0; i < explained->count; i++) {
-        const int apart = write_difference(text, explained->all[i].text, NULL);
-        if (nearest < 0 || apart < least) {
+        const int lines = write_difference(text, explained->all[i].text, NULL);
+        if (nearest < 0 || lines < *apart) {
             nearest = i;
-            least = apart;
+            *apart = lines;
         }
     }
-    if (nearest >= 0 && least == 0) {
-        add_same(explained, nearest, view, number);
-        free(text);
+    return nearest;
+}
+
+/* What an object has that an earlier one has not. */
+static void print_difference(const ExplainedObject *object, const ExplainedObject *earlier)
+{
+    char *line = NULL;
+    size_t size = 0;
+    FILE *file = open_memstream(&line, &size);
+    if (!file)
+        return;
+    fprintf(file, "view %d, object %d: as view %d, object %d, but ", object->view, object->object,
+            earlier->view, earlier->object);
+    write_difference(object->text, earlier->text, file);
+    fclose(file);
+    text_wrap(stdout, line, 0, 2, 100);
+    printf("\n");
+    free(line);
+}
+
+/* An object's effects with lines folded; NULL if memory is out. */
+static char *folded_text(const Scene *scene, const Object *object)
+{
+    char *whole = effects_text(scene, object), *text = NULL;
+    size_t size = 0;
+    FILE *file = whole ? open_memstream(&text, &size) : NULL;
+    if (file) {
+        fold_lines(whole, file);
+        fclose(file);
+    }
+    free(whole);
+    return text;
+}
+
+/* `object` is without its text. */
+static bool explain_object(const Renderer *renderer, const Scene *scene, const Object *drawn,
+                           ExplainedObject object, Explained *explained, Message *message)
+{
+    int apart = 0;
+    object.text = folded_text(scene, drawn);
+    if (!object.text)
+        return message_set(message, "--explain: not enough memory");
+    const int nearest = find_nearest(explained, object.text, &apart);
+    if (nearest >= 0 && apart == 0) {
+        add_same(explained, nearest, object.view, object.object);
+        free(object.text);
         return true;
     }
     print_same(explained);
-    if (nearest < 0) {
-        printf("# %s, view %d, object %d\n%s", stage->example->name, view, number, text);
-    } else if ((file = open_memstream(&line, &size)) != NULL) {
-        fprintf(file, "view %d, object %d: as view %d, object %d, but ", view, number,
-                explained->all[nearest].view, explained->all[nearest].object);
-        write_difference(text, explained->all[nearest].text, file);
-        fclose(file);
-        text_wrap(stdout, line, 0, 2, 100);
-        printf("\n");
-        free(line);
-    }
-    explained->all[explained->count].text = text;
-    explained->all[explained->count].view = view;
-    explained->all[explained->count++].object = number;
-    print_operations(stage->lighting, scene, object, nearest < 0);
+    if (nearest < 0)
+        printf("# %s, view %d, object %d\n%s", renderer->example->name, object.view, object.object,
+               object.text);
+    else
+        print_difference(&object, &explained->all[nearest]);
+    explained_add(explained, object);
+    print_operations(scene_state(renderer)->lighting, scene, drawn, nearest < 0);
     if (nearest < 0)
         printf("\n");
     return true;
@@ -287,36 +317,47 @@ static void print_depth(const Canvas *canvas, const Camera *camera)
            canvas->depth_bits, near, far, near * near * step, far * far * step);
 }
 
-static bool explain_view(Stage *stage, const Options *options, int number, Explained *explained,
-                         Message *message)
+static bool explain_objects(Renderer *renderer, const DrawRequest *request, int number,
+                            const SceneView *view, Explained *explained, Message *message)
 {
-    StageView view;
-    lighting_use_shadows(stage->lighting, &options->shadows);
-    bool done = stage_view_open(&view, stage, options, options->seconds, number, message) &&
-                lighting_find_maps(stage->lighting, &view.scene, options->full, message);
-    for (int i = 0; i < view.scene.object_count && done; i++) {
+    Lighting *lighting = scene_state(renderer)->lighting;
+    bool done = true;
+    for (int i = 0; i < view->scene.object_count && done; i++) {
         int place = i;
-        const Scene *scene = stage_view_part(&view, &place);
+        const Scene *scene = scene_view_part(view, &place);
         const Object *object = &scene->objects[place];
-        done = lighting_program(stage->lighting, scene, object, options->full, message) != 0;
-        if (!options->verbose) {
-            done = done && explain_object(stage, scene, object, number, i, explained, message);
+        const ExplainedObject said = {.view = number, .object = i};
+        done = lighting_program(lighting, scene, object, request->full, message) != 0;
+        if (!request->verbose) {
+            done = done && explain_object(renderer, scene, object, said, explained, message);
             continue;
         }
-        if (write_effects(stage, number, &view, i, explained, stdout) && done)
-            print_operations(stage->lighting, scene, object, true);
+        if (write_effects(renderer, number, view, i, explained, stdout) && done)
+            print_operations(lighting, scene, object, true);
         printf("\n");
     }
-    if (!options->verbose)
+    if (!request->verbose)
         print_same(explained);
+    return done;
+}
+
+static bool explain_view(Renderer *renderer, const DrawRequest *request, int number,
+                         Explained *explained, Message *message)
+{
+    SceneView view;
+    Lighting *lighting = scene_state(renderer)->lighting;
+    lighting_use_shadows(lighting, &request->shadows);
+    bool done = scene_view_open(&view, renderer, request, request->seconds, number, message) &&
+                lighting_find_maps(lighting, &view.scene, request->full, message) &&
+                explain_objects(renderer, request, number, &view, explained, message);
     if (done && number == 0 && view.scene.object_count > 0) {
         printf("%s# what the model leaves out\n", explained->count > 1 ? "\n" : "");
-        done = reality_explain(&view.scene, stdout, message);
+        done = unmodelled_explain(&view.scene, stdout, message);
         printf("\n");
-        print_depth(stage->canvas, &view.scene.camera);
-        done = done && lighting_explain_shadows(stage->lighting, &view.scene, stdout, message);
+        print_depth(renderer->canvas, &view.scene.camera);
+        done = done && lighting_explain_shadows(lighting, &view.scene, stdout, message);
     }
-    stage_view_close(&view);
+    scene_view_close(&view);
     return done;
 }
 
@@ -358,15 +399,15 @@ static void print_light(const Light *light)
 }
 
 /* As --light-at and --light-color take them. */
-static void print_lights(Stage *stage, const Options *options)
+static void print_lights(Renderer *renderer, const DrawRequest *request)
 {
     Lights all = {.shown = {0}};
-    const int count = stage_view_count(stage);
+    const int count = scene_view_count(renderer);
     for (int number = 0; number < count; number++) {
-        StageView view;
-        if (stage_view_open(&view, stage, options, options->seconds, number, NULL))
+        SceneView view;
+        if (scene_view_open(&view, renderer, request, request->seconds, number, NULL))
             add_lights(&view.asked, number, &all);
-        stage_view_close(&view);
+        scene_view_close(&view);
     }
     printf("# lights, by their numbers in --light-at, --light-color and --terms\n");
     for (int i = 0; i < EFFECTS_MAX_LIGHTS; i++) {
@@ -379,19 +420,17 @@ static void print_lights(Stage *stage, const Options *options)
     }
 }
 
-bool explain_programs(Stage *stage, const Options *options, Message *message)
+bool explain_programs(Renderer *renderer, const DrawRequest *request, Message *message)
 {
-    if (!stage->example->scene)
-        return message_set(message, "--explain: this program's shaders are written by hand");
     Explained explained = {0};
     bool done = true;
-    print_lights(stage, options);
-    for (int number = 0; number < stage_view_count(stage) && done; number++)
-        done = explain_view(stage, options, number, &explained, message);
+    print_lights(renderer, request);
+    for (int number = 0; number < scene_view_count(renderer) && done; number++)
+        done = explain_view(renderer, request, number, &explained, message);
     explained_close(&explained);
     if (!done)
         return false;
-    const LightingCounts counts = lighting_counts(stage->lighting);
+    const LightingCounts counts = lighting_counts(scene_state(renderer)->lighting);
     printf("# programs: %d, compiled and linked in %.1f ms\n", counts.programs,
            1e3 * counts.compile_seconds);
     return true;

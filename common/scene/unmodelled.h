@@ -1,8 +1,8 @@
 /*
- * reality: what a scene would show in reality that the lighting model leaves out. No GL.
+ * unmodelled: what a scene would show in reality that the lighting model leaves out. No GL.
  */
-#ifndef REALITY_H
-#define REALITY_H
+#ifndef UNMODELLED_H
+#define UNMODELLED_H
 
 #include "scene/scene.h"
 
@@ -11,6 +11,6 @@
 /* Writes a line for each thing that this scene lacks: "object 0, a sphere, would throw a shadow on
  * object 1, a square (light 0)". Shadows are found by rays from points spread over the surfaces to
  * each light. Fails only if memory is out. */
-bool reality_explain(const Scene *scene, FILE *file, Message *message);
+bool unmodelled_explain(const Scene *scene, FILE *file, Message *message);
 
 #endif

@@ -1,4 +1,4 @@
-#include "scene/reality.h"
+#include "scene/unmodelled.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -193,7 +193,7 @@ static int explain_shadows(const Scene *scene, const Placed *placed, FILE *file)
     return lines;
 }
 
-bool reality_explain(const Scene *scene, FILE *file, Message *message)
+bool unmodelled_explain(const Scene *scene, FILE *file, Message *message)
 {
     Placed *placed = placed_open(scene);
     if (!placed)

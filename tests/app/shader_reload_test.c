@@ -1,8 +1,9 @@
 /*
- * live: while shaders are edited, the stage has the shaders on disk if they are valid, otherwise
- * the last valid ones, pixel for pixel.
+ * shader_reload: while shaders are edited, the renderer has the shaders on disk if they are valid,
+ * otherwise the last valid ones, pixel for pixel.
  */
-#include "app/live.h"
+#include "app/shader_reload.h"
+#include "images/picture_queue.h"
 #include "base/clock.h"
 #include "base/sanitized.h"
 #include "scene/scene_example.h"
@@ -60,13 +61,14 @@ static const Example later = {
     .name = "later",
     .init = init,
     .finish = finish,
-    .scene = &(const SceneExample){.make = scene, .annotate = example_annotate}};
+    .kind = &SCENE_KIND,
+    .content = &(const SceneExample){.make = scene, .annotate = example_annotate}};
 
 /* Each test has a folder with a copy of the shaders, "mine", and a canvas. */
 
 static Canvas canvas;
-static Options options;
-static Live live;
+static DrawRequest request;
+static ShaderReload reload;
 static Message error;
 static Picture picture, before;
 
@@ -76,25 +78,25 @@ static int enter_folder(void **state)
     if (testing_enter_folder(state) != 0)
         return -1;
     testing_shell("cp -r " SHADERS_SOURCE " mine");
-    options = (Options){.width = SIZE, .height = SIZE, .fps = 30, .shaders.folder = "mine"};
+    request = (DrawRequest){.fps = 30, .shaders.folder = "mine"};
     error = (Message){0};
     return canvas_open(&canvas, &(CanvasOptions){.width = SIZE, .height = SIZE}, NULL) ? 0 : -1;
 }
 
 static int leave_folder(void **state)
 {
-    live_close(&live);
+    shader_reload_close(&reload);
     canvas_close(&canvas);
     image_close(&picture.image);
     image_close(&before.image);
     return testing_leave_folder(state);
 }
 
-#define LIVE_TEST(name) TEST_WITH(0, name, enter_folder, leave_folder)
+#define RELOAD_TEST(name) TEST_WITH(0, name, enter_folder, leave_folder)
 
-static void open_live(const Example *example)
+static void open_reload(const Example *example)
 {
-    assert_true(live_open(&live, example, &canvas, &options, &error));
+    assert_true(shader_reload_open(&reload, example, &canvas, &request, &error));
 }
 
 /* Something is drawn: the middle differs from the corner. */
@@ -107,7 +109,7 @@ static bool shown(const Picture *drawn)
 static void draw_into(Picture *into)
 {
     into->image.type = IMAGE_BYTE;
-    if (!stage_picture(&live.stage, &options, options.seconds, into, &error))
+    if (!renderer_picture(&reload.renderer, &request, request.seconds, &into->image, &error))
         fail_msg("not drawn: %s", error.text);
     assert_true(shown(into));
 }
@@ -118,21 +120,22 @@ static bool same(void)
 }
 
 /* The result of the next change. */
-static LiveResult next(void)
+static ReloadResult next(void)
 {
     const double end = clock_now() + PATIENCE;
-    LiveResult result;
+    ReloadResult result;
     error = (Message){0};
-    while ((result = live_poll(&live, PATIENCE, &error)) == LIVE_UNCHANGED && clock_now() < end)
+    while ((result = shader_reload_poll(&reload, PATIENCE, &error)) == RELOAD_UNCHANGED &&
+           clock_now() < end)
         continue;
-    if (result == LIVE_UNCHANGED)
+    if (result == RELOAD_UNCHANGED)
         fail_msg("no change is reported");
     return result;
 }
 
 static void loads(void)
 {
-    if (next() != LIVE_LOADED)
+    if (next() != RELOAD_LOADED)
         fail_msg("not loaded: %s", error.text);
 }
 
@@ -141,31 +144,31 @@ static void breaks(const char *command, const char *said)
 {
     draw_into(&before);
     testing_shell(command);
-    if (next() != LIVE_BROKEN)
+    if (next() != RELOAD_BROKEN)
         fail_msg("accepted: %s", command);
     if (strncmp(error.text, said, strlen(said)) != 0)
         fail_msg("expected \"%s...\" in \"%s\"", said, error.text);
-    assert_non_null(live.stage.example);
+    assert_non_null(reload.renderer.example);
     error = (Message){0};
     draw_into(&picture);
     assert_true(same());
     /* Nothing more happens. */
-    assert_int_equal(live_poll(&live, 0.12, &error), LIVE_UNCHANGED);
+    assert_int_equal(shader_reload_poll(&reload, 0.12, &error), RELOAD_UNCHANGED);
 }
 
 #define EDIT(file, from, to) "sed -i 's/" from "/" to "/' mine/" file
 
-LIVE_TEST(the_last_good_shaders_of_a_lecture_program_stay)
+RELOAD_TEST(the_last_good_shaders_of_a_lecture_program_stay)
 {
     static const char *const FRAGMENT = "mine/lecture/LightedCube.frag:8: ";
-    open_live(&LightedCube);
+    open_reload(&LightedCube);
     loads();
-    assert_string_equal(live.changed, "");
+    assert_string_equal(reload.changed, "");
     draw_into(&before);
 
     testing_shell(EDIT("lecture/LightedCube.frag", "= v_Color", "= v_Color.brga"));
     loads();
-    assert_string_equal(live.changed, "mine/lecture/LightedCube.frag");
+    assert_string_equal(reload.changed, "mine/lecture/LightedCube.frag");
     draw_into(&picture);
     assert_false(same());
 
@@ -189,9 +192,9 @@ LIVE_TEST(the_last_good_shaders_of_a_lecture_program_stay)
     assert_true(same());
 }
 
-LIVE_TEST(errors_after_compiling_are_rejected)
+RELOAD_TEST(errors_after_compiling_are_rejected)
 {
-    open_live(&LightedCube);
+    open_reload(&LightedCube);
     loads();
     breaks(EDIT("lecture/LightedCube.frag", "varying vec4 v_Color",
                 "varying vec3 v_Color") "; " EDIT("lecture/LightedCube.frag", "= v_Color",
@@ -206,9 +209,9 @@ LIVE_TEST(errors_after_compiling_are_rejected)
     assert_true(same());
 }
 
-LIVE_TEST(the_last_good_shaders_of_a_scene_stay)
+RELOAD_TEST(the_last_good_shaders_of_a_scene_stay)
 {
-    open_live(&later);
+    open_reload(&later);
     loads();
     breaks("echo broken >> mine/lighting/output.glsl", "mine/lighting/output.glsl:");
     breaks("rm mine/lighting/output.glsl; ln -s ../lighting.frag mine/lighting/output.glsl",
@@ -220,70 +223,70 @@ LIVE_TEST(the_last_good_shaders_of_a_scene_stay)
     assert_true(same());
     testing_shell("cp " SHADERS_SOURCE "/lighting.frag mine"); /* which includes files beside it */
     loads();
-    assert_string_equal(live.changed, "mine/lighting.frag");
+    assert_string_equal(reload.changed, "mine/lighting.frag");
     testing_shell("mkdir mine/lighting; sed 's/return color/return 0.5 * color/' " SHADERS_SOURCE
                   "/lighting/output.glsl > mine/lighting/output.glsl");
     loads();
-    assert_string_equal(live.changed, "mine/lighting/output.glsl");
+    assert_string_equal(reload.changed, "mine/lighting/output.glsl");
     draw_into(&picture);
     assert_false(same());
 }
 
 /* The program of a later time is compiled from the cached files, too. */
-LIVE_TEST(a_later_program_uses_the_same_files)
+RELOAD_TEST(a_later_program_uses_the_same_files)
 {
-    open_live(&later);
+    open_reload(&later);
     loads();
-    options.seconds = 2;
+    request.seconds = 2;
     draw_into(&before);
-    options.seconds = 0;
+    request.seconds = 0;
     testing_shell("echo >> mine/lighting.vert");
     loads();
     testing_shell("echo broken >> mine/lighting/output.glsl");
-    options.seconds = 2;
+    request.seconds = 2;
     draw_into(&picture);
     assert_true(same());
-    assert_int_equal(next(), LIVE_BROKEN);
+    assert_int_equal(next(), RELOAD_BROKEN);
     draw_into(&picture);
     assert_true(same());
 }
 
-LIVE_TEST(an_error_in_a_later_program_restores_the_earlier_shaders)
+RELOAD_TEST(an_error_in_a_later_program_restores_the_earlier_shaders)
 {
     static const char *const BREAK = "cp mine/lighting/common.glsl mine/keep; printf "
                                      "'#ifdef FRAGMENT_POSITION\\nbroken\\n#endif\\n' >> "
                                      "mine/lighting/common.glsl";
-    open_live(&later);
+    open_reload(&later);
     loads();
-    options.seconds = 2;
+    request.seconds = 2;
     draw_into(&before);
-    options.seconds = 0;
+    request.seconds = 0;
     testing_shell(BREAK);
     loads();
-    options.seconds = 2;
-    assert_false(stage_draw(&live.stage, &options, 2, &error));
+    request.seconds = 2;
+    assert_false(renderer_draw(&reload.renderer, &request, 2, &error));
     assert_non_null(strstr(error.text, "mine/lighting/common.glsl:"));
-    assert_true(live_revert(&live, &error));
-    assert_false(live_revert(&live, &error)); /* nothing is earlier */
+    assert_true(shader_reload_revert(&reload, &error));
+    assert_false(shader_reload_revert(&reload, &error)); /* nothing is earlier */
     error = (Message){0};
     draw_into(&picture);
     assert_true(same());
-    assert_int_equal(live_poll(&live, 0.2, &error), LIVE_UNCHANGED);
+    assert_int_equal(shader_reload_poll(&reload, 0.2, &error), RELOAD_UNCHANGED);
     testing_shell("mv mine/keep mine/lighting/common.glsl");
     loads();
     draw_into(&picture);
     assert_true(same());
     /* An invalid time is not a shader's error. */
-    assert_false(live_revert(&live, &(Message){.text = "no matrix"}));
+    assert_false(shader_reload_revert(&reload, &(Message){.text = "no matrix"}));
 }
 
-LIVE_TEST(it_can_begin_with_a_broken_shader)
+RELOAD_TEST(it_can_begin_with_a_broken_shader)
 {
     testing_shell("echo broken > mine/lecture/LightedCube.vert");
-    open_live(&LightedCube);
-    assert_int_equal(next(), LIVE_BROKEN);
-    assert_null(live.stage.example);
-    assert_int_equal(live_poll(&live, 0.12, &error), LIVE_UNCHANGED);
+    open_reload(&LightedCube);
+    assert_int_equal(next(), RELOAD_BROKEN);
+    assert_null(reload.renderer.example);
+    assert_int_equal(shader_reload_poll(&reload, 0.12, &error), RELOAD_UNCHANGED);
     testing_shell("rm mine/lecture/LightedCube.vert");
     loads();
     draw_into(&picture);
@@ -295,18 +298,21 @@ static bool fail_init(const ShaderLoader *loader, Message *message)
     return message_set(message, "no model");
 }
 
-LIVE_TEST(an_error_outside_the_shaders_is_a_failure)
+RELOAD_TEST(an_error_outside_the_shaders_is_a_failure)
 {
     static const SceneExample made = {.make = scene};
-    static const Example failing = {
-        .name = "failing", .init = fail_init, .finish = finish, .scene = &made};
-    open_live(&failing);
-    assert_int_equal(next(), LIVE_FAILED);
+    static const Example failing = {.name = "failing",
+                                    .init = fail_init,
+                                    .finish = finish,
+                                    .kind = &SCENE_KIND,
+                                    .content = &made};
+    open_reload(&failing);
+    assert_int_equal(next(), RELOAD_FAILED);
     assert_string_equal(error.text, "no model");
 }
 
 /* Every other load is rejected. The leak checker finds other leaks. */
-LIVE_TEST(two_hundred_loads_leak_nothing)
+RELOAD_TEST(two_hundred_loads_leak_nothing)
 {
     static const Example *const examples[] = {&LightedCube, &later};
     static const char *const paths[] = {"mine/lecture/LightedCube.frag",
@@ -314,14 +320,14 @@ LIVE_TEST(two_hundred_loads_leak_nothing)
     for (int e = 0; e < 2; e++) {
         int files = 0;
         long kilobytes = 0;
-        open_live(examples[e]);
+        open_reload(examples[e]);
         loads();
         for (int i = 0; i < 200; i++) {
             FILE *file = fopen(paths[e], "a");
             assert_non_null(file);
             fprintf(file, i % 2 ? "*/\n" : "\n/*\n"); /* an open comment, then its end */
             fclose(file);
-            assert_int_equal(next(), i % 2 ? LIVE_LOADED : LIVE_BROKEN);
+            assert_int_equal(next(), i % 2 ? RELOAD_LOADED : RELOAD_BROKEN);
             draw_into(&picture);
             if (i == 49) {
                 files = testing_open_files();
@@ -336,11 +342,11 @@ LIVE_TEST(two_hundred_loads_leak_nothing)
          */
         if (!ADDRESS_SANITIZER) /* it keeps freed memory */
             assert_true(grown < 4096);
-        live_close(&live);
+        shader_reload_close(&reload);
     }
 }
 
 int main(void)
 {
-    return picture_check_run("live", NULL, NULL);
+    return picture_check_run("shader_reload", NULL, NULL);
 }

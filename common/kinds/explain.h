@@ -4,14 +4,16 @@
 #ifndef EXPLAIN_H
 #define EXPLAIN_H
 
-#include "app/stage.h"
+#include "app/renderer.h"
 
-/* Writes the effects at the options' time, by view and object. */
-void explain_effects(Stage *stage, const Options *options, FILE *file);
+#include <stdio.h>
+
+/* Writes the effects at the request's time, by view and object. */
+void explain_effects(Renderer *renderer, const DrawRequest *request, FILE *file);
 
 /* --explain: the same on standard output, with each program's operations; without --verbose a
  * screenful, the first object in full and of the others what differs. Compiles the programs, so
  * that the loader prints them if it was asked to. */
-bool explain_programs(Stage *stage, const Options *options, Message *message);
+bool explain_programs(Renderer *renderer, const DrawRequest *request, Message *message);
 
 #endif

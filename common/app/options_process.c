@@ -1,0 +1,142 @@
+/* The process around a program: its streams, its signals, what it says on standard error. */
+#include "app/options.h"
+#include "base/output.h"
+#include "base/process.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* Ends the process as the signal alone would, after removing half-written files. */
+static void end_by_signal(int number)
+{
+    const struct sigaction standard = {.sa_handler = SIG_DFL};
+    output_unlink_temporaries();
+    sigaction(number, &standard, NULL);
+    raise(number); /* delivered when this returns */
+}
+
+/* Ends quietly when the reader of standard output has left, as in `| head`. Writing to any other
+ * pipe fails with EPIPE. */
+static void end_without_reader(int number)
+{
+    struct pollfd output = {.fd = STDOUT_FILENO};
+    const int error = errno;
+    (void)number;
+    if (poll(&output, 1, 0) == 1 && output.revents & (POLLERR | POLLHUP)) {
+        output_unlink_temporaries();
+        _exit(0);
+    }
+    errno = error;
+}
+
+void options_catch_signals(void (*handler)(int), int flags)
+{
+    static const int ending[] = {SIGINT, SIGTERM, SIGHUP};
+    const struct sigaction action = {.sa_handler = handler, .sa_flags = flags};
+    struct sigaction before;
+    for (size_t i = 0; i < sizeof ending / sizeof ending[0]; i++)
+        if (sigaction(ending[i], NULL, &before) == 0 && before.sa_handler != SIG_IGN)
+            sigaction(ending[i], &action, NULL);
+}
+
+void options_prepare_process(void)
+{
+    for (int file = 0; file <= 2; file++) {
+        /* Read-only also for the outputs, so that writing to a closed stream fails. */
+        if (fcntl(file, F_GETFD) < 0 && errno == EBADF)
+            (void)!open("/dev/null", O_RDONLY);
+    }
+    const struct sigaction on_pipe = {.sa_handler = end_without_reader, .sa_flags = SA_RESTART};
+    sigaction(SIGPIPE, &on_pipe, NULL);
+    signal(SIGXFSZ, SIG_IGN);
+    options_catch_signals(end_by_signal, SA_RESTART);
+}
+
+/* The beginning, a program's name or a file and line, in colour on a terminal. */
+static void print_message(const char *program, const Message *message, int color)
+{
+    const char *begin = message_color(color, STDERR_FILENO);
+    const char *end = message_color(MESSAGE_PLAIN, STDERR_FILENO);
+    const char *text = message->text[0] ? message->text : "failed";
+    const char *rest = message->located ? strstr(text, ": ") : NULL;
+    if (rest)
+        fprintf(stderr, "%s%.*s:%s%s\n", begin, (int)(rest - text), text, end, rest + 1);
+    else
+        fprintf(stderr, "%s%s:%s %s\n", begin, program, end, text);
+}
+
+int options_fail(const char *program, const Message *message, int code)
+{
+    fflush(stdout);
+    print_message(program, message, MESSAGE_RED);
+    return code;
+}
+
+void options_warn(const char *program, const Message *message)
+{
+    print_message(program, message, MESSAGE_YELLOW);
+}
+
+void options_tell(const char *program, const char *format, ...)
+{
+    va_list arguments;
+    if (!isatty(STDERR_FILENO))
+        return;
+    va_start(arguments, format);
+    fprintf(stderr, "%s: ", program);
+    vfprintf(stderr, format, arguments);
+    fputc('\n', stderr);
+    va_end(arguments);
+}
+
+int options_finish(const char *program, int code)
+{
+    Message message = {0};
+    errno = 0;
+    if (fflush(stdout) != 0 || ferror(stdout)) {
+        /* An earlier write may have failed, whose errno is lost. */
+        message_set(&message, "standard output: cannot write%s%s", errno ? ": " : "",
+                    errno ? strerror(errno) : "");
+        return options_fail(program, &message, EXIT_FAILED);
+    }
+    return code;
+}
+
+/* What is read when a library is loaded. Mesa's llvmpipe and OSMesa choose instructions by the
+ * processor: F16C is what computes mediump in 16 bits. glibc's libm has its own variants of sin,
+ * pow and others for processors with FMA, whose results differ in the last bit. */
+bool options_restart(char *const *arguments, Message *message)
+{
+    static const char *const least[] = {"GALLIUM_OVERRIDE_CPU_CAPS=sse4.1",
+                                        "LP_NATIVE_VECTOR_WIDTH=128",
+                                        "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4", NULL};
+    return process_restart(arguments, least, message);
+}
+
+bool options_begin(Options *options, const Usage *usage, int argc, char *argv[], int *code)
+{
+    Message message = {0};
+    const size_t size = ((size_t)argc + 1) * sizeof *argv;
+    char **given = malloc(size); /* options_read moves the names to the front */
+    options_prepare_process();
+    if (given)
+        memcpy(given, argv, size);
+    const OptionsResult result = options_read(options, usage, argc, argv, &message);
+    bool run = result == OPTIONS_RUN;
+    if (!run) {
+        *code = result == OPTIONS_ANSWERED ? options_finish(usage->name, 0)
+                                           : options_fail(usage->name, &message, EXIT_USAGE);
+    } else if (options->deterministic && !(given && options_restart(given, &message))) {
+        *code = options_fail(usage->name, &message, EXIT_FAILED);
+        run = false;
+    }
+    free(given);
+    return run;
+}

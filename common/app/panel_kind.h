@@ -1,0 +1,38 @@
+/*
+ * panel_kind: what a window's panel shows of a kind of program besides its parameters: the error of
+ * its picture, its effects, its lights.
+ */
+#ifndef PANEL_KIND_H
+#define PANEL_KIND_H
+
+#include "app/example_kind.h"
+#include "window/handles.h"
+#include "window/panel.h"
+
+#include <stdio.h>
+
+typedef struct PanelKind {
+    /* What computes the error of a picture in the background. */
+    bool (*open)(void **worker, Message *message);
+    void (*close)(void *worker);
+    bool (*start)(void *worker, Renderer *renderer, const DrawRequest *request);
+    void (*cancel)(void *worker);
+    bool (*busy)(void *worker);
+    PanelError (*error)(void *worker);
+    /* Copies the map of the last result, if that has another number. */
+    void (*map)(void *worker, Image *map, int *number);
+
+    void (*write_effects)(Renderer *renderer, const DrawRequest *request, FILE *file);
+
+    /* The lights of all views as the example has them; how many. */
+    int (*lights)(Renderer *renderer, const DrawRequest *request, Light lights[SCENE_MAX_PLACED]);
+
+    /* As points of the picture. */
+    int (*handles)(Renderer *renderer, const DrawRequest *request, Handle handles[HANDLES_MAX]);
+    const Handle *(*find_handle)(const Handle *handles, int count, double x, double y,
+                                 double reach);
+    /* Where the light is once its handle has been dragged. */
+    bool (*drag)(Renderer *renderer, const DrawRequest *request, const Handle *handle, Vec3 *at);
+} PanelKind;
+
+#endif

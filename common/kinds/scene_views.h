@@ -1,0 +1,76 @@
+/*
+ * scene_views: an example with a scene that is open in a renderer: its views, and the scenes that
+ * are drawn in them as the request wants them.
+ */
+#ifndef SCENE_VIEWS_H
+#define SCENE_VIEWS_H
+
+#include "app/renderer.h"
+#include "choose/cheapest_quality.h"
+#include "choose/error_worker.h"
+#include "scene/overlay.h"
+#include "scene/scene_example.h"
+
+/* The state of a renderer whose example is of SCENE_KIND. */
+typedef struct SceneState {
+    Lighting *lighting;
+    Overlay overlay;
+    SolidMeshes meshes; /* of the choices */
+    /* With --error, by view: what is drawn in pictures of this size, at this time or, in a window
+     * or an animation, at any. NULL: not chosen yet. */
+    CheapestQuality *choices;
+    int choice_count, choice_width, choice_height;
+    double choice_seconds;
+} SceneState;
+
+SceneState *scene_state(const Renderer *renderer);
+
+typedef struct SceneView {
+    SceneCopy kept;     /* the lights and objects of --terms */
+    Scene asked, scene; /* before and after --error, which may change the meshes */
+    QualityParts made;  /* with --error: the scene as drawn, object by object */
+} SceneView;
+
+/* The grid of an example's views; returns how many they are. */
+int scene_view_grid(const SceneExample *example, int *columns, int *rows);
+int scene_view_count(const Renderer *renderer);
+
+/* A view's part of the picture: x, y, width, height, in pixels from the upper left. False if it is
+ * less than a pixel. */
+bool scene_view_place(const Renderer *renderer, int view, int place[4]);
+
+/* With --error makes the choice first, if that is not made yet: draws into the canvas. */
+bool scene_view_open(SceneView *view, Renderer *renderer, const DrawRequest *request,
+                     double seconds, int number, Message *message);
+void scene_view_close(SceneView *view);
+
+/* The scene that an object of the view is drawn in, and its number there. */
+const Scene *scene_view_part(const SceneView *view, int *object);
+
+/* A view at a time. */
+typedef struct ViewMoment {
+    const Renderer *renderer;
+    const DrawRequest *request;
+    double seconds;
+    int view;
+} ViewMoment;
+
+/* The scene of a view before --error. `kept` has the lights and objects of --terms, --light-at and
+ * --light-color; closed by the caller, whatever is returned. */
+bool scene_view_make(const ViewMoment *moment, SceneCopy *kept, Scene *scene, Message *message);
+
+/* For error_worker_start: draws one frame without marks, labels and retouching, over the
+ * background's color with alpha 0, and copies its scenes as they were before --error simplified
+ * them. The canvas then holds that frame. */
+bool scene_error_picture(Renderer *renderer, const DrawRequest *request, double seconds,
+                         ErrorPicture *picture, Message *message);
+
+/* --error: chooses the qualities of all views, unless that was done. */
+bool scene_choose(Renderer *renderer, const DrawRequest *request, double seconds, Message *message);
+void scene_forget_choices(SceneState *state);
+
+/* Draws a scene part by part. */
+bool scene_draw_parts(const SceneState *state, const QualityParts *made, double aspect, bool full,
+                      Message *message);
+
+#endif
