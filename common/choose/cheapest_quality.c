@@ -157,17 +157,18 @@ typedef struct Drawn {
 static bool has_its_lights(Drawn *drawn, const Exact *exact, int x, int y)
 {
     Sample samples[3][3];
+    const Sample *const rows[] = {samples[0], samples[1], samples[2]};
     const size_t pixel = (size_t)y * (size_t)drawn->width + (size_t)x;
+    const ReferenceOptions meshes = {
+        .width = drawn->width, .height = drawn->height, .meshes = true, .threads = 1};
     if (!exact->lights || !exact->lights[pixel] ||
-        (!drawn->trace && !trace_open(&drawn->trace, &drawn->scene, true, drawn->width,
-                                      drawn->height, 1, NULL, NULL)))
+        (!drawn->trace && !trace_open(&drawn->trace, &drawn->scene, &meshes, NULL)))
         return true;
     for (int row = 0; row < 3; row++)
         for (int i = 0; i < 3; i++)
             trace_sample(drawn->trace, x + i / 2.0, y + row / 2.0, &samples[row][i]);
     return samples[1][1].object != exact->owner[pixel] ||
-           !reference_lights_differ(exact->lights[pixel],
-                                    trace_pixel_lights(samples[0], samples[1], samples[2]));
+           !reference_lights_differ(exact->lights[pixel], trace_pixel_lights(rows));
 }
 
 /* Adds the errors of one moment's drawn picture to those of its objects. */

@@ -1,3 +1,9 @@
+/*
+ * One thread takes the last picture that was handed over and has its error computed; a newer one
+ * stops the older. Everything that both sides touch is under one lock, which is released while
+ * computing; the flag that stops is atomic, because the computing threads read it without the lock.
+ * What was computed for a picture that was stopped meanwhile is dropped.
+ */
 #include "choose/error_worker.h"
 
 #include "base/clock.h"
@@ -73,20 +79,32 @@ bool error_view_drawn(const ErrorView *view, const ReferenceOptions *exact, Refe
     return reference_open(drawn, &scene, &options, message);
 }
 
+/* A view's exact picture is made with these options; of them `threads` and `stop` are given. */
+static ReferenceOptions options_of(const ErrorView *view, const ReferenceOptions *given)
+{
+    ReferenceOptions options = *given;
+    options.width = view->place[2];
+    options.height = view->place[3];
+    return options;
+}
+
 /* The map, if it is not NULL, gets its pixels. */
 static bool add_view(PictureError *error, Image *map, const Image *image, const ErrorView *view,
-                     int threads, const atomic_bool *stop, Message *message)
+                     const ReferenceOptions *given, Message *message)
 {
     Reference exact, drawn = {.lights = NULL};
-    const ReferenceOptions options = {
-        .width = view->place[2], .height = view->place[3], .threads = threads, .stop = stop};
+    const ReferenceOptions options = options_of(view, given);
     const bool done = reference_open(&exact, &view->scene.scene, &options, message) &&
                       error_view_drawn(view, &options, &drawn, message);
+    const ExactView part = {.exact = &exact,
+                            .scene = &view->scene.scene,
+                            .drawn = drawn.lights ? &drawn : NULL,
+                            .left = view->place[0],
+                            .top = view->place[1]};
     if (done)
-        picture_error_add(error, image, view->place[0], view->place[1], &exact,
-                          drawn.lights ? &drawn : NULL, &view->scene.scene);
+        picture_error_add(error, image, &part);
     if (done && map)
-        picture_error_map(map, image, view->place[0], view->place[1], &exact);
+        picture_error_map(map, image, &part);
     reference_close(&exact);
     reference_close(&drawn);
     return done;
@@ -94,20 +112,19 @@ static bool add_view(PictureError *error, Image *map, const Image *image, const 
 
 /* Against the meshes, whose edges do not count. */
 static bool add_computing(PictureError *error, const Image *image, const ErrorView *view,
-                          int threads, const atomic_bool *stop, Message *message)
+                          const ReferenceOptions *given, Message *message)
 {
     Reference meshes;
-    const ReferenceOptions options = {.width = view->place[2],
-                                      .height = view->place[3],
-                                      .meshes = true,
-                                      .centers = true,
-                                      .edge_error = 255,
-                                      .threads = threads,
-                                      .stop = stop};
+    ReferenceOptions options = options_of(view, given);
+    options.meshes = options.centers = true;
+    options.edge_error = 255;
     if (!reference_open(&meshes, &view->scene.scene, &options, message))
         return false;
-    picture_error_add(error, image, view->place[0], view->place[1], &meshes, NULL,
-                      &view->scene.scene);
+    picture_error_add(error, image,
+                      &(ExactView){.exact = &meshes,
+                                   .scene = &view->scene.scene,
+                                   .left = view->place[0],
+                                   .top = view->place[1]});
     reference_close(&meshes);
     return true;
 }
@@ -115,9 +132,10 @@ static bool add_computing(PictureError *error, const Image *image, const ErrorVi
 bool error_worker_compute(const ErrorPicture *picture, int threads, const atomic_bool *stop,
                           PictureError *error, Message *message)
 {
+    const ReferenceOptions given = {.threads = threads, .stop = stop};
     *error = (PictureError){.all = {0}};
     for (int i = 0; i < picture->view_count; i++)
-        if (!add_view(error, NULL, &picture->image, &picture->views[i], threads, stop, message))
+        if (!add_view(error, NULL, &picture->image, &picture->views[i], &given, message))
             return false;
     return true;
 }
@@ -131,19 +149,20 @@ static bool open_map(Image *map, const Image *image, Message *message)
     return true;
 }
 
-static bool compute(const ErrorPicture *picture, const atomic_bool *stop, int threads,
-                    ErrorResult *result, Image *map)
+static bool compute(const ErrorPicture *picture, const ReferenceOptions *given, ErrorResult *result,
+                    Image *map)
 {
     PictureError computing = {.all = {0}};
     Message *message = &result->message;
     if (!open_map(map, &picture->image, message))
         return false;
-    for (int i = 0; i < picture->view_count; i++)
-        if (!add_view(&result->error, map, &picture->image, &picture->views[i], threads, stop,
-                      message) ||
-            (!picture->simplified && !add_computing(&computing, &picture->image, &picture->views[i],
-                                                    threads, stop, message)))
+    for (int i = 0; i < picture->view_count; i++) {
+        const ErrorView *view = &picture->views[i];
+        if (!add_view(&result->error, map, &picture->image, view, given, message) ||
+            (!picture->simplified &&
+             !add_computing(&computing, &picture->image, view, given, message)))
             return false;
+    }
     result->of_computing = computing.interior;
     return true;
 }
@@ -177,7 +196,8 @@ static void compute_next(ErrorWorker *worker)
     atomic_store(&worker->stop, false);
     pthread_mutex_unlock(&worker->lock);
     const double start = clock_now();
-    result.known = compute(&picture, &worker->stop, thread_count(), &result, &map);
+    const ReferenceOptions given = {.threads = thread_count(), .stop = &worker->stop};
+    result.known = compute(&picture, &given, &result, &map);
     result.milliseconds = 1e3 * (clock_now() - start);
     error_picture_close(&picture);
     pthread_mutex_lock(&worker->lock);

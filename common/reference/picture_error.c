@@ -1,3 +1,8 @@
+/*
+ * What counts as a pixel of shading, and what of a silhouette, is decided here for the whole
+ * project: see pixel_is_interior. The map's colors are on a logarithmic scale, a color for every
+ * factor of 8, because errors range from rounding, half a step, to all of the 255.
+ */
 #include "reference/picture_error.h"
 
 #include <math.h>
@@ -70,18 +75,23 @@ static bool is_background(const Reference *exact, size_t exact_pixel, const Imag
            steps(image, 4 * pixel + 3) == 0;
 }
 
-void picture_error_add(PictureError *error, const Image *image, int left, int top,
-                       const Reference *exact, const Reference *drawn, const Scene *scene)
+static size_t place_in_image(const Image *image, const ExactView *view, int x, int y)
 {
+    return (size_t)(view->top + y) * (size_t)image->width + (size_t)(view->left + x);
+}
+
+void picture_error_add(PictureError *error, const Image *image, const ExactView *view)
+{
+    const Reference *exact = view->exact;
     for (int y = 0; y < exact->height; y++) {
         for (int x = 0; x < exact->width; x++) {
-            const size_t pixel = (size_t)(top + y) * (size_t)image->width + (size_t)(left + x);
+            const size_t pixel = place_in_image(image, view, x, y);
             const size_t exact_pixel = (size_t)y * (size_t)exact->width + (size_t)x;
             const PixelError found = pixel_error(image, pixel, &exact->color[3 * exact_pixel]);
             const int object = exact->interior[exact_pixel] ? exact->object[exact_pixel] : -1;
             error_sum_add(&error->all, found, pixel);
-            const bool inside = pixel_is_interior(scene, object, image, pixel) &&
-                                pixel_has_its_lights(exact, drawn, exact_pixel);
+            const bool inside = pixel_is_interior(view->scene, object, image, pixel) &&
+                                pixel_has_its_lights(exact, view->drawn, exact_pixel);
             if (inside || !is_background(exact, exact_pixel, image, pixel))
                 error_sum_add(inside ? &error->interior : &error->edges, found, pixel);
         }
@@ -103,11 +113,12 @@ static void color_of(double error, unsigned char *color)
     }
 }
 
-void picture_error_map(Image *map, const Image *image, int left, int top, const Reference *exact)
+void picture_error_map(Image *map, const Image *image, const ExactView *view)
 {
+    const Reference *exact = view->exact;
     for (int y = 0; y < exact->height; y++) {
         for (int x = 0; x < exact->width; x++) {
-            const size_t pixel = (size_t)(top + y) * (size_t)image->width + (size_t)(left + x);
+            const size_t pixel = place_in_image(image, view, x, y);
             const size_t exact_pixel = (size_t)y * (size_t)exact->width + (size_t)x;
             const PixelError found = pixel_error(image, pixel, &exact->color[3 * exact_pixel]);
             color_of(found.largest, (unsigned char *)map->pixels + 4 * pixel);

@@ -57,16 +57,21 @@ bool pixel_is_interior(const Scene *scene, int object, const Image *image, size_
  * NULL: no light casts shadows, or `exact` is that picture. */
 bool pixel_has_its_lights(const Reference *exact, const Reference *drawn, size_t pixel);
 
-/* Adds every pixel of the exact picture, whose upper left pixel is (left, top) in the image and
- * which lies within it. `scene`: of the exact picture; `drawn`: see pixel_has_its_lights. Several
- * views of one image are added one after another. */
-void picture_error_add(PictureError *error, const Image *image, int left, int top,
-                       const Reference *exact, const Reference *drawn, const Scene *scene);
+/* An exact picture, as a part of a drawn image. */
+typedef struct ExactView {
+    const Reference *exact;
+    const Scene *scene;     /* its own */
+    const Reference *drawn; /* see pixel_has_its_lights */
+    int left, top;          /* its upper left pixel in the image; it lies within that */
+} ExactView;
+
+/* Adds every pixel of the exact picture. Several views of one image are added one after another. */
+void picture_error_add(PictureError *error, const Image *image, const ExactView *view);
 
 /* The same pixels as a map: black where the error is at most half a step, which is rounding, else
  * from blue over green and yellow to white, a color for every factor of 8. `map`: of bytes, of the
  * image's size. */
-void picture_error_map(Image *map, const Image *image, int left, int top, const Reference *exact);
+void picture_error_map(Image *map, const Image *image, const ExactView *view);
 extern const unsigned char PICTURE_ERROR_COLORS[4][3]; /* of errors of 0.5, 4, 32 and 255 */
 
 #endif

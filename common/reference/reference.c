@@ -14,8 +14,7 @@ static const double EDGE_ERROR = 0.5;
 
 typedef struct Job {
     Reference *reference;
-    const Trace *trace;
-    double edge_error;
+    PixelTracer tracer; /* without `recent` */
     bool centers;
     const atomic_bool *stop;
     atomic_int next; /* band */
@@ -23,15 +22,15 @@ typedef struct Job {
 
 typedef struct Worker {
     Job *job;
+    PixelTracer tracer;
     Sample *samples; /* three rows */
-    PixelRecent *recent;
     pthread_t thread;
 } Worker;
 
 static void sample_row(const Job *job, int row, Sample *samples)
 {
     for (int i = 0; i <= 2 * job->reference->width; i++)
-        trace_sample(job->trace, i / 2.0, row / 2.0, &samples[i]);
+        trace_sample(job->tracer.trace, i / 2.0, row / 2.0, &samples[i]);
 }
 
 static void put_pixel(const Job *job, int x, int y, const Sample *center, const Pixel *pixel)
@@ -60,12 +59,12 @@ static void draw_band(const Worker *worker, int band)
         sample_row(job, 2 * y + 1, middle);
         sample_row(job, 2 * y + 2, bottom);
         for (int x = 0; x < reference->width; x++) {
-            const Pixel pixel = pixel_resolve(job->trace, job->edge_error, worker->recent, x, y,
-                                              top + 2 * x, middle + 2 * x, bottom + 2 * x);
-            put_pixel(job, x, y, &middle[2 * x + 1], &pixel);
+            const Sample *const rows[] = {top + 2 * x, middle + 2 * x, bottom + 2 * x};
+            const Pixel pixel = pixel_resolve(&worker->tracer, x, y, rows);
+            put_pixel(job, x, y, &rows[1][1], &pixel);
             if (reference->lights)
                 reference->lights[(size_t)y * (size_t)reference->width + (size_t)x] =
-                    trace_pixel_lights(top + 2 * x, middle + 2 * x, bottom + 2 * x);
+                    trace_pixel_lights(rows);
         }
         Sample *above = top;
         top = bottom;
@@ -103,10 +102,10 @@ static bool draw_bands(Job *job, int threads)
     Worker *workers = calloc((size_t)count, sizeof *workers);
     int ready = 0, running = 1;
     while (workers && ready < count) {
-        workers[ready] = (Worker){.job = job,
-                                  .samples = malloc(length * sizeof(Sample)),
-                                  .recent = calloc(PIXEL_RECENT, sizeof(PixelRecent))};
-        if (!workers[ready].samples || !workers[ready].recent)
+        Worker *worker = &workers[ready];
+        *worker = (Worker){job, job->tracer, malloc(length * sizeof(Sample)), 0};
+        worker->tracer.recent = calloc(PIXEL_RECENT, sizeof(PixelRecent));
+        if (!worker->samples || !worker->tracer.recent)
             break;
         ready++;
     }
@@ -119,7 +118,7 @@ static bool draw_bands(Job *job, int threads)
         pthread_join(workers[i].thread, NULL);
     for (int i = 0; workers && i < count; i++) {
         free(workers[i].samples);
-        free(workers[i].recent);
+        free(workers[i].tracer.recent);
     }
     free(workers);
     return ready > 0;
@@ -156,18 +155,17 @@ bool reference_open(Reference *reference, const Scene *scene, const ReferenceOpt
                     Message *message)
 {
     Trace *trace = NULL;
-    const int threads = thread_count(options);
+    ReferenceOptions own = *options;
+    own.threads = thread_count(options);
     *reference = (Reference){0};
-    if (!check(options, message) || !trace_open(&trace, scene, options->meshes, options->width,
-                                                options->height, threads, options->stop, message))
+    if (!check(options, message) || !trace_open(&trace, scene, &own, message))
         return false;
     *reference = (Reference){.width = options->width, .height = options->height};
     Job job = {.reference = reference,
-               .trace = trace,
-               .edge_error = options->edge_error > 0 ? options->edge_error : EDGE_ERROR,
+               .tracer = {trace, options->edge_error > 0 ? options->edge_error : EDGE_ERROR, NULL},
                .centers = options->centers,
                .stop = options->stop};
-    const bool done = open_pixels(reference, trace_casts(trace)) && draw_bands(&job, threads);
+    const bool done = open_pixels(reference, trace_casts(trace)) && draw_bands(&job, own.threads);
     trace_close(trace);
     const bool stopped = stop_asked(options->stop);
     if (done && !stopped)

@@ -1,6 +1,5 @@
 #include "reference/reference_object.h"
 
-#include "reference/reference.h"
 #include "shapes/mesh_solids.h"
 
 #include <stdlib.h>
@@ -78,8 +77,9 @@ static Real3 light_corner(const TraceObject *ready, const TraceLayers *layers, i
         material.ambient = material.diffuse = vec3_from_float(ready->mesh->colors[vertex]);
     if (layer > 0)
         material.emission = (Vec3){0, 0, 0};
-    return shade_point(&layers->layers[layer], &material, ready->points[vertex],
-                       real3_scale(normal, reversed ? -1 : 1), NULL, &sides);
+    const ShadePoint point = {&material, ready->points[vertex],
+                              real3_scale(normal, reversed ? -1 : 1)};
+    return shade_point(&layers->layers[layer], &point, &sides);
 }
 
 /* The normal of a triangle of the mesh, in object coordinates. */
@@ -117,10 +117,10 @@ static bool light_corners(TraceObject *ready, const Scene *scene, const TraceLay
 }
 
 static bool open_triangles(TraceObject *ready, const Scene *scene, const TraceLayers *layers,
-                           bool meshes, int threads, const atomic_bool *stop)
+                           const ReferenceOptions *options)
 {
     const Mesh *mesh = ready->mesh;
-    const bool at_corners = meshes && scene->interpolation != INTERPOLATION_PHONG;
+    const bool at_corners = options->meshes && scene->interpolation != INTERPOLATION_PHONG;
     const bool flatten = scene->interpolation == INTERPOLATION_FLAT && !ready->object->flat;
     ready->own_corners = at_corners && (flatten || scene->interpolation == INTERPOLATION_CONSTANT);
     Real3 *points = malloc((mesh->vertex_count + 1) * sizeof *points);
@@ -133,7 +133,8 @@ static bool open_triangles(TraceObject *ready, const Scene *scene, const TraceLa
         ready->normals[i] = trace_object_normal(ready, to_real3(vertex->normal));
     }
     return done &&
-           triangles_open(&ready->triangles, mesh, points, ready->own_corners, threads, stop) &&
+           triangles_open(&ready->triangles, mesh, points, ready->own_corners, options->threads,
+                          options->stop) &&
            (!at_corners || light_corners(ready, scene, layers));
 }
 
@@ -163,7 +164,7 @@ static Ball ball_around(const TraceObject *ready)
 }
 
 bool trace_object_open(TraceObject *ready, const Object *object, const Scene *scene,
-                       const TraceLayers *layers, bool meshes, int threads, const atomic_bool *stop)
+                       const TraceLayers *layers, const ReferenceOptions *options)
 {
     const double *m = object->world_from_object.m;
     Real3 rows[3];
@@ -176,7 +177,7 @@ bool trace_object_open(TraceObject *ready, const Object *object, const Scene *sc
     const bool flattened = singular(ready->columns, determinant);
     ready->mirrored = determinant < 0;
     set_normal_columns(ready, rows);
-    const bool exact = !meshes && !flattened && !(object->mesh && object->mesh->colors);
+    const bool exact = !options->meshes && !flattened && !(object->mesh && object->mesh->colors);
     ready->exact = exact && object->solid.kind != SOLID_NONE && object->solid.kind != SOLID_TEAPOT;
     if (ready->exact) {
         for (int k = 0; k < 3; k++)
@@ -188,13 +189,13 @@ bool trace_object_open(TraceObject *ready, const Object *object, const Scene *sc
         return true;
     }
     if (exact && object->solid.kind == SOLID_TEAPOT) {
-        if (!mesh_teapot_until(&ready->own, object->solid.radius, REFERENCE_TEAPOT_DIVISIONS, stop,
-                               NULL))
+        if (!mesh_teapot_until(&ready->own, object->solid.radius, REFERENCE_TEAPOT_DIVISIONS,
+                               options->stop, NULL))
             return false;
         ready->mesh = &ready->own;
         ready->smooth = true;
     }
-    return open_triangles(ready, scene, layers, meshes, threads, stop);
+    return open_triangles(ready, scene, layers, options);
 }
 
 void trace_object_close(TraceObject *ready)

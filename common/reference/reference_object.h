@@ -7,6 +7,7 @@
 #ifndef REFERENCE_OBJECT_H
 #define REFERENCE_OBJECT_H
 
+#include "reference/reference.h"
 #include "reference/reference_shade.h"
 #include "reference/reference_triangles.h"
 #include "scene/scene.h"
@@ -49,8 +50,7 @@ typedef struct TraceLayers {
 
 /* False where memory runs out, or it was stopped; to be closed all the same. */
 bool trace_object_open(TraceObject *ready, const Object *object, const Scene *scene,
-                       const TraceLayers *layers, bool meshes, int threads,
-                       const atomic_bool *stop);
+                       const TraceLayers *layers, const ReferenceOptions *options);
 void trace_object_close(TraceObject *ready);
 
 /* Whether a line from `from` along `way`, or a segment to from + way, surely misses a ball. */

@@ -16,8 +16,7 @@ static const double CORNERS[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
 static const double SMALLEST = 1.0 / 128;
 
 typedef struct Work {
-    const Trace *trace;
-    PixelRecent *recent;
+    const PixelTracer *tracer;
     double error; /* E */
     int object;   /* at the pixel's center */
     double color[3], coverage;
@@ -31,10 +30,10 @@ static void sample_at(const Work *work, double x, double y, Sample *sample)
     memcpy(&bits[1], &y, sizeof y);
     /* Fibonacci hashing. (Knuth, The Art of Computer Programming, volume 3, section 6.4) */
     const uint64_t hash = (bits[0] * 0x9E3779B97F4A7C15U ^ bits[1]) * 0x9E3779B97F4A7C15U;
-    PixelRecent *recent = &work->recent[(hash >> 32) % PIXEL_RECENT];
+    PixelRecent *recent = &work->tracer->recent[(hash >> 32) % PIXEL_RECENT];
     if (!recent->taken || recent->x != x || recent->y != y) {
         *recent = (PixelRecent){.taken = true, .x = x, .y = y};
-        trace_sample(work->trace, x, y, &recent->sample);
+        trace_sample(work->tracer->trace, x, y, &recent->sample);
     }
     *sample = recent->sample;
 }
@@ -104,7 +103,7 @@ typedef struct Part {
 static bool agrees(const Work *work, const Part *part, const Sample *sample)
 {
     for (int i = 0; i < part->member_count; i++)
-        if (trace_agree(work->trace, part->members[i], sample))
+        if (trace_agree(work->tracer->trace, part->members[i], sample))
             return true;
     return false;
 }
@@ -128,8 +127,8 @@ static bool find_edge(const Work *work, Point *a, Sample *at_a, Point *b, Sample
         const Point middle = between(*a, *b);
         Sample sample;
         sample_at(work, middle.x, middle.y, &sample);
-        const bool is_a = trace_agree(work->trace, at_a, &sample);
-        if (is_a == trace_agree(work->trace, at_b, &sample))
+        const bool is_a = trace_agree(work->tracer->trace, at_a, &sample);
+        if (is_a == trace_agree(work->tracer->trace, at_b, &sample))
             return false;
         *(is_a ? a : b) = middle;
         *(is_a ? at_a : at_b) = sample;
@@ -288,7 +287,7 @@ static void add_unresolved(Work *work, const Square *square)
 static bool smooth(const Work *work, const Square *square)
 {
     for (int i = 0; i < 4; i++)
-        if (!trace_agree(work->trace, square->center, square->corners[i]))
+        if (!trace_agree(work->tracer->trace, square->center, square->corners[i]))
             return false;
     return true;
 }
@@ -345,21 +344,19 @@ static void add_quarters(Work *work, const Square *square, const Sample *const m
     }
 }
 
-Pixel pixel_resolve(const Trace *trace, double edge_error, PixelRecent recent[PIXEL_RECENT], int x,
-                    int y, const Sample *top, const Sample *middle, const Sample *bottom)
+Pixel pixel_resolve(const PixelTracer *tracer, int x, int y, const Sample *const rows[3])
 {
-    const Sample *center = &middle[1];
+    const Sample *top = rows[0], *middle = rows[1], *bottom = rows[2], *center = &middle[1];
     const Sample *const middles[4] = {&top[1], &middle[2], &bottom[1], &middle[0]};
     const Square square = {.x = x,
                            .y = y,
                            .side = 1,
                            .corners = {&top[0], &top[2], &bottom[2], &bottom[0]},
                            .center = center};
-    Work work = {
-        .trace = trace, .recent = recent, .error = edge_error / 255, .object = center->object};
+    Work work = {.tracer = tracer, .error = tracer->edge_error / 255, .object = center->object};
     bool agree = smooth(&work, &square);
     for (int i = 0; i < 4; i++)
-        agree = agree && trace_agree(trace, center, middles[i]);
+        agree = agree && trace_agree(tracer->trace, center, middles[i]);
     if (!agree)
         add_quarters(&work, &square, middles);
     Pixel pixel = {.coverage = 1, .interior = !work.edge && center->object >= 0};

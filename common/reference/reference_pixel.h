@@ -37,9 +37,15 @@ typedef struct PixelRecent {
     Sample sample;
 } PixelRecent;
 
+/* What pixels are resolved with. */
+typedef struct PixelTracer {
+    const Trace *trace;
+    double edge_error;
+    PixelRecent *recent; /* PIXEL_RECENT */
+} PixelTracer;
+
 /* The pixel whose upper left corner is (x, y), from the samples of the three rows of its grid, each
  * three of them, at distances of half a pixel. */
-Pixel pixel_resolve(const Trace *trace, double edge_error, PixelRecent recent[PIXEL_RECENT], int x,
-                    int y, const Sample *top, const Sample *middle, const Sample *bottom);
+Pixel pixel_resolve(const PixelTracer *tracer, int x, int y, const Sample *const rows[3]);
 
 #endif

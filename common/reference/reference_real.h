@@ -32,6 +32,10 @@ typedef __float128 Real;
 #define solid_touched quad_solid_touched
 #define solid_blocks quad_solid_blocks
 #define shade_point quad_shade_point
+#define shade_light quad_shade_light
+#define shade_arriving quad_shade_arriving
+#define shade_base quad_shade_base
+#define shade_add quad_shade_add
 #define triangles_open quad_triangles_open
 #define triangles_ray quad_triangles_ray
 #define triangles_block quad_triangles_block
@@ -49,6 +53,7 @@ typedef __float128 Real;
 #define shadow_start_solid quad_shadow_start_solid
 #define shadow_start_triangle quad_shadow_start_triangle
 #define shadow_falls quad_shadow_falls
+#define shadow_shade quad_shadow_shade
 #define trace_object_open quad_trace_object_open
 #define trace_object_close quad_trace_object_close
 #define trace_object_normal quad_trace_object_normal

@@ -1,3 +1,11 @@
+/*
+ * A light's part of the sum is computed by itself, with what of it a shadow would leave: who knows
+ * of shadows (reference_shadow.h) decides between the two.
+ *
+ * The sum jumps where a light's cone ends, and where N.L turns positive while there is a highlight.
+ * Such a jump is an edge of the picture, which samples on its two sides must be told apart by, even
+ * if their colors are close: hence the bits of ShadeSides.
+ */
 #include "reference/reference_shade.h"
 
 /* What of a positional light arrives at distance d. */
@@ -20,77 +28,74 @@ static Real highlight_cosine(const Shading *shading, Real3 n, Real3 l, Real3 v)
     return real_max(real3_dot(n, real3_unit(real3_add(l, v))), 0);
 }
 
-/* Without what a shadow keeps off. At its edge all of that would change; outside the light's cone
- * nothing does, but at the cone's edge, about which the points inside tell. `sum` is the light's.
- */
-static Real3 shadowed(const Shading *shading, const struct ShadowPoint *shadows, int number,
-                      const Real3 *ambient, bool in_cone, bool faces, Real highlight, Real3 sum,
-                      ShadeSides *sides)
+LightSample shade_light(const Shading *shading, const ShadePoint *point, int number)
 {
-    const Real arriving = real3_largest(real3_subtract(sum, *ambient));
-    const bool reaches = in_cone && faces;
-    const bool hidden = reaches && arriving > 0 && shading->shadow_falls(shadows, number);
-    const Real3 left = hidden ? *ambient : sum;
-    if (reaches && arriving > 0)
-        shade_note_light(sides, number, hidden);
-    shade_note_side(sides, 2 * number + 1, reaches && !hidden,
-                    hidden    ? arriving
-                    : in_cone ? highlight
-                              : 0);
-    shade_note_side(sides, 2 * number, in_cone, in_cone ? real3_largest(left) : 0);
-    return left;
+    const ShadeLight *shade = &shading->lights[number];
+    const Light *light = shade->light;
+    const Material *material = point->material;
+    LightSample sample = {.in_cone = true};
+    Real3 l = shade->direction;
+    Real share = 1; /* of the light that arrives */
+    if (light->kind != LIGHT_DIRECTIONAL) {
+        const Real3 way = real3_subtract(shade->position, point->position);
+        l = real3_unit(way);
+        share = attenuation(light, real3_length(way));
+    }
+    if (light->kind == LIGHT_SPOT) {
+        const Real along = -real3_dot(l, shade->direction);
+        sample.in_cone = along >= shade->cosine_cutoff;
+        share *= real_pow(real_max(along, 0), light->exponent);
+    }
+    const Real n_dot_l = real3_dot(point->normal, l);
+    Real3 highlight = real3_product(real3(light->specular), real3(material->specular));
+    if (real3_largest(highlight) > 0) {
+        const Real3 v =
+            shading->distant_viewer ? shading->view : real3_unit(real3_scale(point->position, -1));
+        const Real cosine = highlight_cosine(shading, point->normal, l, v);
+        highlight = real3_scale(highlight, share * real_pow(cosine, material->shininess));
+    }
+    const Real3 ambient = real3_product(real3(light->ambient), real3(material->ambient));
+    const Real3 diffuse = real3_product(real3(light->diffuse), real3(material->diffuse));
+    sample.ambient = real3_scale(ambient, share);
+    sample.sum = real3_scale(real3_add(ambient, real3_scale(diffuse, real_max(n_dot_l, 0))), share);
+    /* Behind the surface there is no highlight. */
+    sample.faces = n_dot_l > 0;
+    if (sample.faces)
+        sample.sum = real3_add(sample.sum, highlight);
+    sample.highlight = real3_largest(highlight);
+    return sample;
 }
 
-Real3 shade_point(const Shading *shading, const Material *material, Real3 position, Real3 normal,
-                  const struct ShadowPoint *shadows, ShadeSides *sides)
+Real shade_arriving(const LightSample *sample)
 {
-    const Real3 ambient = real3(material->ambient), diffuse = real3(material->diffuse);
-    const Real3 specular = real3(material->specular);
-    const Real3 v = shading->distant_viewer ? shading->view : real3_unit(real3_scale(position, -1));
-    Real3 color =
-        real3_add(real3(material->emission), real3_product(shading->global_ambient, ambient));
+    return sample->in_cone && sample->faces
+               ? real3_largest(real3_subtract(sample->sum, sample->ambient))
+               : 0;
+}
+
+Real3 shade_base(const Shading *shading, const ShadePoint *point)
+{
+    return real3_add(real3(point->material->emission),
+                     real3_product(shading->global_ambient, real3(point->material->ambient)));
+}
+
+void shade_add(const Shading *shading, int number, const LightSample *sample, Real3 *color,
+               ShadeSides *sides)
+{
+    shade_note_side(sides, 2 * number + 1, sample->faces, sample->in_cone ? sample->highlight : 0);
+    if (shading->lights[number].light->kind == LIGHT_SPOT)
+        shade_note_side(sides, 2 * number, sample->in_cone, real3_largest(sample->sum));
+    if (sample->in_cone)
+        *color = real3_add(*color, sample->sum);
+}
+
+Real3 shade_point(const Shading *shading, const ShadePoint *point, ShadeSides *sides)
+{
+    Real3 color = shade_base(shading, point);
     *sides = (ShadeSides){.bits = 0};
     for (int i = 0; i < shading->light_count; i++) {
-        const ShadeLight *shade = &shading->lights[i];
-        const Light *light = shade->light;
-        Real3 l = shade->direction;
-        Real share = 1; /* of the light that arrives */
-        bool in_cone = true;
-        if (light->kind != LIGHT_DIRECTIONAL) {
-            const Real3 way = real3_subtract(shade->position, position);
-            l = real3_unit(way);
-            share = attenuation(light, real3_length(way));
-        }
-        if (light->kind == LIGHT_SPOT) {
-            const Real along = -real3_dot(l, shade->direction);
-            in_cone = along >= shade->cosine_cutoff;
-            share *= real_pow(real_max(along, 0), light->exponent);
-        }
-        const Real n_dot_l = real3_dot(normal, l);
-        Real3 highlight = real3_product(real3(light->specular), specular);
-        if (real3_largest(highlight) > 0)
-            highlight =
-                real3_scale(highlight, share * real_pow(highlight_cosine(shading, normal, l, v),
-                                                        material->shininess));
-        /* Behind the surface there is no highlight. */
-        const bool faces = n_dot_l > 0;
-        Real3 sum = real3_add(
-            real3_product(real3(light->ambient), ambient),
-            real3_scale(real3_product(real3(light->diffuse), diffuse), real_max(n_dot_l, 0)));
-        sum = real3_scale(sum, share);
-        if (faces)
-            sum = real3_add(sum, highlight);
-        if (shadows && light->shadows) {
-            const Real3 kept = real3_scale(real3_product(real3(light->ambient), ambient), share);
-            sum = shadowed(shading, shadows, i, &kept, in_cone, faces, real3_largest(highlight),
-                           sum, sides);
-        } else {
-            shade_note_side(sides, 2 * i + 1, faces, in_cone ? real3_largest(highlight) : 0);
-            if (light->kind == LIGHT_SPOT)
-                shade_note_side(sides, 2 * i, in_cone, real3_largest(sum));
-        }
-        if (in_cone)
-            color = real3_add(color, sum);
+        const LightSample sample = shade_light(shading, point, i);
+        shade_add(shading, i, &sample, &color, sides);
     }
     return color;
 }

@@ -14,10 +14,6 @@
 
 #include <stdint.h>
 
-/* Where shadows are looked for: of reference_shadow.h, which is above this. */
-struct ShadowPoint;
-typedef bool ShadowFalls(const struct ShadowPoint *point, int light);
-
 typedef struct ShadeLight {
     const Light *light;
     Real3 position;     /* point and spot */
@@ -31,8 +27,7 @@ typedef struct Shading {
     Real3 global_ambient;
     bool reflection_phong;
     bool distant_viewer;
-    Real3 view;                /* unit, towards the viewer where that is distant */
-    ShadowFalls *shadow_falls; /* needed where `shadows` of shade_point is not NULL */
+    Real3 view; /* unit, towards the viewer where that is distant */
 } Shading;
 
 /* On which side of its jumps a point lies: of each light whether it is within the cone, and whether
@@ -61,10 +56,34 @@ static inline void shade_note_light(ShadeSides *sides, int number, bool hidden)
     sides->lights |= (hidden ? (uint32_t)1 : (uint32_t)2) << (2 * number & 31);
 }
 
-/* The color of a point whose normal is a unit vector, or zero: then only emission and ambient
- * light count. Not clamped. `shadows`: where shadows are looked for; NULL: nowhere. A light that a
- * shadow keeps off is on the side of those that the point does not face. */
-Real3 shade_point(const Shading *shading, const Material *material, Real3 position, Real3 normal,
-                  const struct ShadowPoint *shadows, ShadeSides *sides);
+/* What is lit: a point of a surface of this material. */
+typedef struct ShadePoint {
+    const Material *material;
+    Real3 position;
+    Real3 normal; /* unit; or zero: then only emission and ambient light count */
+} ShadePoint;
+
+/* What one light would add to a point's color. */
+typedef struct LightSample {
+    Real3 sum;      /* all its terms */
+    Real3 ambient;  /* of that: what a shadow leaves */
+    Real highlight; /* the largest channel, also where the surface faces away */
+    bool in_cone;   /* else nothing is added */
+    bool faces;     /* N.L > 0 */
+} LightSample;
+LightSample shade_light(const Shading *shading, const ShadePoint *point, int number);
+
+/* How much more than its ambient part arrives, if no shadow keeps it off. */
+Real shade_arriving(const LightSample *sample);
+
+/* Emission and global ambient light. */
+Real3 shade_base(const Shading *shading, const ShadePoint *point);
+
+/* The color of a point that no shadow falls on; not clamped. */
+Real3 shade_point(const Shading *shading, const ShadePoint *point, ShadeSides *sides);
+
+/* Adds an unshadowed light's part to a color, and notes its jumps. */
+void shade_add(const Shading *shading, int number, const LightSample *sample, Real3 *color,
+               ShadeSides *sides);
 
 #endif

@@ -180,3 +180,38 @@ bool shadow_falls(const ShadowPoint *point, int light)
             return true;
     return false;
 }
+
+/* At a shadow's edge all that arrives would change; outside the light's cone nothing does, but at
+ * the cone's edge, about which the points inside tell. */
+static void add_shadowed(const ShadowPoint *start, int number, const LightSample *sample,
+                         Real3 *color, ShadeSides *sides)
+{
+    const Real arriving = shade_arriving(sample);
+    const bool hidden = arriving > 0 && shadow_falls(start, number);
+    const Real3 left = hidden ? sample->ambient : sample->sum;
+    const bool in_cone = sample->in_cone;
+    if (arriving > 0)
+        shade_note_light(sides, number, hidden);
+    shade_note_side(sides, 2 * number + 1, in_cone && sample->faces && !hidden,
+                    hidden    ? arriving
+                    : in_cone ? sample->highlight
+                              : 0);
+    shade_note_side(sides, 2 * number, in_cone, in_cone ? real3_largest(left) : 0);
+    if (in_cone)
+        *color = real3_add(*color, left);
+}
+
+Real3 shadow_shade(const Shading *shading, const ShadePoint *point, const ShadowPoint *start,
+                   ShadeSides *sides)
+{
+    Real3 color = shade_base(shading, point);
+    *sides = (ShadeSides){.bits = 0};
+    for (int i = 0; i < shading->light_count; i++) {
+        const LightSample sample = shade_light(shading, point, i);
+        if (shading->lights[i].light->shadows)
+            add_shadowed(start, i, &sample, &color, sides);
+        else
+            shade_add(shading, i, &sample, &color, sides);
+    }
+    return color;
+}

@@ -70,4 +70,9 @@ ShadowPoint shadow_start_triangle(const Shadows *shadows, int object, uint32_t t
 /* Whether light number `light` does not reach the point. */
 bool shadow_falls(const ShadowPoint *point, int light);
 
+/* shade_point of a point where shadows may fall, which begin at `start`. A light that a shadow
+ * keeps off is on the side of those that the point does not face. */
+Real3 shadow_shade(const Shading *shading, const ShadePoint *point, const ShadowPoint *start,
+                   ShadeSides *sides);
+
 #endif

@@ -30,16 +30,22 @@ static void cut_to_nothing(Span *span)
     span->to = -INFINITY;
 }
 
+/* What lies between two parallel planes, and the parts that those are. */
+typedef struct Slab {
+    Real low, high;
+    int at_low, at_high;
+} Slab;
+
 /* Cuts to where low <= origin + t direction <= high in one coordinate. (Kay and Kajiya, Ray Tracing
  * Complex Scenes, SIGGRAPH 1986) */
-static void cut_to_slab(Span *span, Real origin, Real direction, Real low, Real high, int at_low,
-                        int at_high)
+static inline void cut_to_slab(Span *span, Real origin, Real direction, Slab slab)
 {
+    const Real low = slab.low - origin, high = slab.high - origin;
     if (direction > 0)
-        cut(span, (low - origin) / direction, (high - origin) / direction, at_low, at_high);
+        cut(span, low / direction, high / direction, slab.at_low, slab.at_high);
     else if (direction < 0)
-        cut(span, (high - origin) / direction, (low - origin) / direction, at_high, at_low);
-    else if (origin < low || origin > high)
+        cut(span, high / direction, low / direction, slab.at_high, slab.at_low);
+    else if (origin < slab.low || origin > slab.high)
         cut_to_nothing(span);
 }
 
@@ -231,7 +237,7 @@ static int torus_hits(const Solid *solid, Real3 origin, Real3 direction,
 {
     const Real ring = solid->radius, tube = solid->tube;
     Span around = LINE;
-    cut_to_slab(&around, origin.z, direction.z, -tube, tube, PART_SIDE, PART_SIDE);
+    cut_to_slab(&around, origin.z, direction.z, (Slab){-tube, tube, PART_SIDE, PART_SIDE});
     cut_to_sphere(&around, origin, direction, ring + tube);
     if (!(around.from <= around.to))
         return 0;
@@ -265,19 +271,19 @@ static inline Span convex_span(const Solid *solid, Real3 origin, Real3 direction
         cut_to_sphere(&span, origin, direction, radius);
         break;
     case SOLID_BOX: /* front, right, up, left, down, back */
-        cut_to_slab(&span, origin.x, direction.x, -radius, radius, 3, 1);
-        cut_to_slab(&span, origin.y, direction.y, -radius, radius, 4, 2);
-        cut_to_slab(&span, origin.z, direction.z, -radius, radius, 5, 0);
+        cut_to_slab(&span, origin.x, direction.x, (Slab){-radius, radius, 3, 1});
+        cut_to_slab(&span, origin.y, direction.y, (Slab){-radius, radius, 4, 2});
+        cut_to_slab(&span, origin.z, direction.z, (Slab){-radius, radius, 5, 0});
         break;
     case SOLID_CYLINDER:
         cut_to_tube(&span, origin, direction, radius);
-        cut_to_slab(&span, origin.z, direction.z, 0, height,
-                    solid->caps & MESH_CAP_BOTTOM ? PART_BOTTOM : PART_OPEN,
-                    solid->caps & MESH_CAP_TOP ? PART_TOP : PART_OPEN);
+        cut_to_slab(&span, origin.z, direction.z,
+                    (Slab){0, height, solid->caps & MESH_CAP_BOTTOM ? PART_BOTTOM : PART_OPEN,
+                           solid->caps & MESH_CAP_TOP ? PART_TOP : PART_OPEN});
         break;
     case SOLID_CONE:
         cut_to_cone(&span, origin, direction, radius / height, height);
-        cut_to_slab(&span, origin.z, direction.z, 0, INFINITY, PART_BOTTOM, PART_OPEN);
+        cut_to_slab(&span, origin.z, direction.z, (Slab){0, INFINITY, PART_BOTTOM, PART_OPEN});
         break;
     default:
         cut_to_nothing(&span);
@@ -496,7 +502,7 @@ static bool torus_blocks(const Solid *solid, const SolidSegment *segment)
     const Real3 unit = real3_scale(segment->way, 1 / length);
     const Real margin = tube / 1024;
     Span around = LINE;
-    cut_to_slab(&around, segment->from.z, unit.z, -tube, tube, PART_SIDE, PART_SIDE);
+    cut_to_slab(&around, segment->from.z, unit.z, (Slab){-tube, tube, PART_SIDE, PART_SIDE});
     cut_to_sphere(&around, segment->from, unit, ring + tube);
     if (!(around.from <= around.to) || around.to < -margin || around.from > end + margin)
         return false;

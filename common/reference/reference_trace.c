@@ -108,8 +108,8 @@ static bool layers_open(Layers *layers, const Shading *shading, bool apart)
     return true;
 }
 
-static bool fill(Trace *trace, const Scene *scene, Mat4 eye_from_world, bool meshes, int threads,
-                 const atomic_bool *stop)
+static bool fill(Trace *trace, const Scene *scene, Mat4 eye_from_world,
+                 const ReferenceOptions *options)
 {
     trace->lights = calloc((size_t)scene->light_count + 1, sizeof *trace->lights);
     trace->objects = calloc((size_t)scene->object_count + 1, sizeof *trace->objects);
@@ -126,16 +126,16 @@ static bool fill(Trace *trace, const Scene *scene, Mat4 eye_from_world, bool mes
         return false;
     const TraceLayers layers = {trace->layers.layers, trace->layers.count};
     for (int i = 0; i < scene->object_count; i++)
-        if (!trace_object_open(&trace->objects[i], &scene->objects[i], scene, &layers, meshes,
-                               threads, stop))
+        if (!trace_object_open(&trace->objects[i], &scene->objects[i], scene, &layers, options))
             return false;
     return shadows_open(&trace->shadows, trace->objects, scene->object_count, trace->lights,
                         trace->casts ? trace->shading.light_count : 0);
 }
 
-bool trace_open(Trace **opened, const Scene *scene, bool meshes, int width, int height, int threads,
-                const atomic_bool *stop, Message *message)
+bool trace_open(Trace **opened, const Scene *scene, const ReferenceOptions *options,
+                Message *message)
 {
+    const int width = options->width, height = options->height;
     Mat4 eye_from_world, clip_from_eye;
     *opened = NULL;
     if (!scene_camera(&scene->camera, (double)width / height, &eye_from_world, &clip_from_eye,
@@ -145,17 +145,17 @@ bool trace_open(Trace **opened, const Scene *scene, bool meshes, int width, int 
     if (!trace)
         return message_set(message, "reference: not enough memory");
     trace->scene = scene;
-    trace->at_corners = meshes && scene->interpolation != INTERPOLATION_PHONG;
+    trace->at_corners = options->meshes && scene->interpolation != INTERPOLATION_PHONG;
     trace->show_clipped = scene->show_clipped && !(trace->at_corners && scene->clamp_vertex);
     trace->shading.global_ambient = real3(scene->global_ambient);
     trace->shading.reflection_phong = scene->reflection == REFLECTION_PHONG;
     trace->shading.distant_viewer = scene->distant_viewer;
-    trace->shading.shadow_falls = shadow_falls;
     set_camera(trace, &scene->camera, eye_from_world, width, height);
-    if (!fill(trace, scene, eye_from_world, meshes, threads, stop)) {
+    if (!fill(trace, scene, eye_from_world, options)) {
         trace_close(trace);
         return message_set(message, "reference: %s",
-                           stop_asked(stop) ? "stopped" : "not enough memory for the scene");
+                           stop_asked(options->stop) ? "stopped"
+                                                     : "not enough memory for the scene");
     }
     *opened = trace;
     return true;
@@ -384,12 +384,14 @@ void trace_sample(const Trace *trace, double x, double y, Sample *sample)
     if (!ready->exact && ready->mesh->colors)
         material.ambient = material.diffuse =
             real3_round(vertex_color(ready->mesh, surface.indices, nearest.triangle.weights));
-    const Real3 normal = real3_scale(surface.normal, reversed ? -1 : 1);
-    ShadowPoint point;
-    if (trace->casts)
-        point = shadow_start(trace, &nearest, &surface, normal);
-    const Real3 color = shade_point(&trace->shading, &material, position, normal,
-                                    trace->casts ? &point : NULL, &sides);
+    const ShadePoint point = {&material, position, real3_scale(surface.normal, reversed ? -1 : 1)};
+    Real3 color;
+    if (trace->casts) {
+        const ShadowPoint start = shadow_start(trace, &nearest, &surface, point.normal);
+        color = shadow_shade(&trace->shading, &point, &start, &sides);
+    } else {
+        color = shade_point(&trace->shading, &point, &sides);
+    }
     sample->sides = sides.bits;
     sample->sides_matter = sides.matters;
     sample->lights = sides.lights;
@@ -401,13 +403,12 @@ bool trace_casts(const Trace *trace)
     return trace->casts;
 }
 
-uint32_t trace_pixel_lights(const Sample *top, const Sample *middle, const Sample *bottom)
+uint32_t trace_pixel_lights(const Sample *const rows[3])
 {
-    const Sample *const rows[] = {top, middle, bottom};
     uint32_t lights = 0;
     for (int row = 0; row < 3; row++)
         for (int i = 0; i < 3; i++)
-            lights |= rows[row][i].object == middle[1].object ? rows[row][i].lights : 0;
+            lights |= rows[row][i].object == rows[1][1].object ? rows[row][i].lights : 0;
     return lights;
 }
 

@@ -7,7 +7,7 @@
 #ifndef REFERENCE_TRACE_H
 #define REFERENCE_TRACE_H
 
-#include "base/stop.h"
+#include "reference/reference.h"
 #include "reference/reference_real.h"
 #include "scene/scene.h"
 
@@ -15,11 +15,10 @@
 
 typedef struct Trace Trace;
 
-/* Prepares a scene that has passed scene_check, for a picture of so many pixels, with so many
- * threads; `meshes` as in ReferenceOptions, as is `stop`. A trace may be used by several threads.
- */
-bool trace_open(Trace **trace, const Scene *scene, bool meshes, int width, int height, int threads,
-                const atomic_bool *stop, Message *message);
+/* Prepares a scene that has passed scene_check. Of the options are used: the picture's size,
+ * `meshes`, `threads` (at least 1) and `stop`. A trace may be used by several threads. */
+bool trace_open(Trace **trace, const Scene *scene, const ReferenceOptions *options,
+                Message *message);
 void trace_close(Trace *trace); /* NULL is fine */
 
 /* What is seen at one point. Space: the axes are the world's, the origin is the eye. */
@@ -45,7 +44,7 @@ bool trace_casts(const Trace *trace);
 
 /* Sample.lights of the nine samples of a pixel, three of each row of its grid, together: of those
  * on the object at its center. */
-uint32_t trace_pixel_lights(const Sample *top, const Sample *middle, const Sample *bottom);
+uint32_t trace_pixel_lights(const Sample *const rows[3]);
 
 /* Whether two samples agree in whatever is discrete: object, face, front or back, and the sides of
  * the jumps of light. */

@@ -103,7 +103,7 @@ static bool measure(const Way *naive, const Way *stable, HardResult *result, Mes
 static HardError error_of(const Image *image, const Reference *exact, const Scene *scene)
 {
     PictureError error = {.all = {0}};
-    picture_error_add(&error, image, 0, 0, exact, NULL, scene);
+    picture_error_add(&error, image, &(ExactView){.exact = exact, .scene = scene});
     const ErrorSum *inside = &error.interior;
     return (HardError){
         .maximum = inside->maximum,

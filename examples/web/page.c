@@ -503,10 +503,14 @@ static bool compute(const ErrorPicture *drawn, PictureError *error, Image *map, 
             reference_close(&exact);
             return false;
         }
-        picture_error_add(error, &drawn->image, view->place[0], view->place[1], &exact,
-                          meshes.lights ? &meshes : NULL, &view->scene.scene);
+        const ExactView part = {.exact = &exact,
+                                .scene = &view->scene.scene,
+                                .drawn = meshes.lights ? &meshes : NULL,
+                                .left = view->place[0],
+                                .top = view->place[1]};
+        picture_error_add(error, &drawn->image, &part);
         reference_close(&meshes);
-        picture_error_map(map, &drawn->image, view->place[0], view->place[1], &exact);
+        picture_error_map(map, &drawn->image, &part);
         *hash = add_hash(*hash, exact.color, 3 * (size_t)exact.width * (size_t)exact.height);
         reference_close(&exact);
     }

@@ -117,7 +117,12 @@ static PictureError expect(const Example *example, const Options *options,
             drawn.interpolation = INTERPOLATION_PHONG;
             require(reference_open(&meshes, &drawn, &size, FAILURE), FAILURE);
         }
-        picture_error_add(&error, image, left, top, &exact, exact.lights ? &meshes : NULL, &scene);
+        picture_error_add(&error, image,
+                          &(ExactView){.exact = &exact,
+                                       .scene = &scene,
+                                       .drawn = exact.lights ? &meshes : NULL,
+                                       .left = left,
+                                       .top = top});
         reference_close(&exact);
         reference_close(&meshes);
         seen++;

@@ -244,7 +244,11 @@ static double compare_centres(HardPrecision precision, double margin, const Refe
     Vec3 axis;
     const Light *light = &world.lights[0];
     assert_int_equal(hard_draw(&hard, &world.scene, precision, unused).not_finite, 0);
-    require(trace_open(&trace, &world.scene, true, SIZE, SIZE, 1, NULL, FAILURE), FAILURE);
+    require(
+        trace_open(&trace, &world.scene,
+                   &(ReferenceOptions){.width = SIZE, .height = SIZE, .meshes = true, .threads = 1},
+                   FAILURE),
+        FAILURE);
     vec3_normalize(light->direction, &axis);
     for (int i = 0; i < SIZE * SIZE; i++) {
         Sample sample;

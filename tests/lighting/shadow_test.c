@@ -70,7 +70,7 @@ static bool check_wrong(const char *name, const Scene *scene, long long most)
     PictureError error = {.all = {0}};
     draw(scene, false);
     SUCCEEDS(reference_open(&exact, scene, &options, message));
-    picture_error_add(&error, &image, 0, 0, &exact, NULL, scene);
+    picture_error_add(&error, &image, &(ExactView){.exact = &exact, .scene = scene});
     const bool right = error.interior.pixels > 100 && error.interior.wrong <= most &&
                        (most > 0 || error.interior.maximum <= MOST);
     print_message("%-40s %6lld pixels inside, largest error %.3f, %lld wrong\n", name,
@@ -854,7 +854,7 @@ static long long count_wrong(const char *name, const Reference *exact)
 {
     PictureError error = {.all = {0}};
     draw(&world.scene, false);
-    picture_error_add(&error, &image, 0, 0, exact, NULL, &world.scene);
+    picture_error_add(&error, &image, &(ExactView){.exact = exact, .scene = &world.scene});
     print_message("%-40s %6lld wrong, by up to %.1f\n", name, error.interior.wrong,
                   error.interior.maximum);
     return error.interior.wrong;

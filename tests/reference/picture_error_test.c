@@ -69,7 +69,7 @@ static void put_float(Image *image, int x, int y, int channel, double value)
 static PictureError compare(const Image *image, const Plain *plain)
 {
     PictureError error = {.all = {0}};
-    picture_error_add(&error, image, 0, 0, &plain->exact, NULL, &plain->scene);
+    picture_error_add(&error, image, &(ExactView){.exact = &plain->exact, .scene = &plain->scene});
     return error;
 }
 
@@ -91,7 +91,7 @@ TEST(a_map_has_a_color_for_each_error)
     Image map = open_image(WIDTH + 1, HEIGHT + 2, IMAGE_BYTE, 1);
     for (int i = 0; i < 7; i++)
         put_float(&image, 1 + i, 2, 1, cases[i].value / 255);
-    picture_error_map(&map, &image, 1, 2, &plain.exact);
+    picture_error_map(&map, &image, &(ExactView){.exact = &plain.exact, .left = 1, .top = 2});
     const unsigned char *pixels = map.pixels;
     for (int i = 0; i < 7; i++)
         for (int c = 0; c < 3; c++)
@@ -254,7 +254,10 @@ TEST(views_add_up_to_the_picture)
                 memcpy(&part.color[3 * i], &whole.color[3 * from], 3 * sizeof(float));
                 part.interior[i] = whole.interior[from];
             }
-            picture_error_add(&error, &image, place[0], place[1], &part.exact, NULL, &part.scene);
+            picture_error_add(
+                &error, &image,
+                &(ExactView){
+                    .exact = &part.exact, .scene = &part.scene, .left = place[0], .top = place[1]});
         }
         const ErrorSum *sums[2][2] = {{&error.interior, &expected.interior},
                                       {&error.all, &expected.all}};

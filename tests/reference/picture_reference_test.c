@@ -38,7 +38,7 @@ static bool check(const char *name, const Image *image, const Reference *exact, 
 {
     const size_t count = (size_t)image->width * (size_t)image->height;
     PictureError error = {.all = {0}};
-    picture_error_add(&error, image, 0, 0, exact, NULL, scene);
+    picture_error_add(&error, image, &(ExactView){.exact = exact, .scene = scene});
     const ErrorSum *inside = &error.interior;
     print_message("%-40s %6lld pixels inside, largest error %.3f\n", name, inside->pixels,
                   inside->maximum);

@@ -11,8 +11,8 @@
 #include <stdlib.h>
 
 /* The names of reference_trace.h if REFERENCE_QUAD is defined. */
-bool quad_trace_open(Trace **trace, const Scene *scene, bool meshes, int width, int height,
-                     int threads, const atomic_bool *stop, Message *message);
+bool quad_trace_open(Trace **trace, const Scene *scene, const ReferenceOptions *options,
+                     Message *message);
 void quad_trace_sample(const Trace *trace, double x, double y, Sample *sample);
 void quad_trace_close(Trace *trace);
 
@@ -85,9 +85,11 @@ typedef struct Error {
 
 static void compare(const World *world, bool meshes, Error *error)
 {
+    const ReferenceOptions options = {
+        .width = SIZE, .height = SIZE, .meshes = meshes, .threads = 1};
     Trace *trace, *quad;
-    assert_true(trace_open(&trace, &world->scene, meshes, SIZE, SIZE, 1, NULL, NULL));
-    assert_true(quad_trace_open(&quad, &world->scene, meshes, SIZE, SIZE, 1, NULL, NULL));
+    assert_true(trace_open(&trace, &world->scene, &options, NULL));
+    assert_true(quad_trace_open(&quad, &world->scene, &options, NULL));
     for (int i = 0; i < POINTS; i++) {
         const double x = uniform(0, SIZE), y = uniform(0, SIZE);
         Sample sample, exact;

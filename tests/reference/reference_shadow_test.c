@@ -347,7 +347,11 @@ static void sample_points(bool meshes, bool shadows, Sample samples[POINTS])
     Random random = {1};
     Trace *rays;
     let_shadow(shadows);
-    require(trace_open(&rays, &world.scene, meshes, SIZE, SIZE, 1, NULL, FAILURE), FAILURE);
+    require(trace_open(
+                &rays, &world.scene,
+                &(ReferenceOptions){.width = SIZE, .height = SIZE, .meshes = meshes, .threads = 1},
+                FAILURE),
+            FAILURE);
     let_shadow(true);
     for (int i = 0; i < POINTS; i++) {
         const double x = random_between(&random, 0, SIZE), y = random_between(&random, 0, SIZE);
@@ -820,7 +824,9 @@ TEST_WITH(0, edges_of_shadows_are_the_means_of_their_pixels, set_up, tear_down)
     Random random = {testing_seed(37)};
     open_group(&random, 2);
     const Reference picture = trace((ReferenceOptions){0});
-    require(trace_open(&rays, &world.scene, false, SIZE, SIZE, 1, NULL, FAILURE), FAILURE);
+    require(trace_open(&rays, &world.scene,
+                       &(ReferenceOptions){.width = SIZE, .height = SIZE, .threads = 1}, FAILURE),
+            FAILURE);
     for (int i = 0; i < PIXELS; i++) {
         double sums[3] = {0, 0, 0};
         if (picture.interior[i] || picture.object[i] != 0 || i % 7 != 0)
@@ -882,8 +888,9 @@ TEST_WITH(0, between_the_shadows_of_a_solid_and_its_mesh_is_an_edge, set_up, tea
         on_wall += exact.interior[i] && exact.object[i] == 0 && meshes.object[i] == 0 &&
                    reference_lights_differ(exact.lights[i], meshes.lights[i]);
     }
-    picture_error_add(&without, &image, 0, 0, &exact, NULL, &world.scene);
-    picture_error_add(&with, &image, 0, 0, &exact, &meshes, &world.scene);
+    picture_error_add(&without, &image, &(ExactView){.exact = &exact, .scene = &world.scene});
+    picture_error_add(&with, &image,
+                      &(ExactView){.exact = &exact, .scene = &world.scene, .drawn = &meshes});
     image_close(&image);
     assert_true(on_wall > 5);
     assert_int_equal(with.interior.pixels + on_wall, without.interior.pixels);

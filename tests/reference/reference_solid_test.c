@@ -140,8 +140,9 @@ TEST(what_misses_the_ball_of_an_object_misses_the_object)
         for (int k = 0; k < 15; k++)
             object.world_from_object.m[k] = k % 4 == 3 ? 0 : uniform(-2, 2);
         object.world_from_object.m[15] = 1;
-        assert_true(trace_object_open(&ready, &object, &scene, NULL, false, 1, NULL) &&
-                    ready.exact);
+        assert_true(
+            trace_object_open(&ready, &object, &scene, NULL, &(ReferenceOptions){.threads = 1}) &&
+            ready.exact);
         const Real3 from = real3_add(ready.offset, vector(-6, 6));
         const Real3 to = trace_object_place(&ready, vector(-1, 1));
         const Real3 way = real3_scale(real3_subtract(to, from), uniform(-1, 2));
@@ -389,7 +390,7 @@ static Real3 shade(Light light, const Material *material, bool phong, Real3 norm
                              .global_ambient = {0.5, 0.5, 0.5},
                              .reflection_phong = phong};
     ShadeSides sides;
-    return shade_point(&shading, material, (Real3){0, 0, -4}, normal, NULL, &sides);
+    return shade_point(&shading, &(ShadePoint){material, {0, 0, -4}, normal}, &sides);
 }
 
 static void assert_color(Real3 color, double red, double green, double blue)

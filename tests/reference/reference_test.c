@@ -669,7 +669,8 @@ TEST_WITH(0, edges_are_the_means_of_their_pixels, set_up, tear_down)
     Trace *rays;
     open_edge_scene();
     Reference picture = trace((ReferenceOptions){0});
-    assert_true(trace_open(&rays, &world.scene, false, SIZE, SIZE, 1, NULL, NULL));
+    assert_true(trace_open(&rays, &world.scene,
+                           &(ReferenceOptions){.width = SIZE, .height = SIZE, .threads = 1}, NULL));
     for (size_t i = 0; i < pixel_count(&picture); i++) {
         double sums[3] = {0, 0, 0};
         const bool mixed = picture.object[i] < 0 ? picture.coverage[i] < 1 : !picture.interior[i];

@@ -39,7 +39,7 @@ static double error_in_picture(const Canvas *canvas, Lighting *lighting, const S
     canvas_clear(canvas, scene->background, 0);
     require(lighting_draw(lighting, scene, (double)width / height, false, FAILURE), FAILURE);
     require(canvas_read(canvas, image, FAILURE), FAILURE);
-    picture_error_add(&error, image, 0, 0, exact, NULL, scene);
+    picture_error_add(&error, image, &(ExactView){.exact = exact, .scene = scene});
     return error.interior.maximum;
 }
 

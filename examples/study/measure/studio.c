@@ -197,7 +197,8 @@ bool drawing_empty(Drawing *drawing, Studio *studio, double *wall, Message *mess
 DrawingError drawing_error(const Drawing *drawing, const Reference *exact)
 {
     PictureError found = {.all = {0}};
-    picture_error_add(&found, &drawing->image, 0, 0, exact, NULL, &drawing->made.scene);
+    picture_error_add(&found, &drawing->image,
+                      &(ExactView){.exact = exact, .scene = &drawing->made.scene});
     return (DrawingError){.interior_rms = error_sum_rms(&found.interior),
                           .interior_maximum = found.interior.pixels ? found.interior.maximum : NAN,
                           .all_rms = error_sum_rms(&found.all),

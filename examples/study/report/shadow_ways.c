@@ -189,7 +189,8 @@ static bool measure_way(Survey *survey, Subject *subject, const ShadowSettings *
     lighting_use_shadows(drawing->lighting, settings);
     if (!drawing_frame(&subject->with, survey->studio, &wall, &gpu, message))
         return false;
-    picture_error_add(&error, &drawing->image, 0, 0, exact, NULL, &drawing->made.scene);
+    picture_error_add(&error, &drawing->image,
+                      &(ExactView){.exact = exact, .scene = &drawing->made.scene});
     for (size_t i = 0; i < (size_t)exact->width * (size_t)exact->height; i++)
         if (subject->near[i])
             error_sum_add(&near, pixel_error(&drawing->image, i, &exact->color[3 * i]), i);
