@@ -1,3 +1,8 @@
+/*
+ * Threads take bands of rows in turn, so that none waits for another's harder rows. A band samples
+ * the corners, sides and centers of its pixels row by row; those on the border of two bands are
+ * sampled twice, and are the same. So the picture does not depend on the number of threads.
+ */
 #include "reference/reference.h"
 
 #include "reference/reference_pixel.h"
@@ -7,8 +12,6 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-/* Threads take bands of rows in turn. A band samples the corners, sides and centers of its pixels
- * row by row; those on the border of two bands are sampled twice, and are the same. */
 enum { BAND = 8, MAX_THREADS = 256 };
 static const double EDGE_ERROR = 0.5;
 

@@ -1,3 +1,9 @@
+/*
+ * Everything that is the same for all rays is computed once: for a solid the inverse of its matrix,
+ * the eye in its coordinates and a ball around it; for a mesh its vertices and normals as seen from
+ * the eye, a hierarchy of its triangles, and the colors of its corners where light is computed
+ * there. A solid whose matrix is singular has no inverse: it is its mesh.
+ */
 #include "reference/reference_object.h"
 
 #include "shapes/mesh_solids.h"

@@ -1,3 +1,17 @@
+/*
+ * A pixel that its nine samples do not show to be smooth is divided into four squares. An edge that
+ * cuts a square in two is located on the square's sides by bisection and assumed to be straight
+ * between them, which is checked at its midpoint; the two parts count with their areas and the
+ * colors at their centers. If that fails, the square is divided further, until it is too small to
+ * matter. So an edge costs a few samples for each pixel that it crosses, at any precision, where a
+ * grid of samples would cost the square of the precision.
+ *
+ * With E = edge_error / 255 and D the difference of the colors that meet (1 between objects,
+ * because of coverage): an edge is at most sqrt(2) long in a pixel. Displaced by T it adds sqrt(2)
+ * T D at most; T = E / 2 D leaves E / sqrt(2). A square of side h that is not resolved is its
+ * samples' mean; an edge parallel to its sides crosses 1 / h such squares, each with an error of a
+ * quarter of its area at most: D h / 4, so that squares with D h <= 4 E are not divided.
+ */
 #include "reference/reference_pixel.h"
 
 #include <math.h>

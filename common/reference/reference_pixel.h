@@ -2,16 +2,8 @@
  * reference_pixel: a pixel from samples, by adaptive subdivision.
  *
  * A pixel whose nine samples (corners, midpoints of its sides, center) agree is smooth, and has the
- * color of its center. Any other is divided into squares. An edge that cuts a square in two is
- * located on the square's sides by bisection and assumed to be straight between them, which is
- * checked at its midpoint; the two parts count with their areas and the colors at their centers. If
- * that fails, the square is divided further, until it is too small to matter:
- *
- *   with E = edge_error / 255 and D the difference of the colors that meet (1 between objects,
- * because of coverage): an edge is at most sqrt(2) long in a pixel. Displaced by T it adds
- *   sqrt(2) T D at most; T = E / 2 D leaves E / sqrt(2). A square of side h that is not resolved is
- *   its samples' mean; an edge parallel to its sides crosses 1 / h such squares, each with an error
- *   of a quarter of its area at most: D h / 4, so that squares with D h <= 4 E are not divided.
+ * color of its center. Any other is the mean over its area, with an error of at most edge_error
+ * where edges are straight; see reference_pixel.c.
  *
  * The nine samples may miss a part of another surface that enters and leaves through the same half
  * of a side, or stays within one quarter: at a circle of R pixels at most 1 / (96 R) of the pixel,

@@ -36,6 +36,8 @@ typedef __float128 Real;
 #define shade_arriving quad_shade_arriving
 #define shade_base quad_shade_base
 #define shade_add quad_shade_add
+#define polynomial_roots quad_polynomial_roots
+#define bounds_build quad_bounds_build
 #define triangles_open quad_triangles_open
 #define triangles_ray quad_triangles_ray
 #define triangles_block quad_triangles_block

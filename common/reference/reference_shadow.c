@@ -1,3 +1,5 @@
+/* The rules are told in reference_shadow.h; here they are bounds of errors, in the coordinates of
+ * the object that is asked. */
 #include "reference/reference_shadow.h"
 
 #include "reference/reference_solid.h"

@@ -1,5 +1,19 @@
+/*
+ * Of a convex solid a line cuts out a span: what lies between the two roots of a quadratic equation
+ * (sphere, cylinder, cone), or between two planes, or in all such spans together (a box, a capped
+ * cylinder). Its ends, with the parts that they lie on, are where the line meets the solid.
+ *
+ * Digits are kept by counting from the point of the line that is nearest to the solid's middle, or
+ * to its axis or apex: there nothing cancels, however far away the origin is. A torus is a quartic,
+ * of which polynomial_roots finds the roots, and Newton's steps on the distance from the ring
+ * polish them.
+ *
+ * For shadows a segment often begins on the solid itself, and one root is then 0 but for rounding.
+ * It is not computed but known: who knows which part the point lies on leaves that root out.
+ */
 #include "reference/reference_solid.h"
 
+#include "reference/reference_roots.h"
 #include "shapes/mesh_solids.h"
 
 /* What of a line lies within a convex solid, and through which parts it comes in and goes out. */
@@ -158,62 +172,6 @@ static int plane_hits(const Solid *solid, Real3 origin, Real3 direction,
  * Introduction to Ray Tracing, 1989, chapter 2) With s counted in lengths from the point of the
  * line nearest to the center, |p|^2 = |foot|^2 + s^2, and there is no cubic term. */
 
-typedef struct Quartic {
-    Real c[5]; /* c[i] s^i */
-} Quartic;
-
-static Real evaluate(const Real *c, int degree, Real s)
-{
-    Real sum = c[degree];
-    for (int i = degree - 1; i >= 0; i--)
-        sum = sum * s + c[i];
-    return sum;
-}
-
-/* The root of a polynomial that is monotonic between low and high, where its signs differ: Newton's
- * steps, or halves where those leave the bracket. (Numerical Recipes in C, section 9.4) */
-static Real bracketed_root(const Real *c, int degree, Real low, Real high)
-{
-    Real slope[4];
-    for (int i = 0; i < degree; i++)
-        slope[i] = c[i + 1] * (i + 1);
-    const bool rising = evaluate(c, degree, high) > 0;
-    Real s = (low + high) / 2;
-    for (int i = 0; i < 200; i++) {
-        const Real value = evaluate(c, degree, s);
-        if (value == 0)
-            break;
-        *((value > 0) == rising ? &high : &low) = s;
-        const Real gradient = evaluate(slope, degree - 1, s);
-        Real next = gradient != 0 ? s - value / gradient : low;
-        if (!(next > low && next < high))
-            next = (low + high) / 2;
-        if (real_abs(next - s) <= 2 * REAL_EPSILON * real_max(real_abs(low), real_abs(high)))
-            break;
-        s = next;
-    }
-    return s;
-}
-
-/* All roots between low and high in their order. Between the roots of its derivative a polynomial
- * is monotonic. */
-static int roots_between(const Real *c, int degree, Real low, Real high, Real *roots)
-{
-    Real slope[4], turns[6];
-    int count = 0, turn_count = 0;
-    if (degree == 0)
-        return 0;
-    for (int i = 0; i < degree; i++)
-        slope[i] = c[i + 1] * (i + 1);
-    turns[0] = low;
-    turn_count = 1 + roots_between(slope, degree - 1, low, high, turns + 1);
-    turns[turn_count] = high;
-    for (int i = 0; i < turn_count; i++)
-        if ((evaluate(c, degree, turns[i]) > 0) != (evaluate(c, degree, turns[i + 1]) > 0))
-            roots[count++] = bracketed_root(c, degree, turns[i], turns[i + 1]);
-    return count;
-}
-
 /* Near the surface of a thin tube the quartic is a small difference of large numbers; the distance
  * from the ring is not. Newton's step on (distance^2 - tube^2). */
 static Real polish(Real ring, Real tube, Real3 foot, Real3 unit, Real s)
@@ -253,8 +211,8 @@ static int torus_hits(const Solid *solid, Real3 origin, Real3 direction,
     /* A little more, because the ends of the bracket may touch the surface. */
     const Real margin = tube / 1024;
     Real roots[SOLID_MAX_HITS];
-    const int count = roots_between(c, 4, (around.from - nearest) * length - margin,
-                                    (around.to - nearest) * length + margin, roots);
+    const int count = polynomial_roots(c, 4, (around.from - nearest) * length - margin,
+                                       (around.to - nearest) * length + margin, roots);
     for (int i = 0; i < count; i++)
         hits[i] =
             (SolidHit){nearest + polish(ring, tube, foot, unit, roots[i]) / length, PART_SIDE};
@@ -512,7 +470,7 @@ static bool torus_blocks(const Solid *solid, const SolidSegment *segment)
     if (touched) {
         Real c[4];
         other_roots(solid, segment->from, unit, c);
-        count = roots_between(c, 3, 0, around.to + margin, roots);
+        count = polynomial_roots(c, 3, 0, around.to + margin, roots);
     } else {
         SolidHit hits[SOLID_MAX_HITS];
         count = torus_hits(solid, segment->from, unit, hits);

@@ -1,3 +1,17 @@
+/*
+ * A ray meets every object, solids in their own coordinates, triangles in the world's, and the
+ * smallest parameter wins: it is the depth, since a ray's direction has depth 1. The eye is the
+ * origin, and what is far from the world's origin loses no digits.
+ *
+ * A sample keeps more than its color: which smooth surface was seen, from which side, and on which
+ * side of each jump of the light the point lies. Samples that agree in all of that, have like
+ * colors, and lie in each other's tangent planes are taken for one smooth surface; whether a pixel
+ * has an edge is decided by nothing else.
+ *
+ * Light that is computed at the corners of triangles is computed there once, when the trace is
+ * opened. With shadows the lights that cast them are kept apart, in layers: at each point the
+ * layers whose lights reach it are added and interpolated.
+ */
 #include "reference/reference_trace.h"
 
 #include "reference/reference_shadow.h"

@@ -1,3 +1,14 @@
+/*
+ * A ray from the eye is inside a triangle if it lies on one side of the three planes through the
+ * eye and an edge. Neighbours compute the plane of their common edge from the same numbers, but for
+ * its sign, so no ray slips between them; a segment to a light does the same with the planes
+ * through its beginning. Which triangles are asked a hierarchy of boxes tells (reference_bounds.h):
+ * some 30 of 262,000.
+ *
+ * Which triangles hang together is found by union and find over equal vertices: equal in position,
+ * by a hash table, and in the normal but for rounding. The boxes and the pieces are found at the
+ * same time by two threads.
+ */
 #include "reference/reference_triangles.h"
 
 #include <pthread.h>
@@ -94,268 +105,6 @@ static void unite(uint32_t *parents, uint32_t a, uint32_t b)
     parents[a > b ? a : b] = a > b ? b : a;
 }
 
-/* Boxes. By the surface area heuristic, estimated in bins. (Wald, On fast Construction of SAH-based
- * Bounding Volume Hierarchies, IEEE Symposium on Interactive Ray Tracing, 2007) */
-
-enum { BINS = 16, LEAF = 4, SAH_DEPTH = 40 };
-
-/* Below that depth parts are halves: no path is longer than 72 cuts, two in a node, of which three
- * children wait. */
-enum { BOUNDS_STACK = 128 };
-
-typedef struct Box {
-    Real low[3], high[3];
-} Box;
-
-/* A triangle while the hierarchy is built: moved as a whole, so that memory is read in order. */
-typedef struct Item {
-    Box box;
-    uint32_t number; /* in the mesh */
-    int bin;
-} Item;
-
-static Box empty_box(void)
-{
-    return (Box){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-}
-
-static void extend(Box *box, const Real low[3], const Real high[3])
-{
-    for (int k = 0; k < 3; k++) {
-        box->low[k] = real_min(box->low[k], low[k]);
-        box->high[k] = real_max(box->high[k], high[k]);
-    }
-}
-
-static Real half_area(const Box *box)
-{
-    const Real x = box->high[0] - box->low[0], y = box->high[1] - box->low[1];
-    const Real z = box->high[2] - box->low[2];
-    return x >= 0 ? x * y + y * z + z * x : 0;
-}
-
-/* Items, and what contains them and their centers. */
-typedef struct Part {
-    Box box, centers;
-    uint32_t count;
-} Part;
-
-static Part no_part(void)
-{
-    return (Part){empty_box(), empty_box(), 0};
-}
-
-static inline void add_item(Part *part, const Item *item)
-{
-    Real center[3];
-    for (int k = 0; k < 3; k++)
-        center[k] = (item->box.low[k] + item->box.high[k]) / 2;
-    extend(&part->box, item->box.low, item->box.high);
-    extend(&part->centers, center, center);
-    part->count++;
-}
-
-static void add_part(Part *part, const Part *other)
-{
-    extend(&part->box, other->box.low, other->box.high);
-    extend(&part->centers, other->centers.low, other->centers.high);
-    part->count += other->count;
-}
-
-static int bin_of(const Item *item, const Box *centers, int axis)
-{
-    const Real low = centers->low[axis], high = centers->high[axis];
-    const Real center = (item->box.low[axis] + item->box.high[axis]) / 2;
-    /* No number, or infinite, where the box is too small or too large to be divided. */
-    const Real share = (center - low) / (high - low);
-    const int bin = share > 0 ? (int)(BINS * (share < 1 ? share : 1)) : 0;
-    return bin < BINS ? bin : BINS - 1;
-}
-
-/* The cut between two bins that costs least, and the parts on its sides; 0 where nothing separates
- * the items. */
-static int best_cut(const Part bins[BINS], Part parts[2])
-{
-    Real right[BINS + 1], best = INFINITY;
-    Part part = no_part();
-    int cut = 0;
-    for (int i = BINS - 1; i > 0; i--) {
-        if (bins[i].count > 0)
-            add_part(&part, &bins[i]);
-        right[i] = half_area(&part.box) * part.count;
-    }
-    const uint32_t count = part.count + bins[0].count;
-    part = no_part();
-    for (int i = 1; i < BINS; i++) {
-        if (bins[i - 1].count == 0)
-            continue; /* the same as one bin before */
-        add_part(&part, &bins[i - 1]);
-        const Real cost = half_area(&part.box) * part.count + right[i];
-        if (part.count < count && cost < best) {
-            best = cost;
-            cut = i;
-            parts[0] = part;
-        }
-    }
-    parts[1] = no_part();
-    for (int i = cut; i < BINS; i++)
-        if (bins[i].count > 0)
-            add_part(&parts[1], &bins[i]);
-    return cut;
-}
-
-static void halve(const Item *items, const Part *whole, Part parts[2])
-{
-    parts[0] = parts[1] = no_part();
-    for (uint32_t i = 0; i < whole->count; i++)
-        add_item(&parts[i >= whole->count / 2], &items[i]);
-}
-
-/* Parts items in two, and puts those of the first part first. */
-static void separate(Item *items, const Part *whole, int depth, Part parts[2])
-{
-    const Box *centers = &whole->centers;
-    Part bins[BINS];
-    int axis = 0, cut = 0;
-    for (int k = 1; k < 3; k++)
-        if (centers->high[k] - centers->low[k] > centers->high[axis] - centers->low[axis])
-            axis = k;
-    /* Items in one place, or a chain of lopsided cuts: any halves. */
-    if (depth > SAH_DEPTH || !(centers->high[axis] > centers->low[axis])) {
-        halve(items, whole, parts);
-        return;
-    }
-    for (int i = 0; i < BINS; i++)
-        bins[i].count = 0;
-    for (uint32_t i = 0; i < whole->count; i++) {
-        items[i].bin = bin_of(&items[i], centers, axis);
-        Part *bin = &bins[items[i].bin];
-        if (bin->count == 0)
-            *bin = no_part();
-        add_item(bin, &items[i]);
-    }
-    cut = best_cut(bins, parts);
-    if (cut == 0) {
-        halve(items, whole, parts);
-        return;
-    }
-    for (uint32_t i = 0, below = 0; below < parts[0].count; i++) {
-        if (items[i].bin < cut) {
-            const Item item = items[i];
-            items[i] = items[below];
-            items[below++] = item;
-        }
-    }
-}
-
-static void put_box(BoundsNode *node, int child, const Box *box)
-{
-    for (int k = 0; k < 3; k++) {
-        node->sides[0][k][child] = box->low[k];
-        node->sides[1][k][child] = box->high[k];
-    }
-}
-
-/* A node to be made of the items from number `first` on, with nodes below it from number `next` on;
- * there are fewer than items. */
-typedef struct Branch {
-    BoundsNode *nodes;
-    Item *items;
-    uint32_t number, next, first;
-    Part part;
-    int depth, threads;
-    const atomic_bool *stop;
-    pthread_t thread;
-} Branch;
-
-/* The node's children: halves of halves, as long as they are no leaves. */
-static void divide(const Branch *branch, Part parts[BOUNDS_WIDTH])
-{
-    int count = 1;
-    parts[0] = branch->part;
-    for (int level = 0; level < 2; level++) {
-        Part halves[BOUNDS_WIDTH];
-        Item *items = branch->items + branch->first;
-        int made = 0;
-        for (int i = 0; i < count; i++) {
-            if (parts[i].count > LEAF) {
-                separate(items, &parts[i], branch->depth + level, &halves[made]);
-                made += 2;
-            } else {
-                halves[made++] = parts[i];
-            }
-            items += parts[i].count;
-        }
-        count = made;
-        memcpy(parts, halves, (size_t)made * sizeof parts[0]);
-    }
-    while (count < BOUNDS_WIDTH)
-        parts[count++] = no_part();
-}
-
-static void *build(void *argument)
-{
-    Branch *branch = argument, below[BOUNDS_WIDTH];
-    BoundsNode *node = &branch->nodes[branch->number];
-    const bool parallel = branch->threads > 1 && branch->part.count > STRIDE;
-    uint32_t first = branch->first;
-    int count = 0, running = 1;
-    Part parts[BOUNDS_WIDTH];
-    divide(branch, parts);
-    for (int i = 0; i < BOUNDS_WIDTH; first += parts[i++].count) {
-        put_box(node, i, &parts[i].box);
-        node->children[i] = (BoundsChild){first, parts[i].count};
-        if (parts[i].count <= LEAF || stop_asked(branch->stop))
-            continue;
-        Branch *child = &below[count++];
-        *child = *branch;
-        child->number = branch->next;
-        child->next = branch->next + 1;
-        child->first = first;
-        child->part = parts[i];
-        child->depth = branch->depth + 2;
-        child->threads = (branch->threads + BOUNDS_WIDTH - 1) / BOUNDS_WIDTH;
-        node->children[i] = (BoundsChild){child->number, 0};
-        if (parallel) {
-            branch->next += parts[i].count - 1;
-        } else {
-            build(child);
-            branch->next = child->next;
-        }
-    }
-    while (parallel && running < count &&
-           pthread_create(&below[running].thread, NULL, build, &below[running]) == 0)
-        running++;
-    for (int i = 0; parallel && i < count; i++)
-        if (i == 0 || i >= running)
-            build(&below[i]);
-    for (int i = 1; parallel && i < running && i < count; i++)
-        pthread_join(below[i].thread, NULL);
-    return NULL;
-}
-
-/* Builds it over items, and puts those of a leaf together. The nodes; NULL where memory runs out,
- * or it was stopped. */
-static BoundsNode *bounds_build(Item *items, size_t count, int threads, const atomic_bool *stop)
-{
-    if (count > UINT32_MAX / 2)
-        return NULL;
-    Branch root = {.nodes = malloc((count + 1) * sizeof *root.nodes),
-                   .items = items,
-                   .next = 1,
-                   .part = no_part(),
-                   .threads = threads,
-                   .stop = stop};
-    for (size_t i = 0; i < count; i++)
-        add_item(&root.part, &items[i]);
-    if (root.nodes)
-        build(&root);
-    if (!stop_asked(stop))
-        return root.nodes;
-    free(root.nodes);
-    return NULL;
-}
-
 /* Triangles. */
 
 static Real3 normal_of(const uint32_t *indices, const Real3 *points)
@@ -367,10 +116,10 @@ static Real3 normal_of(const uint32_t *indices, const Real3 *points)
 
 static Box box_of(const uint32_t *indices, const Real3 *points)
 {
-    Box box = empty_box();
+    Box box = box_empty();
     for (int k = 0; k < 3; k++) {
         const Real v[3] = {points[indices[k]].x, points[indices[k]].y, points[indices[k]].z};
-        extend(&box, v, v);
+        box_extend(&box, v, v);
     }
     return box;
 }
@@ -386,7 +135,7 @@ typedef struct Work {
     const Mesh *mesh;
     const Real3 *points;
     uint32_t *parents;
-    Item *items;
+    BoundsItem *items;
     const atomic_bool *stop;
 } Work;
 
@@ -419,7 +168,7 @@ static bool find_boxes(const Work *work, int threads)
     for (uint32_t i = 0; i < work->mesh->index_count / 3; i++) {
         const uint32_t *indices = work->mesh->indices + 3 * (size_t)i;
         if (has_area(normal_of(indices, work->points)))
-            work->items[triangles->count++] = (Item){box_of(indices, work->points), i, 0};
+            work->items[triangles->count++] = (BoundsItem){box_of(indices, work->points), i, 0};
     }
     triangles->nodes = bounds_build(work->items, triangles->count, threads, work->stop);
     triangles->triangles = malloc((triangles->count + 1) * sizeof *triangles->triangles);

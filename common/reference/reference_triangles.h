@@ -6,9 +6,8 @@
 #ifndef REFERENCE_TRIANGLES_H
 #define REFERENCE_TRIANGLES_H
 
-#include "base/stop.h"
 #include "core/mesh.h"
-#include "reference/reference_real.h"
+#include "reference/reference_bounds.h"
 
 #include <stddef.h>
 #include <stdint.h>
@@ -18,18 +17,6 @@ typedef struct Triangle {
     uint32_t number;  /* in the mesh */
     uint32_t piece;   /* a triangle of it: pieces are what hangs together by equal corners */
 } Triangle;
-
-/* Inner: `count` is 0, and `first` the number of a node; else so many triangles from `first` on. */
-typedef struct BoundsChild {
-    uint32_t first, count;
-} BoundsChild;
-
-/* Four boxes side by side, so that one step meets them all; those that are not needed are empty. */
-enum { BOUNDS_WIDTH = 4 };
-typedef struct BoundsNode {
-    Real sides[2][3][BOUNDS_WIDTH]; /* [low or high][axis][child] */
-    BoundsChild children[BOUNDS_WIDTH];
-} BoundsNode;
 
 typedef struct Triangles {
     Triangle *triangles; /* in the order of the boxes */

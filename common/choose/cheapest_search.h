@@ -1,0 +1,12 @@
+/*
+ * cheapest_search: the search behind cheapest_quality.
+ */
+#ifndef CHEAPEST_SEARCH_H
+#define CHEAPEST_SEARCH_H
+
+#include "choose/cheapest_quality.h"
+
+/* Fills in a choice for a scene of `cheapest->count` objects, for each of which it has room. */
+bool cheapest_search(CheapestQuality *cheapest, const CheapestQualityTask *task, Message *message);
+
+#endif
