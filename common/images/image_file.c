@@ -1,3 +1,7 @@
+/*
+ * Which encoder writes which format, and a whole file in memory before any of it is on disk: a full
+ * disk, a crash or a wrong option then leaves the file that was there.
+ */
 #include "images/image_file.h"
 
 #include "base/output.h"
@@ -12,7 +16,6 @@
 #include <string.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 void image_file_close(ImageFile *file)
@@ -136,25 +139,6 @@ static struct rlimit lift_file_limit(void)
     return limit;
 }
 
-static bool read_memory(int memory, ImageFile *file, char *reason, size_t reason_size)
-{
-    struct stat status;
-    ssize_t got = 0;
-    size_t left = fstat(memory, &status) == 0 ? (size_t)status.st_size : 0;
-    file->bytes = malloc(left + 1);
-    while (file->bytes && left && (got = read(memory, file->bytes + file->size, left)) > 0) {
-        file->size += (size_t)got;
-        left -= (size_t)got;
-    }
-    if (file->size && !left)
-        return true;
-    snprintf(reason, reason_size, "%s",
-             !file->bytes ? "not enough memory for the file"
-             : got < 0    ? strerror(errno)
-                          : "nothing was written");
-    return false;
-}
-
 /* Encodes into a memory file, because OpenImageIO writes some formats to files only, and a full
  * disk must not end a file halfway. */
 static bool plugin_encode(const Image *image, const char *format, const ImageOptions *options,
@@ -162,7 +146,7 @@ static bool plugin_encode(const Image *image, const char *format, const ImageOpt
 {
     static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER; /* the limit is the whole process's */
     const ImagePlugin *plugin = plugin_open(&image_openimageio, message);
-    char reason[1024] = "";
+    char reason[1024] = "", path[32];
     if (!plugin)
         return false;
     const int memory = memfd_create("picture", MFD_CLOEXEC);
@@ -170,15 +154,19 @@ static bool plugin_encode(const Image *image, const char *format, const ImageOpt
         return message_set(message, "%s: %s", format, strerror(errno));
     pthread_mutex_lock(&lock);
     const struct rlimit limit = lift_file_limit();
-    const bool done = plugin->encode(image, format, options, memory, reason, sizeof reason) &&
-                      read_memory(memory, file, reason, sizeof reason);
+    const bool encoded = plugin->encode(image, format, options, memory, reason, sizeof reason);
     setrlimit(RLIMIT_FSIZE, &limit);
     pthread_mutex_unlock(&lock);
+    snprintf(path, sizeof path, "/proc/self/fd/%d", memory);
+    const char *why = !encoded                             ? reason
+                      : !image_file_read(file, path, NULL) ? "not enough memory for the file"
+                      : !file->size                        ? "nothing was written"
+                                                           : NULL;
     close(memory);
     /* DPX stores the path that the library was given. (SMPTE 268M: 100 bytes from 36 on) */
-    if (done && strcmp(format, "dpx") == 0 && file->size > 136)
+    if (!why && strcmp(format, "dpx") == 0 && file->size > 136)
         memset(file->bytes + 36, 0, 100);
-    return done || message_set(message, "cannot write %s: %s", format, reason);
+    return !why || message_set(message, "cannot write %s: %s", format, why);
 }
 
 bool image_encode(const Image *image, const char *format, const ImageOptions *options,

@@ -79,17 +79,11 @@ bool shape_open(Shape *shape, ShapeKind kind, ShapeStyle style, const ShapeModel
         return mesh_cylinder(mesh, (MeshCylinder){radius, 2 * radius, 64, along, MESH_CAP_BOTH},
                              message);
     case SHAPE_TETRAHEDRON:
-        shape->flat = true;
-        return mesh_tetrahedron(mesh, size, message);
     case SHAPE_OCTAHEDRON:
-        shape->flat = true;
-        return mesh_octahedron(mesh, size, message);
     case SHAPE_DODECAHEDRON:
-        shape->flat = true;
-        return mesh_dodecahedron(mesh, size, message);
     case SHAPE_ICOSAHEDRON:
         shape->flat = true;
-        return mesh_icosahedron(mesh, size, message);
+        return mesh_regular(mesh, (MeshRegular)(kind - SHAPE_TETRAHEDRON), size, message);
     case SHAPE_HEAD_FACETED:
     case SHAPE_HEAD_SMOOTH:
     case SHAPE_HEAD:

@@ -1,5 +1,8 @@
 /*
- * The solids except the teapot, as grids of quads.
+ * The solids except the teapot. A surface of revolution is rows of vertices, each a circle at its
+ * height: only radius, height and the normal's slope differ from row to row. A row ends with a copy
+ * of its first vertex, bit for bit, so that the seam is closed. Faces of a regular solid are
+ * fans; their corners are a table, whose numbers are 0, 1 and the golden ratio.
  */
 #include "shapes/mesh_solids.h"
 
@@ -178,31 +181,64 @@ bool mesh_quad(Mesh *mesh, int divisions, Message *message)
 #define H 0.61803398874989484820 /* 1 / G */
 
 /* Corners of any length; faces as indices of corners, counter-clockwise from outside. */
-typedef struct Regular {
+
+static const Vec3 TETRAHEDRON[] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
+static const unsigned char TETRAHEDRON_FACES[][5] = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}};
+
+static const Vec3 OCTAHEDRON[] = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
+                                  {0, -1, 0}, {0, 0, 1},  {0, 0, -1}};
+static const unsigned char OCTAHEDRON_FACES[][5] = {{0, 2, 4}, {0, 3, 5}, {0, 4, 3}, {0, 5, 2},
+                                                    {1, 2, 5}, {1, 3, 4}, {1, 4, 2}, {1, 5, 3}};
+
+static const Vec3 DODECAHEDRON[] = {
+    {1, 1, 1},    {1, 1, -1},  {1, -1, 1}, {1, -1, -1}, {-1, 1, 1},  {-1, 1, -1}, {-1, -1, 1},
+    {-1, -1, -1}, {0, H, G},   {0, H, -G}, {0, -H, G},  {0, -H, -G}, {H, G, 0},   {H, -G, 0},
+    {-H, G, 0},   {-H, -G, 0}, {G, 0, H},  {G, 0, -H},  {-G, 0, H},  {-G, 0, -H}};
+static const unsigned char DODECAHEDRON_FACES[][5] = {
+    {0, 8, 10, 2, 16},  {0, 12, 14, 4, 8},  {0, 16, 17, 1, 12}, {1, 9, 5, 14, 12},
+    {1, 17, 3, 11, 9},  {2, 10, 6, 15, 13}, {2, 13, 3, 17, 16}, {3, 13, 15, 7, 11},
+    {4, 14, 5, 19, 18}, {4, 18, 6, 10, 8},  {5, 9, 11, 7, 19},  {6, 18, 19, 7, 15}};
+
+static const Vec3 ICOSAHEDRON[] = {{1, 0, G}, {1, 0, -G}, {-1, 0, G}, {-1, 0, -G},
+                                   {0, G, 1}, {0, G, -1}, {0, -G, 1}, {0, -G, -1},
+                                   {G, 1, 0}, {G, -1, 0}, {-G, 1, 0}, {-G, -1, 0}};
+static const unsigned char ICOSAHEDRON_FACES[][5] = {
+    {0, 2, 6},  {0, 4, 2},   {0, 6, 9},  {0, 8, 4},  {0, 9, 8},   {1, 3, 5},  {1, 5, 8},
+    {1, 7, 3},  {1, 8, 9},   {1, 9, 7},  {2, 4, 10}, {2, 10, 11}, {2, 11, 6}, {3, 7, 11},
+    {3, 10, 5}, {3, 11, 10}, {4, 5, 10}, {4, 8, 5},  {6, 7, 9},   {6, 11, 7}};
+
+static const struct Regular {
     const char *name;
-    int face_count, sides;
+    size_t face_count, sides;
     const Vec3 *corners;
     const unsigned char (*faces)[5];
-} Regular;
+} REGULAR[] = {
+    [MESH_TETRAHEDRON] = {"tetrahedron", 4, 3, TETRAHEDRON, TETRAHEDRON_FACES},
+    [MESH_OCTAHEDRON] = {"octahedron", 8, 3, OCTAHEDRON, OCTAHEDRON_FACES},
+    [MESH_DODECAHEDRON] = {"dodecahedron", 12, 5, DODECAHEDRON, DODECAHEDRON_FACES},
+    [MESH_ICOSAHEDRON] = {"icosahedron", 20, 3, ICOSAHEDRON, ICOSAHEDRON_FACES},
+};
 
-static bool regular(Mesh *mesh, const Regular *solid, double radius, Message *message)
+bool mesh_regular(Mesh *mesh, MeshRegular kind, double radius, Message *message)
 {
-    const size_t faces = (size_t)solid->face_count, sides = (size_t)solid->sides;
+    const struct Regular *solid = &REGULAR[kind];
+    const size_t sides = solid->sides;
     *mesh = (Mesh){0};
     if (!mesh_check_length(solid->name, "radius", radius, message) ||
-        !mesh_open(mesh, faces * sides, 3 * faces * (sides - 2), message))
+        !mesh_open(mesh, solid->face_count * sides, 3 * solid->face_count * (sides - 2), message))
         return false;
     uint32_t *index = mesh->indices;
-    for (size_t face = 0; face < faces; face++) {
+    for (size_t face = 0; face < solid->face_count; face++) {
         /* The normal of a regular solid's face points to its centre. */
+        const unsigned char *corners = solid->faces[face];
         Vec3 centre = {0, 0, 0}, normal;
         for (size_t i = 0; i < sides; i++)
-            centre = vec3_add(centre, solid->corners[solid->faces[face][i]]);
+            centre = vec3_add(centre, solid->corners[corners[i]]);
         vec3_normalize(centre, &normal);
         const size_t first = face * sides;
         for (size_t i = 0; i < sides; i++) {
             Vec3 corner;
-            vec3_normalize(solid->corners[solid->faces[face][i]], &corner);
+            vec3_normalize(solid->corners[corners[i]], &corner);
             set_vertex(&mesh->vertices[first + i], vec3_scale(corner, radius), normal);
         }
         for (size_t i = 1; i + 1 < sides; i++) {
@@ -212,49 +248,4 @@ static bool regular(Mesh *mesh, const Regular *solid, double radius, Message *me
         }
     }
     return true;
-}
-
-bool mesh_tetrahedron(Mesh *mesh, double radius, Message *message)
-{
-    static const Vec3 corners[] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
-    static const unsigned char faces[][5] = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}};
-    static const Regular solid = {"tetrahedron", 4, 3, corners, faces};
-    return regular(mesh, &solid, radius, message);
-}
-
-bool mesh_octahedron(Mesh *mesh, double radius, Message *message)
-{
-    static const Vec3 corners[] = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
-                                   {0, -1, 0}, {0, 0, 1},  {0, 0, -1}};
-    static const unsigned char faces[][5] = {{0, 2, 4}, {0, 3, 5}, {0, 4, 3}, {0, 5, 2},
-                                             {1, 2, 5}, {1, 3, 4}, {1, 4, 2}, {1, 5, 3}};
-    static const Regular solid = {"octahedron", 8, 3, corners, faces};
-    return regular(mesh, &solid, radius, message);
-}
-
-bool mesh_dodecahedron(Mesh *mesh, double radius, Message *message)
-{
-    static const Vec3 corners[] = {
-        {1, 1, 1},    {1, 1, -1},  {1, -1, 1}, {1, -1, -1}, {-1, 1, 1},  {-1, 1, -1}, {-1, -1, 1},
-        {-1, -1, -1}, {0, H, G},   {0, H, -G}, {0, -H, G},  {0, -H, -G}, {H, G, 0},   {H, -G, 0},
-        {-H, G, 0},   {-H, -G, 0}, {G, 0, H},  {G, 0, -H},  {-G, 0, H},  {-G, 0, -H}};
-    static const unsigned char faces[][5] = {
-        {0, 8, 10, 2, 16},  {0, 12, 14, 4, 8},  {0, 16, 17, 1, 12}, {1, 9, 5, 14, 12},
-        {1, 17, 3, 11, 9},  {2, 10, 6, 15, 13}, {2, 13, 3, 17, 16}, {3, 13, 15, 7, 11},
-        {4, 14, 5, 19, 18}, {4, 18, 6, 10, 8},  {5, 9, 11, 7, 19},  {6, 18, 19, 7, 15}};
-    static const Regular solid = {"dodecahedron", 12, 5, corners, faces};
-    return regular(mesh, &solid, radius, message);
-}
-
-bool mesh_icosahedron(Mesh *mesh, double radius, Message *message)
-{
-    static const Vec3 corners[] = {{1, 0, G}, {1, 0, -G}, {-1, 0, G}, {-1, 0, -G},
-                                   {0, G, 1}, {0, G, -1}, {0, -G, 1}, {0, -G, -1},
-                                   {G, 1, 0}, {G, -1, 0}, {-G, 1, 0}, {-G, -1, 0}};
-    static const unsigned char faces[][5] = {
-        {0, 2, 6},  {0, 4, 2},   {0, 6, 9},  {0, 8, 4},  {0, 9, 8},   {1, 3, 5},  {1, 5, 8},
-        {1, 7, 3},  {1, 8, 9},   {1, 9, 7},  {2, 4, 10}, {2, 10, 11}, {2, 11, 6}, {3, 7, 11},
-        {3, 10, 5}, {3, 11, 10}, {4, 5, 10}, {4, 8, 5},  {6, 7, 9},   {6, 11, 7}};
-    static const Regular solid = {"icosahedron", 20, 3, corners, faces};
-    return regular(mesh, &solid, radius, message);
 }

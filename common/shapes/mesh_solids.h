@@ -50,10 +50,13 @@ bool mesh_quad(Mesh *mesh, int divisions, Message *message);
  *   octahedron:   the coordinate axes
  *   dodecahedron: (+-1, +-1, +-1), (0, +-1/g, +-g), (+-1/g, +-g, 0), (+-g, 0, +-1/g)
  *   icosahedron:  (+-1, 0, +-g), (0, +-g, +-1), (+-g, +-1, 0) */
-bool mesh_tetrahedron(Mesh *mesh, double radius, Message *message);
-bool mesh_octahedron(Mesh *mesh, double radius, Message *message);
-bool mesh_dodecahedron(Mesh *mesh, double radius, Message *message);
-bool mesh_icosahedron(Mesh *mesh, double radius, Message *message);
+typedef enum MeshRegular {
+    MESH_TETRAHEDRON,
+    MESH_OCTAHEDRON,
+    MESH_DODECAHEDRON,
+    MESH_ICOSAHEDRON,
+} MeshRegular;
+bool mesh_regular(Mesh *mesh, MeshRegular kind, double radius, Message *message);
 
 /* Newell's teapot (University of Utah, 1975) as in GLUT, with a bottom: 32 bicubic Bezier patches,
  * each cut into divisions x divisions (2 to MESH_TEAPOT_MAX; GLUT: 14). y is up, the spout points

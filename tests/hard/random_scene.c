@@ -194,16 +194,13 @@ static bool same_shape(const RandomShape *a, const RandomShape *b)
 
 static bool make_uncolored(const RandomShape *shape, Mesh *mesh, Message *message)
 {
-    const double radius = shape->solid.radius;
     switch (shape->form) {
     case FORM_TETRAHEDRON:
-        return mesh_tetrahedron(mesh, radius, message);
     case FORM_OCTAHEDRON:
-        return mesh_octahedron(mesh, radius, message);
     case FORM_DODECAHEDRON:
-        return mesh_dodecahedron(mesh, radius, message);
     case FORM_ICOSAHEDRON:
-        return mesh_icosahedron(mesh, radius, message);
+        return mesh_regular(mesh, (MeshRegular)(shape->form - FORM_TETRAHEDRON),
+                            shape->solid.radius, message);
     case FORM_LECTURE_SPHERE:
         return mesh_sphere_lecture(mesh, shape->divisions, message);
     default:

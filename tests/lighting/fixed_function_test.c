@@ -70,7 +70,7 @@ static void open_shapes(void)
     if (!mesh_sphere(&shapes[0], 1, 24, 16, &message) || !mesh_cube(&shapes[1], 0.8, &message) ||
         !mesh_cylinder(&shapes[2], (MeshCylinder){0.8, 1.2, 20, 6, MESH_CAP_NONE}, &message) ||
         !mesh_quad(&shapes[3], 8, &message) || !mesh_cone(&shapes[4], 1, 1.5, 24, 8, &message) ||
-        !mesh_icosahedron(&shapes[5], 1, &message)) {
+        !mesh_regular(&shapes[5], MESH_ICOSAHEDRON, 1, &message)) {
         fprintf(stderr, "%s\n", message.text);
         exit(1);
     }

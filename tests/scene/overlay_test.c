@@ -36,10 +36,11 @@ TEST(solids_have_the_edges_of_their_faces)
 {
     Mesh m;
     assert_int_equal(edges_of_made(&m, mesh_cube(&m, 1, FAILURE)), 12);
-    assert_int_equal(edges_of_made(&m, mesh_tetrahedron(&m, 1, FAILURE)), 6);
-    assert_int_equal(edges_of_made(&m, mesh_octahedron(&m, 1, FAILURE)), 12);
-    assert_int_equal(edges_of_made(&m, mesh_dodecahedron(&m, 1, FAILURE)), 30); /* of pentagons */
-    assert_int_equal(edges_of_made(&m, mesh_icosahedron(&m, 1, FAILURE)), 30);
+    assert_int_equal(edges_of_made(&m, mesh_regular(&m, MESH_TETRAHEDRON, 1, FAILURE)), 6);
+    assert_int_equal(edges_of_made(&m, mesh_regular(&m, MESH_OCTAHEDRON, 1, FAILURE)), 12);
+    assert_int_equal(edges_of_made(&m, mesh_regular(&m, MESH_DODECAHEDRON, 1, FAILURE)),
+                     30); /* of pentagons */
+    assert_int_equal(edges_of_made(&m, mesh_regular(&m, MESH_ICOSAHEDRON, 1, FAILURE)), 30);
 }
 
 /* A flat square is one face, however often it is divided: of the lines within it none is an edge;

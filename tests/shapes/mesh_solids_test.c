@@ -295,28 +295,26 @@ TEST(a_quad_is_a_square_that_faces_up)
 /* Regular solids. */
 
 static const struct {
-    bool (*open)(Mesh *mesh, double radius, Message *message);
     int faces, sides;
     double edge, volume; /* in a sphere of radius 1 */
     Vec3 corner, no_corner;
 } REGULAR[] = {
     /* Edge and volume as in Coxeter, Regular polytopes, table I. */
-    {mesh_tetrahedron, 4, 3, 1.6329931618554520655, 0.51320023928966731859, {1, 1, 1}, {-1, 1, 1}},
-    {mesh_octahedron, 8, 3, 1.4142135623730950488, 1.3333333333333333333, {0, 0, 1}, {1, 1, 1}},
-    {mesh_dodecahedron,
-     12,
-     5,
-     0.71364417954617988885,
-     2.7851638631226171,
-     {0, 0.61803398874989484820, 1.6180339887498948482},
-     {0, 1.6180339887498948482, 0.61803398874989484820}},
-    {mesh_icosahedron,
-     20,
-     3,
-     1.0514622242382672121,
-     2.5361507101204095,
-     {1, 0, 1.6180339887498948482},
-     {1.6180339887498948482, 0, 1}},
+    [MESH_TETRAHEDRON] =
+        {4, 3, 1.6329931618554520655, 0.51320023928966731859, {1, 1, 1}, {-1, 1, 1}},
+    [MESH_OCTAHEDRON] = {8, 3, 1.4142135623730950488, 1.3333333333333333333, {0, 0, 1}, {1, 1, 1}},
+    [MESH_DODECAHEDRON] = {12,
+                           5,
+                           0.71364417954617988885,
+                           2.7851638631226171,
+                           {0, 0.61803398874989484820, 1.6180339887498948482},
+                           {0, 1.6180339887498948482, 0.61803398874989484820}},
+    [MESH_ICOSAHEDRON] = {20,
+                          3,
+                          1.0514622242382672121,
+                          2.5361507101204095,
+                          {1, 0, 1.6180339887498948482},
+                          {1.6180339887498948482, 0, 1}},
 };
 enum { REGULAR_COUNT = sizeof REGULAR / sizeof REGULAR[0] };
 
@@ -338,7 +336,7 @@ TEST(regular_solids_are_regular)
             const double r = SIZES[s];
             const size_t sides = (size_t)REGULAR[n].sides, faces = (size_t)REGULAR[n].faces;
             CLOSED(mesh_close) Mesh mesh;
-            SUCCEEDS(REGULAR[n].open(&mesh, r, message));
+            SUCCEEDS(mesh_regular(&mesh, (MeshRegular)n, r, message));
             assert_int_equal(mesh.vertex_count, faces * sides);
             assert_int_equal(mesh.index_count, 3 * faces * (sides - 2));
             assert_sound(&mesh, 0);
@@ -982,9 +980,9 @@ TEST(lengths_out_of_range_are_refused)
                 : shape == 4 ? mesh_torus(mesh, x, 1, 8, 8, message)
                 : shape == 5 ? mesh_torus(mesh, 1, x, 8, 8, message)
                 : shape == 6 ? mesh_disc(mesh, x, 8, 8, message)
-                : shape == 7 ? mesh_tetrahedron(mesh, x, message)
-                : shape == 8 ? mesh_dodecahedron(mesh, x, message)
-                : shape == 9 ? mesh_icosahedron(mesh, x, message)
+                : shape == 7 ? mesh_regular(mesh, MESH_TETRAHEDRON, x, message)
+                : shape == 8 ? mesh_regular(mesh, MESH_DODECAHEDRON, x, message)
+                : shape == 9 ? mesh_regular(mesh, MESH_ICOSAHEDRON, x, message)
                              : mesh_teapot(mesh, x, 8, message),
                 "%s %g: must be more than 0 and finite", names[shape], bad[i]);
         }

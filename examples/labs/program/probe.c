@@ -98,11 +98,11 @@ static bool open_shape(Mesh *mesh, ProbeShape shape, Message *message)
     case SHAPE_OF_CUBE_ON_CORNER:
         return open_cube_on_corner(mesh, message);
     case SHAPE_OF_ICOSAHEDRON:
-        return mesh_icosahedron(mesh, 1.3, message);
+        return mesh_regular(mesh, MESH_ICOSAHEDRON, 1.3, message);
     case SHAPE_OF_DODECAHEDRON:
-        return mesh_dodecahedron(mesh, 1.3, message);
+        return mesh_regular(mesh, MESH_DODECAHEDRON, 1.3, message);
     case SHAPE_OF_OCTAHEDRON:
-        return mesh_octahedron(mesh, 1.4, message);
+        return mesh_regular(mesh, MESH_OCTAHEDRON, 1.4, message);
     case SHAPE_OF_QUAD:
         return mesh_quad(mesh, 1, message);
     case SHAPE_OF_TUBE:

@@ -93,8 +93,9 @@ static bool open_solid(Mesh *mesh, const Probe *probe, Random *random, Message *
 {
     const int solid = (int)random_between(random, 0, 2.999);
     if (probe->kind == PROBE_COARSE || solid == 0)
-        return mesh_dodecahedron(mesh, 1.3, message);
-    return solid == 1 ? mesh_octahedron(mesh, 1.4, message) : mesh_cube(mesh, 1, message);
+        return mesh_regular(mesh, MESH_DODECAHEDRON, 1.3, message);
+    return solid == 1 ? mesh_regular(mesh, MESH_OCTAHEDRON, 1.4, message)
+                      : mesh_cube(mesh, 1, message);
 }
 
 static bool add_caster(Probe *probe, bool board, Vec3 at, Random *random, Message *message)
