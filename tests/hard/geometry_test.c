@@ -388,12 +388,4 @@ TEST_WITH(0, needles_are_finite_and_right_where_they_are_wide, NULL, forget_made
     hard_report(&hard, "needles");
 }
 
-TEST(objects_without_triangles_are_refused)
-{
-    Message message = {0};
-    hard_world(&world, &made[0]);
-    assert_false(scene_check(&world.scene, &message));
-    assert_string_equal(message.text, "object 0: has no triangles");
-}
-
 PICTURE_TEST_MAIN("hard geometry", open_all, close_all)

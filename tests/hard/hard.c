@@ -7,6 +7,7 @@
 #include "support/testing.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 void hard_open(Hard *hard, int width, int height)
@@ -229,6 +230,43 @@ double hard_two_lights_max(const Scene *scene, HardPrecision precision)
     return oracle_mediump_max(scene, REACH);
 }
 
+void hard_check_two_lights(Hard *hard, const char *name, const Scene *scene,
+                           HardPrecision precision, const Reference *exact)
+{
+    hard_check_exact(hard, name, scene, precision, hard_two_lights_max(scene, precision), 100,
+                     exact);
+}
+
+void hard_each_way(const Hard *hard, const char *name, HardWorld *world, HardCheck *check)
+{
+    static const Interpolation ways[] = {INTERPOLATION_PHONG, INTERPOLATION_GOURAUD};
+    for (int way = 0; way < 2; way++) {
+        Reference exact;
+        world->scene.interpolation = ways[way];
+        hard_exact(hard, &world->scene, false, &exact);
+        check(name, world, HARD_HIGHP, &exact);
+        check(name, world, HARD_MEDIUMP, &exact);
+        reference_close(&exact);
+    }
+}
+
+void hard_keep(const Hard *hard, HardFrame *frame)
+{
+    const size_t count = 4 * (size_t)hard->image.width * (size_t)hard->image.height;
+    memset(frame, 0, sizeof *frame);
+    memcpy(frame->bytes, hard->image.pixels, count);
+    if (hard->real.type == IMAGE_FLOAT)
+        memcpy(frame->reals, hard->real.pixels, count * sizeof *frame->reals);
+}
+
+int hard_apart(const HardFrame *a, int pixel, const HardFrame *b, int other)
+{
+    int max = 0;
+    for (int c = 0; c < 4; c++)
+        max = (int)fmax(max, abs(a->bytes[4 * pixel + c] - b->bytes[4 * other + c]));
+    return max;
+}
+
 void hard_check_ways(Hard *hard, const char *name, const Scene *scene, double reach, int min_pixels)
 {
     static const double COLORS_ONLY = 1.5;
@@ -255,14 +293,6 @@ HardResult hard_draw_finite(Hard *hard, const Scene *scene, HardPrecision precis
     const HardResult result = hard_draw(hard, scene, precision, NULL);
     assert_int_equal(result.not_finite, 0);
     return result;
-}
-
-void hard_check_refused(const Scene *scene, const char *beginning)
-{
-    Message message = {0};
-    assert_false(scene_check(scene, &message));
-    if (strncmp(message.text, beginning, strlen(beginning)) != 0 || strchr(message.text, '\n'))
-        fail_msg("\"%s\" instead of one line \"%s...\"", message.text, beginning);
 }
 
 Vec3 hard_random_direction(Random *random)

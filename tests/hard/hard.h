@@ -78,6 +78,25 @@ void hard_two_lights(HardWorld *world, const Mesh *mesh, Mat4 world_from_object)
 /* The largest error of an interior pixel in the scene of hard_two_lights; derived in hard.c. */
 double hard_two_lights_max(const Scene *scene, HardPrecision precision);
 
+/* hard_check_exact of such a scene, with that bound. */
+void hard_check_two_lights(Hard *hard, const char *name, const Scene *scene,
+                           HardPrecision precision, const Reference *exact);
+
+/* Each way to light, in either precision; `exact` is the picture of the world as given. */
+typedef void HardCheck(const char *name, HardWorld *world, HardPrecision precision,
+                       const Reference *exact);
+void hard_each_way(const Hard *hard, const char *name, HardWorld *world, HardCheck *check);
+
+/* A copy of the last pictures, of at most 64 by 64 pixels. */
+typedef struct HardFrame {
+    unsigned char bytes[64 * 64 * 4];
+    float reals[64 * 64 * 4];
+} HardFrame;
+void hard_keep(const Hard *hard, HardFrame *frame);
+
+/* The largest difference of a channel, in bytes, between two pixels of frames. */
+int hard_apart(const HardFrame *a, int pixel, const HardFrame *b, int other);
+
 /* Changes the unit of length: positions of lights and camera, attenuation, near and far plane; not
  * the objects. */
 void hard_world_scale(HardWorld *world, double factor);
@@ -97,9 +116,6 @@ void hard_check_reflections(Hard *hard, const char *name, HardWorld *world, doub
 
 /* hard_draw without an exact picture; every value must be finite. */
 HardResult hard_draw_finite(Hard *hard, const Scene *scene, HardPrecision precision);
-
-/* Fails unless scene_check rejects the scene with one line that begins like this. */
-void hard_check_refused(const Scene *scene, const char *beginning);
 
 /* A unit vector, uniform over the sphere. */
 Vec3 hard_random_direction(Random *random);

@@ -330,34 +330,6 @@ TEST(the_length_of_a_direction_does_not_matter)
     }
 }
 
-TEST(invalid_lights_are_refused_by_name)
-{
-    static const double bad[] = {NAN, INFINITY, -INFINITY, -1e-300, 2e30};
-    hard_world(&world, &hard.sphere);
-    Light *light = &world.lights[0], good = *light;
-    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
-        *light = good, light->diffuse.y = bad[i];
-        hard_check_refused(&world.scene, "light 0: diffuse");
-        *light = good, light->quadratic = bad[i];
-        hard_check_refused(&world.scene, "light 0: quadratic");
-        *light = good, light->kind = LIGHT_SPOT, light->direction = (Vec3){0, 0, 1};
-        light->cutoff = bad[i];
-        hard_check_refused(&world.scene, "light 0: cutoff");
-        light->cutoff = 10, light->exponent = bad[i];
-        hard_check_refused(&world.scene, "light 0: exponent");
-        *light = good, light->position.z = i == 3 ? 2e15 : bad[i];
-        hard_check_refused(&world.scene, "light 0: position");
-    }
-    *light = good, light->kind = LIGHT_DIRECTIONAL;
-    hard_check_refused(&world.scene, "light 0: direction (0, 0, 0)");
-    light->direction = (Vec3){0, NAN, 1};
-    hard_check_refused(&world.scene, "light 0: direction");
-    light->kind = LIGHT_SPOT;
-    hard_check_refused(&world.scene, "light 0: direction");
-    light->direction = (Vec3){0, INFINITY, 1};
-    hard_check_refused(&world.scene, "light 0: direction");
-}
-
 TEST(a_light_behind_the_surface_leaves_ambient_light_only)
 {
     for (int way = 0; way < 8; way++) {

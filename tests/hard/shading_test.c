@@ -297,35 +297,4 @@ TEST(srgb_is_encoded_from_end_to_end)
     hard_report(&hard, "sRGB from 0 to 1");
 }
 
-static void check_refused(double *number, double value, const char *beginning)
-{
-    const double good = *number;
-    *number = value;
-    hard_check_refused(&world.scene, beginning);
-    *number = good;
-}
-
-TEST(invalid_materials_and_cameras_are_refused_by_name)
-{
-    static const double bad[] = {NAN, INFINITY, -INFINITY, -1e-300, 129};
-    Material *front = &world.objects[0].front;
-    Camera *camera = &world.scene.camera;
-    hard_world(&world, &hard.sphere);
-    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
-        check_refused(&front->shininess, bad[i], "object 0: front: shininess");
-        check_refused(&front->alpha, bad[i], "object 0: front: alpha");
-        check_refused(&front->emission.z, bad[i], "object 0: front: emission");
-        check_refused(&world.scene.global_ambient.x, i == 4 ? 2e6 : bad[i],
-                      "scene: global ambient");
-    }
-    check_refused(&camera->fovy, 180, "camera: fovy");
-    check_refused(&camera->near, 0, "camera: fovy");
-    check_refused(&world.objects[0].world_from_object.m[5], NAN, "object 0: its matrix");
-    camera->up = (Vec3){0, 0, -3};
-    hard_check_refused(&world.scene, "camera: eye");
-    hard_world(&world, &hard.sphere);
-    camera->center = camera->eye;
-    hard_check_refused(&world.scene, "camera: eye");
-}
-
 PICTURE_TEST_MAIN("hard shading", open_all, close_all)
