@@ -805,39 +805,9 @@ TEST(the_picture_of_another_program_is_refused)
         free(exacts[i].pixels);
 }
 
-/* Options. */
-
-static double seconds_of(const char *option, const char *value)
-{
-    const Usage usage = {.name = "test", .summary = ""};
-    char words[3][32];
-    char *arguments[4] = {words[0], words[1], words[2], NULL};
-    Options options;
-    Message message = {0};
-    snprintf(words[0], sizeof words[0], "test");
-    snprintf(words[1], sizeof words[1], "%s", option);
-    snprintf(words[2], sizeof words[2], "%s", value);
-    require(options_read(&options, &usage, 3, arguments, &message) == OPTIONS_RUN, &message);
-    return options.seconds;
-}
-
-TEST(an_angle_of_90_degrees_is_the_time_of_3_seconds)
-{
-    const Options options = options_for(SIZES[1], NULL);
-    for (int i = 0; i < SCENE_COUNT; i++) {
-        Picture by_angle, by_time;
-        draw_alone(&SCENES[i], &options, seconds_of("--angle", "90"), &by_angle);
-        draw_alone(&SCENES[i], &options, seconds_of("--time", "3"), &by_time);
-        assert_true(
-            picture_check_same(SCENES[i].example->name, &by_angle.image, &by_time.image, 0));
-        image_close(&by_angle.image);
-        image_close(&by_time.image);
-    }
-}
-
 TEST(a_still_scene_is_the_same_at_every_time)
 {
-    static const char *const moments[] = {"-1e9", "-0.4", "3", "13.3", "1e9"};
+    static const double moments[] = {-1e9, -0.4, 3, 13.3, 1e9};
     const Options options = options_for(SIZES[1], NULL);
     for (int i = 0; i < SCENE_COUNT; i++) {
         if (moves(&SCENES[i]))
@@ -846,7 +816,7 @@ TEST(a_still_scene_is_the_same_at_every_time)
         draw_alone(&SCENES[i], &options, 0, &first);
         for (size_t m = 0; m < sizeof moments / sizeof moments[0]; m++) {
             Picture later;
-            draw_alone(&SCENES[i], &options, seconds_of("--time", moments[m]), &later);
+            draw_alone(&SCENES[i], &options, moments[m], &later);
             assert_true(picture_check_same(SCENES[i].example->name, &later.image, &first.image, 0));
             image_close(&later.image);
         }

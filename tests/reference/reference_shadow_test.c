@@ -7,6 +7,7 @@
 #include "reference/reference.h"
 #include "reference/reference_trace.h"
 #include "shapes/mesh_solids.h"
+#include "support/exact_world.h"
 #include "support/testing.h"
 
 #include <math.h>
@@ -16,41 +17,20 @@
 
 static const double PI = 3.14159265358979323846;
 
-enum { SIZE = 64, PIXELS = SIZE * SIZE, MAX = 4 };
+enum { SIZE = WORLD_SIZE, PIXELS = WORLD_PIXELS };
 
-/* The eye at z = 4; the wall z = 0 fills the picture. Lit by lights that cast shadows. */
-typedef struct World {
-    Mesh meshes[MAX];
-    Object objects[MAX];
-    Light lights[MAX];
-    Scene scene;
-} World;
-
-static World world;
-static Reference drawn[16];
-static int drawn_count;
-
+/* The wall z = 0 fills the picture. Lit by lights that cast shadows. */
 static Object *add_object(Solid solid, int divisions, Mat4 place)
 {
-    const int i = world.scene.object_count++;
-    assert_true(i < MAX && solid_mesh(&solid, divisions, &world.meshes[i], NULL));
-    world.objects[i] = (Object){.mesh = &world.meshes[i],
-                                .solid = solid,
-                                .flat = solid_flat(&solid),
-                                .world_from_object = place,
-                                .front = {.ambient = {0.1, 0.1, 0.1},
-                                          .diffuse = {0.8, 0.5, 0.2},
-                                          .specular = {0.2, 0.2, 0.2},
-                                          .alpha = 1,
-                                          .shininess = 8}};
-    return &world.objects[i];
+    Object *object = world_add(solid, divisions, place);
+    object->front.specular = (Vec3){0.2, 0.2, 0.2};
+    object->front.shininess = 8;
+    return object;
 }
 
 static Object *add_wall(void)
 {
-    Object *wall = add_object((Solid){.kind = SOLID_QUAD}, 3, mat4_scale((Vec3){3, 3, 1}));
-    wall->front.specular = (Vec3){0, 0, 0};
-    return wall;
+    return world_add((Solid){.kind = SOLID_QUAD}, 3, mat4_scale((Vec3){3, 3, 1}));
 }
 
 static Light *add_light(LightKind kind, Vec3 at)
@@ -66,41 +46,17 @@ static Light *add_light(LightKind kind, Vec3 at)
     return light;
 }
 
-static void close_world(void)
-{
-    for (int i = 0; i < MAX; i++)
-        mesh_close(&world.meshes[i]);
-    while (drawn_count > 0)
-        reference_close(&drawn[--drawn_count]);
-}
-
 FIXTURE(set_up)
 {
-    close_world();
-    world = (World){.scene = {.camera = {{0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 45, 0.1, 100, 0},
-                              .lights = world.lights,
-                              .objects = world.objects}};
+    world_open();
+    world_forget();
     return 0;
 }
 
 FIXTURE(tear_down)
 {
-    close_world();
-    world = (World){0};
+    world_close();
     return 0;
-}
-
-static Reference trace(ReferenceOptions options)
-{
-    Reference reference;
-    if (options.width == 0)
-        options.width = options.height = SIZE;
-    require(scene_check(&world.scene, FAILURE), FAILURE);
-    require(reference_open(&reference, &world.scene, &options, FAILURE), FAILURE);
-    assert_in_range(drawn_count, 0, 15);
-    for (int i = 0; i < 3 * options.width * options.height; i++)
-        assert_true(isfinite(reference.color[i]));
-    return drawn[drawn_count++] = reference;
 }
 
 static void let_shadow(bool shadows)
@@ -112,24 +68,9 @@ static void let_shadow(bool shadows)
 static Reference trace_lit(ReferenceOptions options)
 {
     let_shadow(false);
-    const Reference picture = trace(options);
+    const Reference picture = world_trace(options);
     let_shadow(true);
     return picture;
-}
-
-static double difference(const Reference *a, const Reference *b)
-{
-    double max = 0;
-    for (int i = 0; i < 3 * PIXELS; i++)
-        max = fmax(max, 255 * fabs((double)a->color[i] - (double)b->color[i]));
-    return max;
-}
-
-static bool same(const Reference *a, const Reference *b)
-{
-    return memcmp(a->color, b->color, 3 * PIXELS * sizeof *a->color) == 0 &&
-           memcmp(a->interior, b->interior, PIXELS) == 0 &&
-           memcmp(a->coverage, b->coverage, PIXELS * sizeof *a->coverage) == 0;
 }
 
 /* Closed forms. */
@@ -183,7 +124,7 @@ TEST_WITH(0, the_shadow_of_a_sphere_is_a_conic, set_up, tear_down)
         const Vec3 at = kind == LIGHT_DIRECTIONAL ? (Vec3){0.1, 0.08, 1} : (Vec3){0.4, 0.3, 8};
         world.scene.light_count = 0;
         add_light((LightKind)kind, at);
-        const Reference with = trace((ReferenceOptions){0});
+        const Reference with = world_trace((ReferenceOptions){0});
         const Reference without = trace_lit((ReferenceOptions){0});
         const double area = shadow_area(&with, &without);
         const double expected =
@@ -216,7 +157,7 @@ TEST_WITH(0, the_shadow_of_a_sphere_is_a_conic, set_up, tear_down)
         assert_true(edges > 20);
         /* An edge is one however faint it is. */
         world.lights[0].diffuse = (Vec3){0.02, 0.02, 0.02};
-        const Reference faint = trace((ReferenceOptions){0});
+        const Reference faint = world_trace((ReferenceOptions){0});
         assert_memory_equal(faint.interior, with.interior, PIXELS);
     }
 }
@@ -270,13 +211,12 @@ TEST_WITH(0, the_shadow_of_a_box_is_the_polygon_of_its_corners, set_up, tear_dow
         for (int meshes = 0; meshes < 2; meshes++) {
             world.scene.light_count = 0;
             add_light((LightKind)kind, at);
-            const Reference with = trace((ReferenceOptions){.meshes = meshes});
+            const Reference with = world_trace((ReferenceOptions){.meshes = meshes});
             const Reference without = trace_lit((ReferenceOptions){.meshes = meshes});
             const double area = shadow_area(&with, &without);
             printf("light %d: %.3f pixels of %.3f\n", kind, area, expected);
             assert_true(fabs(area - expected) < 8 * sqrt(expected / PI) * 0.5 / 170);
-            while (drawn_count > 0)
-                reference_close(&drawn[--drawn_count]);
+            world_forget();
         }
     }
 }
@@ -332,9 +272,9 @@ TEST_WITH(0, a_convex_solid_does_not_shadow_itself, set_up, tear_down)
         }
         add_light((LightKind)(i / 6 % 3), at);
         for (int meshes = 0; meshes <= (object->flat ? 1 : 0); meshes++) {
-            const Reference with = trace((ReferenceOptions){.meshes = meshes});
+            const Reference with = world_trace((ReferenceOptions){.meshes = meshes});
             const Reference without = trace_lit((ReferenceOptions){.meshes = meshes});
-            if (!same(&with, &without))
+            if (!world_same(&with, &without))
                 fail_msg("solid %d, light %d: shadows of its own", (int)kind, i / 6 % 3);
         }
     }
@@ -400,9 +340,9 @@ TEST_WITH(0, a_doubled_sheet_is_lit_on_the_side_of_the_light, set_up, tear_down)
                 mat4_product(mat4_rotate(180, (Vec3){0, 1, 0}), mat4_scale((Vec3){3, 3, 1})));
             add_light(LIGHT_POINT, (Vec3){0.3, 0.2, side ? -2 : 2});
             world.scene.objects = world.objects;
-            const Reference with = trace((ReferenceOptions){.meshes = meshes});
+            const Reference with = world_trace((ReferenceOptions){.meshes = meshes});
             const Reference without = trace_lit((ReferenceOptions){.meshes = meshes});
-            assert_true(same(&with, &without));
+            assert_true(world_same(&with, &without));
         }
 }
 
@@ -418,7 +358,7 @@ TEST_WITH(0, a_light_on_a_wall_is_not_shadowed_by_it, set_up, tear_down)
             mat4_translate((Vec3){1.31, 0.23, 0.1}),
             mat4_product(mat4_rotate(70, (Vec3){0.3, 1, 0.2}), mat4_scale((Vec3){0.21, 0.7, 1})));
         add_light(LIGHT_POINT, mat4_transform_point(turned, (Vec3){0.13, 0.37, 0}));
-        const Reference alone = trace((ReferenceOptions){.meshes = meshes});
+        const Reference alone = world_trace((ReferenceOptions){.meshes = meshes});
         /* Elsewhere in the wall, and in an edge of its triangles; rounding decides the side. */
         for (int i = 0; i < 2; i++) {
             world.scene.object_count = 1;
@@ -426,7 +366,7 @@ TEST_WITH(0, a_light_on_a_wall_is_not_shadowed_by_it, set_up, tear_down)
             Object *wall = add_wall();
             wall->world_from_object =
                 mat4_product(turned, mat4_translate(i ? (Vec3){0.13, 0.37, 0} : (Vec3){0, 0, 0}));
-            const Reference picture = trace((ReferenceOptions){.meshes = meshes});
+            const Reference picture = world_trace((ReferenceOptions){.meshes = meshes});
             for (int k = 0; k < PIXELS; k++)
                 if (picture.object[k] == 0 && picture.interior[k] && alone.interior[k])
                     assert_true(picture.color[3 * k] == alone.color[3 * k]);
@@ -448,7 +388,7 @@ TEST_WITH(0, a_light_in_a_closed_object_lights_its_inside_only, set_up, tear_dow
             object->two_sided = true;
             object->back = object->front;
             add_light(LIGHT_POINT, (Vec3){kind == SOLID_TORUS ? 0.6 : 0.1, 0.01, 1.1});
-            const Reference outside = trace((ReferenceOptions){.meshes = meshes});
+            const Reference outside = world_trace((ReferenceOptions){.meshes = meshes});
             for (int k = 0; k < 3 * PIXELS; k++)
                 assert_true(outside.color[k] == 0);
             if (kind == SOLID_TORUS)
@@ -457,9 +397,9 @@ TEST_WITH(0, a_light_in_a_closed_object_lights_its_inside_only, set_up, tear_dow
             world.scene.camera.eye = (Vec3){-0.1, -0.1, 1.05};
             world.scene.camera.center = (Vec3){-0.3, 0.1, 0.9};
             world.scene.camera.near = 1e-3;
-            const Reference inside = trace((ReferenceOptions){.meshes = meshes});
+            const Reference inside = world_trace((ReferenceOptions){.meshes = meshes});
             const Reference without = trace_lit((ReferenceOptions){.meshes = meshes});
-            assert_true(same(&inside, &without));
+            assert_true(world_same(&inside, &without));
             assert_true(inside.color[0] > 0);
         }
 }
@@ -473,7 +413,7 @@ TEST_WITH(0, a_light_on_a_sphere_shines_away_from_it, set_up, tear_down)
     const Vec3 normal = {0.6, 0, -0.8};
     add_light(LIGHT_POINT, vec3_add((Vec3){0, 0, 5}, vec3_scale(normal, 0.5)));
     const Vec3 at = world.lights[0].position;
-    const Reference picture = trace((ReferenceOptions){0});
+    const Reference picture = world_trace((ReferenceOptions){0});
     int lit = 0, dark = 0;
     for (int y = 0; y < SIZE; y++)
         for (int x = 0; x < SIZE; x++) {
@@ -578,29 +518,13 @@ static double outside_solid(const Solid *solid, Vec3 p)
     }
 }
 
-static Mat4 inverse_of(Mat4 m)
-{
-    const double *c = m.m;
-    const Vec3 x = {c[0], c[1], c[2]}, y = {c[4], c[5], c[6]}, z = {c[8], c[9], c[10]};
-    const Vec3 rows[3] = {vec3_cross(y, z), vec3_cross(z, x), vec3_cross(x, y)};
-    const double determinant = vec3_dot(x, rows[0]);
-    Mat4 inverse = mat4_identity();
-    for (int i = 0; i < 3; i++) {
-        const Vec3 row = vec3_scale(rows[i], 1 / determinant);
-        inverse.m[i] = row.x;
-        inverse.m[4 + i] = row.y;
-        inverse.m[8 + i] = row.z;
-        inverse.m[12 + i] = -vec3_dot(row, (Vec3){c[12], c[13], c[14]});
-    }
-    return inverse;
-}
-
 /* The least of that between two points, the first STEPS / 100 of which are left out on the way from
  * an object's own surface. */
 enum { STEPS = 3000 };
 static double least_outside(const Object *object, Vec3 from, Vec3 to, bool own)
 {
-    const Mat4 inverse = inverse_of(object->world_from_object);
+    Mat4 inverse;
+    assert_true(mat4_inverse(object->world_from_object, &inverse));
     const Vec3 a = mat4_transform_point(inverse, from), b = mat4_transform_point(inverse, to);
     const Vec3 way = vec3_subtract(b, a);
     double least = INFINITY;
@@ -775,22 +699,22 @@ TEST_WITH(0, what_casts_needs_no_opacity_and_no_place_in_view, set_up, tear_down
     Object *sphere = add_object((Solid){.kind = SOLID_SPHERE, .radius = 0.3}, 16,
                                 mat4_translate((Vec3){0.5, 0.5, 3.95}));
     add_light(LIGHT_POINT, (Vec3){0.6, 0.6, 5});
-    const Reference opaque = trace((ReferenceOptions){0});
+    const Reference opaque = world_trace((ReferenceOptions){0});
     sphere->front.alpha = 0;
     sphere->two_sided = sphere->clockwise = true;
     world.scene.camera.near = 1; /* before which the sphere lies */
-    const Reference other = trace((ReferenceOptions){0});
-    assert_true(same(&opaque, &other));
+    const Reference other = world_trace((ReferenceOptions){0});
+    assert_true(world_same(&opaque, &other));
     world.lights[0].shadows = false;
-    const Reference without = trace((ReferenceOptions){0});
-    assert_true(difference(&without, &opaque) > 100);
+    const Reference without = world_trace((ReferenceOptions){0});
+    assert_true(world_difference(&without, &opaque) > 100);
     /* Ambient light has no shadow. */
     world.lights[0].ambient = (Vec3){1, 1, 1};
     world.lights[0].diffuse = world.lights[0].specular = (Vec3){0, 0, 0};
-    const Reference ambient = trace((ReferenceOptions){0});
+    const Reference ambient = world_trace((ReferenceOptions){0});
     world.lights[0].shadows = true;
-    const Reference kept = trace((ReferenceOptions){0});
-    assert_true(same(&ambient, &kept));
+    const Reference kept = world_trace((ReferenceOptions){0});
+    assert_true(world_same(&ambient, &kept));
 }
 
 /* A matrix that flattens, to a plane, a line or a point, leaves what casts that shadow. */
@@ -804,7 +728,7 @@ TEST_WITH(0, flattened_objects_cast_the_shadow_that_is_left_of_them, set_up, tea
             add_object((Solid){.kind = SOLID_DISC, .radius = 0.2}, 64,
                        mat4_product(mat4_translate((Vec3){0, 0, 4.5}), mat4_scale(sizes[i])));
             add_light(LIGHT_DIRECTIONAL, (Vec3){0, 0, 1});
-            const Reference with = trace((ReferenceOptions){.meshes = meshes});
+            const Reference with = world_trace((ReferenceOptions){.meshes = meshes});
             const Reference without = trace_lit((ReferenceOptions){.meshes = meshes});
             const double expected = i % 3 ? 0 : 32 * sin(2 * PI / 64) * 0.04 * scale() * scale();
             const double area = shadow_area(&with, &without);
@@ -814,36 +738,19 @@ TEST_WITH(0, flattened_objects_cast_the_shadow_that_is_left_of_them, set_up, tea
         }
 }
 
-/* Against plain means of many samples. */
+static bool is_mixed(const Reference *picture, int i)
+{
+    return !picture->interior[i] && picture->object[i] == 0 && i % 7 == 0;
+}
+
 TEST_WITH(0, edges_of_shadows_are_the_means_of_their_pixels, set_up, tear_down)
 {
     enum { GRID = 128 };
-    double worst = 0;
-    int count = 0;
-    Trace *rays;
+    int count;
     Random random = {testing_seed(37)};
     open_group(&random, 2);
-    const Reference picture = trace((ReferenceOptions){0});
-    require(trace_open(&rays, &world.scene,
-                       &(ReferenceOptions){.width = SIZE, .height = SIZE, .threads = 1}, FAILURE),
-            FAILURE);
-    for (int i = 0; i < PIXELS; i++) {
-        double sums[3] = {0, 0, 0};
-        if (picture.interior[i] || picture.object[i] != 0 || i % 7 != 0)
-            continue;
-        for (int k = 0; k < GRID * GRID; k++) {
-            Sample sample;
-            trace_sample(rays, i % SIZE + (k % GRID + 0.5) / GRID,
-                         i / SIZE + (k / GRID + 0.5) / GRID, &sample);
-            for (int c = 0; c < 3; c++)
-                sums[c] += (double)sample.color[c];
-        }
-        count++;
-        for (int c = 0; c < 3; c++)
-            worst =
-                fmax(worst, 255 * fabs(sums[c] / (GRID * GRID) - (double)picture.color[3 * i + c]));
-    }
-    trace_close(rays);
+    const Reference picture = world_trace((ReferenceOptions){0});
+    const double worst = world_distance_from_means(&picture, GRID, is_mixed, &count);
     printf("%d pixels: %.3f steps from their means at most\n", count, worst);
     assert_true(count > 10);
     /* Half a step asked for; half a row of so many samples may be on the wrong side. */
@@ -856,9 +763,9 @@ TEST_WITH(0, threads_and_a_stop_leave_pictures_with_shadows_whole, set_up, tear_
     Random random = {testing_seed(38)};
     for (int meshes = 0; meshes < 2; meshes++) {
         open_group(&random, 3);
-        const Reference one = trace((ReferenceOptions){.threads = 1, .meshes = meshes});
-        const Reference many = trace((ReferenceOptions){.threads = 5, .meshes = meshes});
-        assert_true(same(&one, &many));
+        const Reference one = world_trace((ReferenceOptions){.threads = 1, .meshes = meshes});
+        const Reference many = world_trace((ReferenceOptions){.threads = 5, .meshes = meshes});
+        assert_true(world_same(&one, &many));
         Reference none;
         const ReferenceOptions options = {.width = SIZE, .height = SIZE, .stop = &stop};
         atomic_init(&stop, true);
@@ -875,8 +782,8 @@ TEST_WITH(0, between_the_shadows_of_a_solid_and_its_mesh_is_an_edge, set_up, tea
     add_object((Solid){.kind = SOLID_DISC, .radius = 0.4}, 4,
                mat4_translate((Vec3){-0.7, 0.3, 0.8}));
     add_light(LIGHT_DIRECTIONAL, (Vec3){-0.9, 0.2, 1});
-    const Reference exact = trace((ReferenceOptions){.meshes = false});
-    const Reference meshes = trace((ReferenceOptions){.meshes = true, .centers = true});
+    const Reference exact = world_trace((ReferenceOptions){.meshes = false});
+    const Reference meshes = world_trace((ReferenceOptions){.meshes = true, .centers = true});
     PictureError without = {.all = {0}}, with = {.all = {0}};
     Image image;
     int on_wall = 0;

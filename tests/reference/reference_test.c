@@ -4,9 +4,9 @@
 #include "base/sanitized.h"
 #include "core/mesh_make.h"
 #include "reference/reference.h"
-#include "reference/reference_trace.h"
 #include "shapes/mesh_solids.h"
 #include "shapes/solid.h"
+#include "support/exact_world.h"
 #include "support/testing.h"
 
 #include <math.h>
@@ -22,72 +22,27 @@ static const double PI = 3.14159265358979323846;
 /* Colors are floats of 0..1. */
 static const double ROUNDED = 6e-8;
 
-enum { SIZE = 64, MIDDLE = SIZE / 2 * SIZE + SIZE / 2, MAX = 4 };
+enum { SIZE = WORLD_SIZE, MIDDLE = SIZE / 2 * SIZE + SIZE / 2 };
 
-/* A scene, to be changed: the eye at z = 4, so that z = 0 is 4 away and 2 * 4 tan 22.5 degrees
- * high; a directional light along the view. */
-typedef struct World {
-    Mesh meshes[MAX];
-    Object objects[MAX];
-    Light lights[MAX];
-    Scene scene;
-} World;
-
-static World world;
-
-/* What `draw` made, until tear_down. */
-static Reference drawn[64];
-static int drawn_count;
-
-static Object *add_object(Solid solid, int divisions)
-{
-    const int i = world.scene.object_count++;
-    assert_true(solid_mesh(&solid, divisions, &world.meshes[i], NULL));
-    world.objects[i] =
-        (Object){.mesh = &world.meshes[i],
-                 .solid = solid,
-                 .flat = solid_flat(&solid),
-                 .world_from_object = mat4_identity(),
-                 .front = {.ambient = {0.1, 0.1, 0.1}, .diffuse = {0.8, 0.5, 0.2}, .alpha = 1}};
-    return &world.objects[i];
-}
-
-static void close_world(void)
-{
-    for (int i = 0; i < MAX; i++)
-        mesh_close(&world.meshes[i]);
-}
-
+/* A directional light along the view. */
 FIXTURE(set_up)
 {
-    close_world();
-    world = (World){.lights = {{.direction = {0, 0, 1}, .diffuse = {1, 1, 1}}},
-                    .scene = {.camera = {{0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 45, 0.1, 100, 0},
-                              .background = {0.1, 0.2, 0.3},
-                              .lights = world.lights,
-                              .light_count = 1,
-                              .objects = world.objects}};
+    world_open();
+    world.lights[0] = (Light){.direction = {0, 0, 1}, .diffuse = {1, 1, 1}};
+    world.scene.light_count = 1;
+    world.scene.background = (Vec3){0.1, 0.2, 0.3};
     return 0;
 }
 
 FIXTURE(tear_down)
 {
-    close_world();
-    world = (World){0};
-    while (drawn_count > 0)
-        reference_close(&drawn[--drawn_count]);
+    world_close();
     return 0;
 }
 
-static Reference trace(ReferenceOptions options)
+static Object *add_object(Solid solid, int divisions)
 {
-    Reference reference;
-    if (options.width == 0)
-        options.width = options.height = SIZE;
-    require(scene_check(&world.scene, FAILURE), FAILURE);
-    require(reference_open(&reference, &world.scene, &options, FAILURE), FAILURE);
-    assert_in_range(drawn_count, 0, 63);
-    return drawn[drawn_count++] = reference;
+    return world_add(solid, divisions, mat4_identity());
 }
 
 static size_t pixel_at(const Reference *picture, int x, int y)
@@ -129,14 +84,6 @@ static double interior_difference(const Reference *a, const Reference *b)
     return max;
 }
 
-static double difference(const Reference *a, const Reference *b)
-{
-    double max = 0;
-    for (size_t i = 0; i < 3 * pixel_count(a); i++)
-        max = fmax(max, 255 * fabs((double)a->color[i] - (double)b->color[i]));
-    return max;
-}
-
 /* The number of pixels that object 0 covers. */
 static double covered(const Reference *picture)
 {
@@ -168,7 +115,7 @@ TEST_WITH(0, colors_of_vertices_are_linear_between_them, set_up, tear_down)
     for (int meshes = 0; meshes < 2; meshes++) {
         for (int way = 0; way < 2; way++) {
             world.scene.interpolation = way ? INTERPOLATION_GOURAUD : INTERPOLATION_PHONG;
-            const Reference picture = trace((ReferenceOptions){.meshes = meshes});
+            const Reference picture = world_trace((ReferenceOptions){.meshes = meshes});
             for (int x = SIZE / 3; x < SIZE * 2 / 3; x++) {
                 const double across = 4 * tan(PI / 8) * ((x + 0.5) / SIZE * 2 - 1);
                 /* Ambient light and the directional one, straight on: 0.25 and 1. Positions of the
@@ -185,7 +132,7 @@ TEST_WITH(0, a_sphere_has_its_depth_color_and_area, set_up, tear_down)
 {
     add_object((Solid){.kind = SOLID_SPHERE, .radius = 1}, 8);
     for (int size = 33; size < 400; size = 3 * size - 2) {
-        Reference picture = trace((ReferenceOptions){.width = size, .height = size});
+        Reference picture = world_trace((ReferenceOptions){.width = size, .height = size});
         const size_t middle = pixel_at(&picture, size / 2, size / 2);
         assert_true(fabs(picture.depth[middle] - 3) < 1e-15);
         assert_color(&picture, middle, 0.8, 0.5, 0.2);
@@ -218,7 +165,7 @@ TEST_WITH(0, a_square_covers_the_exact_part_of_each_pixel, set_up, tear_down)
         const double half = 0.3 + 0.13 * i, x = 0.011 * i, y = -0.017 * i;
         quad->world_from_object =
             mat4_product(mat4_translate((Vec3){x, y, 0}), mat4_scale((Vec3){half, half, 1}));
-        Reference picture = trace((ReferenceOptions){.meshes = i % 2});
+        Reference picture = world_trace((ReferenceOptions){.meshes = i % 2});
         const double scale = pixels_at_one(SIZE) / 4;
         double worst = 0;
         for (int row = 0; row < SIZE; row++)
@@ -248,7 +195,7 @@ TEST_WITH(0, colors_at_centers_are_not_mixed, set_up, tear_down)
 {
     Object *quad = add_object((Solid){.kind = SOLID_QUAD}, 4);
     quad->world_from_object = mat4_scale((Vec3){0.43, 0.71, 1});
-    Reference sharp = trace((ReferenceOptions){.centers = true});
+    Reference sharp = world_trace((ReferenceOptions){.centers = true});
     int inside = 0, partial = 0;
     for (size_t pixel = 0; pixel < (size_t)SIZE * SIZE; pixel++) {
         const bool covered = sharp.object[pixel] == 0;
@@ -265,7 +212,7 @@ TEST_WITH(0, a_cube_has_the_colors_of_its_faces, set_up, tear_down)
     cube->world_from_object = mat4_rotate(30, (Vec3){0, 1, 0});
     for (int mode = 0; mode < 4; mode++) {
         world.scene.interpolation = (Interpolation)(mode % 3);
-        Reference picture = trace((ReferenceOptions){.meshes = mode > 0});
+        Reference picture = world_trace((ReferenceOptions){.meshes = mode > 0});
         int faces[2] = {0, 0};
         for (size_t i = 0; i < pixel_count(&picture); i++) {
             if (!picture.interior[i])
@@ -296,7 +243,7 @@ TEST_WITH(0, colors_are_interpolated_by_place_on_the_triangle, set_up, tear_down
     object->mesh = &mesh;
     object->solid = (Solid){.kind = SOLID_NONE};
     world.scene.interpolation = INTERPOLATION_GOURAUD;
-    Reference picture = trace((ReferenceOptions){.meshes = true});
+    Reference picture = world_trace((ReferenceOptions){.meshes = true});
     Vec3 v[3];
     int count = 0;
     for (int k = 0; k < 3; k++)
@@ -340,13 +287,13 @@ TEST_WITH(0, finer_meshes_converge_to_the_solid, set_up, tear_down)
         double errors[3];
         for (int i = 0; i < 3; i++) {
             world.scene.object_count = 0;
-            close_world();
+            world_close_meshes();
             Object *object = add_object(solids[s], 32 << i);
             object->front.specular = (Vec3){0.5, 0.5, 0.5};
             object->front.shininess = 4;
             object->world_from_object = mat4_product(turn, mat4_scale((Vec3){1, 0.8, 1.1}));
-            Reference exact = trace((ReferenceOptions){.meshes = false});
-            Reference mesh = trace((ReferenceOptions){.meshes = true});
+            Reference exact = world_trace((ReferenceOptions){.meshes = false});
+            Reference mesh = world_trace((ReferenceOptions){.meshes = true});
             errors[i] = interior_difference(&exact, &mesh);
         }
         printf("solid %d: %.3f, %.3f, %.4f steps at 32, 64, 128 divisions\n", (int)solids[s].kind,
@@ -370,15 +317,15 @@ TEST_WITH(0, flat_solids_are_their_meshes, set_up, tear_down)
                               .specular = {1, 1, 1}};
     for (SolidKind kind = SOLID_BOX; kind <= SOLID_QUAD; kind++) {
         world.scene.object_count = 0;
-        close_world();
+        world_close_meshes();
         Object *object = add_object((Solid){.kind = kind, .radius = 0.7}, 4);
         object->front.specular = (Vec3){1, 1, 1};
         object->front.shininess = 20;
         object->world_from_object = turn;
-        Reference exact = trace((ReferenceOptions){.meshes = false});
-        Reference mesh = trace((ReferenceOptions){.meshes = true});
+        Reference exact = world_trace((ReferenceOptions){.meshes = false});
+        Reference mesh = world_trace((ReferenceOptions){.meshes = true});
         /* The corners of the mesh are floats, 3e-8 off; the highlight is 20 times as steep. */
-        assert_true(difference(&exact, &mesh) < 0.5);
+        assert_true(world_difference(&exact, &mesh) < 0.5);
         assert_true(interior_difference(&exact, &mesh) < 2e-3);
         assert_memory_equal(exact.object, mesh.object, pixel_count(&exact) * sizeof *exact.object);
         assert_memory_equal(exact.interior, mesh.interior, pixel_count(&exact));
@@ -390,7 +337,7 @@ TEST_WITH(0, triangles_are_flat_if_the_scene_is, set_up, tear_down)
     add_object((Solid){.kind = SOLID_SPHERE, .radius = 1}, 8);
     world.scene.interpolation = INTERPOLATION_FLAT;
     const Mesh *mesh = &world.meshes[0];
-    Reference picture = trace((ReferenceOptions){.meshes = true});
+    Reference picture = world_trace((ReferenceOptions){.meshes = true});
     int count = 0;
     for (size_t i = 0; i < pixel_count(&picture); i++) {
         bool found = false;
@@ -411,20 +358,20 @@ TEST_WITH(0, colors_are_clamped_at_vertices_on_request, set_up, tear_down)
 {
     Object *quad = add_object((Solid){.kind = SOLID_QUAD}, 3);
     quad->front.emission = (Vec3){0.5, 0.25, 0};
-    Reference picture = trace((ReferenceOptions){0});
+    Reference picture = world_trace((ReferenceOptions){0});
     assert_color(&picture, MIDDLE, 1, 0.75, 0.2);
     world.scene.show_clipped = true;
-    picture = trace((ReferenceOptions){0});
+    picture = world_trace((ReferenceOptions){0});
     assert_color(&picture, MIDDLE, 1, 0, 1);
     world.scene.clamp_vertex = true;
     world.scene.interpolation = INTERPOLATION_GOURAUD;
-    picture = trace((ReferenceOptions){0}); /* lit at every point */
+    picture = world_trace((ReferenceOptions){0}); /* lit at every point */
     assert_color(&picture, MIDDLE, 1, 0, 1);
-    picture = trace((ReferenceOptions){.meshes = true});
+    picture = world_trace((ReferenceOptions){.meshes = true});
     assert_color(&picture, MIDDLE, 1, 0.75, 0.2);
     world.scene.linear = true;
     world.scene.show_clipped = false;
-    picture = trace((ReferenceOptions){0});
+    picture = world_trace((ReferenceOptions){0});
     assert_color(&picture, MIDDLE, 1, 1.055 * pow(0.75, 1 / 2.4) - 0.055,
                  1.055 * pow(0.2, 1 / 2.4) - 0.055);
 }
@@ -443,7 +390,7 @@ TEST_WITH(0, the_back_has_its_own_material_and_the_reversed_normal, set_up, tear
                     quad->world_from_object =
                         mat4_scale((Vec3){mirrored ? -1 : 1, 1, turned ? -1 : 1});
                     quad->two_sided = two_sided;
-                    Reference picture = trace((ReferenceOptions){.meshes = meshes});
+                    Reference picture = world_trace((ReferenceOptions){.meshes = meshes});
                     if (!turned)
                         assert_color(&picture, MIDDLE, 0.8, 0.5, 0.2);
                     else if (two_sided)
@@ -460,10 +407,10 @@ TEST_WITH(0, wrong_normals_are_wrong, set_up, tear_down)
     quad->world_from_object.m[2] = 0.5;
     for (int meshes = 0; meshes < 2; meshes++) {
         quad->wrong_normals = false;
-        Reference picture = trace((ReferenceOptions){.meshes = meshes});
+        Reference picture = world_trace((ReferenceOptions){.meshes = meshes});
         assert_color(&picture, MIDDLE, 0.8 / sqrt(1.25), 0.5 / sqrt(1.25), 0.2 / sqrt(1.25));
         quad->wrong_normals = true;
-        picture = trace((ReferenceOptions){.meshes = meshes});
+        picture = world_trace((ReferenceOptions){.meshes = meshes});
         assert_color(&picture, MIDDLE, 0.8, 0.5, 0.2);
     }
 }
@@ -485,7 +432,7 @@ TEST_WITH(0, a_mirrored_scene_is_the_mirrored_picture, set_up, tear_down)
                 object->two_sided = true;
                 object->back = (Material){.diffuse = {0, 0.5, 1}, .alpha = 1};
                 world.lights[0].direction = (Vec3){i ? -1 : 1, 0.5, 1};
-                pictures[i] = trace((ReferenceOptions){.meshes = meshes});
+                pictures[i] = world_trace((ReferenceOptions){.meshes = meshes});
             }
             for (int y = 0; y < SIZE; y++)
                 for (int x = 0; x < SIZE; x++) {
@@ -515,7 +462,7 @@ TEST_WITH(0, flattened_objects_have_finite_colors, set_up, tear_down)
                     .kind = kind, .radius = 0.7, .height = 1, .tube = 0.2, .caps = MESH_CAP_BOTH},
                 16);
             object->world_from_object = mat4_product(turn, mat4_scale(scales[s]));
-            Reference picture = trace((ReferenceOptions){.width = 16, .height = 16});
+            Reference picture = world_trace((ReferenceOptions){.width = 16, .height = 16});
             for (size_t i = 0; i < 3 * pixel_count(&picture); i++)
                 assert_true(picture.color[i] >= 0 && picture.color[i] <= 1);
             /* It is flat already, and lit as before. */
@@ -531,15 +478,15 @@ TEST_WITH(0, only_objects_between_near_and_far_are_visible, set_up, tear_down)
     sphere->back = (Material){.emission = {0, 1, 0}, .alpha = 1};
     for (int meshes = 0; meshes < 2; meshes++) {
         world.scene.camera.near = 3.5; /* the front is at 3: cut open */
-        Reference picture = trace((ReferenceOptions){.meshes = meshes});
+        Reference picture = world_trace((ReferenceOptions){.meshes = meshes});
         assert_true(fabs(picture.depth[MIDDLE] - 5) < 0.01);
         assert_color(&picture, MIDDLE, 0, 1, 0);
         world.scene.camera.near = 0.1;
         world.scene.camera.far = 2.9;
-        picture = trace((ReferenceOptions){.meshes = meshes});
+        picture = world_trace((ReferenceOptions){.meshes = meshes});
         assert_int_equal(picture.object[MIDDLE], -1);
         world.scene.camera.far = 3.5; /* only a cap; from a pixel at its rim on, background */
-        picture = trace((ReferenceOptions){.meshes = meshes});
+        picture = world_trace((ReferenceOptions){.meshes = meshes});
         assert_int_equal(picture.object[MIDDLE], 0);
         /* At depth 3.5 the sphere's circle has the radius sqrt(3) / 2. */
         const double radius = pixels_at_one(SIZE) * sqrt(0.75) / 3.5;
@@ -553,7 +500,7 @@ TEST_WITH(0, the_first_of_equally_near_objects_is_seen, set_up, tear_down)
     for (int i = 0; i < 3; i++)
         add_object((Solid){.kind = SOLID_QUAD}, 3)->front.emission = (Vec3){0, 0, 0.1 * i};
     for (int meshes = 0; meshes < 2; meshes++) {
-        Reference picture = trace((ReferenceOptions){.meshes = meshes});
+        Reference picture = world_trace((ReferenceOptions){.meshes = meshes});
         for (size_t i = 0; i < pixel_count(&picture); i++)
             assert_true(picture.object[i] <= 0);
     }
@@ -569,7 +516,7 @@ TEST_WITH(0, the_cone_of_a_spot_is_an_edge, set_up, tear_down)
                               .direction = {0, 0, -1},
                               .cutoff = 20,
                               .diffuse = {1, 1, 1}};
-    Reference picture = trace((ReferenceOptions){0});
+    Reference picture = world_trace((ReferenceOptions){0});
     const double radius = 2 * tan(PI / 9) * pixels_at_one(SIZE) / 4;
     const double half = pixels_at_one(SIZE) / 4;
     int edges = 0;
@@ -604,7 +551,7 @@ TEST_WITH(0, a_steep_highlight_is_no_edge, set_up, tear_down)
     sphere->front.specular = (Vec3){1, 1, 1};
     sphere->front.shininess = 128;
     world.lights[0].specular = (Vec3){1, 1, 1};
-    Reference picture = trace((ReferenceOptions){.width = 63, .height = 63});
+    Reference picture = world_trace((ReferenceOptions){.width = 63, .height = 63});
     for (int y = 28; y < 35; y++)
         for (int x = 28; x < 35; x++) {
             const size_t pixel = pixel_at(&picture, x, y);
@@ -643,10 +590,11 @@ TEST_WITH(0, edges_are_as_exact_as_asked_for, set_up, tear_down)
 {
     double rms_before = INFINITY;
     open_edge_scene();
-    Reference fine = trace((ReferenceOptions){.edge_error = testing_step(5) == 1 ? 0.002 : 0.01});
+    Reference fine =
+        world_trace((ReferenceOptions){.edge_error = testing_step(5) == 1 ? 0.002 : 0.01});
     for (double asked = 8; asked > 0.1; asked /= 2) {
-        Reference picture = trace((ReferenceOptions){.edge_error = asked});
-        const double worst = difference(&picture, &fine);
+        Reference picture = world_trace((ReferenceOptions){.edge_error = asked});
+        const double worst = world_difference(&picture, &fine);
         double sum = 0;
         for (size_t i = 0; i < 3 * pixel_count(&picture); i++)
             sum += pow(255 * ((double)picture.color[i] - (double)fine.color[i]), 2);
@@ -660,38 +608,23 @@ TEST_WITH(0, edges_are_as_exact_as_asked_for, set_up, tear_down)
     }
 }
 
-/* Against plain means of many samples. */
+static bool is_mixed(const Reference *picture, int i)
+{
+    return (picture->object[i] < 0 ? picture->coverage[i] < 1 : !picture->interior[i]) &&
+           i % 13 == 0;
+}
+
 TEST_WITH(0, edges_are_the_means_of_their_pixels, set_up, tear_down)
 {
     enum { GRID = 256 };
-    double worst = 0;
-    int count = 0;
-    Trace *rays;
+    int count;
     open_edge_scene();
-    Reference picture = trace((ReferenceOptions){0});
-    assert_true(trace_open(&rays, &world.scene,
-                           &(ReferenceOptions){.width = SIZE, .height = SIZE, .threads = 1}, NULL));
-    for (size_t i = 0; i < pixel_count(&picture); i++) {
-        double sums[3] = {0, 0, 0};
-        const bool mixed = picture.object[i] < 0 ? picture.coverage[i] < 1 : !picture.interior[i];
-        if (!mixed || i % 13 != 0)
-            continue;
-        for (int k = 0; k < GRID * GRID; k++) {
-            Sample sample;
-            trace_sample(rays, (double)(i % SIZE) + (k % GRID + 0.5) / GRID,
-                         (double)(i / SIZE) + (k / GRID + 0.5) / GRID, &sample);
-            for (int c = 0; c < 3; c++)
-                sums[c] += (double)sample.color[c];
-        }
-        count++;
-        for (size_t c = 0; c < 3; c++)
-            worst = fmax(worst, 255 * fabs(sums[c] / (GRID * GRID) - channel(&picture, i, c)));
-    }
+    const Reference picture = world_trace((ReferenceOptions){0});
+    const double worst = world_distance_from_means(&picture, GRID, is_mixed, &count);
     printf("%d pixels with edges: %.3f steps from their means at most\n", count, worst);
     assert_true(count > 20);
     /* Half a step asked for; half a row of so many samples may be on the wrong side. */
     assert_true(worst < 0.5 + 0.5 * 255 / GRID);
-    trace_close(rays);
 }
 
 /* An object that no sample meets is not there; one that the center meets is, with its area. */
@@ -700,12 +633,12 @@ TEST_WITH(0, an_object_smaller_than_a_pixel_counts_if_a_sample_hits_it, set_up, 
     const double pixel = 4 / pixels_at_one(SIZE); /* at distance 4 */
     Object *sphere = add_object((Solid){.kind = SOLID_SPHERE, .radius = 0.2 * pixel}, 8);
     sphere->world_from_object = mat4_translate((Vec3){pixel / 2, pixel / 2, 0});
-    Reference picture = trace((ReferenceOptions){0});
+    Reference picture = world_trace((ReferenceOptions){0});
     /* A sphere's outline is as that of a circle at this distance but for its square. */
     assert_true(fabs(covered(&picture) - PI * 0.04) < 0.5 / 255 + 1e-4);
     assert_int_equal(picture.object[pixel_at(&picture, SIZE / 2, SIZE / 2 - 1)], 0);
     sphere->world_from_object = mat4_translate((Vec3){0.75 * pixel, 0.75 * pixel, 0});
-    picture = trace((ReferenceOptions){0});
+    picture = world_trace((ReferenceOptions){0});
     assert_true(covered(&picture) == 0);
 }
 
@@ -713,21 +646,17 @@ TEST_WITH(0, an_object_smaller_than_a_pixel_counts_if_a_sample_hits_it, set_up, 
 
 static void assert_same(const Reference *a, const Reference *b)
 {
-    const size_t count = pixel_count(a);
-    assert_memory_equal(a->color, b->color, 3 * count * sizeof *a->color);
-    assert_memory_equal(a->depth, b->depth, count * sizeof *a->depth);
-    assert_memory_equal(a->object, b->object, count * sizeof *a->object);
-    assert_memory_equal(a->coverage, b->coverage, count * sizeof *a->coverage);
-    assert_memory_equal(a->interior, b->interior, count);
+    assert_true(world_same(a, b));
+    assert_memory_equal(a->depth, b->depth, pixel_count(a) * sizeof *a->depth);
 }
 
 TEST_WITH(0, any_number_of_threads_makes_the_same_bits, set_up, tear_down)
 {
     open_edge_scene();
     for (int meshes = 0; meshes < 2; meshes++) {
-        Reference one = trace((ReferenceOptions){.threads = 1, .meshes = meshes});
+        Reference one = world_trace((ReferenceOptions){.threads = 1, .meshes = meshes});
         for (int threads = 0; threads < 9; threads++) {
-            Reference many = trace((ReferenceOptions){.threads = threads, .meshes = meshes});
+            Reference many = world_trace((ReferenceOptions){.threads = threads, .meshes = meshes});
             assert_same(&one, &many);
         }
     }
@@ -754,7 +683,7 @@ TEST_WITH(0, a_cancelled_picture_is_empty, set_up, tear_down)
     add_object((Solid){.kind = SOLID_TEAPOT, .radius = 1}, 16);
     int stopped = 0;
     for (int meshes = 0; meshes < 2; meshes++) {
-        Reference whole = trace((ReferenceOptions){.meshes = meshes});
+        Reference whole = world_trace((ReferenceOptions){.meshes = meshes});
         for (size_t i = 0; i < sizeof milliseconds / sizeof milliseconds[0]; i++) {
             Stopper stopper = {.nanoseconds = 1000000 * milliseconds[i]};
             const ReferenceOptions options = {.width = whole.width,
@@ -793,7 +722,7 @@ TEST_WITH(0, a_scene_far_from_the_origin_has_the_same_picture, set_up, tear_down
             world.objects[i].world_from_object.m[k] =
                 round(world.objects[i].world_from_object.m[k] * 1024) / 1024;
     for (int meshes = 0; meshes < 2; meshes++) {
-        Reference here = trace((ReferenceOptions){.meshes = meshes});
+        Reference here = world_trace((ReferenceOptions){.meshes = meshes});
         const World before = world;
         for (int i = 0; i < 3; i++)
             world.objects[i].world_from_object =
@@ -801,7 +730,7 @@ TEST_WITH(0, a_scene_far_from_the_origin_has_the_same_picture, set_up, tear_down
         world.lights[0].position = vec3_add(world.lights[0].position, far);
         world.scene.camera.eye = vec3_add(world.scene.camera.eye, far);
         world.scene.camera.center = vec3_add(world.scene.camera.center, far);
-        Reference there = trace((ReferenceOptions){.meshes = meshes});
+        Reference there = world_trace((ReferenceOptions){.meshes = meshes});
         assert_same(&here, &there);
         world = before;
     }
@@ -813,7 +742,7 @@ TEST_WITH(0, pictures_have_any_shape, set_up, tear_down)
     add_object((Solid){.kind = SOLID_SPHERE, .radius = 1}, 8);
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
         const int width = sizes[i][0], height = sizes[i][1];
-        Reference picture = trace((ReferenceOptions){.width = width, .height = height});
+        Reference picture = world_trace((ReferenceOptions){.width = width, .height = height});
         const double radius = pixels_at_one(height) / sqrt(15);
         assert_int_equal(picture.width, width);
         assert_int_equal(picture.height, height);
@@ -830,7 +759,7 @@ TEST_WITH(0, objects_out_of_view_leave_the_background, set_up, tear_down)
     for (int i = 0; i < 3; i++) {
         if (i == 2)
             world.scene.object_count = world.scene.light_count = 0;
-        Reference picture = trace((ReferenceOptions){.meshes = i == 1});
+        Reference picture = world_trace((ReferenceOptions){.meshes = i == 1});
         for (size_t k = 0; k < pixel_count(&picture); k++) {
             assert_int_equal(picture.object[k], -1);
             assert_true(picture.coverage[k] == 1);
@@ -839,7 +768,7 @@ TEST_WITH(0, objects_out_of_view_leave_the_background, set_up, tear_down)
     }
     world.scene.object_count = 1;
     sphere->world_from_object = mat4_translate((Vec3){0, 0, 4}); /* around the eye, unlit */
-    Reference picture = trace((ReferenceOptions){0});
+    Reference picture = world_trace((ReferenceOptions){0});
     for (size_t k = 0; k < pixel_count(&picture); k++)
         assert_int_equal(picture.interior[k], 1);
 }
@@ -890,9 +819,10 @@ TEST_WITH(0, a_picture_too_large_for_memory_is_rejected, set_up, tear_down)
 
 TEST_WITH(0, closing_twice_or_nothing_is_fine, set_up, tear_down)
 {
-    Reference picture = trace((ReferenceOptions){.width = 1, .height = 1});
+    Reference picture;
     const Reference zero = {0};
-    drawn_count = 0;
+    const ReferenceOptions options = {.width = 1, .height = 1};
+    require(reference_open(&picture, &world.scene, &options, FAILURE), FAILURE);
     reference_close(&picture);
     assert_memory_equal(&picture, &zero, sizeof zero);
     reference_close(&picture);
