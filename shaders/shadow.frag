@@ -1,13 +1,9 @@
 // shadow.frag: marks a pixel as in shadow; only the channel of one light is written.
 
-#if defined(DRAW_MAP) || defined(LOOK_UP) || defined(FLATTEN)
+#if defined(DRAW_MAP) || defined(LOOK_UP)
 precision highp float;
 #else
 precision mediump float;
-#endif
-
-#ifdef FLATTEN
-varying highp vec2 v_Between;
 #endif
 
 #if defined(DRAW_MAP) && defined(PACKED)
@@ -33,10 +29,6 @@ void main() {
         discard; // another map of the same light may know
     gl_FragColor = vec4(shadow);
 #else
-#ifdef FLATTEN
-    if (min(v_Between.x, v_Between.y) <= 0.0)
-        discard;
-#endif
     gl_FragColor = vec4(1.0);
 #endif
 }

@@ -1,6 +1,6 @@
 // shadow.vert: the depths of surfaces, and the volumes that they keep from a light. Both in one
-// program, so that equal vertices land at equal depths. With FLATTEN: shadows on a plane; with
-// DRAW_MAP: the depths of a shadow map; with LOOK_UP: the surfaces again, to compare with one.
+// program, so that equal vertices land at equal depths. With DRAW_MAP: the
+// depths of a shadow map; with LOOK_UP: the surfaces again, to compare with one.
 
 attribute vec4 a_Position; // w = 0: moved to the end, away from the light
 uniform mat4 u_ClipFromObject;
@@ -30,9 +30,6 @@ uniform vec3 u_Center; // in object coordinates, near the vertices
 uniform vec4 u_Light;  // from there; w = 0: the direction towards it
 uniform vec4 u_End;    // a plane, from there; (0, 0, 0, 1) is infinity
 #endif
-#ifdef FLATTEN
-varying highp vec2 v_Between; // positive between the plane and the light
-#endif
 
 void main() {
     vec4 place = a_Position;
@@ -42,9 +39,6 @@ void main() {
         // 8(1), 1988)
         vec4 from = vec4(place.xyz - u_Center, 1.0);
         place = dot(u_End, u_Light) * from - dot(u_End, from) * u_Light;
-#ifdef FLATTEN
-        v_Between = vec2(dot(u_End, from), place.w);
-#endif
         place.xyz += place.w * u_Center;
     }
 #endif

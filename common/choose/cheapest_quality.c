@@ -35,8 +35,7 @@ static bool choice_key(CacheKey *key, const CheapestQualityTask *task, Message *
         /* The shaders may have been edited. */
         for (int full = 0; full < 2 && moment == 0 && scene.object_count; full++) {
             ShaderSource sources[2];
-            if (!lighting_find_maps(task->lighting, &scene, full, message) ||
-                !lighting_sources(task->lighting, &scene, &scene.objects[0], full, sources,
+            if (!lighting_sources(task->lighting, &scene, &scene.objects[0], full, sources,
                                   message))
                 return false;
             for (int stage = 0; stage < 2; stage++) {

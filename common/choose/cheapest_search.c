@@ -139,8 +139,11 @@ static bool draw_parts(const CheapestQualityTask *task, const Scene *scene,
         return false;
     canvas_clear(task->canvas, scene->background, 0);
     canvas_view(task->canvas, place[0], place[1], place[2], place[3]);
-    return lighting_draw_parts(task->lighting, &made->scene, made->parts, aspect, task->full,
-                               message);
+    return lighting_show(
+        task->lighting,
+        &(LightingFrame){
+            .scene = &made->scene, .parts = made->parts, .aspect = aspect, .full = task->full},
+        message);
 }
 
 /* Draws `current` at all moments. The errors of objects that are nowhere inside stay 0. */

@@ -1,5 +1,7 @@
-/* What a compiler's message usually means, in a sentence for learners. */
-#include "core/shader_advice.h"
+/*
+ * What a compiler's message usually means, in a sentence: the part of shader.h for learners.
+ */
+#include "core/shader.h"
 
 #include "base/text.h"
 

@@ -43,26 +43,24 @@ static void explained_add(Explained *explained, ExplainedObject object)
     explained->all[explained->count++] = object;
 }
 
-/* What effects_explain says of an object; NULL if memory is out. */
-static char *effects_text(const Scene *scene, const Object *object)
+/* What a plan says of an object; NULL if memory is out. */
+static char *effects_text(const LightingPlan *plan, int object)
 {
     char *text = NULL;
     size_t size = 0;
     FILE *memory = open_memstream(&text, &size);
     if (!memory)
         return NULL;
-    effects_explain(scene, object, memory);
+    lighting_plan_explain(plan, object, memory);
     fclose(memory);
     return text;
 }
 
 /* Writes an object's effects, or which earlier object has the same; false then. */
-static bool write_effects(const Renderer *renderer, int number, const SceneView *view, int object,
-                          Explained *explained, FILE *file)
+static bool write_effects(const Renderer *renderer, const LightingPlan *plan, int number,
+                          int object, Explained *explained, FILE *file)
 {
-    int place = object;
-    const Scene *scene = scene_view_part(view, &place);
-    char *text = effects_text(scene, &scene->objects[place]);
+    char *text = effects_text(plan, object);
     fprintf(file, "# %s, view %d, object %d\n", renderer->example->name, number, object);
     for (int i = 0; text && i < explained->count; i++) {
         const ExplainedObject *earlier = &explained->all[i];
@@ -78,29 +76,42 @@ static bool write_effects(const Renderer *renderer, int number, const SceneView 
     return true;
 }
 
+/* What is drawn of a view. */
+static bool plan_view(LightingPlan *plan, Renderer *renderer, const DrawRequest *request,
+                      const SceneView *view, Message *message)
+{
+    Lighting *lighting = scene_state(renderer)->lighting;
+    const LightingFrame frame = {
+        .scene = &view->scene, .parts = view->made.parts, .aspect = 1, .full = request->full};
+    lighting_use_shadows(lighting, &request->shadows);
+    return lighting_plan(plan, lighting, &frame, message);
+}
+
 void explain_effects(Renderer *renderer, const DrawRequest *request, FILE *file)
 {
     Explained explained = {0};
     for (int number = 0; number < scene_view_count(renderer); number++) {
         SceneView view;
-        if (scene_view_open(&view, renderer, request, request->seconds, number, NULL))
+        LightingPlan plan = {.lighting = NULL};
+        if (scene_view_open(&view, renderer, request, request->seconds, number, NULL) &&
+            plan_view(&plan, renderer, request, &view, NULL))
             for (int i = 0; i < view.scene.object_count; i++)
-                write_effects(renderer, number, &view, i, &explained, file);
+                write_effects(renderer, &plan, number, i, &explained, file);
+        lighting_plan_close(&plan);
         scene_view_close(&view);
     }
     explained_close(&explained);
 }
 
 /* The operations of an object's program and of the full one, or why they are not known. */
-static void print_operations(const Lighting *lighting, const Scene *scene, const Object *object,
-                             bool with_full)
+static void print_operations(const LightingPlan *plan, int object, bool with_full)
 {
     static const char *const names[] = {"operations", "in the full program"};
     Message message = {0};
     for (int full = 0; full <= with_full && !message.text[0]; full++) {
         ShaderSource sources[2];
         ShaderCost vertex, fragment;
-        if (lighting_sources(lighting, scene, object, full, sources, &message) &&
+        if (lighting_plan_sources(plan, object, full, sources, &message) &&
             shader_cost(sources[SHADER_VERTEX].text, SHADER_VERTEX, &vertex, &message) &&
             shader_cost(sources[SHADER_FRAGMENT].text, SHADER_FRAGMENT, &fragment, &message))
             printf("%s: %d per vertex (%d special), %d per fragment (%d special)\n", names[full],
@@ -267,9 +278,9 @@ static void print_difference(const ExplainedObject *object, const ExplainedObjec
 }
 
 /* An object's effects with lines folded; NULL if memory is out. */
-static char *folded_text(const Scene *scene, const Object *object)
+static char *folded_text(const LightingPlan *plan, int object)
 {
-    char *whole = effects_text(scene, object), *text = NULL;
+    char *whole = effects_text(plan, object), *text = NULL;
     size_t size = 0;
     FILE *file = whole ? open_memstream(&text, &size) : NULL;
     if (file) {
@@ -281,11 +292,11 @@ static char *folded_text(const Scene *scene, const Object *object)
 }
 
 /* `object` is without its text. */
-static bool explain_object(const Renderer *renderer, const Scene *scene, const Object *drawn,
+static bool explain_object(const Renderer *renderer, const LightingPlan *plan,
                            ExplainedObject object, Explained *explained, Message *message)
 {
     int apart = 0;
-    object.text = folded_text(scene, drawn);
+    object.text = folded_text(plan, object.object);
     if (!object.text)
         return message_set(message, "--explain: not enough memory");
     const int nearest = find_nearest(explained, object.text, &apart);
@@ -301,7 +312,7 @@ static bool explain_object(const Renderer *renderer, const Scene *scene, const O
     else
         print_difference(&object, &explained->all[nearest]);
     explained_add(explained, object);
-    print_operations(scene_state(renderer)->lighting, scene, drawn, nearest < 0);
+    print_operations(plan, object.object, nearest < 0);
     if (nearest < 0)
         printf("\n");
     return true;
@@ -317,26 +328,21 @@ static void print_depth(const Canvas *canvas, const Camera *camera)
            canvas->depth_bits, near, far, near * near * step, far * far * step);
 }
 
-static bool explain_objects(Renderer *renderer, const DrawRequest *request, int number,
-                            const SceneView *view, Explained *explained, Message *message)
+static bool explain_objects(const Renderer *renderer, const LightingPlan *plan, bool verbose,
+                            int number, Explained *explained, Message *message)
 {
-    Lighting *lighting = scene_state(renderer)->lighting;
     bool done = true;
-    for (int i = 0; i < view->scene.object_count && done; i++) {
-        int place = i;
-        const Scene *scene = scene_view_part(view, &place);
-        const Object *object = &scene->objects[place];
+    for (int i = 0; i < plan->object_count && done; i++) {
         const ExplainedObject said = {.view = number, .object = i};
-        done = lighting_program(lighting, scene, object, request->full, message) != 0;
-        if (!request->verbose) {
-            done = done && explain_object(renderer, scene, object, said, explained, message);
+        if (!verbose) {
+            done = explain_object(renderer, plan, said, explained, message);
             continue;
         }
-        if (write_effects(renderer, number, view, i, explained, stdout) && done)
-            print_operations(lighting, scene, object, true);
+        if (write_effects(renderer, plan, number, i, explained, stdout))
+            print_operations(plan, i, true);
         printf("\n");
     }
-    if (!request->verbose)
+    if (!verbose)
         print_same(explained);
     return done;
 }
@@ -345,18 +351,18 @@ static bool explain_view(Renderer *renderer, const DrawRequest *request, int num
                          Explained *explained, Message *message)
 {
     SceneView view;
-    Lighting *lighting = scene_state(renderer)->lighting;
-    lighting_use_shadows(lighting, &request->shadows);
+    LightingPlan plan = {.lighting = NULL};
     bool done = scene_view_open(&view, renderer, request, request->seconds, number, message) &&
-                lighting_find_maps(lighting, &view.scene, request->full, message) &&
-                explain_objects(renderer, request, number, &view, explained, message);
+                plan_view(&plan, renderer, request, &view, message) &&
+                explain_objects(renderer, &plan, request->verbose, number, explained, message);
     if (done && number == 0 && view.scene.object_count > 0) {
         printf("%s# what the model leaves out\n", explained->count > 1 ? "\n" : "");
         done = unmodelled_explain(&view.scene, stdout, message);
         printf("\n");
         print_depth(renderer->canvas, &view.scene.camera);
-        done = done && lighting_explain_shadows(lighting, &view.scene, stdout, message);
+        lighting_plan_explain_shadows(&plan, &view.scene, stdout);
     }
+    lighting_plan_close(&plan);
     scene_view_close(&view);
     return done;
 }

@@ -76,12 +76,12 @@ static bool draw_marks(const FrameTask *task, int number, const Scene *scene, do
 static bool draw_view(const FrameTask *task, int number, double aspect, Message *message)
 {
     const SceneState *state = scene_state(task->renderer);
-    const bool full = task->request->full;
     SceneView view;
     const bool done =
         scene_view_open(&view, task->renderer, task->request, task->seconds, number, message) &&
-        (view.made.parts ? scene_draw_parts(state, &view.made, aspect, full, message)
-                         : lighting_draw(state->lighting, &view.scene, aspect, full, message)) &&
+        lighting_show(state->lighting,
+                      &(LightingFrame){&view.scene, view.made.parts, aspect, task->request->full},
+                      message) &&
         (!task->marks || !state->overlay.buffer ||
          draw_marks(task, number, &view.scene, aspect, message));
     scene_view_close(&view);

@@ -67,7 +67,11 @@ static unsigned fixed_axes(const DrawRequest *request)
 bool scene_draw_parts(const SceneState *state, const QualityParts *made, double aspect, bool full,
                       Message *message)
 {
-    return lighting_draw_parts(state->lighting, &made->scene, made->parts, aspect, full, message);
+    return lighting_show(
+        state->lighting,
+        &(LightingFrame){
+            .scene = &made->scene, .parts = made->parts, .aspect = aspect, .full = full},
+        message);
 }
 
 /* Seconds; NAN if it cannot be drawn. */

@@ -291,8 +291,7 @@ const OptionRow SCENE_OPTIONS[] = {
      .programs = PROGRAM_ONE},
     {{"shadows",
       "whether surfaces keep the light from others, and how that is found: volumes are exact, to "
-      "the pixel; so is planar, on what is flat, else volumes; map, or map:N, is a shadow map of "
-      "NxN (1024); on: planar or volumes",
+      "the pixel; map, or map:N, is a shadow map of NxN (1024); on: volumes",
       PARAMETER_CHOICE, .choices = SHADOW_NAMES, .codec = &SHADOWS},
      IN_OPTIONS(shadows),
      .programs = PROGRAM_ONE},

@@ -1,9 +1,18 @@
-#include "core/mesh_make.h"
-#include "lighting/lighting_parts.h"
+/*
+ * A frame of a plan: shadows first, then each object with its program. Uniforms keep their values
+ * in a program, so those of the lights are set once for all objects that follow each other with the
+ * same effects; buffers and the program are bound when they change. What remains for each object is
+ * what a loop written by hand would do: its matrices, the products of its colors and the lights',
+ * and the call that draws.
+ */
+#include "lighting/lighting.h"
+
+#include "base/memory.h"
+#include "lighting/lighting_shadows.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static Mat4 clip_from_object(Mat4 clip_from_eye, Mat4 eye_from_world, Mat4 world_from_object,
                              Mat4 eye_from_object)
@@ -19,11 +28,20 @@ void lighting_use_transforms(Lighting *lighting, const LightingTransforms *trans
     lighting->transforms = transforms ? *transforms : USUAL;
 }
 
+static bool same_settings(const ShadowSettings *a, const ShadowSettings *b)
+{
+    return a->way == b->way && a->map_size == b->map_size && a->smooth == b->smooth &&
+           memcmp(&a->bias, &b->bias, sizeof a->bias) == 0;
+}
+
 void lighting_use_shadows(Lighting *lighting, const ShadowSettings *settings)
 {
-    lighting->shadows = *settings;
-    if (settings->way == SHADOWS_OFF)
-        lighting->shadows.way = SHADOWS_DEFAULT.way;
+    ShadowSettings used = *settings;
+    if (used.way == SHADOWS_OFF)
+        used.way = SHADOWS_DEFAULT.way;
+    if (!same_settings(&lighting->shadows, &used))
+        lighting->renewal++;
+    lighting->shadows = used;
 }
 
 ShadowSettings lighting_shadows(const Lighting *lighting)
@@ -34,6 +52,7 @@ ShadowSettings lighting_shadows(const Lighting *lighting)
 void lighting_use_normal_matrix(Lighting *lighting, LightingNormalMatrix *normal_matrix)
 {
     lighting->normal_matrix = normal_matrix;
+    lighting->renewal++;
 }
 
 void lighting_use_depth_pass(Lighting *lighting, bool depth_pass)
@@ -41,102 +60,30 @@ void lighting_use_depth_pass(Lighting *lighting, bool depth_pass)
     lighting->depth_pass = depth_pass;
 }
 
-/* Meshes. */
-
-/* A copy as this interpolation needs it. */
-static bool remade_copy(const Mesh *mesh, Interpolation kind, Mesh *made, Message *message)
-{
-    if (!mesh_copy(made, mesh, message))
-        return false;
-    if (kind == INTERPOLATION_FLAT ? mesh_flatten(made, message) : mesh_provoke(made, message))
-        return true;
-    mesh_close(made);
-    return false;
-}
-
-/* How an object's mesh must be remade; INTERPOLATION_PHONG: not at all. */
-static Interpolation remade_for(const Scene *scene, const Object *object)
-{
-    const bool flatten = scene->interpolation == INTERPOLATION_FLAT && !object->flat;
-    return flatten || scene->interpolation == INTERPOLATION_CONSTANT ? scene->interpolation
-                                                                     : INTERPOLATION_PHONG;
-}
-
-const Buffered *lighting_buffer(Lighting *lighting, const Mesh *mesh, Interpolation remade,
-                                Message *message)
-{
-    for (const Buffered *buffered = lighting->buffers; buffered; buffered = buffered->next)
-        if (buffered->mesh == mesh && buffered->remade == remade)
-            return buffered;
-    Buffered *buffered = calloc(1, sizeof *buffered);
-    Mesh made = {0};
-    if (!buffered) {
-        message_set(message, "lighting: not enough memory");
-        return NULL;
-    }
-    const bool own = remade != INTERPOLATION_PHONG;
-    const bool done = (!own || remade_copy(mesh, remade, &made, message)) &&
-                      mesh_buffer_open(&buffered->buffer, own ? &made : mesh, message);
-    mesh_close(&made);
-    if (!done) {
-        free(buffered);
-        return NULL;
-    }
-    buffered->mesh = mesh;
-    buffered->remade = remade;
-    buffered->box = mesh_bounds(mesh);
-    buffered->next = lighting->buffers;
-    lighting->buffers = buffered;
-    return buffered;
-}
-
 void lighting_forget(Lighting *lighting, const Mesh *mesh)
 {
-    lighting_forget_shadows(lighting, mesh);
-    for (Buffered **link = &lighting->buffers; *link;) {
-        Buffered *buffered = *link;
-        if (mesh && buffered->mesh != mesh) {
-            link = &buffered->next;
-            continue;
-        }
-        *link = buffered->next;
-        mesh_buffer_close(&buffered->buffer);
-        free(buffered);
-    }
+    lighting->renewal++;
+    shadow_volumes_forget(&lighting->volumes);
+    shadow_maps_forget(&lighting->maps);
+    lighting_meshes_forget(&lighting->meshes, mesh);
 }
 
-/* Uniforms. GL ignores location -1, that of a uniform the program lacks. */
+/* Lights in eye coordinates */
 
-static void set_float(GLuint program, const char *name, double value)
-{
-    const float rounded = (float)value;
-    glUniform1fv(glGetUniformLocation(program, name), 1, &rounded);
-}
+typedef struct EyeLight {
+    float position[4]; /* w = 0: a direction */
+    float direction[3], half[3], attenuation[3];
+    float spot[4]; /* the cone's axis, and the cosine of its cutoff */
+    float exponent;
+    double share; /* of its attenuation, what does not depend on the distance */
+} EyeLight;
 
-static void set_vec3(GLuint program, const char *name, Vec3 value)
-{
-    shader_set_vec3(glGetUniformLocation(program, name), value);
-}
-
-static void set_mat4(GLuint program, const char *name, Mat4 value)
-{
-    shader_set_mat4(glGetUniformLocation(program, name), value);
-}
-
-/* `count` vectors of `size` components to a uniform array of group `g`. */
-static void set_array(GLuint program, const char *name, int g, int size, int count,
-                      const float *values)
-{
-    char full_name[32];
-    snprintf(full_name, sizeof full_name, "%s%d", name, g);
-    const GLint location = glGetUniformLocation(program, full_name);
-    if (size == 1)
-        glUniform1fv(location, count, values);
-    else if (size == 3)
-        glUniform3fv(location, count, values);
-    else
-        glUniform4fv(location, count, values);
-}
+/* What is the same for all objects of a scene. */
+typedef struct EyeScene {
+    const Scene *scene;
+    Vec3 ambient; /* the global, and what is constant of the lights' */
+    EyeLight lights[EFFECTS_MAX_LIGHTS];
+} EyeScene;
 
 static Vec3 multiply(Vec3 a, Vec3 b)
 {
@@ -151,18 +98,107 @@ static double constant_share(const Light *light)
     return shared && light->constant != 0 ? 1 / fmax(light->constant, 1e-30) : 1;
 }
 
-/* Constant ambient light that the material reflects. In the full program each light adds its own.
- */
-static Vec3 base_ambient(const Scene *scene, const Material *material, bool full)
+static EyeLight eye_light(const LightingTransforms *transforms, const Camera *camera,
+                          Mat4 eye_from_world, const Light *light)
 {
-    Vec3 sum = multiply(scene->global_ambient, material->ambient);
-    for (int i = 0; i < scene->light_count && !full; i++) {
-        const Light *light = &scene->lights[i];
-        if (!light->off && !light_ambient_varies(light))
-            sum = vec3_add(sum, vec3_scale(multiply(light->ambient, material->ambient),
-                                           constant_share(light)));
+    static const double RADIANS = 0.017453292519943295;
+    const bool directional = light->kind == LIGHT_DIRECTIONAL, spot = light->kind == LIGHT_SPOT;
+    const bool none = light->constant == 0 && light->linear == 0 && light->quadratic == 0;
+    Vec3 direction, half, position = light->position;
+    vec3_normalize(light->direction, &direction);
+    if (light->space == LIGHT_WORLD) {
+        direction = mat4_transform_direction(eye_from_world, direction);
+        position = transforms->eye_point(camera, eye_from_world, position);
     }
-    return sum;
+    vec3_normalize(vec3_add(direction, (Vec3){0, 0, 1}), &half);
+    EyeLight made = {.share = constant_share(light), .exponent = spot ? (float)light->exponent : 0};
+    vec3_to_float(directional ? direction : position, made.position);
+    made.position[3] = directional ? 0 : 1;
+    vec3_to_float(direction, made.direction);
+    vec3_to_float(half, made.half);
+    vec3_to_float(directional || none ? (Vec3){1, 0, 0}
+                                      : (Vec3){light->constant, light->linear, light->quadratic},
+                  made.attenuation);
+    vec3_to_float(direction, made.spot);
+    /* No cosine is below -1, so that other lights shine in every direction. */
+    made.spot[3] = spot ? (float)cos(light->cutoff * RADIANS) : -2.0F;
+    return made;
+}
+
+/* In the full program each light adds its own ambient light. */
+static void find_eye_scene(EyeScene *made, const LightingTransforms *transforms, const Scene *scene,
+                           Mat4 eye_from_world, bool full)
+{
+    made->scene = scene;
+    made->ambient = scene->global_ambient;
+    for (int i = 0; i < scene->light_count; i++) {
+        const Light *light = &scene->lights[i];
+        made->lights[i] = eye_light(transforms, &scene->camera, eye_from_world, light);
+        if (!full && !light->off && !light_ambient_varies(light))
+            made->ambient =
+                vec3_add(made->ambient, vec3_scale(light->ambient, made->lights[i].share));
+    }
+}
+
+/* Uniforms. GL ignores location -1, that of a uniform the program lacks. */
+
+static void set_float(GLint location, double value)
+{
+    const float rounded = (float)value;
+    if (location >= 0)
+        glUniform1fv(location, 1, &rounded);
+}
+
+static void set_array(GLint location, int size, int count, const float *values)
+{
+    if (size == 1)
+        glUniform1fv(location, count, values);
+    else if (size == 3)
+        glUniform3fv(location, count, values);
+    else
+        glUniform4fv(location, count, values);
+}
+
+/* A part of `size` floats of each light of a group; `first`: that of light 0. */
+static void set_part(GLint location, int size, const LightGroup *group, const float *first)
+{
+    float values[4 * EFFECTS_MAX_LIGHTS];
+    if (location < 0)
+        return;
+    for (int i = 0; i < group->count; i++)
+        memcpy(&values[size * i], (const char *)first + group->lights[i] * sizeof(EyeLight),
+               (size_t)size * sizeof *values);
+    set_array(location, size, group->count, values);
+}
+
+/* Each light's channel of its mask. */
+static void set_channels(GLint location, const LightGroup *group, uint32_t shadows)
+{
+    float channels[4 * EFFECTS_MAX_LIGHTS] = {0};
+    if (location < 0)
+        return;
+    for (int i = 0; i < group->count; i++)
+        channels[4 * i + effects_channel(shadows, group->lights[i]) % SHADOW_CHANNELS] = 1;
+    set_array(location, 4, group->count, channels);
+}
+
+static void set_lights(const LightingVariant *variant, const EyeScene *eye)
+{
+    const LightingProgram *program = variant->program;
+    const double viewer = eye->scene->distant_viewer ? 0 : 1;
+    set_float(program->local_viewer[SHADER_VERTEX], viewer);
+    set_float(program->local_viewer[SHADER_FRAGMENT], viewer);
+    for (int g = 0; g < program->group_count; g++) {
+        const LightGroup *group = &variant->key.effects.groups[g];
+        const GroupLocations *at = &program->groups[g];
+        set_part(at->position, group->terms.any ? 4 : 3, group, eye->lights[0].position);
+        set_part(at->direction, 3, group, eye->lights[0].direction);
+        set_part(at->half, 3, group, eye->lights[0].half);
+        set_part(at->attenuation, 3, group, eye->lights[0].attenuation);
+        set_part(at->spot, 4, group, eye->lights[0].spot);
+        set_part(at->exponent, 1, group, &eye->lights[0].exponent);
+        set_channels(at->channel, group, variant->key.shadows);
+    }
 }
 
 static Vec3 at_max(Vec3 a, double max)
@@ -170,150 +206,94 @@ static Vec3 at_max(Vec3 a, double max)
     return (Vec3){fmin(a.x, max), fmin(a.y, max), fmin(a.z, max)};
 }
 
-/* The products of light and material colors, in the color uniforms. */
-static void set_colors(GLuint program, const Scene *scene, const LightGroup *group, int g,
-                       const Material *material, bool mediump, const char *const names[3])
+/* The products of light and material colors. */
+static void set_colors(const GLint locations[3], const EyeScene *eye, const LightGroup *group,
+                       const Material *material, bool mediump)
 {
     /* A 16-bit float overflows above 65504, and infinity times 0 is NaN. The three terms are added
      * before they are attenuated. */
     const double max = mediump && !group->terms.at_vertex ? 2e4 : INFINITY;
-    float values[3][3 * EFFECTS_MAX_LIGHTS];
-    for (int i = 0; i < group->count; i++) {
-        const Light *light = &scene->lights[group->lights[i]];
-        /* In the full program a light that is off is black, and attenuation has its own uniform. */
-        const double share = light->off ? 0 : group->terms.any ? 1 : constant_share(light);
-        const Vec3 products[3] = {multiply(light->ambient, material->ambient),
-                                  multiply(light->diffuse, material->diffuse),
-                                  multiply(light->specular, material->specular)};
-        for (int k = 0; k < 3; k++)
-            vec3_to_float(at_max(vec3_scale(products[k], share), max), &values[k][3 * i]);
+    const Vec3 reflected[3] = {material->ambient, material->diffuse, material->specular};
+    for (int k = 0; k < 3; k++) {
+        float values[3 * EFFECTS_MAX_LIGHTS];
+        if (locations[k] < 0)
+            continue;
+        for (int i = 0; i < group->count; i++) {
+            const int number = group->lights[i];
+            const Light *light = &eye->scene->lights[number];
+            const Vec3 color = k == 0 ? light->ambient : k == 1 ? light->diffuse : light->specular;
+            /* In the full program a light that is off is black, and attenuation has its own
+             * uniform. */
+            const double share = light->off ? 0 : group->terms.any ? 1 : eye->lights[number].share;
+            const Vec3 product = vec3_scale(multiply(color, reflected[k]), share);
+            vec3_to_float(at_max(product, max), &values[3 * i]);
+        }
+        glUniform3fv(locations[k], group->count, values);
     }
-    for (int k = 0; k < 3; k++)
-        set_array(program, names[k], g, 3, group->count, values[k]);
-}
-
-/* A light in eye coordinates: the direction is a unit vector. */
-static Light eye_light(const LightingTransforms *transforms, const Camera *camera,
-                       Mat4 eye_from_world, const Light *given)
-{
-    Light light = *given;
-    vec3_normalize(given->direction, &light.direction);
-    if (given->space == LIGHT_WORLD) {
-        light.direction = mat4_transform_direction(eye_from_world, light.direction);
-        light.position = transforms->eye_point(camera, eye_from_world, given->position);
-    }
-    return light;
-}
-
-/* Each light's channel of its mask. */
-static void set_channels(GLuint program, const Scene *scene, const LightGroup *group, int g)
-{
-    float channels[4 * EFFECTS_MAX_LIGHTS] = {0};
-    for (int i = 0; i < group->count; i++)
-        channels[4 * i + effects_channel(scene, group->lights[i]) % SHADOW_CHANNELS] = 1;
-    set_array(program, "u_Channel", g, 4, group->count, channels);
-}
-
-static void set_group(GLuint program, const LightingTransforms *transforms, const Scene *scene,
-                      Mat4 eye_from_world, const LightGroup *group, int g)
-{
-    float position[4 * EFFECTS_MAX_LIGHTS], direction[3 * EFFECTS_MAX_LIGHTS];
-    float half[3 * EFFECTS_MAX_LIGHTS], attenuation[3 * EFFECTS_MAX_LIGHTS];
-    float spot[4 * EFFECTS_MAX_LIGHTS], exponent[EFFECTS_MAX_LIGHTS];
-    static const double RADIANS = 0.017453292519943295;
-    const int size = group->terms.any ? 4 : 3; /* of a position */
-    for (int i = 0; i < group->count; i++) {
-        const Light made =
-            eye_light(transforms, &scene->camera, eye_from_world, &scene->lights[group->lights[i]]);
-        const Light *light = &made;
-        const bool directional = light->kind == LIGHT_DIRECTIONAL;
-        const Vec3 direction_eye = light->direction;
-        const Vec3 place = directional ? direction_eye : light->position;
-        Vec3 half_eye;
-        vec3_to_float(place, &position[size * i]);
-        if (size == 4)
-            position[4 * i + 3] = directional ? 0 : 1;
-        vec3_to_float(direction_eye, &direction[3 * i]);
-        vec3_normalize(vec3_add(direction_eye, (Vec3){0, 0, 1}), &half_eye);
-        vec3_to_float(half_eye, &half[3 * i]);
-        const bool none = light->constant == 0 && light->linear == 0 && light->quadratic == 0;
-        vec3_to_float(directional || none
-                          ? (Vec3){1, 0, 0}
-                          : (Vec3){light->constant, light->linear, light->quadratic},
-                      &attenuation[3 * i]);
-        vec3_to_float(direction_eye, &spot[4 * i]);
-        /* No cosine is below -1, so that other lights shine in every direction. */
-        spot[4 * i + 3] = light->kind == LIGHT_SPOT ? (float)cos(light->cutoff * RADIANS) : -2.0F;
-        exponent[i] = light->kind == LIGHT_SPOT ? (float)light->exponent : 0;
-    }
-    set_array(program, "u_Position", g, size, group->count, position);
-    set_array(program, "u_Direction", g, 3, group->count, direction);
-    set_array(program, "u_Half", g, 3, group->count, half);
-    set_array(program, "u_Attenuation", g, 3, group->count, attenuation);
-    set_array(program, "u_Spot", g, 4, group->count, spot);
-    set_array(program, "u_Exponent", g, 1, group->count, exponent);
-    if (group->terms.shadow && group->count > 1)
-        set_channels(program, scene, group, g);
 }
 
 /* Emission and constant ambient light; with vertex colors, which the latter is multiplied by, in
  * two uniforms. */
-static void set_base(GLuint program, const char *base, const char *tint, const Scene *scene,
-                     const Material *material, bool colored, bool full)
+static void set_side(const LightingVariant *variant, int side, const EyeScene *eye,
+                     const Object *object, bool mediump)
 {
-    const Vec3 ambient = base_ambient(scene, material, full);
-    set_vec3(program, base, colored ? material->emission : vec3_add(material->emission, ambient));
-    set_vec3(program, tint, ambient);
+    const LightingProgram *program = variant->program;
+    const SideLocations *at = &program->sides[side];
+    const Material material = effects_material(object, side == 1);
+    const Vec3 ambient = multiply(eye->ambient, material.ambient);
+    const bool colored = variant->key.effects.vertex_color;
+    if (at->base >= 0)
+        shader_set_vec3(at->base,
+                        colored ? material.emission : vec3_add(material.emission, ambient));
+    if (at->tint >= 0)
+        shader_set_vec3(at->tint, ambient);
+    set_float(at->alpha, material.alpha);
+    for (int stage = 0; stage < 2; stage++) {
+        set_float(at->shininess[stage], material.shininess);
+        set_float(at->normal[stage], object->two_sided ? -1 : 1);
+    }
+    for (int g = 0; g < program->group_count; g++)
+        set_colors(program->groups[g].colors[side], eye, &variant->key.effects.groups[g], &material,
+                   mediump);
 }
 
-static void set_materials(GLuint program, const Scene *scene, const Object *object,
-                          const Effects *effects, bool full, bool mediump)
-{
-    static const char *const front[3] = {"u_FrontAmbient", "u_FrontDiffuse", "u_FrontSpecular"};
-    static const char *const back[3] = {"u_BackAmbient", "u_BackDiffuse", "u_BackSpecular"};
-    /* In the full program one-sided objects have two equal sides. */
-    const Material sides[2] = {effects_material(object, false), effects_material(object, true)};
-    const Material *before = &sides[0], *behind = &sides[1];
-    const bool colored = effects->vertex_color;
-    set_base(program, "u_FrontBase", "u_FrontTint", scene, before, colored, full);
-    set_float(program, "u_FrontAlpha", before->alpha);
-    set_float(program, "u_FrontShininess", before->shininess);
-    set_float(program, "u_VertexFrontShininess", before->shininess);
-    for (int g = 0; g < effects->group_count; g++)
-        set_colors(program, scene, &effects->groups[g], g, before, mediump, front);
-    if (!effects->two_sided)
-        return;
-    set_base(program, "u_BackBase", "u_BackTint", scene, behind, colored, full);
-    set_float(program, "u_BackAlpha", behind->alpha);
-    set_float(program, "u_BackShininess", behind->shininess);
-    set_float(program, "u_VertexBackShininess", behind->shininess);
-    set_float(program, "u_BackNormal", object->two_sided ? -1 : 1);
-    set_float(program, "u_VertexBackNormal", object->two_sided ? -1 : 1);
-    for (int g = 0; g < effects->group_count; g++)
-        set_colors(program, scene, &effects->groups[g], g, behind, mediump, back);
-}
+/* Drawing */
 
-/* Drawing. */
-
-/* What is the same for all objects of a frame. */
-typedef struct LightingFrame {
+/* A frame, and what of the last object is still set. */
+typedef struct Pass {
+    LightingPlan *plan;
+    const LightingFrame *frame;
     Mat4 eye_from_world, clip_from_eye;
-    bool full;
-    int masks;
-} LightingFrame;
+    bool mediump;
+    EyeScene eye;
+    const LightingVariant *lit; /* whose lights are set */
+    const LightingProgram *program;
+    const MeshBuffer *buffer;
+} Pass;
 
-static void draw_buffer(GLuint program, const MeshBuffer *buffer)
+static void unbind(Pass *pass)
 {
-    const GLint position = glGetAttribLocation(program, "a_Position");
-    const GLint normal = glGetAttribLocation(program, "a_Normal");
-    const GLint others[] = {normal, glGetAttribLocation(program, "a_Color"),
-                            glGetAttribLocation(program, "a_LitPosition")};
-    mesh_buffer_bind(buffer, position, normal);
-    mesh_buffer_bind_more(buffer, others[1], others[2]);
-    glDrawElements(GL_TRIANGLES, buffer->index_count, buffer->index_type, NULL);
+    const LightingProgram *program = pass->program;
+    const GLint others[3] = {program ? program->normal : -1, program ? program->color : -1,
+                             program ? program->lit_position : -1};
     for (int i = 0; i < 3; i++)
         if (others[i] >= 0)
             glDisableVertexAttribArray((GLuint)others[i]);
+}
+
+/* Program and buffers, if they are others than the last object's. */
+static void bind(Pass *pass, const PlannedObject *planned)
+{
+    const LightingProgram *program = planned->variant->program;
+    if (pass->program == program && pass->buffer == planned->drawn)
+        return;
+    unbind(pass);
+    if (pass->program != program)
+        glUseProgram(program->program);
+    mesh_buffer_bind(planned->drawn, program->position, program->normal);
+    mesh_buffer_bind_more(planned->drawn, program->color, program->lit_position);
+    pass->program = program;
+    pass->buffer = planned->drawn;
 }
 
 static Mat4 normal_matrix_of(const Lighting *lighting, const Object *object, Mat4 eye_from_object)
@@ -325,136 +305,131 @@ static Mat4 normal_matrix_of(const Lighting *lighting, const Object *object, Mat
     return mat4_normal(eye_from_object); /* zero if the matrix is singular: unlit */
 }
 
-static void set_uniforms(GLuint program, const Lighting *lighting, const Scene *scene,
-                         const Object *object, const Effects *effects, const LightingFrame *frame,
-                         Mat4 eye_from_object)
+static void set_object(const Pass *pass, const PlannedObject *planned, const Object *object,
+                       Mat4 eye_from_object)
 {
-    const LightingTransforms *transforms = &lighting->transforms;
-    set_mat4(program, "u_ClipFromObject",
-             transforms->clip_from_object(frame->clip_from_eye, frame->eye_from_world,
-                                          object->world_from_object, eye_from_object));
-    set_mat4(program, "u_EyeFromObject", eye_from_object);
-    set_mat4(program, "u_NormalMatrix", normal_matrix_of(lighting, object, eye_from_object));
-    set_float(program, "u_LocalViewer", scene->distant_viewer ? 0 : 1);
-    set_float(program, "u_VertexLocalViewer", scene->distant_viewer ? 0 : 1);
-    set_materials(program, scene, object, effects, frame->full, lighting_is_mediump(lighting));
-    for (int g = 0; g < effects->group_count; g++)
-        set_group(program, transforms, scene, frame->eye_from_world, &effects->groups[g], g);
-    lighting_set_shadows(program, lighting, frame->masks, object);
+    const Lighting *lighting = pass->plan->lighting;
+    const LightingProgram *program = planned->variant->program;
+    shader_set_mat4(program->clip_from_object, lighting->transforms.clip_from_object(
+                                                   pass->clip_from_eye, pass->eye_from_world,
+                                                   object->world_from_object, eye_from_object));
+    if (program->eye_from_object >= 0)
+        shader_set_mat4(program->eye_from_object, eye_from_object);
+    if (program->normal_matrix >= 0)
+        shader_set_mat4(program->normal_matrix,
+                        normal_matrix_of(lighting, object, eye_from_object));
+    for (int side = 0; side < (planned->variant->key.effects.two_sided ? 2 : 1); side++)
+        set_side(planned->variant, side, &pass->eye, object, pass->mediump);
+    place_shadows(pass->plan, program, object->world_from_object);
 }
 
-static bool draw_object(Lighting *lighting, const Scene *scene, const Object *object,
-                        const LightingFrame *frame, uint32_t shadowed, Message *message)
+static void set_state(const Object *object, bool cull, bool mirrored)
 {
-    const Buffered *buffered =
-        lighting_buffer(lighting, object->mesh, remade_for(scene, object), message);
-    if (!buffered)
-        return false;
-    Effects effects = frame->full ? effects_full(scene, object)
-                                  : effects_of_boxed(scene, object, &buffered->box, shadowed);
-    if (lighting->normal_matrix && effects.normals)
-        effects.normal_matrix = effects.normalize_vertex = true;
-    const GLuint program = lighting_find_program(lighting, scene, &effects, message);
-    if (!program)
-        return false;
-
-    const Mat4 eye_from_object = lighting->transforms.eye_from_object(
-        &scene->camera, frame->eye_from_world, object->world_from_object);
-    glUseProgram(program);
-    set_uniforms(program, lighting, scene, object, &effects, frame, eye_from_object);
     /* A reflection reverses the winding. */
-    glFrontFace((mat4_determinant(eye_from_object) < 0) != object->clockwise ? GL_CW : GL_CCW);
+    glFrontFace(mirrored != object->clockwise ? GL_CW : GL_CCW);
+    if (cull)
+        glEnable(GL_CULL_FACE);
+    else
+        glDisable(GL_CULL_FACE);
     if (object->behind_lines) {
         glEnable(GL_POLYGON_OFFSET_FILL);
         glPolygonOffset(1, 1);
     }
-    if (effects.cull)
-        glEnable(GL_CULL_FACE);
-    else
-        glDisable(GL_CULL_FACE);
-    draw_buffer(program, &buffered->buffer);
-    glDisable(GL_POLYGON_OFFSET_FILL);
-    return true;
 }
 
-/* Object `i` as parts[i] says, if there are parts. */
-static bool draw_objects(Lighting *lighting, const Scene *scene, const Scene *parts,
-                         const LightingFrame *frame, const ShadowPlan *plan, Message *message)
+/* In parts each object has lights of its own. */
+static void draw_object(Pass *pass, int number)
 {
-    bool done = true;
-    for (int i = 0; i < scene->object_count && done; i++) {
-        Message why = {.located = false};
-        done = draw_object(lighting, parts ? &parts[i] : scene,
-                           parts ? &parts[i].objects[0] : &scene->objects[i], frame,
-                           plan->count ? plan->receives[i] : 0, &why);
-        if (!done && why.located && message)
-            *message = why; /* a shader's, which begins with file:line */
-        else if (!done)
-            message_set(message, "object %d: %s", i, why.text);
+    const LightingFrame *frame = pass->frame;
+    const LightingTransforms *transforms = &pass->plan->lighting->transforms;
+    const PlannedObject *planned = &pass->plan->objects[number];
+    const LightingVariant *variant = planned->variant;
+    const Scene *scene = frame->parts ? &frame->parts[number] : frame->scene;
+    const Object *object = frame->parts ? &scene->objects[0] : &scene->objects[number];
+    const Mat4 eye_from_object = transforms->eye_from_object(&scene->camera, pass->eye_from_world,
+                                                             object->world_from_object);
+    bind(pass, planned);
+    if (frame->parts)
+        find_eye_scene(&pass->eye, transforms, scene, pass->eye_from_world, frame->full);
+    if (frame->parts || pass->lit != variant) {
+        set_lights(variant, &pass->eye);
+        set_shadows(pass->plan, variant->program);
+        pass->lit = variant;
     }
-    return done;
+    set_object(pass, planned, object, eye_from_object);
+    set_state(object, variant->key.effects.cull, mat4_determinant(eye_from_object) < 0);
+    glDrawElements(GL_TRIANGLES, planned->drawn->index_count, planned->drawn->index_type, NULL);
+    if (object->behind_lines)
+        glDisable(GL_POLYGON_OFFSET_FILL);
 }
 
-bool lighting_draw_parts(Lighting *lighting, const Scene *scene, const Scene *parts, double aspect,
-                         bool full, Message *message)
+static void draw_objects(Pass *pass)
 {
-    LightingFrame frame = {.full = full};
-    ShadowPlan plan;
-    if (!scene_camera(&scene->camera, aspect, &frame.eye_from_world, &frame.clip_from_eye, message))
-        return false;
-    if (scene->light_count > EFFECTS_MAX_LIGHTS)
-        return message_set(message, "scene: %d lights: at most %d fit into one program",
-                           scene->light_count, EFFECTS_MAX_LIGHTS);
-    if (!shadow_plan_open(&plan, lighting, scene, message))
-        return false;
-    const ShadowFrame shadows = {scene, &plan,        frame.eye_from_world, frame.clip_from_eye,
-                                 full,  parts != NULL};
-    bool done = lighting_draw_shadows(lighting, &shadows, &frame.masks, message);
+    LightingPlan *plan = pass->plan;
+    pass->mediump = lighting_is_mediump(&plan->lighting->programs.loader);
+    if (!pass->frame->parts)
+        find_eye_scene(&pass->eye, &plan->lighting->transforms, pass->frame->scene,
+                       pass->eye_from_world, pass->frame->full);
     glEnable(GL_DEPTH_TEST);
-    lighting_bind_shadows(lighting, frame.masks, true);
-    done = done && draw_objects(lighting, scene, parts, &frame, &plan, message);
-    lighting_bind_shadows(lighting, frame.masks, false);
-    shadow_plan_close(&plan);
+    bind_shadows(plan, true);
+    for (int i = 0; i < plan->object_count; i++)
+        draw_object(pass, i);
+    unbind(pass);
+    bind_shadows(plan, false);
     glDisable(GL_CULL_FACE);
     glFrontFace(GL_CCW);
+}
+
+bool lighting_draw(LightingPlan *plan, const LightingFrame *frame, Message *message)
+{
+    Pass pass = {.plan = plan, .frame = frame};
+    const Scene *scene = frame->scene;
+    if (!scene_camera(&scene->camera, frame->aspect, &pass.eye_from_world, &pass.clip_from_eye,
+                      message))
+        return false;
+    const ShadowFrame shadows = {scene, plan, pass.eye_from_world, pass.clip_from_eye};
+    const bool done = draw_shadows(&shadows, message);
+    if (done)
+        draw_objects(&pass);
     return done;
 }
 
-bool lighting_draw(Lighting *lighting, const Scene *scene, double aspect, bool full,
-                   Message *message)
+bool lighting_show(Lighting *lighting, const LightingFrame *frame, Message *message)
 {
-    return lighting_draw_parts(lighting, scene, NULL, aspect, full, message);
+    return lighting_plan(&lighting->shown, lighting, frame, message) &&
+           lighting_draw(&lighting->shown, frame, message);
 }
 
 bool lighting_open(Lighting **opened, const ShaderLoader *loader, Message *message)
 {
-    Lighting *lighting = calloc(1, sizeof *lighting);
-    *opened = lighting;
-    if (!lighting)
-        return message_set(message, "lighting: not enough memory");
-    lighting->loader = *loader;
+    Lighting *lighting = memory_new(1, sizeof *lighting);
+    (void)message;
+    lighting->programs.loader = *loader;
     lighting->transforms = USUAL;
     lighting->shadows = SHADOWS_DEFAULT;
+    *opened = lighting;
     return true;
 }
 
 LightingCounts lighting_counts(const Lighting *lighting)
 {
-    LightingCounts counts = lighting->counts;
-    counts.volumes = lighting->mask.volumes;
-    counts.volumes_made = lighting->mask.made;
-    counts.volume_triangles = lighting->mask.triangles;
-    counts.maps = lighting->maps.drawn;
-    counts.flattened = lighting->mask.flattened;
-    return counts;
+    return (LightingCounts){.programs = lighting->programs.count,
+                            .compile_seconds = lighting->programs.compile_seconds,
+                            .texts = lighting->programs.printed,
+                            .volumes = lighting->volumes.drawn,
+                            .volumes_made = lighting->volumes.made,
+                            .volume_triangles = lighting->volumes.triangles,
+                            .maps = lighting->maps.drawn};
 }
 
 void lighting_close(Lighting *lighting)
 {
     if (!lighting)
         return;
-    lighting_close_programs(lighting);
-    lighting_forget(lighting, NULL);
+    lighting_plan_close(&lighting->shown);
+    lighting_close_programs(&lighting->programs);
+    lighting_meshes_forget(&lighting->meshes, NULL);
+    shadow_volumes_close(&lighting->volumes);
     shadow_mask_close(&lighting->mask);
     shadow_maps_close(&lighting->maps);
     free(lighting);

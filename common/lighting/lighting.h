@@ -1,23 +1,29 @@
 /*
- * lighting: draws a scene with programs specialized for the effects of its objects.
+ * lighting: draws a scene with programs specialized for the effects of its objects, from a plan.
  *
- * A program is assembled from shaders/lighting.vert and lighting.frag and cached by its text.
- * Values are uniforms, so that changing a color compiles nothing.
+ * A plan is what is decided: the effects of each object and its program, what casts shadows on what
+ * in which light, and how each shadow is drawn. It is plain data: --explain prints it. A frame then
+ * only sets values and draws. The programs are assembled from shaders/lighting.vert and
+ * lighting.frag. Values are uniforms, so that changing a color compiles nothing.
  */
 #ifndef LIGHTING_H
 #define LIGHTING_H
 
+#include "core/mesh_buffer.h"
 #include "core/shader.h"
 #include "scene/effects.h"
+#include "scene/shadow_pairs.h"
+#include "shadows/shadow_frustum.h"
 
 typedef struct Lighting Lighting;
 
 typedef struct LightingCounts {
     int programs; /* compiled so far */
     double compile_seconds;
+    long long texts;                     /* of programs written, to find those to compile */
     long long volumes, volume_triangles; /* of shadows, drawn so far */
     long long volumes_made;              /* of those: others were as in the last frame */
-    long long maps, flattened;           /* the faces of a cube are several maps */
+    long long maps;                      /* the faces of a cube are several maps */
 } LightingCounts;
 
 /* `loader` is copied; its strings must outlive the Lighting. */
@@ -27,10 +33,6 @@ bool lighting_open(Lighting **lighting, const ShaderLoader *loader, Message *mes
 void lighting_use_shadows(Lighting *lighting, const ShadowSettings *settings);
 
 ShadowSettings lighting_shadows(const Lighting *lighting);
-
-/* Writes a line for each light with shadows: how they are drawn, or that nothing can come between;
- * of maps how fine they and their depths are. */
-bool lighting_explain_shadows(Lighting *lighting, const Scene *scene, FILE *file, Message *message);
 
 /* How transforms are composed; replaceable for the study of their accuracy and cost. */
 typedef struct LightingTransforms {
@@ -53,34 +55,100 @@ void lighting_use_normal_matrix(Lighting *lighting, LightingNormalMatrix *normal
  * wrong with that where the eye is in one. */
 void lighting_use_depth_pass(Lighting *lighting, bool depth_pass);
 
-/* Draws a scene that has passed scene_check into the current canvas, without clearing it. `full`
- * uses the program with every effect, for comparison. Mesh buffers are cached by the mesh's
- * address: a mesh must not change before lighting_forget or lighting_close. Where a light has
- * shadows that may fall on something, masks of them are drawn first (shadows/shadow_mask.h), or
- * maps, which the programs look up (shadows/shadow_map.h). */
-bool lighting_draw(Lighting *lighting, const Scene *scene, double aspect, bool full,
+/* What is drawn: a scene that has passed scene_check. */
+typedef struct LightingFrame {
+    const Scene *scene;
+    /* NULL; or object i is drawn as parts[i] says, a scene of one object, with as many lights:
+     * shadows are those of the scene. */
+    const Scene *parts;
+    double aspect; /* width / height */
+    bool full;     /* with the program of every effect, for comparison */
+} LightingFrame;
+
+typedef struct PlannedObject {
+    ObjectFacts facts;                     /* why its effects are what they are */
+    const struct LightingVariant *variant; /* its effects and program */
+    const MeshBuffer *drawn, *plain;   /* its mesh, as the interpolation needs it; and as it is */
+    const struct ShadowCaster *caster; /* NULL: it casts no shadow by a volume */
+    /* What the facts were last found from. */
+    const Mesh *mesh;
+    bool convex, lamp;
+    Mat4 world_from_object;
+    EffectsPlace place;
+} PlannedObject;
+
+typedef struct PlannedLight {
+    ShadowWay way;   /* of its shadows; SHADOWS_OFF: none can fall */
+    bool in_program; /* its map is looked up by the programs that light objects; else by one that
+                        marks its channel of a mask */
+    int look;        /* then: shadow_map_look */
+    int face_count;
+    ShadowFrustum faces[SHADOW_FACES]; /* of its map */
+    Light placed;                      /* in the world */
+} PlannedLight;
+
+/* Zeroed: not made. */
+typedef struct LightingPlan {
+    Lighting *lighting;
+    int object_count, light_count, object_capacity, light_capacity;
+    PlannedObject *objects;
+    SceneFacts *scenes; /* one; in parts one of each object */
+    PlannedLight *lights;
+    ShadowPairs pairs; /* what casts and receives which light's shadows */
+    uint32_t shadows;  /* the lights that have any, a bit each */
+    uint32_t maps;     /* the lights whose maps the programs look up, a bit each */
+    int masks;         /* how many textures of masks */
+    bool full, in_parts;
+    long long decisions; /* how often an object's effects or program were decided so far */
+    int renewal;         /* the Lighting's, when it was made */
+    Vec3 eye;
+    struct ShadowSurface *surfaces; /* of the objects, while a frame is drawn */
+    struct ShadowMapCaster *casters;
+} LightingPlan;
+
+/* Makes a plan of a frame, or of the next: then an object is decided anew only if its facts or its
+ * scene's have changed, which are found again and compared as bytes (scene/effects.h): about 0.1 µs
+ * an object, and what shadows may fall on if something has moved. In a frame without decisions
+ * nothing is allocated, compiled or looked up by name. Mesh buffers are cached by the mesh's
+ * address: a mesh must not change before lighting_forget or lighting_close. */
+bool lighting_plan(LightingPlan *plan, Lighting *lighting, const LightingFrame *frame,
                    Message *message);
 
-/* The same of a scene whose objects are drawn as `parts` say, scenes of one object each, with as
- * many lights: shadows are those of the scene. */
-bool lighting_draw_parts(Lighting *lighting, const Scene *scene, const Scene *parts, double aspect,
-                         bool full, Message *message);
+/* Draws the frame into the current canvas, without clearing it. The plan is that of this frame.
+ * Where a light has shadows that may fall on something, masks of them are drawn first
+ * (shadows/shadow_mask.h), or maps, which the programs look up (shadows/shadow_map.h). */
+bool lighting_draw(LightingPlan *plan, const LightingFrame *frame, Message *message);
+
+void lighting_plan_close(LightingPlan *plan); /* NULL or zeroed is fine */
+
+/* Both at once, with a plan that is kept for the next call: best if it is of the same scene. */
+bool lighting_show(Lighting *lighting, const LightingFrame *frame, Message *message);
+
+/* What a plan says of an object: its effects and program, and a line for each effect and for each
+ * one left out, with the reason. */
+const Effects *lighting_plan_effects(const LightingPlan *plan, int object);
+GLuint lighting_plan_program(const LightingPlan *plan, int object);
+void lighting_plan_explain(const LightingPlan *plan, int object, FILE *file);
+
+/* Whether the same decisions were made for the same objects. */
+bool lighting_plan_equal(const LightingPlan *a, const LightingPlan *b);
+
+/* A line for each light with shadows: how they are drawn, or that nothing can come between; of maps
+ * how fine they and their depths are. */
+void lighting_plan_explain_shadows(const LightingPlan *plan, const Scene *scene, FILE *file);
+
+/* The sources of an object's program by ShaderStage, as the driver receives them, or of the one
+ * with every effect; close both with shader_source_close. Both are zeroed on failure. */
+bool lighting_plan_sources(const LightingPlan *plan, int object, bool full, ShaderSource sources[2],
+                           Message *message);
+
+/* The same for an object of a scene without a plan: compiles and uploads nothing, and needs no GL
+ * unless shadows are by maps. */
+bool lighting_sources(Lighting *lighting, const Scene *scene, const Object *object, bool full,
+                      ShaderSource sources[2], Message *message);
 
 /* Drops the buffers of a mesh before it changes or closes; NULL: of all meshes. */
 void lighting_forget(Lighting *lighting, const Mesh *mesh);
-
-/* Finds which shadows the programs look up in maps themselves, as a frame of the scene does. */
-bool lighting_find_maps(Lighting *lighting, const Scene *scene, bool full, Message *message);
-
-/* The program that draws this object, compiled if necessary; 0, with a message, on failure. For
- * tests and tools; after lighting_find_maps or a frame, if the scene has shadows by maps. */
-GLuint lighting_program(Lighting *lighting, const Scene *scene, const Object *object, bool full,
-                        Message *message);
-
-/* That program's sources by ShaderStage, as the driver receives them; close both with
- * shader_source_close. Needs no GL. Both are zeroed on failure. */
-bool lighting_sources(const Lighting *lighting, const Scene *scene, const Object *object, bool full,
-                      ShaderSource sources[2], Message *message);
 
 LightingCounts lighting_counts(const Lighting *lighting);
 

@@ -1,138 +1,180 @@
-/* Which light's shadows may fall on what, maps and masks of them, and how programs look them up. */
-#include "lighting/lighting_parts.h"
+/*
+ * A light's shadows are drawn from a map (shadows/shadow_map.h) or as volumes
+ * (shadows/shadow_cast.h). A map of one face is looked up by the programs that light the objects,
+ * as far as they have room; else, and for volumes, what is in shadow is drawn into a mask first
+ * (shadows/shadow_mask.h). A volume would reach to infinity, which costs pixels, so it ends at a
+ * plane behind all that its shadow may fall on.
+ */
+#include "lighting/lighting_shadows.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
+#include <string.h>
 
-/* What throws a shadow. */
-typedef struct Caster {
-    const Mesh *mesh;
-    ShadowCaster shadow;
-    struct Caster *next;
-} Caster;
+/* The plan */
 
-void shadow_plan_close(ShadowPlan *plan)
+static bool lights_moved(LightingPlan *plan, const Scene *scene)
 {
-    free(plan->receives);
-    free(plan->throws);
-    free(plan->boxes);
-    free(plan->placed);
-    *plan = (ShadowPlan){.count = 0};
+    bool moved = memcmp(&plan->eye, &scene->camera.eye, sizeof plan->eye) != 0;
+    plan->eye = scene->camera.eye;
+    for (int l = 0; l < scene->light_count; l++) {
+        const Light placed = scene_world_light(scene, l);
+        moved |= memcmp(&plan->lights[l].placed, &placed, sizeof placed) != 0;
+        memcpy(&plan->lights[l].placed, &placed, sizeof placed);
+    }
+    return moved;
 }
 
-static void plan_pair(ShadowPlan *plan, const Scene *scene, int occluder, int receiver)
+static int fit_maps(const LightingPlan *plan, int number, ShadowFrustum faces[SHADOW_FACES])
 {
-    for (int l = 0; l < scene->light_count; l++) {
-        if (!effects_may_shadow(scene, l, occluder, receiver, plan->boxes, plan->placed))
+    static const double RADIANS = 0.017453292519943295;
+    const Light *light = &plan->lights[number].placed;
+    const bool spot = light->kind == LIGHT_SPOT;
+    const ShadowFitting fitting = {.light = light_place(light),
+                                   .axis = spot ? light->direction : (Vec3){0, 0, 0},
+                                   .reach = spot ? tan(light->cutoff * RADIANS) : 0,
+                                   .boxes = plan->pairs.placed,
+                                   .throws = plan->pairs.throws,
+                                   .receives = plan->pairs.receives,
+                                   .count = plan->pairs.count,
+                                   .number = number};
+    return shadow_frusta(&fitting, plan->lighting->shadows.map_size, faces);
+}
+
+static ShadowLookup lookup_of(const Lighting *lighting)
+{
+    const ShadowSettings *settings = &lighting->shadows;
+    return (ShadowLookup){settings->smooth != 0, settings->bias.x, settings->bias.y,
+                          settings->bias.z};
+}
+
+/* The number of maps that a program has room for. It has two varyings for each; what is lit at the
+ * vertices, two for each light with shadows; and six others. */
+static int map_room(const LightingPlan *plan, const Scene *scene)
+{
+    GLint varyings = 0, units = 0;
+    const int lights = __builtin_popcount(plan->pairs.all);
+    glGetIntegerv(GL_MAX_VARYING_VECTORS, &varyings);
+    glGetIntegerv(GL_MAX_TEXTURE_IMAGE_UNITS, &units);
+    varyings -= 6 + (scene->interpolation == INTERPOLATION_PHONG ? 0 : 2 * lights);
+    units -= (scene->light_count + SHADOW_CHANNELS - 1) / SHADOW_CHANNELS; /* masks */
+    return varyings / 2 < units ? varyings / 2 : units;
+}
+
+/* How each light's shadows are drawn; of maps their frusta, if something has moved. Programs look
+ * maps of one face up themselves, as far as there is room; full programs have masks of all lights.
+ */
+static void find_ways(LightingPlan *plan, const Scene *scene, bool moved)
+{
+    const bool maps = plan->lighting->shadows.way == SHADOWS_MAP;
+    const ShadowLookup lookup = lookup_of(plan->lighting);
+    int room = maps && plan->pairs.all ? map_room(plan, scene) : 0;
+    plan->maps = 0;
+    for (int l = 0; l < plan->light_count; l++) {
+        PlannedLight *light = &plan->lights[l];
+        const bool falls = plan->pairs.all >> l & 1;
+        light->way = !falls ? SHADOWS_OFF : maps ? SHADOWS_MAP : SHADOWS_VOLUMES;
+        light->in_program = false;
+        if (light->way != SHADOWS_MAP)
             continue;
-        plan->receives[receiver] |= (uint32_t)1 << l;
-        plan->throws[occluder] |= (uint32_t)1 << l;
-        plan->all |= (uint32_t)1 << l;
+        if (moved)
+            light->face_count = fit_maps(plan, l, light->faces);
+        if (plan->full || light->face_count != 1 || room-- <= 0)
+            continue;
+        light->in_program = true;
+        light->look = shadow_map_look(&plan->lighting->maps, &light->faces[0], &lookup);
+        plan->maps |= (uint32_t)1 << l;
     }
 }
 
-bool shadow_plan_open(ShadowPlan *plan, Lighting *lighting, const Scene *scene, Message *message)
+/* The number of masks that the programs look up. */
+static int mask_count(const LightingPlan *plan, const Scene *scene)
 {
-    const size_t count = (size_t)scene->object_count;
-    bool any = false, on = false;
-    *plan = (ShadowPlan){.count = 0};
-    for (int l = 0; l < scene->light_count; l++) {
-        any |= scene->lights[l].shadows;
-        on |= scene->lights[l].shadows && !scene->lights[l].off;
+    int count = 0;
+    for (int l = 0; l < plan->light_count; l++)
+        if (plan->full ? scene->lights[l].shadows
+                       : plan->lights[l].way != SHADOWS_OFF && !plan->lights[l].in_program)
+            count = effects_channel(plan->shadows, l) / SHADOW_CHANNELS + 1;
+    return count;
+}
+
+bool plan_shadows(LightingPlan *plan, const LightingFrame *frame, bool moved, bool *anew,
+                  Message *message)
+{
+    Lighting *lighting = plan->lighting;
+    const uint32_t maps = plan->maps;
+    int looks[EFFECTS_MAX_LIGHTS];
+    plan->shadows = 0;
+    for (int l = 0; l < plan->light_count; l++) {
+        looks[l] = plan->lights[l].look;
+        plan->shadows |= (uint32_t)frame->scene->lights[l].shadows << l;
     }
-    if (!any)
-        return true; /* the full program has masks of lights that are off, too */
-    if (on && scene->clamp_vertex && scene->interpolation != INTERPOLATION_PHONG)
-        return message_set(message, "shadows are looked up at the fragments: light that is clamped "
-                                    "at the vertices has none");
-    *plan = (ShadowPlan){.count = scene->object_count,
-                         .receives = calloc(count + 1, sizeof *plan->receives),
-                         .throws = calloc(count + 1, sizeof *plan->throws),
-                         .boxes = calloc(count + 1, sizeof *plan->boxes),
-                         .placed = calloc(count + 1, sizeof *plan->placed)};
-    if (!plan->receives || !plan->throws || !plan->boxes || !plan->placed) {
-        shadow_plan_close(plan);
-        return message_set(message, "shadows: not enough memory for %zu objects", count);
-    }
-    for (size_t i = 0; i < count; i++) {
-        const Buffered *buffered =
-            lighting_buffer(lighting, scene->objects[i].mesh, INTERPOLATION_PHONG, message);
-        if (!buffered) {
-            shadow_plan_close(plan);
-            return false;
-        }
-        plan->boxes[i] = buffered->box;
-        plan->placed[i] = placed_box(&buffered->box, scene->objects[i].world_from_object);
-    }
-    for (int o = 0; o < scene->object_count; o++)
-        for (int r = 0; r < scene->object_count; r++)
-            plan_pair(plan, scene, o, r);
+    moved |= lights_moved(plan, frame->scene);
+    if (moved)
+        shadow_pairs_find(&plan->pairs, frame->scene);
+    if (plan->pairs.all && lighting->shadows.way == SHADOWS_MAP && !lighting->maps.framebuffer &&
+        !shadow_maps_open(&lighting->maps, &lighting->programs.loader, message))
+        return false;
+    find_ways(plan, frame->scene, moved);
+    plan->masks = mask_count(plan, frame->scene);
+    *anew = maps != plan->maps;
+    for (int l = 0; l < plan->light_count; l++)
+        *anew |= looks[l] != plan->lights[l].look;
     return true;
 }
 
-static const Caster *find_caster(Lighting *lighting, const Mesh *mesh, Message *message)
+bool plan_casters(LightingPlan *plan, const Scene *scene, Message *message)
 {
-    for (const Caster *caster = lighting->casters; caster; caster = caster->next)
-        if (caster->mesh == mesh)
-            return caster;
-    Caster *caster = calloc(1, sizeof *caster);
-    if (!caster || !shadow_caster_open(&caster->shadow, mesh, message)) {
-        message_set(message, "shadows: not enough memory");
-        free(caster);
-        return NULL;
+    LightingMeshes *meshes = &plan->lighting->meshes;
+    const bool volumes = plan->lighting->shadows.way != SHADOWS_MAP;
+    if (!plan->pairs.all && !plan->masks)
+        return true;
+    for (int i = 0; i < plan->object_count; i++) {
+        PlannedObject *planned = &plan->objects[i];
+        const Mesh *mesh = scene->objects[i].mesh;
+        if (!planned->plain)
+            planned->plain = lighting_mesh_buffer(meshes, mesh, INTERPOLATION_PHONG, message);
+        if (!planned->caster && volumes && plan->pairs.throws[i])
+            planned->caster = lighting_mesh_caster(meshes, mesh, message);
+        if (!planned->plain || (!planned->caster && volumes && plan->pairs.throws[i]))
+            return false;
     }
-    caster->mesh = mesh;
-    caster->next = lighting->casters;
-    lighting->casters = caster;
-    return caster;
+    return true;
 }
 
-void lighting_forget_shadows(Lighting *lighting, const Mesh *mesh)
-{
-    shadow_mask_forget(&lighting->mask);
-    shadow_maps_forget(&lighting->maps);
-    for (Caster **link = &lighting->casters; *link;) {
-        Caster *caster = *link;
-        if (mesh && caster->mesh != mesh) {
-            link = &caster->next;
-            continue;
-        }
-        *link = caster->next;
-        shadow_caster_close(&caster->shadow);
-        free(caster);
-    }
-}
+/* Drawing volumes */
 
-static ShadowSurface surface_of(Lighting *lighting, const ShadowFrame *frame, int number)
+static void find_surfaces(const ShadowFrame *frame)
 {
-    const LightingTransforms *transforms = &lighting->transforms;
-    const Object *object = &frame->scene->objects[number];
-    const Mat4 eye_from_object = transforms->eye_from_object(
-        &frame->scene->camera, frame->eye_from_world, object->world_from_object);
-    const Effects effects = effects_of_boxed(frame->scene, object, &frame->plan->boxes[number], 0);
-    return (ShadowSurface){
-        .buffer = &lighting_buffer(lighting, object->mesh, INTERPOLATION_PHONG, NULL)->buffer,
-        .clip_from_object =
-            transforms->clip_from_object(frame->clip_from_eye, frame->eye_from_world,
-                                         object->world_from_object, eye_from_object),
-        .mirrored = mat4_determinant(eye_from_object) < 0,
-        .clockwise = object->clockwise,
-        .cull = effects.cull,
-        .behind_lines = object->behind_lines};
+    LightingPlan *plan = frame->plan;
+    const LightingTransforms *transforms = &plan->lighting->transforms;
+    for (int i = 0; i < plan->object_count; i++) {
+        const Object *object = &frame->scene->objects[i];
+        const ObjectFacts *facts = &plan->objects[i].facts;
+        const Mat4 eye_from_object = transforms->eye_from_object(
+            &frame->scene->camera, frame->eye_from_world, object->world_from_object);
+        plan->surfaces[i] =
+            (ShadowSurface){.buffer = plan->objects[i].plain,
+                            .clip_from_object = transforms->clip_from_object(
+                                frame->clip_from_eye, frame->eye_from_world,
+                                object->world_from_object, eye_from_object),
+                            .mirrored = mat4_determinant(eye_from_object) < 0,
+                            .clockwise = object->clockwise,
+                            .cull = facts->closed && !facts->clockwise && facts->beyond,
+                            .behind_lines = object->behind_lines};
+    }
 }
 
 /* A closed mesh may leave out half of its triangles: see SilhouetteFacing. */
-static SilhouetteFacing facing_of(const ShadowFrame *frame, int number, bool closed, Vec4 light)
+static SilhouetteFacing facing_of(const LightingPlan *plan, int number, bool closed, Vec4 light)
 {
-    const Object *object = &frame->scene->objects[number];
-    const MeshBox *box = &frame->plan->boxes[number];
+    const MeshBox *box = &plan->pairs.boxes[number];
     const bool outside = light.w == 0 || light.x < box->low.x || light.x > box->high.x ||
                          light.y < box->low.y || light.y > box->high.y || light.z < box->low.z ||
                          light.z > box->high.z;
     if (!closed)
         return SILHOUETTE_ALL;
-    if (object_is_convex(object))
+    if (plan->objects[number].convex)
         return SILHOUETTE_UNLIT;
     return outside ? SILHOUETTE_LIT : SILHOUETTE_ALL;
 }
@@ -150,13 +192,6 @@ static PlacedBox eye_box(const ShadowFrame *frame)
                                 vec3_scale(back, 0.5 * camera->near)}};
 }
 
-/* Whether the near plane may lie in the shadow: then the eye may, too. */
-static bool eye_in_shadow(const ShadowFrame *frame, int number, const Light *light)
-{
-    const PlacedBox seen = eye_box(frame);
-    return may_come_between(&frame->plan->placed[number], &seen, light_place(light));
-}
-
 /* Where a box begins along a direction, and where it ends. */
 static double box_least(const PlacedBox *box, Vec3 way)
 {
@@ -168,41 +203,86 @@ static double box_most(const PlacedBox *box, Vec3 way)
     return vec3_dot(box->center, way) + placed_reach(box, way);
 }
 
-/* The least of what receives a light's shadows along a direction, less a little. */
-static double receivers_least(const ShadowFrame *frame, int light, Vec3 way)
+/* Planes before which all lies that receives a light's shadows. Their directions are those of the
+ * sides of the largest boxes: a floor's, walls'. */
+enum { END_BOXES = 10 };
+typedef struct Ends {
+    int count;
+    Vec3 ways[6 * END_BOXES];
+    double least[6 * END_BOXES]; /* of the receivers along the way, less a little */
+} Ends;
+
+static double size_of(const PlacedBox *box)
+{
+    return vec3_length(box->half[0]) + vec3_length(box->half[1]) + vec3_length(box->half[2]);
+}
+
+/* The numbers of the largest boxes, in their order; how many. */
+static int largest_boxes(const ShadowPairs *pairs, int numbers[END_BOXES])
+{
+    double sizes[END_BOXES];
+    int count = 0;
+    for (int i = 0; i < pairs->count; i++) {
+        const double size = size_of(&pairs->placed[i]);
+        int least = 0;
+        for (int k = 1; k < count; k++)
+            least = sizes[k] < sizes[least] ? k : least;
+        if (count == END_BOXES && size <= sizes[least])
+            continue;
+        for (int k = least; count == END_BOXES && k + 1 < count; k++) {
+            numbers[k] = numbers[k + 1];
+            sizes[k] = sizes[k + 1];
+        }
+        count = count < END_BOXES ? count + 1 : count;
+        numbers[count - 1] = i;
+        sizes[count - 1] = size;
+    }
+    return count;
+}
+
+static double receivers_least(const LightingPlan *plan, int light, Vec3 way)
 {
     double least = INFINITY, most = -INFINITY;
-    for (int r = 0; r < frame->plan->count; r++) {
-        if (!(frame->full || frame->plan->receives[r] >> light & 1))
+    for (int r = 0; r < plan->pairs.count; r++) {
+        if (!(plan->full || plan->pairs.receives[r] >> light & 1))
             continue;
-        least = fmin(least, box_least(&frame->plan->placed[r], way));
-        most = fmax(most, box_most(&frame->plan->placed[r], way));
+        least = fmin(least, box_least(&plan->pairs.placed[r], way));
+        most = fmax(most, box_most(&plan->pairs.placed[r], way));
     }
     return least - 1e-3 * (most - least) - 1e-5 * fabs(least);
 }
 
-/* Looks for the plane before which all receivers lie that ends a caster's volume the soonest: of
- * those along the sides of the receivers' boxes. Infinity, if there is none. */
-static Vec4 find_end(const ShadowFrame *frame, int number, int light_number, const Light *light)
+static void find_ends(const LightingPlan *plan, int light, Ends *ends)
 {
-    static const double FAR = 1e6; /* a light's distance that leaves no digits of a float */
-    const Vec4 none = {0, 0, 0, 1};
-    const PlacedBox *caster = &frame->plan->placed[number];
-    const bool directional = light->kind == LIGHT_DIRECTIONAL;
-    double soonest = INFINITY;
-    Vec4 found = none;
-    if (!directional && vec3_length(vec3_subtract(light->position, caster->center)) >
-                            FAR * vec3_length(vec3_add(caster->half[0], caster->half[1])))
-        return none;
-    for (int k = 0; k < 6 * frame->plan->count; k++) {
-        const Vec3 *half = frame->plan->placed[k / 6].half;
+    int numbers[END_BOXES];
+    const int boxes = largest_boxes(&plan->pairs, numbers);
+    ends->count = 0;
+    for (int k = 0; k < 6 * boxes; k++) {
+        const Vec3 *half = plan->pairs.placed[numbers[k / 6]].half;
         Vec3 way;
         if (!vec3_normalize(vec3_cross(half[k / 2 % 3], half[(k / 2 + 1) % 3]), &way))
             continue;
         way = vec3_scale(way, k % 2 ? -1 : 1);
+        ends->ways[ends->count] = way;
+        ends->least[ends->count++] = receivers_least(plan, light, way);
+    }
+}
+
+/* Of those planes the one that ends a caster's volume the soonest. Infinity, if there is none. */
+static Vec4 find_end(const LightingPlan *plan, const Ends *ends, int number, const Light *light)
+{
+    static const double FAR = 1e6; /* a light's distance that leaves no digits of a float */
+    const PlacedBox *caster = &plan->pairs.placed[number];
+    const bool directional = light->kind == LIGHT_DIRECTIONAL;
+    double soonest = INFINITY;
+    Vec4 found = {0, 0, 0, 1};
+    if (!directional && vec3_length(vec3_subtract(light->position, caster->center)) >
+                            FAR * vec3_length(vec3_add(caster->half[0], caster->half[1])))
+        return found;
+    for (int k = 0; k < ends->count; k++) {
+        const Vec3 way = ends->ways[k];
         /* The light is on the plane's other side, and the caster between them. */
-        const double least = receivers_least(frame, light_number, way);
-        const double most = box_most(caster, way);
+        const double least = ends->least[k], most = box_most(caster, way);
         const double lights =
             directional ? vec3_dot(light->direction, way) : vec3_dot(light->position, way) - most;
         const double steps = (vec3_dot(caster->center, way) - least) / lights;
@@ -214,452 +294,255 @@ static Vec4 find_end(const ShadowFrame *frame, int number, int light_number, con
     return found;
 }
 
-/* Whether the near plane may lie beyond the end of a volume: then the eye sees into it there. */
-static bool eye_beyond(const ShadowFrame *frame, Vec4 end)
-{
-    const PlacedBox seen = eye_box(frame);
-    return box_least(&seen, (Vec3){end.x, end.y, end.z}) + end.w < 0;
-}
-
-/* In object coordinates. */
-static Vec4 plane_of_object(Vec4 plane, Mat4 world_from_object)
-{
-    return mat4_transform(mat4_transpose(world_from_object), plane);
-}
-
-/* What is the same for volumes and flattened shadows, which end at a plane. */
-static bool make_throw(Lighting *lighting, const ShadowFrame *frame, const Light *light, int number,
-                       Vec4 end, ShadowThrow *thrown, Message *message)
-{
-    const Object *object = &frame->scene->objects[number];
-    Mat4 object_from_world;
-    if (!mat4_inverse(object->world_from_object, &object_from_world))
-        return message_set(message, "object %d is flattened, and throws no shadow by volumes",
-                           number);
-    const Caster *caster = find_caster(lighting, object->mesh, message);
-    if (!caster)
-        return false;
-    *thrown = (ShadowThrow){.surface = surface_of(lighting, frame, number),
-                            .caster = &caster->shadow,
-                            .light_object = mat4_transform(object_from_world, light_place(light)),
-                            .end = plane_of_object(end, object->world_from_object)};
-    return true;
-}
-
 /* Whether light may fall where the mesh's normals say that none does: the object is drawn with
  * others, with a normal of the triangle, with another light, in 16 bits, or its back is where the
  * mesh has its front. */
-static bool has_odd_normals(const Lighting *lighting, const ShadowFrame *frame,
-                            const Object *object)
+static bool has_odd_normals(const ShadowFrame *frame, const Object *object)
 {
-    return object->wrong_normals || lighting->normal_matrix || frame->in_parts ||
-           frame->scene->interpolation == INTERPOLATION_FLAT || lighting_is_mediump(lighting) ||
+    const Lighting *lighting = frame->plan->lighting;
+    return object->wrong_normals || lighting->normal_matrix || frame->plan->in_parts ||
+           frame->scene->interpolation == INTERPOLATION_FLAT ||
+           lighting_is_mediump(&lighting->programs.loader) ||
            (object->two_sided && object->clockwise);
 }
 
-static bool cast_shadow(Lighting *lighting, const ShadowFrame *frame, const Light *light,
-                        int light_number, int number, Message *message)
+static bool cast_shadow(const ShadowFrame *frame, const Ends *ends, int light_number, int number,
+                        Message *message)
 {
-    const Vec4 end = find_end(frame, number, light_number, light);
-    ShadowThrow thrown;
-    if (!make_throw(lighting, frame, light, number, end, &thrown, message))
-        return false;
-    thrown.two_sided = frame->scene->objects[number].two_sided;
-    thrown.behind = !lighting->depth_pass && eye_in_shadow(frame, number, light);
-    thrown.own = frame->full || frame->plan->receives[number] >> light_number & 1;
-    thrown.odd = has_odd_normals(lighting, frame, &frame->scene->objects[number]);
-    thrown.beyond = eye_beyond(frame, end);
-    thrown.facing = facing_of(frame, number, thrown.caster->silhouette.closed, thrown.light_object);
-    return shadow_mask_cast(&lighting->mask, &thrown, message);
-}
-
-/* The plane of a flat object, with the light on its positive side; false: it is not flat. */
-static bool flat_plane(const ShadowFrame *frame, int number, const Light *light, Vec4 *plane)
-{
-    const MeshBox *box = &frame->plan->boxes[number];
-    const PlacedBox *placed = &frame->plan->placed[number];
-    const double thick[3] = {box->high.x - box->low.x, box->high.y - box->low.y,
-                             box->high.z - box->low.z};
-    const Vec4 place = light_place(light);
-    for (int k = 0; k < 3; k++) {
-        Vec3 way;
-        if (thick[k] != 0 ||
-            !vec3_normalize(vec3_cross(placed->half[(k + 1) % 3], placed->half[(k + 2) % 3]), &way))
-            continue;
-        const double offset = vec3_dot(way, placed->center);
-        const bool before = way.x * place.x + way.y * place.y + way.z * place.z > offset * place.w;
-        way = vec3_scale(way, before ? 1 : -1);
-        *plane = (Vec4){way.x, way.y, way.z, before ? -offset : offset};
-        return true;
-    }
-    return false;
-}
-
-/* The first object that receives a light's shadows and is not flat, or is one too many; -1: none.
- */
-static int not_flat(const ShadowFrame *frame, int number, const Light *light)
-{
-    int count = 0;
-    Vec4 plane;
-    for (int r = 0; r < frame->plan->count; r++) {
-        if (!(frame->plan->receives[r] >> number & 1))
-            continue;
-        if (count++ >= SHADOW_FLATS || !flat_plane(frame, r, light, &plane))
-            return r;
-    }
-    return -1;
-}
-
-static bool flatten_shadows(Lighting *lighting, const ShadowFrame *frame, const Light *light,
-                            int number, Message *message)
-{
-    ShadowThrow thrown;
-    Vec4 plane;
-    for (int r = frame->plan->count - 1, flats = 0; r >= 0; r--) {
-        if (!(frame->plan->receives[r] >> number & 1) || !flat_plane(frame, r, light, &plane))
-            continue;
-        const ShadowSurface surface = surface_of(lighting, frame, r);
-        shadow_mask_flat(&lighting->mask, &surface, flats);
-        for (int o = 0; o < frame->plan->count; o++)
-            if (frame->plan->throws[o] >> number & 1 && o != r &&
-                (!make_throw(lighting, frame, light, o, plane, &thrown, message) ||
-                 !shadow_mask_flatten(&lighting->mask, &thrown, flats, message)))
-                return false;
-        flats++;
-    }
-    return true;
-}
-
-/* Maps. */
-
-ShadowLookup lighting_lookup(const Lighting *lighting)
-{
-    const ShadowSettings *settings = &lighting->shadows;
-    return (ShadowLookup){settings->smooth != 0, settings->bias.x, settings->bias.y,
-                          settings->bias.z};
-}
-
-static int fit_maps(const Lighting *lighting, const ShadowFrame *frame, int number,
-                    ShadowFrustum frusta[SHADOW_FACES])
-{
-    static const double RADIANS = 0.017453292519943295;
-    const Light light = scene_world_light(frame->scene, number);
-    const bool spot = light.kind == LIGHT_SPOT;
-    const ShadowFitting fitting = {.light = light_place(&light),
-                                   .axis = spot ? light.direction : (Vec3){0, 0, 0},
-                                   .reach = spot ? tan(light.cutoff * RADIANS) : 0,
-                                   .boxes = frame->plan->placed,
-                                   .throws = frame->plan->throws,
-                                   .receives = frame->plan->receives,
-                                   .count = frame->plan->count,
-                                   .number = number};
-    return shadow_frusta(&fitting, lighting->shadows.map_size, frusta);
-}
-
-static bool draw_map(Lighting *lighting, const ShadowFrame *frame, int number, Message *message)
-{
-    ShadowFrustum frusta[SHADOW_FACES];
-    const Scene *scene = frame->scene;
-    ShadowMapCaster *casters = calloc((size_t)scene->object_count + 1, sizeof *casters);
-    int count = 0;
-    if (!casters)
-        return message_set(message, "shadows: not enough memory");
-    for (int o = 0; o < scene->object_count; o++)
-        if (frame->plan->throws[o] >> number & 1)
-            casters[count++] = (ShadowMapCaster){
-                &lighting_buffer(lighting, scene->objects[o].mesh, INTERPOLATION_PHONG, NULL)
-                     ->buffer,
-                scene->objects[o].world_from_object};
-    const int faces = fit_maps(lighting, frame, number, frusta);
-    const bool done = shadow_map_draw(&lighting->maps, number, lighting->shadows.map_size, frusta,
-                                      faces, casters, count, message);
-    free(casters);
-    return done;
-}
-
-static bool open_maps(Lighting *lighting, Message *message)
-{
-    return lighting->maps.framebuffer ||
-           shadow_maps_open(&lighting->maps, &lighting->loader, message);
-}
-
-static bool draw_maps(Lighting *lighting, const ShadowFrame *frame, Message *message)
-{
-    if (!open_maps(lighting, message))
-        return false;
-    for (int l = 0; l < frame->scene->light_count; l++)
-        if (frame->plan->all >> l & 1 && !draw_map(lighting, frame, l, message))
-            return false;
-    return true;
-}
-
-static bool look_up_map(Lighting *lighting, const ShadowFrame *frame, int number, Message *message)
-{
-    const ShadowLookup lookup = lighting_lookup(lighting);
-    bool done = true;
-    for (int r = frame->plan->count - 1; r >= 0 && done; r--) {
-        if (!(frame->plan->receives[r] >> number & 1))
-            continue;
-        const ShadowSurface surface = surface_of(lighting, frame, r);
-        done = shadow_map_mark(&lighting->maps, &lighting->mask, number,
-                               effects_channel(frame->scene, number), &surface,
-                               frame->scene->objects[r].world_from_object, &lookup, message);
-    }
-    return done;
-}
-
-/* The number of maps that a program has room for. It has two varyings for each; what is lit at the
- * vertices, two for each light with shadows; and six others. */
-static int map_room(const ShadowFrame *frame)
-{
-    GLint varyings = 0, units = 0;
-    int lights = 0;
-    for (int l = 0; l < frame->scene->light_count; l++)
-        lights += (int)(frame->plan->all >> l & 1);
-    glGetIntegerv(GL_MAX_VARYING_VECTORS, &varyings);
-    glGetIntegerv(GL_MAX_TEXTURE_IMAGE_UNITS, &units);
-    varyings -= 6 + (frame->scene->interpolation == INTERPOLATION_PHONG ? 0 : 2 * lights);
-    units -= (frame->scene->light_count + SHADOW_CHANNELS - 1) / SHADOW_CHANNELS; /* masks */
-    return varyings / 2 < units ? varyings / 2 : units;
-}
-
-/* The lights whose maps programs look up themselves: those that have one, as far as there is room.
- * Full programs have masks of all lights, with or without a map. */
-static void find_map_lights(Lighting *lighting, const ShadowFrame *frame)
-{
-    ShadowFrustum frusta[SHADOW_FACES];
-    const ShadowLookup lookup = lighting_lookup(lighting);
-    int room = map_room(frame);
-    for (int l = 0; l < frame->scene->light_count && !frame->full; l++) {
-        if (!(frame->plan->all >> l & 1) || fit_maps(lighting, frame, l, frusta) != 1 ||
-            room-- <= 0)
-            continue;
-        lighting->map_lights |= (uint32_t)1 << l;
-        lighting->looks[l] = shadow_map_look(&lighting->maps, &frusta[0], &lookup);
-    }
-}
-
-bool lighting_find_maps(Lighting *lighting, const Scene *scene, bool full, Message *message)
-{
-    ShadowPlan plan;
-    lighting->map_lights = 0;
-    if (lighting->shadows.way != SHADOWS_MAP)
-        return true;
-    if (!open_maps(lighting, message) || !shadow_plan_open(&plan, lighting, scene, message))
-        return false;
-    find_map_lights(lighting, &(ShadowFrame){.scene = scene, .plan = &plan, .full = full});
-    shadow_plan_close(&plan);
-    return true;
-}
-
-static bool draw_light_mask(Lighting *lighting, const ShadowFrame *frame, int number,
-                            Message *message)
-{
-    Light light = scene_world_light(frame->scene, number);
+    const LightingPlan *plan = frame->plan;
+    Lighting *lighting = plan->lighting;
+    const Object *object = &frame->scene->objects[number];
+    const ShadowCaster *caster = plan->objects[number].caster;
+    Light light = plan->lights[light_number].placed;
+    Mat4 object_from_world;
     vec3_normalize(light.direction, &light.direction);
+    if (!mat4_inverse(object->world_from_object, &object_from_world))
+        return message_set(message, "object %d is flattened, and throws no shadow by volumes",
+                           number);
+    const Vec4 end = find_end(plan, ends, number, &light);
+    const Vec4 light_object = mat4_transform(object_from_world, light_place(&light));
+    const PlacedBox seen = eye_box(frame);
+    const ShadowThrow thrown = {
+        .surface = plan->surfaces[number],
+        .caster = caster,
+        .light_object = light_object,
+        .end = mat4_transform(mat4_transpose(object->world_from_object), end),
+        .two_sided = object->two_sided,
+        /* The near plane may lie in the shadow: then the eye may, too. */
+        .behind = !lighting->depth_pass &&
+                  may_come_between(&plan->pairs.placed[number], &seen, light_place(&light)),
+        .own = plan->full || plan->pairs.receives[number] >> light_number & 1,
+        .odd = has_odd_normals(frame, object),
+        /* The near plane may lie beyond the end: then the eye sees into the volume there. */
+        .beyond = box_least(&seen, (Vec3){end.x, end.y, end.z}) + end.w < 0,
+        .facing = facing_of(plan, number, caster->silhouette.closed, light_object)};
+    return shadow_cast(&lighting->volumes, &lighting->mask, &thrown, message);
+}
+
+/* Drawing maps */
+
+static bool draw_map(const ShadowFrame *frame, int number, Message *message)
+{
+    LightingPlan *plan = frame->plan;
+    const PlannedLight *light = &plan->lights[number];
+    ShadowMapScene drawn = {.size = plan->lighting->shadows.map_size,
+                            .face_count = light->face_count,
+                            .frusta = light->faces,
+                            .casters = plan->casters};
+    for (int o = 0; o < plan->object_count; o++)
+        if (plan->pairs.throws[o] >> number & 1)
+            plan->casters[drawn.caster_count++] = (ShadowMapCaster){
+                plan->objects[o].plain, frame->scene->objects[o].world_from_object};
+    return shadow_map_draw(&plan->lighting->maps, number, &drawn, message);
+}
+
+static bool look_up_map(const ShadowFrame *frame, int number, int channel, Message *message)
+{
+    const LightingPlan *plan = frame->plan;
+    Lighting *lighting = plan->lighting;
     bool done = true;
-    if (lighting->shadows.way == SHADOWS_MAP)
-        return look_up_map(lighting, frame, number, message);
-    if (lighting->shadows.way != SHADOWS_VOLUMES && not_flat(frame, number, &light) < 0)
-        done = flatten_shadows(lighting, frame, &light, number, message);
-    else
-        for (int o = 0; o < frame->scene->object_count && done; o++)
-            done = !(frame->plan->throws[o] >> number & 1) ||
-                   cast_shadow(lighting, frame, &light, number, o, message);
-    if (done)
-        shadow_mask_light(&lighting->mask, effects_channel(frame->scene, number));
+    for (int r = plan->object_count - 1; r >= 0 && done; r--) {
+        if (!(plan->pairs.receives[r] >> number & 1))
+            continue;
+        const ShadowMark mark = {.light = number,
+                                 .channel = channel,
+                                 .surface = &plan->surfaces[r],
+                                 .world_from_object = frame->scene->objects[r].world_from_object,
+                                 .lookup = lookup_of(lighting)};
+        done = shadow_map_mark(&lighting->maps, &lighting->mask, &mark, message);
+    }
     return done;
 }
 
-/* The number of masks that the programs of this scene look up. */
-static int mask_count(const Lighting *lighting, const ShadowFrame *frame)
+/* Drawing masks */
+
+static bool draw_light_mask(const ShadowFrame *frame, int number, Message *message)
 {
-    int count = 0;
-    for (int l = 0; l < frame->scene->light_count; l++)
-        if (frame->full ? frame->scene->lights[l].shadows
-                        : frame->plan->all & ~lighting->map_lights & (uint32_t)1 << l)
-            count = effects_channel(frame->scene, l) / SHADOW_CHANNELS + 1;
-    return count;
+    const LightingPlan *plan = frame->plan;
+    const int channel = effects_channel(plan->shadows, number);
+    Ends ends;
+    if (plan->lights[number].way == SHADOWS_MAP)
+        return look_up_map(frame, number, channel, message);
+    find_ends(plan, number, &ends);
+    for (int o = 0; o < plan->object_count; o++)
+        if ((plan->pairs.throws[o] >> number & 1) && !cast_shadow(frame, &ends, number, o, message))
+            return false;
+    shadow_mask_light(&plan->lighting->mask, channel);
+    return true;
 }
 
-static bool draw_masks(Lighting *lighting, const ShadowFrame *frame, int count, Message *message)
+static bool draw_masks(const ShadowFrame *frame, Message *message)
 {
+    LightingPlan *plan = frame->plan;
+    Lighting *lighting = plan->lighting;
     ShadowMask *mask = &lighting->mask;
-    if ((!mask->framebuffer && !shadow_mask_open(mask, &lighting->loader, message)) ||
-        !shadow_mask_begin(mask, count, frame->scene->camera.near, message))
+    if ((!mask->framebuffer && !shadow_mask_open(mask, &lighting->programs.loader, message)) ||
+        !shadow_mask_begin(mask, plan->masks, frame->scene->camera.near, message))
         return false;
-    for (int o = 0; o < frame->scene->object_count; o++) {
-        const ShadowSurface surface = surface_of(lighting, frame, o);
-        shadow_mask_surface(mask, &surface);
-    }
+    find_surfaces(frame);
+    for (int o = 0; o < plan->object_count; o++)
+        shadow_mask_draw(mask, &plan->surfaces[o]);
+    shadow_cast_begin(&lighting->volumes);
     bool done = true;
-    for (int l = 0; l < frame->scene->light_count && done; l++)
-        if ((frame->plan->all & ~lighting->map_lights) >> l & 1)
-            done = draw_light_mask(lighting, frame, l, message);
-    return shadow_mask_end(mask, message) && done;
+    for (int l = 0; l < plan->light_count && done; l++)
+        if (plan->lights[l].way != SHADOWS_OFF && !plan->lights[l].in_program)
+            done = draw_light_mask(frame, l, message);
+    const bool ended = shadow_mask_end(mask, message);
+    shadow_cast_end(&lighting->volumes, !ended);
+    return ended && done;
 }
 
-bool lighting_draw_shadows(Lighting *lighting, const ShadowFrame *frame, int *masks,
-                           Message *message)
+bool draw_shadows(const ShadowFrame *frame, Message *message)
 {
-    const bool maps = lighting->shadows.way == SHADOWS_MAP && frame->plan->all;
-    lighting->map_lights = 0;
-    if (maps && !draw_maps(lighting, frame, message))
-        return false;
-    if (maps)
-        find_map_lights(lighting, frame);
-    *masks = mask_count(lighting, frame);
-    return *masks == 0 || draw_masks(lighting, frame, *masks, message);
+    for (int l = 0; l < frame->plan->light_count; l++)
+        if (frame->plan->lights[l].way == SHADOWS_MAP && !draw_map(frame, l, message))
+            return false;
+    return frame->plan->masks == 0 || draw_masks(frame, message);
 }
 
-/* To units from `first` on, of the lights in their order; `bind` false: no longer. */
-static void bind_maps(const Lighting *lighting, int first, bool bind)
+/* Looking them up */
+
+void bind_shadows(const LightingPlan *plan, bool bind)
 {
-    GLenum unit = GL_TEXTURE0 + (GLenum)first;
-    for (int l = 0; l < SHADOW_MAPS; l++) {
-        if (!(lighting->map_lights >> l & 1))
-            continue;
+    const Lighting *lighting = plan->lighting;
+    GLenum unit = GL_TEXTURE0 + (GLenum)plan->masks;
+    if (!plan->masks && !plan->maps)
+        return;
+    shadow_mask_bind(bind ? &lighting->mask : NULL, plan->masks);
+    for (uint32_t left = plan->maps; left; left &= left - 1) {
         glActiveTexture(unit++);
-        glBindTexture(GL_TEXTURE_2D, bind ? lighting->maps.lights[l].textures[0] : 0);
+        glBindTexture(GL_TEXTURE_2D,
+                      bind ? lighting->maps.lights[__builtin_ctz(left)].textures[0] : 0);
     }
     glActiveTexture(GL_TEXTURE0);
 }
 
-/* `first` as bind_maps was given it. */
-static void set_maps(GLuint program, const Lighting *lighting, int first, const Object *object)
-{
-    const ShadowLookup lookup = lighting_lookup(lighting);
-    char name[32], suffix[8];
-    for (int l = 0, unit = first; l < SHADOW_MAPS; l++) {
-        if (!(lighting->map_lights >> l & 1))
-            continue;
-        snprintf(suffix, sizeof suffix, "%d", l);
-        snprintf(name, sizeof name, "u_Map%s", suffix);
-        const GLint map = glGetUniformLocation(program, name);
-        glUniform1i(map, unit++);
-        if (map >= 0)
-            shadow_map_uniforms(&lighting->maps, l, 0, &lookup, object->world_from_object, program,
-                                suffix);
-    }
-}
-
 /* Where the masks are looked up: at places in the framebuffer, or in mediump in its viewport, from
  * -1 to 1. */
-static void set_masks(GLuint program, const ShadowMask *mask, bool mediump, int count)
+static void set_mask_place(const Lighting *lighting, GLint location)
 {
+    const ShadowMask *mask = &lighting->mask;
+    const bool mediump = lighting_is_mediump(&lighting->programs.loader);
     const double size[2] = {mask->width, mask->height};
     float place[4] = {0};
-    char name[32];
     for (int i = 0; i < 2; i++) {
         const double half = mask->place[2 + i] / 2.0;
         place[i] = (float)((mediump ? half : 1) / size[i]);
         place[2 + i] = (float)((mediump ? mask->place[i] + half : 0) / size[i]);
     }
-    for (int i = 0; i < count; i++) {
-        snprintf(name, sizeof name, "u_Mask%d", i);
-        glUniform1i(glGetUniformLocation(program, name), i);
+    glUniform4fv(location, 1, place);
+}
+
+void set_shadows(const LightingPlan *plan, const LightingProgram *program)
+{
+    const ShadowLookup lookup = lookup_of(plan->lighting);
+    for (int i = 0; i < plan->masks; i++)
+        glUniform1i(program->masks[i], i);
+    if (program->mask_place >= 0)
+        set_mask_place(plan->lighting, program->mask_place);
+    for (int i = 0; i < program->map_count; i++) {
+        const MapLocations *map = &program->maps[i];
+        const uint32_t before = plan->maps & (((uint32_t)1 << map->light) - 1);
+        glUniform1i(map->at.map, plan->masks + __builtin_popcount(before));
+        shadow_map_set(&plan->lighting->maps.lights[map->light], 0, &lookup, &map->at);
     }
-    if (count)
-        glUniform4fv(glGetUniformLocation(program, "u_MaskPlace"), 1, place);
 }
 
-void lighting_bind_shadows(const Lighting *lighting, int masks, bool bind)
+void place_shadows(const LightingPlan *plan, const LightingProgram *program, Mat4 world_from_object)
 {
-    shadow_mask_bind(bind ? &lighting->mask : NULL, masks);
-    bind_maps(lighting, masks, bind);
+    for (int i = 0; i < program->map_count; i++)
+        shadow_map_place(&plan->lighting->maps.lights[program->maps[i].light], 0, world_from_object,
+                         &program->maps[i].at);
 }
 
-void lighting_set_shadows(GLuint program, const Lighting *lighting, int masks, const Object *object)
-{
-    set_masks(program, &lighting->mask, lighting_is_mediump(lighting), masks);
-    set_maps(program, lighting, masks, object);
-}
+/* Explaining them */
 
-static void explain_maps(const Lighting *lighting, const ShadowFrame *frame, int number, FILE *file)
+static void explain_maps(const LightingPlan *plan, int number, FILE *file)
 {
-    ShadowFrustum frusta[SHADOW_FACES];
-    const int count = fit_maps(lighting, frame, number, frusta);
-    const int size = lighting->shadows.map_size, bits = lighting->maps.bits;
-    for (int i = 0; i < count; i++) {
-        const double near = frusta[i].near, far = frusta[i].far;
+    const PlannedLight *light = &plan->lights[number];
+    const int size = plan->lighting->shadows.map_size, bits = plan->lighting->maps.bits;
+    for (int i = 0; i < light->face_count; i++) {
+        const ShadowFrustum *face = &light->faces[i];
+        const double near = face->near, far = face->far;
         fprintf(
             file,
             "light %d: map %d of %d, %dx%d: a texel is %.2g wide at the back; depths of %d bits%s"
             " from %.4g to %.4g, in steps of %.1g in front and %.1g at the back\n",
-            number, i, count, size, size,
-            frusta[i].width / size * (frusta[i].perspective ? far : 1), bits,
-            lighting->maps.packed ? " in colours" : "", near, far,
-            shadow_depth_step(&frusta[i], bits, near), shadow_depth_step(&frusta[i], bits, far));
+            number, i, light->face_count, size, size,
+            face->width / size * (face->perspective ? far : 1), bits,
+            plan->lighting->maps.packed ? " in colours" : "", near, far,
+            shadow_depth_step(face, bits, near), shadow_depth_step(face, bits, far));
     }
 }
 
 /* The sides of the volumes of all objects, whether there is need of them or not. */
-static size_t count_triangles(Lighting *lighting, const ShadowFrame *frame, const Light *light)
+static size_t count_triangles(const LightingPlan *plan, const Scene *scene, const Light *light)
 {
     ShadowVolume volume = {.capacity = 0};
-    ShadowThrow thrown;
     size_t indices = 0;
-    for (int o = 0; o < frame->plan->count; o++) {
-        if (frame->scene->objects[o].lamp ||
-            !make_throw(lighting, frame, light, o, (Vec4){0, 0, 0, 1}, &thrown, NULL))
+    for (int o = 0; o < plan->object_count; o++) {
+        const Object *object = &scene->objects[o];
+        Mat4 object_from_world;
+        const ShadowCaster *caster =
+            lighting_mesh_caster(&plan->lighting->meshes, object->mesh, NULL);
+        if (object->lamp || !caster || !mat4_inverse(object->world_from_object, &object_from_world))
             continue;
-        const Silhouette *silhouette = &thrown.caster->silhouette;
-        const SilhouetteFacing facing =
-            facing_of(frame, o, silhouette->closed, thrown.light_object);
-        if (shadow_volume_make(&volume, silhouette, thrown.light_object, facing, SHADOW_END_OPEN,
-                               false, NULL))
+        const Silhouette *silhouette = &caster->silhouette;
+        const Vec4 light_object = mat4_transform(object_from_world, light_place(light));
+        const SilhouetteFacing facing = facing_of(plan, o, silhouette->closed, light_object);
+        if (shadow_volume_make(&volume, silhouette, light_object, facing, SHADOW_END_OPEN, false,
+                               NULL))
             indices += volume.side_count;
     }
     shadow_volume_close(&volume);
     return indices / 3;
 }
 
-static void explain_none(Lighting *lighting, const ShadowFrame *frame, int number, FILE *file)
+static void explain_none(const LightingPlan *plan, const Scene *scene, int number, FILE *file)
 {
-    const Light light = scene_world_light(frame->scene, number);
-    const int size = lighting->shadows.map_size;
+    const int size = plan->lighting->shadows.map_size;
     fprintf(file, "light %d: none, because nothing can come between; that saves ", number);
-    if (lighting->shadows.way == SHADOWS_MAP)
+    if (plan->lighting->shadows.way == SHADOWS_MAP)
         fprintf(file, "a map of %dx%d", size, size);
     else
         fprintf(file, "volumes of %zu triangles, the depths of all surfaces once more,",
-                count_triangles(lighting, frame, &light));
+                count_triangles(plan, scene, &plan->lights[number].placed));
     fprintf(file, " and a look-up for each fragment\n");
 }
 
-static void explain_light(Lighting *lighting, const ShadowFrame *frame, int number, FILE *file)
+void lighting_plan_explain_shadows(const LightingPlan *plan, const Scene *scene, FILE *file)
 {
-    Light light = scene_world_light(frame->scene, number);
-    const int curved = not_flat(frame, number, &light);
-    if (!(frame->plan->all >> number & 1))
-        explain_none(lighting, frame, number, file);
-    else if (lighting->shadows.way == SHADOWS_MAP)
-        explain_maps(lighting, frame, number, file);
-    else if (lighting->shadows.way == SHADOWS_VOLUMES)
-        fprintf(file, "light %d: volumes\n", number);
-    else if (curved < 0)
-        fprintf(file, "light %d: planar, because all that they may fall on is flat\n", number);
-    else
-        fprintf(file, "light %d: volumes, because object %d, on which they may fall, is not flat\n",
-                number, curved);
-}
-
-bool lighting_explain_shadows(Lighting *lighting, const Scene *scene, FILE *file, Message *message)
-{
-    ShadowPlan plan;
-    bool any = false;
-    for (int l = 0; l < scene->light_count; l++)
-        any |= scene->lights[l].shadows && !scene->lights[l].off;
-    if (!any)
-        return true;
-    if ((lighting->shadows.way == SHADOWS_MAP && !open_maps(lighting, message)) ||
-        !shadow_plan_open(&plan, lighting, scene, message))
-        return false;
-    const ShadowFrame frame = {.scene = scene, .plan = &plan};
+    if (!scene_has_shadows(scene))
+        return;
     fprintf(file, "# shadows\n");
-    for (int l = 0; l < scene->light_count; l++)
-        if (scene->lights[l].shadows && !scene->lights[l].off)
-            explain_light(lighting, &frame, l, file);
-    shadow_plan_close(&plan);
-    return true;
+    for (int l = 0; l < plan->light_count; l++) {
+        if (!scene->lights[l].shadows || scene->lights[l].off)
+            continue;
+        if (plan->lights[l].way == SHADOWS_OFF)
+            explain_none(plan, scene, l, file);
+        else if (plan->lights[l].way == SHADOWS_MAP)
+            explain_maps(plan, l, file);
+        else
+            fprintf(file, "light %d: volumes\n", l);
+    }
 }

@@ -1,318 +1,31 @@
+/*
+ * What is looked at per frame and object are facts, of a few bytes: which channels of which colors
+ * are black, whether a cone misses the object, whether its transform keeps lengths and angles. One
+ * walk over the facts then decides everything and writes each reason, if there is a file for them,
+ * so that --explain cannot differ from what is drawn. The terms are those of the OpenGL 1.1
+ * specification, section 2.13.1; one is left out where it would add zero to every pixel.
+ */
 #include "scene/effects.h"
 
+#include "scene/shadow_pairs.h"
 #include "shadows/shadow_mask.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdarg.h>
-#include <stdlib.h>
 #include <string.h>
 
-/* One walk over the scene decides everything and writes each reason to `file`, unless that is NULL,
- * so that --explain cannot differ from what is drawn. */
-static void say(FILE *file, const char *format, ...) __attribute__((format(printf, 2, 3)));
+static_assert(sizeof(ObjectFacts) == 3 * 4 + 2 * sizeof(SideFacts) + 10, "no padding");
+static_assert(sizeof(SceneFacts) == EFFECTS_MAX_LIGHTS * sizeof(LightFacts) + 10, "no padding");
+static_assert(sizeof(LightTerms) == 2 * sizeof(int) + 8, "no padding");
+static_assert(sizeof(Effects) == 16 + sizeof(int) + EFFECTS_MAX_LIGHTS * sizeof(LightGroup),
+              "none");
 
-static void say(FILE *file, const char *format, ...)
+/* Facts */
+
+static uint8_t channels_of(Vec3 color)
 {
-    va_list arguments;
-    if (!file)
-        return;
-    va_start(arguments, format);
-    vfprintf(file, format, arguments);
-    va_end(arguments);
-    fputc('\n', file);
-}
-
-/* Whether a material of reflectivity `front`, or `back` if two-sided, reflects light of this color.
- */
-static bool reflected(Vec3 light, Vec3 front, Vec3 back, bool two_sided)
-{
-    const Vec3 f = {light.x * front.x, light.y * front.y, light.z * front.z};
-    const Vec3 b = {light.x * back.x, light.y * back.y, light.z * back.z};
-    return !color_is_black(f) || (two_sided && !color_is_black(b));
-}
-
-Material effects_material(const Object *object, bool back)
-{
-    Material material = back && object->two_sided ? object->back : object->front;
-    if (object->mesh->colors)
-        material.ambient = material.diffuse = (Vec3){1, 1, 1};
-    return material;
-}
-
-/* Whether a spot's cone misses a sphere: its center lies farther than the radius outside the
- * tangent plane of the cone on its side. */
-static bool cone_misses(const Light *light, Sphere sphere)
-{
-    static const double RADIANS = 0.017453292519943295;
-    Vec3 axis;
-    const Vec3 to_center = vec3_subtract(sphere.center, light->position);
-    if (!vec3_normalize(light->direction, &axis))
-        return false;
-    const double along = vec3_dot(to_center, axis);
-    const double across = vec3_length(vec3_subtract(to_center, vec3_scale(axis, along)));
-    const double angle = light->cutoff * RADIANS;
-    return across * cos(angle) - along * sin(angle) > sphere.radius * (1 + 1e-9);
-}
-
-typedef enum Transform { ORTHONORMAL, ORTHOGONAL, GENERAL } Transform;
-
-/* Orthogonal: the columns of the upper left 3x3 part are perpendicular and of equal length, so that
- * it is its own inverse transpose up to a factor. Orthonormal: that length is 1. A difference of
- * 1e-7 rotates a normal by less than rounding to float. */
-static Transform transform_of(Mat4 m)
-{
-    const double *a = m.m;
-    double dots[3][3];
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            dots[i][j] =
-                a[4 * i] * a[4 * j] + a[4 * i + 1] * a[4 * j + 1] + a[4 * i + 2] * a[4 * j + 2];
-    const double square = dots[0][0];
-    /* The squares of other lengths lose digits, or overflow, in a fragment's 16-bit float. The
-     * normal matrix is scaled. */
-    if (!(square > 1e-4 && square < 1e4))
-        return GENERAL;
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            if (fabs(dots[i][j] - (i == j ? square : 0)) > 1e-7 * square)
-                return GENERAL;
-    return fabs(square - 1) <= 1e-7 ? ORTHONORMAL : ORTHOGONAL;
-}
-
-/* Whether the attenuation of a light at the object needs a guard: its denominator may vanish in
- * float, or the square of a distance overflow. */
-static bool attenuation_guarded(const Light *light, Sphere sphere)
-{
-    static const double FAR = 1e18; /* its square fits into a float */
-    const double distance = vec3_length(vec3_subtract(sphere.center, light->position));
-    return light_fades(light) && !(light->constant > 1e-29 && distance + sphere.radius < FAR);
-}
-
-static void explain_light(FILE *file, const Scene *scene, int number, const LightTerms *terms)
-{
-    static const char *const kinds[] = {
-        [LIGHT_DIRECTIONAL] = "directional", [LIGHT_POINT] = "point", [LIGHT_SPOT] = "spot"};
-    static const char *const black = "black in light or material";
-    const bool positional = terms->kind != LIGHT_DIRECTIONAL;
-    say(file, "light %d: %s, computed at the %s", number, kinds[terms->kind],
-        !terms->at_vertex                               ? "fragments"
-        : scene->interpolation == INTERPOLATION_PHONG   ? "vertices: constant over a flat triangle"
-        : scene->interpolation == INTERPOLATION_GOURAUD ? "vertices: colours are interpolated"
-        : scene->interpolation == INTERPOLATION_FLAT    ? "vertices: of flat triangles"
-                                                        : "last vertex of each triangle");
-    say(file, "  %s",
-        terms->ambient ? "ambient: varies over the surface, as the light does"
-                       : "without ambient: none, or constant and part of the base");
-    say(file, terms->diffuse ? "  diffuse: in light and material" : "  without diffuse: %s", black);
-    say(file, terms->specular ? "  specular: in light and material" : "  without specular: %s",
-        black);
-    if (terms->half_vector)
-        say(file, "  half vector: a uniform, because light and viewer are at infinity");
-    else if (terms->specular)
-        say(file, "  without half vector as a uniform: %s",
-            scene->reflection == REFLECTION_PHONG ? "the Phong reflection has none"
-            : positional                          ? "the light is near"
-                                                  : "the viewer is near");
-    say(file,
-        terms->attenuation ? "  attenuation: depends on the distance" : "  without attenuation: %s",
-        positional ? "constant" : "the light is at infinity");
-    if (terms->kind == LIGHT_SPOT)
-        say(file, "  spot: only within its cone, %s",
-            terms->exponent ? "with falloff" : "without falloff: its exponent is 0");
-    if (scene->lights[number].shadows)
-        say(file, "  %s",
-            terms->shadow ? "shadow: looked up, because a surface may come between"
-                          : "without shadow: no surface can come between");
-}
-
-/* The terms of one light on one object; false if it has none. */
-static bool light_terms(const Scene *scene, const Object *object, int number, const Light *light,
-                        Sphere sphere, bool both, bool shadowed, LightTerms *terms, FILE *file)
-{
-    const Material front_side = effects_material(object, false), *front = &front_side;
-    const Material back_side = effects_material(object, true), *back = &back_side;
-    const bool positional = light->kind != LIGHT_DIRECTIONAL;
-    memset(terms, 0, sizeof *terms); /* including padding: terms are compared as bytes */
-    if (light->off) {
-        say(file, "without light %d: it is off", number);
-        return false;
-    }
-    if (light->kind == LIGHT_SPOT && cone_misses(light, sphere)) {
-        say(file, "without light %d: its cone misses the object", number);
-        return false;
-    }
-    terms->kind = light->kind;
-    terms->diffuse = reflected(light->diffuse, front->diffuse, back->diffuse, both);
-    terms->specular = reflected(light->specular, front->specular, back->specular, both);
-    terms->attenuation = light_fades(light);
-    terms->exponent = light->kind == LIGHT_SPOT && light->exponent != 0;
-    terms->ambient = light_ambient_varies(light) &&
-                     reflected(light->ambient, front->ambient, back->ambient, both);
-    if (!terms->diffuse && !terms->specular && !terms->ambient) {
-        say(file, "without light %d: the material reflects none of its colour%s", number,
-            reflected(light->ambient, front->ambient, back->ambient, both)
-                ? " but the ambient, which is constant and part of the base"
-                : "");
-        return false;
-    }
-    terms->half_vector = terms->specular && !positional && scene->distant_viewer &&
-                         scene->reflection == REFLECTION_BLINN_PHONG;
-    const bool same_over_triangle =
-        object->flat && !positional && (!terms->specular || scene->distant_viewer);
-    if (shadowed && (terms->diffuse || terms->specular))
-        terms->shadow = 1 + effects_channel(scene, number) / SHADOW_CHANNELS;
-    terms->at_vertex =
-        scene->interpolation != INTERPOLATION_PHONG || (same_over_triangle && !terms->shadow);
-    explain_light(file, scene, number, terms);
-    if (terms->attenuation)
-        say(file, attenuation_guarded(light, sphere)
-                      ? "  guard of the attenuation: its denominator may be 0, or overflow"
-                      : "  without guard of the attenuation: its constant coefficient is not 0");
-    return true;
-}
-
-static void add_light(Effects *effects, int number, const LightTerms *terms, bool guarded)
-{
-    LightGroup *group = effects->groups, *end = group + effects->group_count;
-    while (group < end && memcmp(&group->terms, terms, sizeof *terms) != 0)
-        group++;
-    if (group == end) {
-        effects->group_count++;
-        group->terms = *terms;
-    }
-    group->guard_attenuation |= guarded;
-    group->lights[group->count++] = number;
-}
-
-/* Emission, global ambient and constant ambient light. */
-static bool has_base(const Scene *scene, const Object *object, bool both)
-{
-    const Material front_side = effects_material(object, false), *front = &front_side;
-    const Material back_side = effects_material(object, true), *back = &back_side;
-    if (!color_is_black(front->emission) || (both && !color_is_black(back->emission)) ||
-        reflected(scene->global_ambient, front->ambient, back->ambient, both))
-        return true;
-    for (int i = 0; i < scene->light_count; i++) {
-        const Light *light = &scene->lights[i];
-        if (!light->off && !light_ambient_varies(light) &&
-            reflected(light->ambient, front->ambient, back->ambient, both))
-            return true;
-    }
-    return false;
-}
-
-static void decide_normals(const Scene *scene, const Object *object, Effects *effects,
-                           bool at_fragments, FILE *file)
-{
-    Mat4 eye_from_world, clip_from_eye;
-    if (!effects->normals) {
-        say(file, "without normals: no term depends on them");
-        return;
-    }
-    scene_camera(&scene->camera, 1, &eye_from_world, &clip_from_eye, NULL);
-    const Mat4 eye_from_object =
-        scene_eye_from_object(&scene->camera, eye_from_world, object->world_from_object);
-    const Transform transform = transform_of(eye_from_object);
-    effects->normal_matrix = transform == GENERAL && !object->wrong_normals;
-    if (effects->normal_matrix)
-        say(file, "normal matrix: the model-view matrix scales unevenly or shears");
-    else if (object->wrong_normals)
-        say(file, "without normal matrix: the scene requests the wrong one, the model-view matrix");
-    else
-        say(file, "without normal matrix: the model-view matrix is orthogonal");
-    effects->normalize_fragment = at_fragments && !object->flat && !scene->skip_renormalization;
-    /* If fragments normalize, equal lengths at the vertices do not matter. */
-    const bool equal_lengths = transform != GENERAL;
-    bool at_vertices = object->flat || scene->skip_renormalization;
-    for (int i = 0; i < effects->group_count; i++)
-        at_vertices |= effects->groups[i].terms.at_vertex;
-    effects->normalize_vertex = transform != ORTHONORMAL && (at_vertices || !equal_lengths);
-    say(file,
-        effects->normalize_vertex
-            ? "normals normalized at the vertices: the transform changes their length"
-            : "normals not normalized at the vertices: %s",
-        transform == ORTHONORMAL ? "the transform keeps their length"
-                                 : "the fragments do it, and all lengths are equal");
-    say(file,
-        effects->normalize_fragment
-            ? "normals normalized at the fragments: interpolation shortens them"
-            : "normals not normalized at the fragments: %s",
-        !at_fragments  ? "no light is computed there"
-        : object->flat ? "constant over a triangle"
-                       : "the scene skips it");
-}
-
-/* Shadows */
-
-int effects_channel(const Scene *scene, int light)
-{
-    int channel = 0;
-    for (int i = 0; i < light; i++)
-        channel += scene->lights[i].shadows;
-    return channel;
-}
-
-/* Whether the object is closed, seen from outside, and not cut by the near plane. */
-static bool outside_of(const Scene *scene, const Object *object, Sphere sphere, FILE *file)
-{
-    Mat4 eye_from_world, clip_from_eye;
-    scene_camera(&scene->camera, 1, &eye_from_world, &clip_from_eye, NULL);
-    const Vec3 center = scene_eye_point(&scene->camera, eye_from_world, sphere.center);
-    const bool outside =
-        object->closed && !object->clockwise && -center.z - sphere.radius > scene->camera.near;
-    say(file,
-        outside ? "culling of back faces: a closed object, seen from outside"
-                : "without culling: %s",
-        !object->closed     ? "the object is open"
-        : object->clockwise ? "front faces are clockwise"
-                            : "the near plane may cut the object");
-    return outside;
-}
-
-bool effects_may_shadow(const Scene *scene, int light, int occluder, int receiver,
-                        const MeshBox *boxes, const PlacedBox *placed)
-{
-    const Object *before = &scene->objects[occluder], *behind = &scene->objects[receiver];
-    const Light *given = &scene->lights[light];
-    if (!given->shadows || given->off || before->lamp ||
-        (color_is_black(given->diffuse) && color_is_black(given->specular)))
-        return false;
-    const Light world = scene_world_light(scene, light);
-    if (world.kind == LIGHT_SPOT && (cone_misses(&world, scene_sphere(before, &boxes[occluder])) ||
-                                     cone_misses(&world, scene_sphere(behind, &boxes[receiver]))))
-        return false;
-    /* What is seen from the eye sees a light there. */
-    const Vec3 to_eye = vec3_subtract(world.position, scene->camera.eye);
-    if (world.kind != LIGHT_DIRECTIONAL && vec3_length(to_eye) == 0)
-        return false;
-    if (occluder == receiver)
-        return !object_is_convex(before);
-    return may_come_between(&placed[occluder], &placed[receiver], light_place(&world));
-}
-
-/* The lights in whose shadow an object may lie; all that have one if it is not the scene's. */
-static uint32_t shadowed_by(const Scene *scene, const Object *object)
-{
-    uint32_t lights = 0;
-    bool any = false;
-    for (int l = 0; l < scene->light_count; l++)
-        any |= scene->lights[l].shadows;
-    const size_t count = (size_t)scene->object_count + 1;
-    MeshBox *boxes = any ? malloc(count * sizeof *boxes) : NULL;
-    PlacedBox *placed = any ? malloc(count * sizeof *placed) : NULL;
-    for (int i = 0; boxes && placed && i < scene->object_count; i++) {
-        boxes[i] = mesh_bounds(scene->objects[i].mesh);
-        placed[i] = placed_box(&boxes[i], scene->objects[i].world_from_object);
-    }
-    const bool own = object >= scene->objects && object < scene->objects + scene->object_count;
-    for (int l = 0; any && l < scene->light_count && l < EFFECTS_MAX_LIGHTS; l++)
-        for (int o = 0; o < scene->object_count; o++)
-            if (!boxes || !placed || !own ||
-                effects_may_shadow(scene, l, o, (int)(object - scene->objects), boxes, placed))
-                lights |= scene->lights[l].shadows ? (uint32_t)1 << l : 0;
-    free(boxes);
-    free(placed);
-    return lights;
+    return (uint8_t)((color.x != 0) | (color.y != 0) << 1 | (color.z != 0) << 2);
 }
 
 static double largest_of(Vec3 color)
@@ -335,121 +48,505 @@ static double brightest(const Scene *scene)
     return sum;
 }
 
-static void decide_output(const Scene *scene, Effects *effects, bool at_vertices, FILE *file)
+SceneFacts effects_scene(const Scene *scene)
 {
+    SceneFacts facts;
+    memset(&facts, 0, sizeof facts);
+    const int count =
+        scene->light_count < EFFECTS_MAX_LIGHTS ? scene->light_count : EFFECTS_MAX_LIGHTS;
+    for (int i = 0; i < count; i++) {
+        const Light *light = &scene->lights[i];
+        facts.lights[i] = (LightFacts){
+            .kind = (uint8_t)light->kind,
+            .off = light->off,
+            .shadows = light->shadows,
+            .fades = light_fades(light),
+            .exponent = light->kind == LIGHT_SPOT && light->exponent != 0,
+            .ambient = channels_of(light->ambient),
+            .diffuse = channels_of(light->diffuse),
+            .specular = channels_of(light->specular),
+        };
+    }
+    facts.light_count = (uint8_t)count;
+    facts.global_ambient = channels_of(scene->global_ambient);
+    facts.reflection = (uint8_t)scene->reflection;
+    facts.interpolation = (uint8_t)scene->interpolation;
+    facts.distant_viewer = scene->distant_viewer;
+    facts.clamp_vertex = scene->clamp_vertex;
+    facts.skip_renormalization = scene->skip_renormalization;
+    facts.linear = scene->linear;
+    facts.show_clipped = scene->show_clipped;
+    facts.limit = brightest(scene) > 6e4;
+    return facts;
+}
+
+Material effects_material(const Object *object, bool back)
+{
+    Material material = back && object->two_sided ? object->back : object->front;
+    if (object->mesh->colors)
+        material.ambient = material.diffuse = (Vec3){1, 1, 1};
+    return material;
+}
+
+/* Orthogonal: the columns of the upper left 3x3 part are perpendicular and of equal length, so that
+ * it is its own inverse transpose up to a factor. Orthonormal: that length is 1. A difference of
+ * 1e-7 rotates a normal by less than rounding to float. The eye's rotation changes none of that. */
+static EffectsTransform transform_of(Mat4 m)
+{
+    const double *a = m.m;
+    double dots[3][3];
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            dots[i][j] =
+                a[4 * i] * a[4 * j] + a[4 * i + 1] * a[4 * j + 1] + a[4 * i + 2] * a[4 * j + 2];
+    const double square = dots[0][0];
+    /* The squares of other lengths lose digits, or overflow, in a fragment's 16-bit float. The
+     * normal matrix is scaled. */
+    if (!(square > 1e-4 && square < 1e4))
+        return GENERAL;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            if (fabs(dots[i][j] - (i == j ? square : 0)) > 1e-7 * square)
+                return GENERAL;
+    return fabs(square - 1) <= 1e-7 ? ORTHONORMAL : ORTHOGONAL;
+}
+
+EffectsPlace effects_place(const Object *object, const MeshBox *box)
+{
+    return (EffectsPlace){scene_sphere(object, box), transform_of(object->world_from_object)};
+}
+
+void effects_view(EffectsView *view, const Scene *scene)
+{
+    Mat4 clip_from_eye;
+    view->scene = scene;
+    view->spots = view->fading = 0;
+    scene_camera(&scene->camera, 1, &view->eye_from_world, &clip_from_eye, NULL);
+    for (int i = 0; i < scene->light_count && i < EFFECTS_MAX_LIGHTS; i++) {
+        const Light *light = &scene->lights[i];
+        view->lights[i] = scene_world_light(scene, i);
+        if (!light->off && light->kind == LIGHT_SPOT)
+            view->spots |= (uint32_t)1 << i;
+        if (!light->off && light_fades(light))
+            view->fading |= (uint32_t)1 << i;
+    }
+}
+
+/* Whether the attenuation of a light at the object needs a guard: its denominator may vanish in
+ * float, or the square of a distance overflow. */
+static bool attenuation_guarded(const Light *light, Sphere sphere)
+{
+    static const double FAR = 1e18; /* its square fits into a float */
+    const double distance = vec3_length(vec3_subtract(sphere.center, light->position));
+    return !(light->constant > 1e-29 && distance + sphere.radius < FAR);
+}
+
+static SideFacts side_facts(const Object *object, const Material *material)
+{
+    const bool colors = object->mesh->colors; /* as effects_material: white here */
+    return (SideFacts){colors ? 7 : channels_of(material->ambient),
+                       colors ? 7 : channels_of(material->diffuse), channels_of(material->specular),
+                       channels_of(material->emission), material->alpha != 1};
+}
+
+ObjectFacts effects_object(const EffectsView *view, const Object *object, const EffectsPlace *place,
+                           uint32_t shadowed)
+{
+    const Camera *camera = &view->scene->camera;
+    const Vec3 center = scene_eye_point(camera, view->eye_from_world, place->sphere.center);
+    ObjectFacts facts = {
+        .shadowed = shadowed,
+        .front = side_facts(object, &object->front),
+        .colors = object->mesh->colors != NULL,
+        .flat = object->flat,
+        .closed = object->closed,
+        .clockwise = object->clockwise,
+        .two_sided = object->two_sided,
+        .wrong_normals = object->wrong_normals,
+        .transform = (uint8_t)place->transform,
+        .beyond = -center.z - place->sphere.radius > camera->near,
+    };
+    facts.back = object->two_sided ? side_facts(object, &object->back) : facts.front;
+    for (uint32_t left = view->spots; left; left &= left - 1)
+        if (cone_misses(&view->lights[__builtin_ctz(left)], place->sphere))
+            facts.missed |= left & -left;
+    for (uint32_t left = view->fading; left; left &= left - 1)
+        if (attenuation_guarded(&view->lights[__builtin_ctz(left)], place->sphere))
+            facts.guarded |= left & -left;
+    return facts;
+}
+
+uint32_t effects_shadows(const SceneFacts *scene)
+{
+    uint32_t shadows = 0;
+    for (int i = 0; i < scene->light_count; i++)
+        shadows |= (uint32_t)scene->lights[i].shadows << i;
+    return shadows;
+}
+
+int effects_channel(uint32_t shadows, int light)
+{
+    return __builtin_popcount(shadows & (((uint32_t)1 << light) - 1));
+}
+
+/* The decision */
+
+typedef struct Decision {
+    const SceneFacts *scene;
+    const ObjectFacts *object;
+    bool at_vertices, at_fragments; /* where a light is computed */
+    FILE *why;
+    Effects effects;
+} Decision;
+
+static void say(FILE *file, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+static void say(FILE *file, const char *format, ...)
+{
+    va_list arguments;
+    if (!file)
+        return;
+    va_start(arguments, format);
+    vfprintf(file, format, arguments);
+    va_end(arguments);
+    fputc('\n', file);
+}
+
+/* Whether a side that is seen reflects light of a color. */
+static bool reflected(const Decision *made, uint8_t light, uint8_t front, uint8_t back)
+{
+    return (light & front) || (made->effects.two_sided && (light & back));
+}
+
+static bool varies(const LightFacts *light)
+{
+    return light->kind == LIGHT_SPOT || light->fades;
+}
+
+static void explain_light(const Decision *made, int number, const LightTerms *terms)
+{
+    static const char *const kinds[] = {
+        [LIGHT_DIRECTIONAL] = "directional", [LIGHT_POINT] = "point", [LIGHT_SPOT] = "spot"};
+    static const char *const black = "black in light or material";
+    const int interpolation = made->scene->interpolation;
+    const bool positional = terms->kind != LIGHT_DIRECTIONAL;
+    FILE *why = made->why;
+    say(why, "light %d: %s, computed at the %s", number, kinds[terms->kind],
+        !terms->at_vertex                        ? "fragments"
+        : interpolation == INTERPOLATION_PHONG   ? "vertices: constant over a flat triangle"
+        : interpolation == INTERPOLATION_GOURAUD ? "vertices: colours are interpolated"
+        : interpolation == INTERPOLATION_FLAT    ? "vertices: of flat triangles"
+                                                 : "last vertex of each triangle");
+    say(why, "  %s",
+        terms->ambient ? "ambient: varies over the surface, as the light does"
+                       : "without ambient: none, or constant and part of the base");
+    say(why, terms->diffuse ? "  diffuse: in light and material" : "  without diffuse: %s", black);
+    say(why, terms->specular ? "  specular: in light and material" : "  without specular: %s",
+        black);
+    if (terms->half_vector)
+        say(why, "  half vector: a uniform, because light and viewer are at infinity");
+    else if (terms->specular)
+        say(why, "  without half vector as a uniform: %s",
+            made->scene->reflection == REFLECTION_PHONG ? "the Phong reflection has none"
+            : positional                                ? "the light is near"
+                                                        : "the viewer is near");
+    say(why,
+        terms->attenuation ? "  attenuation: depends on the distance" : "  without attenuation: %s",
+        positional ? "constant" : "the light is at infinity");
+    if (terms->kind == LIGHT_SPOT)
+        say(why, "  spot: only within its cone, %s",
+            terms->exponent ? "with falloff" : "without falloff: its exponent is 0");
+    if (made->scene->lights[number].shadows)
+        say(why, "  %s",
+            terms->shadow ? "shadow: looked up, because a surface may come between"
+                          : "without shadow: no surface can come between");
+    if (terms->attenuation)
+        say(why, made->object->guarded >> number & 1
+                     ? "  guard of the attenuation: its denominator may be 0, or overflow"
+                     : "  without guard of the attenuation: its constant coefficient is not 0");
+}
+
+/* The terms of a light that is on and does not miss; false if the material reflects none. */
+static bool reflected_terms(const Decision *made, const LightFacts *light, LightTerms *terms)
+{
+    const SideFacts *front = &made->object->front, *back = &made->object->back;
+    memset(terms, 0, sizeof *terms);
+    terms->kind = (LightKind)light->kind;
+    terms->diffuse = reflected(made, light->diffuse, front->diffuse, back->diffuse);
+    terms->specular = reflected(made, light->specular, front->specular, back->specular);
+    terms->attenuation = light->fades;
+    terms->exponent = light->exponent;
+    terms->ambient =
+        varies(light) && reflected(made, light->ambient, front->ambient, back->ambient);
+    return terms->diffuse || terms->specular || terms->ambient;
+}
+
+/* False if the light adds nothing to the object. */
+static bool decide_terms(const Decision *made, int number, LightTerms *terms)
+{
+    const SceneFacts *scene = made->scene;
+    const ObjectFacts *object = made->object;
+    const LightFacts *light = &scene->lights[number];
+    const bool positional = light->kind != LIGHT_DIRECTIONAL;
+    if (light->off) {
+        say(made->why, "without light %d: it is off", number);
+        return false;
+    }
+    if (object->missed >> number & 1) {
+        say(made->why, "without light %d: its cone misses the object", number);
+        return false;
+    }
+    if (!reflected_terms(made, light, terms)) {
+        say(made->why, "without light %d: the material reflects none of its colour%s", number,
+            reflected(made, light->ambient, object->front.ambient, object->back.ambient)
+                ? " but the ambient, which is constant and part of the base"
+                : "");
+        return false;
+    }
+    terms->half_vector = terms->specular && !positional && scene->distant_viewer &&
+                         scene->reflection == REFLECTION_BLINN_PHONG;
+    if ((object->shadowed >> number & 1) && (terms->diffuse || terms->specular))
+        terms->shadow = 1 + effects_channel(effects_shadows(scene), number) / SHADOW_CHANNELS;
+    const bool same_over_triangle =
+        object->flat && !positional && (!terms->specular || scene->distant_viewer);
+    terms->at_vertex =
+        scene->interpolation != INTERPOLATION_PHONG || (same_over_triangle && !terms->shadow);
+    if (made->why)
+        explain_light(made, number, terms);
+    return true;
+}
+
+static void add_light(Effects *effects, int number, const LightTerms *terms, bool guarded)
+{
+    LightGroup *group = effects->groups, *end = group + effects->group_count;
+    while (group < end && memcmp(&group->terms, terms, sizeof *terms) != 0)
+        group++;
+    if (group == end) {
+        effects->group_count++;
+        memcpy(&group->terms, terms, sizeof *terms);
+    }
+    group->guard_attenuation |= guarded;
+    group->lights[group->count++] = (uint8_t)number;
+}
+
+/* Emission, global ambient and constant ambient light. */
+static bool has_base(const Decision *made)
+{
+    const SideFacts *front = &made->object->front, *back = &made->object->back;
+    if (reflected(made, 7, front->emission, back->emission) ||
+        reflected(made, made->scene->global_ambient, front->ambient, back->ambient))
+        return true;
+    for (int i = 0; i < made->scene->light_count; i++) {
+        const LightFacts *light = &made->scene->lights[i];
+        if (!light->off && !varies(light) &&
+            reflected(made, light->ambient, front->ambient, back->ambient))
+            return true;
+    }
+    return false;
+}
+
+static void decide_sides(Decision *made)
+{
+    const ObjectFacts *object = made->object;
+    Effects *effects = &made->effects;
+    effects->cull = object->closed && !object->clockwise && object->beyond;
+    say(made->why,
+        effects->cull ? "culling of back faces: a closed object, seen from outside"
+                      : "without culling: %s",
+        !object->closed     ? "the object is open"
+        : object->clockwise ? "front faces are clockwise"
+                            : "the near plane may cut the object");
+    effects->two_sided = object->two_sided && !effects->cull;
+    say(made->why,
+        effects->two_sided ? "two-sided: the back has its own material and the opposite normal"
+                           : "without a back side: %s",
+        object->two_sided ? "it is never seen" : "it is lit like the front");
+    effects->lit_positions = made->scene->interpolation == INTERPOLATION_CONSTANT;
+    effects->base = has_base(made);
+    say(made->why, effects->base ? "base: emission or constant ambient light"
+                                 : "without base: neither emission nor constant ambient light");
+    effects->alpha = object->front.translucent || (effects->two_sided && object->back.translucent);
+    say(made->why, effects->alpha ? "alpha: the surface is not opaque"
+                                  : "without alpha: the surface is opaque");
+}
+
+static void decide_lights(Decision *made)
+{
+    const SceneFacts *scene = made->scene;
+    Effects *effects = &made->effects;
+    bool colored = effects->base;
+    for (int i = 0; i < scene->light_count; i++) {
+        LightTerms terms;
+        if (!decide_terms(made, i, &terms))
+            continue;
+        add_light(effects, i, &terms, made->object->guarded >> i & 1);
+        effects->normals |= terms.diffuse || terms.specular;
+        colored |= terms.ambient || terms.diffuse;
+        /* R.V and N.H both depend on V. */
+        effects->local_viewer |= terms.specular && !scene->distant_viewer;
+        effects->phong |= terms.specular && scene->reflection == REFLECTION_PHONG;
+        made->at_vertices |= terms.at_vertex;
+        made->at_fragments |= !terms.at_vertex;
+    }
+    effects->vertex_color = made->object->colors && colored;
+    if (made->object->colors)
+        say(made->why, effects->vertex_color
+                           ? "vertex colours: the mesh has them, instead of ambient and diffuse "
+                             "colour"
+                           : "without vertex colours: no term depends on them");
+    say(made->why,
+        effects->local_viewer ? "local viewer: the direction to the eye varies over the surface"
+                              : "without local viewer: %s",
+        scene->distant_viewer ? "the viewer is at infinity" : "no term is specular");
+}
+
+static void decide_normals(Decision *made)
+{
+    const ObjectFacts *object = made->object;
+    const EffectsTransform transform = (EffectsTransform)object->transform;
+    Effects *effects = &made->effects;
+    FILE *why = made->why;
+    if (!effects->normals) {
+        say(why, "without normals: no term depends on them");
+        return;
+    }
+    effects->normal_matrix = transform == GENERAL && !object->wrong_normals;
+    if (effects->normal_matrix)
+        say(why, "normal matrix: the model-view matrix scales unevenly or shears");
+    else if (object->wrong_normals)
+        say(why, "without normal matrix: the scene requests the wrong one, the model-view matrix");
+    else
+        say(why, "without normal matrix: the model-view matrix is orthogonal");
+    const bool skip = made->scene->skip_renormalization;
+    effects->normalize_fragment = made->at_fragments && !object->flat && !skip;
+    /* If fragments normalize, equal lengths at the vertices do not matter. */
+    const bool equal_lengths = transform != GENERAL;
+    effects->normalize_vertex =
+        transform != ORTHONORMAL && (object->flat || skip || made->at_vertices || !equal_lengths);
+    say(why,
+        effects->normalize_vertex
+            ? "normals normalized at the vertices: the transform changes their length"
+            : "normals not normalized at the vertices: %s",
+        transform == ORTHONORMAL ? "the transform keeps their length"
+                                 : "the fragments do it, and all lengths are equal");
+    say(why,
+        effects->normalize_fragment
+            ? "normals normalized at the fragments: interpolation shortens them"
+            : "normals not normalized at the fragments: %s",
+        !made->at_fragments ? "no light is computed there"
+        : object->flat      ? "constant over a triangle"
+                            : "the scene skips it");
+}
+
+static void decide_output(Decision *made, bool at_vertices)
+{
+    const SceneFacts *scene = made->scene;
+    Effects *effects = &made->effects;
+    FILE *why = made->why;
     const bool clamped = scene->clamp_vertex && scene->interpolation != INTERPOLATION_PHONG;
     effects->clamp_vertex = clamped && at_vertices;
-    say(file,
+    say(why,
         effects->clamp_vertex ? "clamping at the vertices: requested"
                               : "without clamping at the vertices: %s",
         !scene->clamp_vertex ? "not requested" : "colours are not interpolated");
     effects->show_clipped = scene->show_clipped && !clamped;
-    say(file,
+    say(why,
         effects->show_clipped ? "overexposed pixels highlighted: requested"
                               : "without highlighting overexposed pixels: %s",
         scene->show_clipped ? "colours are clamped at the vertices" : "not requested");
     effects->linear = scene->linear;
-    say(file,
-        effects->linear ? "sRGB encoding: requested" : "without sRGB encoding: not requested");
+    say(why, effects->linear ? "sRGB encoding: requested" : "without sRGB encoding: not requested");
     /* llvmpipe without AVX makes integers of 255 times a color, and black of what exceeds them;
      * colors of the vertices that exceed 16 bits are infinite in mediump. */
-    effects->limit = brightest(scene) > 6e4;
+    effects->limit = scene->limit;
     if (effects->limit)
-        say(file, "colours limited: drivers may draw very large ones as black");
+        say(why, "colours limited: drivers may draw very large ones as black");
 }
 
-static Effects decide(const Scene *scene, const Object *object, const MeshBox *box,
-                      uint32_t shadowed, FILE *file)
+Effects effects_decide(const SceneFacts *scene, const ObjectFacts *object, FILE *why)
 {
-    Effects effects;
-    bool at_vertices = false, at_fragments = false;
-    const Sphere sphere = scene_sphere(object, box);
-    memset(&effects, 0, sizeof effects);
-    effects.cull = outside_of(scene, object, sphere, file);
-    effects.two_sided = object->two_sided && !effects.cull;
-    say(file,
-        effects.two_sided ? "two-sided: the back has its own material and the opposite normal"
-                          : "without a back side: %s",
-        object->two_sided ? "it is never seen" : "it is lit like the front");
-    effects.lit_positions = scene->interpolation == INTERPOLATION_CONSTANT;
-    effects.base = has_base(scene, object, effects.two_sided);
-    bool colored = effects.base;
-    say(file, effects.base ? "base: emission or constant ambient light"
-                           : "without base: neither emission nor constant ambient light");
-    effects.alpha = object->front.alpha != 1 || (effects.two_sided && object->back.alpha != 1);
-    say(file, effects.alpha ? "alpha: the surface is not opaque"
-                            : "without alpha: the surface is opaque");
-    for (int i = 0; i < scene->light_count && i < EFFECTS_MAX_LIGHTS; i++) {
-        LightTerms terms;
-        const Light light = scene_world_light(scene, i);
-        if (!light_terms(scene, object, i, &light, sphere, effects.two_sided, shadowed >> i & 1,
-                         &terms, file))
-            continue;
-        add_light(&effects, i, &terms, attenuation_guarded(&light, sphere));
-        effects.normals |= terms.diffuse || terms.specular;
-        colored |= terms.ambient || terms.diffuse;
-        /* R.V and N.H both depend on V. */
-        effects.local_viewer |= terms.specular && !scene->distant_viewer;
-        if (terms.specular)
-            effects.reflection = scene->reflection;
-        at_vertices |= terms.at_vertex;
-        at_fragments |= !terms.at_vertex;
-    }
-    effects.vertex_color = object->mesh->colors && colored;
-    if (object->mesh->colors)
-        say(file, effects.vertex_color
-                      ? "vertex colours: the mesh has them, instead of ambient and diffuse colour"
-                      : "without vertex colours: no term depends on them");
-    say(file,
-        effects.local_viewer ? "local viewer: the direction to the eye varies over the surface"
-                             : "without local viewer: %s",
-        scene->distant_viewer ? "the viewer is at infinity" : "no term is specular");
-    decide_normals(scene, object, &effects, at_fragments, file);
+    Decision made;
+    memset(&made, 0, sizeof made);
+    made.scene = scene;
+    made.object = object;
+    made.why = why;
+    decide_sides(&made);
+    decide_lights(&made);
+    decide_normals(&made);
     /* The base varies over the surface as the colors of its vertices do. */
-    decide_output(scene, &effects, at_vertices || (effects.base && effects.vertex_color), file);
-    return effects;
+    decide_output(&made, made.at_vertices || (made.effects.base && made.effects.vertex_color));
+    return made.effects;
 }
 
-Effects effects_of_boxed(const Scene *scene, const Object *object, const MeshBox *box,
-                         uint32_t shadowed)
+Effects effects_decide_full(const SceneFacts *scene, const ObjectFacts *object)
 {
-    return decide(scene, object, box, shadowed, NULL);
-}
-
-Effects effects_of(const Scene *scene, const Object *object)
-{
-    const MeshBox box = mesh_bounds(object->mesh);
-    return decide(scene, object, &box, shadowed_by(scene, object), NULL);
-}
-
-void effects_explain(const Scene *scene, const Object *object, FILE *file)
-{
-    const MeshBox box = mesh_bounds(object->mesh);
-    decide(scene, object, &box, shadowed_by(scene, object), file);
-}
-
-Effects effects_full(const Scene *scene, const Object *object)
-{
-    Effects full;
-    memset(&full, 0, sizeof full);
-    full.vertex_color = object->mesh->colors != NULL;
-    full.alpha = full.base = full.normals = true;
-    full.local_viewer = full.two_sided = true;
-    full.normal_matrix = full.normalize_vertex = true;
-    full.normalize_fragment = !scene->skip_renormalization;
-    full.reflection = scene->reflection;
-    full.lit_positions = scene->interpolation == INTERPOLATION_CONSTANT;
-    decide_output(scene, &full, true, NULL);
-    for (int i = 0; i < scene->light_count && i < EFFECTS_MAX_LIGHTS; i++) {
+    Decision made;
+    memset(&made, 0, sizeof made);
+    made.scene = scene;
+    made.object = object;
+    Effects *full = &made.effects;
+    full->vertex_color = object->colors;
+    full->alpha = full->base = full->normals = true;
+    full->local_viewer = full->two_sided = true;
+    full->normal_matrix = full->normalize_vertex = true;
+    full->normalize_fragment = !scene->skip_renormalization;
+    full->phong = scene->reflection == REFLECTION_PHONG;
+    full->lit_positions = scene->interpolation == INTERPOLATION_CONSTANT;
+    decide_output(&made, true);
+    const uint32_t shadows = effects_shadows(scene);
+    for (int i = 0; i < scene->light_count; i++) {
         LightTerms terms;
         memset(&terms, 0, sizeof terms);
         terms.kind = LIGHT_SPOT;
         terms.any = terms.ambient = terms.diffuse = terms.specular = true;
         terms.attenuation = terms.exponent = true;
         terms.at_vertex = scene->interpolation != INTERPOLATION_PHONG;
-        if (scene->lights[i].shadows)
-            terms.shadow = 1 + effects_channel(scene, i) / SHADOW_CHANNELS;
-        add_light(&full, i, &terms, true);
+        if (shadows >> i & 1)
+            terms.shadow = 1 + effects_channel(shadows, i) / SHADOW_CHANNELS;
+        add_light(full, i, &terms, true);
     }
-    return full;
+    return made.effects;
+}
+
+/* Of one object. Where memory runs out, all lights that have shadows cast them on it. */
+static ObjectFacts facts_of(const Scene *scene, const Object *object)
+{
+    const MeshBox box = mesh_bounds(object->mesh);
+    const EffectsPlace place = effects_place(object, &box);
+    const SceneFacts facts = effects_scene(scene);
+    ShadowPairs pairs = {.count = 0};
+    EffectsView view;
+    uint32_t shadowed = effects_shadows(&facts);
+    if (shadowed && shadow_pairs_open(&pairs, scene->object_count, NULL)) {
+        for (int i = 0; i < scene->object_count; i++) {
+            pairs.boxes[i] = mesh_bounds(scene->objects[i].mesh);
+            pairs.placed[i] = placed_box(&pairs.boxes[i], scene->objects[i].world_from_object);
+        }
+        shadow_pairs_find(&pairs, scene);
+        shadowed = pairs.receives[object - scene->objects];
+    }
+    shadow_pairs_close(&pairs);
+    effects_view(&view, scene);
+    return effects_object(&view, object, &place, shadowed);
+}
+
+Effects effects_of(const Scene *scene, const Object *object)
+{
+    const SceneFacts facts = effects_scene(scene);
+    const ObjectFacts own = facts_of(scene, object);
+    return effects_decide(&facts, &own, NULL);
+}
+
+Effects effects_full(const Scene *scene, const Object *object)
+{
+    const SceneFacts facts = effects_scene(scene);
+    const ObjectFacts own = facts_of(scene, object);
+    return effects_decide_full(&facts, &own);
+}
+
+void effects_explain(const Scene *scene, const Object *object, FILE *file)
+{
+    const SceneFacts facts = effects_scene(scene);
+    const ObjectFacts own = facts_of(scene, object);
+    effects_decide(&facts, &own, file);
 }

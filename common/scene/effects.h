@@ -1,15 +1,16 @@
 /*
  * effects: which lighting effects an object in a scene needs, and why. No GL.
  *
- * effects_of is a pure function from a scene to a set. `lighting` generates the program from that
- * set alone: what is not in it costs no uniform, no varying and no instruction. Values such as
- * colors are not part of the set.
+ * In two steps. Facts are what decides: not that a light's color is (0.2, 0, 0) but that it is not
+ * black. They are small, cheap to find again, and compared as bytes; values such as colors and
+ * places change every frame, and facts seldom. effects_decide is a pure function from facts to a
+ * set. `lighting` generates the program from that set alone: what is not in it costs no uniform, no
+ * varying and no instruction.
  */
 #ifndef EFFECTS_H
 #define EFFECTS_H
 
 #include "scene/scene.h"
-#include "shadows/between.h"
 
 #include <stdio.h>
 
@@ -33,24 +34,22 @@ typedef struct LightTerms {
 /* Lights with equal terms, as indices into the scene's lights. */
 typedef struct LightGroup {
     LightTerms terms;
-    /* An attenuation's denominator may be 0, or too large for a float. Every other division and
+    int count;
+    uint8_t lights[EFFECTS_MAX_LIGHTS];
+    /* 1: an attenuation's denominator may be 0, or too large for a float. Every other division and
      * root is always guarded; this guard is conditional because it costs up to 2% of a frame with
      * many lights. */
-    bool guard_attenuation;
-    int lights[EFFECTS_MAX_LIGHTS];
-    int count;
+    int guard_attenuation;
 } LightGroup;
 
+/* Compared as bytes: what is not used is zero. */
 typedef struct Effects {
     bool alpha;         /* the surface is not opaque */
     bool vertex_color;  /* the mesh has colors, and a term depends on them */
     bool lit_positions; /* light is computed elsewhere than at the vertex */
     bool base;          /* emission or constant ambient light */
-    LightGroup groups[EFFECTS_MAX_LIGHTS];
-    int group_count;
-    Reflection reflection; /* if any group is specular */
-    bool normals;          /* any light has a diffuse or specular term */
-    bool local_viewer;     /* V varies over the surface, and a term depends on it */
+    bool normals;       /* any light has a diffuse or specular term */
+    bool local_viewer;  /* V varies over the surface, and a term depends on it */
     bool two_sided;
     bool normal_matrix;      /* a separate matrix, not the model-view matrix */
     bool normalize_vertex;   /* a transformed normal is not of length 1 */
@@ -60,36 +59,89 @@ typedef struct Effects {
     bool show_clipped;
     bool limit; /* colors may be so large that a driver draws them as black */
     bool cull;  /* back faces are never visible */
+    bool phong; /* the reflection, if any group is specular: REFLECTION_PHONG */
+    int group_count;
+    LightGroup groups[EFFECTS_MAX_LIGHTS];
 } Effects;
 
-/* A side's material; with vertex colors, its ambient and diffuse reflectivity are those, and white
- * here. */
-Material effects_material(const Object *object, bool back);
+/* Facts. A color is the set of its channels that are not 0, a bit each. */
 
-/* The effects that an object in a scene needs. The scene has passed scene_check. */
-Effects effects_of(const Scene *scene, const Object *object);
+typedef struct LightFacts {
+    uint8_t kind, off, shadows;
+    uint8_t fades;    /* attenuation depends on the distance */
+    uint8_t exponent; /* of a spot; not 0 */
+    uint8_t ambient, diffuse, specular;
+} LightFacts;
 
-/* The same for a mesh whose bounds are known, and the lights (a bit each) in whose shadow it may
- * lie, which takes no time. */
-Effects effects_of_boxed(const Scene *scene, const Object *object, const MeshBox *box,
-                         uint32_t shadowed);
+typedef struct SceneFacts {
+    LightFacts lights[EFFECTS_MAX_LIGHTS];
+    uint8_t light_count, global_ambient, reflection, interpolation;
+    uint8_t distant_viewer, clamp_vertex, skip_renormalization, linear, show_clipped;
+    uint8_t limit; /* its colors may be very large */
+} SceneFacts;
 
-/* Whether an occluder may come between a receiver, perhaps itself, and a light that has shadows and
- * something to light there. An object that is convex does not shadow itself: where N.L > 0 it sees
- * the light. `boxes`: of the objects' meshes; `placed`: the same in the world. */
-bool effects_may_shadow(const Scene *scene, int light, int occluder, int receiver,
-                        const MeshBox *boxes, const PlacedBox *placed);
+typedef struct SideFacts {
+    uint8_t ambient, diffuse, specular, emission, translucent;
+} SideFacts;
 
-/* The number of a light among those that have shadows, for which the masks have a channel each. */
-int effects_channel(const Scene *scene, int light);
+typedef struct ObjectFacts {
+    /* A bit for each light: */
+    uint32_t missed;   /* a spot, whose cone misses the object */
+    uint32_t guarded;  /* as LightGroup.guard_attenuation */
+    uint32_t shadowed; /* the object may lie in its shadow */
+    SideFacts front, back;
+    uint8_t colors, flat, closed, clockwise, two_sided, wrong_normals;
+    uint8_t transform; /* of normals: an EffectsTransform */
+    uint8_t beyond;    /* the near plane does not cut it */
+    uint8_t unused[2]; /* instead of padding */
+} ObjectFacts;
+
+SceneFacts effects_scene(const Scene *scene);
+
+/* Of an object's transform, up to a rotation and a translation: none, a factor, anything. */
+typedef enum EffectsTransform { ORTHONORMAL, ORTHOGONAL, GENERAL } EffectsTransform;
+
+/* What follows from its mesh and transform alone. */
+typedef struct EffectsPlace {
+    Sphere sphere;
+    EffectsTransform transform;
+} EffectsPlace;
+EffectsPlace effects_place(const Object *object, const MeshBox *box);
+
+/* A scene's lights and eye, for all its objects. */
+typedef struct EffectsView {
+    const Scene *scene;
+    Mat4 eye_from_world;
+    Light lights[EFFECTS_MAX_LIGHTS]; /* in the world */
+    uint32_t spots, fading;           /* of those that are on, a bit each */
+} EffectsView;
+void effects_view(EffectsView *view, const Scene *scene);
+
+/* `shadowed`: the lights (a bit each) in whose shadow it may lie: scene/shadow_pairs.h. */
+ObjectFacts effects_object(const EffectsView *view, const Object *object, const EffectsPlace *place,
+                           uint32_t shadowed);
+
+/* Writes, unless `why` is NULL, a line for each effect and for each one left out, with the reason:
+ * "specular: in light and material", "without light 2: it is off". */
+Effects effects_decide(const SceneFacts *scene, const ObjectFacts *object, FILE *why);
 
 /* The whole model, for comparison: terms that the scene lacks have coefficients of 0. Colors of
  * vertices take a uniform's place, and shadows are looked up, so they are not a matter of
  * coefficients: there are shadows if a light of the scene has them. */
-Effects effects_full(const Scene *scene, const Object *object);
+Effects effects_decide_full(const SceneFacts *scene, const ObjectFacts *object);
 
-/* Writes a line for each effect and for each one left out, with the reason: "specular: in light and
- * material", "without light 2: it is off". */
+/* All at once for an object of a scene that has passed scene_check: for tests and estimates. */
+Effects effects_of(const Scene *scene, const Object *object);
+Effects effects_full(const Scene *scene, const Object *object);
 void effects_explain(const Scene *scene, const Object *object, FILE *file);
+
+/* The lights that have shadows, a bit each; the number of a light among them, for which the masks
+ * have a channel each. */
+uint32_t effects_shadows(const SceneFacts *scene);
+int effects_channel(uint32_t shadows, int light);
+
+/* A side's material; with vertex colors, its ambient and diffuse reflectivity are those, and white
+ * here. */
+Material effects_material(const Object *object, bool back);
 
 #endif

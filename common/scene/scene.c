@@ -16,9 +16,11 @@ const char *const INTERPOLATION_NAMES[] = {[INTERPOLATION_PHONG] = "phong",
                                            [INTERPOLATION_FLAT] = "flat",
                                            [INTERPOLATION_CONSTANT] = "constant",
                                            NULL};
-const char *const SHADOW_NAMES[] = {
-    [SHADOWS_OFF] = "off", [SHADOWS_ON] = "on",         [SHADOWS_VOLUMES] = "volumes",
-    [SHADOWS_MAP] = "map", [SHADOWS_PLANAR] = "planar", NULL};
+const char *const SHADOW_NAMES[] = {[SHADOWS_OFF] = "off",
+                                    [SHADOWS_ON] = "on",
+                                    [SHADOWS_VOLUMES] = "volumes",
+                                    [SHADOWS_MAP] = "map",
+                                    NULL};
 const char *const SHADOW_FILTER_NAMES[] = {"nearest", "2x2", NULL};
 const ShadowSettings SHADOWS_DEFAULT = {.way = SHADOWS_ON, .map_size = 1024, .bias = {1, 1.5, 0}};
 

@@ -47,12 +47,11 @@ extern const char *const INTERPOLATION_NAMES[]; /* "phong", "gouraud", "flat", "
 /* How the shadows of lights that have them are drawn. */
 typedef enum ShadowWay {
     SHADOWS_OFF,     /* no light has any */
-    SHADOWS_ON,      /* of those that are exact, the cheapest for each light: planar or volumes */
+    SHADOWS_ON,      /* exact: volumes */
     SHADOWS_VOLUMES, /* exact, to the pixel */
     SHADOWS_MAP,
-    SHADOWS_PLANAR, /* exact, where all that receives a light's shadows is flat; else volumes */
 } ShadowWay;
-extern const char *const SHADOW_NAMES[]; /* "off", "on", "volumes", "map", "planar" */
+extern const char *const SHADOW_NAMES[]; /* "off", "on", "volumes", "map" */
 
 typedef struct ShadowSettings {
     int way;      /* a ShadowWay */

@@ -4,7 +4,7 @@
 #ifndef SHADOW_FRUSTUM_H
 #define SHADOW_FRUSTUM_H
 
-#include "shadows/between.h"
+#include "shadows/shadow_culling.h"
 
 enum { SHADOW_FACES = 6 };
 

@@ -1,3 +1,10 @@
+/*
+ * A map is a depth buffer seen from the light: a point is in shadow if it lies farther away than
+ * what the map has there. The map is drawn again only if what it shows has changed: transforms,
+ * buffers and frusta are kept as bytes and compared. Looked up it is either by the program that
+ * lights an object, or, where a light has several maps or a program has no room, by a program of
+ * its own, which marks the light's channel in a mask.
+ */
 #include "shadows/shadow_map.h"
 
 #include <stdio.h>
@@ -5,11 +12,6 @@
 #include <string.h>
 
 enum { FLOAT_BITS = 24 }; /* with which the shader compares, whatever the texture has */
-
-static void set_matrix(GLuint program, const char *name, Mat4 value)
-{
-    shader_set_mat4(glGetUniformLocation(program, name), value);
-}
 
 /* Programs. Depths need more bits than mediump has, whatever --precision says. */
 
@@ -96,10 +98,13 @@ bool shadow_maps_open(ShadowMaps *maps, const ShaderLoader *loader, Message *mes
     maps->packed = !has_depth_texture(maps);
     if (maps->packed)
         maps->bits = FLOAT_BITS; /* 255^3 values, nearly */
-    if (open_program(&maps->draw, maps, "DRAW_MAP", maps->packed ? LOOK_PACKED : 0, message))
-        return true;
-    shadow_maps_close(maps);
-    return false;
+    if (!open_program(&maps->draw, maps, "DRAW_MAP", maps->packed ? LOOK_PACKED : 0, message)) {
+        shadow_maps_close(maps);
+        return false;
+    }
+    maps->draw_position = glGetAttribLocation(maps->draw.program, "a_Position");
+    maps->draw_clip_from_object = glGetUniformLocation(maps->draw.program, "u_ClipFromObject");
+    return true;
 }
 
 static void drop_map(ShadowMap *map)
@@ -107,14 +112,14 @@ static void drop_map(ShadowMap *map)
     for (int i = 0; i < SHADOW_FACES; i++)
         if (map->textures[i])
             glDeleteTextures(1, &map->textures[i]);
-    free(map->drawn);
+    free(map->drawn.bytes);
     *map = (ShadowMap){.size = 0};
 }
 
 void shadow_maps_forget(ShadowMaps *maps)
 {
     for (int i = 0; i < SHADOW_MAPS; i++)
-        maps->lights[i].drawn_size = 0;
+        maps->lights[i].drawn.size = 0;
 }
 
 void shadow_maps_close(ShadowMaps *maps)
@@ -129,34 +134,41 @@ void shadow_maps_close(ShadowMaps *maps)
         glDeleteRenderbuffers(1, &maps->depth);
     shader_close(&maps->draw);
     for (int i = 0; i < LOOKS; i++)
-        shader_close(&maps->look[i]);
+        shader_close(&maps->looks[i].shader.shader);
+    free(maps->key.bytes);
     *maps = (ShadowMaps){.bits = 0};
 }
 
 /* Drawing a map */
 
-/* Bytes that differ if the map does. */
-static void *key_of(const ShadowFrustum *frusta, int count, const ShadowMapCaster *casters,
-                    int caster_count, size_t *size)
+/* False: no memory. */
+static bool make_key(struct ShadowMapKey *key, const ShadowMapScene *scene)
 {
-    const size_t matrices = 2 * (size_t)count, each = sizeof(Mat4);
-    *size = matrices * each + (size_t)caster_count * (each + sizeof(GLuint));
-    char *key = malloc(*size), *to = key;
-    for (size_t i = 0; key && i < matrices; i++, to += each)
-        memcpy(to, i % 2 ? &frusta[i / 2].map_from_light : &frusta[i / 2].light_from_world, each);
-    for (int i = 0; key && i < caster_count; i++, to += each + sizeof(GLuint)) {
-        memcpy(to, &casters[i].world_from_object, each);
-        memcpy(to + each, &casters[i].buffer->vertices, sizeof(GLuint));
+    const size_t matrices = 2 * (size_t)scene->face_count, each = sizeof(Mat4);
+    key->size = matrices * each + (size_t)scene->caster_count * (each + sizeof(GLuint));
+    if (key->size > key->capacity) {
+        void *larger = realloc(key->bytes, key->size);
+        if (!larger)
+            return false;
+        key->bytes = larger;
+        key->capacity = key->size;
     }
-    return key;
+    char *to = key->bytes;
+    for (size_t i = 0; i < matrices; i++, to += each) {
+        const ShadowFrustum *frustum = &scene->frusta[i / 2];
+        memcpy(to, i % 2 ? &frustum->map_from_light : &frustum->light_from_world, each);
+    }
+    for (int i = 0; i < scene->caster_count; i++, to += each + sizeof(GLuint)) {
+        memcpy(to, &scene->casters[i].world_from_object, each);
+        memcpy(to + each, &scene->casters[i].buffer->vertices, sizeof(GLuint));
+    }
+    return true;
 }
 
 static bool draw_face(ShadowMaps *maps, ShadowMap *map, int face, const ShadowMapCaster *casters,
                       int count)
 {
-    const GLuint program = maps->draw.program;
     const ShadowFrustum *frustum = &map->frusta[face];
-    const GLint position = glGetAttribLocation(program, "a_Position");
     if (!map->textures[face])
         map->textures[face] = make_texture(map->size, maps->packed);
     attach(maps, map->textures[face]);
@@ -165,11 +177,11 @@ static bool draw_face(ShadowMaps *maps, ShadowMap *map, int face, const ShadowMa
     glClearColor(1, 1, 1, 1);
     glClear(maps->packed ? GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT : GL_DEPTH_BUFFER_BIT);
     for (int i = 0; i < count; i++) {
-        set_matrix(
-            program, "u_ClipFromObject",
+        shader_set_mat4(
+            maps->draw_clip_from_object,
             mat4_product(frustum->map_from_light,
                          mat4_product(frustum->light_from_world, casters[i].world_from_object)));
-        mesh_buffer_bind(casters[i].buffer, position, -1);
+        mesh_buffer_bind(casters[i].buffer, maps->draw_position, -1);
         glDrawElements(GL_TRIANGLES, casters[i].buffer->index_count, casters[i].buffer->index_type,
                        NULL);
     }
@@ -216,33 +228,29 @@ static bool draw_faces(ShadowMaps *maps, ShadowMap *map, const ShadowMapCaster *
     return done && glGetError() == GL_NO_ERROR;
 }
 
-bool shadow_map_draw(ShadowMaps *maps, int light, int size, const ShadowFrustum *frusta, int count,
-                     const ShadowMapCaster *casters, int caster_count, Message *message)
+bool shadow_map_draw(ShadowMaps *maps, int light, const ShadowMapScene *scene, Message *message)
 {
     ShadowMap *map = &maps->lights[light];
+    const int size = scene->size;
     GLint most = 0;
-    size_t key_size;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
     if (size > most)
         return message_set(message, "shadows: a map of %dx%d: this driver has textures up to %dx%d",
                            size, size, (int)most, (int)most);
-    void *key = key_of(frusta, count, casters, caster_count, &key_size);
-    if (!key)
+    if (!make_key(&maps->key, scene))
         return message_set(message, "shadows: not enough memory");
-    if (map->size == size && map->drawn_size == key_size &&
-        memcmp(map->drawn, key, key_size) == 0) {
-        free(key);
+    if (map->size == size && map->drawn.size == maps->key.size &&
+        memcmp(map->drawn.bytes, maps->key.bytes, maps->key.size) == 0)
         return true;
-    }
     if (map->size != size)
         drop_map(map);
-    free(map->drawn);
+    const struct ShadowMapKey before = map->drawn;
+    map->drawn = maps->key;
+    maps->key = before;
     map->size = size;
-    map->count = count;
-    memcpy(map->frusta, frusta, (size_t)count * sizeof *frusta);
-    map->drawn = key;
-    map->drawn_size = key_size;
-    if (draw_faces(maps, map, casters, caster_count))
+    map->count = scene->face_count;
+    memcpy(map->frusta, scene->frusta, (size_t)scene->face_count * sizeof *scene->frusta);
+    if (draw_faces(maps, map, scene->casters, scene->caster_count))
         return true;
     drop_map(map);
     return message_set(message,
@@ -259,57 +267,79 @@ int shadow_map_look(const ShadowMaps *maps, const ShadowFrustum *frustum,
            (frustum->perspective ? LOOK_PERSPECTIVE : 0) | (maps->packed ? LOOK_PACKED : 0);
 }
 
-static void set_vec3(GLuint program, const char *name, const char *suffix, Vec3 value)
+static GLint location_of(GLuint program, const char *name, const char *suffix)
 {
     char full_name[32];
     snprintf(full_name, sizeof full_name, "%s%s", name, suffix);
-    shader_set_vec3(glGetUniformLocation(program, full_name), value);
+    return glGetUniformLocation(program, full_name);
 }
 
-void shadow_map_uniforms(const ShadowMaps *maps, int light, int face, const ShadowLookup *lookup,
-                         Mat4 world_from_object, GLuint program, const char *suffix)
+ShadowMapLocations shadow_map_locations(GLuint program, const char *suffix)
 {
-    const ShadowMap *map = &maps->lights[light];
+    return (ShadowMapLocations){
+        .map = location_of(program, "u_Map", suffix),
+        .light_from_object = location_of(program, "u_LightFromObject", suffix),
+        .light_normal = location_of(program, "u_LightNormal", suffix),
+        .scale = location_of(program, "u_MapScale", suffix),
+        .move = location_of(program, "u_MapMove", suffix),
+        .size = location_of(program, "u_MapSize", suffix),
+        .bias = location_of(program, "u_MapBias", suffix),
+    };
+}
+
+/* From the light's coordinates to the map's: what of the projection is not zero, 0 to 1. */
+void shadow_map_set(const ShadowMap *map, int face, const ShadowLookup *lookup,
+                    const ShadowMapLocations *locations)
+{
     const ShadowFrustum *frustum = &map->frusta[face];
-    const Mat4 light_from_object = mat4_product(frustum->light_from_world, world_from_object);
-    char name[32];
-    snprintf(name, sizeof name, "u_LightFromObject%s", suffix);
-    set_matrix(program, name, light_from_object);
-    snprintf(name, sizeof name, "u_LightNormal%s", suffix);
-    set_matrix(program, name, mat4_normal(light_from_object));
-    /* From the light's coordinates to the map's: what of the projection is not zero, 0 to 1. */
     const double *m = frustum->map_from_light.m;
     const bool perspective = frustum->perspective;
-    set_vec3(program, "u_MapScale", suffix,
-             (Vec3){m[0] / 2, m[5] / 2, m[perspective ? 14 : 10] / 2});
-    set_vec3(program, "u_MapMove", suffix,
-             perspective ? (Vec3){(1 - m[8]) / 2, (1 - m[9]) / 2, (1 - m[10]) / 2}
-                         : (Vec3){(1 + m[12]) / 2, (1 + m[13]) / 2, (1 + m[14]) / 2});
-    set_vec3(program, "u_MapSize", suffix,
-             (Vec3){map->size, 1.0 / map->size, frustum->width / map->size});
-    set_vec3(program, "u_MapBias", suffix, (Vec3){lookup->constant, lookup->slope, lookup->normal});
+    shader_set_vec3(locations->scale, (Vec3){m[0] / 2, m[5] / 2, m[perspective ? 14 : 10] / 2});
+    shader_set_vec3(locations->move,
+                    perspective ? (Vec3){(1 - m[8]) / 2, (1 - m[9]) / 2, (1 - m[10]) / 2}
+                                : (Vec3){(1 + m[12]) / 2, (1 + m[13]) / 2, (1 + m[14]) / 2});
+    shader_set_vec3(locations->size,
+                    (Vec3){map->size, 1.0 / map->size, frustum->width / map->size});
+    shader_set_vec3(locations->bias, (Vec3){lookup->constant, lookup->slope, lookup->normal});
 }
 
-bool shadow_map_mark(ShadowMaps *maps, ShadowMask *mask, int light, int channel,
-                     const ShadowSurface *surface, Mat4 world_from_object,
-                     const ShadowLookup *lookup, Message *message)
+void shadow_map_place(const ShadowMap *map, int face, Mat4 world_from_object,
+                      const ShadowMapLocations *locations)
 {
-    const ShadowMap *map = &maps->lights[light];
+    const Mat4 light_from_object =
+        mat4_product(map->frusta[face].light_from_world, world_from_object);
+    shader_set_mat4(locations->light_from_object, light_from_object);
+    shader_set_mat4(locations->light_normal, mat4_normal(light_from_object));
+}
+
+static bool open_look(ShadowLook *look, const ShadowMaps *maps, int number, Message *message)
+{
+    Shader shader;
+    if (look->shader.shader.program)
+        return true;
+    if (!open_program(&shader, maps, "LOOK_UP", number, message))
+        return false;
+    look->shader = mask_shader(&shader);
+    look->map = shadow_map_locations(shader.program, "");
+    return true;
+}
+
+bool shadow_map_mark(ShadowMaps *maps, ShadowMask *mask, const ShadowMark *mark, Message *message)
+{
+    const ShadowMap *map = &maps->lights[mark->light];
     bool done = true;
     for (int face = 0; face < map->count && done; face++) {
-        const int look = shadow_map_look(maps, &map->frusta[face], lookup);
-        Shader *shader = &maps->look[look];
-        done = shader->program || open_program(shader, maps, "LOOK_UP", look, message);
+        const int number = shadow_map_look(maps, &map->frusta[face], &mark->lookup);
+        ShadowLook *look = &maps->looks[number];
+        done = open_look(look, maps, number, message);
         if (!done)
             break;
-        const GLint normal = glGetAttribLocation(shader->program, "a_Normal");
-        shadow_mask_write(mask, channel, shader);
-        shadow_map_uniforms(maps, light, face, lookup, world_from_object, shader->program, "");
-        glUniform1i(glGetUniformLocation(shader->program, "u_Map"), 0);
+        shadow_mask_write(mask, mark->channel, &look->shader);
+        shadow_map_set(map, face, &mark->lookup, &look->map);
+        shadow_map_place(map, face, mark->world_from_object, &look->map);
+        glUniform1i(look->map.map, 0);
         glBindTexture(GL_TEXTURE_2D, map->textures[face]);
-        shadow_mask_draw(mask, surface, normal);
-        if (normal >= 0)
-            glDisableVertexAttribArray((GLuint)normal);
+        shadow_mask_draw(mask, mark->surface);
     }
     glBindTexture(GL_TEXTURE_2D, 0);
     shadow_mask_write(mask, -1, NULL);

@@ -26,8 +26,10 @@ typedef struct ShadowMap {
     GLuint textures[SHADOW_FACES];
     int size, count;
     ShadowFrustum frusta[SHADOW_FACES];
-    void *drawn; /* what it was drawn from */
-    size_t drawn_size;
+    struct ShadowMapKey {
+        void *bytes; /* that differ if the map does */
+        size_t size, capacity;
+    } drawn; /* what it was drawn from */
 } ShadowMap;
 
 /* What programs that look a map up differ in: the bits of a look. */
@@ -39,15 +41,29 @@ enum {
     LOOKS = 16
 };
 
+/* Where the uniforms of a program are that looks a map up. */
+typedef struct ShadowMapLocations {
+    GLint map, light_from_object, light_normal, scale, move, size, bias;
+} ShadowMapLocations;
+
+/* One that does so within a mask. */
+typedef struct ShadowLook {
+    MaskShader shader;
+    ShadowMapLocations map;
+} ShadowLook;
+
 typedef struct ShadowMaps {
-    Shader draw, look[LOOKS]; /* the latter opened when they are needed */
+    Shader draw;
+    GLint draw_position, draw_clip_from_object;
+    ShadowLook looks[LOOKS]; /* opened when they are needed */
     ShaderLoader loader;
     GLuint framebuffer, depth; /* the latter for packed maps */
     int depth_size;
     bool packed;
     int bits; /* of a depth, as it is compared */
     ShadowMap lights[SHADOW_MAPS];
-    long long drawn; /* maps so far; the faces of a cube are several */
+    struct ShadowMapKey key; /* of the map that is asked for */
+    long long drawn;         /* maps so far; the faces of a cube are several */
 } ShadowMaps;
 
 bool shadow_maps_open(ShadowMaps *maps, const ShaderLoader *loader, Message *message);
@@ -60,21 +76,35 @@ typedef struct ShadowMapCaster {
 } ShadowMapCaster;
 
 /* Draws the map of a light, unless it was last drawn from the same. Not within a mask. */
-bool shadow_map_draw(ShadowMaps *maps, int light, int size, const ShadowFrustum *frusta, int count,
-                     const ShadowMapCaster *casters, int caster_count, Message *message);
+typedef struct ShadowMapScene {
+    int size, face_count, caster_count;
+    const ShadowFrustum *frusta;
+    const ShadowMapCaster *casters;
+} ShadowMapScene;
+bool shadow_map_draw(ShadowMaps *maps, int light, const ShadowMapScene *scene, Message *message);
 
 /* For a program that includes lighting/shadow_map.glsl: its look, the defines for it, which are
- * written and counted, and its uniforms, whose names end in `suffix`. The texture is not bound. */
+ * written and counted, and where its uniforms are, whose names end in `suffix`. */
 enum { LOOK_DEFINES = 4 };
 int shadow_map_look(const ShadowMaps *maps, const ShadowFrustum *frustum,
                     const ShadowLookup *lookup);
 int shadow_map_defines(int look, const char *defines[LOOK_DEFINES]);
-void shadow_map_uniforms(const ShadowMaps *maps, int light, int face, const ShadowLookup *lookup,
-                         Mat4 world_from_object, GLuint program, const char *suffix);
+ShadowMapLocations shadow_map_locations(GLuint program, const char *suffix);
+
+/* Sets uniforms of the current program: what is the same for all objects, and an object's. The
+ * texture is not bound. */
+void shadow_map_set(const ShadowMap *map, int face, const ShadowLookup *lookup,
+                    const ShadowMapLocations *locations);
+void shadow_map_place(const ShadowMap *map, int face, Mat4 world_from_object,
+                      const ShadowMapLocations *locations);
 
 /* Within a mask, after the surfaces: marks in a light's channel what of a surface is in shadow. */
-bool shadow_map_mark(ShadowMaps *maps, ShadowMask *mask, int light, int channel,
-                     const ShadowSurface *surface, Mat4 world_from_object,
-                     const ShadowLookup *lookup, Message *message);
+typedef struct ShadowMark {
+    int light, channel;
+    const ShadowSurface *surface;
+    Mat4 world_from_object;
+    ShadowLookup lookup;
+} ShadowMark;
+bool shadow_map_mark(ShadowMaps *maps, ShadowMask *mask, const ShadowMark *mark, Message *message);
 
 #endif

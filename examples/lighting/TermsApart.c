@@ -107,7 +107,7 @@ static int operations_of(ShaderSource sources[VIEWS][2], int operations[VIEWS][2
                : -1;
 }
 
-static bool count_operations(const Lighting *lighting, int operations[VIEWS][2], Message *message)
+static bool count_operations(Lighting *lighting, int operations[VIEWS][2], Message *message)
 {
     ShaderSource sources[VIEWS][2] = {{{0}}};
     bool done = true;
@@ -134,7 +134,7 @@ static bool time_views(Lighting *lighting, double medians[VIEWS], Message *messa
             scene(0, view, &shown);
             glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
             const double start = clock_now();
-            if (!lighting_draw(lighting, &shown, 1, false, message))
+            if (!lighting_show(lighting, &(LightingFrame){.scene = &shown, .aspect = 1}, message))
                 return false;
             glFinish();
             if (round >= 0)

@@ -214,7 +214,8 @@ TEST_WITH(0, vertices_that_are_not_finite_are_refused, NULL, forget_made)
         *(i / 3 % 2 ? &vertex->normal[i % 3] : &vertex->position[i % 3]) = bad[i / 6 % 3];
         hard_world(&world, &made[0]);
         world.scene.interpolation = (Interpolation)(i / 18);
-        assert_false(lighting_draw(hard.lightings[0], &world.scene, 1, false, &message));
+        assert_false(lighting_show(hard.lightings[0],
+                                   &(LightingFrame){.scene = &world.scene, .aspect = 1}, &message));
         if (!strstr(message.text, i / 3 % 2 ? "vertex 7: normal (" : "vertex 7: position (") ||
             !strstr(message.text, "must be finite") || strchr(message.text, '\n'))
             fail_msg("\"%s\" is not about vertex 7", message.text);

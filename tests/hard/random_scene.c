@@ -295,7 +295,9 @@ bool random_scene_draw(const RandomScene *made, const Canvas *canvas, Lighting *
                        Image *image, Message *message)
 {
     canvas_clear(canvas, made->scene.background, 1);
-    return lighting_draw(lighting, &made->scene, (double)canvas->width / canvas->height, false,
+    return lighting_show(lighting,
+                         &(LightingFrame){.scene = &made->scene,
+                                          .aspect = (double)canvas->width / canvas->height},
                          message) &&
            canvas_read(canvas, image, message);
 }

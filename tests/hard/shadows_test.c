@@ -4,7 +4,7 @@
  * the origin is, how the object is mirrored.
  */
 #include "hard/hard.h"
-#include "study/cases/hard_case.h"
+#include "study/cases/hard_cases_list.h"
 #include "support/oracle.h"
 #include "support/picture_check.h"
 #include "support/testing.h"
@@ -44,10 +44,10 @@ static void use_way(ShadowWay way)
 
 static void open_scene(const char *name)
 {
-    for (int i = 0; i < HARD_SHADOW_COUNT; i++) {
-        if (strcmp(HARD_SHADOWS[i].name, name) != 0)
+    for (int i = HARD_FORMULA_COUNT; i < HARD_CASE_COUNT; i++) {
+        if (strcmp(HARD_CASES[i].name, name) != 0)
             continue;
-        require(hard_scene_open(&made, &HARD_SHADOWS[i], FAILURE), FAILURE);
+        require(hard_scene_open(&made, &HARD_CASES[i], FAILURE), FAILURE);
         return;
     }
     fail_msg("%s: no hard case of shadows", name);
@@ -95,31 +95,26 @@ static void check_way(const char *name, Interpolation interpolation, HardPrecisi
     reference_close(&exact);
 }
 
-/* By volumes, and by the cheapest way that is exact: without the highlight, whose error in mediump
+/* By volumes: without the highlight, whose error in mediump
  * depends on angles, in both precisions at the vertices and the fragments; with it in highp. See
  * hard_check_ways for the bounds. */
 static void check(const char *name)
 {
-    char full_name[96];
     leave_out_edges(&made.scene, unsure);
-    for (int way = 0; way < 2; way++) {
-        use_way(way ? SHADOWS_ON : SHADOWS_VOLUMES);
-        snprintf(full_name, sizeof full_name, "%s, %s", name, way ? "on" : "volumes");
-        check_way(full_name, INTERPOLATION_PHONG, HARD_HIGHP, 1);
-    }
+    check_way(name, INTERPOLATION_PHONG, HARD_HIGHP, 1);
     for (int i = 0; i < made.scene.object_count; i++)
         made.objects[i].front.specular = made.objects[i].back.specular = (Vec3){0, 0, 0};
     const double most = oracle_mediump_max(&made.scene, REACH);
-    check_way(full_name, INTERPOLATION_PHONG, HARD_MEDIUMP, most);
-    check_way(full_name, INTERPOLATION_GOURAUD, HARD_HIGHP, 1);
-    check_way(full_name, INTERPOLATION_GOURAUD, HARD_MEDIUMP, 1.5);
+    check_way(name, INTERPOLATION_PHONG, HARD_MEDIUMP, most);
+    check_way(name, INTERPOLATION_GOURAUD, HARD_HIGHP, 1);
+    check_way(name, INTERPOLATION_GOURAUD, HARD_MEDIUMP, 1.5);
 }
 
 TEST_WITH(0, every_case_is_exact_in_every_way, NULL, close_scene)
 {
-    for (int i = 0; i < HARD_SHADOW_COUNT; i++) {
-        open_scene(HARD_SHADOWS[i].name);
-        check(HARD_SHADOWS[i].name);
+    for (int i = HARD_FORMULA_COUNT; i < HARD_CASE_COUNT; i++) {
+        open_scene(HARD_CASES[i].name);
+        check(HARD_CASES[i].name);
         close_scene(NULL);
     }
     hard_report(&hard, "shadows");
@@ -132,7 +127,7 @@ static void check_varied(const char *name, double value)
     snprintf(full_name, sizeof full_name, "%s %g", name, value);
     use_way(SHADOWS_VOLUMES);
     leave_out_edges(&made.scene, unsure);
-    check_way(full_name, INTERPOLATION_PHONG, HARD_HIGHP, 1);
+    check_way(name, INTERPOLATION_PHONG, HARD_HIGHP, 1);
 }
 
 /* Out of the roof's shadow into it; the near plane is on its edge before the eye is. */

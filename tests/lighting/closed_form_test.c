@@ -114,7 +114,8 @@ static void make_world(const Mesh *mesh)
 static void draw_scene(const Scene *scene, Image *image)
 {
     canvas_clear(&canvas, scene->background, 1);
-    require(scene_check(scene, FAILURE) && lighting_draw(lighting, scene, 1, false, FAILURE) &&
+    require(scene_check(scene, FAILURE) &&
+                lighting_show(lighting, &(LightingFrame){.scene = scene, .aspect = 1}, FAILURE) &&
                 canvas_read(&canvas, image, FAILURE),
             FAILURE);
 }

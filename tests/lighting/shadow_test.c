@@ -2,7 +2,7 @@
  * Shadows as drawn, against the exact picture of the meshes: every view of the programs that are
  * scenes, all of whose lights get shadows, and hard cases. Inside surfaces, where no edge and no
  * shadow's edge runs through the pixel, no pixel may be off by more than one step of 1/255: none is
- * lit that is in shadow, or the other way round. That holds for volumes, and for planar shadows; of
+ * lit that is in shadow, or the other way round. That holds for volumes; of
  * shadow maps so many pixels may be wrong, and with less bias more are.
  */
 #include "base/random.h"
@@ -57,7 +57,9 @@ static void draw(const Scene *scene, bool full)
 {
     SUCCEEDS(scene_check(scene, message));
     canvas_clear(&canvas, scene->background, 1);
-    SUCCEEDS(lighting_draw(lighting, scene, (double)WIDTH / HEIGHT, full, message));
+    SUCCEEDS(lighting_show(
+        lighting, &(LightingFrame){.scene = scene, .aspect = (double)WIDTH / HEIGHT, .full = full},
+        message));
     SUCCEEDS(canvas_read(&canvas, &image, message));
 }
 
@@ -545,7 +547,8 @@ TEST(several_samples_of_a_pixel_are_supersampled)
         open_meshes(NULL);
         make_world(&ball);
         canvas_clear(&other, (Vec3){0, 0, 0}, 1);
-        assert_false(lighting_draw(lighting, &world.scene, 1.3, false, &why));
+        assert_false(
+            lighting_show(lighting, &(LightingFrame){.scene = &world.scene, .aspect = 1.3}, &why));
         assert_non_null(strstr(why.text, "supersampling"));
         close_meshes(NULL);
     }
@@ -553,26 +556,12 @@ TEST(several_samples_of_a_pixel_are_supersampled)
     canvas_begin(&canvas);
 }
 
-/* Planar shadows. */
-
-static bool check_planar(const char *name, bool expected)
-{
-    const long long before = lighting_counts(lighting).flattened;
-    const bool right = check(name, &world.scene);
-    const bool flattened = lighting_counts(lighting).flattened > before;
-    if (flattened != expected)
-        fail_msg("%s: the shadow is %s", name, flattened ? "flattened" : "not flattened");
-    return right;
-}
-
 /* Shadows on a floor and a wall: of a ball, whose light may be below its top; and of a square that
- * goes through the floor, which throws a shadow on its lower half. A teapot is in its own shadow,
- * and not flat. */
-TEST_WITH(0, planar_shadows_are_exact_on_what_is_flat, open_meshes, close_meshes)
+ * goes through the floor, which throws a shadow on its lower half. */
+TEST_WITH(0, shadows_are_exact_on_what_is_flat, open_meshes, close_meshes)
 {
     static const Vec3 lights[] = {{1.1, 3.2, 1.7}, {1.4, 0.4, 0.5}, {1.3, -0.5, 0.3}, {3, 0.2, 3}};
     bool all = true;
-    use_way(SHADOWS_ON);
     for (int i = 0; i < 8; i++) {
         char name[64];
         make_world(i < 4 ? &ball : &plane);
@@ -584,16 +573,13 @@ TEST_WITH(0, planar_shadows_are_exact_on_what_is_flat, open_meshes, close_meshes
             mat4_product(mat4_translate((Vec3){0, 1, -1.6}), mat4_scale((Vec3){4, 4, 4}));
         world.scene.object_count = 3;
         world.lights[0].position = lights[i % 4];
-        snprintf(name, sizeof name, "planar-%d", i);
-        all &= check_planar(name, true);
+        snprintf(name, sizeof name, "flat-%d", i);
+        all &= check(name, &world.scene);
     }
     make_world(&ball);
     world.lights[0].kind = LIGHT_DIRECTIONAL;
     world.lights[0].direction = (Vec3){1.1, 1.2, 1.7};
-    all &= check_planar("planar-directional", true);
-    make_world(&pot);
-    all &= check_planar("planar-teapot", false);
-    use_way(SHADOWS_VOLUMES);
+    all &= check("flat-directional", &world.scene);
     assert_true(all);
 }
 
@@ -613,13 +599,10 @@ static void make_eight_lights(void)
 }
 
 /* Where two casters overlap nothing is darkened twice, and eight lights have their own. */
-TEST_WITH(0, planar_shadows_may_overlap, open_meshes, close_meshes)
+TEST_WITH(0, shadows_may_overlap, open_meshes, close_meshes)
 {
-    use_way(SHADOWS_PLANAR);
     make_eight_lights();
-    const bool right = check("planar, overlapping", &world.scene);
-    use_way(SHADOWS_VOLUMES);
-    assert_true(right);
+    assert_true(check("overlapping", &world.scene));
 }
 
 /* Maps. */
@@ -899,7 +882,8 @@ TEST_WITH(0, maps_larger_than_the_driver_has_are_refused, open_meshes, close_mes
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
     use_map(most + 1, 0, SHADOWS_DEFAULT.bias);
     make_world(&ball);
-    assert_false(lighting_draw(lighting, &world.scene, 1, false, &why));
+    assert_false(
+        lighting_show(lighting, &(LightingFrame){.scene = &world.scene, .aspect = 1}, &why));
     assert_non_null(strstr(why.text, "textures up to"));
     use_way(SHADOWS_VOLUMES);
     assert_true(check("after that", &world.scene));

@@ -193,7 +193,10 @@ TEST(lecture_programs_draw_the_reference)
 static void render(const Canvas *canvas, Lighting *lighting, const Scene *scene, Image *image)
 {
     canvas_clear(canvas, scene->background, 1);
-    require(lighting_draw(lighting, scene, (double)canvas->width / canvas->height, false, FAILURE),
+    require(lighting_show(
+                lighting,
+                &(LightingFrame){.scene = scene, .aspect = (double)canvas->width / canvas->height},
+                FAILURE),
             FAILURE);
     require(canvas_read(canvas, image, FAILURE), FAILURE);
 }

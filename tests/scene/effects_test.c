@@ -89,7 +89,7 @@ static void write_set(const Effects *effects, char text[1024])
     put(text, effects->normalize_vertex, "unit_vertex");
     put(text, effects->normalize_fragment, "unit_fragment");
     put(text, effects->local_viewer, "local");
-    put(text, effects->reflection == REFLECTION_PHONG, "phong");
+    put(text, effects->phong, "phong");
     put(text, effects->clamp_vertex, "clamp");
     put(text, effects->linear, "linear");
     put(text, effects->show_clipped, "clipped");

@@ -188,7 +188,8 @@ static void check_size(int size, int slices, int stacks, bool offset, int *cover
     glDisable(GL_DEPTH_TEST);
     draw_lines(&canvas, &overlay, &facing, &scene, &edges);
     canvas_clear(&canvas, (Vec3){1, 1, 1}, 1);
-    require(lighting_draw(lighting, &scene, 1, false, FAILURE), FAILURE);
+    require(lighting_show(lighting, &(LightingFrame){.scene = &scene, .aspect = 1}, FAILURE),
+            FAILURE);
     draw_lines(&canvas, &overlay, &mesh, &scene, &picture);
     *covered = *missing = 0;
     for (int i = 0; i < size * size; i++) {

@@ -202,7 +202,7 @@ static Scene random_scene(Light lights[3], Object *object, const Mesh *mesh)
                    .show_clipped = rand() % 2};
 }
 
-static void count_program(const Lighting *lighting, const Scene *scene, bool full,
+static void count_program(Lighting *lighting, const Scene *scene, bool full,
                           ShaderCost operations[2])
 {
     Message message = {0};

@@ -37,7 +37,10 @@ static double error_in_picture(const Canvas *canvas, Lighting *lighting, const S
 {
     PictureError error = {.all = {0}};
     canvas_clear(canvas, scene->background, 0);
-    require(lighting_draw(lighting, scene, (double)width / height, false, FAILURE), FAILURE);
+    require(lighting_show(lighting,
+                          &(LightingFrame){.scene = scene, .aspect = (double)width / height},
+                          FAILURE),
+            FAILURE);
     require(canvas_read(canvas, image, FAILURE), FAILURE);
     picture_error_add(&error, image, &(ExactView){.exact = exact, .scene = scene});
     return error.interior.maximum;

@@ -46,8 +46,11 @@ static bool frame(const Way *way, const Lab *lab, const Probe *probe, const Canv
     glEnable(GL_DEPTH_TEST);
     if (way->cull)
         glEnable(GL_CULL_FACE);
-    const bool done = way->lighting ? lighting_draw(way->lighting, &probe->scene, 1, false, message)
-                                    : binding_draw(lab, way->program, &way->mesh, &drawn, message);
+    const bool done =
+        way->lighting
+            ? lighting_show(way->lighting, &(LightingFrame){.scene = &probe->scene, .aspect = 1},
+                            message)
+            : binding_draw(lab, way->program, &way->mesh, &drawn, message);
     glDisable(GL_CULL_FACE);
     glFinish();
     *seconds = clock_now() - start;

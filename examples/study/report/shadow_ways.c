@@ -72,7 +72,7 @@ static void make_scene(int number, StudyScene *made)
 /* One scene: drawn with and without shadows, and exactly. */
 typedef struct Subject {
     StudyScene made;
-    SettingPicture with, without;
+    Drawing with, without;
     Reference exact;
     unsigned char *near; /* of each pixel: within NEAR of a shadow's edge */
     int rounds;
@@ -112,14 +112,13 @@ static bool open_subject(Survey *survey, Subject *subject, int number, Message *
                                       .centers = true};
     Reference bare = {.width = 0};
     make_scene(number, &subject->made);
-    if (!setting_picture_open(&subject->with, survey->renderer, &subject->made.scene, &usual,
-                              message))
+    if (!drawing_open(&subject->with, survey->studio, &subject->made.scene, &usual, message))
         return false;
     subject->made.lights[0].shadows = false; /* of the next drawing; the first has a copy */
-    bool done = setting_picture_open(&subject->without, survey->renderer, &subject->made.scene,
-                                     &usual, message) &&
-                reference_open(&subject->exact, &subject->with.made.scene, &options, message) &&
-                reference_open(&bare, &subject->without.made.scene, &options, message);
+    bool done =
+        drawing_open(&subject->without, survey->studio, &subject->made.scene, &usual, message) &&
+        reference_open(&subject->exact, &subject->with.made.scene, &options, message) &&
+        reference_open(&bare, &subject->without.made.scene, &options, message);
     subject->near = calloc((size_t)(options.width * options.height), 1);
     if (done && !subject->near)
         done = message_set(message, "shadows: not enough memory");
@@ -132,11 +131,11 @@ static bool open_subject(Survey *survey, Subject *subject, int number, Message *
 
 static void close_subject(Survey *survey, Subject *subject)
 {
-    setting_picture_close(&subject->with);
-    setting_picture_close(&subject->without);
+    drawing_close(&subject->with);
+    drawing_close(&subject->without);
     reference_close(&subject->exact);
     free(subject->near);
-    setting_renderer_forget(survey->renderer);
+    studio_forget(survey->studio);
 }
 
 static ShadowTime time_of(double ratios[ROUNDS], int count)
@@ -146,13 +145,13 @@ static ShadowTime time_of(double ratios[ROUNDS], int count)
 }
 
 /* Where the processor draws, its time tells what a frame costs even if other programs run. */
-static bool time_frame(Survey *survey, SettingPicture *drawing, double *seconds, Message *message)
+static bool time_frame(Survey *survey, Drawing *drawing, double *seconds, Message *message)
 {
-    const char *renderer = setting_renderer_name(survey->renderer);
+    const char *renderer = studio_renderer(survey->studio);
     const bool software = strstr(renderer, "llvmpipe") || strstr(renderer, "softpipe");
     double wall, gpu;
     const double start = clock_processor();
-    if (!setting_picture_frame(drawing, survey->renderer, &wall, &gpu, message))
+    if (!drawing_frame(drawing, survey->studio, &wall, &gpu, message))
         return false;
     *seconds = software ? clock_processor() - start : wall;
     return true;
@@ -163,7 +162,7 @@ static bool measure_times(Survey *survey, Subject *subject, ShadowMeasured *meas
                           Message *message)
 {
     double still[ROUNDS], moving[ROUNDS], none, with, moved;
-    SettingPicture *drawing = &subject->with;
+    Drawing *drawing = &subject->with;
     for (int i = 0; i < subject->rounds; i++) {
         if (!time_frame(survey, &subject->without, &none, message) ||
             !time_frame(survey, drawing, &with, message))
@@ -185,10 +184,10 @@ static bool measure_way(Survey *survey, Subject *subject, const ShadowSettings *
     PictureError error = {.all = {0}};
     ErrorSum near = {0};
     double wall, gpu;
-    const SettingPicture *drawing = &subject->with;
+    const Drawing *drawing = &subject->with;
     const Reference *exact = &subject->exact;
     lighting_use_shadows(drawing->lighting, settings);
-    if (!setting_picture_frame(&subject->with, survey->renderer, &wall, &gpu, message))
+    if (!drawing_frame(&subject->with, survey->studio, &wall, &gpu, message))
         return false;
     picture_error_add(&error, &drawing->image,
                       &(ExactView){.exact = exact, .scene = &drawing->made.scene});
@@ -212,10 +211,6 @@ static bool measure_scene(Survey *survey, int number, ShadowWays *ways, Message 
                         : message_set(message, "shadows: not enough memory");
     settings.way = SHADOWS_VOLUMES;
     done = done && measure_way(survey, subject, &settings, &ways->scenes[number].volumes, message);
-    settings.way = SHADOWS_PLANAR;
-    if (SCENES[number].flat)
-        done =
-            done && measure_way(survey, subject, &settings, &ways->scenes[number].planar, message);
     settings.way = SHADOWS_MAP;
     for (int kind = 0; kind < (survey->plan.quick ? QUICK_KINDS : SHADOW_MAP_KINDS); kind++) {
         settings.smooth = KINDS[kind].smooth;
@@ -259,7 +254,6 @@ static void put_row(int scene, const char *name, int size, const ShadowMeasured 
 static void put_scene(const ShadowWays *ways, int scene, bool markdown, Table *table, FILE *csv)
 {
     put_row(scene, "volumes", 0, &ways->scenes[scene].volumes, table, csv);
-    put_row(scene, "planar", 0, &ways->scenes[scene].planar, table, csv);
     for (int kind = 0; kind < SHADOW_MAP_KINDS; kind++)
         for (int size = 0; size < SHADOW_MAP_SIZES; size++)
             put_row(scene, KINDS[kind].name, SIZES[size], &ways->scenes[scene].maps[kind][size],
@@ -379,7 +373,6 @@ static bool plot_scene(const ShadowWays *ways, int scene, bool time, const char 
     if (time)
         add_line(&lines, "map, a light moves", ways->scenes[scene].maps[0], false, SHOWN_MOVING);
     add_line(&lines, "volumes", &ways->scenes[scene].volumes, true, shown);
-    add_line(&lines, "planar", &ways->scenes[scene].planar, true, shown);
     return lines.count == 0 ||
            report_curves(&axes, lines.series, lines.count, folder, name, message);
 }

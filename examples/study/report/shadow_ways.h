@@ -1,6 +1,6 @@
 /*
  * shadow_ways: how far shadows by maps of each size, bias and filter are from the exact picture,
- * beside those by volumes and planar ones; and their time.
+ * beside those by volumes; and their time.
  *
  * Errors are the root mean square in steps of 1/255 of the pixels within two of a shadow's edge,
  * against the exact picture of the same meshes at the pixels' centers, as without antialiasing.
@@ -29,7 +29,7 @@ typedef struct ShadowMeasured {
 /* Of each scene; what was not measured has a ratio of 0. */
 typedef struct ShadowWays {
     struct {
-        ShadowMeasured volumes, planar;
+        ShadowMeasured volumes;
         ShadowMeasured maps[SHADOW_MAP_KINDS][SHADOW_MAP_SIZES];
     } scenes[SHADOW_SCENES];
     char with[RESULT_WITH_SIZE]; /* what was measured with */
@@ -41,8 +41,7 @@ bool shadow_ways_report(Survey *survey, const char *folder, bool markdown, FILE 
                         ShadowWays *ways, Message *message);
 
 /* For each scene that was measured FOLDER/finding-shadows-NAME.svg and .png, the error by the size
- * of the map, and finding-shadows-NAME-time, the time. Volumes and planar shadows are horizontal
- * lines. */
+ * of the map, and finding-shadows-NAME-time, the time. Volumes are a horizontal line. */
 bool shadow_ways_plot(const ShadowWays *ways, const char *folder, Message *message);
 
 #endif

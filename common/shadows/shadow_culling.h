@@ -1,8 +1,8 @@
 /*
- * between: whether an object may come between another and a light, from their boxes. No GL.
+ * shadow_culling: whether an object may come between another and a light, from their boxes. No GL.
  */
-#ifndef BETWEEN_H
-#define BETWEEN_H
+#ifndef SHADOW_CULLING_H
+#define SHADOW_CULLING_H
 
 #include "core/mesh.h"
 

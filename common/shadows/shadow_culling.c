@@ -1,4 +1,11 @@
-#include "shadows/between.h"
+/*
+ * A caster's shadow falls on a receiver only if the caster meets the hull of the receiver and the
+ * light: a pyramid over the receiver's box, or for parallel light a prism. Two convex sets do not
+ * meet if a plane lies between them. The sides of the boxes are tried first, which mostly settles
+ * it; else Gilbert's algorithm looks for the plane. What it does not find in 64 steps counts as
+ * meeting, so that a shadow may be drawn in vain, but none is missing.
+ */
+#include "shadows/shadow_culling.h"
 
 #include <math.h>
 
