@@ -1,3 +1,4 @@
+/* Reads back what image_png.c wrote: pixels as RGBA bytes, and the texts. */
 #include "images/picture_queue.h"
 
 #include <png.h>

@@ -1,3 +1,12 @@
+/*
+ * A file from anywhere, and a library of a hundred parsers. Assimp reads it in a child process,
+ * whose time and memory are limited by the file's size, and which sends back counts, vertices and
+ * indices through a pipe: it may loop, crash or lie. The parent believes the counts only up to the
+ * limits, and checks every number and index. Then equal vertices are merged, by a hash table with
+ * open addressing that holds indices (Knuth, The art of computer programming, volume 3,
+ * section 6.4, algorithm L): bytes equal in position and normal are one vertex, so that computed
+ * normals are smooth across triangles.
+ */
 #include "shapes/model.h"
 
 #include "base/output.h"

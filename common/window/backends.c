@@ -1,3 +1,4 @@
+/* The list of backends, and the choice from it. */
 #include "window/backends.h"
 
 #include "window/window.h"

@@ -1,5 +1,10 @@
 /*
  * The window backend: GLFW makes a window with an OpenGL ES 2 context of EGL.
+ *
+ * Input comes as events, through callbacks, and is asked for as a state, once a frame. Between the
+ * two a key can go down and up again: so events are collected, and what went down since the last
+ * frame counts as down in this one. A drag is summed while the button is held, in the order of the
+ * events. A display that is asked costs a round trip: nothing is asked unless there was an event.
  */
 #include "window/window.h"
 

@@ -1,3 +1,11 @@
+/*
+ * Dragging a light. A point of the picture is a ray from the eye; where the light goes on it is our
+ * choice. A light with a position keeps its depth, so that it follows the pointer in a plane
+ * parallel to the picture. A directional light keeps its distance from the origin, where its point
+ * is drawn: the ray meets that sphere twice, or not at all, and of two points the one near the old
+ * is taken. What is found is rounded to the power of ten below a pixel's size: --light-position
+ * then has few digits.
+ */
 #include "window/handles.h"
 
 #include <math.h>

@@ -1,3 +1,8 @@
+/*
+ * Triangles in pixels with one texture, the atlas of letters, in the order in which they lie over
+ * each other. Lecture programs set their state once, before the loop, and are drawn between panels:
+ * so all state that is changed here is read before and written back after.
+ */
 #include "window/panel_draw.h"
 
 #include "core/canvas.h"
