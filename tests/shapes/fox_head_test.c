@@ -5,7 +5,6 @@
 #include "support/testing.h"
 #include "support/topology.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -210,50 +209,29 @@ static Vec3 limit(const Cage *cage, uint32_t point)
 /* Rounding: some ten sums of numbers up to 8. */
 static const double ROUNDED = 1e-14;
 
-TEST(a_cube_becomes_what_the_masks_say_and_converges_to_its_limit)
-{
-    CLOSED(cage_close) Cage cage = open_cage(CORNERS, 8, SIDES, 6);
-    for (int step = 1; step <= 6; step++) {
-        cage_subdivide(&cage);
-        assert_int_equal(cage.quad_count, 6u << 2 * step);
-        assert_int_equal(cage.point_count, cage.quad_count + 2);
-        if (step == 1) {
-            for (uint32_t i = 0; i < 8; i++) /* corners go to 5/9 */
-                assert_at(vec3_subtract(cage.points[i], (Vec3){2, 0, 0}),
-                          vec3_scale(vec3_subtract(CORNERS[i], (Vec3){2, 0, 0}), 5.0 / 9), ROUNDED);
-            assert_at(cage.points[8], (Vec3){3, 0, 0}, ROUNDED); /* the middle of side 0 */
-            for (size_t i = 14; i < 26; i++) { /* the edges' points have two coordinates of 3/4 */
-                const Vec3 p = vec3_subtract(cage.points[i], (Vec3){2, 0, 0});
-                assert_true(fabs(vec3_dot(p, p) - 2 * 0.75 * 0.75) <= 2 * ROUNDED);
-                assert_true(fabs(p.x * p.y * p.z) <= ROUNDED);
-            }
-        }
-        /* The limits: half the cube's corner, and 68/81 for the middle of a side. The distance
-         * shrinks to a quarter in each step, to first order; the first is sqrt(3)/18 and 13/81. */
-        const double near = 0.7 * pow(4, -step);
-        assert_at(cage.points[7], (Vec3){2.5, 0.5, 0.5}, near);
-        assert_at(cage.points[8], (Vec3){2 + 68.0 / 81, 0, 0}, near);
-        assert_at(limit(&cage, 7), (Vec3){2.5, 0.5, 0.5}, ROUNDED);
-        assert_at(limit(&cage, 8), (Vec3){2 + 68.0 / 81, 0, 0}, ROUNDED);
-    }
-}
-
+/* The limit of a cube is known: half its corner, and 68/81 of the way to the middle of a side. */
 TEST(a_step_moves_no_point_of_the_limit)
 {
     testing_seed48(seed);
     for (int run = 0; run < 20; run++) {
         CLOSED(cage_close) Cage cage = open_cage(CORNERS, 8, SIDES, 6);
-        for (size_t i = 0; i < 8; i++)
+        for (size_t i = 0; i < 8 && run > 0; i++)
             cage.points[i] =
                 vec3_add(cage.points[i], (Vec3){erand48(seed) / 2, erand48(seed), erand48(seed)});
-        for (int step = 0; step < 3; step++) {
+        for (size_t step = 0; step < 3; step++) {
             Vec3 before[98];
             const uint32_t count = (uint32_t)cage.point_count;
             for (uint32_t i = 0; i < count; i++)
                 before[i] = limit(&cage, i);
             cage_subdivide(&cage);
+            assert_int_equal(cage.quad_count, 6u << 2 * (step + 1));
+            assert_int_equal(cage.point_count, cage.quad_count + 2);
             for (uint32_t i = 0; i < count; i++)
                 assert_at(limit(&cage, i), before[i], ROUNDED);
+        }
+        if (run == 0) {
+            assert_at(limit(&cage, 7), (Vec3){2.5, 0.5, 0.5}, ROUNDED);
+            assert_at(limit(&cage, 8), (Vec3){2 + 68.0 / 81, 0, 0}, ROUNDED);
         }
     }
 }

@@ -425,28 +425,19 @@ TEST(a_teapot_turns_its_triangles_outwards)
         const int d = divisions[n];
         CLOSED(mesh_close) Mesh mesh = teapot(1, d);
         assert_sound(&mesh, 16 * (size_t)d);
-        /* Body and lid: away from the axis, or up or down at the poles. Tubes: away from the middle
-         * of their cross sections. */
-        for (int part = 0; part < PART_COUNT; part++) {
-            const int columns = PARTS[part].around * d;
-            for (int row = 0; row <= PARTS[part].down * d; row++) {
-                Vec3 middle = {0, 0, 0};
-                double outwards = 0;
-                for (int i = 0; i < columns; i++)
-                    middle = vec3_add(
-                        middle, topology_vector(part_vertex(&mesh, d, part, row, i)->position));
-                middle = vec3_scale(middle, 1.0 / columns);
-                for (int i = 0; i < columns; i++) {
-                    const MeshVertex *vertex = part_vertex(&mesh, d, part, row, i);
-                    outwards += vec3_dot(vec3_subtract(topology_vector(vertex->position), middle),
-                                         topology_vector(vertex->normal));
-                }
-                /* The rim, the lid, the middle of the bottom and the spout's lip face other ways
-                 * too. */
-                if (part == HANDLE || (part == SPOUT && row <= d) ||
-                    (part == BODY && row >= d && row < 4 * d))
-                    assert_true(outwards > 0);
-            }
+        /* Within a part all triangles have the side of their normals, and no edge joins two that
+         * disagree: one normal of each part tells. */
+        static const struct {
+            int part, row, column; /* in halves of a patch */
+            Vec3 side;
+        } outer[] = {{BODY, 4, 4, {-1, 0, 0}},
+                     {LID, 3, 0, {0, 1, 0}},
+                     {HANDLE, 2, 1, {0, 0, 1}},
+                     {SPOUT, 1, 1, {0, 0, 1}}};
+        for (int i = 0; i < PART_COUNT; i++) {
+            const MeshVertex *vertex =
+                part_vertex(&mesh, d, outer[i].part, outer[i].row * d / 2, outer[i].column * d / 2);
+            assert_true(vec3_dot(topology_vector(vertex->normal), outer[i].side) > 0.5);
         }
     }
 }
@@ -512,30 +503,6 @@ TEST(a_teapot_passes_through_known_points)
                 fail_msg("%s %d %d: %.9g %.9g %.9g", PARTS[known[i].part].name, known[i].row,
                          known[i].column, p.x, p.y, p.z);
         }
-    }
-}
-
-TEST(a_teapot_fills_its_box)
-{
-    double max = 0; /* on the outer curve of the spout's second half, which reaches farthest */
-    for (int i = 0; i <= 100000; i++) {
-        const double t = i / 1e5, s = 1 - t;
-        max = fmax(
-            max,
-            (3.3 * s * s * s + 3 * 3.525 * s * s * t + 3 * 3.45 * s * t * t + 3.2 * t * t * t) / 2);
-    }
-    static const int divisions[] = {2, 8, 64};
-    for (size_t n = 0; n < sizeof divisions / sizeof divisions[0]; n++) {
-        CLOSED(mesh_close) Mesh mesh = teapot(1, divisions[n]);
-        const MeshBox box = mesh_bounds(&mesh);
-        /* Ends of patches. */
-        assert_true(box.low.x == -1.5 && box.low.y == -0.75 && box.low.z == -1);
-        assert_true(box.high.y == 0.825F && box.high.z == 1);
-        /* This one is within a patch: at most half a part away from a vertex. The curve's second
-         * derivative there is 6 ((3.3 - 2 * 3.525 + 3.45) 0.59 + ...0.41) / 2 = -1.49, so it has
-         * fallen by 1.49 / 2 (0.5 / n)^2. */
-        assert_true(box.high.x <= max + FLT_EPSILON);
-        assert_true(box.high.x >= max - 1.49 / 8 / divisions[n] / divisions[n] - FLT_EPSILON);
     }
 }
 
@@ -959,64 +926,65 @@ TEST(out_of_memory_leaves_a_mesh_unchanged)
 
 /* Arguments. */
 
-TEST(lengths_out_of_range_are_refused)
+enum { CONE, CYLINDER, TORUS, DISC, QUAD, TEAPOT, FIRST_REGULAR };
+
+/* A shape of these lengths and counts, of which it may take fewer. */
+static bool make(Mesh *mesh, int shape, const double length[2], const int count[2],
+                 Message *message)
 {
-    static const double bad[] = {0, -0.0, -1, NAN, INFINITY, -INFINITY, 1e-60, 1e60};
-    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
-        for (int shape = 0; shape < 11; shape++) {
-            static const char *const names[] = {
-                "cone: radius",        "cone: height",        "cylinder: radius",
-                "cylinder: height",    "torus: tube radius",  "torus: ring radius",
-                "disc: radius",        "tetrahedron: radius", "dodecahedron: radius",
-                "icosahedron: radius", "teapot: size"};
-            const double x = bad[i];
-            CHECK_REFUSED(
-                shape == 0   ? mesh_cone(mesh, x, 1, 8, 8, message)
-                : shape == 1 ? mesh_cone(mesh, 1, x, 8, 8, message)
-                : shape == 2
-                    ? mesh_cylinder(mesh, (MeshCylinder){x, 1, 8, 8, MESH_CAP_BOTH}, message)
-                : shape == 3
-                    ? mesh_cylinder(mesh, (MeshCylinder){1, x, 8, 8, MESH_CAP_BOTH}, message)
-                : shape == 4 ? mesh_torus(mesh, x, 1, 8, 8, message)
-                : shape == 5 ? mesh_torus(mesh, 1, x, 8, 8, message)
-                : shape == 6 ? mesh_disc(mesh, x, 8, 8, message)
-                : shape == 7 ? mesh_regular(mesh, MESH_TETRAHEDRON, x, message)
-                : shape == 8 ? mesh_regular(mesh, MESH_DODECAHEDRON, x, message)
-                : shape == 9 ? mesh_regular(mesh, MESH_ICOSAHEDRON, x, message)
-                             : mesh_teapot(mesh, x, 8, message),
-                "%s %g: must be more than 0 and finite", names[shape], bad[i]);
-        }
+    switch (shape) {
+    case CONE:
+        return mesh_cone(mesh, length[0], length[1], count[0], count[1], message);
+    case CYLINDER:
+        return mesh_cylinder(
+            mesh, (MeshCylinder){length[0], length[1], count[0], count[1], MESH_CAP_BOTH}, message);
+    case TORUS:
+        return mesh_torus(mesh, length[0], length[1], count[0], count[1], message);
+    case DISC:
+        return mesh_disc(mesh, length[0], count[0], count[1], message);
+    case QUAD:
+        return mesh_quad(mesh, count[0], message);
+    case TEAPOT:
+        return mesh_teapot(mesh, length[0], count[0], message);
+    default:
+        return mesh_regular(mesh, (MeshRegular)(shape - FIRST_REGULAR), length[0], message);
     }
 }
 
-TEST(counts_out_of_range_are_refused)
+static const struct {
+    const char *name, *lengths[2], *counts[2];
+    int min[2], max;
+} SHAPES[] = {{"cone", {"radius", "height"}, {"slices", "stacks"}, {3, 1}, 8192},
+              {"cylinder", {"radius", "height"}, {"slices", "stacks"}, {3, 1}, 8192},
+              {"torus", {"tube radius", "ring radius"}, {"sides", "rings"}, {3, 3}, 8192},
+              {"disc", {"radius"}, {"slices", "loops"}, {3, 1}, 8192},
+              {"quad", {NULL}, {"divisions"}, {1}, 8192},
+              {"teapot", {"size"}, {"divisions"}, {2}, 512},
+              {"tetrahedron", {"radius"}, {NULL}, {0}, 0},
+              {"octahedron", {"radius"}, {NULL}, {0}, 0},
+              {"dodecahedron", {"radius"}, {NULL}, {0}, 0},
+              {"icosahedron", {"radius"}, {NULL}, {0}, 0}};
+
+TEST(lengths_and_counts_out_of_range_are_refused)
 {
-    for (int high = 0; high < 2; high++) {
-        for (int shape = 0; shape < 10; shape++) {
-            static const struct {
-                const char *shape, *what;
-                int min, max;
-            } ranges[] = {{"cone", "slices", 3, 8192},     {"cone", "stacks", 1, 8192},
-                          {"cylinder", "slices", 3, 8192}, {"cylinder", "stacks", 1, 8192},
-                          {"torus", "sides", 3, 8192},     {"torus", "rings", 3, 8192},
-                          {"disc", "slices", 3, 8192},     {"disc", "loops", 1, 8192},
-                          {"quad", "divisions", 1, 8192},  {"teapot", "divisions", 2, 512}};
-            const int n = high ? ranges[shape].max + 1 : ranges[shape].min - 1;
-            CHECK_REFUSED(
-                shape == 0   ? mesh_cone(mesh, 1, 1, n, 8, message)
-                : shape == 1 ? mesh_cone(mesh, 1, 1, 8, n, message)
-                : shape == 2
-                    ? mesh_cylinder(mesh, (MeshCylinder){1, 1, n, 8, MESH_CAP_BOTH}, message)
-                : shape == 3
-                    ? mesh_cylinder(mesh, (MeshCylinder){1, 1, 8, n, MESH_CAP_BOTH}, message)
-                : shape == 4 ? mesh_torus(mesh, 0.5, 1, n, 8, message)
-                : shape == 5 ? mesh_torus(mesh, 0.5, 1, 8, n, message)
-                : shape == 6 ? mesh_disc(mesh, 1, n, 8, message)
-                : shape == 7 ? mesh_disc(mesh, 1, 8, n, message)
-                : shape == 8 ? mesh_quad(mesh, n, message)
-                             : mesh_teapot(mesh, 1, n, message),
-                "%s: %d %s: must be %d to %d", ranges[shape].shape, n, ranges[shape].what,
-                ranges[shape].min, ranges[shape].max);
+    static const double bad[] = {0, -0.0, -1, NAN, INFINITY, -INFINITY, 1e-60, 1e60};
+    for (int shape = 0; shape < (int)(sizeof SHAPES / sizeof SHAPES[0]); shape++) {
+        for (int which = 0; which < 2; which++) {
+            for (size_t i = 0; i < sizeof bad / sizeof bad[0] && SHAPES[shape].lengths[which];
+                 i++) {
+                const double length[2] = {which ? 1 : bad[i], which ? bad[i] : 1};
+                CHECK_REFUSED(make(mesh, shape, length, (const int[2]){8, 8}, message),
+                              "%s: %s %g: must be more than 0 and finite", SHAPES[shape].name,
+                              SHAPES[shape].lengths[which], bad[i]);
+            }
+            for (int high = 0; high < 2 && SHAPES[shape].counts[which]; high++) {
+                const int min = SHAPES[shape].min[which], max = SHAPES[shape].max;
+                const int n = high ? max + 1 : min - 1;
+                const int count[2] = {which ? 8 : n, which ? n : 8};
+                CHECK_REFUSED(make(mesh, shape, (const double[2]){0.5, 1}, count, message),
+                              "%s: %d %s: must be %d to %d", SHAPES[shape].name, n,
+                              SHAPES[shape].counts[which], min, max);
+            }
         }
     }
 }
