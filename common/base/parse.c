@@ -1,6 +1,5 @@
 #include "base/parse.h"
 
-#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -8,7 +8,6 @@
 
 #include <ctype.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { LOG_MAX = sizeof((Message *)NULL)->text, NAME_SIZE = 128 };

@@ -3,10 +3,8 @@
 #include "core/mesh_make.h"
 
 #include <math.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 const char *const REFLECTION_NAMES[] = {
     [REFLECTION_BLINN_PHONG] = "blinn-phong", [REFLECTION_PHONG] = "phong", NULL};

@@ -12,7 +12,6 @@
 #include <assimp/version.h>
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* A traversal of the nodes: fills the mesh, or without one counts. */

@@ -14,7 +14,6 @@
 #include "scene/shape.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { VIEWS = 8, LIGHTS = 2, ROUNDS = 15 };

@@ -12,7 +12,6 @@
 #include "study/results/table.h"
 
 #include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 static bool json, markdown;

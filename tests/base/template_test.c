@@ -5,7 +5,6 @@
 #include "support/testing.h"
 
 #include <stdlib.h>
-#include <limits.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>

@@ -13,7 +13,6 @@
 #include "labs/submission/conditions.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 typedef struct Session {

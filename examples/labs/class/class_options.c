@@ -6,7 +6,6 @@
 #include "labs/sandbox/sandbox.h"
 
 #include <stdio.h>
-#include <string.h>
 #include <unistd.h>
 
 bool class_options_read(ClassOptions *options, int argc, char *argv[], Message *message)

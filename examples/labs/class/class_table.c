@@ -6,7 +6,6 @@
 #include "labs/submission/verdict_json.h"
 
 #include <errno.h>
-#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 

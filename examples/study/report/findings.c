@@ -9,7 +9,6 @@
 #include "study/results/table.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* The row of a scene with this setting; NULL if there is none. */

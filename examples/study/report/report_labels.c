@@ -1,7 +1,6 @@
 #include "study/report/report_labels.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* Adds a word to the last line or a new one; false if all are full. */

@@ -3,7 +3,6 @@
 #include "study/report/report.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum {
