@@ -24,11 +24,13 @@ static Drawing opened(void)
     return drawing;
 }
 
-static void assert_pixel(const Image *image, int x, int y, int red, int green, int blue, int alpha)
+/* `color`: 0xrrggbbaa. */
+static void assert_pixel(const Image *image, int x, int y, unsigned color)
 {
     const unsigned char *p = (unsigned char *)image->pixels + 4 * (y * image->width + x);
-    if (p[0] != red || p[1] != green || p[2] != blue || p[3] != alpha)
-        fail_msg("(%d, %d) is %d %d %d %d", x, y, p[0], p[1], p[2], p[3]);
+    const unsigned found = (unsigned)p[0] << 24 | (unsigned)p[1] << 16 | (unsigned)p[2] << 8 | p[3];
+    if (found != color)
+        fail_msg("(%d, %d) is %08x", x, y, found);
 }
 
 TEST(paths_cover_their_pixels)
@@ -38,12 +40,12 @@ TEST(paths_cover_their_pixels)
         CLOSED(image_close) Image image;
         SUCCEEDS(image_open(&image, 8 * scale, 4 * scale, IMAGE_BYTE, message));
         SUCCEEDS(drawing_paint(&drawing, &image, false, message));
-        assert_pixel(&image, 0, 0, 255, 255, 255, 255);
-        assert_pixel(&image, scale, scale, 255, 0, 0, 255);
-        assert_pixel(&image, 3 * scale - 1, 3 * scale - 1, 255, 0, 0, 255);
-        assert_pixel(&image, 3 * scale, 2 * scale, 255, 255, 255, 255);
-        assert_pixel(&image, 5 * scale, 0, 0, 0, 255, 255);
-        assert_pixel(&image, 7 * scale - 1, 4 * scale - 1, 0, 0, 255, 255);
+        assert_pixel(&image, 0, 0, 0xffffffff);
+        assert_pixel(&image, scale, scale, 0xff0000ff);
+        assert_pixel(&image, 3 * scale - 1, 3 * scale - 1, 0xff0000ff);
+        assert_pixel(&image, 3 * scale, 2 * scale, 0xffffffff);
+        assert_pixel(&image, 5 * scale, 0, 0x0000ffff);
+        assert_pixel(&image, 7 * scale - 1, 4 * scale - 1, 0x0000ffff);
     }
 }
 
@@ -54,9 +56,9 @@ TEST(a_transparent_background_keeps_colours)
     drawing.paths[0].style.fill_alpha = 0.5;
     SUCCEEDS(image_open(&image, 8, 4, IMAGE_BYTE, message));
     SUCCEEDS(drawing_paint(&drawing, &image, true, message));
-    assert_pixel(&image, 0, 0, 0, 0, 0, 0);
-    assert_pixel(&image, 1, 1, 255, 0, 0, 128);
-    assert_pixel(&image, 5, 0, 0, 0, 255, 255);
+    assert_pixel(&image, 0, 0, 0x00000000);
+    assert_pixel(&image, 1, 1, 0xff000080);
+    assert_pixel(&image, 5, 0, 0x0000ffff);
 }
 
 TEST(boxes_hold_the_ink)

@@ -442,66 +442,67 @@ TEST(a_teapot_turns_its_triangles_outwards)
     }
 }
 
+/* By hand, from Newell's control points: in the middle of a patch's side a cubic is (a + 3b +
+ * 3c + d) / 8; in the middle of a quarter turn x = y = (4 + 3 * 0.56) / 8 radius. Here as (x, z
+ * - 1.5, -y) / 2. Rows and columns in halves of a patch. */
+static const struct {
+    int part, row, column;
+    Vec3 position;
+} KNOWN[] = {
+    {BODY, 0, 0, {0.7, 0.45, 0}},
+    {BODY, 1, 0, {0.7015625, 0.49921875, 0}},
+    {BODY, 3, 0, {0.921875, 0.0609375, 0}},
+    {BODY, 3, 1, {0.65453125, 0.0609375, -0.65453125}},
+    {BODY, 4, 2, {0, -0.3, -1}},
+    {BODY, 4, 4, {-1, -0.3, 0}},
+    {BODY, 4, 6, {0, -0.3, 1}},
+    {BODY, 5, 0, {0.875, -0.5578125, 0}},
+    {BODY, 7, 1, {0.455953125, -0.7265625, -0.455953125}},
+    {BODY, 8, 0, {0, -0.75, 0}},
+    {LID, 0, 0, {0, 0.825, 0}},
+    {LID, 1, 0, {0.1625, 0.740625, 0}},
+    {LID, 1, 1, {0.115515625, 0.740625, -0.115515625}},
+    {LID, 2, 0, {0.1, 0.6, 0}},
+    {LID, 3, 0, {0.4125, 0.525, 0}},
+    {LID, 4, 2, {0, 0.45, -0.65}},
+    {HANDLE, 0, 0, {-0.75, 0.375, 0}},
+    {HANDLE, 0, 2, {-0.8, 0.2625, 0}},
+    {HANDLE, 1, 0, {-1.3125, 0.346875, 0}},
+    {HANDLE, 1, 1, {-1.259375, 0.29765625, 0.1125}},
+    {HANDLE, 2, 0, {-1.5, 0.15, 0}},
+    {HANDLE, 2, 1, {-1.425, 0.15, 0.1125}},
+    {HANDLE, 3, 0, {-1.365625, -0.17109375, 0}},
+    {HANDLE, 3, 2, {-1.26875, -0.075, 0}},
+    {HANDLE, 3, 3, {-1.3171875, -0.123046875, -0.1125}},
+    {HANDLE, 4, 2, {-1, -0.3, 0}},
+    {SPOUT, 0, 0, {0.85, -0.45, 0}},
+    {SPOUT, 1, 0, {1.34375, -0.028125, 0}},
+    {SPOUT, 1, 1, {1.26875, 0.0609375, 0.170625}},
+    {SPOUT, 1, 2, {1.19375, 0.15, 0}},
+    {SPOUT, 2, 2, {1.35, 0.45, 0}},
+    {SPOUT, 3, 0, {1.7140625, 0.488671875, 0}},
+    {SPOUT, 3, 1, {1.56328125, 0.4833984375, 0.075}},
+    {SPOUT, 3, 2, {1.4125, 0.478125, 0}},
+    {SPOUT, 4, 0, {1.6, 0.45, 0}},
+    {SPOUT, 4, 1, {1.5, 0.45, 0.05625}},
+    {SPOUT, 4, 3, {1.5, 0.45, -0.05625}},
+};
+
 TEST(a_teapot_passes_through_known_points)
 {
-    /* By hand, from Newell's control points: in the middle of a patch's side a cubic is (a + 3b +
-     * 3c + d) / 8; in the middle of a quarter turn x = y = (4 + 3 * 0.56) / 8 radius. Here as (x, z
-     * - 1.5, -y) / 2. Rows and columns in halves of a patch. */
-    static const struct {
-        int part, row, column;
-        Vec3 position;
-    } known[] = {
-        {BODY, 0, 0, {0.7, 0.45, 0}},
-        {BODY, 1, 0, {0.7015625, 0.49921875, 0}},
-        {BODY, 3, 0, {0.921875, 0.0609375, 0}},
-        {BODY, 3, 1, {0.65453125, 0.0609375, -0.65453125}},
-        {BODY, 4, 2, {0, -0.3, -1}},
-        {BODY, 4, 4, {-1, -0.3, 0}},
-        {BODY, 4, 6, {0, -0.3, 1}},
-        {BODY, 5, 0, {0.875, -0.5578125, 0}},
-        {BODY, 7, 1, {0.455953125, -0.7265625, -0.455953125}},
-        {BODY, 8, 0, {0, -0.75, 0}},
-        {LID, 0, 0, {0, 0.825, 0}},
-        {LID, 1, 0, {0.1625, 0.740625, 0}},
-        {LID, 1, 1, {0.115515625, 0.740625, -0.115515625}},
-        {LID, 2, 0, {0.1, 0.6, 0}},
-        {LID, 3, 0, {0.4125, 0.525, 0}},
-        {LID, 4, 2, {0, 0.45, -0.65}},
-        {HANDLE, 0, 0, {-0.75, 0.375, 0}},
-        {HANDLE, 0, 2, {-0.8, 0.2625, 0}},
-        {HANDLE, 1, 0, {-1.3125, 0.346875, 0}},
-        {HANDLE, 1, 1, {-1.259375, 0.29765625, 0.1125}},
-        {HANDLE, 2, 0, {-1.5, 0.15, 0}},
-        {HANDLE, 2, 1, {-1.425, 0.15, 0.1125}},
-        {HANDLE, 3, 0, {-1.365625, -0.17109375, 0}},
-        {HANDLE, 3, 2, {-1.26875, -0.075, 0}},
-        {HANDLE, 3, 3, {-1.3171875, -0.123046875, -0.1125}},
-        {HANDLE, 4, 2, {-1, -0.3, 0}},
-        {SPOUT, 0, 0, {0.85, -0.45, 0}},
-        {SPOUT, 1, 0, {1.34375, -0.028125, 0}},
-        {SPOUT, 1, 1, {1.26875, 0.0609375, 0.170625}},
-        {SPOUT, 1, 2, {1.19375, 0.15, 0}},
-        {SPOUT, 2, 2, {1.35, 0.45, 0}},
-        {SPOUT, 3, 0, {1.7140625, 0.488671875, 0}},
-        {SPOUT, 3, 1, {1.56328125, 0.4833984375, 0.075}},
-        {SPOUT, 3, 2, {1.4125, 0.478125, 0}},
-        {SPOUT, 4, 0, {1.6, 0.45, 0}},
-        {SPOUT, 4, 1, {1.5, 0.45, 0.05625}},
-        {SPOUT, 4, 3, {1.5, 0.45, -0.05625}},
-    };
     static const double sizes[] = {1, 0.3, 1e-15, 1e20};
     for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++) {
         const int divisions = 10;
         CLOSED(mesh_close) Mesh mesh = teapot(sizes[s], divisions);
-        for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+        for (size_t i = 0; i < sizeof KNOWN / sizeof KNOWN[0]; i++) {
             const MeshVertex *vertex =
-                part_vertex(&mesh, divisions, known[i].part, known[i].row * divisions / 2,
-                            known[i].column * divisions / 2);
+                part_vertex(&mesh, divisions, KNOWN[i].part, KNOWN[i].row * divisions / 2,
+                            KNOWN[i].column * divisions / 2);
             const Vec3 p = vec3_scale(topology_vector(vertex->position), 1 / sizes[s]);
             /* Coordinates below 2 are rounded to float once: half a step in each. */
-            if (!(topology_distance(p, known[i].position) <= FLT_EPSILON))
-                fail_msg("%s %d %d: %.9g %.9g %.9g", PARTS[known[i].part].name, known[i].row,
-                         known[i].column, p.x, p.y, p.z);
+            if (!(topology_distance(p, KNOWN[i].position) <= FLT_EPSILON))
+                fail_msg("%s %d %d: %.9g %.9g %.9g", PARTS[KNOWN[i].part].name, KNOWN[i].row,
+                         KNOWN[i].column, p.x, p.y, p.z);
         }
     }
 }

@@ -129,6 +129,14 @@ static uint32_t press_key(WindowKey key)
     return changed | result.changed;
 }
 
+/* With control. */
+static void press_chord(WindowKey key)
+{
+    window.control = window.down[key] = true;
+    frame();
+    window.control = false;
+}
+
 static void type(const char *text)
 {
     for (; *text; text++) {
@@ -353,9 +361,7 @@ static void type_into(double x, double y, const char *text)
 {
     window.control = true;
     click(x, y);
-    window.down[WINDOW_KEY_A] = true;
-    frame();
-    window.control = false;
+    press_chord(WINDOW_KEY_A);
     frame();
     assert_true(result.wants_keys);
     type(text);
@@ -423,19 +429,14 @@ PANEL_TEST(test_the_clipboard_is_pasted)
     const double x = show_one(of_number(0, 1), &y).middle;
     snprintf(clipboard, sizeof clipboard, "0.625");
     type_into(x, y, "");
-    window.control = window.down[WINDOW_KEY_V] = true;
-    frame();
-    window.control = false;
+    press_chord(WINDOW_KEY_V);
     assert_int_equal(press_key(WINDOW_KEY_ENTER), 1);
     assert_true(number == 0.625);
     input.get_clipboard = NULL;
     input.set_clipboard = NULL;
     type_into(x, y, "0.5");
-    window.control = window.down[WINDOW_KEY_V] = true;
-    frame();
-    window.control = window.down[WINDOW_KEY_C] = true;
-    frame();
-    window.control = false;
+    press_chord(WINDOW_KEY_V);
+    press_chord(WINDOW_KEY_C);
     press_key(WINDOW_KEY_ENTER);
     assert_true(number == 0.5);
 }
