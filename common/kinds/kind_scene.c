@@ -79,9 +79,10 @@ static bool draw_view(const FrameTask *task, int number, double aspect, Message 
     SceneView view;
     const bool done =
         scene_view_open(&view, task->renderer, task->request, task->seconds, number, message) &&
-        lighting_show(state->lighting,
-                      &(LightingFrame){&view.scene, view.made.parts, aspect, task->request->full},
-                      message) &&
+        lighting_show(
+            state->lighting,
+            &(LightingFrame){&view.scene, view.made.parts, aspect, task->request->full, number},
+            message) &&
         (!task->marks || !state->overlay.buffer ||
          draw_marks(task, number, &view.scene, aspect, message));
     scene_view_close(&view);

@@ -64,19 +64,9 @@ static unsigned fixed_axes(const DrawRequest *request)
     return request->fixed | (lights ? 1U << AXIS_LIGHTS : 0);
 }
 
-bool scene_draw_parts(const SceneState *state, const QualityParts *made, double aspect, bool full,
-                      Message *message)
-{
-    return lighting_show(
-        state->lighting,
-        &(LightingFrame){
-            .scene = &made->scene, .parts = made->parts, .aspect = aspect, .full = full},
-        message);
-}
-
 /* Seconds; NAN if it cannot be drawn. */
 static double time_frame(const ViewMoment *moment, const Scene *scene,
-                         const ObjectQuality *qualities, double aspect)
+                         const ObjectQuality *qualities, double aspect, int view)
 {
     SceneState *state = scene_state(moment->renderer);
     QualityParts made;
@@ -84,7 +74,8 @@ static double time_frame(const ViewMoment *moment, const Scene *scene,
     canvas_clear(moment->renderer->canvas, scene->background, 1);
     glFinish();
     const double start = clock_now();
-    done = done && scene_draw_parts(state, &made, aspect, moment->request->full, NULL);
+    const LightingFrame frame = {&made.scene, made.parts, aspect, moment->request->full, view};
+    done = done && lighting_show(state->lighting, &frame, NULL);
     glFinish();
     const double seconds = clock_now() - start;
     quality_parts_close(&made);
@@ -103,8 +94,8 @@ static double measure(const ViewMoment *moment, const Scene *scene, const Cheape
     for (int i = 0; i < choice->count; i++)
         plain[i] = object_quality_plain(scene);
     for (int round = 0; round <= ROUNDS && done; round++) { /* the first compiles */
-        const double usual = time_frame(moment, scene, plain, aspect);
-        const double chosen = time_frame(moment, scene, choice->objects, aspect);
+        const double usual = time_frame(moment, scene, plain, aspect, 0);
+        const double chosen = time_frame(moment, scene, choice->objects, aspect, 1);
         done = isfinite(usual) && isfinite(chosen);
         if (round > 0)
             ratios[round - 1] = chosen / usual;

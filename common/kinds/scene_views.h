@@ -69,8 +69,4 @@ bool scene_error_picture(Renderer *renderer, const DrawRequest *request, double 
 bool scene_choose(Renderer *renderer, const DrawRequest *request, double seconds, Message *message);
 void scene_forget_choices(SceneState *state);
 
-/* Draws a scene part by part. */
-bool scene_draw_parts(const SceneState *state, const QualityParts *made, double aspect, bool full,
-                      Message *message);
-
 #endif

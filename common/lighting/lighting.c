@@ -396,8 +396,13 @@ bool lighting_draw(LightingPlan *plan, const LightingFrame *frame, Message *mess
 
 bool lighting_show(Lighting *lighting, const LightingFrame *frame, Message *message)
 {
-    return lighting_plan(&lighting->shown, lighting, frame, message) &&
-           lighting_draw(&lighting->shown, frame, message);
+    if (frame->view >= lighting->shown_count)
+        lighting->shown =
+            memory_grow(lighting->shown, (size_t)frame->view + 1, sizeof *lighting->shown);
+    for (; lighting->shown_count <= frame->view; lighting->shown_count++)
+        lighting->shown[lighting->shown_count] = (LightingPlan){.lighting = NULL};
+    LightingPlan *plan = &lighting->shown[frame->view];
+    return lighting_plan(plan, lighting, frame, message) && lighting_draw(plan, frame, message);
 }
 
 bool lighting_open(Lighting **opened, const ShaderLoader *loader, Message *message)
@@ -426,7 +431,9 @@ void lighting_close(Lighting *lighting)
 {
     if (!lighting)
         return;
-    lighting_plan_close(&lighting->shown);
+    for (int i = 0; i < lighting->shown_count; i++)
+        lighting_plan_close(&lighting->shown[i]);
+    free(lighting->shown);
     lighting_close_programs(&lighting->programs);
     lighting_meshes_forget(&lighting->meshes, NULL);
     shadow_volumes_close(&lighting->volumes);

@@ -63,6 +63,7 @@ typedef struct LightingFrame {
     const Scene *parts;
     double aspect; /* width / height */
     bool full;     /* with the program of every effect, for comparison */
+    int view;      /* for lighting_show: of views that are drawn in turn, from 0 on */
 } LightingFrame;
 
 typedef struct PlannedObject {
@@ -121,7 +122,7 @@ bool lighting_draw(LightingPlan *plan, const LightingFrame *frame, Message *mess
 
 void lighting_plan_close(LightingPlan *plan); /* NULL or zeroed is fine */
 
-/* Both at once, with a plan that is kept for the next call: best if it is of the same scene. */
+/* Both at once, with a plan that is kept for the next frame of this view. */
 bool lighting_show(Lighting *lighting, const LightingFrame *frame, Message *message);
 
 /* What a plan says of an object: its effects and program, and a line for each effect and for each

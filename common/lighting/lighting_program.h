@@ -4,16 +4,7 @@
 #ifndef LIGHTING_PROGRAM_H
 #define LIGHTING_PROGRAM_H
 
-#include "scene/effects.h"
-#include "shadows/shadow_map.h"
-
-/* What a program is found by, as bytes. */
-typedef struct LightingKey {
-    uint32_t shadows; /* the scene's lights that have them, a bit each: see effects_channel */
-    uint32_t maps;    /* those of them whose map the program looks up; of the others masks */
-    uint8_t looks[SHADOW_MAPS]; /* shadow_map_look of those */
-    Effects effects;            /* the last: most of its groups are not used */
-} LightingKey;
+#include "lighting/lighting_text.h"
 
 /* Where a program's variables are; -1: it has none of that name. By ShaderStage, where both have
  * one. */
@@ -64,13 +55,5 @@ typedef struct LightingPrograms {
 const LightingVariant *lighting_program(LightingPrograms *programs, const LightingKey *key,
                                         Message *message);
 void lighting_close_programs(LightingPrograms *programs);
-
-/* A program's sources by ShaderStage, as the driver receives them. Needs no GL. Both are zeroed on
- * failure. */
-bool lighting_program_sources(const ShaderLoader *base, const LightingKey *key,
-                              ShaderSource sources[2], Message *message);
-
-/* Whether fragments may be computed in 16 bits. */
-bool lighting_is_mediump(const ShaderLoader *loader);
 
 #endif

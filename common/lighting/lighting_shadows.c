@@ -2,10 +2,11 @@
  * A light's shadows are drawn from a map (shadows/shadow_map.h) or as volumes
  * (shadows/shadow_cast.h). A map of one face is looked up by the programs that light the objects,
  * as far as they have room; else, and for volumes, what is in shadow is drawn into a mask first
- * (shadows/shadow_mask.h). A volume would reach to infinity, which costs pixels, so it ends at a
- * plane behind all that its shadow may fall on.
+ * (shadows/shadow_mask.h). Volumes end where lighting_shadow_ends.h says.
  */
 #include "lighting/lighting_shadows.h"
+
+#include "lighting/lighting_shadow_ends.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -192,108 +193,6 @@ static PlacedBox eye_box(const ShadowFrame *frame)
                                 vec3_scale(back, 0.5 * camera->near)}};
 }
 
-/* Where a box begins along a direction, and where it ends. */
-static double box_least(const PlacedBox *box, Vec3 way)
-{
-    return vec3_dot(box->center, way) - placed_reach(box, way);
-}
-
-static double box_most(const PlacedBox *box, Vec3 way)
-{
-    return vec3_dot(box->center, way) + placed_reach(box, way);
-}
-
-/* Planes before which all lies that receives a light's shadows. Their directions are those of the
- * sides of the largest boxes: a floor's, walls'. */
-enum { END_BOXES = 10 };
-typedef struct Ends {
-    int count;
-    Vec3 ways[6 * END_BOXES];
-    double least[6 * END_BOXES]; /* of the receivers along the way, less a little */
-} Ends;
-
-static double size_of(const PlacedBox *box)
-{
-    return vec3_length(box->half[0]) + vec3_length(box->half[1]) + vec3_length(box->half[2]);
-}
-
-/* The numbers of the largest boxes, in their order; how many. */
-static int largest_boxes(const ShadowPairs *pairs, int numbers[END_BOXES])
-{
-    double sizes[END_BOXES];
-    int count = 0;
-    for (int i = 0; i < pairs->count; i++) {
-        const double size = size_of(&pairs->placed[i]);
-        int least = 0;
-        for (int k = 1; k < count; k++)
-            least = sizes[k] < sizes[least] ? k : least;
-        if (count == END_BOXES && size <= sizes[least])
-            continue;
-        for (int k = least; count == END_BOXES && k + 1 < count; k++) {
-            numbers[k] = numbers[k + 1];
-            sizes[k] = sizes[k + 1];
-        }
-        count = count < END_BOXES ? count + 1 : count;
-        numbers[count - 1] = i;
-        sizes[count - 1] = size;
-    }
-    return count;
-}
-
-static double receivers_least(const LightingPlan *plan, int light, Vec3 way)
-{
-    double least = INFINITY, most = -INFINITY;
-    for (int r = 0; r < plan->pairs.count; r++) {
-        if (!(plan->full || plan->pairs.receives[r] >> light & 1))
-            continue;
-        least = fmin(least, box_least(&plan->pairs.placed[r], way));
-        most = fmax(most, box_most(&plan->pairs.placed[r], way));
-    }
-    return least - 1e-3 * (most - least) - 1e-5 * fabs(least);
-}
-
-static void find_ends(const LightingPlan *plan, int light, Ends *ends)
-{
-    int numbers[END_BOXES];
-    const int boxes = largest_boxes(&plan->pairs, numbers);
-    ends->count = 0;
-    for (int k = 0; k < 6 * boxes; k++) {
-        const Vec3 *half = plan->pairs.placed[numbers[k / 6]].half;
-        Vec3 way;
-        if (!vec3_normalize(vec3_cross(half[k / 2 % 3], half[(k / 2 + 1) % 3]), &way))
-            continue;
-        way = vec3_scale(way, k % 2 ? -1 : 1);
-        ends->ways[ends->count] = way;
-        ends->least[ends->count++] = receivers_least(plan, light, way);
-    }
-}
-
-/* Of those planes the one that ends a caster's volume the soonest. Infinity, if there is none. */
-static Vec4 find_end(const LightingPlan *plan, const Ends *ends, int number, const Light *light)
-{
-    static const double FAR = 1e6; /* a light's distance that leaves no digits of a float */
-    const PlacedBox *caster = &plan->pairs.placed[number];
-    const bool directional = light->kind == LIGHT_DIRECTIONAL;
-    double soonest = INFINITY;
-    Vec4 found = {0, 0, 0, 1};
-    if (!directional && vec3_length(vec3_subtract(light->position, caster->center)) >
-                            FAR * vec3_length(vec3_add(caster->half[0], caster->half[1])))
-        return found;
-    for (int k = 0; k < ends->count; k++) {
-        const Vec3 way = ends->ways[k];
-        /* The light is on the plane's other side, and the caster between them. */
-        const double least = ends->least[k], most = box_most(caster, way);
-        const double lights =
-            directional ? vec3_dot(light->direction, way) : vec3_dot(light->position, way) - most;
-        const double steps = (vec3_dot(caster->center, way) - least) / lights;
-        if (lights > 0 && box_least(caster, way) > least && steps < soonest) {
-            soonest = steps;
-            found = (Vec4){way.x, way.y, way.z, -least};
-        }
-    }
-    return found;
-}
-
 /* Whether light may fall where the mesh's normals say that none does: the object is drawn with
  * others, with a normal of the triangle, with another light, in 16 bits, or its back is where the
  * mesh has its front. */
@@ -306,8 +205,8 @@ static bool has_odd_normals(const ShadowFrame *frame, const Object *object)
            (object->two_sided && object->clockwise);
 }
 
-static bool cast_shadow(const ShadowFrame *frame, const Ends *ends, int light_number, int number,
-                        Message *message)
+static bool cast_shadow(const ShadowFrame *frame, const ShadowEnds *ends, int light_number,
+                        int number, Message *message)
 {
     const LightingPlan *plan = frame->plan;
     Lighting *lighting = plan->lighting;
@@ -319,7 +218,7 @@ static bool cast_shadow(const ShadowFrame *frame, const Ends *ends, int light_nu
     if (!mat4_inverse(object->world_from_object, &object_from_world))
         return message_set(message, "object %d is flattened, and throws no shadow by volumes",
                            number);
-    const Vec4 end = find_end(plan, ends, number, &light);
+    const Vec4 end = shadow_ends_choose(ends, &plan->pairs.placed[number], &light);
     const Vec4 light_object = mat4_transform(object_from_world, light_place(&light));
     const PlacedBox seen = eye_box(frame);
     const ShadowThrow thrown = {
@@ -334,7 +233,7 @@ static bool cast_shadow(const ShadowFrame *frame, const Ends *ends, int light_nu
         .own = plan->full || plan->pairs.receives[number] >> light_number & 1,
         .odd = has_odd_normals(frame, object),
         /* The near plane may lie beyond the end: then the eye sees into the volume there. */
-        .beyond = box_least(&seen, (Vec3){end.x, end.y, end.z}) + end.w < 0,
+        .beyond = shadow_end_before(&end, &seen),
         .facing = facing_of(plan, number, caster->silhouette.closed, light_object)};
     return shadow_cast(&lighting->volumes, &lighting->mask, &thrown, message);
 }
@@ -380,10 +279,10 @@ static bool draw_light_mask(const ShadowFrame *frame, int number, Message *messa
 {
     const LightingPlan *plan = frame->plan;
     const int channel = effects_channel(plan->shadows, number);
-    Ends ends;
+    ShadowEnds ends;
     if (plan->lights[number].way == SHADOWS_MAP)
         return look_up_map(frame, number, channel, message);
-    find_ends(plan, number, &ends);
+    shadow_ends_find(&ends, plan, number);
     for (int o = 0; o < plan->object_count; o++)
         if ((plan->pairs.throws[o] >> number & 1) && !cast_shadow(frame, &ends, number, o, message))
             return false;
@@ -509,9 +408,10 @@ static size_t count_triangles(const LightingPlan *plan, const Scene *scene, cons
             continue;
         const Silhouette *silhouette = &caster->silhouette;
         const Vec4 light_object = mat4_transform(object_from_world, light_place(light));
-        const SilhouetteFacing facing = facing_of(plan, o, silhouette->closed, light_object);
-        if (shadow_volume_make(&volume, silhouette, light_object, facing, SHADOW_END_OPEN, false,
-                               NULL))
+        const ShadowVolumeKind kind = {light_object,
+                                       facing_of(plan, o, silhouette->closed, light_object),
+                                       SHADOW_END_OPEN, false};
+        if (shadow_volume_make(&volume, silhouette, &kind, NULL))
             indices += volume.side_count;
     }
     shadow_volume_close(&volume);

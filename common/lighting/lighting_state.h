@@ -20,7 +20,8 @@ struct Lighting {
     LightingNormalMatrix *normal_matrix; /* NULL: mat4_normal */
     bool depth_pass;                     /* even where the eye is in a volume */
     int renewal; /* counts what makes plans out of date: settings, and meshes that are forgotten */
-    LightingPlan shown; /* lighting_show's */
+    LightingPlan *shown; /* lighting_show's, by view */
+    int shown_count;
 };
 
 #endif

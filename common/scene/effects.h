@@ -131,6 +131,7 @@ Effects effects_decide(const SceneFacts *scene, const ObjectFacts *object, FILE 
 Effects effects_decide_full(const SceneFacts *scene, const ObjectFacts *object);
 
 /* All at once for an object of a scene that has passed scene_check: for tests and estimates. */
+ObjectFacts effects_facts(const Scene *scene, const Object *object);
 Effects effects_of(const Scene *scene, const Object *object);
 Effects effects_full(const Scene *scene, const Object *object);
 void effects_explain(const Scene *scene, const Object *object, FILE *file);

@@ -70,14 +70,6 @@ static bool casts(const Light *light)
            !(color_is_black(light->diffuse) && color_is_black(light->specular));
 }
 
-bool shadow_pairs_any(const Scene *scene)
-{
-    for (int l = 0; l < scene->light_count; l++)
-        if (casts(&scene->lights[l]))
-            return true;
-    return false;
-}
-
 /* Whether the cone of a spot misses an object. */
 static bool misses(const Search *search, int object)
 {

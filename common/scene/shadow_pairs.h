@@ -25,9 +25,6 @@ void shadow_pairs_close(ShadowPairs *pairs); /* zeroed is fine */
  */
 void shadow_pairs_find(ShadowPairs *pairs, const Scene *scene);
 
-/* Whether any light is on and has shadows that could be seen, whatever is between. */
-bool shadow_pairs_any(const Scene *scene);
-
 /* Whether a spot's cone misses a sphere. The light is in the world. */
 bool cone_misses(const Light *light, Sphere sphere);
 

@@ -241,26 +241,29 @@ static void set_light(ShadowMask *mask, const ShadowThrow *thrown, Vec3 near)
     glUniform4fv(mask->current->end, 1, plane);
 }
 
+static bool same_kind(const ShadowVolumeKind *a, const ShadowVolumeKind *b)
+{
+    return memcmp(&a->light, &b->light, sizeof a->light) == 0 && a->facing == b->facing &&
+           a->end == b->end && a->dark == b->dark;
+}
+
 /* Made again only if it is not that of the last frame. NULL: no memory, or too many triangles. */
 static const UploadedVolume *find_volume(ShadowVolumes *volumes, const ShadowThrow *thrown,
                                          Message *message)
 {
-    const Vec4 light = thrown->light_object;
-    const ShadowEnd end = end_of(thrown);
-    const bool dark = thrown->behind || thrown->odd;
+    const ShadowVolumeKind kind = {thrown->light_object, thrown->facing, end_of(thrown),
+                                   thrown->behind || thrown->odd};
     const size_t vertices = thrown->caster->silhouette.mesh->vertex_count;
     UploadedVolume *found = next_volume(volumes);
     if (!found) {
         message_set(message, "shadows: not enough memory");
         return NULL;
     }
-    if (found->caster == thrown->caster && memcmp(&found->light, &light, sizeof light) == 0 &&
-        found->facing == thrown->facing && found->end == end && found->dark == dark)
+    if (found->caster == thrown->caster && same_kind(&found->kind, &kind))
         return found;
     ShadowVolume *volume = &volumes->volume;
     found->caster = NULL;
-    if (!shadow_volume_make(volume, &thrown->caster->silhouette, light, thrown->facing, end, dark,
-                            message))
+    if (!shadow_volume_make(volume, &thrown->caster->silhouette, &kind, message))
         return NULL;
     bool done = upload(found, SHADOW_VOLUME_SIDES, volume->sides, volume->side_count,
                        is_wide(2 * vertices));
@@ -271,10 +274,7 @@ static const UploadedVolume *find_volume(ShadowVolumes *volumes, const ShadowThr
         return NULL;
     }
     found->caster = thrown->caster;
-    found->light = light;
-    found->facing = thrown->facing;
-    found->end = end;
-    found->dark = dark;
+    found->kind = kind;
     volumes->made++;
     return found;
 }

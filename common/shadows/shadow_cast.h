@@ -31,10 +31,7 @@ enum { SHADOW_VOLUME_SIDES = 4, SHADOW_VOLUME_LISTS = 5 };
 typedef struct UploadedVolume {
     /* What it was made from, as shadow_volume_make. */
     const ShadowCaster *caster; /* NULL: none */
-    Vec4 light;
-    SilhouetteFacing facing;
-    ShadowEnd end;
-    bool dark;
+    ShadowVolumeKind kind;
     GLuint indices[SHADOW_VOLUME_LISTS];
     GLsizei counts[SHADOW_VOLUME_LISTS];
 } UploadedVolume;

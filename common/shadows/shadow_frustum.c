@@ -1,3 +1,10 @@
+/*
+ * A map's texels are few, so it should show what casts and receives, and nothing else. Corners of
+ * boxes are projected from the light, those of casters and those of receivers; the map covers what
+ * both have in common across the view, and in depth what casts. A light that shines in all
+ * directions gets one frustum if that sees all casters, or else the faces of a cube that any lie
+ * in.
+ */
 #include "shadows/shadow_frustum.h"
 
 #include <math.h>

@@ -1,3 +1,9 @@
+/*
+ * Edges are found once for each mesh: vertices at the same place are welded by a hash of their
+ * bits, and so are the two directions of an edge. For a volume each triangle then adds 1 or -1 to
+ * the net of its three edges, by whether it faces the light; edges whose net is not zero are the
+ * silhouette, and each gets as many sides. The time is linear in the triangles.
+ */
 #include "shadows/silhouette.h"
 
 #include "base/random.h"
@@ -261,9 +267,11 @@ static void add_side(ShadowVolume *volume, uint32_t a, uint32_t b, ShadowEnd end
     volume->side_count += count;
 }
 
-bool shadow_volume_make(ShadowVolume *volume, const Silhouette *silhouette, Vec4 light,
-                        SilhouetteFacing facing, ShadowEnd end, bool dark, Message *message)
+bool shadow_volume_make(ShadowVolume *volume, const Silhouette *silhouette,
+                        const ShadowVolumeKind *kind, Message *message)
 {
+    const Vec4 light = kind->light;
+    const SilhouetteFacing facing = kind->facing;
     const Vec3 place = {light.x, light.y, light.z};
     const bool near = light.w != 0;
     const double reach =
@@ -279,16 +287,17 @@ bool shadow_volume_make(ShadowVolume *volume, const Silhouette *silhouette, Vec4
         const Vec3 way = near ? vec3_subtract(place, corner(silhouette->mesh, 3 * t)) : place;
         const bool lit = vec3_dot(silhouette->normals[t], way) > 0;
         if (facing == SILHOUETTE_ALL || lit == (facing == SILHOUETTE_LIT))
-            add_edges(volume, silhouette, t, lit, end == SHADOW_END_CAPS);
-        if (dark || lit || silhouette->turned[t] || !is_dark(silhouette, t, place, near, reach))
+            add_edges(volume, silhouette, t, lit, kind->end == SHADOW_END_CAPS);
+        if (kind->dark || lit || silhouette->turned[t] ||
+            !is_dark(silhouette, t, place, near, reach))
             add_triangle(volume, silhouette, t, lit);
     }
     for (size_t e = 0; e < silhouette->edge_count; e++) {
         const uint32_t *two = silhouette->ends[e];
         for (int net = silhouette->nets[e]; net > 0; net--)
-            add_side(volume, two[0], two[1], end);
+            add_side(volume, two[0], two[1], kind->end);
         for (int net = silhouette->nets[e]; net < 0; net++)
-            add_side(volume, two[1], two[0], end);
+            add_side(volume, two[1], two[0], kind->end);
     }
     return true;
 }

@@ -61,11 +61,18 @@ typedef enum ShadowEnd {
     SHADOW_END_POINT, /* all sides end in one */
 } ShadowEnd;
 
-/* `light`, in object coordinates: its position with w = 1, or the direction towards it with w = 0.
- * Triangles without an area are left out; and without `dark`, of the caps those that face away from
- * the light as all their vertices' normals do, clearly: no light falls on them anyway. */
-bool shadow_volume_make(ShadowVolume *volume, const Silhouette *silhouette, Vec4 light,
-                        SilhouetteFacing facing, ShadowEnd end, bool dark, Message *message);
+typedef struct ShadowVolumeKind {
+    Vec4 light; /* in object coordinates: its position with w = 1, or the direction towards it with
+                   w = 0 */
+    SilhouetteFacing facing;
+    ShadowEnd end;
+    bool dark; /* false: of the caps those are left out that face away from the light as all their
+                  vertices' normals do, clearly: no light falls on them anyway */
+} ShadowVolumeKind;
+
+/* Triangles without an area are left out. */
+bool shadow_volume_make(ShadowVolume *volume, const Silhouette *silhouette,
+                        const ShadowVolumeKind *kind, Message *message);
 static inline int shadow_volume_caps(bool lit, bool turned)
 {
     return 2 * lit + turned;

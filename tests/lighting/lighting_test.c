@@ -8,6 +8,7 @@
 #include "core/mesh_make.h"
 #include "lighting/lighting.h"
 #include "shapes/mesh_solids.h"
+#include "support/oracle.h"
 #include "support/picture_check.h"
 #include "support/testing.h"
 
@@ -18,7 +19,6 @@
 
 enum { SIZE = 64 };
 
-static const double RADIANS = 0.017453292519943295;
 static const Vec3 BACKGROUND = {0.2, 0.3, 0.4};
 
 static Canvas canvas;
@@ -606,110 +606,20 @@ TEST(a_scene_a_million_units_away_draws_the_same_picture)
     }
 }
 
-/* Closed forms: the colour of each pixel, in double precision and in world coordinates, on shapes
- * that have a formula. */
+/* Closed forms: the colour of each pixel by support/oracle.h, on shapes that have a formula. */
 
-typedef struct Hit {
-    Vec3 point, normal; /* in world coordinates; the front's normal, normalized */
-    bool front;         /* what the eye sees */
-    double steepness;   /* cosine between ray and normal */
-} Hit;
-
-static const Vec3 NOWHERE = {-1, -1, -1};
-
-/* Where the ray through a pixel's centre meets the object: the unit sphere, or the square in z =
- * 0. */
-static bool trace(const Scene *scene, int x, int y, Hit *hit)
+/* False: no closed form here, or near what jumps: an edge, a light's, or the silhouette, where the
+ * mesh lies inside the sphere. */
+static bool closed_form(const Scene *scene, int x, int y, double expected[3])
 {
-    const Object *object = scene->objects;
-    const Camera *camera = &scene->camera;
-    Mat4 eye_from_world, clip_from_eye, world_from_eye, object_from_world;
-    scene_camera(camera, 1, &eye_from_world, &clip_from_eye, NULL);
-    mat4_inverse(eye_from_world, &world_from_eye);
-    mat4_inverse(object->world_from_object, &object_from_world);
-    const double tangent = tan(camera->fovy / 2 * RADIANS);
-    const Vec3 way_eye = {tangent * ((x + 0.5) / SIZE * 2 - 1),
-                          tangent * (1 - (y + 0.5) / SIZE * 2), -1};
-    const Vec3 way = mat4_transform_direction(world_from_eye, way_eye);
-    const Vec3 o = mat4_transform_point(object_from_world, camera->eye);
-    const Vec3 d = mat4_transform_direction(object_from_world, way);
-    const bool flat = object->mesh == &quad;
-    double t = -o.z / d.z;
-    if (!flat) {
-        const double a = vec3_dot(d, d), b = vec3_dot(o, d), c = vec3_dot(o, o) - 1;
-        if (b * b < a * c)
-            return false;
-        t = (-b - sqrt(b * b - a * c)) / a;
-    }
-    const Vec3 p = vec3_add(o, vec3_scale(d, t));
-    if (flat && (fabs(p.x) > 0.98 || fabs(p.y) > 0.98))
+    OraclePoint hit;
+    if (!oracle_trace(scene, SIZE, SIZE, x, y, &hit) || hit.steepness < 0.15 ||
+        (hit.object->mesh == &quad && fmax(fabs(hit.place.x), fabs(hit.place.y)) > 0.98))
         return false;
-    vec3_normalize(
-        mat4_transform_direction(mat4_transpose(object_from_world), flat ? (Vec3){0, 0, 1} : p),
-        &hit->normal);
-    hit->point = mat4_transform_point(object->world_from_object, p);
-    hit->front = vec3_dot(hit->normal, way) < 0;
-    hit->steepness = fabs(vec3_dot(hit->normal, way)) / vec3_length(way);
-    return true;
-}
-
-static Vec3 multiply(Vec3 a, Vec3 b)
-{
-    return (Vec3){a.x * b.x, a.y * b.y, a.z * b.z};
-}
-
-/* The sum before clamping; NOWHERE within 1e-3 of a discontinuity. */
-static Vec3 shade(const Scene *scene, const Hit *hit)
-{
-    const Object *object = scene->objects;
-    const bool back = object->two_sided && !hit->front;
-    const Material *m = back ? &object->back : &object->front;
-    const Vec3 n = vec3_scale(hit->normal, back ? -1 : 1);
-    Vec3 sum = vec3_add(m->emission, multiply(scene->global_ambient, m->ambient)), v;
-    vec3_normalize(
-        vec3_subtract(scene->camera.eye, scene->distant_viewer ? scene->camera.center : hit->point),
-        &v);
-    for (int i = 0; i < scene->light_count; i++) {
-        const Light *light = &scene->lights[i];
-        Vec3 l, h, axis, way = light->direction;
-        double share = 1;
-        if (light->kind != LIGHT_DIRECTIONAL) {
-            way = vec3_subtract(light->position, hit->point);
-            const double d = vec3_length(way);
-            const double fall = light->constant + light->linear * d + light->quadratic * d * d;
-            share = fall > 0 ? 1 / fall : 1;
-        }
-        vec3_normalize(way, &l);
-        if (light->kind == LIGHT_SPOT) {
-            vec3_normalize(light->direction, &axis);
-            const double along = -vec3_dot(l, axis), edge = cos(light->cutoff * RADIANS);
-            if (fabs(along - edge) < 1e-3)
-                return NOWHERE;
-            share *= along > edge ? pow(along, light->exponent) : 0;
-        }
-        const double n_l = vec3_dot(n, l);
-        vec3_normalize(vec3_add(l, v), &h);
-        const Vec3 r = vec3_subtract(vec3_scale(n, 2 * n_l), l);
-        const double cosine =
-            fmax(scene->reflection == REFLECTION_PHONG ? vec3_dot(r, v) : vec3_dot(n, h), 0);
-        const double highlight = n_l > 0 ? pow(cosine, m->shininess) : 0;
-        if (fabs(n_l) < 1e-3 && pow(cosine, m->shininess) > 1e-3)
-            return NOWHERE;
-        const Vec3 part =
-            vec3_add(multiply(light->ambient, m->ambient),
-                     vec3_add(vec3_scale(multiply(light->diffuse, m->diffuse), fmax(n_l, 0)),
-                              vec3_scale(multiply(light->specular, m->specular), highlight)));
-        sum = vec3_add(sum, vec3_scale(part, share));
-    }
-    return sum;
-}
-
-static double level(double value, bool linear)
-{
-    value = fmin(value, 1);
-    if (linear)
-        value = value <= 0.0031308 ? 12.92 * value : 1.055 * pow(value, 1 / 2.4) - 0.055;
-    return 255 * value;
+    const Vec3 sum = oracle_light(scene, &hit);
+    const double max = fmax(sum.x, fmax(sum.y, sum.z));
+    oracle_show(scene, sum, expected);
+    return hit.from_jump >= 1e-3 && !(scene->show_clipped && fabs(max - 1) < 1e-3);
 }
 
 /* Compares every pixel that has a closed form, and reports how many. */
@@ -720,19 +630,9 @@ static int assert_closed_form(const Scene *scene, const char *name)
     memcpy(full.pixels, specialised.pixels, (size_t)SIZE * SIZE * 4);
     for (int y = 0; y < SIZE; y++) {
         for (int x = 0; x < SIZE; x++) {
-            Hit hit;
-            if (!trace(scene, x, y, &hit) || hit.steepness < 0.15)
-                continue; /* at the silhouette the mesh lies inside the sphere */
-            const Vec3 color = shade(scene, &hit);
-            if (color.x < 0)
+            double expected[3];
+            if (!closed_form(scene, x, y, expected))
                 continue;
-            double expected[3] = {level(color.x, scene->linear), level(color.y, scene->linear),
-                                  level(color.z, scene->linear)};
-            const double max = fmax(color.x, fmax(color.y, color.z));
-            if (scene->show_clipped && fabs(max - 1) < 1e-3)
-                continue;
-            if (scene->show_clipped && max > 1)
-                expected[0] = expected[2] = 255, expected[1] = 0;
             compared++;
             for (int c = 0; c < 3; c++) {
                 /* Half a level for rounding to bytes. The mesh of the sphere is within 1e-4 of the
@@ -757,11 +657,13 @@ static const Material DULL = {
 static void closed_form_world(const Mesh *mesh, Turn turn)
 {
     memset(&world, 0, sizeof world);
-    world.object = (Object){.mesh = mesh,
-                            .closed = mesh != &quad,
-                            .world_from_object = turn_matrix(turn),
-                            .front = SHINY,
-                            .back = DULL};
+    world.object =
+        (Object){.mesh = mesh,
+                 .solid = {.kind = mesh == &quad ? SOLID_QUAD : SOLID_SPHERE, .radius = 1},
+                 .closed = mesh != &quad,
+                 .world_from_object = turn_matrix(turn),
+                 .front = SHINY,
+                 .back = DULL};
     world.scene = (Scene){
         .camera = {{0.25, 0.5, 4}, {0, 0, 0}, {0.1, 1, 0}, 32, 0.5, 20, 0},
         .background = BACKGROUND,
