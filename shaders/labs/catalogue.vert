@@ -28,7 +28,8 @@ void main() {
     gl_Position = u_Clip * a_Position;
     v_Place = vec3(u_Place * a_Position);
     vec3 normal = vec3(u_Normal * vec4(u_NormalOf == 1 ? a_Position.xyz : a_Normal.xyz, 1.0));
-    v_Normal = u_NormalUnit == 2 || u_NormalUnit == 3 ? normalize(normal) : normal;
+    bool here = u_NormalUnit == UNIT_AT_VERTICES || u_NormalUnit == UNIT_AT_BOTH;
+    v_Normal = here ? normalize(normal) : normal;
     v_Toward[0] = normalize(u_Light[0] - u_FromPlace * v_Place);
     v_Toward[1] = normalize(u_Light[1] - u_FromPlace * v_Place);
     v_Color = vec3(0.0);
@@ -37,9 +38,9 @@ void main() {
     v_MapDivided = v_Map.xyz / v_Map.w;
     v_Shade = vec3(0.0);
 #endif
-    vec3 unit = u_NormalUnit == 4 ? normal * inversesqrt(dot(normal, normal) + 1.0)
+    vec3 unit = u_NormalUnit == UNIT_WITH_W ? normal * inversesqrt(dot(normal, normal) + 1.0)
                                   : normalize(normal);
-    if (u_NormalUnit == 1)
+    if (u_NormalUnit == UNIT_NEVER)
         unit = normal;
     if (u_AtVertices == 1)
         v_Color = shade(v_Place, unit, v_Toward[0], v_Toward[1], 0);

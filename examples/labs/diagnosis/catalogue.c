@@ -556,7 +556,7 @@ const Mistake MISTAKES[] = {
      "The cone's axis and the direction to the light are in different spaces, or the axis has w = 1.",
      "u_SpotDirection: it is in world space, so transform it, with w = 0, if the light is in eye "
      "space"},
-    {"spot direction reversed", L(8), ONE(CONE_SIGN, SIGN_REVERSED),
+    {"spot direction reversed", L(8), ONE(CONE_SIGN, AXIS_REVERSED),
      "The cone points in the opposite direction.", "the sign in dot(-L, u_SpotDirection)"},
     {"cutoff in degrees compared with degrees of a cosine", L(8), ONE(CONE, CONE_HARD_COSINE),
      "A cosine is converted as if it were an angle.",
@@ -911,7 +911,7 @@ static bool is_common(const Suspect *suspect)
         [SLOT_FADE] = FADE_INVERSE_SQUARE,
         [SLOT_FADE_ON] = ON_NO_HIGHLIGHT,
         [SLOT_CONE] = CONE_OUTSIDE,
-        [SLOT_CONE_SIGN] = SIGN_REVERSED,
+        [SLOT_CONE_SIGN] = AXIS_REVERSED,
         [SLOT_CONE_FALL_OFF] = FALL_OFF_ONE,
         [SLOT_CONE_ON] = ON_NO_HIGHLIGHT,
         [SLOT_FACING] = FACING_LIGHT, /* not with FACING_VIEW */

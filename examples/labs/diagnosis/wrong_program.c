@@ -1,9 +1,11 @@
 #include "labs/diagnosis/wrong_program.h"
 
 #include "app/options.h"
+#include "base/memory.h"
 #include "core/example.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* The uniforms, by number in `locations`. */
@@ -15,7 +17,7 @@
     X(u_ViewUnit) X(u_Fade) X(u_FadeMode) X(u_FadeOn) X(u_SpotAxis) X(u_SpotCosine)               \
     X(u_SpotExponent) X(u_SpotOutside) X(u_SpotOn) X(u_Facing) X(u_Mirrored) X(u_BackNormal)      \
     X(u_Discard) X(u_Lights) X(u_Gamma) X(u_SpotShape) X(u_Limit)    \
-    X(u_LimitOf) X(u_Plus) X(u_Product) X(u_Output) X(u_NormalOf) X(u_CosineMax) X(u_CosinePower) X(u_PlaceUnit)         \
+    X(u_LimitOf) X(u_Plus) X(u_LightsOf) X(u_Output) X(u_NormalOf) X(u_CosineMax) X(u_CosinePower) X(u_PlaceUnit)         \
     X(u_Axis) X(u_Most) X(u_MapMatrix) X(u_Map) X(u_MapPlace) X(u_MapDepth) X(u_MapBias)         \
     X(u_MapTest) X(u_MapOutside) X(u_ShadowOn) X(u_ShadowLight) X(u_MapLight)
 /* clang-format on */
@@ -40,12 +42,32 @@ typedef struct Made {
     Vec3 light[LAB_MAX_LIGHTS], light_color[LAB_MAX_LIGHTS];
 } Made;
 
+/* The choices, as the shaders have them. */
+static const struct {
+    const char *name;
+    int number;
+} NUMBERS[] = {
+#define CHOICES(group) {#group "_RIGHT", group##_RIGHT},
+#define CHOICE(name) {#name, name},
+#include "labs/diagnosis/catalogue_choices.def"
+#undef CHOICES
+#undef CHOICE
+};
+
+enum { NUMBER_COUNT = sizeof NUMBERS / sizeof NUMBERS[0] };
+
 bool wrong_program_open(WrongProgram *program, const Lab *lab, Message *message)
 {
-    static const char *const SHADOWS[] = {"SHADOWS", NULL};
-    const ShaderLoader loader = {.precision = "highp", .defines = lab->shadow ? SHADOWS : NULL};
+    char *defines[NUMBER_COUNT + 2] = {lab->shadow ? memory_text("SHADOWS") : NULL};
+    int count = lab->shadow;
+    for (int i = 0; i < NUMBER_COUNT; i++)
+        defines[count++] = memory_format("%s %d", NUMBERS[i].name, NUMBERS[i].number);
+    const ShaderLoader loader = {.precision = "highp", .defines = (const char *const *)defines};
     *program = (WrongProgram){.position = -1};
-    if (!shader_open(&program->shader, &loader, "labs/catalogue", message))
+    const bool opened = shader_open(&program->shader, &loader, "labs/catalogue", message);
+    while (count > 0)
+        free(defines[--count]);
+    if (!opened)
         return false;
     program->position = glGetAttribLocation(program->shader.program, "a_Position");
     program->normal = glGetAttribLocation(program->shader.program, "a_Normal");
@@ -526,10 +548,7 @@ static void set_colors(const WrongProgram *program, const Made *made)
     set_vectors(program, U_u_Plus, &plus, 1);
     set_int(program, U_u_LimitOf,
             made->choices->factor == FACTOR_LIMIT ? LIMIT_ALL : of[SLOT_LIMIT]);
-    set_int(program, U_u_Product,
-            of[SLOT_LIGHTS] == LIGHTS_PRODUCT  ? 1
-            : of[SLOT_LIGHTS] == LIGHTS_LARGER ? 2
-                                               : 0);
+    set_choice(program, U_u_LightsOf, made, SLOT_LIGHTS);
     set_vectors(program, U_u_Diffuse, diffuse, 4);
     set_vectors(program, U_u_Highlight, specular, 2);
     set_choice(program, U_u_Ambient, made, SLOT_AMBIENT);
@@ -542,17 +561,17 @@ static void set_reflection(const WrongProgram *program, const Made *made)
     const int of = choice(made, SLOT_REFLECTION);
     const bool other = of == REFLECTION_OTHER || of == REFLECTION_OTHER_FITTED;
     const bool blinn_phong = (made->lab->reflection == REFLECTION_BLINN_PHONG) != other;
-    const int reflection = !made->lab->specular || of == REFLECTION_NONE ? 0
-                           : of == REFLECTION_SIGN                       ? 3
-                           : of >= REFLECTION_HALF_RAW ? 4 + of - REFLECTION_HALF_RAW
-                           : blinn_phong               ? 2
-                                                       : 1;
+    const int reflection = !made->lab->specular               ? REFLECTION_NONE
+                           : of != REFLECTION_RIGHT && !other ? of
+                           : blinn_phong                      ? REFLECTION_AS_BLINN_PHONG
+                                                              : REFLECTION_AS_PHONG;
     set_int(program, U_u_Reflection, reflection);
     set_float(program, U_u_Exponent,
-              !reflection ? 1
-                          : value(made, FACTOR_EXPONENT_VALUE,
-                                  exponent(made, blinn_phong) * factor(made, FACTOR_EXPONENT) +
-                                      20 * value(made, FACTOR_PLUS_EXPONENT, 0)));
+              reflection == REFLECTION_NONE
+                  ? 1
+                  : value(made, FACTOR_EXPONENT_VALUE,
+                          exponent(made, blinn_phong) * factor(made, FACTOR_EXPONENT) +
+                              20 * value(made, FACTOR_PLUS_EXPONENT, 0)));
     set_choice(program, U_u_Gate, made, SLOT_GATE);
     set_choice(program, U_u_Power, made, SLOT_POWER);
 }
@@ -626,7 +645,7 @@ static void set_fade(const WrongProgram *program, const Made *made)
     l *= of != FADE_NO_LINEAR;
     q *= of != FADE_NO_QUADRATIC;
     set_vec3(program, U_u_Fade, c, l, q);
-    set_int(program, U_u_FadeMode, of == FADE_EYE ? 5 : of == FADE_TWICE ? 6 : of < 4 ? of : 0);
+    set_choice(program, U_u_FadeMode, made, SLOT_FADE);
     set_vec3(program, U_u_FadeOn, 1, on != ON_NO_HIGHLIGHT, on == ON_AMBIENT);
 }
 
@@ -666,7 +685,7 @@ static void set_cone(const WrongProgram *program, const Made *made)
         axis = mat4_transform_direction(made->eye_from_world, axis);
     if (sign == AXIS_NOT_TO_EYE)
         axis = mat4_transform_direction(mat4_transpose(made->eye_from_world), axis);
-    if (sign == SIGN_REVERSED)
+    if (sign == AXIS_REVERSED)
         axis = vec3_scale(axis, -1);
     if (sign == AXIS_W_1 || sign == AXIS_W_1_UNIT)
         axis = vec3_subtract(axis, made->probe->scene.camera.eye);
@@ -675,11 +694,7 @@ static void set_cone(const WrongProgram *program, const Made *made)
     shader_set_vec3(program->locations[U_u_SpotAxis], axis);
     set_float(program, U_u_SpotCosine, cosines[of]);
     set_float(program, U_u_SpotExponent, exponents[fall_off]);
-    set_int(program, U_u_SpotShape,
-            fall_off == FALL_OFF_LINEAR         ? 1
-            : fall_off == FALL_OFF_SMOOTH       ? 2
-            : fall_off == FALL_OFF_LINEAR_POWER ? 3
-                                                : 0);
+    set_choice(program, U_u_SpotShape, made, SLOT_CONE_FALL_OFF);
     set_int(program, U_u_SpotOutside, of == CONE_OUTSIDE);
     set_vec3(program, U_u_SpotOn, spot, spot && on != ON_NO_HIGHLIGHT, spot && on == ON_AMBIENT);
 }
@@ -700,9 +715,9 @@ static void set_rest(const WrongProgram *program, const Made *made)
     const double powers[] = {factor(made, FACTOR_GAMMA), [OUTPUT_GAMMA] = 1 / 2.2,
                              [OUTPUT_ROOT] = 0.5, [OUTPUT_POWER] = 2.2, [OUTPUT_SQUARE] = 2};
     set_float(program, U_u_Most, value(made, FACTOR_RESULT, 1e9));
-    set_int(program, U_u_Discard, of[SLOT_CULL]);
+    set_choice(program, U_u_Discard, made, SLOT_CULL);
     set_float(program, U_u_Gamma, output <= OUTPUT_SQUARE ? powers[output] : 1);
-    set_int(program, U_u_Output, output >= OUTPUT_INVERTED ? output - OUTPUT_INVERTED + 1 : 0);
+    set_choice(program, U_u_Output, made, SLOT_OUTPUT);
 }
 
 /* The shadow map. */
