@@ -13,6 +13,7 @@
 
 #if LAB == 3 || LAB == 10
 #include "labs/program/lab_code.h"
+#include "labs/program/probe_open.h"
 #endif
 
 static struct {

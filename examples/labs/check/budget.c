@@ -1,6 +1,7 @@
 #include "labs/check/budget.h"
 
 #include "base/clock.h"
+#include "labs/program/probe_open.h"
 #include "lighting/lighting.h"
 #include "scene/shader_cost.h"
 
@@ -37,12 +38,19 @@ static bool open_mesh(Way *way, int slices, int stacks, Message *message)
     return done;
 }
 
-static bool frame(const Way *way, const Lab *lab, const Probe *probe, const Canvas *canvas,
-                  double *seconds, Message *message)
+/* What both draw. */
+typedef struct Setting {
+    const Lab *lab;
+    const Probe *probe;
+    const Canvas *canvas;
+} Setting;
+
+static bool frame(const Way *way, const Setting *of, double *seconds, Message *message)
 {
+    const Probe *probe = of->probe;
     const Drawn drawn = {.scene = &probe->scene, .aspect = 1};
     const double start = clock_now();
-    canvas_clear(canvas, (Vec3){0, 0, 0}, 1);
+    canvas_clear(of->canvas, (Vec3){0, 0, 0}, 1);
     glEnable(GL_DEPTH_TEST);
     if (way->cull)
         glEnable(GL_CULL_FACE);
@@ -50,7 +58,7 @@ static bool frame(const Way *way, const Lab *lab, const Probe *probe, const Canv
         way->lighting
             ? lighting_show(way->lighting, &(LightingFrame){.scene = &probe->scene, .aspect = 1},
                             message)
-            : binding_draw(lab, way->program, &way->mesh, &drawn, message);
+            : binding_draw(of->lab, way->program, &way->mesh, &drawn, message);
     glDisable(GL_CULL_FACE);
     glFinish();
     *seconds = clock_now() - start;
@@ -58,15 +66,14 @@ static bool frame(const Way *way, const Lab *lab, const Probe *probe, const Canv
 }
 
 /* The median ratio of alternating frames. */
-static bool measure(const Way *way, const Way *plain, const Lab *lab, const Probe *probe,
-                    const Canvas *canvas, double *ratio, Message *message)
+static bool measure(const Way *way, const Way *plain, const Setting *of, double *ratio,
+                    Message *message)
 {
     double ratios[ROUNDS], first, second;
     int count = 0;
     const double start = clock_now();
     for (int i = -1; i < ROUNDS && (count == 0 || clock_now() < start + MAX_SECONDS); i++) {
-        if (!frame(way, lab, probe, canvas, &first, message) ||
-            !frame(plain, lab, probe, canvas, &second, message))
+        if (!frame(way, of, &first, message) || !frame(plain, of, &second, message))
             return false;
         if (i >= 0)
             ratios[count++] = first / second;
@@ -76,16 +83,14 @@ static bool measure(const Way *way, const Way *plain, const Lab *lab, const Prob
 }
 
 /* Those that the plain program covers: what a submission leaves black costs too. */
-static bool count_pixels(const Way *way, const Lab *lab, const Probe *probe, const Canvas *canvas,
-                         long *pixels, Message *message)
+static bool count_pixels(const Way *way, const Setting *of, long *pixels, Message *message)
 {
     double seconds;
     Image image;
     *pixels = 0;
     if (!image_open(&image, SIZE, SIZE, IMAGE_BYTE, message))
         return false;
-    const bool done =
-        frame(way, lab, probe, canvas, &seconds, message) && canvas_read(canvas, &image, message);
+    const bool done = frame(way, of, &seconds, message) && canvas_read(of->canvas, &image, message);
     const unsigned char *p = image.pixels;
     for (int i = 0; i < SIZE * SIZE && done; i++)
         *pixels += p[4 * i] || p[4 * i + 1] || p[4 * i + 2];
@@ -203,8 +208,9 @@ bool budget_score(const LabBudget *budget, GLuint program, Canvas *canvas,
                 probe_open_usual(&probe, lab, 1, message) &&
                 lighting_open(&plain.lighting, &loader, message) &&
                 open_mesh(&way, budget->slices, budget->stacks, message);
-    done = done && measure(&way, &plain, lab, &probe, canvas, &cost->time_ratio, message) &&
-           count_pixels(&plain, lab, &probe, canvas, &pixels, message);
+    const Setting setting = {lab, &probe, canvas};
+    done = done && measure(&way, &plain, &setting, &cost->time_ratio, message) &&
+           count_pixels(&plain, &setting, &pixels, message);
     if (done) {
         plain.vertices = (long)probe.meshes[0].vertex_count;
         count_both(&way, &plain, &probe, files, pixels, verdict);

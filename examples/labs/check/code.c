@@ -92,14 +92,17 @@ static bool blame_text(Verdict *verdict, VerdictKind kind, const char *said)
     return false;
 }
 
-static bool build(const Lab *lab, const char *text, const char *folder, Verdict *verdict,
-                  Message *message)
+static bool build(const Code *code, Message *message)
 {
+    const Lab *lab = code->lab;
+    const char *folder = code->folder;
+    Verdict *verdict = code->verdict;
     char path[PATH_MAX], labs[PATH_MAX], common[PATH_MAX], said[VERDICT_DETAILS_SIZE];
     int end;
     if (snprintf(path, sizeof path, "%s/%s", folder, lab->code) >= (int)sizeof path)
         return message_set(message, "%s: the path is too long", folder);
-    if (!find_headers(labs, common, message) || !output_write(path, text, strlen(text), message))
+    if (!find_headers(labs, common, message) ||
+        !output_write(path, code->text, strlen(code->text), message))
         return false;
     const pid_t child = process_fork(&end, message);
     if (child < 0)
@@ -170,9 +173,11 @@ static _Noreturn void call(const char *module, const Call *wanted, int results)
     _exit(0);
 }
 
-static bool run_code(const Lab *lab, const char *folder, Call *wanted, Verdict *verdict,
-                     Message *message)
+static bool run_code(const Code *code, Call *wanted, Message *message)
 {
+    const Lab *lab = code->lab;
+    const char *folder = code->folder;
+    Verdict *verdict = code->verdict;
     char module[PATH_MAX];
     int end;
     const size_t each = wanted->matrices ? sizeof *wanted->matrices : sizeof wanted->budget;
@@ -216,28 +221,25 @@ static bool is_finite(const Mat4 *matrix)
     return true;
 }
 
-bool code_matrices(const Lab *lab, const char *text, const char *folder, const double *seconds,
-                   int count, CodeMatrices *matrices, Verdict *verdict, Message *message)
+bool code_matrices(const Code *code, const double *seconds, int count, CodeMatrices *matrices,
+                   Message *message)
 {
     Call wanted = {.seconds = seconds, .count = count, .matrices = matrices};
-    if (!build(lab, text, folder, verdict, message) ||
-        !run_code(lab, folder, &wanted, verdict, message))
+    if (!build(code, message) || !run_code(code, &wanted, message))
         return false;
     for (int i = 0; i < count; i++)
         if (!is_finite(&matrices[i].world_from_model) || !is_finite(&matrices[i].normal_matrix))
-            return blame(verdict, VERDICT_ERROR,
+            return blame(code->verdict, VERDICT_ERROR,
                          "%s: a matrix has numbers that are not finite or beyond 1e30: look for a "
                          "division by zero or an unset value",
-                         lab->code);
+                         code->lab->code);
     return true;
 }
 
-bool code_budget(const Lab *lab, const char *text, const char *folder, LabBudget *budget,
-                 Verdict *verdict, Message *message)
+bool code_budget(const Code *code, LabBudget *budget, Message *message)
 {
     Call wanted = {.count = 1};
-    if (!build(lab, text, folder, verdict, message) ||
-        !run_code(lab, folder, &wanted, verdict, message))
+    if (!build(code, message) || !run_code(code, &wanted, message))
         return false;
     *budget = wanted.budget;
     /* A bool from another process may be any byte. */
@@ -247,5 +249,6 @@ bool code_budget(const Lab *lab, const char *text, const char *folder, LabBudget
     if (budget->slices >= 3 && budget->slices <= 512 && budget->stacks >= 2 &&
         budget->stacks <= 512)
         return true;
-    return blame(verdict, VERDICT_ERROR, "%s: slices must be 3 to 512, stacks 2 to 512", lab->code);
+    return blame(code->verdict, VERDICT_ERROR, "%s: slices must be 3 to 512, stacks 2 to 512",
+                 code->lab->code);
 }

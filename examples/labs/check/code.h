@@ -18,12 +18,18 @@ typedef struct CodeMatrices {
     Mat4 world_from_model, normal_matrix;
 } CodeMatrices;
 
-/* Both build `text`, called lab->code, in an existing empty folder. True: there are numbers, finite
- * and in range. False with a verdict and no message: the submission is at fault; with a message:
- * this machine is. */
-bool code_matrices(const Lab *lab, const char *text, const char *folder, const double *seconds,
-                   int count, CodeMatrices *matrices, Verdict *verdict, Message *message);
-bool code_budget(const Lab *lab, const char *text, const char *folder, LabBudget *budget,
-                 Verdict *verdict, Message *message);
+/* A submission's C. */
+typedef struct Code {
+    const Lab *lab;     /* of which it is lab->code */
+    const char *text;   /* of it */
+    const char *folder; /* an existing empty one */
+    Verdict *verdict;
+} Code;
+
+/* Both build it in its folder. True: there are numbers, finite and in range. False with a verdict
+ * and no message: the submission is at fault; with a message: this machine is. */
+bool code_matrices(const Code *code, const double *seconds, int count, CodeMatrices *matrices,
+                   Message *message);
+bool code_budget(const Code *code, LabBudget *budget, Message *message);
 
 #endif

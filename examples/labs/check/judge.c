@@ -165,39 +165,42 @@ static int add_probes(const Shots *shots, Verdict *verdict)
 }
 
 /* Lab 3: the matrices at every scene's time. */
-static bool take_matrices(Session *session, const char *text, Message *message)
+static bool take_matrices(Session *session, const Code *code, Message *message)
 {
     double seconds[SHOTS_MAX];
     CodeMatrices matrices[SHOTS_MAX];
     Shots *shots = &session->shots;
     for (int i = 0; i < shots->count; i++)
         seconds[i] = shots->shots[i].probe.seconds;
-    const bool done = code_matrices(session->lab, text, session->options->scratch, seconds,
-                                    shots->count, matrices, session->verdict, message);
-    session->settled = !done && !message->text[0];
-    for (int i = 0; i < shots->count && done; i++) {
+    if (!code_matrices(code, seconds, shots->count, matrices, message))
+        return false;
+    for (int i = 0; i < shots->count; i++) {
         shots->world_from_object[i] = matrices[i].world_from_model;
         shots->normal_matrix[i] = matrices[i].normal_matrix;
     }
-    return done || session->settled;
+    return true;
+}
+
+/* Lab 10: the mesh. */
+static bool take_budget(Session *session, const Code *code, Message *message)
+{
+    if (!code_budget(code, &session->budget, message))
+        return false;
+    session->shots.geometry.cull = session->budget.cull;
+    return shots_use_sphere(&session->shots, session->budget.slices, session->budget.stacks,
+                            message);
 }
 
 static bool take_code(Session *session, Message *message)
 {
     const Lab *lab = session->lab;
-    const char *text = lab->code ? submission_file(session->files, lab->code) : NULL;
-    if (!text)
+    const Code code = {lab, lab->code ? submission_file(session->files, lab->code) : NULL,
+                       session->options->scratch, session->verdict};
+    if (!code.text || (lab->given ? take_matrices(session, &code, message)
+                                  : take_budget(session, &code, message)))
         return true;
-    if (lab->given)
-        return take_matrices(session, text, message);
-    const bool done = code_budget(lab, text, session->options->scratch, &session->budget,
-                                  session->verdict, message);
-    session->settled = !done && !message->text[0];
-    if (!done)
-        return session->settled;
-    session->shots.geometry.cull = session->budget.cull;
-    return shots_use_sphere(&session->shots, session->budget.slices, session->budget.stacks,
-                            message);
+    session->settled = !message->text[0];
+    return session->settled;
 }
 
 /* Draws a right submission again with its own precision: far away or, in labs whose fragment

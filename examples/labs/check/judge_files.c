@@ -2,6 +2,7 @@
 #include "images/image_file.h"
 #include "labs/check/judge.h"
 #include "labs/check/judge_pictures.h"
+#include "labs/program/probe_open.h"
 
 #include <stdio.h>
 

@@ -125,8 +125,7 @@ static SandboxedCheck check_of(const Judging *judging, const Found *found, const
                             .kind = archive[0]                    ? SOURCE_ARCHIVE
                                     : found->kind == FOUND_FOLDER ? SOURCE_FOLDER
                                                                   : SOURCE_FILES,
-                            .inputs = inputs,
-                            .count = count};
+                            .inputs = {inputs, count}};
 }
 
 /* Hashes a submission, which has to be readable. *archive: it is in this one. */
@@ -169,7 +168,7 @@ static bool start(Judging *judging, Job *job, const Found *found, int slot, bool
     *ended = false;
     const SandboxedCheck check = check_of(judging, found, archive);
     const bool done = sandboxed_check_start(judging->of->sandbox, &job->run, slot, &check, message);
-    free((void *)check.inputs);
+    free((void *)check.inputs.items);
     return done;
 }
 

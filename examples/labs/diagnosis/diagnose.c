@@ -2,6 +2,7 @@
 
 #include "labs/diagnosis/suspects.h"
 #include "labs/diagnosis/symptoms.h"
+#include "labs/program/probe_open.h"
 
 #include <stdio.h>
 #include <stdlib.h>

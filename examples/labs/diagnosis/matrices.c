@@ -1,3 +1,7 @@
+/* Lab 3's matrices are numbers, so they are judged as numbers. A model matrix that is move * turn *
+ * scale can be taken apart: its last column is the move, the lengths of the others are the scale,
+ * what is left is the turn, whose axis is in its antisymmetric part and whose angle is in its
+ * trace. What is true of these in all scenes are facts; a rule is a set of facts with a name. */
 #include "labs/diagnosis/matrices.h"
 
 #include "app/options.h"
@@ -124,98 +128,141 @@ static bool is_identity(const Mat4 *matrix)
     return true;
 }
 
-static bool blame(Verdict *verdict, const char *name, const char *sentence, const char *look)
+/* What is true of the matrices of all scenes. */
+enum {
+    NEVER_SET = 1 << 0,
+    COLUMNS = 1 << 1, /* the right ones, each times the same factor everywhere */
+    TURNS = 1 << 2,   /* they can be taken apart */
+    MOVED = 1 << 3,   /* these four are right */
+    SCALED = 1 << 4,
+    TURNED = 1 << 5,
+    ABOUT_AXIS = 1 << 6,
+    AS_FAR = 1 << 7, /* the angle is right, if not its axis */
+    SAME_MOVE = 1 << 8,
+    SAME_TURN = 1 << 9,
+    SAME_AXIS = 1 << 10,
+    LINEAR = 1 << 11, /* the angle is in proportion to the time */
+};
+
+typedef struct Facts {
+    unsigned true_of_all;
+    double factors[3]; /* of the columns */
+    Parts first;       /* of the first scene's */
+    double rate;       /* degrees per second */
+} Facts;
+
+static void note(Facts *facts, unsigned fact, bool holds)
 {
-    verdict_add_mistake(verdict, name, sentence, look, 0.9);
-    snprintf(verdict->message, sizeof verdict->message, "%s", name);
-    return true;
+    if (!holds)
+        facts->true_of_all &= ~fact;
 }
 
-static bool blame_numbers(Verdict *verdict, const char *name, const char *what, const double *found,
-                          const char *look)
+static double dot(const double *a, const double *b)
 {
-    char sentence[VERDICT_SENTENCE_SIZE];
-    snprintf(sentence, sizeof sentence, "%s is (%.3g, %.3g, %.3g).", what, found[0], found[1],
-             found[2]);
-    return blame(verdict, name, sentence, look);
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* Near 0 and 180 degrees the axis cannot be told. */
+static void add_turn(Facts *facts, const Parts *found, double seconds, bool is_first)
+{
+    Vec3 unit;
+    if (found->degrees < 3 || found->degrees > 177)
+        return;
+    vec3_normalize(PROBE_AXIS, &unit);
+    const double axis[3] = {unit.x, unit.y, unit.z}, own = dot(found->axis, axis);
+    const double sign = dot(found->axis, facts->first.axis) < 0 ? -1 : 1;
+    const double flipped[3] = {sign * found->axis[0], sign * found->axis[1], sign * found->axis[2]};
+    const double whole = own < 0 ? 360 - found->degrees : found->degrees;
+    if (is_first)
+        facts->rate = whole / seconds;
+    const double apart = remainder(facts->rate * seconds - whole, 360);
+    note(facts, SAME_AXIS, is_near(flipped, facts->first.axis));
+    note(facts, ABOUT_AXIS, fabs(fabs(own) - 1) < 1e-5);
+    note(facts, TURNED, fabs(remainder(whole - DEGREES_PER_SECOND * seconds, 360)) < 0.06);
+    note(facts, LINEAR, fabs(apart) < 0.1 + 0.002 * seconds);
+}
+
+static Facts gather_facts(const Shots *shots)
+{
+    Facts facts = {.true_of_all = ~0u, .factors = {1, 1, 1}};
+    double now[3] = {0};
+    for (int i = 0; i < shots->count; i++) {
+        const double seconds = shots->shots[i].probe.seconds;
+        const Mat4 *matrix = &shots->world_from_object[i], wanted = right_world(seconds);
+        const Parts found = take_apart(matrix), right = take_apart(&wanted);
+        if (i == 0)
+            facts.first = found;
+        note(&facts, COLUMNS,
+             column_factors(matrix, &wanted, now) && (i == 0 || is_near(now, facts.factors)));
+        memcpy(facts.factors, now, sizeof now);
+        note(&facts, NEVER_SET, is_identity(matrix));
+        note(&facts, TURNS, found.turns);
+        note(&facts, MOVED, is_near(found.move, right.move));
+        note(&facts, SCALED, is_near(found.scale, right.scale));
+        note(&facts, AS_FAR, fabs(found.degrees - right.degrees) < 0.06);
+        note(&facts, SAME_MOVE, is_near(found.move, facts.first.move));
+        note(&facts, SAME_TURN, fabs(found.degrees - facts.first.degrees) < 0.06);
+        add_turn(&facts, &found, seconds, i == 0);
+    }
+    return facts;
+}
+
+/* The first rule all of whose facts hold, and none of the others, names the mistake. */
+typedef struct Rule {
+    unsigned all, none;
+    const char *name;
+    const char *sentence; /* followed by the numbers, if there are any */
+    enum { NO_NUMBERS, SCALE, TRANSLATION, AXIS, RATE } numbers;
+    const char *look;
+} Rule;
+
+#define ANGLE "the angle: 30 degrees times seconds"
+
+static const Rule RULES[] = {
+    {NEVER_SET, 0, "model matrix never set", "The model matrix is still the identity.", NO_NUMBERS,
+     "the assignment to *world_from_model"},
+    {COLUMNS | MOVED, SCALED, "wrong scale", "The scale", SCALE,
+     "the numbers of the scale: (2, 0.7, 1.2); in C 7 / 10 is 0"},
+    {TURNS | TURNED | ABOUT_AXIS | SCALED | SAME_MOVE, MOVED, "wrong translation",
+     "The translation", TRANSLATION, "the numbers of the translation: (0.5, 0.3, -0.8)"},
+    {TURNS | MOVED | SCALED | AS_FAR | SAME_AXIS, ABOUT_AXIS, "wrong axis", "The axis, normalized,",
+     AXIS, "the numbers of the axis: (1, 2, 0.5)"},
+    {TURNS | MOVED | SCALED | ABOUT_AXIS | SAME_TURN, TURNED, "a constant angle",
+     "The cube is turned, but always by the same angle.", NO_NUMBERS, ANGLE},
+    {TURNS | MOVED | SCALED | ABOUT_AXIS | LINEAR, TURNED, "wrong angle", "The cube turns by", RATE,
+     ANGLE},
+    {TURNS | MOVED | SCALED | ABOUT_AXIS, TURNED, "wrong angle",
+     "The cube is turned by a wrong angle.", NO_NUMBERS, ANGLE},
+};
+
+static void say(const Rule *rule, const Facts *facts, char sentence[VERDICT_SENTENCE_SIZE])
+{
+    const double scale[3] = {2 * facts->factors[0], 0.7 * facts->factors[1],
+                             1.2 * facts->factors[2]};
+    const double *numbers[] = {
+        [SCALE] = scale, [TRANSLATION] = facts->first.move, [AXIS] = facts->first.axis};
+    if (rule->numbers == NO_NUMBERS)
+        snprintf(sentence, VERDICT_SENTENCE_SIZE, "%s", rule->sentence);
+    else if (rule->numbers == RATE)
+        snprintf(sentence, VERDICT_SENTENCE_SIZE, "%s %.4g degrees per second.", rule->sentence,
+                 facts->rate);
+    else
+        snprintf(sentence, VERDICT_SENTENCE_SIZE, "%s is (%.3g, %.3g, %.3g).", rule->sentence,
+                 numbers[rule->numbers][0], numbers[rule->numbers][1], numbers[rule->numbers][2]);
 }
 
 bool matrices_name(const Shots *shots, Verdict *verdict)
 {
-    bool turns = true, moved = true, scaled = true, turned = true, same_move = true;
-    bool same_axis = true, about_axis = true, same_turn = true, linear = true;
-    bool as_far = true, never_set = true, columns = true;
-    double factors[3] = {1, 1, 1}, now[3];
-    Parts first = {.turns = false};
-    double axis[3], rate = 0;
-    Vec3 unit;
-    vec3_normalize(PROBE_AXIS, &unit);
-    axis[0] = unit.x, axis[1] = unit.y, axis[2] = unit.z;
-    for (int i = 0; i < shots->count; i++) {
-        const double seconds = shots->shots[i].probe.seconds;
-        const Mat4 wanted = right_world(seconds);
-        const Parts found = take_apart(&shots->world_from_object[i]), right = take_apart(&wanted);
-        if (i == 0)
-            first = found;
-        columns = columns && column_factors(&shots->world_from_object[i], &wanted, now) &&
-                  (i == 0 || is_near(now, factors));
-        memcpy(factors, now, sizeof factors);
-        never_set &= is_identity(&shots->world_from_object[i]);
-        turns &= found.turns;
-        moved &= is_near(found.move, right.move);
-        scaled &= is_near(found.scale, right.scale);
-        as_far &= fabs(found.degrees - right.degrees) < 0.06;
-        same_move &= is_near(found.move, first.move);
-        same_turn &= fabs(found.degrees - first.degrees) < 0.06;
-        /* Near 0 and 180 degrees the axis cannot be told. */
-        if (found.degrees < 3 || found.degrees > 177)
+    char sentence[VERDICT_SENTENCE_SIZE];
+    const Facts facts = gather_facts(shots);
+    for (size_t i = 0; i < sizeof RULES / sizeof RULES[0]; i++) {
+        const Rule *rule = &RULES[i];
+        if ((facts.true_of_all & rule->all) != rule->all || (facts.true_of_all & rule->none))
             continue;
-        const double sign = found.axis[0] * first.axis[0] + found.axis[1] * first.axis[1] +
-                                        found.axis[2] * first.axis[2] <
-                                    0
-                                ? -1
-                                : 1;
-        const double flipped[3] = {sign * found.axis[0], sign * found.axis[1],
-                                   sign * found.axis[2]};
-        same_axis &= is_near(flipped, first.axis);
-        const double own =
-            found.axis[0] * axis[0] + found.axis[1] * axis[1] + found.axis[2] * axis[2];
-        about_axis &= fabs(fabs(own) - 1) < 1e-5;
-        const double whole = own < 0 ? 360 - found.degrees : found.degrees;
-        if (i == 0)
-            rate = whole / seconds;
-        const double apart = remainder(rate * seconds - whole, 360);
-        turned &= fabs(remainder(whole - DEGREES_PER_SECOND * seconds, 360)) < 0.06;
-        linear &= fabs(apart) < 0.1 + 0.002 * seconds;
+        say(rule, &facts, sentence);
+        verdict_add_mistake(verdict, rule->name, sentence, rule->look, 0.9);
+        snprintf(verdict->message, sizeof verdict->message, "%s", rule->name);
+        return true;
     }
-    const bool good_turn = turned && about_axis;
-    if (never_set)
-        return blame(verdict, "model matrix never set", "The model matrix is still the identity.",
-                     "the assignment to *world_from_model");
-    if (columns && moved && !scaled) {
-        const double found[3] = {2 * factors[0], 0.7 * factors[1], 1.2 * factors[2]};
-        return blame_numbers(verdict, "wrong scale", "The scale", found,
-                             "the numbers of the scale: (2, 0.7, 1.2); in C 7 / 10 is 0");
-    }
-    if (!turns)
-        return false;
-    if (good_turn && scaled && !moved && same_move)
-        return blame_numbers(verdict, "wrong translation", "The translation", first.move,
-                             "the numbers of the translation: (0.5, 0.3, -0.8)");
-    if (moved && scaled && as_far && !about_axis && same_axis)
-        return blame_numbers(verdict, "wrong axis", "The axis, normalized,", first.axis,
-                             "the numbers of the axis: (1, 2, 0.5)");
-    if (moved && scaled && about_axis && !turned && same_turn)
-        return blame(verdict, "a constant angle",
-                     "The cube is turned, but always by the same angle.",
-                     "the angle: 30 degrees times seconds");
-    if (moved && scaled && about_axis && !turned && linear) {
-        char sentence[VERDICT_SENTENCE_SIZE];
-        snprintf(sentence, sizeof sentence, "The cube turns by %.4g degrees per second.", rate);
-        return blame(verdict, "wrong angle", sentence, "the angle: 30 degrees times seconds");
-    }
-    if (moved && scaled && about_axis && !turned)
-        return blame(verdict, "wrong angle", "The cube is turned by a wrong angle.",
-                     "the angle: 30 degrees times seconds");
     return false;
 }

@@ -1,3 +1,6 @@
+/* Whether gl_Position is right. Both the submission and a program that has nothing but u_Clip *
+ * a_Position draw on a green ground; a pixel where only one of them is green is wrong, but for a
+ * few at edges. The submission's light does not count, unless it is the green of the ground. */
 #include "labs/diagnosis/outline.h"
 
 #include "labs/diagnosis/wrong_program.h"
@@ -11,9 +14,18 @@ static bool is_green(const Image *image, int pixel)
     return p[0] == 0 && p[1] == 255 && p[2] == 0;
 }
 
-static bool draw_right(const Shader *shader, const Probe *probe, const SubmissionGeometry *geometry,
-                       Canvas *canvas, Image *image, Message *message)
+/* What draws a right outline, and the submission's. */
+typedef struct Outlines {
+    Shader shader;
+    const Painter *painter;
+    Canvas *canvas;
+} Outlines;
+
+static bool draw_right(const Outlines *of, const Probe *probe, const SubmissionGeometry *geometry,
+                       Image *image, Message *message)
 {
+    const Shader *shader = &of->shader;
+    Canvas *canvas = of->canvas;
     const GLint position = glGetAttribLocation(shader->program, "a_Position");
     const GLint clip = glGetUniformLocation(shader->program, "u_Clip");
     const double aspect = (double)probe->width / probe->height;
@@ -43,9 +55,8 @@ static bool draw_right(const Shader *shader, const Probe *probe, const Submissio
 
 /* *apart: how many pixels are covered neither as by the geometry nor as by the other one, if there
  * is one. */
-static bool compare(const Shader *shader, const Painter *painter, const Probe *original,
-                    const SubmissionGeometry *geometry, const SubmissionGeometry *other,
-                    Canvas *canvas, int *apart, Message *message)
+static bool compare(const Outlines *of, const Probe *original, const SubmissionGeometry *geometry,
+                    const SubmissionGeometry *other, int *apart, Message *message)
 {
     Probe probe = *original; /* its scene's arrays are the original's */
     Image image = {0}, right = {0}, also = {0};
@@ -53,10 +64,10 @@ static bool compare(const Shader *shader, const Painter *painter, const Probe *o
     const bool done =
         image_open(&image, probe.width, probe.height, IMAGE_BYTE, message) &&
         image_open(&right, probe.width, probe.height, IMAGE_BYTE, message) &&
-        painter_draw(painter, &probe, geometry, canvas, &image, message) &&
-        draw_right(shader, &probe, geometry, canvas, &right, message) &&
+        painter_draw(of->painter, &probe, geometry, of->canvas, &image, message) &&
+        draw_right(of, &probe, geometry, &right, message) &&
         (!other || (image_open(&also, probe.width, probe.height, IMAGE_BYTE, message) &&
-                    draw_right(shader, &probe, other, canvas, &also, message)));
+                    draw_right(of, &probe, other, &also, message)));
     *apart = 0;
     for (int p = 0; p < probe.width * probe.height && done; p++)
         *apart += is_green(&image, p) != is_green(&right, p) &&
@@ -73,10 +84,10 @@ bool outline_check(const Shots *shots, const Painter *painter, Canvas *canvas, b
     enum { ROUNDING = 6, FINE = 256 }; /* ROUNDING: pixels, at edges */
     const ShaderLoader loader = {.precision = "highp"};
     const bool budget = shots->lab->budget;
-    Shader shader;
+    Outlines outlines = {.painter = painter, .canvas = canvas};
     Mesh sphere = {.vertex_count = 0};
     *wrong = false;
-    if (!shader_open(&shader, &loader, "labs/outline", message))
+    if (!shader_open(&outlines.shader, &loader, "labs/outline", message))
         return false;
     /* Lab 10: a coarse mesh's outline is right, and the sphere's, which a shader can find. */
     const SubmissionGeometry fine = {.mesh = &sphere};
@@ -84,11 +95,11 @@ bool outline_check(const Shots *shots, const Painter *painter, Canvas *canvas, b
     for (int i = 0; i < shots->count && !*wrong && done; i++) {
         const SubmissionGeometry geometry = shots_geometry(shots, i);
         int apart = 0;
-        done = compare(&shader, painter, &shots->shots[i].probe, &geometry, budget ? &fine : NULL,
-                       canvas, &apart, message);
+        done = compare(&outlines, &shots->shots[i].probe, &geometry, budget ? &fine : NULL, &apart,
+                       message);
         *wrong = apart > ROUNDING;
     }
     mesh_close(&sphere);
-    shader_close(&shader);
+    shader_close(&outlines.shader);
     return done;
 }

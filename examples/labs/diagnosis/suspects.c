@@ -127,18 +127,19 @@ static void cut_tile(const Image *sheet, int number, Image *tile)
 }
 
 /* Keeps the suspects of one sheet whose tile is like the submission's. */
-static int keep_like(bool soft, const Image *sheet, const Image *wanted, Suspect *suspects,
-                     int from, int count, int kept)
+static int keep_like(bool soft, const Image *sheet, const Image *wanted, const Suspect *tried,
+                     int count, Suspect *kept)
 {
+    int kept_count = 0;
     unsigned char pixels[4 * TILE * TILE];
     Image tile = {TILE, TILE, IMAGE_BYTE, pixels};
     for (int i = 0; i < count; i++) {
         cut_tile(sheet, i, &tile);
         const Likeness like = compare_drawn(wanted, &tile, SMALL_TOLERANCE, TILE * TILE, soft);
         if (like.differing <= 2 + SMALL_MATCH * like.pixels)
-            suspects[kept++] = suspects[from + i];
+            kept[kept_count++] = tried[i];
     }
-    return kept;
+    return kept_count;
 }
 
 static bool screen_shot(Lineup *lineup, int shot, Image *sheet, Suspect *suspects, int *count,
@@ -167,7 +168,7 @@ static bool screen_shot(Lineup *lineup, int shot, Image *sheet, Suspect *suspect
         canvas_begin(&lineup->sheet);
         done = canvas_read(&lineup->sheet, sheet, message);
         if (done)
-            kept = keep_like(lineup->soft, sheet, &wanted, suspects, from, part, kept);
+            kept += keep_like(lineup->soft, sheet, &wanted, suspects + from, part, suspects + kept);
     }
     probe_buffers_close(&buffers);
     image_close(&wanted);

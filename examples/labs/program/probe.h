@@ -54,19 +54,48 @@ typedef struct Probe {
     double fitted[PROBE_MAX_OBJECTS]; /* lab 7: Blinn-Phong's exponent for the object's */
 } Probe;
 
-/* The known form of a scene. False, with a message: out of memory. */
-bool probe_open_known(Probe *probe, const Lab *lab, ProbeKind kind, Message *message);
-
-/* The form of a seed. */
-bool probe_open_seed(Probe *probe, const Lab *lab, ProbeKind kind, uint64_t seed, Message *message);
-
-/* The scene of the lab's program at a time. */
-bool probe_open_usual(Probe *probe, const Lab *lab, double seconds, Message *message);
-
 /* Lab 3's model matrix is move * turn * scale; the turn is about PROBE_AXIS, by DEGREES_PER_SECOND.
  */
 extern const Vec3 PROBE_AXIS;
 void probe_world_parts(double seconds, Mat4 *move, Mat4 *turn, Mat4 *scale);
+Mat4 probe_world(double seconds);
+
+/* What scenes are made of. */
+
+/* The flat ones come first. */
+typedef enum ProbeShape {
+    SHAPE_OF_CUBE,
+    SHAPE_OF_CUBE_ON_CORNER, /* lab 3: scaling along the axes tilts its faces */
+    SHAPE_OF_ICOSAHEDRON,
+    SHAPE_OF_DODECAHEDRON,
+    SHAPE_OF_OCTAHEDRON,
+    SHAPE_OF_QUAD,
+    SHAPE_OF_TUBE, /* an open cylinder of flat strips */
+    SHAPE_OF_BALL,
+    SHAPE_OF_COARSE_BALL,
+    SHAPE_OF_TORUS,
+    SHAPE_OF_SPHERE, /* lab 10: compared with the exact sphere of radius 1 */
+} ProbeShape;
+
+/* Of an object; `back` counts if the lab has two sides. */
+typedef struct ProbeSurface {
+    Vec3 color, specular, back;
+    double shininess;
+} ProbeSurface;
+
+/* A scene without objects. */
+void probe_begin(Probe *probe, const Lab *lab, ProbeKind kind);
+
+/* A light at, or from, this place. */
+void probe_set_light(Probe *probe, int i, Vec3 place, Vec3 color);
+
+/* The cone of lab 8's light, aimed at a point. */
+void probe_set_spot(Probe *probe, Vec3 at, double cutoff, double exponent);
+
+bool probe_add_object(Probe *probe, ProbeShape shape, Mat4 world_from_object, Message *message);
+
+/* Of object i. */
+void probe_set_material(Probe *probe, const Lab *lab, int i, const ProbeSurface *surface);
 
 /* NULL or zeroed is fine. */
 void probe_close(Probe *probe);

@@ -128,7 +128,7 @@ static double patience(double seconds)
 }
 
 bool sandbox_start(const Sandbox *sandbox, SandboxRun *run, int slot, const char *const arguments[],
-                   const SandboxInput *inputs, int count, Message *message)
+                   SandboxInputs inputs, Message *message)
 {
     char user[16], seconds[32], place[32];
     Words words = {.count = 0}, files = {.count = 0};
@@ -139,12 +139,12 @@ bool sandbox_start(const Sandbox *sandbox, SandboxRun *run, int slot, const char
     if (sandbox->bubblewrap)
         bubblewrap_begin(&words, (const char *const[]){sandbox->program, sandbox->folder, NULL},
                          SANDBOX_FOLDER << 20);
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < inputs.count; i++) {
         snprintf(place, sizeof place, "/submission/%d", i);
-        const char *seen = sandbox->bubblewrap ? place : inputs[i].path;
-        words_add(&files, (const char *const[]){seen, inputs[i].name, NULL});
+        const char *seen = sandbox->bubblewrap ? place : inputs.items[i].path;
+        words_add(&files, (const char *const[]){seen, inputs.items[i].name, NULL});
         if (sandbox->bubblewrap)
-            bubblewrap_bind(&words, inputs[i].path, place);
+            bubblewrap_bind(&words, inputs.items[i].path, place);
     }
     if (sandbox->bubblewrap)
         bubblewrap_end(&words);
@@ -153,7 +153,7 @@ bool sandbox_start(const Sandbox *sandbox, SandboxRun *run, int slot, const char
     words_add(&words, (const char *const[]){sandbox->program, "--inside", arguments[0], user,
                                             seconds, run->folder[0] ? run->folder : "/tmp", NULL});
     words_add(&words, arguments + 1);
-    if (count > 0)
+    if (inputs.count > 0)
         words_add(&words, (const char *const *)files.words);
     run->start = clock_now();
     run->deadline = run->start + patience(sandbox->seconds);
@@ -336,7 +336,7 @@ static bool prove(Sandbox *sandbox, const char *hidden, Message *message)
         return message_set(message, "%s", strerror(errno));
     bool done = sandbox_start(sandbox, &run, 0,
                               (const char *const[]){"prove", hidden, port, sandbox->folder, NULL},
-                              NULL, 0, message);
+                              (SandboxInputs){NULL, 0}, message);
     while (run.running)
         sandbox_wait(runs, 1, 1);
     if (done && sandbox_end(&run) != SANDBOX_DONE) {

@@ -64,10 +64,14 @@ typedef enum SandboxSource {
     SOURCE_ARCHIVE, /* an archive of such a folder */
 } SandboxSource;
 
-/* A file or folder that the process may read, and what the student calls it. */
+/* Files or a folder that the process may read, and what the student calls them. */
 typedef struct SandboxInput {
     const char *path, *name;
 } SandboxInput;
+typedef struct SandboxInputs {
+    const SandboxInput *items;
+    int count;
+} SandboxInputs;
 
 /* One process, running or ended. Zeroed: none.
  *
@@ -90,7 +94,7 @@ typedef struct SandboxRun {
  * 0 to SANDBOX_RUNS_MAX - 1. The process ends, if not by the processor time that it may use, at one
  * deadline. */
 bool sandbox_start(const Sandbox *sandbox, SandboxRun *run, int slot, const char *const arguments[],
-                   const SandboxInput *inputs, int count, Message *message);
+                   SandboxInputs inputs, Message *message);
 
 /* Reads the runs' output and kills those past their deadline, until one has ended, a signal
  * arrives, or `seconds` have passed. */

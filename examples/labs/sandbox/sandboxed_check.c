@@ -21,7 +21,7 @@ bool sandboxed_check_start(const Sandbox *sandbox, SandboxRun *run, int slot,
     snprintf(kind, sizeof kind, "%d", (int)check->kind);
     return sandbox_start(sandbox, run, slot,
                          (const char *const[]){"check", check->lab->name, seed, kind, NULL},
-                         check->inputs, check->count, message);
+                         check->inputs, message);
 }
 
 static void explain_end(const SandboxRun *run, double limit, Verdict *verdict)
@@ -94,7 +94,7 @@ bool sandboxed_check(const JudgeOptions *options, const char *folder, double lim
     SandboxRun run = {.pipe = -1};
     SandboxRun *const runs[] = {&run};
     const SandboxInput input = {folder, ""};
-    const SandboxedCheck check = {options->lab, options->seed, SOURCE_EXACT, &input, 1};
+    const SandboxedCheck check = {options->lab, options->seed, SOURCE_EXACT, {&input, 1}};
     /* A fault of the folder needs no sandbox, and is said with its name. */
     if (!submission_files_open(&files, options->lab, folder, &why)) {
         verdict_refuse(verdict, options->seed, &why);

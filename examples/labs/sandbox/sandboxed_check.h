@@ -12,8 +12,7 @@ typedef struct SandboxedCheck {
     const Lab *lab;
     uint64_t seed;
     SandboxSource kind;
-    const SandboxInput *inputs;
-    int count;
+    SandboxInputs inputs;
 } SandboxedCheck;
 
 bool sandboxed_check_start(const Sandbox *sandbox, SandboxRun *run, int slot,

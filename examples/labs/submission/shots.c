@@ -1,5 +1,7 @@
 #include "labs/submission/shots.h"
 
+#include "labs/program/probe_open.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -234,10 +236,10 @@ static bool check_place(const Shots *shots, const Painter *painter, Canvas *canv
     bool done = open_exact(&exact, &probe, &scene, !budget, message);
     if (budget)
         objects[0].mesh = &shots->mesh;
-    done =
-        done && (!budget || open_exact(&mask, &probe, &scene, true, message)) &&
-        image_open(&image, place.width, place.height, IMAGE_BYTE, message) &&
-        painter_draw_at(painter, &probe, &geometry, canvas, place.left, place.top, &image, message);
+    done = done && (!budget || open_exact(&mask, &probe, &scene, true, message)) &&
+           image_open(&image, place.width, place.height, IMAGE_BYTE, message) &&
+           painter_draw_at(painter, &probe, &geometry, (PainterView){canvas, place.left, place.top},
+                           &image, message);
     if (done && compare_exact(&image, &exact, budget ? &mask : NULL).maximum >
                     (budget ? BUDGET_TOLERANCE : COMPARE_TOLERANCE))
         *right = false;

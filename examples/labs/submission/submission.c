@@ -135,7 +135,7 @@ bool submission_compile(Shader *shader, const Lab *lab, const SubmissionFiles *f
     return shader_open(shader, &loader, lab->file, message);
 }
 
-static bool draw_object(const Lab *lab, GLuint program, const Probe *probe, int i,
+static bool draw_object(const Painter *painter, const Probe *probe, int i,
                         const SubmissionGeometry *geometry, const ProbeMap *map, Message *message)
 {
     MeshBuffer mesh;
@@ -148,7 +148,7 @@ static bool draw_object(const Lab *lab, GLuint program, const Probe *probe, int 
     const Mesh *shape = geometry->mesh ? geometry->mesh : probe->objects[i].mesh;
     if (!mesh_buffer_open(&mesh, shape, message))
         return false;
-    const bool done = binding_draw(lab, program, &mesh, &drawn, message);
+    const bool done = binding_draw(painter->lab, painter->program, &mesh, &drawn, message);
     mesh_buffer_close(&mesh);
     return done;
 }
@@ -159,19 +159,20 @@ static bool paint(const Painter *painter, const Probe *probe, const SubmissionGe
     ProbeMap map;
     bool done = probe_map_open(&map, probe, message);
     for (int i = 0; i < probe->scene.object_count && done; i++)
-        done = draw_object(painter->lab, painter->program, probe, i, geometry, &map, message);
+        done = draw_object(painter, probe, i, geometry, &map, message);
     probe_map_close(&map);
     return done;
 }
 
-static bool read_part(const Canvas *canvas, int left, int top, Image *image, Message *message)
+static bool read_part(PainterView view, Image *image, Message *message)
 {
+    const int left = view.left, top = view.top;
     Image whole;
     if (left == 0 && top == 0)
-        return canvas_read(canvas, image, message);
+        return canvas_read(view.canvas, image, message);
     if (!image_open(&whole, left + image->width, top + image->height, IMAGE_BYTE, message))
         return false;
-    const bool done = canvas_read(canvas, &whole, message);
+    const bool done = canvas_read(view.canvas, &whole, message);
     for (int y = 0; y < image->height && done; y++)
         memcpy((unsigned char *)image->pixels + 4 * (size_t)y * (size_t)image->width,
                (const unsigned char *)whole.pixels +
@@ -182,23 +183,23 @@ static bool read_part(const Canvas *canvas, int left, int top, Image *image, Mes
 }
 
 bool painter_draw_at(const Painter *painter, const Probe *probe, const SubmissionGeometry *geometry,
-                     Canvas *canvas, int left, int top, Image *image, Message *message)
+                     PainterView view, Image *image, Message *message)
 {
-    if (!canvas_resize(canvas, left + probe->width, top + probe->height, message))
+    if (!canvas_resize(view.canvas, view.left + probe->width, view.top + probe->height, message))
         return false;
-    canvas_clear(canvas, probe->scene.background, 1);
-    canvas_view(canvas, left, top, probe->width, probe->height);
+    canvas_clear(view.canvas, probe->scene.background, 1);
+    canvas_view(view.canvas, view.left, view.top, probe->width, probe->height);
     glEnable(GL_DEPTH_TEST);
     if (geometry->cull)
         glEnable(GL_CULL_FACE);
     const bool done = painter->paint ? painter->paint(painter, probe, geometry, message)
                                      : paint(painter, probe, geometry, message);
     glDisable(GL_CULL_FACE);
-    return done && read_part(canvas, left, top, image, message);
+    return done && read_part(view, image, message);
 }
 
 bool painter_draw(const Painter *painter, const Probe *probe, const SubmissionGeometry *geometry,
                   Canvas *canvas, Image *image, Message *message)
 {
-    return painter_draw_at(painter, probe, geometry, canvas, 0, 0, image, message);
+    return painter_draw_at(painter, probe, geometry, (PainterView){canvas, 0, 0}, image, message);
 }

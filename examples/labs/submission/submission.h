@@ -66,8 +66,12 @@ typedef struct Painter {
 bool painter_draw(const Painter *painter, const Probe *probe, const SubmissionGeometry *geometry,
                   Canvas *canvas, Image *image, Message *message);
 
-/* The same into a rectangle of a larger canvas, whose upper left pixel is (left, top). */
+/* The same into a rectangle of a larger canvas. */
+typedef struct PainterView {
+    Canvas *canvas;
+    int left, top; /* of its upper left pixel */
+} PainterView;
 bool painter_draw_at(const Painter *painter, const Probe *probe, const SubmissionGeometry *geometry,
-                     Canvas *canvas, int left, int top, Image *image, Message *message);
+                     PainterView view, Image *image, Message *message);
 
 #endif

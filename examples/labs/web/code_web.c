@@ -10,13 +10,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool code_matrices(const Lab *lab, const char *text, const char *folder, const double *seconds,
-                   int count, CodeMatrices *matrices, Verdict *verdict, Message *message)
+bool code_matrices(const Code *code, const double *seconds, int count, CodeMatrices *matrices,
+                   Message *message)
 {
-    (void)text, (void)folder, (void)seconds, (void)count, (void)matrices, (void)verdict;
+    (void)seconds, (void)count, (void)matrices;
     return message_set(message,
                        "%s: the browser compiles no C; check natively: examples/run check %s mine",
-                       lab->code, lab->name);
+                       code->lab->code, code->lab->name);
 }
 
 /* Skips white space, comments and #include. */
@@ -168,12 +168,10 @@ static int line_of(const char *text, const char *at)
     return line;
 }
 
-bool code_budget(const Lab *lab, const char *text, const char *folder, LabBudget *budget,
-                 Verdict *verdict, Message *message)
+bool code_budget(const Code *code, LabBudget *budget, Message *message)
 {
     Constants constants = {.count = 0};
-    const char *at = text, *before = text;
-    (void)folder;
+    const char *at = code->text, *before = code->text;
     *budget = (LabBudget){.slices = 16, .stacks = 16};
     bool done = true;
     while (done && *next_token(at) == '#') {
@@ -197,12 +195,12 @@ bool code_budget(const Lab *lab, const char *text, const char *folder, LabBudget
         return message_set(message,
                            "%s:%d: error: the browser compiles no C; it reads lines like "
                            "budget->slices = 64; and what is more is for the native check",
-                           lab->code, line_of(text, next_token(done ? at : before)));
+                           code->lab->code, line_of(code->text, next_token(done ? at : before)));
     if (budget->slices >= 3 && budget->slices <= 512 && budget->stacks >= 2 &&
         budget->stacks <= 512)
         return true;
-    verdict->kind = VERDICT_ERROR;
-    snprintf(verdict->message, sizeof verdict->message,
-             "%s: slices must be 3 to 512, stacks 2 to 512", lab->code);
+    code->verdict->kind = VERDICT_ERROR;
+    snprintf(code->verdict->message, sizeof code->verdict->message,
+             "%s: slices must be 3 to 512, stacks 2 to 512", code->lab->code);
     return false;
 }

@@ -3,6 +3,7 @@
 #include "labs/check/code.h"
 #include "labs/check/judge.h"
 #include "labs/check/judge_pictures.h"
+#include "labs/program/probe_open.h"
 #include "labs/web/judge_files_web.h"
 #include "labs/web/verdict_text.h"
 #include "study/results/json.h"
@@ -168,8 +169,9 @@ static bool choose(Probe *probe, SubmissionGeometry *geometry)
     verdict.message[0] = '\0';
     if (!submission_files_open(&files, page.lab, FOLDER, &page.message))
         return false;
-    const char *text = submission_file(&files, page.lab->code);
-    const bool read = code_budget(page.lab, text, NULL, &budget, &verdict, &page.message) ||
+    const Code code = {
+        .lab = page.lab, .text = submission_file(&files, page.lab->code), .verdict = &verdict};
+    const bool read = code_budget(&code, &budget, &page.message) ||
                       (verdict.message[0] && message_set(&page.message, "%s", verdict.message));
     submission_files_close(&files);
     if (!read)
