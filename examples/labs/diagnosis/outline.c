@@ -3,7 +3,7 @@
  * few at edges. The submission's light does not count, unless it is the green of the ground. */
 #include "labs/diagnosis/outline.h"
 
-#include "labs/diagnosis/wrong_program.h"
+#include "labs/submission/probe_buffers.h"
 
 /* The background is a colour that neither draws. */
 static const Vec3 GREEN = {0, 1, 0};

@@ -6,7 +6,7 @@
 #define WRONG_PROGRAM_H
 
 #include "labs/diagnosis/catalogue.h"
-#include "labs/submission/submission.h"
+#include "labs/submission/probe_buffers.h"
 
 enum { WRONG_PROGRAM_UNIFORMS = 57 };
 
@@ -19,16 +19,6 @@ typedef struct WrongProgram {
 /* Loads shaders/labs/catalogue, with or without shadows. */
 bool wrong_program_open(WrongProgram *program, const Lab *lab, Message *message);
 void wrong_program_close(WrongProgram *program);
-
-/* A probe's meshes, uploaded once for many draw calls. */
-typedef struct ProbeBuffers {
-    MeshBuffer buffers[PROBE_MAX_OBJECTS];
-    bool cull; /* back faces */
-    ProbeMap map;
-} ProbeBuffers;
-bool probe_buffers_open(ProbeBuffers *buffers, const Probe *probe,
-                        const SubmissionGeometry *geometry, Message *message);
-void probe_buffers_close(ProbeBuffers *buffers);
 
 /* Draws a probe with these choices into the canvas's current view, which is cleared. False: the
  * camera is degenerate. */
