@@ -3,7 +3,10 @@
 #include "base/memory.h"
 #include "base/output.h"
 #include "labs/sandbox/png_copy.h"
+#include "labs/submission/text_file.h"
+#include "labs/submission/verdict_fields.h"
 #include "labs/submission/verdict_json.h"
+#include "study/results/json.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -195,24 +198,28 @@ bool class_result_is_worse(const ClassResult *next, const ClassResult *old)
     return next->verdict.points < old->verdict.points;
 }
 
+void class_result_put(FILE *file, const ClassResult *result)
+{
+    verdict_put(file, &result->verdict, result->lab);
+    fputs(",\n  \"student\": ", file);
+    json_put_string(file, result->student);
+    fputs(",\n  \"id\": ", file);
+    json_put_string(file, result->id);
+    fprintf(file, ",\n  \"attempt\": %d,\n  \"finished\": %s", result->attempt,
+            result->finished ? "true" : "false");
+}
+
 static bool write_result(const char *path, const ClassResult *result, Message *message)
 {
-    char hash[32];
-    snprintf(hash, sizeof hash, "%016" PRIx64, result->hash);
-    json_t *object = verdict_to_json(&result->verdict, result->lab);
-    json_t *own =
-        json_pack("{s:s, s:s, s:i, s:s, s:b, s:f, s:I}", "student", result->student, "id",
-                  result->id, "attempt", result->attempt, "hash", hash, "finished",
-                  (int)result->finished, "limit", result->limit, "when", (json_int_t)result->when);
-    char *text = object && own && json_object_update(object, own) == 0
-                     ? json_dumps(object, JSON_INDENT(2) | JSON_REAL_PRECISION(9))
-                     : NULL;
-    json_decref(object);
-    json_decref(own);
-    const bool done = text ? output_write(path, text, strlen(text), message)
-                           : message_set(message, "%s: %s", path, strerror(ENOMEM));
-    free(text);
-    return done;
+    TextFile out;
+    if (!text_file_open(&out, NULL, path, message))
+        return false;
+    fputs("{\n  ", out.file);
+    class_result_put(out.file, result);
+    fprintf(out.file,
+            ",\n  \"hash\": \"%016" PRIx64 "\",\n  \"limit\": %.9g,\n  \"when\": %lld\n}\n",
+            result->hash, result->limit, result->when);
+    return text_file_close(&out, message);
 }
 
 /* Writes the result's picture; if it is invalid, the result names none. */

@@ -46,6 +46,9 @@ bool class_store_path(const char *store, const char *folder, const char *name, c
 /* The result of a folder; NULL: none. Valid until the next class_store_put. */
 ClassResult *class_store_find(const ClassStore *store, const char *folder);
 
+/* Writes a result's members as JSON, without the braces. */
+void class_result_put(FILE *file, const ClassResult *result);
+
 /* Whether a submission need not be judged again: its result is finished, or timed out after at
  * least `limit` seconds. */
 bool class_result_stands(const ClassResult *result, const char *lab, uint64_t hash, double limit);

@@ -1,19 +1,12 @@
 #include "labs/class/class_table.h"
 
 #include "base/memory.h"
-#include "base/output.h"
 #include "base/template.h"
-#include "labs/submission/verdict_json.h"
+#include "labs/submission/text_file.h"
+#include "study/results/json.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-
-static bool file_path(const char *folder, const char *name, char path[PATH_MAX], Message *message)
-{
-    return snprintf(path, PATH_MAX, "%s/%s", folder, name) < PATH_MAX ||
-           message_set(message, "%s: %s", folder, strerror(ENAMETOOLONG));
-}
 
 static int by_count(const void *a, const void *b)
 {
@@ -88,70 +81,56 @@ static void put_row(FILE *file, const ClassResult *result)
 
 bool class_table_csv(const ClassStore *store, Message *message)
 {
-    char path[PATH_MAX];
-    char *text = NULL;
-    size_t size = 0;
-    FILE *file =
-        file_path(store->folder, "class.csv", path, message) ? open_memstream(&text, &size) : NULL;
-    if (!file)
+    TextFile out;
+    if (!text_file_open(&out, store->folder, "class.csv", message))
         return false;
     fputs("student,id,attempt,lab,points,most,verdict,mistakes,message,error,time_ratio,operations,"
           "seconds,folder\r\n",
-          file);
+          out.file);
     for (int i = 0; i < store->count; i++)
-        put_row(file, &store->results[i]);
-    const bool done = fclose(file) == 0 ? output_write(path, text, size, message)
-                                        : message_set(message, "%s: not enough memory", path);
-    free(text);
-    return done;
+        put_row(out.file, &store->results[i]);
+    return text_file_close(&out, message);
 }
 
-/* Takes over `object`. */
-static bool write_json(json_t *object, const char *folder, const char *name, Message *message)
+static void put_member(FILE *file, const char *start, const char *name, const char *text)
 {
-    char path[PATH_MAX];
-    char *text = object ? json_dumps(object, JSON_INDENT(2) | JSON_REAL_PRECISION(9)) : NULL;
-    json_decref(object);
-    const bool done = text ? file_path(folder, name, path, message) &&
-                                 output_write(path, text, strlen(text), message)
-                           : message_set(message, "%s: %s", name, strerror(ENOMEM));
-    free(text);
-    return done;
+    fprintf(file, "%s\"%s\": ", start, name);
+    json_put_string(file, text);
 }
 
 bool class_table_json(const ClassStore *store, Message *message)
 {
     int count;
-    json_t *students = json_array(), *mistakes = json_array();
+    TextFile out;
+    if (!text_file_open(&out, store->folder, "class.json", message))
+        return false;
     ClassMistake *made = class_mistakes(store, &count);
-    for (int i = 0; i < count; i++)
-        json_array_append_new(
-            mistakes, json_pack("{s:s, s:i}", "name", made[i].name, "students", made[i].count));
-    free(made);
-    for (int i = 0; i < store->count; i++) {
-        const ClassResult *result = &store->results[i];
-        json_t *object = verdict_to_json(&result->verdict, result->lab);
-        json_object_set_new(object, "student", json_string(result->student));
-        json_object_set_new(object, "id", json_string(result->id));
-        json_object_set_new(object, "attempt", json_integer(result->attempt));
-        json_object_set_new(object, "folder", json_string(result->folder));
-        json_object_set_new(object, "finished", json_boolean(result->finished));
-        json_array_append_new(students, object);
+    put_member(out.file, "{", "lab", store->count ? store->results[0].lab : "");
+    fputs(",\n\"mistakes\": [", out.file);
+    for (int i = 0; i < count; i++) {
+        put_member(out.file, i ? ",\n  {" : "\n  {", "name", made[i].name);
+        fprintf(out.file, ", \"students\": %d}", made[i].count);
     }
-    return write_json(json_pack("{s:s, s:o, s:o}", "lab", store->count ? store->results[0].lab : "",
-                                "mistakes", mistakes, "students", students),
-                      store->folder, "class.json", message);
+    free(made);
+    fputs("],\n\"students\": [", out.file);
+    for (int i = 0; i < store->count; i++) {
+        fputs(i ? ",\n {" : "\n {", out.file);
+        class_result_put(out.file, &store->results[i]);
+        put_member(out.file, ",\n  ", "folder", store->results[i].folder);
+        fputc('}', out.file);
+    }
+    fputs("]}\n", out.file);
+    return text_file_close(&out, message);
 }
 
-/* Everything said about a submission, as lines of plain text, which the caller frees; NULL: out of
- * memory. */
+/* Everything said about a submission, as lines of plain text, which the caller frees. */
 static char *advice_text(const Verdict *verdict)
 {
     char *text = NULL;
     size_t size = 0;
     FILE *file = open_memstream(&text, &size);
     if (!file)
-        return NULL;
+        return memory_text(verdict->message);
     fprintf(file, "%s\n", verdict->message);
     for (int i = 0; i < verdict->mistake_count; i++)
         fprintf(file, "%s\nLook at %s.\n", verdict->mistakes[i].sentence,
@@ -159,10 +138,8 @@ static char *advice_text(const Verdict *verdict)
     for (int i = 0; i < verdict->symptom_count; i++)
         fprintf(file, "%s\n", verdict->symptoms[i]);
     fputs(verdict->details, file);
-    if (fclose(file) == 0)
-        return text;
-    free(text);
-    return NULL;
+    fclose(file);
+    return text;
 }
 
 static void add_case(TemplateValues *suite, const ClassResult *result)
@@ -180,7 +157,7 @@ static void add_case(TemplateValues *suite, const ClassResult *result)
     template_set(fault, "points", "%g", verdict->points);
     template_set(fault, "most", "%d", VERDICT_MAX_POINTS);
     template_set(fault, "message", "%s", verdict->message);
-    template_set(fault, "text", "%s", text ? text : "");
+    template_set(fault, "text", "%s", text);
     free(text);
 }
 
@@ -202,45 +179,50 @@ bool class_table_junit(const ClassStore *store, Message *message)
     template_set(suite, "failures", "%d", wrong);
     template_set(suite, "errors", "%d", errors);
     template_set(suite, "time", "%.3f", seconds);
-    const bool done = file_path(store->folder, "junit.xml", path, message) &&
-                      template_write("examples/labs/class/class_junit.xml", suite, path, message);
+    const bool done =
+        snprintf(path, sizeof path, "%s/junit.xml", store->folder) < (int)sizeof path
+            ? template_write("examples/labs/class/class_junit.xml", suite, path, message)
+            : message_set(message, "%s: the path is too long", store->folder);
     template_close(suite);
     return done;
 }
 
 /* The scenes as tests without points of their own. */
-static json_t *gradescope_tests(const Verdict *verdict)
+static void put_tests(FILE *file, const Verdict *verdict)
 {
-    json_t *tests = json_array();
     for (int i = 0; i < verdict->probe_count; i++) {
         const VerdictProbe *probe = &verdict->probes[i];
         char name[80], output[120];
         snprintf(name, sizeof name, "scene %s, %s, %dx%d, at %.3f s", probe->name,
                  probe->known ? "known" : "of a seed", probe->width, probe->height, probe->seconds);
         snprintf(output, sizeof output, "largest error: %.2f steps of 1/255", probe->maximum);
-        json_array_append_new(tests, json_pack("{s:s, s:s, s:s, s:s}", "name", name, "status",
-                                               probe->passed ? "passed" : "failed", "output",
-                                               output, "visibility", "visible"));
+        put_member(file, i ? ",\n    {" : "\n    {", "name", name);
+        put_member(file, ", ", "status", probe->passed ? "passed" : "failed");
+        put_member(file, ", ", "output", output);
+        put_member(file, ", ", "visibility", "visible");
+        fputc('}', file);
     }
-    return tests;
 }
 
 static bool write_gradescope(const ClassStore *store, const ClassResult *result, Message *message)
 {
     char folder[PATH_MAX];
+    TextFile out;
     const Verdict *verdict = &result->verdict;
-    if (!class_store_path(store->folder, result->folder, NULL, folder, message))
+    if (!class_store_path(store->folder, result->folder, NULL, folder, message) ||
+        !text_file_open(&out, folder, "results.json", message))
         return false;
     char *text = advice_text(verdict);
-    if (!text)
-        return message_set(message, "%s: %s", result->folder, strerror(ENOMEM));
-    json_t *object = json_pack(
-        "{s:f, s:f, s:s, s:s, s:s, s:o, s:{s:s, s:s, s:I}}", "score", verdict->points,
-        "execution_time", verdict->seconds, "output", text, "output_format", "text", "visibility",
-        "visible", "tests", gradescope_tests(verdict), "extra_data", "lab", result->lab, "verdict",
-        VERDICT_NAMES[verdict->kind], "seed", (json_int_t)verdict->seed);
+    fprintf(out.file, "{\"score\": %.9g, \"execution_time\": %.9g", verdict->points,
+            verdict->seconds);
+    put_member(out.file, ",\n  ", "output", text);
+    fputs(",\n  \"output_format\": \"text\", \"visibility\": \"visible\", \"tests\": [", out.file);
+    put_tests(out.file, verdict);
+    put_member(out.file, "],\n  \"extra_data\": {", "lab", result->lab);
+    put_member(out.file, ", ", "verdict", VERDICT_NAMES[verdict->kind]);
+    fprintf(out.file, ", \"seed\": %llu}}\n", (unsigned long long)verdict->seed);
     free(text);
-    return write_json(object, folder, "results.json", message);
+    return text_file_close(&out, message);
 }
 
 bool class_table_gradescope(const ClassStore *store, Message *message)

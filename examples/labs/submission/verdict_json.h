@@ -17,10 +17,8 @@ enum { VERDICT_JSON_MAX = 256 << 10 }; /* bytes */
  * writing direction are removed, and long texts are cut. */
 bool verdict_read(const void *bytes, size_t size, char lab[64], Verdict *verdict, Message *message);
 
-/* The same from an object; and an object from a verdict. NULL: out of memory. Bytes that are not
- * UTF-8 become the replacement character; infinities and NaN become null. */
+/* The same from an object. */
 bool verdict_from_json(const json_t *object, char lab[64], Verdict *verdict, Message *message);
-json_t *verdict_to_json(const Verdict *verdict, const char *lab);
 
 /* Writes a verdict on the folder `submission` to a file or "-", whole or not at all. */
 bool verdict_write(const Verdict *verdict, const Lab *lab, const char *submission, const char *path,

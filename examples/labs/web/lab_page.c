@@ -4,8 +4,8 @@
 #include "labs/check/judge.h"
 #include "labs/check/judge_pictures.h"
 #include "labs/program/probe_open.h"
+#include "labs/submission/verdict_fields.h"
 #include "labs/web/judge_files_web.h"
-#include "labs/web/verdict_text.h"
 #include "study/results/json.h"
 
 #include <stdio.h>
@@ -278,6 +278,27 @@ int page_height(void)
     return page.shown.height;
 }
 
+/* As JSON, and as what `check` prints. */
+static const char *put_verdict(const Verdict *verdict)
+{
+    char *printed = NULL;
+    size_t size;
+    FILE *file = open_memstream(&printed, &size);
+    if (file) {
+        verdict_print(verdict, page.lab, NULL, file);
+        fclose(file);
+    }
+    file = text_begin();
+    if (file) {
+        fputc('{', file);
+        verdict_put(file, verdict, page.lab->name);
+        put_pair(file, ", ", "text", printed ? printed : "");
+        fputc('}', file);
+    }
+    free(printed);
+    return text_end(file);
+}
+
 const char *page_check(double seed)
 {
     static Verdict verdict; /* large */
@@ -300,10 +321,7 @@ const char *page_check(double seed)
     if (!done)
         return "";
     judge_take_sheet(&page.shown);
-    FILE *file = text_begin();
-    if (file)
-        verdict_put(file, &verdict, page.lab);
-    return text_end(file);
+    return put_verdict(&verdict);
 }
 
 void page_close(void)
