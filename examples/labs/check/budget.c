@@ -1,3 +1,7 @@
+/* The cost of a picture is its operations: those of a vertex times the vertices plus those of a
+ * fragment times the pixels, twice without culling, because then back faces cover them again. It is
+ * counted for the chapter's own program in the same way, so the ratio is the same on all machines;
+ * the time, of frames that alternate, is only told. */
 #include "labs/check/budget.h"
 
 #include "base/clock.h"

@@ -1,3 +1,6 @@
+/* Draw, compare, explain: the submission is drawn in all scenes and compared with the exact
+ * pictures inside the objects; then its outline, other sizes, its text and its own precision are
+ * looked at; only what is wrong is diagnosed. */
 #include "labs/check/judge.h"
 
 #include "base/clock.h"

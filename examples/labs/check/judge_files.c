@@ -1,3 +1,4 @@
+/* Pictures as files. */
 #include "base/output.h"
 #include "images/image_file.h"
 #include "labs/check/judge.h"

@@ -1,3 +1,4 @@
+/* Pictures side by side, enlarged until they are large enough to see pixels. */
 #include "labs/check/judge_pictures.h"
 
 #include <math.h>

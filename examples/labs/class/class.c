@@ -1,3 +1,4 @@
+/* `check --class` and `--merge` from the command line to the exit code. */
 #include "labs/class/class.h"
 
 #include "app/options.h"

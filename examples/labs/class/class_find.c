@@ -1,3 +1,5 @@
+/* A name is matched against the patterns of platforms, the most special first; what then has one
+ * student's name and number is one submission. */
 #include "labs/class/class_find.h"
 
 #include "labs/sandbox/source.h"

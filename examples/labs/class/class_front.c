@@ -1,3 +1,5 @@
+/* Of two costs, operations and error, neither is worth more: a result is efficient if no other has
+ * less of one and no more of the other, compared pair by pair. */
 #include "labs/class/class_front.h"
 
 #include "study/report/report_gnuplot.h"

@@ -1,3 +1,4 @@
+/* A table of options. */
 #include "labs/class/class_options.h"
 
 #include "app/arguments.h"

@@ -1,3 +1,5 @@
+/* A result is a file of its own, written whole, so that a run that ends at any moment loses at most
+ * what it was judging, and the next one goes on with the rest. */
 #include "labs/class/class_store.h"
 
 #include "base/memory.h"

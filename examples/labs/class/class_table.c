@@ -1,3 +1,5 @@
+/* Each table is written in memory and becomes a file at once; text of students is escaped as its
+ * format wants it. */
 #include "labs/class/class_table.h"
 
 #include "base/memory.h"

@@ -1,3 +1,5 @@
+/* The mistakes, with the labs where they can be made, their forms as choices, and what is said of
+ * them. Below are the forms of a lab, alone, as numbers and in pairs. */
 #include "labs/diagnosis/catalogue.h"
 
 #include <stdlib.h>

@@ -1,3 +1,10 @@
+/* Mistakes are told by their pictures: a suspect is drawn by wrong_program in the submission's own
+ * scenes, and stays if its pictures are the submission's. Several hundred suspects, and thousands
+ * of pairs, are first drawn as pictures of 32 x 32 pixels, 256 to a sheet, which rules out nearly
+ * all; the rest is drawn in full, the worst scenes first. A match has to explain: to be far nearer
+ * to the submission than either is to the right picture, because what changes next to nothing
+ * matches everything. The value of a wrong number is where the distance is least, found by steps
+ * that become smaller. */
 #include "labs/diagnosis/suspects.h"
 
 #include <math.h>

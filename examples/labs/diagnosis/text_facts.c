@@ -1,3 +1,7 @@
+/* Some faults are in the text alone: an index beyond an array, a varying that is never set, a
+ * colour that is never written draw one thing here and another elsewhere. Each is searched for as
+ * words beside words, in a text without comments, and only in the forms that students write: what
+ * is written in another way is not found, but nothing else is taken for it. */
 #include "labs/diagnosis/text_facts.h"
 
 #include "base/memory.h"

@@ -1,3 +1,5 @@
+/* One program draws every mistake, because compiling hundreds would take minutes: its shaders
+ * branch on uniforms, whose values are the choices (catalogue_choices.def). */
 #include "labs/diagnosis/wrong_program.h"
 
 #include "base/memory.h"

@@ -1,3 +1,5 @@
+/* The interface is a list of values by name; a program's active uniforms are looked up in it, never
+ * the other way round, so that a program may leave any of them out. */
 #include "labs/program/binding.h"
 
 #include "base/text.h"

@@ -1,3 +1,4 @@
+/* A table, and how people write its names. */
 #include "labs/program/lab.h"
 
 #include "base/paths.h"

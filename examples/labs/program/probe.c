@@ -1,3 +1,4 @@
+/* What the scenes of all labs are made of: shapes, lights, materials. */
 #include "labs/program/probe.h"
 
 #include "app/options.h"

@@ -1,3 +1,5 @@
+/* Light is linear: the brightness of the brightest visible vertex says by what factor all lights
+ * have to be multiplied. */
 #include "labs/program/probe_light.h"
 
 #include "labs/program/binding.h"

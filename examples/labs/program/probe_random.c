@@ -1,3 +1,4 @@
+/* Rejection: what is drawn by lot is drawn again until it is what was asked for. */
 #include "labs/program/probe_random.h"
 
 #include <math.h>

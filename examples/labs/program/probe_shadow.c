@@ -1,3 +1,5 @@
+/* Scenes are drawn by lot until no light grazes a face; of 2000 tries without success the best is
+ * taken. */
 #include "labs/program/probe_shadow.h"
 
 #include "labs/program/binding.h"

@@ -1,3 +1,4 @@
+/* Every guarantee is tried, not assumed: kernels, containers and settings differ. */
 #include "labs/sandbox/breakout.h"
 
 #include "base/paths.h"

@@ -1,3 +1,4 @@
+/* A name space begins empty; what follows puts into it only what is needed. */
 #include "labs/sandbox/bubblewrap.h"
 
 #include "base/memory.h"

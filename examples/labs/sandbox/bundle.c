@@ -1,3 +1,4 @@
+/* A list of files, few enough to search from the start. */
 #include "labs/sandbox/bundle.h"
 
 #include "base/memory.h"

@@ -1,3 +1,4 @@
+/* A folder from mkdtemp(3), removed by nftw(3). */
 #include "labs/sandbox/scratch.h"
 
 #include <errno.h>

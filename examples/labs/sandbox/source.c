@@ -1,3 +1,5 @@
+/* Bytes from untrusted folders: every file is opened without following links or waiting, and asked
+ * what it is after that, so that it cannot be exchanged in between. */
 #include "labs/sandbox/source.h"
 
 #include "labs/diagnosis/text_facts.h"

@@ -1,3 +1,6 @@
+/* Reads a text's directives line by line with a stack of conditions. A macro that depends on an
+ * allowed one is as dependent; lines within such a condition may only set precisions. Compilers
+ * differ in whether a backslash joins lines, so both readings have to pass. */
 #include "labs/submission/conditions.h"
 
 #include "base/text.h"

@@ -1,3 +1,4 @@
+/* Meshes and a shadow map, opened and closed together. */
 #include "labs/submission/probe_buffers.h"
 
 bool probe_buffers_open(ProbeBuffers *buffers, const Probe *probe,

@@ -1,3 +1,5 @@
+/* Exact pictures are made once, with as many truths as are right; which of them a submission is
+ * compared with is the one that it is nearest to in all scenes together. */
 #include "labs/submission/shots.h"
 
 #include "labs/program/probe_open.h"

@@ -1,3 +1,5 @@
+/* Files are opened below their folder's descriptor, without following links; shaders find only
+ * these. Drawing is the same for a submission, the starter and a test's fake. */
 #include "labs/submission/submission.h"
 
 #include "base/memory.h"

@@ -1,3 +1,4 @@
+/* A stream in memory, then one call of output_write. */
 #include "labs/submission/text_file.h"
 
 #include "base/output.h"

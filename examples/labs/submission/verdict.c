@@ -1,3 +1,4 @@
+/* A verdict's points and its text for a terminal. */
 #include "labs/submission/verdict.h"
 
 #include <math.h>

@@ -1,3 +1,5 @@
+/* The reader trusts nothing: every member is there, of its type and in its range, or the whole is
+ * refused. The tables are the writer's. */
 #include "labs/submission/verdict_json.h"
 
 #include "labs/submission/text_file.h"

@@ -1,3 +1,4 @@
+/* A page has no files: the picture stays in memory. */
 #include "labs/web/judge_files_web.h"
 
 #include "labs/check/judge_pictures.h"

@@ -1,3 +1,4 @@
+/* The calls of the labs' page (lab_page.h); texts are returned as JSON. */
 #include "labs/web/lab_page.h"
 
 #include "labs/check/code.h"
