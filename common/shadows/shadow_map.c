@@ -46,18 +46,8 @@ static bool open_program(Shader *shader, const ShadowMaps *maps, const char *pur
 
 static GLuint make_texture(int size, bool packed)
 {
-    GLuint texture;
-    glGenTextures(1, &texture);
-    glBindTexture(GL_TEXTURE_2D, texture);
-    const GLenum format = packed ? GL_RGBA : GL_DEPTH_COMPONENT;
-    glTexImage2D(GL_TEXTURE_2D, 0, (GLint)format, size, size, 0, format,
-                 packed ? GL_UNSIGNED_BYTE : GL_UNSIGNED_INT, NULL);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    glBindTexture(GL_TEXTURE_2D, 0);
-    return texture;
+    return packed ? gl_texture(GL_RGBA, GL_UNSIGNED_BYTE, size, size)
+                  : gl_texture(GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, size, size);
 }
 
 static void attach(const ShadowMaps *maps, GLuint texture)

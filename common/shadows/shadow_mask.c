@@ -68,19 +68,6 @@ void shadow_mask_close(ShadowMask *mask)
     *mask = (ShadowMask){.width = 0};
 }
 
-static void make_texture(ShadowMask *mask, int number)
-{
-    glGenTextures(1, &mask->textures[number]);
-    glBindTexture(GL_TEXTURE_2D, mask->textures[number]);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, mask->width, mask->height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
-                 NULL);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    glBindTexture(GL_TEXTURE_2D, 0);
-}
-
 /* As large as the framebuffer is up to the viewport's upper right corner, so that a fragment has
  * the same coordinates in both. */
 static void make_images(ShadowMask *mask, int count)
@@ -101,7 +88,7 @@ static void make_images(ShadowMask *mask, int count)
     }
     for (int i = 0; i < count; i++)
         if (!mask->textures[i])
-            make_texture(mask, i);
+            mask->textures[i] = gl_texture(GL_RGBA, GL_UNSIGNED_BYTE, mask->width, mask->height);
 }
 
 static void attach(const ShadowMask *mask, int number)

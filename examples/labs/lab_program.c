@@ -8,12 +8,11 @@
 #include "app/run.h"
 #include "core/example.h"
 #include "labs/program/binding.h"
-#include "labs/program/probe.h"
+#include "labs/program/probe_open.h"
 #include "scene/scene_example.h"
 
 #if LAB == 3 || LAB == 10
 #include "labs/program/lab_code.h"
-#include "labs/program/probe_open.h"
 #endif
 
 static struct {

@@ -13,7 +13,7 @@
 #include "labs/diagnosis/outline.h"
 #include "labs/diagnosis/symptoms.h"
 #include "labs/diagnosis/text_facts.h"
-#include "labs/submission/conditions.h"
+#include "labs/submission/compiler_dependence.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -103,7 +103,7 @@ static bool check_conditions(const Session *session, Message *message)
         Message why = {0};
         snprintf(name, sizeof name, "%s%s", session->lab->file, endings[stage]);
         done = shader_source_open(&source, &loader, name, (ShaderStage)stage, message);
-        if (done && !conditions_check(source.text, &why))
+        if (done && !compiler_dependence_check(source.text, &why))
             done = message_set(message, "%s: %s", name, why.text);
         shader_source_close(&source);
     }

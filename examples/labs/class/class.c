@@ -3,7 +3,7 @@
 
 #include "app/options.h"
 #include "base/memory.h"
-#include "labs/class/class_front.h"
+#include "labs/class/pareto_front.h"
 #include "labs/class/class_html.h"
 #include "labs/class/class_judge.h"
 #include "labs/class/class_options.h"
@@ -80,7 +80,7 @@ static bool report(const ClassStore *store, Message *message)
 {
     bool front = false;
     Message why = {.text = ""};
-    if (!class_front_draw(store, &front, &why)) {
+    if (!pareto_front_draw(store, &front, &why)) {
         front = false; /* report the rest anyway */
         say(&why);
     }

@@ -4,7 +4,7 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "base/template.h"
-#include "labs/class/class_front.h"
+#include "labs/class/pareto_front.h"
 #include "labs/class/class_table.h"
 
 #include <math.h>
@@ -211,7 +211,7 @@ static void set_front(TemplateValues *page, const ClassStore *store)
     TemplateValues *front = template_add(page, "front");
     for (int i = 0, count = 0; i < store->count; i++) {
         const VerdictCost *cost = &store->results[i].verdict.cost;
-        if (!class_front_has(store, &store->results[i]))
+        if (!pareto_front_has(store, &store->results[i]))
             continue;
         TemplateValues *values = add_result(front, "efficient", &store->results[i]);
         template_set(values, "separator", "%s", count++ ? ", " : "");

@@ -9,7 +9,7 @@
 
 #include "labs/class/class_store.h"
 
-/* `front`: class_front_draw has drawn its plot. Each file is written whole or not at all. */
+/* `front`: pareto_front_draw has drawn its plot. Each file is written whole or not at all. */
 bool class_html_write(const ClassStore *store, bool front, Message *message);
 
 #endif

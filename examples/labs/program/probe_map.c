@@ -45,21 +45,6 @@ Mat4 probe_map_matrix(const Probe *probe)
                         mat4_look_at(light, center, (Vec3){0, 0, -1}));
 }
 
-static GLuint make_texture(void)
-{
-    GLuint texture;
-    glGenTextures(1, &texture);
-    glBindTexture(GL_TEXTURE_2D, texture);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, PROBE_MAP_SIZE, PROBE_MAP_SIZE, 0, GL_RGBA,
-                 GL_UNSIGNED_BYTE, NULL);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    glBindTexture(GL_TEXTURE_2D, 0);
-    return texture;
-}
-
 static bool draw_objects(const ProbeMap *map, const Probe *probe, const Shader *shader,
                          Message *message)
 {
@@ -125,7 +110,7 @@ bool probe_map_open(ProbeMap *map, const Probe *probe, Message *message)
     glDisable(GL_CULL_FACE);
     glEnable(GL_DEPTH_TEST);
     map->clip_from_world = probe_map_matrix(probe);
-    map->texture = make_texture();
+    map->texture = gl_texture(GL_RGBA, GL_UNSIGNED_BYTE, PROBE_MAP_SIZE, PROBE_MAP_SIZE);
     const bool done = draw_map(map, probe, &shader, message);
     if (cut)
         glEnable(GL_SCISSOR_TEST);

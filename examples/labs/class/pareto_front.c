@@ -1,6 +1,6 @@
 /* Of two costs, operations and error, neither is worth more: a result is efficient if no other has
  * less of one and no more of the other, compared pair by pair. */
-#include "labs/class/class_front.h"
+#include "labs/class/pareto_front.h"
 
 #include "study/report/report_gnuplot.h"
 
@@ -13,7 +13,7 @@ static bool counted(const ClassResult *result)
     return result->verdict.cost.known && result->verdict.cost.operations >= 0;
 }
 
-bool class_front_has(const ClassStore *store, const ClassResult *result)
+bool pareto_front_has(const ClassStore *store, const ClassResult *result)
 {
     const VerdictCost *cost = &result->verdict.cost;
     if (!counted(result))
@@ -42,7 +42,7 @@ static int put_points(const ClassStore *store, bool efficient, FILE *file)
     int count = 0;
     const VerdictCost **costs = calloc((size_t)store->count + 1, sizeof *costs);
     for (int i = 0; costs && i < store->count; i++)
-        if (counted(&store->results[i]) && class_front_has(store, &store->results[i]) == efficient)
+        if (counted(&store->results[i]) && pareto_front_has(store, &store->results[i]) == efficient)
             costs[count++] = &store->results[i].verdict.cost;
     if (costs)
         qsort(costs, (size_t)count, sizeof *costs, by_operations);
@@ -71,7 +71,7 @@ static void put_data(const ClassStore *store, FILE *script)
             GNUPLOT_PALETTE[1], GNUPLOT_PALETTE[1]);
 }
 
-bool class_front_draw(const ClassStore *store, bool *drawn, Message *message)
+bool pareto_front_draw(const ClassStore *store, bool *drawn, Message *message)
 {
     char *script = NULL;
     size_t size = 0;

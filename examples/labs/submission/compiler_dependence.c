@@ -1,7 +1,7 @@
 /* Reads a text's directives line by line with a stack of conditions. A macro that depends on an
  * allowed one is as dependent; lines within such a condition may only set precisions. Compilers
  * differ in whether a backslash joins lines, so both readings have to pass. */
-#include "labs/submission/conditions.h"
+#include "labs/submission/compiler_dependence.h"
 
 #include "base/text.h"
 
@@ -185,7 +185,7 @@ static bool check_as(const char *text, bool join, Message *message)
     return done;
 }
 
-bool conditions_check(const char *text, Message *message)
+bool compiler_dependence_check(const char *text, Message *message)
 {
     return check_as(text, false, message) && check_as(text, true, message);
 }

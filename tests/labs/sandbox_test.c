@@ -1,0 +1,222 @@
+/*
+ * sandbox: files and pictures that are not trusted, and what a confined process cannot do.
+ */
+#include "labs/check/confine.h"
+#include "labs/sandbox/png_copy.h"
+#include "labs/sandbox/source.h"
+#include "support/testing.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+static Message message;
+static Bundle bundle;
+
+static int start(void **state)
+{
+    (void)state;
+    message.text[0] = '\0';
+    bundle_close(&bundle);
+    return 0;
+}
+
+TEST_WITH(0, odd_names_and_encodings_become_the_labs, start, NULL)
+{
+    static const char utf16[] = "\xFF\xFEv\0o\0i\0d\0\xE9\0";
+    assert_true(bundle_add(&bundle, "Lab05.FRAG.txt", utf16, sizeof utf16 - 1, &message));
+    assert_true(bundle_add(&bundle, "main.vert", "x", 1, &message));
+    source_normalize(&bundle, &LABS[4]);
+    const BundleFile *file = bundle_find(&bundle, "lab05.frag");
+    assert_non_null(file);
+    assert_string_equal((const char *)file->bytes, "void\xC3\xA9");
+    assert_non_null(bundle_find(&bundle, "lab05.vert"));
+    assert_true(source_is_wanted("lab05.frag.txt"));
+    assert_false(source_is_wanted("notes.txt"));
+}
+
+/* Without ".txt" nothing safe is left of these. */
+TEST_WITH(0, a_name_that_is_only_an_ending_stays, start, NULL)
+{
+    static const char *const names[] = {"a/.txt", "..txt", "...txt"};
+    for (int i = 0; i < 3; i++)
+        assert_true(bundle_add(&bundle, names[i], "x", 1, &message));
+    source_normalize(&bundle, &LABS[4]);
+    for (int i = 0; i < 3; i++)
+        assert_non_null(bundle_find(&bundle, names[i]));
+}
+
+/* Files in memory. */
+
+TEST_WITH(0, names_that_leave_a_folder_are_refused, start, NULL)
+{
+    static const char *const bad[] = {"",     "/a", "..",  "a/../b", "a/..",  ".",
+                                      "a//b", "a/", "./a", "a\nb",   "a\x7F", "1/2/3/4/5/6/7/8/9"};
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        assert_false(bundle_name_is_safe(bad[i]));
+        assert_false(bundle_add(&bundle, bad[i], "x", 1, &message));
+    }
+    assert_true(bundle_name_is_safe("a/b..c/.d"));
+}
+
+TEST_WITH(0, a_name_is_added_once, start, NULL)
+{
+    assert_true(bundle_add(&bundle, "a/empty.h", "", 0, &message));
+    assert_false(bundle_add(&bundle, "a/empty.h", "", 0, &message));
+}
+
+static void add(const char *name)
+{
+    assert_true(bundle_add(&bundle, name, "x", 1, &message));
+}
+
+TEST_WITH(0, the_topmost_folder_counts, start, NULL)
+{
+    add("deep/er/lab05.frag");
+    add("deep/lab05.frag");
+    add("deep/lab05.vert");
+    assert_true(source_choose(&bundle, &LABS[4], &message));
+    assert_int_equal(bundle.count, 3);
+    assert_non_null(bundle_find(&bundle, "lab05.frag"));
+    assert_non_null(bundle_find(&bundle, "er/lab05.frag"));
+}
+
+TEST_WITH(0, of_several_folders_the_labs_counts, start, NULL)
+{
+    add("all/lab04/lab04.frag");
+    add("all/lab05_mine/lab05.frag");
+    add("all/lab06/lab06.frag");
+    assert_true(source_choose(&bundle, &LABS[4], &message));
+    assert_int_equal(bundle.count, 1);
+    assert_string_equal(bundle.files[0].name, "lab05.frag");
+    bundle_close(&bundle);
+    add("old/lab05.frag");
+    add("new/lab05.frag");
+    assert_false(source_choose(&bundle, &LABS[4], &message));
+    assert_non_null(strstr(message.text, "old"));
+    assert_non_null(strstr(message.text, "new"));
+}
+
+TEST_WITH(0, the_hash_changes_with_names_and_bytes, start, NULL)
+{
+    uint64_t hashes[3];
+    add("lab05.frag");
+    hashes[0] = source_hash(&bundle);
+    add("lab05.vert");
+    hashes[1] = source_hash(&bundle);
+    bundle.files[1].bytes[0] = 'y';
+    hashes[2] = source_hash(&bundle);
+    assert_true(hashes[0] != hashes[1] && hashes[1] != hashes[2] && hashes[0] != hashes[2]);
+}
+
+TEST_WITH(0, only_sources_are_wanted, start, NULL)
+{
+    assert_true(source_is_wanted("a/LAB05.FRAG"));
+    assert_true(source_is_wanted("matrices.c"));
+    assert_false(source_is_wanted("report.pdf"));
+    assert_false(source_is_wanted("__MACOSX/lab05.frag"));
+    assert_false(source_is_wanted("a/._lab05.frag"));
+    assert_false(source_is_wanted(".git/x.c"));
+    assert_false(source_is_wanted("frag"));
+}
+
+/* A PNG of one pixel. */
+static const unsigned char PIXEL[] = {
+    0x89, 0x50, 0x4E, 0x47, 0x0D, 0x0A, 0x1A, 0x0A, 0x00, 0x00, 0x00, 0x0D, 0x49, 0x48,
+    0x44, 0x52, 0x00, 0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0x08, 0x02, 0x00, 0x00,
+    0x00, 0x90, 0x77, 0x53, 0xDE, 0x00, 0x00, 0x00, 0x0C, 0x49, 0x44, 0x41, 0x54, 0x78,
+    0x9C, 0x63, 0xF8, 0xCF, 0xC0, 0x00, 0x00, 0x03, 0x01, 0x01, 0x00, 0xC9, 0xFE, 0x92,
+    0xEF, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4E, 0x44, 0xAE, 0x42, 0x60, 0x82};
+
+TEST_WITH(0, only_the_picture_of_a_png_is_kept, start, NULL)
+{
+    unsigned char bytes[sizeof PIXEL + 64];
+    /* An empty text chunk with its checksum. */
+    static const unsigned char text[] = {0x00, 0x00, 0x00, 0x00, 0x74, 0x45,
+                                         0x58, 0x74, 0x96, 0x42, 0xC5, 0x85};
+    size_t size = sizeof PIXEL;
+    memcpy(bytes, PIXEL, size);
+    assert_true(png_copy(bytes, &size, &message));
+    assert_int_equal(size, sizeof PIXEL);
+    for (size_t i = 0; i < sizeof PIXEL; i++) {
+        memcpy(bytes, PIXEL, sizeof PIXEL);
+        bytes[i] ^= 0x10;
+        size = sizeof PIXEL;
+        assert_false(png_copy(bytes, &size, NULL)); /* a checksum covers every byte */
+        size = i;
+        memcpy(bytes, PIXEL, sizeof PIXEL);
+        assert_false(png_copy(bytes, &size, NULL));
+    }
+    memcpy(bytes, PIXEL, 33);
+    memcpy(bytes + 33, text, sizeof text);
+    memcpy(bytes + 33 + sizeof text, PIXEL + 33, sizeof PIXEL - 33);
+    memcpy(bytes + sizeof PIXEL + sizeof text, "<script>", 8); /* after the end */
+    size = sizeof PIXEL + sizeof text + 8;
+    assert_true(png_copy(bytes, &size, &message));
+    assert_int_equal(size, sizeof PIXEL);
+    assert_memory_equal(bytes, PIXEL, sizeof PIXEL);
+}
+
+/* What a confined process can do, as bits of its exit code. */
+enum {
+    FORKED = 1,
+    WROTE = 2,
+    CONNECTED = 4,
+    SIGNALLED = 8,
+    EMPTIED = 16,
+    UNREAD = 32,
+    OPENED = 64
+};
+
+static int try_everything(const char *path)
+{
+    int done = 0;
+    char byte;
+    Message own = {.text = ""};
+    if (!confine_process(true, &own))
+        return 255;
+    const pid_t child = fork();
+    if (child == 0)
+        _exit(0);
+    done |= child > 0 ? FORKED : 0;
+    done |= open(path, O_WRONLY | O_CREAT, 0600) >= 0 ? WROTE : 0;
+    done |= open(path, O_RDONLY | O_TRUNC) >= 0 ? EMPTIED : 0;
+    done |= socket(AF_INET, SOCK_STREAM, 0) >= 0 ? CONNECTED : 0;
+    done |= kill(getppid(), 0) == 0 ? SIGNALLED : 0;
+    const int file = open(path, O_RDONLY);
+    done |= file < 0 || read(file, &byte, 1) != 1 ? UNREAD : 0;
+    /* Once what it runs is loaded, it opens nothing. */
+    if (!confine_process(false, &own))
+        return 255;
+    done |= open(path, O_RDONLY) >= 0 ? OPENED : 0;
+    return done;
+}
+
+/* Also as root. */
+TEST_WITH(0, a_confined_process_can_only_compute, start, NULL)
+{
+    static const char path[] = "file";
+    int status;
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs("x", file);
+    fclose(file);
+    const pid_t child = fork();
+    if (child == 0)
+        _exit(try_everything(path));
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status));
+    if (WEXITSTATUS(status) == 255)
+        skip();
+    assert_int_equal(WEXITSTATUS(status), 0);
+}
+
+int main(void)
+{
+    return testing_run(0, "sandbox", testing_enter_folder, testing_leave_folder);
+}
