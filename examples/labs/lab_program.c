@@ -8,7 +8,7 @@
 #include "app/run.h"
 #include "core/example.h"
 #include "labs/program/binding.h"
-#include "labs/program/probe_open.h"
+#include "labs/program/lab_scene_open.h"
 #include "scene/scene_example.h"
 
 #if LAB == 3 || LAB == 10
@@ -35,9 +35,9 @@ static bool init(const ShaderLoader *loader, Message *message)
 }
 
 /* Lab 3: the matrices from the student's C; lab 10: the sphere. */
-static bool choose(Probe *probe, Drawn *drawn, double seconds, Message *message)
+static bool choose(LabScene *lab_scene, Drawn *drawn, double seconds, Message *message)
 {
-    (void)probe, (void)drawn, (void)seconds, (void)message;
+    (void)lab_scene, (void)drawn, (void)seconds, (void)message;
 #if LAB == 3
     static Mat4 world_from_model, normal_matrix;
     world_from_model = normal_matrix = mat4_identity();
@@ -47,8 +47,8 @@ static bool choose(Probe *probe, Drawn *drawn, double seconds, Message *message)
 #elif LAB == 10
     LabBudget budget = {.slices = 16, .stacks = 16};
     lab_budget(&budget);
-    mesh_close(&probe->meshes[0]);
-    if (!mesh_sphere(&probe->meshes[0], 1, budget.slices, budget.stacks, message))
+    mesh_close(&lab_scene->meshes[0]);
+    if (!mesh_sphere(&lab_scene->meshes[0], 1, budget.slices, budget.stacks, message))
         return false;
     if (budget.cull)
         glEnable(GL_CULL_FACE);
@@ -58,25 +58,25 @@ static bool choose(Probe *probe, Drawn *drawn, double seconds, Message *message)
 
 static bool draw_lab(const Frame *frame, Message *message)
 {
-    Probe probe;
-    ProbeMap map = {0};
-    Drawn drawn = {.scene = &probe.scene, .aspect = frame->aspect, .map = &map};
-    if (!probe_open_usual(&probe, state.lab, frame->seconds, message))
+    LabScene lab_scene;
+    LabShadowMap map = {0};
+    Drawn drawn = {.scene = &lab_scene.scene, .aspect = frame->aspect, .map = &map};
+    if (!lab_scene_open_usual(&lab_scene, state.lab, frame->seconds, message))
         return false;
-    Camera *camera = &probe.scene.camera;
+    Camera *camera = &lab_scene.scene.camera;
     orbit_move(frame->orbit, &camera->eye, camera->center, &camera->up);
     glEnable(GL_DEPTH_TEST);
-    bool done =
-        choose(&probe, &drawn, frame->seconds, message) && probe_map_open(&map, &probe, message);
-    for (int i = 0; i < probe.scene.object_count && done; i++) {
+    bool done = choose(&lab_scene, &drawn, frame->seconds, message) &&
+                lab_shadow_map_open(&map, &lab_scene, message);
+    for (int i = 0; i < lab_scene.scene.object_count && done; i++) {
         MeshBuffer mesh = {0};
         drawn.object = i;
-        done = mesh_buffer_open(&mesh, &probe.meshes[i], message) &&
+        done = mesh_buffer_open(&mesh, &lab_scene.meshes[i], message) &&
                binding_draw(state.lab, state.shader.program, &mesh, &drawn, message);
         mesh_buffer_close(&mesh);
     }
-    probe_map_close(&map);
-    probe_close(&probe);
+    lab_shadow_map_close(&map);
+    lab_scene_close(&lab_scene);
     return done;
 }
 

@@ -25,16 +25,16 @@ typedef struct Fake {
 static Canvas canvas;
 static WrongProgram program;
 
-static bool paint_fake(const Painter *painter, const Probe *probe,
+static bool paint_fake(const Painter *painter, const LabScene *lab_scene,
                        const SubmissionGeometry *geometry, Message *message)
 {
     const Fake *fake = painter->what;
-    ProbeBuffers buffers;
-    if (!probe_buffers_open(&buffers, probe, geometry, message))
+    LabSceneBuffers buffers;
+    if (!lab_scene_buffers_open(&buffers, lab_scene, geometry, message))
         return false;
     const bool done =
-        wrong_program_draw(fake->program, painter->lab, probe, &buffers, fake->choices);
-    probe_buffers_close(&buffers);
+        wrong_program_draw(fake->program, painter->lab, lab_scene, &buffers, fake->choices);
+    lab_scene_buffers_close(&buffers);
     return done;
 }
 
@@ -73,23 +73,24 @@ static Outcome outcome_of(const Verdict *verdict, const Suspect *made)
 static Outcome try(const Lab *lab, const Suspect *made, uint64_t seed, Verdict *verdict)
 {
     Message message = {0};
-    static Shots shots;
+    static LabPictures pictures;
     const Fake fake = {&program, &made->choices};
     const Painter painter = {.lab = lab, .paint = paint_fake, .what = &fake};
     bool wrong = false, moved = false;
     *verdict = (Verdict){.seed = seed};
-    if (!shots_open(&shots, lab, seed, &message))
+    if (!lab_pictures_open(&pictures, lab, seed, &message))
         fail_msg("%s", message.text);
-    if (lab->budget && !shots_use_sphere(&shots, 24, 24, &message))
+    if (lab->budget && !lab_pictures_use_sphere(&pictures, 24, 24, &message))
         fail_msg("%s", message.text);
-    if (!shots_draw(&shots, &painter, &canvas, &message))
+    if (!lab_pictures_draw(&pictures, &painter, &canvas, &message))
         fail_msg("%s", message.text);
-    for (int i = 0; i < shots.count; i++)
-        wrong |= shots_error(&shots, i, shots.truth).maximum > shots_tolerance(&shots, i);
-    if (wrong && (!outline_check(&shots, &painter, &canvas, &moved, &message) ||
-                  !diagnose(&shots, &painter, moved, &canvas, verdict, &message)))
+    for (int i = 0; i < pictures.count; i++)
+        wrong |= lab_pictures_error(&pictures, i, pictures.truth).maximum >
+                 lab_pictures_tolerance(&pictures, i);
+    if (wrong && (!outline_check(&pictures, &painter, &canvas, &moved, &message) ||
+                  !diagnose(&pictures, &painter, moved, &canvas, verdict, &message)))
         fail_msg("%s", message.text);
-    shots_close(&shots);
+    lab_pictures_close(&pictures);
     return wrong ? outcome_of(verdict, made) : HIDDEN;
 }
 

@@ -5,7 +5,7 @@
 #include "labs/check/budget.h"
 
 #include "base/clock.h"
-#include "labs/program/probe_open.h"
+#include "labs/program/lab_scene_open.h"
 #include "lighting/lighting.h"
 #include "scene/shader_cost.h"
 
@@ -45,14 +45,14 @@ static bool open_mesh(Way *way, int slices, int stacks, Message *message)
 /* What both draw. */
 typedef struct Setting {
     const Lab *lab;
-    const Probe *probe;
+    const LabScene *lab_scene;
     const Canvas *canvas;
 } Setting;
 
 static bool frame(const Way *way, const Setting *of, double *seconds, Message *message)
 {
-    const Probe *probe = of->probe;
-    const Drawn drawn = {.scene = &probe->scene, .aspect = 1};
+    const LabScene *lab_scene = of->lab_scene;
+    const Drawn drawn = {.scene = &lab_scene->scene, .aspect = 1};
     const double start = clock_now();
     canvas_clear(of->canvas, (Vec3){0, 0, 0}, 1);
     glEnable(GL_DEPTH_TEST);
@@ -60,8 +60,8 @@ static bool frame(const Way *way, const Setting *of, double *seconds, Message *m
         glEnable(GL_CULL_FACE);
     const bool done =
         way->lighting
-            ? lighting_show(way->lighting, &(LightingFrame){.scene = &probe->scene, .aspect = 1},
-                            message)
+            ? lighting_show(way->lighting,
+                            &(LightingFrame){.scene = &lab_scene->scene, .aspect = 1}, message)
             : binding_draw(of->lab, way->program, &way->mesh, &drawn, message);
     glDisable(GL_CULL_FACE);
     glFinish();
@@ -170,7 +170,7 @@ static long count_plain(const Way *plain, const Scene *scene, long pixels, Messa
 }
 
 /* If operations cannot be counted, the verdict says why; a right submission keeps five points. */
-static void count_both(const Way *way, const Way *plain, const Probe *probe,
+static void count_both(const Way *way, const Way *plain, const LabScene *lab_scene,
                        const SubmissionFiles *files, long pixels, Verdict *verdict)
 {
     VerdictCost *cost = &verdict->cost;
@@ -180,7 +180,7 @@ static void count_both(const Way *way, const Way *plain, const Probe *probe,
                               "(package glslang-tools)");
     cost->operations = files->count ? count_submission(way, files, pixels, &message) : -1;
     const long whole =
-        cost->operations < 0 ? -1 : count_plain(plain, &probe->scene, pixels, &message);
+        cost->operations < 0 ? -1 : count_plain(plain, &lab_scene->scene, pixels, &message);
     cost->operations_ratio = whole > 0 ? (double)cost->operations / (double)whole : -1;
     if (whole <= 0) {
         cost->operations = -1;
@@ -205,19 +205,19 @@ bool budget_score(const LabBudget *budget, GLuint program, Canvas *canvas,
     const Lab *lab = lab_find("10", message);
     const ShaderLoader loader = {.precision = "highp"};
     VerdictCost *cost = &verdict->cost;
-    Probe probe = {.width = 0};
+    LabScene lab_scene = {.width = 0};
     long pixels = 0;
     Way way = {.program = program, .cull = budget->cull}, plain = {.cull = false};
     bool done = canvas_resize(canvas, SIZE, SIZE, message) &&
-                probe_open_usual(&probe, lab, 1, message) &&
+                lab_scene_open_usual(&lab_scene, lab, 1, message) &&
                 lighting_open(&plain.lighting, &loader, message) &&
                 open_mesh(&way, budget->slices, budget->stacks, message);
-    const Setting setting = {lab, &probe, canvas};
+    const Setting setting = {lab, &lab_scene, canvas};
     done = done && measure(&way, &plain, &setting, &cost->time_ratio, message) &&
            count_pixels(&plain, &setting, &pixels, message);
     if (done) {
-        plain.vertices = (long)probe.meshes[0].vertex_count;
-        count_both(&way, &plain, &probe, files, pixels, verdict);
+        plain.vertices = (long)lab_scene.meshes[0].vertex_count;
+        count_both(&way, &plain, &lab_scene, files, pixels, verdict);
         for (int i = 0; i < verdict->probe_count; i++)
             cost->error = fmax(cost->error, verdict->probes[i].maximum);
         cost->known = true;
@@ -225,6 +225,6 @@ bool budget_score(const LabBudget *budget, GLuint program, Canvas *canvas,
     }
     mesh_buffer_close(&way.mesh);
     lighting_close(plain.lighting);
-    probe_close(&probe);
+    lab_scene_close(&lab_scene);
     return done;
 }

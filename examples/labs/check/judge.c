@@ -26,7 +26,7 @@ typedef struct Session {
     const SubmissionFiles *files;
     SubmissionFiles plain; /* lab 10: its shaders, preprocessed; none: they cannot be */
     Shader shader, own;    /* the latter with the files' own precision, if that is another */
-    Shots shots;
+    LabPictures pictures;
     LabBudget budget; /* lab 10 */
     bool settled;     /* the submission is at fault: there is a verdict */
     bool moved;       /* its outline is wrong */
@@ -146,21 +146,21 @@ static bool open_shader(Session *session, Message *message)
 }
 
 /* Adds each scene's result; returns the worst, or -1 if all are right. */
-static int add_probes(const Shots *shots, Verdict *verdict)
+static int add_probes(const LabPictures *pictures, Verdict *verdict)
 {
     int worst = -1;
-    for (int i = 0; i < shots->count; i++) {
-        const Probe *probe = &shots->shots[i].probe;
-        const ErrorSum error = shots_error(shots, i, shots->truth);
+    for (int i = 0; i < pictures->count; i++) {
+        const LabScene *lab_scene = &pictures->items[i].lab_scene;
+        const ErrorSum error = lab_pictures_error(pictures, i, pictures->truth);
         VerdictProbe *line = &verdict->probes[verdict->probe_count++];
-        *line = (VerdictProbe){.known = probe->known,
-                               .width = probe->width,
-                               .height = probe->height,
-                               .seconds = probe->seconds,
+        *line = (VerdictProbe){.known = lab_scene->known,
+                               .width = lab_scene->width,
+                               .height = lab_scene->height,
+                               .seconds = lab_scene->seconds,
                                .maximum = error.maximum,
                                .rms = error_sum_rms(&error),
-                               .passed = error.maximum <= shots_tolerance(shots, i)};
-        snprintf(line->name, sizeof line->name, "%s", PROBE_NAMES[probe->kind]);
+                               .passed = error.maximum <= lab_pictures_tolerance(pictures, i)};
+        snprintf(line->name, sizeof line->name, "%s", LAB_SCENE_NAMES[lab_scene->kind]);
         if (!line->passed && (worst < 0 || line->rms > verdict->probes[worst].rms))
             worst = i;
     }
@@ -170,16 +170,16 @@ static int add_probes(const Shots *shots, Verdict *verdict)
 /* Lab 3: the matrices at every scene's time. */
 static bool take_matrices(Session *session, const Code *code, Message *message)
 {
-    double seconds[SHOTS_MAX];
-    CodeMatrices matrices[SHOTS_MAX];
-    Shots *shots = &session->shots;
-    for (int i = 0; i < shots->count; i++)
-        seconds[i] = shots->shots[i].probe.seconds;
-    if (!code_matrices(code, seconds, shots->count, matrices, message))
+    double seconds[LAB_PICTURES_MAX];
+    CodeMatrices matrices[LAB_PICTURES_MAX];
+    LabPictures *pictures = &session->pictures;
+    for (int i = 0; i < pictures->count; i++)
+        seconds[i] = pictures->items[i].lab_scene.seconds;
+    if (!code_matrices(code, seconds, pictures->count, matrices, message))
         return false;
-    for (int i = 0; i < shots->count; i++) {
-        shots->world_from_object[i] = matrices[i].world_from_model;
-        shots->normal_matrix[i] = matrices[i].normal_matrix;
+    for (int i = 0; i < pictures->count; i++) {
+        pictures->world_from_object[i] = matrices[i].world_from_model;
+        pictures->normal_matrix[i] = matrices[i].normal_matrix;
     }
     return true;
 }
@@ -189,9 +189,9 @@ static bool take_budget(Session *session, const Code *code, Message *message)
 {
     if (!code_budget(code, &session->budget, message))
         return false;
-    session->shots.geometry.cull = session->budget.cull;
-    return shots_use_sphere(&session->shots, session->budget.slices, session->budget.stacks,
-                            message);
+    session->pictures.geometry.cull = session->budget.cull;
+    return lab_pictures_use_sphere(&session->pictures, session->budget.slices,
+                                   session->budget.stacks, message);
 }
 
 static bool take_code(Session *session, Message *message)
@@ -215,9 +215,9 @@ static bool look_at_precision(Session *session, Message *message)
     if (lab->given || lab->budget)
         return true;
     if (lab->either)
-        return shots_draw_own(&session->shots, &painter, &session->canvas, message);
-    return shots_draw_huge(&session->shots, session->verdict->seed, &painter, &session->canvas,
-                           message);
+        return lab_pictures_draw_own(&session->pictures, &painter, &session->canvas, message);
+    return lab_pictures_draw_huge(&session->pictures, session->verdict->seed, &painter,
+                                  &session->canvas, message);
 }
 
 /* Right in 32 bits counts as right, minus a point. */
@@ -238,15 +238,16 @@ static bool is_right_with(Session *session, int slices, const char *precision, b
     const bool compiled =
         submission_compile(&shader, session->lab, session->files, precision, NULL);
     const Painter painter = {.lab = session->lab, .program = shader.program};
-    Shots *shots = &session->shots;
+    LabPictures *pictures = &session->pictures;
     *right = false;
     const int stacks = slices ? slices : session->budget.stacks;
-    bool done = !compiled || (shots_use_sphere(shots, slices ? slices : session->budget.slices,
-                                               stacks, message) &&
-                              shots_draw(shots, &painter, &session->canvas, message));
-    for (int i = 0; i < shots->count && done && compiled; i++)
-        *right = (i == 0 || *right) &&
-                 shots_error(shots, i, shots->truth).maximum <= shots_tolerance(shots, i);
+    bool done =
+        !compiled || (lab_pictures_use_sphere(pictures, slices ? slices : session->budget.slices,
+                                              stacks, message) &&
+                      lab_pictures_draw(pictures, &painter, &session->canvas, message));
+    for (int i = 0; i < pictures->count && done && compiled; i++)
+        *right = (i == 0 || *right) && lab_pictures_error(pictures, i, pictures->truth).maximum <=
+                                           lab_pictures_tolerance(pictures, i);
     shader_close(&shader);
     return done;
 }
@@ -275,9 +276,9 @@ static bool look_at_budget(Session *session, bool *found, Message *message)
         blame_known(session->verdict, "mediump too coarse");
     /* As it was. */
     const Painter painter = {.lab = session->lab, .program = session->shader.program};
-    return shots_use_sphere(&session->shots, session->budget.slices, session->budget.stacks,
-                            message) &&
-           shots_draw(&session->shots, &painter, &session->canvas, message);
+    return lab_pictures_use_sphere(&session->pictures, session->budget.slices,
+                                   session->budget.stacks, message) &&
+           lab_pictures_draw(&session->pictures, &painter, &session->canvas, message);
 }
 
 /* Says why the submission is wrong. */
@@ -299,16 +300,16 @@ static bool explain(Session *session, const Painter *painter, const char *number
     }
     if (!session->lab->given &&
         text_find_fault(session->lab, session->files, own_program(session), verdict)) {
-        symptoms_describe(&session->shots, session->moved, verdict);
+        symptoms_describe(&session->pictures, session->moved, verdict);
         return true;
     }
-    if (!diagnose(&session->shots, painter, session->moved, &session->canvas, verdict, message))
+    if (!diagnose(&session->pictures, painter, session->moved, &session->canvas, verdict, message))
         return false;
     /* A mistake with a name is more than a mesh that would hide it. */
     if (verdict->mistake_count == 0 && !look_at_budget(session, &found, message))
         return false;
     if (session->lab->given && verdict->mistake_count == 0)
-        matrices_name(&session->shots, verdict);
+        matrices_name(&session->pictures, verdict);
     if (!session->lab->given && verdict->mistake_count == 0)
         text_find_suspicion(session->lab, session->files, verdict);
     if (numbers[0])
@@ -322,12 +323,13 @@ static bool look_closer(Session *session, const Painter *painter, int worst, boo
 {
     numbers[0] = '\0';
     bool right = true;
-    if (!outline_check(&session->shots, painter, &session->canvas, &session->moved, message))
+    if (!outline_check(&session->pictures, painter, &session->canvas, &session->moved, message))
         return false;
-    *wrong = session->lab->given ? !matrices_are_right(&session->shots, numbers) : session->moved;
+    *wrong =
+        session->lab->given ? !matrices_are_right(&session->pictures, numbers) : session->moved;
     if (worst < 0 && !*wrong && !session->lab->given &&
-        !shots_check_sizes(&session->shots, session->options->seed, painter, &session->canvas,
-                           &right, message))
+        !lab_pictures_check_sizes(&session->pictures, session->options->seed, painter,
+                                  &session->canvas, &right, message))
         return false;
     if (!right) {
         *wrong = true;
@@ -356,10 +358,10 @@ static bool judge_pictures(Session *session, Message *message)
     const Painter painter = {.lab = session->lab, .program = session->shader.program};
     char numbers[VERDICT_SENTENCE_SIZE];
     bool outside;
-    if (!shots_draw(&session->shots, &painter, &session->canvas, message))
+    if (!lab_pictures_draw(&session->pictures, &painter, &session->canvas, message))
         return false;
     judge_limit(RLIM_INFINITY);
-    int worst = add_probes(&session->shots, verdict);
+    int worst = add_probes(&session->pictures, verdict);
     if (!look_closer(session, &painter, worst, &outside, numbers, message))
         return false;
     const bool overrun =
@@ -370,7 +372,7 @@ static bool judge_pictures(Session *session, Message *message)
         if (!look_at_precision(session, message))
             return false;
         verdict->probe_count = 0;
-        worst = add_probes(&session->shots, verdict);
+        worst = add_probes(&session->pictures, verdict);
         snprintf(verdict->message, sizeof verdict->message, "Right in all %d scenes",
                  verdict->probe_count);
     } else if (!overrun && !explain(session, &painter, numbers, message)) {
@@ -385,14 +387,15 @@ static bool judge_pictures(Session *session, Message *message)
     if (worst < 0 || !session->options->pictures)
         return true;
     snprintf(verdict->picture, sizeof verdict->picture, "%s", JUDGE_WORST);
-    return judge_worst(&session->shots, worst, session->options->pictures, message);
+    return judge_worst(&session->pictures, worst, session->options->pictures, message);
 }
 
 static bool judge_submission(Session *session, Message *message)
 {
     const CanvasOptions canvas = {.backend = session->options->backend, .width = 96, .height = 96};
-    bool done = shots_open(&session->shots, session->lab, session->options->seed, message) &&
-                take_code(session, message);
+    bool done =
+        lab_pictures_open(&session->pictures, session->lab, session->options->seed, message) &&
+        take_code(session, message);
     if (done && !session->settled)
         done = canvas_open(&session->canvas, &canvas, message) && open_shader(session, message);
     if (done && !session->settled)
@@ -407,7 +410,7 @@ bool judge(const JudgeOptions *options, Verdict *verdict, Message *message)
     Session session = {
         .options = options, .lab = options->lab, .verdict = verdict, .files = options->files};
     const bool done = judge_submission(&session, message);
-    shots_close(&session.shots);
+    lab_pictures_close(&session.pictures);
     shader_close(&session.shader);
     shader_close(&session.own);
     submission_files_close(&session.plain);

@@ -58,20 +58,20 @@ static void paste(const Image *from, int times, int left, Image *to)
     }
 }
 
-bool judge_sheet(const Shots *shots, int number, Image *sheet, Message *message)
+bool judge_sheet(const LabPictures *pictures, int number, Image *sheet, Message *message)
 {
-    const Shot *shot = &shots->shots[number];
-    const Reference *truth = &shot->truths[shots->truth];
+    const LabPicture *picture = &pictures->items[number];
+    const Reference *truth = &picture->truths[pictures->truth];
     Image exact = {0}, difference = {0};
-    const int width = shot->image.width, height = shot->image.height;
+    const int width = picture->image.width, height = picture->image.height;
     const int times = width < 100 ? 3 : width < 200 ? 2 : 1;
     const bool done =
         judge_exact_image(truth, &exact, message) &&
-        judge_difference(&shot->image, &exact, truth, &difference, message) &&
+        judge_difference(&picture->image, &exact, truth, &difference, message) &&
         image_open(sheet, 3 * times * width + 2 * SPACE, times * height, IMAGE_BYTE, message);
     if (done) {
         memset(sheet->pixels, 255, image_row_size(sheet) * (size_t)sheet->height);
-        paste(&shot->image, times, 0, sheet);
+        paste(&picture->image, times, 0, sheet);
         paste(&exact, times, times * width + SPACE, sheet);
         paste(&difference, times, 2 * (times * width + SPACE), sheet);
     }

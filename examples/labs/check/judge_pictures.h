@@ -4,16 +4,16 @@
 #ifndef JUDGE_PICTURES_H
 #define JUDGE_PICTURES_H
 
-#include "labs/submission/shots.h"
+#include "labs/submission/lab_pictures.h"
 
 /* The submission's picture, the right one and their difference, enlarged, side by side. */
-bool judge_sheet(const Shots *shots, int shot, Image *sheet, Message *message);
+bool judge_sheet(const LabPictures *pictures, int picture, Image *sheet, Message *message);
 
 /* The file that judge_worst writes. */
 #define JUDGE_WORST "worst.png"
 
 /* Writes that sheet as folder/worst.png (in a page: keeps it, see labs/web). */
-bool judge_worst(const Shots *shots, int shot, const char *folder, Message *message);
+bool judge_worst(const LabPictures *pictures, int picture, const char *folder, Message *message);
 
 /* The exact picture as bytes. */
 bool judge_exact_image(const Reference *exact, Image *image, Message *message);

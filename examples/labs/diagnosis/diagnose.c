@@ -7,7 +7,7 @@
 
 #include "labs/diagnosis/suspects.h"
 #include "labs/diagnosis/symptoms.h"
-#include "labs/program/probe_open.h"
+#include "labs/program/lab_scene_open.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -52,21 +52,22 @@ static bool all_same(const Suspect *suspects, int count)
 static bool tell_apart(Lineup *lineup, uint64_t seed, Suspect *suspects, int *count, bool near,
                        Message *message)
 {
-    static const ProbeKind kinds[] = {PROBE_ALONG,  PROBE_AGAINST, PROBE_MOVED, PROBE_CROWD,
-                                      PROBE_BEHIND, PROBE_COARSE,  PROBE_WIDE};
+    static const LabSceneKind kinds[] = {LAB_SCENE_ALONG, LAB_SCENE_AGAINST, LAB_SCENE_MOVED,
+                                         LAB_SCENE_CROWD, LAB_SCENE_BEHIND,  LAB_SCENE_COARSE,
+                                         LAB_SCENE_WIDE};
     enum { KINDS = sizeof kinds / sizeof kinds[0] };
     /* The submission's C gave no matrices for other times. */
-    if (lineup->shots->lab->given)
+    if (lineup->pictures->lab->given)
         return true;
     for (int i = 0; *count > 0 && i < MAX_FURTHER; i++) {
-        Probe probe;
+        LabScene lab_scene;
         if (i >= ALWAYS_FURTHER && (!near || i >= NEAR_FURTHER) && all_same(suspects, *count))
             break;
-        if (!probe_open_seed(&probe, lineup->shots->lab, kinds[i % KINDS],
-                             (seed ^ FURTHER_SEED) + (uint64_t)i, message))
+        if (!lab_scene_open_seed(&lab_scene, lineup->pictures->lab, kinds[i % KINDS],
+                                 (seed ^ FURTHER_SEED) + (uint64_t)i, message))
             return false;
-        const bool done = lineup_confront(lineup, &probe, suspects, count, message);
-        probe_close(&probe);
+        const bool done = lineup_confront(lineup, &lab_scene, suspects, count, message);
+        lab_scene_close(&lab_scene);
         if (!done)
             return false;
     }
@@ -142,7 +143,7 @@ static Suspect *make_pairs(const Lineup *lineup, const Suspect *singles, int cou
     for (int i = 0; made && i < count; i++)
         for (int k = i + 1; k < count; k++)
             if (catalogue_pair(&singles[i], &singles[k], &made[*pairs]) &&
-                (lineup->shots->lab->given || catalogue_moves(&made[*pairs]) == lineup->moved))
+                (lineup->pictures->lab->given || catalogue_moves(&made[*pairs]) == lineup->moved))
                 (*pairs)++;
     return made;
 }
@@ -158,7 +159,7 @@ typedef struct Suspects {
 static bool find_number(Lineup *lineup, Suspects *all, bool *near, Message *message)
 {
     if (!all->fitted) {
-        const int count = lineup->shots->lab->given ? 0 : all->number_count;
+        const int count = lineup->pictures->lab->given ? 0 : all->number_count;
         all->number_count = 0;
         for (int i = 0; i < count; i++)
             if (lineup_fit(lineup, &all->numbers[i]))
@@ -212,19 +213,19 @@ static void say_number(Verdict *verdict, const Suspect *number)
 /* Tries single mistakes; then, where edges may be smoothed, those with other edges; then pairs. */
 static bool find(Lineup *lineup, Verdict *verdict, bool *named, Message *message)
 {
-    const double less_sure = lineup->shots->lab->shadow ? HARDLY_SURE : LESS_SURE;
+    const double less_sure = lineup->pictures->lab->shadow ? HARDLY_SURE : LESS_SURE;
     int pair_count = 0;
     bool near = false;
     Suspects all = {.left = 0};
     Suspect *pairs = NULL;
     *named = false;
-    all.singles = catalogue_singles(lineup->shots->lab, &all.single_count);
-    all.numbers = catalogue_numbers(lineup->shots->lab, &all.number_count);
+    all.singles = catalogue_singles(lineup->pictures->lab, &all.single_count);
+    all.numbers = catalogue_numbers(lineup->pictures->lab, &all.number_count);
     all.tried =
         malloc(((size_t)all.single_count + (size_t)all.number_count + 1) * sizeof *all.tried);
     bool done = all.singles && all.numbers && all.tried &&
                 find_alone(lineup, verdict->seed, &all, &near, message);
-    if (done && all.left == 0 && lineup->shots->lab->shadow) {
+    if (done && all.left == 0 && lineup->pictures->lab->shadow) {
         lineup->soft = true;
         done = find_alone(lineup, verdict->seed, &all, &near, message);
         lineup->soft = false;
@@ -249,17 +250,17 @@ static bool find(Lineup *lineup, Verdict *verdict, bool *named, Message *message
     return done;
 }
 
-bool diagnose(const Shots *shots, const Painter *painter, bool moved, Canvas *canvas,
+bool diagnose(const LabPictures *pictures, const Painter *painter, bool moved, Canvas *canvas,
               Verdict *verdict, Message *message)
 {
     Lineup lineup;
     bool named = false;
-    const bool done = lineup_open(&lineup, shots, painter, moved, canvas, message) &&
+    const bool done = lineup_open(&lineup, pictures, painter, moved, canvas, message) &&
                       find(&lineup, verdict, &named, message);
     lineup_close(&lineup);
     if (!done)
         return false;
-    symptoms_describe(shots, moved, verdict);
+    symptoms_describe(pictures, moved, verdict);
     if (!named)
         snprintf(verdict->message, sizeof verdict->message,
                  "Unknown mistake: no known mistake or pair of them draws this in every scene");

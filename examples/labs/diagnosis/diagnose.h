@@ -9,12 +9,12 @@
 #ifndef DIAGNOSE_H
 #define DIAGNOSE_H
 
-#include "labs/submission/shots.h"
+#include "labs/submission/lab_pictures.h"
 #include "labs/submission/verdict.h"
 
-/* Fills in the message, mistakes and symptoms of a wrong submission, drawn in all shots. `moved`:
- * its outline is wrong (outline.h). False, with a message: the driver failed. */
-bool diagnose(const Shots *shots, const Painter *painter, bool moved, Canvas *canvas,
+/* Fills in the message, mistakes and symptoms of a wrong submission, drawn in all pictures.
+ * `moved`: its outline is wrong (outline.h). False, with a message: the driver failed. */
+bool diagnose(const LabPictures *pictures, const Painter *painter, bool moved, Canvas *canvas,
               Verdict *verdict, Message *message);
 
 #endif

@@ -14,44 +14,44 @@
 static Mat4 right_world(double seconds)
 {
     Mat4 move, turn, scale;
-    probe_world_parts(seconds, &move, &turn, &scale);
+    lab_scene_world_parts(seconds, &move, &turn, &scale);
     return mat4_product(move, mat4_product(turn, scale));
 }
 
 /* The directions of the normals along x, y and z are what the picture depends on. */
-static bool normals_are_right(const Shots *shots, int i, char said[VERDICT_SENTENCE_SIZE])
+static bool normals_are_right(const LabPictures *pictures, int i, char said[VERDICT_SENTENCE_SIZE])
 {
-    const Mat4 right = binding_normal_matrix(right_world(shots->shots[i].probe.seconds));
+    const Mat4 right = binding_normal_matrix(right_world(pictures->items[i].lab_scene.seconds));
     /* Any positive multiple is right, the same for all of the matrix. */
     double product = 0, square = 0;
     for (int k = 0; k < 12; k++) {
         if (k % 4 == 3)
             continue;
-        product += right.m[k] * shots->normal_matrix[i].m[k];
+        product += right.m[k] * pictures->normal_matrix[i].m[k];
         square += right.m[k] * right.m[k];
     }
     const double factor = product / square;
     for (int k = 0; k < 12; k++) {
-        const double wanted = factor * right.m[k], found = shots->normal_matrix[i].m[k];
+        const double wanted = factor * right.m[k], found = pictures->normal_matrix[i].m[k];
         if (k % 4 == 3 || fabs(found - wanted) <= 2 * MATRICES_TOLERANCE * fabs(factor))
             continue;
         snprintf(said, VERDICT_SENTENCE_SIZE,
                  "The normal matrix after %g s: row %d, column %d is %.4g; a multiple of the right "
                  "one has %.4g there.",
-                 shots->shots[i].probe.seconds, k % 4, k / 4, found, wanted);
+                 pictures->items[i].lab_scene.seconds, k % 4, k / 4, found, wanted);
         return false;
     }
     return factor > 0;
 }
 
-bool matrices_are_right(const Shots *shots, char said[VERDICT_SENTENCE_SIZE])
+bool matrices_are_right(const LabPictures *pictures, char said[VERDICT_SENTENCE_SIZE])
 {
     said[0] = '\0';
-    for (int i = 0; i < shots->count; i++) {
-        const double seconds = shots->shots[i].probe.seconds;
+    for (int i = 0; i < pictures->count; i++) {
+        const double seconds = pictures->items[i].lab_scene.seconds;
         const Mat4 right = right_world(seconds);
         for (int k = 15; k >= 0; k--) {
-            const double found = shots->world_from_object[i].m[k];
+            const double found = pictures->world_from_object[i].m[k];
             if (fabs(found - right.m[k]) <= MATRICES_TOLERANCE)
                 continue;
             snprintf(said, VERDICT_SENTENCE_SIZE,
@@ -59,7 +59,7 @@ bool matrices_are_right(const Shots *shots, char said[VERDICT_SENTENCE_SIZE])
                      seconds, k % 4, k / 4, found, right.m[k]);
             return false;
         }
-        if (!normals_are_right(shots, i, said))
+        if (!normals_are_right(pictures, i, said))
             return false;
     }
     return true;
@@ -168,7 +168,7 @@ static void add_turn(Facts *facts, const Parts *found, double seconds, bool is_f
     Vec3 unit;
     if (found->degrees < 3 || found->degrees > 177)
         return;
-    vec3_normalize(PROBE_AXIS, &unit);
+    vec3_normalize(LAB_AXIS, &unit);
     const double axis[3] = {unit.x, unit.y, unit.z}, own = dot(found->axis, axis);
     const double sign = dot(found->axis, facts->first.axis) < 0 ? -1 : 1;
     const double flipped[3] = {sign * found->axis[0], sign * found->axis[1], sign * found->axis[2]};
@@ -182,13 +182,13 @@ static void add_turn(Facts *facts, const Parts *found, double seconds, bool is_f
     note(facts, LINEAR, fabs(apart) < 0.1 + 0.002 * seconds);
 }
 
-static Facts gather_facts(const Shots *shots)
+static Facts gather_facts(const LabPictures *pictures)
 {
     Facts facts = {.true_of_all = ~0u, .factors = {1, 1, 1}};
     double now[3] = {0};
-    for (int i = 0; i < shots->count; i++) {
-        const double seconds = shots->shots[i].probe.seconds;
-        const Mat4 *matrix = &shots->world_from_object[i], wanted = right_world(seconds);
+    for (int i = 0; i < pictures->count; i++) {
+        const double seconds = pictures->items[i].lab_scene.seconds;
+        const Mat4 *matrix = &pictures->world_from_object[i], wanted = right_world(seconds);
         const Parts found = take_apart(matrix), right = take_apart(&wanted);
         if (i == 0)
             facts.first = found;
@@ -251,10 +251,10 @@ static void say(const Rule *rule, const Facts *facts, char sentence[VERDICT_SENT
                  numbers[rule->numbers][0], numbers[rule->numbers][1], numbers[rule->numbers][2]);
 }
 
-bool matrices_name(const Shots *shots, Verdict *verdict)
+bool matrices_name(const LabPictures *pictures, Verdict *verdict)
 {
     char sentence[VERDICT_SENTENCE_SIZE];
-    const Facts facts = gather_facts(shots);
+    const Facts facts = gather_facts(pictures);
     for (size_t i = 0; i < sizeof RULES / sizeof RULES[0]; i++) {
         const Rule *rule = &RULES[i];
         if ((facts.true_of_all & rule->all) != rule->all || (facts.true_of_all & rule->none))

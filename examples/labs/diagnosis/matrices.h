@@ -4,7 +4,7 @@
 #ifndef MATRICES_H
 #define MATRICES_H
 
-#include "labs/submission/shots.h"
+#include "labs/submission/lab_pictures.h"
 #include "labs/submission/verdict.h"
 
 /* The largest difference of a right model matrix's element, and of a right normal's coordinate: a
@@ -14,10 +14,10 @@
 
 /* Whether the model matrices of all scenes and the directions of the faces' normals are right. If
  * not, *said is a sentence with the first wrong number. */
-bool matrices_are_right(const Shots *shots, char said[VERDICT_SENTENCE_SIZE]);
+bool matrices_are_right(const LabPictures *pictures, char said[VERDICT_SENTENCE_SIZE]);
 
 /* Adds a mistake if all model matrices are a product of the task's form in which one part has wrong
  * numbers. False: they are not. */
-bool matrices_name(const Shots *shots, Verdict *verdict);
+bool matrices_name(const LabPictures *pictures, Verdict *verdict);
 
 #endif

@@ -3,7 +3,7 @@
  * few at edges. The submission's light does not count, unless it is the green of the ground. */
 #include "labs/diagnosis/outline.h"
 
-#include "labs/submission/probe_buffers.h"
+#include "labs/submission/lab_scene_buffers.h"
 
 /* The background is a colour that neither draws. */
 static const Vec3 GREEN = {0, 1, 0};
@@ -21,55 +21,56 @@ typedef struct Outlines {
     Canvas *canvas;
 } Outlines;
 
-static bool draw_right(const Outlines *of, const Probe *probe, const SubmissionGeometry *geometry,
-                       Image *image, Message *message)
+static bool draw_right(const Outlines *of, const LabScene *lab_scene,
+                       const SubmissionGeometry *geometry, Image *image, Message *message)
 {
     const Shader *shader = &of->shader;
     Canvas *canvas = of->canvas;
     const GLint position = glGetAttribLocation(shader->program, "a_Position");
     const GLint clip = glGetUniformLocation(shader->program, "u_Clip");
-    const double aspect = (double)probe->width / probe->height;
+    const double aspect = (double)lab_scene->width / lab_scene->height;
     Mat4 eye_from_world, clip_from_eye;
-    ProbeBuffers buffers;
-    if (!canvas_resize(canvas, probe->width, probe->height, message) ||
-        !scene_camera(&probe->scene.camera, aspect, &eye_from_world, &clip_from_eye, message) ||
-        !probe_buffers_open(&buffers, probe, geometry, message))
+    LabSceneBuffers buffers;
+    if (!canvas_resize(canvas, lab_scene->width, lab_scene->height, message) ||
+        !scene_camera(&lab_scene->scene.camera, aspect, &eye_from_world, &clip_from_eye, message) ||
+        !lab_scene_buffers_open(&buffers, lab_scene, geometry, message))
         return false;
     canvas_clear(canvas, GREEN, 1);
     glUseProgram(shader->program);
     glEnable(GL_DEPTH_TEST);
     if (buffers.cull)
         glEnable(GL_CULL_FACE);
-    for (int i = 0; i < probe->scene.object_count; i++) {
+    for (int i = 0; i < lab_scene->scene.object_count; i++) {
         const MeshBuffer *mesh = &buffers.buffers[i];
         const Mat4 eye_from_object =
-            mat4_product(eye_from_world, probe->objects[i].world_from_object);
+            mat4_product(eye_from_world, lab_scene->objects[i].world_from_object);
         shader_set_mat4(clip, mat4_product(clip_from_eye, eye_from_object));
         mesh_buffer_bind(mesh, position, -1);
         glDrawElements(GL_TRIANGLES, mesh->index_count, mesh->index_type, NULL);
     }
     glDisable(GL_CULL_FACE);
-    probe_buffers_close(&buffers);
+    lab_scene_buffers_close(&buffers);
     return canvas_read(canvas, image, message);
 }
 
 /* *apart: how many pixels are covered neither as by the geometry nor as by the other one, if there
  * is one. */
-static bool compare(const Outlines *of, const Probe *original, const SubmissionGeometry *geometry,
-                    const SubmissionGeometry *other, int *apart, Message *message)
+static bool compare(const Outlines *of, const LabScene *original,
+                    const SubmissionGeometry *geometry, const SubmissionGeometry *other, int *apart,
+                    Message *message)
 {
-    Probe probe = *original; /* its scene's arrays are the original's */
+    LabScene lab_scene = *original; /* its scene's arrays are the original's */
     Image image = {0}, right = {0}, also = {0};
-    probe.scene.background = GREEN;
+    lab_scene.scene.background = GREEN;
     const bool done =
-        image_open(&image, probe.width, probe.height, IMAGE_BYTE, message) &&
-        image_open(&right, probe.width, probe.height, IMAGE_BYTE, message) &&
-        painter_draw(of->painter, &probe, geometry, of->canvas, &image, message) &&
-        draw_right(of, &probe, geometry, &right, message) &&
-        (!other || (image_open(&also, probe.width, probe.height, IMAGE_BYTE, message) &&
-                    draw_right(of, &probe, other, &also, message)));
+        image_open(&image, lab_scene.width, lab_scene.height, IMAGE_BYTE, message) &&
+        image_open(&right, lab_scene.width, lab_scene.height, IMAGE_BYTE, message) &&
+        painter_draw(of->painter, &lab_scene, geometry, of->canvas, &image, message) &&
+        draw_right(of, &lab_scene, geometry, &right, message) &&
+        (!other || (image_open(&also, lab_scene.width, lab_scene.height, IMAGE_BYTE, message) &&
+                    draw_right(of, &lab_scene, other, &also, message)));
     *apart = 0;
-    for (int p = 0; p < probe.width * probe.height && done; p++)
+    for (int p = 0; p < lab_scene.width * lab_scene.height && done; p++)
         *apart += is_green(&image, p) != is_green(&right, p) &&
                   (!other || is_green(&image, p) != is_green(&also, p));
     image_close(&image);
@@ -78,12 +79,12 @@ static bool compare(const Outlines *of, const Probe *original, const SubmissionG
     return done;
 }
 
-bool outline_check(const Shots *shots, const Painter *painter, Canvas *canvas, bool *wrong,
+bool outline_check(const LabPictures *pictures, const Painter *painter, Canvas *canvas, bool *wrong,
                    Message *message)
 {
     enum { ROUNDING = 6, FINE = 256 }; /* ROUNDING: pixels, at edges */
     const ShaderLoader loader = {.precision = "highp"};
-    const bool budget = shots->lab->budget;
+    const bool budget = pictures->lab->budget;
     Outlines outlines = {.painter = painter, .canvas = canvas};
     Mesh sphere = {.vertex_count = 0};
     *wrong = false;
@@ -92,11 +93,11 @@ bool outline_check(const Shots *shots, const Painter *painter, Canvas *canvas, b
     /* Lab 10: a coarse mesh's outline is right, and the sphere's, which a shader can find. */
     const SubmissionGeometry fine = {.mesh = &sphere};
     bool done = !budget || mesh_sphere(&sphere, 1, FINE, FINE, message);
-    for (int i = 0; i < shots->count && !*wrong && done; i++) {
-        const SubmissionGeometry geometry = shots_geometry(shots, i);
+    for (int i = 0; i < pictures->count && !*wrong && done; i++) {
+        const SubmissionGeometry geometry = lab_pictures_geometry(pictures, i);
         int apart = 0;
-        done = compare(&outlines, &shots->shots[i].probe, &geometry, budget ? &fine : NULL, &apart,
-                       message);
+        done = compare(&outlines, &pictures->items[i].lab_scene, &geometry, budget ? &fine : NULL,
+                       &apart, message);
         *wrong = apart > ROUNDING;
     }
     mesh_close(&sphere);

@@ -4,10 +4,10 @@
 #ifndef OUTLINE_H
 #define OUTLINE_H
 
-#include "labs/submission/shots.h"
+#include "labs/submission/lab_pictures.h"
 
 /* Draws all scenes with the submission and with shaders/labs/outline. */
-bool outline_check(const Shots *shots, const Painter *painter, Canvas *canvas, bool *wrong,
+bool outline_check(const LabPictures *pictures, const Painter *painter, Canvas *canvas, bool *wrong,
                    Message *message);
 
 #endif

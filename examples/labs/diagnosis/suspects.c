@@ -39,13 +39,13 @@ static bool fit_images(Lineup *lineup, int width, int height, Message *message)
            image_open(&lineup->drawn, width, height, IMAGE_BYTE, message);
 }
 
-static bool draw_suspect(Lineup *lineup, const Probe *probe, const ProbeBuffers *buffers,
+static bool draw_suspect(Lineup *lineup, const LabScene *lab_scene, const LabSceneBuffers *buffers,
                          const Choices *choices, Image *image, Message *message)
 {
-    if (!canvas_resize(lineup->canvas, probe->width, probe->height, message))
+    if (!canvas_resize(lineup->canvas, lab_scene->width, lab_scene->height, message))
         return false;
-    canvas_clear(lineup->canvas, probe->scene.background, 1);
-    wrong_program_draw(&lineup->wrong, lineup->shots->lab, probe, buffers, choices);
+    canvas_clear(lineup->canvas, lab_scene->scene.background, 1);
+    wrong_program_draw(&lineup->wrong, lineup->pictures->lab, lab_scene, buffers, choices);
     return canvas_read(lineup->canvas, image, message);
 }
 
@@ -54,12 +54,12 @@ static double compare_all(const Lineup *lineup, const Image *a, const Image *b)
     return compare_drawn(a, b, TOLERANCE, a->width * a->height, lineup->soft).squares;
 }
 
-static void sort_shots(Lineup *lineup)
+static void sort_pictures(Lineup *lineup)
 {
-    const Shots *shots = lineup->shots;
-    double rms[SHOTS_MAX];
-    for (int i = 0; i < shots->count; i++) {
-        const ErrorSum error = shots_error(shots, i, shots->truth);
+    const LabPictures *pictures = lineup->pictures;
+    double rms[LAB_PICTURES_MAX];
+    for (int i = 0; i < pictures->count; i++) {
+        const ErrorSum error = lab_pictures_error(pictures, i, pictures->truth);
         rms[i] = error.pixels ? error_sum_rms(&error) : 0;
         int k = i;
         for (; k > 0 && rms[lineup->order[k - 1]] < rms[i]; k--)
@@ -71,40 +71,41 @@ static void sort_shots(Lineup *lineup)
 /* The right program's pictures, with the stage or exponent that the submission is nearest to. */
 static bool draw_right(Lineup *lineup, Message *message)
 {
-    const Shots *shots = lineup->shots;
+    const LabPictures *pictures = lineup->pictures;
     lineup->right_choices = (Choices){.value = 1};
-    if (shots->lab->either)
-        lineup->right_choices.of[SLOT_STAGE] = shots->truth == 1 ? STAGE_OTHER : 0;
-    else if (shots->lab->fitted)
-        lineup->right_choices.of[SLOT_FIT] = shots->truth == 1 ? FIT_FOUR : FIT_LEAST_SQUARES;
-    for (int i = 0; i < shots->count; i++) {
-        const Shot *shot = &shots->shots[i];
-        if (!image_open(&lineup->right[i], shot->probe.width, shot->probe.height, IMAGE_BYTE,
-                        message) ||
-            !draw_suspect(lineup, &shot->probe, &lineup->buffers[i], &lineup->right_choices,
+    if (pictures->lab->either)
+        lineup->right_choices.of[SLOT_STAGE] = pictures->truth == 1 ? STAGE_OTHER : 0;
+    else if (pictures->lab->fitted)
+        lineup->right_choices.of[SLOT_FIT] = pictures->truth == 1 ? FIT_FOUR : FIT_LEAST_SQUARES;
+    for (int i = 0; i < pictures->count; i++) {
+        const LabPicture *picture = &pictures->items[i];
+        if (!image_open(&lineup->right[i], picture->lab_scene.width, picture->lab_scene.height,
+                        IMAGE_BYTE, message) ||
+            !draw_suspect(lineup, &picture->lab_scene, &lineup->buffers[i], &lineup->right_choices,
                           &lineup->right[i], message))
             return false;
-        lineup->wrong_by += compare_all(lineup, &shot->image, &lineup->right[i]);
+        lineup->wrong_by += compare_all(lineup, &picture->image, &lineup->right[i]);
     }
     return true;
 }
 
-bool lineup_open(Lineup *lineup, const Shots *shots, const Painter *painter, bool moved,
+bool lineup_open(Lineup *lineup, const LabPictures *pictures, const Painter *painter, bool moved,
                  Canvas *canvas, Message *message)
 {
-    *lineup = (Lineup){.shots = shots, .painter = painter, .moved = moved, .canvas = canvas};
+    *lineup = (Lineup){.pictures = pictures, .painter = painter, .moved = moved, .canvas = canvas};
     const CanvasOptions sheet = {.width = SHEET, .height = SHEET};
-    if (!wrong_program_open(&lineup->wrong, shots->lab, message) ||
+    if (!wrong_program_open(&lineup->wrong, pictures->lab, message) ||
         !canvas_open_beside(&lineup->sheet, canvas, &sheet, message))
         return false;
-    for (int i = 0; i < shots->count; i++) {
-        const SubmissionGeometry geometry = shots_geometry(shots, i);
-        if (!probe_buffers_open(&lineup->buffers[i], &shots->shots[i].probe, &geometry, message))
+    for (int i = 0; i < pictures->count; i++) {
+        const SubmissionGeometry geometry = lab_pictures_geometry(pictures, i);
+        if (!lab_scene_buffers_open(&lineup->buffers[i], &pictures->items[i].lab_scene, &geometry,
+                                    message))
             return false;
     }
-    if (shots->lab->budget && !mesh_sphere(&lineup->coarse, 1, COARSE, COARSE, message))
+    if (pictures->lab->budget && !mesh_sphere(&lineup->coarse, 1, COARSE, COARSE, message))
         return false;
-    sort_shots(lineup);
+    sort_pictures(lineup);
     return draw_right(lineup, message);
 }
 
@@ -112,8 +113,8 @@ void lineup_close(Lineup *lineup)
 {
     if (!lineup)
         return;
-    for (int i = 0; i < SHOTS_MAX; i++)
-        probe_buffers_close(&lineup->buffers[i]), image_close(&lineup->right[i]);
+    for (int i = 0; i < LAB_PICTURES_MAX; i++)
+        lab_scene_buffers_close(&lineup->buffers[i]), image_close(&lineup->right[i]);
     mesh_close(&lineup->coarse);
     image_close(&lineup->image);
     image_close(&lineup->drawn);
@@ -149,27 +150,28 @@ static int keep_like(bool soft, const Image *sheet, const Image *wanted, const S
     return kept_count;
 }
 
-static bool screen_shot(Lineup *lineup, int shot, Image *sheet, Suspect *suspects, int *count,
+static bool screen_picture(Lineup *lineup, int picture, Image *sheet, Suspect *suspects, int *count,
                         Message *message)
 {
-    Probe probe = lineup->shots->shots[shot].probe;
-    SubmissionGeometry geometry = shots_geometry(lineup->shots, shot);
+    LabScene lab_scene = lineup->pictures->items[picture].lab_scene;
+    SubmissionGeometry geometry = lab_pictures_geometry(lineup->pictures, picture);
     int kept = 0;
     Image wanted;
-    ProbeBuffers buffers = {.buffers = {{0}}};
-    probe.width = probe.height = TILE;
-    if (lineup->shots->lab->budget)
+    LabSceneBuffers buffers = {.buffers = {{0}}};
+    lab_scene.width = lab_scene.height = TILE;
+    if (lineup->pictures->lab->budget)
         geometry.mesh = &lineup->coarse;
     if (!image_open(&wanted, TILE, TILE, IMAGE_BYTE, message))
         return false;
-    bool done = probe_buffers_open(&buffers, &probe, &geometry, message) &&
-                painter_draw(lineup->painter, &probe, &geometry, lineup->canvas, &wanted, message);
+    bool done =
+        lab_scene_buffers_open(&buffers, &lab_scene, &geometry, message) &&
+        painter_draw(lineup->painter, &lab_scene, &geometry, lineup->canvas, &wanted, message);
     for (int from = 0; from < *count && done; from += TILES * TILES) {
         const int part = *count - from < TILES * TILES ? *count - from : TILES * TILES;
-        canvas_clear(&lineup->sheet, probe.scene.background, 1);
+        canvas_clear(&lineup->sheet, lab_scene.scene.background, 1);
         for (int i = 0; i < part; i++) {
             canvas_view(&lineup->sheet, TILE * (i % TILES), TILE * (i / TILES), TILE, TILE);
-            wrong_program_draw(&lineup->wrong, lineup->shots->lab, &probe, &buffers,
+            wrong_program_draw(&lineup->wrong, lineup->pictures->lab, &lab_scene, &buffers,
                                &suspects[from + i].choices);
         }
         canvas_begin(&lineup->sheet);
@@ -177,7 +179,7 @@ static bool screen_shot(Lineup *lineup, int shot, Image *sheet, Suspect *suspect
         if (done)
             kept += keep_like(lineup->soft, sheet, &wanted, suspects + from, part, suspects + kept);
     }
-    probe_buffers_close(&buffers);
+    lab_scene_buffers_close(&buffers);
     image_close(&wanted);
     *count = kept;
     return done;
@@ -189,8 +191,8 @@ bool lineup_screen(Lineup *lineup, Suspect *suspects, int *count, Message *messa
     if (!image_open(&sheet, SHEET, SHEET, IMAGE_BYTE, message))
         return false;
     bool done = true;
-    for (int k = 0; k < 2 && k < lineup->shots->count && done; k++)
-        done = screen_shot(lineup, lineup->order[k], &sheet, suspects, count, message);
+    for (int k = 0; k < 2 && k < lineup->pictures->count && done; k++)
+        done = screen_picture(lineup, lineup->order[k], &sheet, suspects, count, message);
     image_close(&sheet);
     return done;
 }
@@ -214,7 +216,7 @@ static bool explains(const Lineup *lineup, const Suspect *suspect)
 {
     const double far = fmin(lineup->wrong_by, suspect->own);
     /* In lab 10 a coarse mesh is wrong by as much. */
-    const bool equal = suspect->apart <= ROUNDING * far && !lineup->shots->lab->budget;
+    const bool equal = suspect->apart <= ROUNDING * far && !lineup->pictures->lab->budget;
     return suspect->apart <= EXPLAINED * far && far >= (equal ? FAR_IF_EQUAL : FAR);
 }
 
@@ -234,21 +236,21 @@ void lineup_nearest(const Lineup *lineup, Suspect *suspects, int *count)
 
 bool lineup_verify(Lineup *lineup, Suspect *suspects, int *count, bool *near, Message *message)
 {
-    const Shots *shots = lineup->shots;
+    const LabPictures *pictures = lineup->pictures;
     int kept = 0;
     *near = false;
     for (int i = 0; i < *count; i++) {
         int worst = 2;
         Suspect suspect = suspects[i];
         suspect.apart = suspect.own = 0;
-        for (int k = 0; k < shots->count && worst > 0; k++) {
+        for (int k = 0; k < pictures->count && worst > 0; k++) {
             const int number = lineup->order[k];
-            const Shot *shot = &shots->shots[number];
-            if (!fit_images(lineup, shot->probe.width, shot->probe.height, message) ||
-                !draw_suspect(lineup, &shot->probe, &lineup->buffers[number], &suspect.choices,
-                              &lineup->drawn, message))
+            const LabPicture *picture = &pictures->items[number];
+            if (!fit_images(lineup, picture->lab_scene.width, picture->lab_scene.height, message) ||
+                !draw_suspect(lineup, &picture->lab_scene, &lineup->buffers[number],
+                              &suspect.choices, &lineup->drawn, message))
                 return false;
-            const int found = grade(lineup->soft, &shot->image, &lineup->drawn, &suspect.apart);
+            const int found = grade(lineup->soft, &picture->image, &lineup->drawn, &suspect.apart);
             worst = found < worst ? found : worst;
             suspect.own += compare_all(lineup, &lineup->right[number], &lineup->drawn);
         }
@@ -261,26 +263,27 @@ bool lineup_verify(Lineup *lineup, Suspect *suspects, int *count, bool *near, Me
     return true;
 }
 
-bool lineup_confront(Lineup *lineup, const Probe *probe, Suspect *suspects, int *count,
+bool lineup_confront(Lineup *lineup, const LabScene *lab_scene, Suspect *suspects, int *count,
                      Message *message)
 {
-    const SubmissionGeometry geometry = {.mesh = lineup->shots->mesh.vertices ? &lineup->shots->mesh
-                                                                              : NULL,
-                                         .cull = lineup->shots->geometry.cull};
-    ProbeBuffers buffers;
+    const SubmissionGeometry geometry = {
+        .mesh = lineup->pictures->mesh.vertices ? &lineup->pictures->mesh : NULL,
+        .cull = lineup->pictures->geometry.cull};
+    LabSceneBuffers buffers;
     Image right = {0};
     int kept = 0;
-    if (!fit_images(lineup, probe->width, probe->height, message) ||
-        !painter_draw(lineup->painter, probe, &geometry, lineup->canvas, &lineup->image, message) ||
-        !probe_buffers_open(&buffers, probe, &geometry, message))
+    if (!fit_images(lineup, lab_scene->width, lab_scene->height, message) ||
+        !painter_draw(lineup->painter, lab_scene, &geometry, lineup->canvas, &lineup->image,
+                      message) ||
+        !lab_scene_buffers_open(&buffers, lab_scene, &geometry, message))
         return false;
-    bool done = image_open(&right, probe->width, probe->height, IMAGE_BYTE, message) &&
-                draw_suspect(lineup, probe, &buffers, &lineup->right_choices, &right, message);
+    bool done = image_open(&right, lab_scene->width, lab_scene->height, IMAGE_BYTE, message) &&
+                draw_suspect(lineup, lab_scene, &buffers, &lineup->right_choices, &right, message);
     if (done)
         lineup->wrong_by += compare_all(lineup, &lineup->image, &right);
     for (int i = 0; i < *count && done; i++) {
         Suspect suspect = suspects[i];
-        done = draw_suspect(lineup, probe, &buffers, &suspect.choices, &lineup->drawn, message);
+        done = draw_suspect(lineup, lab_scene, &buffers, &suspect.choices, &lineup->drawn, message);
         const bool matches =
             done && grade(lineup->soft, &lineup->image, &lineup->drawn, &suspect.apart) == 2;
         suspect.own += done ? compare_all(lineup, &right, &lineup->drawn) : 0;
@@ -288,7 +291,7 @@ bool lineup_confront(Lineup *lineup, const Probe *probe, Suspect *suspects, int 
             suspects[kept++] = suspect;
     }
     image_close(&right);
-    probe_buffers_close(&buffers);
+    lab_scene_buffers_close(&buffers);
     *count = kept;
     lineup_nearest(lineup, suspects, count);
     return done;
@@ -312,17 +315,17 @@ static double distance(const Image *a, const Image *b)
 /* How far the suspect with this value is in the worst scenes; HUGE_VAL: cannot be drawn. */
 static double distance_with(Lineup *lineup, Suspect *suspect, double value, int scenes)
 {
-    const Shots *shots = lineup->shots;
+    const LabPictures *pictures = lineup->pictures;
     double sum = 0;
     suspect->choices.value = value;
-    for (int k = 0; k < scenes && k < shots->count; k++) {
+    for (int k = 0; k < scenes && k < pictures->count; k++) {
         const int number = lineup->order[k];
-        const Shot *shot = &shots->shots[number];
-        if (!fit_images(lineup, shot->probe.width, shot->probe.height, NULL) ||
-            !draw_suspect(lineup, &shot->probe, &lineup->buffers[number], &suspect->choices,
+        const LabPicture *picture = &pictures->items[number];
+        if (!fit_images(lineup, picture->lab_scene.width, picture->lab_scene.height, NULL) ||
+            !draw_suspect(lineup, &picture->lab_scene, &lineup->buffers[number], &suspect->choices,
                           &lineup->drawn, NULL))
             return HUGE_VAL;
-        sum += distance(&shot->image, &lineup->drawn);
+        sum += distance(&picture->image, &lineup->drawn);
     }
     return sum;
 }
@@ -369,9 +372,9 @@ bool lineup_fit(Lineup *lineup, Suspect *suspect)
         if (found < best)
             best = found, at = x;
     }
-    for (int k = 0; k < FIT_SCENES && k < lineup->shots->count; k++) {
+    for (int k = 0; k < FIT_SCENES && k < lineup->pictures->count; k++) {
         const int number = lineup->order[k];
-        wrong += distance(&lineup->shots->shots[number].image, &lineup->right[number]);
+        wrong += distance(&lineup->pictures->items[number].image, &lineup->right[number]);
     }
     bool one = true; /* in a picture that is all white or black, many numbers look alike */
     for (int side = -1; side <= 1; side += 2)

@@ -12,12 +12,12 @@ typedef struct Overview {
     double dark, bright; /* drawn minus exact, of dark and of bright pixels */
     double channels[3];  /* absolute differences */
     bool anything;       /* any pixel is not black */
-    bool wrong[PROBE_KIND_COUNT];
+    bool wrong[LAB_SCENE_KIND_COUNT];
 } Overview;
 
-static void look_at(const Shot *shot, const Reference *exact, Overview *overview)
+static void look_at(const LabPicture *picture, const Reference *exact, Overview *overview)
 {
-    const unsigned char *drawn = shot->image.pixels;
+    const unsigned char *drawn = picture->image.pixels;
     for (size_t i = 0; i < (size_t)exact->width * (size_t)exact->height; i++) {
         double mean = 0, apart = 0;
         overview->anything |= drawn[4 * i] || drawn[4 * i + 1] || drawn[4 * i + 2];
@@ -41,15 +41,15 @@ static void look_at(const Shot *shot, const Reference *exact, Overview *overview
 
 static void name_scenes(const Overview *overview, Verdict *verdict)
 {
-    static const char *const HINTS[PROBE_KIND_COUNT] = {
-        [PROBE_MOVED] = "Only scenes with a turned, moved or scaled object are wrong.",
-        [PROBE_COARSE] = "Only scenes with a coarse mesh are wrong.",
-        [PROBE_BEHIND] = "Only scenes with the light behind the object are wrong.",
-        [PROBE_CROWD] = "Only scenes with several objects are wrong.",
-        [PROBE_WIDE] = "Only scenes with a wide picture and a near light are wrong.",
+    static const char *const HINTS[LAB_SCENE_KIND_COUNT] = {
+        [LAB_SCENE_MOVED] = "Only scenes with a turned, moved or scaled object are wrong.",
+        [LAB_SCENE_COARSE] = "Only scenes with a coarse mesh are wrong.",
+        [LAB_SCENE_BEHIND] = "Only scenes with the light behind the object are wrong.",
+        [LAB_SCENE_CROWD] = "Only scenes with several objects are wrong.",
+        [LAB_SCENE_WIDE] = "Only scenes with a wide picture and a near light are wrong.",
     };
     int count = 0, last = 0;
-    for (int i = 0; i < PROBE_KIND_COUNT; i++) {
+    for (int i = 0; i < LAB_SCENE_KIND_COUNT; i++) {
         count += overview->wrong[i];
         last = overview->wrong[i] ? i : last;
     }
@@ -84,18 +84,18 @@ static void compare_channels(const Overview *overview, Verdict *verdict)
 }
 
 /* The pixel with the largest error, in the worst scene. */
-static void point_at_worst(const Shots *shots, Verdict *verdict)
+static void point_at_worst(const LabPictures *pictures, Verdict *verdict)
 {
     int worst = -1;
-    for (int i = 0; i < shots->count && i < verdict->probe_count; i++)
+    for (int i = 0; i < pictures->count && i < verdict->probe_count; i++)
         if (!verdict->probes[i].passed &&
             (worst < 0 || verdict->probes[i].rms > verdict->probes[worst].rms))
             worst = i;
     if (worst < 0)
         return;
-    const Shot *shot = &shots->shots[worst];
-    const Reference *exact = &shot->truths[shots->truth];
-    const unsigned char *drawn = shot->image.pixels;
+    const LabPicture *picture = &pictures->items[worst];
+    const Reference *exact = &picture->truths[pictures->truth];
+    const unsigned char *drawn = picture->image.pixels;
     double most = 0;
     size_t at = 0;
     for (size_t i = 0; i < (size_t)exact->width * (size_t)exact->height; i++) {
@@ -110,19 +110,19 @@ static void point_at_worst(const Shots *shots, Verdict *verdict)
             verdict,
             "Scene %s (%s), column %d, row %d from the top: it is (%d, %d, %d), right is (%.0f, "
             "%.0f, %.0f).",
-            PROBE_NAMES[shot->probe.kind], shot->probe.known ? "known" : "seed",
+            LAB_SCENE_NAMES[picture->lab_scene.kind], picture->lab_scene.known ? "known" : "seed",
             (int)(at % (size_t)exact->width), (int)(at / (size_t)exact->width), drawn[4 * at],
             drawn[4 * at + 1], drawn[4 * at + 2], 255 * (double)exact->color[3 * at],
             255 * (double)exact->color[3 * at + 1], 255 * (double)exact->color[3 * at + 2]);
 }
 
-void symptoms_describe(const Shots *shots, bool moved, Verdict *verdict)
+void symptoms_describe(const LabPictures *pictures, bool moved, Verdict *verdict)
 {
     Overview overview = {.pixels = 0};
-    for (int i = 0; i < shots->count; i++) {
-        const Shot *shot = &shots->shots[i];
-        look_at(shot, &shot->truths[shots->truth], &overview);
-        overview.wrong[shot->probe.kind] |= !verdict->probes[i].passed;
+    for (int i = 0; i < pictures->count; i++) {
+        const LabPicture *picture = &pictures->items[i];
+        look_at(picture, &picture->truths[pictures->truth], &overview);
+        overview.wrong[picture->lab_scene.kind] |= !verdict->probes[i].passed;
     }
     if (!overview.anything) {
         verdict_add_symptom(verdict, "Nothing is drawn, or everything is black: check that "
@@ -131,7 +131,7 @@ void symptoms_describe(const Shots *shots, bool moved, Verdict *verdict)
         return;
     }
     /* In lab 10 the mesh and its outline are the student's. */
-    const bool budget = shots->lab->budget;
+    const bool budget = pictures->lab->budget;
     if (moved || !budget)
         verdict_add_symptom(verdict, "%s",
                             moved ? "The outline is wrong: check gl_Position first."
@@ -140,5 +140,5 @@ void symptoms_describe(const Shots *shots, bool moved, Verdict *verdict)
         name_scenes(&overview, verdict);
     compare_sides(&overview, verdict);
     compare_channels(&overview, verdict);
-    point_at_worst(shots, verdict);
+    point_at_worst(pictures, verdict);
 }

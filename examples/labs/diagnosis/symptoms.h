@@ -4,10 +4,10 @@
 #ifndef SYMPTOMS_H
 #define SYMPTOMS_H
 
-#include "labs/submission/shots.h"
+#include "labs/submission/lab_pictures.h"
 #include "labs/submission/verdict.h"
 
 /* Adds the symptoms to the verdict. `moved`: the outline is wrong. */
-void symptoms_describe(const Shots *shots, bool moved, Verdict *verdict);
+void symptoms_describe(const LabPictures *pictures, bool moved, Verdict *verdict);
 
 #endif

@@ -37,16 +37,16 @@ Mat4 made_part(Mat4 right, int choice)
 static void world_parts(const Made *made, Mat4 *move, Mat4 *turn, Mat4 *scale)
 {
     static const Vec3 AXES[] = {[AXIS_X] = {1, 0, 0}, [AXIS_Y] = {0, 1, 0}, [AXIS_Z] = {0, 0, 1}};
-    const double degrees = DEGREES_PER_SECOND * made->probe->seconds, radian = 180 / acos(-1);
+    const double degrees = DEGREES_PER_SECOND * made->lab_scene->seconds, radian = 180 / acos(-1);
     const double angles[] = {degrees, [PART_MISSING] = 0, [TURN_RADIANS] = degrees / radian,
                              [TURN_DEGREES] = degrees * radian};
     const double angle = angles[made_choice(made, SLOT_TURN)];
     const int axis = made_choice(made, SLOT_AXIS);
-    probe_world_parts(made->probe->seconds, move, turn, scale);
+    lab_scene_world_parts(made->lab_scene->seconds, move, turn, scale);
     *move = made_part(*move, made_choice(made, SLOT_MOVE));
     *scale = made_part(*scale, made_choice(made, SLOT_SCALE));
     *turn = mat4_rotate(made_choice(made, SLOT_TURN_SIGN) ? -angle : angle,
-                        axis ? AXES[axis] : PROBE_AXIS);
+                        axis ? AXES[axis] : LAB_AXIS);
 }
 
 static Mat4 product_of(Mat4 first, Mat4 second, Mat4 third)
@@ -74,13 +74,14 @@ Mat4 made_model_matrix(const Made *made)
 
 Mat4 made_clip_matrix(const Made *made)
 {
-    const Vec3 scales[] = {{1, 1, 1},
-                           [CLIP_UPSIDE_DOWN] = {1, -1, 1},
-                           [CLIP_SWAPPED] = {-1, 1, 1},
-                           [CLIP_ASPECT] = {(double)made->probe->width / made->probe->height, 1, 1},
-                           [CLIP_TRANSPOSED] = {1, 1, 1},
-                           [CLIP_FLAT] = {1, 1, 0},
-                           [CLIP_REVERSED] = {1, 1, -1}};
+    const Vec3 scales[] = {
+        {1, 1, 1},
+        [CLIP_UPSIDE_DOWN] = {1, -1, 1},
+        [CLIP_SWAPPED] = {-1, 1, 1},
+        [CLIP_ASPECT] = {(double)made->lab_scene->width / made->lab_scene->height, 1, 1},
+        [CLIP_TRANSPOSED] = {1, 1, 1},
+        [CLIP_FLAT] = {1, 1, 0},
+        [CLIP_REVERSED] = {1, 1, -1}};
     const int clip = made_choice(made, SLOT_CLIP);
     if (clip == CLIP_NO_MODEL)
         return mat4_product(made->clip_from_eye, made->eye_from_world);
@@ -193,7 +194,7 @@ void made_choose_light_colors(Made *made)
 {
     for (int i = 0; i < LAB_MAX_LIGHTS; i++) {
         Vec3 *color = &made->light_color[i];
-        *color = i < made->lab->lights ? made->probe->lights[i].diffuse : BLACK;
+        *color = i < made->lab->lights ? made->lab_scene->lights[i].diffuse : BLACK;
         if (i < made->lab->lights && made_choice(made, SLOT_LIGHT_COLOR) == LIGHT_COLOR_IGNORED)
             *color = WHITE;
         if (made_choice(made, SLOT_LIGHT_COLOR) == LIGHT_COLOR_SWAPPED)
@@ -224,7 +225,7 @@ void made_choose_light_places(Made *made)
     const Vec3 center = mat4_transform_point(made->world, (Vec3){0, 0, 0});
     const bool directional = made->lab->light == LIGHT_DIRECTIONAL;
     for (int i = 0; i < LAB_MAX_LIGHTS; i++) {
-        const Light *light = &made->probe->lights[i < made->lab->lights ? i : 0];
+        const Light *light = &made->lab_scene->lights[i < made->lab->lights ? i : 0];
         Vec3 *place = &made->light[i];
         *place = directional ? light->direction : light->position;
         if (directional)
@@ -244,7 +245,7 @@ void made_choose_light_places(Made *made)
         if (space == LIGHT_SPACE_UNIT)
             vec3_normalize(*place, place);
         if (space == LIGHT_SPACE_W_0)
-            *place = vec3_add(*place, made->probe->scene.camera.eye);
+            *place = vec3_add(*place, made->lab_scene->scene.camera.eye);
         if (space == LIGHT_SPACE_MODEL_W_1)
             *place = mat4_transform_point(made->world, *place);
         if (made_choice(made, SLOT_LIGHT) == LIGHT_FROM_CENTER)
@@ -293,7 +294,7 @@ static Vec3 base_color(const Made *made, Vec3 surface)
 {
     const Vec3 ambient = made->choices->factor == FACTOR_AMBIENT_VALUE
                              ? vec3_scale(WHITE, made->choices->value)
-                             : made->probe->scene.global_ambient;
+                             : made->lab_scene->scene.global_ambient;
     const Vec3 base = vec3_scale(made_product(ambient, surface), made_factor(made, FACTOR_AMBIENT));
     const int lights = made_choice(made, SLOT_LIGHTS);
     switch (made_choice(made, SLOT_AMBIENT)) {
@@ -318,7 +319,7 @@ static Vec3 base_color(const Made *made, Vec3 surface)
 double made_exponent(const Made *made, bool blinn_phong)
 {
     const double shininess = made->object->front.shininess;
-    const double fitted = made->probe->fitted[made->object - made->probe->objects];
+    const double fitted = made->lab_scene->fitted[made->object - made->lab_scene->objects];
     const double wrong[] = {
         0, [EXPONENT_PLAIN] = shininess, [EXPONENT_ONE] = 1, [EXPONENT_QUARTER] = shininess / 4,
         [EXPONENT_SQUARED] = shininess * shininess};

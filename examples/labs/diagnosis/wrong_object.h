@@ -6,12 +6,12 @@
 #define WRONG_OBJECT_H
 
 #include "labs/diagnosis/catalogue.h"
-#include "labs/program/probe.h"
+#include "labs/program/lab_scene.h"
 
 /* One object, with the matrices and colours that the choices give it. */
 typedef struct Made {
     const Lab *lab;
-    const Probe *probe;
+    const LabScene *lab_scene;
     const Object *object;
     const Choices *choices;
     const int *of;

@@ -170,7 +170,7 @@ static void set_reflection(const WrongProgram *program, const Made *made)
 static void set_view(const WrongProgram *program, const Made *made)
 {
     const double *m = made->eye_from_world.m;
-    const Vec3 eye = made->probe->scene.camera.eye;
+    const Vec3 eye = made->lab_scene->scene.camera.eye;
     const Vec3 center = mat4_transform_point(made->world, (Vec3){0, 0, 0});
     const Vec3 views[] = {
         eye,
@@ -205,7 +205,7 @@ static void set_view(const WrongProgram *program, const Made *made)
 
 static void set_fade(const WrongProgram *program, const Made *made)
 {
-    const Light *light = &made->probe->lights[0];
+    const Light *light = &made->lab_scene->lights[0];
     const int of = made_choice(made, SLOT_FADE), on = made_choice(made, SLOT_FADE_ON);
     double c = light->constant, l = light->linear, q = light->quadratic;
     const bool spot = made->lab->light == LIGHT_SPOT;
@@ -242,7 +242,7 @@ static void set_fade(const WrongProgram *program, const Made *made)
 
 static void set_cone(const WrongProgram *program, const Made *made)
 {
-    const Light *light = &made->probe->lights[0];
+    const Light *light = &made->lab_scene->lights[0];
     const int of = made_choice(made, SLOT_CONE), on = made_choice(made, SLOT_CONE_ON);
     const bool spot = made->lab->light == LIGHT_SPOT;
     const double cutoff = made_value(
@@ -280,7 +280,7 @@ static void set_cone(const WrongProgram *program, const Made *made)
     if (sign == AXIS_REVERSED)
         axis = vec3_scale(axis, -1);
     if (sign == AXIS_W_1 || sign == AXIS_W_1_UNIT)
-        axis = vec3_subtract(axis, made->probe->scene.camera.eye);
+        axis = vec3_subtract(axis, made->lab_scene->scene.camera.eye);
     if (sign == AXIS_W_1_UNIT)
         vec3_normalize(axis, &axis);
     shader_set_vec3(program->locations[U_u_SpotAxis], axis);
@@ -314,7 +314,7 @@ static void set_rest(const WrongProgram *program, const Made *made)
 
 /* The shadow map. */
 
-static Mat4 map_matrix(const Made *made, const ProbeMap *map)
+static Mat4 map_matrix(const Made *made, const LabShadowMap *map)
 {
     switch (made_choice(made, SLOT_MAP_PLACE)) {
     case MAP_PLACE_OBJECT:
@@ -328,7 +328,7 @@ static Mat4 map_matrix(const Made *made, const ProbeMap *map)
     }
 }
 
-static void set_shadow(const WrongProgram *program, const Made *made, const ProbeMap *map)
+static void set_shadow(const WrongProgram *program, const Made *made, const LabShadowMap *map)
 {
     const double biases[] = {0.002,
                              [MAP_BIAS_NONE] = 0,
@@ -363,11 +363,11 @@ static void set_shadow(const WrongProgram *program, const Made *made, const Prob
     set_float(program, U_u_MapLight, made_factor(made, FACTOR_MAP_LIGHT));
 }
 
-bool wrong_program_draw(const WrongProgram *program, const Lab *lab, const Probe *probe,
-                        const ProbeBuffers *buffers, const Choices *choices)
+bool wrong_program_draw(const WrongProgram *program, const Lab *lab, const LabScene *lab_scene,
+                        const LabSceneBuffers *buffers, const Choices *choices)
 {
-    Made made = {.lab = lab, .probe = probe, .choices = choices, .of = choices->of};
-    if (!scene_camera(&probe->scene.camera, (double)probe->width / probe->height,
+    Made made = {.lab = lab, .lab_scene = lab_scene, .choices = choices, .of = choices->of};
+    if (!scene_camera(&lab_scene->scene.camera, (double)lab_scene->width / lab_scene->height,
                       &made.eye_from_world, &made.clip_from_eye, NULL))
         return false;
     glUseProgram(program->shader.program);
@@ -376,9 +376,9 @@ bool wrong_program_draw(const WrongProgram *program, const Lab *lab, const Probe
         glEnable(GL_CULL_FACE);
     made_choose_light_colors(&made);
     set_fade(program, &made);
-    for (int i = 0; i < probe->scene.object_count; i++) {
+    for (int i = 0; i < lab_scene->scene.object_count; i++) {
         const MeshBuffer *mesh = &buffers->buffers[i];
-        made.object = &probe->objects[i];
+        made.object = &lab_scene->objects[i];
         set_cone(program, &made);
         made.world = made_model_matrix(&made);
         made_choose_light_places(&made);

@@ -6,7 +6,7 @@
 #define WRONG_PROGRAM_H
 
 #include "labs/diagnosis/catalogue.h"
-#include "labs/submission/probe_buffers.h"
+#include "labs/submission/lab_scene_buffers.h"
 
 enum { WRONG_PROGRAM_UNIFORMS = 57 };
 
@@ -20,9 +20,9 @@ typedef struct WrongProgram {
 bool wrong_program_open(WrongProgram *program, const Lab *lab, Message *message);
 void wrong_program_close(WrongProgram *program);
 
-/* Draws a probe with these choices into the canvas's current view, which is cleared. False: the
+/* Draws a scene with these choices into the canvas's current view, which is cleared. False: the
  * camera is degenerate. */
-bool wrong_program_draw(const WrongProgram *program, const Lab *lab, const Probe *probe,
-                        const ProbeBuffers *buffers, const Choices *choices);
+bool wrong_program_draw(const WrongProgram *program, const Lab *lab, const LabScene *lab_scene,
+                        const LabSceneBuffers *buffers, const Choices *choices);
 
 #endif

@@ -132,7 +132,7 @@ static bool gather(Values *values, const Lab *lab, const Drawn *drawn, Message *
         add_matrix(values, "u_LightMatrix",
                    drawn && drawn->map ? drawn->map->clip_from_world : mat4_identity());
         add(values, "u_ShadowMap", KIND_MAP);
-        add_number(values, "u_ShadowMapSize", PROBE_MAP_SIZE);
+        add_number(values, "u_ShadowMapSize", LAB_SHADOW_MAP_SIZE);
     }
     if (lab->two_sided) {
         add_vector(values, "u_BackColor", KIND_COLOR, object->back.diffuse);

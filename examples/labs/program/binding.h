@@ -11,7 +11,7 @@
 #include "core/mesh_buffer.h"
 #include "core/shader.h"
 #include "labs/program/lab.h"
-#include "labs/program/probe_map.h"
+#include "labs/program/lab_shadow_map.h"
 
 /* One object of a scene, drawn with this aspect ratio, width / height. */
 typedef struct Drawn {
@@ -20,7 +20,7 @@ typedef struct Drawn {
     double aspect;
     const Mat4 *world_from_object; /* lab 3's; NULL: the object's */
     const Mat4 *normal_matrix;     /* lab 3's; NULL: the inverse transpose */
-    const ProbeMap *map;           /* lab 11's; stays bound */
+    const LabShadowMap *map;       /* lab 11's; stays bound */
 } Drawn;
 
 /* Checks every active attribute and uniform of a linked program. False, with a message about the

@@ -11,7 +11,7 @@
 
 /* The largest error of a correct picture. Rounding to bytes adds 0.5, 32-bit arithmetic far less;
  * two ways to write the same formula differ by at most 1, and Blinn-Phong with the fitted exponent
- * and with four times Phong's by 1.9 (see probe.c). Every visible mistake of the catalogue causes
+ * and with four times Phong's by 1.9 (see scene.c). Every visible mistake of the catalogue causes
  * at least 4. */
 #define COMPARE_TOLERANCE 2.5
 

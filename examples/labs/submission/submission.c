@@ -137,17 +137,18 @@ bool submission_compile(Shader *shader, const Lab *lab, const SubmissionFiles *f
     return shader_open(shader, &loader, lab->file, message);
 }
 
-static bool draw_object(const Painter *painter, const Probe *probe, int i,
-                        const SubmissionGeometry *geometry, const ProbeMap *map, Message *message)
+static bool draw_object(const Painter *painter, const LabScene *lab_scene, int i,
+                        const SubmissionGeometry *geometry, const LabShadowMap *map,
+                        Message *message)
 {
     MeshBuffer mesh;
-    const Drawn drawn = {.scene = &probe->scene,
+    const Drawn drawn = {.scene = &lab_scene->scene,
                          .object = i,
-                         .aspect = (double)probe->width / probe->height,
+                         .aspect = (double)lab_scene->width / lab_scene->height,
                          .world_from_object = geometry->world_from_object,
                          .normal_matrix = geometry->normal_matrix,
                          .map = map};
-    const Mesh *shape = geometry->mesh ? geometry->mesh : probe->objects[i].mesh;
+    const Mesh *shape = geometry->mesh ? geometry->mesh : lab_scene->objects[i].mesh;
     if (!mesh_buffer_open(&mesh, shape, message))
         return false;
     const bool done = binding_draw(painter->lab, painter->program, &mesh, &drawn, message);
@@ -155,14 +156,14 @@ static bool draw_object(const Painter *painter, const Probe *probe, int i,
     return done;
 }
 
-static bool paint(const Painter *painter, const Probe *probe, const SubmissionGeometry *geometry,
-                  Message *message)
+static bool paint(const Painter *painter, const LabScene *lab_scene,
+                  const SubmissionGeometry *geometry, Message *message)
 {
-    ProbeMap map;
-    bool done = probe_map_open(&map, probe, message);
-    for (int i = 0; i < probe->scene.object_count && done; i++)
-        done = draw_object(painter, probe, i, geometry, &map, message);
-    probe_map_close(&map);
+    LabShadowMap map;
+    bool done = lab_shadow_map_open(&map, lab_scene, message);
+    for (int i = 0; i < lab_scene->scene.object_count && done; i++)
+        done = draw_object(painter, lab_scene, i, geometry, &map, message);
+    lab_shadow_map_close(&map);
     return done;
 }
 
@@ -184,24 +185,28 @@ static bool read_part(PainterView view, Image *image, Message *message)
     return done;
 }
 
-bool painter_draw_at(const Painter *painter, const Probe *probe, const SubmissionGeometry *geometry,
-                     PainterView view, Image *image, Message *message)
+bool painter_draw_at(const Painter *painter, const LabScene *lab_scene,
+                     const SubmissionGeometry *geometry, PainterView view, Image *image,
+                     Message *message)
 {
-    if (!canvas_resize(view.canvas, view.left + probe->width, view.top + probe->height, message))
+    if (!canvas_resize(view.canvas, view.left + lab_scene->width, view.top + lab_scene->height,
+                       message))
         return false;
-    canvas_clear(view.canvas, probe->scene.background, 1);
-    canvas_view(view.canvas, view.left, view.top, probe->width, probe->height);
+    canvas_clear(view.canvas, lab_scene->scene.background, 1);
+    canvas_view(view.canvas, view.left, view.top, lab_scene->width, lab_scene->height);
     glEnable(GL_DEPTH_TEST);
     if (geometry->cull)
         glEnable(GL_CULL_FACE);
-    const bool done = painter->paint ? painter->paint(painter, probe, geometry, message)
-                                     : paint(painter, probe, geometry, message);
+    const bool done = painter->paint ? painter->paint(painter, lab_scene, geometry, message)
+                                     : paint(painter, lab_scene, geometry, message);
     glDisable(GL_CULL_FACE);
     return done && read_part(view, image, message);
 }
 
-bool painter_draw(const Painter *painter, const Probe *probe, const SubmissionGeometry *geometry,
-                  Canvas *canvas, Image *image, Message *message)
+bool painter_draw(const Painter *painter, const LabScene *lab_scene,
+                  const SubmissionGeometry *geometry, Canvas *canvas, Image *image,
+                  Message *message)
 {
-    return painter_draw_at(painter, probe, geometry, (PainterView){canvas, 0, 0}, image, message);
+    return painter_draw_at(painter, lab_scene, geometry, (PainterView){canvas, 0, 0}, image,
+                           message);
 }

@@ -11,7 +11,7 @@
 #include "core/canvas.h"
 #include "core/shader.h"
 #include "labs/program/binding.h"
-#include "labs/program/probe.h"
+#include "labs/program/lab_scene.h"
 
 /* Files of a folder, in memory. Zeroed: none. */
 enum { SUBMISSION_MAX_FILES = 64 };
@@ -44,10 +44,10 @@ void submission_files_close(SubmissionFiles *files);
 bool submission_compile(Shader *shader, const Lab *lab, const SubmissionFiles *files,
                         const char *precision, Message *message);
 
-/* Replaces a probe's own geometry. Zeroed: nothing. */
+/* Replaces a scene's own geometry. Zeroed: nothing. */
 typedef struct SubmissionGeometry {
-    const Mat4 *world_from_object, *normal_matrix; /* lab 3; NULL: the probe's */
-    const Mesh *mesh;                              /* lab 10; NULL: the probe's */
+    const Mat4 *world_from_object, *normal_matrix; /* lab 3; NULL: the scene's */
+    const Mesh *mesh;                              /* lab 10; NULL: the scene's */
     bool cull;
 } SubmissionGeometry;
 
@@ -56,22 +56,24 @@ typedef struct Painter {
     const Lab *lab;
     GLuint program;
     /* Draws a scene's objects into the cleared canvas; NULL: with the program. */
-    bool (*paint)(const struct Painter *painter, const Probe *probe,
+    bool (*paint)(const struct Painter *painter, const LabScene *lab_scene,
                   const SubmissionGeometry *geometry, Message *message);
     const void *what; /* for `paint` */
 } Painter;
 
-/* Resizes a canvas to a probe's size, draws the probe and reads it back into an image of bytes of
+/* Resizes a canvas to a scene's size, draws the scene and reads it back into an image of bytes of
  * that size. False, with a message: the driver failed. */
-bool painter_draw(const Painter *painter, const Probe *probe, const SubmissionGeometry *geometry,
-                  Canvas *canvas, Image *image, Message *message);
+bool painter_draw(const Painter *painter, const LabScene *lab_scene,
+                  const SubmissionGeometry *geometry, Canvas *canvas, Image *image,
+                  Message *message);
 
 /* The same into a rectangle of a larger canvas. */
 typedef struct PainterView {
     Canvas *canvas;
     int left, top; /* of its upper left pixel */
 } PainterView;
-bool painter_draw_at(const Painter *painter, const Probe *probe, const SubmissionGeometry *geometry,
-                     PainterView view, Image *image, Message *message);
+bool painter_draw_at(const Painter *painter, const LabScene *lab_scene,
+                     const SubmissionGeometry *geometry, PainterView view, Image *image,
+                     Message *message);
 
 #endif

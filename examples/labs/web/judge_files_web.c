@@ -5,11 +5,11 @@
 
 static Image kept;
 
-bool judge_worst(const Shots *shots, int shot, const char *folder, Message *message)
+bool judge_worst(const LabPictures *pictures, int picture, const char *folder, Message *message)
 {
     (void)folder;
     image_close(&kept);
-    return judge_sheet(shots, shot, &kept, message);
+    return judge_sheet(pictures, picture, &kept, message);
 }
 
 void judge_take_sheet(Image *sheet)

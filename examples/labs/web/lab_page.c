@@ -4,7 +4,7 @@
 #include "labs/check/code.h"
 #include "labs/check/judge.h"
 #include "labs/check/judge_pictures.h"
-#include "labs/program/probe_open.h"
+#include "labs/program/lab_scene_open.h"
 #include "labs/submission/verdict_fields.h"
 #include "labs/web/judge_files_web.h"
 #include "study/results/json.h"
@@ -157,7 +157,7 @@ static bool open_shader(Shader *shader)
 }
 
 /* Lab 3: the starter's matrices, because its C is not compiled here; lab 10: the sphere. */
-static bool choose(Probe *probe, SubmissionGeometry *geometry)
+static bool choose(LabScene *lab_scene, SubmissionGeometry *geometry)
 {
     static const Mat4 identity = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
     if (page.lab->given)
@@ -177,18 +177,18 @@ static bool choose(Probe *probe, SubmissionGeometry *geometry)
     submission_files_close(&files);
     if (!read)
         return false;
-    mesh_close(&probe->meshes[0]);
+    mesh_close(&lab_scene->meshes[0]);
     geometry->cull = budget.cull;
-    return mesh_sphere(&probe->meshes[0], 1, budget.slices, budget.stacks, &page.message);
+    return mesh_sphere(&lab_scene->meshes[0], 1, budget.slices, budget.stacks, &page.message);
 }
 
-static bool draw_probe(Probe *probe, const Shader *shader)
+static bool draw_scene(LabScene *lab_scene, const Shader *shader)
 {
     SubmissionGeometry geometry = {.cull = false};
     const Painter painter = {.lab = page.lab, .program = shader->program};
-    probe->width = probe->height = SIZE;
-    return choose(probe, &geometry) &&
-           painter_draw(&painter, probe, &geometry, &page.canvas, &page.drawn, &page.message);
+    lab_scene->width = lab_scene->height = SIZE;
+    return choose(lab_scene, &geometry) &&
+           painter_draw(&painter, lab_scene, &geometry, &page.canvas, &page.drawn, &page.message);
 }
 
 /* What page_pixels are. */
@@ -205,7 +205,7 @@ int page_draw(double seconds)
 {
     const CanvasOptions options = {.width = SIZE, .height = SIZE};
     Shader shader = {0};
-    Probe probe;
+    LabScene lab_scene;
     page.message = (Message){0};
     if (!page.lab)
         return message_set(&page.message, "no lab is open");
@@ -213,18 +213,18 @@ int page_draw(double seconds)
         return 0;
     if (!page.drawn.pixels && !image_open(&page.drawn, SIZE, SIZE, IMAGE_BYTE, &page.message))
         return 0;
-    if (!probe_open_usual(&probe, page.lab, seconds, &page.message))
+    if (!lab_scene_open_usual(&lab_scene, page.lab, seconds, &page.message))
         return 0;
-    const bool done = open_shader(&shader) && draw_probe(&probe, &shader) && show(&page.drawn);
+    const bool done = open_shader(&shader) && draw_scene(&lab_scene, &shader) && show(&page.drawn);
     shader_close(&shader);
-    probe_close(&probe);
+    lab_scene_close(&lab_scene);
     return done;
 }
 
 int page_expected(double seconds)
 {
-    Probe probe;
-    Object objects[PROBE_MAX_OBJECTS];
+    LabScene lab_scene;
+    Object objects[LAB_SCENE_MAX_OBJECTS];
     page.message = (Message){0};
     if (!page.lab)
         return message_set(&page.message, "no lab is open");
@@ -235,14 +235,14 @@ int page_expected(double seconds)
     reference_close(&page.exact);
     image_close(&page.right);
     page.exact_lab = NULL;
-    if (!probe_open_usual(&probe, page.lab, seconds, &page.message))
+    if (!lab_scene_open_usual(&lab_scene, page.lab, seconds, &page.message))
         return 0;
-    const Scene scene = shots_truth_scene(page.lab, &probe, 0, objects);
+    const Scene scene = lab_pictures_truth_scene(page.lab, &lab_scene, 0, objects);
     const bool done = reference_open(&page.exact, &scene, &options, &page.message) &&
-                      shots_leave_out_edges(&page.exact, &page.message) &&
+                      lab_pictures_leave_out_edges(&page.exact, &page.message) &&
                       judge_exact_image(&page.exact, &page.right, &page.message) &&
                       show(&page.right);
-    probe_close(&probe);
+    lab_scene_close(&lab_scene);
     page.exact_lab = done ? page.lab : NULL;
     page.exact_seconds = seconds;
     return done;

@@ -1,21 +1,21 @@
 /* A scene of a seed is made of random numbers in an order that never changes, so that a seed's
  * scenes stay what they are; ranges keep out what would show nothing (a light that reaches no face
  * that is seen) or what has no one right picture (normals of other lengths, grazing light). */
-#include "labs/program/probe_open.h"
+#include "labs/program/lab_scene_open.h"
 
-#include "labs/program/probe_light.h"
-#include "labs/program/probe_random.h"
-#include "labs/program/probe_shadow.h"
+#include "labs/program/lab_scene_exposure.h"
+#include "labs/program/lab_scene_random.h"
+#include "labs/program/lab_scene_shadow.h"
 #include "scene/scene_example.h"
 
 #include <math.h>
 
-/* Of PROBE_HUGE: squared distances then exceed the largest 16-bit float, 65504. */
+/* Of LAB_SCENE_HUGE: squared distances then exceed the largest 16-bit float, 65504. */
 static const double HUGE_FACTOR = 300;
 
 /* The labs' own scenes, by number: what is not zero. */
 typedef struct UsualScene {
-    ProbeShape shape;
+    LabShape shape;
     double scale; /* after it has been turned; 0: not turned */
     Vec3 eye, center;
     struct {
@@ -85,7 +85,7 @@ static const UsualScene USUAL[LAB_COUNT + 1] = {
             .color = ORANGE},
 };
 
-static bool open_usual(Probe *probe, const Lab *lab, double seconds, Message *message)
+static bool open_usual(LabScene *lab_scene, const Lab *lab, double seconds, Message *message)
 {
     const UsualScene *usual = &USUAL[lab->number];
     const double scale = usual->scale;
@@ -93,35 +93,35 @@ static bool open_usual(Probe *probe, const Lab *lab, double seconds, Message *me
     const bool mirrored = lab->two_sided && fmod(floor(seconds), 2) != 0;
     Mat4 world = mat4_product(example_turned(seconds),
                               mat4_scale((Vec3){mirrored ? -scale : scale, scale, scale}));
-    probe->seconds = seconds;
-    probe->scene.camera.eye = usual->eye;
-    probe->scene.camera.center = usual->center;
+    lab_scene->seconds = seconds;
+    lab_scene->scene.camera.eye = usual->eye;
+    lab_scene->scene.camera.center = usual->center;
     if (scale == 0)
-        world = lab->given ? probe_world(seconds) : mat4_identity();
+        world = lab->given ? lab_scene_world(seconds) : mat4_identity();
     for (int i = 0; i < lab->lights; i++)
-        probe_set_light(probe, i, usual->lights[i].place, usual->lights[i].color);
+        lab_scene_set_light(lab_scene, i, usual->lights[i].place, usual->lights[i].color);
     if (lab->light == LIGHT_SPOT) {
-        probe_set_spot(probe, (Vec3){-0.2, 0.3, 0.4}, 14, 40);
-        probe->lights[0].constant = 0.7;
-        probe->lights[0].linear = 0.05;
-        probe->lights[0].quadratic = 0.02;
+        lab_scene_set_spot(lab_scene, (Vec3){-0.2, 0.3, 0.4}, 14, 40);
+        lab_scene->lights[0].constant = 0.7;
+        lab_scene->lights[0].linear = 0.05;
+        lab_scene->lights[0].quadratic = 0.02;
     }
-    if (!probe_add_object(probe, usual->shape, world, message))
+    if (!lab_scene_add_object(lab_scene, usual->shape, world, message))
         return false;
-    const ProbeSurface surface = {usual->color, {0.5, 0.5, 0.5}, {0.6, 0.6, 0.7}, usual->shininess};
-    probe_set_material(probe, lab, 0, &surface);
+    const LabSurface surface = {usual->color, {0.5, 0.5, 0.5}, {0.6, 0.6, 0.7}, usual->shininess};
+    lab_scene_set_material(lab_scene, lab, 0, &surface);
     if (!lab->shadow)
         return true;
-    probe->objects[0].world_from_object = probe_on_floor(&probe->meshes[0], world);
-    return probe_add_floor(probe, (Vec3){0.6, 0.75, 0.7}, message);
+    lab_scene->objects[0].world_from_object = lab_scene_on_floor(&lab_scene->meshes[0], world);
+    return lab_scene_add_floor(lab_scene, (Vec3){0.6, 0.75, 0.7}, message);
 }
 
-bool probe_open_usual(Probe *probe, const Lab *lab, double seconds, Message *message)
+bool lab_scene_open_usual(LabScene *lab_scene, const Lab *lab, double seconds, Message *message)
 {
-    probe_begin(probe, lab, PROBE_PLAIN);
-    if (open_usual(probe, lab, seconds, message))
+    lab_scene_begin(lab_scene, lab, LAB_SCENE_PLAIN);
+    if (open_usual(lab_scene, lab, seconds, message))
         return true;
-    probe_close(probe);
+    lab_scene_close(lab_scene);
     return false;
 }
 
@@ -130,22 +130,23 @@ static Mat4 placed(Vec3 offset, Mat4 turn, Vec3 factors)
     return mat4_product(mat4_translate(offset), mat4_product(turn, mat4_scale(factors)));
 }
 
-static ProbeShape choose_shape(const Lab *lab, ProbeKind kind, int number, Random *random)
+static LabShape choose_shape(const Lab *lab, LabSceneKind kind, int number, Random *random)
 {
-    const ProbeShape flat[] = {SHAPE_OF_CUBE, SHAPE_OF_ICOSAHEDRON, SHAPE_OF_DODECAHEDRON,
-                               SHAPE_OF_OCTAHEDRON};
+    const LabShape flat[] = {SHAPE_OF_CUBE, SHAPE_OF_ICOSAHEDRON, SHAPE_OF_DODECAHEDRON,
+                             SHAPE_OF_OCTAHEDRON};
     if (lab->given || lab->budget)
         return lab->given ? SHAPE_OF_CUBE_ON_CORNER : SHAPE_OF_SPHERE;
     if (lab->two_sided)
-        return kind == PROBE_PLAIN || kind == PROBE_COARSE || kind == PROBE_HUGE || number == 1
+        return kind == LAB_SCENE_PLAIN || kind == LAB_SCENE_COARSE || kind == LAB_SCENE_HUGE ||
+                       number == 1
                    ? SHAPE_OF_TUBE /* part of it is always lit */
                    : SHAPE_OF_QUAD;
     if (lab->flat)
-        return kind == PROBE_COARSE ? SHAPE_OF_DODECAHEDRON
-                                    : flat[(int)random_between(random, 0, 3.999)];
-    if (kind == PROBE_COARSE)
+        return kind == LAB_SCENE_COARSE ? SHAPE_OF_DODECAHEDRON
+                                        : flat[(int)random_between(random, 0, 3.999)];
+    if (kind == LAB_SCENE_COARSE)
         return SHAPE_OF_COARSE_BALL;
-    if (kind == PROBE_MOVED || number == 1)
+    if (kind == LAB_SCENE_MOVED || number == 1)
         return flat[(int)random_between(random, 0, 3.999)];
     return random_chance(random) ? SHAPE_OF_BALL : SHAPE_OF_TORUS;
 }
@@ -153,7 +154,8 @@ static ProbeShape choose_shape(const Lab *lab, ProbeKind kind, int number, Rando
 /* Always turned, so that several faces show; scaled if the lab scales, but curved shapes evenly:
  * their normals stay equally long, so normalizing them before interpolation makes no difference.
  * Never so large or far that the object leaves the picture. */
-static Mat4 choose_world(const Lab *lab, ProbeKind kind, bool flat, double seconds, Random *random)
+static Mat4 choose_world(const Lab *lab, LabSceneKind kind, bool flat, double seconds,
+                         Random *random)
 {
     Vec3 factors = {1, 1, 1}, offset = {0, 0, 0};
     Vec3 axis = random_direction(random);
@@ -165,7 +167,7 @@ static Mat4 choose_world(const Lab *lab, ProbeKind kind, bool flat, double secon
     offset.y = random_signed(random, 0.2, 0.45);
     offset.z = random_signed(random, 0.2, 0.6);
     if (lab->given)
-        return probe_world(seconds);
+        return lab_scene_world(seconds);
     if (lab->budget)
         return mat4_identity();
     if (!lab->rigid && !flat)
@@ -174,127 +176,131 @@ static Mat4 choose_world(const Lab *lab, ProbeKind kind, bool flat, double secon
         factors = turn == 0   ? (Vec3){first, second, third}
                   : turn == 1 ? (Vec3){third, first, second}
                               : (Vec3){second, third, first};
-    if (lab->two_sided && (kind == PROBE_MOVED || kind == PROBE_BEHIND || kind == PROBE_WIDE))
+    if (lab->two_sided &&
+        (kind == LAB_SCENE_MOVED || kind == LAB_SCENE_BEHIND || kind == LAB_SCENE_WIDE))
         factors.x = -factors.x;
     return placed(offset, mat4_rotate(degrees, axis), factors);
 }
 
 /* The direction from the object to the eye. */
-static Vec3 choose_view(ProbeKind kind, Random *random)
+static Vec3 choose_view(LabSceneKind kind, Random *random)
 {
-    const double spread = kind == PROBE_PLAIN ? 20 : 60;
-    if (kind == PROBE_ALONG || kind == PROBE_AGAINST)
+    const double spread = kind == LAB_SCENE_PLAIN ? 20 : 60;
+    if (kind == LAB_SCENE_ALONG || kind == LAB_SCENE_AGAINST)
         return (Vec3){0, 0, 1};
     return random_near(random, (Vec3){0, 0.2, 1}, 5, spread);
 }
 
 /* In C, except in lab 10, light goes beyond 1: what clamps it before it meets the colour is wrong.
  */
-static bool is_strong(const Probe *probe, const Lab *lab)
+static bool is_strong(const LabScene *lab_scene, const Lab *lab)
 {
-    return probe->kind == PROBE_COARSE && !lab->budget && !lab->given;
+    return lab_scene->kind == LAB_SCENE_COARSE && !lab->budget && !lab->given;
 }
 
-static void choose_lights(Probe *probe, const Lab *lab, Vec3 view, Random *random)
+static void choose_lights(LabScene *lab_scene, const Lab *lab, Vec3 view, Random *random)
 {
     const Vec3 origin = {0, 0, 0};
-    const double share = probe->kind == PROBE_CROWD ? 0.85 : 0.8;
+    const double share = lab_scene->kind == LAB_SCENE_CROWD ? 0.85 : 0.8;
     for (int i = 0; i < lab->lights; i++) {
         /* From the side, for light and shade; or from behind. */
-        const bool behind = probe->kind == PROBE_BEHIND && (i == 0 || random_chance(random));
+        const bool behind =
+            lab_scene->kind == LAB_SCENE_BEHIND && (i == 0 || random_chance(random));
         /* In C the first light is near the eye: there half vectors have nearly length 1. */
-        const bool beside = probe->kind == PROBE_ALONG || (probe->kind == PROBE_COARSE && i == 0);
-        const bool beyond = probe->kind == PROBE_AGAINST;
+        const bool beside =
+            lab_scene->kind == LAB_SCENE_ALONG || (lab_scene->kind == LAB_SCENE_COARSE && i == 0);
+        const bool beyond = lab_scene->kind == LAB_SCENE_AGAINST;
         const double max_behind = lab->budget ? 170 : 140;
         const Vec3 towards = behind ? random_near(random, view, lab->budget ? 155 : 105, max_behind)
                              : beyond ? random_near(random, vec3_scale(view, -1), 8, 22)
                              : beside ? random_near(random, view, 8, 22)
                                       : random_near(random, view, 25, 75);
-        const double distance = probe->kind == PROBE_WIDE ? random_between(random, 1.9, 2.3)
-                                                          : random_between(random, 2.4, 4.5);
+        const double distance = lab_scene->kind == LAB_SCENE_WIDE
+                                    ? random_between(random, 1.9, 2.3)
+                                    : random_between(random, 2.4, 4.5);
         const double max = i == 0 ? 0.65 * share : 0.45 * share;
-        const bool strong = is_strong(probe, lab);
+        const bool strong = is_strong(lab_scene, lab);
         const double most = lab->lights > 1 ? max : share;
-        probe_set_light(probe, i, vec3_scale(towards, distance),
-                        random_color(random, (strong ? 0.7 : 0.35) * most, most));
+        lab_scene_set_light(lab_scene, i, vec3_scale(towards, distance),
+                            random_color(random, (strong ? 0.7 : 0.35) * most, most));
     }
     if (lab->light != LIGHT_SPOT)
         return;
-    Light *light = &probe->lights[0];
+    Light *light = &lab_scene->lights[0];
     /* A wide cone is aimed past the object, so that its edge is on it. */
-    const bool wide = probe->kind == PROBE_CROWD || probe->kind == PROBE_WIDE;
+    const bool wide = lab_scene->kind == LAB_SCENE_CROWD || lab_scene->kind == LAB_SCENE_WIDE;
     const Vec3 aside = vec3_scale(random_direction(random), wide ? 0.9 : 0.25);
     light->diffuse = light->specular = vec3_scale(light->diffuse, 1.35);
     const double exponent = random_between(random, 3, 12);
     const double cutoff = wide ? random_between(random, 26, 40) : random_between(random, 14, 24);
-    probe_set_spot(probe, vec3_add(origin, aside), cutoff, exponent);
+    lab_scene_set_spot(lab_scene, vec3_add(origin, aside), cutoff, exponent);
     light->constant = random_between(random, 0.5, 0.8);
     light->linear = random_between(random, 0.05, 0.15);
     light->quadratic = random_between(random, 0.02, 0.06);
 }
 
-static double choose_shininess(ProbeKind kind, const Lab *lab, Random *random)
+static double choose_shininess(LabSceneKind kind, const Lab *lab, Random *random)
 {
-    static const double min[PROBE_KIND_COUNT] = {12, 8, 26, 2, 14, 8, 10, 8, 2};
-    static const double max[PROBE_KIND_COUNT] = {24, 14, 30, 4, 24, 14, 16, 10, 3};
+    static const double min[LAB_SCENE_KIND_COUNT] = {12, 8, 26, 2, 14, 8, 10, 8, 2};
+    static const double max[LAB_SCENE_KIND_COUNT] = {24, 14, 30, 4, 24, 14, 16, 10, 3};
     if (lab->budget)
         return random_between(random, 24, 32);
     /* From Phong's 8 on (Blinn-Phong's 33) 4 times the exponent fits nearly as well; not below. */
-    if (lab->fitted && kind == PROBE_BEHIND)
+    if (lab->fitted && kind == LAB_SCENE_BEHIND)
         return random_between(random, 8, 10);
     return random_between(random, min[kind], max[kind]);
 }
 
-static void choose_size(Probe *probe, Random *random)
+static void choose_size(LabScene *lab_scene, Random *random)
 {
     static const int sizes[] = {64, 72, 80, 96};
     const int size = sizes[(int)random_between(random, 0, 3.999)];
-    probe->width = probe->kind == PROBE_WIDE ? 128 : size;
-    probe->height = probe->kind == PROBE_WIDE ? 64 : size;
+    lab_scene->width = lab_scene->kind == LAB_SCENE_WIDE ? 128 : size;
+    lab_scene->height = lab_scene->kind == LAB_SCENE_WIDE ? 64 : size;
 }
 
-static void enlarge(Probe *probe)
+static void enlarge(LabScene *lab_scene)
 {
     const double k = HUGE_FACTOR;
-    Scene *scene = &probe->scene;
+    Scene *scene = &lab_scene->scene;
     Camera *camera = &scene->camera;
     camera->eye = vec3_scale(camera->eye, k);
     camera->center = vec3_scale(camera->center, k);
     camera->near *= k;
     camera->far *= k;
     for (int i = 0; i < scene->object_count; i++)
-        probe->objects[i].world_from_object =
-            mat4_product(mat4_scale((Vec3){k, k, k}), probe->objects[i].world_from_object);
+        lab_scene->objects[i].world_from_object =
+            mat4_product(mat4_scale((Vec3){k, k, k}), lab_scene->objects[i].world_from_object);
     for (int i = 0; i < scene->light_count; i++) {
-        probe->lights[i].position = vec3_scale(probe->lights[i].position, k);
-        probe->lights[i].linear /= k;
-        probe->lights[i].quadratic /= k * k;
+        lab_scene->lights[i].position = vec3_scale(lab_scene->lights[i].position, k);
+        lab_scene->lights[i].linear /= k;
+        lab_scene->lights[i].quadratic /= k * k;
     }
 }
 
 /* Moves the eye to the world's origin, and everything with it. */
-static void look_from_origin(Probe *probe)
+static void look_from_origin(LabScene *lab_scene)
 {
-    Scene *scene = &probe->scene;
+    Scene *scene = &lab_scene->scene;
     Camera *camera = &scene->camera;
     const Vec3 way = vec3_scale(camera->eye, -1);
     camera->eye = (Vec3){0, 0, 0};
     camera->center = vec3_add(camera->center, way);
     for (int i = 0; i < scene->object_count; i++)
-        probe->objects[i].world_from_object =
-            mat4_product(mat4_translate(way), probe->objects[i].world_from_object);
+        lab_scene->objects[i].world_from_object =
+            mat4_product(mat4_translate(way), lab_scene->objects[i].world_from_object);
     for (int i = 0; i < scene->light_count; i++)
-        probe->lights[i].position = vec3_add(probe->lights[i].position, way);
+        lab_scene->lights[i].position = vec3_add(lab_scene->lights[i].position, way);
 }
 
 /* The camera, the lights and the objects of all labs but lab 11. */
-static bool choose_scene(Probe *probe, const Lab *lab, Random *random, Message *message)
+static bool choose_scene(LabScene *lab_scene, const Lab *lab, Random *random, Message *message)
 {
-    const ProbeKind kind = probe->kind;
-    Scene *scene = &probe->scene;
-    const int count = kind == PROBE_CROWD && !lab->given && !lab->budget ? 2 : 1;
+    const LabSceneKind kind = lab_scene->kind;
+    Scene *scene = &lab_scene->scene;
+    const int count = kind == LAB_SCENE_CROWD && !lab->given && !lab->budget ? 2 : 1;
     const Vec3 view = choose_view(kind, random);
-    const double distance = lab->given ? 12.5 : lab->budget ? 6 : kind == PROBE_CROWD ? 8.5 : 7;
+    const double distance = lab->given ? 12.5 : lab->budget ? 6 : kind == LAB_SCENE_CROWD ? 8.5 : 7;
     scene->camera.center = lab->budget  ? (Vec3){0, 0, 0}
                            : lab->given ? (Vec3){0.5, 0.3, -0.8}
                                         : (Vec3){0.05, -0.05, 0.1};
@@ -302,67 +308,68 @@ static bool choose_scene(Probe *probe, const Lab *lab, Random *random, Message *
     scene->camera.fovy = random_between(random, 27, 31);
     if (lab->ambient)
         scene->global_ambient = random_color(random, 0.1, 0.25);
-    choose_lights(probe, lab, view, random);
+    choose_lights(lab_scene, lab, view, random);
     for (int i = 0; i < count; i++) {
-        const ProbeShape shape = choose_shape(lab, kind, i, random);
-        Mat4 world = choose_world(lab, kind, shape < SHAPE_OF_BALL, probe->seconds, random);
+        const LabShape shape = choose_shape(lab, kind, i, random);
+        Mat4 world = choose_world(lab, kind, shape < SHAPE_OF_BALL, lab_scene->seconds, random);
         /* The second is behind the first and partly beside it. */
         if (i == 1)
             world = mat4_product(
                 mat4_translate(vec3_add(vec3_scale(view, -1.6), (Vec3){0.9, 0.35, 0})), world);
-        if (!probe_add_object(probe, shape, world, message))
+        if (!lab_scene_add_object(lab_scene, shape, world, message))
             return false;
-        const bool strong = is_strong(probe, lab);
-        ProbeSurface surface;
+        const bool strong = is_strong(lab_scene, lab);
+        LabSurface surface;
         surface.color = random_color(random, strong ? 0.25 : 0.35, strong ? 0.5 : 0.95);
         surface.specular = random_color(random, strong ? 0.12 : 0.25, strong ? 0.24 : 0.5);
         surface.shininess = choose_shininess(kind, lab, random);
         surface.back = random_color(random, 0.3, 0.95);
-        probe_set_material(probe, lab, i, &surface);
+        lab_scene_set_material(lab_scene, lab, i, &surface);
     }
     return true;
 }
 
-static bool open_random(Probe *probe, const Lab *lab, Random *random, Message *message)
+static bool open_random(LabScene *lab_scene, const Lab *lab, Random *random, Message *message)
 {
-    const ProbeKind kind = probe->kind;
-    choose_size(probe, random);
-    probe->seconds = floor(random_between(random, 1, 12) * 8) / 8;
-    if (lab->shadow ? !probe_choose_shadow(probe, random, message)
-                    : !choose_scene(probe, lab, random, message))
+    const LabSceneKind kind = lab_scene->kind;
+    choose_size(lab_scene, random);
+    lab_scene->seconds = floor(random_between(random, 1, 12) * 8) / 8;
+    if (lab->shadow ? !lab_scene_choose_shadow(lab_scene, random, message)
+                    : !choose_scene(lab_scene, lab, random, message))
         return false;
-    if (is_strong(probe, lab))
-        probe_overexpose_light(probe, lab);
-    if (kind == PROBE_WIDE && !lab->budget && !lab->given)
-        probe_overexpose_picture(probe);
-    if (kind == PROBE_HUGE && !lab->given && !lab->budget)
-        enlarge(probe);
-    if (kind == PROBE_ALONG && !lab->budget)
-        look_from_origin(probe);
+    if (is_strong(lab_scene, lab))
+        lab_scene_overexpose_light(lab_scene, lab);
+    if (kind == LAB_SCENE_WIDE && !lab->budget && !lab->given)
+        lab_scene_overexpose_picture(lab_scene);
+    if (kind == LAB_SCENE_HUGE && !lab->given && !lab->budget)
+        enlarge(lab_scene);
+    if (kind == LAB_SCENE_ALONG && !lab->budget)
+        look_from_origin(lab_scene);
     return true;
 }
 
-static bool open_numbers(Probe *probe, const Lab *lab, ProbeKind kind, uint64_t seed,
+static bool open_numbers(LabScene *lab_scene, const Lab *lab, LabSceneKind kind, uint64_t seed,
                          Message *message)
 {
     Random random = {seed * 1000003 + (uint64_t)lab->number * 1009 + (uint64_t)kind * 31 + 7};
-    probe_begin(probe, lab, kind);
-    if (open_random(probe, lab, &random, message))
+    lab_scene_begin(lab_scene, lab, kind);
+    if (open_random(lab_scene, lab, &random, message))
         return true;
-    probe_close(probe);
+    lab_scene_close(lab_scene);
     return false;
 }
 
-bool probe_open_known(Probe *probe, const Lab *lab, ProbeKind kind, Message *message)
+bool lab_scene_open_known(LabScene *lab_scene, const Lab *lab, LabSceneKind kind, Message *message)
 {
-    if (kind == PROBE_PLAIN)
-        return probe_open_usual(probe, lab, 1, message);
-    return open_numbers(probe, lab, kind, 0x4C616273, message);
+    if (kind == LAB_SCENE_PLAIN)
+        return lab_scene_open_usual(lab_scene, lab, 1, message);
+    return open_numbers(lab_scene, lab, kind, 0x4C616273, message);
 }
 
-bool probe_open_seed(Probe *probe, const Lab *lab, ProbeKind kind, uint64_t seed, Message *message)
+bool lab_scene_open_seed(LabScene *lab_scene, const Lab *lab, LabSceneKind kind, uint64_t seed,
+                         Message *message)
 {
-    const bool opened = open_numbers(probe, lab, kind, seed ^ 0x5EED000000000000u, message);
-    probe->known = false;
+    const bool opened = open_numbers(lab_scene, lab, kind, seed ^ 0x5EED000000000000u, message);
+    lab_scene->known = false;
     return opened;
 }

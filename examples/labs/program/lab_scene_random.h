@@ -1,8 +1,8 @@
 /*
- * probe_random: what the scenes of a seed are made of. No GL.
+ * lab_scene_random: what the scenes of a seed are made of. No GL.
  */
-#ifndef PROBE_RANDOM_H
-#define PROBE_RANDOM_H
+#ifndef LAB_SCENE_RANDOM_H
+#define LAB_SCENE_RANDOM_H
 
 #include "base/random.h"
 #include "core/matrix.h"

@@ -1,7 +1,7 @@
 /* A shadow map (Williams, Casting curved shadows on curved surfaces, 1978) whose frustum holds just
  * the objects that cast shadows; depth is packed into three bytes, because not every OpenGL ES 2.0
  * has depth textures. */
-#include "labs/program/probe_map.h"
+#include "labs/program/lab_shadow_map.h"
 
 #include "core/mesh_buffer.h"
 #include "core/shader.h"
@@ -9,14 +9,14 @@
 #include <math.h>
 
 /* The middle of the objects that cast shadows, and the radius around it. */
-static double casters(const Probe *probe, Vec3 *center)
+static double casters(const LabScene *lab_scene, Vec3 *center)
 {
-    const int count = probe->scene.object_count - 1;
+    const int count = lab_scene->scene.object_count - 1;
     Vec3 low = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high = vec3_scale(low, -1);
     double radius = 0;
     for (int pass = 0; pass < 2; pass++) {
         for (int i = 0; i < count; i++) {
-            const Object *object = &probe->objects[i];
+            const Object *object = &lab_scene->objects[i];
             for (size_t v = 0; v < object->mesh->vertex_count; v++) {
                 const Vec3 at = mat4_transform_point(
                     object->world_from_object, vec3_from_float(object->mesh->vertices[v].position));
@@ -31,13 +31,13 @@ static double casters(const Probe *probe, Vec3 *center)
     return radius;
 }
 
-Mat4 probe_map_matrix(const Probe *probe)
+Mat4 lab_shadow_map_matrix(const LabScene *lab_scene)
 {
     /* A few texels more than the objects need; from before them to beyond the floor. */
     const double margin = 1.05, near = 0.25, far = 5;
-    const Vec3 light = probe->lights[0].position;
+    const Vec3 light = lab_scene->lights[0].position;
     Vec3 center;
-    const double radius = casters(probe, &center);
+    const double radius = casters(lab_scene, &center);
     const double distance = vec3_length(vec3_subtract(light, center));
     const double degrees = 2 * asin(fmin(margin * radius / distance, 0.9)) * 180 / acos(-1);
     /* The light is above, so z is never its direction. */
@@ -45,14 +45,14 @@ Mat4 probe_map_matrix(const Probe *probe)
                         mat4_look_at(light, center, (Vec3){0, 0, -1}));
 }
 
-static bool draw_objects(const ProbeMap *map, const Probe *probe, const Shader *shader,
+static bool draw_objects(const LabShadowMap *map, const LabScene *lab_scene, const Shader *shader,
                          Message *message)
 {
     const GLint position = glGetAttribLocation(shader->program, "a_Position");
     const GLint clip = glGetUniformLocation(shader->program, "u_ClipFromObject");
     glUseProgram(shader->program);
-    for (int i = 0; i < probe->scene.object_count; i++) {
-        const Object *object = &probe->objects[i];
+    for (int i = 0; i < lab_scene->scene.object_count; i++) {
+        const Object *object = &lab_scene->objects[i];
         MeshBuffer mesh;
         if (!mesh_buffer_open(&mesh, object->mesh, message))
             return false;
@@ -64,7 +64,7 @@ static bool draw_objects(const ProbeMap *map, const Probe *probe, const Shader *
     return true;
 }
 
-static bool draw_map(const ProbeMap *map, const Probe *probe, const Shader *shader,
+static bool draw_map(const LabShadowMap *map, const LabScene *lab_scene, const Shader *shader,
                      Message *message)
 {
     GLuint framebuffer, depth;
@@ -76,29 +76,29 @@ static bool draw_map(const ProbeMap *map, const Probe *probe, const Shader *shad
     glRenderbufferStorage(GL_RENDERBUFFER,
                           gl_version() >= 30 || gl_has("GL_OES_depth24") ? GL_DEPTH_COMPONENT24_OES
                                                                          : GL_DEPTH_COMPONENT16,
-                          PROBE_MAP_SIZE, PROBE_MAP_SIZE);
+                          LAB_SHADOW_MAP_SIZE, LAB_SHADOW_MAP_SIZE);
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth);
     bool done = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE ||
-                message_set(message, "the driver cannot draw a shadow map of %dx%d", PROBE_MAP_SIZE,
-                            PROBE_MAP_SIZE);
+                message_set(message, "the driver cannot draw a shadow map of %dx%d",
+                            LAB_SHADOW_MAP_SIZE, LAB_SHADOW_MAP_SIZE);
     if (done) {
-        glViewport(0, 0, PROBE_MAP_SIZE, PROBE_MAP_SIZE);
+        glViewport(0, 0, LAB_SHADOW_MAP_SIZE, LAB_SHADOW_MAP_SIZE);
         glClearColor(1, 1, 1, 1); /* beyond all depths */
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-        done = draw_objects(map, probe, shader, message);
+        done = draw_objects(map, lab_scene, shader, message);
     }
     glDeleteFramebuffers(1, &framebuffer);
     glDeleteRenderbuffers(1, &depth);
     return done;
 }
 
-bool probe_map_open(ProbeMap *map, const Probe *probe, Message *message)
+bool lab_shadow_map_open(LabShadowMap *map, const LabScene *lab_scene, Message *message)
 {
     const ShaderLoader loader = {.precision = "highp"};
     GLint target, place[4];
     Shader shader;
-    *map = (ProbeMap){.texture = 0};
-    if (!probe->lights[0].shadows)
+    *map = (LabShadowMap){.texture = 0};
+    if (!lab_scene->lights[0].shadows)
         return true;
     if (!shader_open(&shader, &loader, "labs/map", message))
         return false;
@@ -109,9 +109,9 @@ bool probe_map_open(ProbeMap *map, const Probe *probe, Message *message)
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_CULL_FACE);
     glEnable(GL_DEPTH_TEST);
-    map->clip_from_world = probe_map_matrix(probe);
-    map->texture = gl_texture(GL_RGBA, GL_UNSIGNED_BYTE, PROBE_MAP_SIZE, PROBE_MAP_SIZE);
-    const bool done = draw_map(map, probe, &shader, message);
+    map->clip_from_world = lab_shadow_map_matrix(lab_scene);
+    map->texture = gl_texture(GL_RGBA, GL_UNSIGNED_BYTE, LAB_SHADOW_MAP_SIZE, LAB_SHADOW_MAP_SIZE);
+    const bool done = draw_map(map, lab_scene, &shader, message);
     if (cut)
         glEnable(GL_SCISSOR_TEST);
     if (cull)
@@ -122,15 +122,15 @@ bool probe_map_open(ProbeMap *map, const Probe *probe, Message *message)
     glBindFramebuffer(GL_FRAMEBUFFER, (GLuint)target);
     shader_close(&shader);
     if (!done)
-        probe_map_close(map);
+        lab_shadow_map_close(map);
     return done;
 }
 
-void probe_map_close(ProbeMap *map)
+void lab_shadow_map_close(LabShadowMap *map)
 {
     if (!map)
         return;
     if (map->texture)
         glDeleteTextures(1, &map->texture);
-    *map = (ProbeMap){.texture = 0};
+    *map = (LabShadowMap){.texture = 0};
 }

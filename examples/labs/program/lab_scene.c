@@ -1,25 +1,26 @@
 /* What the scenes of all labs are made of: shapes, lights, materials. */
-#include "labs/program/probe.h"
+#include "labs/program/lab_scene.h"
 
 #include "app/options.h"
 #include "core/example.h"
 #include "shapes/mesh_solids.h"
 
-const char *const PROBE_NAMES[PROBE_KIND_COUNT] = {"A", "B", "C", "D", "E", "F", "G", "H", "I"};
+const char *const LAB_SCENE_NAMES[LAB_SCENE_KIND_COUNT] = {"A", "B", "C", "D", "E",
+                                                           "F", "G", "H", "I"};
 
-const Vec3 PROBE_AXIS = {1, 2, 0.5};
+const Vec3 LAB_AXIS = {1, 2, 0.5};
 
-void probe_world_parts(double seconds, Mat4 *move, Mat4 *turn, Mat4 *scale)
+void lab_scene_world_parts(double seconds, Mat4 *move, Mat4 *turn, Mat4 *scale)
 {
     *move = mat4_translate((Vec3){0.5, 0.3, -0.8});
-    *turn = mat4_rotate(DEGREES_PER_SECOND * seconds, PROBE_AXIS);
+    *turn = mat4_rotate(DEGREES_PER_SECOND * seconds, LAB_AXIS);
     *scale = mat4_scale((Vec3){2, 0.7, 1.2});
 }
 
-Mat4 probe_world(double seconds)
+Mat4 lab_scene_world(double seconds)
 {
     Mat4 move, turn, scale;
-    probe_world_parts(seconds, &move, &turn, &scale);
+    lab_scene_world_parts(seconds, &move, &turn, &scale);
     return mat4_product(move, mat4_product(turn, scale));
 }
 
@@ -56,7 +57,7 @@ static bool open_cube_on_corner(Mesh *mesh, Message *message)
     return true;
 }
 
-static bool open_shape(Mesh *mesh, ProbeShape shape, Message *message)
+static bool open_shape(Mesh *mesh, LabShape shape, Message *message)
 {
     switch (shape) {
     case SHAPE_OF_CUBE:
@@ -84,40 +85,41 @@ static bool open_shape(Mesh *mesh, ProbeShape shape, Message *message)
     }
 }
 
-bool probe_add_object(Probe *probe, ProbeShape shape, Mat4 world_from_object, Message *message)
+bool lab_scene_add_object(LabScene *lab_scene, LabShape shape, Mat4 world_from_object,
+                          Message *message)
 {
-    const int i = probe->scene.object_count;
-    if (!open_shape(&probe->meshes[i], shape, message))
+    const int i = lab_scene->scene.object_count;
+    if (!open_shape(&lab_scene->meshes[i], shape, message))
         return false;
     const bool open = shape == SHAPE_OF_QUAD || shape == SHAPE_OF_TUBE;
-    probe->objects[i] = (Object){.mesh = &probe->meshes[i],
-                                 .flat = shape < SHAPE_OF_BALL,
-                                 .closed = !open,
-                                 .world_from_object = world_from_object};
+    lab_scene->objects[i] = (Object){.mesh = &lab_scene->meshes[i],
+                                     .flat = shape < SHAPE_OF_BALL,
+                                     .closed = !open,
+                                     .world_from_object = world_from_object};
     if (shape == SHAPE_OF_SPHERE)
-        probe->objects[i].solid = (Solid){.kind = SOLID_SPHERE, .radius = 1};
-    probe->scene.object_count++;
+        lab_scene->objects[i].solid = (Solid){.kind = SOLID_SPHERE, .radius = 1};
+    lab_scene->scene.object_count++;
     return true;
 }
 
-void probe_begin(Probe *probe, const Lab *lab, ProbeKind kind)
+void lab_scene_begin(LabScene *lab_scene, const Lab *lab, LabSceneKind kind)
 {
-    *probe = (Probe){.kind = kind, .known = true, .width = 96, .height = 96};
-    probe->scene = (Scene){
+    *lab_scene = (LabScene){.kind = kind, .known = true, .width = 96, .height = 96};
+    lab_scene->scene = (Scene){
         .camera = {.eye = {0, 0, 6}, .up = {0, 1, 0}, .fovy = 30, .near = 1, .far = 100},
         .global_ambient = lab->ambient ? (Vec3){0.2, 0.2, 0.2} : (Vec3){0, 0, 0},
-        .lights = probe->lights,
-        .objects = probe->objects,
+        .lights = lab_scene->lights,
+        .objects = lab_scene->objects,
         .light_count = lab->lights,
         .reflection = lab->reflection,
     };
     for (int i = 0; i < lab->lights; i++)
-        probe->lights[i] = (Light){.kind = lab->light, .shadows = lab->shadow};
+        lab_scene->lights[i] = (Light){.kind = lab->light, .shadows = lab->shadow};
 }
 
-void probe_set_light(Probe *probe, int i, Vec3 place, Vec3 color)
+void lab_scene_set_light(LabScene *lab_scene, int i, Vec3 place, Vec3 color)
 {
-    Light *light = &probe->lights[i];
+    Light *light = &lab_scene->lights[i];
     if (light->kind == LIGHT_DIRECTIONAL)
         light->direction = place;
     else
@@ -125,33 +127,33 @@ void probe_set_light(Probe *probe, int i, Vec3 place, Vec3 color)
     light->diffuse = light->specular = color;
 }
 
-void probe_set_spot(Probe *probe, Vec3 at, double cutoff, double exponent)
+void lab_scene_set_spot(LabScene *lab_scene, Vec3 at, double cutoff, double exponent)
 {
-    Light *light = &probe->lights[0];
+    Light *light = &lab_scene->lights[0];
     light->direction = vec3_subtract(at, light->position);
     light->cutoff = cutoff;
     light->exponent = exponent;
 }
 
-void probe_set_material(Probe *probe, const Lab *lab, int i, const ProbeSurface *surface)
+void lab_scene_set_material(LabScene *lab_scene, const Lab *lab, int i, const LabSurface *surface)
 {
-    Object *object = &probe->objects[i];
+    Object *object = &lab_scene->objects[i];
     object->front = matte(surface->color);
     if (lab->specular) {
         object->front.specular = surface->specular;
         object->front.shininess = surface->shininess;
     }
     if (lab->fitted)
-        probe->fitted[i] = material_fitted_shininess(surface->shininess);
+        lab_scene->fitted[i] = material_fitted_shininess(surface->shininess);
     object->two_sided = lab->two_sided;
     object->back = matte(surface->back);
 }
 
-void probe_close(Probe *probe)
+void lab_scene_close(LabScene *lab_scene)
 {
-    if (!probe)
+    if (!lab_scene)
         return;
-    for (int i = 0; i < PROBE_MAX_OBJECTS; i++)
-        mesh_close(&probe->meshes[i]);
-    *probe = (Probe){.width = 0};
+    for (int i = 0; i < LAB_SCENE_MAX_OBJECTS; i++)
+        mesh_close(&lab_scene->meshes[i]);
+    *lab_scene = (LabScene){.width = 0};
 }

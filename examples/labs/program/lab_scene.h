@@ -1,5 +1,5 @@
 /*
- * probe: the scenes in which a submission is drawn, each made to reveal other mistakes. No GL.
+ * lab_scene: the scenes in which a submission is drawn, each made to reveal other mistakes. No GL.
  *
  *   A  the lab's own scene, as its program draws it
  *   B  turned, moved and, if the lab scales, scaled unevenly; the camera off the axis
@@ -14,56 +14,57 @@
  * H and I serve to tell mistakes apart: they show highlights near the line of sight. Each scene has
  * a known form, always the same, and one per seed, with other colours, positions, sizes and times.
  * In lab 3 the time gives the model matrix; lab 10 always has the unit sphere; lab 11 has a floor,
- * and its eye is always above it (probe_shadow.h).
+ * and its eye is always above it (lab_scene_shadow.h).
  */
-#ifndef PROBE_H
-#define PROBE_H
+#ifndef LAB_SCENE_H
+#define LAB_SCENE_H
 
 #include "base/random.h"
 #include "labs/program/lab.h"
 
 #include <stdint.h>
 
-typedef enum ProbeKind {
-    PROBE_PLAIN,
-    PROBE_MOVED,
-    PROBE_COARSE,
-    PROBE_BEHIND,
-    PROBE_CROWD,
-    PROBE_WIDE,
-    PROBE_HUGE,
-    PROBE_ALONG,
-    PROBE_AGAINST,
-    PROBE_KIND_COUNT,
-} ProbeKind;
+typedef enum LabSceneKind {
+    LAB_SCENE_PLAIN,
+    LAB_SCENE_MOVED,
+    LAB_SCENE_COARSE,
+    LAB_SCENE_BEHIND,
+    LAB_SCENE_CROWD,
+    LAB_SCENE_WIDE,
+    LAB_SCENE_HUGE,
+    LAB_SCENE_ALONG,
+    LAB_SCENE_AGAINST,
+    LAB_SCENE_KIND_COUNT,
+} LabSceneKind;
 
 /* "A" to "I". */
-extern const char *const PROBE_NAMES[PROBE_KIND_COUNT];
+extern const char *const LAB_SCENE_NAMES[LAB_SCENE_KIND_COUNT];
 
-enum { PROBE_MAX_OBJECTS = 3 };
+enum { LAB_SCENE_MAX_OBJECTS = 3 };
 
-typedef struct Probe {
-    ProbeKind kind;
+typedef struct LabScene {
+    LabSceneKind kind;
     bool known; /* else of a seed */
     int width, height;
     double seconds;
-    Scene scene; /* points into this probe: do not move it */
+    Scene scene; /* points into this scene: do not move it */
     Light lights[LAB_MAX_LIGHTS];
-    Object objects[PROBE_MAX_OBJECTS];
-    Mesh meshes[PROBE_MAX_OBJECTS];
-    double fitted[PROBE_MAX_OBJECTS]; /* lab 7: Blinn-Phong's exponent for the object's */
-} Probe;
+    Object objects[LAB_SCENE_MAX_OBJECTS];
+    Mesh meshes[LAB_SCENE_MAX_OBJECTS];
+    double fitted[LAB_SCENE_MAX_OBJECTS]; /* lab 7: Blinn-Phong's exponent for the object's */
+} LabScene;
 
-/* Lab 3's model matrix is move * turn * scale; the turn is about PROBE_AXIS, by DEGREES_PER_SECOND.
+/* Lab 3's model matrix is move * turn * scale; the turn is about LAB_SCENE_AXIS, by
+ * DEGREES_PER_SECOND.
  */
-extern const Vec3 PROBE_AXIS;
-void probe_world_parts(double seconds, Mat4 *move, Mat4 *turn, Mat4 *scale);
-Mat4 probe_world(double seconds);
+extern const Vec3 LAB_AXIS;
+void lab_scene_world_parts(double seconds, Mat4 *move, Mat4 *turn, Mat4 *scale);
+Mat4 lab_scene_world(double seconds);
 
 /* What scenes are made of. */
 
 /* The flat ones come first. */
-typedef enum ProbeShape {
+typedef enum LabShape {
     SHAPE_OF_CUBE,
     SHAPE_OF_CUBE_ON_CORNER, /* lab 3: scaling along the axes tilts its faces */
     SHAPE_OF_ICOSAHEDRON,
@@ -75,29 +76,30 @@ typedef enum ProbeShape {
     SHAPE_OF_COARSE_BALL,
     SHAPE_OF_TORUS,
     SHAPE_OF_SPHERE, /* lab 10: compared with the exact sphere of radius 1 */
-} ProbeShape;
+} LabShape;
 
 /* Of an object; `back` counts if the lab has two sides. */
-typedef struct ProbeSurface {
+typedef struct LabSurface {
     Vec3 color, specular, back;
     double shininess;
-} ProbeSurface;
+} LabSurface;
 
 /* A scene without objects. */
-void probe_begin(Probe *probe, const Lab *lab, ProbeKind kind);
+void lab_scene_begin(LabScene *lab_scene, const Lab *lab, LabSceneKind kind);
 
 /* A light at, or from, this place. */
-void probe_set_light(Probe *probe, int i, Vec3 place, Vec3 color);
+void lab_scene_set_light(LabScene *lab_scene, int i, Vec3 place, Vec3 color);
 
 /* The cone of lab 8's light, aimed at a point. */
-void probe_set_spot(Probe *probe, Vec3 at, double cutoff, double exponent);
+void lab_scene_set_spot(LabScene *lab_scene, Vec3 at, double cutoff, double exponent);
 
-bool probe_add_object(Probe *probe, ProbeShape shape, Mat4 world_from_object, Message *message);
+bool lab_scene_add_object(LabScene *lab_scene, LabShape shape, Mat4 world_from_object,
+                          Message *message);
 
 /* Of object i. */
-void probe_set_material(Probe *probe, const Lab *lab, int i, const ProbeSurface *surface);
+void lab_scene_set_material(LabScene *lab_scene, const Lab *lab, int i, const LabSurface *surface);
 
 /* NULL or zeroed is fine. */
-void probe_close(Probe *probe);
+void lab_scene_close(LabScene *lab_scene);
 
 #endif

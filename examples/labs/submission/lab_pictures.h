@@ -1,0 +1,80 @@
+/*
+ * lab_pictures: the scenes of a check, each with its exact pictures and the submission's.
+ */
+#ifndef LAB_PICTURES_H
+#define LAB_PICTURES_H
+
+#include "labs/submission/compare.h"
+#include "labs/submission/submission.h"
+
+/* Two pictures may be right: light at the vertices or at the fragments, or in lab 7 the fitted
+ * exponent or four times Phong's. */
+enum { LAB_PICTURE_MAX_TRUTHS = 2 };
+
+typedef struct LabPicture {
+    LabScene lab_scene;
+    Image image; /* what the submission drew */
+    Reference truths[LAB_PICTURE_MAX_TRUTHS];
+    Reference mask; /* lab 10: drawn with the submission's mesh */
+} LabPicture;
+
+enum { LAB_PICTURES_MAX = 2 * LAB_SCENE_KIND_COUNT };
+
+typedef struct LabPictures {
+    const Lab *lab;
+    LabPicture items[LAB_PICTURES_MAX];
+    int count;
+    int truth_count;
+    int truth; /* the one nearest to the submission, over all scenes */
+    bool own;  /* the pictures are those of lab_pictures_draw_own */
+    SubmissionGeometry geometry;
+    Mat4 world_from_object[LAB_PICTURES_MAX], normal_matrix[LAB_PICTURES_MAX]; /* lab 3 */
+    Mesh mesh;                                                                 /* lab 10 */
+} LabPictures;
+
+/* Makes the scenes and their exact pictures. Zeroed on failure. */
+bool lab_pictures_open(LabPictures *pictures, const Lab *lab, uint64_t seed, Message *message);
+
+/* Draws all scenes with a submission's program, resizing the canvas. */
+bool lab_pictures_draw(LabPictures *pictures, const Painter *painter, Canvas *canvas,
+                       Message *message);
+
+/* Adds the known and the seed's scene that are 300 times as large, drawn with this program. Errors
+ * that 16 bits explain count as right. */
+bool lab_pictures_draw_huge(LabPictures *pictures, uint64_t seed, const Painter *painter,
+                            Canvas *canvas, Message *message);
+
+/* Draws all scenes again with this program, of the files' own precision. Errors that 16 bits
+ * explain count as right. */
+bool lab_pictures_draw_own(LabPictures *pictures, const Painter *painter, Canvas *canvas,
+                           Message *message);
+
+/* Whether the picture is right at a size and an offset drawn by the seed and, in lab 10, at the
+ * size whose operations are counted. Not for lab 3, whose shaders are given. */
+bool lab_pictures_check_sizes(const LabPictures *pictures, uint64_t seed, const Painter *painter,
+                              Canvas *canvas, bool *right, Message *message);
+
+/* Lab 10: sets the sphere. Pixels at its outline or at that of the exact sphere do not count. */
+bool lab_pictures_use_sphere(LabPictures *pictures, int slices, int stacks, Message *message);
+
+/* Lab 11: pixels near an edge of a shadow, or of an object, are no longer interior: a map has
+ * texels, and a bias moves its shadows. */
+bool lab_pictures_leave_out_edges(Reference *exact, Message *message);
+
+/* What replaces scene i's own geometry. */
+SubmissionGeometry lab_pictures_geometry(const LabPictures *pictures, int i);
+
+/* The scene of a truth: a copy of the scene's, with its objects in `objects`. */
+Scene lab_pictures_truth_scene(const Lab *lab, const LabScene *lab_scene, int truth,
+                               Object objects[LAB_SCENE_MAX_OBJECTS]);
+
+/* The error that scene i may have: in lab 10 one step and a quarter; in the scenes of
+ * lab_pictures_draw_huge more than 11 significant bits can make. */
+double lab_pictures_tolerance(const LabPictures *pictures, int i);
+
+/* Scene i's error against a truth. */
+ErrorSum lab_pictures_error(const LabPictures *pictures, int i, int truth);
+
+void lab_pictures_close(LabPictures *pictures);
+
+#endif
