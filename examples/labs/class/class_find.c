@@ -2,6 +2,7 @@
  * student's name and number is one submission. */
 #include "labs/class/class_find.h"
 
+#include "base/memory.h"
 #include "labs/sandbox/source.h"
 #include "labs/sandbox/unpack.h"
 
@@ -184,16 +185,11 @@ static FoundKind kind_of(mode_t mode, const char *entry)
                                       : FOUND_FILES;
 }
 
-static Found *add_found(FoundList *list, Message *message)
+static Found *add_found(FoundList *list)
 {
-    Found *items = realloc(list->items, ((size_t)list->count + 1) * sizeof *items);
-    if (!items) {
-        message_set(message, "%s", strerror(ENOMEM));
-        return NULL;
-    }
-    list->items = items;
-    items[list->count] = (Found){.count = 0};
-    return &items[list->count++];
+    list->items = memory_grow(list->items, (size_t)list->count + 1, sizeof *list->items);
+    list->items[list->count] = (Found){.count = 0};
+    return &list->items[list->count++];
 }
 
 static Found *find_folder(const FoundList *list, const char *folder)
@@ -204,7 +200,7 @@ static Found *find_folder(const FoundList *list, const char *folder)
     return NULL;
 }
 
-static bool add_file(Found *found, const char *path, const ClassName *name, Message *message)
+static void add_file(Found *found, const char *path, const ClassName *name)
 {
     for (int i = 0; i < found->count; i++) {
         struct FoundFile *file = &found->files[i];
@@ -215,17 +211,13 @@ static bool add_file(Found *found, const char *path, const ClassName *name, Mess
             snprintf(file->path, PATH_MAX, "%s", path);
             file->attempt = name->attempt;
         }
-        return true;
+        return;
     }
-    struct FoundFile *files = realloc(found->files, ((size_t)found->count + 1) * sizeof *files);
-    if (!files)
-        return message_set(message, "%s", strerror(ENOMEM));
-    found->files = files;
-    snprintf(files[found->count].path, PATH_MAX, "%s", path);
-    snprintf(files[found->count].name, BUNDLE_NAME_SIZE, "%s", name->file);
-    files[found->count].attempt = name->attempt;
-    found->count++;
-    return true;
+    found->files = memory_grow(found->files, (size_t)found->count + 1, sizeof *found->files);
+    struct FoundFile *file = &found->files[found->count++];
+    snprintf(file->path, PATH_MAX, "%s", path);
+    snprintf(file->name, BUNDLE_NAME_SIZE, "%s", name->file);
+    file->attempt = name->attempt;
 }
 
 /* The name of an entry that is not read: without its ending it is named like an archive. */
@@ -243,8 +235,7 @@ static bool unread_name(const char *entry, ClassName *name)
     return class_name_read(archive, false, name);
 }
 
-static bool add_entry(FoundList *list, const char *folder, const char *entry, Message *notes,
-                      Message *message)
+static void add_entry(FoundList *list, const char *folder, const char *entry, Message *notes)
 {
     static const char *const kinds[] = {"other file", "files", "archive", "folder",
                                         "link or device"};
@@ -254,13 +245,13 @@ static bool add_entry(FoundList *list, const char *folder, const char *entry, Me
     char path[PATH_MAX], key[CLASS_FOLDER_SIZE];
     if (snprintf(path, sizeof path, "%s/%s", folder, entry) >= (int)sizeof path ||
         lstat(path, &status) != 0)
-        return true;
+        return;
     const bool is_file = S_ISREG(status.st_mode);
     if (!class_name_read(entry, S_ISDIR(status.st_mode) || (!is_file && !source_is_wanted(entry)),
                          &name)) {
         unread = unread_name(entry, &name);
         if (!unread)
-            return true;
+            return;
     }
     const FoundKind kind = unread ? FOUND_UNREAD : kind_of(status.st_mode, entry);
     class_name_folder(&name, key);
@@ -276,9 +267,9 @@ static bool add_entry(FoundList *list, const char *folder, const char *entry, Me
     if (known)
         found->attempt++;
     if (again && !later)
-        return true;
-    if (!found && !(found = add_found(list, message)))
-        return false;
+        return;
+    if (!found)
+        found = add_found(list);
     if (found->attempt <= name.attempt)
         found->attempt = name.attempt + 1;
     found->name = name;
@@ -286,7 +277,8 @@ static bool add_entry(FoundList *list, const char *folder, const char *entry, Me
     found->changed = changed;
     memcpy(found->folder, key, sizeof key);
     memcpy(found->path, path, sizeof path);
-    return kind != FOUND_FILES || add_file(found, path, &name, message);
+    if (kind == FOUND_FILES)
+        add_file(found, path, &name);
 }
 
 static int by_folder(const void *a, const void *b)
@@ -303,21 +295,17 @@ bool class_find(const char *folder, const char *skipped, FoundList *list, Messag
     if (count < 0)
         return message_set(message, "%s: %s; name the folder with one submission per student",
                            folder, strerror(errno));
-    bool done = true;
     for (int i = 0; i < count; i++) {
         if (!skipped || strcmp(entries[i]->d_name, skipped) != 0)
-            done = done && add_entry(list, folder, entries[i]->d_name, notes, message);
+            add_entry(list, folder, entries[i]->d_name, notes);
         free(entries[i]);
     }
     free(entries);
-    if (done && list->count == 0)
-        done = message_set(
+    if (list->count == 0)
+        return message_set(
             message, "%s: no submissions: expected a folder or an archive per student", folder);
-    if (!done)
-        class_found_close(list);
-    else
-        qsort(list->items, (size_t)list->count, sizeof list->items[0], by_folder);
-    return done;
+    qsort(list->items, (size_t)list->count, sizeof list->items[0], by_folder);
+    return true;
 }
 
 /* The only archive in a folder or its folders: learning platforms nest them. */

@@ -2,6 +2,7 @@
  * less of one and no more of the other, compared pair by pair. */
 #include "labs/class/pareto_front.h"
 
+#include "base/memory.h"
 #include "study/report/report_gnuplot.h"
 
 #include <errno.h>
@@ -40,12 +41,11 @@ static int by_operations(const void *a, const void *b)
 static int put_points(const ClassStore *store, bool efficient, FILE *file)
 {
     int count = 0;
-    const VerdictCost **costs = calloc((size_t)store->count + 1, sizeof *costs);
-    for (int i = 0; costs && i < store->count; i++)
+    const VerdictCost **costs = memory_new((size_t)store->count, sizeof *costs);
+    for (int i = 0; i < store->count; i++)
         if (counted(&store->results[i]) && pareto_front_has(store, &store->results[i]) == efficient)
             costs[count++] = &store->results[i].verdict.cost;
-    if (costs)
-        qsort(costs, (size_t)count, sizeof *costs, by_operations);
+    qsort(costs, (size_t)count, sizeof *costs, by_operations);
     for (int i = 0; i < count; i++)
         fprintf(file, "%.9g %.9g\n", costs[i]->operations_ratio, costs[i]->error);
     free(costs);

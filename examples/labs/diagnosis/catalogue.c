@@ -2,7 +2,8 @@
  * them. Below are the forms of a lab, alone, as numbers and in pairs. */
 #include "labs/diagnosis/catalogue.h"
 
-#include <stdlib.h>
+#include "base/memory.h"
+
 #include <string.h>
 
 #define L(n) (1u << (n))
@@ -841,9 +842,9 @@ static Suspect *make(const Lab *lab, bool numbers, int *count)
 {
     const int truths = lab->either || lab->two_sided ? 2 : lab->fitted ? 3 : 1;
     Suspect *suspects =
-        malloc((size_t)(truths * MISTAKE_COUNT * MISTAKE_MAX_FORMS) * sizeof *suspects);
+        memory_new((size_t)(truths * MISTAKE_COUNT * MISTAKE_MAX_FORMS), sizeof *suspects);
     *count = 0;
-    for (int truth = 0; suspects && truth < truths; truth++) {
+    for (int truth = 0; truth < truths; truth++) {
         Choices right = {.value = 1};
         right.of[lab->fitted      ? SLOT_FIT
                  : lab->two_sided ? SLOT_FACING
@@ -870,7 +871,7 @@ Suspect *catalogue_singles(const Lab *lab, int *count)
 Suspect *catalogue_numbers(const Lab *lab, int *count)
 {
     Suspect *suspects = make(lab, true, count);
-    for (int i = 0; suspects && i < *count; i++) {
+    for (int i = 0; i < *count; i++) {
         suspects[i].choices.factor = (Factor)suspects[i].choices.of[SLOT_NUMBER];
         suspects[i].choices.value = 1;
     }

@@ -155,7 +155,7 @@ typedef struct Suspect {
 } Suspect;
 
 /* All single mistakes of a lab, in each form and with each right stage and exponent. The caller
- * frees the array; NULL: out of memory. */
+ * frees the array. */
 Suspect *catalogue_singles(const Lab *lab, int *count);
 
 /* The mistakes of a lab that are one wrong number, in each form and with each right stage, with the

@@ -5,6 +5,7 @@
  * submissions that were not seen before (TEACHING.md). */
 #include "labs/diagnosis/diagnose.h"
 
+#include "base/memory.h"
 #include "labs/diagnosis/suspects.h"
 #include "labs/diagnosis/symptoms.h"
 #include "labs/program/lab_scene_open.h"
@@ -138,9 +139,9 @@ static bool narrow(Lineup *lineup, uint64_t seed, Suspect *suspects, int *count,
 /* Pairs of single mistakes that move the outline if and only if the submission's is moved. */
 static Suspect *make_pairs(const Lineup *lineup, const Suspect *singles, int count, int *pairs)
 {
-    Suspect *made = malloc(((size_t)count * (size_t)count / 2 + 1) * sizeof *made);
+    Suspect *made = memory_new((size_t)count * (size_t)count / 2, sizeof *made);
     *pairs = 0;
-    for (int i = 0; made && i < count; i++)
+    for (int i = 0; i < count; i++)
         for (int k = i + 1; k < count; k++)
             if (catalogue_pair(&singles[i], &singles[k], &made[*pairs]) &&
                 (lineup->pictures->lab->given || catalogue_moves(&made[*pairs]) == lineup->moved))
@@ -221,10 +222,8 @@ static bool find(Lineup *lineup, Verdict *verdict, bool *named, Message *message
     *named = false;
     all.singles = catalogue_singles(lineup->pictures->lab, &all.single_count);
     all.numbers = catalogue_numbers(lineup->pictures->lab, &all.number_count);
-    all.tried =
-        malloc(((size_t)all.single_count + (size_t)all.number_count + 1) * sizeof *all.tried);
-    bool done = all.singles && all.numbers && all.tried &&
-                find_alone(lineup, verdict->seed, &all, &near, message);
+    all.tried = memory_new((size_t)all.single_count + (size_t)all.number_count, sizeof *all.tried);
+    bool done = find_alone(lineup, verdict->seed, &all, &near, message);
     if (done && all.left == 0 && lineup->pictures->lab->shadow) {
         lineup->soft = true;
         done = find_alone(lineup, verdict->seed, &all, &near, message);
@@ -238,11 +237,9 @@ static bool find(Lineup *lineup, Verdict *verdict, bool *named, Message *message
     }
     if (done && all.left == 0) {
         pairs = make_pairs(lineup, all.singles, all.single_count, &pair_count);
-        done = pairs && narrow(lineup, verdict->seed, pairs, &pair_count, &near, message);
+        done = narrow(lineup, verdict->seed, pairs, &pair_count, &near, message);
         *named = done && name(verdict, pairs, pair_count, near ? less_sure : SURE);
     }
-    if (!done)
-        message_set(message, "not enough memory"); /* unless there is another message */
     free(all.singles);
     free(all.numbers);
     free(all.tried);

@@ -151,7 +151,7 @@ static int keep_like(bool soft, const Image *sheet, const Image *wanted, const S
 }
 
 static bool screen_picture(Lineup *lineup, int picture, Image *sheet, Suspect *suspects, int *count,
-                        Message *message)
+                           Message *message)
 {
     LabScene lab_scene = lineup->pictures->items[picture].lab_scene;
     SubmissionGeometry geometry = lab_pictures_geometry(lineup->pictures, picture);

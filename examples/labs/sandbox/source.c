@@ -2,6 +2,7 @@
  * what it is after that, so that it cannot be exchanged in between. */
 #include "labs/sandbox/source.h"
 
+#include "base/memory.h"
 #include "labs/diagnosis/text_facts.h"
 #include "labs/submission/submission.h"
 
@@ -71,30 +72,24 @@ static const char *kind_of(mode_t mode)
 /* Reads and closes `file`. */
 static bool read_open(Bundle *bundle, int file, const char *name, Message *message)
 {
+    static unsigned char bytes[SOURCE_FILE_MAX + 1];
     struct stat status;
+    size_t size = 0;
+    ssize_t count = 1;
     bool done = false;
-    unsigned char *bytes = malloc(SOURCE_FILE_MAX + 1);
-    if (!bytes || fstat(file, &status) != 0) {
-        message_set(message, "%s: %s", name, strerror(bytes ? errno : ENOMEM));
+    if (fstat(file, &status) != 0) {
+        message_set(message, "%s: %s", name, strerror(errno));
     } else if (!S_ISREG(status.st_mode)) {
         message_set(message, "%s: is %s; submit the file itself", name, kind_of(status.st_mode));
     } else if (status.st_size > SOURCE_FILE_MAX) {
         too_large(name, (double)status.st_size, message);
     } else {
-        size_t size = 0;
-        ssize_t count = 1;
-        while (size <= SOURCE_FILE_MAX && count > 0) {
-            count = read(file, bytes + size, SOURCE_FILE_MAX + 1 - size);
-            size += count > 0 ? (size_t)count : 0;
-        }
-        if (count < 0)
-            message_set(message, "%s: %s", name, strerror(errno));
-        else if (size > SOURCE_FILE_MAX)
-            too_large(name, (double)size, message);
-        else
-            done = bundle_add(bundle, name, bytes, size, message);
+        for (; size <= SOURCE_FILE_MAX && count > 0; size += count > 0 ? (size_t)count : 0)
+            count = read(file, bytes + size, sizeof bytes - size);
+        done = count < 0                ? message_set(message, "%s: %s", name, strerror(errno))
+               : size > SOURCE_FILE_MAX ? too_large(name, (double)size, message)
+                                        : bundle_add(bundle, name, bytes, size, message);
     }
-    free(bytes);
     close(file);
     return done;
 }
@@ -323,9 +318,7 @@ static void convert_utf16(BundleFile *file)
         !((from[0] == 0xFF && from[1] == 0xFE) || (from[0] == 0xFE && from[1] == 0xFF)))
         return;
     const bool little = from[0] == 0xFF;
-    unsigned char *text = malloc(file->size / 2 * 3 + 1), *to = text;
-    if (!text)
-        return;
+    unsigned char *text = memory_new(file->size / 2 * 3 + 1, 1), *to = text;
     for (size_t i = 2; i < file->size; i += 2) {
         const unsigned low = from[i + !little], high = from[i + little], code = high << 8 | low;
         to = put_utf8(to, code >= 0xD800 && code < 0xE000 ? '?' : code);

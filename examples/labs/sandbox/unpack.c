@@ -61,9 +61,7 @@ static bool read_data(Bundle *bundle, struct archive *archive, const char *name,
 {
     size_t size = 0;
     la_ssize_t count = 1;
-    char *bytes = malloc(SOURCE_FILE_MAX + 1);
-    if (!bytes)
-        return message_set(message, "%s: not enough memory", name);
+    static char bytes[SOURCE_FILE_MAX + 1];
     while (size <= SOURCE_FILE_MAX && count > 0) {
         count = archive_read_data(archive, bytes + size, SOURCE_FILE_MAX + 1 - size);
         size += count > 0 ? (size_t)count : 0;
@@ -73,7 +71,6 @@ static bool read_data(Bundle *bundle, struct archive *archive, const char *name,
         : size > SOURCE_FILE_MAX
             ? message_set(message, "%s: unpacks to more than %d KB", name, SOURCE_FILE_MAX >> 10)
             : bundle_add(bundle, name, bytes, size, message);
-    free(bytes);
     return done;
 }
 
