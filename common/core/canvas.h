@@ -130,4 +130,8 @@ bool canvas_read(const Canvas *canvas, Image *image, Message *message);
 /* NULL or zeroed is fine. */
 void canvas_close(Canvas *canvas);
 
+/* A texture of one level, not bound, whose texels are not set. It shows the nearest of them, beyond
+ * its edges the last. */
+GLuint canvas_texture(GLenum format, GLenum type, int width, int height);
+
 #endif

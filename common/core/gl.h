@@ -147,8 +147,4 @@ bool gl_lists(const char *names, const char *name);
 bool gl_has(const char *extension);
 const char *gl_error_name(GLenum error); /* "GL_INVALID_VALUE" */
 
-/* A texture of one level, whose texels are not set, and which shows the nearest of them, at its edges
- * the last. It is not bound. */
-GLuint gl_texture(GLenum format, GLenum type, int width, int height);
-
 #endif

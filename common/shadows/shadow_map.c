@@ -7,6 +7,8 @@
  */
 #include "shadows/shadow_map.h"
 
+#include "core/canvas.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -46,8 +48,8 @@ static bool open_program(Shader *shader, const ShadowMaps *maps, const char *pur
 
 static GLuint make_texture(int size, bool packed)
 {
-    return packed ? gl_texture(GL_RGBA, GL_UNSIGNED_BYTE, size, size)
-                  : gl_texture(GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, size, size);
+    return packed ? canvas_texture(GL_RGBA, GL_UNSIGNED_BYTE, size, size)
+                  : canvas_texture(GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, size, size);
 }
 
 static void attach(const ShadowMaps *maps, GLuint texture)

@@ -7,6 +7,8 @@
  */
 #include "shadows/shadow_mask.h"
 
+#include "core/canvas.h"
+
 /* The mask */
 
 MaskShader mask_shader(const Shader *shader)
@@ -88,7 +90,8 @@ static void make_images(ShadowMask *mask, int count)
     }
     for (int i = 0; i < count; i++)
         if (!mask->textures[i])
-            mask->textures[i] = gl_texture(GL_RGBA, GL_UNSIGNED_BYTE, mask->width, mask->height);
+            mask->textures[i] =
+                canvas_texture(GL_RGBA, GL_UNSIGNED_BYTE, mask->width, mask->height);
 }
 
 static void attach(const ShadowMask *mask, int number)

@@ -3,6 +3,7 @@
  * has depth textures. */
 #include "labs/program/lab_shadow_map.h"
 
+#include "core/canvas.h"
 #include "core/mesh_buffer.h"
 #include "core/shader.h"
 
@@ -110,7 +111,8 @@ bool lab_shadow_map_open(LabShadowMap *map, const LabScene *lab_scene, Message *
     glDisable(GL_CULL_FACE);
     glEnable(GL_DEPTH_TEST);
     map->clip_from_world = lab_shadow_map_matrix(lab_scene);
-    map->texture = gl_texture(GL_RGBA, GL_UNSIGNED_BYTE, LAB_SHADOW_MAP_SIZE, LAB_SHADOW_MAP_SIZE);
+    map->texture =
+        canvas_texture(GL_RGBA, GL_UNSIGNED_BYTE, LAB_SHADOW_MAP_SIZE, LAB_SHADOW_MAP_SIZE);
     const bool done = draw_map(map, lab_scene, &shader, message);
     if (cut)
         glEnable(GL_SCISSOR_TEST);
