@@ -20,38 +20,7 @@
 #ifndef CHEAPEST_QUALITY_H
 #define CHEAPEST_QUALITY_H
 
-#include "core/canvas.h"
-#include "lighting/lighting.h"
-#include "scene/quality.h"
-
-typedef struct CheapestQualityTask {
-    const Canvas *canvas; /* candidates are drawn into it */
-    int place[4];         /* and read from this part: x, y, width, height */
-    Lighting *lighting;
-    bool full; /* see lighting_draw */
-    SolidMeshes *meshes;
-    double error; /* allowed, in steps of 1/255 */
-    /* What stays as the scene says: bits of 1 << AXIS_INTERPOLATION, _DIVISIONS, _NORMALS, _VIEWER,
-     * _LIGHTS. */
-    unsigned kept;
-    /* The scene at moment `number`, valid until the next call; it passes scene_check and has the
-     * same objects and lights at all of them. */
-    int moments;
-    bool (*scene)(void *data, int number, Scene *scene, Message *message);
-    void *data;
-    /* There are more moments between these: a third of the error is kept in reserve, or twice
-     * what the error at every second moment differs from that at the others. */
-    bool moving;
-} CheapestQualityTask;
-
-typedef struct CheapestQuality {
-    ObjectQuality *objects;
-    int count;
-    double error, plain_error; /* over all moments */
-    double cost, plain_cost;   /* expected, see quality_parts_cost */
-    double margin;             /* the reserve for the moments between */
-    bool cached;
-} CheapestQuality;
+#include "choose/cheapest_search.h"
 
 /* Where the error cannot be kept, the cheapest of the most exact is chosen: `error` is then above
  * the task's. Never less exact than the plain picture unless expected to save 30% of its time. */
@@ -59,7 +28,7 @@ bool cheapest_quality_find(CheapestQuality *cheapest, const CheapestQualityTask 
                            Message *message);
 void cheapest_quality_close(CheapestQuality *cheapest);
 
-/* What the choice leaves away, as text: "object 0: 24 divisions, lit per vertex, viewer at
+/* What was simplified, as text: "object 0: 24 divisions, lit per vertex, viewer at
  * infinity"; at most `size` characters. */
 void cheapest_quality_text(const CheapestQuality *cheapest, const Scene *scene, char *text,
                            size_t size);

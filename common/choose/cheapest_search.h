@@ -1,10 +1,42 @@
 /*
- * cheapest_search: the search behind cheapest_quality.
+ * cheapest_search: the search for the cheapest quality, without the cache of what was chosen; see
+ * cheapest_quality.h.
  */
 #ifndef CHEAPEST_SEARCH_H
 #define CHEAPEST_SEARCH_H
 
-#include "choose/cheapest_quality.h"
+#include "core/canvas.h"
+#include "lighting/lighting.h"
+#include "scene/quality.h"
+
+typedef struct CheapestQualityTask {
+    const Canvas *canvas; /* candidates are drawn into it */
+    int place[4];         /* and read from this part: x, y, width, height */
+    Lighting *lighting;
+    bool full; /* see lighting_draw */
+    SolidMeshes *meshes;
+    double error; /* allowed, in steps of 1/255 */
+    /* What stays as the scene says: bits of 1 << AXIS_INTERPOLATION, _DIVISIONS, _NORMALS, _VIEWER,
+     * _LIGHTS. */
+    unsigned kept;
+    /* The scene at moment `number`, valid until the next call; it passes scene_check and has the
+     * same objects and lights at all of them. */
+    int moments;
+    bool (*scene)(void *data, int number, Scene *scene, Message *message);
+    void *data;
+    /* There are more moments between these: a third of the error is kept in reserve, or twice
+     * what the error at every second moment differs from that at the others. */
+    bool moving;
+} CheapestQualityTask;
+
+typedef struct CheapestQuality {
+    ObjectQuality *objects;
+    int count;
+    double error, plain_error; /* over all moments */
+    double cost, plain_cost;   /* expected, see quality_parts_cost */
+    double margin;             /* the reserve for the moments between */
+    bool cached;
+} CheapestQuality;
 
 /* Fills in a choice for a scene of `cheapest->count` objects, for each of which it has room. */
 bool cheapest_search(CheapestQuality *cheapest, const CheapestQualityTask *task, Message *message);

@@ -116,21 +116,24 @@ HardResult hard_draw(Hard *hard, const Scene *scene, HardPrecision precision,
     return result;
 }
 
-void hard_check_exact(Hard *hard, const char *name, const Scene *scene, HardPrecision precision,
-                      double max, int min_pixels, const Reference *exact)
+void hard_check_exact(Hard *hard, const char *name, const Scene *scene, HardBound bound,
+                      const Reference *exact)
 {
+    const HardPrecision precision = bound.precision;
     const HardResult result = hard_draw(hard, scene, precision, exact);
     hard->worst[precision] = fmax(hard->worst[precision], result.byte_error);
-    hard->max[precision] = fmax(hard->max[precision], max);
+    hard->max[precision] = fmax(hard->max[precision], bound.max);
     hard->checked++;
-    if (result.not_finite == 0 && result.byte_error <= max && result.interior_pixels >= min_pixels)
+    if (result.not_finite == 0 && result.byte_error <= bound.max &&
+        result.interior_pixels >= bound.min_pixels)
         return;
     picture_check_keep_exact(name, &hard->image, exact);
     fail_msg("%s, %s, lit at %s: largest error %.3f of %.3f at (%d, %d), %d pixels inside, %lld "
              "values not finite",
              name, precision == HARD_HIGHP ? "highp" : "mediump",
              scene->interpolation == INTERPOLATION_PHONG ? "fragments" : "vertices",
-             result.byte_error, max, result.x, result.y, result.interior_pixels, result.not_finite);
+             result.byte_error, bound.max, result.x, result.y, result.interior_pixels,
+             result.not_finite);
 }
 
 void hard_check(Hard *hard, const char *name, const Scene *scene, HardPrecision precision,
@@ -140,7 +143,7 @@ void hard_check(Hard *hard, const char *name, const Scene *scene, HardPrecision 
     hard_exact(hard, scene, false, &exact);
     for (int i = 0; hard->skip_diagonal && i < exact.height; i++)
         exact.interior[(exact.height - 1 - i) * exact.width + i] = 0;
-    hard_check_exact(hard, name, scene, precision, max, min_pixels, &exact);
+    hard_check_exact(hard, name, scene, (HardBound){precision, max, min_pixels}, &exact);
     reference_close(&exact);
 }
 
@@ -236,8 +239,8 @@ double hard_two_lights_max(const Scene *scene, HardPrecision precision)
 void hard_check_two_lights(Hard *hard, const char *name, const Scene *scene,
                            HardPrecision precision, const Reference *exact)
 {
-    hard_check_exact(hard, name, scene, precision, hard_two_lights_max(scene, precision), 100,
-                     exact);
+    const HardBound bound = {precision, hard_two_lights_max(scene, precision), 100};
+    hard_check_exact(hard, name, scene, bound, exact);
 }
 
 void hard_each_way(const Hard *hard, const char *name, HardWorld *world, HardCheck *check)

@@ -55,8 +55,13 @@ void hard_check(Hard *hard, const char *name, const Scene *scene, HardPrecision 
                 double max, int min_pixels);
 
 /* The same with a given exact picture, perhaps of an equivalent scene. */
-void hard_check_exact(Hard *hard, const char *name, const Scene *scene, HardPrecision precision,
-                      double max, int min_pixels, const Reference *exact);
+typedef struct HardBound {
+    HardPrecision precision;
+    double max;
+    int min_pixels;
+} HardBound;
+void hard_check_exact(Hard *hard, const char *name, const Scene *scene, HardBound bound,
+                      const Reference *exact);
 
 /* Prints one line: the number of pictures compared since the last report, and their largest
  * errors. */

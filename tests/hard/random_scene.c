@@ -3,7 +3,6 @@
 #include "core/mesh_make.h"
 #include "shapes/mesh_solids.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -304,11 +303,6 @@ bool random_scene_draw(const RandomScene *made, const Canvas *canvas, Lighting *
 
 /* Discontinuities. */
 
-static Vec3 to_vec3(const float v[3])
-{
-    return (Vec3){(double)v[0], (double)v[1], (double)v[2]};
-}
-
 static bool black(Vec3 a, Vec3 b)
 {
     return a.x * b.x == 0 && a.y * b.y == 0 && a.z * b.z == 0;
@@ -344,12 +338,12 @@ bool random_scene_grazes(const RandomScene *made)
             normal_matrix = mat4_normal(object->world_from_object);
         for (size_t k = 0; k < mesh->index_count; k++) {
             const MeshVertex *vertex = &mesh->vertices[mesh->indices[k]];
-            Vec3 normal = to_vec3(vertex->normal);
+            Vec3 normal = vec3_from_float(vertex->normal);
             if (scene->interpolation == INTERPOLATION_FLAT && !object->flat)
                 mesh_face(mesh, k / 3, &normal);
             vec3_normalize(mat4_transform_direction(normal_matrix, normal), &normal);
             const Vec3 place =
-                mat4_transform_point(object->world_from_object, to_vec3(vertex->position));
+                mat4_transform_point(object->world_from_object, vec3_from_float(vertex->position));
             for (int j = 0; j < scene->light_count; j++) {
                 const Light light = scene_world_light(scene, j);
                 if (!light.off && light_grazes(&light, object, place, normal))
@@ -358,216 +352,4 @@ bool random_scene_grazes(const RandomScene *made)
         }
     }
     return false;
-}
-
-/* Numbers. */
-
-typedef struct Numbers {
-    RandomNumber *numbers;
-    int count;
-} Numbers;
-
-static void add(Numbers *to, double *value, double min, double max)
-{
-    to->numbers[to->count++] = (RandomNumber){value, min, max};
-}
-
-static void add_vector(Numbers *to, Vec3 *v, double min, double max)
-{
-    add(to, &v->x, min, max);
-    add(to, &v->y, min, max);
-    add(to, &v->z, min, max);
-}
-
-static void add_light(Numbers *to, Light *light)
-{
-    add_vector(to, &light->ambient, 0, 1e6);
-    add_vector(to, &light->diffuse, 0, 1e6);
-    add_vector(to, &light->specular, 0, 1e6);
-    if (light->kind != LIGHT_POINT)
-        add_vector(to, &light->direction, -DBL_MAX, DBL_MAX);
-    if (light->kind == LIGHT_DIRECTIONAL)
-        return;
-    add_vector(to, &light->position, -1e15, 1e15);
-    add(to, &light->constant, 0, 1e30);
-    add(to, &light->linear, 0, 1e30);
-    add(to, &light->quadratic, 0, 1e30);
-    if (light->kind == LIGHT_POINT)
-        return;
-    add(to, &light->cutoff, 0, 90);
-    add(to, &light->exponent, 0, 128);
-}
-
-static void add_material(Numbers *to, Material *material)
-{
-    add_vector(to, &material->ambient, 0, 1);
-    add_vector(to, &material->diffuse, 0, 1);
-    add_vector(to, &material->specular, 0, 1);
-    add_vector(to, &material->emission, 0, 1);
-    add(to, &material->shininess, 0, 128);
-}
-
-int random_scene_numbers(RandomScene *made, RandomNumber numbers[RANDOM_MAX_NUMBERS])
-{
-    Numbers to = {numbers, 0};
-    Camera *camera = &made->scene.camera;
-    add_vector(&to, &camera->eye, -1e15, 1e15);
-    add_vector(&to, &camera->center, -1e15, 1e15);
-    add_vector(&to, &camera->up, -1e15, 1e15);
-    add(&to, &camera->fovy, DBL_MIN, 180);
-    add(&to, &camera->near, DBL_MIN, DBL_MAX);
-    add(&to, &camera->far, DBL_MIN, INFINITY);
-    add_vector(&to, &made->scene.global_ambient, 0, 1e6);
-    for (int i = 0; i < made->scene.light_count; i++)
-        add_light(&to, &made->lights[i]);
-    for (int i = 0; i < made->scene.object_count; i++) {
-        Object *object = &made->objects[i];
-        Solid *solid = &made->shapes[i].solid;
-        for (int k = 0; k < 15; k++)
-            if (k % 4 < 3)
-                add(&to, &object->world_from_object.m[k], -DBL_MAX, DBL_MAX);
-        add_material(&to, &object->front);
-        if (object->two_sided)
-            add_material(&to, &object->back);
-        if (solid->radius != 0)
-            add(&to, &solid->radius, 1e-30, 1e30);
-        if (solid->height != 0)
-            add(&to, &solid->height, 1e-30, 1e30);
-        if (solid->tube != 0)
-            add(&to, &solid->tube, 1e-30, 1e30);
-    }
-    return to.count;
-}
-
-/* Text, without what is zero. */
-
-static void print_number(FILE *file, const char *name, double value)
-{
-    if (isinf(value))
-        fprintf(file, "%s = %sINFINITY, ", name, value < 0 ? "-" : "");
-    else if (value != 0)
-        fprintf(file, "%s = %.17g, ", name, value);
-}
-
-static void print_vector(FILE *file, const char *name, Vec3 v)
-{
-    if (v.x != 0 || v.y != 0 || v.z != 0)
-        fprintf(file, "%s = {%.17g, %.17g, %.17g}, ", name, v.x, v.y, v.z);
-}
-
-static void print_choice(FILE *file, const char *name, int value, const char *const texts[])
-{
-    if (value != 0)
-        fprintf(file, "%s = %s, ", name, texts[value]);
-}
-
-static void print_flag(FILE *file, const char *name, bool value)
-{
-    if (value)
-        fprintf(file, "%s = true, ", name);
-}
-
-static void print_light(FILE *file, int number, const Light *light)
-{
-    static const char *const kinds[] = {"LIGHT_DIRECTIONAL", "LIGHT_POINT", "LIGHT_SPOT"};
-    fprintf(file, ".lights[%d] = {", number);
-    print_flag(file, ".off", light->off);
-    print_flag(file, ".shadows", light->shadows);
-    fprintf(file, ".kind = %s, ", kinds[light->kind]);
-    fputs(light->space == LIGHT_EYE ? ".space = LIGHT_EYE, " : "", file);
-    print_vector(file, ".position", light->position);
-    print_vector(file, ".direction", light->direction);
-    print_vector(file, ".ambient", light->ambient);
-    print_vector(file, ".diffuse", light->diffuse);
-    print_vector(file, ".specular", light->specular);
-    print_number(file, ".cutoff", light->cutoff);
-    print_number(file, ".exponent", light->exponent);
-    print_number(file, ".constant", light->constant);
-    print_number(file, ".linear", light->linear);
-    print_number(file, ".quadratic", light->quadratic);
-    fprintf(file, "},\n");
-}
-
-static void print_material(FILE *file, const char *name, const Material *material)
-{
-    fprintf(file, "%s = {", name);
-    print_vector(file, ".ambient", material->ambient);
-    print_vector(file, ".diffuse", material->diffuse);
-    print_vector(file, ".specular", material->specular);
-    print_vector(file, ".emission", material->emission);
-    fprintf(file, ".alpha = %.17g, ", material->alpha);
-    print_number(file, ".shininess", material->shininess);
-    fprintf(file, "},\n");
-}
-
-static void print_object(FILE *file, int number, const Object *object)
-{
-    fprintf(file, ".objects[%d] = {.world_from_object = {{", number);
-    for (int k = 0; k < 16; k++)
-        fprintf(file, "%.17g, ", object->world_from_object.m[k]);
-    fprintf(file, "}},\n");
-    print_material(file, ".front", &object->front);
-    if (object->two_sided) {
-        print_flag(file, ".two_sided", true);
-        print_material(file, ".back", &object->back);
-    }
-    print_flag(file, ".wrong_normals", object->wrong_normals);
-    print_flag(file, ".clockwise", object->clockwise);
-    fprintf(file, "},\n");
-}
-
-static void print_shape(FILE *file, int number, const RandomShape *shape)
-{
-    static const char *const forms[FORM_COUNT] = {"FORM_SOLID",       "FORM_TETRAHEDRON",
-                                                  "FORM_OCTAHEDRON",  "FORM_DODECAHEDRON",
-                                                  "FORM_ICOSAHEDRON", "FORM_LECTURE_SPHERE"};
-    static const char *const kinds[] = {"SOLID_NONE", "SOLID_SPHERE", "SOLID_BOX",
-                                        "SOLID_QUAD", "SOLID_DISC",   "SOLID_CYLINDER",
-                                        "SOLID_CONE", "SOLID_TORUS",  "SOLID_TEAPOT"};
-    static const char *const caps[] = {"MESH_CAP_NONE", "MESH_CAP_BOTTOM", "MESH_CAP_TOP",
-                                       "MESH_CAP_BOTH"};
-    fprintf(file, ".shapes[%d] = {", number);
-    print_choice(file, ".form", (int)shape->form, forms);
-    fprintf(file, ".solid = {");
-    print_choice(file, ".kind", (int)shape->solid.kind, kinds);
-    print_number(file, ".radius", shape->solid.radius);
-    print_number(file, ".height", shape->solid.height);
-    print_number(file, ".tube", shape->solid.tube);
-    print_choice(file, ".caps", (int)shape->solid.caps, caps);
-    fprintf(file, "}, .divisions = %d", shape->divisions);
-    fputs(shape->colored ? ", .colored = true},\n" : "},\n", file);
-}
-
-void random_scene_print(const RandomScene *made, const char *name, FILE *file)
-{
-    static const char *const interpolations[] = {"INTERPOLATION_PHONG", "INTERPOLATION_GOURAUD",
-                                                 "INTERPOLATION_FLAT", "INTERPOLATION_CONSTANT"};
-    static const char *const reflections[] = {"REFLECTION_BLINN_PHONG", "REFLECTION_PHONG"};
-    const Scene *scene = &made->scene;
-    fprintf(file, "static const RandomScene %s = {\n.scene = {.camera = {", name);
-    print_vector(file, ".eye", scene->camera.eye);
-    print_vector(file, ".center", scene->camera.center);
-    print_vector(file, ".up", scene->camera.up);
-    print_number(file, ".fovy", scene->camera.fovy);
-    print_number(file, ".near", scene->camera.near);
-    print_number(file, ".far", scene->camera.far);
-    fprintf(file, "},\n");
-    print_vector(file, ".background", scene->background);
-    print_vector(file, ".global_ambient", scene->global_ambient);
-    fprintf(file, ".light_count = %d, .object_count = %d, ", scene->light_count,
-            scene->object_count);
-    print_choice(file, ".reflection", (int)scene->reflection, reflections);
-    print_choice(file, ".interpolation", (int)scene->interpolation, interpolations);
-    print_flag(file, ".distant_viewer", scene->distant_viewer);
-    print_flag(file, ".clamp_vertex", scene->clamp_vertex);
-    print_flag(file, ".linear", scene->linear);
-    print_flag(file, ".show_clipped", scene->show_clipped);
-    fprintf(file, "},\n");
-    for (int i = 0; i < scene->light_count; i++)
-        print_light(file, i, &made->lights[i]);
-    for (int i = 0; i < scene->object_count; i++)
-        print_object(file, i, &made->objects[i]);
-    for (int i = 0; i < scene->object_count; i++)
-        print_shape(file, i, &made->shapes[i]);
-    fprintf(file, "};\n");
 }

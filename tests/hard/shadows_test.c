@@ -91,7 +91,7 @@ static void check_way(const char *name, Interpolation interpolation, HardPrecisi
     hard_exact(&hard, &made.scene, false, &exact);
     for (int i = 0; i < SIZE * SIZE; i++)
         exact.interior[i] &= !unsure[i];
-    hard_check_exact(&hard, name, &made.scene, precision, max, MIN_PIXELS, &exact);
+    hard_check_exact(&hard, name, &made.scene, (HardBound){precision, max, MIN_PIXELS}, &exact);
     reference_close(&exact);
 }
 
