@@ -10,9 +10,9 @@
 #include "app/options.h"
 #include "app/renderer.h"
 #include "kinds/scene_views.h"
-#include "base/cache.h"
 #include "base/clock.h"
 #include "base/random.h"
+#include "choose/exact_cache.h"
 #include "scene/scene_example.h"
 #include "study/results/table.h"
 #include "support/examples.h"
@@ -44,19 +44,8 @@ static int known_count;
 static CacheKey key_of(const Scene *scene, const ReferenceOptions *options)
 {
     CacheKey key = {{0, 0}};
-    Scene plain = *scene;
-    plain.lights = NULL;
-    plain.objects = NULL;
     cache_key_add(&key, options, sizeof *options);
-    cache_key_add(&key, &plain, sizeof plain);
-    cache_key_add(&key, scene->lights, (size_t)scene->light_count * sizeof *scene->lights);
-    for (int i = 0; i < scene->object_count; i++) {
-        Object object = scene->objects[i];
-        object.mesh = NULL;
-        cache_key_add(&key, &object, sizeof object);
-        if (scene->objects[i].mesh)
-            scene_key_mesh(&key, scene->objects[i].mesh);
-    }
+    exact_key_scene(&key, scene, true);
     return key;
 }
 
