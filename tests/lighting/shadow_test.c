@@ -6,18 +6,13 @@
  * maps see shadow_map_test.c.
  */
 #include "base/random.h"
-#include "core/canvas.h"
-#include "core/mesh_make.h"
 #include "lighting/shadow_world.h"
-#include "reference/picture_error.h"
 #include "scene/scene_example.h"
-#include "shapes/mesh_solids.h"
 #include "support/examples.h"
 #include "support/picture_check.h"
 #include "support/testing.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

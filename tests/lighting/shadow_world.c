@@ -4,11 +4,9 @@
 
 #include "core/mesh_make.h"
 #include "reference/picture_error.h"
-#include "shapes/mesh_solids.h"
 #include "support/picture_check.h"
 #include "support/testing.h"
 
-#include <stdio.h>
 #include <string.h>
 
 static const double MOST = 1; /* step of 1/255 */
