@@ -403,30 +403,4 @@ TEST(thirty_two_lights_add_up)
     hard_report(&hard, "0 to 32 lights");
 }
 
-TEST(lights_that_are_off_add_nothing)
-{
-    Random random = {SEED + 1};
-    Light kept[32];
-    printf("seed %d\n", SEED + 1);
-    for (HardPrecision precision = HARD_HIGHP; precision <= HARD_MEDIUMP; precision++) {
-        int on = 0;
-        hard_world(&world, &hard.sphere);
-        world.scene.light_count = 32;
-        for (int i = 0; i < 32; i++) {
-            random_light(&random, &world.lights[i]);
-            world.lights[i].off = i % 5 != 0;
-            if (!world.lights[i].off)
-                kept[on++] = world.lights[i];
-        }
-        draw_before(precision);
-        memcpy(world.lights, kept, sizeof kept);
-        world.scene.light_count = on;
-        assert_int_equal(draw_after(precision), 0);
-        for (int i = 0; i < on; i++)
-            world.lights[i].off = true;
-        hard_check(&hard, "all off", &world.scene, precision, 1, SIZE * SIZE / 8);
-    }
-    hard_report(&hard, "all lights off");
-}
-
 PICTURE_TEST_MAIN("hard lights", open_all, close_all)
