@@ -16,6 +16,7 @@ static ShaderLoader loader_of(Renderer *renderer, const DrawRequest *request)
     ShaderLoader loader = request->shaders;
     loader.printed = stdout;
     loader.advise = true;
+    loader.keeps = true;
     loader.log = request->verbose ? stderr : NULL;
     loader.warning = &renderer->warning;
     return loader;

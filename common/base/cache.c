@@ -1,5 +1,6 @@
 #include "base/cache.h"
 
+#include "base/memory.h"
 #include "base/output.h"
 #include "base/paths.h"
 #include "base/version.h"
@@ -85,7 +86,41 @@ static bool find_folder(char folder[PATH_MAX], bool create)
     if (length > PATH_MAX - 128 || (create && !output_folder(folder, NULL)))
         return false;
     strcat(folder, "/lighting");
-    return !create || output_folder(folder, NULL);
+    return !create || mkdir(folder, 0700) == 0 || errno == EEXIST;
+}
+
+static const char LOCK[] = "lock";
+
+/* The next file of a folder but the lock, and its status; NULL: there is no more. */
+static const char *next_file(DIR *folder, struct stat *status)
+{
+    for (const struct dirent *entry; (entry = readdir(folder)) != NULL;)
+        if (strcmp(entry->d_name, LOCK) != 0 &&
+            fstatat(dirfd(folder), entry->d_name, status, AT_SYMLINK_NOFOLLOW) == 0 &&
+            S_ISREG(status->st_mode))
+            return entry->d_name;
+    return NULL;
+}
+
+/* The folder, open, if it is the user's own and no one else could write to it. To write, it is
+ * created, or closed to others and emptied: whatever they left there is not trusted. */
+static DIR *open_folder(char folder[PATH_MAX], bool write)
+{
+    struct stat status;
+    DIR *all = find_folder(folder, write) ? opendir(folder) : NULL;
+    if (!all)
+        return NULL;
+    bool own = fstat(dirfd(all), &status) == 0 && status.st_uid == geteuid();
+    const bool shared = (status.st_mode & (S_IWGRP | S_IWOTH)) != 0;
+    if (own && shared && write && (own = fchmod(dirfd(all), 0700) == 0)) {
+        for (const char *name; (name = next_file(all, &status)) != NULL;)
+            unlinkat(dirfd(all), name, 0);
+        rewinddir(all);
+    }
+    if (own && (write || !shared))
+        return all;
+    closedir(all);
+    return NULL;
 }
 
 void cache_prepare_driver(void)
@@ -105,84 +140,153 @@ void cache_prepare_driver(void)
         setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
 }
 
-static bool find_path(const char *kind, const CacheKey *key, bool create, char path[PATH_MAX])
+/* What a file begins with: its key, and a hash of all bytes after this. Damage, and a file that was
+ * renamed, are a miss. */
+typedef struct Seal {
+    CacheKey key, hash;
+} Seal;
+
+static Seal seal_of(const CacheKey *key, const void *bytes, size_t size)
 {
-    if (!find_folder(path, create))
-        return false;
-    sprintf(path + strlen(path), "/%.32s-%016llx%016llx", kind, (unsigned long long)key->bits[0],
-            (unsigned long long)key->bits[1]);
-    return true;
+    Seal seal = {.key = *key};
+    cache_key_add(&seal.hash, bytes, size);
+    return seal;
+}
+
+enum { NAME_SIZE = 80 };
+
+static void name_of(const char *kind, const CacheKey *key, char name[NAME_SIZE])
+{
+    snprintf(name, NAME_SIZE, "%.32s-%016llx%016llx", kind, (unsigned long long)key->bits[0],
+             (unsigned long long)key->bits[1]);
+}
+
+static bool read_all(int file, void *bytes, size_t size)
+{
+    size_t have = 0;
+    ssize_t more = 1;
+    while (have < size && (more = read(file, (char *)bytes + have, size - have)) > 0)
+        have += (size_t)more;
+    return have == size;
+}
+
+/* Of an open file; NULL: it is not a file of the cache, or damaged. */
+static void *read_sealed(int file, const CacheKey *key, size_t *size)
+{
+    struct stat status;
+    Seal seal;
+    if (fstat(file, &status) != 0 || !S_ISREG(status.st_mode) || status.st_uid != geteuid() ||
+        status.st_size > CACHE_MAX || !read_all(file, &seal, sizeof seal))
+        return NULL;
+    *size = (size_t)status.st_size - sizeof seal;
+    void *bytes = malloc(*size + 1);
+    if (bytes && read_all(file, bytes, *size)) {
+        const Seal right = seal_of(key, bytes, *size);
+        if (memcmp(&seal, &right, sizeof seal) == 0)
+            return bytes;
+    }
+    free(bytes);
+    return NULL;
 }
 
 void *cache_read(const char *kind, const CacheKey *key, size_t *size)
 {
-    char path[PATH_MAX];
-    struct stat status;
-    const int file = find_path(kind, key, false, path)
-                         ? open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW)
-                         : -1;
-    char *bytes = NULL;
-    if (file >= 0 && fstat(file, &status) == 0 && S_ISREG(status.st_mode) &&
-        status.st_size <= CACHE_MAX && (bytes = malloc((size_t)status.st_size + 1)) != NULL) {
-        size_t have = 0;
-        ssize_t more = 1;
-        *size = (size_t)status.st_size;
-        while (have < *size && (more = read(file, bytes + have, *size - have)) > 0)
-            have += (size_t)more;
-        if (have < *size) {
-            free(bytes);
-            bytes = NULL;
-        }
+    char folder[PATH_MAX], name[NAME_SIZE];
+    DIR *all = open_folder(folder, false);
+    if (!all)
+        return NULL;
+    name_of(kind, key, name);
+    /* Neither a link is followed, nor the writer of a pipe waited for. */
+    const int file = openat(dirfd(all), name, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
+    void *bytes = file >= 0 ? read_sealed(file, key, size) : NULL;
+    if (bytes)
         futimens(file, NULL); /* used now */
-    }
     if (file >= 0)
         close(file);
+    closedir(all);
     return bytes;
 }
 
-/* Removes the least recently used files until `size` bytes more fit. */
-static void make_room(const char *folder, size_t size)
+typedef struct Entry {
+    char *name;
+    size_t size;
+    struct timespec used;
+} Entry;
+
+static int compare_uses(const void *first, const void *second)
 {
-    for (;;) {
-        DIR *all = opendir(folder);
-        char oldest[NAME_MAX + 1] = "";
-        struct timespec time = {0, 0};
-        size_t sum = size;
-        if (!all)
-            return;
-        for (const struct dirent *entry; (entry = readdir(all)) != NULL;) {
-            struct stat status;
-            if (fstatat(dirfd(all), entry->d_name, &status, AT_SYMLINK_NOFOLLOW) != 0 ||
-                !S_ISREG(status.st_mode) || status.st_size == 0)
-                continue;
-            sum += (size_t)status.st_size;
-            if (!oldest[0] || status.st_mtim.tv_sec < time.tv_sec ||
-                (status.st_mtim.tv_sec == time.tv_sec && status.st_mtim.tv_nsec < time.tv_nsec)) {
-                snprintf(oldest, sizeof oldest, "%s", entry->d_name);
-                time = status.st_mtim;
-            }
-        }
-        const bool done = sum <= CACHE_MAX || !oldest[0] || unlinkat(dirfd(all), oldest, 0) != 0;
-        closedir(all);
-        if (done)
-            return;
+    const struct timespec a = ((const Entry *)first)->used, b = ((const Entry *)second)->used;
+    return a.tv_sec != b.tv_sec ? (a.tv_sec > b.tv_sec) - (a.tv_sec < b.tv_sec)
+                                : (a.tv_nsec > b.tv_nsec) - (a.tv_nsec < b.tv_nsec);
+}
+
+/* Removes the least recently used files until at most `max` bytes are left, and returns how many
+ * are. */
+static uint64_t make_room(DIR *all, uint64_t max)
+{
+    Entry *entries = NULL;
+    struct stat status;
+    size_t count = 0;
+    uint64_t sum = 0;
+    for (const char *name; (name = next_file(all, &status)) != NULL; count++) {
+        if ((count & (count - 1)) == 0)
+            entries = memory_grow(entries, 2 * count + 1, sizeof *entries);
+        entries[count] = (Entry){memory_text(name), (size_t)status.st_size, status.st_mtim};
+        sum += entries[count].size;
     }
+    if (count)
+        qsort(entries, count, sizeof *entries, compare_uses);
+    for (size_t i = 0; i < count; i++) {
+        if (sum > max && unlinkat(dirfd(all), entries[i].name, 0) == 0)
+            sum -= entries[i].size;
+        free(entries[i].name);
+    }
+    free(entries);
+    return sum;
+}
+
+/* The lock holds the sum of all files, or more: only where that reaches the bound they are counted
+ * again. */
+static bool reserve(int lock, DIR *all, uint64_t size)
+{
+    uint64_t sum = 0;
+    if (pread(lock, &sum, sizeof sum, 0) != sizeof sum || sum > CACHE_MAX - size)
+        sum = make_room(all, CACHE_MAX - size);
+    sum += size;
+    return pwrite(lock, &sum, sizeof sum, 0) == sizeof sum;
+}
+
+/* By rename; what is no file of the user's goes first, because it would be written through. */
+static void replace(DIR *all, const char *path, const Seal *seal, const void *bytes, size_t size)
+{
+    struct stat status;
+    const char *name = strrchr(path, '/') + 1;
+    if (fstatat(dirfd(all), name, &status, AT_SYMLINK_NOFOLLOW) == 0 &&
+        (!S_ISREG(status.st_mode) || status.st_uid != geteuid()))
+        unlinkat(dirfd(all), name, 0);
+    Output *output = output_begin(path, NULL);
+    if (output && output_append(output_file(output), seal, sizeof *seal) &&
+        output_append(output_file(output), bytes, size))
+        output_commit(output, NULL);
+    else
+        output_abort(output);
 }
 
 void cache_write(const char *kind, const CacheKey *key, const void *bytes, size_t size)
 {
-    char path[PATH_MAX], folder[PATH_MAX], lock[PATH_MAX];
-    if (size > CACHE_MAX || size == 0 || !find_path(kind, key, true, path) ||
-        !find_folder(folder, false))
+    char folder[PATH_MAX], name[NAME_SIZE], path[PATH_MAX + NAME_SIZE];
+    const Seal seal = seal_of(key, bytes, size);
+    const bool fits = size > 0 && size <= CACHE_MAX - sizeof seal;
+    DIR *all = fits ? open_folder(folder, true) : NULL;
+    if (!all)
         return;
-    strcat(strcpy(lock, folder), "/lock");
-    const int turn = open(lock, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
-    if (turn < 0)
-        return;
+    name_of(kind, key, name);
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    const int lock = openat(dirfd(all), LOCK, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600);
     /* Not waited for: the other process may be stopped. */
-    if (flock(turn, LOCK_EX | LOCK_NB) == 0) {
-        make_room(folder, size);
-        output_write(path, bytes, size, NULL);
-    }
-    close(turn);
+    if (lock >= 0 && flock(lock, LOCK_EX | LOCK_NB) == 0 && reserve(lock, all, sizeof seal + size))
+        replace(all, path, &seal, bytes, size);
+    if (lock >= 0)
+        close(lock);
+    closedir(all);
 }

@@ -2,6 +2,11 @@
  * cache: bytes kept between runs by a key of their contents, in lighting/ of XDG_CACHE_HOME or
  * ~/.cache. A convenience: whatever fails (no folder, no room, a damaged file) is a miss.
  *
+ * Trusted as the user's own files are: the folder is the user's and only the user can write to it,
+ * so is the file, and it ends in a miss unless its bytes have the hash that it begins with. The
+ * hash finds damage, not forgery by the user. Where files of others run as the user, as in the
+ * sandbox of a class, there must be no cache: XDG_CACHE_HOME is /dev/null there.
+ *
  * At most CACHE_MAX bytes: the least recently used files go first. Files appear whole, by rename,
  * and one process writes at a time (others then keep nothing), so that any number may use it at
  * once.

@@ -9,6 +9,9 @@ GL_FUNCTIONS(GL_DEFINE)
 #define GL_DEFINE(TYPE, name) PFNGL##TYPE##EXTPROC gl##name##EXT;
 GL_TIMER_FUNCTIONS(GL_DEFINE)
 #undef GL_DEFINE
+#define GL_DEFINE(TYPE, name) PFNGL##TYPE##OESPROC gl##name##OES;
+GL_BINARY_FUNCTIONS(GL_DEFINE)
+#undef GL_DEFINE
 GlRenderbufferStorageMultisample glRenderbufferStorageMultisample;
 GlBlitFramebuffer glBlitFramebuffer;
 PFNGLGETGRAPHICSRESETSTATUSEXTPROC glGetGraphicsResetStatus;
@@ -45,6 +48,11 @@ bool gl_load(GlFunction (*address)(const char *name), Message *message)
 #define GL_LOAD(TYPE, name)                                                                        \
     gl##name##EXT = timer ? (PFNGL##TYPE##EXTPROC)address("gl" #name "EXT") : NULL;
     GL_TIMER_FUNCTIONS(GL_LOAD)
+#undef GL_LOAD
+    const bool binaries = gl_has("GL_OES_get_program_binary");
+#define GL_LOAD(TYPE, name)                                                                        \
+    gl##name##OES = binaries ? (PFNGL##TYPE##OESPROC)address("gl" #name "OES") : NULL;
+    GL_BINARY_FUNCTIONS(GL_LOAD)
 #undef GL_LOAD
     return true;
 }

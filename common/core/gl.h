@@ -111,6 +111,11 @@ typedef void(GL_APIENTRYP GlBlitFramebuffer)(GLint, GLint, GLint, GLint, GLint, 
     X(GETQUERYIV, GetQueryiv)                                                                      \
     X(GETQUERYOBJECTUI64V, GetQueryObjectui64v)
 
+/* Of GL_OES_get_program_binary; NULL without it. */
+#define GL_BINARY_FUNCTIONS(X)                                                                     \
+    X(GETPROGRAMBINARY, GetProgramBinary)                                                          \
+    X(PROGRAMBINARY, ProgramBinary)
+
 /* Hidden, so that a driver loaded later cannot resolve its functions to these variables. */
 #pragma GCC visibility push(hidden)
 #define GL_DECLARE(TYPE, name) extern PFNGL##TYPE##PROC gl##name;
@@ -118,6 +123,9 @@ GL_FUNCTIONS(GL_DECLARE)
 #undef GL_DECLARE
 #define GL_DECLARE(TYPE, name) extern PFNGL##TYPE##EXTPROC gl##name##EXT;
 GL_TIMER_FUNCTIONS(GL_DECLARE)
+#undef GL_DECLARE
+#define GL_DECLARE(TYPE, name) extern PFNGL##TYPE##OESPROC gl##name##OES;
+GL_BINARY_FUNCTIONS(GL_DECLARE)
 #undef GL_DECLARE
 /* Of OpenGL ES 3 or an extension; NULL without them. */
 extern GlRenderbufferStorageMultisample glRenderbufferStorageMultisample;

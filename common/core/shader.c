@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "base/text.h"
+#include "core/shader_binary.h"
 
 #include <ctype.h>
 #include <stdio.h>
@@ -111,9 +112,9 @@ static bool locate_link_error(const ShaderSource *source, const char *log, Messa
     return false;
 }
 
-static bool link_program(GLuint program, const ShaderSource *vertex, const ShaderSource *fragment,
-                         Message *message)
+static bool link_program(GLuint program, const ShaderSource sources[2], Message *message)
 {
+    const ShaderSource *vertex = &sources[SHADER_VERTEX], *fragment = &sources[SHADER_FRAGMENT];
     GLint linked = GL_FALSE;
     glLinkProgram(program);
     glGetProgramiv(program, GL_LINK_STATUS, &linked);
@@ -159,57 +160,77 @@ static void close_sources(Shader *shader)
     shader_source_close(&shader->sources[SHADER_FRAGMENT]);
 }
 
+/* Reads and prints NAME.vert and NAME.frag. */
+static bool open_sources(ShaderSource sources[2], const ShaderLoader *loader, const char *name,
+                         Message *message)
+{
+    static const char *const endings[] = {[SHADER_VERTEX] = "vert", [SHADER_FRAGMENT] = "frag"};
+    for (ShaderStage stage = SHADER_VERTEX; stage <= SHADER_FRAGMENT; stage++) {
+        char file[160];
+        snprintf(file, sizeof file, "%s.%s", name, endings[stage]);
+        if (!shader_source_open(&sources[stage], loader, file, stage, message))
+            return false;
+    }
+    print_source(loader, &sources[SHADER_VERTEX], SHADER_VERTEX);
+    print_source(loader, &sources[SHADER_FRAGMENT], SHADER_FRAGMENT);
+    return true;
+}
+
+/* The program, compiled and linked; 0 on failure. */
+static GLuint build(const ShaderSource sources[2], const ShaderLoader *loader, Message *message)
+{
+    GLuint program = 0;
+    const GLuint vertex = compile(&sources[SHADER_VERTEX], SHADER_VERTEX, message);
+    const GLuint fragment =
+        vertex ? compile(&sources[SHADER_FRAGMENT], SHADER_FRAGMENT, message) : 0;
+    if (fragment) {
+        program = glCreateProgram();
+        glAttachShader(program, vertex);
+        glAttachShader(program, fragment);
+        glBindAttribLocation(program, 0, "a_Position");
+        if (!link_program(program, sources, message)) {
+            glDeleteProgram(program);
+            program = 0;
+        }
+    }
+    if (!program && loader->advise)
+        shader_advise(fragment ? "" : sources[vertex ? SHADER_FRAGMENT : SHADER_VERTEX].text,
+                      message);
+    if (vertex && !fragment)
+        explain_precision(loader, message);
+    /* Deleted when the program is; 0 is ignored. */
+    glDeleteShader(vertex);
+    glDeleteShader(fragment);
+    return program;
+}
+
 bool shader_open(Shader *shader, const ShaderLoader *loader, const char *name, Message *message)
 {
-    ShaderSource vertex_source = {0}, fragment_source = {0};
-    GLuint vertex = 0, fragment = 0;
-    char file[160];
-    bool done = false;
     const double start = clock_now();
-
-    *shader = (Shader){0};
+    bool kept = false;
+    *shader = (Shader){.warning = loader->warning};
     snprintf(shader->name, sizeof shader->name, "%s", name);
-    snprintf(file, sizeof file, "%s.vert", name);
-    if (!shader_source_open(&vertex_source, loader, file, SHADER_VERTEX, message))
-        goto end;
-    snprintf(file, sizeof file, "%s.frag", name);
-    if (!shader_source_open(&fragment_source, loader, file, SHADER_FRAGMENT, message))
-        goto end;
-    print_source(loader, &vertex_source, SHADER_VERTEX);
-    print_source(loader, &fragment_source, SHADER_FRAGMENT);
-
-    if (!(vertex = compile(&vertex_source, SHADER_VERTEX, message)) ||
-        !(fragment = compile(&fragment_source, SHADER_FRAGMENT, message))) {
-        if (loader->advise)
-            shader_advise(vertex ? fragment_source.text : vertex_source.text, message);
-        if (vertex)
-            explain_precision(loader, message);
-        goto end;
+    if (open_sources(shader->sources, loader, name, message)) {
+        const CacheKey key = loader->keeps ? shader_binary_key(shader->sources) : (CacheKey){{0}};
+        shader->program = loader->keeps ? shader_binary_open(&key) : 0;
+        kept = shader->program != 0;
+        if (!kept)
+            shader->program = build(shader->sources, loader, message);
+        if (!kept && shader->program && loader->keeps)
+            shader_binary_keep(&key, shader->program);
     }
-    shader->program = glCreateProgram();
-    glAttachShader(shader->program, vertex);
-    glAttachShader(shader->program, fragment);
-    glBindAttribLocation(shader->program, 0, "a_Position");
-    done = link_program(shader->program, &vertex_source, &fragment_source, message);
-    if (!done && loader->advise)
-        shader_advise("", message);
-    if (done && loader->log)
-        fprintf(loader->log, "%s: %s and %s: compiled and linked in %.1f ms\n", name,
-                vertex_source.files[0], fragment_source.files[0], 1e3 * (clock_now() - start));
-end:
-    /* Deleted when the program is. */
-    if (vertex)
-        glDeleteShader(vertex);
-    if (fragment)
-        glDeleteShader(fragment);
-    shader->warning = loader->warning;
-    shader->sources[SHADER_VERTEX] = vertex_source;
-    shader->sources[SHADER_FRAGMENT] = fragment_source;
-    if (!done)
+    if (!shader->program) {
         shader_close(shader);
-    else if (!loader->warning)
+        return false;
+    }
+    if (loader->log)
+        fprintf(loader->log, "%s: %s and %s: %s in %.1f ms\n", name,
+                shader->sources[SHADER_VERTEX].files[0], shader->sources[SHADER_FRAGMENT].files[0],
+                kept ? "linked before, loaded" : "compiled and linked",
+                1e3 * (clock_now() - start));
+    if (!loader->warning)
         close_sources(shader);
-    return done;
+    return true;
 }
 
 static bool is_attribute(const char *name)

@@ -41,6 +41,7 @@ typedef struct ShaderLoader {
     int print;                             /* which shaders to write to `printed`, as below */
     FILE *printed, *log;                   /* the latter for compile times; NULL: not written */
     bool advise;                           /* errors of the driver end with a hint */
+    bool keeps;                            /* linked programs are kept, in the cache */
     Message *warning; /* where shader_locations names what a program lacks; NULL: an error */
 } ShaderLoader;
 

@@ -11,7 +11,7 @@
 
 bool panel_draw_open(PanelDraw *draw, const ShaderLoader *loader, Message *message)
 {
-    const ShaderLoader own = {.folder = loader->folder};
+    const ShaderLoader own = {.folder = loader->folder, .keeps = loader->keeps};
     *draw = (PanelDraw){0};
     if (!shader_open(&draw->shader, &own, "panel", message) ||
         !shader_attribute(&draw->shader, "a_Position", &draw->a_Position, message) ||

@@ -76,6 +76,122 @@ TEST_WITH(0, without_a_folder_nothing_is_kept, testing_enter_cache, testing_leav
     }
 }
 
+/* What may have happened to a file of the cache. */
+static void shorten(const char *path)
+{
+    assert_int_equal(truncate(path, 20), 0);
+}
+
+static void empty(const char *path)
+{
+    assert_int_equal(truncate(path, 0), 0);
+}
+
+static void lengthen(const char *path)
+{
+    assert_int_equal(truncate(path, 100), 0);
+}
+
+static void flip(const char *path, off_t at)
+{
+    char byte;
+    const int file = open(path, O_RDWR);
+    assert_true(pread(file, &byte, 1, at) == 1);
+    byte ^= 1;
+    assert_true(pwrite(file, &byte, 1, at) == 1);
+    close(file);
+}
+
+static void change_key(const char *path)
+{
+    flip(path, 0);
+}
+
+static void change_hash(const char *path)
+{
+    flip(path, 31);
+}
+
+static void change_bytes(const char *path)
+{
+    flip(path, 33);
+}
+
+static void link_elsewhere(const char *path)
+{
+    assert_int_equal(rename(path, "elsewhere"), 0);
+    assert_int_equal(symlink("../elsewhere", path), 0);
+}
+
+static void become_pipe(const char *path)
+{
+    assert_int_equal(unlink(path), 0);
+    assert_int_equal(mkfifo(path, 0600), 0);
+}
+
+static void become_folder(const char *path)
+{
+    assert_int_equal(unlink(path), 0);
+    assert_int_equal(mkdir(path, 0700), 0);
+}
+
+static void change_owner(const char *path)
+{
+    assert_int_equal(chown(path, 65534, 65534), 0);
+}
+
+static void open_folder_to_others(const char *path)
+{
+    (void)path;
+    assert_int_equal(chmod("lighting", 0777), 0);
+}
+
+TEST_WITH(0, what_is_not_as_it_was_written_is_a_miss, testing_enter_cache, testing_leave_cache)
+{
+    static const struct {
+        void (*spoil)(const char *path);
+        bool as_root, for_good;
+    } cases[] = {
+        {shorten, false, false},        {empty, false, false},
+        {lengthen, false, false},       {change_key, false, false},
+        {change_hash, false, false},    {change_bytes, false, false},
+        {link_elsewhere, false, false}, {become_pipe, false, false},
+        {change_owner, true, false},    {open_folder_to_others, false, false},
+        {become_folder, false, true},
+    };
+    const CacheKey key = key_of("a");
+    char path[80];
+    struct stat status;
+    snprintf(path, sizeof path, "lighting/test-%016llx%016llx", (unsigned long long)key.bits[0],
+             (unsigned long long)key.bits[1]);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        if (cases[i].as_root && geteuid() != 0)
+            continue;
+        put("a", "one");
+        put("b", "two");
+        assert_true(has("a", "one"));
+        cases[i].spoil(path);
+        assert_false(has("a", "one"));
+        put("a", "one"); /* writes it anew */
+        assert_int_equal(has("a", "one"), !cases[i].for_good);
+        assert_int_equal(stat("lighting", &status), 0);
+        assert_int_equal(status.st_mode & 0777, 0700);
+        /* Others could have written all files of an open folder. */
+        assert_int_equal(has("b", "two"), cases[i].spoil != open_folder_to_others);
+    }
+}
+
+TEST_WITH(0, anothers_folder_is_not_used, testing_enter_cache, testing_leave_cache)
+{
+    if (geteuid() != 0)
+        return;
+    put("a", "one");
+    assert_int_equal(chown("lighting", 65534, 65534), 0);
+    assert_false(has("a", "one"));
+    put("b", "two");
+    assert_int_equal(testing_entries("lighting"), 2); /* the first, and the lock */
+}
+
 TEST_WITH(0, the_least_recently_used_goes, testing_enter_cache, testing_leave_cache)
 {
     enum { SIZE = 30000000 };

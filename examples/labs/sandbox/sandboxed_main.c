@@ -71,7 +71,7 @@ static bool take_limits(rlim_t seconds, Message *message)
 }
 
 /* Keeps only what drawing needs. One thread draws, because there is one submission per processor.
- */
+ * No cache, because a submission could write to it. */
 static bool set_environment(const char *folder, Message *message)
 {
     static const char *const kept[] = {
@@ -86,9 +86,13 @@ static bool set_environment(const char *folder, Message *message)
     for (int i = 0; i < KEPT; i++)
         if (values[i])
             done = setenv(kept[i], values[i], 1) == 0 && done;
-    const char *const own[][2] = {{"PATH", "/usr/bin:/bin"}, {"HOME", folder},
-                                  {"TMPDIR", folder},        {"LC_ALL", "C.UTF-8"},
-                                  {"LP_NUM_THREADS", "0"},   {"MESA_SHADER_CACHE_DISABLE", "true"}};
+    const char *const own[][2] = {{"PATH", "/usr/bin:/bin"},
+                                  {"HOME", folder},
+                                  {"TMPDIR", folder},
+                                  {"LC_ALL", "C.UTF-8"},
+                                  {"LP_NUM_THREADS", "0"},
+                                  {"MESA_SHADER_CACHE_DISABLE", "true"},
+                                  {"XDG_CACHE_HOME", "/dev/null"}};
     for (size_t i = 0; i < sizeof own / sizeof own[0]; i++)
         done = setenv(own[i][0], own[i][1], 1) == 0 && done;
     return done ? true : message_set(message, "the environment: %s", strerror(errno));
