@@ -2,9 +2,9 @@
  * shader: compiles and links shader files.
  *
  * A file is GLSL ES 1.00. Before the driver gets it,
- *   - `#include "file"` on a line of its own is replaced by that file, searched beside the
- * including file, then where all shaders are searched. A file must not include itself, also
- * indirectly. Includes are resolved before #if is;
+ *   - `#include "file"` on a line of its own is replaced by that file, searched beside the file that
+ *     includes it, then where all shaders are searched. A file must not include itself, also
+ *     indirectly. Includes are resolved before #if is;
  *   - `#version 100` becomes the first line, and defines follow it;
  *   - `#line` is added after these, so that the driver's messages can be mapped to files.
  */
@@ -66,24 +66,7 @@ bool shader_loader_check(const ShaderLoader *loader, Message *message);
 bool shader_source_open(ShaderSource *source, const ShaderLoader *loader, const char *name,
                         ShaderStage stage, Message *message);
 
-/* The same for text in memory, as if it were a file at `path`. */
-bool shader_source_parse(ShaderSource *source, const ShaderLoader *loader, const char *path,
-                         const char *text, size_t size, ShaderStage stage, Message *message);
 void shader_source_close(ShaderSource *source);
-
-/* Maps the driver's log to files: a line that begins with a source string and line number becomes
- * "file:line: rest"; the first is followed by that line of source. Always returns false. */
-bool shader_explain_log(const ShaderSource *source, const char *log, Message *message);
-
-/* What an unknown name was probably meant to be, of those in the source, and a sentence on what the
- * driver's error usually means; false: neither is known. */
-bool shader_advice(const char *source, const char *message, char *advice, size_t size);
-
-/* Adds that as a last line, "  hint: ...". */
-void shader_advise(const char *source, Message *message);
-
-/* Whether a line of a source is a #line directive, and the file and line it gives the next. */
-bool shader_line_directive(const char *text, int *file, int *line);
 
 /* A linked program. */
 typedef struct Shader {

@@ -1,7 +1,5 @@
-/*
- * What a compiler's message usually means, in a sentence: the part of shader.h for learners.
- */
-#include "core/shader.h"
+/* What a compiler's message usually means, in a sentence for learners. */
+#include "core/shader_advice.h"
 
 #include "base/text.h"
 

@@ -2,9 +2,10 @@
  * Shader preprocessing, no GL: finds files, resolves #include, emits #line, maps driver logs to
  * file:line.
  */
+#include "core/shader_source.h"
+
 #include "base/paths.h"
 #include "base/text.h"
-#include "core/shader.h"
 
 #include <ctype.h>
 #include <limits.h>

@@ -3,7 +3,8 @@
  * first group needs no driver.
  */
 #include "core/canvas.h"
-#include "core/shader.h"
+#include "core/shader_advice.h"
+#include "core/shader_source.h"
 #include "support/testing.h"
 
 #include <stdio.h>

@@ -4,7 +4,7 @@
  * The input is a shader, a zero, and a log; includes are looked for in a folder with a few files
  * that include each other. Seeds: the files of shaders/.
  */
-#include "core/shader.h"
+#include "core/shader_source.h"
 #include "fuzz/fuzz.h"
 
 #include <stdio.h>
