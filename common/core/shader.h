@@ -2,8 +2,8 @@
  * shader: compiles and links shader files.
  *
  * A file is GLSL ES 1.00. Before the driver gets it,
- *   - `#include "file"` on a line of its own is replaced by that file, searched beside the file that
- *     includes it, then where all shaders are searched. A file must not include itself, also
+ *   - `#include "file"` on a line of its own is replaced by that file, searched beside the file
+ * that includes it, then where all shaders are searched. A file must not include itself, also
  *     indirectly. Includes are resolved before #if is;
  *   - `#version 100` becomes the first line, and defines follow it;
  *   - `#line` is added after these, so that the driver's messages can be mapped to files.
