@@ -11,6 +11,7 @@
 #include "app/renderer.h"
 #include "base/clock.h"
 #include "base/watch.h"
+#include "core/shader_files.h"
 
 typedef enum ReloadResult {
     RELOAD_UNCHANGED,

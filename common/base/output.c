@@ -1,5 +1,7 @@
 #include "base/output.h"
 
+#include "base/memory.h"
+
 #include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -284,11 +286,7 @@ static void output_free(Output *output)
 
 static Output *begin(const char *path, const Target *target, Message *message)
 {
-    Output *output = malloc(sizeof *output);
-    if (!output) {
-        message_set(message, "%s: not enough memory", path);
-        return NULL;
-    }
+    Output *output = memory_new(1, sizeof *output);
     *output = (Output){.path = path, .target = *target, .file = -1};
     if (output_open(output))
         return output;

@@ -5,6 +5,8 @@
  */
 #include "core/canvas.h"
 
+#include "base/memory.h"
+
 #include <dlfcn.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -243,9 +245,7 @@ static bool egl_open(void **opened, const CanvasOptions *options, const char **p
     (void)options;
     if (!egl_load(message))
         return false;
-    EglContext *context = malloc(sizeof *context);
-    if (!context)
-        return message_set(message, "EGL: not enough memory");
+    EglContext *context = memory_new(1, sizeof *context);
     Route routes[2 + MAX_DEVICES];
     const int count = find_routes(routes);
     Message reasons = {0};

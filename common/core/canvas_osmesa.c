@@ -6,6 +6,8 @@
  */
 #include "core/canvas.h"
 
+#include "base/memory.h"
+
 #include <dlfcn.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -88,9 +90,7 @@ static bool osmesa_open(void **opened, const CanvasOptions *options, const char 
     (void)options;
     if (!osmesa_load(message))
         return false;
-    OsmesaContext *context = calloc(1, sizeof *context);
-    if (!context)
-        return message_set(message, "OSMesa: not enough memory");
+    OsmesaContext *context = memory_new(1, sizeof *context);
     context->handle = osmesa.CreateContextAttribs(attributes, NULL);
     if (!context->handle) {
         free(context);

@@ -267,41 +267,42 @@ static double radius(double a, double b)
 
 /* Here and in mat4_try_ortho an empty interval or an infinite end gives a coefficient that is not
  * finite, which fails. */
-bool mat4_try_frustum(double left, double right, double bottom, double top, double near, double far,
-                      Mat4 *clip_from_eye)
+bool mat4_try_frustum(MatrixSides sides, Mat4 *clip_from_eye)
 {
+    const double near = sides.near;
     *clip_from_eye = mat4_identity();
-    if (!(0 < near && near < far))
+    if (!(0 < near && near < sides.far))
         return false;
-    double width = radius(left, right), height = radius(bottom, top);
+    double width = radius(sides.left, sides.right), height = radius(sides.bottom, sides.top);
     Mat4 result = {{near / width, 0, 0, 0, 0, near / height, 0, 0, //
-                    middle(left, right) / width, middle(bottom, top) / height, 0, -1}};
-    set_depth(near, far, &result);
+                    middle(sides.left, sides.right) / width,
+                    middle(sides.bottom, sides.top) / height, 0, -1}};
+    set_depth(near, sides.far, &result);
     return finite_or_identity(result, clip_from_eye);
 }
 
-bool mat4_try_ortho(double left, double right, double bottom, double top, double near, double far,
-                    Mat4 *clip_from_eye)
+bool mat4_try_ortho(MatrixSides sides, Mat4 *clip_from_eye)
 {
-    double width = radius(left, right), height = radius(bottom, top), depth = radius(near, far);
+    double width = radius(sides.left, sides.right), height = radius(sides.bottom, sides.top);
+    double depth = radius(sides.near, sides.far);
     Mat4 result = mat4_scale((Vec3){1 / width, 1 / height, -1 / depth});
-    result.m[12] = -middle(left, right) / width;
-    result.m[13] = -middle(bottom, top) / height;
-    result.m[14] = -middle(near, far) / depth;
+    result.m[12] = -middle(sides.left, sides.right) / width;
+    result.m[13] = -middle(sides.bottom, sides.top) / height;
+    result.m[14] = -middle(sides.near, sides.far) / depth;
     return finite_or_identity(result, clip_from_eye);
 }
 
 Mat4 mat4_frustum(double left, double right, double bottom, double top, double near, double far)
 {
     Mat4 clip_from_eye;
-    mat4_try_frustum(left, right, bottom, top, near, far, &clip_from_eye);
+    mat4_try_frustum((MatrixSides){left, right, bottom, top, near, far}, &clip_from_eye);
     return clip_from_eye;
 }
 
 Mat4 mat4_ortho(double left, double right, double bottom, double top, double near, double far)
 {
     Mat4 clip_from_eye;
-    mat4_try_ortho(left, right, bottom, top, near, far, &clip_from_eye);
+    mat4_try_ortho((MatrixSides){left, right, bottom, top, near, far}, &clip_from_eye);
     return clip_from_eye;
 }
 

@@ -78,6 +78,11 @@ bool mat4_try_rotate(double degrees, Vec3 axis, Mat4 *rotation);
 Mat4 mat4_look_at(Vec3 eye, Vec3 center, Vec3 up);
 bool mat4_try_look_at(Vec3 eye, Vec3 center, Vec3 up, Mat4 *eye_from_world);
 
+/* Where a projection ends, in eye coordinates; near and far as distances. */
+typedef struct MatrixSides {
+    double left, right, bottom, top, near, far;
+} MatrixSides;
+
 /* Projections to OpenGL's clip space: near to z/w = -1, far to z/w = +1. `aspect` is width /
  * height. `far` may be INFINITY in the first two (Upchurch and Desbrun, JGT 16(1), 2012). Valid
  * if all coefficients are finite and, for perspective: 0 < fovy_degrees < 180, 0 < aspect < inf,
@@ -89,10 +94,8 @@ Mat4 mat4_frustum(double left, double right, double bottom, double top, double n
 Mat4 mat4_ortho(double left, double right, double bottom, double top, double near, double far);
 bool mat4_try_perspective(double fovy_degrees, double aspect, double near, double far,
                           Mat4 *clip_from_eye);
-bool mat4_try_frustum(double left, double right, double bottom, double top, double near, double far,
-                      Mat4 *clip_from_eye);
-bool mat4_try_ortho(double left, double right, double bottom, double top, double near, double far,
-                    Mat4 *clip_from_eye);
+bool mat4_try_frustum(MatrixSides sides, Mat4 *clip_from_eye);
+bool mat4_try_ortho(MatrixSides sides, Mat4 *clip_from_eye);
 
 bool mat4_is_finite(Mat4 a);
 

@@ -7,7 +7,6 @@
 #include "base/text.h"
 #include "core/shader_advice.h"
 #include "core/shader_binary.h"
-#include "core/shader_source.h"
 
 #include <ctype.h>
 #include <stdio.h>

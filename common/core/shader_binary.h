@@ -5,7 +5,8 @@
 #define SHADER_BINARY_H
 
 #include "base/cache.h"
-#include "core/shader.h"
+#include "core/gl.h"
+#include "core/shader_source.h"
 
 /* What a program's binary depends on: its sources, the driver, and our version. */
 CacheKey shader_binary_key(const ShaderSource sources[2]);

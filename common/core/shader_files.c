@@ -1,5 +1,7 @@
 #include "core/shader_files.h"
 
+#include "base/memory.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <stdlib.h>
@@ -29,9 +31,7 @@ static bool read_text(ShaderFile *file, int from, Message *message)
         return message_set(message, "%s: has %lld bytes; a shader file has at most %d", file->path,
                            (long long)status.st_size, SHADER_FILE_MAX);
     const size_t max = (size_t)status.st_size;
-    file->text = malloc(max + 1);
-    if (!file->text)
-        return message_set(message, "%s: not enough memory", file->path);
+    file->text = memory_new(max + 1, 1);
     ssize_t got = 0;
     while (file->size < max && (got = read(from, file->text + file->size, max - file->size)) > 0)
         file->size += (size_t)got;
@@ -41,29 +41,26 @@ static bool read_text(ShaderFile *file, int from, Message *message)
     return true;
 }
 
-/* Reads what is on disk. False only if out of memory. */
-static bool open_file(ShaderFile *file, const char *path, Message *message)
+/* What is on disk. */
+static ShaderFile open_file(const char *path)
 {
     Message problem = {0};
-    *file = (ShaderFile){.path = strdup(path)};
-    if (!file->path)
-        return message_set(message, "%s: not enough memory", path);
+    ShaderFile file = {.path = memory_text(path)};
     /* O_NONBLOCK: do not wait for the writer of a pipe. */
     const int from = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (from >= 0) {
-        if (!read_text(file, from, &problem)) {
-            free(file->text);
-            file->text = NULL;
-            file->size = 0;
+        if (!read_text(&file, from, &problem)) {
+            free(file.text);
+            file.text = NULL;
+            file.size = 0;
         }
         close(from);
     } else if (errno != ENOENT && errno != ENOTDIR) {
         message_set(&problem, "%s: %s", path, strerror(errno));
     }
-    if (!problem.text[0] || (file->problem = strdup(problem.text)))
-        return true;
-    close_file(file);
-    return message_set(message, "%s: not enough memory", path);
+    if (problem.text[0])
+        file.problem = memory_text(problem.text);
+    return file;
 }
 
 static ShaderFile *find(const ShaderFiles *files, const char *path)
@@ -74,20 +71,14 @@ static ShaderFile *find(const ShaderFiles *files, const char *path)
     return NULL;
 }
 
-const ShaderFile *shader_files_get(ShaderFiles *files, const char *path, Message *message)
+const ShaderFile *shader_files_get(ShaderFiles *files, const char *path)
 {
     ShaderFile *known = find(files, path);
     if (known)
         return known;
-    ShaderFile *larger = realloc(files->files, ((size_t)files->count + 1) * sizeof *larger);
-    if (!larger) {
-        message_set(message, "%s: not enough memory", path);
-        return NULL;
-    }
-    files->files = larger;
-    if (!open_file(&larger[files->count], path, message))
-        return NULL;
-    return &larger[files->count++];
+    files->files = memory_grow(files->files, (size_t)files->count + 1, sizeof *files->files);
+    files->files[files->count] = open_file(path);
+    return &files->files[files->count++];
 }
 
 bool shader_files_same(const ShaderFiles *files, const char *a, const char *b)
@@ -112,9 +103,8 @@ static bool file_equal(const ShaderFile *a, const ShaderFile *b)
 const char *shader_files_changed(const ShaderFiles *files)
 {
     for (int i = 0; i < files->count; i++) {
-        ShaderFile now;
-        const bool equal =
-            open_file(&now, files->files[i].path, NULL) && file_equal(&now, &files->files[i]);
+        ShaderFile now = open_file(files->files[i].path);
+        const bool equal = file_equal(&now, &files->files[i]);
         close_file(&now);
         if (!equal)
             return files->files[i].path;

@@ -17,23 +17,25 @@
 enum { SHADER_FILE_MAX = 999999 };
 
 /* A path, and what was there. */
-typedef struct ShaderFile {
+typedef struct ShaderFile ShaderFile;
+struct ShaderFile {
     char *path;
     char *text;    /* zero-terminated; NULL: no file, or it could not be read */
     size_t size;   /* without the terminating zero */
     char *problem; /* message why it could not be read; NULL: it could */
     dev_t device;  /* identity of the file, independent of its name */
     ino_t inode;
-} ShaderFile;
+};
 
 /* Zeroed: empty. */
-typedef struct ShaderFiles {
+typedef struct ShaderFiles ShaderFiles;
+struct ShaderFiles {
     ShaderFile *files; /* in the order of the requests */
     int count;
-} ShaderFiles;
+};
 
-/* What was at `path` when first requested; NULL if out of memory. Valid until the next call. */
-const ShaderFile *shader_files_get(ShaderFiles *files, const char *path, Message *message);
+/* What was at `path` when first requested. Valid until the next call. */
+const ShaderFile *shader_files_get(ShaderFiles *files, const char *path);
 
 /* Whether two requested paths named the same file. */
 bool shader_files_same(const ShaderFiles *files, const char *a, const char *b);

@@ -1,11 +1,21 @@
 /*
- * Shader preprocessing, no GL: finds files, resolves #include, emits #line, maps driver logs to
- * file:line.
+ * A shader is assembled like C's preprocessor does it, but only for #include: the driver resolves
+ * all else. Each file's lines are copied one by one; an #include is replaced by the lines of its
+ * file, by recursion, and #line directives around them keep the numbers right. Every file has a
+ * number, in the order of first inclusion, and #line carries it as the source string, so that a
+ * driver's "2:14: error" becomes "part.glsl:14". Comments are followed only as far as to know
+ * whether a line begins inside one, where a directive is none.
+ *
+ * A tree of n files that include each other may have 2^n lines, and a file may include itself: the
+ * chain of files being read is compared with each included one, and three limits (includes, depth,
+ * bytes) end all else. No GL.
  */
 #include "core/shader_source.h"
 
+#include "base/memory.h"
 #include "base/paths.h"
 #include "base/text.h"
+#include "core/shader_files.h"
 
 #include <ctype.h>
 #include <limits.h>
@@ -41,10 +51,7 @@ static bool append(Assembly *assembly, const char *text, size_t size)
                            source->files[0], MAX_TEXT);
     if (source->size + size + 1 > assembly->capacity) {
         const size_t capacity = 2 * (source->size + size) + 4096;
-        char *larger = realloc(source->text, capacity);
-        if (!larger)
-            return message_set(assembly->message, "%s: not enough memory", source->files[0]);
-        source->text = larger;
+        source->text = memory_grow(source->text, capacity, 1);
         assembly->capacity = capacity;
     }
     memcpy(source->text + source->size, text, size);
@@ -53,82 +60,84 @@ static bool append(Assembly *assembly, const char *text, size_t size)
     return true;
 }
 
-/* Line numbers encode the file, a million lines each, because Mesa reports the source string only
- * for syntax errors: "#line 1000003 1" is line 3 of file 1. */
-enum { LINES_OF_FILE = SHADER_FILE_MAX + 1 };
+_Static_assert((int)SHADER_LINES_OF_FILE > (int)SHADER_FILE_MAX, "each line has at least a byte");
 
 static bool append_line_directive(Assembly *assembly, int line, int file)
 {
     char text[64];
     const int length =
-        snprintf(text, sizeof text, "#line %d %d\n", file * LINES_OF_FILE + line, file);
+        snprintf(text, sizeof text, "#line %d %d\n", file * SHADER_LINES_OF_FILE + line, file);
     return append(assembly, text, (size_t)length);
 }
 
-/* The number of a path, the same for each inclusion; -1 if out of memory. */
-static int file_number(Assembly *assembly, const char *path)
+/* The number of a path, the same for each inclusion. */
+static int file_number(ShaderSource *source, const char *path)
 {
-    ShaderSource *source = assembly->source;
     for (int i = 0; i < source->file_count; i++)
         if (strcmp(source->files[i], path) == 0)
             return i;
-    char **files = realloc(source->files, ((size_t)source->file_count + 1) * sizeof *files);
-    char *copy = files ? strdup(path) : NULL;
-    if (files)
-        source->files = files;
-    if (!copy) {
-        message_set(assembly->message, "%s: not enough memory", path);
-        return -1;
-    }
-    source->files[source->file_count] = copy;
+    source->files =
+        memory_grow(source->files, (size_t)source->file_count + 1, sizeof *source->files);
+    source->files[source->file_count] = memory_text(path);
     return source->file_count++;
 }
 
 /* Files. */
 
-/* A copy of the text at a path. On failure *text is NULL; a missing file sets *missing and no
- * message. */
-static bool read_file(ShaderFiles *files, const char *path, char **text, size_t *size,
-                      bool *missing, Message *message)
+/* A file that is searched, and what is found of it. */
+typedef struct Search {
+    ShaderFiles *files;
+    char path[PATH_MAX]; /* where it is */
+    char *text;          /* a copy, to be freed; NULL: not found */
+    size_t size;
+    char tried[3000]; /* the paths where it is not */
+    Message problem;  /* why one cannot be read, which ends the search */
+} Search;
+
+static void set_text(Search *search, const char *text, size_t size)
 {
-    *text = NULL;
-    *missing = false;
-    const ShaderFile *file = shader_files_get(files, path, message);
-    if (!file)
-        return false;
+    search->text = memory_copy(text, size);
+    search->size = size;
+}
+
+/* Looks at the path of a folder, with its slash, and a name. */
+static void try_path(Search *search, const char *folder, int length, const char *name)
+{
+    if (search->text || search->problem.text[0] ||
+        snprintf(search->path, PATH_MAX, "%.*s%s", length, folder, name) >= PATH_MAX)
+        return;
+    const ShaderFile *file = shader_files_get(search->files, search->path);
+    const size_t used = strlen(search->tried);
     if (file->problem)
-        return message_set(message, "%s", file->problem);
-    *missing = !file->text;
-    if (*missing)
-        return false;
-    *size = file->size;
-    *text = malloc(file->size + 1);
-    if (!*text)
-        return message_set(message, "%s: not enough memory", path);
-    memcpy(*text, file->text, file->size + 1);
-    return true;
+        message_set(&search->problem, "%s", file->problem);
+    else if (file->text)
+        set_text(search, file->text, file->size);
+    else
+        snprintf(search->tried + used, sizeof search->tried - used, "\n  tried %s", search->path);
 }
 
 /* One entry of the search order. */
 typedef struct Place {
-    char folder[PATH_MAX];
-    bool by_name; /* also look for the file's name alone */
+    char folder[PATH_MAX + 1]; /* with its slash */
+    bool by_name;              /* also look for the file's name alone */
 } Place;
 
 enum { MAX_PLACES = 2 + PATHS_PLACE_COUNT };
 
 static int find_places(const ShaderLoader *loader, Place places[MAX_PLACES])
 {
+    const char *const given[] = {loader->folder, getenv("LIGHTING_SHADERS")};
     int count = 0;
-    const char *environment = getenv("LIGHTING_SHADERS");
-    if (loader->folder)
-        snprintf(places[count].folder, PATH_MAX, "%s", loader->folder),
+    for (int i = 0; i < 2; i++)
+        if (given[i] && (i == 0 || given[i][0])) {
+            snprintf(places[count].folder, PATH_MAX, "%s", given[i]);
             places[count++].by_name = true;
-    if (environment && environment[0])
-        snprintf(places[count].folder, PATH_MAX, "%s", environment), places[count++].by_name = true;
+        }
     for (int i = 0; i < PATHS_PLACE_COUNT; i++)
         if (paths_data((PathsPlace)i, "shaders", "shaders", places[count].folder))
             places[count++].by_name = false;
+    for (int i = 0; i < count; i++)
+        strcat(places[i].folder, "/");
     return count;
 }
 
@@ -136,7 +145,7 @@ static bool is_folder(const ShaderLoader *loader, const char *path)
 {
     struct stat status;
     if (loader->files) /* recorded, so that the owner notices when it appears or disappears */
-        shader_files_get(loader->files, path, NULL);
+        shader_files_get(loader->files, path);
     return stat(path, &status) == 0 && S_ISDIR(status.st_mode);
 }
 
@@ -152,66 +161,50 @@ bool shader_loader_check(const ShaderLoader *loader, Message *message)
     return true;
 }
 
-/* Tries one path; appends it to `tried` if it is missing. */
-static bool try_file(ShaderFiles *files, const char *path, char **text, size_t *size, char *tried,
-                     size_t tried_size, Message *message)
+static const char *replacement(const ShaderLoader *loader, const char *name)
 {
-    bool missing;
-    if (read_file(files, path, text, size, &missing, message))
-        return true;
-    const size_t used = strlen(tried);
-    if (missing)
-        snprintf(tried + used, tried_size - used, "\n  tried %s", path);
-    return false;
+    for (const ShaderReplacement *r = loader->replacements; r && r->name; r++)
+        if (strcmp(r->name, name) == 0)
+            return r->by;
+    return name;
 }
 
-/* Finds and reads `name`, first beside the file `from` unless that is NULL. */
-static bool find_file(const ShaderLoader *loader, const char *name, const char *from,
-                      char path[PATH_MAX], char **text, size_t *size, Message *message)
+/* Looks beside the file `from`, unless that is NULL, and where all shaders are. */
+static void search_folders(Search *search, const ShaderLoader *loader, const char *name,
+                           const char *from)
 {
-    for (const ShaderReplacement *r = loader->replacements; r && r->name; r++) {
-        if (strcmp(r->name, name) == 0) {
-            name = r->by;
-            break;
-        }
+    const char *slash = from ? strrchr(from, '/') : NULL, *last = strrchr(name, '/');
+    const bool absolute = name[0] == '/';
+    Place places[MAX_PLACES];
+    const int count = absolute ? 0 : find_places(loader, places);
+    if (from || absolute)
+        try_path(search, from ? from : "", slash && !absolute ? (int)(slash - from) + 1 : 0, name);
+    for (int i = 0; i < count; i++) {
+        try_path(search, places[i].folder, PATH_MAX, name);
+        if (places[i].by_name && last)
+            try_path(search, places[i].folder, PATH_MAX, last + 1);
     }
+}
+
+/* Finds and reads `name`, first in memory. */
+static bool find_file(Search *search, const ShaderLoader *loader, const char *name,
+                      const char *from, Message *message)
+{
+    *search = (Search){.files = loader->files};
+    name = replacement(loader, name);
     for (const ShaderText *made = loader->texts; made && made->name; made++) {
         if (strcmp(made->name, name) != 0)
             continue;
-        *size = strlen(made->text);
-        *text = strdup(made->text);
-        snprintf(path, PATH_MAX, "%s", name);
-        return *text ? true : message_set(message, "%s: not enough memory", name);
+        set_text(search, made->text, strlen(made->text));
+        snprintf(search->path, PATH_MAX, "%s", name);
+        return true;
     }
     if (loader->only_texts)
         return message_set(message, "%s: no such file beside it", name);
-
-    char tried[3000] = "";
-    Message own = {0};
-    const char *slash = from ? strrchr(from, '/') : NULL;
-    const char *last = strrchr(name, '/');
-    Place places[MAX_PLACES];
-    const int count = name[0] == '/' ? 0 : find_places(loader, places);
-    *text = NULL;
-
-    bool found = false;
-    if (from || name[0] == '/') {
-        const int folder = slash && name[0] != '/' ? (int)(slash - from) + 1 : 0;
-        if (snprintf(path, PATH_MAX, "%.*s%s", folder, from ? from : "", name) < PATH_MAX)
-            found = try_file(loader->files, path, text, size, tried, sizeof tried, &own);
-    }
-    for (int i = 0; i < count && !found && !own.text[0]; i++) {
-        if (snprintf(path, PATH_MAX, "%s/%s", places[i].folder, name) < PATH_MAX)
-            found = try_file(loader->files, path, text, size, tried, sizeof tried, &own);
-        if (!found && !own.text[0] && places[i].by_name && last &&
-            snprintf(path, PATH_MAX, "%s/%s", places[i].folder, last + 1) < PATH_MAX)
-            found = try_file(loader->files, path, text, size, tried, sizeof tried, &own);
-    }
-    if (found)
-        return true;
-    if (own.text[0])
-        return message_set(message, "%s", own.text);
-    return message_set(message, "%s: no such shader file%s", name, tried);
+    search_folders(search, loader, name, from);
+    if (search->problem.text[0])
+        return message_set(message, "%s", search->problem.text);
+    return search->text || message_set(message, "%s: no such shader file%s", name, search->tried);
 }
 
 /* Lines. */
@@ -321,32 +314,32 @@ static bool include(Assembly *assembly, const char *path, int line, const char *
                     size_t length)
 {
     const char *end = length > 1 ? memchr(argument + 1, '"', length - 1) : NULL;
-    char name[PATH_MAX], found[PATH_MAX];
+    char name[256];
     if (argument[0] != '"' || !end || end == argument + 1 || end - argument > 255)
         return located(assembly->message, path, line,
                        "#include needs a file's name in double quotes");
     memcpy(name, argument + 1, (size_t)(end - argument) - 1);
     name[end - argument - 1] = '\0';
 
-    char *text;
-    size_t size;
+    Search found;
     Message reason = {0};
-    if (!find_file(assembly->loader, name, path, found, &text, &size, &reason))
+    if (!find_file(&found, assembly->loader, name, path, &reason))
         return located(assembly->message, path, line, reason.text);
-    const bool allowed = check_chain(assembly, found, &reason);
+    const bool allowed = check_chain(assembly, found.path, &reason);
     assembly->includes++;
-    const bool done = allowed ? clean_text(text, &size, found, assembly->message) &&
-                                    assemble(assembly, found, text, size)
-                              : located(assembly->message, path, line, reason.text);
-    free(text);
+    const bool done = allowed
+                          ? clean_text(found.text, &found.size, found.path, assembly->message) &&
+                                assemble(assembly, found.path, found.text, found.size)
+                          : located(assembly->message, path, line, reason.text);
+    free(found.text);
     return done;
 }
 
 /* Appends a file's lines and its includes. */
 static bool assemble(Assembly *assembly, const char *path, const char *text, size_t size)
 {
-    const int file = file_number(assembly, path);
-    if (file < 0 || !append_line_directive(assembly, 1, file))
+    const int file = file_number(assembly->source, path);
+    if (!append_line_directive(assembly, 1, file))
         return false;
     assembly->chain[assembly->depth++] = file;
 
@@ -409,19 +402,15 @@ static bool append_header(Assembly *assembly, ShaderStage stage)
     return true;
 }
 
-/* `loader` has a cache of files. */
-static bool parse(ShaderSource *source, const ShaderLoader *loader, const char *path,
-                  const char *text, size_t size, ShaderStage stage, Message *message)
+/* Of a file that was found, whose text it frees; `loader` has a cache of files. */
+static bool parse(ShaderSource *source, const ShaderLoader *loader, Search *found,
+                  ShaderStage stage, Message *message)
 {
-    *source = (ShaderSource){0};
     Assembly assembly = {.loader = loader, .source = source, .message = message};
-    char *copy = malloc(size + 1);
-    if (!copy)
-        return message_set(message, "%s: not enough memory", path);
-    memcpy(copy, text, size);
-    const bool done = clean_text(copy, &size, path, message) && file_number(&assembly, path) == 0 &&
-                      append_header(&assembly, stage) && assemble(&assembly, path, copy, size);
-    free(copy);
+    const bool done = clean_text(found->text, &found->size, found->path, message) &&
+                      file_number(source, found->path) == 0 && append_header(&assembly, stage) &&
+                      assemble(&assembly, found->path, found->text, found->size);
+    free(found->text);
     if (!done)
         shader_source_close(source);
     return done;
@@ -431,18 +420,21 @@ static bool parse(ShaderSource *source, const ShaderLoader *loader, const char *
 static ShaderLoader with_files(const ShaderLoader *loader, ShaderFiles *own)
 {
     ShaderLoader caching = *loader;
-    *own = (ShaderFiles){0};
     if (!caching.files)
         caching.files = own;
     return caching;
 }
 
-bool shader_source_parse(ShaderSource *source, const ShaderLoader *loader, const char *path,
-                         const char *text, size_t size, ShaderStage stage, Message *message)
+bool shader_source_parse(ShaderSource *source, const ShaderLoader *loader, ShaderText made,
+                         size_t size, ShaderStage stage, Message *message)
 {
-    ShaderFiles own;
+    ShaderFiles own = {0};
     const ShaderLoader caching = with_files(loader, &own);
-    const bool done = parse(source, &caching, path, text, size, stage, message);
+    Search found = {.files = caching.files};
+    *source = (ShaderSource){0};
+    snprintf(found.path, sizeof found.path, "%s", made.name);
+    set_text(&found, made.text, size);
+    const bool done = parse(source, &caching, &found, stage, message);
     shader_files_close(&own);
     return done;
 }
@@ -450,16 +442,12 @@ bool shader_source_parse(ShaderSource *source, const ShaderLoader *loader, const
 bool shader_source_open(ShaderSource *source, const ShaderLoader *loader, const char *name,
                         ShaderStage stage, Message *message)
 {
-    char path[PATH_MAX], *text;
-    size_t size;
-    ShaderFiles own;
+    ShaderFiles own = {0};
     const ShaderLoader caching = with_files(loader, &own);
+    Search found;
     *source = (ShaderSource){0};
-    bool done = find_file(&caching, name, NULL, path, &text, &size, message);
-    if (done) {
-        done = parse(source, &caching, path, text, size, stage, message);
-        free(text);
-    }
+    const bool done = find_file(&found, &caching, name, NULL, message) &&
+                      parse(source, &caching, &found, stage, message);
     shader_files_close(&own);
     return done;
 }
@@ -473,96 +461,4 @@ void shader_source_close(ShaderSource *source)
     free(source->files);
     free(source->text);
     *source = (ShaderSource){0};
-}
-
-/* The driver's log. */
-
-bool shader_line_directive(const char *text, int *file, int *line)
-{
-    char *end;
-    if (strncmp(text, "#line ", 6) != 0)
-        return false;
-    *line = (int)(strtol(text + 6, &end, 10) % LINES_OF_FILE);
-    *file = (int)strtol(end, &end, 10);
-    return true;
-}
-
-/* Line `line` of source string `file`, found by following our own #line directives. */
-static const char *find_line(const ShaderSource *source, int file, int line, int *length)
-{
-    int at_file = -1, at_line = 0;
-    for (const char *p = source->text; p && *p;) {
-        const char *newline = strchr(p, '\n');
-        const int n = newline ? (int)(newline - p) : (int)strlen(p);
-        if (!shader_line_directive(p, &at_file, &at_line)) {
-            if (at_file == file && at_line == line) {
-                *length = n;
-                return p;
-            }
-            at_line++;
-        }
-        p = newline ? newline + 1 : NULL;
-    }
-    return NULL;
-}
-
-/* Reads "0:12(3): rest" (Mesa), "ERROR: 0:12: rest" (ANGLE) or "0(12) : rest" (NVIDIA). */
-static const char *parse_position(const char *log, int *file, int *line)
-{
-    int used = 0, column = 0;
-    if (strncmp(log, "ERROR: ", 7) == 0)
-        log += 7;
-    else if (strncmp(log, "WARNING: ", 9) == 0)
-        log += 9;
-    const bool found = (sscanf(log, "%d:%d(%d):%n", file, line, &column, &used) == 3 && used) ||
-                       (sscanf(log, "%d:%d:%n", file, line, &used) == 2 && used) ||
-                       (sscanf(log, "%d(%d) :%n", file, line, &used) == 2 && used);
-    if (found && *line > LINES_OF_FILE) {
-        *file = *line / LINES_OF_FILE;
-        *line %= LINES_OF_FILE;
-    }
-    return found ? log + used : NULL;
-}
-
-static void show_line(const ShaderSource *source, int file, int line, Message *message)
-{
-    int length;
-    const char *text = find_line(source, file, line, &length);
-    if (text)
-        message_add(message, "\n  %d | %.*s", line, length < 200 ? length : 200, text);
-}
-
-/* ANGLE's place of what is missing. */
-static const char NOWHERE[] = "ERROR: -1:-1: ";
-
-bool shader_explain_log(const ShaderSource *source, const char *log, Message *message)
-{
-    if (!message || message->text[0])
-        return false;
-    bool shown = false;
-    while (*log) {
-        const char *newline = strchr(log, '\n');
-        const int length = newline ? (int)(newline - log) : (int)strlen(log);
-        int file, line;
-        const char *rest = parse_position(log, &file, &line);
-        const char *separator = message->text[0] ? "\n" : "";
-        if (rest && rest <= log + length && file >= 0 && file < source->file_count) {
-            while (*rest == ' ')
-                rest++;
-            if (!message->text[0])
-                message->located = true;
-            message_add(message, "%s%s:%d: %.*s", separator, source->files[file], line,
-                        (int)(log + length - rest), rest);
-            if (!shown)
-                show_line(source, file, line, message);
-            shown = true;
-        } else if (strncmp(log, NOWHERE, strlen(NOWHERE)) == 0) {
-            message_add(message, "%s%s: %.*s", separator, source->files[0],
-                        length - (int)strlen(NOWHERE), log + strlen(NOWHERE));
-        } else if (length > 0) {
-            message_add(message, "%s%.*s", separator, length, log);
-        }
-        log += length + (newline ? 1 : 0);
-    }
-    return false;
 }

@@ -123,9 +123,10 @@ static bool fit(ShadowFrustum *frustum, const ShadowFitting *fitting, double rea
     const double near = frustum->near =
         frustum->perspective ? fmax(casts.low[2] - pad, NEAREST * far) : casts.low[2] - pad;
     return frustum->perspective
-               ? mat4_try_frustum(low[0] * near, high[0] * near, low[1] * near, high[1] * near,
-                                  near, far, &frustum->map_from_light)
-               : mat4_try_ortho(low[0], high[0], low[1], high[1], near, far,
+               ? mat4_try_frustum((MatrixSides){low[0] * near, high[0] * near, low[1] * near,
+                                                high[1] * near, near, far},
+                                  &frustum->map_from_light)
+               : mat4_try_ortho((MatrixSides){low[0], high[0], low[1], high[1], near, far},
                                 &frustum->map_from_light);
 }
 

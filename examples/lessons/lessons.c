@@ -9,6 +9,7 @@
 #include "base/parse.h"
 #include "base/paths.h"
 #include "core/canvas.h"
+#include "core/shader_files.h"
 #include "lessons/changes.h"
 #include "lessons/page.h"
 #include "scene/scene_example.h"
@@ -104,7 +105,7 @@ static bool open_slot(Slot *slot, const Example *example, const ShaderLoader *lo
 /* The text at a path, which is watched with the loader's files. */
 static const char *text_at(const char *path, const ShaderLoader *loader, Message *message)
 {
-    const ShaderFile *file = shader_files_get(loader->files, path, message);
+    const ShaderFile *file = shader_files_get(loader->files, path);
     if (file && file->text)
         return file->text;
     if (file)

@@ -4,6 +4,7 @@
 #include "app/options_canvas.h"
 #include "app/renderer.h"
 #include "choose/error_worker.h"
+#include "core/shader_files.h"
 #include "kinds/scene_views.h"
 
 #include <math.h>

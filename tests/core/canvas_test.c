@@ -970,7 +970,7 @@ static void check_polygon(const Canvas *canvas, const Flat *flat, Polygon polygo
 {
     Mat4 clip_from_pixels;
     CLOSED(image_close) Image min = new_image(canvas), max = new_image(canvas);
-    assert_true(mat4_try_ortho(0, AA_SIDE, AA_SIDE, 0, -1, 1, &clip_from_pixels));
+    assert_true(mat4_try_ortho((MatrixSides){0, AA_SIDE, AA_SIDE, 0, -1, 1}, &clip_from_pixels));
     clear(0, 0, 0, 1);
     draw_polygon(flat, polygon, 0, clip_from_pixels, WHITE);
     CLOSED(image_close) Image got = read_canvas(canvas);

@@ -658,7 +658,7 @@ TEST_WITH(0, perspective_without_a_far_plane_is_the_limit, start_random, NULL)
     assert_true(mat4_transform(p, (Vec4){0, 0, -1, 0}).z == 1);
     assert_true(mat4_try_perspective(50, 1.5, 0.1, 1e300, &limit));
     assert_matrix(p, limit, 0);
-    assert_true(mat4_try_frustum(-1, 2, -3, 4, 0.1, infinity, &f));
+    assert_true(mat4_try_frustum((MatrixSides){-1, 2, -3, 4, 0.1, infinity}, &f));
     assert_true(f.m[10] == -1 && f.m[14] == -0.2);
 }
 
@@ -680,7 +680,7 @@ TEST_WITH(0, perspective_maps_near_and_far_to_minus_and_plus_one, start_random, 
         Vec3 corner = mat4_transform_point(p, (Vec3){x, y, -near});
         assert_near(corner.x, 1, sloppy + 16 * UNIT);
         assert_near(corner.y, 1, sloppy + 16 * UNIT);
-        assert_true(mat4_try_frustum(-x, x, -y, y, near, far, &f));
+        assert_true(mat4_try_frustum((MatrixSides){-x, x, -y, y, near, far}, &f));
         for (int j = 0; j < 16; j++)
             assert_near(f.m[j], p.m[j], (sloppy + 16 * UNIT) * fabs(p.m[j]));
     }
@@ -732,10 +732,10 @@ TEST_WITH(0, perspective_refuses_what_is_out_of_range, start_random, NULL)
 TEST_WITH(0, frustum_and_ortho_have_their_closed_forms, start_random, NULL)
 {
     Mat4 p;
-    assert_true(mat4_try_frustum(-1, 3, -2, 6, 2, 6, &p));
+    assert_true(mat4_try_frustum((MatrixSides){-1, 3, -2, 6, 2, 6}, &p));
     const Mat4 frustum = {{1, 0, 0, 0, 0, 0.5, 0, 0, 0.5, 0.5, -2, -1, 0, 0, -6, 0}};
     assert_matrix(p, frustum, 16 * UNIT); /* four operations, of which thirds round, on up to 6 */
-    assert_true(mat4_try_ortho(-1, 3, -2, 6, 2, 10, &p));
+    assert_true(mat4_try_ortho((MatrixSides){-1, 3, -2, 6, 2, 10}, &p));
     const Mat4 ortho = {{0.5, 0, 0, 0, 0, 0.25, 0, 0, 0, 0, -0.25, 0, -0.5, -0.5, -1.5, 1}};
     assert_matrix(p, ortho, 0);
 }
@@ -750,25 +750,26 @@ TEST_WITH(0, frustum_and_ortho_map_their_corners_to_the_unit_cube, start_random,
         double near = random_power(-9, 9), far = near * (1 + random_power(-1, 9));
         double tolerance = 6 * 22 * UNIT, right = left + width, top = bottom + height;
         Mat4 p, o;
-        assert_true(mat4_try_frustum(left, right, bottom, top, near, far, &p));
-        assert_true(mat4_try_ortho(left, right, bottom, top, near, far, &o));
+        assert_true(mat4_try_frustum((MatrixSides){left, right, bottom, top, near, far}, &p));
+        assert_true(mat4_try_ortho((MatrixSides){left, right, bottom, top, near, far}, &o));
         double grow = far / near;
         assert_vector(mat4_transform_point(p, (Vec3){left, bottom, -near}), -1, -1, -1, tolerance);
         assert_vector(mat4_transform_point(p, (Vec3){right * grow, top * grow, -far}), 1, 1, 1,
                       tolerance);
         assert_vector(mat4_transform_point(o, (Vec3){left, bottom, -near}), -1, -1, -1, tolerance);
         assert_vector(mat4_transform_point(o, (Vec3){right, top, -far}), 1, 1, 1, tolerance);
-        assert_true(mat4_try_ortho(left, right, bottom, top, far, -near, &o));
+        assert_true(mat4_try_ortho((MatrixSides){left, right, bottom, top, far, -near}, &o));
         assert_vector(mat4_transform_point(o, (Vec3){right, top, -far}), 1, 1, -1, tolerance);
         assert_vector(mat4_transform_point(o, (Vec3){left, bottom, near}), -1, -1, 1, tolerance);
     }
     /* right - left overflows, the coefficients do not. */
     Mat4 p;
-    assert_true(mat4_try_ortho(-1.7e308, 1.7e308, -1, 1, -1.7e308, 1.7e308, &p));
+    assert_true(mat4_try_ortho((MatrixSides){-1.7e308, 1.7e308, -1, 1, -1.7e308, 1.7e308}, &p));
     assert_matrix(p, mat4_scale((Vec3){1 / 1.7e308, 1, -1 / 1.7e308}), 0);
-    assert_true(mat4_try_ortho(1e308, 1.5e308, -1.5e308, -1e308, -1, 1, &p));
+    assert_true(mat4_try_ortho((MatrixSides){1e308, 1.5e308, -1.5e308, -1e308, -1, 1}, &p));
     assert_vector(mat4_transform_point(p, (Vec3){1e308, -1e308, 0}), -1, 1, 0, 32 * UNIT);
-    assert_true(mat4_try_frustum(-1.7e308, 1.7e308, -1.7e308, 1.7e308, 1.7e307, infinity, &p));
+    assert_true(mat4_try_frustum(
+        (MatrixSides){-1.7e308, 1.7e308, -1.7e308, 1.7e308, 1.7e307, infinity}, &p));
     assert_near(p.m[0], 0.1, UNIT);
     assert_near(p.m[5], 0.1, UNIT);
     assert_true(p.m[8] == 0 && p.m[9] == 0 && p.m[10] == -1);
@@ -784,12 +785,12 @@ TEST_WITH(0, frustum_and_ortho_refuse_empty_or_infinite_volumes, start_random, N
         memcpy(v, good, sizeof v);
         v[i / 3] = bad[i % 3];
         p = mat4_scale((Vec3){7, 7, 7});
-        assert_false(mat4_try_ortho(v[0], v[1], v[2], v[3], v[4], v[5], &p));
+        assert_false(mat4_try_ortho((MatrixSides){v[0], v[1], v[2], v[3], v[4], v[5]}, &p));
         assert_matrix(p, mat4_identity(), 0);
         if (v[5] == infinity) /* the only infinity a frustum may have */
             continue;
         p = mat4_scale((Vec3){7, 7, 7});
-        assert_false(mat4_try_frustum(v[0], v[1], v[2], v[3], v[4], v[5], &p));
+        assert_false(mat4_try_frustum((MatrixSides){v[0], v[1], v[2], v[3], v[4], v[5]}, &p));
         assert_matrix(p, mat4_identity(), 0);
     }
     const double empty[][6] = {{2, 2, -3, 4, 5, 6},
@@ -803,17 +804,18 @@ TEST_WITH(0, frustum_and_ortho_refuse_empty_or_infinite_volumes, start_random, N
     for (size_t i = 0; i < sizeof empty / sizeof *empty; i++) {
         const double *v = empty[i];
         p = mat4_scale((Vec3){7, 7, 7});
-        assert_false(mat4_try_ortho(v[0], v[1], v[2], v[3], v[4], v[5], &p));
+        assert_false(mat4_try_ortho((MatrixSides){v[0], v[1], v[2], v[3], v[4], v[5]}, &p));
         assert_matrix(p, mat4_identity(), 0);
         p = mat4_scale((Vec3){7, 7, 7});
-        assert_false(mat4_try_frustum(v[0], v[1], v[2], v[3], v[4], v[5], &p));
+        assert_false(mat4_try_frustum((MatrixSides){v[0], v[1], v[2], v[3], v[4], v[5]}, &p));
         assert_matrix(p, mat4_identity(), 0);
     }
-    assert_false(mat4_try_frustum(-1, 1, -1, 1, 0, 1, &p));
-    assert_false(mat4_try_frustum(-1, 1, -1, 1, -1, 1, &p));
-    assert_false(mat4_try_frustum(-1, 1, -1, 1, 2, 1, &p));
-    assert_false(mat4_try_frustum(-1, 1, -1, 1, infinity, infinity, &p));
-    assert_true(mat4_try_ortho(1, -1, 1, -1, 2, 1, &p)); /* mirrored, but not empty */
+    assert_false(mat4_try_frustum((MatrixSides){-1, 1, -1, 1, 0, 1}, &p));
+    assert_false(mat4_try_frustum((MatrixSides){-1, 1, -1, 1, -1, 1}, &p));
+    assert_false(mat4_try_frustum((MatrixSides){-1, 1, -1, 1, 2, 1}, &p));
+    assert_false(mat4_try_frustum((MatrixSides){-1, 1, -1, 1, infinity, infinity}, &p));
+    assert_true(
+        mat4_try_ortho((MatrixSides){1, -1, 1, -1, 2, 1}, &p)); /* mirrored, but not empty */
 }
 
 /* Transformation */
@@ -834,7 +836,7 @@ TEST_WITH(0, transform_multiplies_columns, start_random, NULL)
 TEST_WITH(0, transform_of_a_point_at_infinity_is_infinite, start_random, NULL)
 {
     Mat4 p;
-    assert_true(mat4_try_frustum(-1, 1, -1, 1, 1, infinity, &p));
+    assert_true(mat4_try_frustum((MatrixSides){-1, 1, -1, 1, 1, infinity}, &p));
     Vec3 point = mat4_transform_point(p, (Vec3){1, -1, 0});
     assert_true(isinf(point.x) && isinf(point.y) && isinf(point.z));
     assert_true((point.x > 0) != (point.y > 0));
@@ -924,7 +926,7 @@ TEST_WITH(0, inverse_has_its_closed_forms, start_random, NULL)
 TEST_WITH(0, inverse_of_a_projection_takes_coordinates_back, start_random, NULL)
 {
     Mat4 p, inverse;
-    assert_true(mat4_try_frustum(-1, 1, -1, 1, 1, infinity, &p));
+    assert_true(mat4_try_frustum((MatrixSides){-1, 1, -1, 1, 1, infinity}, &p));
     const Mat4 expected = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, -0.5, 0, 0, -1, 0.5}};
     assert_true(mat4_inverse(p, &inverse));
     assert_matrix(inverse, expected, 0);
@@ -1335,9 +1337,9 @@ TEST_WITH(0, forms_by_value_agree, start_random, NULL)
         assert_matrix(mat4_look_at(v, u, unit), written, 0);
         mat4_try_perspective(200 * r[1], r[2], r[3], r[4], &written);
         assert_matrix(mat4_perspective(200 * r[1], r[2], r[3], r[4]), written, 0);
-        mat4_try_frustum(r[0], r[1], r[2], r[3], r[4], r[5], &written);
+        mat4_try_frustum((MatrixSides){r[0], r[1], r[2], r[3], r[4], r[5]}, &written);
         assert_matrix(mat4_frustum(r[0], r[1], r[2], r[3], r[4], r[5]), written, 0);
-        mat4_try_ortho(r[0], r[1], r[2], r[3], r[4], r[5], &written);
+        mat4_try_ortho((MatrixSides){r[0], r[1], r[2], r[3], r[4], r[5]}, &written);
         assert_matrix(mat4_ortho(r[0], r[1], r[2], r[3], r[4], r[5]), written, 0);
         mat4_try_normal(a, &written);
         assert_matrix(mat4_normal(a), written, 0);

@@ -3,6 +3,7 @@
  * and what is reported of them; compiled anew whenever the kept one is not right.
  */
 #include "core/canvas.h"
+#include "core/shader.h"
 #include "core/shader_binary.h"
 #include "support/testing.h"
 

@@ -4,7 +4,8 @@
  */
 #include "core/canvas.h"
 #include "core/shader_advice.h"
-#include "core/shader_source.h"
+#include "core/shader.h"
+#include "core/shader_files.h"
 #include "support/testing.h"
 
 #include <stdio.h>
@@ -320,12 +321,12 @@ SHADER_TEST(precision_is_overridden_in_fragment_shaders_alone)
         loader.precision = cases[i].precision;
         snprintf(expected, sizeof expected, "%s%s", cases[i].header, text);
         shader_source_close(&source);
-        assert_true(shader_source_parse(&source, &loader, "a.frag", text, strlen(text),
-                                        SHADER_FRAGMENT, NULL));
+        assert_true(shader_source_parse(&source, &loader, (ShaderText){"a.frag", text},
+                                        strlen(text), SHADER_FRAGMENT, NULL));
         text_is(expected);
         shader_source_close(&source);
-        assert_true(shader_source_parse(&source, &loader, "a.vert", text, strlen(text),
-                                        SHADER_VERTEX, NULL));
+        assert_true(shader_source_parse(&source, &loader, (ShaderText){"a.vert", text},
+                                        strlen(text), SHADER_VERTEX, NULL));
         text_is("#version 100\n#define FOG\nprecision mediump float;\n");
     }
 }
@@ -510,8 +511,8 @@ static void parse(const char *text)
 {
     shader_source_close(&source);
     message = (Message){0};
-    if (!shader_source_parse(&source, &loader, "main.vert", text, strlen(text), SHADER_VERTEX,
-                             &message))
+    const ShaderText made = {"main.vert", text};
+    if (!shader_source_parse(&source, &loader, made, strlen(text), SHADER_VERTEX, &message))
         fail_msg("%s", message.text);
 }
 

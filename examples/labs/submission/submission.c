@@ -3,6 +3,7 @@
 #include "labs/submission/submission.h"
 
 #include "base/memory.h"
+#include "core/shader_files.h"
 
 #include <dirent.h>
 #include <errno.h>
