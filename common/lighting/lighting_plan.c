@@ -26,6 +26,7 @@ static void open_objects(LightingPlan *plan, int count)
         plan->surfaces = memory_grow(plan->surfaces, room, sizeof *plan->surfaces);
         plan->casters = memory_grow(plan->casters, room, sizeof *plan->casters);
         plan->scenes = memory_grow(plan->scenes, room, sizeof *plan->scenes);
+        memset(plan->scenes, 0, room * sizeof *plan->scenes);
         plan->object_capacity = count;
     }
     for (int i = plan->object_count; i < count; i++)
