@@ -1,3 +1,10 @@
+/*
+ * A file's name is the hash of all that its bytes depend on, so nothing is ever out of date: what
+ * changes gets another name, and the old file is removed when room is needed. A file begins with a
+ * seal, its key and a hash of its bytes, which finds damage. The folder must be the user's and
+ * closed to writing by others; openat and fstat on open files leave no moment between a check and
+ * its use.
+ */
 #include "base/cache.h"
 
 #include "base/memory.h"

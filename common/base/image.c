@@ -1,3 +1,4 @@
+/* Pixels in one block. */
 #include "base/image.h"
 
 #include <stdlib.h>

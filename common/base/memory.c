@@ -1,3 +1,4 @@
+/* calloc, realloc and friends, and the end of a process that gets nothing from them. */
 #include "base/memory.h"
 
 #include "base/output.h"

@@ -1,3 +1,4 @@
+/* The first message set stays: it is nearest to the cause. */
 #include "base/message.h"
 
 #include <stdarg.h>

@@ -1,6 +1,12 @@
+/*
+ * A file is written under no name at all (O_TMPFILE), or where the file system has no such files
+ * under a temporary one in the same folder, and gets its own by rename, which replaces a file in
+ * one step: a reader sees the old file or the new one, never a part. rename would also replace a
+ * link, or a device by a file, so links are followed by hand first and devices written through.
+ * Temporary names stand in a table that a signal handler can read without locks: each entry changes
+ * its state atomically.
+ */
 #include "base/output.h"
-
-#include "base/memory.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -286,7 +292,11 @@ static void output_free(Output *output)
 
 static Output *begin(const char *path, const Target *target, Message *message)
 {
-    Output *output = memory_new(1, sizeof *output);
+    Output *output = malloc(sizeof *output); /* memory.h needs this module */
+    if (!output) {
+        message_set(message, "%s: not enough memory", path);
+        return NULL;
+    }
     *output = (Output){.path = path, .target = *target, .file = -1};
     if (output_open(output))
         return output;

@@ -1,3 +1,4 @@
+/* Each value is read completely or refused: "12px" is no number. */
 #include "base/parse.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* Three places, by the program's own path: it lies in the build folder, or in an installation. */
 #include "base/paths.h"
 
 #include <errno.h>

@@ -1,3 +1,4 @@
+/* dlopen, and a message that names what to install. */
 #include "base/plugin.h"
 
 #include "base/paths.h"

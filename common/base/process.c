@@ -1,3 +1,5 @@
+/* Programs are started by posix_spawn, with their signals and open files reset; answers of a fork
+ * come back through a pipe. */
 #include "base/process.h"
 
 #include "base/clock.h"

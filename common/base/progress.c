@@ -1,3 +1,4 @@
+/* One line, drawn again and again, and only on a terminal. */
 #include "base/progress.h"
 
 #include "base/clock.h"

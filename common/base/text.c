@@ -1,3 +1,7 @@
+/*
+ * Names are compared by the edits that turn one into the other, by dynamic programming over their
+ * prefixes: three rows of the table are enough, because an exchange of neighbours looks back two.
+ */
 #include "base/text.h"
 
 #include <ctype.h>

@@ -1,3 +1,8 @@
+/*
+ * Files are looked at by stat some times a second: notification by the kernel does not work on
+ * every file system. Editors write a file in several steps, so a change is reported when all is
+ * quiet again, or at last when it goes on for too long.
+ */
 #include "base/watch.h"
 
 #include "base/clock.h"

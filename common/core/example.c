@@ -1,3 +1,4 @@
+/* The camera of a frame, if the viewer has moved it. */
 #include "core/example.h"
 
 Mat4 frame_look_at(const Frame *frame, Vec3 eye, Vec3 center, Vec3 up)

@@ -1,3 +1,4 @@
+/* Each function's pointer, by name; those of extensions only if the context lists the extension. */
 #include "core/gl.h"
 
 #include <stdio.h>

@@ -1,3 +1,8 @@
+/*
+ * Vectors and matrices from their definitions, arranged so that no step overflows, underflows or
+ * cancels where the result need not: lengths by scaling, cross products by Kahan's difference of
+ * products, rotations with angles reduced in degrees, where quarters of a turn are exact.
+ */
 #include "core/matrix.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* Positions and normals interleaved in one buffer, indices of 16 bits where they suffice. */
 #include "core/mesh_buffer.h"
 
 #include <limits.h>

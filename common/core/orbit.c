@@ -1,3 +1,4 @@
+/* Two angles and a distance, applied to the camera of the scene. */
 #include "core/orbit.h"
 
 #include "base/parse.h"

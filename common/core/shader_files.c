@@ -1,3 +1,4 @@
+/* A list, searched linearly: a program reads some ten files. */
 #include "core/shader_files.h"
 
 #include "base/memory.h"
