@@ -7,9 +7,8 @@
  * One sphere, lit at the fragments. The full program always draws its far side too, because culling
  * is one of the effects.
  */
-#include "app/options.h"
 #include "base/clock.h"
-#include "benchmark/measure.h"
+#include "benchmark/bench.h"
 #include "core/canvas.h"
 #include "core/mesh_buffer.h"
 #include "lighting/lighting.h"
@@ -27,29 +26,50 @@ typedef struct Step {
     Scene scene;
 } Step;
 
+/* What a step adds to the one before. */
 enum {
-    UNLIT,
-    DIFFUSE,
-    AMBIENT,
-    SPECULAR,
-    LOCAL_VIEWER,
-    POINT,
-    PHONG,
-    ATTENUATION,
-    SPOT,
-    OPEN,
-    TWO_SIDED,
-    UNEVEN,
-    TWO_LIGHTS,
-    FOUR_LIGHTS,
-    EVERYTHING,
-    THREE_OFF, /* not part of the series */
-    STEPS
+    LIT = 1,
+    ADD_AMBIENT = 2,
+    ADD_SPECULAR = 4,
+    ADD_VIEWER = 8,
+    ADD_POINT = 16,
+    ADD_PHONG = 32,
+    ADD_ATTENUATION = 64,
+    ADD_SPOT = 128,
+    ADD_FAR_SIDE = 256,
+    ADD_BACK = 512,
+    ADD_SCALING = 1024,
+    ADD_REST = 2048, /* lights of all kinds, emission, transparency */
+    OFF = 4096       /* all lights but the first; without what POINT has not */
+};
+
+enum { UNLIT, DIFFUSE, POINT = 5, EVERYTHING = 14, THREE_OFF, STEPS };
+
+static const struct {
+    const char *name;
+    int adds, lights;
+} SERIES[STEPS] = {
+    [UNLIT] = {"unlit", 0, 0},
+    [DIFFUSE] = {"diffuse, directional", LIT, 1},
+    {"+ ambient", ADD_AMBIENT, 1},
+    {"+ specular, all at infinity", ADD_SPECULAR, 1},
+    {"+ local viewer", ADD_VIEWER, 1},
+    [POINT] = {"point instead of directional", ADD_POINT, 1},
+    {"Phong instead of Blinn-Phong", ADD_PHONG, 1},
+    {"+ attenuation", ADD_ATTENUATION, 1},
+    {"+ spot", ADD_SPOT, 1},
+    {"open, the far side drawn too", ADD_FAR_SIDE, 1},
+    {"+ two-sided", ADD_BACK, 1},
+    {"+ uneven scaling", ADD_SCALING, 1},
+    {"+ a second such light", 0, 2},
+    {"+ a third and a fourth", 0, 4},
+    [EVERYTHING] = {"everything, 8 lights", ADD_REST, 8},
+    /* Not part of the series. */
+    [THREE_OFF] = {"4 point lights, 3 of them off", OFF, 4},
 };
 
 static Step steps[STEPS];
 static Mesh sphere;
-static Canvas canvas;
 static Lighting *lighting;
 
 /* The scenes. */
@@ -62,101 +82,73 @@ static void settle(Step *step)
     step->scene.objects = &step->object;
 }
 
+static Light light_of(int has)
+{
+    static const Vec3 grey = {0.3, 0.3, 0.3}, none = {0, 0, 0};
+    Light light = {.kind = LIGHT_DIRECTIONAL,
+                   .direction = {1, 2, 3},
+                   .diffuse = {1, 1, 0.9},
+                   .ambient = has & ADD_AMBIENT ? grey : none,
+                   .specular = has & ADD_SPECULAR ? grey : none};
+    if (has & ADD_POINT) {
+        light.kind = LIGHT_POINT;
+        light.position = (Vec3){1, 2, 3};
+    }
+    if (has & ADD_ATTENUATION) {
+        light.constant = 1;
+        light.linear = light.quadratic = 0.05;
+    }
+    if (has & ADD_SPOT) {
+        light.kind = LIGHT_SPOT;
+        light.direction = (Vec3){-1, -2, -3};
+        light.cutoff = 60;
+        light.exponent = 2;
+    }
+    return light;
+}
+
+static Object object_of(int has)
+{
+    static const Vec3 grey = {0.3, 0.3, 0.3}, none = {0, 0, 0};
+    Object object = {.world_from_object =
+                         has & ADD_SCALING ? mat4_scale((Vec3){1, 0.9, 1.1}) : mat4_identity(),
+                     .closed = !(has & ADD_FAR_SIDE),
+                     .two_sided = (has & ADD_BACK) != 0,
+                     .front = {.ambient = has & ADD_AMBIENT ? grey : none,
+                               .diffuse = {0.6, 0.4, 0.3},
+                               .specular = has & ADD_SPECULAR ? grey : none,
+                               .shininess = 30,
+                               .alpha = 1}};
+    if (has & ADD_BACK)
+        object.back = object.front;
+    if (has & ADD_REST) {
+        object.front.emission = grey;
+        object.front.alpha = 0.9;
+    }
+    return object;
+}
+
 static void make_steps(void)
 {
-    static const Vec3 grey = {0.3, 0.3, 0.3};
-    Step step = {
-        .lights = {{.kind = LIGHT_DIRECTIONAL, .direction = {1, 2, 3}, .diffuse = {1, 1, 0.9}}},
-        .object = {.world_from_object = mat4_identity(),
-                   .closed = true,
-                   .front = {.diffuse = {0.6, 0.4, 0.3}, .shininess = 30, .alpha = 1}},
-        .scene = {.camera = {{0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 30, 1, 20, 0},
-                  .object_count = 1,
-                  .distant_viewer = true},
-    };
-    Light *light = &step.lights[0];
-    Material *front = &step.object.front;
-    for (int i = 0; i < STEPS; i++) {
-        switch (i) {
-        case UNLIT:
-            step.name = "unlit";
-            break;
-        case DIFFUSE:
-            step.name = "diffuse, directional";
-            step.scene.light_count = 1;
-            break;
-        case AMBIENT:
-            step.name = "+ ambient";
-            light->ambient = front->ambient = grey;
-            break;
-        case SPECULAR:
-            step.name = "+ specular, all at infinity";
-            light->specular = front->specular = grey;
-            break;
-        case LOCAL_VIEWER:
-            step.name = "+ local viewer";
-            step.scene.distant_viewer = false;
-            break;
-        case POINT:
-            step.name = "point instead of directional";
-            light->kind = LIGHT_POINT;
-            light->position = (Vec3){1, 2, 3};
-            break;
-        case PHONG:
-            step.name = "Phong instead of Blinn-Phong";
-            step.scene.reflection = REFLECTION_PHONG;
-            break;
-        case ATTENUATION:
-            step.name = "+ attenuation";
-            light->constant = 1;
-            light->linear = light->quadratic = 0.05;
-            break;
-        case SPOT:
-            step.name = "+ spot";
-            light->kind = LIGHT_SPOT;
-            light->direction = (Vec3){-1, -2, -3};
-            light->cutoff = 60;
-            light->exponent = 2;
-            break;
-        case OPEN:
-            step.name = "open, the far side drawn too";
-            step.object.closed = false;
-            break;
-        case TWO_SIDED:
-            step.name = "+ two-sided";
-            step.object.two_sided = true;
-            step.object.back = *front;
-            break;
-        case UNEVEN:
-            step.name = "+ uneven scaling";
-            step.object.world_from_object = mat4_scale((Vec3){1, 0.9, 1.1});
-            break;
-        case TWO_LIGHTS:
-            step.name = "+ a second such light";
-            step.scene.light_count = 2;
-            break;
-        case FOUR_LIGHTS:
-            step.name = "+ a third and a fourth";
-            step.scene.light_count = 4;
-            break;
-        case EVERYTHING:
-            step.name = "everything, 8 lights";
-            step.scene.light_count = 8;
-            step.scene.linear = step.scene.show_clipped = true;
-            front->emission = grey;
-            front->alpha = 0.9;
-            break;
-        default:
-            step = steps[POINT];
-            step.name = "4 point lights, 3 of them off";
-            step.scene.light_count = 4;
-            break;
-        }
-        for (int k = 1; k < LIGHTS; k++) {
-            step.lights[k] = *light;
-            step.lights[k].position.x = light->position.x - 0.5 * k;
-            step.lights[k].off = i == THREE_OFF;
-            if (i == EVERYTHING) /* lights of all kinds */
+    for (int i = 0, has = 0; i < STEPS; i++) {
+        has |= SERIES[i].adds;
+        if (has & OFF)
+            has = OFF | (2 * ADD_POINT - 1);
+        const Light light = light_of(has);
+        Step step = {.name = SERIES[i].name,
+                     .object = object_of(has),
+                     .scene = {.camera = {{0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 30, 1, 20, 0},
+                               .light_count = SERIES[i].lights,
+                               .object_count = 1,
+                               .distant_viewer = !(has & ADD_VIEWER),
+                               .reflection = has & ADD_PHONG ? REFLECTION_PHONG : 0,
+                               .linear = (has & ADD_REST) != 0,
+                               .show_clipped = (has & ADD_REST) != 0}};
+        for (int k = 0; k < LIGHTS; k++) {
+            step.lights[k] = light;
+            step.lights[k].position.x -= 0.5 * k;
+            step.lights[k].off = k > 0 && has & OFF;
+            if (k > 0 && has & ADD_REST)
                 step.lights[k].kind = (LightKind)(k % 3);
             if (step.lights[k].kind == LIGHT_DIRECTIONAL)
                 step.lights[k].direction = (Vec3){1, 2, 3};
@@ -243,7 +235,7 @@ typedef struct Run {
 
 static bool render(const Run *run, Message *message)
 {
-    canvas_clear(&canvas, (Vec3){0, 0, 0}, 1);
+    canvas_clear(&bench_canvas, (Vec3){0, 0, 0}, 1);
     if (run->way == HAND
             ? !draw_hand(run->step, message)
             : !lighting_show(lighting,
@@ -255,16 +247,12 @@ static bool render(const Run *run, Message *message)
     return true;
 }
 
-static bool draw_frames(void *argument)
+static bool draw_frames(void *argument, Message *message)
 {
-    Message message = {0};
-    for (int i = 0; i < FRAMES; i++) {
-        if (!render(argument, &message)) {
-            fprintf(stderr, "%s\n", message.text);
-            return false;
-        }
-    }
-    return true;
+    bool done = true;
+    for (int i = 0; i < FRAMES && done; i++)
+        done = render(argument, message);
+    return done;
 }
 
 /* Seconds from nothing to the first frame, minus those of the second: the compile time, part of
@@ -289,7 +277,7 @@ static bool measure_compiling(const Run *run, double *seconds, Message *message)
             return false;
         samples[i] = first - start - (clock_now() - first);
     }
-    *seconds = measure_summary(samples, COMPILATIONS).median;
+    *seconds = clock_median(samples, COMPILATIONS);
     return true;
 }
 
@@ -321,12 +309,6 @@ static void tell_operations(const Run *run, char told[2][16])
 /* What is timed: every step with both programs, and in addition: */
 enum { AGAIN = 2 * STEPS, BY_HAND_TOO, MEASURED };
 
-static void put_ratio(Table *table, const char *name, const Measured *a, const Measured *b)
-{
-    const Summary ratio = measure_ratio(a, b, 1, ROUNDS);
-    table_row(table, "%s|%s", name, measure_cell(ratio, 1, 2).text);
-}
-
 static bool print_sizes(Message *message)
 {
     Table table;
@@ -345,51 +327,53 @@ static bool print_sizes(Message *message)
                   told[FULL][SHADER_VERTEX], told[MINE][SHADER_FRAGMENT],
                   told[FULL][SHADER_FRAGMENT], 1e3 * seconds[MINE], 1e3 * seconds[FULL]);
     }
-    measure_print_table(NULL, &table);
+    bench_print(NULL, &table);
     return true;
 }
 
-static void print_times(const Measured measured[MEASURED])
+static void print_times(const BenchRun runs[MEASURED])
 {
+    static const struct {
+        const char *name;
+        BenchColumn ratio;
+    } ratios[] = {
+        {"the simplest lit scene over the same again (A/A)", BENCH_RATIO(2 * DIFFUSE, AGAIN, 2)},
+        {"the simplest lit scene over shaders written by hand for it",
+         BENCH_RATIO(2 * DIFFUSE, BY_HAND_TOO, 2)},
+        {"4 point lights, 3 of them off, over one", BENCH_RATIO(2 * THREE_OFF, 2 * POINT, 2)},
+    };
     Table table;
     table_open(&table, "a frame of 400x400|ms|full, ms|over full|over the scene before");
     for (int i = 0; i < STEPS; i++) {
-        const Measured *mine = &measured[2 * i + MINE], *full = &measured[2 * i + FULL];
-        const Summary time = measure_summary(mine->seconds, ROUNDS);
-        const Summary ratio = measure_ratio(mine, full, 1, ROUNDS);
-        const Summary more = measure_ratio(mine, mine - (i ? 2 : 0), 1, ROUNDS);
-        table_row(&table, "%s|%s|%.2f|%s|%s", steps[i].name,
-                  measure_cell(time, 1e3 / FRAMES, 2).text,
-                  1e3 * measure_summary(full->seconds, ROUNDS).median / FRAMES,
-                  measure_cell(ratio, 1, 2).text,
-                  i > 0 && i < THREE_OFF ? measure_cell(more, 1, 2).text : "");
+        const int mine = 2 * i + MINE, full = 2 * i + FULL;
+        const BenchColumn columns[] = {BENCH_TIME(mine, 1e3 / FRAMES, 2),
+                                       BENCH_MEDIAN(full, 1e3 / FRAMES, 2),
+                                       BENCH_RATIO(mine, full, 2),
+                                       {i > 0 && i < THREE_OFF, 2, mine, -1, mine - 2, -1, false}};
+        bench_row(&table, runs, columns, 4, "%s", steps[i].name);
     }
-    measure_print_table(NULL, &table);
+    bench_print(NULL, &table);
     table_open(&table, "ratio of times|");
-    put_ratio(&table, "the simplest lit scene over the same again (A/A)", &measured[2 * DIFFUSE],
-              &measured[AGAIN]);
-    put_ratio(&table, "the simplest lit scene over shaders written by hand for it",
-              &measured[2 * DIFFUSE], &measured[BY_HAND_TOO]);
-    put_ratio(&table, "4 point lights, 3 of them off, over one", &measured[2 * THREE_OFF],
-              &measured[2 * POINT]);
-    measure_print_table(NULL, &table);
+    for (size_t i = 0; i < sizeof ratios / sizeof ratios[0]; i++)
+        bench_row(&table, runs, &ratios[i].ratio, 1, "%s", ratios[i].name);
+    bench_print(NULL, &table);
 }
 
 static bool measure_frames(Message *message)
 {
-    Run runs[MEASURED];
-    Measured measured[MEASURED];
+    Run drawn[MEASURED];
+    BenchRun runs[MEASURED];
     for (int i = 0; i < MEASURED; i++) {
-        runs[i] = (Run){&steps[i < AGAIN ? i / 2 : DIFFUSE], i < AGAIN ? (Way)(i % 2) : MINE};
+        drawn[i] = (Run){&steps[i < AGAIN ? i / 2 : DIFFUSE], i < AGAIN ? (Way)(i % 2) : MINE};
         if (i == BY_HAND_TOO)
-            runs[i].way = HAND;
-        measured[i] = (Measured){runs[i].step->name, draw_frames, &runs[i], NULL};
+            drawn[i].way = HAND;
+        runs[i] = (BenchRun){drawn[i].step->name, draw_frames, &drawn[i], NULL, 0};
     }
-    const bool done = measure_rounds(measured, MEASURED, ROUNDS);
+    const bool done = bench_rounds(runs, MEASURED, ROUNDS, message);
     if (done)
-        print_times(measured);
-    measure_finish(measured, MEASURED);
-    return done ? true : message_set(message, "measuring failed");
+        print_times(runs);
+    bench_finish(runs, MEASURED);
+    return done;
 }
 
 /* Draws the last step with other values, none of them zero. */
@@ -416,25 +400,25 @@ static bool compiles_nothing(Message *message)
     return compiled == 0 ? true : message_set(message, "changing a colour compiles programs");
 }
 
-int main(int argc, char *argv[])
+static bool run(Message *message)
 {
-    measure_begin(&argc, argv);
-    Message message = {0};
-    const CanvasOptions size = {.width = SIZE, .height = SIZE};
-    setenv("LP_NUM_THREADS", "0", 0); /* other programs disturb one thread less than several */
-    setenv("MESA_SHADER_CACHE_DISABLE", "true",
-           1); /* otherwise nothing is compiled the second time */
-    if (!canvas_open(&canvas, &size, &message))
-        return options_fail("effects_benchmark", &message, 77);
     make_steps();
-    measure_print_machine(canvas.renderer, canvas.version);
-    const bool done = mesh_sphere(&sphere, 1, 64, 32, &message) && open_hand(&message) &&
-                      print_sizes(&message) && measure_frames(&message) &&
-                      compiles_nothing(&message);
+    return mesh_sphere(&sphere, 1, 64, 32, message) && open_hand(message) && print_sizes(message) &&
+           measure_frames(message) && compiles_nothing(message);
+}
+
+static void finish(void)
+{
     lighting_close(lighting);
     shader_close(&hand.shader);
     mesh_buffer_close(&hand.buffer);
     mesh_close(&sphere);
-    canvas_close(&canvas);
-    return done ? 0 : options_fail("effects_benchmark", &message, 1);
 }
+
+const Bench BENCH = {.name = "effects_benchmark",
+                     .width = SIZE,
+                     .height = SIZE,
+                     .one_thread = true,
+                     .no_cache = true,
+                     .run = run,
+                     .close = finish};

@@ -3,18 +3,14 @@
  * process: drawing and encoding in parallel, compared with drawing and reading back alone, and with
  * libpng's defaults in sequence.
  */
-#include "app/options_canvas.h"
 #include "app/options.h"
 #include "app/picture_texts.h"
 #include "app/renderer.h"
-#include "benchmark/measure.h"
+#include "benchmark/bench.h"
 
-#include <ftw.h>
 #include <png.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
 
 extern const Example PointLightedCube_perFragment;
 
@@ -22,12 +18,11 @@ enum { FRAMES = 200, ROUNDS = 7 };
 
 static const Example *const EXAMPLE_DRAWN = &PointLightedCube_perFragment;
 
-static Canvas canvas;
 static Renderer renderer;
+static DrawRequest request;
 static Options options = {
     .width = 400, .height = 400, .frames = FRAMES, .fps = 30, .compress = IMAGE_COMPRESS_DEFAULT};
-static DrawRequest request;
-static char folder[] = "/tmp/lighting-benchmark-XXXXXX";
+static const char *folder;
 
 static double moment(int frame)
 {
@@ -35,37 +30,32 @@ static double moment(int frame)
 }
 
 /* Drawing and reading back only: the upper bound. */
-static bool draw_only(void *argument)
+static bool draw_only(__attribute__((unused)) void *argument, Message *message)
 {
-    (void)argument;
-    Message message = {0};
     Picture picture = {.path = ""};
-    bool done = image_open(&picture.image, canvas.width, canvas.height, IMAGE_BYTE, &message);
+    bool done =
+        image_open(&picture.image, bench_canvas.width, bench_canvas.height, IMAGE_BYTE, message);
     for (int i = 0; i < FRAMES && done; i++)
-        done = renderer_picture(&renderer, &request, moment(i), &picture.image, &message);
+        done = renderer_picture(&renderer, &request, moment(i), &picture.image, message);
     image_close(&picture.image);
     return done;
 }
 
 /* As --frames does it. */
-static bool draw_and_write(void *argument)
+static bool draw_and_write(__attribute__((unused)) void *argument, Message *message)
 {
-    (void)argument;
-    Message message = {0};
     PictureQueue *queue;
-    const PictureQueueOptions pictures = {canvas.width, canvas.height, IMAGE_BYTE, .count = FRAMES};
-    bool done = picture_queue_open(&queue, &pictures, &message);
+    const PictureQueueOptions pictures = {bench_canvas.width, bench_canvas.height, IMAGE_BYTE,
+                                          .count = FRAMES};
+    bool done = picture_queue_open(&queue, &pictures, message);
     for (int i = 0; i < FRAMES && done; i++) {
         Picture *picture = picture_queue_take(queue);
         snprintf(picture->path, sizeof picture->path, "%s/frame%03d.png", folder, i);
-        done = renderer_picture(&renderer, &request, moment(i), &picture->image, &message);
-        picture_texts_set(EXAMPLE_DRAWN, &canvas, &options, moment(i), picture);
-        done = done && picture_queue_give(queue, picture, &message);
+        done = renderer_picture(&renderer, &request, moment(i), &picture->image, message);
+        picture_texts_set(EXAMPLE_DRAWN, &bench_canvas, &options, moment(i), picture);
+        done = done && picture_queue_give(queue, picture, message);
     }
-    done = picture_queue_close(queue, &message) && done;
-    if (!done)
-        fprintf(stderr, "%s\n", message.text);
-    return done;
+    return picture_queue_close(queue, message) && done;
 }
 
 static bool write_default_png(const char *path, const Image *image)
@@ -87,70 +77,48 @@ static bool write_default_png(const char *path, const Image *image)
     return fclose(file) == 0;
 }
 
-static bool draw_then_write_default(void *argument)
+static bool draw_then_write_default(__attribute__((unused)) void *argument, Message *message)
 {
-    (void)argument;
-    Message message = {0};
     Picture picture = {.path = ""};
     char path[PATH_MAX];
-    bool done = image_open(&picture.image, canvas.width, canvas.height, IMAGE_BYTE, &message);
+    bool done =
+        image_open(&picture.image, bench_canvas.width, bench_canvas.height, IMAGE_BYTE, message);
     for (int i = 0; i < FRAMES && done; i++) {
         snprintf(path, sizeof path, "%s/frame%03d.png", folder, i);
-        done = renderer_picture(&renderer, &request, moment(i), &picture.image, &message) &&
+        done = renderer_picture(&renderer, &request, moment(i), &picture.image, message) &&
                write_default_png(path, &picture.image);
     }
     image_close(&picture.image);
     return done;
 }
 
-static int remove_entry(const char *path, const struct stat *status, int type, struct FTW *walk)
+static bool run(Message *message)
 {
-    (void)status, (void)type, (void)walk;
-    return remove(path);
+    enum { DRAW, WRITE, DEFAULT, COUNT };
+    static const BenchColumn rate = BENCH_RATE(0, FRAMES, 0), alone = BENCH_RATIO(DRAW, WRITE, 2),
+                             plain = BENCH_RATIO(DEFAULT, WRITE, 1);
+    BenchRun runs[COUNT] = {
+        [DRAW] = {"drawing and reading back alone", draw_only, NULL, NULL, 0},
+        [WRITE] = {"and writing PNG files, in parallel", draw_and_write, NULL, NULL, 0},
+        [DEFAULT] = {"and writing with libpng's defaults, in sequence", draw_then_write_default,
+                     NULL, NULL, 0},
+    };
+    Table table;
+    request = options_request(&options, EXAMPLE_DRAWN);
+    folder = bench_folder(message);
+    if (!folder || !renderer_open(&renderer, EXAMPLE_DRAWN, &bench_canvas, &request, message))
+        return false;
+    table_open(&table, "200 frames, 400x400, one process|pictures per second");
+    const bool done = bench_rows(&(BenchRows){runs, COUNT, 1, ROUNDS, &rate, 1}, &table, message);
+    if (done) {
+        bench_row(&table, runs, &alone, 1, "in parallel over drawing alone");
+        bench_row(&table, runs, &plain, 1, "in parallel over libpng's default");
+        bench_print(NULL, &table);
+    }
+    bench_finish(runs, COUNT);
+    renderer_close(&renderer);
+    return done;
 }
 
-int main(int argc, char *argv[])
-{
-    measure_begin(&argc, argv);
-    Message message = {0};
-    setenv("LP_NUM_THREADS", "0", 0); /* as --frames does */
-    if (!mkdtemp(folder)) {
-        perror(folder);
-        return 1;
-    }
-    request = options_request(&options, EXAMPLE_DRAWN);
-    if (!options_open_canvas(&canvas, &options, "x.png", &message) ||
-        !renderer_open(&renderer, EXAMPLE_DRAWN, &canvas, &request, &message)) {
-        canvas_close(&canvas);
-        rmdir(folder);
-        return options_fail("frames_benchmark", &message, 77);
-    }
-    enum { DRAW, WRITE, DEFAULT, COUNT };
-    Measured measured[COUNT] = {
-        [DRAW] = {"drawing and reading back alone", draw_only, NULL, NULL},
-        [WRITE] = {"and writing PNG files, in parallel", draw_and_write, NULL, NULL},
-        [DEFAULT] = {"and writing with libpng's defaults, in sequence", draw_then_write_default,
-                     NULL, NULL},
-    };
-    const bool done = measure_rounds(measured, COUNT, ROUNDS);
-    if (done) {
-        Table table;
-        measure_print_machine(canvas.renderer, canvas.version);
-        table_open(&table, "200 frames, 400x400, one process|pictures per second");
-        for (int i = 0; i < COUNT; i++) {
-            const Summary time = measure_summary(measured[i].seconds, ROUNDS);
-            table_row(&table, "%s|%.0f [%.0f, %.0f]", measured[i].name, FRAMES / time.median,
-                      FRAMES / time.upper, FRAMES / time.lower);
-        }
-        const Summary alone = measure_ratio(&measured[DRAW], &measured[WRITE], 1, ROUNDS);
-        const Summary plain = measure_ratio(&measured[DEFAULT], &measured[WRITE], 1, ROUNDS);
-        table_row(&table, "in parallel over drawing alone|%s", measure_cell(alone, 1, 2).text);
-        table_row(&table, "in parallel over libpng's default|%s", measure_cell(plain, 1, 1).text);
-        measure_print_table(NULL, &table);
-    }
-    measure_finish(measured, COUNT);
-    renderer_close(&renderer);
-    canvas_close(&canvas);
-    nftw(folder, remove_entry, 8, FTW_DEPTH | FTW_PHYS);
-    return done ? 0 : 1;
-}
+const Bench BENCH = {
+    .name = "frames_benchmark", .width = 400, .height = 400, .one_thread = true, .run = run};

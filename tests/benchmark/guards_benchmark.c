@@ -3,13 +3,11 @@
  * without any, as full program and for scenes; next to it the guarded program relative to itself
  * (A/A).
  */
-#include "app/options.h"
-#include "benchmark/measure.h"
+#include "benchmark/bench.h"
 #include "core/canvas.h"
 #include "lighting/lighting.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 
 enum { SIZE = 400, ROUNDS = 41, FRAMES = 2 };
 
@@ -52,7 +50,6 @@ enum { FULL, TOUCHING, OUTSIDE, LECTURE, WORLDS };
 
 static World worlds[WORLDS];
 static Mesh sphere;
-static Canvas canvas;
 
 static void make_worlds(void)
 {
@@ -110,7 +107,7 @@ typedef struct Run {
 
 static bool render(const Run *run, Message *message)
 {
-    canvas_clear(&canvas, (Vec3){0, 0, 0}, 1);
+    canvas_clear(&bench_canvas, (Vec3){0, 0, 0}, 1);
     if (!lighting_show(
             run->lighting,
             &(LightingFrame){.scene = &run->world->scene, .aspect = 1, .full = run->world->full},
@@ -120,69 +117,68 @@ static bool render(const Run *run, Message *message)
     return true;
 }
 
-static bool draw_frames(void *argument)
+static bool draw_frames(void *argument, Message *message)
 {
-    Message message = {0};
-    for (int i = 0; i < FRAMES; i++) {
-        if (!render(argument, &message)) {
-            fprintf(stderr, "%s\n", message.text);
-            return false;
-        }
-    }
-    return true;
+    bool done = true;
+    for (int i = 0; i < FRAMES && done; i++)
+        done = render(argument, message);
+    return done;
 }
 
 static bool measure_world(const World *world, Lighting *const lightings[GUARD_COUNT + 1],
                           Message *message)
 {
-    Run runs[GUARD_COUNT + 1];
-    Measured measured[GUARD_COUNT + 1];
-    for (int i = 0; i <= GUARD_COUNT; i++) {
-        runs[i] = (Run){lightings[i], world};
-        measured[i] = (Measured){world->name, draw_frames, &runs[i], NULL};
-    }
-    if (!measure_rounds(measured, GUARD_COUNT + 1, ROUNDS)) {
-        measure_finish(measured, GUARD_COUNT + 1);
-        return message_set(message, "measuring failed");
-    }
-    const Summary time = measure_summary(measured[0].seconds, ROUNDS);
+    static const BenchColumn time = BENCH_MEDIAN(0, 1e3 / FRAMES, 2);
+    Run drawn[GUARD_COUNT + 1];
+    BenchRun runs[GUARD_COUNT + 1];
     Table table;
     char title[160];
-    snprintf(title, sizeof title, "%s: %.2f ms a frame", world->name, 1e3 * time.median / FRAMES);
-    table_open(&table, "without|guarded over that");
-    for (int i = 0; i < GUARD_COUNT; i++) {
-        const Summary ratio = measure_ratio(&measured[0], &measured[i + 1], 1, ROUNDS);
-        table_row(&table, "%s|%s", GUARDS[i].name, measure_cell(ratio, 1, 3).text);
+    for (int i = 0; i <= GUARD_COUNT; i++) {
+        drawn[i] = (Run){lightings[i], world};
+        runs[i] = (BenchRun){world->name, draw_frames, &drawn[i], NULL, 0};
     }
-    measure_print_table(title, &table);
-    measure_finish(measured, GUARD_COUNT + 1);
-    return true;
+    const bool done = bench_rounds(runs, GUARD_COUNT + 1, ROUNDS, message);
+    if (done) {
+        snprintf(title, sizeof title, "%s: %s ms a frame", world->name,
+                 bench_cell(runs, &time).text);
+        table_open(&table, "without|guarded over that");
+        for (int i = 0; i < GUARD_COUNT; i++)
+            bench_row(&table, runs, &(BenchColumn)BENCH_RATIO(0, i + 1, 3), 1, "%s",
+                      GUARDS[i].name);
+        bench_print(title, &table);
+    }
+    bench_finish(runs, GUARD_COUNT + 1);
+    return done;
 }
 
-int main(int argc, char *argv[])
+static Lighting *lightings[GUARD_COUNT + 1];
+
+static bool run(Message *message)
 {
-    measure_begin(&argc, argv);
-    Message message = {0};
-    const CanvasOptions size = {.width = SIZE, .height = SIZE};
-    ShaderLoader loaders[GUARD_COUNT + 1] = {{.folder = NULL}};
-    Lighting *lightings[GUARD_COUNT + 1] = {NULL};
-    setenv("LP_NUM_THREADS", "0", 0); /* other programs disturb one thread less than several */
-    if (!canvas_open(&canvas, &size, &message))
-        return options_fail("guards_benchmark", &message, 77);
     make_worlds();
-    measure_print_machine(canvas.renderer, canvas.version);
     printf("A guarded frame's time over that without:\n");
-    bool done = mesh_sphere(&sphere, 1, 64, 32, &message);
+    bool done = mesh_sphere(&sphere, 1, 64, 32, message);
     for (int i = 0; i <= GUARD_COUNT && done; i++) {
+        ShaderLoader loader = {.folder = NULL};
         if (i > 0 && GUARDS[i - 1].replaced[0].name)
-            loaders[i].replacements = GUARDS[i - 1].replaced;
-        done = lighting_open(&lightings[i], &loaders[i], &message);
+            loader.replacements = GUARDS[i - 1].replaced;
+        done = lighting_open(&lightings[i], &loader, message);
     }
     for (int i = 0; i < WORLDS && done; i++)
-        done = measure_world(&worlds[i], lightings, &message);
+        done = measure_world(&worlds[i], lightings, message);
+    return done;
+}
+
+static void finish(void)
+{
     for (int i = 0; i <= GUARD_COUNT; i++)
         lighting_close(lightings[i]);
     mesh_close(&sphere);
-    canvas_close(&canvas);
-    return done ? 0 : options_fail("guards_benchmark", &message, 1);
 }
+
+const Bench BENCH = {.name = "guards_benchmark",
+                     .width = SIZE,
+                     .height = SIZE,
+                     .one_thread = true,
+                     .run = run,
+                     .close = finish};

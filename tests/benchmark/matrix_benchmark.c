@@ -8,7 +8,7 @@
 
 #include "base/clock.h"
 #include "base/random.h"
-#include "benchmark/measure.h"
+#include "benchmark/bench.h"
 #include "core/matrix.h"
 #include "support/quad.h"
 
@@ -257,67 +257,52 @@ static void find_errors(const Comparison *comparison)
 
 /* Times. */
 
-static bool run_batches(void *argument)
+static bool run_batches(void *argument, __attribute__((unused)) Message *message)
 {
-    const Algorithm *const *algorithm = argument;
+    const Algorithm *algorithm = argument;
     for (int i = 0; i < REPEATS; i++)
-        (*algorithm)->run(&BATCH);
+        if (algorithm->run)
+            algorithm->run(&BATCH);
     return true;
 }
 
-static void put_row(Table *table, const Comparison *comparison, int k, const Measured *measured)
+static void put_row(Table *table, const Comparison *comparison, int k, const BenchRun *runs)
 {
     const Algorithm *algorithm = &comparison->algorithms[k];
+    const BenchColumn time = BENCH_TIME(k, 1e9 / (COUNT * REPEATS), 1);
     char errors[DECADES][24] = {{0}};
-    Cell time = {"missing"};
-    for (int i = 0; i < DECADES && measured && !algorithm->again; i++)
+    for (int i = 0; i < DECADES && algorithm->run && !algorithm->again; i++)
         snprintf(errors[i], sizeof errors[i], "%.0e/%.0e", comparison->errors[k][i][0],
                  comparison->errors[k][i][1]);
-    if (measured)
-        time = measure_cell(measure_summary(measured->seconds, ROUNDS), 1e9 / (COUNT * REPEATS), 1);
     table_row(table, "%s|%s|%s|%s|%s|%s|%s|%s|%s", algorithm->name, errors[0], errors[1], errors[2],
-              errors[3], errors[4], errors[5], errors[6], time.text);
+              errors[3], errors[4], errors[5], errors[6],
+              algorithm->run ? bench_cell(runs, &time).text : "missing");
 }
 
-/* False if there is not enough memory. */
-static bool compare(const Comparison *comparison)
+static bool compare(const Comparison *comparison, Message *message)
 {
-    const Algorithm *timed[INVERSE_COUNT];
-    Measured measured[INVERSE_COUNT];
-    int rows[INVERSE_COUNT], count = 0;
+    BenchRun runs[INVERSE_COUNT];
     Table table;
     find_errors(comparison);
     fill(0);
-    for (int k = 0; k < comparison->count; k++) {
-        rows[k] = -1;
-        if (!comparison->algorithms[k].run)
-            continue;
-        rows[k] = count;
-        timed[count] = &comparison->algorithms[k];
-        measured[count] = (Measured){timed[count]->name, run_batches, &timed[count], NULL};
-        count++;
-    }
-    if (!measure_rounds(measured, count, ROUNDS)) {
-        measure_finish(measured, count);
-        return false;
-    }
-    table_open(&table, "condition|1e0|1e2|1e4|1e6|1e8|1e10|1e12|ns per call");
     for (int k = 0; k < comparison->count; k++)
-        put_row(&table, comparison, k, rows[k] < 0 ? NULL : &measured[rows[k]]);
-    for (int k = 1; k < comparison->count; k++) {
-        if (!comparison->algorithms[k].again)
-            continue;
-        const Summary ratio = measure_ratio(&measured[rows[k]], &measured[rows[k] - 1], 1, ROUNDS);
-        table_row(&table, "A/A||||||||%s", measure_cell(ratio, 1, 3).text);
-    }
-    measure_print_table(comparison->title, &table);
-    measure_finish(measured, count);
-    return true;
+        runs[k] = (BenchRun){comparison->algorithms[k].name, run_batches,
+                             (void *)&comparison->algorithms[k], NULL, 0};
+    const bool done = bench_rounds(runs, comparison->count, ROUNDS, message);
+    table_open(&table, "condition|1e0|1e2|1e4|1e6|1e8|1e10|1e12|ns per call");
+    for (int k = 0; k < comparison->count && done; k++)
+        put_row(&table, comparison, k, runs);
+    for (int k = 1; k < comparison->count && done; k++)
+        if (comparison->algorithms[k].again)
+            table_row(&table, "A/A||||||||%s",
+                      bench_cell(runs, &(BenchColumn)BENCH_RATIO(k, k - 1, 3)).text);
+    bench_print(comparison->title, &table);
+    bench_finish(runs, comparison->count);
+    return done;
 }
 
-int main(int argc, char *argv[])
+static bool run(Message *message)
 {
-    measure_begin(&argc, argv);
     static double inverse_errors[INVERSE_COUNT][DECADES][2],
         normal_errors[NORMAL_COUNT][DECADES][2];
     const Comparison inverses = {
@@ -327,6 +312,7 @@ int main(int argc, char *argv[])
         "Normal matrix of R1 S R2: angular error of a normal in radians, applied in float, "
         "median/worst of 1000, by condition:",
         NORMALS, NORMAL_COUNT, normal_error, normal_errors};
-    measure_print_machine(NULL, NULL);
-    return compare(&inverses) && compare(&normal_matrices) ? 0 : 1;
+    return compare(&inverses, message) && compare(&normal_matrices, message);
 }
+
+const Bench BENCH = {.name = "matrix_benchmark", .run = run};

@@ -4,19 +4,16 @@
  * lights once a frame, and for each object its matrices and products of colors. And what shadows
  * cost by casters and lights, on a floor, at rest and while the lights move.
  */
-#include "benchmark/measure.h"
+#include "benchmark/bench.h"
 #include "core/canvas.h"
 #include "core/mesh_buffer.h"
 #include "lighting/lighting.h"
 #include "shapes/mesh_solids.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 
 enum { SIZE = 32, ROUNDS = 5, MOST_OBJECTS = 10000, MOST_LIGHTS = 8, AT_LEAST = 1000 };
 
-static Canvas canvas;
 static Lighting *lighting;
 static Mesh cube, plane;
 static MeshBuffer buffer; /* of the cube, for the loop */
@@ -71,13 +68,12 @@ static void make_scene(int object_count, int light_count, bool shadows)
     frames = object_count < AT_LEAST ? AT_LEAST / object_count : 1;
 }
 
-static bool draw_lighting(void *argument)
+static bool draw_lighting(__attribute__((unused)) void *argument, Message *message)
 {
     bool done = true;
-    (void)argument;
     for (int i = 0; i < frames && done; i++) {
-        canvas_clear(&canvas, scene.background, 1);
-        done = lighting_show(lighting, &(LightingFrame){.scene = &scene, .aspect = 1}, NULL);
+        canvas_clear(&bench_canvas, scene.background, 1);
+        done = lighting_show(lighting, &(LightingFrame){.scene = &scene, .aspect = 1}, message);
     }
     glFinish();
     return done;
@@ -92,11 +88,11 @@ static struct {
     GLint base, shininess, light_positions, diffuse, specular;
 } loop;
 
-static bool open_loop(void)
+static bool open_loop(Message *message)
 {
     LightingPlan plan = {.lighting = NULL};
     const LightingFrame frame = {.scene = &scene, .aspect = 1};
-    if (!lighting_plan(&plan, lighting, &frame, NULL))
+    if (!lighting_plan(&plan, lighting, &frame, message))
         return false;
     loop.program = lighting_plan_program(&plan, 0);
     lighting_plan_close(&plan);
@@ -140,14 +136,13 @@ static void loop_object(const Object *object, Mat4 eye_from_world, Mat4 clip_fro
     glDrawElements(GL_TRIANGLES, buffer.index_count, buffer.index_type, NULL);
 }
 
-static bool draw_loop(void *argument)
+static bool draw_loop(__attribute__((unused)) void *argument, Message *message)
 {
     Mat4 eye_from_world, clip_from_eye;
     float positions[MOST_LIGHTS][3];
-    (void)argument;
     for (int f = 0; f < frames; f++) {
-        canvas_clear(&canvas, scene.background, 1);
-        if (!scene_camera(&scene.camera, 1, &eye_from_world, &clip_from_eye, NULL))
+        canvas_clear(&bench_canvas, scene.background, 1);
+        if (!scene_camera(&scene.camera, 1, &eye_from_world, &clip_from_eye, message))
             return false;
         glEnable(GL_DEPTH_TEST);
         glEnable(GL_CULL_FACE);
@@ -167,7 +162,7 @@ static bool draw_loop(void *argument)
 
 /* Tables */
 
-static bool measure_objects(void)
+static bool measure_objects(Message *message)
 {
     static const int light_counts[] = {1, 2, 4, 8};
     Table table;
@@ -175,32 +170,32 @@ static bool measure_objects(void)
     table_open(&table, "objects|lights|loop, µs an object|lighting, µs an object|over the loop");
     for (int count = 1; count <= MOST_OBJECTS && done; count *= 10) {
         for (size_t l = 0; l < sizeof light_counts / sizeof *light_counts && done; l++) {
-            Measured both[] = {{"loop", draw_loop, NULL, NULL},
-                               {"lighting", draw_lighting, NULL, NULL}};
+            BenchRun both[] = {{"loop", draw_loop, NULL, NULL, 0},
+                               {"lighting", draw_lighting, NULL, NULL, 0}};
             make_scene(count, light_counts[l], false);
-            done = draw_lighting(NULL) && open_loop() && measure_rounds(both, 2, ROUNDS);
             const double scale = 1e6 / ((double)count * frames);
+            const BenchColumn columns[] = {BENCH_TIME(0, scale, 2), BENCH_TIME(1, scale, 2),
+                                           BENCH_RATIO(1, 0, 2)};
+            done = draw_lighting(NULL, message) && open_loop(message) &&
+                   bench_rounds(both, 2, ROUNDS, message);
             if (done)
-                table_row(&table, "%d|%d|%s|%s|%s", count, light_counts[l],
-                          measure_cell(measure_summary(both[0].seconds, ROUNDS), scale, 2).text,
-                          measure_cell(measure_summary(both[1].seconds, ROUNDS), scale, 2).text,
-                          measure_cell(measure_ratio(&both[1], &both[0], 1, ROUNDS), 1, 2).text);
-            measure_finish(both, 2);
+                bench_row(&table, both, columns, 3, "%d|%d", count, light_counts[l]);
+            bench_finish(both, 2);
         }
     }
-    measure_print_table("objects", &table);
+    bench_print("objects", &table);
     return done;
 }
 
 /* The lights move by so little that nothing looks different. */
-static bool draw_moving(void *argument)
+static bool draw_moving(void *argument, Message *message)
 {
     for (int i = 0; i < scene.light_count; i++)
         lights[i].position.x += 1e-9;
-    return draw_lighting(argument);
+    return draw_lighting(argument, message);
 }
 
-static bool measure_shadows(void)
+static bool measure_shadows(Message *message)
 {
     static const int casters[] = {1, 10, 30, 100}, light_counts[] = {1, 2, 4};
     Table table;
@@ -208,40 +203,37 @@ static bool measure_shadows(void)
     table_open(&table, "casters|lights|at rest, µs a caster and light|lights move");
     for (int c = 0; c < 4 && done; c++) {
         for (int l = 0; l < 3 && done; l++) {
-            Measured both[] = {{"at rest", draw_lighting, NULL, NULL},
-                               {"moving", draw_moving, NULL, NULL}};
+            BenchRun both[] = {{"at rest", draw_lighting, NULL, NULL, 0},
+                               {"moving", draw_moving, NULL, NULL, 0}};
             make_scene(casters[c], light_counts[l], true);
             frames = casters[c] < 10 ? 10 : 1;
-            done = measure_rounds(both, 2, 3);
             const double scale = 1e6 / ((double)casters[c] * light_counts[l] * frames);
+            const BenchColumn columns[] = {BENCH_TIME(0, scale, 1), BENCH_TIME(1, scale, 1)};
+            done = bench_rounds(both, 2, 3, message);
             if (done)
-                table_row(&table, "%d|%d|%s|%s", casters[c], light_counts[l],
-                          measure_cell(measure_summary(both[0].seconds, 3), scale, 1).text,
-                          measure_cell(measure_summary(both[1].seconds, 3), scale, 1).text);
-            measure_finish(both, 2);
+                bench_row(&table, both, columns, 2, "%d|%d", casters[c], light_counts[l]);
+            bench_finish(both, 2);
         }
     }
-    measure_print_table("shadows", &table);
+    bench_print("shadows", &table);
     return done;
 }
 
-int main(int argc, char *argv[])
+static bool run(Message *message)
 {
-    Message message = {0};
-    measure_begin(&argc, argv);
-    const bool done =
-        canvas_open(&canvas, &(CanvasOptions){.width = SIZE, .height = SIZE}, &message) &&
-        lighting_open(&lighting, &(ShaderLoader){0}, &message) && mesh_cube(&cube, 0.1, &message) &&
-        mesh_quad(&plane, 1, &message) && mesh_buffer_open(&buffer, &cube, &message);
-    if (done)
-        measure_print_machine(canvas.renderer, canvas.version);
-    const bool measured = done && measure_objects() && measure_shadows();
-    if (!measured)
-        fprintf(stderr, "objects_benchmark: %s\n", message.text);
+    return lighting_open(&lighting, &(ShaderLoader){0}, message) &&
+           mesh_cube(&cube, 0.1, message) && mesh_quad(&plane, 1, message) &&
+           mesh_buffer_open(&buffer, &cube, message) && measure_objects(message) &&
+           measure_shadows(message);
+}
+
+static void finish(void)
+{
     mesh_buffer_close(&buffer);
     lighting_close(lighting);
     mesh_close(&cube);
     mesh_close(&plane);
-    canvas_close(&canvas);
-    return measured ? 0 : 1;
 }
+
+const Bench BENCH = {
+    .name = "objects_benchmark", .width = SIZE, .height = SIZE, .run = run, .close = finish};

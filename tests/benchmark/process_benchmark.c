@@ -9,22 +9,20 @@
  *
  * process_benchmark PROGRAM GALLERY FLOOR
  */
-#include "benchmark/measure.h"
+#include "benchmark/bench.h"
 
 #include <fcntl.h>
-#include <ftw.h>
 #include <spawn.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 extern char **environ;
 
-enum { ROUNDS = 41, SCENES = 9 };
-static const double MAX_GALLERY_OF_ONE = 1.5, MAX_FURTHER_MS = 6, MAX_FURTHER_SMOOTH_MS = 10;
+enum { ROUNDS = 41, SCENES = 9, MAX_WORDS = 16 };
 
+/* The rows, in the order in which they run. */
 enum {
     DRAW,
     DRAW_SMOOTH,
@@ -39,117 +37,115 @@ enum {
     COUNT
 };
 
-/* Runs a command and waits for it. */
-static bool run_command(void *argument)
+/* A command's first word is the argument of that number; in others $P is its name without its
+ * folder, and $F the folder for files. */
+enum { PROGRAM, GALLERY, FLOOR_PROGRAM };
+static const struct {
+    const char *name;
+    int program;
+    const char *words;
+} COMMANDS[COUNT] = {
+    [DRAW] = {"picture, -o x.png", PROGRAM, "-o $F/x.png"},
+    [DRAW_SMOOTH] = {"picture, --samples 4", PROGRAM, "--samples 4 -o $F/x.png"},
+    [DRAW_NULL] = {"picture, -o /dev/null --compress 0", PROGRAM, "--compress 0 -o /dev/null"},
+    [SMALLEST] = {"picture, --compress 9", PROGRAM, "--compress 9 -o $F/x.png"},
+    [FLOOR] = {"floor: open, clear, read back", FLOOR_PROGRAM, ""},
+    [FLOOR_AGAIN] = {"floor again (the noise)", FLOOR_PROGRAM, ""},
+    [ONE] = {"gallery of one, --samples 0", GALLERY, "-o $F/one --samples 0 $P"},
+    [ONE_SMOOTH] = {"gallery of one, --samples 4", GALLERY, "-o $F/one --samples 4 $P"},
+#define NINE                                                                                       \
+    "LightedCube LightedCube_animation LightedCube_ambient LightedTranslatedRotatedCube "          \
+    "PointLightedCube PointLightedCube_animation PointLightedCube_perFragment "                    \
+    "PointLightedSphere PointLightedSphere_perFragment"
+    [ALL] = {"gallery of nine, --samples 0", GALLERY, "-o $F/all --samples 0 " NINE},
+    [ALL_SMOOTH] = {"gallery of nine, --samples 4", GALLERY, "-o $F/all --samples 4 " NINE},
+};
+
+typedef struct Command {
+    char text[1024], *words[MAX_WORDS];
+} Command;
+
+static void make_command(Command *command, int row, char *arguments[], const char *folder)
 {
-    char **command = argument;
+    const char *slash = strrchr(arguments[PROGRAM], '/');
+    FILE *file = fmemopen(command->text, sizeof command->text, "w");
+    for (const char *p = COMMANDS[row].words; file && *p; p++) {
+        if (*p == '$')
+            fputs(*++p == 'F' ? folder : slash ? slash + 1 : arguments[PROGRAM], file);
+        else
+            fputc(*p, file);
+    }
+    if (file)
+        fclose(file);
+    int count = 0;
+    command->words[count++] = arguments[COMMANDS[row].program];
+    for (char *word = strtok(command->text, " "); word; word = strtok(NULL, " "))
+        command->words[count++] = word;
+    command->words[count] = NULL;
+}
+
+/* Runs a command and waits for it. */
+static bool run_command(void *argument, Message *message)
+{
+    char **words = ((Command *)argument)->words;
     pid_t child;
     int status;
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    const bool started = posix_spawn(&child, command[0], &actions, NULL, command, environ) == 0;
+    const bool started = posix_spawn(&child, words[0], &actions, NULL, words, environ) == 0;
     posix_spawn_file_actions_destroy(&actions);
-    return started && waitpid(child, &status, 0) == child && WIFEXITED(status) &&
-           WEXITSTATUS(status) == 0;
+    return (started && waitpid(child, &status, 0) == child && WIFEXITED(status) &&
+            WEXITSTATUS(status) == 0) ||
+           message_set(message, "%s: failed", words[0]);
 }
 
-static int remove_entry(const char *path, const struct stat *status, int type, struct FTW *walk)
+static void put_row(Table *table, const BenchRun *runs, int row)
 {
-    (void)status, (void)type, (void)walk;
-    return remove(path);
+    const BenchColumn columns[] = {BENCH_TIME(row, 1e3, 1), BENCH_RATIO(row, FLOOR, 2)};
+    bench_row(table, runs, columns, 2, "%s", COMMANDS[row].name);
 }
 
 /* A gallery beside the picture alone, both with as many samples. */
-static void add_gallery(Table *table, const Measured *measured, const char *samples, int draw,
-                        int one, int all, double max_further)
+static void put_gallery(Table *table, const BenchRun *runs, bool smooth)
 {
-    double further[ROUNDS];
-    for (int i = 0; i < ROUNDS; i++)
-        further[i] = 1e3 * (measured[all].seconds[i] - measured[one].seconds[i]) / (SCENES - 1);
-    const Summary ratio = measure_ratio(&measured[one], &measured[draw], 1, ROUNDS);
-    const Summary each = measure_summary(further, ROUNDS);
-    table_row(table, "gallery of one over the picture, %s, at most %.1f||%s", samples,
-              MAX_GALLERY_OF_ONE, measure_cell(ratio, 1, 2).text);
-    table_row(table, "each further picture, %s, sheet and page included, at most %.1f ms|%s|",
-              samples, max_further, measure_cell(each, 1, 1).text);
+    static const double MAX_GALLERY_OF_ONE = 1.5, MAX_FURTHER_MS[] = {6, 10};
+    const int draw = smooth ? DRAW_SMOOTH : DRAW, one = smooth ? ONE_SMOOTH : ONE;
+    const int all = smooth ? ALL_SMOOTH : ALL, samples = smooth ? 4 : 0;
+    const BenchColumn ratio = BENCH_RATIO(one, draw, 2);
+    const BenchColumn further = {1e3 / (SCENES - 1), 1, all, one, -1, -1, false};
+    table_row(table, "gallery of one over the picture, --samples %d, at most %.1f||%s", samples,
+              MAX_GALLERY_OF_ONE, bench_cell(runs, &ratio).text);
+    table_row(table,
+              "each further picture, --samples %d, sheet and page included, at most %.1f ms|%s|",
+              samples, MAX_FURTHER_MS[smooth], bench_cell(runs, &further).text);
 }
 
-static void print_results(const Measured measured[COUNT])
+static bool run(Message *message)
 {
+    static Command commands[COUNT];
+    BenchRun runs[COUNT];
     Table table;
-    measure_print_machine(NULL, NULL);
-    table_open(&table, "one process, 400x400|ms|over the floor");
+    if (!bench_arguments[0] || !bench_arguments[1] || !bench_arguments[2])
+        return message_set(message, "usage: process_benchmark PROGRAM GALLERY FLOOR");
+    const char *folder = bench_folder(message);
+    if (!folder)
+        return false;
     for (int i = 0; i < COUNT; i++) {
-        const Summary time = measure_summary(measured[i].seconds, ROUNDS);
-        const Summary ratio = measure_ratio(&measured[i], &measured[FLOOR], 1, ROUNDS);
-        table_row(&table, "%s|%s|%s", measured[i].name, measure_cell(time, 1e3, 1).text,
-                  measure_cell(ratio, 1, 2).text);
+        make_command(&commands[i], i, bench_arguments, folder);
+        runs[i] = (BenchRun){COMMANDS[i].name, run_command, &commands[i], NULL, 0};
     }
-    add_gallery(&table, measured, "--samples 0", DRAW, ONE, ALL, MAX_FURTHER_MS);
-    add_gallery(&table, measured, "--samples 4", DRAW_SMOOTH, ONE_SMOOTH, ALL_SMOOTH,
-                MAX_FURTHER_SMOOTH_MS);
-    measure_print_table(NULL, &table);
+    const bool done = bench_rounds(runs, COUNT, ROUNDS, message);
+    if (done) {
+        table_open(&table, "one process, 400x400|ms|over the floor");
+        for (int i = 0; i < COUNT; i++)
+            put_row(&table, runs, i);
+        put_gallery(&table, runs, false);
+        put_gallery(&table, runs, true);
+        bench_print(NULL, &table);
+    }
+    bench_finish(runs, COUNT);
+    return done;
 }
 
-int main(int argc, char *argv[])
-{
-    measure_begin(&argc, argv);
-    if (argc != 4) {
-        fprintf(stderr, "usage: process_benchmark PROGRAM GALLERY FLOOR\n");
-        return 2;
-    }
-    char folder[] = "/tmp/lighting-benchmark-XXXXXX", picture[64], one[64], all[64];
-    if (!mkdtemp(folder)) {
-        perror(folder);
-        return 1;
-    }
-    snprintf(picture, sizeof picture, "%s/x.png", folder);
-    snprintf(one, sizeof one, "%s/one", folder);
-    snprintf(all, sizeof all, "%s/all", folder);
-    char *draw[] = {argv[1], "-o", picture, NULL};
-    char *draw_null[] = {argv[1], "--compress", "0", "-o", "/dev/null", NULL};
-    char *smallest[] = {argv[1], "--compress", "9", "-o", picture, NULL};
-    char *floor_command[] = {argv[3], NULL};
-    char *slash = strrchr(argv[1], '/');
-    char *draw_smooth[] = {argv[1], "--samples", "4", "-o", picture, NULL};
-    char *name = slash ? slash + 1 : argv[1];
-    char *gallery_one[] = {argv[2], "-o", one, "--samples", "0", name, NULL};
-    char *gallery_one_smooth[] = {argv[2], "-o", one, "--samples", "4", name, NULL};
-    char *gallery_all[] = {argv[2],
-                           "-o",
-                           all,
-                           "--samples",
-                           "0",
-                           "LightedCube",
-                           "LightedCube_animation",
-                           "LightedCube_ambient",
-                           "LightedTranslatedRotatedCube",
-                           "PointLightedCube",
-                           "PointLightedCube_animation",
-                           "PointLightedCube_perFragment",
-                           "PointLightedSphere",
-                           "PointLightedSphere_perFragment",
-                           NULL};
-    char *gallery_all_smooth[sizeof gallery_all / sizeof gallery_all[0]];
-    memcpy(gallery_all_smooth, gallery_all, sizeof gallery_all);
-    gallery_all_smooth[4] = "4";
-    Measured measured[COUNT] = {
-        [DRAW] = {"picture, -o x.png", run_command, draw, NULL},
-        [DRAW_SMOOTH] = {"picture, --samples 4", run_command, draw_smooth, NULL},
-        [DRAW_NULL] = {"picture, -o /dev/null --compress 0", run_command, draw_null, NULL},
-        [SMALLEST] = {"picture, --compress 9", run_command, smallest, NULL},
-        [FLOOR] = {"floor: open, clear, read back", run_command, floor_command, NULL},
-        [FLOOR_AGAIN] = {"floor again (the noise)", run_command, floor_command, NULL},
-        [ONE] = {"gallery of one, --samples 0", run_command, gallery_one, NULL},
-        [ONE_SMOOTH] = {"gallery of one, --samples 4", run_command, gallery_one_smooth, NULL},
-        [ALL] = {"gallery of nine, --samples 0", run_command, gallery_all, NULL},
-        [ALL_SMOOTH] = {"gallery of nine, --samples 4", run_command, gallery_all_smooth, NULL},
-    };
-    const bool measured_all = measure_rounds(measured, COUNT, ROUNDS);
-    if (measured_all)
-        print_results(measured);
-    measure_finish(measured, COUNT);
-    nftw(folder, remove_entry, 8, FTW_DEPTH | FTW_PHYS);
-    return measured_all ? 0 : 1;
-}
+const Bench BENCH = {.name = "process_benchmark", .run = run};

@@ -2,13 +2,10 @@
  * The time of the exact picture: solids and the teapot's mesh at the lecture's size, with one
  * thread, and the scene of `Shadows`.
  */
-#include "app/options.h"
-#include "benchmark/measure.h"
+#include "benchmark/bench.h"
 #include "reference/reference.h"
 #include "scene/scene_example.h"
 #include "shapes/mesh_solids.h"
-
-#include <stdio.h>
 
 extern const Example Shadows;
 
@@ -56,7 +53,7 @@ static Case cases[CASES] = {
     {"sphere's mesh, 1,100 triangles", {.kind = SOLID_SPHERE, .radius = 1}, 24, AS_MESH, 0, {0}},
 };
 
-static bool trace_picture(void *argument)
+static bool trace_picture(void *argument, Message *message)
 {
     const Case *drawn = argument;
     const Light lights[2] = {
@@ -84,52 +81,49 @@ static bool trace_picture(void *argument)
                          .object_count = 1,
                          .interpolation = drawn->interpolation};
     Reference reference;
-    Message message = {0};
     object.world_from_object =
         mat4_rotate(drawn->solid.kind == SOLID_TEAPOT ? 0 : -60, (Vec3){1, 0.3, 0});
-    const bool done = reference_open(&reference, &scene, &drawn->options, &message);
-    if (!done)
-        fprintf(stderr, "%s\n", message.text);
+    const bool done = reference_open(&reference, &scene, &drawn->options, message);
     reference_close(&reference);
     return done;
 }
 
-static bool trace_program(void *argument)
+static bool trace_program(void *argument, Message *message)
 {
     Scene scene = {.object_count = 0};
     Reference reference;
     example_scene(&Shadows)->make(0, 0, &scene);
-    const bool done = reference_open(&reference, &scene, argument, NULL);
+    const bool done = reference_open(&reference, &scene, argument, message);
     reference_close(&reference);
     return done;
 }
 
-int main(int argc, char *argv[])
+static bool run(Message *message)
 {
+    static const BenchColumn time = BENCH_TIME(0, 1e3, 1);
     ReferenceOptions options = EXACT(0);
-    measure_begin(&argc, argv);
-    Measured measured[ROWS];
-    Message message = {0};
-    if (!Shadows.init(&(ShaderLoader){0}, &message))
-        return options_fail("reference_benchmark", &message, 1);
-    measured[PROGRAM] = (Measured){"Shadows, with three lights", trace_program, &options, NULL};
-    for (int i = 0; i < CASES; i++) {
-        if (!solid_mesh(&cases[i].solid, cases[i].divisions, &cases[i].mesh, &message))
-            return options_fail("reference_benchmark", &message, 1);
-        measured[i] = (Measured){cases[i].name, trace_picture, &cases[i], NULL};
-    }
-    measure_print_machine(NULL, NULL);
-    const bool done = measure_rounds(measured, ROWS, ROUNDS);
+    BenchRun runs[ROWS] = {
+        [PROGRAM] = {"Shadows, with three lights", trace_program, &options, NULL, 0}};
     Table table;
-    table_open(&table, "the exact picture, 400x400|ms");
-    for (int i = 0; i < ROWS && done; i++) {
-        const Summary time = measure_summary(measured[i].seconds, ROUNDS);
-        table_row(&table, "%s|%s", measured[i].name, measure_cell(time, 1e3, 1).text);
+    if (!Shadows.init(&(ShaderLoader){0}, message))
+        return false;
+    for (int i = 0; i < CASES; i++) {
+        if (!solid_mesh(&cases[i].solid, cases[i].divisions, &cases[i].mesh, message))
+            return false;
+        runs[i] = (BenchRun){cases[i].name, trace_picture, &cases[i], NULL, 0};
     }
-    measure_print_table(NULL, &table);
-    measure_finish(measured, ROWS);
+    table_open(&table, "the exact picture, 400x400|ms");
+    const bool done = bench_rows(&(BenchRows){runs, ROWS, 1, ROUNDS, &time, 1}, &table, message);
+    bench_print(NULL, &table);
+    bench_finish(runs, ROWS);
+    return done;
+}
+
+static void finish(void)
+{
     Shadows.finish();
     for (int i = 0; i < CASES; i++)
         mesh_close(&cases[i].mesh);
-    return done ? 0 : 1;
 }
+
+const Bench BENCH = {.name = "reference_benchmark", .run = run, .close = finish};

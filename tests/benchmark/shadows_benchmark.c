@@ -3,7 +3,7 @@
  * of Shadows, each without shadows, without again, and in each way. How exact they are:
  * examples/study/report/shadow_ways.h.
  */
-#include "benchmark/measure.h"
+#include "benchmark/bench.h"
 #include "core/canvas.h"
 #include "core/example.h"
 #include "lighting/lighting.h"
@@ -11,7 +11,6 @@
 #include "shapes/mesh_solids.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 
 enum { SIZE = 400, ROUNDS = 21, FRAMES = 4, SCENES = 5, SMALL_MAP = 512 };
 
@@ -20,7 +19,6 @@ enum { WITHOUT, AGAIN, VOLUMES, ON, MAP, MOVING_MAP, WAYS };
 
 extern const Example Shadows;
 
-static Canvas canvas;
 /* Those that draw maps anew are apart: they would take the maps of those that rest. */
 static Lighting *resting, *moving;
 static Mesh teapot, plane, ball;
@@ -104,7 +102,7 @@ static void make_program(Setting *setting)
     set_ways(setting);
 }
 
-static bool draw(void *argument)
+static bool draw(void *argument, Message *message)
 {
     Way *way = argument;
     const Scene *scene = &way->scene;
@@ -115,38 +113,40 @@ static bool draw(void *argument)
             way->lights[l].position.x += 1e-9;
             way->lights[l].direction.x += 1e-9;
         }
-        canvas_clear(&canvas, scene->background, 1);
-        if (!lighting_show(lighting, &(LightingFrame){.scene = scene, .aspect = 1}, NULL))
+        canvas_clear(&bench_canvas, scene->background, 1);
+        if (!lighting_show(lighting, &(LightingFrame){.scene = scene, .aspect = 1}, message))
             return false;
     }
     glFinish();
     return true;
 }
 
-static bool measure_setting(Setting *setting, Table *table)
+static bool measure_setting(Setting *setting, Table *table, Message *message)
 {
-    Measured measured[WAYS];
-    char cells[WAYS][48];
+    static const BenchColumn columns[] = {
+        BENCH_TIME(WITHOUT, 1e3 / FRAMES, 2), BENCH_RATIO(AGAIN, WITHOUT, 2),
+        BENCH_RATIO(VOLUMES, WITHOUT, 2),     BENCH_RATIO(ON, WITHOUT, 2),
+        BENCH_RATIO(MAP, WITHOUT, 2),         BENCH_RATIO(MOVING_MAP, WITHOUT, 2)};
+    BenchRun runs[WAYS];
     for (int way = 0; way < WAYS; way++)
-        measured[way] = (Measured){setting->name, draw, &setting->ways[way], NULL};
+        runs[way] = (BenchRun){setting->name, draw, &setting->ways[way], NULL, 0};
     const LightingCounts before = lighting_counts(resting);
-    bool done = draw(&setting->ways[VOLUMES]);
+    bool done = draw(&setting->ways[VOLUMES], message);
     const LightingCounts after = lighting_counts(resting);
-    done = done && measure_rounds(measured, WAYS, ROUNDS);
-    for (int way = 0; way < WAYS && done; way++) {
-        const Summary ratio = measure_ratio(&measured[way], &measured[WITHOUT], 1, ROUNDS);
-        snprintf(cells[way], sizeof cells[way], "%s", measure_cell(ratio, 1, 2).text);
-    }
-    if (done)
-        table_row(table, "%s|%s|%s|%s|%s|%s|%s|%lld", setting->name,
-                  measure_cell(measure_summary(measured[0].seconds, ROUNDS), 1e3 / FRAMES, 2).text,
-                  cells[AGAIN], cells[VOLUMES], cells[ON], cells[MAP], cells[MOVING_MAP],
+    done = done && bench_rounds(runs, WAYS, ROUNDS, message);
+    if (done) {
+        char cells[WAYS][48];
+        for (int way = 0; way < WAYS; way++)
+            snprintf(cells[way], sizeof cells[way], "%s", bench_cell(runs, &columns[way]).text);
+        table_row(table, "%s|%s|%s|%s|%s|%s|%s|%lld", setting->name, cells[0], cells[1], cells[2],
+                  cells[3], cells[4], cells[5],
                   (after.volume_triangles - before.volume_triangles) / FRAMES);
-    measure_finish(measured, WAYS);
+    }
+    bench_finish(runs, WAYS);
     return done;
 }
 
-static bool measure_all(void)
+static bool measure_all(Message *message)
 {
     Table table;
     bool done = true;
@@ -159,33 +159,29 @@ static bool measure_all(void)
     table_open(&table, "|without shadows, ms|again, over that|volumes|on|map:512|map:512, lights "
                        "move|triangles of volumes");
     for (int i = 0; i < SCENES; i++)
-        done = done && measure_setting(&settings[i], &table);
-    measure_print_table("shadows", &table);
+        done = done && measure_setting(&settings[i], &table, message);
+    bench_print("shadows", &table);
     return done;
 }
 
-int main(int argc, char *argv[])
+static bool run(Message *message)
 {
-    Message message = {0};
-    measure_begin(&argc, argv);
-    const bool done =
-        canvas_open(&canvas, &(CanvasOptions){.width = SIZE, .height = SIZE}, &message) &&
-        lighting_open(&resting, &(ShaderLoader){0}, &message) &&
-        lighting_open(&moving, &(ShaderLoader){0}, &message) &&
-        mesh_teapot(&teapot, 1, 10, &message) && mesh_quad(&plane, 1, &message) &&
-        mesh_sphere(&ball, 0.75, 48, 24, &message) && Shadows.init(&(ShaderLoader){0}, &message);
-    if (done)
-        measure_print_machine(canvas.renderer, canvas.version);
-    const bool measured = done && measure_all();
-    if (!measured)
-        fprintf(stderr, "shadows_benchmark: %s\n", message.text);
-    if (done)
-        Shadows.finish();
+    return lighting_open(&resting, &(ShaderLoader){0}, message) &&
+           lighting_open(&moving, &(ShaderLoader){0}, message) &&
+           mesh_teapot(&teapot, 1, 10, message) && mesh_quad(&plane, 1, message) &&
+           mesh_sphere(&ball, 0.75, 48, 24, message) && Shadows.init(&(ShaderLoader){0}, message) &&
+           measure_all(message);
+}
+
+static void finish(void)
+{
+    Shadows.finish();
     lighting_close(resting);
     lighting_close(moving);
     mesh_close(&teapot);
     mesh_close(&plane);
     mesh_close(&ball);
-    canvas_close(&canvas);
-    return measured ? 0 : 1;
 }
+
+const Bench BENCH = {
+    .name = "shadows_benchmark", .width = SIZE, .height = SIZE, .run = run, .close = finish};

@@ -4,7 +4,7 @@
  * milliseconds of a frame, drawn and read back.
  */
 #include "base/clock.h"
-#include "benchmark/measure.h"
+#include "benchmark/bench.h"
 #include "core/canvas.h"
 #include "web/page.h"
 
@@ -20,7 +20,7 @@ static bool print_machine(void)
         fprintf(stderr, "web_frames: %s\n", message.text);
         return false;
     }
-    measure_print_machine(canvas.renderer, canvas.version);
+    bench_machine(&canvas);
     canvas_close(&canvas);
     return true;
 }
@@ -42,7 +42,7 @@ int main(int argc, char *argv[])
     char line[1024];
     double start;
     int count, at;
-    measure_begin(&argc, argv);
+    bench_begin(&argc, argv);
     if (!print_machine())
         return 77;
     puts("");

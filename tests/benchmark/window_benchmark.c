@@ -4,10 +4,8 @@
  */
 #include "app/options.h"
 #include "app/renderer.h"
-#include "benchmark/measure.h"
+#include "benchmark/bench.h"
 #include "window/window.h"
-
-#include <stdlib.h>
 
 extern const Example LightedCube_animation, PointLightedSphere_perFragment, ShadingModels;
 
@@ -28,17 +26,15 @@ typedef struct Run {
     const DrawRequest *request;
 } Run;
 
-static bool draw_frame(const Run *run, int number)
+static bool draw_frame(const Run *run, int number, Message *message)
 {
-    Message message = {0};
-    return renderer_draw(run->renderer, run->request, 0.1 * number, &message) ||
-           options_fail("window_benchmark", &message, 0);
+    return renderer_draw(run->renderer, run->request, 0.1 * number, message);
 }
 
-static bool headless_frames(void *argument)
+static bool headless_frames(void *argument, Message *message)
 {
     for (int i = 0; i < FRAMES; i++) {
-        if (!draw_frame(argument, i))
+        if (!draw_frame(argument, i, message))
             return false;
         glFinish();
     }
@@ -52,61 +48,50 @@ static void copy(const Run *run)
     glFinish();
 }
 
-static bool copies(void *argument)
+static bool copies(void *argument, __attribute__((unused)) Message *message)
 {
     for (int i = 0; i < FRAMES; i++)
         copy(argument);
     return true;
 }
 
-static bool window_frames(void *argument)
+static bool window_frames(void *argument, Message *message)
 {
     const Run *run = argument;
     WindowInput input;
     for (int i = 0; i < FRAMES; i++) {
         window_input(window_of(run->canvas), 0, &input);
-        if (!draw_frame(run, i))
+        if (!draw_frame(run, i, message))
             return false;
         copy(run);
     }
     return true;
 }
 
-/* Of each round's ratio frame / (headless + copy). */
-static Summary frame_ratio(const Measured *headless, const Measured *copied, const Measured *frame)
-{
-    double ratios[ROUNDS];
-    for (int i = 0; i < ROUNDS; i++)
-        ratios[i] = frame->seconds[i] / (headless->seconds[i] + copied->seconds[i]);
-    return measure_summary(ratios, ROUNDS);
-}
-
 static bool measure_example(const Example *example, Canvas *canvas, Table *table, Message *message)
 {
+    enum { HEADLESS, COPY, WINDOW, AGAIN, COUNT };
+    static const BenchColumn columns[] = {BENCH_MEDIAN(HEADLESS, 1e3 / FRAMES, 2),
+                                          BENCH_MEDIAN(COPY, 1e3 / FRAMES, 2),
+                                          BENCH_MEDIAN(WINDOW, 1e3 / FRAMES, 2),
+                                          {1, 2, WINDOW, -1, HEADLESS, COPY, false},
+                                          BENCH_RATIO(AGAIN, WINDOW, 2)};
     const DrawRequest request = {.fps = 30};
     Renderer renderer;
-    Run run = {&renderer, canvas, &request};
-    Measured measured[] = {{"a headless frame", headless_frames, &run, NULL},
-                           {"the copy", copies, &run, NULL},
-                           {"a window's frame", window_frames, &run, NULL},
-                           {"the same again", window_frames, &run, NULL}};
-    enum { COUNT = sizeof measured / sizeof measured[0] };
+    Run drawn = {&renderer, canvas, &request};
+    BenchRun runs[COUNT] = {{"a headless frame", headless_frames, &drawn, NULL, 0},
+                            {"the copy", copies, &drawn, NULL, 0},
+                            {"a window's frame", window_frames, &drawn, NULL, 0},
+                            {"the same again", window_frames, &drawn, NULL, 0}};
     if (!renderer_open(&renderer, example, canvas, &request, message))
         return false;
-    const bool done = measure_rounds(measured, COUNT, ROUNDS);
-    if (done) {
-        double ms[3];
-        for (int i = 0; i < 3; i++)
-            ms[i] = 1e3 * measure_summary(measured[i].seconds, ROUNDS).median / FRAMES;
-        const Summary ratio = frame_ratio(&measured[0], &measured[1], &measured[2]);
-        const Summary again = measure_ratio(&measured[3], &measured[2], 1, ROUNDS);
-        table_row(table, "%s|%dx%d|%.2f|%.2f|%.2f|%s|%s", example->name, canvas->width,
-                  canvas->height, ms[0], ms[1], ms[2], measure_cell(ratio, 1, 2).text,
-                  measure_cell(again, 1, 2).text);
-    }
-    measure_finish(measured, COUNT);
+    const bool done = bench_rounds(runs, COUNT, ROUNDS, message);
+    if (done)
+        bench_row(table, runs, columns, 5, "%s|%dx%d", example->name, canvas->width,
+                  canvas->height);
+    bench_finish(runs, COUNT);
     renderer_close(&renderer);
-    return done || message_set(message, "%s: measuring failed", example->name);
+    return done;
 }
 
 static bool measure_size(int width, int height, Table *table, Message *message)
@@ -125,22 +110,27 @@ static bool measure_size(int width, int height, Table *table, Message *message)
     return done;
 }
 
-int main(int argc, char *argv[])
+static const char *platform;
+
+static bool run(Message *message)
 {
-    measure_begin(&argc, argv);
-    Message message = {0};
-    void *window;
-    const char *platform;
     Table table;
-    if (!CANVAS_WINDOW.open(&window, &(CanvasOptions){.width = 1, .height = 1}, &platform,
-                            &message))
-        return options_fail("window_benchmark", &message, 77);
-    CANVAS_WINDOW.close(window);
-    measure_print_machine(NULL, NULL);
+    bool done = true;
     table_open(&table, "a frame, in ms|size|headless|copy|window|window over both|the same again");
-    for (int i = 0; i < SIZE_COUNT; i++)
-        if (!measure_size(SIZES[i][0], SIZES[i][1], &table, &message))
-            return options_fail("window_benchmark", &message, EXIT_FAILED);
-    measure_print_table(platform, &table);
-    return 0;
+    for (int i = 0; i < SIZE_COUNT && done; i++)
+        done = measure_size(SIZES[i][0], SIZES[i][1], &table, message);
+    bench_print(platform, &table);
+    return done;
 }
+
+static bool can_run(Message *message)
+{
+    void *window;
+    const bool opened =
+        CANVAS_WINDOW.open(&window, &(CanvasOptions){.width = 1, .height = 1}, &platform, message);
+    if (opened)
+        CANVAS_WINDOW.close(window);
+    return opened;
+}
+
+const Bench BENCH = {.name = "window_benchmark", .can_run = can_run, .run = run};
