@@ -124,11 +124,11 @@ static bool write_sheet(Survey *survey, const char *name, const Scene *drawn,
                         const Quality *quality, const Reference *exact, bool small,
                         const char *path, Message *message)
 {
-    Drawing drawing;
+    SettingPicture drawing;
     char text[QUALITY_TEXT_SIZE], caption[QUALITY_TEXT_SIZE + 320];
-    if (!drawing_open(&drawing, survey->studio, drawn, quality, message))
+    if (!setting_picture_open(&drawing, survey->renderer, drawn, quality, message))
         return false;
-    const DrawingError error = drawing_error(&drawing, exact);
+    const SettingError error = setting_picture_error(&drawing, exact);
     quality_text(quality, text);
     snprintf(caption, sizeof caption,
              "%s: %s. Interior: largest error %.2f, rms %.3f; all: rms %.2f. %s, LP_NUM_THREADS %s",
@@ -136,7 +136,7 @@ static bool write_sheet(Survey *survey, const char *name, const Scene *drawn,
              survey->like.renderer, survey->like.threads);
     const bool done = small ? report_pair(&drawing.image, exact, path, message)
                             : report_sheet(&drawing.image, exact, caption, path, message);
-    drawing_close(&drawing);
+    setting_picture_close(&drawing);
     return done;
 }
 
@@ -182,7 +182,7 @@ static bool write_sheets(Survey *survey, const Options *options, int number, con
     }
     if (pins)
         done = done && write_pins(survey, options, number, &made.scene, &exact, message);
-    studio_forget(survey->studio);
+    setting_renderer_forget(survey->renderer);
     reference_close(&exact);
     return done;
 }

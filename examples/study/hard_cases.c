@@ -10,7 +10,7 @@
 #include "base/output.h"
 #include "base/progress.h"
 #include "reference/picture_error.h"
-#include "study/cases/hard_cases_sheet.h"
+#include "study/cases/hard_sheet.h"
 #include "study/results/table.h"
 
 #include <math.h>
@@ -26,9 +26,12 @@ enum { WIDTH = 280, HEIGHT = 216, MIN_ROUNDS = 7, MAX_ROUNDS = 99, MAX_FRAMES = 
 static int asked = HARD_CASE_COUNT; /* all */
 static bool list, markdown;
 
+/* The cases, and the last: all of them. */
+static const char *names[HARD_CASE_COUNT + 2];
+
 static const Parameter parameters[] = {
     {"list", "list the cases", PARAMETER_FLAG, .value = &list},
-    {"case", "draw only this one", PARAMETER_CHOICE, .value = &asked, .choices = HARD_CASE_NAMES},
+    {"case", "draw only this one", PARAMETER_CHOICE, .value = &asked, .choices = names},
     {"markdown", "print the table as Markdown, with processor, driver and compiler", PARAMETER_FLAG,
      .value = &markdown},
     {.name = NULL},
@@ -242,8 +245,8 @@ static bool draw_cases(const Options *options, const Canvas *canvas, int from, i
     const int width = larger * options->width, height = larger * options->height;
     bool done = true;
     for (int i = 0; i < count && done; i++) {
-        snprintf(path, sizeof path, "%s/%s.png", options->output, HARD_CASES[from + i].name);
-        done = draw_case(&HARD_CASES[from + i], canvas, options, &results[i], message) &&
+        snprintf(path, sizeof path, "%s/%s.png", options->output, hard_case(from + i)->name);
+        done = draw_case(hard_case(from + i), canvas, options, &results[i], message) &&
                hard_sheet(&results[i], 1, 1, width, height, path, message);
         progress_update(&progress, i + 1, count + 1);
     }
@@ -307,13 +310,15 @@ int main(int argc, char *argv[])
     Options options;
     int code;
     Message message = {0};
+    for (int i = 0; i <= HARD_CASE_COUNT; i++)
+        names[i] = i < HARD_CASE_COUNT ? hard_case(i)->name : "all";
     if (!options_begin(&options, &usage, argc, argv, &code))
         return code;
     if (options.doctor)
         return options_finish(usage.name, doctor_run());
     if (list) {
         for (int i = 0; i < HARD_CASE_COUNT; i++)
-            printf("%-14s %s\n", HARD_CASES[i].name, HARD_CASES[i].what);
+            printf("%-14s %s\n", hard_case(i)->name, hard_case(i)->what);
         return options_finish(usage.name, 0);
     }
     if (!draw_and_report(&options, &message))

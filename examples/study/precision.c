@@ -8,7 +8,7 @@
 #include "app/doctor.h"
 #include "app/options.h"
 #include "base/output.h"
-#include "study/arithmetic/tell.h"
+#include "study/arithmetic/arithmetic_report.h"
 #include "study/results/table.h"
 
 #include <stdlib.h>
@@ -47,7 +47,7 @@ static bool write_json(const Arithmetics *found, const Forecast *forecast, const
     FILE *file = open_memstream(&text, &size);
     if (!file)
         return message_set(message, "precision.json: not enough memory");
-    tell_json(found, forecast, file);
+    arithmetic_json(found, forecast, file);
     const bool whole = !ferror(file), closed = fclose(file) == 0;
     if (!whole || !closed) {
         free(text);
@@ -80,7 +80,7 @@ static bool report(const Arithmetics *found, const Options *options, Message *me
     if (!forecast_make(found, options->height, &forecast, message) ||
         !write_json(found, &forecast, options->output, message))
         return false;
-    if (!tell_plot(found, options->output, &plot)) {
+    if (!arithmetic_plot(found, options->output, &plot)) {
         remove_plots(options->output);
         fprintf(stderr, "precision: no plot: %s\n", plot.text);
     }
@@ -90,7 +90,7 @@ static bool report(const Arithmetics *found, const Options *options, Message *me
         snprintf(driver, sizeof driver, "%s; %s", found->renderer, found->version);
         table_machine(driver, stdout);
     }
-    if (!tell_text(found, &forecast, markdown, stdout))
+    if (!arithmetic_text(found, &forecast, markdown, stdout))
         return message_set(message, "standard output: not enough memory for the tables");
     if (!markdown)
         printf("\nwrote %s/precision.json%s\n", options->output,

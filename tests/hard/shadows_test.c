@@ -4,7 +4,7 @@
  * the origin is, how the object is mirrored.
  */
 #include "hard/hard.h"
-#include "study/cases/hard_cases_list.h"
+#include "study/cases/hard_case.h"
 #include "support/oracle.h"
 #include "support/picture_check.h"
 #include "support/testing.h"
@@ -44,10 +44,10 @@ static void use_way(ShadowWay way)
 
 static void open_scene(const char *name)
 {
-    for (int i = HARD_FORMULA_COUNT; i < HARD_CASE_COUNT; i++) {
-        if (strcmp(HARD_CASES[i].name, name) != 0)
+    for (int i = 0; i < HARD_SHADOW_COUNT; i++) {
+        if (strcmp(HARD_SHADOWS[i].name, name) != 0)
             continue;
-        require(hard_scene_open(&made, &HARD_CASES[i], FAILURE), FAILURE);
+        require(hard_scene_open(&made, &HARD_SHADOWS[i], FAILURE), FAILURE);
         return;
     }
     fail_msg("%s: no hard case of shadows", name);
@@ -112,9 +112,9 @@ static void check(const char *name)
 
 TEST_WITH(0, every_case_is_exact_in_every_way, NULL, close_scene)
 {
-    for (int i = HARD_FORMULA_COUNT; i < HARD_CASE_COUNT; i++) {
-        open_scene(HARD_CASES[i].name);
-        check(HARD_CASES[i].name);
+    for (int i = 0; i < HARD_SHADOW_COUNT; i++) {
+        open_scene(HARD_SHADOWS[i].name);
+        check(HARD_SHADOWS[i].name);
         close_scene(NULL);
     }
     hard_report(&hard, "shadows");

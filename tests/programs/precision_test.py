@@ -13,7 +13,7 @@ import unittest
 import command_line_test as base
 
 PROGRAM = "precision"
-LIAR = os.path.join(base.EXAMPLES, "../tests/libliar.so")
+FALSE_DRIVER = os.path.join(base.EXAMPLES, "../tests/libfalse_driver.so")
 FEW = ("--inputs", "17")
 
 
@@ -80,23 +80,23 @@ class Precision(base.Case):
         self.assertIn("pow alone, shininess 128", text)
         self.assertEqual("mediump is computed as highp" in text, bits == 24)
 
-    @unittest.skipUnless(os.path.exists(LIAR), "without the driver that lies")
+    @unittest.skipUnless(os.path.exists(FALSE_DRIVER), "without the driver that lies")
     def test_a_highp_that_is_none_is_named(self):
         self.make("vendor.json", json.dumps({"file_format_version": "1.0.0",
-                                             "ICD": {"library_path": os.path.realpath(LIAR)}}))
+                                             "ICD": {"library_path": os.path.realpath(FALSE_DRIVER)}}))
         self.refused(1, rf"^{PROGRAM}: .*: highp of the fragment shader has fewer than 24 bits, "
                      "whatever the driver says", program=PROGRAM, environment={
                          "__EGL_VENDOR_LIBRARY_FILENAMES": self.path("vendor.json"),
-                         "LIGHTING_LIAR": "highp", "LIGHTING_BACKEND": "egl"})
+                         "LIGHTING_FALSE_DRIVER": "highp", "LIGHTING_BACKEND": "egl"})
 
-    @unittest.skipUnless(base.LONG and os.path.exists(LIAR), "takes as long as the others")
+    @unittest.skipUnless(base.LONG and os.path.exists(FALSE_DRIVER), "takes as long as the others")
     def test_false_claims_are_said(self):
         self.make("vendor.json", json.dumps({"file_format_version": "1.0.0",
-                                             "ICD": {"library_path": os.path.realpath(LIAR)}}))
+                                             "ICD": {"library_path": os.path.realpath(FALSE_DRIVER)}}))
         for lie, said in (("mediump", "of mediump in fragment shaders, says 11 bits, computes with 24"),
                           ("more", "of highp in vertex shaders, says 113 bits, computes with 24")):
             text = self.precision(*FEW, environment={
-                "__EGL_VENDOR_LIBRARY_FILENAMES": self.path("vendor.json"), "LIGHTING_LIAR": lie,
+                "__EGL_VENDOR_LIBRARY_FILENAMES": self.path("vendor.json"), "LIGHTING_FALSE_DRIVER": lie,
                 "LIGHTING_BACKEND": "egl"})
             self.assertIn(said, text)
 

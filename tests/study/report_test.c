@@ -1,7 +1,7 @@
 /*
  * report: tables line up, plots are whole files that gnuplot drew, sheets show what is different.
  */
-#include "study/cases/hard_cases_sheet.h"
+#include "study/cases/hard_sheet.h"
 #include "study/report/conclusions.h"
 #include "study/report/report.h"
 #include "study/report/report_labels.h"

@@ -23,8 +23,8 @@ typedef struct Model {
     double shininess;
     StudyScene made;
     Reference exact;
-    Drawing drawing;
-    DrawingError error;              /* of the drawn picture, from its own exact one */
+    SettingPicture drawing;
+    SettingError error;              /* of the drawn picture, from its own exact one */
     double apart_rms, apart_maximum; /* of the exact picture from Phong's exact one, inside */
     int operations;
     double milliseconds[ROUNDS];
@@ -33,15 +33,16 @@ typedef struct Model {
 static bool open_model(Survey *survey, Model *model, int number, double shininess, Message *message)
 {
     const Quality usual = quality_usual();
-    DrawingCounts counts;
+    SettingCounts counts;
     model->shininess = number == FITTED ? material_fitted_shininess(shininess) : shininess;
     study_shiny(&model->made, model->shininess,
                 number == PHONG ? REFLECTION_PHONG : REFLECTION_BLINN_PHONG);
     if (!survey_exact(survey, &model->made.scene, &model->exact, message) ||
-        !drawing_open(&model->drawing, survey->studio, &model->made.scene, &usual, message) ||
-        !drawing_counts(&model->drawing, survey->studio, &counts, message))
+        !setting_picture_open(&model->drawing, survey->renderer, &model->made.scene, &usual,
+                              message) ||
+        !setting_picture_counts(&model->drawing, survey->renderer, &counts, message))
         return false;
-    model->error = drawing_error(&model->drawing, &model->exact);
+    model->error = setting_picture_error(&model->drawing, &model->exact);
     model->operations = counts.fragment_operations;
     return true;
 }
@@ -68,11 +69,11 @@ static bool measure(Survey *survey, Model models[MODELS], Message *message)
 {
     for (int round = 0; round < ROUNDS; round++) {
         for (int i = 0; i < MODELS; i++) {
-            Drawing *drawing = &models[(i + round) % MODELS].drawing;
+            SettingPicture *drawing = &models[(i + round) % MODELS].drawing;
             double *milliseconds = &models[(i + round) % MODELS].milliseconds[round];
             double wall, gpu;
-            if (!drawing_frame(drawing, survey->studio, &wall, &gpu, message) ||
-                !drawing_frame(drawing, survey->studio, &wall, &gpu, message))
+            if (!setting_picture_frame(drawing, survey->renderer, &wall, &gpu, message) ||
+                !setting_picture_frame(drawing, survey->renderer, &wall, &gpu, message))
                 return false;
             *milliseconds = 1e3 * wall;
         }
@@ -128,10 +129,10 @@ static bool report_shininess(Survey *survey, double shininess, Table *table, FIL
     if (done)
         print_models(models, shininess, &survey->like, table, csv);
     for (int i = 0; i < MODELS && models; i++) {
-        drawing_close(&models[i].drawing);
+        setting_picture_close(&models[i].drawing);
         reference_close(&models[i].exact);
     }
-    studio_forget(survey->studio);
+    setting_renderer_forget(survey->renderer);
     free(models);
     return done;
 }

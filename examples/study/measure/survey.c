@@ -4,7 +4,7 @@
 #include "base/output.h"
 #include "base/progress.h"
 #include "study/measure/scenes.h"
-#include "study/measure/trials.h"
+#include "study/measure/setting_times.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -49,12 +49,12 @@ bool survey_open(Survey *survey, const Options *options, const SurveyPlan *plan,
     const char *threads = getenv("LP_NUM_THREADS");
     if (!output_folder(options->output, message) ||
         !shader_loader_check(&options->shaders, message) ||
-        !studio_open(&survey->studio, &options->shaders, options->canvas.backend, options->width,
-                     options->height, message))
+        !setting_renderer_open(&survey->renderer, &options->shaders, options->canvas.backend,
+                               options->width, options->height, message))
         return false;
     part_path(survey, plan->part, survey->path);
     snprintf(survey->like.renderer, sizeof survey->like.renderer, "%s; %s",
-             studio_renderer(survey->studio), studio_version(survey->studio));
+             setting_renderer_name(survey->renderer), setting_renderer_version(survey->renderer));
     snprintf(survey->like.threads, sizeof survey->like.threads, "%s",
              threads && threads[0] ? threads : "default");
     if (plan->fresh && !plan->merge && !drop(survey->path, message)) {
@@ -96,7 +96,7 @@ static bool is_common(Quality quality)
 static bool planned(const Survey *survey, int scene, QualityList *list, Message *message)
 {
     QualityList all;
-    bool done = trials_plan(survey->plan.quick, &all, message);
+    bool done = setting_times_plan(survey->plan.quick, &all, message);
     *list = (QualityList){.qualities = NULL};
     for (int i = 0; i < all.count && done; i++)
         if (!STUDY_SCENES[scene].few || is_common(all.qualities[i]))
@@ -130,31 +130,32 @@ typedef struct Work {
     int done, total;
 } Work;
 
-static Trials trials_of(Survey *survey, int scene, const StudyScene *made, const Reference *exact)
+static SettingTimes times_of(Survey *survey, int scene, const StudyScene *made,
+                             const Reference *exact)
 {
     const Quality usual = quality_usual();
-    Trials trials = {.studio = survey->studio,
-                     .scene = &made->scene,
-                     .exact = exact,
-                     .like = survey->like,
-                     .interrupted = &interrupted};
-    snprintf(trials.like.scene, sizeof trials.like.scene, "%s", STUDY_SCENES[scene].name);
-    const ResultRow *known = find_timed(survey, trials.like.scene, &usual);
+    SettingTimes times = {.renderer = survey->renderer,
+                          .scene = &made->scene,
+                          .exact = exact,
+                          .like = survey->like,
+                          .interrupted = &interrupted};
+    snprintf(times.like.scene, sizeof times.like.scene, "%s", STUDY_SCENES[scene].name);
+    const ResultRow *known = find_timed(survey, times.like.scene, &usual);
     if (known)
-        trials.usual = known->time;
-    return trials;
+        times.usual = known->time;
+    return times;
 }
 
-static bool measure_batches(Survey *survey, Trials *trials, const QualityList *list, Work *work,
-                            Message *message)
+static bool measure_batches(Survey *survey, SettingTimes *times, const QualityList *list,
+                            Work *work, Message *message)
 {
-    for (int first = 0; first < list->count; first += TRIALS_BATCH) {
-        ResultRow rows[TRIALS_BATCH];
+    for (int first = 0; first < list->count; first += SETTING_TIMES_BATCH) {
+        ResultRow rows[SETTING_TIMES_BATCH];
         const int left = list->count - first;
-        const int count = left < TRIALS_BATCH ? left : TRIALS_BATCH;
+        const int count = left < SETTING_TIMES_BATCH ? left : SETTING_TIMES_BATCH;
         const double seconds = work->deadline - clock_now();
-        if (!trials_measure(trials, list->qualities + first, count,
-                            seconds * count / (work->total - work->done), rows, message) ||
+        if (!setting_times_measure(times, list->qualities + first, count,
+                                   seconds * count / (work->total - work->done), rows, message) ||
             !results_append(survey->path, rows, count, message))
             return false;
         for (int i = 0; i < count; i++)
@@ -180,9 +181,9 @@ static bool survey_scene(Survey *survey, int scene, Work *work, Message *message
         quality_list_close(&list);
         return false;
     }
-    Trials trials = trials_of(survey, scene, &made, &exact);
-    const bool done = measure_batches(survey, &trials, &list, work, message);
-    studio_forget(survey->studio);
+    SettingTimes times = times_of(survey, scene, &made, &exact);
+    const bool done = measure_batches(survey, &times, &list, work, message);
+    setting_renderer_forget(survey->renderer);
     reference_close(&exact);
     quality_list_close(&list);
     return done;
@@ -313,8 +314,8 @@ bool survey_again(Survey *survey, int scene, const Quality *qualities, int count
 {
     enum { MIN_ROUNDS = 3 };
     static const double SECONDS = 4;
-    Quality all[TRIALS_BATCH] = {quality_usual()};
-    ResultRow measured[TRIALS_BATCH];
+    Quality all[SETTING_TIMES_BATCH] = {quality_usual()};
+    ResultRow measured[SETTING_TIMES_BATCH];
     StudyScene made;
     Reference exact;
     study_scene(scene, &made);
@@ -322,11 +323,11 @@ bool survey_again(Survey *survey, int scene, const Quality *qualities, int count
         return false;
     for (int i = 0; i < count; i++)
         all[1 + i] = qualities[i];
-    Trials trials = trials_of(survey, scene, &made, &exact);
-    trials.usual = 0; /* as of now */
-    trials.min_rounds = MIN_ROUNDS;
-    const bool done = trials_measure(&trials, all, 1 + count, SECONDS, measured, message);
-    studio_forget(survey->studio);
+    SettingTimes times = times_of(survey, scene, &made, &exact);
+    times.usual = 0; /* as of now */
+    times.min_rounds = MIN_ROUNDS;
+    const bool done = setting_times_measure(&times, all, 1 + count, SECONDS, measured, message);
+    setting_renderer_forget(survey->renderer);
     reference_close(&exact);
     for (int i = 0; i < count && done; i++)
         rows[i] = measured[1 + i];
@@ -337,7 +338,7 @@ void survey_close(Survey *survey)
 {
     if (!survey)
         return;
-    studio_close(survey->studio);
+    setting_renderer_close(survey->renderer);
     results_close(&survey->results);
-    *survey = (Survey){.studio = NULL};
+    *survey = (Survey){.renderer = NULL};
 }

@@ -6,7 +6,7 @@
 #define SURVEY_H
 
 #include "app/options.h"
-#include "study/measure/studio.h"
+#include "study/measure/setting_picture.h"
 #include "study/results/results.h"
 
 /* What to measure, and for which of several processes or machines. */
@@ -19,7 +19,7 @@ typedef struct SurveyPlan {
 } SurveyPlan;
 
 typedef struct Survey {
-    Studio *studio;
+    SettingRenderer *renderer;
     Results results; /* of this and of earlier surveys into the same folder */
     ResultRow like;  /* size, renderer, threads, seed */
     const char *folder;
@@ -43,8 +43,8 @@ bool survey_run(Survey *survey, const int *scenes, int count, Message *message);
  * scaled by that to the first one's, because parts may be of different machines. */
 bool survey_merge(Survey *survey, const int *scenes, int count, Message *message);
 
-/* Measures up to TRIALS_BATCH - 1 settings of one scene against each other, without keeping their
- * rows. */
+/* Measures up to SETTING_TIMES_BATCH - 1 settings of one scene against each other, without keeping
+ * their rows. */
 bool survey_again(Survey *survey, int scene, const Quality *qualities, int count, ResultRow *rows,
                   Message *message);
 

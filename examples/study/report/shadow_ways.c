@@ -72,7 +72,7 @@ static void make_scene(int number, StudyScene *made)
 /* One scene: drawn with and without shadows, and exactly. */
 typedef struct Subject {
     StudyScene made;
-    Drawing with, without;
+    SettingPicture with, without;
     Reference exact;
     unsigned char *near; /* of each pixel: within NEAR of a shadow's edge */
     int rounds;
@@ -112,13 +112,14 @@ static bool open_subject(Survey *survey, Subject *subject, int number, Message *
                                       .centers = true};
     Reference bare = {.width = 0};
     make_scene(number, &subject->made);
-    if (!drawing_open(&subject->with, survey->studio, &subject->made.scene, &usual, message))
+    if (!setting_picture_open(&subject->with, survey->renderer, &subject->made.scene, &usual,
+                              message))
         return false;
     subject->made.lights[0].shadows = false; /* of the next drawing; the first has a copy */
-    bool done =
-        drawing_open(&subject->without, survey->studio, &subject->made.scene, &usual, message) &&
-        reference_open(&subject->exact, &subject->with.made.scene, &options, message) &&
-        reference_open(&bare, &subject->without.made.scene, &options, message);
+    bool done = setting_picture_open(&subject->without, survey->renderer, &subject->made.scene,
+                                     &usual, message) &&
+                reference_open(&subject->exact, &subject->with.made.scene, &options, message) &&
+                reference_open(&bare, &subject->without.made.scene, &options, message);
     subject->near = calloc((size_t)(options.width * options.height), 1);
     if (done && !subject->near)
         done = message_set(message, "shadows: not enough memory");
@@ -131,11 +132,11 @@ static bool open_subject(Survey *survey, Subject *subject, int number, Message *
 
 static void close_subject(Survey *survey, Subject *subject)
 {
-    drawing_close(&subject->with);
-    drawing_close(&subject->without);
+    setting_picture_close(&subject->with);
+    setting_picture_close(&subject->without);
     reference_close(&subject->exact);
     free(subject->near);
-    studio_forget(survey->studio);
+    setting_renderer_forget(survey->renderer);
 }
 
 static ShadowTime time_of(double ratios[ROUNDS], int count)
@@ -145,13 +146,13 @@ static ShadowTime time_of(double ratios[ROUNDS], int count)
 }
 
 /* Where the processor draws, its time tells what a frame costs even if other programs run. */
-static bool time_frame(Survey *survey, Drawing *drawing, double *seconds, Message *message)
+static bool time_frame(Survey *survey, SettingPicture *drawing, double *seconds, Message *message)
 {
-    const char *renderer = studio_renderer(survey->studio);
+    const char *renderer = setting_renderer_name(survey->renderer);
     const bool software = strstr(renderer, "llvmpipe") || strstr(renderer, "softpipe");
     double wall, gpu;
     const double start = clock_processor();
-    if (!drawing_frame(drawing, survey->studio, &wall, &gpu, message))
+    if (!setting_picture_frame(drawing, survey->renderer, &wall, &gpu, message))
         return false;
     *seconds = software ? clock_processor() - start : wall;
     return true;
@@ -162,7 +163,7 @@ static bool measure_times(Survey *survey, Subject *subject, ShadowMeasured *meas
                           Message *message)
 {
     double still[ROUNDS], moving[ROUNDS], none, with, moved;
-    Drawing *drawing = &subject->with;
+    SettingPicture *drawing = &subject->with;
     for (int i = 0; i < subject->rounds; i++) {
         if (!time_frame(survey, &subject->without, &none, message) ||
             !time_frame(survey, drawing, &with, message))
@@ -184,10 +185,10 @@ static bool measure_way(Survey *survey, Subject *subject, const ShadowSettings *
     PictureError error = {.all = {0}};
     ErrorSum near = {0};
     double wall, gpu;
-    const Drawing *drawing = &subject->with;
+    const SettingPicture *drawing = &subject->with;
     const Reference *exact = &subject->exact;
     lighting_use_shadows(drawing->lighting, settings);
-    if (!drawing_frame(&subject->with, survey->studio, &wall, &gpu, message))
+    if (!setting_picture_frame(&subject->with, survey->renderer, &wall, &gpu, message))
         return false;
     picture_error_add(&error, &drawing->image,
                       &(ExactView){.exact = exact, .scene = &drawing->made.scene});

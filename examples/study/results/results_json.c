@@ -1,6 +1,6 @@
 #include "base/output.h"
 #include "study/results/json.h"
-#include "study/results/results_row.h"
+#include "study/results/results.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -1,10 +1,32 @@
 /*
- * results_row: formats and parses a row of results.
+ * results_row: a row of results, as text and from it.
  */
 #ifndef RESULTS_ROW_H
 #define RESULTS_ROW_H
 
-#include "study/results/results.h"
+#include "scene/quality.h"
+
+enum { RESULT_RUNS = 3 };
+
+/* Errors in steps of 1/255: `interior` of the pixels inside an object in both the exact and the
+ * drawn picture, `all` of every pixel. Times in milliseconds. Unknown: NAN, or -1 for counts. */
+typedef struct ResultRow {
+    char scene[32];
+    Quality quality;
+    int width, height;
+    double interior_rms, interior_maximum, all_rms, all_maximum;
+    int interior_pixels;
+    double time, time_lower, time_upper; /* of a frame, drawn and read back: median, quartiles */
+    double run_times[RESULT_RUNS];       /* the medians of the three runs */
+    double net_time;                     /* less the time of a frame that draws nothing */
+    double gpu_time;                     /* by the driver's timer */
+    double noise;                        /* of the times, as a fraction, from the A/A measurement */
+    long long vertices, fragments;       /* of a frame; visible fragments */
+    int vertex_operations, fragment_operations; /* of the costliest program */
+    unsigned seed;                              /* of the order of measuring */
+    char renderer[96];
+    char threads[16]; /* LP_NUM_THREADS, or "default" */
+} ResultRow;
 
 /* A field is text, a choice on an axis, or a number. */
 typedef enum ColumnKind {

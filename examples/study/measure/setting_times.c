@@ -1,4 +1,4 @@
-#include "study/measure/trials.h"
+#include "study/measure/setting_times.h"
 
 #include "base/clock.h"
 #include "base/random.h"
@@ -116,7 +116,7 @@ static bool add_cheaper(QualityList *list, int interpolation, const char *const 
     return true;
 }
 
-bool trials_plan(bool quick, QualityList *list, Message *message)
+bool setting_times_plan(bool quick, QualityList *list, Message *message)
 {
     static const char *const PHONG_DIVISIONS[] = {"12", "16", "24", "32", "64", "128", NULL};
     static const char *const GOURAUD_DIVISIONS[] = {"24", "48", "96", "192", NULL};
@@ -150,35 +150,36 @@ bool trials_plan(bool quick, QualityList *list, Message *message)
 /* Measuring. */
 
 /* Timed are the settings of a batch, followed by: */
-enum { USUAL = TRIALS_BATCH, AGAIN, EMPTY, TIMED };
+enum { USUAL = SETTING_TIMES_BATCH, AGAIN, EMPTY, TIMED };
 
 typedef struct Timed {
-    int rounds;                                  /* of each run */
-    double wall[RESULT_RUNS][TRIALS_MAX_ROUNDS]; /* seconds */
-    double gpu[RESULT_RUNS * TRIALS_MAX_ROUNDS];
+    int rounds;                                         /* of each run */
+    double wall[RESULT_RUNS][SETTING_TIMES_MAX_ROUNDS]; /* seconds */
+    double gpu[RESULT_RUNS * SETTING_TIMES_MAX_ROUNDS];
     int gpu_count;
 } Timed;
 
 typedef struct Batch {
-    Drawing drawings[USUAL + 1];
+    SettingPicture drawings[USUAL + 1];
     Timed timed[TIMED];
     int count;
 } Batch;
 
-static bool visit(Trials *trials, Batch *batch, int number, int run, int round, Message *message)
+static bool visit(SettingTimes *times, Batch *batch, int number, int run, int round,
+                  Message *message)
 {
     Timed *timed = &batch->timed[number];
     double wall = 0, gpu = NAN;
     if (round >= timed->rounds)
         return true;
     if (number == EMPTY) {
-        if (!drawing_empty(&batch->drawings[USUAL], trials->studio, &wall, message) ||
-            !drawing_empty(&batch->drawings[USUAL], trials->studio, &wall, message))
+        if (!setting_picture_empty(&batch->drawings[USUAL], times->renderer, &wall, message) ||
+            !setting_picture_empty(&batch->drawings[USUAL], times->renderer, &wall, message))
             return false;
     } else {
-        Drawing *drawing = &batch->drawings[number < USUAL ? number : USUAL];
-        if (!drawing_frame(drawing, trials->studio, &wall, &gpu, message) ||
-            !drawing_frame(drawing, trials->studio, &wall, &gpu, message))
+        SettingPicture *drawing = &batch->drawings[number < USUAL ? number : USUAL];
+        if (!setting_picture_frame(drawing, times->renderer, &wall, &gpu, message) ||
+            !setting_picture_frame(drawing, times->renderer, &wall, &gpu, message))
             return false;
     }
     timed->wall[run][round] = wall;
@@ -187,9 +188,9 @@ static bool visit(Trials *trials, Batch *batch, int number, int run, int round, 
     return true;
 }
 
-static bool run_rounds(Trials *trials, Batch *batch, Message *message)
+static bool run_rounds(SettingTimes *times, Batch *batch, Message *message)
 {
-    Random random = {trials->like.seed};
+    Random random = {times->like.seed};
     int order[TIMED], max = 0, count = 0;
     for (int i = 0; i < TIMED; i++) {
         if (i >= batch->count && i < USUAL)
@@ -205,7 +206,7 @@ static bool run_rounds(Trials *trials, Batch *batch, Message *message)
                 order[k] = kept;
             }
             for (int i = 0; i < count; i++) {
-                if (*trials->interrupted || !visit(trials, batch, order[i], run, round, message))
+                if (*times->interrupted || !visit(times, batch, order[i], run, round, message))
                     return false;
             }
         }
@@ -220,9 +221,9 @@ static void share_rounds(Batch *batch, const double *frames, double seconds, int
     int max = 2; /* of the usual one, for the noise */
     for (int i = 0; i < batch->count; i++) {
         const double rounds = share / frames[i];
-        batch->timed[i].rounds = rounds < min_rounds          ? min_rounds
-                                 : rounds > TRIALS_MAX_ROUNDS ? TRIALS_MAX_ROUNDS
-                                                              : (int)rounds;
+        batch->timed[i].rounds = rounds < min_rounds                 ? min_rounds
+                                 : rounds > SETTING_TIMES_MAX_ROUNDS ? SETTING_TIMES_MAX_ROUNDS
+                                                                     : (int)rounds;
         max = batch->timed[i].rounds > max ? batch->timed[i].rounds : max;
     }
     for (int i = USUAL; i < TIMED; i++)
@@ -240,7 +241,7 @@ static int ratios_of(const Batch *batch, int number, int run, double *ratios)
 
 static double median_ratio(const Batch *batch, int number, double *lower, double *upper)
 {
-    double all[RESULT_RUNS * TRIALS_MAX_ROUNDS];
+    double all[RESULT_RUNS * SETTING_TIMES_MAX_ROUNDS];
     int count = 0;
     for (int run = 0; run < RESULT_RUNS; run++)
         count += ratios_of(batch, number, run, all + count);
@@ -266,7 +267,7 @@ static double fastest(const Batch *batch, int number)
 {
     static const double SHARE = 0.1;
     const Timed *timed = &batch->timed[number];
-    double all[RESULT_RUNS * TRIALS_MAX_ROUNDS];
+    double all[RESULT_RUNS * SETTING_TIMES_MAX_ROUNDS];
     int count = 0;
     for (int run = 0; run < RESULT_RUNS; run++)
         for (int i = 0; i < timed->rounds; i++)
@@ -300,7 +301,7 @@ static double ratio_of(const Batch *batch, int number, bool noisy, double *lower
     return noisy ? 1e3 * fastest(batch, number) / usual_milliseconds(batch) : median;
 }
 
-static void fill_times(const Trials *trials, Batch *batch, int number, ResultRow *row)
+static void fill_times(const SettingTimes *times, Batch *batch, int number, ResultRow *row)
 {
     static const double NOISY = 0.05;
     const Quality usual = quality_usual();
@@ -310,21 +311,21 @@ static void fill_times(const Trials *trials, Batch *batch, int number, ResultRow
     row->noise = noise_of(batch, from);
     const bool noisy = row->noise > NOISY;
     const double ratio = ratio_of(batch, from, noisy, &lower, &upper);
-    row->time = from == AGAIN ? trials->usual : trials->usual * ratio;
-    row->time_lower = fmin(trials->usual * lower, row->time);
-    row->time_upper = fmax(trials->usual * upper, row->time);
+    row->time = from == AGAIN ? times->usual : times->usual * ratio;
+    row->time_lower = fmin(times->usual * lower, row->time);
+    row->time_upper = fmax(times->usual * upper, row->time);
     for (int run = 0; run < RESULT_RUNS; run++) {
-        double ratios[TRIALS_MAX_ROUNDS];
+        double ratios[SETTING_TIMES_MAX_ROUNDS];
         const int count = ratios_of(batch, from, run, ratios);
-        row->run_times[run] = trials->usual * clock_median(ratios, count);
+        row->run_times[run] = times->usual * clock_median(ratios, count);
     }
     row->net_time =
-        row->time - trials->usual * ratio_of(batch, EMPTY, noisy, &ignored[0], &ignored[1]);
+        row->time - times->usual * ratio_of(batch, EMPTY, noisy, &ignored[0], &ignored[1]);
     row->gpu_time = gpu_milliseconds(batch, number);
 }
 
 /* The approximate time of a frame: of some, unless that takes long, the one disturbed least. */
-static bool estimate(Trials *trials, Drawing *drawing, double *frame, Message *message)
+static bool estimate(SettingTimes *times, SettingPicture *drawing, double *frame, Message *message)
 {
     enum { FRAMES = 4 };
     static const double LONG = 0.05;
@@ -332,7 +333,7 @@ static bool estimate(Trials *trials, Drawing *drawing, double *frame, Message *m
     *frame = INFINITY;
     for (int i = 0; i < FRAMES && spent < LONG; i++) {
         double wall, gpu;
-        if (!drawing_frame(drawing, trials->studio, &wall, &gpu, message))
+        if (!setting_picture_frame(drawing, times->renderer, &wall, &gpu, message))
             return false;
         *frame = fmin(*frame, wall);
         spent += wall;
@@ -341,16 +342,16 @@ static bool estimate(Trials *trials, Drawing *drawing, double *frame, Message *m
 }
 
 /* Fills everything but times, and gives the approximate time of a frame. */
-static bool look_at(Trials *trials, Drawing *drawing, ResultRow *row, double *frame,
+static bool look_at(SettingTimes *times, SettingPicture *drawing, ResultRow *row, double *frame,
                     Message *message)
 {
-    DrawingCounts counts;
-    *row = trials->like;
+    SettingCounts counts;
+    *row = times->like;
     row->quality = drawing->quality;
-    if (!estimate(trials, drawing, frame, message) ||
-        !drawing_counts(drawing, trials->studio, &counts, message))
+    if (!estimate(times, drawing, frame, message) ||
+        !setting_picture_counts(drawing, times->renderer, &counts, message))
         return false;
-    const DrawingError error = drawing_error(drawing, trials->exact);
+    const SettingError error = setting_picture_error(drawing, times->exact);
     row->interior_rms = error.interior_rms;
     row->interior_maximum = error.interior_maximum;
     row->all_rms = error.all_rms;
@@ -363,34 +364,35 @@ static bool look_at(Trials *trials, Drawing *drawing, ResultRow *row, double *fr
     return true;
 }
 
-bool trials_measure(Trials *trials, const Quality *qualities, int count, double seconds,
-                    ResultRow *rows, Message *message)
+bool setting_times_measure(SettingTimes *times, const Quality *qualities, int count, double seconds,
+                           ResultRow *rows, Message *message)
 {
     const Quality usual = quality_usual();
     const double start = clock_now();
-    double frames[TRIALS_BATCH];
+    double frames[SETTING_TIMES_BATCH];
     bool done = true;
     Batch *batch = calloc(1, sizeof *batch);
     if (!batch)
         return message_set(message, "study: not enough memory");
     batch->count = count;
-    for (int i = 0; i < count && done && !*trials->interrupted; i++)
-        done = drawing_open(&batch->drawings[i], trials->studio, trials->scene, &qualities[i],
-                            message) &&
-               look_at(trials, &batch->drawings[i], &rows[i], &frames[i], message);
-    done = done && !*trials->interrupted &&
-           drawing_open(&batch->drawings[USUAL], trials->studio, trials->scene, &usual, message);
+    for (int i = 0; i < count && done && !*times->interrupted; i++)
+        done = setting_picture_open(&batch->drawings[i], times->renderer, times->scene,
+                                    &qualities[i], message) &&
+               look_at(times, &batch->drawings[i], &rows[i], &frames[i], message);
+    done = done && !*times->interrupted &&
+           setting_picture_open(&batch->drawings[USUAL], times->renderer, times->scene, &usual,
+                                message);
     if (done) {
         share_rounds(batch, frames, seconds - (clock_now() - start),
-                     trials->min_rounds > 1 ? trials->min_rounds : 1);
-        done = run_rounds(trials, batch, message);
+                     times->min_rounds > 1 ? times->min_rounds : 1);
+        done = run_rounds(times, batch, message);
     }
-    if (done && trials->usual == 0)
-        trials->usual = usual_milliseconds(batch);
+    if (done && times->usual == 0)
+        times->usual = usual_milliseconds(batch);
     for (int i = 0; i < count && done; i++)
-        fill_times(trials, batch, i, &rows[i]);
+        fill_times(times, batch, i, &rows[i]);
     for (int i = 0; i <= USUAL; i++)
-        drawing_close(&batch->drawings[i]);
+        setting_picture_close(&batch->drawings[i]);
     free(batch);
     return done;
 }

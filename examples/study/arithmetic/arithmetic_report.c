@@ -1,4 +1,4 @@
-#include "study/arithmetic/tell.h"
+#include "study/arithmetic/arithmetic_report.h"
 
 #include "scene/quality.h"
 #include "study/arithmetic/predict.h"
@@ -32,7 +32,7 @@ bool forecast_make(const Arithmetics *found, int height, Forecast *forecast, Mes
     static const struct {
         const char *what, *scene;
         Interpolation interpolation;
-    } classes[TELL_SCENES] = {
+    } classes[FORECAST_SCENES] = {
         {"diffuse, lit per vertex", "sphere", INTERPOLATION_GOURAUD},
         {"highlight of shininess 32, lit per vertex", "shiny32", INTERPOLATION_GOURAUD},
         {"diffuse, lit per fragment", "sphere", INTERPOLATION_PHONG},
@@ -42,16 +42,16 @@ bool forecast_make(const Arithmetics *found, int height, Forecast *forecast, Mes
         {"a soft spot that fades", "spot", INTERPOLATION_PHONG},
         {"a scene 300 units wide", "wide", INTERPOLATION_PHONG},
     };
-    static const double shininesses[TELL_SHININESSES] = {8, 32, 128};
+    static const double shininesses[FORECAST_SHININESSES] = {8, 32, 128};
     SolidMeshes meshes = {.first = NULL};
     bool done = true;
     forecast->height = height;
-    for (int i = 0; i < TELL_SCENES && done; i++) {
+    for (int i = 0; i < FORECAST_SCENES && done; i++) {
         forecast->scenes[i] = classes[i].what;
         done = forecast_scene(found, height, classes[i].scene, classes[i].interpolation, &meshes,
                               forecast->steps[i], message);
     }
-    for (int i = 0; i < TELL_SHININESSES; i++) {
+    for (int i = 0; i < FORECAST_SHININESSES; i++) {
         forecast->shininess[i] = shininesses[i];
         for (int k = 0; k < 2; k++)
             forecast->power[i][k] = predict_pow(&found->of[METER_FRAGMENT][k], shininesses[i]);
@@ -112,7 +112,7 @@ static void columns_of(const Arithmetics *found, Columns *columns)
 static const char *const ROUNDING_NAMES[] = {"nearest, ties to even", "nearest", "towards 0",
                                              "other"};
 
-static bool tell_formats(const Columns *columns, bool markdown, FILE *file)
+static bool put_formats(const Columns *columns, bool markdown, FILE *file)
 {
     Table table;
     table_open(&table, "floats|bits|normal range|smaller ones|rounding|overflow|inf - inf");
@@ -135,7 +135,7 @@ static void error_text(const Accuracy *accuracy, char text[64])
                  accuracy_mean(accuracy));
 }
 
-static bool tell_functions(const Columns *columns, bool markdown, FILE *file)
+static bool put_functions(const Columns *columns, bool markdown, FILE *file)
 {
     Table table;
     char row[WAYS * 96] = "error in units: largest, mean";
@@ -164,7 +164,7 @@ static bool tell_functions(const Columns *columns, bool markdown, FILE *file)
     return table_close(&table, markdown, file);
 }
 
-static void tell_raster(const Raster *raster, FILE *file)
+static void put_raster(const Raster *raster, FILE *file)
 {
     fprintf(file,
             "A varying is up to %.1f units off in a large triangle, %.1f where the depth varies "
@@ -185,24 +185,24 @@ static void tell_raster(const Raster *raster, FILE *file)
         raster->depth_bits, raster->depth_step, raster->depth_error, raster->bytes);
 }
 
-static bool tell_forecast(const Forecast *forecast, bool markdown, FILE *file)
+static bool put_forecast(const Forecast *forecast, bool markdown, FILE *file)
 {
     Table table;
     char head[96];
     snprintf(head, sizeof head, "in pictures of %d rows, at most, in steps of 1/255|highp|mediump",
              forecast->height);
     table_open(&table, head);
-    for (int i = 0; i < TELL_SCENES; i++)
+    for (int i = 0; i < FORECAST_SCENES; i++)
         table_row(&table, "%s|%.2f|%.*f", forecast->scenes[i], forecast->steps[i][0],
                   forecast->steps[i][1] < 10 ? 2 : 0, forecast->steps[i][1]);
-    for (int i = 0; i < TELL_SHININESSES; i++)
+    for (int i = 0; i < FORECAST_SHININESSES; i++)
         table_row(&table, "pow alone, shininess %g|%.2g|%.2g", forecast->shininess[i],
                   forecast->power[i][0], forecast->power[i][1]);
     return table_close(&table, markdown, file);
 }
 
 /* What a precision that is declared really is, and what it is said to be. */
-static void tell_meaning(const Arithmetics *found, FILE *file)
+static void put_meaning(const Arithmetics *found, FILE *file)
 {
     const Arithmetic *high = &found->of[METER_FRAGMENT][METER_HIGHP];
     const Arithmetic *medium = &found->of[METER_FRAGMENT][METER_MEDIUMP];
@@ -226,7 +226,7 @@ static void tell_meaning(const Arithmetics *found, FILE *file)
         }
 }
 
-bool tell_text(const Arithmetics *found, const Forecast *forecast, bool markdown, FILE *file)
+bool arithmetic_text(const Arithmetics *found, const Forecast *forecast, bool markdown, FILE *file)
 {
     Columns columns;
     columns_of(found, &columns);
@@ -237,18 +237,18 @@ bool tell_text(const Arithmetics *found, const Forecast *forecast, bool markdown
             "last place.\n\n",
             found->inputs,
             truth_is_checked() ? "doubles, checked with MPFR" : "doubles (built without MPFR)");
-    if (!tell_formats(&columns, markdown, file))
+    if (!put_formats(&columns, markdown, file))
         return false;
     fputc('\n', file);
-    if (!tell_functions(&columns, markdown, file))
+    if (!put_functions(&columns, markdown, file))
         return false;
     fputc('\n', file);
-    tell_raster(&found->raster, file);
+    put_raster(&found->raster, file);
     fputc('\n', file);
-    if (!tell_forecast(forecast, markdown, file))
+    if (!put_forecast(forecast, markdown, file))
         return false;
     fputc('\n', file);
-    tell_meaning(found, file);
+    put_meaning(found, file);
     return true;
 }
 
@@ -269,7 +269,7 @@ static void put_flag(FILE *file, const char *name, bool value, bool last)
     fprintf(file, "\"%s\": %s%s", name, value ? "true" : "false", last ? "" : ", ");
 }
 
-static void put_arithmetic(const Arithmetic *of, FILE *file)
+static void put_arithmetic_json(const Arithmetic *of, FILE *file)
 {
     const Format *format = &of->format;
     fputs("{", file);
@@ -295,7 +295,7 @@ static void put_arithmetic(const Arithmetic *of, FILE *file)
     }
 }
 
-static void put_raster(const Raster *raster, FILE *file)
+static void put_raster_json(const Raster *raster, FILE *file)
 {
     fputs("  \"raster\": {", file);
     put_number(file, "varying", raster->flat, false);
@@ -313,7 +313,7 @@ static void put_raster(const Raster *raster, FILE *file)
     fputs("},\n", file);
 }
 
-void tell_json(const Arithmetics *found, const Forecast *forecast, FILE *file)
+void arithmetic_json(const Arithmetics *found, const Forecast *forecast, FILE *file)
 {
     fputs("{\n  \"renderer\": ", file);
     json_put_string(file, found->renderer);
@@ -324,24 +324,24 @@ void tell_json(const Arithmetics *found, const Forecast *forecast, FILE *file)
         fprintf(file, "  \"%s\": {\n", METER_STAGE_NAMES[stage]);
         for (int precision = 0; precision < METER_PRECISIONS; precision++) {
             fprintf(file, "    \"%s\": ", METER_PRECISION_NAMES[precision]);
-            put_arithmetic(&found->of[stage][precision], file);
+            put_arithmetic_json(&found->of[stage][precision], file);
             fputs(precision + 1 < METER_PRECISIONS ? ",\n" : "\n  },\n", file);
         }
     }
-    put_raster(&found->raster, file);
+    put_raster_json(&found->raster, file);
     fprintf(file, "  \"picture_height\": %d,\n  \"pictures\": {\n", forecast->height);
-    for (int i = 0; i < TELL_SCENES; i++)
+    for (int i = 0; i < FORECAST_SCENES; i++)
         fprintf(file, "    \"%s\": {\"highp\": %.4f, \"mediump\": %.4f},\n", forecast->scenes[i],
                 forecast->steps[i][0], forecast->steps[i][1]);
-    for (int i = 0; i < TELL_SHININESSES; i++) {
+    for (int i = 0; i < FORECAST_SHININESSES; i++) {
         fprintf(file, "    \"pow alone, shininess %g\": {", forecast->shininess[i]);
         put_number(file, "highp", forecast->power[i][0], false);
         put_number(file, "mediump", forecast->power[i][1], true);
-        fputs(i + 1 < TELL_SHININESSES ? "},\n" : "}\n  }\n}\n", file);
+        fputs(i + 1 < FORECAST_SHININESSES ? "},\n" : "}\n  }\n}\n", file);
     }
 }
 
-bool tell_plot(const Arithmetics *found, const char *folder, Message *message)
+bool arithmetic_plot(const Arithmetics *found, const char *folder, Message *message)
 {
     enum { SERIES = 7 };
     static const struct {

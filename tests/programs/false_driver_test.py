@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""A driver that lies about its precision (tests/support/liar.c): nothing believes it.
+"""A driver that lies about its precision (tests/support/false_driver.c): nothing believes it.
 
-usage: liar_test.py EXAMPLES_FOLDER_OF_THE_BUILD SOURCE_FOLDER [unittest's arguments]
+usage: false_driver_test.py EXAMPLES_FOLDER_OF_THE_BUILD SOURCE_FOLDER [unittest's arguments]
 """
 import json
 import os
@@ -11,7 +11,7 @@ import unittest
 
 import command_line_test as base
 
-LIAR = os.path.join(base.EXAMPLES, "../tests/libliar.so")
+FALSE_DRIVER = os.path.join(base.EXAMPLES, "../tests/libfalse_driver.so")
 LIES = ("highp", "mediump", "none", "more")
 PROGRAMS = ("PointLightedSphere_perFragment", "PhongBlinn", "Materials")
 
@@ -20,11 +20,11 @@ class Lies(base.Case):
     def setUp(self):
         super().setUp()
         self.make("vendor.json", json.dumps({"file_format_version": "1.0.0",
-                                             "ICD": {"library_path": os.path.realpath(LIAR)}}))
+                                             "ICD": {"library_path": os.path.realpath(FALSE_DRIVER)}}))
         self.own = {"XDG_CACHE_HOME": self.path("cache")}
 
     def lying(self, lie):
-        return {"__EGL_VENDOR_LIBRARY_FILENAMES": self.path("vendor.json"), "LIGHTING_LIAR": lie,
+        return {"__EGL_VENDOR_LIBRARY_FILENAMES": self.path("vendor.json"), "LIGHTING_FALSE_DRIVER": lie,
                 "XDG_CACHE_HOME": self.path("cache", lie), "LIGHTING_BACKEND": "egl"}
 
     def pixels(self, program, precision, lie=None):

@@ -1,8 +1,8 @@
 /*
- * hard_cases_list: the hard cases: scenes, and the plain formula that fails on each.
+ * hard_case: scenes on which a plain formula fails.
  */
-#ifndef HARD_CASES_LIST_H
-#define HARD_CASES_LIST_H
+#ifndef HARD_CASE_H
+#define HARD_CASE_H
 
 #include "lighting/lighting.h"
 
@@ -33,16 +33,15 @@ typedef struct HardCase {
     int width, height;      /* of the picture, which is then enlarged; 0: the user's */
 } HardCase;
 
-/* Those of shadows are the last. */
 enum { HARD_FORMULA_COUNT = 20, HARD_SHADOW_COUNT = 9 };
 enum { HARD_CASE_COUNT = HARD_FORMULA_COUNT + HARD_SHADOW_COUNT };
-extern const HardCase HARD_CASES[HARD_CASE_COUNT];
+extern const HardCase HARD_FORMULAS[HARD_FORMULA_COUNT], HARD_SHADOWS[HARD_SHADOW_COUNT];
 
-/* Their names and "all", NULL-terminated, for a PARAMETER_CHOICE. */
-extern const char *const HARD_CASE_NAMES[HARD_CASE_COUNT + 2];
+/* By number; those of shadows are the last. */
+const HardCase *hard_case(int number);
 
 /* Makes a case's scenes; call hard_scene_close even on failure. */
-bool hard_scene_open(HardScene *made, const HardCase *hard_case, Message *message);
+bool hard_scene_open(HardScene *made, const HardCase *of, Message *message);
 void hard_scene_close(HardScene *made);
 
 #endif

@@ -1,8 +1,8 @@
 /*
- * liar: a driver that lies about its precision, for tests of programs.
+ * false_driver: a driver that lies about its precision, for tests of programs.
  *
  * An EGL vendor library of GLVND, to be named by __EGL_VENDOR_LIBRARY_FILENAMES: it is Mesa's, but
- * for two functions. LIGHTING_LIAR in the environment says what it does:
+ * for two functions. LIGHTING_FALSE_DRIVER in the environment says what it does:
  *
  *   highp     claims 23 bits everywhere, and computes highp in fragment shaders as mediump
  *   mediump   claims 10 bits for mediump, and computes it as highp
@@ -31,7 +31,7 @@ static void *(*address)(const char *name); /* Mesa's */
 
 static const char *lie(void)
 {
-    const char *name = getenv("LIGHTING_LIAR");
+    const char *name = getenv("LIGHTING_FALSE_DRIVER");
     return name ? name : "";
 }
 

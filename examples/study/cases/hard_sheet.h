@@ -1,12 +1,12 @@
 /*
- * hard_cases_sheet: pictures of hard cases, side by side.
+ * hard_sheet: pictures of hard cases, side by side.
  */
-#ifndef HARD_CASES_SHEET_H
-#define HARD_CASES_SHEET_H
+#ifndef HARD_SHEET_H
+#define HARD_SHEET_H
 
 #include "images/image_file.h"
 #include "reference/reference.h"
-#include "study/cases/hard_cases_list.h"
+#include "study/cases/hard_case.h"
 
 /* The error of a picture inside the objects. */
 typedef struct HardError {

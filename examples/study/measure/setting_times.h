@@ -1,5 +1,5 @@
 /*
- * trials: measures settings of a scene against each other.
+ * setting_times: measures settings of a scene against each other.
  *
  * Settings are measured in batches, together with the usual setting, twice (the A/A noise), and
  * with a frame that draws nothing. Each round visits all of them in random order and draws one
@@ -8,13 +8,13 @@
  * usual one's at the start of the scene: neither a machine that slows down nor other programs
  * change much.
  */
-#ifndef TRIALS_H
-#define TRIALS_H
+#ifndef SETTING_TIMES_H
+#define SETTING_TIMES_H
 
-#include "study/measure/studio.h"
+#include "study/measure/setting_picture.h"
 #include "study/results/results.h"
 
-enum { TRIALS_BATCH = 16, TRIALS_MAX_ROUNDS = 9 };
+enum { SETTING_TIMES_BATCH = 16, SETTING_TIMES_MAX_ROUNDS = 9 };
 
 /* A set of settings, in order of insertion. */
 typedef struct QualityList {
@@ -26,10 +26,10 @@ void quality_list_close(QualityList *list);
 
 /* The settings to measure for a scene: the usual one; each other choice of each axis; useful
  * combinations. `quick`: a tenth of them. */
-bool trials_plan(bool quick, QualityList *list, Message *message);
+bool setting_times_plan(bool quick, QualityList *list, Message *message);
 
-typedef struct Trials {
-    Studio *studio;
+typedef struct SettingTimes {
+    SettingRenderer *renderer;
     const Scene *scene;
     const Reference *exact;
     ResultRow like; /* scene, size, renderer, threads, seed */
@@ -37,12 +37,12 @@ typedef struct Trials {
     int min_rounds; /* of each run; 0: 1 */
     /* Set by a signal handler: stop. */
     const volatile int *interrupted;
-} Trials;
+} SettingTimes;
 
-/* Measures up to TRIALS_BATCH settings in about `seconds` and writes a row for each. False on
- * failure or interruption (with an empty message). Sets trials->usual if that is 0; the usual
+/* Measures up to SETTING_TIMES_BATCH settings in about `seconds` and writes a row for each. False
+ * on failure or interruption (with an empty message). Sets times->usual if that is 0; the usual
  * setting must then be among `qualities`. */
-bool trials_measure(Trials *trials, const Quality *qualities, int count, double seconds,
-                    ResultRow *rows, Message *message);
+bool setting_times_measure(SettingTimes *times, const Quality *qualities, int count, double seconds,
+                           ResultRow *rows, Message *message);
 
 #endif

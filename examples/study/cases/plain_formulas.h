@@ -1,8 +1,8 @@
 /*
- * hard_cases_naive: formulas as they are usually written, which fail.
+ * plain_formulas: formulas as they are usually written, which fail.
  */
-#ifndef HARD_CASES_NAIVE_H
-#define HARD_CASES_NAIVE_H
+#ifndef PLAIN_FORMULAS_H
+#define PLAIN_FORMULAS_H
 
 #include "lighting/lighting.h"
 

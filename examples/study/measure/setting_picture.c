@@ -1,4 +1,4 @@
-#include "study/measure/studio.h"
+#include "study/measure/setting_picture.h"
 
 #include "base/clock.h"
 #include "reference/picture_error.h"
@@ -17,7 +17,7 @@ typedef struct Counted {
     int operations;
 } Counted;
 
-struct Studio {
+struct SettingRenderer {
     ShaderLoader loader;
     int width, height;
     Canvas first; /* owns the context */
@@ -37,19 +37,19 @@ struct Studio {
     int counted_count[2];
 };
 
-bool studio_open(Studio **opened, const ShaderLoader *loader, const CanvasBackend *backend,
-                 int width, int height, Message *message)
+bool setting_renderer_open(SettingRenderer **opened, const ShaderLoader *loader,
+                           const CanvasBackend *backend, int width, int height, Message *message)
 {
-    Studio *studio = calloc(1, sizeof *studio);
-    *opened = studio;
-    if (!studio)
+    SettingRenderer *renderer = calloc(1, sizeof *renderer);
+    *opened = renderer;
+    if (!renderer)
         return message_set(message, "study: not enough memory");
     const CanvasOptions options = {.backend = backend, .width = width, .height = height};
-    studio->loader = *loader;
-    studio->width = width;
-    studio->height = height;
-    if (!canvas_open(&studio->first, &options, message)) {
-        studio_close(studio);
+    renderer->loader = *loader;
+    renderer->width = width;
+    renderer->height = height;
+    if (!canvas_open(&renderer->first, &options, message)) {
+        setting_renderer_close(renderer);
         *opened = NULL;
         return false;
     }
@@ -57,125 +57,128 @@ bool studio_open(Studio **opened, const ShaderLoader *loader, const CanvasBacken
         GLint bits = 0;
         glGetQueryivEXT(GL_TIME_ELAPSED_EXT, GL_QUERY_COUNTER_BITS_EXT, &bits);
         if (bits > 0)
-            glGenQueriesEXT(1, &studio->timer);
+            glGenQueriesEXT(1, &renderer->timer);
     }
     return true;
 }
 
-const char *studio_version(const Studio *studio)
+const char *setting_renderer_version(const SettingRenderer *renderer)
 {
-    return studio->first.version;
+    return renderer->first.version;
 }
 
-const char *studio_renderer(const Studio *studio)
+const char *setting_renderer_name(const SettingRenderer *renderer)
 {
-    return studio->first.renderer;
+    return renderer->first.renderer;
 }
 
-void studio_forget(Studio *studio)
+void setting_renderer_forget(SettingRenderer *renderer)
 {
-    for (const SolidMesh *made = studio->meshes.first; made; made = made->next)
-        for (int i = 0; i < studio->lighting_count; i++)
-            lighting_forget(studio->lightings[i].lighting, &made->mesh);
-    solid_meshes_close(&studio->meshes);
+    for (const SolidMesh *made = renderer->meshes.first; made; made = made->next)
+        for (int i = 0; i < renderer->lighting_count; i++)
+            lighting_forget(renderer->lightings[i].lighting, &made->mesh);
+    solid_meshes_close(&renderer->meshes);
 }
 
-static const Canvas *find_canvas(Studio *studio, const Quality *quality, Message *message)
+static const Canvas *find_canvas(SettingRenderer *renderer, const Quality *quality,
+                                 Message *message)
 {
-    const CanvasOptions wanted = quality_canvas(quality, studio->width, studio->height);
-    for (int i = 0; i < studio->canvas_count; i++) {
-        const CanvasOptions *have = &studio->canvases[i].options;
+    const CanvasOptions wanted = quality_canvas(quality, renderer->width, renderer->height);
+    for (int i = 0; i < renderer->canvas_count; i++) {
+        const CanvasOptions *have = &renderer->canvases[i].options;
         if (have->samples == wanted.samples && have->supersample == wanted.supersample &&
             have->real == wanted.real)
-            return &studio->canvases[i].canvas;
+            return &renderer->canvases[i].canvas;
     }
-    if (studio->canvas_count == MAX_CANVASES) {
+    if (renderer->canvas_count == MAX_CANVASES) {
         message_set(message, "study: more than %d kinds of framebuffers", MAX_CANVASES);
         return NULL;
     }
-    Canvas *canvas = &studio->canvases[studio->canvas_count].canvas;
-    if (!canvas_open_beside(canvas, &studio->first, &wanted, message))
+    Canvas *canvas = &renderer->canvases[renderer->canvas_count].canvas;
+    if (!canvas_open_beside(canvas, &renderer->first, &wanted, message))
         return NULL;
-    studio->canvases[studio->canvas_count++].options = wanted;
+    renderer->canvases[renderer->canvas_count++].options = wanted;
     return canvas;
 }
 
-static Lighting *find_lighting(Studio *studio, const Quality *quality, Message *message)
+static Lighting *find_lighting(SettingRenderer *renderer, const Quality *quality, Message *message)
 {
     QualityLoader loader;
-    quality_loader(&loader, &studio->loader, quality);
-    for (int i = 0; i < studio->lighting_count; i++) {
-        const QualityLoader *have = &studio->lightings[i].loader;
+    quality_loader(&loader, &renderer->loader, quality);
+    for (int i = 0; i < renderer->lighting_count; i++) {
+        const QualityLoader *have = &renderer->lightings[i].loader;
         if (have->loader.precision == loader.loader.precision &&
             memcmp(have->replacements, loader.replacements, sizeof loader.replacements) == 0)
-            return studio->lightings[i].lighting;
+            return renderer->lightings[i].lighting;
     }
-    if (studio->lighting_count == MAX_LIGHTINGS) {
+    if (renderer->lighting_count == MAX_LIGHTINGS) {
         message_set(message, "study: more than %d kinds of programs", MAX_LIGHTINGS);
         return NULL;
     }
     /* The loader points into itself, so it must not move. */
-    QualityLoader *place = &studio->lightings[studio->lighting_count].loader;
-    Lighting **lighting = &studio->lightings[studio->lighting_count].lighting;
-    quality_loader(place, &studio->loader, quality);
+    QualityLoader *place = &renderer->lightings[renderer->lighting_count].loader;
+    Lighting **lighting = &renderer->lightings[renderer->lighting_count].lighting;
+    quality_loader(place, &renderer->loader, quality);
     if (!lighting_open(lighting, &place->loader, message))
         return NULL;
-    studio->lighting_count++;
+    renderer->lighting_count++;
     return *lighting;
 }
 
-static void clear(const Drawing *drawing)
+static void clear(const SettingPicture *drawing)
 {
     canvas_clear(drawing->canvas, drawing->made.scene.background, 0); /* see pixel_is_interior */
 }
 
-static double aspect_of(const Studio *studio)
+static double aspect_of(const SettingRenderer *renderer)
 {
-    return (double)studio->width / studio->height;
+    return (double)renderer->width / renderer->height;
 }
 
-bool drawing_open(Drawing *drawing, Studio *studio, const Scene *scene, const Quality *quality,
-                  Message *message)
+bool setting_picture_open(SettingPicture *drawing, SettingRenderer *renderer, const Scene *scene,
+                          const Quality *quality, Message *message)
 {
     double wall, gpu;
-    *drawing = (Drawing){.quality = *quality};
-    if (!quality_scene_open(&drawing->made, scene, quality, &studio->meshes, message))
+    *drawing = (SettingPicture){.quality = *quality};
+    if (!quality_scene_open(&drawing->made, scene, quality, &renderer->meshes, message))
         return false;
-    drawing->canvas = find_canvas(studio, quality, message);
-    drawing->lighting = drawing->canvas ? find_lighting(studio, quality, message) : NULL;
+    drawing->canvas = find_canvas(renderer, quality, message);
+    drawing->lighting = drawing->canvas ? find_lighting(renderer, quality, message) : NULL;
     if (!drawing->lighting || !scene_check(&drawing->made.scene, message) ||
-        !image_open(&drawing->image, studio->width, studio->height,
+        !image_open(&drawing->image, renderer->width, renderer->height,
                     drawing->canvas->real ? IMAGE_FLOAT : IMAGE_BYTE, message) ||
-        !drawing_frame(drawing, studio, &wall, &gpu, message)) {
-        drawing_close(drawing);
+        !setting_picture_frame(drawing, renderer, &wall, &gpu, message)) {
+        setting_picture_close(drawing);
         return false;
     }
     return true;
 }
 
-bool drawing_frame(Drawing *drawing, Studio *studio, double *wall, double *gpu, Message *message)
+bool setting_picture_frame(SettingPicture *drawing, SettingRenderer *renderer, double *wall,
+                           double *gpu, Message *message)
 {
     lighting_use_transforms(drawing->lighting, transforms_of(&drawing->quality));
     glFinish();
     const double start = clock_now();
-    if (studio->timer)
-        glBeginQueryEXT(GL_TIME_ELAPSED_EXT, studio->timer);
+    if (renderer->timer)
+        glBeginQueryEXT(GL_TIME_ELAPSED_EXT, renderer->timer);
     clear(drawing);
-    if (!lighting_show(drawing->lighting,
-                       &(LightingFrame){.scene = &drawing->made.scene, .aspect = aspect_of(studio)},
-                       message))
+    if (!lighting_show(
+            drawing->lighting,
+            &(LightingFrame){.scene = &drawing->made.scene, .aspect = aspect_of(renderer)},
+            message))
         return false;
-    if (studio->timer)
+    if (renderer->timer)
         glEndQueryEXT(GL_TIME_ELAPSED_EXT);
     glFinish();
     if (!canvas_read(drawing->canvas, &drawing->image, message))
         return false;
     *wall = clock_now() - start;
     *gpu = NAN;
-    if (studio->timer) {
+    if (renderer->timer) {
         GLuint64 nanoseconds = 0;
         GLint disjoint = 0;
-        glGetQueryObjectui64vEXT(studio->timer, GL_QUERY_RESULT_EXT, &nanoseconds);
+        glGetQueryObjectui64vEXT(renderer->timer, GL_QUERY_RESULT_EXT, &nanoseconds);
         glGetIntegerv(GL_GPU_DISJOINT_EXT, &disjoint);
         if (!disjoint && nanoseconds > 0)
             *gpu = 1e-9 * (double)nanoseconds;
@@ -183,9 +186,10 @@ bool drawing_frame(Drawing *drawing, Studio *studio, double *wall, double *gpu, 
     return true;
 }
 
-bool drawing_empty(Drawing *drawing, Studio *studio, double *wall, Message *message)
+bool setting_picture_empty(SettingPicture *drawing, SettingRenderer *renderer, double *wall,
+                           Message *message)
 {
-    (void)studio;
+    (void)renderer;
     glFinish();
     const double start = clock_now();
     clear(drawing);
@@ -196,12 +200,12 @@ bool drawing_empty(Drawing *drawing, Studio *studio, double *wall, Message *mess
     return true;
 }
 
-DrawingError drawing_error(const Drawing *drawing, const Reference *exact)
+SettingError setting_picture_error(const SettingPicture *drawing, const Reference *exact)
 {
     PictureError found = {.all = {0}};
     picture_error_add(&found, &drawing->image,
                       &(ExactView){.exact = exact, .scene = &drawing->made.scene});
-    return (DrawingError){.interior_rms = error_sum_rms(&found.interior),
+    return (SettingError){.interior_rms = error_sum_rms(&found.interior),
                           .interior_maximum = found.interior.pixels ? found.interior.maximum : NAN,
                           .all_rms = error_sum_rms(&found.all),
                           .all_maximum = found.all.maximum,
@@ -209,10 +213,10 @@ DrawingError drawing_error(const Drawing *drawing, const Reference *exact)
 }
 
 /* Counting starts three processes, so results are cached by text. */
-static int count_operations(Studio *studio, const char *text, ShaderStage stage)
+static int count_operations(SettingRenderer *renderer, const char *text, ShaderStage stage)
 {
-    Counted *all = studio->counted[stage];
-    int *count = &studio->counted_count[stage];
+    Counted *all = renderer->counted[stage];
+    int *count = &renderer->counted_count[stage];
     ShaderCost operations;
     for (int i = 0; i < *count; i++)
         if (strcmp(all[i].text, text) == 0)
@@ -231,11 +235,12 @@ static bool is_covered(const Image *image, size_t pixel)
                                      : ((const float *)image->pixels)[4 * pixel + 3] >= 0.5F;
 }
 
-bool drawing_counts(const Drawing *drawing, Studio *studio, DrawingCounts *counts, Message *message)
+bool setting_picture_counts(const SettingPicture *drawing, SettingRenderer *renderer,
+                            SettingCounts *counts, Message *message)
 {
     const Scene *scene = &drawing->made.scene;
     const int side = drawing->canvas->supersample;
-    *counts = (DrawingCounts){.vertex_operations = -1, .fragment_operations = -1};
+    *counts = (SettingCounts){.vertex_operations = -1, .fragment_operations = -1};
     for (int i = 0; i < scene->object_count; i++) {
         ShaderSource sources[2];
         const Object *object = &scene->objects[i];
@@ -244,9 +249,9 @@ bool drawing_counts(const Drawing *drawing, Studio *studio, DrawingCounts *count
             (long long)(flattened ? object->mesh->index_count : object->mesh->vertex_count);
         if (!lighting_sources(drawing->lighting, scene, object, false, sources, message))
             return false;
-        const int vertex = count_operations(studio, sources[SHADER_VERTEX].text, SHADER_VERTEX);
+        const int vertex = count_operations(renderer, sources[SHADER_VERTEX].text, SHADER_VERTEX);
         const int fragment =
-            count_operations(studio, sources[SHADER_FRAGMENT].text, SHADER_FRAGMENT);
+            count_operations(renderer, sources[SHADER_FRAGMENT].text, SHADER_FRAGMENT);
         shader_source_close(&sources[SHADER_VERTEX]);
         shader_source_close(&sources[SHADER_FRAGMENT]);
         if (vertex > counts->vertex_operations)
@@ -254,34 +259,34 @@ bool drawing_counts(const Drawing *drawing, Studio *studio, DrawingCounts *count
         if (fragment > counts->fragment_operations)
             counts->fragment_operations = fragment;
     }
-    for (size_t i = 0; i < (size_t)studio->width * (size_t)studio->height; i++)
+    for (size_t i = 0; i < (size_t)renderer->width * (size_t)renderer->height; i++)
         counts->fragments += is_covered(&drawing->image, i) ? side * side : 0;
     return true;
 }
 
-void drawing_close(Drawing *drawing)
+void setting_picture_close(SettingPicture *drawing)
 {
     if (!drawing)
         return;
     quality_scene_close(&drawing->made);
     image_close(&drawing->image);
-    *drawing = (Drawing){.lighting = NULL};
+    *drawing = (SettingPicture){.lighting = NULL};
 }
 
-void studio_close(Studio *studio)
+void setting_renderer_close(SettingRenderer *renderer)
 {
-    if (!studio)
+    if (!renderer)
         return;
-    studio_forget(studio);
-    for (int i = 0; i < studio->lighting_count; i++)
-        lighting_close(studio->lightings[i].lighting);
-    for (int i = 0; i < studio->canvas_count; i++)
-        canvas_close(&studio->canvases[i].canvas);
-    if (studio->timer)
-        glDeleteQueriesEXT(1, &studio->timer);
-    canvas_close(&studio->first);
+    setting_renderer_forget(renderer);
+    for (int i = 0; i < renderer->lighting_count; i++)
+        lighting_close(renderer->lightings[i].lighting);
+    for (int i = 0; i < renderer->canvas_count; i++)
+        canvas_close(&renderer->canvases[i].canvas);
+    if (renderer->timer)
+        glDeleteQueriesEXT(1, &renderer->timer);
+    canvas_close(&renderer->first);
     for (int stage = 0; stage < 2; stage++)
-        for (int i = 0; i < studio->counted_count[stage]; i++)
-            free(studio->counted[stage][i].text);
-    free(studio);
+        for (int i = 0; i < renderer->counted_count[stage]; i++)
+            free(renderer->counted[stage][i].text);
+    free(renderer);
 }

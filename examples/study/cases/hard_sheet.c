@@ -1,4 +1,4 @@
-#include "study/cases/hard_cases_sheet.h"
+#include "study/cases/hard_sheet.h"
 
 #include "images/label.h"
 

@@ -1,4 +1,4 @@
-#include "study/cases/hard_cases_naive.h"
+#include "study/cases/plain_formulas.h"
 
 #include "study/measure/transforms.h"
 

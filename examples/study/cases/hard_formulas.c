@@ -1,33 +1,12 @@
-#include "study/cases/hard_cases_list.h"
+/*
+ * The cases of formulas: what each scene makes hard, and the plain form that fails on it.
+ */
+#include "study/cases/hard_case.h"
 
 #include "shapes/mesh_solids.h"
-#include "study/cases/hard_cases_naive.h"
-#include "study/cases/hard_cases_shadows.h"
+#include "study/cases/plain_formulas.h"
 
 #include <string.h>
-
-/* The start of every case: a slightly shiny object, a point light, some ambient light. */
-static void begin(HardScene *made)
-{
-    made->lights[0] = (Light){.kind = LIGHT_POINT,
-                              .position = {-2, 3, 4},
-                              .diffuse = {0.8, 0.8, 0.75},
-                              .specular = {0.5, 0.5, 0.5}};
-    made->objects[0] = (Object){.mesh = &made->mesh,
-                                .world_from_object = mat4_identity(),
-                                .front = {.ambient = {0.9, 0.6, 0.35},
-                                          .diffuse = {0.9, 0.6, 0.35},
-                                          .specular = {0.6, 0.6, 0.6},
-                                          .alpha = 1,
-                                          .shininess = 32}};
-    made->scene = (Scene){.camera = {{0, 1.2, 4}, {0, 0, 0}, {0, 1, 0}, 36, 1, 20, 0},
-                          .background = {0.12, 0.13, 0.17},
-                          .global_ambient = {0.25, 0.25, 0.25},
-                          .lights = made->lights,
-                          .light_count = 1,
-                          .objects = made->objects,
-                          .object_count = 1};
-}
 
 static Mat4 scale(double x, double y, double z)
 {
@@ -330,7 +309,7 @@ static bool make_two_sided(HardScene *made, Message *message)
         }                                                                                          \
     }
 
-const HardCase HARD_CASES[HARD_CASE_COUNT] = {
+const HardCase HARD_FORMULAS[HARD_FORMULA_COUNT] = {
     {.name = "singular",
      .what = "scale (1.3, 0, 1.3), which has no inverse, for the normals",
      .naive = "no inverse: old matrix",
@@ -454,91 +433,4 @@ const HardCase HARD_CASES[HARD_CASE_COUNT] = {
      .stable = "gl_FrontFacing",
      .make = make_two_sided,
      .replaced = {{"lighting/side.glsl", "study/side_by_normal.glsl"}}},
-    {.name = "acne",
-     .what = "a shadow map in grazing light: a texel is one depth",
-     .naive = "map of 256, no bias",
-     .stable = "volumes",
-     .make = make_acne,
-     .shadows = {SHADOWS_MAP, 256, 0, {0, 0, 0}}},
-    {.name = "peter-panning",
-     .what = "a shadow map with a large bias: the shadow leaves its plate",
-     .naive = "map of 128, bias 24",
-     .stable = "volumes",
-     .make = make_panning,
-     .shadows = {SHADOWS_MAP, 128, 0, {24, 0, 0}}},
-    {.name = "slit",
-     .what = "light through a slit that is narrower than a map's texel",
-     .naive = "map of 32",
-     .stable = "volumes",
-     .make = make_slit,
-     .shadows = {SHADOWS_MAP, 32, 0, {1, 1.5, 0}}},
-    {.name = "eye-in-shadow",
-     .what = "the eye in a shadow volume: under a roof",
-     .naive = "counted before surfaces",
-     .stable = "counted behind them",
-     .make = make_roof,
-     .depth_pass = true},
-    {.name = "far-plane",
-     .what = "a shadow volume that goes on beyond the far plane",
-     .naive = "cut off there",
-     .stable = "projected without it",
-     .make = make_far_plane,
-     .replaced = {{"shadow.vert", "study/shadow_far_plane.vert"}}},
-    {.name = "terminator",
-     .what = "a coarse sphere with smooth normals, in its own shadow",
-     .naive = "that of its facets",
-     .stable = "convex: by N.L alone",
-     .make = make_terminator,
-     .spoil = spoil_solid},
-    {.name = "far-shadow",
-     .what = "what throws the shadow is a million units from the origin",
-     .naive = "float, view x model",
-     .stable = "relative to the eye",
-     .make = make_distant,
-     .transforms = naive_float_lecture},
-    {.name = "sheet",
-     .what = "an open sheet, and a map of back faces, which needs no bias",
-     .naive = "back faces in the map",
-     .stable = "volumes, open or closed",
-     .make = make_sheet,
-     .replaced = {{"shadow.frag", "study/shadow_back_faces.frag"}},
-     .shadows = {SHADOWS_MAP, 1024, 0, {0, 0, 0}}},
-    {.name = "turned",
-     .what = "a mirrored ring, and a map of back faces: they are its front",
-     .naive = "back faces in the map",
-     .stable = "volumes, mirrored or not",
-     .make = make_mirrored,
-     .replaced = {{"shadow.frag", "study/shadow_back_faces.frag"}},
-     .shadows = {SHADOWS_MAP, 1024, 0, {0, 0, 0}}},
 };
-
-const char *const HARD_CASE_NAMES[HARD_CASE_COUNT + 2] = {
-    "singular",  "mirror",       "uneven",     "tiny",          "look-at",  "far",
-    "unit",      "zero-normals", "cancelling", "pow",           "negative", "leak",
-    "opposite",  "touching",     "spot",       "highlight",     "wide",     "indices",
-    "depth",     "two-sided",    "acne",       "peter-panning", "slit",     "eye-in-shadow",
-    "far-plane", "terminator",   "far-shadow", "sheet",         "turned",   "all",
-    NULL};
-
-bool hard_scene_open(HardScene *made, const HardCase *hard_case, Message *message)
-{
-    memset(made, 0, sizeof *made);
-    begin(made);
-    if (!hard_case->make(made, message))
-        return false;
-    made->naive = made->scene;
-    made->naive.objects = made->naive_objects;
-    memcpy(made->naive_objects, made->objects, sizeof made->objects);
-    if (made->naive_mesh.vertices)
-        made->naive_objects[0].mesh = &made->naive_mesh;
-    if (hard_case->spoil)
-        hard_case->spoil(made);
-    return scene_check(&made->scene, message) && scene_check(&made->naive, message);
-}
-
-void hard_scene_close(HardScene *made)
-{
-    mesh_close(&made->mesh);
-    mesh_close(&made->naive_mesh);
-    mesh_close(&made->floor);
-}

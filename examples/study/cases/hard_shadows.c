@@ -1,6 +1,10 @@
-#include "study/cases/hard_cases_shadows.h"
+/*
+ * The cases of shadows: what casts them, and where the plain way fails.
+ */
+#include "study/cases/hard_case.h"
 
 #include "shapes/mesh_solids.h"
+#include "study/cases/plain_formulas.h"
 
 static Mat4 placed(Vec3 at, Vec3 size)
 {
@@ -47,7 +51,7 @@ static void put_second(HardScene *made, Vec3 at, Vec3 size)
 
 /* A teapot in light that grazes the floor. The floor is any mesh, not known to be flat, and so in
  * the map, too. */
-bool make_acne(HardScene *made, Message *message)
+static bool make_acne(HardScene *made, Message *message)
 {
     if (!put_floor(made, -0.65, message))
         return false;
@@ -58,7 +62,7 @@ bool make_acne(HardScene *made, Message *message)
 }
 
 /* A plate that stands on the floor. */
-bool make_panning(HardScene *made, Message *message)
+static bool make_panning(HardScene *made, Message *message)
 {
     made->lights[0].position = (Vec3){-1.6, 3, -3.5};
     return put_floor(made, -0.6, message) &&
@@ -66,7 +70,7 @@ bool make_panning(HardScene *made, Message *message)
 }
 
 /* Two boxes, with a slit between them. */
-bool make_slit(HardScene *made, Message *message)
+static bool make_slit(HardScene *made, Message *message)
 {
     made->lights[0].position = (Vec3){0, 3, -2.2};
     if (!put_floor(made, -0.6, message) ||
@@ -78,7 +82,7 @@ bool make_slit(HardScene *made, Message *message)
 }
 
 /* A roof over the eye, and a box on the floor, partly in its shadow. */
-bool make_roof(HardScene *made, Message *message)
+static bool make_roof(HardScene *made, Message *message)
 {
     made->lights[0].position = (Vec3){-1.5, 6, 2.5};
     if (!put_floor(made, -0.6, message) ||
@@ -90,7 +94,7 @@ bool make_roof(HardScene *made, Message *message)
 
 /* A plate behind the eye, and a light behind that: the shadow goes forward, beyond the far plane,
  * which is right behind the floor. */
-bool make_far_plane(HardScene *made, Message *message)
+static bool make_far_plane(HardScene *made, Message *message)
 {
     made->lights[0].position = (Vec3){0, 5.5, 10};
     if (!put_floor(made, -0.6, message) ||
@@ -101,7 +105,7 @@ bool make_far_plane(HardScene *made, Message *message)
     return true;
 }
 
-bool make_terminator(HardScene *made, Message *message)
+static bool make_terminator(HardScene *made, Message *message)
 {
     made->lights[0].position = (Vec3){-3, 1.3, 1.4};
     if (!put_floor(made, -0.9, message))
@@ -112,13 +116,13 @@ bool make_terminator(HardScene *made, Message *message)
     return mesh_sphere(&made->mesh, 0.9, 8, 5, message);
 }
 
-void spoil_solid(HardScene *made)
+static void spoil_solid(HardScene *made)
 {
     made->naive_objects[0].solid = (Solid){.kind = SOLID_NONE};
 }
 
 /* A teapot on the floor, a million units from the origin. */
-bool make_distant(HardScene *made, Message *message)
+static bool make_distant(HardScene *made, Message *message)
 {
     static const Vec3 offset = {1000000.3, 300000.7, -1000000.1};
     Camera *camera = &made->scene.camera;
@@ -134,7 +138,7 @@ bool make_distant(HardScene *made, Message *message)
 }
 
 /* An open square, leaning: its front is turned to the light. */
-bool make_sheet(HardScene *made, Message *message)
+static bool make_sheet(HardScene *made, Message *message)
 {
     made->lights[0].position = (Vec3){-3, 3, 2};
     if (!put_floor(made, -0.7, message))
@@ -146,7 +150,7 @@ bool make_sheet(HardScene *made, Message *message)
     return mesh_quad(&made->mesh, 1, message);
 }
 
-bool make_mirrored(HardScene *made, Message *message)
+static bool make_mirrored(HardScene *made, Message *message)
 {
     made->lights[0].position = (Vec3){-3, 3, 2};
     made->objects[0].world_from_object = mat4_scale((Vec3){-1, 1, 1});
@@ -154,3 +158,62 @@ bool make_mirrored(HardScene *made, Message *message)
     const bool done = put_floor(made, -0.7, message);
     return done && mesh_torus(&made->mesh, 0.3, 0.65, 24, 48, message);
 }
+
+const HardCase HARD_SHADOWS[HARD_SHADOW_COUNT] = {
+    {.name = "acne",
+     .what = "a shadow map in grazing light: a texel is one depth",
+     .naive = "map of 256, no bias",
+     .stable = "volumes",
+     .make = make_acne,
+     .shadows = {SHADOWS_MAP, 256, 0, {0, 0, 0}}},
+    {.name = "peter-panning",
+     .what = "a shadow map with a large bias: the shadow leaves its plate",
+     .naive = "map of 128, bias 24",
+     .stable = "volumes",
+     .make = make_panning,
+     .shadows = {SHADOWS_MAP, 128, 0, {24, 0, 0}}},
+    {.name = "slit",
+     .what = "light through a slit that is narrower than a map's texel",
+     .naive = "map of 32",
+     .stable = "volumes",
+     .make = make_slit,
+     .shadows = {SHADOWS_MAP, 32, 0, {1, 1.5, 0}}},
+    {.name = "eye-in-shadow",
+     .what = "the eye in a shadow volume: under a roof",
+     .naive = "counted before surfaces",
+     .stable = "counted behind them",
+     .make = make_roof,
+     .depth_pass = true},
+    {.name = "far-plane",
+     .what = "a shadow volume that goes on beyond the far plane",
+     .naive = "cut off there",
+     .stable = "projected without it",
+     .make = make_far_plane,
+     .replaced = {{"shadow.vert", "study/shadow_far_plane.vert"}}},
+    {.name = "terminator",
+     .what = "a coarse sphere with smooth normals, in its own shadow",
+     .naive = "that of its facets",
+     .stable = "convex: by N.L alone",
+     .make = make_terminator,
+     .spoil = spoil_solid},
+    {.name = "far-shadow",
+     .what = "what throws the shadow is a million units from the origin",
+     .naive = "float, view x model",
+     .stable = "relative to the eye",
+     .make = make_distant,
+     .transforms = naive_float_lecture},
+    {.name = "sheet",
+     .what = "an open sheet, and a map of back faces, which needs no bias",
+     .naive = "back faces in the map",
+     .stable = "volumes, open or closed",
+     .make = make_sheet,
+     .replaced = {{"shadow.frag", "study/shadow_back_faces.frag"}},
+     .shadows = {SHADOWS_MAP, 1024, 0, {0, 0, 0}}},
+    {.name = "turned",
+     .what = "a mirrored ring, and a map of back faces: they are its front",
+     .naive = "back faces in the map",
+     .stable = "volumes, mirrored or not",
+     .make = make_mirrored,
+     .replaced = {{"shadow.frag", "study/shadow_back_faces.frag"}},
+     .shadows = {SHADOWS_MAP, 1024, 0, {0, 0, 0}}},
+};
