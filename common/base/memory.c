@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 /* Of the system calls only, because buffers and locks of the C library may be in any state. */
-static _Noreturn void end_for_want(void)
+_Noreturn void memory_end(void)
 {
     static const char reason[] = ": not enough memory\n";
     const char *name = program_invocation_short_name;
@@ -28,7 +28,7 @@ void *memory_grow(void *block, size_t count, size_t size)
     if (!__builtin_mul_overflow(count, size, &bytes))
         grown = realloc(block, bytes ? bytes : 1);
     if (!grown)
-        end_for_want();
+        memory_end();
     return grown;
 }
 
@@ -36,7 +36,7 @@ void *memory_new(size_t count, size_t size)
 {
     void *block = calloc(count ? count : 1, size ? size : 1);
     if (!block)
-        end_for_want();
+        memory_end();
     return block;
 }
 
@@ -62,6 +62,6 @@ char *memory_format(const char *format, ...)
     const int length = vasprintf(&text, format, arguments);
     va_end(arguments);
     if (length < 0)
-        end_for_want();
+        memory_end();
     return text;
 }

@@ -16,6 +16,9 @@
 
 enum { MEMORY_EXIT = 1 };
 
+/* Ends the process in this way. */
+_Noreturn void memory_end(void);
+
 /* `count` zeroed items. */
 void *memory_new(size_t count, size_t size) __attribute__((malloc, returns_nonnull));
 

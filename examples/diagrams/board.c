@@ -88,16 +88,16 @@ static DrawingPoint on_circle(DrawingPoint center, double radius, double degrees
                           center.y - radius * cos(RADIANS * degrees)};
 }
 
-void board_arc(Board *board, DrawingPoint center, double radius, double from, double to, Vec3 color,
-               double width, double dash)
+void board_arc(Board *board, Arc arc, Vec3 color, double width, double dash)
 {
-    const int steps = 1 + (int)(fabs(to - from) / 3);
-    DrawingPoint before = center;
+    const int steps = 1 + (int)(fabs(arc.to - arc.from) / 3);
+    DrawingPoint before = arc.center;
     drawing_path(
         board->drawing,
         (DrawingStyle){.stroke = color, .width = width * board->em, .dash = dash * board->em});
     for (int i = 0; i <= steps; i++) {
-        const DrawingPoint at = on_circle(center, radius, from + (to - from) * i / steps);
+        const DrawingPoint at =
+            on_circle(arc.center, arc.radius, arc.from + (arc.to - arc.from) * i / steps);
         (i ? drawing_line : drawing_move)(board->drawing, at);
         if (i && dash == 0)
             board_keep_away(board, before, at);
@@ -249,9 +249,14 @@ static DrawingBox box_about(DrawingPoint center, double width, double height)
                         center.y + height / 2};
 }
 
+/* Where a label of this size goes, about its anchor. */
+typedef struct Place {
+    DrawingPoint anchor, center;
+    double width, height, distance;
+} Place;
+
 /* Searches rings about the anchor from the preferred direction on. */
-static bool find_place(const Board *board, DrawingPoint anchor, double preferred, double width,
-                       double height, bool of_lines, DrawingPoint *center, double *distance)
+static bool find_place(const Board *board, Place *place, double preferred, bool of_lines)
 {
     enum { ANGLES = 24 };
     const double em = board->em;
@@ -261,10 +266,11 @@ static bool find_place(const Board *board, DrawingPoint anchor, double preferred
             const double turn = 360.0 / ANGLES * ((i + 1) / 2) * (i % 2 ? 1 : -1);
             const double angle = RADIANS * (preferred + turn);
             const double x = sin(angle), y = -cos(angle);
-            const double reach = gap + fabs(x) * width / 2 + fabs(y) * height / 2;
-            *center = (DrawingPoint){anchor.x + reach * x, anchor.y + reach * y};
-            *distance = gap;
-            if (is_free(board, box_about(*center, width, height), of_lines))
+            const double reach = gap + fabs(x) * place->width / 2 + fabs(y) * place->height / 2;
+            place->center =
+                (DrawingPoint){place->anchor.x + reach * x, place->anchor.y + reach * y};
+            place->distance = gap;
+            if (is_free(board, box_about(place->center, place->width, place->height), of_lines))
                 return true;
         }
     }
@@ -275,15 +281,13 @@ void board_label(Board *board, DrawingPoint anchor, Vec3 direction, Vec3 color, 
 {
     const double em = board->em;
     const DrawingBox ink = drawing_text_box(board->drawing, em, text);
-    const double width = ink.right - ink.left, height = ink.bottom - ink.top;
+    Place place = {.anchor = anchor, .width = ink.right - ink.left, .height = ink.bottom - ink.top};
     const double preferred = atan2(direction.x, direction.y) / RADIANS;
-    DrawingPoint center;
-    double distance;
     /* The tests see to it that a place is always found. */
-    if (!find_place(board, anchor, preferred, width, height, true, &center, &distance))
-        find_place(board, anchor, preferred, width, height, false, &center, &distance);
-    const DrawingBox box = box_about(center, width, height);
-    if (distance > 1.4 * em) {
+    if (!find_place(board, &place, preferred, true))
+        find_place(board, &place, preferred, false);
+    const DrawingBox box = box_about(place.center, place.width, place.height);
+    if (place.distance > 1.4 * em) {
         const DrawingPoint near = {fmin(fmax(anchor.x, box.left), box.right),
                                    fmin(fmax(anchor.y, box.top), box.bottom)};
         board_line(board, near, anchor, GREY, 0.04);

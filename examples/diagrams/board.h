@@ -35,8 +35,11 @@ void board_arrow(Board *board, DrawingPoint from, DrawingPoint to, Vec3 color, d
 void board_area(Board *board, const DrawingPoint *points, int count, Vec3 color, double alpha);
 
 /* Part of a circle between two angles, in degrees to the right of up. */
-void board_arc(Board *board, DrawingPoint center, double radius, double from, double to, Vec3 color,
-               double width, double dash);
+typedef struct Arc {
+    DrawingPoint center;
+    double radius, from, to;
+} Arc;
+void board_arc(Board *board, Arc arc, Vec3 color, double width, double dash);
 
 void board_dot(Board *board, DrawingPoint at, double radius, Vec3 color);
 

@@ -79,9 +79,33 @@ static void incidence_captions(Board *board, DrawingBox *part, double n_dot_l)
     figure_captions(board, part, (const char *const[]){first, second}, 2);
 }
 
+static const double STRIP = 0.8; /* the surface's, in em */
+
+/* The width of what the beam lights. */
+static void draw_footprint(Board *board, const Beam *beam, double n_dot_l)
+{
+    char text[FIGURE_TEXT];
+    const double y = beam->at.y + (STRIP + 0.55) * board->em;
+    const double footprint = optics_footprint(n_dot_l);
+    snprintf(text, sizeof text, "%.*f $w$", footprint < 100 ? 2 : 0, footprint);
+    dimension(board, (DrawingPoint){beam->at.x - beam->lit, y},
+              (DrawingPoint){beam->at.x + beam->lit, y}, (Vec3){0, -1, 0},
+              n_dot_l < 1 ? text : "$w$");
+}
+
+/* The beam's own width. */
+static void draw_width(Board *board, const Beam *beam, double angle)
+{
+    const Vec3 across = beam_across(beam->l);
+    const DrawingPoint near = board_at(beam->at, beam->l, 0.8 * beam->length);
+    dimension(board, board_at(near, across, -beam->width / 2),
+              board_at(near, across, beam->width / 2), angle > 0 ? across : vec3_scale(across, -1),
+              "$w$");
+}
+
 static void draw_incidence(Board *board, const Optics *optics, double angle, int number)
 {
-    static const double STRIP = 0.8, ROOM = 2.9;
+    static const double ROOM = 2.9;
     const double em = board->em;
     Optics turned = *optics;
     Material matte = *optics->material; /* what the eye's place does not change */
@@ -123,28 +147,16 @@ static void draw_incidence(Board *board, const Optics *optics, double angle, int
     const double n_length = fmin(4.5 * em, 0.75 * (beam.at.y - part.top));
     const DrawingPoint n_tip = board_at(beam.at, UP, n_length);
     board_arrow(board, beam.at, n_tip, INK, 0.12);
-    if (at.n_dot_l > 0) {
-        char text[FIGURE_TEXT];
-        const double y = beam.at.y + (STRIP + 0.55) * em;
-        const double footprint = optics_footprint(at.n_dot_l);
-        snprintf(text, sizeof text, "%.*f $w$", footprint < 100 ? 2 : 0, footprint);
-        dimension(board, (DrawingPoint){beam.at.x - beam.lit, y},
-                  (DrawingPoint){beam.at.x + beam.lit, y}, (Vec3){0, -1, 0},
-                  at.n_dot_l < 1 ? text : "$w$");
-    }
+    if (at.n_dot_l > 0)
+        draw_footprint(board, &beam, at.n_dot_l);
     if (fabs(angle) > 8 && at.n_dot_l > 0) {
-        board_arc(board, beam.at, 0.5 * n_length, -angle, 0, INK, 0.06, 0);
+        board_arc(board, (Arc){beam.at, 0.5 * n_length, -angle, 0}, INK, 0.06, 0);
         board_label(board, board_at(beam.at, optics_left(angle / 2), 0.5 * n_length),
                     optics_left(angle / 2), INK, "$θ$");
     }
     const DrawingPoint far = board_at(beam.at, beam.l, beam.length);
-    const Vec3 across = beam_across(beam.l);
-    if (at.n_dot_l > 0 && at.n_dot_l < 1) {
-        const DrawingPoint near = board_at(beam.at, beam.l, 0.8 * beam.length);
-        dimension(board, board_at(near, across, -beam.width / 2),
-                  board_at(near, across, beam.width / 2),
-                  angle > 0 ? across : vec3_scale(across, -1), "$w$");
-    }
+    if (at.n_dot_l > 0 && at.n_dot_l < 1)
+        draw_width(board, &beam, angle);
     board_label(board, n_tip, UP, INK, "$N$");
     board_label(board, far, at.l, LIGHT_COLOR, "light");
 }

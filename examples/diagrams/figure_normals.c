@@ -72,7 +72,7 @@ static void draw_shape(Board *board, const Optics *optics, int sides, bool flat)
                 board_arrow(board, side.outer[j],
                             board_at(side.outer[j], side.normals[j], NORMAL * radius), INK, 0.1);
     }
-    board_arc(board, center, radius, -SPAN, SPAN, R_COLOR, 0.07, flat ? 0.25 : 0);
+    board_arc(board, (Arc){center, radius, -SPAN, SPAN}, R_COLOR, 0.07, flat ? 0.25 : 0);
     for (int i = 0; i <= sides; i++)
         board_dot(board, board_at(center, optics_right(-SPAN + i * 2 * SPAN / sides), radius), 0.17,
                   EDGE_COLOR);

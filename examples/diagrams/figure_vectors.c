@@ -155,13 +155,13 @@ static double angle_of(Vec3 direction)
 }
 
 /* The arc between two vectors, with its name. Small angles have none. */
-static void draw_angle(Board *board, Frame2 frame, Vec3 a, Vec3 b, double radius, const char *name,
-                       Vec3 color)
+static void draw_angle(Board *board, Frame2 frame, const Vec3 sides[2], double radius,
+                       const char *name, Vec3 color)
 {
-    const double from = angle_of(a), to = angle_of(b);
+    const double from = angle_of(sides[0]), to = angle_of(sides[1]);
     if (fabs(to - from) < 6 || fabs(to - from) > 174)
         return;
-    board_arc(board, frame.origin, radius * frame.unit, from, to, color, 0.06, 0);
+    board_arc(board, (Arc){frame.origin, radius * frame.unit, from, to}, color, 0.06, 0);
     const Vec3 middle = optics_right((from + to) / 2);
     board_label(board, board_at(frame.origin, middle, radius * frame.unit), middle, color, name);
 }
@@ -211,7 +211,7 @@ void figure_vectors(Board *board, const Optics *optics)
     figure_surface(board, optics, frame.origin, frame.origin.x - 1.15 * frame.unit,
                    frame.origin.x + 1.15 * frame.unit, frame.unit);
     draw_lobe(board, optics, frame, &at);
-    board_arc(board, frame.origin, frame.unit, -90, 90, PALE, 0.05, 0.25);
+    board_arc(board, (Arc){frame.origin, frame.unit, -90, 90}, PALE, 0.05, 0.25);
     if (optics->radiating)
         board_lamp(board, lamp_at);
     else
@@ -226,10 +226,10 @@ void figure_vectors(Board *board, const Optics *optics)
     label_tips(board, frame, vectors, sizeof vectors / sizeof vectors[0]);
     if (at.n_dot_l <= 0)
         return;
-    draw_angle(board, frame, at.l, UP, 0.42, "$θ$", LIGHT_COLOR);
-    draw_angle(board, frame, UP, at.r, 0.42, "$θ$", LIGHT_COLOR);
+    draw_angle(board, frame, (Vec3[]){at.l, UP}, 0.42, "$θ$", LIGHT_COLOR);
+    draw_angle(board, frame, (Vec3[]){UP, at.r}, 0.42, "$θ$", LIGHT_COLOR);
     if (optics->reflection == REFLECTION_PHONG)
-        draw_angle(board, frame, at.r, at.v, 0.7, "$φ$", R_COLOR);
+        draw_angle(board, frame, (Vec3[]){at.r, at.v}, 0.7, "$φ$", R_COLOR);
     else if (!color_is_black(at.h))
-        draw_angle(board, frame, UP, at.h, 0.7, "$ψ$", H_COLOR);
+        draw_angle(board, frame, (Vec3[]){UP, at.h}, 0.7, "$ψ$", H_COLOR);
 }

@@ -11,6 +11,7 @@
 #include "app/picture_texts.h"
 #include "app/renderer.h"
 #include "base/clock.h"
+#include "base/memory.h"
 #include "base/output.h"
 #include "base/parse.h"
 #include "base/progress.h"
@@ -181,8 +182,8 @@ static bool read_all(const Selection *selection, const Options *options, Image *
 {
     const CanvasBackend *given = options->canvas.backend;
     const CanvasBackend *backend = given ? given : backend_default(message);
-    Picture *picture = calloc(1, sizeof *picture);
-    bool done = picture ? backend != NULL : message_set(message, "gallery: not enough memory");
+    Picture *picture = memory_new(1, sizeof *picture);
+    bool done = backend != NULL;
     char drivers[2][PICTURE_DRIVER_SIZE] = {"", ""}; /* of diagrams and of others */
     for (int i = 0; i < selection->count && done; i++) {
         const Example *example = selection->examples[i];
@@ -194,8 +195,7 @@ static bool read_all(const Selection *selection, const Options *options, Image *
         if (done)
             sheet_put(sheet, i, &picture->image);
     }
-    if (picture)
-        image_close(&picture->image);
+    image_close(&picture->image);
     free(picture);
     return done;
 }
@@ -221,9 +221,8 @@ static bool set_command(Manifest *manifest, const Options *options, Message *mes
 static bool write_manifest(const Selection *selection, const Options *options, Message *message)
 {
     char path[PATH_MAX];
-    Manifest *manifest = calloc(1, sizeof *manifest);
-    bool done = manifest ? set_command(manifest, options, message)
-                         : message_set(message, "manifest: not enough memory");
+    Manifest *manifest = memory_new(1, sizeof *manifest);
+    bool done = set_command(manifest, options, message);
     for (int i = 0; i < selection->count && done; i++) {
         ImageFile file = {.bytes = NULL};
         const char *name = selection->examples[i]->name;
@@ -290,27 +289,21 @@ static bool write_gallery(const Selection *selection, const Options *options, Me
     return done;
 }
 
-/* Prints what is not the same. */
-static bool verify_one(const Manifest *manifest, const Example *example, Canvas *canvas,
-                       const Options *options, Picture *picture, int counts[MANIFEST_FAILED],
-                       Message *message)
+/* Draws a picture and compares it; MANIFEST_FAILED: a message. Prints what is not the same. */
+static ManifestResult verify_one(const ManifestEntry *entry, const Manifest *manifest,
+                                 Picture *picture, Message *message)
 {
     ImageFile file = {.bytes = NULL};
     Message found = {0};
-    const ManifestEntry *entry = manifest_find(manifest, example->name);
     ManifestResult result = MANIFEST_FAILED;
-    if (draw_one(example, canvas, options, picture, message) &&
-        picture_encode(picture, &file, message))
+    if (picture_encode(picture, &file, message))
         result = manifest_compare(manifest, entry, &file, &found, message);
     image_file_close(&file);
-    if (result == MANIFEST_FAILED)
-        return false;
-    counts[result]++;
     if (result == MANIFEST_PIXELS)
-        printf("%s: the same pixels; the file says other things of itself\n", example->name);
+        printf("%s: the same pixels; the file says other things of itself\n", entry->name);
     else if (result == MANIFEST_DIFFERENT)
-        printf("%s: %s\n", example->name, found.text);
-    return true;
+        printf("%s: %s\n", entry->name, found.text);
+    return result;
 }
 
 /* --verify; *code is EXIT_FAILED if pixels differ. */
@@ -319,20 +312,24 @@ static bool verify(const Manifest *manifest, const Selection *selection, const O
 {
     Canvas canvas = {0};
     int counts[MANIFEST_FAILED] = {0};
-    Picture *picture = calloc(1, sizeof *picture);
-    bool done = picture ? open_canvas(&canvas, options, message)
-                        : message_set(message, "gallery: not enough memory");
-    for (int i = 0; i < selection->count && done; i++)
-        done = verify_one(manifest, selection->examples[i], &canvas, options, picture, counts,
-                          message);
+    Picture *picture = memory_new(1, sizeof *picture);
+    bool done = open_canvas(&canvas, options, message);
+    for (int i = 0; i < selection->count && done; i++) {
+        const Example *example = selection->examples[i];
+        ManifestResult result = MANIFEST_FAILED;
+        if (draw_one(example, &canvas, options, picture, message))
+            result = verify_one(manifest_find(manifest, example->name), manifest, picture, message);
+        done = result != MANIFEST_FAILED;
+        if (done)
+            counts[result]++;
+    }
     if (done)
         printf("%d of %d pictures are the same; %d have the same pixels, %d differ\n",
                counts[MANIFEST_SAME], selection->count, counts[MANIFEST_PIXELS],
                counts[MANIFEST_DIFFERENT]);
     *code = counts[MANIFEST_DIFFERENT] ? EXIT_FAILED : 0;
     canvas_close(&canvas);
-    if (picture)
-        image_close(&picture->image);
+    image_close(&picture->image);
     free(picture);
     return done;
 }

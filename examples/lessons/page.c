@@ -125,17 +125,21 @@ static Columns choose_columns(const Changes *changes, const PageLayout *layout, 
     return chosen;
 }
 
+/* Where a line of text begins, and how wide it may be. */
+typedef struct Strip {
+    int x, y, width;
+} Strip;
+
 /* A line that is too wide ends in three points. */
-static bool paint_line(Image *page, int x, int y, int width, int letters, const ChangeLine *line,
-                       Message *message)
+static bool paint_line(Image *page, Strip at, int letters, const ChangeLine *line, Message *message)
 {
     char text[CHANGE_TEXT_SIZE + 8];
     TextStyle style = LINES[line->kind];
-    const int fit = (int)(width / (letters * IMAGE_MONO_ADVANCE));
+    const int fit = (int)(at.width / (letters * IMAGE_MONO_ADVANCE));
     style.size = letters;
     if (snprintf(text, sizeof text, "%s%s", MARKS[line->kind], line->text) > fit)
         snprintf(text + most(0, fit - 3), 4, "...");
-    return image_text(page, x, y, &style, text, message);
+    return image_text(page, at.x, at.y, &style, text, message);
 }
 
 static void clear(Image *page)
@@ -165,9 +169,9 @@ bool page_paint_lines(Image *page, const Changes *changes, Message *message)
                 line.kind = CHANGE_TITLE;
                 snprintf(line.text, sizeof line.text, "%d more lines", end - i);
             }
-            done = paint_line(page, layout.margin + column * (width + layout.margin),
-                              layout.text_top + (row + 1) * step - step / 4, width, columns.letters,
-                              &line, message);
+            const Strip at = {layout.margin + column * (width + layout.margin),
+                              layout.text_top + (row + 1) * step - step / 4, width};
+            done = paint_line(page, at, columns.letters, &line, message);
         }
     }
     return done;
@@ -183,13 +187,13 @@ static void put(Image *page, int left, int top, const Image *picture)
 }
 
 /* In letters with which it is no wider than a picture; none if they could not be read. */
-static bool paint_caption(Image *page, TextStyle style, int letters, int x, int y, int width,
-                          const char *text, Message *message)
+static bool paint_caption(Image *page, TextStyle style, int letters, Strip at, const char *text,
+                          Message *message)
 {
-    const int place[4] = {0, 0, width + 4, 3 * (letters + 2)};
+    const int place[4] = {0, 0, at.width + 4, 3 * (letters + 2)};
     style.size = letters;
     return image_caption_size(place, text, &style.size, message) &&
-           (style.size == 0 || image_text(page, x, y, &style, text, message));
+           (style.size == 0 || image_text(page, at.x, at.y, &style, text, message));
 }
 
 bool page_paint_picture(Image *page, int number, const Image *picture, const char *name,
@@ -197,18 +201,19 @@ bool page_paint_picture(Image *page, int number, const Image *picture, const cha
 {
     const PageLayout layout = page_layout(page->width, page->height);
     put(page, layout.left[number], layout.top, picture);
-    return paint_caption(page, CAPTION, layout.letters, layout.left[number],
-                         layout.top - layout.letters / 3, layout.side, name, message);
+    const Strip at = {layout.left[number], layout.top - layout.letters / 3, layout.side};
+    return paint_caption(page, CAPTION, layout.letters, at, name, message);
 }
 
 bool page_paint_captions(Image *page, const char *title, const char *below, Message *message)
 {
     const PageLayout layout = page_layout(page->width, page->height);
     const int width = page->width - 2 * layout.margin;
-    return paint_caption(page, CAPTION, layout.letters, layout.margin, 6 * layout.letters / 5,
-                         width, title, message) &&
-           paint_caption(page, BELOW, layout.letters, layout.margin,
-                         layout.top + layout.side + 6 * layout.letters / 5, width, below, message);
+    const int down = 6 * layout.letters / 5;
+    const Strip at = {layout.margin, down, width};
+    const Strip under = {layout.margin, layout.top + layout.side + down, width};
+    return paint_caption(page, CAPTION, layout.letters, at, title, message) &&
+           paint_caption(page, BELOW, layout.letters, under, below, message);
 }
 
 PageDifference page_difference(const Image *before, const Image *after, Image *difference)

@@ -6,7 +6,7 @@
  * and --time-budget choose one.
  */
 #include "app/doctor.h"
-#include "base/output.h"
+#include "base/output_text.h"
 #include "base/progress.h"
 #include "study/measure/choose.h"
 #include "study/measure/models.h"
@@ -119,108 +119,116 @@ static bool has_errors(const Results *results, const char *scene_name)
     return false;
 }
 
-/* Drawn, exact and difference of one setting; or without the exact picture and text, small. */
-static bool write_sheet(Survey *survey, const char *name, const Scene *drawn,
-                        const Quality *quality, const Reference *exact, bool small,
-                        const char *path, Message *message)
+/* A scene of the study and its exact picture. */
+typedef struct Subject {
+    Survey *survey;
+    const char *name;
+    StudyScene made;
+    Reference exact;
+} Subject;
+
+static bool open_subject(Subject *subject, Survey *survey, int number, Message *message)
 {
-    SettingPicture drawing;
+    subject->survey = survey;
+    subject->name = STUDY_SCENES[number].name;
+    study_scene(number, &subject->made);
+    return survey_exact(survey, &subject->made.scene, &subject->exact, message);
+}
+
+/* Drawn, exact and difference of one setting; or without the exact picture and text, small. */
+static bool write_sheet(Subject *subject, const Quality *quality, bool small, const char *path,
+                        Message *message)
+{
+    const Survey *survey = subject->survey;
+    SettingPicture picture;
     char text[QUALITY_TEXT_SIZE], caption[QUALITY_TEXT_SIZE + 320];
-    if (!setting_picture_open(&drawing, survey->renderer, drawn, quality, message))
+    if (!setting_picture_open(&picture, survey->renderer, &subject->made.scene, quality, message))
         return false;
-    const SettingError error = setting_picture_error(&drawing, exact);
+    const SettingError error = setting_picture_error(&picture, &subject->exact);
     quality_text(quality, text);
     snprintf(caption, sizeof caption,
              "%s: %s. Interior: largest error %.2f, rms %.3f; all: rms %.2f. %s, LP_NUM_THREADS %s",
-             name, text, error.interior_maximum, error.interior_rms, error.all_rms,
+             subject->name, text, error.interior_maximum, error.interior_rms, error.all_rms,
              survey->like.renderer, survey->like.threads);
-    const bool done = small ? report_pair(&drawing.image, exact, path, message)
-                            : report_sheet(&drawing.image, exact, caption, path, message);
-    setting_picture_close(&drawing);
+    const bool done = small ? report_pair(&picture.image, &subject->exact, path, message)
+                            : report_sheet(&picture.image, &subject->exact, caption, path, message);
+    setting_picture_close(&picture);
     return done;
 }
 
 /* The small pictures of a scene's plot; those of an earlier run are removed. */
-static bool write_pins(Survey *survey, const Options *options, int number, const Scene *drawn,
-                       const Reference *exact, Message *message)
+static bool write_pins(Subject *subject, const char *folder, Message *message)
 {
-    const char *name = STUDY_SCENES[number].name;
+    const Results *results = &subject->survey->results;
     ReportPins pins = {.count = 0};
     char path[PATH_MAX];
-    bool done = !has_errors(&survey->results, name) ||
-                report_pins(&pins, &survey->results, name, ERROR_INTERIOR_MAXIMUM, message);
+    bool done = !has_errors(results, subject->name) ||
+                report_pins(&pins, results, subject->name, ERROR_INTERIOR_MAXIMUM, message);
     for (int i = 0; i < REPORT_PINS && done; i++) {
-        report_pin_path(options->output, name, i, path);
+        report_pin_path(folder, subject->name, i, path);
         if (i < pins.count)
-            done = write_sheet(survey, name, drawn, &pins.rows[i]->quality, exact, true, path,
-                               message);
+            done = write_sheet(subject, &pins.rows[i]->quality, true, path, message);
         else
             unlink(path);
     }
     return done;
 }
 
+/* The settings that a sheet shows, by the end of its file's name. */
 typedef struct Sheet {
-    const char *name; /* of the file, after the scene's */
+    const char *name;
     Quality quality;
 } Sheet;
 
-static bool write_sheets(Survey *survey, const Options *options, int number, const Sheet *sheets,
-                         int count, bool pins, Message *message)
+static bool write_sheets(Subject *subject, const Options *options, const Sheet *sheets, int count,
+                         Message *message)
 {
-    StudyScene made;
-    Reference exact;
-    study_scene(number, &made);
-    if (!survey_exact(survey, &made.scene, &exact, message))
-        return false;
     bool done = true;
     for (int i = 0; i < count && done; i++) {
         char name[64], path[PATH_MAX];
-        snprintf(name, sizeof name, "%s-%s.png", STUDY_SCENES[number].name, sheets[i].name);
-        done = write_sheet(survey, STUDY_SCENES[number].name, &made.scene, &sheets[i].quality,
-                           &exact, false, in_folder(options, name, path), message);
+        snprintf(name, sizeof name, "%s-%s.png", subject->name, sheets[i].name);
+        done = write_sheet(subject, &sheets[i].quality, false, in_folder(options, name, path),
+                           message);
     }
-    if (pins)
-        done = done && write_pins(survey, options, number, &made.scene, &exact, message);
-    setting_renderer_forget(survey->renderer);
-    reference_close(&exact);
     return done;
 }
 
-/* All tables, whole: a scene's settings, then `more`. */
+static void close_subject(Subject *subject)
+{
+    setting_renderer_forget(subject->survey->renderer);
+    reference_close(&subject->exact);
+}
+
+/* All tables: a scene's settings, then `more`. */
 static bool write_tables(const Survey *survey, const Options *options, const char *more,
                          Message *message)
 {
-    char *text = NULL, path[PATH_MAX];
-    size_t size = 0;
-    FILE *file = open_memstream(&text, &size);
-    bool done = file || message_set(message, "table.txt: not enough memory");
+    OutputText text;
+    char path[PATH_MAX];
+    bool done = true;
+    output_text_open(&text);
     for (int i = 0; i < STUDY_SCENE_COUNT && done; i++)
         if (has_errors(&survey->results, STUDY_SCENES[i].name))
             done = report_table(&survey->results, STUDY_SCENES[i].name, ERROR_INTERIOR_MAXIMUM,
-                                false, file, message);
-    if (file)
-        fputs(more, file);
-    if (file && fclose(file) != 0 && done)
-        done = message_set(message, "table.txt: not enough memory");
-    done = done && output_write(in_folder(options, "table.txt", path), text, size, message);
-    free(text);
-    return done;
+                                false, text.file, message);
+    fputs(more, text.file);
+    if (done)
+        return output_text_write(&text, in_folder(options, "table.txt", path), message);
+    free(output_text_close(&text));
+    return false;
 }
 
 /* The tables of models, matrices and shadows, as text of its own. */
 static bool measure_more(Survey *survey, const Options *options, ModelsApart *apart,
                          ShadowWays *ways, char **text, Message *message)
 {
-    size_t size = 0;
-    FILE *file = open_memstream(text, &size);
-    bool done = file || message_set(message, "table.txt: not enough memory");
-    done = done && models_report(survey, options->output, markdown, file, apart, message) &&
-           (findings_matrices(&survey->results, markdown, file) ||
-            message_set(message, "table.txt: not enough memory")) &&
-           shadow_ways_report(survey, options->output, markdown, file, ways, message);
-    if (file && fclose(file) != 0 && done)
-        done = message_set(message, "table.txt: not enough memory");
+    OutputText more;
+    output_text_open(&more);
+    bool done = models_report(survey, options->output, markdown, more.file, apart, message);
+    if (done)
+        findings_matrices(&survey->results, markdown, more.file);
+    done = done && shadow_ways_report(survey, options->output, markdown, more.file, ways, message);
+    *text = output_text_close(&more);
     return done;
 }
 
@@ -244,30 +252,46 @@ static void draw_plots(const Survey *survey, const Options *options, const int *
         fprintf(stderr, "accuracy: no plots: %s\n", message.text);
 }
 
-/* The conclusions; or the tables, if asked for. */
-static bool print_report(const Survey *survey, const Options *options, const int *scenes, int count,
-                         const Conclusions *conclusions, const char *more, Message *message)
+/* The tables that are asked for. */
+static bool print_tables(const Survey *survey, const int *scenes, int count, const char *more,
+                         Message *message)
 {
-    if (markdown)
-        table_machine(survey->like.renderer, stdout);
-    if (markdown && !findings_tables(&survey->results, stdout))
-        return message_set(message, "standard output: not enough memory for the tables");
-    const bool tables = !markdown && (options->verbose || all_rows);
-    for (int i = 0; i < count && tables; i++)
+    for (int i = 0; i < count && !markdown; i++)
         if (!report_table(&survey->results, STUDY_SCENES[scenes[i]].name, ERROR_INTERIOR_MAXIMUM,
                           !all_rows, stdout, message))
             return false;
-    if (markdown || tables)
-        fputs(more, stdout);
-    if (tables)
-        putchar('\n');
-    for (int i = 0; i < conclusions->count && !markdown; i++)
-        puts(conclusions->lines[i]);
+    if (markdown) {
+        table_machine(survey->like.renderer, stdout);
+        findings_tables(&survey->results, stdout);
+    }
+    fputs(more, stdout);
     if (!markdown)
-        printf("%s/index.html: plots and tables; all tables: table.txt; --verbose prints them\n",
-               options->output);
-    fflush(stdout);
+        putchar('\n');
     return true;
+}
+
+static void print_conclusions(const Conclusions *conclusions, const char *folder)
+{
+    for (int i = 0; i < conclusions->count; i++)
+        puts(conclusions->lines[i]);
+    printf("%s/index.html: plots and tables; all tables: table.txt; --verbose prints them\n",
+           folder);
+}
+
+static bool draw_sheets(Survey *survey, const Options *options, int number, Message *message)
+{
+    Subject subject;
+    Sheet sheets[] = {
+        {"usual", quality_usual()},
+        {"gouraud", quality_with(quality_usual(), AXIS_INTERPOLATION, INTERPOLATION_GOURAUD)},
+        {"mediump", quality_with(quality_usual(), AXIS_PRECISION, PRECISION_MEDIUMP)}};
+    if (!quality_choose(&sheets[1].quality, "divisions", "24", message) ||
+        !open_subject(&subject, survey, number, message))
+        return false;
+    const bool done = write_sheets(&subject, options, sheets, quick ? 1 : 3, message) &&
+                      write_pins(&subject, options->output, message);
+    close_subject(&subject);
+    return done;
 }
 
 static bool report(Survey *survey, const Options *options, const int *scenes, int count,
@@ -276,18 +300,13 @@ static bool report(Survey *survey, const Options *options, const int *scenes, in
     char path[PATH_MAX], *more = NULL;
     ModelsApart apart;
     ShadowWays ways;
-    Sheet sheets[] = {
-        {"usual", quality_usual()}, {"gouraud", quality_usual()}, {"mediump", quality_usual()}};
-    if (!quality_parse(&sheets[1].quality, "interpolation=gouraud divisions=24", message))
-        return false;
-    sheets[2].quality = quality_with(quality_usual(), AXIS_PRECISION, PRECISION_MEDIUMP);
     bool done =
         measure_more(survey, options, &apart, &ways, &more, message) &&
         write_tables(survey, options, more, message) &&
         results_write_json(&survey->results, in_folder(options, "results.json", path), message);
     Progress progress = progress_start("plots and sheets");
     for (int i = 0; i < count && done; i++) {
-        done = write_sheets(survey, options, scenes[i], sheets, quick ? 1 : 3, true, message);
+        done = draw_sheets(survey, options, scenes[i], message);
         progress_update(&progress, i + 1, 2 * count);
     }
     if (done)
@@ -295,9 +314,12 @@ static bool report(Survey *survey, const Options *options, const int *scenes, in
     progress_end(&progress);
     if (done) {
         const Conclusions conclusions = conclusions_of(&survey->results, scenes, count, &apart);
-        done =
-            report_page(&survey->results, scenes, count, &conclusions, options->output, message) &&
-            print_report(survey, options, scenes, count, &conclusions, more, message);
+        done = report_page(&survey->results, scenes, count, &conclusions, options->output, message);
+        if (done && (markdown || options->verbose || all_rows))
+            done = print_tables(survey, scenes, count, more, message);
+        if (done && !markdown)
+            print_conclusions(&conclusions, options->output);
+        fflush(stdout);
     }
     free(more);
     return done;
@@ -309,12 +331,19 @@ static bool measure_one(Survey *survey, const Options *options, const Quality *q
 {
     ResultRow row;
     Results results = {.rows = NULL};
+    Subject subject;
     const Sheet sheet = {"setting", *quality};
-    const bool done = survey_again(survey, scene, quality, 1, &row, message) &&
-                      results_add(&results, &row, message) &&
-                      report_table(&results, STUDY_SCENES[scene].name, ERROR_INTERIOR_MAXIMUM,
-                                   false, stdout, message) &&
-                      write_sheets(survey, options, scene, &sheet, 1, false, message);
+    bool done = survey_again(survey, scene, quality, 1, &row, message);
+    if (!done)
+        return false;
+    results_add(&results, &row);
+    done = report_table(&results, STUDY_SCENES[scene].name, ERROR_INTERIOR_MAXIMUM, false, stdout,
+                        message) &&
+           open_subject(&subject, survey, scene, message);
+    if (done) {
+        done = write_sheets(&subject, options, &sheet, 1, message);
+        close_subject(&subject);
+    }
     if (done)
         printf("%s/%s-setting.png\n", options->output, STUDY_SCENES[scene].name);
     results_close(&results);

@@ -200,7 +200,7 @@ static void close_result(HardResult *result)
     reference_close(&result->exact);
 }
 
-static bool print_table(const HardResult *results, int count, Message *message)
+static void print_table(const HardResult *results, int count)
 {
     Table table;
     table_open(&table, markdown ? "case|plain formula: error|pixels wrong|stable form: error|time "
@@ -218,8 +218,7 @@ static bool print_table(const HardResult *results, int count, Message *message)
         table_row(&table, "%s|%.2f|%.1f%%|%.2f|%s%s", result->of->name, result->naive_error.maximum,
                   100 * result->naive_error.wrong, result->stable_error.maximum, cost, details);
     }
-    return table_close(&table, markdown, stdout) ||
-           message_set(message, "standard output: not enough memory for the table");
+    table_close(&table, markdown, stdout);
 }
 
 /* A common sheet of several cases. */
@@ -230,8 +229,9 @@ static bool draw_sheet(const Options *options, const char *name, const HardResul
     const double scale =
         fmin((double)SHEET_WIDTH / options->width, (double)SHEET_HEIGHT / options->height);
     snprintf(path, sizeof path, "%s/%s", options->output, name);
-    return hard_sheet(results, count, 2, (int)fmax(1, scale * options->width),
-                      (int)fmax(1, scale * options->height), path, message);
+    const HardSheet sheet = {results, count, 2, (int)fmax(1, scale * options->width),
+                             (int)fmax(1, scale * options->height)};
+    return hard_sheet(&sheet, path, message);
 }
 
 /* Each case to its own sheet; all also to one of formulas and one of shadows. */
@@ -246,8 +246,9 @@ static bool draw_cases(const Options *options, const Canvas *canvas, int from, i
     bool done = true;
     for (int i = 0; i < count && done; i++) {
         snprintf(path, sizeof path, "%s/%s.png", options->output, hard_case(from + i)->name);
+        const HardSheet sheet = {&results[i], 1, 1, width, height};
         done = draw_case(hard_case(from + i), canvas, options, &results[i], message) &&
-               hard_sheet(&results[i], 1, 1, width, height, path, message);
+               hard_sheet(&sheet, path, message);
         progress_update(&progress, i + 1, count + 1);
     }
     if (done && count > 1)
@@ -277,8 +278,9 @@ static bool draw_and_report(const Options *options, Message *message)
         putchar('\n');
     }
     const bool done = output_folder(options->output, message) &&
-                      draw_cases(options, &canvas, from, count, results, message) &&
-                      print_table(results, count, message);
+                      draw_cases(options, &canvas, from, count, results, message);
+    if (done)
+        print_table(results, count);
     if (done && !markdown)
         printf("\nwrote %s/%s.png\n", options->output, count > 1 ? "*" : results[0].of->name);
     for (int i = 0; i < count; i++)

@@ -8,6 +8,7 @@
 #include "app/doctor.h"
 #include "app/options.h"
 #include "base/output.h"
+#include "base/output_text.h"
 #include "study/arithmetic/arithmetic_report.h"
 #include "study/results/table.h"
 
@@ -42,21 +43,15 @@ static const Parameter parameters[] = {
 static bool write_json(const Arithmetics *found, const Forecast *forecast, const char *folder,
                        Message *message)
 {
-    char path[PATH_MAX], *text = NULL;
-    size_t size = 0;
-    FILE *file = open_memstream(&text, &size);
-    if (!file)
-        return message_set(message, "precision.json: not enough memory");
-    arithmetic_json(found, forecast, file);
-    const bool whole = !ferror(file), closed = fclose(file) == 0;
-    if (!whole || !closed) {
-        free(text);
-        return message_set(message, "precision.json: not enough memory");
-    }
+    char path[PATH_MAX];
+    OutputText written;
+    output_text_open(&written);
+    arithmetic_json(found, forecast, written.file);
+    char *text = output_text_close(&written);
     snprintf(path, sizeof path, "%s/precision.json", folder);
-    const bool done = output_write(path, text, size, message);
+    const bool done = output_write(path, text, written.size, message);
     if (done && json)
-        fwrite(text, 1, size, stdout);
+        fwrite(text, 1, written.size, stdout);
     free(text);
     return done;
 }
@@ -90,8 +85,7 @@ static bool report(const Arithmetics *found, const Options *options, Message *me
         snprintf(driver, sizeof driver, "%s; %s", found->renderer, found->version);
         table_machine(driver, stdout);
     }
-    if (!arithmetic_text(found, &forecast, markdown, stdout))
-        return message_set(message, "standard output: not enough memory for the tables");
+    arithmetic_text(found, &forecast, markdown, stdout);
     if (!markdown)
         printf("\nwrote %s/precision.json%s\n", options->output,
                plot.text[0] ? "" : ", precision.png and precision.svg");

@@ -130,18 +130,19 @@ TEST(errors_are_counted_in_units_of_the_exact_result)
     assert_true(format_ulp(&HALF, 1e-7) == 0x1p-24);
     assert_true(format_max(&HALF) == 65504);
     Accuracy accuracy = {.count = 0};
-    accuracy_add(&accuracy, &HALF, 3, 4, 1000.5, 1000, 0);
-    accuracy_add(&accuracy, &HALF, 5, 6, 1, 1, 0);
-    accuracy_add(&accuracy, &HALF, 7, 8, 0.25, 0, 4); /* of a sum whose terms are 4 */
+    accuracy_add(&accuracy, &HALF, (float[]){3, 4}, 1000.5, 1000, 0);
+    accuracy_add(&accuracy, &HALF, (float[]){5, 6}, 1, 1, 0);
+    accuracy_add(&accuracy, &HALF, (float[]){7, 8}, 0.25, 0, 4); /* of a sum whose terms are 4 */
     assert_int_equal(accuracy.count, 3);
     assert_true(accuracy.largest == 64 && accuracy.at[0] == 7 && accuracy.at[1] == 8);
     assert_true(accuracy_mean(&accuracy) == 65 / 3.0);
-    accuracy_add(&accuracy, &HALF, 1, 1, 1, 1e6, 0);                  /* too large for a half */
-    accuracy_add(&accuracy, &HALF, 1, 1, 1, (double)NAN, 0);          /* undefined */
-    accuracy_add(&accuracy, &HALF, 1, 1, (double)INFINITY, 65000, 0); /* at the end of the range */
+    accuracy_add(&accuracy, &HALF, (float[]){1, 1}, 1, 1e6, 0);         /* too large for a half */
+    accuracy_add(&accuracy, &HALF, (float[]){1, 1}, 1, (double)NAN, 0); /* undefined */
+    accuracy_add(&accuracy, &HALF, (float[]){1, 1}, (double)INFINITY, 65000,
+                 0); /* at the end of the range */
     assert_int_equal(accuracy.count, 3);
-    accuracy_add(&accuracy, &HALF, 9, 1, (double)NAN, 2, 0);
-    accuracy_add(&accuracy, &HALF, 9, 1, (double)INFINITY, 100, 0);
+    accuracy_add(&accuracy, &HALF, (float[]){9, 1}, (double)NAN, 2, 0);
+    accuracy_add(&accuracy, &HALF, (float[]){9, 1}, (double)INFINITY, 100, 0);
     assert_int_equal(accuracy.wrong, 2);
     assert_true(accuracy.at[0] == 9);
 }

@@ -5,7 +5,6 @@
 #include "base/memory.h"
 #include "study/report/report_gnuplot.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -73,16 +72,14 @@ static void put_data(const ClassStore *store, FILE *script)
 
 bool pareto_front_draw(const ClassStore *store, bool *drawn, Message *message)
 {
-    char *script = NULL;
-    size_t size = 0;
+    OutputText script;
     *drawn = false;
     for (int i = 0; i < store->count && !*drawn; i++)
         *drawn = counted(&store->results[i]);
     if (!*drawn)
         return true;
-    FILE *file = open_memstream(&script, &size);
-    if (!file)
-        return message_set(message, "the plot: %s", strerror(errno));
+    output_text_open(&script);
+    FILE *file = script.file;
     fputs("set title 'Cost and error of the submissions'\n"
           "set xlabel 'operations per picture, relative to the plain program'\n"
           "set ylabel 'largest error, steps of 1/255'\n"
@@ -91,5 +88,5 @@ bool pareto_front_draw(const ClassStore *store, bool *drawn, Message *message)
           "set arrow 1 from graph 0, first 1 to graph 1, first 1 nohead dt 2 lc rgb '#000000'\n",
           file);
     put_data(store, file);
-    return gnuplot_finish(file, &script, &size, true, store->folder, "front", message);
+    return gnuplot_finish(&script, store->folder, "front", message);
 }

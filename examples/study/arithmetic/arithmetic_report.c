@@ -10,14 +10,20 @@
 #include <math.h>
 #include <string.h>
 
-static bool forecast_scene(const Arithmetics *found, int height, const char *name,
-                           Interpolation interpolation, SolidMeshes *meshes, double steps[2],
-                           Message *message)
+/* Scenes that an arithmetic draws alike. */
+typedef struct SceneClass {
+    const char *what, *scene;
+    Interpolation interpolation;
+} SceneClass;
+
+static bool forecast_scene(const Arithmetics *found, int height, const SceneClass *of,
+                           SolidMeshes *meshes, double steps[2], Message *message)
 {
-    const Quality quality = quality_with(quality_usual(), AXIS_INTERPOLATION, (int)interpolation);
+    const Quality quality =
+        quality_with(quality_usual(), AXIS_INTERPOLATION, (int)of->interpolation);
     StudyScene study;
     QualityScene made;
-    study_scene(study_scene_number(name), &study);
+    study_scene(study_scene_number(of->scene), &study);
     if (!quality_scene_open(&made, &study.scene, &quality, meshes, message))
         return false;
     for (int i = 0; i < 2; i++)
@@ -29,10 +35,7 @@ static bool forecast_scene(const Arithmetics *found, int height, const char *nam
 
 bool forecast_make(const Arithmetics *found, int height, Forecast *forecast, Message *message)
 {
-    static const struct {
-        const char *what, *scene;
-        Interpolation interpolation;
-    } classes[FORECAST_SCENES] = {
+    static const SceneClass classes[FORECAST_SCENES] = {
         {"diffuse, lit per vertex", "sphere", INTERPOLATION_GOURAUD},
         {"highlight of shininess 32, lit per vertex", "shiny32", INTERPOLATION_GOURAUD},
         {"diffuse, lit per fragment", "sphere", INTERPOLATION_PHONG},
@@ -48,8 +51,7 @@ bool forecast_make(const Arithmetics *found, int height, Forecast *forecast, Mes
     forecast->height = height;
     for (int i = 0; i < FORECAST_SCENES && done; i++) {
         forecast->scenes[i] = classes[i].what;
-        done = forecast_scene(found, height, classes[i].scene, classes[i].interpolation, &meshes,
-                              forecast->steps[i], message);
+        done = forecast_scene(found, height, &classes[i], &meshes, forecast->steps[i], message);
     }
     for (int i = 0; i < FORECAST_SHININESSES; i++) {
         forecast->shininess[i] = shininesses[i];
@@ -112,7 +114,7 @@ static void columns_of(const Arithmetics *found, Columns *columns)
 static const char *const ROUNDING_NAMES[] = {"nearest, ties to even", "nearest", "towards 0",
                                              "other"};
 
-static bool put_formats(const Columns *columns, bool markdown, FILE *file)
+static void put_formats(const Columns *columns, bool markdown, FILE *file)
 {
     Table table;
     table_open(&table, "floats|bits|normal range|smaller ones|rounding|overflow|inf - inf");
@@ -123,7 +125,7 @@ static bool put_formats(const Columns *columns, bool markdown, FILE *file)
                   format->denormals ? "are kept" : "become 0", ROUNDING_NAMES[format->rounding],
                   format->infinity ? "not finite" : "finite", format->nan ? "NaN" : "a number");
     }
-    return table_close(&table, markdown, file);
+    table_close(&table, markdown, file);
 }
 
 static void error_text(const Accuracy *accuracy, char text[64])
@@ -135,7 +137,7 @@ static void error_text(const Accuracy *accuracy, char text[64])
                  accuracy_mean(accuracy));
 }
 
-static bool put_functions(const Columns *columns, bool markdown, FILE *file)
+static void put_functions(const Columns *columns, bool markdown, FILE *file)
 {
     Table table;
     char row[WAYS * 96] = "error in units: largest, mean";
@@ -161,7 +163,7 @@ static bool put_functions(const Columns *columns, bool markdown, FILE *file)
         snprintf(row + strlen(row), sizeof row - strlen(row), "|%s", text);
         table_row(&table, "%s", row);
     }
-    return table_close(&table, markdown, file);
+    table_close(&table, markdown, file);
 }
 
 static void put_raster(const Raster *raster, FILE *file)
@@ -185,7 +187,7 @@ static void put_raster(const Raster *raster, FILE *file)
         raster->depth_bits, raster->depth_step, raster->depth_error, raster->bytes);
 }
 
-static bool put_forecast(const Forecast *forecast, bool markdown, FILE *file)
+static void put_forecast(const Forecast *forecast, bool markdown, FILE *file)
 {
     Table table;
     char head[96];
@@ -198,7 +200,7 @@ static bool put_forecast(const Forecast *forecast, bool markdown, FILE *file)
     for (int i = 0; i < FORECAST_SHININESSES; i++)
         table_row(&table, "pow alone, shininess %g|%.2g|%.2g", forecast->shininess[i],
                   forecast->power[i][0], forecast->power[i][1]);
-    return table_close(&table, markdown, file);
+    table_close(&table, markdown, file);
 }
 
 /* What a precision that is declared really is, and what it is said to be. */
@@ -226,7 +228,7 @@ static void put_meaning(const Arithmetics *found, FILE *file)
         }
 }
 
-bool arithmetic_text(const Arithmetics *found, const Forecast *forecast, bool markdown, FILE *file)
+void arithmetic_text(const Arithmetics *found, const Forecast *forecast, bool markdown, FILE *file)
 {
     Columns columns;
     columns_of(found, &columns);
@@ -237,19 +239,15 @@ bool arithmetic_text(const Arithmetics *found, const Forecast *forecast, bool ma
             "last place.\n\n",
             found->inputs,
             truth_is_checked() ? "doubles, checked with MPFR" : "doubles (built without MPFR)");
-    if (!put_formats(&columns, markdown, file))
-        return false;
+    put_formats(&columns, markdown, file);
     fputc('\n', file);
-    if (!put_functions(&columns, markdown, file))
-        return false;
+    put_functions(&columns, markdown, file);
     fputc('\n', file);
     put_raster(&found->raster, file);
     fputc('\n', file);
-    if (!put_forecast(forecast, markdown, file))
-        return false;
+    put_forecast(forecast, markdown, file);
     fputc('\n', file);
     put_meaning(found, file);
-    return true;
 }
 
 /* JSON. */

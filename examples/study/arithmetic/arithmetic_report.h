@@ -18,8 +18,8 @@ typedef struct Forecast {
 } Forecast;
 bool forecast_make(const Arithmetics *found, int height, Forecast *forecast, Message *message);
 
-/* Tables of some fifty lines, or of Markdown. False: no memory. */
-bool arithmetic_text(const Arithmetics *found, const Forecast *forecast, bool markdown, FILE *file);
+/* Tables of some fifty lines, or of Markdown. */
+void arithmetic_text(const Arithmetics *found, const Forecast *forecast, bool markdown, FILE *file);
 
 /* One object. */
 void arithmetic_json(const Arithmetics *found, const Forecast *forecast, FILE *file);

@@ -309,7 +309,7 @@ void batch_judge(const Batch *batch, Function function, const Format *format,
             const double exact = batch->exact[n][i];
             if (FUNCTIONS[function].inputs == 1 && !format->denormals && !is_normal(format, x))
                 continue;
-            accuracy_add(accuracy, format, x, y, (double)results[n][i], exact,
+            accuracy_add(accuracy, format, (float[]){x, y}, (double)results[n][i], exact,
                          batch->magnitude[n][i]);
             if (function == FUNCTION_POW)
                 judge_power(accuracy, x, y, fabs((double)results[n][i] - exact));

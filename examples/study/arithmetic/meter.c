@@ -166,12 +166,11 @@ Claim meter_claim(MeterStage stage, MeterPrecision precision)
     return (Claim){range[0], range[1], bits};
 }
 
-static bool compute(const Meter *meter, const char *code, MeterStage stage,
-                    MeterPrecision precision, const FormatProbes *probes,
-                    float results[FORMAT_PROBES], Message *message)
+/* By a program of meter_program, which it deletes. */
+static bool compute(const Meter *meter, GLuint program, MeterStage stage,
+                    const FormatProbes *probes, float results[FORMAT_PROBES], Message *message)
 {
     float inputs[FORMAT_PROBES][4], found[FORMAT_PROBES][4];
-    const GLuint program = meter_program(code, stage, precision, message);
     if (!program)
         return false;
     for (int i = 0; i < FORMAT_PROBES; i++) {
@@ -194,10 +193,12 @@ bool meter_format(const Meter *meter, MeterStage stage, MeterPrecision precision
     FormatProbes probes;
     float sums[FORMAT_PROBES], products[FORMAT_PROBES];
     format_sums(&probes);
-    if (!compute(meter, "vec4(a.x + a.y)", stage, precision, &probes, sums, message))
+    GLuint program = meter_program("vec4(a.x + a.y)", stage, precision, message);
+    if (!compute(meter, program, stage, &probes, sums, message))
         return false;
     format_products(&probes);
-    if (!compute(meter, "vec4((a.x * a.y) * a.z)", stage, precision, &probes, products, message))
+    program = meter_program("vec4((a.x * a.y) * a.z)", stage, precision, message);
+    if (!compute(meter, program, stage, &probes, products, message))
         return false;
     return format_of(sums, products, format) ||
            message_set(message, "%s: %s numbers of the %s shader are no floating-point numbers",

@@ -150,7 +150,7 @@ void claim_text(const Claim *claim, const Format *format, char text[CLAIM_SIZE])
                  format->max_exponent + 1);
 }
 
-void accuracy_add(Accuracy *accuracy, const Format *format, float x, float y, double result,
+void accuracy_add(Accuracy *accuracy, const Format *format, const float at[2], double result,
                   double exact, double magnitude)
 {
     const double size = fabs(exact) > magnitude ? fabs(exact) : magnitude;
@@ -165,20 +165,18 @@ void accuracy_add(Accuracy *accuracy, const Format *format, float x, float y, do
     const double error = fabs(result - exact) / format_ulp(format, size);
     if (!(error < INFINITY)) { /* NaN, too */
         if (accuracy->wrong++ == 0) {
-            accuracy->at[0] = x;
-            accuracy->at[1] = y;
+            memcpy(accuracy->at, at, sizeof accuracy->at);
         }
         return;
     }
     accuracy->sum += error;
-    const int binade = exponent_of((double)x) - NUMBER_FIRST_BINADE;
+    const int binade = exponent_of((double)at[0]) - NUMBER_FIRST_BINADE;
     if (binade >= 0 && binade < NUMBER_BINADES && error > accuracy->by_binade[binade])
         accuracy->by_binade[binade] = (float)error;
     if (error > accuracy->largest) {
         accuracy->largest = error;
         if (accuracy->wrong == 0) {
-            accuracy->at[0] = x;
-            accuracy->at[1] = y;
+            memcpy(accuracy->at, at, sizeof accuracy->at);
         }
     }
 }

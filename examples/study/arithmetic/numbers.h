@@ -87,7 +87,7 @@ typedef struct Accuracy {
 
 /* Adds one result. Exact results that the format does not have, for being too large or too small,
  * do not count. */
-void accuracy_add(Accuracy *accuracy, const Format *format, float x, float y, double result,
+void accuracy_add(Accuracy *accuracy, const Format *format, const float at[2], double result,
                   double exact, double magnitude);
 void accuracy_merge(Accuracy *into, const Accuracy *from);
 double accuracy_mean(const Accuracy *accuracy);

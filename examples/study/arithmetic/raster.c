@@ -1,5 +1,6 @@
 #include "study/arithmetic/raster.h"
 
+#include "base/memory.h"
 #include "base/random.h"
 
 #include <math.h>
@@ -301,11 +302,21 @@ static void draw_plane(GLuint program, const double plane[3], double nearer, boo
     draw_strip(program, GL_TRIANGLE_STRIP, corners, 4);
 }
 
+/* What steps of depth are measured with. */
+typedef struct DepthMeter {
+    Canvas canvas;
+    GLuint program;
+    float *pixels; /* of the canvas */
+} DepthMeter;
+
 /* The smallest of these steps nearer to the eye, in clip coordinates, with which a plane is in
  * front of itself at every pixel. */
-static int steps_in_front(const Canvas *canvas, GLuint program, const double plane[3], double step,
-                          int max, bool turned, float *pixels)
+static int steps_in_front(const DepthMeter *meter, const double plane[3], double step, int max,
+                          bool turned)
 {
+    const Canvas *canvas = &meter->canvas;
+    const GLuint program = meter->program;
+    float *pixels = meter->pixels;
     for (int n = 1; n <= max; n++) {
         bool all = true;
         canvas_clear(canvas, (Vec3){0, 0, 0}, 0);
@@ -325,8 +336,7 @@ static int steps_in_front(const Canvas *canvas, GLuint program, const double pla
 /* Planes that face the eye, in the middle of the range, each as far in front of the last as it
  * takes to be in front. What these steps are on average tells the bits; a driver that rounds twice
  * has larger and smaller ones. */
-static void depth_steps(const Canvas *canvas, GLuint program, Random *random, Raster *raster,
-                        float *pixels)
+static void depth_steps(const DepthMeter *meter, Random *random, Raster *raster)
 {
     enum { STARTS = 8, STEPS = 8, MAX = 64 };
     const double finest = 0x1p-26; /* of clip coordinates, whose range is 2 */
@@ -334,8 +344,7 @@ static void depth_steps(const Canvas *canvas, GLuint program, Random *random, Ra
     for (int i = 0; i < STARTS; i++) {
         double at = random_between(random, -1e-3, 1e-3);
         for (int k = 0; k <= STEPS; k++) {
-            const int n =
-                steps_in_front(canvas, program, (double[]){at, 0, 0}, finest, MAX, false, pixels);
+            const int n = steps_in_front(meter, (double[]){at, 0, 0}, finest, MAX, false);
             at -= n * finest;
             if (k == 0) /* begins within a step */
                 continue;
@@ -352,25 +361,21 @@ static bool depths(const Canvas *first, GLuint program, Raster *raster, Message 
     enum { SIDE = 64, PLANES = 8, MAX_STEPS = 64 };
     const CanvasOptions options = {.width = SIDE, .height = SIDE, .real = true};
     Random random = {5};
-    Canvas canvas;
-    float *pixels = malloc(sizeof(float) * 4 * SIDE * SIDE);
-    if (!pixels)
-        return message_set(message, "not enough memory to measure");
-    if (!canvas_open_beside(&canvas, first, &options, message)) {
-        free(pixels);
+    DepthMeter meter = {.program = program};
+    if (!canvas_open_beside(&meter.canvas, first, &options, message))
         return false;
-    }
-    depth_steps(&canvas, program, &random, raster, pixels);
+    meter.pixels = memory_new(4 * SIDE * SIDE, sizeof *meter.pixels);
+    depth_steps(&meter, &random, raster);
     for (int i = 0; i < PLANES; i++) {
         const double plane[3] = {random_between(&random, -0.1, 0.1),
                                  random_between(&random, -0.3, 0.3),
                                  random_between(&random, -0.3, 0.3)};
         const double unit = ldexp(1, 1 - raster->depth_bits);
-        const int steps = steps_in_front(&canvas, program, plane, unit, MAX_STEPS, true, pixels);
+        const int steps = steps_in_front(&meter, plane, unit, MAX_STEPS, true);
         raster->depth_error = fmax(raster->depth_error, steps);
     }
-    canvas_close(&canvas);
-    free(pixels);
+    canvas_close(&meter.canvas);
+    free(meter.pixels);
     return true;
 }
 

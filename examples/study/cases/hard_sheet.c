@@ -138,24 +138,23 @@ static void put_head(Sheet *sheet, int left)
                     MARGIN / 2 + TEXT, TEXT, names[panel], NULL);
 }
 
-bool hard_sheet(const HardResult *results, int count, int columns, int width, int height,
-                const char *path, Message *message)
+bool hard_sheet(const HardSheet *of, const char *path, Message *message)
 {
     static const unsigned char ground[3] = {24, 24, 28};
-    Sheet sheet = {.width = width, .height = height};
-    const int rows = (count + columns - 1) / columns;
+    Sheet sheet = {.width = of->width, .height = of->height};
+    const int rows = (of->count + of->columns - 1) / of->columns;
     const int across = case_width(&sheet) + MARGIN, down = case_height(&sheet) + MARGIN;
-    if (!image_open(&sheet.image, MARGIN + columns * across, MARGIN / 2 + HEAD + rows * down,
+    if (!image_open(&sheet.image, MARGIN + of->columns * across, MARGIN / 2 + HEAD + rows * down,
                     IMAGE_BYTE, message))
         return false;
     for (int y = 0; y < sheet.image.height; y++)
         for (int x = 0; x < sheet.image.width; x++)
             put_pixel(&sheet, x, y, ground);
-    for (int i = 0; i < columns; i++)
+    for (int i = 0; i < of->columns; i++)
         put_head(&sheet, MARGIN + i * across);
-    for (int i = 0; i < count; i++)
-        put_case(&sheet, &results[i], MARGIN + i % columns * across,
-                 MARGIN / 2 + HEAD + i / columns * down);
+    for (int i = 0; i < of->count; i++)
+        put_case(&sheet, &of->results[i], MARGIN + i % of->columns * across,
+                 MARGIN / 2 + HEAD + i / of->columns * down);
     const bool done = image_write(&sheet.image, path,
                                   &(ImageOptions){.compress = IMAGE_COMPRESS_DEFAULT}, message);
     image_close(&sheet.image);

@@ -29,7 +29,10 @@ void hard_cost_text(const HardResult *result, char text[HARD_COST_SIZE]);
 
 /* A PNG of the results in this number of columns, each as plain, stable and exact in panels of this
  * size, with its name above and errors at the right. Without a font it has no text. */
-bool hard_sheet(const HardResult *results, int count, int columns, int width, int height,
-                const char *path, Message *message);
+typedef struct HardSheet {
+    const HardResult *results;
+    int count, columns, width, height;
+} HardSheet;
+bool hard_sheet(const HardSheet *sheet, const char *path, Message *message);
 
 #endif

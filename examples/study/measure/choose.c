@@ -1,5 +1,6 @@
 #include "study/measure/choose.h"
 
+#include "base/memory.h"
 #include "study/measure/scenes.h"
 #include "study/results/front.h"
 
@@ -20,18 +21,12 @@ static void say(const char *what, const ResultRow *row, ErrorKind kind)
 /* The settings that may be chosen. */
 enum { FINALISTS = 8 };
 typedef struct Finalists {
+    double slack;
+    int from;
     Quality qualities[FINALISTS];
     ResultRow rows[FINALISTS]; /* as measured again */
     int count;
 } Finalists;
-
-static int unusual(const Quality *quality)
-{
-    int count = 0;
-    for (int axis = 0; axis < AXIS_COUNT; axis++)
-        count += quality->choice[axis] != QUALITY_AXES[axis].usual;
-    return count;
-}
 
 /* Rows in the order in which they are considered. */
 typedef struct Entry {
@@ -46,38 +41,35 @@ static int by_order(const void *a, const void *b)
     return first != 0 ? (first > 0) - (first < 0) : (second > 0) - (second < 0);
 }
 
-/* Those within the limit: of error, the cheapest first; of time, or `slack` times that, the most
- * exact first; from number `from` on. The usual setting, if within the limit, always. */
-static bool select_finalists(const Survey *survey, const char *name, const ChooseLimit *limit,
-                             double slack, int from, Finalists *finalists, Message *message)
+/* Those within the limit: of error, the cheapest first; of time, or finalists->slack times that,
+ * the most exact first; from number finalists->from on. The usual setting, if within the limit,
+ * always. */
+static void select_finalists(const Survey *survey, const char *name, const ChooseLimit *limit,
+                             Finalists *finalists)
 {
     const Quality usual = quality_usual();
-    const ResultRow **rows;
     int count, within = 0;
-    *finalists = (Finalists){.count = 0};
-    if (!results_latest(&survey->results, name, &rows, &count, message))
-        return false;
-    Entry *entries = malloc(((size_t)count + 1) * sizeof *entries);
-    for (int i = 0; entries && i < count; i++) {
+    const ResultRow **rows = results_latest(&survey->results, name, &count);
+    Entry *entries = memory_new((size_t)count, sizeof *entries);
+    finalists->count = 0;
+    for (int i = 0; i < count; i++) {
         const double error = row_error(rows[i], limit->kind), time = rows[i]->time;
         if (!isfinite(error) || !isfinite(time) ||
-            (limit->is_time ? time / slack : error) > limit->value)
+            (limit->is_time ? time / finalists->slack : error) > limit->value)
             continue;
-        const double fewest = unusual(&rows[i]->quality);
+        const double fewest = quality_unusual(&rows[i]->quality);
         entries[within++] = limit->is_time
                                 ? (Entry){rows[i], floor(error / FRONT_EQUAL_ERROR), fewest}
                                 : (Entry){rows[i], time, fewest};
-        if (from == 0 && quality_equal(&rows[i]->quality, &usual))
+        if (finalists->from == 0 && quality_equal(&rows[i]->quality, &usual))
             finalists->qualities[finalists->count++] = usual;
     }
-    if (entries)
-        qsort(entries, (size_t)within, sizeof *entries, by_order);
-    for (int i = from; entries && i < within && finalists->count < FINALISTS; i++)
+    qsort(entries, (size_t)within, sizeof *entries, by_order);
+    for (int i = finalists->from; i < within && finalists->count < FINALISTS; i++)
         if (!quality_equal(&entries[i].row->quality, &usual))
             finalists->qualities[finalists->count++] = entries[i].row->quality;
     free(entries);
     free(rows);
-    return entries || message_set(message, "study: not enough memory");
 }
 
 /* The share by which the next measurement may differ: the noise, which on a busy machine says more
@@ -137,7 +129,8 @@ static const ResultRow *best_finalist(const Finalists *finalists, const ChooseLi
     for (int i = 0; first && i < finalists->count; i++) {
         const ResultRow *row = &finalists->rows[i];
         const double error = row_error(row, limit->kind);
-        const int more = best ? unusual(&row->quality) - unusual(&best->quality) : -1;
+        const int more =
+            best ? quality_unusual(&row->quality) - quality_unusual(&best->quality) : -1;
         const bool near = limit->is_time || row->time <= MORE * first->time;
         if (row != first && !(near && is_tied(row, first, limit)))
             continue;
@@ -207,17 +200,18 @@ bool choose(Survey *survey, int scene, const ChooseLimit *limit, Message *messag
     static const double SLACK = 1.5;
     const char *name = STUDY_SCENES[scene].name;
     char with[RESULT_WITH_SIZE];
-    Finalists *finalists = calloc(1, sizeof *finalists);
-    Front front = {.count = 0};
+    Finalists *finalists = memory_new(1, sizeof *finalists);
+    Front front;
     const ResultRow *best = NULL;
-    bool done = (finalists || message_set(message, "study: not enough memory")) &&
-                front_open(&front, &survey->results, name, limit->kind, message);
+    bool done = true;
+    front_open(&front, &survey->results, name, limit->kind);
     /* Measured when other programs ran, some may no longer be within the time, and some now be. */
     for (int i = 0; i < TRIES && done && !best; i++) {
         const bool loose = limit->is_time && i < LOOSE;
-        const int from = (i < LOOSE || !limit->is_time ? i : i - LOOSE) * (FINALISTS - 1);
-        done = select_finalists(survey, name, limit, loose ? SLACK : 1, from, finalists, message);
-        if (!done || (finalists->count == 0 && !loose))
+        finalists->from = (i < LOOSE || !limit->is_time ? i : i - LOOSE) * (FINALISTS - 1);
+        finalists->slack = loose ? SLACK : 1;
+        select_finalists(survey, name, limit, finalists);
+        if (finalists->count == 0 && !loose)
             break;
         if (finalists->count == 0)
             continue;

@@ -141,31 +141,28 @@ bool models_report(Survey *survey, const char *folder, bool markdown, FILE *file
                    ModelsApart *apart, Message *message)
 {
     *apart = (ModelsApart){{INFINITY, 0}, {INFINITY, 0}};
-    char *text = NULL, path[PATH_MAX];
-    size_t size = 0;
-    FILE *csv = open_memstream(&text, &size);
-    bool done = csv || message_set(message, "models.csv: not enough memory");
+    OutputText csv;
+    char path[PATH_MAX];
+    bool done = true;
     char with[RESULT_WITH_SIZE];
     results_measured_with(&survey->like, with);
     Table table;
     table_open(&table, "model|s|shininess|error|rms|from Phong|rms|ms|over Phong|operations");
-    if (done)
-        fprintf(csv, "s,model,shininess,error_maximum,error_rms,apart_maximum,apart_rms,"
-                     "milliseconds,ratio,ratio_lower,ratio_upper,fragment_operations,"
-                     "renderer,threads\n");
+    output_text_open(&csv);
+    snprintf(path, sizeof path, "%s/models.csv", folder);
+    fprintf(csv.file, "s,model,shininess,error_maximum,error_rms,apart_maximum,apart_rms,"
+                      "milliseconds,ratio,ratio_lower,ratio_upper,fragment_operations,"
+                      "renderer,threads\n");
     for (int i = 0; i < SHININESS_COUNT && done; i++)
-        done = report_shininess(survey, SHININESSES[i], &table, csv, apart, message);
-    if (csv && fclose(csv) != 0 && done)
-        done = message_set(message, "models.csv: not enough memory");
+        done = report_shininess(survey, SHININESSES[i], &table, csv.file, apart, message);
     fprintf(file,
             "\nPhong and Blinn-Phong on a sphere, fitted to Phong's shininess s: the error of each "
             "against its own exact picture,\nand the distance of its exact picture from Phong's "
             "(steps of 1/255, interior)\n%s\n\n",
             with);
-    if (!table_close(&table, markdown, file) && done)
-        done = message_set(message, "models: not enough memory");
-    snprintf(path, sizeof path, "%s/models.csv", folder);
-    done = done && output_write(path, text, size, message);
-    free(text);
-    return done;
+    table_close(&table, markdown, file);
+    if (done)
+        return output_text_write(&csv, path, message);
+    free(output_text_close(&csv));
+    return false;
 }

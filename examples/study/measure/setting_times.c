@@ -1,6 +1,7 @@
 #include "study/measure/setting_times.h"
 
 #include "base/clock.h"
+#include "base/memory.h"
 #include "base/random.h"
 
 #include <math.h>
@@ -9,21 +10,17 @@
 
 /* Lists. */
 
-bool quality_list_add(QualityList *list, const Quality *quality, Message *message)
+void quality_list_add(QualityList *list, const Quality *quality)
 {
     for (int i = 0; i < list->count; i++)
         if (quality_equal(&list->qualities[i], quality))
-            return true;
+            return;
     if (list->count == list->capacity) {
-        const int capacity = list->capacity ? 2 * list->capacity : 64;
-        Quality *more = realloc(list->qualities, (size_t)capacity * sizeof *more);
-        if (!more)
-            return message_set(message, "study: not enough memory");
-        list->qualities = more;
-        list->capacity = capacity;
+        list->capacity = list->capacity ? 2 * list->capacity : 64;
+        list->qualities =
+            memory_grow(list->qualities, (size_t)list->capacity, sizeof *list->qualities);
     }
     list->qualities[list->count++] = *quality;
-    return true;
 }
 
 void quality_list_close(QualityList *list)
@@ -32,10 +29,12 @@ void quality_list_close(QualityList *list)
     *list = (QualityList){.qualities = NULL};
 }
 
-static bool add_text(QualityList *list, const char *text, Message *message)
+/* A text of this file, which is right. */
+static void add_text(QualityList *list, const char *text)
 {
     Quality quality;
-    return quality_parse(&quality, text, message) && quality_list_add(list, &quality, message);
+    if (quality_parse(&quality, text, NULL))
+        quality_list_add(list, &quality);
 }
 
 static const char *const QUICK[] = {
@@ -85,66 +84,52 @@ static const char *const COMBINED[] = {
 };
 
 /* The setting with each choice of `axis` from `min` to `max`. */
-static bool add_axis(QualityList *list, Quality quality, QualityAxis axis, int min, int max,
-                     Message *message)
+static void add_axis(QualityList *list, Quality quality, QualityAxis axis, int min, int max)
 {
     for (int choice = min; choice <= max; choice++) {
         const Quality other = quality_with(quality, axis, choice);
-        if (!quality_list_add(list, &other, message))
-            return false;
+        quality_list_add(list, &other);
     }
-    return true;
 }
 
 /* All combinations of what makes lighting cheaper, with this interpolation. */
-static bool add_cheaper(QualityList *list, int interpolation, const char *const *divisions,
-                        Message *message)
+static void add_cheaper(QualityList *list, int interpolation, const char *const *divisions)
 {
     for (int i = 0; divisions[i]; i++) {
         for (int k = 0; k < 8; k++) {
             Quality quality = quality_with(quality_usual(), AXIS_INTERPOLATION, interpolation);
-            if (!quality_choose(&quality, "divisions", divisions[i], message))
-                return false;
+            quality_choose(&quality, "divisions", divisions[i], NULL);
             quality = quality_with(quality, AXIS_VIEWER, k & 1);
             quality = quality_with(quality, AXIS_LIGHTS, k >> 1 & 1);
             quality = quality_with(quality, AXIS_NORMALS,
                                    interpolation == INTERPOLATION_PHONG ? k >> 2 : 0);
-            if (!quality_list_add(list, &quality, message))
-                return false;
+            quality_list_add(list, &quality);
         }
     }
-    return true;
 }
 
-bool setting_times_plan(bool quick, QualityList *list, Message *message)
+void setting_times_plan(bool quick, QualityList *list)
 {
     static const char *const PHONG_DIVISIONS[] = {"12", "16", "24", "32", "64", "128", NULL};
     static const char *const GOURAUD_DIVISIONS[] = {"24", "48", "96", "192", NULL};
     const Quality usual = quality_usual();
     *list = (QualityList){.qualities = NULL};
-    if (!quality_list_add(list, &usual, message))
-        return false;
-    if (quick) {
-        for (size_t i = 0; i < sizeof QUICK / sizeof QUICK[0]; i++)
-            if (!add_text(list, QUICK[i], message))
-                return false;
-        return true;
-    }
+    quality_list_add(list, &usual);
+    for (size_t i = 0; i < sizeof QUICK / sizeof QUICK[0] && quick; i++)
+        add_text(list, QUICK[i]);
+    if (quick)
+        return;
     for (int axis = 0; axis < AXIS_COUNT; axis++)
-        if (!add_axis(list, usual, (QualityAxis)axis, 0, QUALITY_AXES[axis].count - 1, message))
-            return false;
+        add_axis(list, usual, (QualityAxis)axis, 0, QUALITY_AXES[axis].count - 1);
     const int max = QUALITY_AXES[AXIS_DIVISIONS].count - 1;
     const Quality gouraud = quality_with(usual, AXIS_INTERPOLATION, INTERPOLATION_GOURAUD);
     const Quality flat = quality_with(usual, AXIS_INTERPOLATION, INTERPOLATION_FLAT);
-    if (!add_axis(list, gouraud, AXIS_DIVISIONS, 0, max, message) ||
-        !add_axis(list, flat, AXIS_DIVISIONS, 0, max - 2, message) ||
-        !add_cheaper(list, INTERPOLATION_PHONG, PHONG_DIVISIONS, message) ||
-        !add_cheaper(list, INTERPOLATION_GOURAUD, GOURAUD_DIVISIONS, message))
-        return false;
+    add_axis(list, gouraud, AXIS_DIVISIONS, 0, max);
+    add_axis(list, flat, AXIS_DIVISIONS, 0, max - 2);
+    add_cheaper(list, INTERPOLATION_PHONG, PHONG_DIVISIONS);
+    add_cheaper(list, INTERPOLATION_GOURAUD, GOURAUD_DIVISIONS);
     for (size_t i = 0; i < sizeof COMBINED / sizeof COMBINED[0]; i++)
-        if (!add_text(list, COMBINED[i], message))
-            return false;
-    return true;
+        add_text(list, COMBINED[i]);
 }
 
 /* Measuring. */
@@ -371,9 +356,7 @@ bool setting_times_measure(SettingTimes *times, const Quality *qualities, int co
     const double start = clock_now();
     double frames[SETTING_TIMES_BATCH];
     bool done = true;
-    Batch *batch = calloc(1, sizeof *batch);
-    if (!batch)
-        return message_set(message, "study: not enough memory");
+    Batch *batch = memory_new(1, sizeof *batch);
     batch->count = count;
     for (int i = 0; i < count && done && !*times->interrupted; i++)
         done = setting_picture_open(&batch->drawings[i], times->renderer, times->scene,

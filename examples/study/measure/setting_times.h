@@ -21,12 +21,12 @@ typedef struct QualityList {
     Quality *qualities;
     int count, capacity;
 } QualityList;
-bool quality_list_add(QualityList *list, const Quality *quality, Message *message);
+void quality_list_add(QualityList *list, const Quality *quality);
 void quality_list_close(QualityList *list);
 
 /* The settings to measure for a scene: the usual one; each other choice of each axis; useful
  * combinations. `quick`: a tenth of them. */
-bool setting_times_plan(bool quick, QualityList *list, Message *message);
+void setting_times_plan(bool quick, QualityList *list);
 
 typedef struct SettingTimes {
     SettingRenderer *renderer;

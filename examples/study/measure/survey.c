@@ -1,6 +1,7 @@
 #include "study/measure/survey.h"
 
 #include "base/clock.h"
+#include "base/memory.h"
 #include "base/output.h"
 #include "base/progress.h"
 #include "study/measure/scenes.h"
@@ -93,34 +94,32 @@ static bool is_common(Quality quality)
 }
 
 /* The planned settings of a scene, the usual one first. */
-static bool planned(const Survey *survey, int scene, QualityList *list, Message *message)
+static void planned(const Survey *survey, int scene, QualityList *list)
 {
     QualityList all;
-    bool done = setting_times_plan(survey->plan.quick, &all, message);
+    setting_times_plan(survey->plan.quick, &all);
     *list = (QualityList){.qualities = NULL};
-    for (int i = 0; i < all.count && done; i++)
+    for (int i = 0; i < all.count; i++)
         if (!STUDY_SCENES[scene].few || is_common(all.qualities[i]))
-            done = quality_list_add(list, &all.qualities[i], message);
+            quality_list_add(list, &all.qualities[i]);
     quality_list_close(&all);
-    return done;
 }
 
 /* The settings of a scene and a part without rows; all of them if the usual one has none, because
  * times are ratios to its time. */
-static bool missing(const Survey *survey, int scene, QualityList *list, Message *message)
+static void missing(const Survey *survey, int scene, QualityList *list)
 {
     const StudySceneInfo *info = &STUDY_SCENES[scene];
     const Quality usual = quality_usual();
     const bool based = find_timed(survey, info->name, &usual) != NULL;
     QualityList plan;
-    bool done = planned(survey, scene, &plan, message);
+    planned(survey, scene, &plan);
     *list = (QualityList){.qualities = NULL};
-    for (int i = 0; i < plan.count && done; i++)
+    for (int i = 0; i < plan.count; i++)
         if ((i == 0 || part_has(survey->plan.part, (uint64_t)i)) &&
             !(based && find_timed(survey, info->name, &plan.qualities[i])))
-            done = quality_list_add(list, &plan.qualities[i], message);
+            quality_list_add(list, &plan.qualities[i]);
     quality_list_close(&plan);
-    return done;
 }
 
 /* Progress in all scenes, in settings. */
@@ -159,8 +158,7 @@ static bool measure_batches(Survey *survey, SettingTimes *times, const QualityLi
             !results_append(survey->path, rows, count, message))
             return false;
         for (int i = 0; i < count; i++)
-            if (!results_add(&survey->results, &rows[i], message))
-                return false;
+            results_add(&survey->results, &rows[i]);
         work->done += count;
         progress_update(&work->progress, work->done, work->total);
     }
@@ -172,10 +170,9 @@ static bool survey_scene(Survey *survey, int scene, Work *work, Message *message
     QualityList list;
     StudyScene made;
     Reference exact;
-    if (!missing(survey, scene, &list, message) || list.count == 0) {
-        quality_list_close(&list);
-        return list.count == 0 && !message->text[0];
-    }
+    missing(survey, scene, &list);
+    if (list.count == 0)
+        return true;
     study_scene(scene, &made);
     if (!survey_exact(survey, &made.scene, &exact, message)) {
         quality_list_close(&list);
@@ -195,9 +192,9 @@ bool survey_run(Survey *survey, const int *scenes, int count, Message *message)
     Work work = {.progress = progress_start("measuring"),
                  .deadline = clock_now() + survey->seconds};
     bool done = true;
-    for (int i = 0; i < count && done; i++) {
+    for (int i = 0; i < count; i++) {
         QualityList list;
-        done = missing(survey, scenes[i], &list, message);
+        missing(survey, scenes[i], &list);
         work.total += list.count;
         quality_list_close(&list);
     }
@@ -258,15 +255,14 @@ static ResultRow scaled(const ResultRow *row, double scale)
 }
 
 /* Adds the rows of a scene to the survey's. `parts` has each part's rows. */
-static bool merge_scene(Survey *survey, int scene, Results *parts, int count, int *missing_rows,
-                        Message *message)
+static void merge_scene(Survey *survey, int scene, Results *parts, int count, int *missing_rows)
 {
     const char *name = STUDY_SCENES[scene].name;
     const Quality usual = quality_usual();
     QualityList plan;
-    bool done = planned(survey, scene, &plan, message);
+    planned(survey, scene, &plan);
     const ResultRow *base = results_find(&parts[0], name, &usual);
-    for (int i = 0; i < plan.count && done; i++) {
+    for (int i = 0; i < plan.count; i++) {
         const Results *part = &parts[i % count];
         const ResultRow *own = results_find(part, name, &usual);
         const ResultRow *row = results_find(part, name, &plan.qualities[i]);
@@ -275,18 +271,17 @@ static bool merge_scene(Survey *survey, int scene, Results *parts, int count, in
             continue;
         }
         const ResultRow made = part == parts ? *row : scaled(row, base->time / own->time);
-        done = results_add(&survey->results, &made, message);
+        results_add(&survey->results, &made);
     }
     quality_list_close(&plan);
-    return done;
 }
 
 bool survey_merge(Survey *survey, const int *scenes, int count, Message *message)
 {
     const int parts = count_parts(survey, message);
-    Results *read = parts ? calloc((size_t)parts, sizeof *read) : NULL;
+    Results *read = memory_new((size_t)parts, sizeof *read);
     int missing_rows = 0;
-    bool done = read || message_set(message, "results: %s", strerror(ENOMEM));
+    bool done = parts > 0;
     if (survey->plan.fresh)
         results_close(&survey->results);
     if (survey->results.count)
@@ -297,13 +292,13 @@ bool survey_merge(Survey *survey, const int *scenes, int count, Message *message
         done = results_read(&read[i], path, &survey->like, message);
     }
     for (int i = 0; i < count && done; i++)
-        done = merge_scene(survey, scenes[i], read, parts, &missing_rows, message);
+        merge_scene(survey, scenes[i], read, parts, &missing_rows);
     if (done && missing_rows)
         done = message_set(message, "%s: %d rows of its %d parts are missing; run them to the end",
                            survey->folder, missing_rows, parts);
     done =
         done && results_append(survey->path, survey->results.rows, survey->results.count, message);
-    for (int i = 0; read && i < parts; i++)
+    for (int i = 0; i < parts; i++)
         results_close(&read[i]);
     free(read);
     return done;

@@ -160,12 +160,12 @@ static double put_bars(FILE *file, const Bars *bars, int values)
 
 static bool draw_bars(const Bars *bars, const char *folder, const char *name, Message *message)
 {
-    char *script = NULL;
-    size_t size = 0;
+    OutputText script;
     const int values = bars->names[1] ? 2 : 1;
-    FILE *file = bars->count ? open_memstream(&script, &size) : NULL;
-    if (!file)
-        return bars->count == 0 || message_set(message, "%s: not enough memory", name);
+    if (bars->count == 0)
+        return true;
+    output_text_open(&script);
+    FILE *file = script.file;
     gnuplot_foot(file, bars->foot);
     gnuplot_title(file, bars->title);
     fputs("set encoding utf8\nset border 3 lc rgb '#444444'\nset tmargin at screen 0.92\n"
@@ -192,7 +192,7 @@ static bool draw_bars(const Bars *bars, const char *folder, const char *name, Me
                 offset, 3 * k + 2, 3 * k + 3, 3 * k + 2);
     }
     fputc('\n', file);
-    return gnuplot_finish(file, &script, &size, true, folder, name, message);
+    return gnuplot_finish(&script, folder, name, message);
 }
 
 _Static_assert((int)STUDY_SCENE_COUNT <= (int)MAX_BARS, "a bar for each scene");
@@ -200,22 +200,31 @@ _Static_assert((int)STUDY_SCENE_COUNT <= (int)MAX_BARS, "a bar for each scene");
 /* The values of a scene's bars, from its usual row and the one with the setting. */
 typedef void FillBar(const ResultRow *usual, const ResultRow *other, Bar values[2]);
 
-static bool plot_by_scene(const Results *results, Bars *bars, const char *quality, FillBar *fill,
-                          const char *folder, const char *name, Message *message)
+/* A plot of a setting's bars, scene by scene. */
+typedef struct ByScene {
+    const char *file, *quality, *title, *y, *names[2];
+    FillBar *fill;
+} ByScene;
+
+static bool plot_by_scene(const Results *results, const ByScene *of, const char *foot,
+                          const char *folder, Message *message)
 {
+    Bars drawn = {.title = of->title, .y = of->y, .names = {of->names[0], of->names[1]}},
+         *bars = &drawn;
+    bars->foot = foot;
     for (int i = 0; i < STUDY_SCENE_COUNT; i++) {
         const char *scene = STUDY_SCENES[i].name;
         const ResultRow *usual = row_of(results, scene, "usual");
-        const ResultRow *other = row_of(results, scene, quality);
+        const ResultRow *other = row_of(results, scene, of->quality);
         if (!usual || !other)
             continue;
         snprintf(bars->bars[bars->count].name, sizeof bars->bars[0].name, "%s", scene);
         Bar *values = bars->bars[bars->count].values;
-        fill(usual, other, values);
+        of->fill(usual, other, values);
         if (isfinite(values[0].value) && (!bars->names[1] || isfinite(values[1].value)))
             bars->count++;
     }
-    return draw_bars(bars, folder, name, message);
+    return draw_bars(bars, folder, of->file, message);
 }
 
 /* The root mean square, and up to the largest. */
@@ -240,24 +249,31 @@ static void fill_guards(const ResultRow *usual, const ResultRow *other, Bar valu
 static bool plot_by_scenes(const Results *results, const char *foot, const char *folder,
                            Message *message)
 {
-    Bars precision = {.foot = foot,
-                      .title = "Precision of fragment shaders: the error inside the objects",
-                      .y = "rms, and up to the largest; steps of 1/255",
-                      .names = {"highp", "mediump"}};
-    Bars guards = {.foot = foot,
-                   .title = "Guards: the time of a frame with them, over that without",
-                   .y = "ratio of times, and the noise",
-                   .names = {"with guards over without", NULL}};
-    Bars viewer = {.foot = foot,
-                   .title = "A viewer at infinity: the error inside the objects",
-                   .y = "rms, and up to the largest; steps of 1/255",
-                   .names = {"local viewer", "infinite viewer"}};
-    return plot_by_scene(results, &precision, "precision=mediump", fill_errors, folder,
-                         "finding-precision", message) &&
-           plot_by_scene(results, &guards, "guards=off", fill_guards, folder, "finding-guards",
-                         message) &&
-           plot_by_scene(results, &viewer, "viewer=infinite", fill_errors, folder, "finding-viewer",
-                         message);
+    static const char errors[] = "rms, and up to the largest; steps of 1/255";
+    static const ByScene plots[] = {
+        {"finding-precision",
+         "precision=mediump",
+         "Precision of fragment shaders: the error inside the objects",
+         errors,
+         {"highp", "mediump"},
+         fill_errors},
+        {"finding-guards",
+         "guards=off",
+         "Guards: the time of a frame with them, over that without",
+         "ratio of times, and the noise",
+         {"with guards over without", NULL},
+         fill_guards},
+        {"finding-viewer",
+         "viewer=infinite",
+         "A viewer at infinity: the error inside the objects",
+         errors,
+         {"local viewer", "infinite viewer"},
+         fill_errors},
+    };
+    bool done = true;
+    for (size_t i = 0; i < sizeof plots / sizeof plots[0] && done; i++)
+        done = plot_by_scene(results, &plots[i], foot, folder, message);
+    return done;
 }
 
 /* Matrices. */
@@ -315,7 +331,7 @@ static double time_composition(const char *text)
     return clock_median(nanoseconds, RUNS);
 }
 
-bool findings_matrices(const Results *results, bool markdown, FILE *file)
+void findings_matrices(const Results *results, bool markdown, FILE *file)
 {
     char with[RESULT_WITH_SIZE];
     Table table;
@@ -332,7 +348,7 @@ bool findings_matrices(const Results *results, bool markdown, FILE *file)
             "\nMatrices of one object and position of one light; scene far, a million units from "
             "the origin\n%s\n\n",
             with);
-    return table_close(&table, markdown, file);
+    table_close(&table, markdown, file);
 }
 
 /* Tables for a page. */
@@ -349,7 +365,7 @@ static void put_cells(char text[64], const ResultRow *row, const ResultRow *usua
         snprintf(text, 64, "|");
 }
 
-static bool table_interpolation(const Results *results, FILE *file)
+static void table_interpolation(const Results *results, FILE *file)
 {
     const QualityAxisInfo *divisions = &QUALITY_AXES[AXIS_DIVISIONS];
     Table table;
@@ -368,10 +384,10 @@ static bool table_interpolation(const Results *results, FILE *file)
             table_row(&table, "%s|%s|%s|%s", divisions->choices[i], cells[0], cells[1], cells[2]);
     }
     fputs("\nInterpolation and fineness of the mesh, scene shiny32:\n\n", file);
-    return table_close(&table, true, file);
+    table_close(&table, true, file);
 }
 
-static bool table_by_scene(const Results *results, FILE *file)
+static void table_by_scene(const Results *results, FILE *file)
 {
     static const char *const columns[] = {"precision=mediump", "guards=off", "viewer=infinite",
                                           "lights=infinite"};
@@ -394,10 +410,10 @@ static bool table_by_scene(const Results *results, FILE *file)
     fputs("\nOne choice changed, scene by scene; times over the usual one, \"same\" within the "
           "noise:\n\n",
           file);
-    return table_close(&table, true, file);
+    table_close(&table, true, file);
 }
 
-static bool table_antialiasing(const Results *results, FILE *file)
+static void table_antialiasing(const Results *results, FILE *file)
 {
     static const char *const ways[] = {"samples=0", "samples=4", "supersample=2", "supersample=3",
                                        "supersample=4"};
@@ -412,13 +428,14 @@ static bool table_antialiasing(const Results *results, FILE *file)
         table_row(&table, "%s|%s|%s", ways[i], cells[0], cells[1]);
     }
     fputs("\nAntialiasing, scene sphere; root mean square error of all pixels:\n\n", file);
-    return table_close(&table, true, file);
+    table_close(&table, true, file);
 }
 
-bool findings_tables(const Results *results, FILE *file)
+void findings_tables(const Results *results, FILE *file)
 {
-    return table_interpolation(results, file) && table_by_scene(results, file) &&
-           table_antialiasing(results, file);
+    table_interpolation(results, file);
+    table_by_scene(results, file);
+    table_antialiasing(results, file);
 }
 
 static bool plot_matrices(const Results *results, const char *foot, const char *folder,

@@ -21,9 +21,9 @@ bool findings_plot(const Results *results, const char *folder, Message *message)
 
 /* A table: the time of composing the matrices of one object and the position of one light, in each
  * arithmetic and order, and the error of the scene far from the origin. False: no memory. */
-bool findings_matrices(const Results *results, bool markdown, FILE *file);
+void findings_matrices(const Results *results, bool markdown, FILE *file);
 
 /* The numbers of these plots as Markdown tables. False: no memory. */
-bool findings_tables(const Results *results, FILE *file);
+void findings_tables(const Results *results, FILE *file);
 
 #endif

@@ -1,5 +1,6 @@
 #include "study/report/report.h"
 
+#include "base/memory.h"
 #include "base/text.h"
 
 #include <errno.h>
@@ -121,14 +122,23 @@ static void put_head(FILE *file, const ResultRow *const *rows, int count, ErrorK
             kinds[kind]);
 }
 
-static void put_lines(FILE *file, const ResultRow *const *rows, const Line *lines, int count,
-                      const Front *front, bool only_efficient, bool busy)
+/* What a table shows. */
+typedef struct Shown {
+    const ResultRow **rows;
+    int count;
+    Line *lines; /* of each row */
+    Front front;
+    bool only_efficient, busy;
+} Shown;
+
+static void put_lines(FILE *file, const Shown *shown)
 {
+    const Line *lines = shown->lines;
     int widths[COLUMNS], column = 4;
     for (int i = 0; i < COLUMNS; i++) {
         bool known = i != GPU;
         widths[i] = (int)fmax((double)strlen(TITLES[0][i]), (double)strlen(TITLES[1][i]));
-        for (int j = 0; j < count; j++) {
+        for (int j = 0; j < shown->count; j++) {
             widths[i] = (int)fmax(widths[i], (double)strlen(lines[j].cells[i]));
             known = known || strcmp(lines[j].cells[i], "-") != 0;
         }
@@ -142,18 +152,18 @@ static void put_lines(FILE *file, const ResultRow *const *rows, const Line *line
                 fprintf(file, " %*s", widths[i], TITLES[line][i]);
         fputs(line ? "  setting\n" : "\n", file);
     }
-    for (int j = 0; j < count; j++) {
+    for (int j = 0; j < shown->count; j++) {
         char text[QUALITY_TEXT_SIZE];
-        const bool efficient = front_has(front, rows[j]);
-        const bool tied = front_ties(front, rows[j]);
-        if (only_efficient && !efficient && !tied)
+        const bool efficient = front_has(&shown->front, shown->rows[j]);
+        const bool tied = front_ties(&shown->front, shown->rows[j]);
+        if (shown->only_efficient && !efficient && !tied)
             continue;
-        fprintf(file, "%c ", busy ? ' ' : efficient ? '*' : tied ? '=' : ' ');
+        fprintf(file, "%c ", shown->busy ? ' ' : efficient ? '*' : tied ? '=' : ' ');
         for (int i = 0; i < COLUMNS; i++)
             if (widths[i])
                 fprintf(file, " %*s", widths[i], lines[j].cells[i]);
         fputs("  ", file);
-        quality_text(&rows[j]->quality, text);
+        quality_text(&shown->rows[j]->quality, text);
         text_wrap(file, text, column, column, (int)fmax(LINE_WIDTH, column + MIN_TEXT_WIDTH));
         fputc('\n', file);
     }
@@ -162,31 +172,24 @@ static void put_lines(FILE *file, const ResultRow *const *rows, const Line *line
 bool report_table(const Results *results, const char *scene, ErrorKind kind, bool only_efficient,
                   FILE *file, Message *message)
 {
-    const ResultRow **rows;
-    int count;
-    Front front;
-    if (!results_latest(results, scene, &rows, &count, message))
-        return false;
-    if (count == 0) {
-        free(rows);
+    Shown shown = {.only_efficient = only_efficient, .busy = front_busy(results, scene)};
+    bool done = true;
+    shown.rows = results_latest(results, scene, &shown.count);
+    if (shown.count == 0) {
+        free(shown.rows);
         return message_set(message, "%s: nothing was measured", scene);
     }
-    Line *lines = malloc((size_t)count * sizeof *lines);
-    bool done = front_open(&front, results, scene, kind, message);
-    if (!lines)
-        done = message_set(message, "%s: the table: %s", scene, strerror(ENOMEM));
-    if (done) {
-        qsort(rows, (size_t)count, sizeof *rows, by_time);
-        for (int i = 0; i < count; i++)
-            lines[i] = line_of(rows[i]);
-        const bool busy = front_busy(results, scene);
-        put_head(file, rows, count, kind, busy);
-        put_lines(file, rows, lines, count, &front, only_efficient, busy);
-        if (fflush(file) != 0 || ferror(file))
-            done = message_set(message, "%s: cannot write the table: %s", scene, strerror(errno));
-    }
-    front_close(&front);
-    free(lines);
-    free(rows);
+    shown.lines = memory_new((size_t)shown.count, sizeof *shown.lines);
+    front_open(&shown.front, results, scene, kind);
+    qsort(shown.rows, (size_t)shown.count, sizeof *shown.rows, by_time);
+    for (int i = 0; i < shown.count; i++)
+        shown.lines[i] = line_of(shown.rows[i]);
+    put_head(file, shown.rows, shown.count, kind, shown.busy);
+    put_lines(file, &shown);
+    if (fflush(file) != 0 || ferror(file))
+        done = message_set(message, "%s: cannot write the table: %s", scene, strerror(errno));
+    front_close(&shown.front);
+    free(shown.lines);
+    free(shown.rows);
     return done;
 }

@@ -101,12 +101,10 @@ bool report_curves(const ReportAxes *axes, const ReportSeries *series, int count
     static const int marks[] = {7, 9, 5, 11, 13};
     const Range x = range_of(series, count, false, axes->log_x);
     const Range y = range_of(series, count, true, axes->log_y);
-    char *script = NULL;
-    size_t size = 0;
+    OutputText script;
     int drawn = 0;
-    FILE *file = open_memstream(&script, &size);
-    if (!file)
-        return message_set(message, "%s: the plot: %s", name, strerror(ENOMEM));
+    output_text_open(&script);
+    FILE *file = script.file;
     const int lines = key_lines(series, count);
     gnuplot_foot(file, axes->foot);
     gnuplot_title(file, axes->title);
@@ -129,5 +127,5 @@ bool report_curves(const ReportAxes *axes, const ReportSeries *series, int count
         gnuplot_string(file, series[i].name);
     }
     fputc('\n', file);
-    return gnuplot_finish(file, &script, &size, true, folder, name, message);
+    return gnuplot_finish(&script, folder, name, message);
 }

@@ -103,14 +103,11 @@ bool gnuplot_draw(const char *script, size_t size, const char *folder, const cha
     return true;
 }
 
-bool gnuplot_finish(FILE *file, char **script, const size_t *size, bool done, const char *folder,
-                    const char *name, Message *message)
+bool gnuplot_finish(OutputText *script, const char *folder, const char *name, Message *message)
 {
-    const bool failed = ferror(file) != 0;
-    if (fclose(file) != 0 || failed)
-        done = message_set(message, "%s: the plot: %s", name, strerror(ENOMEM));
-    done = done && gnuplot_draw(*script, *size, folder, name, message);
-    free(*script);
+    char *text = output_text_close(script);
+    const bool done = gnuplot_draw(text, script->size, folder, name, message);
+    free(text);
     return done;
 }
 

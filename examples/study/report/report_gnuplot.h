@@ -4,11 +4,9 @@
 #ifndef REPORT_GNUPLOT_H
 #define REPORT_GNUPLOT_H
 
-#include "base/message.h"
+#include "base/output_text.h"
 
 #include <stdbool.h>
-#include <stddef.h>
-#include <stdio.h>
 
 /* The size of every plot and the height of its letters, at least a fortieth of the plot's, so that
  * they can be read when projected; in pixels. */
@@ -24,9 +22,8 @@ extern const char *const GNUPLOT_PALETTE[GNUPLOT_COLORS];
 bool gnuplot_draw(const char *script, size_t size, const char *folder, const char *name,
                   Message *message);
 
-/* Closes and frees a script from open_memstream; draws it first if `done` and no write failed. */
-bool gnuplot_finish(FILE *file, char **script, const size_t *size, bool done, const char *folder,
-                    const char *name, Message *message);
+/* Draws a script and frees it. */
+bool gnuplot_finish(OutputText *script, const char *folder, const char *name, Message *message);
 
 /* Writes a quoted string. */
 void gnuplot_string(FILE *script, const char *text);

@@ -79,12 +79,10 @@ static void set_findings(TemplateValues *page, const Conclusions *conclusions, c
 }
 
 /* The efficient settings. */
-static bool set_table(TemplateValues *page, const Results *results, const char *scene,
-                      Message *message)
+static void set_table(TemplateValues *page, const Results *results, const char *scene)
 {
     Front front;
-    if (!front_open(&front, results, scene, ERROR_INTERIOR_MAXIMUM, message))
-        return false;
+    front_open(&front, results, scene, ERROR_INTERIOR_MAXIMUM);
     TemplateValues *table = template_add(page, "table");
     template_set(table, "scene", "%s", scene);
     for (int i = 0; i < front.count; i++) {
@@ -102,7 +100,6 @@ static bool set_table(TemplateValues *page, const Results *results, const char *
         template_set(values, "setting", "%s", setting);
     }
     front_close(&front);
-    return true;
 }
 
 bool report_page(const Results *results, const int *scenes, int count,
@@ -110,7 +107,6 @@ bool report_page(const Results *results, const int *scenes, int count,
 {
     char path[PATH_MAX], with[RESULT_WITH_SIZE] = "";
     TemplateValues *page = template_values();
-    bool done = true;
     if (results->count)
         results_measured_with(&results->rows[results->count - 1], with);
     template_set(page, "with", "%s", with);
@@ -120,11 +116,11 @@ bool report_page(const Results *results, const int *scenes, int count,
             template_add(scene, "measured");
     }
     set_findings(page, conclusions, folder);
-    for (int i = 0; i < count && done; i++)
+    for (int i = 0; i < count; i++)
         if (isfinite(front_noise(results, STUDY_SCENES[scenes[i]].name)))
-            done = set_table(page, results, STUDY_SCENES[scenes[i]].name, message);
+            set_table(page, results, STUDY_SCENES[scenes[i]].name);
     snprintf(path, sizeof path, "%s/index.html", folder);
-    done = done && template_write(TEMPLATE, page, path, message);
+    const bool done = template_write(TEMPLATE, page, path, message);
     template_close(page);
     return done;
 }

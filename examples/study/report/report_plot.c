@@ -1,4 +1,5 @@
 #include "study/report/report.h"
+#include "base/memory.h"
 #include "study/report/report_gnuplot.h"
 #include "study/report/report_labels.h"
 
@@ -80,11 +81,9 @@ static int farthest(const Plot *plot, const bool *pinned)
 }
 
 /* Both ends, and others far from each other. */
-static bool choose_pins(Plot *plot, Message *message)
+static void choose_pins(Plot *plot)
 {
-    bool *pinned = calloc((size_t)plot->front.count + 1, sizeof *pinned);
-    if (!pinned)
-        return message_set(message, "the plot: %s", strerror(ENOMEM));
+    bool *pinned = memory_new((size_t)plot->front.count, sizeof *pinned);
     for (int count = 0; count < REPORT_PINS; count++) {
         const int last = plot->front.count - 1;
         const int i = count == 1 && last > 0 && !pinned[last] ? last : farthest(plot, pinned);
@@ -96,7 +95,6 @@ static bool choose_pins(Plot *plot, Message *message)
         if (pinned[i])
             plot->pins.rows[plot->pins.count++] = plot->front.rows[i];
     free(pinned);
-    return true;
 }
 
 static bool plot_open(Plot *plot, const Results *results, const char *scene, ErrorKind kind,
@@ -104,8 +102,7 @@ static bool plot_open(Plot *plot, const Results *results, const char *scene, Err
 {
     int count;
     *plot = (Plot){.kind = kind, .x_min = INFINITY, .y_min = INFINITY, .x_max = 0, .y_max = 0};
-    if (!results_latest(results, scene, &plot->rows, &count, message))
-        return false;
+    plot->rows = results_latest(results, scene, &count);
     for (int i = 0; i < count; i++) {
         const ResultRow *row = plot->rows[i];
         const double error = row_error(row, kind);
@@ -129,10 +126,9 @@ static bool plot_open(Plot *plot, const Results *results, const char *scene, Err
     plot->x_max *= sqrt(sqrt(x_room));
     plot->y_min /= plot->floored ? 1.3 : y_room;
     plot->y_max *= sqrt(y_room);
-    if (front_open(&plot->front, results, scene, kind, message) && choose_pins(plot, message))
-        return true;
-    plot_close(plot);
-    return false;
+    front_open(&plot->front, results, scene, kind);
+    choose_pins(plot);
+    return true;
 }
 
 static void make_labels(const Plot *plot, Label labels[REPORT_PINS])
@@ -387,15 +383,15 @@ bool report_plot(const Results *results, const char *scene, const char *title, E
 {
     Plot plot;
     Label labels[REPORT_PINS];
-    char *script = NULL;
-    size_t size = 0;
+    OutputText script;
     if (!plot_open(&plot, results, scene, kind, message))
         return false;
     const int count = plot.pins.count;
     make_labels(&plot, labels);
     bool done = place_labels(&plot, labels, count, message);
-    FILE *file = done ? open_memstream(&script, &size) : NULL;
-    if (file) {
+    if (done) {
+        output_text_open(&script);
+        FILE *file = script.file;
         fputs("set multiplot\n", file);
         put_axes(file, &plot, title);
         put_labels(file, labels, count);
@@ -403,9 +399,7 @@ bool report_plot(const Results *results, const char *scene, const char *title, E
         put_plot(file, &plot);
         put_pictures(file, scene, folder, &plot);
         fputs("unset multiplot\n", file);
-        done = gnuplot_finish(file, &script, &size, done, folder, scene, message);
-    } else {
-        done = message_set(message, "%s: the plot: %s", scene, strerror(ENOMEM));
+        done = gnuplot_finish(&script, folder, scene, message);
     }
     plot_close(&plot);
     return done;

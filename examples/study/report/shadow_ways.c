@@ -264,29 +264,24 @@ static void put_scene(const ShadowWays *ways, int scene, bool markdown, Table *t
 static bool print_ways(const ShadowWays *ways, const char *folder, bool markdown, FILE *file,
                        Message *message)
 {
-    char *text = NULL, path[PATH_MAX];
-    size_t size = 0;
+    OutputText csv;
+    char path[PATH_MAX];
     Table table;
-    FILE *csv = open_memstream(&text, &size);
-    if (!csv)
-        return message_set(message, "shadows.csv: not enough memory");
+    output_text_open(&csv);
+    snprintf(path, sizeof path, "%s/shadows.csv", folder);
     table_open(&table, "scene|shadows|near edges|all pixels|wrong inside|time|a light moves");
-    fprintf(csv, "scene,way,size,near_rms,all_rms,wrong,ratio,ratio_lower,ratio_upper,moving_ratio,"
-                 "moving_lower,moving_upper\n");
+    fprintf(csv.file,
+            "scene,way,size,near_rms,all_rms,wrong,ratio,ratio_lower,ratio_upper,moving_ratio,"
+            "moving_lower,moving_upper\n");
     for (int i = 0; i < SHADOW_SCENES; i++)
-        put_scene(ways, i, markdown, &table, csv);
-    bool done = fclose(csv) == 0 || message_set(message, "shadows.csv: not enough memory");
+        put_scene(ways, i, markdown, &table, csv.file);
     fprintf(file,
             "\nShadows: the root mean square error of the pixels within two of a shadow's edge, "
             "and of all (steps of 1/255),\nthe pixels inside surfaces off by more than a step, and "
             "the time over that of a frame without shadows\n%s\n\n",
             ways->with);
-    if (!table_close(&table, markdown, file) && done)
-        done = message_set(message, "shadows: not enough memory");
-    snprintf(path, sizeof path, "%s/shadows.csv", folder);
-    done = done && output_write(path, text, size, message);
-    free(text);
-    return done;
+    table_close(&table, markdown, file);
+    return output_text_write(&csv, path, message);
 }
 
 bool shadow_ways_report(Survey *survey, const char *folder, bool markdown, FILE *file,

@@ -1,8 +1,8 @@
 #include "study/results/front.h"
 
 #include "base/clock.h"
+#include "base/memory.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -39,14 +39,14 @@ bool row_beats(const ResultRow *a, const ResultRow *b, ErrorKind kind)
 
 double front_noise(const Results *results, const char *scene)
 {
-    double *values = malloc(((size_t)results->count + 1) * sizeof *values);
+    double *values = memory_new((size_t)results->count, sizeof *values);
     int count = 0;
-    for (int i = 0; values && i < results->count; i++) {
+    for (int i = 0; i < results->count; i++) {
         const ResultRow *row = &results->rows[i];
         if (isfinite(row->noise) && (!scene || strcmp(row->scene, scene) == 0))
             values[count++] = row->noise;
     }
-    const double median = values ? clock_median(values, count) : NAN;
+    const double median = clock_median(values, count);
     free(values);
     return median;
 }
@@ -54,14 +54,6 @@ double front_noise(const Results *results, const char *scene)
 bool front_busy(const Results *results, const char *scene)
 {
     return front_noise(results, scene) > FRONT_NOISE_BOUND;
-}
-
-static int unusual(const ResultRow *row)
-{
-    int count = 0;
-    for (int axis = 0; axis < AXIS_COUNT; axis++)
-        count += row->quality.choice[axis] != QUALITY_AXES[axis].usual;
-    return count;
 }
 
 /* A row with known time and error. */
@@ -132,7 +124,7 @@ static bool is_front(const Front *front, const Entry *entries, int count, ErrorK
 static void prefer_usual(Front *front, const Entry *entries, int count, ErrorKind kind)
 {
     for (int i = 0; i < front->count; i++) {
-        int fewest = unusual(front->rows[i]);
+        int fewest = quality_unusual(&front->rows[i]->quality);
         for (int j = 0; j < count; j++) {
             const ResultRow *before = front->rows[i], *row = entries[j].row;
             if (entries[j].unusual >= fewest || !row_beats(row, before, kind) ||
@@ -154,7 +146,7 @@ static int select_entries(Entry *entries, const ResultRow *const *rows, int coun
     for (int i = 0; i < count; i++) {
         const double error = row_error(rows[i], kind);
         if (isfinite(error) && isfinite(rows[i]->time))
-            entries[selected++] = (Entry){rows[i], error, unusual(rows[i])};
+            entries[selected++] = (Entry){rows[i], error, quality_unusual(&rows[i]->quality)};
     }
     qsort(entries, (size_t)selected, sizeof *entries, by_error);
     return selected;
@@ -173,31 +165,20 @@ static void take_tied(Front *front, const Entry *entries, int count)
     }
 }
 
-bool front_open(Front *front, const Results *results, const char *scene, ErrorKind kind,
-                Message *message)
+void front_open(Front *front, const Results *results, const char *scene, ErrorKind kind)
 {
-    const ResultRow **rows;
     int count;
-    *front = (Front){0};
-    if (!results_latest(results, scene, &rows, &count, message))
-        return false;
-    Entry *entries = malloc(((size_t)count + 1) * sizeof *entries);
-    front->rows = malloc(((size_t)count + 1) * sizeof *front->rows);
-    front->tied = malloc(((size_t)count + 1) * sizeof *front->tied);
-    const bool done = entries && front->rows && front->tied;
-    if (done) {
-        count = select_entries(entries, rows, count, kind);
-        front->count = take_faster(entries, count, front->rows);
-        front->count = take_more_exact(front->rows, front->count, kind);
-        prefer_usual(front, entries, count, kind);
-        take_tied(front, entries, count);
-    }
+    const ResultRow **rows = results_latest(results, scene, &count);
+    Entry *entries = memory_new((size_t)count, sizeof *entries);
+    *front = (Front){.rows = memory_new((size_t)count, sizeof *front->rows),
+                     .tied = memory_new((size_t)count, sizeof *front->tied)};
+    count = select_entries(entries, rows, count, kind);
+    front->count = take_faster(entries, count, front->rows);
+    front->count = take_more_exact(front->rows, front->count, kind);
+    prefer_usual(front, entries, count, kind);
+    take_tied(front, entries, count);
     free(entries);
     free(rows);
-    if (done)
-        return true;
-    front_close(front);
-    return message_set(message, "the efficient settings of %s: %s", scene, strerror(ENOMEM));
 }
 
 bool front_has(const Front *front, const ResultRow *row)

@@ -45,8 +45,7 @@ typedef struct Front {
     int count, tied_count;
 } Front;
 
-bool front_open(Front *front, const Results *results, const char *scene, ErrorKind kind,
-                Message *message);
+void front_open(Front *front, const Results *results, const char *scene, ErrorKind kind);
 
 /* Whether a row is efficient; whether it is tied. */
 bool front_has(const Front *front, const ResultRow *row);

@@ -1,5 +1,9 @@
 #include "study/results/results.h"
 
+#include "base/memory.h"
+#include "base/output.h"
+#include "base/output_text.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
@@ -18,18 +22,14 @@ void results_measured_with(const ResultRow *row, char text[RESULT_WITH_SIZE])
              row->threads, row->width, row->height, row->seed);
 }
 
-bool results_add(Results *results, const ResultRow *row, Message *message)
+void results_add(Results *results, const ResultRow *row)
 {
     if (results->count == results->capacity) {
-        const int capacity = results->capacity ? 2 * results->capacity : 64;
-        ResultRow *rows = realloc(results->rows, (size_t)capacity * sizeof *rows);
-        if (!rows)
-            return message_set(message, "results: %s", strerror(ENOMEM));
-        results->rows = rows;
-        results->capacity = capacity;
+        results->capacity = results->capacity ? 2 * results->capacity : 64;
+        results->rows =
+            memory_grow(results->rows, (size_t)results->capacity, sizeof *results->rows);
     }
     results->rows[results->count++] = *row;
-    return true;
 }
 
 const ResultRow *results_find(const Results *results, const char *scene, const Quality *quality)
@@ -56,26 +56,20 @@ static int by_quality(const void *first, const void *second)
     return order ? order : by_address(first, second);
 }
 
-bool results_latest(const Results *results, const char *scene, const ResultRow ***rows, int *count,
-                    Message *message)
+const ResultRow **results_latest(const Results *results, const char *scene, int *count)
 {
-    int found = 0, kept = 0;
-    const ResultRow **list = malloc(((size_t)results->count + 1) * sizeof *list);
-    *rows = NULL;
-    *count = 0;
-    if (!list)
-        return message_set(message, "results: %s", strerror(ENOMEM));
+    int found = 0;
+    const ResultRow **list = memory_new((size_t)results->count, sizeof *list);
     for (int i = 0; i < results->count; i++)
         if (strcmp(results->rows[i].scene, scene) == 0)
             list[found++] = &results->rows[i];
     qsort(list, (size_t)found, sizeof *list, by_quality);
+    *count = 0;
     for (int i = 0; i < found; i++)
         if (i + 1 == found || !quality_equal(&list[i]->quality, &list[i + 1]->quality))
-            list[kept++] = list[i];
-    qsort(list, (size_t)kept, sizeof *list, by_address);
-    *rows = list;
-    *count = kept;
-    return true;
+            list[(*count)++] = list[i];
+    qsort(list, (size_t)*count, sizeof *list, by_address);
+    return list;
 }
 
 void results_close(Results *results)
@@ -153,8 +147,8 @@ bool results_parse(Results *results, const char *path, const char *text, size_t 
                 fprintf(stderr, "%s:%d: %s; skipped\n", path, number, fault.text);
         } else if (like && !same_measurement(&row, like)) {
             other++;
-        } else if (!results_add(results, &row, message)) {
-            return false;
+        } else {
+            results_add(results, &row);
         }
     }
     if (broken > MAX_LINES)
@@ -279,39 +273,21 @@ static bool row_check(const ResultRow *row, const char *path, const char *text, 
                        fault.text);
 }
 
-/* The rows as text, preceded by the header if needed. */
-static bool rows_text(const char *path, bool header, const ResultRow *rows, int count, char **text,
-                      size_t *size, Message *message)
+/* The rows, preceded by the header if needed. */
+static bool put_rows(OutputText *text, const char *path, bool header, const ResultRow *rows,
+                     int count, Message *message)
 {
-    FILE *file = open_memstream(text, size);
-    bool done = file != NULL;
-    if (file && header) {
+    if (header) {
         char names[RESULTS_HEADER_SIZE];
         header_text(names);
-        fprintf(file, "%s\n", names);
+        fprintf(text->file, "%s\n", names);
     }
-    for (int i = 0; i < count && done; i++) {
-        const long start = ftell(file);
-        put_row(file, &rows[i]);
-        done = fflush(file) == 0;
-        if (done && !row_check(&rows[i], path, *text + start, *size - (size_t)start, message))
-            done = false;
-    }
-    if (file && (ferror(file) || fclose(file) != 0))
-        done = false;
-    return done ? true : message_set(message, "%s: %s", path, strerror(ENOMEM));
-}
-
-static bool write_all(int file, const char *bytes, size_t size)
-{
-    while (size > 0) {
-        const ssize_t written = write(file, bytes, size);
-        if (written < 0 && errno == EINTR)
-            continue;
-        if (written < 0)
+    for (int i = 0; i < count; i++) {
+        const long start = ftell(text->file);
+        put_row(text->file, &rows[i]);
+        fflush(text->file);
+        if (!row_check(&rows[i], path, text->text + start, text->size - (size_t)start, message))
             return false;
-        bytes += written;
-        size -= (size_t)written;
     }
     return true;
 }
@@ -371,7 +347,7 @@ static bool append_text(int file, const char *path, const Tail *tail, const char
         return false;
     if (tail->header && ftruncate(file, 0) != 0)
         return message_set(message, "%s: cannot write: %s", path, strerror(errno));
-    if ((!tail->line_break || write_all(file, "\n", 1)) && write_all(file, text, size) &&
+    if ((!tail->line_break || output_append(file, "\n", 1)) && output_append(file, text, size) &&
         fsync(file) == 0)
         return true;
     const int error = errno;
@@ -404,22 +380,22 @@ static int open_locked(const char *path, Message *message)
 bool results_append(const char *path, const ResultRow *rows, int count, Message *message)
 {
     Tail tail;
-    char *text = NULL;
-    size_t size = 0;
+    OutputText text;
     struct stat status;
     const bool created = access(path, F_OK) != 0;
     const int file = open_locked(path, message);
     if (file < 0)
         return false;
+    output_text_open(&text);
     bool done = tail_find(&tail, file, path, message) &&
-                rows_text(path, tail.header, rows, count, &text, &size, message) &&
-                append_text(file, path, &tail, text, size, message);
+                put_rows(&text, path, tail.header, rows, count, message) &&
+                append_text(file, path, &tail, text.text, text.size, message);
     if (!done && created && fstat(file, &status) == 0 && status.st_size == 0)
         unlink(path);             /* of a run that a full disk ended nothing is left */
     if (close(file) != 0 && done) /* some file systems report a full disk only here */
         done = message_set(message, "%s: cannot write: %s", path, strerror(errno));
     if (done && tail.header)
         sync_folder(path);
-    free(text);
+    free(output_text_close(&text));
     return done;
 }

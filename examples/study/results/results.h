@@ -20,15 +20,14 @@ enum { RESULT_WITH_SIZE = 256 };
 void results_measured_with(const ResultRow *row, char text[RESULT_WITH_SIZE]);
 
 /* Adds a row. */
-bool results_add(Results *results, const ResultRow *row, Message *message);
+void results_add(Results *results, const ResultRow *row);
 
 /* The latest row of a scene and setting; NULL if there is none. */
 const ResultRow *results_find(const Results *results, const char *scene, const Quality *quality);
 
 /* The latest row of each setting of a scene, in the order in which they were added. The caller
  * frees the array; the rows belong to `results`. */
-bool results_latest(const Results *results, const char *scene, const ResultRow ***rows, int *count,
-                    Message *message);
+const ResultRow **results_latest(const Results *results, const char *scene, int *count);
 
 /* Adds the rows of a file that results_append wrote; a missing file has none. The file is CSV (RFC
  * 4180): a line with the columns, in any order, then one line per row; no field has a line break;
@@ -48,7 +47,8 @@ bool results_parse(Results *results, const char *path, const char *text, size_t 
  * other columns are refused. */
 bool results_append(const char *path, const ResultRow *rows, int count, Message *message);
 
-/* All rows as JSON, keyed by the file's columns, completely or not at all. Unknown values are null.
+/* All rows as JSON, keyed by the file's columns, completely or not at all. Unknown
+ * values are null.
  */
 bool results_write_json(const Results *results, const char *path, Message *message);
 

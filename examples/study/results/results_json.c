@@ -1,10 +1,6 @@
-#include "base/output.h"
+#include "base/output_text.h"
 #include "study/results/json.h"
 #include "study/results/results.h"
-
-#include <errno.h>
-#include <stdlib.h>
-#include <string.h>
 
 static void put_value(FILE *file, const ResultRow *row, const Column *column)
 {
@@ -61,27 +57,18 @@ static void put_axes(FILE *file)
 
 bool results_write_json(const Results *results, const char *path, Message *message)
 {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *file = open_memstream(&text, &size);
-    if (!file)
-        return message_set(message, "%s: %s", path, strerror(errno));
+    OutputText text;
+    output_text_open(&text);
     fputs("{\n"
           "  \"units\": {\"errors\": \"steps of 1/255\", \"times\": \"milliseconds\", "
           "\"noise\": \"a fraction of the time\"},\n",
-          file);
-    put_axes(file);
-    fputs("  \"rows\": [", file);
+          text.file);
+    put_axes(text.file);
+    fputs("  \"rows\": [", text.file);
     for (int i = 0; i < results->count; i++) {
-        fputs(i ? ",\n" : "\n", file);
-        put_row(file, &results->rows[i]);
+        fputs(i ? ",\n" : "\n", text.file);
+        put_row(text.file, &results->rows[i]);
     }
-    fputs(results->count ? "\n  ]\n}\n" : "]\n}\n", file);
-    const bool failed = ferror(file) != 0;
-    bool done = fclose(file) == 0 && !failed;
-    if (!done)
-        message_set(message, "%s: %s", path, strerror(ENOMEM));
-    done = done && output_write(path, text, size, message);
-    free(text);
-    return done;
+    fputs(results->count ? "\n  ]\n}\n" : "]\n}\n", text.file);
+    return output_text_write(&text, path, message);
 }

@@ -8,6 +8,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+int quality_unusual(const Quality *quality)
+{
+    int count = 0;
+    for (int axis = 0; axis < AXIS_COUNT; axis++)
+        count += quality->choice[axis] != QUALITY_AXES[axis].usual;
+    return count;
+}
+
 #define ROW(field) offsetof(ResultRow, field), sizeof((ResultRow *)0)->field
 
 static const Column SCENE = {"scene", COLUMN_TEXT, ROW(scene), 1, 0, 0};

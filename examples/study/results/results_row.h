@@ -28,6 +28,9 @@ typedef struct ResultRow {
     char threads[16]; /* LP_NUM_THREADS, or "default" */
 } ResultRow;
 
+/* How many of a setting's choices are not the usual ones. */
+int quality_unusual(const Quality *quality);
+
 /* A field is text, a choice on an axis, or a number. */
 typedef enum ColumnKind {
     COLUMN_TEXT,

@@ -7,20 +7,17 @@
 
 void table_open(Table *table, const char *head)
 {
-    *table = (Table){.stream = NULL};
-    table->stream = open_memstream(&table->text, &table->size);
+    output_text_open(&table->rows);
     table_row(table, "%s", head);
 }
 
 void table_row(Table *table, const char *format, ...)
 {
     va_list arguments;
-    if (!table->stream)
-        return;
     va_start(arguments, format);
-    vfprintf(table->stream, format, arguments);
+    vfprintf(table->rows.file, format, arguments);
     va_end(arguments);
-    fputc('\n', table->stream);
+    fputc('\n', table->rows.file);
 }
 
 static int cell_width(const char *cell)
@@ -54,26 +51,22 @@ static void put_aligned(const char *row, const int widths[TABLE_MAX_COLUMNS], FI
     fputc('\n', file);
 }
 
-bool table_close(Table *table, bool markdown, FILE *file)
+void table_close(Table *table, bool markdown, FILE *file)
 {
     int widths[TABLE_MAX_COLUMNS] = {0};
-    bool done = table->stream && !ferror(table->stream);
-    if (table->stream && fclose(table->stream) != 0)
-        done = false;
-    const char *const end = done ? table->text + table->size : table->text;
-    for (const char *row = table->text; row < end; row = strchr(row, '\n') + 1) {
+    char *const text = output_text_close(&table->rows), *const end = text + table->rows.size;
+    for (const char *row = text; row < end; row = strchr(row, '\n') + 1) {
         int column = 0;
         for (const char *cell = row; cell; cell = next_cell(cell), column++)
             widths[column] = cell_width(cell) > widths[column] ? cell_width(cell) : widths[column];
     }
-    for (const char *row = table->text; row < end; row = strchr(row, '\n') + 1) {
+    for (const char *row = text; row < end; row = strchr(row, '\n') + 1) {
         if (markdown)
-            put_markdown(row, row == table->text, file);
+            put_markdown(row, row == text, file);
         else
             put_aligned(row, widths, file);
     }
-    free(table->text);
-    return done;
+    free(text);
 }
 
 void table_machine(const char *driver, FILE *file)

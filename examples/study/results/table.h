@@ -5,16 +5,12 @@
 #ifndef TABLE_H
 #define TABLE_H
 
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdio.h>
+#include "base/output_text.h"
 
 enum { TABLE_MAX_COLUMNS = 16 };
 
 typedef struct Table {
-    FILE *stream; /* the rows so far; NULL: no memory */
-    char *text;
-    size_t size;
+    OutputText rows; /* so far */
 } Table;
 
 /* A row is text with '|' between its cells; `head` is the first. The first column is aligned to the
@@ -22,8 +18,8 @@ typedef struct Table {
 void table_open(Table *table, const char *head);
 void table_row(Table *table, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Prints and frees the table. False: no memory, nothing printed. */
-bool table_close(Table *table, bool markdown, FILE *file);
+/* Prints and frees the table. */
+void table_close(Table *table, bool markdown, FILE *file);
 
 /* "PROCESSOR, N cores; DRIVER; LP_NUM_THREADS N; COMPILER FLAGS". `driver` has renderer and
  * version; NULL: nothing is drawn. */

@@ -1,0 +1,30 @@
+#include "base/output_text.h"
+
+#include "base/memory.h"
+#include "base/output.h"
+
+#include <stdlib.h>
+
+void output_text_open(OutputText *text)
+{
+    *text = (OutputText){.text = NULL};
+    text->file = open_memstream(&text->text, &text->size);
+    if (!text->file)
+        memory_end();
+}
+
+char *output_text_close(OutputText *text)
+{
+    const bool failed = ferror(text->file) != 0;
+    if (fclose(text->file) != 0 || failed)
+        memory_end();
+    return text->text;
+}
+
+bool output_text_write(OutputText *text, const char *path, Message *message)
+{
+    char *bytes = output_text_close(text);
+    const bool done = output_write(path, bytes, text->size, message);
+    free(bytes);
+    return done;
+}
