@@ -30,7 +30,7 @@ bool message_add(Message *message, const char *format, ...)
     return false;
 }
 
-bool message_in_color(int file)
+static bool message_in_color(int file)
 {
     const char *none = getenv("NO_COLOR"), *terminal = getenv("TERM");
     return isatty(file) && !(none && none[0]) && terminal && strcmp(terminal, "dumb") != 0;

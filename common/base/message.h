@@ -24,11 +24,8 @@ bool message_set(Message *message, const char *format, ...) __attribute__((forma
 /* The same, but appends. */
 bool message_add(Message *message, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Whether what is written to this file descriptor may have colours: it is a terminal, and neither
- * NO_COLOR (https://no-color.org) nor TERM=dumb says otherwise. */
-bool message_in_color(int file);
-
-/* A colour's escape sequence for such a descriptor, else "". */
+/* A colour's escape sequence; "" if what is written to this file descriptor may have none: it is no
+ * terminal, or NO_COLOR (https://no-color.org) or TERM=dumb says so. */
 enum { MESSAGE_PLAIN, MESSAGE_RED, MESSAGE_GREEN, MESSAGE_YELLOW };
 const char *message_color(int color, int file);
 

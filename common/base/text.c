@@ -40,7 +40,8 @@ static int piece(const char *text)
     return length + (text[length] == '|');
 }
 
-int text_line(const char *text, int width)
+/* The length of the first line. */
+static int text_line(const char *text, int width)
 {
     int length = piece(text);
     while (text[length] && text[length] != '\n') {

@@ -17,12 +17,9 @@ const char *text_comment_end(const char *text);
 /* In place, makes each comment a blank. */
 void text_strip_comments(char *text);
 
-/* The length of the first line when a paragraph is set in lines of `width` columns: as many words
- * as fit, at least one. Breaks at blanks, which are not counted, after bars, and at line feeds. */
-int text_line(const char *text, int width);
-
-/* Writes a paragraph broken in this way. It begins in `column`, other lines after `indent` blanks;
- * `width` counts both. Ends without a line feed; returns the column it ends in. */
+/* Writes a paragraph in lines of as many words as fit, at least one. Breaks at blanks, which are
+ * not counted, after bars, and at line feeds. It begins in `column`, other lines after `indent`
+ * blanks; `width` counts both. Ends without a line feed; returns the column it ends in. */
 int text_wrap(FILE *file, const char *text, int column, int indent, int width);
 
 /* The name that `word` was probably meant to be: the only one that begins so, or the nearest, if at

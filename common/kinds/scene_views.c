@@ -114,12 +114,3 @@ void scene_view_close(SceneView *view)
     quality_parts_close(&view->made);
     scene_copy_close(&view->kept);
 }
-
-const Scene *scene_view_part(const SceneView *view, int *object)
-{
-    if (!view->made.parts)
-        return &view->scene;
-    const Scene *part = &view->made.parts[*object];
-    *object = 0;
-    return part;
-}

@@ -44,9 +44,6 @@ bool scene_view_open(SceneView *view, Renderer *renderer, const DrawRequest *req
                      double seconds, int number, Message *message);
 void scene_view_close(SceneView *view);
 
-/* The scene that an object of the view is drawn in, and its number there. */
-const Scene *scene_view_part(const SceneView *view, int *object);
-
 /* A view at a time. */
 typedef struct ViewMoment {
     const Renderer *renderer;

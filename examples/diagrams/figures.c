@@ -30,7 +30,7 @@ void figure_draw(Figure figure, const Optics *optics, int sides, Drawing *drawin
     }
 }
 
-const char *figure_cosine(const Optics *optics)
+static const char *figure_cosine(const Optics *optics)
 {
     return optics->reflection == REFLECTION_PHONG ? "$R·V$" : "$N·H$";
 }

@@ -32,9 +32,8 @@ void figure_normals(Board *board, const Optics *optics, int sides);
 
 /* Shared by the figures. */
 
-/* "R.V" or "N.H", and its power with the shininess, typeset. */
+/* "R.V" or "N.H" with the shininess as its power, typeset. */
 enum { FIGURE_TEXT = 96 };
-const char *figure_cosine(const Optics *optics);
 void figure_power(const Optics *optics, char text[FIGURE_TEXT]);
 
 /* A surface from left to right at a height, with the colour that each point below `unit` pixels per

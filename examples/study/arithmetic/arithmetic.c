@@ -15,7 +15,8 @@ static Arithmetic *way_of(Arithmetics *found, int way)
     return &found->of[way / METER_PRECISIONS][way % METER_PRECISIONS];
 }
 
-bool arithmetic_formats(const Meter *meter, Arithmetics *found, Message *message)
+/* Formats and claims alone. */
+static bool arithmetic_formats(const Meter *meter, Arithmetics *found, Message *message)
 {
     *found = (Arithmetics){.inputs = 0};
     snprintf(found->renderer, sizeof found->renderer, "%s", meter->canvas.renderer);

@@ -21,9 +21,6 @@ typedef struct Arithmetics {
     double seconds;
 } Arithmetics;
 
-/* Formats and claims alone, which takes less than a tenth of a second. */
-bool arithmetic_formats(const Meter *meter, Arithmetics *found, Message *message);
-
 /* All. `inputs`: of each function; 0: 2^24, or fewer where that would take more than a minute.
  * Draws a progress bar. */
 bool arithmetic_measure(const Meter *meter, long inputs, Arithmetics *found, Message *message);

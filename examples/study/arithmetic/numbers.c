@@ -181,22 +181,6 @@ void accuracy_add(Accuracy *accuracy, const Format *format, const float at[2], d
     }
 }
 
-void accuracy_merge(Accuracy *into, const Accuracy *from)
-{
-    if (from->count == 0)
-        return;
-    if ((from->wrong && !into->wrong) || (!into->wrong && from->largest > into->largest))
-        memcpy(into->at, from->at, sizeof into->at);
-    into->count += from->count;
-    into->wrong += from->wrong;
-    into->sum += from->sum;
-    into->largest = fmax(into->largest, from->largest);
-    for (int i = 0; i < NUMBER_BINADES; i++)
-        into->by_binade[i] = fmaxf(into->by_binade[i], from->by_binade[i]);
-    for (size_t i = 0; i < sizeof into->absolute / sizeof into->absolute[0]; i++)
-        into->absolute[i] = fmaxf(into->absolute[i], from->absolute[i]);
-}
-
 double accuracy_mean(const Accuracy *accuracy)
 {
     const uint64_t finite = accuracy->count - accuracy->wrong;

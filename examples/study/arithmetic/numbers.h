@@ -89,7 +89,6 @@ typedef struct Accuracy {
  * do not count. */
 void accuracy_add(Accuracy *accuracy, const Format *format, const float at[2], double result,
                   double exact, double magnitude);
-void accuracy_merge(Accuracy *into, const Accuracy *from);
 double accuracy_mean(const Accuracy *accuracy);
 
 #endif
