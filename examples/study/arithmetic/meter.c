@@ -1,3 +1,8 @@
+/*
+ * A shader as an arithmetic unit: inputs come in textures or attributes, one point a pixel is
+ * drawn, and its colour, a 32-bit float, is the result. First both shaders have to pass numbers of
+ * 24 bits unchanged, because otherwise what is read back says nothing of what was computed.
+ */
 #include "study/arithmetic/meter.h"
 
 #include "core/shader.h"

@@ -1,3 +1,10 @@
+/*
+ * What floating-point numbers a machine computes with, told from what it computes, after Malcolm
+ * (Algorithms to reveal properties of floating-point arithmetic, CACM 15, 1972): 1 plus a power of
+ * two differs from 1 as long as the significand has its bits; sums half way between two numbers
+ * tell how results are rounded; products at the ends of the range tell exponents, subnormal numbers
+ * and infinity. Errors are counted in units in the last place of the exact result.
+ */
 #include "study/arithmetic/numbers.h"
 
 #include <math.h>

@@ -1,3 +1,10 @@
+/*
+ * Between vertices and pixels: a triangle is drawn whose varyings are known exactly at every
+ * pixel's centre, read back as floats, and compared. Triangles of many sizes and depths tell errors
+ * of interpolation with and without perspective; two that share an edge tell whether each pixel on
+ * it is drawn once; planes moved towards the eye step by step tell the bits of depth. Nothing that
+ * the driver says of itself is used.
+ */
 #include "study/arithmetic/raster.h"
 
 #include "base/memory.h"

@@ -1,3 +1,10 @@
+/*
+ * The best setting within a limit, from a survey that other programs disturbed: those that may be
+ * best by the survey are measured again, against each other, and chosen among by these times alone.
+ * Tied are those that the noise does not tell apart; of them the one with the fewest unusual
+ * choices is named, so that two runs say the same. If none of the first eight stays within the
+ * limit, the next are tried.
+ */
 #include "study/measure/choose.h"
 
 #include "base/memory.h"

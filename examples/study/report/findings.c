@@ -1,3 +1,8 @@
+/*
+ * The conclusions that tables and plots show: each compares rows of a survey that differ in one
+ * choice alone, so that the difference is of that choice. What was not measured leaves a gap, not a
+ * row of zeros.
+ */
 #include "study/report/findings.h"
 
 #include "base/clock.h"

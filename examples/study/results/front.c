@@ -1,3 +1,10 @@
+/*
+ * The Pareto front under noise. Sorted by error, a row is efficient if it is faster than all more
+ * exact ones; "faster" asks for more than the noise, so that two rows may be tied, and a front by
+ * medians alone would change from run to run. Of rows that are as exact and as fast the one with
+ * the fewest unusual choices stands for all. Sorting costs n log n, looking for such a row n times
+ * the front.
+ */
 #include "study/results/front.h"
 
 #include "base/clock.h"
