@@ -1,3 +1,6 @@
+/* Words of the command line against a table. They are read several times: first, once for each, the
+ * options from which others follow, so that the order in which options are given does not matter.
+ */
 #include "app/arguments.h"
 
 #include "base/text.h"

@@ -1,3 +1,7 @@
+/* A command line from values: each option whose value is not the default, in words that a shell
+ * reads back. What follows from another option is not written: options are set in turn, as when
+ * they are read, and compared after each.
+ */
 #include "app/command.h"
 
 #include "scene/scene_example.h"

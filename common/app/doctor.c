@@ -1,3 +1,4 @@
+/* --doctor: each backend and each module is tried, and says what it found. */
 #include "app/doctor.h"
 
 #include "app/options.h"

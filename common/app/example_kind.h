@@ -13,7 +13,6 @@
 #include "core/example.h"
 #include "scene/parameter.h"
 
-struct OptionRow;
 struct Options;
 struct PanelKind;
 struct Usage;
@@ -45,7 +44,7 @@ struct ExampleKind {
     /* Its command line: PROGRAM_* and its own rows (option_table.h); what
      * --help says, and the defaults, that follow from an example. */
     int program;
-    const struct OptionRow *options;
+    const Parameter *options;
     void (*describe)(const Example *example, struct Usage *usage);
 
     /* Whether what the request names is there: a light, a term. Runs init and finish. */

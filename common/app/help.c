@@ -1,3 +1,4 @@
+/* A table of options as --help, as a man page, and as completions for three shells. */
 #include "app/help.h"
 
 #include "base/text.h"

@@ -2,7 +2,6 @@
 #include "app/options.h"
 
 #include "app/arguments.h"
-#include "app/options_check.h"
 #include "base/version.h"
 #include "images/image_file.h"
 #include "window/backends.h"

@@ -78,6 +78,10 @@ Usage options_usage(const Example *example);
 /* What they ask for of an example. */
 DrawRequest options_request(const Options *options, const Example *example);
 
+/* Whether the options go together: what needs neither driver nor files. Sets what follows from the
+ * output's name: the animation, the vector format. */
+bool options_check(Options *options, const Usage *usage, Message *message);
+
 /* The size of the picture without --size. */
 void options_size(const Usage *usage, int *width, int *height);
 
@@ -95,6 +99,11 @@ bool options_in_window(const Options *options);
 
 /* Whether a light may have shadows: then several samples of a pixel are pixels of their own. */
 bool options_have_shadows(const Options *options);
+
+/* Opens the canvas, with float colors if the format of `output` stores them. With --verbose
+ * describes it on standard error. */
+bool options_open_canvas(Canvas *canvas, const Options *options, const char *output,
+                         Message *message);
 
 /* Sets a handler, with sigaction's flags, for SIGINT, SIGTERM and SIGHUP; not for those that are
  * ignored, as under nohup. */

@@ -1,5 +1,5 @@
 /* The canvas that a command line asks for. */
-#include "app/options_canvas.h"
+#include "app/options.h"
 
 #include "base/clock.h"
 #include "images/image_file.h"

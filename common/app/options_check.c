@@ -1,5 +1,5 @@
 /* Whether a command line's options go together, as far as that needs neither driver nor files. */
-#include "app/options_check.h"
+#include "app/options.h"
 
 #include "base/output.h"
 #include "base/text.h"

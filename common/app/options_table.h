@@ -1,5 +1,5 @@
 /*
- * options_table: rows of options as constants, from which a program's table of options is made.
+ * options_table: the rows of which a program's table of options is made.
  */
 #ifndef OPTIONS_TABLE_H
 #define OPTIONS_TABLE_H
@@ -19,15 +19,10 @@ enum {
     ASIDE = 64,       /* does not change the picture or its destination, or as another does */
 };
 
-/* An option with its value, and what is set when it is given, as places in Options; 0: none. */
-typedef struct OptionRow {
-    Parameter option; /* without them */
-    size_t value, given;
-    int programs;
-} OptionRow;
-
-#define IN_OPTIONS(field) .value = offsetof(Options, field)
-#define GIVEN_IN(field) .given = offsetof(Options, field)
+/* Rows are constants: `value` and `given` are places in Options, which options_table replaces by
+ * addresses in those that it is given. */
+#define AT(field) .value = (void *)offsetof(Options, field)
+#define GIVEN_AT(field) .given = (bool *)offsetof(Options, field)
 
 /* Values that are of no ParameterKind. */
 extern const ParameterCodec OPTION_SIZE, OPTION_ANGLE, OPTION_ORBIT, OPTION_PART, OPTION_BACKEND,

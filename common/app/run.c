@@ -4,7 +4,7 @@
 #include "app/command.h"
 #include "app/doctor.h"
 #include "app/frames.h"
-#include "app/options_canvas.h"
+#include "app/options.h"
 #include "app/shader_reload.h"
 #include "app/viewer.h"
 #include "base/clock.h"

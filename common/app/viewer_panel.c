@@ -1,3 +1,6 @@
+/* The panel over the picture. What costs time is found a few times per second, and only while the
+ * panel is open: effects and commands here, errors by a worker in the background.
+ */
 #include "app/viewer_panel.h"
 
 #include "app/command.h"

@@ -62,12 +62,12 @@ static bool draw_marks(const FrameTask *task, int number, const Scene *scene, do
     static const double POINT_SIZE = 10;
     const Renderer *renderer = task->renderer;
     const int side = renderer->canvas->supersample; /* of a pixel of the picture */
-    Overlay *overlay = &scene_state(renderer)->overlay;
-    Annotations marks = {{.count = 0}, {.count = 0}};
+    const Overlay *overlay = &scene_state(renderer)->overlay;
+    Annotations marks = {.lines = {.size = side},
+                         .points = {.points = true, .size = side * POINT_SIZE}};
     example_scene(renderer->example)->annotate(task->seconds, number, scene, &marks);
-    const bool done =
-        overlay_draw(overlay, &marks.lines, GL_LINES, side, scene, aspect, message) &&
-        overlay_draw(overlay, &marks.points, GL_POINTS, side * POINT_SIZE, scene, aspect, message);
+    const bool done = overlay_draw(overlay, &marks.lines, scene, aspect, message) &&
+                      overlay_draw(overlay, &marks.points, scene, aspect, message);
     overlay_list_close(&marks.lines);
     overlay_list_close(&marks.points);
     return done;

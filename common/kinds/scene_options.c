@@ -244,73 +244,51 @@ static const ParameterCodec BIAS = {"CONSTANT,SLOPE,NORMAL", read_bias, write_bi
 static const char *const CLAMPS[] = {"vertex", "end", NULL};
 static const char *const LIGHTING[] = {"off", "on", NULL};
 
-const OptionRow SCENE_OPTIONS[] = {
-    {{"explain",
-      "report the scene's lights and their numbers, the effects that it needs and those that it "
-      "does not, why, and what they cost; draw nothing. Of several objects only what differs; with "
-      "--verbose everything",
-      .kind = PARAMETER_FLAG},
-     IN_OPTIONS(explain),
-     .programs = PROGRAM_ONE | ASIDE},
-    {{"full", "draw with the program that has every effect", .kind = PARAMETER_FLAG},
-     IN_OPTIONS(full),
+const Parameter SCENE_OPTIONS[] = {
+    {"explain",
+     "report the scene's lights and their numbers, the effects that it needs and those that it "
+     "does not, why, and what they cost; draw nothing. Of several objects only what differs; with "
+     "--verbose everything",
+     PARAMETER_FLAG, AT(explain), .programs = PROGRAM_ONE | ASIDE},
+    {"full", "draw with the program that has every effect", PARAMETER_FLAG, AT(full),
      .programs = PROGRAM_ONE},
-    {{"error",
-      "draw as cheaply as an error of E steps of 1/255 allows; options that are given stay. The "
-      "error is against the exact picture of the shapes (solids) or of the mesh as given (models), "
-      "the largest over the pixels inside an object: wholly inside one surface, covered by what is "
-      "drawn, and reached by the same lights; edges, also those of shadows, do not count",
-      PARAMETER_NUMBER, .max = 255, .placeholder = "E", .standard = ""},
-     IN_OPTIONS(error),
-     GIVEN_IN(cheap),
+    {"error",
+     "draw as cheaply as an error of E steps of 1/255 allows; options that are given stay. The "
+     "error is against the exact picture of the shapes (solids) or of the mesh as given (models), "
+     "the largest over the pixels inside an object: wholly inside one surface, covered by what is "
+     "drawn, and reached by the same lights; edges, also those of shadows, do not count",
+     PARAMETER_NUMBER, .max = 255, .placeholder = "E", .standard = "", AT(error), GIVEN_AT(cheap),
      .programs = PROGRAM_ONE},
-    {{"clamp", "where colours are clamped: at each vertex, as in OpenGL 1.1, or at the end",
-      PARAMETER_SWITCH, .choices = CLAMPS},
-     IN_OPTIONS(clamp_vertex),
+    {"clamp", "where colours are clamped: at each vertex, as in OpenGL 1.1, or at the end",
+     PARAMETER_SWITCH, .choices = CLAMPS, AT(clamp_vertex), .programs = PROGRAM_ONE},
+    {"linear-light", "compute in linear light; encode as sRGB at the end", PARAMETER_FLAG,
+     AT(linear), .programs = PROGRAM_ONE},
+    {"terms",
+     "draw only these terms of the sum: ambient, diffuse, specular, emission; and only these "
+     "lights, which --explain lists, as in diffuse,specular,0",
+     PARAMETER_TEXT, .standard = "all", .codec = &TERMS, AT(terms), .programs = PROGRAM_ONE},
+    {"light-at",
+     "put a light there: a position, or the direction towards a directional light; --explain "
+     "lists the lights; more of them after slashes, as in 0,1,2,0/1,-1,2,0",
+     PARAMETER_TEXT, .standard = "", .codec = &PLACES, AT(places), .programs = PROGRAM_ONE},
+    {"light-color",
+     "another colour of a light, diffuse and specular; or a colour for each; --explain lists the "
+     "lights; more of them after slashes, as in 0,1,0.5,0/1,0,0,1,1,1,1",
+     PARAMETER_TEXT, .standard = "", .codec = &TINTS, AT(tints), .programs = PROGRAM_ONE},
+    {"shadows",
+     "whether surfaces keep the light from others, and how that is found: volumes are exact, to "
+     "the pixel; map, or map:N, is a shadow map of NxN (1024); on: volumes",
+     PARAMETER_CHOICE, .choices = SHADOW_NAMES, .codec = &SHADOWS, AT(shadows),
      .programs = PROGRAM_ONE},
-    {{"linear-light", "compute in linear light; encode as sRGB at the end", .kind = PARAMETER_FLAG},
-     IN_OPTIONS(linear),
+    {"shadow-bias",
+     "against acne in shadow maps, in texels: how far a place is moved towards the light; that "
+     "times the slope; and along the normal",
+     PARAMETER_TEXT, .codec = &BIAS, AT(shadows.bias), .programs = PROGRAM_ONE},
+    {"shadow-filter", "compare a shadow map's nearest texel, or the four around, weighted",
+     PARAMETER_CHOICE, .choices = SHADOW_FILTER_NAMES, AT(shadows.smooth), .programs = PROGRAM_ONE},
+    {"lighting", "off: each surface in its own diffuse colour", PARAMETER_SWITCH,
+     .choices = LIGHTING, AT(terms.unlit), .programs = PROGRAM_ONE},
+    {"show-clipped", "paint over-exposed pixels magenta", PARAMETER_FLAG, AT(show_clipped),
      .programs = PROGRAM_ONE},
-    {{"terms",
-      "draw only these terms of the sum: ambient, diffuse, specular, emission; and only these "
-      "lights, which --explain lists, as in diffuse,specular,0",
-      PARAMETER_TEXT, .standard = "all", .codec = &TERMS},
-     IN_OPTIONS(terms),
-     .programs = PROGRAM_ONE},
-    {{"light-at",
-      "put a light there: a position, or the direction towards a directional light; --explain "
-      "lists the lights; more of them after slashes, as in 0,1,2,0/1,-1,2,0",
-      PARAMETER_TEXT, .standard = "", .codec = &PLACES},
-     IN_OPTIONS(places),
-     .programs = PROGRAM_ONE},
-    {{"light-color",
-      "another colour of a light, diffuse and specular; or a colour for each; --explain lists the "
-      "lights; more of them after slashes, as in 0,1,0.5,0/1,0,0,1,1,1,1",
-      PARAMETER_TEXT, .standard = "", .codec = &TINTS},
-     IN_OPTIONS(tints),
-     .programs = PROGRAM_ONE},
-    {{"shadows",
-      "whether surfaces keep the light from others, and how that is found: volumes are exact, to "
-      "the pixel; map, or map:N, is a shadow map of NxN (1024); on: volumes",
-      PARAMETER_CHOICE, .choices = SHADOW_NAMES, .codec = &SHADOWS},
-     IN_OPTIONS(shadows),
-     .programs = PROGRAM_ONE},
-    {{"shadow-bias",
-      "against acne in shadow maps, in texels: how far a place is moved towards the light; that "
-      "times the slope; and along the normal",
-      PARAMETER_TEXT, .codec = &BIAS},
-     IN_OPTIONS(shadows.bias),
-     .programs = PROGRAM_ONE},
-    {{"shadow-filter", "compare a shadow map's nearest texel, or the four around, weighted",
-      PARAMETER_CHOICE, .choices = SHADOW_FILTER_NAMES},
-     IN_OPTIONS(shadows.smooth),
-     .programs = PROGRAM_ONE},
-    {{"lighting", "off: each surface in its own diffuse colour", PARAMETER_SWITCH,
-      .choices = LIGHTING},
-     IN_OPTIONS(terms.unlit),
-     .programs = PROGRAM_ONE},
-    {{"show-clipped", "paint over-exposed pixels magenta", .kind = PARAMETER_FLAG},
-     IN_OPTIONS(show_clipped),
-     .programs = PROGRAM_ONE},
-    {.option = {.name = NULL}},
+    {.name = NULL},
 };

@@ -6,8 +6,8 @@
 
 #include "app/options_table.h"
 
-/* Ended by a row without a name. */
-extern const OptionRow SCENE_OPTIONS[];
+/* Ended by a NULL name. */
+extern const Parameter SCENE_OPTIONS[];
 
 /* By bit of SceneTerms. */
 extern const char *const SCENE_TERM_NAMES[4];

@@ -1,3 +1,4 @@
+/* Materials by name, as the textbooks list them. */
 #include "scene/material.h"
 
 #include <math.h>

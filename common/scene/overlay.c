@@ -1,3 +1,6 @@
+/* Lines and points of one color each, collected on the CPU and drawn from a buffer that each list
+ * fills anew. Of the sides of triangles only those are edges that no other triangle of the same
+ * plane has, too: sides are sorted by their ends, in a fixed order, and equal ones compared. */
 #include "scene/overlay.h"
 
 #include <stddef.h>
@@ -159,8 +162,8 @@ static void draw_points(const OverlayList *list, Mat4 clip_from_world)
     }
 }
 
-bool overlay_draw(const Overlay *overlay, const OverlayList *list, GLenum mode, double size,
-                  const Scene *scene, double aspect, Message *message)
+bool overlay_draw(const Overlay *overlay, const OverlayList *list, const Scene *scene,
+                  double aspect, Message *message)
 {
     Mat4 eye_from_world, clip_from_eye;
     if (list->failed)
@@ -171,7 +174,7 @@ bool overlay_draw(const Overlay *overlay, const OverlayList *list, GLenum mode, 
         return false;
     const GLuint position = (GLuint)overlay->a_Position, color = (GLuint)overlay->a_Color;
     const GLsizei stride = (GLsizei)sizeof(OverlayVertex);
-    const float width = (float)size;
+    const float width = list->size > 0 ? (float)list->size : 1;
     const Mat4 clip_from_world = mat4_product(clip_from_eye, eye_from_world);
     glUseProgram(overlay->shader.program);
     shader_set_mat4(overlay->u_ClipFromWorld, clip_from_world);
@@ -185,11 +188,11 @@ bool overlay_draw(const Overlay *overlay, const OverlayList *list, GLenum mode, 
                           (const void *)offsetof(OverlayVertex, position));
     glVertexAttribPointer(color, 3, GL_FLOAT, GL_FALSE, stride,
                           (const void *)offsetof(OverlayVertex, color));
-    glLineWidth(mode == GL_LINES ? width : 1);
-    if (mode == GL_POINTS)
+    glLineWidth(list->points ? 1 : width);
+    if (list->points)
         draw_points(list, clip_from_world);
     else
-        glDrawArrays(mode, 0, list->count);
+        glDrawArrays(GL_LINES, 0, list->count);
     glDisableVertexAttribArray(color);
     return true;
 }

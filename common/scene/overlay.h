@@ -17,6 +17,8 @@ typedef struct OverlayVertex {
 typedef struct OverlayList {
     OverlayVertex *vertices;
     int count, capacity;
+    bool points; /* not lines */
+    double size; /* of points, or the lines' width, in pixels; 0: 1 */
     bool failed; /* memory ran out: the list is incomplete */
 } OverlayList;
 
@@ -44,9 +46,9 @@ typedef struct Overlay {
 
 bool overlay_open(Overlay *overlay, const ShaderLoader *loader, Message *message);
 
-/* Draws a list as GL_LINES or GL_POINTS `size` pixels wide, with the scene's camera. */
-bool overlay_draw(const Overlay *overlay, const OverlayList *list, GLenum mode, double size,
-                  const Scene *scene, double aspect, Message *message);
+/* Draws a list with the scene's camera. */
+bool overlay_draw(const Overlay *overlay, const OverlayList *list, const Scene *scene,
+                  double aspect, Message *message);
 void overlay_close(Overlay *overlay);
 
 #endif

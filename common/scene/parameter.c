@@ -1,3 +1,5 @@
+/* Typed variables, read from words and written as words: what is written reads back as the same
+ * value, in the fewest digits. */
 #include "scene/parameter.h"
 
 #include "base/parse.h"

@@ -50,6 +50,7 @@ typedef struct Parameter {
     /* Axes of quality (1 << QualityAxis, scene/quality.h) that --error leaves alone where this
      * option is given. */
     unsigned fixes;
+    int programs; /* of a common option: which have it, see app/options_table.h */
 } Parameter;
 
 /* Of the value in --help; NULL: the range or the kind. */

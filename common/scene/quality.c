@@ -1,3 +1,5 @@
+/* Thirteen axes, each a list of choices from more accurate to cheaper. A quality is applied to a
+ * copy of the scene: other meshes of its solids, lights at infinity, lighting per vertex. */
 #include "scene/quality.h"
 
 #include "scene/effects.h"

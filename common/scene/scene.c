@@ -1,3 +1,4 @@
+/* Scenes as data: checks, copies, transforms of the camera, and changes that options ask for. */
 #include "scene/scene.h"
 
 #include "core/mesh_make.h"

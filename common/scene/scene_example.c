@@ -1,3 +1,4 @@
+/* What examples with scenes share: shading and surfaces as options, the textbook's camera. */
 #include "scene/scene_example.h"
 
 #include <math.h>

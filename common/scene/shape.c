@@ -1,3 +1,4 @@
+/* The solids of the examples: for each its mesh, its exact shape, and how it is put upright. */
 #include "scene/shape.h"
 
 #include "shapes/fox_head.h"

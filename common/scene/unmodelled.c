@@ -1,3 +1,8 @@
+/* What the lighting model leaves out of this very scene, found by rays: from some hundred points of
+ * each surface, spread evenly (Roberts' sequence), segments to each light; where another object is
+ * in between there would be a shadow. Spheres around the objects spare most of the triangles. Some
+ * hundred points miss small shadows, which is good enough for a sentence about the scene.
+ */
 #include "scene/unmodelled.h"
 
 #include <math.h>

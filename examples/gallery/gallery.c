@@ -7,7 +7,7 @@
  */
 #include "app/command.h"
 #include "app/doctor.h"
-#include "app/options_canvas.h"
+#include "app/options.h"
 #include "app/picture_texts.h"
 #include "app/renderer.h"
 #include "base/clock.h"

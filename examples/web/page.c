@@ -1,7 +1,7 @@
 #include "web/page.h"
 
 #include "app/command.h"
-#include "app/options_canvas.h"
+#include "app/options.h"
 #include "app/renderer.h"
 #include "choose/error_worker.h"
 #include "core/shader_files.h"

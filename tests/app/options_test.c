@@ -1,22 +1,13 @@
 /*
- * options: every option, every bad value, and the edge of a program.
+ * options: every option, and every bad value.
  */
 #include "app/options.h"
-#include "scene/scene_example.h"
-#include "base/parse.h"
-#include "base/version.h"
 #include "images/image_file.h"
+#include "scene/scene_example.h"
 #include "support/testing.h"
 
-#include <errno.h>
-#include <fcntl.h>
-#include <float.h>
-#include <math.h>
-#include <signal.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 enum { MAX_ARGUMENTS = 8 };
 
@@ -139,11 +130,28 @@ TEST(every_option_is_read_in_its_short_and_long_form)
     reads("--doctor", options.doctor);
 }
 
+/* An option's bad values; the empty one is another. */
+typedef struct BadValues {
+    const char *option, *values[18];
+} BadValues;
+
+static void refuse_all(const Usage *usage, const BadValues *cases, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        char line[128], said[128];
+        for (const char *const *value = cases[i].values; *value; value++) {
+            snprintf(line, sizeof line, "%s=%s", cases[i].option, *value);
+            snprintf(said, sizeof said, "%s %s: ", cases[i].option, *value);
+            refuse_as(usage, line, said);
+        }
+        snprintf(line, sizeof line, "%s=", cases[i].option);
+        refuse_as(usage, line, cases[i].option);
+    }
+}
+
 TEST(every_bad_value_is_refused_with_the_option_and_the_value)
 {
-    static const struct {
-        const char *option, *values[14];
-    } cases[] = {
+    static const BadValues cases[] = {
         {"--size",
          {"0", "400x", "x400", "0x0", "20000x1", "1x16385", "-1x5", "4x4x4", "400", "x", "1.5x2",
           "0x10x4", "99999999999x1"}},
@@ -162,17 +170,22 @@ TEST(every_bad_value_is_refused_with_the_option_and_the_value)
         {"--print-shader", {"fragment", "both", "vert,frag"}},
         {"--compress", {"-1", "10", "1.5", "best"}},
     };
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        for (const char *const *value = cases[i].values; *value; value++) {
-            char line[128], said[128];
-            snprintf(line, sizeof line, "%s=%s", cases[i].option, *value);
-            snprintf(said, sizeof said, "%s %s: ", cases[i].option, *value);
-            refuse(line, said);
-        }
-        char empty[64];
-        snprintf(empty, sizeof empty, "%s=", cases[i].option);
-        refuse(empty, cases[i].option);
-    }
+    static const BadValues of_scenes[] = {
+        {"--light-at",
+         {"0", "0,1,2", "0,1,2,3,4", "8,1,2,3", "-1,1,2,3", "0,1,2,", "0,1,2,3/", "/0,1,2,3",
+          "x,1,2,3", "0,1,2,x", "0,,1,2", "0,1,2,3/0,1", "0,1e7,0,0"}},
+        {"--light-color",
+         {"0", "0,1,1", "0,1,1,1,1", "8,1,1,1", "-1,1,1,1", "0,1,1,-1", "0,1,1,11", "0,1,1,1/",
+          "/0,1,1,1", "0,1,1,1,", "0,,1,1", "0,1,1,x", "0,1,1,1,1,1", ",0,1,1,1", "0,1,1,nan",
+          "0,1,1,1,1,1,1,1"}},
+        {"--terms",
+         {"difuse", "diffuse,", ",diffuse", "32", "-1", "1,,2", "Diffuse", "specularspecular",
+          "0000000000000000x"}},
+    };
+    refuse_all(&PROGRAM, cases, sizeof cases / sizeof cases[0]);
+    refuse_all(&SCENE, of_scenes, sizeof of_scenes / sizeof of_scenes[0]);
+    refuse_as(&SCENE, "--terms diffuse ambient", "ambient");
+    refuse("--terms diffuse", "--terms");
     refuse("--output=", "--output: the name is empty");
     refuse("-o \"\"", "--output: the name is empty");
     refuse("--shaders=", "--shaders: the name is empty");
@@ -193,72 +206,43 @@ TEST(an_option_without_its_value_says_so)
     refuse("-vo", "-o: needs a value");
 }
 
-TEST(a_value_for_an_option_that_takes_none_is_refused)
+TEST(what_is_no_option_is_named)
 {
-    refuse("--alpha=1", "--alpha=1: takes no value");
-    refuse("--verbose=very", "takes no value");
-    refuse("--help=me", "takes no value");
-}
-
-TEST(an_unknown_option_gets_the_nearest_name)
-{
-    refuse("--sise 4x4", "--sise: no such option; did you mean --size?");
-    refuse("--ouptut=a.png", "did you mean --output?");
-    refuse("--Samples 4", "did you mean --samples?");
-    refuse("--precison highp", "did you mean --precision?");
-    refuse("--print-shaders", "did you mean --print-shader?");
-    refuse("--fsp 3", "did you mean --fps?");
-    refuse("--xylophone", "--xylophone: no such option; --help lists them");
-    refuse("--=3", "no such option");
-    refuse("-z", "-z: no such option; --help lists them");
-}
-
-TEST(an_unknown_letter_is_named_at_any_position)
-{
-    refuse("-vz", "-z: no such option");
-    refuse("-zv", "-z: no such option");
-    refuse("--verbose -zv", "-z: no such option");
-    refuse("--alpha -zo a.png", "-z: no such option");
-}
-
-TEST(an_ambiguous_abbreviation_names_the_options)
-{
-    refuse("--pr", "--precision");
-    refuse("--pr", "--print-shader");
-    refuse("--s 4", "--samples");
-}
-
-TEST(an_argument_that_is_not_an_option_is_refused)
-{
-    refuse("picture.png", "picture.png: not an option");
-    refuse("-v picture.png --alpha", "picture.png: not an option");
-    refuse("-- --alpha", "--alpha: not an option");
-    refuse("-", "-: not an option");
-    refuse("\"\"", "not an option");
-}
-
-TEST(a_size_is_two_whole_numbers)
-{
-    static const char *const bad[] = {
-        "",        "x",     "1",     "1x",   "x1",    "0x1",  "1x0",         "16385x1",
-        "1x16385", "-1x1",  "+1x1",  " 1x1", "1x1 ",  "1 x1", "1x 1",        "1x1x1",
-        "1e2x1",   "1.0x1", "0x1x1", "1*1",  "1x1\n", "axb",  "4294967297x1"};
-    int width = 11, height = 22;
-    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++)
-        if (parse_size(bad[i], &width, &height))
-            fail_msg("accepted: \"%s\"", bad[i]);
-    assert_int_equal(width, 11);
-    assert_int_equal(height, 22);
     static const struct {
-        const char *text;
-        int width, height;
-    } good[] = {
-        {"1x1", 1, 1}, {"16384x16384", 16384, 16384}, {"007x3", 7, 3}, {"640X480", 640, 480}};
-    for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) {
-        assert_true(parse_size(good[i].text, &width, &height));
-        assert_int_equal(width, good[i].width);
-        assert_int_equal(height, good[i].height);
-    }
+        const char *line, *said;
+    } cases[] = {
+        /* a value that is not taken */
+        {"--alpha=1", "--alpha=1: takes no value"},
+        {"--verbose=very", "takes no value"},
+        {"--help=me", "takes no value"},
+        /* unknown: the nearest name */
+        {"--sise 4x4", "--sise: no such option; did you mean --size?"},
+        {"--ouptut=a.png", "did you mean --output?"},
+        {"--Samples 4", "did you mean --samples?"},
+        {"--precison highp", "did you mean --precision?"},
+        {"--print-shaders", "did you mean --print-shader?"},
+        {"--fsp 3", "did you mean --fps?"},
+        {"--xylophone", "--xylophone: no such option; --help lists them"},
+        {"--=3", "no such option"},
+        {"-z", "-z: no such option; --help lists them"},
+        /* a letter at any position */
+        {"-vz", "-z: no such option"},
+        {"-zv", "-z: no such option"},
+        {"--verbose -zv", "-z: no such option"},
+        {"--alpha -zo a.png", "-z: no such option"},
+        /* an ambiguous abbreviation */
+        {"--pr", "--precision"},
+        {"--pr", "--print-shader"},
+        {"--s 4", "--samples"},
+        /* an argument */
+        {"picture.png", "picture.png: not an option"},
+        {"-v picture.png --alpha", "picture.png: not an option"},
+        {"-- --alpha", "--alpha: not an option"},
+        {"-", "-: not an option"},
+        {"\"\"", "not an option"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
+        refuse(cases[i].line, cases[i].said);
 }
 
 TEST(without_a_size_it_is_the_programs)
@@ -285,7 +269,6 @@ TEST(without_a_size_it_is_the_programs)
 static const char *const LIGHT_NUMBERS[] = {"0", "1", "2", "31"};
 static const char *const TERMS[] = {"ambient", "diffuse", "specular", "emission"};
 
-/* The row --terms of `options`. */
 /* An option of scenes, with its value in `options`. */
 static Parameter scene_row(const char *name)
 {
@@ -364,14 +347,6 @@ TEST(lights_are_put_elsewhere)
     assert_int_equal(read_as(&SCENE, line), OPTIONS_RUN);
     for (int i = 0; i < SCENE_MAX_PLACED; i++)
         assert_memory_equal(&options.places.at[i], &all.at[i], sizeof all.at[i]);
-    static const char *const wrong[] = {"\"\"",     "0",      "0,1,2",       "0,1,2,3,4", "8,1,2,3",
-                                        "-1,1,2,3", "0,1,2,", "0,1,2,3/",    "/0,1,2,3",  "x,1,2,3",
-                                        "0,1,2,x",  "0,,1,2", "0,1,2,3/0,1", "0,1e7,0,0"};
-    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
-        snprintf(line, sizeof line, "--light-at=%s", wrong[i]);
-        if (read_as(&SCENE, line) != OPTIONS_BAD)
-            fail_msg("taken: %s", line);
-    }
 }
 
 TEST(lights_get_other_colors)
@@ -399,67 +374,6 @@ TEST(lights_get_other_colors)
     snprintf(line, sizeof line, "--light-color %s", text);
     assert_int_equal(read_as(&SCENE, line), OPTIONS_RUN);
     assert_memory_equal(&options.tints, &all, sizeof all);
-    static const char *const wrong[] = {
-        "\"\"",     "0",           "0,1,1",    "0,1,1,1,1", "8,1,1,1",        "-1,1,1,1",
-        "0,1,1,-1", "0,1,1,11",    "0,1,1,1/", "/0,1,1,1",  "0,1,1,1,",       "0,,1,1",
-        "0,1,1,x",  "0,1,1,1,1,1", ",0,1,1,1", "0,1,1,nan", "0,1,1,1,1,1,1,1"};
-    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
-        snprintf(line, sizeof line, "--light-color=%s", wrong[i]);
-        if (read_as(&SCENE, line) != OPTIONS_BAD)
-            fail_msg("taken: %s", line);
-    }
-}
-
-TEST(terms_that_are_none_are_refused)
-{
-    static const char *const wrong[] = {"\"\"",
-                                        "difuse",
-                                        "diffuse,",
-                                        ",diffuse",
-                                        "32",
-                                        "-1",
-                                        "1,,2",
-                                        "diffuse ambient",
-                                        "Diffuse",
-                                        "specularspecular",
-                                        "0000000000000000x"};
-    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
-        char line[64];
-        snprintf(line, sizeof line, "--terms %s", wrong[i]);
-        refuse_as(&SCENE, line, strchr(wrong[i], ' ') ? "ambient" : "--terms");
-    }
-    refuse("--terms diffuse", "--terms");
-}
-
-TEST(a_number_is_finite_decimal_and_nothing_else)
-{
-    static const char *const bad[] = {
-        "",         ".",   "-",     "+",     "e",      "nan", "NAN",   "inf", "-inf",
-        "infinity", "0x1", "0X1p3", "1e400", "-1e400", " 1",  "1 ",    "\t1", "1\n",
-        "1a",       "1e",  "--1",   "+-1",   "1.2.3",  "1,5", "1_000", "1f",  "\xC2\xB2"};
-    double number = 42;
-    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++)
-        if (parse_number(bad[i], -DBL_MAX, DBL_MAX, &number))
-            fail_msg("accepted: \"%s\"", bad[i]);
-    assert_true(number == 42);
-    static const struct {
-        const char *text;
-        double value;
-    } good[] = {{"0", 0},      {"-1.5", -1.5}, {"+2", 2},      {".5", 0.5}, {"5.", 5},
-                {"1e3", 1000}, {"1E-2", 0.01}, {"-.25", -.25}, {"010", 10}, {"1e-400", 0}};
-    for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) {
-        assert_true(parse_number(good[i].text, -DBL_MAX, DBL_MAX, &number));
-        assert_true(number == good[i].value);
-    }
-}
-
-TEST(the_ends_of_a_range_belong_to_it)
-{
-    double number;
-    assert_true(parse_number("-2", -2, 3, &number));
-    assert_true(parse_number("3", -2, 3, &number));
-    assert_false(parse_number("-2.0000001", -2, 3, &number));
-    assert_false(parse_number("3.0000001", -2, 3, &number));
 }
 
 TEST(the_default_output_is_named_for_the_program)
@@ -564,157 +478,6 @@ TEST(reading_again_resets_the_options)
     accept("");
     assert_false(options.verbose || options.alpha);
     assert_int_equal(options.width, 400);
-}
-
-/* A stream's file descriptor, while a temporary file stands in its place. */
-typedef struct Capture {
-    FILE *stream, *file;
-    int saved;
-} Capture;
-
-static Capture capture_start(FILE *stream)
-{
-    Capture capture = {.stream = stream, .file = tmpfile()};
-    assert_non_null(capture.file);
-    fflush(stream);
-    capture.saved = dup(fileno(stream));
-    assert_true(dup2(fileno(capture.file), fileno(stream)) >= 0);
-    return capture;
-}
-
-static void capture_end(Capture *capture, char *text, size_t size)
-{
-    fflush(capture->stream);
-    assert_true(dup2(capture->saved, fileno(capture->stream)) >= 0);
-    close(capture->saved);
-    rewind(capture->file);
-    text[fread(text, 1, size - 1, capture->file)] = '\0';
-    fclose(capture->file);
-}
-
-TEST(help_names_every_option_and_version_is_one_line)
-{
-    static const char *const named[] = {"Usage: LightedCube [options]",
-                                        "A summary.",
-                                        "-o, --output",
-                                        "-s, --size",
-                                        "-t, --time",
-                                        "-a, --angle",
-                                        "-n, --frames",
-                                        "--fps",
-                                        "--samples",
-                                        "-b, --backend",
-                                        "--shaders",
-                                        "--precision",
-                                        "--print-shader",
-                                        "--alpha",
-                                        "--compress",
-                                        "-v, --verbose",
-                                        "--doctor",
-                                        "-h, --help",
-                                        "--version",
-                                        "LIGHTING_SHADERS",
-                                        "400x400",
-                                        "Exit status"};
-    char text[8192];
-    Capture capture = capture_start(stdout);
-    const OptionsResult result = read_as(&PROGRAM, "--help");
-    capture_end(&capture, text, sizeof text);
-    assert_int_equal(result, OPTIONS_ANSWERED);
-    for (size_t i = 0; i < sizeof named / sizeof named[0]; i++)
-        if (!strstr(text, named[i]))
-            fail_msg("not in --help: %s", named[i]);
-    for (char *line = strtok(text, "\n"); line; line = strtok(NULL, "\n"))
-        if (strlen(line) > 100)
-            fail_msg("too long: %s", line);
-
-    capture = capture_start(stdout);
-    const OptionsResult gallery = read_as(&GALLERY, "-h");
-    capture_end(&capture, text, sizeof text);
-    assert_int_equal(gallery, OPTIONS_ANSWERED);
-    assert_non_null(strstr(text, "Usage: gallery [options] [NAME...]"));
-    assert_null(strstr(text, "--frames"));
-
-    capture = capture_start(stdout);
-    const OptionsResult version = read_as(&PROGRAM, "--version");
-    capture_end(&capture, text, sizeof text);
-    assert_int_equal(version, OPTIONS_ANSWERED);
-    assert_string_equal(text, "LightedCube (lighting) " VERSION "\n");
-}
-
-TEST(a_failure_begins_with_the_programs_name_or_a_place)
-{
-    char text[256];
-    const Message plain = {.text = "a.png: is a folder"};
-    const Message placed = {.text = "a.vert:3: syntax error", .located = true};
-    const Message empty = {.text = ""};
-    Capture capture = capture_start(stderr);
-    const int first = options_fail("LightedCube", &plain, EXIT_USAGE);
-    const int second = options_fail("LightedCube", &placed, EXIT_FAILED);
-    options_fail("LightedCube", &empty, EXIT_FAILED);
-    capture_end(&capture, text, sizeof text);
-    assert_int_equal(first, EXIT_USAGE);
-    assert_int_equal(second, EXIT_FAILED);
-    assert_string_equal(text, "LightedCube: a.png: is a folder\na.vert:3: syntax error\n"
-                              "LightedCube: failed\n");
-}
-
-static int prepare_with_closed_streams(void)
-{
-    close(0);
-    close(1);
-    close(2);
-    options_prepare_process();
-    const int next = open("/dev/null", O_RDONLY);
-    char byte;
-    if (next != 3)
-        return 1; /* a file got the number of a standard stream */
-    if (read(0, &byte, 1) != 0)
-        return 2;
-    if (write(1, "x", 1) >= 0 || write(2, "x", 1) >= 0)
-        return 3; /* writing to a closed stream must fail */
-    return 0;
-}
-
-static int prepare_with_open_streams(void)
-{
-    int ends[2];
-    if (pipe(ends) != 0 || dup2(ends[1], 1) < 0)
-        return 1;
-    options_prepare_process();
-    if (write(1, "x", 1) != 1)
-        return 2; /* open streams stay as they are */
-    close(ends[0]);
-    if (write(1, "x", 1) >= 0 || errno != EPIPE)
-        return 3; /* a broken pipe is an error, not the end */
-    return signal(SIGXFSZ, SIG_DFL) == SIG_IGN ? 0 : 4;
-}
-
-static int finish_on_a_full_device(void)
-{
-    const int full = open("/dev/full", O_WRONLY);
-    const int quiet = open("/dev/null", O_WRONLY);
-    if (full < 0 || dup2(full, 1) < 0 || dup2(quiet, 2) < 0)
-        return 1;
-    if (options_finish("LightedCube", 0) != 0)
-        return 2; /* nothing was written, so nothing is lost */
-    fputs("data", stdout);
-    return options_finish("LightedCube", 0) == EXIT_FAILED ? 0 : 3;
-}
-
-TEST(closed_standard_streams_are_reserved)
-{
-    assert_int_equal(testing_in_child(prepare_with_closed_streams), 0);
-}
-
-TEST(open_streams_stay_and_broken_pipes_are_errors)
-{
-    assert_int_equal(testing_in_child(prepare_with_open_streams), 0);
-}
-
-TEST(output_that_does_not_arrive_is_a_failure)
-{
-    assert_int_equal(testing_in_child(finish_on_a_full_device), 0);
 }
 
 int main(void)

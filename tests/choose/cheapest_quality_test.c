@@ -6,7 +6,6 @@
  * cheapest_quality_test --markdown: what the same scenes save, as a table.
  * cheapest_quality_test NAME --error E ...: judges this command of a program alone.
  */
-#include "app/options_canvas.h"
 #include "app/options.h"
 #include "app/renderer.h"
 #include "kinds/scene_views.h"

@@ -4,7 +4,6 @@
  * closed, before the first thread starts, so that a thread checker sees only this project's
  * threads.
  */
-#include "app/options_canvas.h"
 #include "app/options.h"
 #include "app/renderer.h"
 #include "kinds/scene_views.h"

@@ -1,7 +1,6 @@
 /*
  * Images to files: PNG read back by libpng, all other formats by OpenImageIO.
  */
-#include "app/options_canvas.h"
 #include "app/options.h"
 #include "app/renderer.h"
 #include "images/picture_queue.h"

@@ -9,7 +9,6 @@
  * Columns and rows are in pixels from the upper left corner of a picture; a pixel's centre is at
  * its number plus one half. Colours are in steps, 0 to 255.
  */
-#include "app/options_canvas.h"
 #include "app/options.h"
 #include "app/renderer.h"
 #include "images/picture_queue.h"

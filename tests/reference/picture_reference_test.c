@@ -7,7 +7,6 @@
  * off: rounding to 8 bits alone makes 0.5, and arithmetic in 32 bits with a shininess up to 128
  * less than the other half.
  */
-#include "app/options_canvas.h"
 #include "app/options.h"
 #include "app/renderer.h"
 #include "images/picture_queue.h"

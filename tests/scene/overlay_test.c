@@ -145,8 +145,7 @@ static void draw_lines(const Canvas *canvas, const Overlay *overlay, const Mesh 
 {
     CLOSED(overlay_list_close) OverlayList list = {.count = 0};
     overlay_add_edges(&list, mesh, mat4_identity(), BLACK);
-    require(overlay_draw(overlay, &list, GL_LINES, 1, scene, 1, FAILURE) &&
-                canvas_read(canvas, image, FAILURE),
+    require(overlay_draw(overlay, &list, scene, 1, FAILURE) && canvas_read(canvas, image, FAILURE),
             FAILURE);
 }
 

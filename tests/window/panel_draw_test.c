@@ -2,7 +2,6 @@
  * The panel over the pictures of examples: what is drawn, where, and that the examples draw the
  * same picture, bit for bit, before and after.
  */
-#include "app/options_canvas.h"
 #include "app/options.h"
 #include "app/renderer.h"
 #include "scene/scene_example.h"

@@ -1,0 +1,67 @@
+/*
+ * parse: sizes and numbers of the command line.
+ */
+#include "base/parse.h"
+#include "support/testing.h"
+
+#include <float.h>
+
+TEST(a_size_is_two_whole_numbers)
+{
+    static const char *const bad[] = {
+        "",        "x",     "1",     "1x",   "x1",    "0x1",  "1x0",         "16385x1",
+        "1x16385", "-1x1",  "+1x1",  " 1x1", "1x1 ",  "1 x1", "1x 1",        "1x1x1",
+        "1e2x1",   "1.0x1", "0x1x1", "1*1",  "1x1\n", "axb",  "4294967297x1"};
+    int width = 11, height = 22;
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++)
+        if (parse_size(bad[i], &width, &height))
+            fail_msg("accepted: \"%s\"", bad[i]);
+    assert_int_equal(width, 11);
+    assert_int_equal(height, 22);
+    static const struct {
+        const char *text;
+        int width, height;
+    } good[] = {
+        {"1x1", 1, 1}, {"16384x16384", 16384, 16384}, {"007x3", 7, 3}, {"640X480", 640, 480}};
+    for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) {
+        assert_true(parse_size(good[i].text, &width, &height));
+        assert_int_equal(width, good[i].width);
+        assert_int_equal(height, good[i].height);
+    }
+}
+
+TEST(a_number_is_finite_decimal_and_nothing_else)
+{
+    static const char *const bad[] = {
+        "",         ".",   "-",     "+",     "e",      "nan", "NAN",   "inf", "-inf",
+        "infinity", "0x1", "0X1p3", "1e400", "-1e400", " 1",  "1 ",    "\t1", "1\n",
+        "1a",       "1e",  "--1",   "+-1",   "1.2.3",  "1,5", "1_000", "1f",  "\xC2\xB2"};
+    double number = 42;
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++)
+        if (parse_number(bad[i], -DBL_MAX, DBL_MAX, &number))
+            fail_msg("accepted: \"%s\"", bad[i]);
+    assert_true(number == 42);
+    static const struct {
+        const char *text;
+        double value;
+    } good[] = {{"0", 0},      {"-1.5", -1.5}, {"+2", 2},      {".5", 0.5}, {"5.", 5},
+                {"1e3", 1000}, {"1E-2", 0.01}, {"-.25", -.25}, {"010", 10}, {"1e-400", 0}};
+    for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) {
+        assert_true(parse_number(good[i].text, -DBL_MAX, DBL_MAX, &number));
+        assert_true(number == good[i].value);
+    }
+}
+
+TEST(the_ends_of_a_range_belong_to_it)
+{
+    double number;
+    assert_true(parse_number("-2", -2, 3, &number));
+    assert_true(parse_number("3", -2, 3, &number));
+    assert_false(parse_number("-2.0000001", -2, 3, &number));
+    assert_false(parse_number("3.0000001", -2, 3, &number));
+}
+
+int main(void)
+{
+    return testing_run(0, "parse", NULL, NULL);
+}
