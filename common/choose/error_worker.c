@@ -45,9 +45,9 @@ bool error_picture_add(ErrorPicture *picture, const int place[4], const Scene *s
     ErrorView *view = &picture->views[picture->view_count];
     picture->view_count++;
     memcpy(view->place, place, sizeof view->place);
-    return scene_copy_open(&view->scene, scene, true, message) &&
+    return scene_copy_open_deep(&view->scene, scene, message) &&
            (!drawn || !scene_has_shadows(scene) ||
-            scene_copy_open(&view->drawn, drawn, true, message));
+            scene_copy_open_deep(&view->drawn, drawn, message));
 }
 
 void error_picture_close(ErrorPicture *picture)

@@ -222,7 +222,7 @@ static void add_marks(CacheKey *key, Annotations *marks)
     }
 }
 
-static bool add_view(CacheKey *key, const Example *example, const Options *options, double seconds,
+static void add_view(CacheKey *key, const Example *example, const Options *options, double seconds,
                      int view)
 {
     const SceneExample *own = example_scene(example);
@@ -230,8 +230,7 @@ static bool add_view(CacheKey *key, const Example *example, const Options *optio
     SceneCopy kept;
     Annotations marks = {{.count = 0}, {.count = 0}};
     own->make(seconds, view, &scene);
-    if (!scene_copy_open(&kept, &scene, false, NULL))
-        return false;
+    scene_copy_open(&kept, &scene);
     scene_keep_terms(&kept, options->terms);
     add_scene(key, &kept.scene, options->alpha);
     if (own->annotate)
@@ -240,7 +239,6 @@ static bool add_view(CacheKey *key, const Example *example, const Options *optio
     const char *label = own->label ? own->label(view) : NULL;
     cache_key_add(key, label ? label : "", label ? strlen(label) : 0);
     scene_copy_close(&kept);
-    return true;
 }
 
 /* What the finished picture is changed to, shown on a pattern. */
@@ -260,36 +258,34 @@ static bool add_retouched(CacheKey *key, const SceneExample *own)
     return true;
 }
 
-static bool add_scenes(const Example *example, const Options *options, CacheKey *key)
+static void add_scenes(const Example *example, const Options *options, CacheKey *key)
 {
     int grid[2];
     const int views = scene_view_grid(example_scene(example), &grid[0], &grid[1]);
     cache_key_add(key, grid, sizeof grid);
     for (int k = 0; k < INEFFECTIVE_MOMENTS; k++)
         for (int view = 0; view < views; view++)
-            if (!add_view(key, example, options, options->seconds + INEFFECTIVE_LATER[k], view))
-                return false;
-    return true;
+            add_view(key, example, options, options->seconds + INEFFECTIVE_LATER[k], view);
 }
 
 static bool make_key(const Example *example, const Options *options, CacheKey *key)
 {
-    const bool done = example->init(&NO_SHADERS, NULL) &&
-                      add_retouched(key, example_scene(example)) &&
-                      add_scenes(example, options, key);
+    const bool done =
+        example->init(&NO_SHADERS, NULL) && add_retouched(key, example_scene(example));
+    if (done)
+        add_scenes(example, options, key);
     example->finish();
     return done;
 }
 
 /* --shadows */
 
-/* With the lights as the options have them and shadows of all; true too if that is not known. */
+/* With the lights as the options have them and shadows of all. */
 static bool shadow_falls(const Scene *made, const Options *options)
 {
     SceneCopy kept;
     bool falls = false;
-    if (!scene_copy_open(&kept, made, false, NULL))
-        return true;
+    scene_copy_open(&kept, made);
     scene_place_lights(&kept, &options->places);
     scene_tint_lights(&kept, &options->tints);
     scene_keep_terms(&kept, options->terms);

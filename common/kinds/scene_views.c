@@ -79,8 +79,7 @@ bool scene_view_make(const ViewMoment *moment, SceneCopy *kept, Scene *scene, Me
     if (!terms->left_out && !terms->lights_left_out && !terms->unlit && !request->places.placed &&
         !request->tints.tinted && shadows == own)
         return true;
-    if (!scene_copy_open(kept, scene, false, message))
-        return false;
+    scene_copy_open(kept, scene);
     scene_place_lights(kept, &request->places);
     scene_tint_lights(kept, &request->tints);
     scene_keep_terms(kept, *terms);

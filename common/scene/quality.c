@@ -2,6 +2,7 @@
  * copy of the scene: other meshes of its solids, lights at infinity, lighting per vertex. */
 #include "scene/quality.h"
 
+#include "base/memory.h"
 #include "scene/effects.h"
 
 #include <stdlib.h>
@@ -190,51 +191,31 @@ static Light at_infinity(const Light *light, Vec3 center)
     return far;
 }
 
-bool quality_scene_open(QualityScene *made, const Scene *scene, const Quality *quality,
+bool quality_scene_open(SceneCopy *made, const Scene *scene, const Quality *quality,
                         SolidMeshes *meshes, Message *message)
 {
-    const size_t lights = (size_t)scene->light_count, objects = (size_t)scene->object_count;
-    *made = (QualityScene){.scene = *scene,
-                           .lights = calloc(lights + 1, sizeof *made->lights),
-                           .objects = calloc(objects + 1, sizeof *made->objects)};
-    if (!made->lights || !made->objects) {
-        quality_scene_close(made);
-        return message_set(message, "quality: not enough memory for a scene");
+    scene_copy_open(made, scene);
+    for (int i = 0; i < scene->light_count; i++) {
+        const Light light = scene_world_light(scene, i);
+        if (quality->choice[AXIS_LIGHTS] == LIGHTS_INFINITE)
+            made->lights[i] = at_infinity(&light, scene->camera.center);
     }
-    for (size_t i = 0; i < lights; i++) {
-        const Light light = scene_world_light(scene, (int)i);
-        made->lights[i] = quality->choice[AXIS_LIGHTS] == LIGHTS_INFINITE
-                              ? at_infinity(&light, scene->camera.center)
-                              : scene->lights[i];
-    }
-    for (size_t i = 0; i < objects; i++) {
+    for (int i = 0; i < scene->object_count; i++) {
         Object *object = &made->objects[i];
-        *object = scene->objects[i];
         const bool colored = object->mesh && object->mesh->colors;
         const bool remade = object->solid.kind && !colored;
         if (remade)
             object->mesh =
                 solid_meshes_find(meshes, &object->solid, quality_divisions(quality), message);
         if (remade && !object->mesh) {
-            quality_scene_close(made);
+            scene_copy_close(made);
             return false;
         }
     }
-    made->scene.lights = made->lights;
-    made->scene.objects = made->objects;
     made->scene.interpolation = (Interpolation)quality->choice[AXIS_INTERPOLATION];
     made->scene.distant_viewer |= quality->choice[AXIS_VIEWER] == VIEWER_INFINITE;
     made->scene.skip_renormalization |= quality->choice[AXIS_NORMALS] == NORMALS_INTERPOLATED;
     return true;
-}
-
-void quality_scene_close(QualityScene *made)
-{
-    if (!made)
-        return;
-    free(made->lights);
-    free(made->objects);
-    *made = (QualityScene){.lights = NULL};
 }
 
 /* Object by object. */
@@ -270,13 +251,9 @@ bool quality_parts_open(QualityParts *made, const Scene *scene, const ObjectQual
 {
     const size_t lights = (size_t)scene->light_count, objects = (size_t)scene->object_count;
     *made = (QualityParts){.scene = *scene,
-                           .parts = calloc(objects + 1, sizeof *made->parts),
-                           .lights = calloc(objects * lights + 1, sizeof *made->lights),
-                           .objects = calloc(objects + 1, sizeof *made->objects)};
-    if (!made->parts || !made->lights || !made->objects) {
-        quality_parts_close(made);
-        return message_set(message, "quality: not enough memory for a scene");
-    }
+                           .parts = memory_new(objects, sizeof *made->parts),
+                           .lights = memory_new(objects * lights, sizeof *made->lights),
+                           .objects = memory_new(objects, sizeof *made->objects)};
     for (size_t i = 0; i < objects; i++) {
         const ObjectQuality *quality = &qualities[i];
         Object *object = &made->objects[i];

@@ -77,19 +77,11 @@ bool quality_choose(Quality *quality, const char *axis, const char *choice, Mess
 /* Reads what quality_text writes. */
 bool quality_parse(Quality *quality, const char *text, Message *message);
 
-/* A scene in some quality: it owns lights and objects, the rest is the scene's. */
-typedef struct QualityScene {
-    Scene scene;
-    Light *lights;
-    Object *objects;
-} QualityScene;
-
-/* Objects that stand for solids may lack meshes: they get those with the quality's divisions from
- * `meshes`. Otherwise `scene` would pass scene_check. A point light moved to infinity keeps its
- * direction and attenuation at the camera's center. */
-bool quality_scene_open(QualityScene *made, const Scene *scene, const Quality *quality,
+/* A copy of the scene in some quality. Objects that stand for solids may lack meshes: they get
+ * those with the quality's divisions from `meshes`. Otherwise `scene` would pass scene_check. A
+ * point light moved to infinity keeps its direction and attenuation at the camera's center. */
+bool quality_scene_open(SceneCopy *made, const Scene *scene, const Quality *quality,
                         SolidMeshes *meshes, Message *message);
-void quality_scene_close(QualityScene *made);
 
 /* How one object of a scene is drawn, which may be other than its neighbors; lights by their
  * numbers as bits, up to EFFECTS_MAX_LIGHTS. */

@@ -1,6 +1,7 @@
 /* Scenes as data: checks, copies, transforms of the camera, and changes that options ask for. */
 #include "scene/scene.h"
 
+#include "base/memory.h"
 #include "core/mesh_make.h"
 
 #include <math.h>
@@ -354,36 +355,30 @@ static int first_with_mesh(const Scene *scene, int number)
     return i;
 }
 
-static bool copy_objects(SceneCopy *copy, const Scene *scene, bool deep)
-{
-    for (int i = 0; i < scene->object_count; i++) {
-        const Mesh *mesh = scene->objects[i].mesh;
-        const int first = first_with_mesh(scene, i);
-        copy->objects[i] = scene->objects[i];
-        if (!mesh || !deep)
-            continue;
-        if (first == i && !mesh_copy(&copy->meshes[i], mesh, NULL))
-            return false;
-        copy->objects[i].mesh = &copy->meshes[first];
-    }
-    return true;
-}
-
-bool scene_copy_open(SceneCopy *copy, const Scene *scene, bool deep, Message *message)
+void scene_copy_open(SceneCopy *copy, const Scene *scene)
 {
     const size_t lights = (size_t)scene->light_count, objects = (size_t)scene->object_count;
     *copy = (SceneCopy){.scene = *scene,
-                        .lights = calloc(lights + 1, sizeof *copy->lights),
-                        .objects = calloc(objects + 1, sizeof *copy->objects),
-                        .meshes = calloc(objects + 1, sizeof *copy->meshes)};
-    if (!copy->lights || !copy->objects || !copy->meshes || !copy_objects(copy, scene, deep)) {
-        scene_copy_close(copy);
-        return message_set(message, "scene: not enough memory for a copy");
-    }
-    for (size_t i = 0; i < lights; i++)
-        copy->lights[i] = scene->lights[i];
+                        .lights = memory_copy(scene->lights, lights * sizeof *copy->lights),
+                        .objects = memory_copy(scene->objects, objects * sizeof *copy->objects)};
     copy->scene.lights = copy->lights;
     copy->scene.objects = copy->objects;
+}
+
+bool scene_copy_open_deep(SceneCopy *copy, const Scene *scene, Message *message)
+{
+    scene_copy_open(copy, scene);
+    copy->meshes = memory_new((size_t)scene->object_count, sizeof *copy->meshes);
+    for (int i = 0; i < scene->object_count; i++) {
+        const Mesh *mesh = scene->objects[i].mesh;
+        const int first = first_with_mesh(scene, i);
+        if (mesh && first == i && !mesh_copy(&copy->meshes[i], mesh, NULL)) {
+            scene_copy_close(copy);
+            return message_set(message, "scene: not enough memory for a copy");
+        }
+        if (mesh)
+            copy->objects[i].mesh = &copy->meshes[first];
+    }
     return true;
 }
 

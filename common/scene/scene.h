@@ -100,7 +100,6 @@ typedef struct Scene {
     bool show_clipped;         /* magenta if a channel exceeds 1 */
 } Scene;
 
-/* A deep copy. */
 typedef struct SceneCopy {
     Scene scene;
     Light *lights;
@@ -108,9 +107,11 @@ typedef struct SceneCopy {
     Mesh *meshes; /* of a deep copy, per object; empty if an earlier one has the same */
 } SceneCopy;
 
-/* Copies lights and objects, and meshes too if `deep`; objects that share a mesh still do. On
- * failure the copy is zeroed. */
-bool scene_copy_open(SceneCopy *copy, const Scene *scene, bool deep, Message *message);
+/* Copies lights and objects. */
+void scene_copy_open(SceneCopy *copy, const Scene *scene);
+
+/* Meshes too; objects that share one still do. On failure the copy is zeroed. */
+bool scene_copy_open_deep(SceneCopy *copy, const Scene *scene, Message *message);
 void scene_copy_close(SceneCopy *copy); /* NULL or a zeroed copy is fine */
 
 /* Whether every number is finite and in its range, the camera valid and no direction zero. The

@@ -85,10 +85,9 @@ static void scene(double seconds, int view, Scene *scene)
                      .object_count = 1};
     scene_shading_apply(&shading, scene);
     scene_copy_close(&state.kept);
-    if (scene_copy_open(&state.kept, scene, false, NULL)) {
-        scene_keep_terms(&state.kept, VIEW[view].terms);
-        *scene = state.kept.scene;
-    }
+    scene_copy_open(&state.kept, scene);
+    scene_keep_terms(&state.kept, VIEW[view].terms);
+    *scene = state.kept.scene;
 }
 
 /* The operations of a view's shader: those of an earlier view with the same, or counted now; -1

@@ -123,7 +123,7 @@ static void draw_scene(const Scene *scene, Image *image)
 static void draw_terms(SceneTerms terms, Image *image)
 {
     CLOSED(scene_copy_close) SceneCopy copy = {.lights = NULL};
-    require(scene_copy_open(&copy, &world.scene, false, FAILURE), FAILURE);
+    scene_copy_open(&copy, &world.scene);
     scene_keep_terms(&copy, terms);
     draw_scene(&copy.scene, image);
 }

@@ -19,7 +19,7 @@
 /* All lights get shadows. */
 static void give_shadows(SceneCopy *copy, const Scene *scene)
 {
-    SUCCEEDS(scene_copy_open(copy, scene, false, message));
+    scene_copy_open(copy, scene);
     for (int i = 0; i < copy->scene.light_count; i++)
         copy->lights[i].shadows = true;
 }
@@ -69,7 +69,7 @@ static bool check_lit_from(const char *name, double seconds, int light, Vec3 pla
     Scene scene = {.object_count = 0};
     SceneCopy copy;
     example_scene(&Shadows)->make(seconds, 0, &scene);
-    SUCCEEDS(scene_copy_open(&copy, &scene, false, message));
+    scene_copy_open(&copy, &scene);
     copy.scene.camera.eye = eye;
     for (int i = 0; i < copy.scene.light_count; i++)
         copy.lights[i].off = i != light;

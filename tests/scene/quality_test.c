@@ -107,7 +107,7 @@ static const Scene SCENE = {.lights = LIGHTS,
 
 TEST(scenes_get_the_meshes_of_a_setting)
 {
-    QualityScene made;
+    SceneCopy made;
     SolidMeshes meshes = {NULL};
     Quality setting;
     assert_true(quality_parse(&setting, "interpolation=gouraud divisions=12", NULL));
@@ -119,7 +119,7 @@ TEST(scenes_get_the_meshes_of_a_setting)
     assert_int_equal(made.scene.objects[0].mesh->vertex_count, 13 * 13);
     assert_int_equal(made.scene.objects[2].mesh->vertex_count, 6 * 13 * 13);
     assert_true(made.scene.lights[0].position.z == 4 && made.scene.lights[0].quadratic == 0.04);
-    quality_scene_close(&made);
+    scene_copy_close(&made);
     solid_meshes_close(&meshes);
     assert_null(meshes.first);
 }
@@ -127,7 +127,7 @@ TEST(scenes_get_the_meshes_of_a_setting)
 /* At (0, 3, 4), 5 away from the center, 1 / (1 + 0.04 * 25) = 1/2 of the light arrives. */
 TEST(lights_at_infinity_keep_direction_and_strength)
 {
-    QualityScene made;
+    SceneCopy made;
     SolidMeshes meshes = {NULL};
     const Quality setting = quality_with(
         quality_with(quality_usual(), AXIS_LIGHTS, LIGHTS_INFINITE), AXIS_VIEWER, VIEWER_INFINITE);
@@ -139,14 +139,14 @@ TEST(lights_at_infinity_keep_direction_and_strength)
     assert_false(light_fades(light));
     assert_true(made.scene.lights[1].direction.x == 1 && made.scene.lights[1].diffuse.y == 1);
     assert_true(made.scene.distant_viewer);
-    quality_scene_close(&made);
+    scene_copy_close(&made);
     solid_meshes_close(&meshes);
 }
 
 /* Seen from +x, the viewer's right is -z. */
 TEST(lights_of_the_viewer_at_infinity_shine_from_the_same_side)
 {
-    QualityScene made;
+    SceneCopy made;
     SolidMeshes meshes = {NULL};
     const Quality setting = quality_with(quality_usual(), AXIS_LIGHTS, LIGHTS_INFINITE);
     const Light light = {.kind = LIGHT_POINT,
@@ -162,13 +162,13 @@ TEST(lights_of_the_viewer_at_infinity_shine_from_the_same_side)
     assert_int_equal(far.kind, LIGHT_DIRECTIONAL);
     assert_true(fabs(far.direction.x) < 1e-15 && fabs(far.direction.z + 2) < 1e-15);
     assert_true(fabs(far.diffuse.x - 1) < 1e-15); /* two away */
-    quality_scene_close(&made);
+    scene_copy_close(&made);
 }
 
 TEST(a_mesh_with_colors_is_kept)
 {
     CLOSED(mesh_close) Mesh mesh;
-    QualityScene made;
+    SceneCopy made;
     SolidMeshes meshes = {NULL};
     const Quality setting = quality_usual();
     const Object object = {.mesh = &mesh, .solid = {.kind = SOLID_SPHERE, .radius = 1}};
@@ -179,7 +179,7 @@ TEST(a_mesh_with_colors_is_kept)
             SUCCEEDS(mesh_open_colors(&mesh, message));
         assert_true(quality_scene_open(&made, &scene, &setting, &meshes, NULL));
         assert_true((made.scene.objects[0].mesh == &mesh) == colored);
-        quality_scene_close(&made);
+        scene_copy_close(&made);
     }
     solid_meshes_close(&meshes);
 }

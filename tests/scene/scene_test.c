@@ -1,6 +1,6 @@
 /*
- * Scenes and materials as data: what is refused, and under which name; coordinates relative to the
- * eye; the table of materials. No GL.
+ * Scenes as data: what is refused, and under which name; coordinates relative to the eye; copies.
+ * No GL.
  */
 #include "base/random.h"
 #include "scene/material.h"
@@ -411,7 +411,7 @@ TEST_WITH(0, terms_are_left_out_and_nothing_else, set_up, NULL)
     for (unsigned bits = 0; bits < 1 << 8; bits++) {
         const SceneTerms terms = {bits & TERM_ALL, bits >> 4 & 7, bits >> 7};
         SceneCopy copy;
-        require(scene_copy_open(&copy, &world.scene, false, FAILURE), FAILURE);
+        scene_copy_open(&copy, &world.scene);
         scene_keep_terms(&copy, terms);
         for (int i = 0; i < 3; i++) {
             const Light *light = &copy.scene.lights[i];
@@ -441,23 +441,11 @@ TEST_WITH(0, the_last_bit_is_of_all_lights_that_follow, set_up, NULL)
     SceneCopy copy;
     world.scene.lights = lights;
     world.scene.light_count = 40;
-    require(scene_copy_open(&copy, &world.scene, false, FAILURE), FAILURE);
+    scene_copy_open(&copy, &world.scene);
     scene_keep_terms(&copy, (SceneTerms){.lights_left_out = 1U << 31 | 1U << 5});
     for (int i = 0; i < 40; i++)
         assert_int_equal(copy.scene.lights[i].off, i == 5 || i >= 31);
     scene_copy_close(&copy);
-}
-
-/* Materials. */
-
-TEST(there_are_24_materials_and_each_is_found_by_its_name)
-{
-    assert_int_equal(MATERIAL_COUNT, 24);
-    for (int i = 0; i < MATERIAL_COUNT; i++)
-        assert_ptr_equal(material_find(MATERIALS[i].name), &MATERIALS[i].material);
-    assert_null(material_find("unobtainium"));
-    assert_null(material_find(""));
-    assert_null(material_find("Gold"));
 }
 
 TEST_WITH(0, every_material_may_stand_in_a_scene, set_up, NULL)
@@ -469,48 +457,6 @@ TEST_WITH(0, every_material_may_stand_in_a_scene, set_up, NULL)
             fail_msg("%s: %s", MATERIALS[i].name, message.text);
         assert_true(MATERIALS[i].material.alpha == 1);
     }
-}
-
-static void assert_material(const char *name, Material expected)
-{
-    const Material *got = material_find(name);
-    assert_non_null(got);
-    expected.alpha = 1;
-    expected.shininess *= 128; /* given as a fraction there */
-    assert_memory_equal(got, &expected, sizeof expected);
-}
-
-TEST(materials_are_those_of_the_published_table)
-{
-    const Vec3 zero = {0, 0, 0};
-    assert_material(
-        "emerald",
-        (Material){
-            {.0215, .1745, .0215}, {.07568, .61424, .07568}, {.633, .727811, .633}, zero, 1, .6});
-    assert_material(
-        "pearl",
-        (Material){
-            {.25, .20725, .20725}, {1, .829, .829}, {.296648, .296648, .296648}, zero, 1, .088});
-    assert_material("brass", (Material){{.329412, .223529, .027451},
-                                        {.780392, .568627, .113725},
-                                        {.992157, .941176, .807843},
-                                        zero,
-                                        1,
-                                        .21794872});
-    assert_material("gold", (Material){{.24725, .1995, .0745},
-                                       {.75164, .60648, .22648},
-                                       {.628281, .555802, .366065},
-                                       zero,
-                                       1,
-                                       .4});
-    assert_material("cyan_plastic", (Material){{0, .1, .06},
-                                               {0, .50980392, .50980392},
-                                               {.50196078, .50196078, .50196078},
-                                               zero,
-                                               1,
-                                               .25});
-    assert_material("yellow_rubber",
-                    (Material){{.05, .05, 0}, {.5, .5, .4}, {.7, .7, .04}, zero, 1, .078125});
 }
 
 /* Of the copy every number is the same, and every place its own. */
@@ -528,7 +474,7 @@ TEST_WITH(0, a_copy_shares_nothing, set_up, NULL)
     objects[3].mesh = NULL;
     world.scene.objects = objects;
     world.scene.object_count = 4;
-    require(scene_copy_open(&copy, &world.scene, true, FAILURE), FAILURE);
+    require(scene_copy_open_deep(&copy, &world.scene, FAILURE), FAILURE);
     assert_memory_equal(&copy.scene.camera, &world.scene.camera, sizeof(Camera));
     assert_int_equal(copy.scene.light_count, 3);
     assert_memory_equal(copy.scene.lights, world.lights, sizeof world.lights);
@@ -552,7 +498,7 @@ TEST_WITH(0, a_copy_shares_nothing, set_up, NULL)
     scene_copy_close(&copy);
     scene_copy_close(NULL);
     world.scene = (Scene){.lights = NULL};
-    require(scene_copy_open(&copy, &world.scene, true, FAILURE), FAILURE); /* empty */
+    require(scene_copy_open_deep(&copy, &world.scene, FAILURE), FAILURE); /* empty */
     scene_copy_close(&copy);
     mesh_close(&quad);
     mesh_close(&cube);

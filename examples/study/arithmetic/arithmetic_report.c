@@ -22,14 +22,14 @@ static bool forecast_scene(const Arithmetics *found, int height, const SceneClas
     const Quality quality =
         quality_with(quality_usual(), AXIS_INTERPOLATION, (int)of->interpolation);
     StudyScene study;
-    QualityScene made;
+    SceneCopy made;
     study_scene(study_scene_number(of->scene), &study);
     if (!quality_scene_open(&made, &study.scene, &quality, meshes, message))
         return false;
     for (int i = 0; i < 2; i++)
         steps[i] = predict_scene(&made.scene, height, &found->of[METER_VERTEX][METER_HIGHP],
                                  &found->of[METER_FRAGMENT][i], &found->raster);
-    quality_scene_close(&made);
+    scene_copy_close(&made);
     return true;
 }
 

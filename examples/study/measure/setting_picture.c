@@ -268,7 +268,7 @@ void setting_picture_close(SettingPicture *drawing)
 {
     if (!drawing)
         return;
-    quality_scene_close(&drawing->made);
+    scene_copy_close(&drawing->made);
     image_close(&drawing->image);
     *drawing = (SettingPicture){.lighting = NULL};
 }

@@ -27,7 +27,7 @@ void setting_renderer_forget(SettingRenderer *renderer);
 /* A scene with a setting, ready to draw: meshes uploaded, programs compiled, one frame drawn. */
 typedef struct SettingPicture {
     Quality quality;
-    QualityScene made;
+    SceneCopy made;
     Lighting *lighting;   /* the renderer's */
     const Canvas *canvas; /* the renderer's */
     Image image;          /* the last frame */
