@@ -108,8 +108,8 @@ static void tell_unused_folder(const char *program, const char *folder, const Sh
         if (files->files[i].text && strncmp(files->files[i].path, folder, length) == 0 &&
             files->files[i].path[length] == '/')
             return;
-    fprintf(stderr, "%s: --shaders %s: no effect here; no shader file of this program is there\n",
-            program, folder);
+    fprintf(stderr, "%s: --shaders %s: ignored: no shader file of this program is there\n", program,
+            folder);
 }
 
 /* Closes the renderer, and says whether --shaders was of any use. */
@@ -196,8 +196,7 @@ static void tell_ineffective(const Example *example, const Options *options,
         return;
     kind->find_ineffective(example, options, defaults, names, sizeof names);
     if (names[0])
-        fprintf(stderr, "%s: %s: no effect here; the picture is the same without\n", example->name,
-                names);
+        fprintf(stderr, "%s: %s: ignored: has no effect here\n", example->name, names);
 }
 
 static bool run(const Example *example, Options *options, const ParameterValue *defaults,

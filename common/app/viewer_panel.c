@@ -16,8 +16,8 @@ static const double NOTICE_SECONDS = 3, EFFECTS_SECONDS = 0.25, ERROR_SECONDS = 
 static const PanelHelp HELP[] = {
     {"page down, up", "the next lesson, the one before"}, /* of pages alone */
     {"drag", "turns the camera"},
-    {"scroll", "comes nearer, goes away"},
-    {"space", "stops time, lets it go on"},
+    {"scroll", "zooms"},
+    {"space", "pauses, resumes"},
     {"left, right", "a picture back, forward"},
     {"up, down", "a second forward, back"},
     {"s", "saves the picture"},

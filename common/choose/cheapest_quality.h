@@ -22,7 +22,7 @@
 
 #include "choose/cheapest_search.h"
 
-/* Where the error cannot be kept, the cheapest of the most exact is chosen: `error` is then above
+/* Where the error is unreachable, the cheapest of the most exact is chosen: `error` is then above
  * the task's. Never less exact than the plain picture unless expected to save 30% of its time. */
 bool cheapest_quality_find(CheapestQuality *cheapest, const CheapestQualityTask *task,
                            Message *message);

@@ -309,7 +309,7 @@ static bool try_relaxing(Search *search, Message *message)
         for (int i = 0; i < search->count; i++) {
             take_best(search, i);
             ObjectQuality wanted = search->current[i];
-            /* What saves nothing is not left away. */
+            /* What saves nothing is not simplified. */
             if (search->found[i].has_kept &&
                 candidate_relax(search->task->kept, &search->scene, which, &wanted) &&
                 cost_of(search, i, &wanted) < search->found[i].kept_cost) {

@@ -15,8 +15,7 @@
 typedef struct CanvasOptions CanvasOptions;
 
 /* `open` leaves a context current and stores its state in *context; `platform` names what it runs
- * on
- * ("surfaceless"). */
+ * on ("surfaceless"). */
 typedef struct CanvasBackend {
     const char *name;
     const char *summary;

@@ -79,8 +79,8 @@ typedef enum MeshWeight {
     MESH_WEIGHT_ANGLE,
     /* the triangle's area, |a x b| / 2 (Gouraud's average, weighted; the cheapest) */
     MESH_WEIGHT_AREA,
-    /* |a x b| / (|a|^2 |b|^2): exact if the vertices lie on a sphere
-     * (Max, Weights for computing vertex normals from facet normals, JGT 4(2), 1999) */
+    /* |a x b| / (|a|^2 |b|^2): exact if the vertices lie on a sphere (Max, Weights for computing
+     * vertex normals from facet normals, JGT 4(2), 1999) */
     MESH_WEIGHT_MAX,
 } MeshWeight;
 

@@ -160,11 +160,11 @@ static void tell_unreached(const Renderer *renderer, const DrawRequest *request)
             worst = view;
     if (state->choices[worst].error <= request->error)
         return;
-    fprintf(stderr, "%s: --error %g cannot be kept: the least is %.2f, inside objects",
+    fprintf(stderr, "%s: --error %g is unreachable: the best is %.2f, inside objects",
             renderer->example->name, request->error, state->choices[worst].error);
     if (state->choice_count > 1)
         fprintf(stderr, " of view %d", worst);
-    fprintf(stderr, "; drawn so\n");
+    fprintf(stderr, "; drawing that\n");
 }
 
 bool scene_choose(Renderer *renderer, const DrawRequest *request, double seconds, Message *message)

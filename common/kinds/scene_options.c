@@ -246,16 +246,16 @@ static const char *const LIGHTING[] = {"off", "on", NULL};
 
 const Parameter SCENE_OPTIONS[] = {
     {"explain",
-     "report the scene's lights and their numbers, the effects that it needs and those that it "
-     "does not, why, and what they cost; draw nothing. Of several objects only what differs; with "
-     "--verbose everything",
+     "report the scene's lights and their numbers, required and omitted effects with reasons, and "
+     "what they cost; draw nothing. Of several objects only what differs; with --verbose "
+     "everything",
      PARAMETER_FLAG, AT(explain), .programs = PROGRAM_ONE | ASIDE},
     {"full", "draw with the program that has every effect", PARAMETER_FLAG, AT(full),
      .programs = PROGRAM_ONE},
     {"error",
-     "draw as cheaply as an error of E steps of 1/255 allows; options that are given stay. The "
-     "error is against the exact picture of the shapes (solids) or of the mesh as given (models), "
-     "the largest over the pixels inside an object: wholly inside one surface, covered by what is "
+     "draw as cheaply as an error of E steps of 1/255 allows; explicit options win. The error "
+     "is against the exact picture of the shapes (solids) or of the mesh as given (models), the "
+     "largest over the pixels inside an object: wholly inside one surface, covered by what is "
      "drawn, and reached by the same lights; edges, also those of shadows, do not count",
      PARAMETER_NUMBER, .max = 255, .placeholder = "E", .standard = "", AT(error), GIVEN_AT(cheap),
      .programs = PROGRAM_ONE},
@@ -276,8 +276,8 @@ const Parameter SCENE_OPTIONS[] = {
      "lights; more of them after slashes, as in 0,1,0.5,0/1,0,0,1,1,1,1",
      PARAMETER_TEXT, .standard = "", .codec = &TINTS, AT(tints), .programs = PROGRAM_ONE},
     {"shadows",
-     "whether surfaces keep the light from others, and how that is found: volumes are exact, to "
-     "the pixel; map, or map:N, is a shadow map of NxN (1024); on: volumes",
+     "cast shadows, and how: volumes are exact, to the pixel; map, or map:N, is a shadow map of "
+     "NxN (1024); on: volumes",
      PARAMETER_CHOICE, .choices = SHADOW_NAMES, .codec = &SHADOWS, AT(shadows),
      .programs = PROGRAM_ONE},
     {"shadow-bias",

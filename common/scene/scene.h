@@ -70,7 +70,7 @@ typedef struct Object {
     bool flat;         /* the three normals of each triangle are equal */
     bool closed;       /* no back face is visible from outside */
     bool clockwise;    /* front faces are clockwise, as glFrontFace(GL_CW) has it */
-    int lamp;          /* stands for light lamp - 1 within: throws no shadow; 0: for none */
+    int lamp;          /* stands for light lamp - 1 within: casts no shadow; 0: for none */
     bool behind_lines; /* pushed back by polygon offset, so that its edges are drawn whole */
     Mat4 world_from_object;
     /* If the mesh has colors, they are the ambient and diffuse reflectivity (glColorMaterial). */

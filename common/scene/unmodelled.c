@@ -156,7 +156,7 @@ static bool is_lit(const Object *object)
            !color_is_black(object->front.specular);
 }
 
-/* The lights, by number, in whose light the occluder throws a shadow on the receiver. */
+/* The lights, by number, in whose light the occluder casts a shadow on the receiver. */
 static int shadow_lights(const Scene *scene, const Placed *occluder, const Placed *receiver,
                          double size, int lights[SAMPLES])
 {
@@ -183,8 +183,7 @@ static int explain_shadows(const Scene *scene, const Placed *placed, FILE *file)
                 is_lit(receiver) ? shadow_lights(scene, &placed[o], &placed[r], size, lights) : 0;
             if (!count)
                 continue;
-            fprintf(file, "object %d, %s, would throw a shadow on ", o,
-                    name_of(&scene->objects[o]));
+            fprintf(file, "object %d, %s, would cast a shadow on ", o, name_of(&scene->objects[o]));
             if (o == r)
                 fprintf(file, "itself (");
             else

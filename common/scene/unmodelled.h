@@ -8,7 +8,7 @@
 
 #include <stdio.h>
 
-/* Writes a line for each thing that this scene lacks: "object 0, a sphere, would throw a shadow on
+/* Writes a line for each thing that this scene lacks: "object 0, a sphere, would cast a shadow on
  * object 1, a square (light 0)". Shadows are found by rays from points spread over the surfaces to
  * each light. Fails only if memory is out. */
 bool unmodelled_explain(const Scene *scene, FILE *file, Message *message);

@@ -17,7 +17,7 @@
 #include "shadows/shadow_mask.h"
 #include "shadows/silhouette.h"
 
-/* A mesh that throws shadows. */
+/* A mesh that casts shadows. */
 typedef struct ShadowCaster {
     Silhouette silhouette;
     GLuint vertices; /* two for each of the mesh: as it is, and to be moved to infinity */

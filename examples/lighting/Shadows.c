@@ -1,5 +1,5 @@
 /*
- * Shadows: a teapot, a torus and a sphere throw shadows on a floor, a wall and each other.
+ * Shadows: a teapot, a torus and a sphere cast shadows on a floor, a wall and each other.
  *
  * A directional, a point and a spot light, each on or off, circle them; --sheet has the scene
  * without and with shadows, and in each light alone.

@@ -649,7 +649,7 @@ TEST(random_scenes_keep_the_error_that_is_allowed)
         broken += !check(&command, &verdict);
         unreached += verdict.reached > verdict.allowed;
     }
-    print_message("%d scenes in all, here %d broken; %d where the error cannot be kept\n", count,
+    print_message("%d scenes in all, here %d broken; %d where the error is unreachable\n", count,
                   broken, unreached);
     assert_int_equal(broken, 0);
 }
@@ -673,7 +673,7 @@ TEST(animations_keep_the_error_between_the_moments)
         add(&command, "--frames=51");
         add(&command, "--fps=25");
         add(&command, "--output=x%%03d.png");
-        /* Where it cannot be kept, it is said for the moments alone. */
+        /* Where it is unreachable, it is said for the moments alone. */
         broken += !check(&command, &verdict) && verdict.reached <= verdict.allowed;
     }
     assert_int_equal(broken, 0);

@@ -196,11 +196,15 @@ static void draw_polygon(const Flat *flat, Polygon polygon, double z, Mat4 clip_
     draw_mesh(flat, &mesh, clip_from_model, color);
 }
 
-/* Clip coordinates: x to the right, y up, -1..1. */
-static void draw_rectangle(const Flat *flat, double left, double bottom, double right, double top,
-                           double z, Vec3 color)
+/* In clip coordinates: x to the right, y up, -1..1. */
+typedef struct Sides {
+    double left, bottom, right, top;
+} Sides;
+
+static void draw_rectangle(const Flat *flat, Sides at, double z, Vec3 color)
 {
-    const Polygon polygon = {{{left, bottom}, {right, bottom}, {right, top}, {left, top}}, 4};
+    const Polygon polygon = {
+        {{at.left, at.bottom}, {at.right, at.bottom}, {at.right, at.top}, {at.left, at.top}}, 4};
     draw_polygon(flat, polygon, z, mat4_identity(), color);
 }
 
@@ -248,7 +252,7 @@ TEST(depths_four_steps_apart_are_distinguished_in_either_order)
                 const bool near = i != near_first;
                 /* Depth runs from -1 to 1 in clip coordinates, so that a step is 2^-23; a float
                  * near 0.5 has steps of 2^-25. */
-                draw_rectangle(&flat, -1, -1, 1, 1, near ? -0.5 : -0.5 + 4 * 0x1p-23,
+                draw_rectangle(&flat, (Sides){-1, -1, 1, 1}, near ? -0.5 : -0.5 + 4 * 0x1p-23,
                                near ? GREEN : RED);
             }
             for (int y = 0; y < 32; y++)
@@ -298,7 +302,7 @@ TEST(a_float_canvas_keeps_what_is_above_1_below_0_and_not_finite)
             clear(c[0], c[1], c[2], c[3]);
             assert_colors(&canvas, c, tolerance);
             clear(0, 0, 0, 1);
-            draw_rectangle(&flat, -1, -1, 1, 1, 0, (Vec3){c[0], c[1], c[2]});
+            draw_rectangle(&flat, (Sides){-1, -1, 1, 1}, 0, (Vec3){c[0], c[1], c[2]});
             assert_colors(&canvas, c, tolerance);
         }
     }
@@ -330,9 +334,9 @@ static void assert_right_way_up(CanvasOptions options)
     CLOSED(image_close) Image expected = new_image(&canvas);
     const int width = canvas.width, height = canvas.height;
     clear(0, 0, 0, 1);
-    draw_rectangle(&flat, -1, 0, 0, 1, 0, RED);   /* the upper left quarter */
-    draw_rectangle(&flat, 0, 0, 1, 1, 0, GREEN);  /* the upper right quarter */
-    draw_rectangle(&flat, -1, -1, 0, 0, 0, BLUE); /* the lower left quarter */
+    draw_rectangle(&flat, (Sides){-1, 0, 0, 1}, 0, RED);   /* the upper left quarter */
+    draw_rectangle(&flat, (Sides){0, 0, 1, 1}, 0, GREEN);  /* the upper right quarter */
+    draw_rectangle(&flat, (Sides){-1, -1, 0, 0}, 0, BLUE); /* the lower left quarter */
     for (int y = 0; y < height; y++) {
         for (int x = 0; x < width; x++) {
             /* The sizes are even, so no pixel centre is on a border. */
@@ -377,7 +381,8 @@ TEST(a_canvas_is_as_small_as_one_pixel_and_as_long_as_the_driver_allows)
         CLOSED(image_close) Image expected = new_image(&canvas);
         clear(0, 0, 0, 1);
         /* The first quarter from the left, or from the top; all of a single pixel. */
-        draw_rectangle(&flat, -1, canvas.height > 1 ? 0.5 : -1, canvas.width > 1 ? -0.5 : 1, 1, 0,
+        draw_rectangle(&flat,
+                       (Sides){-1, canvas.height > 1 ? 0.5 : -1, canvas.width > 1 ? -0.5 : 1, 1}, 0,
                        WHITE);
         for (int y = 0; y < canvas.height; y++)
             for (int x = 0; x < canvas.width; x++)

@@ -1210,6 +1210,27 @@ typedef struct Worst {
     double affine, affine_residual, dense, dense_residual, determinant, normal;
 } Worst;
 
+/* The error of normals in random directions and in the worst, that which the matrix shrinks most.
+ */
+static double normal_error(Mat4 a, const QuadMatrix *inverse)
+{
+    Mat4 normal;
+    assert_true(mat4_try_normal(a, &normal));
+    assert_normal_form(normal);
+    QuadMatrix n = quad_from(normal), transposed;
+    Quad sum = 0, inverse_sum = 0;
+    for (int j = 0; j < 3; j++) {
+        for (int k = 0; k < 3; k++) {
+            transposed.a[j][k] = inverse->a[k][j];
+            sum += (Quad)a.m[4 * j + k] * (Quad)a.m[4 * j + k];
+            inverse_sum += inverse->a[k][j] * inverse->a[k][j];
+        }
+    }
+    const Vec3 any = random_vector(), rare = {a.m[0], a.m[4], a.m[8]};
+    return fmax(quad_angle(&n, &transposed, any), quad_angle(&n, &transposed, rare)) /
+           (sqrt((double)(sum * inverse_sum)) * UNIT);
+}
+
 /*
  * The bounds, in units of condition * u with Frobenius norms, to first order.
  *
@@ -1234,7 +1255,7 @@ TEST_WITH(0, inverse_and_normals_agree_with_higher_precision, start_random, NULL
         double exponent = between(0, DECADES), condition = pow(10, exponent);
         double largest = random_power(-2, 2);
         bool affine = i % 2 == 0;
-        Mat4 a = random_conditioned(affine ? 3 : 4, condition, largest), inverse, normal;
+        Mat4 a = random_conditioned(affine ? 3 : 4, condition, largest), inverse;
         if (affine)
             for (int j = 12; j < 15; j++)
                 a.m[j] = random_size(-2, 2);
@@ -1258,24 +1279,7 @@ TEST_WITH(0, inverse_and_normals_agree_with_higher_precision, start_random, NULL
         assert_bound(error.residual, 15, a);
         w->affine = fmax(w->affine, error.inverse);
         w->affine_residual = fmax(w->affine_residual, error.residual);
-
-        assert_true(mat4_try_normal(a, &normal));
-        assert_normal_form(normal);
-        QuadMatrix n = quad_from(normal), transposed;
-        Quad sum = 0, inverse_sum = 0;
-        for (int j = 0; j < 3; j++) {
-            for (int k = 0; k < 3; k++) {
-                transposed.a[j][k] = reference.a[k][j];
-                sum += (Quad)a.m[4 * j + k] * (Quad)a.m[4 * j + k];
-                inverse_sum += reference.a[k][j] * reference.a[k][j];
-            }
-        }
-        double unit = sqrt((double)(sum * inverse_sum)) * UNIT;
-        double angle = quad_angle(&n, &transposed, random_vector()) / unit;
-        assert_bound(angle, 2.02, a);
-        /* The worst direction for normals: the one the matrix shrinks most. */
-        Vec3 rare = {a.m[0], a.m[4], a.m[8]};
-        angle = fmax(angle, quad_angle(&n, &transposed, rare) / unit);
+        const double angle = normal_error(a, &reference);
         assert_bound(angle, 2.02, a);
         w->normal = fmax(w->normal, angle);
     }

@@ -395,7 +395,7 @@ TEST(several_samples_of_a_pixel_are_supersampled)
 }
 
 /* Shadows on a floor and a wall: of a ball, whose light may be below its top; and of a square that
- * goes through the floor, which throws a shadow on its lower half. */
+ * goes through the floor, which casts a shadow on its lower half. */
 TEST_WITH(0, shadows_are_exact_on_what_is_flat, open_meshes, close_meshes)
 {
     static const Vec3 lights[] = {{1.1, 3.2, 1.7}, {1.4, 0.4, 0.5}, {1.3, -0.5, 0.3}, {3, 0.2, 3}};

@@ -372,12 +372,12 @@ class Choices(Study):
         self.assertEqual(["from the cache" in choice for choice in choices], [False, False, True])
 
     def test_error_draws_the_best_where_it_cannot_be_kept(self):
-        self.says(0, r"^ShadingModels: --error 0.001 cannot be kept: the least is 0\.\d+, inside "
-                  r"objects; drawn so\n$", "--error", "0.001", "-s", "60x60",
+        self.says(0, r"^ShadingModels: --error 0.001 is unreachable: the best is 0\.\d+, inside "
+                  r"objects; drawing that\n$", "--error", "0.001", "-s", "60x60",
                   program="ShadingModels", environment=self.own)
         # One line for six views.
-        self.says(0, r"^LightTypes: --error 0.001 cannot be kept: the least is 0\.\d+, inside "
-                  r"objects of view \d; drawn so\n$", "--error", "0.001", "-s", "90x60",
+        self.says(0, r"^LightTypes: --error 0.001 is unreachable: the best is 0\.\d+, inside "
+                  r"objects of view \d; drawing that\n$", "--error", "0.001", "-s", "90x60",
                   program="LightTypes", environment=self.own)
         self.wrong(2, "--error -1: must be", "--error=-1", program="ShadingModels")
         self.wrong(2, "--error: no such option", "--error", "1", program="LightedCube",

@@ -192,7 +192,7 @@ class Case(unittest.TestCase):
         result = self.run_it(*arguments, **more)
         said = result.stderr.decode()
         self.assertEqual(result.returncode, 0, said)
-        names = re.fullmatch(r"(?:\w+: (.*): no effect here; the picture is the same without\n)?",
+        names = re.fullmatch(r"(?:\w+: (.*): ignored: has no effect here\n)?",
                              said)
         self.assertTrue(names, said)
         return set((names[1] or "").split(", ")) - {""}
@@ -757,7 +757,7 @@ class Shaders(Case):
     def test_a_folder_without_a_shader_of_the_program_is_said(self):
         self.make("mine/SpotLight.frag")
         for program in "LightedCube", "ShadingModels":
-            self.says(0, r"^\w+: --shaders mine: no effect here; no shader file of this program is "
+            self.says(0, r"^\w+: --shaders mine: ignored: no shader file of this program is "
                       r"there\n$", *SMALL, "--shaders", "mine", program=program)
 
     def test_a_broken_shader_is_said_with_its_line(self):
@@ -1099,10 +1099,10 @@ class Scenes(Case):
         self.assertEqual(*costs)
 
     def test_shadows_that_fall_on_nothing_are_said(self):
-        said = "SpotLight: --shadows: no effect here; the picture is the same without\n"
+        said = "SpotLight: --shadows: ignored: has no effect here\n"
         self.says(0, f"^{said}$", *SMALL, "--shadows", "volumes", "-o", "with.png", program="SpotLight")
         self.assertEqual(self.png("with.png").pixels, self.drawn(*SMALL, program="SpotLight").pixels)
-        self.says(0, "^ShadingModels: --shadows, --opacity: no effect here; ", *SMALL, "--shadows",
+        self.says(0, "^ShadingModels: --shadows, --opacity: ignored: has no effect here", *SMALL, "--shadows",
                   "volumes", "--opacity", "0.5", program="ShadingModels")
         for program, *arguments in (("Materials", "--shadows", "volumes"),
                                     ("Shadows", "--shadows", "off"), ("Shadows", )):

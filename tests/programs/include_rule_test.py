@@ -12,7 +12,6 @@ STUDY = ["study/results", "study/measure", "study/report", "study/cases", "study
 LABS = ["labs/program", "labs/submission", "labs/diagnosis", "labs/check", "labs/web", "labs/sandbox", "labs/class"]
 DIAGRAMS = ["diagrams"]
 LECTURE_HEADERS, LECTURE_LINES = 9, 700
-FILES_PER_FOLDER = 38
 SPEAKS = re.compile(r"\b(v?printf|puts|putchar|perror|exit|_exit|_Exit|abort)\s*\(|\b(stdout|stderr)\b")
 MAY_SPEAK = {"base/memory.c",    # the end of a program that gets no memory
              "base/progress.c",  # its bar is on stderr
@@ -80,12 +79,6 @@ for program in sorted((root / "examples/lecture").glob("*.c")):
     if len(headers) > LECTURE_HEADERS or lines > LECTURE_LINES:
         failures.append(f"{program.name}: includes {len(headers)} headers of {lines} lines in all; at most "
                         f"{LECTURE_HEADERS} of {LECTURE_LINES}: {', '.join(sorted(headers))}")
-
-for top in ("common", "examples", "shaders", "tests"):
-    for folder in [root / top, *(path for path in (root / top).rglob("*") if path.is_dir())]:
-        count = sum(path.is_file() for path in folder.iterdir())
-        if count > FILES_PER_FOLDER and folder.name != "pictures" and "__pycache__" not in folder.parts:
-            failures.append(f"{folder.relative_to(root)}: {count} files; at most {FILES_PER_FOLDER}")
 
 print("\n".join(failures))
 sys.exit(1 if failures else 0)

@@ -1,6 +1,7 @@
 /*
  * The solids, the teapot, and operations on any mesh: faces, bounds, normals. No GL.
  */
+#include "base/sanitized.h"
 #include "shapes/mesh_solids.h"
 #include "support/testing.h"
 #include "support/topology.h"
@@ -905,12 +906,9 @@ TEST(normals_do_not_depend_on_the_size_of_a_mesh)
     }
 }
 
-/* True with AddressSanitizer, which ends the process when memory is exhausted. */
-void __asan_init(void) __attribute__((weak));
-
 TEST(out_of_memory_leaves_a_mesh_unchanged)
 {
-    if (__asan_init)
+    if (ADDRESS_SANITIZER) /* it ends the process when memory is exhausted */
         skip();
     /* Sizes that exceed any machine's memory; nothing is allocated. */
     const Mesh huge = {.vertex_count = SIZE_MAX / sizeof(MeshVertex), .index_count = SIZE_MAX / 64};
