@@ -1,25 +1,10 @@
-/* calloc, realloc and friends, and the end of a process that gets nothing from them. */
+/* calloc, realloc and friends, which end the process (memory_end) when they get nothing. */
 #include "base/memory.h"
 
-#include "base/output.h"
-
-#include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
-
-/* Of the system calls only, because buffers and locks of the C library may be in any state. */
-_Noreturn void memory_end(void)
-{
-    static const char reason[] = ": not enough memory\n";
-    const char *name = program_invocation_short_name;
-    output_unlink_temporaries();
-    output_append(STDERR_FILENO, name, strlen(name));
-    output_append(STDERR_FILENO, reason, sizeof reason - 1);
-    _exit(MEMORY_EXIT);
-}
 
 void *memory_grow(void *block, size_t count, size_t size)
 {

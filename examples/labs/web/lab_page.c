@@ -1,6 +1,7 @@
 /* The calls of the labs' page (lab_page.h); texts are returned as JSON. */
 #include "labs/web/lab_page.h"
 
+#include "core/shader_files.h"
 #include "labs/check/code.h"
 #include "labs/check/judge.h"
 #include "labs/check/judge_pictures.h"
