@@ -9,6 +9,7 @@
 #include "base/parse.h"
 #include "base/text.h"
 #include "fuzz/fuzz.h"
+#include "scene/scene_example.h"
 
 #include <limits.h>
 #include <math.h>
@@ -46,7 +47,7 @@ static void read_all(const Usage *usage, int count, char *arguments[])
 FUZZ(data, size)
 {
     enum { MAX = 16 };
-    static const Usage program = {.name = "LightedCube", .summary = "Fuzzed.", .scene = true};
+    static const Usage program = {.name = "LightedCube", .summary = "Fuzzed.", .kind = &SCENE_KIND};
     static const Usage gallery = {.name = "gallery", .summary = "Fuzzed.", .gallery = true};
     static bool quiet;
     require(quiet || freopen("/dev/null", "w", stdout)); /* --help is printed often */

@@ -60,10 +60,10 @@ FUZZ(data, size)
     const ShaderLoader loader = {.folder = folder,
                                  .precision = choice & 1 ? "highp" : NULL,
                                  .defines = choice & 2 ? defines : NULL};
-    const ShaderText made = {"main.frag", text};
+    const ShaderText shader = {"main.frag", text};
     ShaderSource source;
     Message message = {0};
-    if (shader_source_parse(&source, &loader, made, text_size, SHADER_FRAGMENT, &message)) {
+    if (shader_source_parse(&source, &loader, shader, text_size, SHADER_FRAGMENT, &message)) {
         require(!message.text[0] && strlen(source.text) == source.size &&
                 strncmp(source.text, "#version 100\n", 13) == 0);
         require(!shader_explain_log(&source, log, &message));

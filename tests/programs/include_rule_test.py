@@ -52,7 +52,7 @@ for floor in FLOORS[:-2]:
         found = OPTION.search(code)
         if found and name not in MAY_NAME_OPTIONS:
             failures.append(f"common/{name}: {found.group()}: only app names options of the command line")
-check(root / "common/web", "what differs in a browser", up_to("window"))
+check(root / "common/web", "what differs in a browser", FLOORS)
 check(root / "examples/web", "the pages' module", FLOORS + ["web"])
 for group in (STUDY, STUDY + LABS):
     for i, folder in enumerate(group):

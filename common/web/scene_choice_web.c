@@ -1,0 +1,16 @@
+/* A page draws what was asked for: the search for what is cheapest is left to the command. */
+#include "kinds/scene_views.h"
+
+void scene_forget_choices(SceneState *state)
+{
+    (void)state;
+}
+
+bool scene_choose(Renderer *renderer, const DrawRequest *request, double seconds, Message *message)
+{
+    (void)renderer;
+    (void)seconds;
+    return !request->cheap ||
+           message_set(message, "a picture within an error: not in the browser; the command "
+                                "draws it");
+}
