@@ -1,3 +1,4 @@
+/* Text that grows in memory, for output_write. */
 #include "base/output_text.h"
 
 #include "base/memory.h"

@@ -246,12 +246,14 @@ void sandbox_wait(SandboxRun *const runs[], int count, double seconds)
 
 char *sandbox_part(const SandboxRun *run, int part, size_t *size)
 {
-    char *at = run->bytes, *end = run->bytes + run->size;
+    char *at = run->bytes; /* NULL: nothing was said */
+    size_t left = at ? run->size : 0;
     for (; at && part > 0; part--) {
-        at = memchr(at, '\0', (size_t)(end - at));
-        at = at ? at + 1 : NULL;
+        char *const zero = memchr(at, '\0', left);
+        left = zero ? left - (size_t)(zero + 1 - at) : 0;
+        at = zero ? zero + 1 : NULL;
     }
-    *size = at ? (size_t)(end - at) : 0;
+    *size = left;
     return at;
 }
 
