@@ -1,5 +1,6 @@
 /* The process around a program: its streams, its signals, what it says on standard error. */
 #include "app/options.h"
+#include "base/memory.h"
 #include "base/output.h"
 #include "base/process.h"
 
@@ -123,17 +124,15 @@ bool options_restart(char *const *arguments, Message *message)
 bool options_begin(Options *options, const Usage *usage, int argc, char *argv[], int *code)
 {
     Message message = {0};
-    const size_t size = ((size_t)argc + 1) * sizeof *argv;
-    char **given = malloc(size); /* options_read moves the names to the front */
+    /* options_read moves the names to the front. */
+    char **given = memory_copy(argv, ((size_t)argc + 1) * sizeof *argv);
     options_prepare_process();
-    if (given)
-        memcpy(given, argv, size);
     const OptionsResult result = options_read(options, usage, argc, argv, &message);
     bool run = result == OPTIONS_RUN;
     if (!run) {
         *code = result == OPTIONS_ANSWERED ? options_finish(usage->name, 0)
                                            : options_fail(usage->name, &message, EXIT_USAGE);
-    } else if (options->deterministic && !(given && options_restart(given, &message))) {
+    } else if (options->deterministic && !options_restart(given, &message)) {
         *code = options_fail(usage->name, &message, EXIT_FAILED);
         run = false;
     }

@@ -91,11 +91,10 @@ static bool run_watching(const Example *example, Options *options, Message *mess
     DrawRequest request = options_request(options, example);
     if (!open_canvas(&canvas, example, options, message))
         return false;
-    if (shader_reload_open(&reload, example, &canvas, &request, message)) {
-        options->shaders.files = request.shaders.files;
-        watch_shaders(&reload, options, message);
-        shader_reload_close(&reload);
-    }
+    shader_reload_open(&reload, example, &canvas, &request);
+    options->shaders.files = request.shaders.files;
+    watch_shaders(&reload, options, message);
+    shader_reload_close(&reload);
     canvas_close(&canvas);
     return false;
 }
@@ -184,7 +183,6 @@ static bool run_without_gl(const Example *example, const Options *options, Messa
     return frames_close(&sink, done, message);
 }
 
-/* Does what the options ask for, drawing unless they ask for something else. */
 /* Says which of the options do nothing here. */
 static void tell_ineffective(const Example *example, const Options *options,
                              const ParameterValue *defaults)
@@ -199,6 +197,7 @@ static void tell_ineffective(const Example *example, const Options *options,
         fprintf(stderr, "%s: %s: ignored: has no effect here\n", example->name, names);
 }
 
+/* Does what the options ask for, drawing unless they ask for something else. */
 static bool run(const Example *example, Options *options, const ParameterValue *defaults,
                 Message *message)
 {

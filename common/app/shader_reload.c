@@ -3,18 +3,17 @@
 #include "app/shader_reload.h"
 
 #include "base/clock.h"
+#include "base/memory.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 
-bool shader_reload_open(ShaderReload *reload, const Example *example, const Canvas *canvas,
-                        DrawRequest *request, Message *message)
+void shader_reload_open(ShaderReload *reload, const Example *example, const Canvas *canvas,
+                        DrawRequest *request)
 {
-    *reload = (ShaderReload){.example = example, .canvas = canvas, .request = request};
-    if (!watch_open(&reload->watch, message))
-        return false;
+    *reload = (ShaderReload){
+        .example = example, .canvas = canvas, .request = request, .watch = watch_open()};
     request->shaders.files = &reload->files;
-    return true;
 }
 
 static bool open_renderer(ShaderReload *reload, Message *message)
@@ -68,24 +67,21 @@ static ReloadResult load(ShaderReload *reload, Message *error)
 }
 
 /* Watches the files of the last load; a draw may have added some. */
-static bool watch_files(ShaderReload *reload, Message *message)
+static void watch_files(ShaderReload *reload)
 {
     const ShaderFiles *files = last_load(reload);
-    const char **paths = malloc(((size_t)files->count + 1) * sizeof *paths);
-    if (!paths)
-        return message_set(message, "watching files: not enough memory");
+    const char **paths = memory_new((size_t)files->count, sizeof *paths);
     for (int i = 0; i < files->count; i++)
         paths[i] = files->files[i].path;
-    const bool done = watch_set(reload->watch, paths, files->count, message);
+    watch_set(reload->watch, paths, files->count);
     free(paths);
     reload->watched = files->count;
-    return done;
 }
 
 ReloadResult shader_reload_poll(ShaderReload *reload, double wait, Message *error)
 {
-    if (reload->watched != last_load(reload)->count && !watch_files(reload, error))
-        return RELOAD_FAILED;
+    if (reload->watched != last_load(reload)->count)
+        watch_files(reload);
     const bool renewed = reload->renewed;
     reload->renewed = false;
     reload->changed[0] = '\0';
@@ -99,7 +95,8 @@ ReloadResult shader_reload_poll(ShaderReload *reload, double wait, Message *erro
         snprintf(reload->changed, sizeof reload->changed, "%s", path);
     }
     const ReloadResult result = load(reload, error);
-    return watch_files(reload, error) ? result : RELOAD_FAILED;
+    watch_files(reload);
+    return result;
 }
 
 void shader_reload_renew(ShaderReload *reload)

@@ -39,8 +39,8 @@ typedef struct ShaderReload {
 /* Loads nothing: the first shader_reload_poll does. What is pointed to must outlive the
  * ShaderReload, which must not be moved; the request may change between calls, except in its
  * shaders. */
-bool shader_reload_open(ShaderReload *reload, const Example *example, const Canvas *canvas,
-                        DrawRequest *request, Message *message);
+void shader_reload_open(ShaderReload *reload, const Example *example, const Canvas *canvas,
+                        DrawRequest *request);
 
 /* Waits at most `wait` seconds for a change (HUGE_VAL: no limit) and loads changed shaders. Those
  * of a scene are tried by drawing it at the request's time. An error holds until the next

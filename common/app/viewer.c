@@ -318,8 +318,7 @@ bool viewer_run(const Example *example, Canvas *canvas, const Options *options,
                      .picture.image.type = canvas->real ? IMAGE_FLOAT : IMAGE_BYTE};
     for (int i = 0; parameters && parameters[i].name; i++)
         viewer.first_values[i] = parameter_save(&parameters[i]);
-    if (!shader_reload_open(&viewer.reload, example, canvas, &viewer.request, message))
-        return false;
+    shader_reload_open(&viewer.reload, example, canvas, &viewer.request);
     viewer.options.shaders.files = viewer.request.shaders.files;
     viewer.first = viewer.options;
     viewer.precision = options->shaders.precision;

@@ -6,11 +6,11 @@
 #include "base/watch.h"
 
 #include "base/clock.h"
+#include "base/memory.h"
 
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <time.h>
 
@@ -46,13 +46,11 @@ struct Watch {
     double look;    /* when to look next */
 };
 
-bool watch_open(Watch **opened, Message *message)
+Watch *watch_open(void)
 {
-    *opened = calloc(1, sizeof **opened);
-    if (!*opened)
-        return message_set(message, "watching files: not enough memory");
-    (*opened)->pending = true;
-    return true;
+    Watch *watch = memory_new(1, sizeof *watch);
+    watch->pending = true;
+    return watch;
 }
 
 static void close_files(Watch *watch)
@@ -97,21 +95,15 @@ static void report_after(Watch *watch, double seconds)
     watch->settled = now + seconds;
 }
 
-bool watch_set(Watch *watch, const char *const *paths, int count, Message *message)
+void watch_set(Watch *watch, const char *const *paths, int count)
 {
     close_files(watch);
-    watch->files = calloc((size_t)count + 1, sizeof *watch->files);
-    for (int i = 0; watch->files && i < count; i++) {
-        watch->files[i] = (Watched){strdup(paths[i]), stamp_of(paths[i])};
-        if (!watch->files[i].path)
-            break;
-        watch->count++;
-    }
-    if (watch->count < count || !watch->files)
-        return message_set(message, "watching files: not enough memory");
+    watch->files = memory_new((size_t)count, sizeof *watch->files);
+    watch->count = count;
+    for (int i = 0; i < count; i++)
+        watch->files[i] = (Watched){memory_text(paths[i]), stamp_of(paths[i])};
     watch->pending = false;
     report_after(watch, SETTLE_WHOLE);
-    return true;
 }
 
 static void look(Watch *watch)

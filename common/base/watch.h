@@ -11,16 +11,16 @@
 #ifndef WATCH_H
 #define WATCH_H
 
-#include "base/message.h"
+#include <stdbool.h>
 
 typedef struct Watch Watch;
 
-/* Watches no path yet; the first watch_wait reports a change at once. Fails only without memory. */
-bool watch_open(Watch **watch, Message *message);
+/* Watches no path yet; the first watch_wait reports a change at once. */
+Watch *watch_open(void);
 
 /* Replaces the watched paths with copies of these. A path need not exist. The next watch_wait
  * reports a change, since earlier changes are unknown. */
-bool watch_set(Watch *watch, const char *const *paths, int count, Message *message);
+void watch_set(Watch *watch, const char *const *paths, int count);
 
 /* Waits for a change since the last report, at most `seconds`; 0: does not wait; HUGE_VAL: no
  * limit. */

@@ -7,6 +7,7 @@
 #include "choose/error_worker.h"
 
 #include "base/clock.h"
+#include "base/memory.h"
 
 #include <pthread.h>
 #include <stdlib.h>
@@ -30,9 +31,7 @@ struct ErrorWorker {
 bool error_picture_open(ErrorPicture *picture, int width, int height, ImageType type, int max_views,
                         Message *message)
 {
-    *picture = (ErrorPicture){.views = calloc((size_t)max_views + 1, sizeof *picture->views)};
-    if (!picture->views)
-        return message_set(message, "error worker: not enough memory for %d views", max_views);
+    *picture = (ErrorPicture){.views = memory_new((size_t)max_views, sizeof *picture->views)};
     if (image_open(&picture->image, width, height, type, message))
         return true;
     error_picture_close(picture);
@@ -239,10 +238,8 @@ static void destroy(ErrorWorker *worker)
 
 bool error_worker_open(ErrorWorker **opened, Message *message)
 {
-    ErrorWorker *worker = calloc(1, sizeof *worker);
+    ErrorWorker *worker = memory_new(1, sizeof *worker);
     *opened = NULL;
-    if (!worker)
-        return message_set(message, "error worker: not enough memory");
     pthread_mutex_init(&worker->lock, NULL);
     pthread_cond_init(&worker->changed, NULL);
     atomic_init(&worker->stop, false);

@@ -1,5 +1,7 @@
 #include "lessons/changes.h"
 
+#include "base/memory.h"
+
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -48,31 +50,24 @@ static int split(ChangeText file, Line lines[LINES_MAX])
     return *text ? -1 : count;
 }
 
-bool changes_add(Changes *changes, ChangeKind kind, const char *text, int length, Message *message)
+void changes_add(Changes *changes, ChangeKind kind, const char *text, int length)
 {
     if (changes->count == changes->room) {
-        const int room = changes->room ? 2 * changes->room : 64;
-        ChangeLine *lines = realloc(changes->lines, (size_t)room * sizeof *lines);
-        if (!lines)
-            return message_set(message, "changes: not enough memory");
-        changes->lines = lines;
-        changes->room = room;
+        changes->room = changes->room ? 2 * changes->room : 64;
+        changes->lines = memory_grow(changes->lines, (size_t)changes->room, sizeof *changes->lines);
     }
     ChangeLine *line = &changes->lines[changes->count++];
     line->kind = kind;
     snprintf(line->text, sizeof line->text, "%.*s", length, text);
-    return true;
 }
 
-bool changes_add_text(Changes *changes, const char *text, Message *message)
+void changes_add_text(Changes *changes, const char *text)
 {
-    bool done = true;
-    while (*text && done) {
+    while (*text) {
         const int length = (int)strcspn(text, "\n");
-        done = changes_add(changes, CHANGE_SAME, text, length, message);
+        changes_add(changes, CHANGE_SAME, text, length);
         text += length + (text[length] == '\n');
     }
-    return done;
 }
 
 /* Whether a line begins with the name of its program at `i`; its length. */
@@ -130,10 +125,9 @@ static void measure(const Pair *pair)
 }
 
 /* All lines of both files, in order. */
-static bool merge(Changes *all, const Pair *pair, Message *message)
+static void merge(Changes *all, const Pair *pair)
 {
-    bool done = true;
-    for (int i = 0, j = 0; (i < pair->count[0] || j < pair->count[1]) && done;) {
+    for (int i = 0, j = 0; i < pair->count[0] || j < pair->count[1];) {
         const bool old = i < pair->count[0], new = j < pair->count[1];
         ChangeKind kind = CHANGE_ADDED;
         if (old && new &&same_at(pair, i, j))
@@ -141,11 +135,10 @@ static bool merge(Changes *all, const Pair *pair, Message *message)
         else if (old && (!new || *common_at(pair, i + 1, j) >= *common_at(pair, i, j + 1)))
             kind = CHANGE_REMOVED;
         const Line line = kind == CHANGE_REMOVED ? pair->lines[0][i] : pair->lines[1][j];
-        done = changes_add(all, kind, line.text, line.length, message);
+        changes_add(all, kind, line.text, line.length);
         i += kind != CHANGE_ADDED;
         j += kind != CHANGE_REMOVED;
     }
-    return done;
 }
 
 static bool is_near_change(const Changes *all, int line, int around)
@@ -156,32 +149,29 @@ static bool is_near_change(const Changes *all, int line, int around)
     return false;
 }
 
-static bool keep_near(Changes *changes, const Changes *all, int around, int *changed,
-                      Message *message)
+static void keep_near(Changes *changes, const Changes *all, int around, int *changed)
 {
-    bool done = true, gap = false;
+    bool gap = false;
     *changed = 0;
-    for (int i = 0; i < all->count && done; i++) {
+    for (int i = 0; i < all->count; i++) {
         const ChangeLine *line = &all->lines[i];
         *changed += line->kind != CHANGE_SAME;
         if (!is_near_change(all, i, around)) {
             gap = around > 0;
             continue;
         }
-        done = (!gap || changes_add(changes, CHANGE_GAP, "", 0, message)) &&
-               changes_add(changes, line->kind, line->text, (int)strlen(line->text), message);
+        if (gap)
+            changes_add(changes, CHANGE_GAP, "", 0);
+        changes_add(changes, line->kind, line->text, (int)strlen(line->text));
         gap = false;
     }
-    return done;
 }
 
 bool changes_between(Changes *changes, ChangeText before, ChangeText after, int around,
                      int *changed, Message *message)
 {
     Changes all = {.count = 0};
-    Pair *pair = malloc(sizeof *pair);
-    if (!pair)
-        return message_set(message, "changes: not enough memory");
+    Pair *pair = memory_new(1, sizeof *pair);
     pair->names[0] = before.name;
     pair->names[1] = after.name;
     pair->count[0] = split(before, pair->lines[0]);
@@ -192,16 +182,14 @@ bool changes_between(Changes *changes, ChangeText before, ChangeText after, int 
         return message_set(message, "%s: more than %d lines", name, LINES_MAX);
     }
     const size_t cells = (size_t)(pair->count[0] + 1) * (size_t)(pair->count[1] + 1);
-    pair->common = calloc(cells, sizeof *pair->common);
-    bool done = pair->common || message_set(message, "changes: not enough memory");
-    if (done) {
-        measure(pair);
-        done = merge(&all, pair, message) && keep_near(changes, &all, around, changed, message);
-    }
+    pair->common = memory_new(cells, sizeof *pair->common);
+    measure(pair);
+    merge(&all, pair);
+    keep_near(changes, &all, around, changed);
     changes_close(&all);
     free(pair->common);
     free(pair);
-    return done;
+    return true;
 }
 
 void changes_close(Changes *changes)

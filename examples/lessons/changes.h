@@ -35,14 +35,15 @@ typedef struct ChangeText {
 
 /* Appends the fewest lines that, removed and added, make `after` of `before`, in order, removed
  * before added ones, with up to `around` lines that are the same on both sides; gaps are marked
- * unless that is 0. `changed` is how many were removed and added. */
+ * unless that is 0. `changed` is how many were removed and added. False, with a message: a file of
+ * too many lines. */
 bool changes_between(Changes *changes, ChangeText before, ChangeText after, int around,
                      int *changed, Message *message);
 
-bool changes_add(Changes *changes, ChangeKind kind, const char *text, int length, Message *message);
+void changes_add(Changes *changes, ChangeKind kind, const char *text, int length);
 
 /* Appends all lines of a text, as the same. */
-bool changes_add_text(Changes *changes, const char *text, Message *message);
+void changes_add_text(Changes *changes, const char *text);
 
 void changes_close(Changes *changes);
 

@@ -156,16 +156,17 @@ static bool add_changes(const char *extension, const ShaderLoader *loader, Messa
     if (!texts[1].text || (before && !texts[0].text))
         return false;
     int changed = 1;
-    bool done =
-        before ? changes_between(&found, texts[0], texts[1], code ? 0 : AROUND, &changed, message)
-               : changes_add_text(&found, texts[1].text, message);
+    if (!before)
+        changes_add_text(&found, texts[1].text);
+    else if (!changes_between(&found, texts[0], texts[1], code ? 0 : AROUND, &changed, message))
+        return false;
     snprintf(title, sizeof title, "%s.%s%s", after->name, extension, changed ? "" : ": as before");
-    done = done && changes_add(&state.changes, CHANGE_TITLE, title, (int)strlen(title), message);
-    for (int i = 0; i < found.count && done; i++)
-        done = changes_add(&state.changes, found.lines[i].kind, found.lines[i].text,
-                           (int)strlen(found.lines[i].text), message);
+    changes_add(&state.changes, CHANGE_TITLE, title, (int)strlen(title));
+    for (int i = 0; i < found.count; i++)
+        changes_add(&state.changes, found.lines[i].kind, found.lines[i].text,
+                    (int)strlen(found.lines[i].text));
     changes_close(&found);
-    return done;
+    return true;
 }
 
 static bool find_changes(const ShaderLoader *loader, Message *message)

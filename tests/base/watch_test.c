@@ -19,12 +19,11 @@ static const double PATIENCE = 300; /* seconds */
 static const double QUIET = 0.04, QUIET_MAX = 0.09;
 
 static Watch *watch;
-static Message message;
 
 static int enter_folder(void **state)
 {
-    message = (Message){0};
-    return testing_enter_folder(state) == 0 && watch_open(&watch, &message) ? 0 : -1;
+    watch = watch_open();
+    return testing_enter_folder(state);
 }
 
 static int leave_folder(void **state)
@@ -61,7 +60,7 @@ static void reported_once(const char *what)
 
 static void watch_paths(const char *const *paths, int count)
 {
-    assert_true(watch_set(watch, paths, count, &message));
+    watch_set(watch, paths, count);
     reported("the first time");
 }
 
@@ -105,8 +104,8 @@ WATCH_TEST(every_way_of_saving_is_reported_once)
         assert_int_equal(mkdir(path, 0777), 0);
         snprintf(path, sizeof path, "%d/a.vert", i);
         put(path, "old\n");
-        assert_true(watch_open(&watches[i], &message));
-        assert_true(watch_set(watches[i], &(const char *){path}, 1, &message));
+        watches[i] = watch_open();
+        watch_set(watches[i], &(const char *){path}, 1);
         assert_true(watch_wait(watches[i], PATIENCE));
     }
     for (int i = 0; i < COUNT; i++) {

@@ -3,6 +3,7 @@
  * differ in whether a backslash joins lines, so both readings have to pass. */
 #include "labs/submission/compiler_dependence.h"
 
+#include "base/memory.h"
 #include "base/text.h"
 
 #include <stdio.h>
@@ -172,9 +173,7 @@ static bool read_line(Reader *reader, const char *line)
 
 static bool check_as(const char *text, bool join, Message *message)
 {
-    char *clean = strdup(text);
-    if (!clean)
-        return message_set(message, "not enough memory");
+    char *clean = memory_text(text);
     unify_lines(clean, join);
     text_strip_comments(clean);
     Reader reader = {.message = message};

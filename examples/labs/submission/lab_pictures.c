@@ -2,6 +2,7 @@
  * compared with is the one that it is nearest to in all scenes together. */
 #include "labs/submission/lab_pictures.h"
 
+#include "base/memory.h"
 #include "labs/program/lab_scene_open.h"
 
 #include <stdlib.h>
@@ -50,24 +51,21 @@ static bool is_far_from_edges(const Reference *exact, int x, int y, int reach)
     return true;
 }
 
-bool lab_pictures_leave_out_edges(Reference *exact, Message *message)
+void lab_pictures_leave_out_edges(Reference *exact)
 {
     /* A fiftieth of the picture, or two pixels: in the scenes two to eight texels, and what a bias
      * of a few thousandths leaks. */
     const int share = (exact->height + 49) / 50, reach = share > 2 ? share : 2;
     const size_t count = (size_t)exact->width * (size_t)exact->height;
-    unsigned char *interior = exact->lights ? malloc(count) : NULL;
     if (!exact->lights)
-        return true;
-    if (!interior)
-        return message_set(message, "not enough memory");
+        return;
+    unsigned char *interior = memory_new(count, 1);
     for (size_t i = 0; i < count; i++)
         interior[i] =
             exact->interior[i] && is_far_from_edges(exact, (int)(i % (size_t)exact->width),
                                                     (int)(i / (size_t)exact->width), reach);
     memcpy(exact->interior, interior, count);
     free(interior);
-    return true;
 }
 
 static bool open_exact(Reference *exact, const LabScene *lab_scene, const Scene *scene, bool meshes,
@@ -79,8 +77,10 @@ static bool open_exact(Reference *exact, const LabScene *lab_scene, const Scene 
                                       .meshes = meshes,
                                       .edge_error = 255, /* edges are not compared */
                                       .threads = 1};
-    return reference_open(exact, scene, &options, message) &&
-           lab_pictures_leave_out_edges(exact, message);
+    if (!reference_open(exact, scene, &options, message))
+        return false;
+    lab_pictures_leave_out_edges(exact);
+    return true;
 }
 
 static bool add_picture(LabPictures *pictures, LabSceneKind kind, bool known, uint64_t seed,

@@ -59,7 +59,7 @@ bool lab_pictures_use_sphere(LabPictures *pictures, int slices, int stacks, Mess
 
 /* Lab 11: pixels near an edge of a shadow, or of an object, are no longer interior: a map has
  * texels, and a bias moves its shadows. */
-bool lab_pictures_leave_out_edges(Reference *exact, Message *message);
+void lab_pictures_leave_out_edges(Reference *exact);
 
 /* What replaces scene i's own geometry. */
 SubmissionGeometry lab_pictures_geometry(const LabPictures *pictures, int i);

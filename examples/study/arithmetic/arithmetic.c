@@ -1,6 +1,7 @@
 #include "study/arithmetic/arithmetic.h"
 
 #include "base/clock.h"
+#include "base/memory.h"
 #include "base/progress.h"
 
 #include <pthread.h>
@@ -226,12 +227,9 @@ bool arithmetic_measure(const Meter *meter, long inputs, Arithmetics *found, Mes
     found->inputs = inputs;
     Survey survey = {.meter = meter,
                      .found = found,
-                     .works = {malloc(sizeof(Work)), malloc(sizeof(Work))},
+                     .works = {memory_new(1, sizeof(Work)), memory_new(1, sizeof(Work))},
                      .progress = &progress};
-    bool done = survey.works[0] && survey.works[1];
-    if (!done)
-        message_set(message, "not enough memory to measure");
-    done = done && measure(&survey, message);
+    const bool done = measure(&survey, message);
     progress_end(&progress);
     drop_programs(&survey);
     free(survey.works[0]);

@@ -5,6 +5,7 @@
  */
 #include "study/arithmetic/meter.h"
 
+#include "base/memory.h"
 #include "core/shader.h"
 
 #include <math.h>
@@ -212,11 +213,9 @@ bool meter_format(const Meter *meter, MeterStage stage, MeterPrecision precision
 }
 
 /* Positions at the centers of pixels, row by row. */
-static bool load_positions(const Meter *meter, Message *message)
+static void load_positions(const Meter *meter)
 {
-    float(*at)[2] = malloc(sizeof(float[2]) * BATCH_COUNT);
-    if (!at)
-        return message_set(message, "not enough memory to measure");
+    float(*at)[2] = memory_new(BATCH_COUNT, sizeof *at);
     for (int i = 0; i < BATCH_COUNT; i++) {
         at[i][0] = (float)(2 * (i % WIDTH + 0.5) / WIDTH - 1);
         at[i][1] = (float)(2 * (i / WIDTH + 0.5) / HEIGHT - 1);
@@ -224,7 +223,6 @@ static bool load_positions(const Meter *meter, Message *message)
     glBindBuffer(GL_ARRAY_BUFFER, meter->buffers[2]);
     glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)sizeof(float[2]) * BATCH_COUNT, at, GL_STATIC_DRAW);
     free(at);
-    return true;
 }
 
 /* Whether numbers with 24 significant bits pass both stages unchanged. */
@@ -265,7 +263,8 @@ static bool prepare(Meter *meter, Message *message)
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     }
-    return load_positions(meter, message) && check_channel(meter, message);
+    load_positions(meter);
+    return check_channel(meter, message);
 }
 
 bool meter_open(Meter *meter, const CanvasBackend *backend, Message *message)

@@ -213,14 +213,12 @@ static bool bytes(const Meter *meter, Raster *raster, Message *message)
     const Canvas *first = &meter->canvas;
     const CanvasOptions options = {.width = first->width, .height = first->height};
     const int count = first->width * first->height;
-    float(*values)[4] = malloc(sizeof(float[4]) * (size_t)count);
-    unsigned char(*drawn)[4] = malloc(4 * (size_t)count);
+    float(*values)[4] = memory_new((size_t)count, sizeof *values);
+    unsigned char(*drawn)[4] = memory_new((size_t)count, sizeof *drawn);
     Meter byte_meter = *meter;
     const GLuint program = meter_copy(METER_FRAGMENT, message);
-    bool done = program && values && drawn;
-    if (!values || !drawn)
-        message_set(message, "not enough memory to measure");
-    if (done && canvas_open_beside(&byte_meter.canvas, first, &options, message)) {
+    const bool done = program && canvas_open_beside(&byte_meter.canvas, first, &options, message);
+    if (done) {
         for (int i = 0; i < 4 * count; i++)
             values[i / 4][i % 4] =
                 i < 510 ? (float)((i + 0.5) / 510) : (float)i / (float)(4 * count - 1);
@@ -231,8 +229,6 @@ static bool bytes(const Meter *meter, Raster *raster, Message *message)
             raster->bytes =
                 fmax(raster->bytes, fabs(drawn[i / 4][i % 4] - 255 * (double)values[i / 4][i % 4]));
         canvas_close(&byte_meter.canvas);
-    } else {
-        done = false;
     }
     glDeleteProgram(program);
     free(values);
@@ -389,12 +385,10 @@ static bool depths(const Canvas *first, GLuint program, Raster *raster, Message 
 bool raster_measure(const Meter *meter, Raster *raster, Message *message)
 {
     const Canvas *canvas = &meter->canvas;
-    float *pixels = malloc(sizeof(float) * 4 * (size_t)canvas->width * (size_t)canvas->height);
+    float *pixels = memory_new(4 * (size_t)canvas->width * (size_t)canvas->height, sizeof *pixels);
     const GLuint program = meter_copy(METER_VERTEX, message);
     *raster = (Raster){.flat = 0};
-    bool done = pixels && program;
-    if (!pixels)
-        message_set(message, "not enough memory to measure");
+    bool done = program != 0;
     if (done) {
         raster->flat = varyings(canvas, program, 240, 1, 24, pixels);
         raster->small = varyings(canvas, program, 6, 1, 200, pixels);

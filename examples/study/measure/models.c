@@ -1,6 +1,7 @@
 #include "study/measure/models.h"
 
 #include "base/clock.h"
+#include "base/memory.h"
 #include "base/output.h"
 #include "scene/material.h"
 #include "study/measure/scenes.h"
@@ -115,8 +116,8 @@ static void widen(double range[2], double value)
 static bool report_shininess(Survey *survey, double shininess, Table *table, FILE *csv,
                              ModelsApart *apart, Message *message)
 {
-    Model *models = calloc(MODELS, sizeof *models);
-    bool done = models || message_set(message, "models: not enough memory");
+    Model *models = memory_new(MODELS, sizeof *models);
+    bool done = true;
     for (int i = 0; i < MODELS && done; i++)
         done = open_model(survey, &models[i], i, shininess, message);
     for (int i = 0; i < MODELS && done; i++)
@@ -125,10 +126,9 @@ static bool report_shininess(Survey *survey, double shininess, Table *table, FIL
     if (done) {
         widen(apart->same, models[BLINN_PHONG].apart_maximum);
         widen(apart->fitted, models[FITTED].apart_maximum);
-    }
-    if (done)
         print_models(models, shininess, &survey->like, table, csv);
-    for (int i = 0; i < MODELS && models; i++) {
+    }
+    for (int i = 0; i < MODELS; i++) {
         setting_picture_close(&models[i].drawing);
         reference_close(&models[i].exact);
     }

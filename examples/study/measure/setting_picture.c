@@ -1,6 +1,7 @@
 #include "study/measure/setting_picture.h"
 
 #include "base/clock.h"
+#include "base/memory.h"
 #include "reference/picture_error.h"
 #include "scene/shader_cost.h"
 #include "study/measure/transforms.h"
@@ -40,10 +41,8 @@ struct SettingRenderer {
 bool setting_renderer_open(SettingRenderer **opened, const ShaderLoader *loader,
                            const CanvasBackend *backend, int width, int height, Message *message)
 {
-    SettingRenderer *renderer = calloc(1, sizeof *renderer);
+    SettingRenderer *renderer = memory_new(1, sizeof *renderer);
     *opened = renderer;
-    if (!renderer)
-        return message_set(message, "study: not enough memory");
     const CanvasOptions options = {.backend = backend, .width = width, .height = height};
     renderer->loader = *loader;
     renderer->width = width;
@@ -186,10 +185,8 @@ bool setting_picture_frame(SettingPicture *drawing, SettingRenderer *renderer, d
     return true;
 }
 
-bool setting_picture_empty(SettingPicture *drawing, SettingRenderer *renderer, double *wall,
-                           Message *message)
+bool setting_picture_empty(SettingPicture *drawing, double *wall, Message *message)
 {
-    (void)renderer;
     glFinish();
     const double start = clock_now();
     clear(drawing);
@@ -224,8 +221,8 @@ static int count_operations(SettingRenderer *renderer, const char *text, ShaderS
     const int counted = shader_cost(text, stage, &operations, NULL)
                             ? operations.arithmetic + operations.special
                             : -1;
-    if (*count < MAX_COUNTED && (all[*count].text = strdup(text)))
-        all[(*count)++].operations = counted;
+    if (*count < MAX_COUNTED)
+        all[(*count)++] = (Counted){memory_text(text), counted};
     return counted;
 }
 

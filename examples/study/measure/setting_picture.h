@@ -41,8 +41,7 @@ bool setting_picture_frame(SettingPicture *drawing, SettingRenderer *renderer, d
                            double *gpu, Message *message);
 
 /* The same without the objects: clears, finishes, reads back. */
-bool setting_picture_empty(SettingPicture *drawing, SettingRenderer *renderer, double *wall,
-                           Message *message);
+bool setting_picture_empty(SettingPicture *drawing, double *wall, Message *message);
 
 /* The error of the last frame against the exact picture. */
 typedef struct SettingError {

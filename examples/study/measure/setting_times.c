@@ -158,8 +158,8 @@ static bool visit(SettingTimes *times, Batch *batch, int number, int run, int ro
     if (round >= timed->rounds)
         return true;
     if (number == EMPTY) {
-        if (!setting_picture_empty(&batch->drawings[USUAL], times->renderer, &wall, message) ||
-            !setting_picture_empty(&batch->drawings[USUAL], times->renderer, &wall, message))
+        if (!setting_picture_empty(&batch->drawings[USUAL], &wall, message) ||
+            !setting_picture_empty(&batch->drawings[USUAL], &wall, message))
             return false;
     } else {
         SettingPicture *drawing = &batch->drawings[number < USUAL ? number : USUAL];

@@ -1,6 +1,7 @@
 #include "study/report/shadow_ways.h"
 
 #include "base/clock.h"
+#include "base/memory.h"
 #include "base/output.h"
 #include "reference/picture_error.h"
 #include "study/measure/scenes.h"
@@ -116,13 +117,12 @@ static bool open_subject(Survey *survey, Subject *subject, int number, Message *
                               message))
         return false;
     subject->made.lights[0].shadows = false; /* of the next drawing; the first has a copy */
-    bool done = setting_picture_open(&subject->without, survey->renderer, &subject->made.scene,
-                                     &usual, message) &&
-                reference_open(&subject->exact, &subject->with.made.scene, &options, message) &&
-                reference_open(&bare, &subject->without.made.scene, &options, message);
-    subject->near = calloc((size_t)(options.width * options.height), 1);
-    if (done && !subject->near)
-        done = message_set(message, "shadows: not enough memory");
+    const bool done =
+        setting_picture_open(&subject->without, survey->renderer, &subject->made.scene, &usual,
+                             message) &&
+        reference_open(&subject->exact, &subject->with.made.scene, &options, message) &&
+        reference_open(&bare, &subject->without.made.scene, &options, message);
+    subject->near = memory_new((size_t)(options.width * options.height), 1);
     if (done)
         find_edges(&subject->exact, &bare, subject->near);
     subject->rounds = survey->plan.quick ? QUICK_ROUNDS : ROUNDS;
@@ -204,12 +204,11 @@ static bool measure_way(Survey *survey, Subject *subject, const ShadowSettings *
 static bool measure_scene(Survey *survey, int number, ShadowWays *ways, Message *message)
 {
     const int step = survey->plan.quick ? QUICK_STEP : 1;
-    Subject *subject = calloc(1, sizeof *subject);
+    Subject *subject = memory_new(1, sizeof *subject);
     ShadowSettings settings = SHADOWS_DEFAULT;
     GLint most = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
-    bool done = subject ? open_subject(survey, subject, number, message)
-                        : message_set(message, "shadows: not enough memory");
+    bool done = open_subject(survey, subject, number, message);
     settings.way = SHADOWS_VOLUMES;
     done = done && measure_way(survey, subject, &settings, &ways->scenes[number].volumes, message);
     settings.way = SHADOWS_MAP;
@@ -222,10 +221,9 @@ static bool measure_scene(Survey *survey, int number, ShadowWays *ways, Message 
                                message);
         }
     }
-    if (subject && subject->with.lighting)
+    if (subject->with.lighting)
         lighting_use_shadows(subject->with.lighting, &SHADOWS_DEFAULT);
-    if (subject)
-        close_subject(survey, subject);
+    close_subject(survey, subject);
     free(subject);
     return done;
 }
