@@ -434,6 +434,14 @@ bool output_numbered(const char *pattern, int number, char *path, size_t path_si
     return true;
 }
 
+bool output_path(char path[PATH_MAX], const char *folder, const char *name, Message *message)
+{
+    if (snprintf(path, PATH_MAX, "%s/%s", folder, name) < PATH_MAX)
+        return true;
+    path[0] = '\0';
+    return message_set(message, "%s: %s", folder, strerror(ENAMETOOLONG));
+}
+
 bool output_folder(const char *path, Message *message)
 {
     struct stat status;

@@ -6,6 +6,7 @@
 
 #include "base/message.h"
 
+#include <limits.h>
 #include <stddef.h>
 
 /* Writes `size` bytes to `path`:
@@ -43,6 +44,9 @@ bool output_check(const char *path, Message *message);
 
 /* Creates a folder unless it exists. Fails if its path is too long for the files in it. */
 bool output_folder(const char *path, Message *message);
+
+/* FOLDER/NAME. False: too long, and the path is empty. */
+bool output_path(char path[PATH_MAX], const char *folder, const char *name, Message *message);
 
 /* The path of picture `number`: `pattern` must have exactly one conversion, of the form %d, %4d or
  * %04d; "%%" is a percent sign. Fails otherwise, or if the result is too long. */

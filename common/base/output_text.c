@@ -22,6 +22,15 @@ char *output_text_close(OutputText *text)
     return text->text;
 }
 
+bool output_text_put(OutputText *text, const char *folder, const char *name, Message *message)
+{
+    char path[PATH_MAX];
+    if (output_path(path, folder, name, message))
+        return output_text_write(text, path, message);
+    free(output_text_close(text));
+    return false;
+}
+
 bool output_text_write(OutputText *text, const char *path, Message *message)
 {
     char *bytes = output_text_close(text);

@@ -22,5 +22,6 @@ char *output_text_close(OutputText *text);
 
 /* Closes it and writes it with output_write. */
 bool output_text_write(OutputText *text, const char *path, Message *message);
+bool output_text_put(OutputText *text, const char *folder, const char *name, Message *message);
 
 #endif

@@ -101,9 +101,7 @@ static bool build(const Code *code, Message *message)
     Verdict *verdict = code->verdict;
     char path[PATH_MAX], labs[PATH_MAX], common[PATH_MAX], said[VERDICT_DETAILS_SIZE];
     int end;
-    if (snprintf(path, sizeof path, "%s/%s", folder, lab->code) >= (int)sizeof path)
-        return message_set(message, "%s: the path is too long", folder);
-    if (!find_headers(labs, common, message) ||
+    if (!output_path(path, folder, lab->code, message) || !find_headers(labs, common, message) ||
         !output_write(path, code->text, strlen(code->text), message))
         return false;
     const pid_t child = process_fork(&end, message);
@@ -184,9 +182,8 @@ static bool run_code(const Code *code, Call *wanted, Message *message)
     int end;
     const size_t each = wanted->matrices ? sizeof *wanted->matrices : sizeof wanted->budget;
     const size_t size = each * (size_t)wanted->count;
-    if (snprintf(module, sizeof module, "%s/module.so", folder) >= (int)sizeof module)
-        return message_set(message, "%s: the path is too long", folder);
-    const pid_t child = process_fork(&end, message);
+    const pid_t child =
+        output_path(module, folder, "module.so", message) ? process_fork(&end, message) : -1;
     if (child < 0)
         return false;
     if (child == 0)

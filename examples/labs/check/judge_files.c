@@ -5,17 +5,15 @@
 #include "labs/check/judge_pictures.h"
 #include "labs/program/lab_scene_open.h"
 
-#include <stdio.h>
-
 bool judge_worst(const LabPictures *pictures, int number, const char *folder, Message *message)
 {
     Image sheet = {0};
     char path[PATH_MAX];
     const ImageOptions options = {.compress = IMAGE_COMPRESS_DEFAULT};
-    bool done = judge_sheet(pictures, number, &sheet, message);
-    if (done && snprintf(path, sizeof path, "%s/%s", folder, JUDGE_WORST) >= (int)sizeof path)
-        done = message_set(message, "%s: the path is too long", folder);
-    done = done && output_folder(folder, message) && image_write(&sheet, path, &options, message);
+    const bool done = judge_sheet(pictures, number, &sheet, message) &&
+                      output_folder(folder, message) &&
+                      output_path(path, folder, JUDGE_WORST, message) &&
+                      image_write(&sheet, path, &options, message);
     image_close(&sheet);
     return done;
 }

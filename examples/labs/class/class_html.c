@@ -3,6 +3,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "base/output.h"
 #include "base/template.h"
 #include "labs/class/pareto_front.h"
 #include "labs/class/class_table.h"
@@ -16,9 +17,8 @@
 static bool write_page(TemplateValues *page, const char *folder, Message *message)
 {
     char path[PATH_MAX];
-    const bool done = snprintf(path, sizeof path, "%s/index.html", folder) < (int)sizeof path
-                          ? template_write("examples/labs/class/class.html", page, path, message)
-                          : message_set(message, "%s: the path is too long", folder);
+    const bool done = output_path(path, folder, "index.html", message) &&
+                      template_write("examples/labs/class/class.html", page, path, message);
     template_close(page);
     return done;
 }

@@ -4,8 +4,8 @@
 
 #include "base/memory.h"
 #include "base/output.h"
+#include "base/output_text.h"
 #include "labs/sandbox/png_copy.h"
-#include "labs/submission/text_file.h"
 #include "labs/submission/verdict_fields.h"
 #include "labs/submission/verdict_json.h"
 #include "study/results/json.h"
@@ -153,8 +153,8 @@ bool class_store_open(ClassStore *store, const char *folder, Message *notes, Mes
     if (!class_store_path(folder, NULL, NULL, path, message) || !output_folder(folder, message) ||
         !output_folder(path, message))
         return false;
-    if (snprintf(path, sizeof path, "%s/.lock", folder) >= (int)sizeof path)
-        return message_set(message, "%s: %s", folder, strerror(ENAMETOOLONG));
+    if (!output_path(path, folder, ".lock", message))
+        return false;
     const int lock = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0644);
     if (lock < 0)
         return message_set(message, "%s: %s", path, strerror(errno));
@@ -213,15 +213,14 @@ void class_result_put(FILE *file, const ClassResult *result)
 
 static bool write_result(const char *path, const ClassResult *result, Message *message)
 {
-    TextFile out;
-    if (!text_file_open(&out, NULL, path, message))
-        return false;
+    OutputText out;
+    output_text_open(&out);
     fputs("{\n  ", out.file);
     class_result_put(out.file, result);
     fprintf(out.file,
             ",\n  \"hash\": \"%016" PRIx64 "\",\n  \"limit\": %.9g,\n  \"when\": %lld\n}\n",
             result->hash, result->limit, result->when);
-    return text_file_close(&out, message);
+    return output_text_write(&out, path, message);
 }
 
 /* Writes the result's picture; if it is invalid, the result names none. */

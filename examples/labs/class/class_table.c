@@ -3,8 +3,9 @@
 #include "labs/class/class_table.h"
 
 #include "base/memory.h"
+#include "base/output.h"
+#include "base/output_text.h"
 #include "base/template.h"
-#include "labs/submission/text_file.h"
 #include "study/results/json.h"
 
 #include <stdlib.h>
@@ -83,15 +84,14 @@ static void put_row(FILE *file, const ClassResult *result)
 
 bool class_table_csv(const ClassStore *store, Message *message)
 {
-    TextFile out;
-    if (!text_file_open(&out, store->folder, "class.csv", message))
-        return false;
+    OutputText out;
+    output_text_open(&out);
     fputs("student,id,attempt,lab,points,most,verdict,mistakes,message,error,time_ratio,operations,"
           "seconds,folder\r\n",
           out.file);
     for (int i = 0; i < store->count; i++)
         put_row(out.file, &store->results[i]);
-    return text_file_close(&out, message);
+    return output_text_put(&out, store->folder, "class.csv", message);
 }
 
 static void put_member(FILE *file, const char *start, const char *name, const char *text)
@@ -103,9 +103,8 @@ static void put_member(FILE *file, const char *start, const char *name, const ch
 bool class_table_json(const ClassStore *store, Message *message)
 {
     int count;
-    TextFile out;
-    if (!text_file_open(&out, store->folder, "class.json", message))
-        return false;
+    OutputText out;
+    output_text_open(&out);
     ClassMistake *made = class_mistakes(store, &count);
     put_member(out.file, "{", "lab", store->count ? store->results[0].lab : "");
     fputs(",\n\"mistakes\": [", out.file);
@@ -122,26 +121,22 @@ bool class_table_json(const ClassStore *store, Message *message)
         fputc('}', out.file);
     }
     fputs("]}\n", out.file);
-    return text_file_close(&out, message);
+    return output_text_put(&out, store->folder, "class.json", message);
 }
 
 /* Everything said about a submission, as lines of plain text, which the caller frees. */
 static char *advice_text(const Verdict *verdict)
 {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *file = open_memstream(&text, &size);
-    if (!file)
-        return memory_text(verdict->message);
-    fprintf(file, "%s\n", verdict->message);
+    OutputText text;
+    output_text_open(&text);
+    fprintf(text.file, "%s\n", verdict->message);
     for (int i = 0; i < verdict->mistake_count; i++)
-        fprintf(file, "%s\nLook at %s.\n", verdict->mistakes[i].sentence,
+        fprintf(text.file, "%s\nLook at %s.\n", verdict->mistakes[i].sentence,
                 verdict->mistakes[i].look);
     for (int i = 0; i < verdict->symptom_count; i++)
-        fprintf(file, "%s\n", verdict->symptoms[i]);
-    fputs(verdict->details, file);
-    fclose(file);
-    return text;
+        fprintf(text.file, "%s\n", verdict->symptoms[i]);
+    fputs(verdict->details, text.file);
+    return output_text_close(&text);
 }
 
 static void add_case(TemplateValues *suite, const ClassResult *result)
@@ -181,10 +176,8 @@ bool class_table_junit(const ClassStore *store, Message *message)
     template_set(suite, "failures", "%d", wrong);
     template_set(suite, "errors", "%d", errors);
     template_set(suite, "time", "%.3f", seconds);
-    const bool done =
-        snprintf(path, sizeof path, "%s/junit.xml", store->folder) < (int)sizeof path
-            ? template_write("examples/labs/class/class_junit.xml", suite, path, message)
-            : message_set(message, "%s: the path is too long", store->folder);
+    const bool done = output_path(path, store->folder, "junit.xml", message) &&
+                      template_write("examples/labs/class/class_junit.xml", suite, path, message);
     template_close(suite);
     return done;
 }
@@ -209,11 +202,11 @@ static void put_tests(FILE *file, const Verdict *verdict)
 static bool write_gradescope(const ClassStore *store, const ClassResult *result, Message *message)
 {
     char folder[PATH_MAX];
-    TextFile out;
+    OutputText out;
     const Verdict *verdict = &result->verdict;
-    if (!class_store_path(store->folder, result->folder, NULL, folder, message) ||
-        !text_file_open(&out, folder, "results.json", message))
+    if (!class_store_path(store->folder, result->folder, NULL, folder, message))
         return false;
+    output_text_open(&out);
     char *text = advice_text(verdict);
     fprintf(out.file, "{\"score\": %.9g, \"execution_time\": %.9g", verdict->points,
             verdict->seconds);
@@ -224,7 +217,7 @@ static bool write_gradescope(const ClassStore *store, const ClassResult *result,
     put_member(out.file, ", ", "verdict", VERDICT_NAMES[verdict->kind]);
     fprintf(out.file, ", \"seed\": %llu}}\n", (unsigned long long)verdict->seed);
     free(text);
-    return text_file_close(&out, message);
+    return output_text_put(&out, folder, "results.json", message);
 }
 
 bool class_table_gradescope(const ClassStore *store, Message *message)

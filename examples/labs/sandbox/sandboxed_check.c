@@ -80,9 +80,8 @@ static bool take_picture(const SandboxRun *run, const char *folder, Verdict *ver
         verdict->picture[0] = '\0';
         return true;
     }
-    if (snprintf(path, sizeof path, "%s/%s", folder, verdict->picture) >= (int)sizeof path)
-        return message_set(message, "%s: the path is too long", folder);
-    return output_folder(folder, message) && output_write(path, picture, size, message);
+    return output_folder(folder, message) && output_path(path, folder, verdict->picture, message) &&
+           output_write(path, picture, size, message);
 }
 
 bool sandboxed_check(const JudgeOptions *options, const char *folder, double limit,

@@ -2,7 +2,7 @@
  * refused. The tables are the writer's. */
 #include "labs/submission/verdict_json.h"
 
-#include "labs/submission/text_file.h"
+#include "base/output_text.h"
 #include "labs/submission/verdict_fields.h"
 #include "study/results/json.h"
 
@@ -219,13 +219,12 @@ bool verdict_read(const void *bytes, size_t size, char lab[64], Verdict *verdict
 bool verdict_write(const Verdict *verdict, const Lab *lab, const char *submission, const char *path,
                    Message *message)
 {
-    TextFile out;
-    if (!text_file_open(&out, NULL, path, message))
-        return false;
+    OutputText out;
+    output_text_open(&out);
     fputs("{\n  ", out.file);
     verdict_put(out.file, verdict, lab->name);
     fputs(",\n  \"path\": ", out.file);
     json_put_string(out.file, submission);
     fputs(",\n  \"student\": null\n}\n", out.file);
-    return text_file_close(&out, message);
+    return output_text_write(&out, path, message);
 }

@@ -142,14 +142,12 @@ bool models_report(Survey *survey, const char *folder, bool markdown, FILE *file
 {
     *apart = (ModelsApart){{INFINITY, 0}, {INFINITY, 0}};
     OutputText csv;
-    char path[PATH_MAX];
     bool done = true;
     char with[RESULT_WITH_SIZE];
     results_measured_with(&survey->like, with);
     Table table;
     table_open(&table, "model|s|shininess|error|rms|from Phong|rms|ms|over Phong|operations");
     output_text_open(&csv);
-    snprintf(path, sizeof path, "%s/models.csv", folder);
     fprintf(csv.file, "s,model,shininess,error_maximum,error_rms,apart_maximum,apart_rms,"
                       "milliseconds,ratio,ratio_lower,ratio_upper,fragment_operations,"
                       "renderer,threads\n");
@@ -162,7 +160,7 @@ bool models_report(Survey *survey, const char *folder, bool markdown, FILE *file
             with);
     table_close(&table, markdown, file);
     if (done)
-        return output_text_write(&csv, path, message);
+        return output_text_put(&csv, folder, "models.csv", message);
     free(output_text_close(&csv));
     return false;
 }

@@ -90,14 +90,13 @@ bool gnuplot_draw(const char *script, size_t size, const char *folder, const cha
     if (strchr(name, '/') || name[0] == '.')
         return message_set(message, "%s: cannot be a file's name", name);
     for (int i = 0; i < 2; i++) {
-        char path[PATH_MAX], terminal[160];
+        char path[PATH_MAX], file[NAME_MAX], terminal[160];
         snprintf(terminal, sizeof terminal,
                  "%s size %d,%d noenhanced font 'DejaVu Sans,%d' background '#ffffff'",
                  terminals[i], GNUPLOT_WIDTH, GNUPLOT_HEIGHT, GNUPLOT_FONT);
-        if (snprintf(path, sizeof path, "%s/%s.%s", folder, name, extensions[i]) >=
-            (int)sizeof path)
-            return message_set(message, "%s/%s: %s", folder, name, strerror(ENAMETOOLONG));
-        if (!draw_plot(terminal, script, size, path, message))
+        snprintf(file, sizeof file, "%s.%s", name, extensions[i]);
+        if (!output_path(path, folder, file, message) ||
+            !draw_plot(terminal, script, size, path, message))
             return false;
     }
     return true;

@@ -1,5 +1,6 @@
 #include "study/report/report_page.h"
 
+#include "base/output.h"
 #include "base/template.h"
 #include "study/measure/scenes.h"
 #include "study/report/report.h"
@@ -15,8 +16,7 @@ static const char TEMPLATE[] = "examples/study/report/report.html";
 static bool has(const char *folder, const char *name)
 {
     char path[PATH_MAX];
-    return snprintf(path, sizeof path, "%s/%s", folder, name) < (int)sizeof path &&
-           access(path, R_OK) == 0;
+    return output_path(path, folder, name, NULL) && access(path, R_OK) == 0;
 }
 
 static bool has_plot(const char *folder, const char *name)
@@ -119,8 +119,8 @@ bool report_page(const Results *results, const int *scenes, int count,
     for (int i = 0; i < count; i++)
         if (isfinite(front_noise(results, STUDY_SCENES[scenes[i]].name)))
             set_table(page, results, STUDY_SCENES[scenes[i]].name);
-    snprintf(path, sizeof path, "%s/index.html", folder);
-    const bool done = template_write(TEMPLATE, page, path, message);
+    const bool done = output_path(path, folder, "index.html", message) &&
+                      template_write(TEMPLATE, page, path, message);
     template_close(page);
     return done;
 }

@@ -263,10 +263,8 @@ static bool print_ways(const ShadowWays *ways, const char *folder, bool markdown
                        Message *message)
 {
     OutputText csv;
-    char path[PATH_MAX];
     Table table;
     output_text_open(&csv);
-    snprintf(path, sizeof path, "%s/shadows.csv", folder);
     table_open(&table, "scene|shadows|near edges|all pixels|wrong inside|time|a light moves");
     fprintf(csv.file,
             "scene,way,size,near_rms,all_rms,wrong,ratio,ratio_lower,ratio_upper,moving_ratio,"
@@ -279,7 +277,7 @@ static bool print_ways(const ShadowWays *ways, const char *folder, bool markdown
             "the time over that of a frame without shadows\n%s\n\n",
             ways->with);
     table_close(&table, markdown, file);
-    return output_text_write(&csv, path, message);
+    return output_text_put(&csv, folder, "shadows.csv", message);
 }
 
 bool shadow_ways_report(Survey *survey, const char *folder, bool markdown, FILE *file,
