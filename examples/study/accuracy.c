@@ -8,15 +8,11 @@
 #include "app/doctor.h"
 #include "base/output_text.h"
 #include "base/progress.h"
-#include "study/measure/choose.h"
-#include "study/measure/models.h"
+#include "study/measure/survey.h"
 #include "study/measure/scenes.h"
 #include "study/report/shadow_ways.h"
-#include "study/measure/survey.h"
 #include "study/report/conclusions.h"
-#include "study/report/findings.h"
 #include "study/report/report.h"
-#include "study/report/report_page.h"
 #include "study/results/table.h"
 
 #include <math.h>

@@ -9,7 +9,7 @@
 #include "app/options.h"
 #include "base/output.h"
 #include "base/output_text.h"
-#include "study/arithmetic/arithmetic_report.h"
+#include "study/arithmetic/arithmetic.h"
 #include "study/results/table.h"
 
 #include <stdlib.h>

@@ -2,12 +2,10 @@
  * class: names, verdicts from the sandbox, which result stays, and that students' text is escaped.
  */
 #include "labs/class/class_find.h"
-#include "labs/class/pareto_front.h"
-#include "labs/class/class_html.h"
+#include "labs/class/class_report.h"
 #include "labs/class/class_judge.h"
 #include "labs/class/class_options.h"
 #include "labs/class/class_store.h"
-#include "labs/class/class_table.h"
 #include "labs/sandbox/bundle.h"
 #include "labs/sandbox/source.h"
 #include "labs/submission/verdict_json.h"

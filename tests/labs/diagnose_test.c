@@ -7,7 +7,6 @@
  * form.
  */
 #include "labs/diagnosis/diagnose.h"
-#include "labs/diagnosis/outline.h"
 #include "labs/diagnosis/wrong_program.h"
 #include "support/picture_check.h"
 #include "support/testing.h"

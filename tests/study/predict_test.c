@@ -7,7 +7,7 @@
 #include "lighting/lighting.h"
 #include "reference/picture_error.h"
 #include "scene/scene_example.h"
-#include "study/arithmetic/predict.h"
+#include "study/arithmetic/arithmetic.h"
 #include "support/examples.h"
 #include "support/picture_check.h"
 #include "support/testing.h"

@@ -10,9 +10,6 @@
 #include "labs/check/judge_pictures.h"
 #include "labs/diagnosis/catalogue.h"
 #include "labs/diagnosis/diagnose.h"
-#include "labs/diagnosis/matrices.h"
-#include "labs/diagnosis/outline.h"
-#include "labs/diagnosis/symptoms.h"
 #include "labs/diagnosis/text_facts.h"
 #include "labs/submission/compiler_dependence.h"
 

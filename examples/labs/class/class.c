@@ -3,12 +3,10 @@
 
 #include "app/options.h"
 #include "base/memory.h"
-#include "labs/class/pareto_front.h"
-#include "labs/class/class_html.h"
+#include "labs/class/class_report.h"
 #include "labs/class/class_judge.h"
 #include "labs/class/class_options.h"
-#include "labs/class/class_table.h"
-#include "labs/sandbox/sandboxed_main.h"
+#include "labs/sandbox/sandbox.h"
 
 #include <ctype.h>
 #include <errno.h>

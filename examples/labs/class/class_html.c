@@ -1,12 +1,10 @@
 /* What class.html needs of the results, as values; an empty one leaves its part of a page out. */
-#include "labs/class/class_html.h"
+#include "labs/class/class_report.h"
 
 #include "base/clock.h"
 #include "base/memory.h"
 #include "base/output.h"
 #include "base/template.h"
-#include "labs/class/pareto_front.h"
-#include "labs/class/class_table.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* Each table is written in memory and becomes a file at once; text of students is escaped as its
  * format wants it. */
-#include "labs/class/class_table.h"
+#include "labs/class/class_report.h"
 
 #include "base/memory.h"
 #include "base/output.h"

@@ -1,6 +1,6 @@
 /* Of two costs, operations and error, neither is worth more: a result is efficient if no other has
  * less of one and no more of the other, compared pair by pair. */
-#include "labs/class/pareto_front.h"
+#include "labs/class/class_report.h"
 
 #include "base/memory.h"
 #include "study/report/report_gnuplot.h"

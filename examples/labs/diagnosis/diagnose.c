@@ -7,7 +7,6 @@
 
 #include "base/memory.h"
 #include "labs/diagnosis/suspects.h"
-#include "labs/diagnosis/symptoms.h"
 #include "labs/program/lab_scene_open.h"
 
 #include <stdio.h>

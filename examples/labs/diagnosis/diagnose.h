@@ -1,10 +1,6 @@
 /*
- * diagnose: finds the catalogue's mistake that draws what a wrong submission drew.
- *
- * A mistake is named only if its pictures match the submission's in every scene and no other
- * mistake's do. If several match, the submission is drawn in further scenes that tell them apart;
- * if none does, all are named as "one of". If no single mistake matches, pairs are tried. Otherwise
- * only symptoms are described.
+ * diagnose: says what is wrong with a submission: by its outline, by its numbers (lab 3), and by
+ * the catalogue's mistake that draws what it drew.
  */
 #ifndef DIAGNOSE_H
 #define DIAGNOSE_H
@@ -12,8 +8,38 @@
 #include "labs/submission/lab_pictures.h"
 #include "labs/submission/verdict.h"
 
+/* Draws all scenes with the submission and with shaders/labs/outline. */
+bool outline_check(const LabPictures *pictures, const Painter *painter, Canvas *canvas, bool *wrong,
+                   Message *message);
+
+/* Lab 3's numbers against those of its task. No GL. */
+
+/* The largest difference of a right model matrix's element, and of a right normal's coordinate: a
+ * tenth of 0.01, the least that mistyping a number of the task changes. Computing in floats or with
+ * pi as 3.14159 makes less than 0.0001. */
+#define MATRICES_TOLERANCE 0.001
+
+/* Whether the model matrices of all scenes and the directions of the faces' normals are right. If
+ * not, *said is a sentence with the first wrong number. */
+bool matrices_are_right(const LabPictures *pictures, char said[VERDICT_SENTENCE_SIZE]);
+
+/* Adds a mistake if all model matrices are a product of the task's form in which one part has wrong
+ * numbers. False: they are not. */
+bool matrices_name(const LabPictures *pictures, Verdict *verdict);
+
+/* A wrong picture in words. */
+
+/* Adds the symptoms to the verdict. `moved`: the outline is wrong. */
+void symptoms_describe(const LabPictures *pictures, bool moved, Verdict *verdict);
+
+/* A mistake is named only if its pictures match the submission's in every scene and no other
+ * mistake's do. If several match, the submission is drawn in further scenes that tell them apart;
+ * if none does, all are named as "one of". If no single mistake matches, pairs are tried. Otherwise
+ * only symptoms are described.
+ */
+
 /* Fills in the message, mistakes and symptoms of a wrong submission, drawn in all pictures.
- * `moved`: its outline is wrong (outline.h). False, with a message: the driver failed. */
+ * `moved`: its outline is wrong. False, with a message: the driver failed. */
 bool diagnose(const LabPictures *pictures, const Painter *painter, bool moved, Canvas *canvas,
               Verdict *verdict, Message *message);
 

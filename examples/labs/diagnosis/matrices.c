@@ -2,7 +2,7 @@
  * scale can be taken apart: its last column is the move, the lengths of the others are the scale,
  * what is left is the turn, whose axis is in its antisymmetric part and whose angle is in its
  * trace. What is true of these in all scenes are facts; a rule is a set of facts with a name. */
-#include "labs/diagnosis/matrices.h"
+#include "labs/diagnosis/diagnose.h"
 
 #include "app/options.h"
 #include "core/example.h"

@@ -1,9 +1,7 @@
 /* Whether gl_Position is right. Both the submission and a program that has nothing but u_Clip *
  * a_Position draw on a green ground; a pixel where only one of them is green is wrong, but for a
  * few at edges. The submission's light does not count, unless it is the green of the ground. */
-#include "labs/diagnosis/outline.h"
-
-#include "labs/submission/lab_scene_buffers.h"
+#include "labs/diagnosis/diagnose.h"
 
 /* The background is a colour that neither draws. */
 static const Vec3 GREEN = {0, 1, 0};

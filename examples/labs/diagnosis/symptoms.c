@@ -1,7 +1,7 @@
 /* What can be said without a name: sums over the pixels inside objects. Errors in lit and in unlit
  * parts, in each channel and in each scene point to different terms of the sum; the worst pixel has
  * its two colours, for those who want to calculate. */
-#include "labs/diagnosis/symptoms.h"
+#include "labs/diagnosis/diagnose.h"
 
 #include <math.h>
 #include <string.h>

@@ -6,7 +6,7 @@
 #define WRONG_PROGRAM_H
 
 #include "labs/diagnosis/catalogue.h"
-#include "labs/submission/lab_scene_buffers.h"
+#include "labs/submission/submission.h"
 
 enum { WRONG_PROGRAM_UNIFORMS = 57 };
 

@@ -14,7 +14,7 @@
  * H and I serve to tell mistakes apart: they show highlights near the line of sight. Each scene has
  * a known form, always the same, and one per seed, with other colours, positions, sizes and times.
  * In lab 3 the time gives the model matrix; lab 10 always has the unit sphere; lab 11 has a floor,
- * and its eye is always above it (lab_scene_shadow.h).
+ * and its eye is always above it (lab_scene_parts.h).
  */
 #ifndef LAB_SCENE_H
 #define LAB_SCENE_H

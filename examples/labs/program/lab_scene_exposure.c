@@ -1,6 +1,6 @@
 /* Light is linear: the brightness of the brightest visible vertex says by what factor all lights
  * have to be multiplied. */
-#include "labs/program/lab_scene_exposure.h"
+#include "labs/program/lab_scene_parts.h"
 
 #include "labs/program/binding.h"
 

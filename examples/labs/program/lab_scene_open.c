@@ -3,9 +3,7 @@
  * that is seen) or what has no one right picture (normals of other lengths, grazing light). */
 #include "labs/program/lab_scene_open.h"
 
-#include "labs/program/lab_scene_exposure.h"
-#include "labs/program/lab_scene_random.h"
-#include "labs/program/lab_scene_shadow.h"
+#include "labs/program/lab_scene_parts.h"
 #include "scene/scene_example.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 /* Rejection: what is drawn by lot is drawn again until it is what was asked for. */
-#include "labs/program/lab_scene_random.h"
+#include "labs/program/lab_scene_parts.h"
 
 #include <math.h>
 

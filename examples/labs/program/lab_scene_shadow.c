@@ -1,9 +1,8 @@
 /* Scenes are drawn by lot until no light grazes a face; of 2000 tries without success the best is
  * taken. */
-#include "labs/program/lab_scene_shadow.h"
+#include "labs/program/lab_scene_parts.h"
 
 #include "labs/program/binding.h"
-#include "labs/program/lab_scene_random.h"
 #include "shapes/mesh_solids.h"
 
 #include <math.h>

@@ -1,9 +1,8 @@
 /* Every guarantee is tried, not assumed: kernels, containers and settings differ. */
-#include "labs/sandbox/breakout.h"
+#include "labs/sandbox/sandbox.h"
 
 #include "base/paths.h"
 #include "base/sanitized.h"
-#include "labs/sandbox/sandbox.h"
 
 #include <arpa/inet.h>
 #include <errno.h>

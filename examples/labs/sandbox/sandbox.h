@@ -119,4 +119,22 @@ void sandbox_reason(const SandboxRun *run, char text[1024]);
 /* Ends it if it still runs. NULL or zeroed is fine. */
 void sandbox_close(SandboxRun *run);
 
+/* In the sandbox: tries what must be impossible there. */
+
+/* *failed: what was tried in vain, of SandboxProof: to see the path `hidden`, to reach this port of
+ * the machine, and so on. False, with a message, if the process cannot work here at all: it may not
+ * read the folder `labs` or run this program. */
+bool breakout_try(const char *hidden, int port, const char *labs, unsigned *failed,
+                  Message *message);
+
+/* The program in its sandbox: reads a submission, gives up its rights, judges. */
+
+/* PROGRAM --inside STEP USER SECONDS FOLDER ...: becomes that user (if root), takes on the limits,
+ * then does one of these steps, with FOLDER for its files:
+ *   prove HIDDEN PORT LABS   tries what must be impossible; its result is what failed
+ *   check LAB SEED KIND PLACE NAME...   judges the submission in these places, of a SandboxSource;
+ *     its results are the verdict as JSON and the picture
+ * Standard output is as SandboxRun has it. Returns the exit code: 0 or SANDBOX_BROKEN. */
+int sandboxed_main(int count, char *arguments[]);
+
 #endif

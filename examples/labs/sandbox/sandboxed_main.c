@@ -2,15 +2,13 @@
  * folder may be closed to others, and of it only regular files count (source.h, submission.h). Then
  * all rights are given up for good. Only then is anything looked into: an archive unpacked, text
  * taken for what it is, shaders compiled and drawn, C compiled and called. */
-#include "labs/sandbox/sandboxed_main.h"
+#include "labs/sandbox/sandbox.h"
 
 #include "base/memory.h"
 #include "base/output.h"
 #include "base/sanitized.h"
 #include "labs/check/judge.h"
 #include "labs/check/judge_pictures.h"
-#include "labs/sandbox/breakout.h"
-#include "labs/sandbox/sandbox.h"
 #include "labs/sandbox/source.h"
 #include "labs/sandbox/unpack.h"
 #include "labs/submission/verdict_json.h"

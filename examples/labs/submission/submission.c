@@ -138,33 +138,42 @@ bool submission_compile(Shader *shader, const Lab *lab, const SubmissionFiles *f
     return shader_open(shader, &loader, lab->file, message);
 }
 
-static bool draw_object(const Painter *painter, const LabScene *lab_scene, int i,
-                        const SubmissionGeometry *geometry, const LabShadowMap *map,
-                        Message *message)
+bool lab_scene_buffers_open(LabSceneBuffers *buffers, const LabScene *lab_scene,
+                            const SubmissionGeometry *geometry, Message *message)
 {
-    MeshBuffer mesh;
-    const Drawn drawn = {.scene = &lab_scene->scene,
-                         .object = i,
-                         .aspect = (double)lab_scene->width / lab_scene->height,
-                         .world_from_object = geometry->world_from_object,
-                         .normal_matrix = geometry->normal_matrix,
-                         .map = map};
-    const Mesh *shape = geometry->mesh ? geometry->mesh : lab_scene->objects[i].mesh;
-    if (!mesh_buffer_open(&mesh, shape, message))
-        return false;
-    const bool done = binding_draw(painter->lab, painter->program, &mesh, &drawn, message);
-    mesh_buffer_close(&mesh);
-    return done;
+    bool done = true;
+    *buffers = (LabSceneBuffers){.cull = geometry->cull};
+    for (int i = 0; i < lab_scene->scene.object_count && done; i++)
+        done = mesh_buffer_open(&buffers->buffers[i],
+                                geometry->mesh ? geometry->mesh : &lab_scene->meshes[i], message);
+    if (done && lab_shadow_map_open(&buffers->map, lab_scene, message))
+        return true;
+    lab_scene_buffers_close(buffers);
+    return false;
+}
+
+void lab_scene_buffers_close(LabSceneBuffers *buffers)
+{
+    for (int i = 0; i < LAB_SCENE_MAX_OBJECTS; i++)
+        mesh_buffer_close(&buffers->buffers[i]);
+    lab_shadow_map_close(&buffers->map);
 }
 
 static bool paint(const Painter *painter, const LabScene *lab_scene,
                   const SubmissionGeometry *geometry, Message *message)
 {
-    LabShadowMap map;
-    bool done = lab_shadow_map_open(&map, lab_scene, message);
-    for (int i = 0; i < lab_scene->scene.object_count && done; i++)
-        done = draw_object(painter, lab_scene, i, geometry, &map, message);
-    lab_shadow_map_close(&map);
+    LabSceneBuffers buffers;
+    bool done = lab_scene_buffers_open(&buffers, lab_scene, geometry, message);
+    for (int i = 0; i < lab_scene->scene.object_count && done; i++) {
+        const Drawn drawn = {.scene = &lab_scene->scene,
+                             .object = i,
+                             .aspect = (double)lab_scene->width / lab_scene->height,
+                             .world_from_object = geometry->world_from_object,
+                             .normal_matrix = geometry->normal_matrix,
+                             .map = &buffers.map};
+        done = binding_draw(painter->lab, painter->program, &buffers.buffers[i], &drawn, message);
+    }
+    lab_scene_buffers_close(&buffers);
     return done;
 }
 

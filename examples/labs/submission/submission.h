@@ -2,8 +2,7 @@
  * submission: a student's shaders: read, compiled, drawn.
  *
  * Untrusted: only regular files of the folder itself are read, of at most SHADER_FILE_MAX bytes,
- * and
- * `#include` finds only those.
+ * and `#include` finds only those.
  */
 #ifndef SUBMISSION_H
 #define SUBMISSION_H
@@ -50,6 +49,16 @@ typedef struct SubmissionGeometry {
     const Mesh *mesh;                              /* lab 10; NULL: the scene's */
     bool cull;
 } SubmissionGeometry;
+
+/* The meshes and the shadow map of a scene, uploaded once for many draw calls. */
+typedef struct LabSceneBuffers {
+    MeshBuffer buffers[LAB_SCENE_MAX_OBJECTS];
+    bool cull; /* back faces */
+    LabShadowMap map;
+} LabSceneBuffers;
+bool lab_scene_buffers_open(LabSceneBuffers *buffers, const LabScene *lab_scene,
+                            const SubmissionGeometry *geometry, Message *message);
+void lab_scene_buffers_close(LabSceneBuffers *buffers);
 
 /* Draws with a submission's program or, in a test, as a known mistake. */
 typedef struct Painter {

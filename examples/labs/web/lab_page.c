@@ -7,7 +7,6 @@
 #include "labs/check/judge_pictures.h"
 #include "labs/program/lab_scene_open.h"
 #include "labs/submission/verdict_fields.h"
-#include "labs/web/judge_files_web.h"
 #include "study/results/json.h"
 
 #include <stdio.h>
@@ -25,11 +24,19 @@ static struct {
     const Lab *lab;
     Canvas canvas;
     Image drawn, right, shown; /* `shown` is page_pixels */
+    Image worst;               /* that natively is a file */
     Reference exact;
     const Lab *exact_lab; /* of which it is, and when; NULL: there is none */
     double exact_seconds;
     char *text; /* returned */
 } page;
+
+bool judge_worst(const LabPictures *pictures, int picture, const char *folder, Message *message)
+{
+    (void)folder;
+    image_close(&page.worst);
+    return judge_sheet(pictures, picture, &page.worst, message);
+}
 
 /* Replaces the text that was returned last by what is written. */
 static FILE *text_begin(void)
@@ -322,7 +329,9 @@ const char *page_check(double seed)
     submission_files_close(&files);
     if (!done)
         return "";
-    judge_take_sheet(&page.shown);
+    image_close(&page.shown);
+    page.shown = page.worst;
+    page.worst = (Image){.width = 0};
     return put_verdict(&verdict);
 }
 

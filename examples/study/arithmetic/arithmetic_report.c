@@ -1,7 +1,6 @@
-#include "study/arithmetic/arithmetic_report.h"
+#include "study/arithmetic/arithmetic.h"
 
 #include "scene/quality.h"
-#include "study/arithmetic/predict.h"
 #include "study/measure/scenes.h"
 #include "study/report/report.h"
 #include "study/results/json.h"

@@ -7,7 +7,7 @@
  * leave it out. It is a bound at the points that are looked at, some thousands of an object, not
  * everywhere; tests compare it with pictures.
  */
-#include "study/arithmetic/predict.h"
+#include "study/arithmetic/arithmetic.h"
 
 #include "study/arithmetic/interval.h"
 

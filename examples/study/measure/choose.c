@@ -5,7 +5,7 @@
  * choices is named, so that two runs say the same. If none of the first eight stays within the
  * limit, the next are tried.
  */
-#include "study/measure/choose.h"
+#include "study/measure/survey.h"
 
 #include "base/memory.h"
 #include "study/measure/scenes.h"

@@ -1,4 +1,4 @@
-#include "study/measure/models.h"
+#include "study/measure/survey.h"
 
 #include "base/clock.h"
 #include "base/memory.h"

@@ -7,7 +7,10 @@
 
 #include "app/options.h"
 #include "study/measure/setting_picture.h"
+#include "study/results/front.h"
 #include "study/results/results.h"
+
+#include <stdio.h>
 
 /* What to measure, and for which of several processes or machines. */
 typedef struct SurveyPlan {
@@ -49,5 +52,33 @@ bool survey_again(Survey *survey, int scene, const Quality *qualities, int count
                   Message *message);
 
 void survey_close(Survey *survey);
+
+/* Blinn-Phong is another model than Phong's. */
+
+/* The largest distances from Phong's exact picture, over all exponents, in steps of 1/255. */
+typedef struct ModelsApart {
+    double same[2], fitted[2]; /* least and most; of the same and of the fitted exponent */
+} ModelsApart;
+
+/* Measures both on the study's shiny sphere for some exponents, Blinn-Phong also with the exponent
+ * fitted to Phong's. Prints a table and writes FOLDER/models.csv. */
+bool models_report(Survey *survey, const char *folder, bool markdown, FILE *file,
+                   ModelsApart *apart, Message *message);
+
+/* The best of the measured settings within a limit of error or time. */
+
+/* Milliseconds per frame, or an error of this kind in steps of 1/255. */
+typedef struct ChooseLimit {
+    bool is_time;
+    double value;
+    ErrorKind kind;
+} ChooseLimit;
+
+/* Prints the cheapest setting of a surveyed scene within a limit of error, or the most exact one
+ * within a limit of time; those tied with it, of which it is the most usual; and what less error or
+ * less time would cost. The best settings are measured again, against each other, before one is
+ * chosen: what the survey measured one after another depends on what else ran. False if none is
+ * within the limit, both times. */
+bool choose(Survey *survey, int scene, const ChooseLimit *limit, Message *message);
 
 #endif

@@ -1,11 +1,14 @@
 /*
- * conclusions: what a study's rows say, in a sentence each.
+ * conclusions: what a study's rows say: in a sentence each, in plots and tables of the rows that
+ * answer one question, and as a page.
  */
 #ifndef CONCLUSIONS_H
 #define CONCLUSIONS_H
 
-#include "study/measure/models.h"
+#include "study/measure/survey.h"
 #include "study/results/results.h"
+
+#include <stdio.h>
 
 /* "1.3 steps: Phong interpolation 1.8 ms, Gouraud 17 ms": the smallest largest error inside objects
  * that both reach, and what that takes; which times differ by no more than the noise, and that the
@@ -24,5 +27,29 @@ typedef struct Conclusions {
 /* Of these scenes, by their numbers. */
 Conclusions conclusions_of(const Results *results, const int *scenes, int count,
                            const ModelsApart *apart);
+
+/* Into the folder, as FOLDER/finding-NAME.svg and .png:
+ *   interpolation  Gouraud's and Phong's error over time as divisions grow
+ *   precision      the error of mediump, scene by scene
+ *   guards         the time of guards
+ *   viewer         the error of a viewer at infinity
+ *   antialiasing   the error of all pixels over time
+ *   matrices       the error of arithmetic and order, far from the origin
+ * Missing rows are left out, and empty plots. False if gnuplot is missing; the message names the
+ * package. */
+bool findings_plot(const Results *results, const char *folder, Message *message);
+
+/* A table: the time of composing the matrices of one object and the position of one light, in each
+ * arithmetic and order, and the error of the scene far from the origin. False: no memory. */
+void findings_matrices(const Results *results, bool markdown, FILE *file);
+
+/* The numbers of these plots as Markdown tables. False: no memory. */
+void findings_tables(const Results *results, FILE *file);
+
+/* FOLDER/index.html: for each scene, by its number, a sentence and its plot; then the conclusions,
+ * the plots of findings, and tables of efficient settings. Plots and sheets are linked if they are
+ * in the folder. */
+bool report_page(const Results *results, const int *scenes, int count,
+                 const Conclusions *conclusions, const char *folder, Message *message);
 
 #endif

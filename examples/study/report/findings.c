@@ -3,7 +3,7 @@
  * choice alone, so that the difference is of that choice. What was not measured leaves a gap, not a
  * row of zeros.
  */
-#include "study/report/findings.h"
+#include "study/report/conclusions.h"
 
 #include "base/clock.h"
 #include "study/measure/scenes.h"

@@ -1,4 +1,4 @@
-#include "study/report/report_page.h"
+#include "study/report/conclusions.h"
 
 #include "base/output.h"
 #include "base/template.h"

@@ -5,7 +5,86 @@
 #ifndef RESULTS_H
 #define RESULTS_H
 
-#include "study/results/results_row.h"
+#include "scene/quality.h"
+
+enum { RESULT_RUNS = 3 };
+
+/* Errors in steps of 1/255: `interior` of the pixels inside an object in both the exact and the
+ * drawn picture, `all` of every pixel. Times in milliseconds. Unknown: NAN, or -1 for counts. */
+typedef struct ResultRow {
+    char scene[32];
+    Quality quality;
+    int width, height;
+    double interior_rms, interior_maximum, all_rms, all_maximum;
+    int interior_pixels;
+    double time, time_lower, time_upper; /* of a frame, drawn and read back: median, quartiles */
+    double run_times[RESULT_RUNS];       /* the medians of the three runs */
+    double net_time;                     /* less the time of a frame that draws nothing */
+    double gpu_time;                     /* by the driver's timer */
+    double noise;                        /* of the times, as a fraction, from the A/A measurement */
+    long long vertices, fragments;       /* of a frame; visible fragments */
+    int vertex_operations, fragment_operations; /* of the costliest program */
+    unsigned seed;                              /* of the order of measuring */
+    char renderer[96];
+    char threads[16]; /* LP_NUM_THREADS, or "default" */
+} ResultRow;
+
+/* How many of a setting's choices are not the usual ones. */
+int quality_unusual(const Quality *quality);
+
+/* A field is text, a choice on an axis, or a number. */
+typedef enum ColumnKind {
+    COLUMN_TEXT,
+    COLUMN_CHOICE,
+    COLUMN_COUNT,
+    COLUMN_LONG_COUNT,
+    COLUMN_SEED,
+    COLUMN_REAL,
+} ColumnKind;
+
+typedef struct Column {
+    const char *name;
+    ColumnKind kind;
+    size_t offset, size; /* in a ResultRow; unused for a choice */
+    double min, max;     /* of a number; an empty field is unknown: -1 or NAN. Of text, `min` is the
+                            minimum length */
+    QualityAxis axis;    /* of a choice */
+} Column;
+
+enum {
+    RESULTS_NUMBERS = 23, /* columns after the scene and the axes */
+    RESULTS_COLUMNS = 1 + AXIS_COUNT + RESULTS_NUMBERS,
+    RESULTS_FIELD_SIZE = 256,
+    RESULTS_HEADER_SIZE = 2048,
+};
+
+/* One of the RESULTS_COLUMNS columns. The last is text, always quoted, so that no truncated row
+ * parses. */
+Column column_at(int number);
+
+/* The value of a column, in the fewest digits that round-trip; "" if unknown. */
+void column_text(const ResultRow *row, const Column *column, char text[RESULTS_FIELD_SIZE]);
+
+/* What is wrong with a line, in printable characters. */
+typedef struct Fault {
+    char text[256];
+} Fault;
+
+/* For each of a file's columns, which of ours it is; -1: none. */
+typedef struct Header {
+    int columns[128];
+    int count;
+    bool ours; /* exactly our columns, in our order */
+} Header;
+
+/* Our header; the same as text, without line break. */
+Header header_ours(void);
+void header_text(char text[RESULTS_HEADER_SIZE]);
+
+/* `end` is the end of the line, without line break. */
+bool header_parse(Header *header, const char *line, const char *end, Fault *fault);
+bool row_parse(ResultRow *row, const Header *header, const char *line, const char *end,
+               Fault *fault);
 
 /* The largest file that is read, in bytes; a row has a few hundred. */
 enum { RESULTS_SIZE_MAX = 64 << 20 };

@@ -1,4 +1,4 @@
-#include "study/results/results_row.h"
+#include "study/results/results.h"
 
 #include "base/parse.h"
 

@@ -1,17 +1,21 @@
 /*
- * class_table: the results of a class for other programs.
+ * class_report: the results of a class, for other programs, as pages, and as a plot.
  *
  *   class.csv     one line per student (RFC 4180)
  *   class.json    everything
  *   junit.xml     for CI systems: one test case per student
  *   students/FOLDER/results.json   for Gradescope
  *     (https://gradescope-autograders.readthedocs.io/en/latest/specs/)
+ *   index.html    the class's page, which opens from disk, without network or scripts
+ *   students/FOLDER/index.html     one student's: it names no other student and has no links, so
+ * its folder can be handed out front.svg, front.png           lab 10's submissions by cost and
+ * error
  *
  * Names and driver messages, which students control, are always escaped: never a spreadsheet
- * formula, an element or a value.
+ * formula, an element or a value. Each file is written whole or not at all.
  */
-#ifndef CLASS_TABLE_H
-#define CLASS_TABLE_H
+#ifndef CLASS_REPORT_H
+#define CLASS_REPORT_H
 
 #include "labs/class/class_store.h"
 
@@ -37,5 +41,18 @@ typedef struct ClassMistake {
 /* The mistakes of the class, the most frequent first; the caller frees the list, the store owns its
  * names. */
 ClassMistake *class_mistakes(const ClassStore *store, int *count);
+
+/* Efficient are lab 10's submissions that no other beats in both cost and error. */
+
+/* Whether no other result has at most its error and cost, and less of one. False: the cost is
+ * unknown. */
+bool pareto_front_has(const ClassStore *store, const ClassResult *result);
+
+/* Plots them to front.svg and front.png in the store's folder. *drawn: there was anything to plot.
+ */
+bool pareto_front_draw(const ClassStore *store, bool *drawn, Message *message);
+
+/* `front`: pareto_front_draw has drawn its plot. Each file is written whole or not at all. */
+bool class_html_write(const ClassStore *store, bool front, Message *message);
 
 #endif
