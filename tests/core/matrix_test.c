@@ -4,10 +4,8 @@
  */
 #include <float.h>
 #include <inttypes.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
+#include "base/clock.h"
 #include "base/random.h"
 #include "core/matrix.h"
 #include "support/quad.h"
@@ -61,6 +59,10 @@ static void check_bound(double value, double bound, Mat4 a, int line)
     fail();
 }
 
+/* The call makes `got`, which is this. */
+static Mat4 got;
+#define assert_made(call, expected, tolerance)                                                     \
+    (assert_true(call), assert_matrix(got, expected, tolerance))
 #define assert_near(value, expected, tolerance) check_near(value, expected, tolerance, __LINE__)
 #define assert_matrix(value, expected, tolerance) check_matrix(value, expected, tolerance, __LINE__)
 #define assert_bound(value, bound, a) check_bound(value, bound, a, __LINE__)
@@ -186,6 +188,104 @@ static InverseError inverse_error(Mat4 a, Mat4 computed, QuadMatrix *reference)
     return error;
 }
 
+/* What refuses numbers, from these numbers. */
+typedef bool Maker(const double *v, Mat4 *made);
+
+static Mat4 matrix_of(const double *v)
+{
+    Mat4 a;
+    memcpy(a.m, v, sizeof a.m);
+    return a;
+}
+
+static bool make_unit(const double *v, Mat4 *made)
+{
+    Vec3 unit = {7, 7, 7};
+    const bool done = vec3_normalize((Vec3){v[0], v[1], v[2]}, &unit);
+    *made = mat4_scale(unit);
+    return done;
+}
+
+static bool make_rotation(const double *v, Mat4 *made)
+{
+    return mat4_try_rotate(v[3], (Vec3){v[0], v[1], v[2]}, made);
+}
+
+static bool make_view(const double *v, Mat4 *made)
+{
+    return mat4_try_look_at((Vec3){v[0], v[1], v[2]}, (Vec3){v[3], v[4], v[5]},
+                            (Vec3){v[6], v[7], v[8]}, made);
+}
+
+static bool make_perspective(const double *v, Mat4 *made)
+{
+    return mat4_try_perspective(v[0], v[1], v[2], v[3], made);
+}
+
+static bool make_ortho(const double *v, Mat4 *made)
+{
+    return mat4_try_ortho((MatrixSides){v[0], v[1], v[2], v[3], v[4], v[5]}, made);
+}
+
+static bool make_frustum(const double *v, Mat4 *made)
+{
+    return mat4_try_frustum((MatrixSides){v[0], v[1], v[2], v[3], v[4], v[5]}, made);
+}
+
+static bool make_inverse(const double *v, Mat4 *made)
+{
+    return mat4_inverse(matrix_of(v), made);
+}
+
+static bool make_normal(const double *v, Mat4 *made)
+{
+    return mat4_try_normal(matrix_of(v), made);
+}
+
+static const Mat4 NONE = {{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1}};
+
+static void assert_refused(Maker *make, const double *v, Mat4 instead)
+{
+    Mat4 made = mat4_scale((Vec3){7, 7, 7});
+    if (make(v, &made))
+        print_matrix("made", made);
+    assert_matrix(made, instead, 0);
+    assert_false(make(v, &made));
+}
+
+TEST_WITH(0, what_is_not_finite_is_refused, start_random, NULL)
+{
+    static const double bad[] = {INFINITY, -INFINITY, NAN};
+    static const struct {
+        Maker *make;
+        int count;
+        double good[16];
+        bool nothing; /* is made instead, not the identity */
+    } makers[] = {
+        {make_unit, 3, {1, 2, 3}, true},
+        {make_rotation, 4, {1, 2, 3, 40}, false},
+        {make_view, 9, {1, 2, 3, 4, 5, 7, 0, 1, 0}, false},
+        {make_ortho, 6, {-1, 2, -3, 4, 5, 6}, false},
+        {make_frustum, 6, {-1, 2, -3, 4, 5, 6}, false},
+        {make_inverse, 16, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, false},
+        {make_inverse, 16, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 2}, false},
+        {make_normal, 16, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, true},
+    };
+    for (size_t k = 0; k < sizeof makers / sizeof makers[0]; k++) {
+        for (int i = 0; i < 3 * makers[k].count; i++) {
+            double v[16];
+            memcpy(v, makers[k].good, sizeof v);
+            v[i / 3] = bad[i % 3];
+            if (makers[k].make == make_frustum && v[5] == infinity) /* it may have that one */
+                continue;
+            assert_refused(makers[k].make, v, makers[k].nothing ? NONE : mat4_identity());
+            if (makers[k].count == 16)
+                assert_true(isnan(mat4_determinant(matrix_of(v))));
+        }
+    }
+    assert_refused(make_rotation, (const double[]){0, 0, 0, 30}, mat4_identity());
+}
+
 /* Vectors */
 
 TEST_WITH(0, vector_arithmetic_has_its_closed_forms, start_random, NULL)
@@ -198,25 +298,17 @@ TEST_WITH(0, vector_arithmetic_has_its_closed_forms, start_random, NULL)
     assert_vector(vec3_cross(a, b), 27, 6, -13, 0);
 }
 
-TEST_WITH(0, cross_product_is_right_handed, start_random, NULL)
-{
-    Vec3 x = {1, 0, 0}, y = {0, 1, 0}, z = {0, 0, 1};
-    assert_vector(vec3_cross(x, y), 0, 0, 1, 0);
-    assert_vector(vec3_cross(y, z), 1, 0, 0, 0);
-    assert_vector(vec3_cross(z, x), 0, 1, 0, 0);
-    assert_vector(vec3_cross(y, x), 0, 0, -1, 0);
-}
-
 TEST_WITH(0, cross_product_of_nearly_parallel_vectors_keeps_its_digits, start_random, NULL)
 {
     /* (n+1)^2 - n (n+2) = 1: the products need 55 bits, so rounded ones differ by 0 or 4. */
     double n = 134217728;
     assert_true(vec3_cross((Vec3){n + 1, n, 0}, (Vec3){n + 2, n + 1, 0}).z == 1);
-
     for (int i = 0; i < 100000; i++) {
         Vec3 a = random_vector(), b = random_vector_of_size(-17, 0);
         b = vec3_add(vec3_scale(a, between(-2, 2)), b);
         Vec3 c = vec3_cross(a, b);
+        assert_vector(vec3_cross(a, vec3_scale(a, -8)), 0, 0, 0,
+                      0); /* a factor that rounds nothing */
         double values[] = {c.x, c.y, c.z};
         Quad p[] = {(Quad)a.x, (Quad)a.y, (Quad)a.z}, q[] = {(Quad)b.x, (Quad)b.y, (Quad)b.z};
         for (int j = 0; j < 3; j++) {
@@ -226,17 +318,6 @@ TEST_WITH(0, cross_product_of_nearly_parallel_vectors_keeps_its_digits, start_ra
             assert_true(quad_abs((Quad)values[j] - exact) <= 2 * (Quad)UNIT * quad_abs(exact));
         }
     }
-}
-
-TEST_WITH(0, cross_product_of_parallel_vectors_is_exactly_zero, start_random, NULL)
-{
-    for (int i = 0; i < 1000; i++) {
-        Vec3 a = random_vector();
-        /* A factor of 8 bits would round; a power of two and a sign do not. */
-        assert_vector(vec3_cross(a, vec3_scale(a, -8)), 0, 0, 0, 0);
-        assert_vector(vec3_cross(a, a), 0, 0, 0, 0);
-    }
-    assert_vector(vec3_cross((Vec3){1, 2, 3}, (Vec3){3, 6, 9}), 0, 0, 0, 0);
 }
 
 TEST_WITH(0, length_is_right_from_the_smallest_to_the_largest_number, start_random, NULL)
@@ -272,7 +353,9 @@ TEST_WITH(0, normalize_works_at_any_finite_length, start_random, NULL)
         assert_near(vec3_length(vec3_cross(unit, a)) / vec3_length(a), 0, 2 * UNIT);
         assert_true(vec3_dot(unit, a) > 0);
     }
-    Vec3 unit;
+    Vec3 unit = {7, 7, 7};
+    assert_false(vec3_normalize((Vec3){0, -0.0, 0}, &unit));
+    assert_vector(unit, 0, 0, 0, 0);
     assert_true(vec3_normalize((Vec3){0, -5e-324, 0}, &unit));
     assert_vector(unit, 0, -1, 0, 0);
     assert_true(vec3_normalize((Vec3){DBL_MAX, DBL_MAX, 0}, &unit));
@@ -280,21 +363,6 @@ TEST_WITH(0, normalize_works_at_any_finite_length, start_random, NULL)
     assert_true(vec3_normalize((Vec3){3e-320, 0, 4e-320}, &unit));
     /* These have 12 bits: 3e-320 is rounded to a multiple of 5e-324. */
     assert_vector(unit, 0.6, 0, 0.8, 1e-4);
-}
-
-TEST_WITH(0, normalize_refuses_zero_and_non_finite_input, start_random, NULL)
-{
-    const double bad[] = {infinity, -infinity, not_a_number};
-    Vec3 unit = {7, 7, 7};
-    assert_false(vec3_normalize((Vec3){0, -0.0, 0}, &unit));
-    assert_vector(unit, 0, 0, 0, 0);
-    for (int i = 0; i < 9; i++) {
-        double v[3] = {1, 2, 3};
-        v[i / 3] = bad[i % 3];
-        unit.x = unit.y = unit.z = 7;
-        assert_false(vec3_normalize((Vec3){v[0], v[1], v[2]}, &unit));
-        assert_vector(unit, 0, 0, 0, 0);
-    }
 }
 
 /* Simple matrices */
@@ -315,14 +383,6 @@ TEST_WITH(0, transpose_swaps_rows_and_columns, start_random, NULL)
     const Mat4 expected = {{1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15, 4, 8, 12, 16}};
     assert_matrix(mat4_transpose(a), expected, 0);
     assert_matrix(mat4_transpose(mat4_transpose(a)), a, 0);
-}
-
-TEST_WITH(0, product_applies_its_second_factor_first, start_random, NULL)
-{
-    Mat4 scale = mat4_scale((Vec3){2, 2, 2}), translate = mat4_translate((Vec3){1, 0, 0});
-    Vec3 p = {1, 1, 1};
-    assert_vector(mat4_transform_point(mat4_product(scale, translate), p), 4, 2, 2, 0);
-    assert_vector(mat4_transform_point(mat4_product(translate, scale), p), 3, 2, 2, 0);
 }
 
 TEST_WITH(0, product_agrees_with_its_definition, start_random, NULL)
@@ -361,19 +421,16 @@ TEST_WITH(0, rotation_is_exact_at_multiples_of_90_degrees, start_random, NULL)
     const Vec3 axes[] = {{1, 0, 0},  {0, 1, 0},      {0, 0, 1},
                          {-3, 0, 0}, {0, 1e-300, 0}, {0, 0, 7e300}};
     for (int axis = 0; axis < 6; axis++) {
-        Mat4 quarter, power = mat4_identity(), turned;
+        Mat4 quarter, power = mat4_identity();
         assert_true(mat4_try_rotate(90, axes[axis], &quarter));
         for (int i = 1; i <= 8; i++) {
             power = mat4_product(quarter, power);
-            assert_true(mat4_try_rotate(90 * i, axes[axis], &turned));
-            assert_matrix(turned, power, 0);
-            assert_true(mat4_try_rotate(90 * i - 36000000, axes[axis], &turned));
-            assert_matrix(turned, power, 0);
+            assert_made(mat4_try_rotate(90 * i, axes[axis], &got), power, 0);
+            assert_made(mat4_try_rotate(90 * i - 36000000, axes[axis], &got), power, 0);
             if (i % 4 == 0)
                 assert_matrix(power, mat4_identity(), 0);
         }
-        assert_true(mat4_try_rotate(-90, axes[axis], &turned));
-        assert_matrix(turned, mat4_transpose(quarter), 0);
+        assert_made(mat4_try_rotate(-90, axes[axis], &got), mat4_transpose(quarter), 0);
     }
 }
 
@@ -389,8 +446,7 @@ TEST_WITH(0, rotation_is_counter_clockwise_seen_from_the_tip, start_random, NULL
     /* A third of a turn about the diagonal permutes the axes. An entry is a sum of three terms of
      * at most 1.5 with an error of about 2 u each. */
     const Mat4 permutation = {{0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 0, 0, 1}};
-    assert_true(mat4_try_rotate(120, (Vec3){5, 5, 5}, &r));
-    assert_matrix(r, permutation, 8 * UNIT);
+    assert_made(mat4_try_rotate(120, (Vec3){5, 5, 5}, &got), permutation, 8 * UNIT);
     assert_true(mat4_try_rotate(30, (Vec3){0, 0, 2}, &r));
     const Mat4 thirty = {{sqrt(0.75), 0.5, 0, 0, -0.5, sqrt(0.75), 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
     assert_matrix(r, thirty, 2 * UNIT); /* sine and cosine, 1 u each, and their argument */
@@ -430,21 +486,6 @@ TEST_WITH(0, rotation_has_the_given_angle, start_random, NULL)
     assert_matrix(r, expected, 0);
 }
 
-TEST_WITH(0, rotation_refuses_a_zero_axis_and_non_finite_input, start_random, NULL)
-{
-    const double bad[] = {infinity, -infinity, not_a_number};
-    Mat4 r = mat4_scale((Vec3){7, 7, 7});
-    assert_false(mat4_try_rotate(30, (Vec3){0, 0, 0}, &r));
-    assert_matrix(r, mat4_identity(), 0);
-    for (int i = 0; i < 12; i++) {
-        double v[4] = {1, 2, 3, 40};
-        v[i / 3] = bad[i % 3];
-        r = mat4_scale((Vec3){7, 7, 7});
-        assert_false(mat4_try_rotate(v[3], (Vec3){v[0], v[1], v[2]}, &r));
-        assert_matrix(r, mat4_identity(), 0);
-    }
-}
-
 /* The view */
 
 /* The guarantees of the header for every view, determined or not. The translation is R * eye with
@@ -475,10 +516,9 @@ TEST_WITH(0, look_at_has_its_closed_forms, start_random, NULL)
 {
     Mat4 view;
     const Vec3 y = {0, 1, 0};
-    assert_true(mat4_try_look_at((Vec3){0, 0, 0}, (Vec3){0, 0, -5}, y, &view));
-    assert_matrix(view, mat4_identity(), 0);
-    assert_true(mat4_try_look_at((Vec3){1, 2, 3}, (Vec3){1, 2, 0}, y, &view));
-    assert_matrix(view, mat4_translate((Vec3){-1, -2, -3}), 0);
+    assert_made(mat4_try_look_at((Vec3){0, 0, 0}, (Vec3){0, 0, -5}, y, &got), mat4_identity(), 0);
+    assert_made(mat4_try_look_at((Vec3){1, 2, 3}, (Vec3){1, 2, 0}, y, &got),
+                mat4_translate((Vec3){-1, -2, -3}), 0);
     /* From the positive x axis, the world's -z is on the right. */
     assert_true(mat4_try_look_at((Vec3){4, 0, 0}, (Vec3){0, 0, 0}, (Vec3){3, 8, 0}, &view));
     const Mat4 from_x = {{0, 0, 1, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, -4, 1}};
@@ -521,6 +561,11 @@ TEST_WITH(0, look_at_is_orthonormal_when_up_is_nearly_parallel_to_the_view, star
         bool determined = mat4_try_look_at((Vec3){0, 0, 0}, view, up, &result);
         assert_true(determined || angle < 4 * UNIT);
         assert_rigid(result, (Vec3){0, 0, 0});
+        /* Only the rounding of `up` turns the picture about the view: at most 2.3e-16 in each
+         * component, with that of its terms. */
+        if (determined)
+            assert_bound(fabs(mat4_transform_direction(result, across).x), 8e-16 / angle + 8e-16,
+                         result);
     }
 }
 
@@ -610,19 +655,6 @@ TEST_WITH(0, look_at_takes_any_finite_size, start_random, NULL)
     assert_matrix(view, mat4_identity(), 0);
 }
 
-TEST_WITH(0, look_at_is_the_identity_for_non_finite_input, start_random, NULL)
-{
-    const double bad[] = {infinity, -infinity, not_a_number};
-    for (int i = 0; i < 27; i++) {
-        double v[9] = {1, 2, 3, 4, 5, 7, 0, 1, 0};
-        v[i / 3] = bad[i % 3];
-        Mat4 view = mat4_scale((Vec3){7, 7, 7});
-        assert_false(mat4_try_look_at((Vec3){v[0], v[1], v[2]}, (Vec3){v[3], v[4], v[5]},
-                                      (Vec3){v[6], v[7], v[8]}, &view));
-        assert_matrix(view, mat4_identity(), 0);
-    }
-}
-
 /* Projections */
 
 /* Depth of a point at this distance ahead, with coordinates divided by 16 so that the largest
@@ -697,6 +729,8 @@ TEST_WITH(0, perspective_maps_near_and_far_to_minus_and_plus_one, start_random, 
 
 TEST_WITH(0, perspective_refuses_what_is_out_of_range, start_random, NULL)
 {
+    /* The last four: the cotangent overflows, its quotient by the aspect, 2 near far / (far -
+     * near), 2 near. */
     const double bad[][4] = {{0, 1, 1, 2},
                              {-0.0, 1, 1, 2},
                              {-60, 1, 1, 2},
@@ -718,14 +752,12 @@ TEST_WITH(0, perspective_refuses_what_is_out_of_range, start_random, NULL)
                              {60, 1, infinity, infinity},
                              {60, 1, -infinity, 1},
                              {60, 1, 1, -infinity},
-                             {1e-320, 1, 1, 2},           /* the cotangent overflows */
-                             {1, 1e-308, 1, 2},           /* its quotient by the aspect does */
-                             {60, 1, 1.6e308, 1.7e308},   /* 2 near far / (far - near) does */
-                             {60, 1, 1.6e308, infinity}}; /* 2 near does */
+                             {1e-320, 1, 1, 2},
+                             {1, 1e-308, 1, 2},
+                             {60, 1, 1.6e308, 1.7e308},
+                             {60, 1, 1.6e308, infinity}};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
-        Mat4 p = mat4_scale((Vec3){7, 7, 7});
-        assert_false(mat4_try_perspective(bad[i][0], bad[i][1], bad[i][2], bad[i][3], &p));
-        assert_matrix(p, mat4_identity(), 0);
+        assert_refused(make_perspective, bad[i], mat4_identity());
     }
 }
 
@@ -764,8 +796,8 @@ TEST_WITH(0, frustum_and_ortho_map_their_corners_to_the_unit_cube, start_random,
     }
     /* right - left overflows, the coefficients do not. */
     Mat4 p;
-    assert_true(mat4_try_ortho((MatrixSides){-1.7e308, 1.7e308, -1, 1, -1.7e308, 1.7e308}, &p));
-    assert_matrix(p, mat4_scale((Vec3){1 / 1.7e308, 1, -1 / 1.7e308}), 0);
+    assert_made(mat4_try_ortho((MatrixSides){-1.7e308, 1.7e308, -1, 1, -1.7e308, 1.7e308}, &got),
+                mat4_scale((Vec3){1 / 1.7e308, 1, -1 / 1.7e308}), 0);
     assert_true(mat4_try_ortho((MatrixSides){1e308, 1.5e308, -1.5e308, -1e308, -1, 1}, &p));
     assert_vector(mat4_transform_point(p, (Vec3){1e308, -1e308, 0}), -1, 1, 0, 32 * UNIT);
     assert_true(mat4_try_frustum(
@@ -777,22 +809,7 @@ TEST_WITH(0, frustum_and_ortho_map_their_corners_to_the_unit_cube, start_random,
 
 TEST_WITH(0, frustum_and_ortho_refuse_empty_or_infinite_volumes, start_random, NULL)
 {
-    const double good[6] = {-1, 2, -3, 4, 5, 6};
-    const double bad[] = {infinity, -infinity, not_a_number};
     Mat4 p;
-    for (int i = 0; i < 18; i++) {
-        double v[6];
-        memcpy(v, good, sizeof v);
-        v[i / 3] = bad[i % 3];
-        p = mat4_scale((Vec3){7, 7, 7});
-        assert_false(mat4_try_ortho((MatrixSides){v[0], v[1], v[2], v[3], v[4], v[5]}, &p));
-        assert_matrix(p, mat4_identity(), 0);
-        if (v[5] == infinity) /* the only infinity a frustum may have */
-            continue;
-        p = mat4_scale((Vec3){7, 7, 7});
-        assert_false(mat4_try_frustum((MatrixSides){v[0], v[1], v[2], v[3], v[4], v[5]}, &p));
-        assert_matrix(p, mat4_identity(), 0);
-    }
     const double empty[][6] = {{2, 2, -3, 4, 5, 6},
                                {-1, 2, 4, 4, 5, 6},
                                {-1, 2, -3, 4, 5, 5},
@@ -802,13 +819,8 @@ TEST_WITH(0, frustum_and_ortho_refuse_empty_or_infinite_volumes, start_random, N
                                {5e-324, 5e-324, -1, 1, 5, 6},
                                {DBL_MAX, DBL_MAX, -1, 1, 5, 6}};
     for (size_t i = 0; i < sizeof empty / sizeof *empty; i++) {
-        const double *v = empty[i];
-        p = mat4_scale((Vec3){7, 7, 7});
-        assert_false(mat4_try_ortho((MatrixSides){v[0], v[1], v[2], v[3], v[4], v[5]}, &p));
-        assert_matrix(p, mat4_identity(), 0);
-        p = mat4_scale((Vec3){7, 7, 7});
-        assert_false(mat4_try_frustum((MatrixSides){v[0], v[1], v[2], v[3], v[4], v[5]}, &p));
-        assert_matrix(p, mat4_identity(), 0);
+        assert_refused(make_ortho, empty[i], mat4_identity());
+        assert_refused(make_frustum, empty[i], mat4_identity());
     }
     assert_false(mat4_try_frustum((MatrixSides){-1, 1, -1, 1, 0, 1}, &p));
     assert_false(mat4_try_frustum((MatrixSides){-1, 1, -1, 1, -1, 1}, &p));
@@ -872,54 +884,40 @@ TEST_WITH(0, determinant_overflows_only_if_the_result_does, start_random, NULL)
     const double s = 1e100, t = 1e-70;
     const Mat4 arrow = {{t, s, s, s, s, t, 0, 0, s, 0, t, 0, s, 0, 0, t}};
     assert_near(mat4_determinant(arrow) / -3e60, 1, 32 * UNIT);
-    const double bad[] = {infinity, -infinity, not_a_number};
-    for (int i = 0; i < 48; i++) {
-        Mat4 a = mat4_identity();
-        a.m[i / 3] = bad[i % 3];
-        assert_true(isnan(mat4_determinant(a)));
-    }
 }
 
 /* Inverse */
 
 static void assert_no_inverse(Mat4 a)
 {
-    Mat4 inverse = mat4_scale((Vec3){7, 7, 7});
-    if (mat4_inverse(a, &inverse))
-        print_matrix("has an inverse", a);
-    assert_matrix(inverse, mat4_identity(), 0);
-    assert_false(mat4_inverse(a, &inverse));
+    assert_refused(make_inverse, a.m, mat4_identity());
 }
 
 TEST_WITH(0, inverse_has_its_closed_forms, start_random, NULL)
 {
     Mat4 inverse;
-    assert_true(mat4_inverse(mat4_identity(), &inverse));
-    assert_matrix(inverse, mat4_identity(), 0);
-    assert_true(mat4_inverse(mat4_translate((Vec3){1, -2, 3e200}), &inverse));
-    assert_matrix(inverse, mat4_translate((Vec3){-1, 2, -3e200}), 0);
-    assert_true(mat4_inverse(mat4_scale((Vec3){2, -4, 0.5}), &inverse));
-    assert_matrix(inverse, mat4_scale((Vec3){0.5, -0.25, 2}), 0);
+    assert_made(mat4_inverse(mat4_identity(), &got), mat4_identity(), 0);
+    assert_made(mat4_inverse(mat4_translate((Vec3){1, -2, 3e200}), &got),
+                mat4_translate((Vec3){-1, 2, -3e200}), 0);
+    assert_made(mat4_inverse(mat4_scale((Vec3){2, -4, 0.5}), &got),
+                mat4_scale((Vec3){0.5, -0.25, 2}), 0);
     Mat4 a = {{0, 0, 2, 0, 4, 0, 0, 0, 0, -1, 0, 0, 6, 7, 8, 1}};
     const Mat4 expected = {{0, 0.25, 0, 0, 0, 0, -1, 0, 0.5, 0, 0, 0, -4, -1.5, 7, 1}};
     assert_matrix((assert_true(mat4_inverse(a, &inverse)), inverse), expected, 0);
     const Mat4 cycle = {{0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0}};
-    assert_true(mat4_inverse(cycle, &inverse));
-    assert_matrix(inverse, mat4_transpose(cycle), 0);
+    assert_made(mat4_inverse(cycle, &got), mat4_transpose(cycle), 0);
     /* Bottom row 0 0 0 2: not affine. */
     Mat4 halved = mat4_translate((Vec3){2, 4, 6});
     halved.m[15] = 2;
     Mat4 back = mat4_translate((Vec3){-1, -2, -3});
     back.m[15] = 0.5;
-    assert_true(mat4_inverse(halved, &inverse));
-    assert_matrix(inverse, back, 0);
+    assert_made(mat4_inverse(halved, &got), back, 0);
     /* Bottom rows 1 0 0 1 and so on: not affine either. */
     for (int i = 0; i < 3; i++) {
         Mat4 sum = mat4_identity(), difference = sum;
         sum.m[4 * i + 3] = 1;
         difference.m[4 * i + 3] = -1;
-        assert_true(mat4_inverse(sum, &inverse));
-        assert_matrix(inverse, difference, 0);
+        assert_made(mat4_inverse(sum, &got), difference, 0);
     }
 }
 
@@ -928,8 +926,7 @@ TEST_WITH(0, inverse_of_a_projection_takes_coordinates_back, start_random, NULL)
     Mat4 p, inverse;
     assert_true(mat4_try_frustum((MatrixSides){-1, 1, -1, 1, 1, infinity}, &p));
     const Mat4 expected = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, -0.5, 0, 0, -1, 0.5}};
-    assert_true(mat4_inverse(p, &inverse));
-    assert_matrix(inverse, expected, 0);
+    assert_made(mat4_inverse(p, &got), expected, 0);
     assert_true(mat4_try_perspective(60, 1.6, 0.01, 1e4, &p));
     assert_true(mat4_inverse(p, &inverse));
     /* Each entry of X P takes a few roundings of terms of at most 1e6 (far / near). */
@@ -1022,16 +1019,8 @@ TEST_WITH(0, inverse_refuses_singular_matrices, start_random, NULL)
     }
 }
 
-TEST_WITH(0, inverse_refuses_what_is_not_finite, start_random, NULL)
+TEST_WITH(0, inverse_refuses_to_be_infinite, start_random, NULL)
 {
-    const double bad[] = {infinity, -infinity, not_a_number};
-    for (int i = 0; i < 48; i++) {
-        Mat4 a = mat4_identity();
-        a.m[i / 3] = bad[i % 3];
-        assert_no_inverse(a);
-        a.m[15] = a.m[15] == 1 ? 2 : a.m[15];
-        assert_no_inverse(a);
-    }
     /* Finite, but with an inverse that is not: 1e310, and 1e300 * 1e300. */
     assert_no_inverse(mat4_scale((Vec3){1e-310, 1, 1}));
     assert_no_inverse(
@@ -1075,16 +1064,14 @@ static Vec3 normal_through(Mat4 a, Vec3 n)
 
 TEST_WITH(0, normal_matrix_has_its_closed_forms, start_random, NULL)
 {
-    Mat4 normal, half = mat4_scale((Vec3){0.5, 0.5, 0.5});
-    assert_true(mat4_try_normal(mat4_identity(), &normal));
-    assert_matrix(normal, half, 0);
+    const Mat4 half = mat4_scale((Vec3){0.5, 0.5, 0.5});
+    assert_made(mat4_try_normal(mat4_identity(), &got), half, 0);
     /* The bottom row and the last column have no effect. */
     const Mat4 a = {{1, 0, 0, 5, 0, 1, 0, 6, 0, 0, 1, 7, 8, 9, 10, 0}};
-    assert_true(mat4_try_normal(a, &normal));
-    assert_matrix(normal, half, 0);
+    assert_made(mat4_try_normal(a, &got), half, 0);
     /* cofactors 8, 4, 2: divided by 16 */
-    assert_true(mat4_try_normal(mat4_scale((Vec3){1, 2, 4}), &normal));
-    assert_matrix(normal, mat4_scale((Vec3){0.5, 0.25, 0.125}), 0);
+    assert_made(mat4_try_normal(mat4_scale((Vec3){1, 2, 4}), &got),
+                mat4_scale((Vec3){0.5, 0.25, 0.125}), 0);
     /* The plane x + y = 0 scaled by (2, 1, 1) is x / 2 + y = 0. */
     Vec3 n = normal_through(mat4_scale((Vec3){2, 1, 1}), (Vec3){1, 1, 0});
     assert_vector(n, sqrt(0.2), sqrt(0.8), 0, 2 * UNIT); /* a root and a quotient */
@@ -1120,9 +1107,7 @@ TEST_WITH(0, normal_matrix_exists_for_a_flattened_model, start_random, NULL)
     const Mat4 rank_two = {{1, 2, 3, 0, 4, 5, 6, 0, 7, 8, 9, 0, 0, 0, 0, 1}};
     const Mat4 expected = {{-0.1875, 0.375, -0.1875, 0, 0.375, -0.75, 0.375, 0, -0.1875, 0.375,
                             -0.1875, 0, 0, 0, 0, 1}};
-    Mat4 normal;
-    assert_true(mat4_try_normal(rank_two, &normal));
-    assert_matrix(normal, expected, 0);
+    assert_made(mat4_try_normal(rank_two, &got), expected, 0);
 }
 
 TEST_WITH(0, normal_matrix_of_a_mirror_agrees_with_the_inverse_transpose, start_random, NULL)
@@ -1178,26 +1163,16 @@ TEST_WITH(0, normal_matrix_is_independent_of_scale, start_random, NULL)
     }
 }
 
-TEST_WITH(0, normal_matrix_refuses_rank_below_two_and_non_finite_input, start_random, NULL)
+TEST_WITH(0, normal_matrix_refuses_rank_below_two, start_random, NULL)
 {
-    const Mat4 none = {{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1}};
     const Mat4 bad[] = {{{0}},
-                        none,
+                        NONE,
                         mat4_scale((Vec3){1, 0, 0}),
                         mat4_scale((Vec3){0, 0, 1e-300}),
                         {{1, 2, 3, 0, 2, 4, 6, 0, 3, 6, 9, 0, 1, 2, 3, 1}},
                         {{0.1, 0.2, 0.3, 0, 0.4, 0.8, 1.2, 0, -0.1, -0.2, -0.3, 0, 0, 0, 0, 1}}};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
-        Mat4 normal = mat4_scale((Vec3){7, 7, 7});
-        assert_false(mat4_try_normal(bad[i], &normal));
-        assert_matrix(normal, none, 0);
-    }
-    const double values[] = {infinity, -infinity, not_a_number};
-    for (int i = 0; i < 48; i++) {
-        Mat4 a = mat4_identity(), normal = mat4_scale((Vec3){7, 7, 7});
-        a.m[i / 3] = values[i % 3];
-        assert_false(mat4_try_normal(a, &normal));
-        assert_matrix(normal, none, 0);
+        assert_refused(make_normal, bad[i].m, NONE);
     }
 }
 
@@ -1250,15 +1225,16 @@ static double normal_error(Mat4 a, const QuadMatrix *inverse)
  */
 TEST_WITH(0, inverse_and_normals_agree_with_higher_precision, start_random, NULL)
 {
+    static double errors[2][DECADES][MATRICES / DECADES]; /* of inverses, dense and linear */
+    int counts[2][DECADES] = {{0}};
     Worst worst[DECADES] = {{0}};
     for (int i = 0; i < MATRICES; i++) {
         double exponent = between(0, DECADES), condition = pow(10, exponent);
         double largest = random_power(-2, 2);
         bool affine = i % 2 == 0;
         Mat4 a = random_conditioned(affine ? 3 : 4, condition, largest), inverse;
-        if (affine)
-            for (int j = 12; j < 15; j++)
-                a.m[j] = random_size(-2, 2);
+        for (int j = 12; j < 15 && i % 4 == 0; j++)
+            a.m[j] = random_size(-2, 2);
         if (!mat4_inverse(a, &inverse))
             print_matrix("not inverted", a);
         assert_true(mat4_inverse(a, &inverse));
@@ -1266,6 +1242,8 @@ TEST_WITH(0, inverse_and_normals_agree_with_higher_precision, start_random, NULL
         InverseError error = inverse_error(a, inverse, &reference);
         Worst *w = &worst[(int)exponent];
         w->count++;
+        if (i % 4)
+            errors[affine][(int)exponent][counts[affine][(int)exponent]++] = error.inverse;
         assert_bound(error.determinant, 12, a);
         w->determinant = fmax(w->determinant, error.determinant);
         if (!affine) {
@@ -1291,6 +1269,11 @@ TEST_WITH(0, inverse_and_normals_agree_with_higher_precision, start_random, NULL
         print_message("1e%-7d %7d %14.3f %8.3f %13.3f %8.3f %7.3f %7.3f\n", i, worst[i].count,
                       worst[i].affine, worst[i].affine_residual, worst[i].dense,
                       worst[i].dense_residual, worst[i].determinant, worst[i].normal);
+    /* Their medians: about half of these; another seed hardly changes them. */
+    for (int i = 0; i < 2 * DECADES; i++) {
+        const double median = clock_median(errors[i % 2][i / 2], counts[i % 2][i / 2]);
+        assert_true(median < (i < 2 ? 0.4 : i < 4 ? 0.12 : 0.054));
+    }
 }
 
 /* Uploads, aliases */
@@ -1351,50 +1334,8 @@ TEST_WITH(0, forms_by_value_agree, start_random, NULL)
     }
 }
 
-TEST_WITH(0, results_may_alias_arguments, start_random, NULL)
-{
-    for (int i = 0; i < 100; i++) {
-        Mat4 a = random_matrix(), b = a, expected;
-        assert_true(mat4_inverse(a, &expected));
-        assert_true(mat4_inverse(b, &b));
-        assert_matrix(b, expected, 0);
-        b = a;
-        assert_true(mat4_try_normal(a, &expected));
-        assert_true(mat4_try_normal(b, &b));
-        assert_matrix(b, expected, 0);
-        b = a;
-        b = mat4_product(b, b);
-        assert_matrix(b, mat4_product(a, a), 0);
-        b = a;
-        b = mat4_transpose(b);
-        assert_matrix(b, mat4_transpose(a), 0);
-        Vec3 v = random_vector(), w = v, unit;
-        assert_true(vec3_normalize(v, &unit));
-        assert_true(vec3_normalize(w, &w));
-        assert_vector(w, unit.x, unit.y, unit.z, 0);
-        w = v;
-        w = vec3_cross(w, unit);
-        Vec3 cross = vec3_cross(v, unit);
-        assert_vector(w, cross.x, cross.y, cross.z, 0);
-        assert_true(mat4_try_rotate(a.m[0] * 360, v, &expected));
-        b = a;
-        assert_true(mat4_try_rotate(b.m[0] * 360, v, &b));
-        assert_matrix(b, expected, 0);
-        w = v;
-        w = mat4_transform_point(a, w);
-        Vec3 point = mat4_transform_point(a, v);
-        assert_vector(w, point.x, point.y, point.z, 0);
-    }
-    Mat4 zero = mat4_scale((Vec3){0, 0, 0});
-    assert_false(mat4_inverse(zero, &zero));
-    assert_matrix(zero, mat4_identity(), 0);
-}
-
 int main(void)
 {
-    const char *text = getenv("LIGHTING_TEST_SEED");
-    if (text && *text)
-        seed = strtoull(text, NULL, 0);
-    print_message("seed %" PRIu64 "\n", seed);
+    seed = testing_seed(20240607);
     return testing_run(0, "matrix", NULL, NULL);
 }

@@ -240,8 +240,7 @@ TEST(shininess_in_both_shaders_links)
     RandomScene scene = SHININESS_IN_BOTH_SHADERS;
     assert_true(random_scene_ready(&scene, &search.meshes, NULL));
     for (int i = 0; i < 2; i++) {
-        require(random_scene_draw(&scene, &search.hard.floats, search.hard.lightings[i],
-                                  &search.hard.real, FAILURE),
+        require(random_scene_draw(&scene, &hard.floats, hard.lightings[i], &hard.real, FAILURE),
                 FAILURE);
     }
 }

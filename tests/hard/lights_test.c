@@ -9,18 +9,12 @@
 #include "support/picture_check.h"
 #include "support/testing.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { SIZE = 48, SEED = 20140201 };
 
 static const double RADIANS = 0.017453292519943295;
 static const double REACH = 4;        /* see normals_test.c */
 static const double NEXT_TO_IT = 1e9; /* the light: in mediump its direction has no correct digit */
 
-static Hard hard;
 static HardWorld world;
 static Mesh fine_quad;
 static unsigned char before[4 * SIZE * SIZE];
@@ -28,7 +22,7 @@ static unsigned char before[4 * SIZE * SIZE];
 FIXTURE(open_all)
 {
     const Solid solid = {.kind = SOLID_QUAD, .radius = 2};
-    hard_open(&hard, SIZE, SIZE);
+    hard_open(SIZE, SIZE);
     require(solid_mesh(&solid, 16, &fine_quad, FAILURE), FAILURE);
     return 0;
 }
@@ -36,19 +30,19 @@ FIXTURE(open_all)
 FIXTURE(close_all)
 {
     mesh_close(&fine_quad);
-    hard_close(&hard);
+    hard_close();
     return 0;
 }
 
 static void check(const char *name, double reach)
 {
-    hard_check_reflections(&hard, name, &world, reach, SIZE * SIZE / 8);
+    hard_check_reflections(name, &world, reach, SIZE * SIZE / 8);
 }
 
 /* Keeps the byte picture for comparison. */
 static void draw_before(HardPrecision precision)
 {
-    hard_draw_finite(&hard, &world.scene, precision);
+    hard_draw_finite(&world.scene, precision);
     memcpy(before, hard.image.pixels, sizeof before);
 }
 
@@ -56,7 +50,7 @@ static void draw_before(HardPrecision precision)
 static int draw_after(HardPrecision precision)
 {
     int max = 0;
-    hard_draw_finite(&hard, &world.scene, precision);
+    hard_draw_finite(&world.scene, precision);
     for (size_t i = 0; i < sizeof before; i++) {
         const int apart = abs(before[i] - ((unsigned char *)hard.image.pixels)[i]);
         max = apart > max ? apart : max;
@@ -82,10 +76,10 @@ TEST(a_point_light_far_away_is_a_directional_one)
             world.lights[0].kind = LIGHT_POINT;
             world.lights[0].position = vec3_scale(way, pow(10, exponent));
             assert_true(draw_after(HARD_HIGHP) <= 1);
-            hard_check(&hard, "far light", &world.scene, HARD_HIGHP, 1, SIZE * SIZE / 8);
+            hard_check("far light", &world.scene, HARD_HIGHP, 1, SIZE * SIZE / 8);
         }
     }
-    hard_report(&hard, "point lights at 1e8 to 1e14");
+    hard_report("point lights at 1e8 to 1e14");
 }
 
 /* In mediump a square of more than 65504 is infinite, so a light farther than 255.9 has no
@@ -101,13 +95,13 @@ TEST(in_mediump_lights_are_near_or_at_infinity)
     hard_world(&world, &hard.sphere);
     world.lights[0].position = vec3_scale(way, 1e8);
     world.scene.interpolation = INTERPOLATION_GOURAUD;
-    hard_check(&hard, "light beyond mediump, at vertices", &world.scene, HARD_MEDIUMP, 1.5,
+    hard_check("light beyond mediump, at vertices", &world.scene, HARD_MEDIUMP, 1.5,
                SIZE * SIZE / 8);
     world.scene.interpolation = INTERPOLATION_PHONG;
-    const HardResult result = hard_draw_finite(&hard, &world.scene, HARD_MEDIUMP);
+    const HardResult result = hard_draw_finite(&world.scene, HARD_MEDIUMP);
     printf("a light at 1e8, at fragments in mediump: error %.1f\n", result.byte_error);
 
-    hard_report(&hard, "lights within reach of mediump");
+    hard_report("lights within reach of mediump");
 }
 
 TEST(a_light_may_touch_the_object_or_be_inside)
@@ -134,7 +128,7 @@ TEST(a_light_may_touch_the_object_or_be_inside)
             check(name, NEXT_TO_IT);
         }
     }
-    hard_report(&hard, "lights on and within the object");
+    hard_report("lights on and within the object");
 }
 
 /* In mediump the inverse of less than 1 / 65504 is infinite, and infinity times a cosine of 0 is
@@ -151,10 +145,10 @@ static void check_at_fragments_and_vertices(const char *name, HardPrecision prec
     for (int reflection = 0; reflection < 2; reflection++) {
         world.scene.reflection = (Reflection)reflection;
         world.scene.interpolation = INTERPOLATION_PHONG;
-        hard_check(&hard, name, &world.scene, precision,
+        hard_check(name, &world.scene, precision,
                    half ? oracle_mediump_max(&world.scene, NEXT_TO_IT) : 1, SIZE * SIZE / 8);
         world.scene.interpolation = INTERPOLATION_GOURAUD;
-        hard_check(&hard, name, &world.scene, precision, half ? 1.5 : 1, SIZE * SIZE / 8);
+        hard_check(name, &world.scene, precision, half ? 1.5 : 1, SIZE * SIZE / 8);
     }
 }
 
@@ -179,16 +173,16 @@ TEST(attenuation_of_any_size_is_finite)
             if (fit_for_mediump(factors[i], touches ? 0 : 2))
                 check_at_fragments_and_vertices(name, HARD_MEDIUMP);
             else
-                hard_draw_finite(&hard, &world.scene, HARD_MEDIUMP);
+                hard_draw_finite(&world.scene, HARD_MEDIUMP);
         }
     }
-    hard_report(&hard, "attenuation of 1e-30 to 1e30");
+    hard_report("attenuation of 1e-30 to 1e30");
 }
 
 FIXTURE(restore_size)
 {
     if (hard.bytes.width != SIZE)
-        hard_resize(&hard, SIZE, SIZE);
+        hard_resize(SIZE, SIZE);
     return 0;
 }
 
@@ -199,7 +193,7 @@ TEST_WITH(0, light_never_grows_with_the_distance, NULL, restore_size)
     static const Vec3 factors[] = {{1, 0.5, 0}, {1, 0, 0.25}, {0, 1, 0}, {0, 0, 1}, {0.5, 1e-3, 1}};
     static const double nearest[] = {400 * 0x1p-24, 400 * 0x1p-11};
     enum { SMALL = 9 };
-    hard_resize(&hard, SMALL, SMALL);
+    hard_resize(SMALL, SMALL);
     for (int way = 0; way < 4; way++) {
         const HardPrecision precision = way & 1 ? HARD_MEDIUMP : HARD_HIGHP;
         for (size_t i = 0; i < sizeof factors / sizeof factors[0]; i++) {
@@ -212,7 +206,7 @@ TEST_WITH(0, light_never_grows_with_the_distance, NULL, restore_size)
                 world.lights[0].constant = factors[i].x;
                 world.lights[0].linear = factors[i].y;
                 world.lights[0].quadratic = factors[i].z;
-                hard_draw_finite(&hard, &world.scene, precision);
+                hard_draw_finite(&world.scene, precision);
                 const int now = ((unsigned char *)hard.image.pixels)[4 * (SMALL * SMALL / 2)];
                 /* At the corners the light becomes less oblique as it moves away. */
                 if (now > last && !(way & 2))
@@ -221,16 +215,6 @@ TEST_WITH(0, light_never_grows_with_the_distance, NULL, restore_size)
                 last = now;
             }
         }
-    }
-}
-
-TEST(no_attenuation_is_a_constant_of_one)
-{
-    for (HardPrecision precision = HARD_HIGHP; precision <= HARD_MEDIUMP; precision++) {
-        hard_world(&world, &hard.sphere);
-        draw_before(precision);
-        world.lights[0].constant = 1;
-        assert_int_equal(draw_after(precision), 0);
     }
 }
 
@@ -243,7 +227,7 @@ static double compare_centres(HardPrecision precision, double margin, const Refe
     double worst = 0;
     Vec3 axis;
     const Light *light = &world.lights[0];
-    assert_int_equal(hard_draw(&hard, &world.scene, precision, unused).not_finite, 0);
+    assert_int_equal(hard_draw(&world.scene, precision, unused).not_finite, 0);
     require(
         trace_open(&trace, &world.scene,
                    &(ReferenceOptions){.width = SIZE, .height = SIZE, .meshes = true, .threads = 1},
@@ -282,7 +266,7 @@ TEST(a_cone_has_its_exact_edge)
     int compared = 0;
     Reference unused; /* hard_draw's own picture would resolve the cones' edges within pixels */
     hard_world(&world, &hard.quad);
-    hard_exact(&hard, &world.scene, false, &unused);
+    hard_exact(&world.scene, false, &unused);
     for (size_t i = 0; i < sizeof cutoffs / sizeof cutoffs[0]; i++) {
         for (size_t k = 0; k < sizeof exponents / sizeof exponents[0]; k++) {
             hard_world(&world, &hard.quad);
@@ -340,7 +324,7 @@ TEST(a_light_behind_the_surface_leaves_ambient_light_only)
         world.scene.reflection = way & 2 ? REFLECTION_PHONG : REFLECTION_BLINN_PHONG;
         world.scene.interpolation = way & 4 ? INTERPOLATION_GOURAUD : INTERPOLATION_PHONG;
         for (HardPrecision precision = HARD_HIGHP; precision <= HARD_MEDIUMP; precision++) {
-            hard_draw(&hard, &world.scene, precision, NULL);
+            hard_draw(&world.scene, precision, NULL);
             for (int c = 0; c < 3; c++) /* 0.25 * 255 = 63.75 */
                 assert_int_equal(middle()[c], 64);
         }
@@ -360,17 +344,17 @@ TEST(intensities_of_any_size_are_finite)
             world.scene.interpolation = (Interpolation)interpolation;
             world.lights[0].diffuse = world.lights[0].specular = (Vec3){much, much, much};
             snprintf(name, sizeof name, "intensity %g", much);
-            hard_check(&hard, name, &world.scene, HARD_HIGHP, 1, SIZE * SIZE / 8);
+            hard_check(name, &world.scene, HARD_HIGHP, 1, SIZE * SIZE / 8);
             if (much < 65504)
-                hard_check(&hard, name, &world.scene, HARD_MEDIUMP,
+                hard_check(name, &world.scene, HARD_MEDIUMP,
                            interpolation ? fmin(255, 1.5 + much)
                                          : oracle_mediump_max(&world.scene, REACH),
                            SIZE * SIZE / 8);
             else
-                hard_draw_finite(&hard, &world.scene, HARD_MEDIUMP);
+                hard_draw_finite(&world.scene, HARD_MEDIUMP);
         }
     }
-    hard_report(&hard, "intensities of 0 to 1e6");
+    hard_report("intensities of 0 to 1e6");
 }
 
 static void random_light(Random *random, Light *light)
@@ -400,7 +384,7 @@ TEST(thirty_two_lights_add_up)
             random_light(&random, &world.lights[i]);
         check("many lights", REACH);
     }
-    hard_report(&hard, "0 to 32 lights");
+    hard_report("0 to 32 lights");
 }
 
 PICTURE_TEST_MAIN("hard lights", open_all, close_all)

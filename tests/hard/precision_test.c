@@ -1,29 +1,24 @@
 /*
- * The effect of the fragment shader's precision on highlights, and on scenes of any size. highp is
- * right everywhere. mediump, 11 significant bits from 6.1e-5 to 65504, has bounds but no expected
- * values: which operations are computed in it depends on the driver's compiler.
+ * The effect of the fragment shader's precision on highlights. highp is right everywhere. mediump,
+ * 11 significant bits from 6.1e-5 to 65504, has bounds but no expected values: which operations are
+ * computed in it depends on the driver's compiler.
  */
 #include "hard/hard.h"
 #include "support/oracle.h"
 #include "support/picture_check.h"
 #include "support/testing.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 enum { SIZE = 128 };
 
 static const double REACH = 4; /* see normals_test.c */
 
-static Hard hard;
 static HardWorld world;
 static Mesh sphere;
 static Lighting *cosine[2]; /* as hard_open made them */
 
 FIXTURE(open_all)
 {
-    hard_open(&hard, SIZE, SIZE);
+    hard_open(SIZE, SIZE);
     memcpy(cosine, hard.lightings, sizeof cosine);
     require(mesh_sphere(&sphere, 1, 96, 48, FAILURE), FAILURE);
     return 0;
@@ -32,7 +27,7 @@ FIXTURE(open_all)
 FIXTURE(close_all)
 {
     mesh_close(&sphere);
-    hard_close(&hard);
+    hard_close();
     return 0;
 }
 
@@ -50,7 +45,7 @@ static void highlight_world(double shininess, Reflection reflection)
 static double worst_of(double shininess, Reflection reflection, HardPrecision precision)
 {
     highlight_world(shininess, reflection);
-    const HardResult result = hard_draw_finite(&hard, &world.scene, precision);
+    const HardResult result = hard_draw_finite(&world.scene, precision);
 
     assert_true(result.interior_pixels > SIZE * SIZE / 8);
     return result.byte_error;
@@ -126,68 +121,6 @@ TEST(the_cross_product_keeps_the_digits_of_a_highlight)
     }
     for (int i = 0; i < 2; i++)
         lighting_close(cross[i]);
-}
-
-static void scale_scene(double size)
-{
-    hard_world(&world, &sphere);
-    world.objects[0].world_from_object = mat4_scale((Vec3){size, size, size});
-    hard_world_scale(&world, size);
-}
-
-TEST(highp_is_right_in_scenes_up_to_1e8_and_as_far_away)
-{
-    for (int exponent = 0; exponent <= 8; exponent += 2) {
-        for (int reflection = 0; reflection < 2; reflection++) {
-            char name[64];
-            snprintf(name, sizeof name, "scene of size 1e%d", exponent);
-            scale_scene(pow(10, exponent));
-            world.scene.reflection = (Reflection)reflection;
-            world.objects[0].front.shininess = 128;
-            hard_check(&hard, name, &world.scene, HARD_HIGHP, 1, SIZE * SIZE / 8);
-
-            const Vec3 away = vec3_scale((Vec3){1, -2, 3}, pow(10, exponent));
-            snprintf(name, sizeof name, "scene at 1e%d", exponent);
-            scale_scene(1);
-            world.scene.reflection = (Reflection)reflection;
-            world.objects[0].front.shininess = 128;
-            world.objects[0].world_from_object = mat4_translate(away);
-            world.lights[0].position = vec3_add(world.lights[0].position, away);
-            world.scene.camera.eye = vec3_add(world.scene.camera.eye, away);
-            world.scene.camera.center = vec3_add(world.scene.camera.center, away);
-            hard_check(&hard, name, &world.scene, HARD_HIGHP, 1, SIZE * SIZE / 8);
-        }
-    }
-    hard_report(&hard, "scenes of sizes up to 1e8");
-}
-
-/* In mediump the square of a vector must be from 6.1e-5 to 65504, where it has all its digits, so
- * its length from 7.8e-3 to 255.9. Here the shortest is the one to the light, 1.4 to 4 sizes, and
- * the longest the sum of that to the eye, 5 sizes, and that to the light: sizes of 0.0056 to 51.
- * For other sizes there is no bound. At the vertices lighting is highp, and right. */
-TEST(mediump_has_room_for_small_scenes_only)
-{
-    static const double sizes[] = {0.006, 0.01, 0.1, 1, 10, 50};
-    static const double beyond[] = {1e-6, 1e-3, 75, 300, 1e5};
-    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
-        char name[64];
-        snprintf(name, sizeof name, "scene of size %g", sizes[i]);
-        scale_scene(sizes[i]);
-        hard_check_ways(&hard, name, &world.scene, REACH, SIZE * SIZE / 8);
-    }
-    hard_report(&hard, "scenes of sizes .006 to 50");
-    for (size_t i = 0; i < sizeof beyond / sizeof beyond[0]; i++) {
-        char name[64];
-        scale_scene(beyond[i]);
-        const HardResult result = hard_draw_finite(&hard, &world.scene, HARD_MEDIUMP);
-        printf("scene of size %g: %.1f in mediump\n", beyond[i], result.byte_error);
-
-        snprintf(name, sizeof name, "scene of size %g", beyond[i]);
-        hard_check(&hard, name, &world.scene, HARD_HIGHP, 1, SIZE * SIZE / 8);
-        world.scene.interpolation = INTERPOLATION_GOURAUD;
-        hard_check(&hard, name, &world.scene, HARD_MEDIUMP, 1.5, SIZE * SIZE / 8);
-    }
-    hard_report(&hard, "scenes that mediump has no room for, at the vertices");
 }
 
 PICTURE_TEST_MAIN("hard precision", open_all, close_all)

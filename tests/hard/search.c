@@ -3,9 +3,6 @@
 #include "support/testing.h"
 
 #include <float.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 
 enum { STALE = 60, MAX_MESHES = 64 };
 
@@ -14,20 +11,20 @@ enum { STALE = 60, MAX_MESHES = 64 };
 static void forget_meshes(Search *search)
 {
     for (const RandomMesh *made = search->meshes.first; made; made = made->next)
-        hard_forget(&search->hard, &made->mesh);
+        hard_forget(&made->mesh);
     random_meshes_close(&search->meshes);
 }
 
 void search_open(Search *search, int size, unsigned long long seed)
 {
     *search = (Search){.random = {seed}, .error = -1};
-    hard_open(&search->hard, size, size);
+    hard_open(size, size);
 }
 
 void search_close(Search *search)
 {
     forget_meshes(search);
-    hard_close(&search->hard);
+    hard_close();
 }
 
 /* Whether 24 bits of depth resolve the scene: far away, depth equals the background's, and both
@@ -97,10 +94,10 @@ static void perturb(RandomScene *scene, Random *random, double sign, int size)
 }
 
 /* The exact picture of the mesh; edges need only be known, not exact. */
-static void exact_picture(const Search *search, const RandomScene *scene, Reference *exact)
+static void exact_picture(const RandomScene *scene, Reference *exact)
 {
-    const ReferenceOptions options = {.width = search->hard.floats.width,
-                                      .height = search->hard.floats.height,
+    const ReferenceOptions options = {.width = hard.floats.width,
+                                      .height = hard.floats.height,
                                       .meshes = true,
                                       .edge_error = 255,
                                       .threads = 1};
@@ -122,7 +119,7 @@ static bool add_slack(Search *search, const RandomScene *scene, const Reference 
         perturb(&other, pair % 2 ? &random : &same, pair % 2 ? 1 : -1, exact->height);
         if (!scene_check(&other.scene, NULL))
             return false;
-        exact_picture(search, &other, &picture);
+        exact_picture(&other, &picture);
         for (size_t i = 0; i < count; i++)
             slack[i] = fmaxf(slack[i], fabsf(picture.color[i] - exact->color[i]));
         reference_close(&picture);
@@ -131,9 +128,9 @@ static bool add_slack(Search *search, const RandomScene *scene, const Reference 
 }
 
 /* The largest error of the last picture inside objects, beyond the slack; -1 if there are none. */
-static double largest_error(const Search *search, const Reference *exact, const float *slack)
+static double largest_error(const Reference *exact, const float *slack)
 {
-    const float *real = search->hard.real.pixels;
+    const float *real = hard.real.pixels;
     double max = -1;
     for (size_t i = 0; i < (size_t)exact->width * (size_t)exact->height; i++) {
         for (size_t c = 0; c < 3; c++) {
@@ -152,22 +149,21 @@ static double largest_error(const Search *search, const Reference *exact, const 
 double search_error(Search *search, RandomScene *scene, double enough)
 {
     Reference exact;
-    Hard *hard = &search->hard;
     if (search->meshes.count > MAX_MESHES)
         forget_meshes(search);
     if (!random_scene_ready(scene, &search->meshes, NULL) || !scene_check(&scene->scene, NULL) ||
         !depth_suffices(scene))
         return -1;
     search->judged++;
-    exact_picture(search, scene, &exact);
-    require(random_scene_draw(scene, &hard->floats, hard->lightings[search->precision], &hard->real,
+    exact_picture(scene, &exact);
+    require(random_scene_draw(scene, &hard.floats, hard.lightings[search->precision], &hard.real,
                               FAILURE),
             FAILURE);
     float *slack = calloc(3 * (size_t)exact.width * (size_t)exact.height, sizeof *slack);
     assert_non_null(slack);
-    double error = largest_error(search, &exact, slack);
+    double error = largest_error(&exact, slack);
     if (error > enough && error > 0.02 && !isinf(error))
-        error = add_slack(search, scene, &exact, slack) ? largest_error(search, &exact, slack) : -1;
+        error = add_slack(search, scene, &exact, slack) ? largest_error(&exact, slack) : -1;
     free(slack);
     reference_close(&exact);
     return error;

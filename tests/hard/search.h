@@ -11,7 +11,6 @@
 #include "hard/random_scene.h"
 
 typedef struct Search {
-    Hard hard;
     HardPrecision precision;
     bool tame; /* numbers stay in the range of a scene of a few units */
     RandomMeshes meshes;

@@ -6,10 +6,6 @@
 #include "support/picture_check.h"
 #include "support/testing.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-
 enum { SIZE = 24, STEPS = 700, MAX_STEPS = 1500 };
 
 static Search search; /* of the test that runs */
@@ -40,7 +36,7 @@ TEST_WITH(0, a_known_error_is_found_and_shrunk, NULL, close_search)
     static const LightingTransforms wrong = {scene_eye_from_object, wrong_point, clip_from_object};
     search_open(&search, SIZE, 1);
     search.tame = true;
-    lighting_use_transforms(search.hard.lightings[HARD_HIGHP], &wrong);
+    lighting_use_transforms(hard.lightings[HARD_HIGHP], &wrong);
     while (search.error < 8 && search.steps < MAX_STEPS)
         if (search_step(&search))
             search.error = -1;
@@ -53,7 +49,7 @@ TEST_WITH(0, a_known_error_is_found_and_shrunk, NULL, close_search)
     assert_int_equal(small.scene.light_count, 1);
     assert_true(small.lights[0].kind != LIGHT_DIRECTIONAL);
     /* Without the cause the picture is right. */
-    lighting_use_transforms(search.hard.lightings[HARD_HIGHP], NULL);
+    lighting_use_transforms(hard.lightings[HARD_HIGHP], NULL);
     assert_true(search_error(&search, &small, 0) < 0.5);
     print_message("%.3g steps of 1/255 after %lld scenes\n", error, search.judged);
 }

@@ -9,28 +9,23 @@
 #include "support/picture_check.h"
 #include "support/testing.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 enum { SIZE = 40, MIN_PIXELS = 200 };
 
 /* Of light, eye and surface: see oracle_mediump_max. The nearest light is 1.3 from a surface, which
  * is within 8 of the eye. */
 static const double REACH = 16;
 
-static Hard hard;
 static HardScene made;
 
 FIXTURE(open_all)
 {
-    hard_open(&hard, SIZE, SIZE);
+    hard_open(SIZE, SIZE);
     return 0;
 }
 
 FIXTURE(close_all)
 {
-    hard_close(&hard);
+    hard_close();
     return 0;
 }
 
@@ -55,7 +50,7 @@ static void open_scene(const char *name)
 
 FIXTURE(close_scene)
 {
-    hard_forget(&hard, NULL);
+    hard_forget(NULL);
     hard_scene_close(&made);
     return 0;
 }
@@ -68,7 +63,7 @@ static void leave_out_edges(const Scene *scene, unsigned char unsure[SIZE * SIZE
     enum { PARTS = 3 };
     const ReferenceOptions options = {
         .width = PARTS * SIZE, .height = PARTS * SIZE, .meshes = true, .centers = true};
-    Reference fine;
+    CLOSED(reference_close) Reference fine;
     require(reference_open(&fine, scene, &options, FAILURE), FAILURE);
     memset(unsure, 0, SIZE * SIZE);
     for (int y = 0; y < fine.height; y++) {
@@ -78,7 +73,6 @@ static void leave_out_edges(const Scene *scene, unsigned char unsure[SIZE * SIZE
             unsure[pixel] |= fine.lights[y * fine.width + x] != fine.lights[center];
         }
     }
-    reference_close(&fine);
 }
 
 static unsigned char unsure[SIZE * SIZE]; /* of the scene that is checked */
@@ -86,13 +80,12 @@ static unsigned char unsure[SIZE * SIZE]; /* of the scene that is checked */
 static void check_way(const char *name, Interpolation interpolation, HardPrecision precision,
                       double max)
 {
-    Reference exact;
+    CLOSED(reference_close) Reference exact;
     made.scene.interpolation = interpolation;
-    hard_exact(&hard, &made.scene, false, &exact);
+    hard_exact(&made.scene, false, &exact);
     for (int i = 0; i < SIZE * SIZE; i++)
         exact.interior[i] &= !unsure[i];
-    hard_check_exact(&hard, name, &made.scene, (HardBound){precision, max, MIN_PIXELS}, &exact);
-    reference_close(&exact);
+    hard_check_exact(name, &made.scene, (HardBound){precision, max, MIN_PIXELS}, &exact);
 }
 
 /* By volumes: without the highlight, whose error in mediump depends on angles, in both precisions
@@ -116,7 +109,7 @@ TEST_WITH(0, every_case_is_exact_in_every_way, NULL, close_scene)
         check(HARD_SHADOWS[i].name);
         close_scene(NULL);
     }
-    hard_report(&hard, "shadows");
+    hard_report("shadows");
 }
 
 /* One more picture of a case that was changed. */
@@ -184,24 +177,6 @@ TEST_WITH(0, light_may_graze, NULL, close_scene)
     for (size_t i = 0; i < sizeof heights / sizeof heights[0]; i += step) {
         made.lights[0].direction.y = heights[i];
         check_varied("height", heights[i]);
-    }
-}
-
-TEST_WITH(0, the_origin_may_be_far_away, NULL, close_scene)
-{
-    open_scene("far-shadow");
-    const Vec3 at = made.scene.camera.center;
-    for (double factor = 1; factor < 1e4; factor *= testing_step(2) == 1 ? 10 : 1000) {
-        const Vec3 by = vec3_scale(at, factor - 1);
-        const HardScene before = made;
-        for (int i = 0; i < made.scene.object_count; i++)
-            made.objects[i].world_from_object =
-                mat4_product(mat4_translate(by), made.objects[i].world_from_object);
-        made.lights[0].position = vec3_add(made.lights[0].position, by);
-        made.scene.camera.eye = vec3_add(made.scene.camera.eye, by);
-        made.scene.camera.center = vec3_add(made.scene.camera.center, by);
-        check_varied("times a million", factor);
-        made = before;
     }
 }
 

@@ -1,24 +1,14 @@
 /*
  * Hard cases of views and projections: degenerate and nearly degenerate cameras, projections out of
  * range or without a far plane, surfaces close behind one another, and scenes far from the origin.
- * First the functions' results, then the pictures. LIGHTING_TEST_SEED in the environment replaces
- * the seed.
  */
 #include "hard/hard.h"
 #include "shapes/mesh_solids.h"
 #include "support/picture_check.h"
-#include "support/quad.h"
 #include "support/testing.h"
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { SIZE = 64, SLICES = 48 };
 
-static unsigned long long seed;
-static Hard hard;
 static Mesh sphere, quad;
 
 /* Scenes: a sphere on a square, a point light and a directional one. */
@@ -42,7 +32,7 @@ static void make_world(HardWorld *world)
 static void check_exact(const char *name, HardWorld *world, HardPrecision precision,
                         const Reference *exact)
 {
-    hard_check_two_lights(&hard, name, &world->scene, precision, exact);
+    hard_check_two_lights(name, &world->scene, precision, exact);
 }
 
 /* The largest difference of two frames in pixels inside objects, and how many other pixels differ
@@ -61,67 +51,7 @@ static int apart(const HardFrame *a, const HardFrame *b, const Reference *exact,
     return max;
 }
 
-/* Degenerate look-at. */
-
-DRAWN_TEST(look_at_degenerate_is_refused_in_one_line)
-{
-    static const struct {
-        Vec3 eye, center, up;
-        const char *message;
-    } cases[] = {
-        {{0, 4, 0}, {0, 0, 0}, {0, 1, 0}, "camera: eye (0, 4, 0), center (0, 0, 0), up (0, 1, 0):"},
-        {{0, 4, 0},
-         {0, 0, 0},
-         {0, -9, 0},
-         "camera: eye (0, 4, 0), center (0, 0, 0), up (0, -9, 0)"},
-        {{1, 2, 3}, {0, 0, 0}, {2, 4, 6}, "camera: eye (1, 2, 3), center (0, 0, 0), up (2, 4, 6)"},
-        {{1, 2, 3}, {0, 0, 0}, {0, 0, 0}, "camera: eye (1, 2, 3), center (0, 0, 0), up (0, 0, 0)"},
-        {{1, 2, 3}, {1, 2, 3}, {0, 1, 0}, "camera: eye (1, 2, 3), center (1, 2, 3), up (0, 1, 0)"},
-        {{1, 2, 3}, {0, 0, 0}, {0, (double)NAN, 0}, "camera: up (0, nan, 0)"},
-        {{1, 2, (double)INFINITY}, {0, 0, 0}, {0, 1, 0}, "camera: eye (1, 2, inf)"},
-    };
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        HardWorld world;
-        make_world(&world);
-        world.scene.camera.eye = cases[i].eye;
-        world.scene.camera.center = cases[i].center;
-        world.scene.camera.up = cases[i].up;
-        Message message = {0};
-        assert_false(scene_check(&world.scene, &message));
-        if (strncmp(message.text, cases[i].message, strlen(cases[i].message)) != 0 ||
-            strchr(message.text, '\n'))
-            fail_msg("\"%s\" instead of one line \"%s...\"", message.text, cases[i].message);
-    }
-}
-
-/* Nearly degenerate look-at: `up` almost parallel to the view. */
-
-TEST(look_at_nearly_parallel_stays_orthonormal)
-{
-    Random random = {seed};
-    for (int e = 0; e >= -16; e--) {
-        double worst = 0, roll = 0;
-        const double angle = pow(10, e);
-        for (int i = 0; i < 1000; i++) {
-            const Vec3 origin = {0, 0, 0}, view = hard_random_direction(&random);
-            Vec3 across;
-            Mat4 eye_from_world;
-            assert_true(vec3_normalize(vec3_cross(view, hard_random_direction(&random)), &across));
-            const Vec3 up = vec3_add(vec3_scale(view, cos(angle)), vec3_scale(across, sin(angle)));
-            eye_from_world = mat4_look_at(origin, view, up);
-            worst = fmax(worst, quad_orthonormality_error(eye_from_world));
-            roll = fmax(roll, fabs(mat4_transform_direction(eye_from_world, across).x));
-        }
-        if (!(worst < 4e-15))
-            fail_msg("angle 1e%d: %.2g from orthonormal", e, worst);
-        /* Only the rounding of `up` turns the picture about the view: at most 2.3e-16 in each
-         * component, with that of its terms. */
-        if (!(roll < 8e-16 / angle + 8e-16))
-            fail_msg("angle 1e%d: rolled by %.2g", e, roll);
-    }
-}
-
-DRAWN_TEST(look_at_nearly_parallel_draws_the_exact_picture)
+TEST(look_at_nearly_parallel_draws_the_exact_picture)
 {
     static const double angles[] = {1e-2, 1e-4, 1e-6, 1e-8, 1e-12, 1e-15};
     static const Vec3 eyes[] = {{0, 4.5, 0}, {0.5, 4, 1.5}};
@@ -137,9 +67,9 @@ DRAWN_TEST(look_at_nearly_parallel_draws_the_exact_picture)
         assert_true(vec3_normalize(vec3_cross((Vec3){0.6, 0, -0.8}, back), &side));
         across = vec3_cross(back, side);
         camera->up = across;
-        hard_exact(&hard, &world.scene, false, &exact);
+        hard_exact(&world.scene, false, &exact);
         check_exact("upright", &world, HARD_HIGHP, &exact);
-        hard_keep(&hard, &upright);
+        hard_keep(&upright);
         for (int i = 0; i < 6; i++) {
             char name[32];
             int edges;
@@ -148,13 +78,13 @@ DRAWN_TEST(look_at_nearly_parallel_draws_the_exact_picture)
                 vec3_add(vec3_scale(back, cos(angles[i])), vec3_scale(across, sin(angles[i])));
             world.scene.interpolation = INTERPOLATION_PHONG;
             /* The exact picture uses `up` as rounded, whatever the angle. */
-            hard_each_way(&hard, name, &world, check_exact);
+            hard_each_way(name, &world, check_exact);
             world.scene.interpolation = INTERPOLATION_PHONG;
             /* Down to 1e-12 the rounding rolls it by at most 1e-3, 1/30 of a pixel. */
             if (angles[i] < 1e-12)
                 continue;
             check_exact(name, &world, HARD_HIGHP, &exact);
-            hard_keep(&hard, &frame);
+            hard_keep(&frame);
             if (apart(&frame, &upright, &exact, &edges) > 1 || edges > 8)
                 fail_msg("%s: not as upright, %d pixels of edges", name, edges);
         }
@@ -164,26 +94,25 @@ DRAWN_TEST(look_at_nearly_parallel_draws_the_exact_picture)
 
 /* Perspective. */
 
-DRAWN_TEST(perspective_infinite_far_draws_the_same_picture)
+TEST(perspective_infinite_far_draws_the_same_picture)
 {
     static const double fars[] = {20, 1e3, 1e9, 1e300, (double)INFINITY};
     static HardFrame first, frame;
-    Reference exact;
+    CLOSED(reference_close) Reference exact;
     HardWorld world;
     make_world(&world);
-    hard_exact(&hard, &world.scene, false, &exact);
+    hard_exact(&world.scene, false, &exact);
     for (int i = 0; i < 5; i++) {
         world.scene.camera.far = fars[i];
-        hard_each_way(&hard, "far plane", &world, check_exact);
+        hard_each_way("far plane", &world, check_exact);
         world.scene.interpolation = INTERPOLATION_PHONG;
         check_exact("far plane", &world, HARD_HIGHP, &exact);
-        hard_keep(&hard, i == 0 ? &first : &frame);
+        hard_keep(i == 0 ? &first : &frame);
         int edges;
         /* Only depth changes, which decides where sphere and square hide one another. */
         if (i > 0 && (apart(&frame, &first, &exact, &edges) > 1 || edges > 4))
             fail_msg("far %g: another picture", fars[i]);
     }
-    reference_close(&exact);
 }
 
 /* Depth. */
@@ -215,8 +144,8 @@ static int count_wrong(const HardWorld *world)
 {
     Reference exact;
     int wrong = 0;
-    hard_exact(&hard, &world->scene, false, &exact);
-    assert_true(hard_draw(&hard, &world->scene, HARD_HIGHP, &exact).not_finite == 0);
+    hard_exact(&world->scene, false, &exact);
+    assert_true(hard_draw(&world->scene, HARD_HIGHP, &exact).not_finite == 0);
     for (int i = 0; i < SIZE * SIZE; i++) {
         const unsigned char *byte = (const unsigned char *)hard.image.pixels + 4 * i;
         wrong += exact.interior[i] && exact.color[3 * i] == 1 && byte[1] != 0;
@@ -225,7 +154,7 @@ static int count_wrong(const HardWorld *world)
     return wrong;
 }
 
-DRAWN_TEST(depth_fighting_ends_at_five_steps)
+TEST(depth_fighting_ends_at_five_steps)
 {
     static const double distances[] = {2, 10, 70, 300}, nears[] = {0.01, 0.1, 1};
     for (int d = 0; d < 4; d++) {
@@ -253,7 +182,7 @@ DRAWN_TEST(depth_fighting_ends_at_five_steps)
  * depth, and the one that is drawn first stays. (Measured on llvmpipe: facing squares are
  * distinguished from 1 step on, tilted ones from 1.6.) Moving the near plane towards the scene
  * shortens the step by the same factor. */
-DRAWN_TEST(a_fitted_near_plane_ends_depth_fighting)
+TEST(a_fitted_near_plane_ends_depth_fighting)
 {
     HardWorld world;
     const double z = 100, step = z * z / (0.01 * 0x1p24);
@@ -263,7 +192,7 @@ DRAWN_TEST(a_fitted_near_plane_ends_depth_fighting)
     assert_int_equal(count_wrong(&world), 0);
 }
 
-/* The world at 1e4, 1e6, 1e9. */
+/* The world far away. */
 
 static void move(HardWorld *world, Vec3 by)
 {
@@ -277,64 +206,30 @@ static void move(HardWorld *world, Vec3 by)
     }
 }
 
-static const double OFFSETS[] = {0x1p14, 0x1p20, 0x1p30}; /* 1e4, 1e6, 1e9 */
-
-DRAWN_TEST(world_at_1e4_1e6_1e9_draws_the_same_picture)
-{
-    static const Vec3 directions[] = {{1, 0, 0}, {-1, 1, 1}, {0.3, -0.7, 0.9}};
-    for (int way = 0; way < 2; way++) {
-        HardWorld world, moved;
-        Reference exact;
-        make_world(&world);
-        world.scene.interpolation = way ? INTERPOLATION_GOURAUD : INTERPOLATION_PHONG;
-        hard_exact(&hard, &world.scene, false, &exact);
-        for (int i = 0; i < 9; i++) {
-            for (HardPrecision precision = HARD_HIGHP; precision <= HARD_MEDIUMP; precision++) {
-                static HardFrame here, there;
-                char name[48];
-                int edges;
-                snprintf(name, sizeof name, "%g away", OFFSETS[i % 3]);
-                moved = world;
-                hard_world_settle(&moved);
-                move(&moved, vec3_scale(directions[i / 3], OFFSETS[i % 3]));
-                check_exact("at the origin", &world, precision, &exact);
-                hard_keep(&hard, &here);
-                check_exact(name, &moved, precision, &exact);
-                hard_keep(&hard, &there);
-                const int max = apart(&there, &here, &exact, &edges);
-                if (max > 1 || edges > 2)
-                    fail_msg("%s: %d steps, %d pixels of edges", name, max, edges);
-            }
-        }
-        reference_close(&exact);
-    }
-}
-
 /* At this distance the last digit is 1/16. All coordinates of this scene are multiples of 1/4, so
  * nothing is lost, and the picture is the same to the last bit. */
-DRAWN_TEST(world_at_the_end_of_its_range_is_bit_identical)
+TEST(world_at_the_end_of_its_range_is_bit_identical)
 {
     HardWorld world, moved;
-    Reference exact;
+    CLOSED(reference_close) Reference exact;
     make_world(&world);
-    hard_exact(&hard, &world.scene, false, &exact);
+    hard_exact(&world.scene, false, &exact);
     for (HardPrecision precision = HARD_HIGHP; precision <= HARD_MEDIUMP; precision++) {
         static HardFrame here, there;
         moved = world;
         hard_world_settle(&moved);
         move(&moved, (Vec3){0x1p48, -0x1p49, 0x1p48});
         check_exact("at the origin", &world, precision, &exact);
-        hard_keep(&hard, &here);
+        hard_keep(&here);
         check_exact("3e14 away", &moved, precision, &exact);
-        hard_keep(&hard, &there);
+        hard_keep(&there);
         assert_memory_equal(&there, &here, sizeof here);
     }
-    reference_close(&exact);
 }
 
 FIXTURE(open_all)
 {
-    hard_open(&hard, SIZE, SIZE);
+    hard_open(SIZE, SIZE);
     require(mesh_sphere(&sphere, 1, SLICES, SLICES, FAILURE) && mesh_quad(&quad, 8, FAILURE),
             FAILURE);
     return 0;
@@ -342,17 +237,10 @@ FIXTURE(open_all)
 
 FIXTURE(close_all)
 {
-    hard_close(&hard);
+    hard_close();
     mesh_close(&quad);
     mesh_close(&sphere);
     return 0;
 }
 
-int main(void)
-{
-    seed = testing_seed(20240607);
-    const int failed = testing_run(0, "views", NULL, NULL);
-    if (!picture_check_driver("hard views"))
-        return failed ? failed : EXIT_SKIPPED;
-    return failed + testing_run(1, "views, drawn", open_all, close_all);
-}
+PICTURE_TEST_MAIN("hard views", open_all, close_all)
