@@ -131,9 +131,6 @@ const Effects *lighting_plan_effects(const LightingPlan *plan, int object);
 GLuint lighting_plan_program(const LightingPlan *plan, int object);
 void lighting_plan_explain(const LightingPlan *plan, int object, FILE *file);
 
-/* Whether the same decisions were made for the same objects. */
-bool lighting_plan_equal(const LightingPlan *a, const LightingPlan *b);
-
 /* A line for each light with shadows: how they are drawn, or that nothing can come between; of maps
  * how fine they and their depths are. */
 void lighting_plan_explain_shadows(const LightingPlan *plan, const Scene *scene, FILE *file);

@@ -246,16 +246,6 @@ void lighting_plan_explain(const LightingPlan *plan, int object, FILE *file)
     effects_decide(&plan->scenes[plan->in_parts ? object : 0], &plan->objects[object].facts, file);
 }
 
-bool lighting_plan_equal(const LightingPlan *a, const LightingPlan *b)
-{
-    bool equal = a->object_count == b->object_count && a->pairs.all == b->pairs.all;
-    for (int i = 0; i < a->object_count && equal; i++)
-        equal = a->objects[i].mesh == b->objects[i].mesh &&
-                a->pairs.throws[i] == b->pairs.throws[i] &&
-                memcmp(&a->objects[i].facts, &b->objects[i].facts, sizeof a->objects[i].facts) == 0;
-    return equal;
-}
-
 bool lighting_plan_sources(const LightingPlan *plan, int object, bool full, ShaderSource sources[2],
                            Message *message)
 {

@@ -1,8 +1,7 @@
 /*
  * What effects cost: a series of scenes, each with one effect more than the one before, drawn by
  * their specialized programs and by the full program: operations, compile time and frame time. Then
- * the simplest scene against a shader written by hand for it, lights that are off, and changes of
- * values, which must compile nothing: only that can fail.
+ * the simplest scene against a shader written by hand for it, and lights that are off.
  *
  * One sphere, lit at the fragments. The full program always draws its far side too, because culling
  * is one of the effects.
@@ -376,35 +375,11 @@ static bool measure_frames(Message *message)
     return done;
 }
 
-/* Draws the last step with other values, none of them zero. */
-static bool compiles_nothing(Message *message)
-{
-    Step step = steps[EVERYTHING];
-    settle(&step);
-    if (!render(&(Run){&steps[EVERYTHING], MINE}, message))
-        return false;
-    const int before = lighting_counts(lighting).programs;
-    for (int i = 1; i <= 10; i++) {
-        const Vec3 color = {0.1 * i, 0.05 * i, 0.02 * i};
-        step.object.front = (Material){color, color, color, color, 0.05 * i, 10 * i};
-        step.object.back = step.object.front;
-        for (int k = 0; k < LIGHTS; k++) {
-            step.lights[k].ambient = step.lights[k].diffuse = color;
-            step.lights[k].specular = color;
-        }
-        if (!render(&(Run){&step, MINE}, message))
-            return false;
-    }
-    const int compiled = lighting_counts(lighting).programs - before;
-    printf("\nPrograms compiled by changing every colour ten times: %d\n", compiled);
-    return compiled == 0 ? true : message_set(message, "changing a colour compiles programs");
-}
-
 static bool run(Message *message)
 {
     make_steps();
     return mesh_sphere(&sphere, 1, 64, 32, message) && open_hand(message) && print_sizes(message) &&
-           measure_frames(message) && compiles_nothing(message);
+           measure_frames(message);
 }
 
 static void finish(void)

@@ -12,10 +12,6 @@
 #include "window/window.h"
 
 #include <dlfcn.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 static const double PI = 3.14159265358979323846;
 static const Vec3 WHITE = {1, 1, 1}, RED = {1, 0, 0}, GREEN = {0, 1, 0}, BLUE = {0, 0, 1};
@@ -447,22 +443,6 @@ TEST(a_canvas_opened_200_times_keeps_no_file_and_no_memory)
      * sanitizer's quarantine grows by itself, and leaks are told by it. */
     if (!ADDRESS_SANITIZER)
         assert_true(grown < 10 * 1024);
-}
-
-TEST(two_canvases_in_turn_keep_their_own_pictures)
-{
-    for (int i = 0; i < 2; i++) {
-        CLOSED(canvas_close)
-        Canvas canvas = open_canvas((CanvasOptions){.width = 10 + i, .height = 20 - i});
-        clear(i, 1 - i, 0, 1);
-        CLOSED(image_close) Image image = read_canvas(&canvas);
-        for (int y = 0; y < 20 - i; y++) {
-            for (int x = 0; x < 10 + i; x++) {
-                assert_int_equal(pixel(&image, x, y)[0], 255 * i);
-                assert_int_equal(pixel(&image, x, y)[1], 255 * (1 - i));
-            }
-        }
-    }
 }
 
 TEST(a_canvas_may_be_closed_twice_and_nothing_may_be_closed)

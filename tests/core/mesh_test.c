@@ -7,10 +7,6 @@
 #include "support/topology.h"
 
 #include <float.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/resource.h>
 
 static const double PI = 3.14159265358979323846;
@@ -174,20 +170,6 @@ TEST(area_and_volume_of_a_sphere_converge_with_the_square_of_the_divisions)
     }
 }
 
-TEST(a_sphere_of_three_million_vertices_has_all_its_triangles)
-{
-    CLOSED(mesh_close) Mesh mesh;
-    open_sphere(&mesh, (Tessellation){2000, 1500, 1});
-    assert_int_equal(mesh.vertex_count, 2001 * 1501);
-    assert_int_equal(mesh.index_count, 6 * 2000 * 1499);
-    topology_check_indices(&mesh);
-    assert_counter_clockwise_from_outside(&mesh);
-    /* A quad of angles h and k lacks less than (h^2 + k^2) / 2 of its area and of its volume. */
-    const double lack = (pow(2 * PI / 2000, 2) + pow(PI / 1500, 2)) / 2;
-    assert_true(fabs(topology_area(&mesh) / (4 * PI) - 1) < lack);
-    assert_true(fabs(topology_volume(&mesh) / (4 * PI / 3) - 1) < lack);
-}
-
 TEST(a_sphere_too_large_for_memory_is_rejected)
 {
     if (ADDRESS_SANITIZER)
@@ -238,34 +220,6 @@ TEST(the_lecture_sphere_has_the_numbers_of_the_lecture)
             }
         }
     }
-}
-
-TEST(the_lecture_sphere_is_the_sphere_and_triangles_without_area_at_the_poles)
-{
-    enum { DIVISIONS = 13 };
-    Mesh lecture, sphere;
-    assert_true(mesh_sphere_lecture(&lecture, DIVISIONS, NULL));
-    open_sphere(&sphere, (Tessellation){DIVISIONS, DIVISIONS, 1});
-    size_t kept = 0;
-    for (size_t i = 0; i < lecture.index_count; i += 3) {
-        /* The poles' vertices are apart by what is left of sin(pi), 1.2e-16: so are their areas
-         * nothing against those of the other triangles, the smallest of which is 0.01. */
-        if (vec3_length(topology_face(&lecture, i / 3)) < 1e-6)
-            continue;
-        assert_memory_equal(&lecture.indices[i], &sphere.indices[kept],
-                            3 * sizeof *lecture.indices);
-        kept += 3;
-    }
-    assert_int_equal(kept, sphere.index_count);
-    assert_int_equal(lecture.vertex_count, sphere.vertex_count);
-    for (size_t i = 0; i < sphere.vertex_count; i++) {
-        const double apart = topology_distance(topology_vector(lecture.vertices[i].position),
-                                               topology_vector(sphere.vertices[i].position));
-        /* The seam: 13 * 2 pi / 13 is 2 pi to a step of a double, 8.9e-16. */
-        assert_true(apart < 1.2e-15);
-    }
-    mesh_close(&lecture);
-    mesh_close(&sphere);
 }
 
 /* Arguments and closing. */

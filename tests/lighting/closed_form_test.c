@@ -10,9 +10,6 @@
 #include "support/picture_check.h"
 #include "support/testing.h"
 
-#include <math.h>
-#include <string.h>
-
 enum { SIZE = 64, LIGHTS = 3 };
 
 static const double TANGENT = 0.36; /* of half the field of view */
@@ -211,25 +208,6 @@ TEST(diffuse_light_does_not_depend_on_the_viewer)
             }
         }
         assert_true(compared > SIZE * SIZE / 4);
-    }
-}
-
-TEST(a_face_in_parallel_light_keeps_its_color_when_the_eye_moves)
-{
-    const SceneTerms diffuse = {.left_out = TERM_ALL & ~TERM_DIFFUSE};
-    float first[4];
-    for (int i = 0; i < 6; i++) {
-        make_world(&quad);
-        world.lights[0] = (Light){.direction = {1, 2, 3}, .diffuse = {0.5, 0.75, 1}};
-        world.scene.light_count = 1;
-        world.scene.camera.eye = (Vec3){i < 3 ? 0 : 0.5 * i, 0, 1.5 + i};
-        draw_terms(diffuse, &picture);
-        const float *center = pixel(&picture, SIZE / 2, SIZE / 2);
-        if (i == 0)
-            memcpy(first, center, sizeof first);
-        assert_true(fabsf(first[0] - 0.3F * 3 / sqrtf(14)) < 1e-6F);
-        for (int c = 0; c < 3; c++) /* floats of about 1, in other eye coordinates */
-            assert_true(fabsf(center[c] - first[c]) < 1e-6F);
     }
 }
 

@@ -7,9 +7,6 @@
 #include "support/picture_check.h"
 #include "support/testing.h"
 
-#include <math.h>
-#include <string.h>
-
 /* False: no closed form here, or near what jumps: an edge, a light's, or the silhouette, where the
  * mesh lies inside the sphere. */
 static bool closed_form(const Scene *scene, int x, int y, double expected[3])
@@ -159,7 +156,7 @@ TEST(gouraud_has_the_closed_form_where_triangles_are_small)
 
 TEST(flat_is_gouraud_with_the_normals_of_triangles)
 {
-    Mesh flat;
+    CLOSED(mesh_close) Mesh flat;
     assert_true(mesh_sphere(&flat, 1, 24, 12, NULL));
     assert_true(mesh_flatten(&flat, NULL));
     closed_form_world(&sphere, UNEVEN);
@@ -175,28 +172,6 @@ TEST(flat_is_gouraud_with_the_normals_of_triangles)
     render(&world.scene, false, &full);
     assert_true(pictures_agree("flat", &specialised, &full, 0));
     lighting_forget(lighting, &flat);
-    mesh_close(&flat);
-}
-
-TEST(a_uniform_scale_of_any_size_has_the_same_lighting)
-{
-    static const double sizes[] = {1e-6, 1e-3, 1e3, 1e6};
-    closed_form_world(&smooth_sphere, RIGID);
-    world.lights[0] = light_of(0, 7, KINDS[0]);
-    render(&world.scene, false, &specialised);
-    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
-        const double s = sizes[i];
-        closed_form_world(&smooth_sphere, RIGID);
-        world.lights[0] = light_of(0, 7, KINDS[0]);
-        world.object.world_from_object =
-            mat4_product(mat4_scale((Vec3){s, s, s}), world.object.world_from_object);
-        Camera *camera = &world.scene.camera;
-        camera->eye = vec3_scale(camera->eye, s);
-        camera->near *= s;
-        camera->far *= s;
-        render(&world.scene, false, &full);
-        assert_true(pictures_agree("scale", &full, &specialised, 0));
-    }
 }
 
 /* The model-view matrix instead of the normal matrix. */
@@ -212,24 +187,6 @@ TEST(wrong_normals_differ_only_where_the_scale_is_uneven)
         assert_int_equal(same, turn != UNEVEN && turn != SHEARED);
         render(&world.scene, true, &full);
         assert_true(pictures_agree("wrong normals", &specialised, &full, 4));
-    }
-}
-
-TEST(nearer_objects_occlude_those_behind)
-{
-    Object objects[2];
-    closed_form_world(&smooth_sphere, RIGID);
-    world.scene.light_count = 0;
-    world.scene.objects = objects;
-    world.scene.object_count = 2;
-    for (int order = 0; order < 2; order++) {
-        objects[0] = objects[1] = world.object;
-        objects[order].front.emission = (Vec3){1, 0, 0};
-        objects[order].world_from_object = mat4_scale((Vec3){0.5, 0.5, 0.5});
-        objects[order].world_from_object.m[14] = 1.5;
-        render(&world.scene, false, &specialised);
-        assert_int_equal(pixel(&specialised, SIZE / 2, SIZE / 2)[0], 255);
-        assert_int_not_equal(pixel(&specialised, SIZE / 2, SIZE / 8)[0], 255);
     }
 }
 

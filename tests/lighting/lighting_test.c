@@ -8,9 +8,6 @@
 #include "support/picture_check.h"
 #include "support/testing.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 static void describe(const Case *c, char text[128])
 {
     int length = snprintf(text, 128, "shape%d-turn%d-interpolation%d-reflection%d", (int)c->shape,
@@ -310,76 +307,6 @@ TEST(a_light_that_is_off_adds_nothing_and_compiles_nothing)
     assert_true(pictures_agree("light off", &specialised, &full, 4));
 }
 
-/* Invariances. */
-
-TEST(the_order_of_lights_does_not_matter)
-{
-    for (int flip = 0; flip < 2; flip++) {
-        make_world(&RICH);
-        world.scene.light_count = 8;
-        for (int i = 0; i < 8; i++) {
-            const int at = flip ? 7 - i : i;
-            world.lights[at] = light_of(i % 3, 7, KINDS[i]);
-            world.lights[at].position.x += 0.3 * i;
-            world.lights[at].diffuse = vec3_scale(world.lights[at].diffuse, 0.3);
-        }
-        render(&world.scene, false, flip ? &full : &specialised);
-    }
-    /* Sums in another order. */
-    assert_true(pictures_agree("order", &specialised, &full, 0));
-}
-
-static Vec3 mirror(Vec3 v)
-{
-    return (Vec3){-v.x, v.y, v.z};
-}
-
-TEST(a_mirrored_scene_draws_the_mirrored_picture)
-{
-    for (int shape = SPHERE; shape <= TUBE; shape++) {
-        Case c = RICH;
-        c.shape = (Shape)shape;
-        make_world(&c);
-        render(&world.scene, false, &specialised);
-        for (int i = 0; i < 3; i++) {
-            world.lights[i].position = mirror(world.lights[i].position);
-            world.lights[i].direction = mirror(world.lights[i].direction);
-        }
-        world.object.world_from_object =
-            mat4_product(mat4_scale((Vec3){-1, 1, 1}), world.object.world_from_object);
-        render(&world.scene, false, &full);
-        for (int y = 0; y < SIZE; y++) {
-            for (int x = 0; x < SIZE / 2; x++) {
-                unsigned char kept[4];
-                memcpy(kept, pixel(&full, x, y), 4);
-                memcpy(pixel(&full, x, y), pixel(&full, SIZE - 1 - x, y), 4);
-                memcpy(pixel(&full, SIZE - 1 - x, y), kept, 4);
-            }
-        }
-        /* Pixels on the cone's edge, and those whose centre is on the silhouette. */
-        assert_true(pictures_agree("mirror", &specialised, &full, 6));
-    }
-}
-
-TEST(a_scene_a_million_units_away_draws_the_same_picture)
-{
-    static const Vec3 offsets[] = {{1e6, 0, 0}, {-1e6, 1e6, 1e6}, {1e9, -1e9, 1e9}};
-    make_world(&RICH);
-    render(&world.scene, false, &specialised);
-    for (size_t i = 0; i < sizeof offsets / sizeof offsets[0]; i++) {
-        const Vec3 by = offsets[i];
-        make_world(&RICH);
-        for (int k = 0; k < 3; k++)
-            world.lights[k].position = vec3_add(world.lights[k].position, by);
-        world.object.world_from_object =
-            mat4_product(mat4_translate(by), world.object.world_from_object);
-        world.scene.camera.eye = vec3_add(world.scene.camera.eye, by);
-        world.scene.camera.center = vec3_add(world.scene.camera.center, by);
-        render(&world.scene, false, &full);
-        assert_true(pictures_agree("far away", &full, &specialised, 0));
-    }
-}
-
 /* Limits and failures. */
 
 TEST(the_maximum_of_lights_is_drawn_and_one_more_is_rejected)
@@ -403,14 +330,6 @@ TEST(the_maximum_of_lights_is_drawn_and_one_more_is_rejected)
     assert_string_equal(message.text, "scene: 33 lights: at most 32 fit into one program");
 }
 
-static void write_file(const char *path, const char *text)
-{
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fputs(text, file);
-    assert_int_equal(fclose(file), 0);
-}
-
 TEST(a_broken_shader_is_reported_with_its_line_and_not_counted)
 {
     char folder[] = "/tmp/lighting_test_XXXXXX", path[64], beginning[80];
@@ -419,7 +338,7 @@ TEST(a_broken_shader_is_reported_with_its_line_and_not_counted)
     assert_non_null(mkdtemp(folder));
     snprintf(path, sizeof path, "%s/group.glsl", folder);
     snprintf(beginning, sizeof beginning, "%s:3:", path);
-    write_file(path, "// One,\n// two,\nthree.\n");
+    testing_write(path, "// One,\n// two,\nthree.\n", 23);
     make_world(&RICH);
     assert_true(lighting_open(&broken, &(ShaderLoader){.folder = folder}, &message));
     assert_false(

@@ -6,10 +6,6 @@
 #include "support/picture_check.h"
 #include "support/testing.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 const Vec3 BACKGROUND = {0.2, 0.3, 0.4};
 
 Canvas canvas;

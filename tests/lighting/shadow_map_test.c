@@ -9,9 +9,6 @@
 #include "support/picture_check.h"
 #include "support/testing.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 static void use_map(int size, int smooth, Vec3 bias)
 {
     const ShadowSettings settings = {SHADOWS_MAP, size, smooth, bias};
@@ -31,7 +28,7 @@ TEST(maps_are_nearly_right)
         for (int i = 0; i < 3; i++) {
             char name[64];
             Scene scene = {.object_count = 0};
-            SceneCopy copy;
+            CLOSED(scene_copy_close) SceneCopy copy;
             example_scene(&Shadows)->make(1, 0, &scene);
             scene_copy_open(&copy, &scene);
             for (int k = 0; k < 3; k++)
@@ -39,7 +36,6 @@ TEST(maps_are_nearly_right)
             use_map(sizes[i].size, sizes[i].smooth, SHADOWS_DEFAULT.bias);
             snprintf(name, sizeof name, "map-%d-%d-%d", light, sizes[i].size, sizes[i].smooth);
             all &= check_wrong(name, &copy.scene, sizes[i].most);
-            scene_copy_close(&copy);
         }
     }
     lighting_forget(lighting, NULL);

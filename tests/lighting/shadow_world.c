@@ -7,8 +7,6 @@
 #include "support/picture_check.h"
 #include "support/testing.h"
 
-#include <string.h>
-
 static const double MOST = 1; /* step of 1/255 */
 
 Canvas canvas;

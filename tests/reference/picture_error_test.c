@@ -6,9 +6,6 @@
 #include "support/testing.h"
 
 #include <float.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { WIDTH = 7, HEIGHT = 5, COUNT = WIDTH * HEIGHT };
 
@@ -87,7 +84,7 @@ TEST(a_map_has_a_color_for_each_error)
                  {(double)NAN, {255, 255, 255}}};
     Plain plain;
     plain_open(&plain, WIDTH, HEIGHT, 0);
-    Image image = open_image(WIDTH + 1, HEIGHT + 2, IMAGE_FLOAT, 0);
+    CLOSED(image_close) Image image = open_image(WIDTH + 1, HEIGHT + 2, IMAGE_FLOAT, 0);
     Image map = open_image(WIDTH + 1, HEIGHT + 2, IMAGE_BYTE, 1);
     for (int i = 0; i < 7; i++)
         put_float(&image, 1 + i, 2, 1, cases[i].value / 255);
@@ -100,7 +97,6 @@ TEST(a_map_has_a_color_for_each_error)
     for (int i = 0; i < 4 * (WIDTH + 1); i++) /* beside it, and its alpha, are as they were */
         assert_int_equal(pixels[i], 255);
     assert_int_equal(pixels[4 * (2 * (WIDTH + 1) + 1) + 3], 255);
-    image_close(&image);
     image_close(&map);
 }
 
@@ -110,18 +106,17 @@ TEST(equal_pictures_have_no_error)
     for (int value = 0; value <= 255; value++) {
         /* The float next to value / 255 is less than 255 2^-24 = 1.6e-5 steps away. */
         plain_open(&plain, WIDTH, HEIGHT, (float)value / 255);
-        Image bytes = open_image(WIDTH, HEIGHT, IMAGE_BYTE, value / 255.0);
+        CLOSED(image_close) Image bytes = open_image(WIDTH, HEIGHT, IMAGE_BYTE, value / 255.0);
         const PictureError error = compare(&bytes, &plain);
         assert_int_equal(error.all.pixels, COUNT);
         assert_int_equal(error.interior.pixels, COUNT);
         assert_int_equal(error.all.wrong, 0);
         assert_true(error.all.maximum < 1.6e-5);
         assert_true(error_sum_rms(&error.all) < 1.6e-5);
+        CLOSED(image_close)
         Image floats = open_image(WIDTH, HEIGHT, IMAGE_FLOAT, (double)plain.color[0]);
         const PictureError none = compare(&floats, &plain);
         assert_true(none.all.maximum == 0 && error_sum_rms(&none.all) == 0);
-        image_close(&bytes);
-        image_close(&floats);
     }
 }
 
@@ -131,7 +126,7 @@ TEST(errors_are_of_the_worst_channel_and_the_mean_of_all)
 {
     Plain plain;
     plain_open(&plain, WIDTH, HEIGHT, 0);
-    Image image = open_image(WIDTH, HEIGHT, IMAGE_BYTE, 0);
+    CLOSED(image_close) Image image = open_image(WIDTH, HEIGHT, IMAGE_BYTE, 0);
     put_byte(&image, 2, 1, 0, 3);
     put_byte(&image, 2, 1, 2, 4);
     put_byte(&image, 5, 3, 1, 12);
@@ -144,28 +139,26 @@ TEST(errors_are_of_the_worst_channel_and_the_mean_of_all)
     assert_true(error.all.squares == 9 + 16 + 144 + 1);
     /* Two roundings of a double, of a quotient and a root. */
     assert_true(fabs(error_sum_rms(&error.all) - sqrt(170.0 / (3 * COUNT))) < 4 * DBL_EPSILON);
-    image_close(&image);
 }
 
 TEST(the_first_of_equal_maxima_is_named)
 {
     Plain plain;
     plain_open(&plain, WIDTH, HEIGHT, 1);
-    Image image = open_image(WIDTH, HEIGHT, IMAGE_BYTE, 1);
+    CLOSED(image_close) Image image = open_image(WIDTH, HEIGHT, IMAGE_BYTE, 1);
     put_byte(&image, 4, 2, 1, 250);
     put_byte(&image, 1, 2, 0, 250);
     put_byte(&image, 6, 4, 2, 250);
     const PictureError error = compare(&image, &plain);
     assert_true(error.all.maximum == 5);
     assert_int_equal(error.all.worst, 2 * WIDTH + 1);
-    image_close(&image);
 }
 
 TEST(edges_count_in_the_whole_alone)
 {
     Plain plain;
     plain_open(&plain, WIDTH, HEIGHT, 0.4F);
-    Image image = open_image(WIDTH, HEIGHT, IMAGE_BYTE, 0.4); /* 102 */
+    CLOSED(image_close) Image image = open_image(WIDTH, HEIGHT, IMAGE_BYTE, 0.4); /* 102 */
     put_byte(&image, 3, 2, 0, 202);
     put_byte(&image, 1, 1, 0, 105);
     plain.interior[2 * WIDTH + 3] = plain.interior[0] = 0;
@@ -178,7 +171,6 @@ TEST(edges_count_in_the_whole_alone)
     assert_int_equal(error.interior.worst, WIDTH + 1);
     assert_int_equal(error.all.wrong, 2);
     assert_int_equal(error.interior.wrong, 1);
-    image_close(&image);
 }
 
 TEST(nothing_compared_has_no_mean)
@@ -186,14 +178,13 @@ TEST(nothing_compared_has_no_mean)
     Plain plain;
     plain_open(&plain, 1, 1, 0);
     plain.interior[0] = 0;
-    Image image = open_image(1, 1, IMAGE_BYTE, 1);
+    CLOSED(image_close) Image image = open_image(1, 1, IMAGE_BYTE, 1);
     const PictureError error = compare(&image, &plain);
     assert_int_equal(error.all.pixels, 1);
     assert_true(error.all.maximum == 255 && error_sum_rms(&error.all) == 255);
     assert_int_equal(error.interior.pixels, 0);
     assert_true(error.interior.maximum == 0);
     assert_true(isnan(error_sum_rms(&error.interior)));
-    image_close(&image);
 }
 
 /* The exact picture is what a framebuffer would hold, so floats are clamped to 0..1 like bytes; the
@@ -210,7 +201,7 @@ TEST(floats_are_clamped_and_values_not_finite_are_wrong)
     Plain plain;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         plain_open(&plain, WIDTH, HEIGHT, (float)cases[i].exact);
-        Image image = open_image(WIDTH, HEIGHT, IMAGE_FLOAT, cases[i].exact);
+        CLOSED(image_close) Image image = open_image(WIDTH, HEIGHT, IMAGE_FLOAT, cases[i].exact);
         put_float(&image, 4, 3, (int)i % 3, cases[i].drawn);
         put_float(&image, 1, 1, 3, NAN); /* alpha does not count */
         const PictureError error = compare(&image, &plain);
@@ -221,7 +212,6 @@ TEST(floats_are_clamped_and_values_not_finite_are_wrong)
         if (cases[i].error > 0)
             assert_int_equal(error.all.worst, 3 * WIDTH + 4);
         assert_true(isfinite(error_sum_rms(&error.all)));
-        image_close(&image);
     }
 }
 
@@ -232,7 +222,7 @@ TEST(views_add_up_to_the_picture)
     Plain whole, part;
     srand(1);
     for (int type = IMAGE_BYTE; type <= IMAGE_FLOAT; type++) {
-        Image image = open_image(WIDTH, HEIGHT, (ImageType)type, 0);
+        CLOSED(image_close) Image image = open_image(WIDTH, HEIGHT, (ImageType)type, 0);
         plain_open(&whole, WIDTH, HEIGHT, 0);
         for (int i = 0; i < COUNT; i++) {
             whole.interior[i] = rand() % 2 == 1;
@@ -271,7 +261,6 @@ TEST(views_add_up_to_the_picture)
             assert_true(sums[k][0]->maximum == sums[k][1]->maximum);
             assert_true(sums[k][0]->squares == sums[k][1]->squares);
         }
-        image_close(&image);
     }
 }
 
@@ -285,7 +274,7 @@ TEST(what_is_drawn_limits_the_interior)
         plain.objects[1].two_sided = true; /* its back is half opaque */
         plain.objects[1].back.alpha = 0.5;
         plain.objects[2].front.alpha = 0.25;
-        Image image = open_image(WIDTH, HEIGHT, (ImageType)type, 1);
+        CLOSED(image_close) Image image = open_image(WIDTH, HEIGHT, (ImageType)type, 1);
         static const struct {
             int object;
             double alpha;
@@ -318,7 +307,6 @@ TEST(what_is_drawn_limits_the_interior)
         assert_int_equal(error.edges.pixels, COUNT - inside - 1); /* all but the background */
         assert_true(fabs(error.interior.maximum - 2) < 1e-5);
         assert_true(fabs(error.all.maximum - 100) < 1e-5);
-        image_close(&image);
     }
 }
 

@@ -6,10 +6,6 @@
 #include "shapes/mesh_solids.h"
 #include "support/testing.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-
 /* The names of reference_trace.h if REFERENCE_QUAD is defined. */
 bool quad_trace_open(Trace **trace, const Scene *scene, const ReferenceOptions *options,
                      Message *message);

@@ -10,11 +10,6 @@
 #include "support/exact_world.h"
 #include "support/testing.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 static const double PI = 3.14159265358979323846;
 
 enum { SIZE = WORLD_SIZE, PIXELS = WORLD_PIXELS };

@@ -9,10 +9,6 @@
 #include "shapes/mesh_solids.h"
 #include "support/testing.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-
 static const long SEED = 1;
 
 static double uniform(double min, double max)
@@ -186,24 +182,6 @@ TEST(rays_along_axes_and_tangents_give_finite_hits)
                 assert_true(fabs(real3_length(n) - 1) < 1e-14);
             }
         }
-}
-
-TEST(a_far_origin_costs_only_its_own_rounding)
-{
-    for (int s = 0; s < CLOSED_COUNT; s++) {
-        if (CLOSED[s].kind == SOLID_TORUS && CLOSED[s].tube < 0.01)
-            continue;
-        for (int i = 0; i < RAYS / 10; i++) {
-            Real3 origin, direction;
-            SolidHit hits[SOLID_MAX_HITS];
-            random_ray(1e6, &origin, &direction);
-            const int count = ray_solid(&CLOSED[s], origin, direction, hits);
-            for (int h = 0; h < count; h++) /* 1e6 is rounded to 1e-10, several times; near a cone's
-                                               or torus's outline this is divided by its root */
-                assert_true(fabs(implicit(&CLOSED[s], real3_along(origin, hits[h].t, direction))) <
-                            1e-8);
-        }
-    }
 }
 
 TEST(open_cylinders_and_sheets_have_their_faces)

@@ -9,10 +9,7 @@
 #include "support/exact_world.h"
 #include "support/testing.h"
 
-#include <math.h>
 #include <pthread.h>
-#include <stdio.h>
-#include <string.h>
 #include <sys/resource.h>
 #include <time.h>
 
@@ -414,41 +411,6 @@ TEST_WITH(0, wrong_normals_are_wrong, set_up, tear_down)
     }
 }
 
-TEST_WITH(0, a_mirrored_scene_is_the_mirrored_picture, set_up, tear_down)
-{
-    const Mat4 turn = mat4_rotate(50, (Vec3){1, 0.7, 0.3});
-    for (SolidKind kind = SOLID_SPHERE; kind <= SOLID_TEAPOT; kind++)
-        for (int meshes = 0; meshes < 2; meshes++) {
-            Reference pictures[2];
-            if (kind == SOLID_TEAPOT && !meshes)
-                continue;
-            for (int i = 0; i < 2; i++) {
-                set_up(NULL);
-                Object *object =
-                    add_object((Solid){.kind = kind, .radius = 0.7, .height = 1, .tube = 0.2}, 16);
-                const Vec3 factors = {i ? -1 : 1, 1, 1};
-                object->world_from_object = mat4_product(mat4_scale(factors), turn);
-                object->two_sided = true;
-                object->back = (Material){.diffuse = {0, 0.5, 1}, .alpha = 1};
-                world.lights[0].direction = (Vec3){i ? -1 : 1, 0.5, 1};
-                pictures[i] = world_trace((ReferenceOptions){.meshes = meshes});
-            }
-            for (int y = 0; y < SIZE; y++)
-                for (int x = 0; x < SIZE; x++) {
-                    const size_t a = pixel_at(&pictures[0], x, y);
-                    const size_t b = pixel_at(&pictures[1], SIZE - 1 - x, y);
-                    for (size_t k = 0; k < 3; k++) {
-                        const double apart =
-                            fabs(channel(&pictures[0], a, k) - channel(&pictures[1], b, k));
-                        /* Edges are found from another end. */
-                        assert_true(apart < (pictures[0].interior[a] && pictures[1].interior[b]
-                                                 ? 1e-6
-                                                 : 1 / 255.0));
-                    }
-                }
-        }
-}
-
 TEST_WITH(0, flattened_objects_have_finite_colors, set_up, tear_down)
 {
     static const Vec3 scales[] = {{1, 1, 0}, {1, 0, 0}, {0, 0, 0}, {1e-8, 1, 1}, {1, 1, 1e-9}};
@@ -691,7 +653,7 @@ TEST_WITH(0, a_cancelled_picture_is_empty, set_up, tear_down)
                                               .threads = 1 + (int)i % 3,
                                               .stop = &stopper.stop};
             pthread_t thread;
-            Reference picture;
+            CLOSED(reference_close) Reference picture;
             Message message = {0};
             atomic_init(&stopper.stop, false);
             assert_int_equal(pthread_create(&thread, NULL, stop_later, &stopper), 0);
@@ -706,7 +668,6 @@ TEST_WITH(0, a_cancelled_picture_is_empty, set_up, tear_down)
             }
             if (i != 0)
                 pthread_join(thread, NULL);
-            reference_close(&picture);
         }
     }
     assert_true(stopped >= 2); /* at least where it was stopped before it began */

@@ -4,11 +4,6 @@
 #include "scene/effects.h"
 #include "support/testing.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 /* An object lit by one source, to be changed by each test. */
 typedef struct World {
     Light lights[EFFECTS_MAX_LIGHTS];

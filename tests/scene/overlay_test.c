@@ -9,9 +9,6 @@
 #include "support/picture_check.h"
 #include "support/testing.h"
 
-#include <math.h>
-#include <string.h>
-
 static const Vec3 BLACK = {0, 0, 0};
 
 static int edges_of(const Mesh *mesh)

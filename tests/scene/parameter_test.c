@@ -6,8 +6,6 @@
 #include "support/testing.h"
 
 #include <float.h>
-#include <math.h>
-#include <string.h>
 
 static double number;
 static int whole, choice;

@@ -4,12 +4,7 @@
  */
 #include "core/mesh_make.h"
 #include "scene/quality.h"
-#include "scene/quality.h"
 #include "support/testing.h"
-
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 #define assert_says(message, part)                                                                 \
     do {                                                                                           \
@@ -127,7 +122,7 @@ TEST(scenes_get_the_meshes_of_a_setting)
 /* At (0, 3, 4), 5 away from the center, 1 / (1 + 0.04 * 25) = 1/2 of the light arrives. */
 TEST(lights_at_infinity_keep_direction_and_strength)
 {
-    SceneCopy made;
+    CLOSED(scene_copy_close) SceneCopy made;
     SolidMeshes meshes = {NULL};
     const Quality setting = quality_with(
         quality_with(quality_usual(), AXIS_LIGHTS, LIGHTS_INFINITE), AXIS_VIEWER, VIEWER_INFINITE);
@@ -139,14 +134,13 @@ TEST(lights_at_infinity_keep_direction_and_strength)
     assert_false(light_fades(light));
     assert_true(made.scene.lights[1].direction.x == 1 && made.scene.lights[1].diffuse.y == 1);
     assert_true(made.scene.distant_viewer);
-    scene_copy_close(&made);
     solid_meshes_close(&meshes);
 }
 
 /* Seen from +x, the viewer's right is -z. */
 TEST(lights_of_the_viewer_at_infinity_shine_from_the_same_side)
 {
-    SceneCopy made;
+    CLOSED(scene_copy_close) SceneCopy made;
     SolidMeshes meshes = {NULL};
     const Quality setting = quality_with(quality_usual(), AXIS_LIGHTS, LIGHTS_INFINITE);
     const Light light = {.kind = LIGHT_POINT,
@@ -162,14 +156,13 @@ TEST(lights_of_the_viewer_at_infinity_shine_from_the_same_side)
     assert_int_equal(far.kind, LIGHT_DIRECTIONAL);
     assert_true(fabs(far.direction.x) < 1e-15 && fabs(far.direction.z + 2) < 1e-15);
     assert_true(fabs(far.diffuse.x - 1) < 1e-15); /* two away */
-    scene_copy_close(&made);
 }
 
 TEST(a_mesh_with_colors_is_kept)
 {
     CLOSED(mesh_close) Mesh mesh;
     SceneCopy made;
-    SolidMeshes meshes = {NULL};
+    CLOSED(solid_meshes_close) SolidMeshes meshes = {NULL};
     const Quality setting = quality_usual();
     const Object object = {.mesh = &mesh, .solid = {.kind = SOLID_SPHERE, .radius = 1}};
     const Scene scene = {.objects = &object, .object_count = 1};
@@ -181,7 +174,6 @@ TEST(a_mesh_with_colors_is_kept)
         assert_true((made.scene.objects[0].mesh == &mesh) == colored);
         scene_copy_close(&made);
     }
-    solid_meshes_close(&meshes);
 }
 
 TEST(loaders_and_canvases_follow_the_setting)
@@ -228,7 +220,7 @@ TEST(solids_are_meshed_as_finely_as_asked)
         {{.kind = SOLID_TEAPOT, .radius = 1}, 0}, /* a coarse mesh of it is not a tube */
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        Mesh mesh;
+        CLOSED(mesh_close) Mesh mesh;
         assert_true(solid_mesh(&cases[i].solid, 8, &mesh, NULL));
         if (cases[i].triangles)
             assert_int_equal(mesh.index_count / 3, cases[i].triangles);
@@ -241,29 +233,6 @@ TEST(solids_are_meshed_as_finely_as_asked)
             assert_true(
                 vec3_dot(normal, (Vec3){(double)given[0], (double)given[1], (double)given[2]}) > 0);
         }
-        mesh_close(&mesh);
-    }
-}
-
-/* A box's surface is that of its mesh at any fineness: 6 (2 r)^2. Sums of floats: 1e-5. */
-TEST(boxes_have_their_area)
-{
-    for (int divisions = 3; divisions < 40; divisions += 9) {
-        const Solid box = {.kind = SOLID_BOX, .radius = 1.5};
-        double area = 0;
-        Mesh mesh;
-        assert_true(solid_mesh(&box, divisions, &mesh, NULL));
-        for (size_t k = 0; k < mesh.index_count; k += 3) {
-            Vec3 corner[3];
-            for (size_t c = 0; c < 3; c++) {
-                const float *p = mesh.vertices[mesh.indices[k + c]].position;
-                corner[c] = (Vec3){(double)p[0], (double)p[1], (double)p[2]};
-            }
-            area += 0.5 * vec3_length(vec3_cross(vec3_subtract(corner[1], corner[0]),
-                                                 vec3_subtract(corner[2], corner[0])));
-        }
-        assert_true(fabs(area - 54) < 1e-5 * 54);
-        mesh_close(&mesh);
     }
 }
 

@@ -8,9 +8,6 @@
 #include "shapes/mesh_solids.h"
 #include "support/testing.h"
 
-#include <math.h>
-#include <string.h>
-
 /* A scene that has a meaning, all of it in one place, to be changed. */
 typedef struct World {
     Light lights[3]; /* of each kind, by LightKind */
@@ -130,6 +127,12 @@ TEST_WITH(0, each_number_outside_its_range_is_refused_by_name, set_up, NULL)
         *REFUSALS[i].number = REFUSALS[i].value;
         assert_refused(REFUSALS[i].message);
     }
+}
+
+TEST_WITH(0, a_view_along_up_is_refused, set_up, NULL)
+{
+    world.scene.camera.up = (Vec3){0, 0, -9};
+    assert_refused("camera: eye (0, 0, 5), center (0, 0, 0), up (0, 0, -9): eye and");
 }
 
 TEST_WITH(0, kinds_that_do_not_exist_are_refused, set_up, NULL)
@@ -409,7 +412,7 @@ TEST_WITH(0, terms_are_left_out_and_nothing_else, set_up, NULL)
     const World before = world;
     for (unsigned bits = 0; bits < 1 << 8; bits++) {
         const SceneTerms terms = {bits & TERM_ALL, bits >> 4 & 7, bits >> 7};
-        SceneCopy copy;
+        CLOSED(scene_copy_close) SceneCopy copy;
         scene_copy_open(&copy, &world.scene);
         scene_keep_terms(&copy, terms);
         for (int i = 0; i < 3; i++) {
@@ -428,7 +431,6 @@ TEST_WITH(0, terms_are_left_out_and_nothing_else, set_up, NULL)
         assert_true(same_color(copy.scene.global_ambient, terms.unlit           ? white
                                                           : bits & TERM_AMBIENT ? black
                                                                                 : color));
-        scene_copy_close(&copy);
     }
     assert_memory_equal(&before, &world, sizeof before);
 }
@@ -437,14 +439,13 @@ TEST_WITH(0, terms_are_left_out_and_nothing_else, set_up, NULL)
 TEST_WITH(0, the_last_bit_is_of_all_lights_that_follow, set_up, NULL)
 {
     Light lights[40] = {{.off = false}};
-    SceneCopy copy;
+    CLOSED(scene_copy_close) SceneCopy copy;
     world.scene.lights = lights;
     world.scene.light_count = 40;
     scene_copy_open(&copy, &world.scene);
     scene_keep_terms(&copy, (SceneTerms){.lights_left_out = 1U << 31 | 1U << 5});
     for (int i = 0; i < 40; i++)
         assert_int_equal(copy.scene.lights[i].off, i == 5 || i >= 31);
-    scene_copy_close(&copy);
 }
 
 TEST_WITH(0, every_material_may_stand_in_a_scene, set_up, NULL)

@@ -8,9 +8,6 @@
 
 #include <dirent.h>
 #include <limits.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 /* A shader's main function, and its cost. */
 typedef struct Known {

@@ -4,8 +4,6 @@
 #include "scene/shape.h"
 #include "support/testing.h"
 
-#include <math.h>
-
 /* The box of what is drawn, in the world, and the largest distance from the origin. */
 typedef struct Extent {
     Vec3 low, high;

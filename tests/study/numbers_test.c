@@ -5,11 +5,6 @@
 #include "study/arithmetic/functions.h"
 #include "support/testing.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 static const Format SINGLE = {24, -126, 127, true, ROUNDING_NEAREST_EVEN, true, true};
 static const Format HALF = {11, -14, 15, true, ROUNDING_NEAREST_EVEN, true, true};
 

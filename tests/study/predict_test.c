@@ -12,9 +12,6 @@
 #include "support/picture_check.h"
 #include "support/testing.h"
 
-#include <math.h>
-#include <stdio.h>
-
 /* Larger in the long form. */
 static int width, height;
 

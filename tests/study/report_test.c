@@ -7,11 +7,7 @@
 #include "study/report/report_labels.h"
 #include "support/testing.h"
 
-#include <math.h>
 #include <png.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -479,7 +475,7 @@ TEST_WITH(0, a_sheet_shows_what_is_different, enter, leave)
 
 TEST_WITH(0, pictures_of_two_sizes_make_no_sheet, enter, leave)
 {
-    Image image;
+    CLOSED(image_close) Image image;
     float colors[3] = {0};
     const Reference exact = {.width = 1, .height = 1, .color = colors};
     assert_true(image_open(&image, 2, 1, IMAGE_BYTE, fresh()));
@@ -488,7 +484,6 @@ TEST_WITH(0, pictures_of_two_sizes_make_no_sheet, enter, leave)
                         "sheet.png: the drawn picture has 2x1 pixels, the exact one 1x1");
     image.width = 1;
     assert_true(sheet(&image, &exact, "")); /* the smallest, without a caption */
-    image_close(&image);
 }
 
 TEST(a_cost_within_the_noise_has_no_number)

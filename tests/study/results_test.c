@@ -6,11 +6,7 @@
 #include "support/testing.h"
 
 #include <fcntl.h>
-#include <math.h>
 #include <signal.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -463,39 +459,6 @@ TEST_WITH(0, a_file_without_permission_is_refused, testing_enter_folder, leave)
               strcmp(message.text, "a.csv: cannot write: Permission denied") != 0);
     }
     assert_done(child);
-}
-
-TEST_WITH(0, a_disk_that_fills_up_leaves_the_file_as_it_was, testing_enter_folder, leave)
-{
-    size_t size, size_after;
-    const ResultRow rows[2] = {row_of(1), row_of(2)};
-    append("a.csv", rows, 2);
-    assert_int_equal(truncate("a.csv", 1500), 0); /* its last row is cut */
-    char *before = get_file("a.csv", &size);
-    for (unsigned room = 0; room < 200; room += 33) {
-        const pid_t child = fork();
-        if (child == 0) {
-            const struct rlimit limit = {size + room, size + room};
-            signal(SIGXFSZ, SIG_IGN);
-            _exit(setrlimit(RLIMIT_FSIZE, &limit) != 0 ||
-                  results_append("a.csv", rows, 2, fresh()) ||
-                  strcmp(message.text, "a.csv: cannot write: File too large") != 0);
-        }
-        assert_done(child);
-        char *after = get_file("a.csv", &size_after);
-        assert_int_equal(size, size_after);
-        assert_memory_equal(before, after, size);
-        free(after);
-    }
-    free(before);
-    const pid_t child = fork(); /* a new file */
-    if (child == 0) {
-        const struct rlimit limit = {100, 100};
-        signal(SIGXFSZ, SIG_IGN);
-        _exit(setrlimit(RLIMIT_FSIZE, &limit) != 0 || results_append("b.csv", rows, 2, fresh()));
-    }
-    assert_done(child);
-    assert_int_equal(access("b.csv", F_OK), -1);
 }
 
 TEST_WITH(0, rows_appended_concurrently_do_not_mix, testing_enter_folder, leave)
