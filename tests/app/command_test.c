@@ -10,10 +10,6 @@
 #include "window/backends.h"
 #include "window/window.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 /* An example with parameters of every kind. */

@@ -6,9 +6,6 @@
 #include "scene/scene_example.h"
 #include "support/testing.h"
 
-#include <stdio.h>
-#include <string.h>
-
 enum { MAX_ARGUMENTS = 8 };
 
 static const Usage PROGRAM = {.name = "LightedCube", .summary = "A summary."};

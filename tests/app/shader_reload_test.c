@@ -11,10 +11,6 @@
 #include "support/picture_check.h"
 #include "support/testing.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { SIZE = 48 };
 
 static const double PATIENCE = 300; /* seconds to wait for a change */
@@ -158,40 +154,6 @@ static void breaks(const char *command, const char *said)
 
 #define EDIT(file, from, to) "sed -i 's/" from "/" to "/' mine/" file
 
-RELOAD_TEST(the_last_good_shaders_of_a_lecture_program_stay)
-{
-    static const char *const FRAGMENT = "mine/lecture/LightedCube.frag:8: ";
-    open_reload(&LightedCube);
-    loads();
-    assert_string_equal(reload.changed, "");
-    draw_into(&before);
-
-    testing_shell(EDIT("lecture/LightedCube.frag", "= v_Color", "= v_Color.brga"));
-    loads();
-    assert_string_equal(reload.changed, "mine/lecture/LightedCube.frag");
-    draw_into(&picture);
-    assert_false(same());
-
-    breaks(EDIT("lecture/LightedCube.frag", "gl_FragColor", "gl_FragColour"), FRAGMENT);
-    breaks(EDIT("lecture/LightedCube.frag", "= v_Color", "= 1 + v_Color"), FRAGMENT);
-    breaks("rm mine/lecture/LightedCube.vert; cp mine/lecture/LightedCube.frag mine/x; "
-           "mkdir mine/lecture/LightedCube.vert",
-           "mine/lecture/LightedCube.vert: is not a regular file");
-    testing_shell("cp " SHADERS_SOURCE "/lecture/LightedCube.frag mine/lecture/LightedCube.frag; "
-                  "rmdir mine/lecture/LightedCube.vert");
-    loads(); /* with the vertex shader of the source tree */
-    draw_into(&picture);
-    assert_false(same());
-
-    /* Restored to exactly the earlier text. */
-    breaks("cp mine/lecture/LightedCube.frag mine/y; echo '}' >> mine/lecture/LightedCube.frag",
-           "mine/lecture/LightedCube.frag:10: ");
-    testing_shell("mv mine/y mine/lecture/LightedCube.frag");
-    loads();
-    draw_into(&picture);
-    assert_true(same());
-}
-
 RELOAD_TEST(errors_after_compiling_are_rejected)
 {
     open_reload(&LightedCube);
@@ -207,29 +169,6 @@ RELOAD_TEST(errors_after_compiling_are_rejected)
     loads();
     draw_into(&picture);
     assert_true(same());
-}
-
-RELOAD_TEST(the_last_good_shaders_of_a_scene_stay)
-{
-    open_reload(&later);
-    loads();
-    breaks("echo broken >> mine/lighting/output.glsl", "mine/lighting/output.glsl:");
-    breaks("rm mine/lighting/output.glsl; ln -s ../lighting.frag mine/lighting/output.glsl",
-           "mine/lighting.frag:");
-    breaks("echo broken > mine/overlay.frag", "mine/overlay.frag:1: ");
-    testing_shell("rm -r mine/*");
-    loads();
-    draw_into(&picture);
-    assert_true(same());
-    testing_shell("cp " SHADERS_SOURCE "/lighting.frag mine"); /* which includes files beside it */
-    loads();
-    assert_string_equal(reload.changed, "mine/lighting.frag");
-    testing_shell("mkdir mine/lighting; sed 's/return color/return 0.5 * color/' " SHADERS_SOURCE
-                  "/lighting/output.glsl > mine/lighting/output.glsl");
-    loads();
-    assert_string_equal(reload.changed, "mine/lighting/output.glsl");
-    draw_into(&picture);
-    assert_false(same());
 }
 
 /* The program of a later time is compiled from the cached files, too. */
@@ -278,37 +217,6 @@ RELOAD_TEST(an_error_in_a_later_program_restores_the_earlier_shaders)
     assert_true(same());
     /* An invalid time is not a shader's error. */
     assert_false(shader_reload_revert(&reload, &(Message){.text = "no matrix"}));
-}
-
-RELOAD_TEST(it_can_begin_with_a_broken_shader)
-{
-    testing_shell("echo broken > mine/lecture/LightedCube.vert");
-    open_reload(&LightedCube);
-    assert_int_equal(next(), RELOAD_BROKEN);
-    assert_null(reload.renderer.example);
-    assert_int_equal(shader_reload_poll(&reload, 0.12, &error), RELOAD_UNCHANGED);
-    testing_shell("rm mine/lecture/LightedCube.vert");
-    loads();
-    draw_into(&picture);
-}
-
-static bool fail_init(const ShaderLoader *loader, Message *message)
-{
-    (void)loader;
-    return message_set(message, "no model");
-}
-
-RELOAD_TEST(an_error_outside_the_shaders_is_a_failure)
-{
-    static const SceneExample made = {.make = scene};
-    static const Example failing = {.name = "failing",
-                                    .init = fail_init,
-                                    .finish = finish,
-                                    .kind = &SCENE_KIND,
-                                    .content = &made};
-    open_reload(&failing);
-    assert_int_equal(next(), RELOAD_FAILED);
-    assert_string_equal(error.text, "no model");
 }
 
 /* Every other load is rejected. The leak checker finds other leaks. */

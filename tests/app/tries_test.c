@@ -11,10 +11,6 @@
 #include "support/picture_check.h"
 #include "support/testing.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #define X(NAME) extern const Example NAME;
 LECTURE_EXAMPLES
 #undef X

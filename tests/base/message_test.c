@@ -4,8 +4,6 @@
 #include "base/message.h"
 #include "support/testing.h"
 
-#include <string.h>
-
 TEST(setting_formats_and_returns_false)
 {
     Message message = {0};

@@ -10,9 +10,6 @@
 #include <pthread.h>
 #include <sched.h>
 #include <signal.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/mount.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -94,19 +91,6 @@ FOLDER_TEST(a_new_file_gets_the_bytes_and_the_umask)
     assert_int_equal(stat("zeros.png", &status), 0);
     assert_int_equal(status.st_size, 3);
     assert_int_equal(testing_entries("."), 3);
-}
-
-FOLDER_TEST(an_existing_file_is_replaced_and_keeps_its_permissions)
-{
-    static const mode_t modes[] = {0644, 0600, 0666, 0755, 0640};
-    for (size_t i = 0; i < sizeof modes / sizeof modes[0]; i++) {
-        make("old.png", large);
-        assert_int_equal(chmod("old.png", modes[i]), 0);
-        written("old.png", "short");
-        assert_true(holds("old.png", "short"));
-        assert_int_equal(mode_of("old.png") & 07777, modes[i]);
-    }
-    assert_int_equal(testing_entries("."), 1);
 }
 
 FOLDER_TEST(a_reader_of_the_old_file_keeps_it_whole)
@@ -205,71 +189,6 @@ FOLDER_TEST(links_in_a_circle_are_refused)
     assert_int_equal(symlink("self.png", "self.png"), 0);
     refused("a.png", "symbolic links");
     refused("self.png", "symbolic links");
-}
-
-/* Not as root: a bug would replace the machine's device. */
-static int write_to_devices(void)
-{
-    static const char *const full[] = {"/dev/full", "full.png"};
-    if (!testing_drop_root())
-        return 1;
-    if (!write_text("/dev/null", large) || !write_text("null.png", large))
-        return 2;
-    for (size_t i = 0; i < 2; i++)
-        if (write_text(full[i], "bytes") || !strstr(message.text, full[i]) ||
-            !strstr(message.text, "No space left on device; make room"))
-            return 3;
-    return 0;
-}
-
-FOLDER_TEST(devices_are_written_through)
-{
-    assert_int_equal(chmod(".", 0755), 0); /* so that nobody may enter */
-    assert_int_equal(symlink("/dev/null", "null.png"), 0);
-    assert_int_equal(symlink("/dev/full", "full.png"), 0);
-    assert_int_equal(testing_in_child(write_to_devices), 0);
-    assert_true(S_ISCHR(mode_of("/dev/null")));
-    assert_true(S_ISCHR(mode_of("/dev/full")));
-    assert_true(S_ISLNK(mode_of("null.png")));
-    assert_int_equal(testing_entries("."), 2);
-}
-
-FOLDER_TEST(a_pipe_with_a_reader_gets_every_byte)
-{
-    static const char *const names[] = {"pipe.png", "link_to_pipe.png"};
-    assert_int_equal(mkfifo("pipe.png", 0600), 0);
-    assert_int_equal(symlink("pipe.png", "link_to_pipe.png"), 0);
-    for (int i = 0; i < 2; i++) {
-        int status = 0;
-        fflush(NULL);
-        const pid_t reader = fork();
-        if (reader == 0) {
-            static char piece[4096];
-            const int pipe = open("pipe.png", O_RDONLY);
-            size_t total = 0;
-            ssize_t got;
-            while ((got = read(pipe, piece, sizeof piece)) > 0)
-                total += (size_t)got;
-            _exit(total == LARGE ? 0 : 1);
-        }
-        written(names[i], large);
-        assert_int_equal(waitpid(reader, &status, 0), reader);
-        assert_int_equal(status, 0);
-        assert_true(S_ISFIFO(mode_of("pipe.png")));
-    }
-    assert_int_equal(testing_entries("."), 2);
-}
-
-FOLDER_TEST(a_reader_that_leaves_is_an_error)
-{
-    int ends[2];
-    char path[32];
-    assert_int_equal(pipe(ends), 0);
-    snprintf(path, sizeof path, "/dev/fd/%d", ends[1]);
-    close(ends[0]);
-    assert_false(write_text(path, "bytes"));
-    assert_non_null(strstr(message.text, "Broken pipe"));
-    close(ends[1]);
 }
 
 FOLDER_TEST(names_of_open_files_are_written_through)

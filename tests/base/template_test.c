@@ -4,9 +4,6 @@
 #include "base/template.h"
 #include "support/testing.h"
 
-#include <stdlib.h>
-#include <stdio.h>
-#include <string.h>
 #include <unistd.h>
 
 /* Two people, the second without a name for a cat. */

@@ -4,9 +4,6 @@
 #include "base/text.h"
 #include "support/testing.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 TEST(comments_become_blanks)
 {
     static const struct {

@@ -8,8 +8,6 @@
 #include "base/watch.h"
 #include "support/testing.h"
 
-#include <stdio.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>

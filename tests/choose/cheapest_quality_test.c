@@ -19,11 +19,6 @@
 #include "support/picture_check.h"
 #include "support/testing.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 /* What the judges may differ by from the chooser's comparison: colors are kept there in 16 bits
  * (0.002), and the reserve is 0.015. */
 static const double SLACK = 0.02;

@@ -15,9 +15,6 @@
 #include "support/picture_check.h"
 #include "support/testing.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
 #include <time.h>
 
 enum { WIDTH = 200, HEIGHT = 150 };

@@ -7,10 +7,6 @@
 #include "core/shader_binary.h"
 #include "support/testing.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { SIZE = 16 };
 
 static const char VERTEX[] = "attribute vec4 a_Color;\nattribute vec4 a_Position;\n"

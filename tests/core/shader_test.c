@@ -8,9 +8,6 @@
 #include "core/shader_files.h"
 #include "support/testing.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>

@@ -3,11 +3,6 @@
 #include "diagrams/figures.h"
 #include "support/testing.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 /* Of sums and products of a few numbers near 1 in double precision. */
 #define ROUNDING 1e-12
 

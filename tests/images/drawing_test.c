@@ -2,9 +2,6 @@
 #include "images/drawing.h"
 #include "support/testing.h"
 
-#include <math.h>
-#include <string.h>
-
 static const Vec3 RED = {1, 0, 0}, BLUE = {0, 0, 1};
 
 /* A red square and a blue line in 8 x 4. */

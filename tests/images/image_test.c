@@ -11,11 +11,7 @@
 
 #include <fcntl.h>
 #include <float.h>
-#include <math.h>
 #include <png.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 extern const Example LightedCube, LightedCube_animation, LightedCube_ambient,

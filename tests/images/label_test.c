@@ -2,10 +2,6 @@
 #include "images/label.h"
 #include "support/testing.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { WIDTH = 240, HEIGHT = 80, X = 120, BASELINE = 50, SIZE = 20 };
 
 static Message message;

@@ -11,10 +11,6 @@
 #include "support/picture_check.h"
 #include "support/testing.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 /* Paints as a suspect instead of a submission's program. */
 typedef struct Fake {
     const WrongProgram *program;

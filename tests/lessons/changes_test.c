@@ -3,9 +3,6 @@
 #include "lessons/changes.h"
 #include "support/testing.h"
 
-#include <stdio.h>
-#include <string.h>
-
 static Message message;
 
 /* The lines with their marks, between bars. */

@@ -5,10 +5,6 @@
 #include "support/testing.h"
 #include "support/topology.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 static unsigned short seed[3];
 
 /* The cage has Q = 110 quadrilaterals and 112 points; each step adds Q points and 2 Q edges'. */

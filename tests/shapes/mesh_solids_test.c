@@ -7,10 +7,6 @@
 #include "support/topology.h"
 
 #include <float.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 static const double PI = 3.14159265358979323846;
 

@@ -4,9 +4,6 @@
 #include "reference/reference_trace.h"
 #include "support/testing.h"
 
-#include <math.h>
-#include <string.h>
-
 World world;
 
 enum { MAX_DRAWN = 64 };

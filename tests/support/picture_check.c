@@ -4,9 +4,6 @@
 #include "window/backends.h"
 
 #include <limits.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <sys/stat.h>
 
 /* One step of 1/255 becomes a visible grey. */

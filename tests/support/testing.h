@@ -1,10 +1,16 @@
 /*
- * testing: shared by tests: messages as failures, a temporary folder, resources of the process.
+ * testing: shared by tests: the standard headers that nearly all need, messages as failures, a
+ * temporary folder, resources of the process.
  */
 #ifndef TESTING_H
 #define TESTING_H
 
 #include "base/message.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 /* cmocka.h needs the headers before it. */
 #include <stdarg.h>

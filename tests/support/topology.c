@@ -3,9 +3,6 @@
 #include "support/testing.h"
 
 #include <float.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 Vec3 topology_vector(const float v[3])
 {

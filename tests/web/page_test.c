@@ -4,7 +4,6 @@
 #include "support/testing.h"
 
 #include <malloc.h>
-#include <string.h>
 
 static uint32_t drawn(double seconds)
 {

@@ -4,8 +4,6 @@
 #include "support/testing.h"
 #include "window/handles.h"
 
-#include <math.h>
-
 static const int PLACE[4] = {40, 10, 300, 200};
 static Light lights[4];
 static Scene scene;

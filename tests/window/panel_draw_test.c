@@ -9,8 +9,6 @@
 #include "support/testing.h"
 #include "window/panel_draw.h"
 
-#include <string.h>
-
 extern const Example LightedCube, PointLightedSphere_perFragment, ShadingModels, PhongBlinn;
 
 static const PanelHelp HELP[] = {{"space", "pauses"}, {"h", "help"}, {NULL, NULL}};

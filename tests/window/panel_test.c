@@ -6,10 +6,6 @@
 #include "window/panel.h"
 
 #include <float.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 enum { MAX_ROWS = 32 };
