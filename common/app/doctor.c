@@ -1,4 +1,4 @@
-/* --doctor: each backend and each module is tried, and says what it found. */
+/* --doctor: each package and each backend is tried, and says what it found. */
 #include "app/doctor.h"
 
 #include "app/options.h"
@@ -6,6 +6,7 @@
 #include "base/plugin.h"
 #include "images/animation.h"
 #include "images/image_file.h"
+#include "images/image_png.h"
 #include "window/backends.h"
 #include "window/panel.h"
 
@@ -62,6 +63,11 @@ static void print_kept(const char *backend, const char *findings)
     free(kept);
 }
 
+static bool png_probe(Message *findings)
+{
+    return package_tell(findings, "libpng", image_png_version(), "PNG files", NULL);
+}
+
 static bool model_probe(Message *findings)
 {
     static Plugin models = PLUGIN_MODELS;
@@ -76,16 +82,15 @@ static bool drawing_probe(Message *findings)
 
 int doctor_run(void)
 {
-    static const struct {
-        const char *title;
-        bool (*probe)(Message *findings);
-    } modules[] = {{"pictures", image_probe},
-                   {"animations", animation_probe},
-                   {"models", model_probe},
-                   {"diagrams", drawing_probe},
-                   {"the panel of windows", panel_probe}};
+    static bool (*const packages[])(Message * findings) = {
+        png_probe, image_probe, animation_probe, model_probe, drawing_probe, panel_probe};
     Message findings;
     cache_prepare_driver();
+    printf("packages:\n");
+    for (int i = 0; BACKENDS[i]; i++)
+        print_findings(BACKENDS[i]->package, &findings);
+    for (size_t i = 0; i < sizeof packages / sizeof packages[0]; i++)
+        print_findings(packages[i], &findings);
     const CanvasBackend *usual = backend_default(NULL), *works = NULL;
     for (int i = 0; BACKENDS[i]; i++) {
         printf("%s: %s\n", BACKENDS[i]->name, BACKENDS[i]->summary);
@@ -94,10 +99,6 @@ int doctor_run(void)
         print_kept(BACKENDS[i]->name, findings.text);
         if (!works || BACKENDS[i] == usual)
             works = BACKENDS[i];
-    }
-    for (size_t i = 0; i < sizeof modules / sizeof modules[0]; i++) {
-        printf("%s:\n", modules[i].title);
-        print_findings(modules[i].probe, &findings);
     }
     if (works && works == usual)
         printf("This machine can draw.\n");

@@ -6,6 +6,7 @@
 #include <dlfcn.h>
 #include <pthread.h>
 #include <stdio.h>
+#include <string.h>
 #include <unistd.h>
 
 static const void *load(const Plugin *plugin, Message *message)
@@ -49,10 +50,18 @@ bool plugin_probe(Plugin *plugin, Message *findings)
 {
     Message message = {0};
     PluginVersion *const *found = plugin_open(plugin, &message);
-    if (found)
-        message_add(findings, "  %s%s %s: found\n", plugin->library, plugin->purpose, (*found)());
+    return package_tell(findings, plugin->library, found ? (*found)() : NULL, plugin->purpose,
+                        found ? NULL : message.text);
+}
+
+bool package_tell(Message *findings, const char *name, const char *version, const char *gives,
+                  const char *missing)
+{
+    if (missing)
+        message_add(findings, "  %-12s missing, gives %s: %s\n", name, gives, missing);
     else
-        message_add(findings, "  %s%s missing: %s\n", plugin->library, plugin->purpose,
-                    message.text);
-    return found;
+        message_add(findings, "  %-12s %.*s%sfound, gives %s\n", name,
+                    version ? (int)strcspn(version, " ") : 0, version ? version : "",
+                    version ? ": " : "", gives);
+    return !missing;
 }

@@ -14,7 +14,7 @@ typedef struct Plugin {
     const char *file;    /* "image_oiio.so" */
     const char *symbol;  /* the variable's name */
     const char *library; /* what the plugin links, for messages: "OpenImageIO" */
-    const char *purpose; /* after that, in findings: " (model files)" */
+    const char *purpose; /* in findings: "model files" */
     const char *package; /* to install if it is missing */
     const void *loaded;  /* the variable; plugin_open sets it */
 } Plugin;
@@ -22,18 +22,24 @@ typedef struct Plugin {
 /* Of modules that a program may lack, and --doctor reports all the same. */
 #define PLUGIN_MODELS                                                                              \
     {                                                                                              \
-        "model_assimp.so", "model_module", "Assimp", " (model files)", "libassimp-dev", NULL       \
+        "model_assimp.so", "model_module", "Assimp", "model files", "libassimp-dev", NULL          \
     }
 #define PLUGIN_DRAWINGS                                                                            \
     {                                                                                              \
-        "drawing_cairo.so", "drawing_plugin", "cairo", "", "libcairo2-dev", NULL                   \
+        "drawing_cairo.so", "drawing_plugin", "cairo", "diagrams", "libcairo2-dev", NULL           \
     }
 
 /* Loads the plugin at the first call, from any thread, and returns its variable; NULL on failure,
  * with a message that names the package. */
 const void *plugin_open(Plugin *plugin, Message *message);
 
-/* The same, and appends a line about what was found; true if the plugin was. */
+/* The same, and appends package_tell's line; true if the plugin was found. */
 bool plugin_probe(Plugin *plugin, Message *findings);
+
+/* Appends the line of a package to --doctor's findings: whether it is there, its version up to the
+ * first blank (NULL: unknown), and what it gives. `missing` says why it is not there; NULL: it is.
+ * True if it is. */
+bool package_tell(Message *findings, const char *name, const char *version, const char *gives,
+                  const char *missing);
 
 #endif

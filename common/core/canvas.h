@@ -25,8 +25,10 @@ typedef struct CanvasBackend {
     GlFunction (*address)(const char *name);
     bool (*current)(void *context); /* whether GL functions still act on it */
     void (*close)(void *context);
-    /* Appends lines to `findings`: what each platform and library answers, what to install. True if
-     * the backend works. */
+    /* Loads its library and appends package_tell's line. True if it is there. */
+    bool (*package)(Message *findings);
+    /* Appends lines to `findings`: what each platform answers, what to install. True if the backend
+     * works. */
     bool (*probe)(Message *findings);
 } CanvasBackend;
 

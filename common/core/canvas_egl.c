@@ -6,6 +6,7 @@
 #include "core/canvas.h"
 
 #include "base/memory.h"
+#include "base/plugin.h"
 
 #include <dlfcn.h>
 #include <stdio.h>
@@ -279,14 +280,22 @@ static void egl_close(void *opened)
     free(opened);
 }
 
+static bool egl_package(Message *findings)
+{
+    Message missing = {0};
+    const bool found = egl_load(&missing);
+    return package_tell(findings, "EGL",
+                        found ? egl.QueryString(EGL_NO_DISPLAY, EGL_VERSION) : NULL,
+                        "pictures without a display", found ? NULL : missing.text);
+}
+
 static bool egl_probe(Message *findings)
 {
     Message message = {0};
     if (!egl_load(&message)) {
-        message_add(findings, "  library    missing: %s\n", message.text);
+        message_add(findings, "  no: %s\n", message.text);
         return false;
     }
-    message_add(findings, "  library    libEGL.so.1: found\n");
     Route routes[2 + MAX_DEVICES];
     const int count = find_routes(routes);
     bool any = false;
@@ -314,6 +323,7 @@ const CanvasBackend CANVAS_EGL = {
     .address = egl_address,
     .current = egl_current,
     .close = egl_close,
+    .package = egl_package,
     .probe = egl_probe,
 };
 

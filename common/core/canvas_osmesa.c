@@ -7,6 +7,7 @@
 #include "core/canvas.h"
 
 #include "base/memory.h"
+#include "base/plugin.h"
 
 #include <dlfcn.h>
 #include <stdio.h>
@@ -117,16 +118,23 @@ static bool osmesa_current(void *opened)
     return osmesa.GetCurrentContext() == context->handle;
 }
 
+static bool osmesa_package(Message *findings)
+{
+    Message missing = {0};
+    const bool found = osmesa_load(&missing);
+    return package_tell(findings, "OSMesa", NULL, "pictures without a display and without EGL",
+                        found ? NULL : missing.text);
+}
+
 static bool osmesa_probe(Message *findings)
 {
     Message message = {0};
     const char *platform;
     void *context;
     if (!osmesa_open(&context, NULL, &platform, &message)) {
-        message_add(findings, "  library    missing: %s\n", message.text);
+        message_add(findings, "  no: %s\n", message.text);
         return false;
     }
-    message_add(findings, "  library    found\n");
     const bool loaded = gl_probe(osmesa_address, findings);
     osmesa_close(context);
     return loaded;
@@ -139,5 +147,6 @@ const CanvasBackend CANVAS_OSMESA = {
     .address = osmesa_address,
     .current = osmesa_current,
     .close = osmesa_close,
+    .package = osmesa_package,
     .probe = osmesa_probe,
 };

@@ -12,6 +12,7 @@
 
 #include "base/memory.h"
 #include "base/output.h"
+#include "base/plugin.h"
 #include "base/process.h"
 #include "images/image_gif.h"
 
@@ -477,8 +478,6 @@ bool animation_probe(Message *findings)
     pid_t process;
     const bool found =
         process_start(&process, words, (int[]){-1, -1, -1, -1}) == 0 && process_wait(process) == 0;
-    message_add(findings, "  ffmpeg     %s\n",
-                found ? "found"
-                      : "missing; for .webp, .apng, .mp4 and .webm install the package ffmpeg");
-    return found;
+    return package_tell(findings, "ffmpeg", NULL, "animations: .webp, .apng, .mp4 and .webm",
+                        found ? NULL : "install the package ffmpeg");
 }

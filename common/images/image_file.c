@@ -50,12 +50,13 @@ bool image_file_read(ImageFile *file, const char *path, Message *message)
     return message_set(message, "%s: cannot read", path);
 }
 
-Plugin image_openimageio = {"image_oiio.so",        "image_plugin",       "OpenImageIO",
-                            " (all other formats)", "libopenimageio-dev", NULL};
+Plugin image_openimageio = {
+    "image_oiio.so",      "image_plugin",
+    "OpenImageIO",        "GIF animations, and picture files other than PNG",
+    "libopenimageio-dev", NULL};
 
 bool image_probe(Message *findings)
 {
-    message_add(findings, "  PNG        libpng %s: found\n", image_png_version());
     return plugin_probe(&image_openimageio, findings);
 }
 

@@ -35,7 +35,7 @@ bool image_encode(const Image *image, const char *format, const ImageOptions *op
 bool image_write(const Image *image, const char *path, const ImageOptions *options,
                  Message *message);
 
-/* Loads the plugin and appends lines about what was found; true if the plugin was. */
+/* Loads the plugin and appends its line for --doctor; true if it was found. */
 bool image_probe(Message *findings);
 
 #endif

@@ -9,6 +9,7 @@
 #include "window/window.h"
 
 #include "base/memory.h"
+#include "base/plugin.h"
 #include "window/glfw_library.h"
 
 #include <math.h>
@@ -408,6 +409,14 @@ bool window_check(Window *window, Message *message)
     return !glfw.error[0] || message_set(message, "window: %s", glfw_take_error(why));
 }
 
+static bool window_package(Message *findings)
+{
+    Message missing = {0};
+    const bool found = glfw_load(&missing);
+    return package_tell(findings, "GLFW", found ? glfw.GetVersionString() : NULL, "windows",
+                        found ? NULL : missing.text);
+}
+
 static bool window_probe(Message *findings)
 {
     static const CanvasOptions tiny = {.width = 1, .height = 1};
@@ -432,5 +441,6 @@ const CanvasBackend CANVAS_WINDOW = {
     .address = window_address,
     .current = window_current,
     .close = window_close,
+    .package = window_package,
     .probe = window_probe,
 };

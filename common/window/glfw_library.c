@@ -72,7 +72,7 @@ static bool choose_platform(Message *message)
     return true;
 }
 
-static bool load(Message *message)
+bool glfw_load(Message *message)
 {
     if (glfw.library)
         return true;
@@ -98,7 +98,7 @@ static bool load(Message *message)
 bool glfw_open(Message *message)
 {
     char why[256];
-    if (!load(message) || !choose_platform(message))
+    if (!glfw_load(message) || !choose_platform(message))
         return false;
     if (glfw.lost)
         handle_lost_display();

@@ -72,6 +72,9 @@ extern struct GlfwLibrary {
     char title[64]; /* of the latest window, for `lost` */
 } glfw;
 
+/* Loads it, which needs no display. */
+bool glfw_load(Message *message);
+
 /* Loads and initializes it; from then on `glfw.lost` is called, if it is set, when the display is
  * lost. */
 bool glfw_open(Message *message);

@@ -18,8 +18,8 @@ struct Panel {
 static const double MIN_SCALE = 0.5, MAX_SCALE = 4, LONGEST_FRAME = 1;
 static const double OUTSIDE = -1e6, MAX_PLACE = 1e6, MAX_SCROLL = 100;
 
-static Plugin imgui = {"panel_imgui.so", "panel_module", "Dear ImGui",
-                       " (the panel)",   "libimgui-dev", NULL};
+static Plugin imgui = {"panel_imgui.so",       "panel_module", "Dear ImGui",
+                       "the panel of windows", "libimgui-dev", NULL};
 
 bool panel_open(Panel **panel, Message *message)
 {

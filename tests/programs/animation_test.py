@@ -404,7 +404,7 @@ class Encoders(Animations):
         self.draw("a.gif", 3, environment={"PATH": self.path("empty")})
         self.draw("-", 3, "--format", "y4m", environment={"PATH": self.path("empty")})
         text = self.good("--doctor", environment={"PATH": self.path("empty")}).decode()
-        self.assertRegex(text, r"ffmpeg +missing; .*install the package ffmpeg\n")
+        self.assertRegex(text, r"ffmpeg +missing, gives .*: install the package ffmpeg\n")
 
     def test_an_ffmpeg_that_fails_is_said_in_one_line(self):
         for script, said in (

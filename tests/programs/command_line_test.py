@@ -397,9 +397,45 @@ class Options(Case):
     def test_the_doctor_says_what_works(self):
         text = self.good("--doctor").decode()
         self.assertRegex(text, r"(?s)egl.*works.*renderer.*This machine can draw\.\n$")
+        self.assertTrue(text.startswith("packages:\n  EGL "), text)
         for works in re.findall(r"^ *works: .*$", text, re.M):  # of every backend in the same words
             self.assertRegex(works, r"renderer \S.* \((software|hardware)\), OpenGL ")
         self.assertEqual(self.everything(), {})
+
+    def test_the_doctor_begins_with_the_packages(self):
+        """Each is there or not, with its version if it tells one, and with what it gives."""
+        def packages(**environment):
+            lines = self.run_it("--doctor", environment=environment).stdout.decode().split("\n")
+            self.assertEqual(lines[0], "packages:")
+            end = next(i for i, line in enumerate(lines) if line.startswith("egl: "))
+            return {line[2:15].strip(): line[15:] for line in lines[1:end]}
+
+        gives = {"EGL": "pictures without a display", "OSMesa": "pictures without a display and without EGL",
+                 "GLFW": "windows", "libpng": "PNG files",
+                 "OpenImageIO": "GIF animations, and picture files other than PNG",
+                 "ffmpeg": "animations: .webp, .apng, .mp4 and .webm", "Assimp": "model files", "cairo": "diagrams",
+                 "Dear ImGui": "the panel of windows"}
+        there = packages()
+        self.assertEqual(list(there), list(gives))
+        for name, said in there.items():
+            self.assertRegex(said, rf"^([\d.]+: found, gives {gives[name]}$|found, gives {gives[name]}$"
+                                   rf"|missing, gives {gives[name]}: .*install )", name)
+        for name in "EGL", "libpng":
+            self.assertRegex(there[name], r"^\d")
+        # The loader takes an empty file for the library, and fails.
+        needed = {"EGL": ["libEGL.so.1"], "GLFW": ["libglfw.so.3"],
+                  "OSMesa": ["libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"],
+                  "OpenImageIO": re.findall(r"libOpenImageIO\.so\S*", subprocess.run(
+                      ["ldd", MODULE], capture_output=True, text=True).stdout)}
+        for names in needed.values():
+            for name in names:
+                self.make(name, b"")
+        without = packages(LD_LIBRARY_PATH=self.folder, PATH="/nonexistent")
+        for name, said in without.items():
+            if name in needed or name == "ffmpeg":
+                self.assertRegex(said, rf"^missing, gives {gives[name]}: .*install the package", name)
+            else:
+                self.assertEqual(said, there[name])
 
     def test_without_a_driver_one_line_names_the_packages(self):
         self.make("LightedCube.png")
