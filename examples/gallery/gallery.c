@@ -37,10 +37,12 @@ static const Example *const ALL[] = {
 };
 enum { COUNT = sizeof ALL / sizeof ALL[0] };
 
-static bool with_manifest;
+static bool with_lecture, with_manifest;
 static const char *verified; /* the manifest to verify; NULL: none */
 
 static const Parameter parameters[] = {
+    {"lecture", "the lecture's nine programs, beside those named", PARAMETER_FLAG,
+     .value = &with_lecture},
     {"manifest",
      "also write manifest.txt: the SHA-256 of every picture and of its pixels, for sha256sum -c and "
      "for --verify",
@@ -55,7 +57,8 @@ static const Parameter parameters[] = {
 
 static const Usage GALLERY = {
     .name = "gallery",
-    .summary = "draws all programs, or those named, with a contact sheet and an HTML page",
+    .summary =
+        "draws all programs, those named, or the lecture's, with a contact sheet and an HTML page",
     .gallery = true,
     .parameters = parameters,
 };
@@ -86,7 +89,7 @@ static bool select_examples(Selection *selection, char *const *names, Message *m
         chosen[found] = true;
     }
     for (int i = 0; i < COUNT; i++)
-        if (!*names || chosen[i])
+        if ((!*names && !with_lecture) || chosen[i] || (with_lecture && !ALL[i]->kind))
             selection->examples[selection->count++] = ALL[i];
     return true;
 }
@@ -347,10 +350,14 @@ static bool select_verified(Manifest *manifest, Selection *selection, const Opti
                            verified, manifest->command);
     for (int i = 0; i < manifest->count; i++)
         names[i] = manifest->entries[i].name;
-    for (char *const *name = options->names; *name; name++)
-        if (!manifest_find(manifest, *name))
-            return message_set(message, "--verify %s: has no picture of %s", verified, *name);
-    return select_examples(selection, options->names[0] ? options->names : names, message);
+    const bool some = options->names[0] || with_lecture;
+    if (!select_examples(selection, some ? options->names : names, message))
+        return false;
+    for (int i = 0; i < selection->count; i++)
+        if (!manifest_find(manifest, selection->examples[i]->name))
+            return message_set(message, "--verify %s: has no picture of %s", verified,
+                               selection->examples[i]->name);
+    return true;
 }
 
 static bool check(const Options *options, Message *message)

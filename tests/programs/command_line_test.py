@@ -1226,6 +1226,23 @@ class Gallery(Case):
                          ["LightedCube.png", "PointLightedCube.png", "contact-sheet.png",
                           "index.html"])
 
+    def test_the_lecture_is_nine_pictures_a_sheet_and_a_page(self):
+        """In the lecture's order; also beside others that are named."""
+        self.assertEqual(len(PROGRAMS), 9)
+        rest = ["contact-sheet.png", "index.html"]
+        self.assertEqual(self.gallery("--lecture", *SMALL, "-o", "nine"), b"nine/index.html\n")
+        self.assertEqual(sorted(os.listdir(self.path("nine"))), sorted([name + ".png" for name in PROGRAMS] + rest))
+        shown = re.findall(r'<img[^>]* src="(\w+)\.png"', self.read("nine/index.html").decode())
+        with open(os.path.join(SOURCE, "examples/meson.build")) as file:
+            order = re.search(r"lecture_programs = \[(.*?)\]", file.read(), re.DOTALL)[1]
+        self.assertEqual(shown, re.findall(r"'(\w+)'", order))
+        for program in PROGRAMS[::step(4)]:
+            self.assertEqual(self.drawn(*SMALL, "--samples", "4", program=program).pixels,
+                             self.png(f"nine/{program}.png").pixels)
+        self.gallery("Materials", "--lecture", *SMALL, "-o", "ten")
+        self.assertEqual(sorted(os.listdir(self.path("ten"))),
+                         sorted([name + ".png" for name in PROGRAMS + ["Materials"]] + rest))
+
     def test_usage_errors_and_failures_are_said(self):
         self.make("file")
         for code, said, *arguments in (

@@ -231,6 +231,8 @@ class Galleries(Parts):
                  "--verify", "g/manifest.txt"),
                 ("--verify g/manifest.txt: has no picture of Materials", *base.SMALL, "--verify",
                  "g/manifest.txt", "Materials"),
+                ("--verify g/manifest.txt: has no picture of LightedCube_animation", *base.SMALL, "--verify",
+                 "g/manifest.txt", "--lecture"),
                 ("none: cannot read", "--verify", "none"),
                 ("--verify: writes nothing", "--verify", "g/manifest.txt", "-o", "h"),
                 ("--manifest: needs all pictures", "--manifest", "--part", "1/2")):
