@@ -6,6 +6,7 @@ usage: watch_test.py EXAMPLES_FOLDER_OF_THE_BUILD SOURCE_FOLDER [unittest's argu
 No test fails for being slow alone: PATIENCE is for what never comes. Exit code: 77 where nothing
 can be drawn.
 """
+import difflib
 import os
 import queue
 import re
@@ -221,6 +222,26 @@ class Pictures(Watched):
         os.remove(self.path("mine/lecture/LightedCube.frag"))
         watching.drew("mine/lecture/LightedCube.frag")
         self.is_as_drawn("--shaders", "mine")
+
+    def test_the_sample_of_a_shader_of_ones_own_draws_in_steps(self):
+        """Background, ambient light alone, and three steps of 0.8 of light; the file takes no more of the
+        lecture's than its way to round the cosine."""
+        program, folder = "PointLightedSphere_perFragment", os.path.join(base.SOURCE, "shaders/toon")
+        picture = self.drawn("--shaders", folder, "-s", "300x300", program=program)
+        greys = sorted(set(zip(*[iter(picture.pixels)] * 3)))
+        expected = [0, *(255 * (0.2 + 0.8 * step / 3) for step in range(4))]
+        self.assertEqual(len(greys), len(expected), greys)
+        for grey, value in zip(greys, expected):
+            self.assertEqual(len(set(grey)), 1)
+            self.assertLessEqual(abs(grey[0] - value), 1)  # rounding, in mediump
+        with open(os.path.join(base.SOURCE, "examples/pictures/toon.png"), "rb") as file:
+            self.assertEqual(base.Png(file.read()).pixels, picture.pixels)
+        texts = []
+        for part in "lecture", "toon":
+            with open(os.path.join(base.SOURCE, f"shaders/{part}/{program}.frag")) as file:
+                texts.append([line for line in file.read().split("\n") if line and not line.startswith("//")])
+        code = [line for line in difflib.ndiff(*texts) if line[0] in "+-" and not line[1:].strip().startswith("//")]
+        self.assertTrue(all(re.search("STEPS|toon|nDotL;", line) for line in code), code)
 
     def test_the_folder_of_the_environment(self):
         self.copy_cube()
