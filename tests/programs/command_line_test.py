@@ -1175,6 +1175,40 @@ class Scenes(Case):
                     self.assertGreater(len(set(pixels)), 3) # the background has three at most
 
 
+class Reflections(Case):
+    """What the page of the lighting model says of Phong's and Blinn-Phong's reflection."""
+    MODELS = ("phong", "blinn-phong")
+    ONE = ("--interpolation", "phong", "--turning-light", "off")
+
+    def test_blinn_phong_saves_operations_only_if_light_and_viewer_are_at_infinity(self):
+        """There L + V is one vector for all fragments, and R is not."""
+        def operations(reflection, *more):
+            said = self.good(*self.ONE, "--shape", "sphere", "--reflection", reflection, *more, "--explain",
+                             program="ShadingModels").decode()
+            return int(re.search(r"^operations: .* (\d+) per fragment", said, re.M)[1])
+
+        if not shutil.which("glslangValidator") or not shutil.which("spirv-opt"):
+            self.skipTest("nothing counts operations")
+        near = [operations(model) for model in self.MODELS]
+        far = [operations(model, "--viewer", "infinite", "--fixed-kind", "directional") for model in self.MODELS]
+        self.assertLess(near[0], near[1])
+        self.assertGreater(far[0], far[1])
+        with open(os.path.join(SOURCE, "examples/lighting/README.md")) as file:
+            said = " ".join(file.read().split())
+        self.assertIn(f"{far[1]} operations per fragment against Phong's {far[0]}. Otherwise H costs more than R: "
+                      f"{near[1]} against {near[0]}", said)
+
+    def test_blinn_phongs_highlight_is_drawn_out_at_a_grazing_angle(self):
+        """Across the view it is less than half as wide as Phong's, on the top of a cube."""
+        widths = []
+        for model in self.MODELS:
+            picture = self.drawn(*self.ONE, "-s", "300x300", "--shape", "cube", "--reflection", model, "--orbit", "0,8",
+                                 "--light-at", "0,-4,2.6,-6", program="ShadingModels")
+            row = [picture.at(x, 85)[0] for x in range(60, 240)]
+            widths.append(sum(value > max(row) / 2 for value in row))
+        self.assertGreater(widths[0], 2 * widths[1])
+
+
 class Gallery(Case):
     def gallery(self, *arguments, **more):
         return self.good(*arguments, program="gallery", **more)

@@ -54,6 +54,29 @@ for page in pages:
     for option in sorted(options(text) - known):
         check(page.name == "CHANGELOG.md", page, f"{option}: no program has it")
 
+# What the tables from OpenGL 1.1 and from JavaScript name is declared in a header; a field, in its struct.
+headers = "\n".join(path.read_text() for path in sorted(root.glob("common/*/*.h")))
+headers = re.sub(r"/\*.*?\*/", "", headers, flags=re.DOTALL)
+structs = {name: body for body, name in re.findall(r"^typedef struct (?:\w+ )?\{(.*?)^\} (\w+);", headers, re.M | re.S)}
+programs = {path.stem for path in root.glob("examples/l*/*.c")}
+lighting = root / "examples/lighting/README.md"
+for title, rows in (("From OpenGL 1.1", 15), ("From the slides' JavaScript", 15)):
+    section = lighting.read_text().split(f"## {title}\n")[1].split("\n## ")[0]
+    named = [cell for row in re.findall(r"^\| .*$", section, re.M) for cell in row.split(" | ")[1:]]
+    check(len(named) > rows, lighting, f"{title}: no table")
+    for token in re.findall(r"`([^`]+)`", " ".join(named)):
+        field = re.fullmatch(r"(\w*)\.(\w+)(?:\[\]\.(\w+))?", token)
+        if field:
+            struct = field[1] or struct
+            body = structs.get(struct, "") + (headers if field[3] else "")
+            check(all(re.search(rf"\b{name}\b", body) for name in field.groups()[1:] if name), lighting,
+                  f"{title}: {token}: no such field")
+        elif not token.startswith("--") and token.split()[0] not in programs:  # options are checked above
+            for name in re.findall(r"\w+", token.split("(")[0]):
+                entry = rf"\b{name[2:]}\)" if re.match("gl[A-Z]", name) else rf"\b{name}\b"  # gl.h has their list
+                check(re.search(entry, headers) or name in ("gouraud", "constant", "flat") or name[:3] == "GL_",
+                      lighting, f"{title}: {name}: no header has it")
+
 modules = (root / "common/README.md").read_text()
 for header in sorted(root.glob("common/*/*.h")):
     check(f"({header.parent.name}/{header.name})" in modules, root / "common/README.md",
