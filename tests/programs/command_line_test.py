@@ -1175,6 +1175,22 @@ class Scenes(Case):
                     self.assertGreater(len(set(pixels)), 3) # the background has three at most
 
 
+class Index(Case):
+    def test_every_command_of_the_index_draws_another_picture_than_without_its_options(self):
+        """examples/README.md, where each section is shown; and no option is ignored."""
+        with open(os.path.join(SOURCE, "examples/README.md")) as file:
+            index = file.read().split("## Where each section is shown")[1]
+        commands = [command.split() for command in re.findall(r"`(\w+ --[^`]+)`", index)]
+        commands = [words for words in commands if words[0] in PROGRAMS + SCENES + DIAGRAMS and words[-1] != "FILE"]
+        self.assertGreater(len(commands), 20)
+        size, plain = ("-s", "120x120"), {}
+        for program, *options in commands:
+            with self.subTest(program=program, options=options):
+                if program not in plain:
+                    plain[program] = self.drawn(*size, program=program).pixels
+                self.assertNotEqual(self.drawn(*size, *options, program=program).pixels, plain[program])
+
+
 class Reflections(Case):
     """What the page of the lighting model says of Phong's and Blinn-Phong's reflection."""
     MODELS = ("phong", "blinn-phong")
