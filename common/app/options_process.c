@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "base/output.h"
 #include "base/process.h"
+#include "base/text.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -12,6 +13,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 /* Ends the process as the signal alone would, after removing half-written files. */
@@ -60,6 +62,28 @@ void options_prepare_process(void)
     options_catch_signals(end_by_signal, SA_RESTART);
 }
 
+/* The rest of a line, and other lines: on a terminal broken between words, but for a quoted source
+ * line, "  3 | ...". `column` is where the first begins. */
+static void print_lines(const char *text, int column)
+{
+    struct winsize window;
+    const bool wraps =
+        ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 20 + column;
+    for (const char *line = text; line; column = 0) {
+        char words[sizeof((Message *)0)->text];
+        const int length = (int)strcspn(line, "\n"), blanks = (int)strspn(line, " ");
+        snprintf(words, sizeof words, "%.*s", length, line);
+        if (!wraps || length + column <= window.ws_col || strstr(words, " | ")) {
+            fputs(words, stderr);
+        } else {
+            fprintf(stderr, "%.*s", blanks, line);
+            text_wrap(stderr, words + blanks, column + blanks, blanks + 4, window.ws_col);
+        }
+        fputc('\n', stderr);
+        line = line[length] ? line + length + 1 : NULL;
+    }
+}
+
 /* The beginning, a program's name or a file and line, in colour on a terminal. */
 static void print_message(const char *program, const Message *message, int color)
 {
@@ -67,10 +91,9 @@ static void print_message(const char *program, const Message *message, int color
     const char *end = message_color(MESSAGE_PLAIN, STDERR_FILENO);
     const char *text = message->text[0] ? message->text : "failed";
     const char *rest = message->located ? strstr(text, ": ") : NULL;
-    if (rest)
-        fprintf(stderr, "%s%.*s:%s%s\n", begin, (int)(rest - text), text, end, rest + 1);
-    else
-        fprintf(stderr, "%s%s:%s %s\n", begin, program, end, text);
+    const int length = rest ? (int)(rest - text) : (int)strlen(program);
+    fprintf(stderr, "%s%.*s:%s ", begin, length, rest ? text : program, end);
+    print_lines(rest ? rest + 2 : text, length + 2);
 }
 
 int options_fail(const char *program, const Message *message, int code)

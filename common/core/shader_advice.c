@@ -12,6 +12,21 @@
 #define BRACE "A closing brace } is missing."
 #define TEXTURES "GLSL ES 1.00 reads a sampler2D by texture2D(sampler, point)."
 #define SHORTEN "use .xyz or .rgb of the longer one, or vec4(..., 1.0) of the shorter one."
+#define NARROW "A vec4 does not fit into a vec3: write .xyz or .rgb of it."
+#define WIDEN                                                                                      \
+    "A vec3 does not fill a vec4: write vec4(value, 1.0), or vec4(value, 0.0) for a direction."
+#define LATER(name) "GLSL ES 1.00 has no " name ": "
+#define INVERSE LATER("inverse") "compute the inverse in the program, and pass it as a uniform."
+#define TRANSPOSE                                                                                  \
+    LATER("transpose")                                                                             \
+    "write vector * matrix in the place of transpose(matrix) * vector, or pass "                   \
+    "it as a uniform."
+#define TEXTURE_SIZE LATER("textureSize") "pass the size as a uniform."
+#define SATURATE "saturate is HLSL's: write clamp(x, 0.0, 1.0)."
+#define SHADOW_SAMPLER                                                                             \
+    LATER("sampler2DShadow")                                                                       \
+    "take a sampler2D, and compare the depth that texture2D returns with the "                     \
+    "point's own."
 #define SPELLING "This name is not declared: check its spelling and case"
 #define VARYING "Declare the varying in both shaders with the same name and type"
 
@@ -32,6 +47,15 @@
 static const struct {
     const char *part, *then, *advice;
 } ADVICE[] = {
+    {"sampler2DShadow", "", SHADOW_SAMPLER},
+    {"'inverse' : no matching overloaded function", "", INVERSE},
+    {"no function with name 'inverse'", "", INVERSE},
+    {"'transpose' : no matching overloaded function", "", TRANSPOSE},
+    {"no function with name 'transpose'", "", TRANSPOSE},
+    {"'textureSize' : no matching overloaded function", "", TEXTURE_SIZE},
+    {"no function with name 'textureSize'", "", TEXTURE_SIZE},
+    {"'saturate' : no matching overloaded function", "", SATURATE},
+    {"no function with name 'saturate'", "", SATURATE},
     {"'' : syntax error", "", BRACE},
     {"wrong operand types", "'const int'",
      "GLSL ES does not convert int to float: write 2.0 instead of 2."},
@@ -42,8 +66,8 @@ static const struct {
     {"cannot convert from 'const int'", "",
      "The value and the variable have different types: write 1.0 instead of 1."},
     {"dimension mismatch", "",
-     "The value and the variable have different types: a vec4 does not fit into a vec3; use .xyz or "
-     ".rgb."},
+     "The value and the variable have different types: write .xyz or .rgb of a vec4, and vec4(..., "
+     "1.0) of a vec3."},
     {"cannot convert from", "",
      "The value and the variable have different types, and GLSL ES never converts."},
     {"'max' : no matching overloaded function", "",
@@ -101,12 +125,16 @@ static const struct {
     {"no function with name", "", "There is no such function: check its spelling."},
     {"undeclared", "", SPELLING "; declare a varying or uniform in each shader that uses it."},
     {"redeclar", "", "This name is declared twice: remove one declaration, or only its type."},
-    {"value of type", "cannot be assigned",
-     "The value and the variable have different types: a vec4 does not fit into a vec3; use .xyz or "
-     ".rgb."},
-    {"initializer of type", "cannot be assigned",
-     "The value and the variable have different types: write 1.0 instead of 1, and .xyz or .rgb of "
-     "a vec4."},
+    {"of type vec4 cannot be assigned", "of type vec3", NARROW},
+    {"of type vec3 cannot be assigned", "of type vec4", WIDEN},
+    {"of type vec", "to variable of type float",
+     "The value is a vector, the variable a number: write one component (.x), or dot or length."},
+    {"of type float cannot be assigned", "of type vec",
+     "The value is a number, the variable a vector: write vec3(value) or vec4(value)."},
+    {"of type int cannot be assigned", "",
+     "The value and the variable have different types: write 1.0 instead of 1."},
+    {"of type", "cannot be assigned",
+     "The value and the variable have different types, and GLSL ES never converts."},
     {"assignment to", "read-only", READ_ONLY},
     {"`in' qualifier", "", IN_OUT},
     {"texture", "", TEXTURES},
@@ -149,14 +177,12 @@ static const struct {
 };
 
 /* The line of the first error: later ones are candidates or consequences. */
-static void first_error(const char *message, char *line, size_t size)
+static const char *first_error(const char *message)
 {
     const char *start = strstr(message, "error: ");
     while (start && start > message && start[-1] != '\n')
         start--;
-    if (!start)
-        start = message;
-    snprintf(line, size, "%.*s", (int)strcspn(start, "\n"), start);
+    return start ? start : message;
 }
 
 static const char *usual_meaning(const char *line)
@@ -264,7 +290,8 @@ static bool find_meant(const char *source, const char *unknown, char meant[WORD_
 bool shader_advice(const char *source, const char *message, char *advice, size_t size)
 {
     char line[1024], unknown[WORD_SIZE], meant[WORD_SIZE];
-    first_error(message, line, sizeof line);
+    const char *error = first_error(message);
+    snprintf(line, sizeof line, "%.*s", (int)strcspn(error, "\n"), error);
     const char *meaning = usual_meaning(line);
     const bool found = unknown_name(line, unknown) && find_meant(source, unknown, meant);
     snprintf(advice, size, "%s%s%s%s%s", found ? "did you mean " : "", found ? meant : "",
@@ -272,9 +299,23 @@ bool shader_advice(const char *source, const char *message, char *advice, size_t
     return found || meaning;
 }
 
+/* The source line that follows a message is quoted as "  3 | ...". */
+static bool is_quote(const char *line)
+{
+    return strncmp(line, "  ", 2) == 0 && strcspn(line, "|") < strcspn(line, "\n");
+}
+
 void shader_advise(const char *source, Message *message)
 {
     char advice[512];
-    if (message && message->text[0] && shader_advice(source, message->text, advice, sizeof advice))
-        message_add(message, "\n  hint: %s", advice);
+    if (!message || !message->text[0] ||
+        !shader_advice(source, message->text, advice, sizeof advice))
+        return;
+    const char *error = first_error(message->text), *end = error + strcspn(error, "\n");
+    if (*end && is_quote(end + 1))
+        end += 1 + strcspn(end + 1, "\n");
+    Message after = {0};
+    message_set(&after, "%s", end);
+    message->text[end - message->text] = '\0';
+    message_add(message, "\n  hint: %s%s", advice, after.text);
 }

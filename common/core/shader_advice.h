@@ -12,7 +12,7 @@
  * driver's error usually means; false: neither is known. */
 bool shader_advice(const char *source, const char *message, char *advice, size_t size);
 
-/* Adds that as a last line, "  hint: ...". */
+/* Adds that as a line, "  hint: ...", after the first error and its source line. */
 void shader_advise(const char *source, Message *message);
 
 #endif

@@ -833,8 +833,12 @@ class Shaders(Case):
                  "This name is not declared: "),
                 ("LightedCube", "normalize(", "normalise(",
                  r"(?s)normalise.*\n  hint: did you mean normalize\? There is no such function"),
-                ("LightedCube", "0.0);\n", "0);\n", r"(?s)\n  hint: max takes two numbers of the same "
-                 r"type: write max\(x, 0\.0\)"),
+                ("LightedCube", "0.0);\n", "0);\n", r"candidates are:\n  \d+ \|.*\n  hint: max takes two "
+                 r"numbers of the same type: write max\(x, 0\.0\)"),
+                ("LightedCube", "gl_Position =", "gl_Position = vec3(1.0); gl_Position =",
+                 r"\n  hint: A vec3 does not fill a vec4: write vec4\(value, 1\.0\)"),
+                ("LightedCube", "normalize(", "inverse(", r"\n  hint: GLSL ES 1\.00 has no inverse: "),
+                ("LightedCube", "max(", "saturate(", r"\n  hint: saturate is HLSL's: write clamp\("),
                 ("LightedCube", ";\n}", "\n}", r"(?s)\n  hint: Check the (end of the )?line before"),
                 ("Materials", "a_Normal", "a_Norml", r"(?s)\n  hint: did you mean a_Normal\?")):
             with self.subTest(new=new):
