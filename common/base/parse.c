@@ -6,25 +6,26 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Digits up to PARSE_SIZE_MAX; NULL: something else. */
+static const char *read_length(const char *text, int *length)
+{
+    int digits = 0;
+    for (*length = 0; *text >= '0' && *text <= '9' && digits < 6; text++, digits++)
+        *length = 10 * *length + (*text - '0');
+    return *length >= 1 && *length <= PARSE_SIZE_MAX ? text : NULL;
+}
+
 bool parse_size(const char *text, int *width, int *height)
 {
-    const char *p = text;
-    int sizes[2];
-    for (int i = 0; i < 2; i++) {
-        int value = 0, digits = 0;
-        for (; *p >= '0' && *p <= '9' && digits < 6; p++, digits++)
-            value = 10 * value + (*p - '0');
-        if (!digits || value < 1 || value > PARSE_SIZE_MAX)
-            return false;
-        sizes[i] = value;
-        if (i == 0 && *p != 'x' && *p != 'X')
-            return false;
-        p += i == 0;
-    }
-    if (*p)
+    int wide, high;
+    const char *p = read_length(text, &wide);
+    high = wide;
+    if (p && (*p == 'x' || *p == 'X'))
+        p = read_length(p + 1, &high);
+    if (!p || *p)
         return false;
-    *width = sizes[0];
-    *height = sizes[1];
+    *width = wide;
+    *height = high;
     return true;
 }
 

@@ -9,7 +9,8 @@
 
 enum { PARSE_SIZE_MAX = 16384 };
 
-/* "WIDTHxHEIGHT", each 1 to PARSE_SIZE_MAX. Like all functions here, it refuses trailing text. */
+/* "WIDTHxHEIGHT", or one number for both, each 1 to PARSE_SIZE_MAX. Like all functions here, it
+ * refuses trailing text. */
 bool parse_size(const char *text, int *width, int *height);
 
 /* A finite decimal number in [min, max]. */

@@ -12,12 +12,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 
 #define EGL_EGL_PROTOTYPES 0
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
-
-#define EGL_PACKAGES "libegl1 libegl-mesa0 libgl1-mesa-dri"
 
 #define EGL_FUNCTIONS(X)                                                                           \
     X(BINDAPI, BindAPI)                                                                            \
@@ -84,13 +83,42 @@ static const char *egl_error(void)
     }
 }
 
+enum { REMEDY_SIZE = 256 };
+
+/* What to do where no driver answers: the variables that choose one, and a limit of the memory that
+ * its libraries are mapped to, come before the packages. */
+static const char *egl_remedy(char remedy[REMEDY_SIZE])
+{
+    static const char *const choosing[] = {"GALLIUM_DRIVER",
+                                           "MESA_LOADER_DRIVER_OVERRIDE",
+                                           "LIBGL_DRIVERS_PATH",
+                                           "GBM_BACKENDS_PATH",
+                                           "EGL_PLATFORM",
+                                           "__EGL_VENDOR_LIBRARY_FILENAMES",
+                                           "__EGL_VENDOR_LIBRARY_DIRS"};
+    static const rlim_t least = (rlim_t)512 << 20; /* Mesa's LLVM alone is 120 MB */
+    struct rlimit limit;
+    for (size_t i = 0; i < sizeof choosing / sizeof choosing[0]; i++) {
+        const char *value = getenv(choosing[i]);
+        snprintf(remedy, REMEDY_SIZE, "%s is \"%.100s\": unset it", choosing[i],
+                 value ? value : "");
+        if (value)
+            return remedy;
+    }
+    if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur >= least)
+        return "install the packages libegl1 libegl-mesa0 libgl1-mesa-dri";
+    snprintf(remedy, REMEDY_SIZE, "the limit of memory is %llu MB (ulimit -v): raise it to 512",
+             (unsigned long long)(limit.rlim_cur >> 20));
+    return remedy;
+}
+
 static bool egl_load(Message *message)
 {
     if (egl.library)
         return true;
     void *library = dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL);
     if (!library)
-        return message_set(message, "EGL: %s; install the packages " EGL_PACKAGES, dlerror());
+        return message_set(message, "EGL: %s; %s", dlerror(), egl_remedy((char[REMEDY_SIZE]){0}));
 #define EGL_LOAD(TYPE, name)                                                                       \
     egl.name = (PFNEGL##TYPE##PROC)dlsym(library, "egl" #name);                                    \
     if (!egl.name) {                                                                               \
@@ -260,10 +288,8 @@ static bool egl_open(void **opened, const CanvasOptions *options, const char **p
         message_add(&reasons, "%s%s: %s", i ? "; " : "", routes[i].name, reason.text);
     }
     free(context);
-    return message_set(
-        message,
-        "EGL: no platform gives an OpenGL ES 2 context (%s); install the packages " EGL_PACKAGES,
-        reasons.text);
+    return message_set(message, "EGL: no platform gives an OpenGL ES 2 context (%s); %s",
+                       reasons.text, egl_remedy((char[REMEDY_SIZE]){0}));
 }
 
 static bool egl_current(void *opened)
@@ -312,7 +338,7 @@ static bool egl_probe(Message *findings)
         route_close(&context);
     }
     if (!any)
-        message_add(findings, "  install the packages " EGL_PACKAGES "\n");
+        message_add(findings, "  %s\n", egl_remedy((char[REMEDY_SIZE]){0}));
     return any;
 }
 

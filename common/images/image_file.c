@@ -16,6 +16,7 @@
 #include <string.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 void image_file_close(ImageFile *file)
@@ -89,9 +90,12 @@ bool image_format(const char *path, char format[16], Message *message)
     const char *name = slash ? slash + 1 : path;
     const char *dot = strrchr(name, '.');
     const bool named = dot && dot != name && dot[1];
-    /* Standard output and devices have no extension. */
+    /* Standard output, devices and pipes have no extension. */
+    struct stat status;
     const bool device =
-        strcmp(path, "-") == 0 || strncmp(path, "/dev/", 5) == 0 || strncmp(path, "/proc/", 6) == 0;
+        strcmp(path, "-") == 0 || strncmp(path, "/dev/", 5) == 0 ||
+        strncmp(path, "/proc/", 6) == 0 ||
+        (stat(path, &status) == 0 && (S_ISFIFO(status.st_mode) || S_ISCHR(status.st_mode)));
     if (!named && !device)
         return message_set(message, "%s: the extension names the format; give one, as in %s.png",
                            path, name);

@@ -132,8 +132,9 @@ static bool read_places(const Parameter *parameter, const char *text, Message *m
         LightValue value;
         if (!read_light(word, -1e6, 1e6, &value) || value.count != 3)
             return message_set(message,
-                               "--light-at %s: must be LIGHT,X,Y,Z, with LIGHT from 0 to %d, as in "
-                               "0,1,2,-3.5; a / begins another light",
+                               "--light-at %s: must be LIGHT,X,Y,Z, with LIGHT from 0 to %d and "
+                               "coordinates from -1000000 to 1000000, as in 0,1,2,-3.5; a / begins "
+                               "another light",
                                text, SCENE_MAX_PLACED - 1);
         places.placed |= 1U << value.light;
         places.at[value.light] = vector_of(value.numbers);

@@ -437,11 +437,23 @@ class Options(Case):
             else:
                 self.assertEqual(said, there[name])
 
-    def test_without_a_driver_one_line_names_the_packages(self):
+    def test_a_named_pipe_gets_a_png(self):
+        os.mkfifo(self.path("pipe"))
+        with subprocess.Popen(["cat", self.path("pipe")], stdout=subprocess.PIPE) as reader:
+            self.run_it("-s", "8", "-o", "pipe")
+            self.assertEqual(Png(reader.stdout.read()).pixels, self.drawn("-s", "8x8").pixels)
+
+    def test_without_a_driver_one_line_names_the_cause(self):
+        """The variable that chooses none; otherwise the packages."""
         self.make("LightedCube.png")
-        self.refused(1, "^LightedCube: EGL: .*install the packages libegl1 ",
+        self.refused(1, '^LightedCube: EGL: .*; LIBGL_DRIVERS_PATH is "/nonexistent": unset it',
                      environment=NO_DRIVER)
-        result = self.run_it("--doctor", environment=NO_DRIVER)
+        self.refused(1, '\nLightedCube: EGL: .*; GALLIUM_DRIVER is "nonsense": unset it',
+                     environment={"GALLIUM_DRIVER": "nonsense"}, lines=0)
+        self.make("none/libEGL.so.1", "")
+        none = {"LD_LIBRARY_PATH": self.path("none")}
+        self.refused(1, "^LightedCube: EGL: .*install the packages libegl1 ", environment=none)
+        result = self.run_it("--doctor", environment=none)
         self.assertEqual(result.stderr, b"")
         self.assertRegex(result.stdout.decode(), {
             0: r"(?s)libegl1.*can draw with --backend osmesa\.\n$",
@@ -1308,7 +1320,7 @@ class Gallery(Case):
                 (1, "file: exists and is not a folder", "-o", "file"),
                 (1, "missing/deep: cannot create the folder", "-o", "missing/deep")):
             self.refused(code, "^gallery: " + said, *arguments, program="gallery")
-        self.refused(1, "^gallery: EGL: .*install", program="gallery", environment=NO_DRIVER)
+        self.refused(1, "^gallery: EGL: .*unset", program="gallery", environment=NO_DRIVER)
 
 
 class Again(Case):

@@ -146,7 +146,7 @@ class Cases(Study):
                 (1, r"file: exists and is not a folder", "-o", "file"),
                 (1, r"missing/deep: cannot create the folder", "-o", "missing/deep")):
             self.wrong(code, said, *arguments)
-        self.wrong(1, "EGL: .*install", environment=base.NO_DRIVER)
+        self.wrong(1, "EGL: .*unset", environment=base.NO_DRIVER)
 
     def test_a_picture_that_cannot_be_written_is_named(self):
         os.makedirs(self.path("hard_cases/leak.png"))
