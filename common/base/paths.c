@@ -1,4 +1,7 @@
-/* Three places, by the program's own path: it lies in the build folder, or in an installation. */
+/* Three places, by the program's own path: it lies in a build folder or in an installation. No path
+ * is compiled in but the prefix, so that two builds of one source are the same bytes, and an
+ * installed program knows nothing of the source tree. A program of a build finds it by the file
+ * that meson writes into the build folder. */
 #include "base/paths.h"
 
 #include <errno.h>
@@ -32,13 +35,40 @@ static bool own_prefix(char prefix[PATH_MAX])
     return found;
 }
 
-bool paths_data(PathsPlace place, const char *source, const char *installed, char path[PATH_MAX])
+static bool installed_data(char path[PATH_MAX], const char *file)
 {
     char prefix[PATH_MAX];
+    return own_prefix(prefix) && join(path, prefix, DATA_FOLDER, file);
+}
+
+bool paths_build(char build[PATH_MAX], char source[PATH_MAX])
+{
+    char path[PATH_MAX];
+    bool found =
+        paths_program(build, NULL) && !(installed_data(path, "") && access(path, F_OK) == 0);
+    /* BUILD/examples/NAME, BUILD/tests/fuzz/NAME */
+    for (int above = 0; above < 3 && found; above++) {
+        char *slash = strrchr(build, '/');
+        *(slash ? slash : build) = '\0';
+        FILE *file = join(path, build, "", "source_root") ? fopen(path, "r") : NULL;
+        const bool read = file && fgets(source, PATH_MAX, file);
+        if (file)
+            fclose(file);
+        if (read) {
+            source[strcspn(source, "\n")] = '\0';
+            return true;
+        }
+    }
+    return false;
+}
+
+bool paths_data(PathsPlace place, const char *source, const char *installed, char path[PATH_MAX])
+{
+    char build[PATH_MAX], root[PATH_MAX];
     if (place == PATHS_SOURCE)
-        return join(path, SOURCE_ROOT, source, "");
+        return paths_build(build, root) && join(path, root, source, "");
     if (place == PATHS_BESIDE)
-        return own_prefix(prefix) && join(path, prefix, DATA_FOLDER, installed);
+        return installed_data(path, installed);
     return join(path, DATA_INSTALLED, installed, "");
 }
 
@@ -52,14 +82,13 @@ bool paths_find_data(const char *source, const char *installed, char path[PATH_M
 
 bool paths_plugin(PathsPlace place, const char *file, char path[PATH_MAX])
 {
-    char program[PATH_MAX];
-    const bool built =
-        paths_program(program, NULL) && strncmp(program, BUILD_ROOT "/", sizeof BUILD_ROOT) == 0;
+    char root[PATH_MAX], source[PATH_MAX];
+    const bool built = paths_build(root, source);
     if (built != (place == PATHS_SOURCE))
         return false;
     if (place == PATHS_SOURCE)
-        return join(path, BUILD_ROOT, "common", file);
+        return join(path, root, "common", file);
     if (place == PATHS_BESIDE)
-        return own_prefix(program) && join(path, program, PLUGIN_FOLDER, file);
+        return own_prefix(root) && join(path, root, PLUGIN_FOLDER, file);
     return join(path, PLUGINS_INSTALLED, file, "");
 }

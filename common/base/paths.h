@@ -19,8 +19,12 @@ typedef enum PathsPlace {
 /* The running executable. */
 bool paths_program(char path[PATH_MAX], Message *message);
 
+/* The build folder that the running executable lies in, and its source tree; false: none. */
+bool paths_build(char build[PATH_MAX], char source[PATH_MAX]);
+
 /* A data file or folder by its path below the source tree and below share/lighting ("": that folder
- * itself). False if the path is too long. */
+ * itself). False if the path is too long, or, for PATHS_SOURCE, the
+ * program lies in no build folder. */
 bool paths_data(PathsPlace place, const char *source, const char *installed, char path[PATH_MAX]);
 
 /* The first place where it exists; false: nowhere, and `path` is the last one tried. */

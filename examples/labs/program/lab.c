@@ -92,10 +92,9 @@ int lab_files(const Lab *lab, char names[LAB_MAX_FILES][LAB_NAME_SIZE])
 
 bool lab_folder(const Lab *lab, char folder[PATH_MAX], Message *message)
 {
-    char source[64], tried[PATH_MAX];
+    char source[64];
     snprintf(source, sizeof source, "examples/labs/%s", lab->name);
     if (paths_find_data(source, source + strlen("examples/"), folder))
         return true;
-    paths_data(PATHS_SOURCE, source, "", tried);
-    return message_set(message, "%s: neither %s nor %s exists", lab->name, tried, folder);
+    return message_set(message, "%s: the lab's folder %s does not exist", lab->name, folder);
 }

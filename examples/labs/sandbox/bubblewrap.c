@@ -70,7 +70,9 @@ static void add_system(Words *words)
 /* What the program needs to draw and to compile. */
 static void add_own(Words *words)
 {
-    char path[PATH_MAX];
+    char path[PATH_MAX], source[PATH_MAX];
+    if (paths_build(path, source) && strlen(path) + sizeof "/source_root" <= sizeof path)
+        add_readable(words, strcat(path, "/source_root"));
     for (int i = 0; i < PATHS_PLACE_COUNT; i++) {
         const PathsPlace place = (PathsPlace)i;
         if (paths_data(place, "shaders", "", path))
