@@ -187,19 +187,26 @@ setup_packages() {
     fi
     grep -q '^ID=debian$' /etc/os-release 2>/dev/null || say "untested on this system: only Debian is tested"
     log=$(mktemp) || exit 1
-    # The package lists are fetched only if they are missing or too old.
+    # The package lists are fetched only if they are missing or too old. Another program that installs
+    # packages, as a new desktop's updates do, has apt's locks: they are waited for.
+    waits=
     # shellcheck disable=SC2046
-    if ! install "$@" && ! { update && install $(packages_of_this_release "$@"); }; then
-        tail -n 5 "$log" >&2
-        rm -f "$log"
-        fail 1 "apt-get could not install: $*"
-    fi
+    while ! install "$@" && ! { update && install $(packages_of_this_release "$@"); }; do
+        if ! grep -q 'E: Could not get lock\|E: Unable to lock' "$log" || [ "${waits:-5}" = 0 ]; then
+            tail -n 5 "$log" >&2
+            rm -f "$log"
+            fail 1 "apt-get could not install: $*"
+        fi
+        [ "$waits" ] || say "another program installs packages; waiting for it, at most 5 minutes"
+        waits=$((${waits:-60} - 1))
+        sleep 5
+    done
     rm -f "$log"
 }
 
 update() {
-    say "fetching the package lists"
-    $sudo apt-get update >"$log" 2>&1 </dev/null
+    [ "$waits" ] || say "fetching the package lists"
+    $sudo env LC_ALL=C apt-get update >>"$log" 2>&1 </dev/null
 }
 
 # "160 MB to fetch, 650 MB on disk", as apt words it; nothing if it has no lists.
@@ -212,15 +219,16 @@ megabytes() {
 # What apt does is seen on a terminal, in one line that it rewrites.
 # (README.progress-reporting, of apt: "dlstatus:PACKAGE:PERCENT:TEXT", then "pmstatus:...")
 install() {
+    : >"$log"
     size=$(megabytes "$@")
     [ "$size" ] || return 1
-    say "installing with apt-get ($size): $*"
+    [ "$waits" ] || say "installing with apt-get ($size): $*"
     set -- apt-get install -y --no-install-recommends "$@"
     if [ -t 2 ]; then
         # sudo closes all but the standard streams.
         # shellcheck disable=SC2016
         code=$({ {
-            $sudo env DEBIAN_FRONTEND=noninteractive sh -c '"$@" 3>&1 >&2' sh \
+            $sudo env DEBIAN_FRONTEND=noninteractive LC_ALL=C sh -c '"$@" 3>&1 >&2' sh \
                 "$@" -o APT::Status-Fd=3 2>>"$log" </dev/null
             echo $? >&4
         } | while IFS=: read -r kind _ percent text; do
@@ -231,7 +239,7 @@ install() {
         printf '\r\033[K' >&2
         return "$code"
     fi
-    $sudo env DEBIAN_FRONTEND=noninteractive "$@" >>"$log" 2>&1 </dev/null
+    $sudo env DEBIAN_FRONTEND=noninteractive LC_ALL=C "$@" >>"$log" 2>&1 </dev/null
 }
 
 # Those of the packages that there are, as far as the package lists say; where there are no lists,
@@ -293,10 +301,10 @@ setup_configure() {
     if [ -f "$build/build.ninja" ]; then
         tree=$(setup_tree)
         if [ "${tree:-$root}" != "$root" ]; then
-            [ -d "$tree" ] && {
+            [ -d "$tree" ] && [ "${build#"$root"/}" = "$build" ] && {
                 fail 1 "the build folder $build belongs to $tree; LIGHTING_BUILD names another"
             }
-            rm -rf "$build"/meson-* "$build/build.ninja" # the tree was moved
+            rm -rf "$build"/meson-* "$build/build.ninja" # the tree was moved or copied
         elif [ -f "$stamp" ] && ! [ /var/lib/dpkg/status -nt "$stamp" ] &&
             [ -z "${cross:+$(find "$root/shaders" -type d -newer "$stamp" -print -quit)}" ]; then
             return 0
@@ -310,15 +318,39 @@ setup_configure() {
     log=$(mktemp) || exit 1
     # shellcheck disable=SC2086
     if ! meson setup $again ${cross:+--cross-file "$cross"} "$build" "$root" >"$log" 2>&1; then
-        tail -n 20 "$log" >&2
+        future=$(sed -n 's/.*Clock skew detected. File \(.*\) has a time stamp .*/\1/p' "$log")
+        [ "$future" ] || tail -n 20 "$log" >&2
         rm -f "$log"
+        [ "$future" ] && fail 1 "$future is of the future: set the clock, or touch what is newer than" \
+            "now: find '$root' -newermt now -exec touch {} +"
         fail 1 "meson could not configure $build"
     fi
     rm -f "$log"
     : >"$stamp"
 }
 
-# The first build of a target shows ninja's progress on a terminal; others say something if they fail.
+# What ninja did and failed at, on standard error: on a terminal as it says it; otherwise, of a long
+# build, each quarter, and everything only if it fails.
+build_seen() {
+    if [ -t 2 ]; then
+        ninja -C "$build" "$@" >&2
+        return
+    fi
+    log=$(mktemp) || exit 1
+    code=$({ {
+        ninja -C "$build" "$@" 2>&1
+        echo $? >&4
+    } | tee "$log" | awk -v from="${self#"$root"/}" -F '[][/]' '
+        /^\[[0-9]+\/[0-9]+\]/ && $3 >= 40 && $2 * 4 >= $3 * (quarter + 1) && quarter < 3 {
+            quarter = int($2 * 4 / $3)
+            printf "%s: built %d of %d files\n", from, $2, $3 >"/dev/stderr"
+        }'; } 4>&1)
+    [ "$code" = 0 ] || cat "$log" >&2
+    rm -f "$log"
+    return "$code"
+}
+
+# The first build of a target is seen; others say something if they fail.
 setup_build() {
     if [ -f "$build/.done-$name" ]; then
         # shellcheck disable=SC2086
@@ -326,14 +358,8 @@ setup_build() {
         printf '%s\n' "$output" >&2
     else
         say "building"
-        if [ -t 2 ]; then
-            # shellcheck disable=SC2086
-            ninja -C "$build" $targets >&2 && return
-        else
-            # shellcheck disable=SC2086
-            output=$(ninja -C "$build" $targets 2>&1) && return
-            printf '%s\n' "$output" >&2
-        fi
+        # shellcheck disable=SC2086
+        build_seen $targets && return
     fi
     fail 1 "the build failed${hint-}"
 }

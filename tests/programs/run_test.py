@@ -269,6 +269,39 @@ class Folders(Case):
         self.assertEqual((code, self.path("home/.cache") in text), (0, True), said)
         self.assertIn("cannot be written; building in", said)
 
+    def test_a_copied_tree_is_configured_anew(self):
+        """Its build folder would else belong to the first."""
+        first = super().start("LightedCube", run=self.run_path)
+        shutil.copytree(self.path("tree"), self.path("copy"), symlinks=True)
+        there = self.path("copy/build/examples/LightedCube")
+        os.remove(there)
+        code, text, said = super().start("LightedCube", run=self.path("copy/examples/run"))
+        self.assertEqual((code, text), (0, f"ran {there}\n"), said)
+        self.assertIn("configuring", said)
+        self.assertEqual(super().start("LightedCube", run=self.run_path), (0, first[1], ""))
+        # A folder elsewhere is not taken from the tree that it was made for.
+        for run, status in ((self.run_path, 0), (self.path("copy/examples/run"), 1)):
+            result = super().start("LightedCube", run=run,
+                                   environment={"LIGHTING_BUILD": self.path("other")})
+            self.assertEqual(result[0], status, result)
+        self.assertIn(f"belongs to {self.path('tree')}; LIGHTING_BUILD names another", result[2])
+
+    def test_a_file_of_the_future_is_named(self):
+        """meson stops there."""
+        self.tool("meson", 'echo "ERROR: Clock skew detected. File /a b/meson.build has a time stamp 9.0s in '
+                           'the future."; exit 1')
+        code, _, said = super().start("LightedCube", run=self.run_path)
+        self.assertEqual(code, 1)
+        self.assertRegex(said, "\nexamples/run: /a b/meson.build is of the future: set the clock, or ")
+        self.assertNotIn("ERROR", said)
+
+    def test_a_long_build_says_how_far_it_is(self):
+        """Without a terminal, too."""
+        self.tool("ninja", 'for i in $(seq 80); do echo "[$i/80] Compiling"; done; exit 1')
+        _, _, said = super().start("LightedCube", run=self.run_path)
+        self.assertEqual(re.findall(r"built (\d+) of 80 files", said), ["20", "40", "60"])
+        self.assertIn("[80/80] Compiling", said)  # what it said, because it failed
+
     def test_two_tools_find_that_nothing_has_changed(self):
         """And so the program starts at once."""
         first = super().start("LightedCube", run=self.run_path)
@@ -330,6 +363,7 @@ case " $* " in
     echo "After this operation, 160 MB of additional disk space will be used." ;;
 *" update "*) : >"$HOME/lists" ;;
 *" install "*)
+    [ ! -e "$HOME/locked" ] || { echo "E: Could not get lock /var/lib/dpkg/lock-frontend." >&2; exit 100; }
     echo "Get:1 noise"
     case " $* " in *" APT::Status-Fd=3 "*)
         echo "dlstatus:1:20.5:Retrieving file 1 of 2" >&3
@@ -381,6 +415,23 @@ esac
             self.assertRegex(said.splitlines()[-1],
                              "^examples/run: apt-get could not install: gcc ")
             self.assertFalse(os.path.exists(self.path("home/built")))
+
+    def test_another_programs_lock_is_waited_for(self):
+        self.make("home/lists")
+        self.tool("sleep", 'echo >>"$HOME/slept"; [ "$(wc -l <"$HOME/slept")" -lt 3 ] || rm -f "$HOME/locked"')
+        self.make("home/locked")
+        _, said = self.install(False)
+        self.assertEqual(said.count("waiting for it, at most 5 minutes\n"), 1, said)
+        self.assertNotIn("could not install", said)
+        self.assertEqual(self.read("home/slept"), b"\n" * 3)
+        self.assertTrue(os.path.exists(self.path("home/built")))
+        self.make("home/locked")
+        self.make("home/slept", "")
+        self.tool("sleep", 'echo >>"$HOME/slept"')
+        code, said = self.install(False)
+        self.assertEqual(code, 1)
+        self.assertIn("E: Could not get lock", said)
+        self.assertEqual(self.read("home/slept"), b"\n" * 60)
 
     def test_other_systems_get_their_packages_names(self):
         """Where there is no dpkg. The path has what is in every system, and a package manager."""
