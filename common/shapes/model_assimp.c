@@ -3,6 +3,7 @@
  */
 #include "core/mesh_make.h"
 #include "shapes/model_module.h"
+#include "shapes/model_ply.h"
 
 #include <assimp/cimport.h>
 #include <assimp/commonMetaData.h>
@@ -150,6 +151,8 @@ static bool collect(const struct aiScene *scene, ModelUp up, Mesh *mesh, char *r
 
 static bool read_file(const char *path, ModelUp up, Mesh *mesh, char *reason, size_t reason_size)
 {
+    if (!model_ply_is_whole(path, reason, reason_size))
+        return false;
     struct aiPropertyStore *properties = aiCreatePropertyStore();
     /* By default Assimp makes meshes for files of bones alone. */
     aiSetImportPropertyInteger(properties, AI_CONFIG_IMPORT_NO_SKELETON_MESHES, 1);

@@ -627,6 +627,22 @@ TEST(invalid_models_are_rejected)
         assert_refused(known[i].name, text(known[i].content), known[i].reason);
 }
 
+/* Wherever it is cut behind its header; Assimp itself reads the rest as zeros. */
+TEST(a_ply_file_that_was_cut_is_rejected)
+{
+    const Bytes whole[] = {text(OCTAHEDRON_PLY), binary_ply()};
+    for (int i = 0; i < 2; i++) {
+        const char *end = strstr((const char *)whole[i].data, "end_header\n") + 11;
+        const size_t header = (size_t)(end - (const char *)whole[i].data);
+        /* Without its line feed text is still whole. */
+        for (size_t size = header; size < whole[i].size - (i == 0); size += 7) {
+            Bytes cut = whole[i];
+            cut.size = size;
+            assert_refused("cut.ply", cut, ": cannot read: the file ends within ");
+        }
+    }
+}
+
 TEST(oversized_models_are_rejected)
 {
     const char *path = "large.stl";
