@@ -6,6 +6,7 @@
 #include "app/frames.h"
 #include "app/options.h"
 #include "app/shader_reload.h"
+#include "app/unused_shaders.h"
 #include "app/viewer.h"
 #include "base/clock.h"
 #include "base/output.h"
@@ -15,6 +16,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /* The first file can be written. */
 static bool check_first(const Options *options, Message *message)
@@ -57,9 +59,10 @@ static bool redraw(ShaderReload *reload, const Options *options, Message *messag
                        frames_draw(&reload->renderer, options, sink.queue, message);
     if (!frames_close(&sink, drawn, message))
         return false;
-    fprintf(stderr, "%s: %s%sdrew %s in %.0f ms\n", reload->example->name, reload->changed,
-            reload->changed[0] ? " changed; " : "", options->output,
-            1e3 * (clock_now() - reload->began));
+    const char *changed = reload->changed;
+    const char *how = access(changed, F_OK) == 0 ? " changed; " : " is gone; ";
+    fprintf(stderr, "%s: %s%sdrew %s in %.0f ms\n", reload->example->name, changed,
+            changed[0] ? how : "", options->output, 1e3 * (clock_now() - reload->began));
     return true;
 }
 
@@ -99,25 +102,13 @@ static bool run_watching(const Example *example, Options *options, Message *mess
     return false;
 }
 
-/* A folder without a shader of this program is probably the wrong one. */
-static void tell_unused_folder(const char *program, const char *folder, const ShaderFiles *files)
-{
-    const size_t length = strlen(folder);
-    for (int i = 0; i < files->count; i++)
-        if (files->files[i].text && strncmp(files->files[i].path, folder, length) == 0 &&
-            files->files[i].path[length] == '/')
-            return;
-    fprintf(stderr, "%s: --shaders %s: ignored: no shader file of this program is there\n", program,
-            folder);
-}
-
 /* Closes the renderer, and says whether --shaders was of any use. */
 static void close_renderer(Renderer *renderer, ShaderFiles *files, const char *name, bool done,
                            const Options *options)
 {
     renderer_close(renderer);
     if (done && options->shaders.folder)
-        tell_unused_folder(name, options->shaders.folder, files);
+        unused_shaders_tell(name, options->shaders.folder, files);
     shader_files_close(files);
 }
 

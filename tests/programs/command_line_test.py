@@ -808,6 +808,19 @@ class Shaders(Case):
             self.says(0, r"^\w+: --shaders mine: ignored: no shader file of this program is "
                       r"there\n$", *SMALL, "--shaders", "mine", program=program)
 
+    def test_a_file_that_is_almost_one_of_the_program_is_said(self):
+        for program, name, near in (
+                ("LightedCube", "LightedCube.frag", "lightedcube.frag"),
+                ("LightedCube", "LightedCube.frag", "LigthedCube.frag"),
+                ("ShadingModels", "lighting.vert", "Lighting.vert")):
+            source = os.path.join(SOURCE, "shaders", "lecture" if "Cube" in name else "", name)
+            other = source[:-4] + ("vert" if name.endswith("frag") else "frag")
+            self.make("mine/" + near, "wrong")
+            shutil.copy(other, self.path("mine"))
+            self.says(0, rf"^{program}: mine/{near}: ignored: the file looked for is {name}\n$",
+                      *SMALL, "--shaders", "mine", program=program)
+            shutil.rmtree(self.path("mine"))
+
     def test_a_broken_shader_is_said_with_its_line(self):
         original = self.original()
         lines = original.count("\n")

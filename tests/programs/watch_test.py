@@ -79,13 +79,13 @@ class Watching:
             pass
         return self
 
-    def drew(self, changed, output="out.png"):
+    def drew(self, changed, output="out.png", how="(changed|is gone)"):
         """The next redraw, which names this file; errors may come before."""
         while True:
             line = self.next_line()
             if " drew " in line:
                 break
-        self.case.assertRegex(line, rf"^\w+: {re.escape(changed)} changed; "
+        self.case.assertRegex(line, rf"^\w+: {re.escape(changed)} {how}; "
                                     rf"drew {re.escape(output)} in \d+ ms$")
 
     def refused(self, pattern):
@@ -220,7 +220,7 @@ class Pictures(Watched):
         watching.drew("mine/lecture/LightedCube.frag")
         self.is_as_drawn()
         os.remove(self.path("mine/lecture/LightedCube.frag"))
-        watching.drew("mine/lecture/LightedCube.frag")
+        watching.drew("mine/lecture/LightedCube.frag", how="is gone")
         self.is_as_drawn("--shaders", "mine")
 
     def test_the_sample_of_a_shader_of_ones_own_draws_in_steps(self):
