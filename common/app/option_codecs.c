@@ -27,8 +27,10 @@ static bool read_size(const Parameter *parameter, const char *text, Message *mes
 {
     Options *options = options_of_size(parameter);
     return parse_size(text, &options->width, &options->height) ||
-           message_set(message, "--size %s: must be WIDTHxHEIGHT or one number for both, 1 to %d, as in 400x400",
-                       text, PARSE_SIZE_MAX);
+           message_set(
+               message,
+               "--size %s: must be WIDTHxHEIGHT or one number for both, 1 to %d, as in 400x400",
+               text, PARSE_SIZE_MAX);
 }
 
 static bool write_size(const Parameter *parameter, char *text, size_t size)
