@@ -6,7 +6,6 @@
 #include "app/frames.h"
 #include "app/options.h"
 #include "app/shader_reload.h"
-#include "app/unused_shaders.h"
 #include "app/viewer.h"
 #include "base/clock.h"
 #include "base/output.h"
@@ -107,8 +106,11 @@ static void close_renderer(Renderer *renderer, ShaderFiles *files, const char *n
                            const Options *options)
 {
     renderer_close(renderer);
+    Message unused = {0};
     if (done && options->shaders.folder)
-        unused_shaders_tell(name, options->shaders.folder, files);
+        shader_files_unused(files, options->shaders.folder, &unused);
+    if (unused.text[0])
+        options_warn(name, &unused);
     shader_files_close(files);
 }
 

@@ -2,9 +2,13 @@
 #include "core/shader_files.h"
 
 #include "base/memory.h"
+#include "base/text.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -111,6 +115,65 @@ const char *shader_files_changed(const ShaderFiles *files)
             return files->files[i].path;
     }
     return NULL;
+}
+
+static bool is_in(const ShaderFile *file, const char *folder)
+{
+    const size_t length = strlen(folder);
+    return strncmp(file->path, folder, length) == 0 && file->path[length] == '/';
+}
+
+static const char *name_of(const char *path)
+{
+    return strrchr(path, '/') + 1;
+}
+
+/* Whether a file of this name was read from the folder. */
+static bool was_read(const ShaderFiles *files, const char *folder, const char *name)
+{
+    for (int i = 0; i < files->count; i++)
+        if (files->files[i].text && is_in(&files->files[i], folder) &&
+            strcmp(name_of(files->files[i].path), name) == 0)
+            return true;
+    return false;
+}
+
+/* Of a stage's file that was looked for and was not there: another of that stage beside it that
+ * was probably meant to be it. */
+static void find_misnamed(const ShaderFiles *files, const char *folder, const char *path,
+                          Message *message)
+{
+    const char *name = name_of(path), *ending = strrchr(name, '.');
+    char beside[PATH_MAX];
+    snprintf(beside, sizeof beside, "%.*s", (int)(name - 1 - path), path);
+    DIR *entries = opendir(beside);
+    for (struct dirent *entry; entries && (entry = readdir(entries));) {
+        const char *const there[] = {entry->d_name, NULL}, *dot = strrchr(entry->d_name, '.');
+        if (dot && strcmp(dot, ending) == 0 && !was_read(files, folder, entry->d_name) &&
+            text_nearest(name, there))
+            message_add(message, "%s%s/%s: ignored: the file looked for is %s",
+                        message->text[0] ? "\n" : "", beside, entry->d_name, name);
+    }
+    if (entries)
+        closedir(entries);
+}
+
+void shader_files_unused(const ShaderFiles *files, const char *folder, Message *message)
+{
+    bool any = false;
+    for (int i = 0; i < files->count; i++) {
+        const ShaderFile *file = &files->files[i];
+        const char *ending = strrchr(file->path, '.');
+        if (!is_in(file, folder))
+            continue;
+        any = any || file->text;
+        if (!file->text && ending && (!strcmp(ending, ".vert") || !strcmp(ending, ".frag")) &&
+            !was_read(files, folder, name_of(file->path)))
+            find_misnamed(files, folder, file->path, message);
+    }
+    if (!any)
+        message_set(message, "--shaders %s: ignored: no shader file of this program is there",
+                    folder);
 }
 
 void shader_files_close(ShaderFiles *files)

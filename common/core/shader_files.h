@@ -43,6 +43,10 @@ bool shader_files_same(const ShaderFiles *files, const char *a, const char *b);
 /* The first path whose content on disk differs from the cache; NULL: none. */
 const char *shader_files_changed(const ShaderFiles *files);
 
+/* Says, afterwards, what a folder to look in first was of no use for: no file of it was read, or
+ * one for a stage is named almost as one that was looked for there, as lightedcube.frag. */
+void shader_files_unused(const ShaderFiles *files, const char *folder, Message *message);
+
 /* NULL or zeroed is fine. */
 void shader_files_close(ShaderFiles *files);
 

@@ -465,7 +465,7 @@ TEST(a_gallery_takes_names_and_a_folder_but_no_frames)
     assert_int_equal(read_as(&GALLERY, "-o here/"), OPTIONS_RUN);
     refuse_as(&GALLERY, "-n 2", "--frames: a gallery");
     refuse_as(&GALLERY, "--fps 2", "--fps: a gallery");
-    refuse_as(&GALLERY, "-s 4", "--size 4: must be");
+    refuse_as(&GALLERY, "-s 4x", "--size 4x: must be");
 }
 
 TEST(reading_again_resets_the_options)
