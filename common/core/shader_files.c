@@ -172,8 +172,7 @@ void shader_files_unused(const ShaderFiles *files, const char *folder, Message *
             find_misnamed(files, folder, file->path, message);
     }
     if (!any)
-        message_set(message, "--shaders %s: ignored: no shader file of this program is there",
-                    folder);
+        message_set(message, "%s: ignored: no shader file of this program is there", folder);
 }
 
 void shader_files_close(ShaderFiles *files)

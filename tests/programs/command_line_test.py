@@ -805,7 +805,7 @@ class Shaders(Case):
     def test_a_folder_without_a_shader_of_the_program_is_said(self):
         self.make("mine/SpotLight.frag")
         for program in "LightedCube", "ShadingModels":
-            self.says(0, r"^\w+: --shaders mine: ignored: no shader file of this program is "
+            self.says(0, r"^\w+: mine: ignored: no shader file of this program is "
                       r"there\n$", *SMALL, "--shaders", "mine", program=program)
 
     def test_a_file_that_is_almost_one_of_the_program_is_said(self):
