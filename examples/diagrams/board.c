@@ -8,6 +8,8 @@ const Vec3 INK = {0.13, 0.13, 0.15}, GREY = {0.55, 0.55, 0.58}, PALE = {0.8, 0.8
 const Vec3 LIGHT_COLOR = {0.80, 0.47, 0}, R_COLOR = {0.74, 0.16, 0.13};
 const Vec3 V_COLOR = {0.08, 0.35, 0.65}, H_COLOR = {0.13, 0.45, 0.18};
 const Vec3 EDGE_COLOR = {0.16, 0.25, 0.55};
+const Vec3 BEAM = {1, 0.86, 0.42}, DIFFUSE_FILL = {1, 0.82, 0.35};
+const Vec3 SPECULAR_FILL = {0.93, 0.45, 0.35};
 
 static const double RADIANS = 3.14159265358979323846 / 180;
 
@@ -304,6 +306,27 @@ void board_caption(Board *board, double x, double y, double width, const char *t
     drawing_text(board->drawing,
                  (DrawingPoint){x - (ink.left + ink.right) / 2, y + 0.33 * board->em}, size, INK,
                  text);
+}
+
+void board_box(Board *board, DrawingBox box, Vec3 color)
+{
+    board_area(board,
+               (const DrawingPoint[]){{box.left, box.top},
+                                      {box.right, box.top},
+                                      {box.right, box.bottom},
+                                      {box.left, box.bottom}},
+               4, color, 1);
+}
+
+void board_swatch(Board *board, DrawingPoint at, Vec3 color, const char *text)
+{
+    const double em = board->em, right = at.x + 1.9 * em, top = at.y - 0.8 * em;
+    const DrawingPoint corners[] = {
+        {at.x, top}, {right, top}, {right, at.y + 0.2 * em}, {at.x, at.y + 0.2 * em}};
+    board_box(board, (DrawingBox){at.x, top, right, corners[2].y}, color);
+    for (int i = 0; i < 4; i++)
+        board_line(board, corners[i], corners[(i + 1) % 4], INK, 0.05);
+    drawing_text(board->drawing, (DrawingPoint){at.x + BOARD_SWATCH * em, at.y}, em, INK, text);
 }
 
 const char *board_number(double number, char text[NUMBER_SIZE])

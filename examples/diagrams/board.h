@@ -9,6 +9,7 @@
 
 /* On paper and on a projector these differ from each other and from white by lightness too. */
 extern const Vec3 INK, GREY, PALE, LIGHT_COLOR, R_COLOR, V_COLOR, H_COLOR, EDGE_COLOR;
+extern const Vec3 BEAM, DIFFUSE_FILL, SPECULAR_FILL; /* of areas */
 
 enum { BOARD_SEGMENTS = 1024 };
 
@@ -59,6 +60,13 @@ void board_keep_away(Board *board, DrawingPoint a, DrawingPoint b);
 
 /* A line of text centered on a column, its middle on a row, in a width that it is shrunk to. */
 void board_caption(Board *board, double x, double y, double width, const char *text);
+
+/* A colour and a text to its right, whose baseline begins BOARD_SWATCH ems right of `at`. */
+#define BOARD_SWATCH 2.3
+void board_swatch(Board *board, DrawingPoint at, Vec3 color, const char *text);
+
+/* A rectangle without an outline. */
+void board_box(Board *board, DrawingBox box, Vec3 color);
 
 /* A number with two decimals and a true minus sign, never a negative zero. */
 enum { NUMBER_SIZE = 32 };

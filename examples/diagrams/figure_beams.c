@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
-static const Vec3 UP = {0, 1, 0}, ORIGIN = {0, 0, 0}, BEAM = {1, 0.86, 0.42};
+static const Vec3 UP = {0, 1, 0}, ORIGIN = {0, 0, 0};
 
 /* Room below the surface for light that comes from there, in ems. */
 static double depth_for(double n_dot_l)
@@ -76,7 +76,7 @@ static void incidence_captions(Board *board, DrawingBox *part, double n_dot_l)
         second = "no light: it comes from behind";
     else if (n_dot_l < 1)
         second = "the same light, spread over $w$ / ($N·L$)";
-    figure_captions(board, part, (const char *const[]){first, second}, 2);
+    figure_captions(board, part, first, second);
 }
 
 static const double STRIP = 0.8; /* the surface's, in em */
@@ -103,14 +103,12 @@ static void draw_width(Board *board, const Beam *beam, double angle)
               "$w$");
 }
 
-static void draw_incidence(Board *board, const Optics *optics, double angle, int number)
+void figure_incidence(Board *board, const Optics *optics, int number)
 {
     static const double ROOM = 2.9;
-    const double em = board->em;
-    Optics turned = *optics;
-    Material matte = *optics->material; /* what the eye's place does not change */
-    matte.specular = (Vec3){0, 0, 0};
-    turned.material = &matte;
+    const double em = board->em, angle = number ? optics->light : 0;
+    Material matte; /* what the eye's place does not change */
+    Optics turned = optics_matte(optics, &matte);
     turned.light = angle;
     turned.radiating = false;
     const OpticsVectors at = optics_vectors(&turned, ORIGIN, UP);
@@ -133,12 +131,7 @@ static void draw_incidence(Board *board, const Optics *optics, double angle, int
     room.bottom -= 1.4 * em;
     beam.length = beam_length(&beam, room);
     board->area = part;
-    board_area(board,
-               (const DrawingPoint[]){{part.left, beam.at.y},
-                                      {part.right, beam.at.y},
-                                      {part.right, beam.at.y + STRIP * em},
-                                      {part.left, beam.at.y + STRIP * em}},
-               4, PALE, 1);
+    board_box(board, (DrawingBox){part.left, beam.at.y, part.right, beam.at.y + STRIP * em}, PALE);
     board_line(board, (DrawingPoint){part.left, beam.at.y}, (DrawingPoint){part.right, beam.at.y},
                INK, 0.12);
     if (at.n_dot_l > 0)
@@ -161,12 +154,6 @@ static void draw_incidence(Board *board, const Optics *optics, double angle, int
     board_label(board, far, at.l, LIGHT_COLOR, "light");
 }
 
-void figure_incidence(Board *board, const Optics *optics)
-{
-    draw_incidence(board, optics, 0, 0);
-    draw_incidence(board, optics, optics->light, 1);
-}
-
 /* Rays. */
 
 static void draw_point(Board *board, DrawingPoint foot, DrawingPoint from, double n_length,
@@ -176,64 +163,99 @@ static void draw_point(Board *board, DrawingPoint foot, DrawingPoint from, doubl
     board_arrow(board, foot, board_at(foot, UP, n_length), INK, 0.09);
     board_arrow(board, from, foot, LIGHT_COLOR, 0.1);
     board_number(n_dot_l, number);
-    const DrawingBox ink = drawing_text_box(board->drawing, board->em, number);
-    drawing_text(board->drawing, (DrawingPoint){foot.x - (ink.left + ink.right) / 2, number_y},
-                 board->em, INK, number);
+    board_caption(board, foot.x, number_y - 0.33 * board->em, 3 * board->em, number);
 }
 
-static void draw_rays(Board *board, const Optics *optics, bool radiating)
+/* The points that are shown, from left to right about their middle, how long rays are, and the
+ * pixels of a unit. */
+typedef struct Strip {
+    DrawingPoint middle, lamp;
+    double half, reach, unit;
+    bool lamp_shown;
+} Strip;
+
+/* `rise` is the room for a ray above the surface, or below; `side` that on each side of `middle`. A
+ * lamp that is too far away for the picture is as far as the rays' directions say. */
+static Strip make_strip(const Board *board, const Optics *optics, DrawingPoint middle, double rise,
+                        double side)
+{
+    static const double NARROWEST = 3.4; /* half of a strip under a lamp that is shown, in ems */
+    const Vec3 l = optics_left(optics->light);
+    const double up = rise / fmax(fabs(l.y), 1e-9), across = side / fmax(fabs(l.x), 1e-9);
+    Strip strip = {.middle = middle, .half = side, .reach = fmin(up, 0.6 * across)};
+    if (optics->radiating) {
+        const double near = fmin(side, fmin(up, across) / (2 * optics->distance));
+        strip.lamp_shown = near >= NARROWEST * board->em;
+        strip.half = strip.lamp_shown ? near : side;
+    }
+    if (!strip.lamp_shown) { /* rays that come from the side begin there */
+        const double shift = fmin(strip.reach * fabs(l.x), 0.6 * side) / 2;
+        strip.half -= shift;
+        strip.middle.x += l.x < 0 ? shift : -shift;
+    }
+    strip.unit = 2 * strip.half * optics->distance / OPTICS_LIGHT_DISTANCE;
+    strip.lamp = board_at(strip.middle, l, OPTICS_LIGHT_DISTANCE * strip.unit);
+    return strip;
+}
+
+/* Where a ray begins that arrives along -L at a point `x` pixels right of the middle. */
+static DrawingPoint ray_begin(const Strip *strip, double x, Vec3 l, double rise, DrawingBox part)
+{
+    const DrawingPoint foot = {strip->middle.x + x, strip->middle.y};
+    const double aside = l.x < 0 ? foot.x - part.left : part.right - foot.x;
+    if (strip->lamp_shown)
+        return strip->lamp;
+    return board_at(foot, l, fmin(strip->reach, fmin(rise / fabs(l.y), aside / fabs(l.x))));
+}
+
+static void rays_captions(Board *board, const Optics *optics, DrawingBox *part)
+{
+    char text[FIGURE_TEXT] = "parallel: $L$ is the same everywhere";
+    const bool lit = optics_left(optics->light).y > 0;
+    if (optics->radiating)
+        snprintf(text, sizeof text, "a lamp at %.6g widths: $L$ turns by %.3g°", optics->distance,
+                 optics_spread(optics));
+    figure_captions(board, part, text,
+                    lit ? "$N·L$ is written below each point" : "$N·L$ ≤ 0 counts as 0: no light");
+}
+
+void figure_rays(Board *board, const Optics *optics, int number)
 {
     const double em = board->em;
-    Optics shown = *optics;
-    Material matte = *optics->material; /* there is no eye */
-    matte.specular = (Vec3){0, 0, 0};
-    shown.material = &matte;
-    shown.radiating = radiating;
-    const double cosine = optics_left(optics->light).y, sine = optics_left(optics->light).x;
-    const char *const captions[] = {radiating ? "radiating: $L$ differs from point to point"
-                                              : "parallel: $L$ is the same everywhere",
-                                    cosine > 0 ? "$N·L$ is written below each point"
-                                               : "$N·L$ ≤ 0 counts as 0: no light"};
-    DrawingBox part = figure_part(board, radiating);
-    figure_captions(board, &part, captions, 2);
+    Material matte; /* there is no eye */
+    Optics shown = optics_matte(optics, &matte);
+    shown.radiating = number;
+    const double cosine = optics_left(optics->light).y;
+    DrawingBox part = figure_part(board, number);
+    rays_captions(board, &shown, &part);
     const double width = part.right - part.left;
     const double depth = (2.4 + depth_for(cosine)) * em;
-    const double rise = part.bottom - depth - part.top - 1.3 * em;
+    const double above = part.bottom - depth - part.top - 1.3 * em;
+    const double rise = cosine < 0 ? depth_for(cosine) * em + 0.6 * em : above;
     const DrawingPoint origin = {(part.left + part.right) / 2, part.bottom - depth};
     const double side = 0.5 * width - 1.2 * em;
-    /* The lamp's distance, which is OPTICS_LIGHT_DISTANCE units, or the rays' length. */
-    const double room = cosine < 0 ? depth_for(cosine) * em + 0.6 * em : rise;
-    const double reach = fmin(room / fmax(fabs(cosine), 1e-9),
-                              (radiating ? 1 : 0.6) * side / fmax(fabs(sine), 1e-9));
-    const double unit = reach / OPTICS_LIGHT_DISTANCE;
-    const int points = (int)fmin(fmax(floor(2 * side / (3.2 * em)), 3), 7) | 1;
-    const double left = radiating ? -side : fmax(-side, -side - sine * reach);
-    const double right = radiating ? side : fmin(side, side - sine * reach);
-    const double normal = fmin(2.4 * em, rise - 1.2 * em);
+    const Strip strip = make_strip(board, &shown, origin, rise, side);
+    const int points = (int)fmin(fmax(floor(2 * strip.half / (2.4 * em)), 3), 7) | 1;
+    const double normal = fmin(2.4 * em, above - 1.2 * em);
     /* On the side where the light is not. */
     const double number_y = cosine > 0 ? origin.y + 2 * em : origin.y - normal - 0.5 * em;
-    const DrawingPoint lamp = board_at(origin, optics_left(optics->light), reach);
+    DrawingPoint last = origin, begin = origin;
     board->area = part;
-    figure_surface(board, &shown, origin, part.left, part.right, unit);
+    figure_surface(board, &shown, strip.middle, part.left, part.right, strip.unit);
     for (int i = 0; i < points; i++) {
-        const double x = left + (right - left) * i / (points - 1);
-        const OpticsVectors at = optics_vectors(&shown, (Vec3){x / unit, 0, 0}, UP);
-        const DrawingPoint foot = {origin.x + x, origin.y};
-        draw_point(board, foot, radiating ? lamp : board_at(foot, at.l, reach), normal, at.n_dot_l,
-                   number_y);
+        const double x = strip.half * (2.0 * i / (points - 1) - 1);
+        const OpticsVectors at = optics_vectors(&shown, (Vec3){x / strip.unit, 0, 0}, UP);
+        last = (DrawingPoint){strip.middle.x + x, origin.y};
+        begin = ray_begin(&strip, x, at.l, rise, part);
+        draw_point(board, last, begin, normal, at.n_dot_l, number_y);
     }
-    if (radiating)
-        board_lamp(board, lamp);
-    const DrawingPoint last = {origin.x + right, origin.y};
-    const Vec3 towards = optics_vectors(&shown, (Vec3){right / unit, 0, 0}, UP).l;
+    if (strip.lamp_shown)
+        board_lamp(board, strip.lamp);
+    const double along = strip.lamp_shown ? 0.5 : 0.75;
     board_label(board, board_at(last, UP, normal), UP, INK, "$N$");
-    const double along = radiating ? 0.5 * hypot(lamp.x - last.x, lamp.y - last.y) : 0.75 * reach;
-    board_label(board, board_at(last, towards, along), vec3_add(towards, (Vec3){1, 0, 0}),
-                LIGHT_COLOR, "light");
-}
-
-void figure_rays(Board *board, const Optics *optics)
-{
-    draw_rays(board, optics, false);
-    draw_rays(board, optics, true);
+    board_label(
+        board,
+        (DrawingPoint){last.x + along * (begin.x - last.x), last.y + along * (begin.y - last.y)},
+        (Vec3){begin.x - last.x + hypot(begin.x - last.x, begin.y - last.y), last.y - begin.y, 0},
+        LIGHT_COLOR, "light");
 }

@@ -5,7 +5,6 @@
 #include <stdio.h>
 
 static const Vec3 UP = {0, 1, 0}, ORIGIN = {0, 0, 0};
-static const Vec3 DIFFUSE_FILL = {1, 0.82, 0.35}, SPECULAR_FILL = {0.93, 0.45, 0.35};
 
 typedef struct Half {
     bool specular;
@@ -81,11 +80,12 @@ static void write_captions(Board *board, const Optics *optics, const OpticsVecto
         snprintf(first, sizeof first, "diffuse: $N·L$ = %s", board_number(at->n_dot_l, number));
         snprintf(second, sizeof second, "the same in every direction");
     }
-    figure_captions(board, part, (const char *const[]){first, second}, 2);
+    figure_captions(board, part, first, second);
 }
 
-static void draw_half(Board *board, const Optics *optics, bool specular)
+void figure_lobe(Board *board, const Optics *optics, int number)
 {
+    const bool specular = number;
     const OpticsVectors at = optics_vectors(optics, ORIGIN, UP);
     const double em = board->em;
     DrawingBox part = figure_part(board, specular);
@@ -107,10 +107,4 @@ static void draw_half(Board *board, const Optics *optics, bool specular)
     board_label(board, board_at(half.origin, at.l, unit), at.l, LIGHT_COLOR, "light");
     if (specular && at.n_dot_l > 0)
         draw_cone(board, optics, &at, half);
-}
-
-void figure_lobe(Board *board, const Optics *optics)
-{
-    draw_half(board, optics, false);
-    draw_half(board, optics, true);
 }

@@ -36,17 +36,19 @@ static void draw_side(Board *board, const Side *side)
     board_line(board, side->outer[0], side->outer[1], EDGE_COLOR, 0.2);
 }
 
-static void draw_shape(Board *board, const Optics *optics, int sides, bool flat)
+void figure_normals(Board *board, const Optics *optics, int number)
 {
+    const bool flat = number;
     const char *const captions[] = {flat ? "normals of the polygon: flat shading"
                                          : "normals of the curve: smooth shading",
                                     flat ? "two normals at each corner, one of each side"
                                          : "one normal at each corner, shared by the sides"};
+    const int sides = optics->sides;
     const double em = board->em, sine = optics_right(SPAN).x, cosine = optics_right(SPAN).y;
     Optics parallel = *optics;
     parallel.radiating = false;
     DrawingBox part = figure_part(board, flat);
-    figure_captions(board, &part, captions, 2);
+    figure_captions(board, &part, captions[0], captions[1]);
     const double width = part.right - part.left, height = part.bottom - part.top;
     const double radius = fmin((width - 1.5 * em) / (2 * (1 + NORMAL) * sine),
                                (height - 1.8 * em) / (1 + NORMAL - cosine));
@@ -80,10 +82,4 @@ static void draw_shape(Board *board, const Optics *optics, int sides, bool flat)
     board_rays(board, corner, vec3_scale(optics_left(optics->light), -1));
     board_label(board, (DrawingPoint){corner.x + 1.1 * em, corner.y}, (Vec3){1, 0, 0}, LIGHT_COLOR,
                 "light");
-}
-
-void figure_normals(Board *board, const Optics *optics, int sides)
-{
-    draw_shape(board, optics, sides, false);
-    draw_shape(board, optics, sides, true);
 }

@@ -47,7 +47,7 @@ static Table make_table(const Board *board, const Optics *optics, const OpticsVe
     snprintf(table.rows[6], FIGURE_TEXT, "%.2f  %.2f  %.2f", table.color.x, table.color.y,
              table.color.z);
     for (int i = 0; i < ROWS; i++) {
-        const double indent = i == table.swatch ? 2.3 * board->em : 0;
+        const double indent = i == table.swatch ? BOARD_SWATCH * board->em : 0;
         const DrawingBox box = drawing_text_box(board->drawing, board->em, table.rows[i]);
         table.width = fmax(table.width, indent + box.right);
     }
@@ -56,19 +56,10 @@ static Table make_table(const Board *board, const Optics *optics, const OpticsVe
 
 static void draw_row(Board *board, const Table *table, int row, double x, double y)
 {
-    const double em = board->em;
-    const bool swatch = row == table->swatch;
-    if (swatch) {
-        const DrawingPoint corners[] = {{x, y - 0.8 * em},
-                                        {x + 1.9 * em, y - 0.8 * em},
-                                        {x + 1.9 * em, y + 0.2 * em},
-                                        {x, y + 0.2 * em}};
-        board_area(board, corners, 4, table->color, 1);
-        for (int i = 0; i < 4; i++)
-            board_line(board, corners[i], corners[(i + 1) % 4], INK, 0.05);
-    }
-    drawing_text(board->drawing, (DrawingPoint){x + (swatch ? 2.3 * em : 0), y}, em, INK,
-                 table->rows[row]);
+    if (row == table->swatch)
+        board_swatch(board, (DrawingPoint){x, y}, table->color, table->rows[row]);
+    else
+        drawing_text(board->drawing, (DrawingPoint){x, y}, board->em, INK, table->rows[row]);
 }
 
 /* Draws the table at the right of a wide picture, below another, and takes its place off the area.
@@ -96,34 +87,17 @@ static void draw_table(Board *board, const Table *table)
     board->area.bottom = top - 0.6 * em;
 }
 
-/* The picture of the vectors: where its origin is, and the pixels of a unit. */
-typedef struct Frame2 {
-    DrawingPoint origin;
-    double unit;
-} Frame2;
-
 /* The largest that fits the area. */
 static Frame2 fit(const Board *board, const OpticsVectors *at, Vec3 lamp, Vec3 eye)
 {
     static const double SIDE = 1.15;
-    const Vec3 ends[] = {at->n, at->l, at->r, at->v, at->h, lamp, eye, {SIDE, 0, 0}, {-SIDE, 0, 0}};
-    const double em = board->em, margin = 1.6 * em, below = 1.7 * em;
-    DrawingBox box = {0, 0, 0, 0}; /* y up */
-    for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++) {
-        box.left = fmin(box.left, ends[i].x);
-        box.right = fmax(box.right, ends[i].x);
-        box.bottom = fmin(box.bottom, ends[i].y);
-        box.top = fmax(box.top, ends[i].y);
-    }
-    const DrawingBox area = board->area;
-    const double width = area.right - area.left - 2 * margin;
-    const double height = area.bottom - area.top - margin - below;
-    const double unit = fmin(width / (box.right - box.left), height / (box.top - box.bottom));
-    const double spare_x = width - unit * (box.right - box.left);
-    const double spare_y = height - unit * (box.top - box.bottom);
-    return (Frame2){{area.left + margin + spare_x / 2 - unit * box.left,
-                     area.top + margin + spare_y / 2 + unit * box.top},
-                    unit};
+    const Vec3 ends[] = {at->n, at->l, at->r, at->v, at->h, lamp, eye};
+    DrawingBox units = {-SIDE, 0, SIDE, 0};
+    for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++)
+        figure_cover(&units, ends[i]);
+    DrawingBox area = board->area;
+    area.bottom -= 0.1 * board->em;
+    return figure_fit(area, 1.6 * board->em, units);
 }
 
 static void draw_lobe(Board *board, const Optics *optics, Frame2 frame, const OpticsVectors *at)
@@ -132,7 +106,7 @@ static void draw_lobe(Board *board, const Optics *optics, Frame2 frame, const Op
     DrawingPoint before = frame.origin;
     if (at->n_dot_l <= 0)
         return;
-    drawing_path(board->drawing, (DrawingStyle){.fill = {0.93, 0.45, 0.35},
+    drawing_path(board->drawing, (DrawingStyle){.fill = SPECULAR_FILL,
                                                 .fill_alpha = 0.3,
                                                 .stroke = R_COLOR,
                                                 .width = 0.06 * board->em});
@@ -194,8 +168,9 @@ static void label_tips(Board *board, Frame2 frame, const Named *vectors, int cou
     }
 }
 
-void figure_vectors(Board *board, const Optics *optics)
+void figure_vectors(Board *board, const Optics *optics, int number)
 {
+    (void)number;
     const OpticsVectors at = optics_vectors(optics, ORIGIN, UP);
     const Vec3 lamp = optics_light_place(optics), eye = optics_eye_place(optics);
     const Table table = make_table(board, optics, &at);

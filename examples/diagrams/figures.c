@@ -3,31 +3,21 @@
 #include <math.h>
 #include <stdio.h>
 
-const char *const FIGURE_NAMES[FIGURE_COUNT + 1] = {"vectors", "lobe",    "incidence",
-                                                    "rays",    "normals", NULL};
+#define X(NAME, name, parts) #name,
+const char *const FIGURE_NAMES[FIGURE_COUNT + 1] = {FIGURES(X) NULL};
+#undef X
 
-void figure_draw(Figure figure, const Optics *optics, int sides, Drawing *drawing)
+void figure_draw(Figure figure, const Optics *optics, Drawing *drawing)
 {
+#define X(NAME, name, parts) {figure_##name, parts},
+    static const struct {
+        void (*draw)(Board *, const Optics *, int);
+        int parts;
+    } ROWS[] = {FIGURES(X)};
+#undef X
     Board board = board_begin(drawing);
-    switch (figure) {
-    case FIGURE_VECTORS:
-        figure_vectors(&board, optics);
-        break;
-    case FIGURE_LOBE:
-        figure_lobe(&board, optics);
-        break;
-    case FIGURE_INCIDENCE:
-        figure_incidence(&board, optics);
-        break;
-    case FIGURE_RAYS:
-        figure_rays(&board, optics);
-        break;
-    case FIGURE_NORMALS:
-        figure_normals(&board, optics, sides);
-        break;
-    case FIGURE_COUNT:
-        break;
-    }
+    for (int i = 0; i < ROWS[figure].parts; i++)
+        ROWS[figure].draw(&board, optics, i);
 }
 
 static const char *figure_cosine(const Optics *optics)
@@ -50,9 +40,8 @@ void figure_surface(Board *board, const Optics *optics, DrawingPoint origin, dou
         const double a = left + (right - left) * i / pieces;
         const double b = fmin(left + (right - left) * (i + 1) / pieces + OVERLAP, right);
         const Vec3 middle = {((a + b) / 2 - origin.x) / unit, 0, 0};
-        board_area(board,
-                   (const DrawingPoint[]){{a, origin.y}, {b, origin.y}, {b, bottom}, {a, bottom}},
-                   4, optics_color(optics, middle, (Vec3){0, 1, 0}), 1);
+        board_box(board, (DrawingBox){a, origin.y, b, bottom},
+                  optics_color(optics, middle, (Vec3){0, 1, 0}));
     }
     board_line(board, (DrawingPoint){left, origin.y}, (DrawingPoint){right, origin.y}, INK, 0.12);
     board_keep_away(board, (DrawingPoint){left, bottom}, (DrawingPoint){right, bottom});
@@ -73,12 +62,32 @@ DrawingBox figure_part(const Board *board, int number)
     return part;
 }
 
-void figure_captions(Board *board, DrawingBox *part, const char *const *lines, int count)
+Frame2 figure_fit(DrawingBox part, double margin, DrawingBox units)
 {
-    const double row = 1.25 * board->em;
-    for (int i = 0; i < count; i++)
-        board_caption(board, (part->left + part->right) / 2,
-                      part->bottom - (count - 1 - i) * row - row / 2, part->right - part->left,
-                      lines[i]);
-    part->bottom -= count * row + 0.3 * board->em;
+    const double width = units.right - units.left, height = units.top - units.bottom;
+    const double unit = fmin((part.right - part.left - 2 * margin) / width,
+                             (part.bottom - part.top - 2 * margin) / height);
+    return (Frame2){{(part.left + part.right) / 2 - unit * (units.left + units.right) / 2,
+                     (part.top + part.bottom) / 2 + unit * (units.top + units.bottom) / 2},
+                    unit};
+}
+
+void figure_cover(DrawingBox *units, Vec3 point)
+{
+    *units = (DrawingBox){fmin(units->left, point.x), fmax(units->top, point.y),
+                          fmax(units->right, point.x), fmin(units->bottom, point.y)};
+}
+
+DrawingPoint figure_at(Frame2 frame, Vec3 point)
+{
+    return board_at(frame.origin, point, frame.unit);
+}
+
+void figure_captions(Board *board, DrawingBox *part, const char *first, const char *second)
+{
+    const double em = board->em, x = (part->left + part->right) / 2;
+    const double width = part->right - part->left;
+    board_caption(board, x, part->bottom - 1.875 * em, width, first);
+    board_caption(board, x, part->bottom - 0.625 * em, width, second);
+    part->bottom -= 2.8 * em;
 }

@@ -78,7 +78,8 @@ Vec3 optics_color(const Optics *optics, Vec3 point, Vec3 normal)
                                     .direction = real3(optics_left(optics->light))};
     const Shading shading = {.lights = &shade_light,
                              .light_count = 1,
-                             .global_ambient = real3((Vec3){0.2, 0.2, 0.2}),
+                             .global_ambient =
+                                 real3((Vec3){optics->ambient, optics->ambient, optics->ambient}),
                              .reflection_phong = optics->reflection == REFLECTION_PHONG,
                              .distant_viewer = !optics->radiating,
                              .view = real3(optics_right(optics->eye))};
@@ -88,6 +89,42 @@ Vec3 optics_color(const Optics *optics, Vec3 point, Vec3 normal)
     const ShadePoint lit = {&material, real3(vec3_subtract(point, eye)), real3(normal)};
     const Vec3 color = real3_round(shade_point(&shading, &lit, &sides));
     return (Vec3){fmin(fmax(color.x, 0), 1), fmin(fmax(color.y, 0), 1), fmin(fmax(color.z, 0), 1)};
+}
+
+Optics optics_matte(const Optics *optics, Material *matte)
+{
+    Optics made = *optics;
+    *matte = *optics->material;
+    matte->specular = (Vec3){0, 0, 0};
+    made.material = matte;
+    return made;
+}
+
+double optics_spread(const Optics *optics)
+{
+    const Vec3 lamp = vec3_scale(optics_left(optics->light), optics->distance);
+    const Vec3 a = vec3_add(lamp, (Vec3){0.5, 0, 0}), b = vec3_add(lamp, (Vec3){-0.5, 0, 0});
+    return atan2(vec3_length(vec3_cross(a, b)), vec3_dot(a, b)) * 180 / REAL_PI;
+}
+
+static double constant_of(const Optics *optics)
+{
+    const bool none = optics->constant == 0 && optics->linear == 0 && optics->quadratic == 0;
+    return none ? 1 : optics->constant;
+}
+
+double optics_attenuation(const Optics *optics, double distance)
+{
+    return 1 / (constant_of(optics) + distance * (optics->linear + distance * optics->quadratic));
+}
+
+double optics_attenuated_to(const Optics *optics, double share)
+{
+    const double a = optics->quadratic, b = optics->linear, c = 1 / share - constant_of(optics);
+    if (c <= 0)
+        return 0;
+    /* The positive root of a d^2 + b d = c, without cancellation. */
+    return 2 * c / (b + sqrt(b * b + 4 * a * c));
 }
 
 double optics_footprint(double n_dot_l)

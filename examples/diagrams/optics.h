@@ -10,12 +10,18 @@
 #include "core/matrix.h"
 #include "scene/scene.h"
 
+enum { OPTICS_SIDES_MAX = 16 };
+
 typedef struct Optics {
     double light, eye; /* angles */
     double shininess;
     Reflection reflection;
     const Material *material; /* but for its shininess */
     bool radiating;           /* light and eye are near; otherwise both are far away */
+    double ambient;           /* the intensity of ambient light */
+    double distance;          /* of a lamp: in widths of what it lights, or marked on a curve */
+    double constant, linear, quadratic; /* its attenuation */
+    int sides;                          /* of a polygon, 1 to OPTICS_SIDES_MAX */
 } Optics;
 
 /* Where light and eye are if they are near: the eye is farther away where it would be before the
@@ -48,6 +54,17 @@ double optics_half_angle(const Optics *optics);
 /* The colour of a point under a white light, by the equation that the exact pictures use. Clamped
  * to 0..1. */
 Vec3 optics_color(const Optics *optics, Vec3 point, Vec3 normal);
+
+/* The optics of the same surface without a highlight, whose material is kept in `matte`. */
+Optics optics_matte(const Optics *optics, Material *matte);
+
+/* The angle between the rays of a lamp to the ends of what it lights, in degrees. */
+double optics_spread(const Optics *optics);
+
+/* The share of a lamp's light that is left at a distance, and where it is a share: 0 if it is less
+ * everywhere, INFINITY if it is more. Without any coefficient the light is not attenuated. */
+double optics_attenuation(const Optics *optics, double distance);
+double optics_attenuated_to(const Optics *optics, double share);
 
 /* The width of what a beam of width 1 lights; INFINITY unless N.L > 0. */
 double optics_footprint(double n_dot_l);

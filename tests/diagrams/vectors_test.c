@@ -15,7 +15,13 @@ static Optics usual(double light, double eye, double shininess, Reflection refle
                     .eye = eye,
                     .shininess = shininess,
                     .reflection = reflection,
-                    .material = material_find("jade")};
+                    .material = material_find("jade"),
+                    .ambient = 0.2,
+                    .distance = 0.75,
+                    .constant = 1,
+                    .linear = 0.2,
+                    .quadratic = 0.2,
+                    .sides = 4};
 }
 
 static void assert_near(double a, double b)
@@ -133,6 +139,229 @@ TEST(radiating_rays_come_from_the_lamp)
     assert_near(near.r_dot_v, cosine(10));
 }
 
+/* Of numbers read from pixels: a drawing's coordinates are rounded nowhere. */
+#define PIXELS 1e-9
+
+/* A drawing of a figure, and the straight lines in it of a colour and a width in ems. */
+typedef struct Lines {
+    Drawing drawing;
+    DrawingPoint ends[64][2];
+    int count;
+} Lines;
+
+static void find_lines(Lines *lines, Vec3 color, double width)
+{
+    const Drawing *drawing = &lines->drawing;
+    const double em = fmin(drawing->width / 27, drawing->height / 21);
+    lines->count = 0;
+    for (int i = 0; i < drawing->path_count && lines->count < 64; i++) {
+        const DrawingPath *path = &drawing->paths[i];
+        if (path->step_count == 2 && drawing->steps[path->first_step + 1] == DRAWING_LINE &&
+            memcmp(&path->style.stroke, &color, sizeof color) == 0 &&
+            fabs(path->style.width - width * em) < PIXELS)
+            memcpy(lines->ends[lines->count++], &drawing->points[path->first_point],
+                   sizeof lines->ends[0]);
+    }
+}
+
+static Lines lines_of(Figure figure, const Optics *optics, Vec3 color, double width)
+{
+    Lines lines = {.count = 0};
+    SUCCEEDS(drawing_begin(&lines.drawing, 800, 450, message));
+    figure_draw(figure, optics, &lines.drawing);
+    find_lines(&lines, color, width);
+    return lines;
+}
+
+static void lines_end(Lines *lines)
+{
+    drawing_end(&lines->drawing);
+}
+
+/* A line's angle to the right of up, in degrees. */
+static double angle_of(const Lines *lines, int i)
+{
+    const DrawingPoint *ends = lines->ends[i];
+    assert_true(i < lines->count);
+    return atan2(ends[1].x - ends[0].x, ends[0].y - ends[1].y) * 180 / PI;
+}
+
+static double length_of(const Lines *lines, int i)
+{
+    const DrawingPoint *ends = lines->ends[i];
+    return hypot(ends[1].x - ends[0].x, ends[1].y - ends[0].y);
+}
+
+static void assert_angle(double a, double b)
+{
+    if (!(fabs(remainder(a - b, 360)) < PIXELS))
+        fail_msg("%.12g degrees are not %.12g", a, b);
+}
+
+static void assert_text(const Lines *lines, const char *text)
+{
+    for (int i = 0; i < lines->drawing.label_count; i++)
+        if (strstr(lines->drawing.labels[i].text, text))
+            return;
+    fail_msg("no text %s", text);
+}
+
+TEST(rays_of_a_far_lamp_are_essentially_parallel)
+{
+    static const double DISTANCES[] = {0.5, 0.75, 2, 11740, 1e6};
+    for (int i = 0; i < 5; i++) {
+        char text[FIGURE_TEXT];
+        Optics optics = usual(0, 0, 10, REFLECTION_PHONG);
+        optics.distance = DISTANCES[i];
+        const double most = 2 * atan(0.5 / DISTANCES[i]) * 180 / PI; /* above the middle */
+        CLOSED(lines_end) Lines lines = lines_of(FIGURE_RAYS, &optics, LIGHT_COLOR, 0.1);
+        double spread = 0;
+        assert_near(optics_spread(&optics), most);
+        for (int a = 0; a < lines.count; a++)
+            for (int b = 0; b < a; b++)
+                spread =
+                    fmax(spread, fabs(remainder(angle_of(&lines, a) - angle_of(&lines, b), 360)));
+        assert_angle(spread, most);
+        assert_angle(angle_of(&lines, 0), 180); /* of the parallel ones */
+        snprintf(text, sizeof text, "turns by %.3g°", most);
+        assert_text(&lines, text);
+    }
+}
+
+TEST(only_the_eye_at_the_mirror_angle_sees_the_ray)
+{
+    const Optics optics = usual(35, 5, 10, REFLECTION_PHONG);
+    CLOSED(lines_end) Lines lines = lines_of(FIGURE_MIRROR, &optics, R_COLOR, 0.13);
+    assert_int_equal(lines.count, 1);
+    assert_angle(angle_of(&lines, 0), 35);
+    find_lines(&lines, LIGHT_COLOR, 0.13);
+    assert_int_equal(lines.count, 1);
+    assert_angle(angle_of(&lines, 0), 180 - 35);
+    find_lines(&lines, GREY, 0.06); /* eyes that see nothing */
+    assert_int_equal(lines.count, 2);
+    assert_angle(angle_of(&lines, 0), 5);
+    assert_angle(angle_of(&lines, 1), 65);
+    assert_text(&lines, "only the eye at 35°");
+}
+
+/* N = (0, 0, 1) turned about the vertical by the eye's angle, then seen from 30 degrees above. */
+TEST(a_polygon_has_two_unit_normals_by_the_right_hand_rule)
+{
+    for (int sides = 3; sides <= 16; sides++) {
+        Optics optics = usual(0, 5.0 * sides, 10, REFLECTION_PHONG);
+        char text[NUMBER_SIZE];
+        optics.sides = sides;
+        CLOSED(lines_end) Lines lines = lines_of(FIGURE_WINDING, &optics, INK, 0.13);
+        const double x = -sin(optics.eye * PI / 180), front = cosine(optics.eye);
+        assert_int_equal(lines.count, 2);
+        assert_angle(angle_of(&lines, 0), atan2(x, -front / 2) * 180 / PI);
+        assert_angle(angle_of(&lines, 1), atan2(-x, front / 2) * 180 / PI);
+        assert_text(&lines, board_number(front * cosine(30), text));
+        assert_text(&lines, board_number(-front * cosine(30), text));
+        snprintf(text, sizeof text, "%d", sides);
+        assert_text(&lines, text);
+        find_lines(&lines, EDGE_COLOR,
+                   0.12); /* from 1 to 2, as seen: counter-clockwise, then not */
+        for (int part = 0; part < 2; part++) {
+            const double turn = angle_of(&lines, part * sides + 1) - angle_of(&lines, part * sides);
+            assert_true((remainder(turn, 360) < 0) == (part == 0));
+        }
+    }
+}
+
+/* From above, up in the picture is -z: an eye turned by its angle turns V back by it. */
+TEST(eye_coordinates_are_world_coordinates_turned)
+{
+    for (int eye = -90; eye <= 90; eye += 15) {
+        const Optics optics = usual(40, eye, 10, REFLECTION_PHONG);
+        char place[FIGURE_TEXT], x[NUMBER_SIZE], z[NUMBER_SIZE];
+        CLOSED(lines_end) Lines lines = lines_of(FIGURE_SPACES, &optics, V_COLOR, 0.13);
+        assert_int_equal(lines.count, 2);
+        assert_angle(angle_of(&lines, 0) - angle_of(&lines, 1), -eye);
+        find_lines(&lines, GREY, 0.06); /* where the eye looks: straight up in eye coordinates */
+        assert_angle(angle_of(&lines, 0), -eye);
+        assert_angle(angle_of(&lines, 1), 0);
+        snprintf(place, sizeof place, "(%s, 0, %s)", board_number(1.7 + 1.9 * cosine(90 - eye), x),
+                 board_number(-0.6 + 1.9 * cosine(eye), z));
+        assert_text(&lines, place);
+        assert_text(&lines, "(0.00, 0, 0.00)");
+        assert_text(&lines, "normalize(-v_Position)");
+        assert_text(&lines, "normalize(u_EyePosition - v_Position)");
+    }
+}
+
+TEST(ambient_light_comes_from_all_directions_alike)
+{
+    Optics optics = usual(40, 0, 10, REFLECTION_PHONG);
+    char text[NUMBER_SIZE];
+    optics.ambient = 0.5;
+    CLOSED(lines_end) Lines lines = lines_of(FIGURE_AMBIENT, &optics, GREY, 0.08);
+    assert_int_equal(lines.count, 32);
+    for (int i = 0; i < 32; i++) {
+        assert_angle(angle_of(&lines, i), 180 + 22.5 * (i % 16 + 0.5));
+        assert_true(fabs(length_of(&lines, i) - length_of(&lines, 0)) < PIXELS);
+    }
+    assert_text(&lines, board_number(0.5 * optics.material->ambient.y, text));
+}
+
+TEST(the_curve_of_attenuation_goes_through_its_values)
+{
+    /* The coefficients, and the ends of the axes. */
+    static const double CASES[][5] = {{1, 0.2, 0.2, 10, 1}, {0, 0, 1, 2, 5}, {0.2, 0.2, 0, 10, 5}};
+    for (int i = 0; i < 3; i++) {
+        const double *k = CASES[i];
+        Optics optics = usual(0, 0, 10, REFLECTION_PHONG);
+        optics.constant = k[0];
+        optics.linear = k[1];
+        optics.quadratic = k[2];
+        CLOSED(lines_end) Lines lines = lines_of(FIGURE_ATTENUATION, &optics, INK, 0.1);
+        const Drawing *drawing = &lines.drawing;
+        const DrawingPath *path = drawing->paths;
+        const DrawingPoint zero = lines.ends[0][0];
+        while (memcmp(&path->style.stroke, &LIGHT_COLOR, sizeof LIGHT_COLOR) != 0)
+            path++;
+        assert_true(path->step_count > 100);
+        for (int j = 0; j < path->step_count; j++) {
+            const DrawingPoint at = drawing->points[path->first_point + j];
+            const double d = k[3] * (at.x - zero.x) / length_of(&lines, 0);
+            const double share = k[4] * (zero.y - at.y) / length_of(&lines, 1);
+            assert_true(fabs(share * (k[0] + k[1] * d + k[2] * d * d) - 1) < PIXELS);
+        }
+    }
+}
+
+static bool is_bar(const Drawing *drawing, int path, Vec3 fill, double height)
+{
+    const DrawingBox box = drawing_path_box(drawing, &drawing->paths[path]);
+    return memcmp(&drawing->paths[path].style.fill, &fill, sizeof fill) == 0 &&
+           fabs(box.bottom - box.top - height) < PIXELS;
+}
+
+TEST(bars_are_as_high_as_what_they_stand_for)
+{
+    const Vec3 fills[] = {DIFFUSE_FILL, SPECULAR_FILL, PALE};
+    for (int m = 0; m < MATERIAL_COUNT; m++) {
+        const Vec3 kd = MATERIALS[m].material.diffuse, ks = MATERIALS[m].material.specular;
+        const double d[] = {kd.x, kd.y, kd.z}, s[] = {ks.x, ks.y, ks.z};
+        Optics optics = usual(0, 0, 10, REFLECTION_PHONG);
+        optics.material = &MATERIALS[m].material;
+        CLOSED(lines_end) Lines lines = lines_of(FIGURE_REFLECTIVITY, &optics, INK, 0.06);
+        const double one = lines.ends[0][0].y; /* of the dashed line */
+        int path = 0;
+        find_lines(&lines, INK, 0.1);
+        for (int i = 0; i < 9; i++) { /* in this order, from the bottom */
+            const double shares[] = {d[i / 3], s[i / 3], 1 - d[i / 3] - s[i / 3]};
+            const double height = shares[i % 3] * (lines.ends[0][0].y - one);
+            if (height < PIXELS)
+                continue;
+            while (path < lines.drawing.path_count &&
+                   !is_bar(&lines.drawing, path, fills[i % 3], height))
+                path++;
+            assert_true(path < lines.drawing.path_count);
+        }
+    }
+}
+
 TEST(numbers_have_a_minus_sign_and_no_negative_zero)
 {
     char text[NUMBER_SIZE];
@@ -173,17 +402,16 @@ static bool has_label(const Drawing *drawing, const char *letter)
     return false;
 }
 
-static void check_figure(Figure figure, const Optics *optics, int sides, double width,
-                         double height)
+static void check_figure(Figure figure, const Optics *optics, double width, double height)
 {
     char what[200];
     CLOSED(drawing_end) Drawing drawing;
     SUCCEEDS(drawing_begin(&drawing, width, height, message));
-    figure_draw(figure, optics, sides, &drawing);
-    snprintf(what, sizeof what, "%s %gx%g light %g eye %g shininess %g %s %s sides %d",
+    figure_draw(figure, optics, &drawing);
+    snprintf(what, sizeof what, "%s %gx%g light %g eye %g shininess %g %s %s sides %d distance %g",
              FIGURE_NAMES[figure], width, height, optics->light, optics->eye, optics->shininess,
              REFLECTION_NAMES[optics->reflection], optics->radiating ? "radiating" : "parallel",
-             sides);
+             optics->sides, optics->distance);
     check_layout(&drawing, what);
     for (int i = 0; i < 4 && figure == FIGURE_VECTORS; i++)
         if (!has_label(&drawing, (const char *[]){"N", "L", "R", "V"}[i]))
@@ -199,6 +427,7 @@ TEST(nothing_overlaps_and_nothing_is_cut)
                                     5,    20,   40,  75,    89,  90,  91, 120, 180};
     static const double EYES[] = {-90, -20, 0, 3, 40, 90};
     static const double SHININESS[] = {0, 33.333333, 128};
+    static const double DISTANCES[] = {0.25, 0.75, 1.3, 11740, 1e6}, COEFFICIENTS[] = {0, 0.3, 10};
     const int step = testing_step(33);
     int count = 0;
     for (int size = 0; size < 8; size++)
@@ -210,9 +439,15 @@ TEST(nothing_overlaps_and_nothing_is_cut)
                             Optics optics = usual(LIGHTS[light], EYES[eye], SHININESS[shininess],
                                                   (Reflection)(kind & 1));
                             optics.radiating = kind & 2;
+                            optics.sides = 1 + count % OPTICS_SIDES_MAX;
+                            optics.distance = DISTANCES[count % 5];
+                            optics.constant = COEFFICIENTS[count % 3];
+                            optics.linear = COEFFICIENTS[count / 3 % 3];
+                            optics.quadratic = COEFFICIENTS[count / 9 % 3];
+                            optics.material = &MATERIALS[count % MATERIAL_COUNT].material;
                             if (count++ % step == 0)
-                                check_figure((Figure)figure, &optics, 1 + count % FIGURE_SIDES_MAX,
-                                             SIZES[size][0], SIZES[size][1]);
+                                check_figure((Figure)figure, &optics, SIZES[size][0],
+                                             SIZES[size][1]);
                         }
 }
 
@@ -225,7 +460,7 @@ TEST(the_figure_of_a_very_wide_picture_is_in_its_middle)
         int arcs = 0;
         CLOSED(drawing_end) Drawing drawing;
         SUCCEEDS(drawing_begin(&drawing, SIZES[i][0], SIZES[i][1], message));
-        figure_draw(FIGURE_VECTORS, &optics, 4, &drawing);
+        figure_draw(FIGURE_VECTORS, &optics, &drawing);
         for (int k = 0; k < drawing.path_count; k++) {
             const DrawingBox box = drawing_path_box(&drawing, &drawing.paths[k]);
             if (drawing.paths[k].style.dash == 0)
@@ -244,7 +479,7 @@ TEST(a_picture_of_a_pixel_can_be_drawn)
         CLOSED(drawing_end) Drawing drawing;
         CLOSED(image_close) Image image;
         SUCCEEDS(drawing_begin(&drawing, 1, 1, message));
-        figure_draw((Figure)figure, &optics, 5, &drawing);
+        figure_draw((Figure)figure, &optics, &drawing);
         SUCCEEDS(image_open(&image, 1, 1, IMAGE_BYTE, message));
         SUCCEEDS(drawing_paint(&drawing, &image, false, message));
     }

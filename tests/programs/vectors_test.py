@@ -15,7 +15,8 @@ import xml.etree.ElementTree
 
 import command_line_test as base
 
-FIGURES = "vectors", "lobe", "incidence", "rays", "normals"
+FIGURES = ("vectors", "lobe", "incidence", "rays", "normals", "mirror", "winding", "spaces", "ambient",
+           "attenuation", "reflectivity")
 SVG = "{http://www.w3.org/2000/svg}"
 
 
@@ -116,7 +117,12 @@ class Options(Case):
                 ("vectors", "--swing", "10", "--time", "1"), ("lobe", "--shininess", "0"),
                 ("lobe", "--reflection", "blinn-phong"), ("incidence", "--light", "60"),
                 ("rays", "--light", "10"), ("normals", "--sides", "5"),
-                ("normals", "--light", "0")):
+                ("normals", "--light", "0"), ("rays", "--distance", "20"), ("mirror", "--eye", "10"),
+                ("winding", "--sides", "5"), ("winding", "--eye", "50"), ("spaces", "--eye", "50"),
+                ("spaces", "--light", "0"), ("ambient", "--ambient", "0.5"),
+                ("attenuation", "--constant", "0.5"), ("attenuation", "--linear", "1"),
+                ("attenuation", "--quadratic", "1"), ("attenuation", "--distance", "3"),
+                ("reflectivity", "--material", "jade"), ("reflectivity", "--material", "none")):
             changed = self.drawn("--figure", figure, *arguments).pixels
             self.assertNotEqual(plain[figure], changed, arguments)
 
@@ -142,7 +148,7 @@ class Options(Case):
                 ("did you mean lobe", "--figure", "lob"), ("-180 to 180", "--light", "181"),
                 ("-90 to 90", "--eye", "91"), ("0 to 128", "--shininess", "-1"),
                 ("0 to 128", "--shininess", "nan"), ("1 to 16", "--sides", "0"),
-                ("did you mean gold", "--material", "gol"), ("animations: .*; drawings: .svg, .pdf", "-o", "a.xyz"),
+                ("did you mean gold", "--material", "gol"), ("0.25 to", "--distance", "0"), ("animations: .*; drawings: .svg, .pdf", "-o", "a.xyz"),
                 ("standard output takes one picture as svg", "-o", "-", "--format", "svg", "-n", "2"),
                 ("--format svg: applies to standard output", "--format", "svg"),
                 ("need a number", "-n", "2", "-o", "a.svg")):
