@@ -54,23 +54,24 @@ const ParameterCodec OPTION_ANGLE = {"DEG", read_angle, NULL};
 
 static bool read_orbit(const Parameter *parameter, const char *text, Message *message)
 {
-    static const double min[] = {-36000, -90, 0.01}, max[] = {36000, 90, 100};
-    double values[3] = {0, 0, 1};
-    if (parse_numbers(text, min, max, values) < 2)
+    static const double min[] = {-36000, -90, 0.01, -36000}, max[] = {36000, 90, 100, 36000};
+    double values[4] = {0, 0, 1, 0};
+    if (parse_numbers(text, 4, min, max, values) < 2)
         return message_set(message,
-                           "--orbit %s: must be AZIMUTH,ELEVATION or AZIMUTH,ELEVATION,DISTANCE: "
-                           "degrees, -90 to 90 for the elevation, and a factor of 0.01 to 100",
+                           "--orbit %s: must be AZIMUTH,ELEVATION[,DISTANCE[,ROLL]]: degrees, "
+                           "-90 to 90 for the elevation, a factor of 0.01 to 100, and degrees",
                            text);
-    *(Orbit *)parameter->value = (Orbit){values[0], values[1], values[2]};
+    *(Orbit *)parameter->value = (Orbit){values[0], values[1], values[2], values[3]};
     return true;
 }
 
 static bool write_orbit(const Parameter *parameter, char *text, size_t size)
 {
-    return size >= 96 && orbit_text(*(const Orbit *)parameter->value, text);
+    return size >= ORBIT_TEXT && orbit_text(*(const Orbit *)parameter->value, text);
 }
 
-const ParameterCodec OPTION_ORBIT = {"AZIMUTH,ELEVATION[,DISTANCE]", read_orbit, write_orbit};
+const ParameterCodec OPTION_ORBIT = {"AZIMUTH,ELEVATION[,DISTANCE[,ROLL]]", read_orbit,
+                                     write_orbit};
 
 static bool read_part(const Parameter *parameter, const char *text, Message *message)
 {

@@ -80,8 +80,8 @@ static const Parameter FIRST[] = {
     {"samples", SAMPLES_HELP, PARAMETER_WHOLE, AT(canvas.samples), .max = INT_MAX,
      .placeholder = "N", .standard = "4", .programs = PROGRAM_GALLERY},
     {"orbit",
-     "move the camera about its target: degrees to the right and up, and a factor for the "
-     "distance",
+     "move the camera about its target: degrees to the right and up, a factor for the distance, "
+     "and degrees to roll",
      PARAMETER_TEXT, .codec = &OPTION_ORBIT, AT(orbit), .programs = GL_DRAWS},
     {"window", "run in a window; h lists the keys", PARAMETER_FLAG, .letter = 'w',
      .codec = &OPTION_WINDOW, AT(canvas.backend), .programs = FILM | ASIDE},

@@ -13,7 +13,7 @@
 #include <string.h>
 #include <unistd.h>
 
-static const double DEGREES_PER_PIXEL = 0.4, NEARER_PER_NOTCH = 0.9;
+static const double DEGREES_PER_PIXEL = 0.4, ROLL_DEGREES = 5, NEARER_PER_NOTCH = 0.9;
 /* What moves by hand or by the clock is rounded to these parts, so that the command which draws the
  * picture is short: milliseconds, tenths of a degree, thousandths of the distance. */
 static const double PARTS_OF_SECOND = 1000, PARTS_OF_DEGREE = 10, PARTS_OF_DISTANCE = 1000;
@@ -190,6 +190,12 @@ static void type(Viewer *viewer, unsigned character)
     case 'h':
         viewer_panel_toggle_help(&viewer->panel);
         break;
+    case '[':
+    case ']': {
+        double *roll = &viewer->options.orbit.roll;
+        *roll = fmod(*roll + (character == '[' ? ROLL_DEGREES : -ROLL_DEGREES), 360);
+        break;
+    }
     case '+':
     case '=':
     case '-':

@@ -24,6 +24,7 @@ static const PanelHelp HELP[] = {
     {"r", "starts again"},
     {"f", "the whole screen, and back"},
     {"p", "the panel"},
+    {"[, ]", "roll the camera"},
     {"+, -", "larger, smaller letters"},
     {"h", "this help"},
     {"escape", "leaves"},
@@ -92,7 +93,8 @@ static void set_clipboard(void *window, const char *text)
 static bool same_picture(const DrawRequest *a, const DrawRequest *b)
 {
     return a->seconds == b->seconds && a->orbit.azimuth == b->orbit.azimuth &&
-           a->orbit.elevation == b->orbit.elevation && a->orbit.distance == b->orbit.distance;
+           a->orbit.elevation == b->orbit.elevation && a->orbit.distance == b->orbit.distance &&
+           a->orbit.roll == b->orbit.roll;
 }
 
 /* Whether what was found for a picture is not that of the request, in this canvas. */

@@ -52,14 +52,14 @@ bool parse_whole(const char *text, int min, int max, int *number)
     return true;
 }
 
-int parse_numbers(const char *text, const double min[3], const double max[3], double numbers[3])
+int parse_numbers(const char *text, int most, const double *min, const double *max, double *numbers)
 {
     char copy[128], *rest = copy;
     int count = 0;
     if (snprintf(copy, sizeof copy, "%s", text) >= (int)sizeof copy)
         return 0;
     for (char *part; (part = strsep(&rest, ",")) != NULL; count++)
-        if (count == 3 || !parse_number(part, min[count], max[count], &numbers[count]))
+        if (count == most || !parse_number(part, min[count], max[count], &numbers[count]))
             return 0;
     return count;
 }

@@ -19,9 +19,10 @@ bool parse_number(const char *text, double min, double max, double *number);
 /* An integer in [min, max]. */
 bool parse_whole(const char *text, int min, int max, int *number);
 
-/* One to three numbers separated by commas, the i-th in [min[i], max[i]]. Returns their count; 0 on
- * failure. */
-int parse_numbers(const char *text, const double min[3], const double max[3], double numbers[3]);
+/* One to `most` numbers separated by commas, the i-th in [min[i], max[i]]. Returns their count; 0
+ * on failure. */
+int parse_numbers(const char *text, int most, const double *min, const double *max,
+                  double *numbers);
 
 /* The I-th of N parts of something that is made by several processes. Zeroed: all of it. */
 typedef struct Part {

@@ -1,4 +1,4 @@
-/* Two angles and a distance, applied to the camera of the scene. */
+/* Three angles and a distance, applied to the camera of the scene. */
 #include "core/orbit.h"
 
 #include "base/parse.h"
@@ -12,7 +12,8 @@ double orbit_distance(Orbit orbit)
 
 static bool moves(Orbit orbit)
 {
-    return orbit.azimuth != 0 || orbit.elevation != 0 || orbit_distance(orbit) != 1;
+    return orbit.azimuth != 0 || orbit.elevation != 0 || orbit_distance(orbit) != 1 ||
+           orbit.roll != 0;
 }
 
 static Vec3 turn(Vec3 vector, double degrees, Vec3 axis)
@@ -32,21 +33,23 @@ void orbit_move(Orbit orbit, Vec3 *eye, Vec3 center, Vec3 *up)
             back = turn(back, -orbit.elevation, right);
         }
         back = turn(back, orbit.azimuth, axis);
-        *up = turn(*up, orbit.azimuth, axis);
+        *up = turn(turn(*up, orbit.azimuth, axis), -orbit.roll, back);
     }
     *eye = vec3_add(center, back);
 }
 
-bool orbit_text(Orbit orbit, char text[96])
+bool orbit_text(Orbit orbit, char text[ORBIT_TEXT])
 {
-    char azimuth[32], elevation[32], distance[32];
-    const bool near = orbit_distance(orbit) == 1;
+    const double numbers[] = {orbit.azimuth, orbit.elevation, orbit_distance(orbit), orbit.roll};
+    const int count = orbit.roll != 0 ? 4 : numbers[2] != 1 ? 3 : 2;
     text[0] = '\0';
     if (!moves(orbit))
         return false;
-    parse_number_text(orbit.azimuth, azimuth);
-    parse_number_text(orbit.elevation, elevation);
-    parse_number_text(orbit_distance(orbit), distance);
-    snprintf(text, 96, "%s,%s%s%s", azimuth, elevation, near ? "" : ",", near ? "" : distance);
+    for (int i = 0, length = 0; i < count; i++) {
+        char number[32];
+        parse_number_text(numbers[i], number);
+        length +=
+            snprintf(text + length, ORBIT_TEXT - (size_t)length, "%s%s", i ? "," : "", number);
+    }
     return true;
 }

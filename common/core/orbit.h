@@ -11,6 +11,7 @@ typedef struct Orbit {
     double azimuth;   /* degrees to the camera's right, about its up direction */
     double elevation; /* degrees from there towards up, -90 to 90 */
     double distance;  /* factor of the distance from eye to center; 0: 1 */
+    double roll;      /* degrees about the line of sight, then; the picture counter-clockwise */
 } Orbit;
 
 /* The factor: 1 if `distance` is 0. */
@@ -20,8 +21,9 @@ double orbit_distance(Orbit orbit);
  * `up`, only the distance changes, because right and up are undefined. */
 void orbit_move(Orbit orbit, Vec3 *eye, Vec3 center, Vec3 *up);
 
-/* "AZIMUTH,ELEVATION" or "AZIMUTH,ELEVATION,DISTANCE": "30,-10,0.5". False, and an empty text, if
- * it moves nothing. */
-bool orbit_text(Orbit orbit, char text[96]);
+/* "AZIMUTH,ELEVATION", with ",DISTANCE" or ",DISTANCE,ROLL" where those are not 1 and 0:
+ * "30,-10,0.5". False, and an empty text, if it moves nothing. */
+enum { ORBIT_TEXT = 128 };
+bool orbit_text(Orbit orbit, char text[ORBIT_TEXT]);
 
 #endif

@@ -224,7 +224,7 @@ static bool read_bias(const Parameter *parameter, const char *text, Message *mes
     enum { MAX = 1000 };
     static const double min[] = {0, 0, 0}, max[] = {MAX, MAX, MAX};
     double values[3];
-    if (parse_numbers(text, min, max, values) != 3)
+    if (parse_numbers(text, 3, min, max, values) != 3)
         return message_set(message,
                            "--shadow-bias %s: must be CONSTANT,SLOPE,NORMAL in texels of a map, "
                            "each 0 to %d",

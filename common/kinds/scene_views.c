@@ -54,7 +54,7 @@ static double designed_aspect(const Renderer *renderer)
 static bool make_plain(const ViewMoment *moment, Scene *scene, Message *message)
 {
     const DrawRequest *request = moment->request;
-    char orbit[96];
+    char orbit[ORBIT_TEXT];
     example_scene(moment->renderer->example)->make(moment->seconds, moment->view, scene);
     orbit_move(request->orbit, &scene->camera.eye, scene->camera.center, &scene->camera.up);
     scene->clamp_vertex |= request->clamp_vertex;

@@ -125,8 +125,9 @@ void overlay_add_lights(OverlayList *list, const Scene *scene)
 {
     for (int i = 0; i < scene->light_count; i++) {
         const Light light = scene_world_light(scene, i);
-        if (light.kind != LIGHT_DIRECTIONAL)
-            add(list, light.position, light.off ? (Vec3){0.1, 0.1, 0.1} : (Vec3){1, 1, 1});
+        const Vec4 place = light_place(&light);
+        add(list, (Vec3){place.x, place.y, place.z},
+            light.off ? (Vec3){0.1, 0.1, 0.1} : (Vec3){1, 1, 1});
     }
 }
 

@@ -33,7 +33,7 @@ void overlay_add_normals(OverlayList *list, const Mesh *mesh, Mat4 world_from_ob
  * one plane share. Draw the object with `behind_lines`. */
 void overlay_add_edges(OverlayList *list, const Mesh *mesh, Mat4 world_from_object, Vec3 color);
 
-/* A white point at each light that has a position, dark grey if it is off. */
+/* A white point at each light, dark grey if it is off; of a directional light at its direction. */
 void overlay_add_lights(OverlayList *list, const Scene *scene);
 
 void overlay_list_close(OverlayList *list);

@@ -87,7 +87,7 @@ static bool read_color(const Parameter *parameter, const char *text)
     const double min[] = {parameter->min, parameter->min, parameter->min};
     const double max[] = {parameter->max, parameter->max, parameter->max};
     double values[3];
-    const int count = parse_numbers(text, min, max, values);
+    const int count = parse_numbers(text, 3, min, max, values);
     if (count != 1 && count != 3)
         return false;
     *(Vec3 *)parameter->value = (Vec3){values[0], values[count / 2], values[count - 1]};

@@ -122,7 +122,14 @@ void light_colors_apply(const LightColors *colors, Light *light);
         COLOR_PARAMETER("light-specular", "its specular colour", (colors).specular),               \
         COLOR_PARAMETER("global-ambient", "ambient light of the scene", global)
 
-/* A ShapeKind and a model's file name. */
+#define DIVISIONS_PARAMETER(model)                                                                 \
+    {                                                                                              \
+        "divisions", "parts of a full turn of the shape's mesh; 0: as the original has it",        \
+            PARAMETER_WHOLE, .value = &(model).divisions, .max = SOLID_MAX_DIVISIONS,              \
+                             .fixes = 1U << AXIS_DIVISIONS                                         \
+    }
+
+/* A ShapeKind and a ShapeModel. */
 #define SHAPE_PARAMETERS(kind, model)                                                              \
     {"shape", "what is lit", PARAMETER_CHOICE, .value = &(kind), .choices = SHAPE_NAMES},          \
         {"model",                                                                                  \
@@ -131,10 +138,9 @@ void light_colors_apply(const LightColors *colors, Light *light);
          .value = &(model).path,                                                                   \
          .placeholder = "FILE",                                                                    \
          .min = 1},                                                                                \
-    {                                                                                              \
-        "up", "the axis of the model file that points up", PARAMETER_CHOICE,                       \
-            .value = &(model).up, .choices = SHAPE_UP_NAMES                                        \
-    }
+        {"up", "the axis of the model file that points up", PARAMETER_CHOICE,                      \
+         .value = &(model).up, .choices = SHAPE_UP_NAMES},                                         \
+        DIVISIONS_PARAMETER(model)
 
 /* The textbook's camera: looks at the origin from `eye`, and shows what lies within `extent` of it
  * to each side. */

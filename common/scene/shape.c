@@ -37,15 +37,15 @@ static Mat4 stand(double height)
                         mat4_translate((Vec3){0, 0, -height / 2}));
 }
 
-bool shape_open(Shape *shape, ShapeKind kind, ShapeStyle style, const ShapeModel *model,
-                Message *message)
+static bool open_usual(Shape *shape, ShapeKind kind, ShapeStyle style, const ShapeModel *model,
+                       Message *message)
 {
     const bool textbook = style == SHAPE_TEXTBOOK;
     const double size = textbook ? 0.5 : 1;
     const double radius = textbook ? 0.5 : 0.8; /* of a cone and a cylinder */
     const double tube = size / 3, ring = 2 * tube;
     const int slices = textbook ? 128 : 20, stacks = textbook ? 64 : 20; /* of a sphere */
-    const int along = textbook ? 1 : 16; /* parts of a cone or cylinder along its axis */
+    const int along = textbook ? 1 : 16; /* parts of a cylinder along its axis */
     Mesh *mesh = &shape->mesh;
     const bool file = model && model->path;
     *shape = (Shape){.closed = !file, .placed = mat4_identity()};
@@ -62,9 +62,14 @@ bool shape_open(Shape *shape, ShapeKind kind, ShapeStyle style, const ShapeModel
         shape->solid = (Solid){.kind = SOLID_SPHERE, .radius = size};
         return mesh_sphere(mesh, size, slices, stacks, message);
     case SHAPE_TEAPOT:
-        shape->solid = (Solid){.kind = SOLID_TEAPOT, .radius = 0.8 * size};
         shape->closed = false; /* there is a gap under its lid */
-        return mesh_teapot(mesh, 0.8 * size, 10, message);
+        if (textbook) {        /* the middle of its mesh's box at the origin */
+            shape->solid = (Solid){.kind = SOLID_TEAPOT, .radius = 0.5};
+            shape->placed = mat4_translate((Vec3){-0.053515625, -0.01875, 0});
+            return mesh_teapot_textbook(mesh, 0.5, message);
+        }
+        shape->solid = (Solid){.kind = SOLID_TEAPOT, .radius = 0.8};
+        return mesh_teapot(mesh, 0.8, 10, message);
     case SHAPE_TORUS:
         shape->solid = (Solid){.kind = SOLID_TORUS, .radius = ring, .tube = tube};
         shape->placed = stand(0);
@@ -72,7 +77,8 @@ bool shape_open(Shape *shape, ShapeKind kind, ShapeStyle style, const ShapeModel
     case SHAPE_CONE:
         shape->solid = (Solid){.kind = SOLID_CONE, .radius = radius, .height = 2.4 * radius};
         shape->placed = stand(2.4 * radius);
-        return mesh_cone(mesh, radius, 2.4 * radius, 64, along, message);
+        return mesh_cone(mesh, radius, 2.4 * radius, 64, textbook ? MESH_CONE_HALVING : 16,
+                         message);
     case SHAPE_CYLINDER:
         shape->solid = (Solid){
             .kind = SOLID_CYLINDER, .radius = radius, .height = 2 * radius, .caps = MESH_CAP_BOTH};
@@ -94,6 +100,18 @@ bool shape_open(Shape *shape, ShapeKind kind, ShapeStyle style, const ShapeModel
         break;
     }
     return message_set(message, "shape %d: there is none", (int)kind);
+}
+
+bool shape_open(Shape *shape, ShapeKind kind, ShapeStyle style, const ShapeModel *model,
+                Message *message)
+{
+    if (!open_usual(shape, kind, style, model, message))
+        return false;
+    if (!model || !model->divisions || shape->solid.kind == SOLID_NONE)
+        return true;
+    mesh_close(&shape->mesh);
+    return solid_mesh(&shape->solid, model->divisions > 2 ? model->divisions : SOLID_MIN_DIVISIONS,
+                      &shape->mesh, message);
 }
 
 Object shape_object(const Shape *shape, Mat4 world_from_object, Material material)

@@ -32,10 +32,11 @@ typedef enum ShapeStyle {
     SHAPE_TEXTBOOK, /* half as large: cube of side 1, sphere of 128 x 64 */
 } ShapeStyle;
 
-/* A model file, and which of its axes points up: a ModelUp. */
+/* A model file, and which of its axes points up: a ModelUp; or how fine the mesh of a shape is. */
 typedef struct ShapeModel {
     const char *path; /* NULL: none */
     int up;
+    int divisions; /* of solid_mesh, at least SOLID_MIN_DIVISIONS; 0: the style's own mesh */
 } ShapeModel;
 
 extern const char *const SHAPE_UP_NAMES[];
@@ -48,7 +49,7 @@ typedef struct Shape {
 } Shape;
 
 /* The model file, moved and scaled into the unit sphere, or half of it for the textbook; if
- * there is none, or `model` is NULL, a solid. */
+ * there is none, or `model` is NULL, a solid. A shape without a formula has no divisions. */
 bool shape_open(Shape *shape, ShapeKind kind, ShapeStyle style, const ShapeModel *model,
                 Message *message);
 

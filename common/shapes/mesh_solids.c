@@ -75,7 +75,10 @@ bool mesh_disc(Mesh *mesh, double radius, int slices, int loops, Message *messag
 
 bool mesh_cone(Mesh *mesh, double radius, double height, int slices, int stacks, Message *message)
 {
+    const bool halving = stacks == MESH_CONE_HALVING;
     *mesh = (Mesh){0};
+    if (halving)
+        stacks = -MESH_CONE_HALVING;
     if (!check_round("cone", radius, slices, "stacks", stacks, message) ||
         !mesh_check_length("cone", "height", height, message) ||
         !mesh_open(mesh, vertex_count(stacks, slices) + vertex_count(1, slices),
@@ -86,10 +89,17 @@ bool mesh_cone(Mesh *mesh, double radius, double height, int slices, int stacks,
     const double side = hypot(radius, height);
     MeshVertex *row = mesh->vertices;
     for (int j = 0; j <= stacks; j++) {
-        const Circle stack = {radius * j / stacks, height * (stacks - j) / stacks, height / side,
-                              radius / side};
+        Circle stack = {radius * j / stacks, height * (stacks - j) / stacks, height / side,
+                        radius / side};
         /* At the apex, vertex i + 1 belongs to the slice from i to i + 1. */
-        row = revolve(row, slices, stack, j == 0 ? -0.5 : 0);
+        double turn = j == 0 ? -0.5 : 0;
+        if (halving && j > 0) {
+            const double share = ldexp(1, j - stacks); /* of the way from the apex to the base */
+            stack.radius = radius * share;
+            stack.z = height * (1 - share);
+            turn = j % 2 == 0 ? 0.5 : 0;
+        }
+        row = revolve(row, slices, stack, turn);
     }
     const uint32_t base = (uint32_t)(row - mesh->vertices);
     disc(row, slices, 1, radius, 0, -1);

@@ -14,7 +14,10 @@
  * loops and divisions 1 to MESH_SPHERE_MAX. */
 
 /* A closed cone: the base is a disc at z = 0, the apex (0, 0, height). The apex has a vertex for
- * each slice, with the normal of the slice's middle. */
+ * each slice, with the normal of the slice's middle. With MESH_CONE_HALVING for `stacks` the rings
+ * are the textbook's, at 0, 1/2, 3/4, 7/8 and 15/16 of the height, every second one turned by half
+ * a slice. */
+enum { MESH_CONE_HALVING = -5 };
 bool mesh_cone(Mesh *mesh, double radius, double height, int slices, int stacks, Message *message);
 
 /* A cylinder from z = 0 to z = height, open or capped with discs. */
@@ -71,7 +74,12 @@ bool mesh_regular(Mesh *mesh, MeshRegular kind, double radius, Message *message)
 enum { MESH_TEAPOT_MAX = 512, MESH_TEAPOT_PATCHES = 32 };
 bool mesh_teapot(Mesh *mesh, double size, int divisions, Message *message);
 
-/* The same; fails soon after another thread sets *stop. */
+/* The mesh of the textbook's demos: cut into 4 x 4, with the normals of its triangles
+ * (MESH_WEIGHT_ANGLE), averaged where they meet, and one control point inside the rim at -0.874
+ * instead of -0.784, a slip of their data. */
+bool mesh_teapot_textbook(Mesh *mesh, double size, Message *message);
+
+/* mesh_teapot; fails soon after another thread sets *stop. */
 bool mesh_teapot_until(Mesh *mesh, double size, int divisions, const atomic_bool *stop,
                        Message *message);
 

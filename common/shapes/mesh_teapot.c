@@ -10,6 +10,8 @@
 #include "core/mesh_make.h"
 #include "shapes/mesh_solids.h"
 
+#include <string.h>
+
 /* Makes four control points from a line of numbers; `number` is that of the patch around. */
 typedef void RowControl(const double *line, int number, Vec3 control[4]);
 
@@ -178,6 +180,53 @@ static bool part_vertices(MeshVertex *vertices, const Part *part, double size, i
 bool mesh_teapot(Mesh *mesh, double size, int divisions, Message *message)
 {
     return mesh_teapot_until(mesh, size, divisions, NULL, message);
+}
+
+/* The first vertex at the position of vertex `i`. */
+static uint32_t first_at(const Mesh *mesh, uint32_t i)
+{
+    const float *place = mesh->vertices[i].position;
+    uint32_t first = 0;
+    while (memcmp(mesh->vertices[first].position, place, sizeof mesh->vertices->position) != 0)
+        first++;
+    return first;
+}
+
+/* The slip moves the third control point of the first row of the third patch. */
+static void slip(Mesh *mesh, double size)
+{
+    for (int j = 0; j < 4; j++) {
+        const Basis down = basis_at(j, 4);
+        for (int i = 1; i < 4; i++) {
+            const Basis around = basis_at(i, 4);
+            mesh->vertices[17 * j + 8 + i].position[0] -=
+                (float)(0.09 * size / 2 * down.value[0] * around.value[2]);
+        }
+    }
+}
+
+/* Seams and poles are bitwise equal, and no two parts touch: of each place the first vertex has all
+ * triangles that meet there, and its normal is that of the others. */
+bool mesh_teapot_textbook(Mesh *mesh, double size, Message *message)
+{
+    Mesh joined;
+    if (!mesh_teapot(mesh, size, 4, message))
+        return false;
+    slip(mesh, size);
+    if (!mesh_copy(&joined, mesh, message)) {
+        mesh_close(mesh);
+        return false;
+    }
+    for (size_t i = 0; i < mesh->index_count; i++)
+        joined.indices[i] = first_at(mesh, mesh->indices[i]);
+    const bool done = mesh_compute_normals(&joined, MESH_WEIGHT_ANGLE, message);
+    for (uint32_t i = 0; i < mesh->vertex_count; i++)
+        memcpy(mesh->vertices[i].normal, joined.vertices[first_at(mesh, i)].normal,
+               sizeof mesh->vertices->normal);
+    mesh_close(&joined);
+    if (!done)
+        mesh_close(mesh);
+    return done;
 }
 
 bool mesh_teapot_until(Mesh *mesh, double size, int divisions, const atomic_bool *stop,

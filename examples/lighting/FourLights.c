@@ -19,6 +19,7 @@ enum { COLORED = 3, BASE_SLICES = 64 };
 
 static bool viewpoint_on = true, red_on = true, green_on = true, blue_on = true, ambient_on = true;
 static bool base = true;
+static ShapeModel pot;
 static SceneShading shading = {REFLECTION_PHONG, INTERPOLATION_GOURAUD, VIEWER_LOCAL};
 static Surface surface = {.name = MATERIAL_COUNT,
                           .material = {.ambient = {0.7, 0.7, 0.7},
@@ -35,6 +36,7 @@ static const Parameter parameters[] = {
     {"blue", "the blue light", PARAMETER_SWITCH, .value = &blue_on, .fixes = 1U << AXIS_LIGHTS},
     {"ambient", "global ambient light", PARAMETER_SWITCH, .value = &ambient_on},
     {"base", "the coloured disc below the teapot", PARAMETER_SWITCH, .value = &base},
+    DIVISIONS_PARAMETER(pot),
     MATERIAL_PARAMETER(surface),
     SHADING_PARAMETERS(shading),
     {.name = NULL},
@@ -62,15 +64,14 @@ static Vec3 rainbow(double hue)
 /* A flat cylinder: white at the centres of its discs, the hues around its rim. */
 static bool open_base(Mesh *mesh, Message *message)
 {
-    static const double TURN = 6.283185307179586;
+    static const double LAST_HUE = 359.0 / 360; /* as in the demo: the seam is not red again */
     if (!mesh_cylinder(mesh, (MeshCylinder){1, 2, BASE_SLICES, 1, MESH_CAP_BOTH}, message) ||
         !mesh_open_colors(mesh, message))
         return false;
     for (size_t i = 0; i < mesh->vertex_count; i++) {
         const Vec3 place = vec3_from_float(mesh->vertices[i].position);
         const double radius = fmin(hypot(place.x, place.y), 1); /* but for rounding */
-        const double angle = atan2(place.y, place.x);
-        const Vec3 hue = rainbow(fmod(1 + angle / TURN, 1));
+        const Vec3 hue = rainbow(LAST_HUE * (double)(i % (BASE_SLICES + 1)) / BASE_SLICES);
         vec3_to_float(vec3_add(vec3_scale(hue, radius), vec3_scale((Vec3){1, 1, 1}, 1 - radius)),
                       mesh->colors[i]);
     }
@@ -81,7 +82,7 @@ static bool init(const ShaderLoader *loader, Message *message)
 {
     (void)loader;
     return open_base(&state.base, message) && mesh_sphere(&state.marker, 0.5, 16, 8, message) &&
-           shape_open(&state.teapot, SHAPE_TEAPOT, SHAPE_LECTURE, NULL, message);
+           shape_open(&state.teapot, SHAPE_TEAPOT, SHAPE_TEXTBOOK, &pot, message);
 }
 
 /* The places of the three lights: a frame lasts 30 ms, and turns each by its own angle. */
@@ -98,6 +99,7 @@ static void colored_light(double seconds, int i)
     static const Vec3 colors[COLORED] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     const bool on[COLORED] = {red_on, green_on, blue_on};
     const Vec3 place = lamp_place(seconds, i);
+    const Mat4 lying = mat4_rotate(90, (Vec3){1, 0, 0}); /* its poles on z, as the demo has them */
     state.lights[1 + i] = (Light){.kind = LIGHT_POINT,
                                   .off = !on[i],
                                   .position = place,
@@ -108,7 +110,7 @@ static void colored_light(double seconds, int i)
                                     .solid = {.kind = SOLID_SPHERE, .radius = 0.5},
                                     .closed = true,
                                     .lamp = 1 + (1 + i),
-                                    .world_from_object = mat4_translate(place),
+                                    .world_from_object = mat4_product(mat4_translate(place), lying),
                                     .front = {.emission = vec3_scale(colors[i], on[i] ? 0.5 : 0),
                                               .alpha = 1,
                                               .ambient = {0.5, 0.5, 0.5},
@@ -130,8 +132,7 @@ static void base_object(void)
 
 static void scene(double seconds, int view, Scene *scene)
 {
-    /* The pot stands on the base. */
-    static const double SIZE = 8.6;
+    static const double SIZE = 13; /* the demo's 0.65, of a pot 20 times as large as Materials' */
     const Mat4 raised = mat4_translate((Vec3){0, 0.68, 0});
     (void)view;
     state.lights[0] = (Light){.kind = LIGHT_DIRECTIONAL,

@@ -11,6 +11,11 @@
 
 #include <math.h>
 
+enum { BLACK_PLASTIC = 12 }; /* in MATERIALS */
+/* With shininess 0 the demo's highlight is full wherever V.R > 0, and nothing elsewhere: what any
+ * exponent more than 0 comes to. An exponent of 0 means 1 everywhere (0 to the power of 0). */
+static const double LEAST_SHININESS = 1e-6;
+
 static int shape_kind = SHAPE_TEAPOT;
 static ShapeModel model;
 static bool sheet;
@@ -21,10 +26,11 @@ static Surface surface = {.name = MATERIAL_COUNT,
                                        .alpha = 1,
                                        .shininess = 16}};
 static LightColors light_colors = {.diffuse = {1, 1, 1}, .specular = {0.4, 0.4, 0.4}};
-static Vec3 global_ambient = {0.2, 0.2, 0.2};
+static Vec3 global_ambient = {0, 0, 0};
 static SceneShading shading = {REFLECTION_PHONG, INTERPOLATION_GOURAUD, VIEWER_INFINITE};
 
-/* The demo sets ambient and diffuse colour together, and shininess in whole numbers. */
+/* The demo sets ambient and diffuse colour together, and shininess in whole numbers; its black
+ * plastic has white highlights. */
 static void diffuse_changed(const Parameter *parameter)
 {
     (void)parameter;
@@ -35,6 +41,8 @@ static void material_changed(const Parameter *parameter)
 {
     scene_surface_named(parameter);
     surface.material.shininess = round(surface.material.shininess);
+    if (surface.name == BLACK_PLASTIC)
+        surface.material.specular = (Vec3){1, 1, 1};
     diffuse_changed(parameter);
 }
 
@@ -69,7 +77,8 @@ static bool init(const ShaderLoader *loader, Message *message)
 
 static void scene(double seconds, int view, Scene *scene)
 {
-    const Material material = sheet ? MATERIALS[view].material : surface.material;
+    Material material = sheet ? MATERIALS[view].material : surface.material;
+    material.shininess = fmax(material.shininess, LEAST_SHININESS);
     state.light = (Light){.kind = LIGHT_DIRECTIONAL, .space = LIGHT_EYE, .direction = {0, 0, 1}};
     light_colors_apply(&light_colors, &state.light);
     state.object = shape_object(&state.shape, example_turned(seconds), material);
@@ -114,7 +123,7 @@ const Example Materials = {
               "--diffuse 0.5,0,0 --shininess 0"},
     .looks = {"green is added to red: the highlight is orange",
               "the highlights stay towards you: so does the light",
-              "shininess 0: the highlight is everywhere"},
+              "shininess 0: the highlight is everywhere within 45 degrees of the light"},
     .init = init,
     .finish = finish,
     .kind = &SCENE_KIND,

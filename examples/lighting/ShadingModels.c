@@ -2,7 +2,8 @@
  * ShadingModels: two reflection models, four kinds of shading, 24 materials, two lights.
  *
  * The lecture's shading page. One light is fixed, the other turns about the y axis; points mark
- * them. Lighting is in eye coordinates.
+ * them. Lighting is in eye coordinates. --reflection original is Phong as that page has it: with
+ * --interpolation gouraud its shader computes Blinn's half vector, by mistake.
  *
  * Look at the highlight of a coarse sphere with --interpolation gouraud, at how little Phong and
  * Blinn-Phong differ, and at --explain, which says what each choice costs.
@@ -25,10 +26,15 @@ static bool rotating;
 
 static const char *const LIGHT_KINDS[] = {"directional", "point", NULL};
 
+enum { REFLECTION_ORIGINAL = REFLECTION_PHONG + 1 };
+static const char *const REFLECTIONS[] = {"blinn-phong", "phong", "original", NULL};
+
 static const Parameter parameters[] = {
     SHAPE_PARAMETERS(shape_kind, model),
     SURFACE_PARAMETERS(surface),
-    SHADING_PARAMETERS(shading),
+    {"reflection", "the model of the highlight; original: Phong as the lecture's page has it",
+     PARAMETER_CHOICE, .value = &shading.reflection, .choices = REFLECTIONS},
+    INTERPOLATION_PARAMETERS(shading),
     {"fixed-light", "the fixed light", PARAMETER_SWITCH, .value = &lights_on[0],
      .fixes = 1U << AXIS_LIGHTS},
     {"fixed-kind", "directional, or a point light", PARAMETER_CHOICE, .value = &kinds[0],
@@ -78,6 +84,9 @@ static void scene(double seconds, int view, Scene *scene)
     if (shape_kind == SHAPE_CUBE && !model.path) /* whose corners the original cuts */
         scene->camera.eye = vec3_scale(scene->camera.eye, 1.15);
     scene_shading_apply(&shading, scene);
+    if (shading.reflection == REFLECTION_ORIGINAL)
+        scene->reflection = shading.interpolation == INTERPOLATION_GOURAUD ? REFLECTION_BLINN_PHONG
+                                                                           : REFLECTION_PHONG;
 }
 
 static void finish(void)

@@ -5,7 +5,9 @@
  * of rectangles twice: above with smooth normals, below with flat ones. --shape square is a flat
  * square whose smooth normals are those of a sphere: normals are whatever you say they are.
  *
- * Look at the silhouette: no normal makes it round.
+ * Look at the silhouette: no normal makes it round. --normals original has the demo's flat ones,
+ * which are not perpendicular to the faces: four points are to be added and divided by 4, and only
+ * the last one is divided.
  */
 #include "scene/scene_example.h"
 #include "shapes/mesh_solids.h"
@@ -14,7 +16,8 @@
 
 enum { SPHERE, BAND, SQUARE };
 static const char *const SHAPES[] = {"sphere", "band", "square", NULL};
-static const char *const NORMALS[] = {"smooth", "flat", NULL};
+enum { SMOOTH, FLAT, ORIGINAL };
+static const char *const NORMALS[] = {"smooth", "flat", "original", NULL};
 
 static int shape, normals, slices = 8, stacks = 4;
 static bool edges;
@@ -39,8 +42,9 @@ static void shape_changed(const Parameter *parameter)
 static const Parameter parameters[] = {
     {"shape", "what is drawn", PARAMETER_CHOICE, .value = &shape, .choices = SHAPES,
      .changed = shape_changed},
-    {"normals", "of the sphere and the square; the band has both", PARAMETER_CHOICE,
-     .value = &normals, .choices = NORMALS, .fixes = 1U << AXIS_NORMALS},
+    {"normals",
+     "of the sphere and the square; the band has both; original: flat as the textbook's demo has it",
+     PARAMETER_CHOICE, .value = &normals, .choices = NORMALS, .fixes = 1U << AXIS_NORMALS},
     {"slices", "around the axis of the sphere, or along the square", PARAMETER_WHOLE,
      .value = &slices, .min = 3, .max = 64, .fixes = 1U << AXIS_DIVISIONS},
     {"stacks", "of the sphere, along its axis", PARAMETER_WHOLE, .value = &stacks, .min = 2,
@@ -89,11 +93,42 @@ static bool open_mesh(Mesh *mesh, Message *message)
                              : mesh_sphere(mesh, 4, slices, stacks, message);
 }
 
+/* The demo's normal of the sphere's face between two meridians and two circles of latitude. */
+static Vec3 original_normal(const MeshVertex *above, const MeshVertex *below)
+{
+    Vec3 sum = vec3_from_float(below[0].normal), unit;
+    sum = vec3_add(sum, vec3_from_float(above[0].normal));
+    sum = vec3_add(sum, vec3_from_float(below[1].normal));
+    sum = vec3_add(sum, vec3_scale(vec3_from_float(above[1].normal), 0.25));
+    vec3_normalize(sum, &unit);
+    return unit;
+}
+
+/* Of the flat sphere, whose triangles are in the order of the smooth one's faces: two each, but for
+ * those at the poles. */
+static void slip_normals(const Mesh *smooth, Mesh *flat)
+{
+    MeshVertex *vertex = flat->vertices;
+    for (int j = 0; j < stacks; j++) {
+        const MeshVertex *above = smooth->vertices + (size_t)j * (size_t)(slices + 1);
+        for (int i = 0; i < slices; i++) {
+            const Vec3 normal = original_normal(above + i, above + i + slices + 1);
+            const int corners = j == 0 || j == stacks - 1 ? 3 : 6;
+            for (int k = 0; k < corners; k++)
+                vec3_to_float(normal, vertex++->normal);
+        }
+    }
+}
+
 static bool init(const ShaderLoader *loader, Message *message)
 {
     (void)loader;
-    return open_mesh(&state.smooth, message) && open_mesh(&state.flat, message) &&
-           mesh_flatten(&state.flat, message);
+    if (!open_mesh(&state.smooth, message) || !open_mesh(&state.flat, message) ||
+        !mesh_flatten(&state.flat, message))
+        return false;
+    if (normals == ORIGINAL && shape == SPHERE)
+        slip_normals(&state.smooth, &state.flat);
+    return true;
 }
 
 static Object make_object(bool flat, Mat4 world_from_object)
@@ -116,7 +151,7 @@ static void scene(double seconds, int view, Scene *scene)
     Mat4 world_from_object = mat4_product(turned, mat4_rotate(90, (Vec3){0, 1, 0}));
     if (shape == SQUARE)
         world_from_object = mat4_product(turned, mat4_scale((Vec3){3.5, 3.5, 1}));
-    state.objects[0] = make_object(normals == 1, world_from_object);
+    state.objects[0] = make_object(normals != SMOOTH, world_from_object);
     for (int i = 0; i < 2 && shape == BAND; i++) {
         const Mat4 raised = mat4_translate((Vec3){0, i == 0 ? 0.4 : -2.9, 0});
         /* Upright, about its centroid, its inside half hidden by its outside. */

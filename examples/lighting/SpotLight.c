@@ -2,7 +2,9 @@
  * SpotLight: a light that shines only within a cone.
  *
  * The light turns about the object and aims at it. --cutoff is half the cone's angle; --exponent
- * makes the light weaker away from the axis.
+ * makes the light weaker away from the axis. As on the lecture's page, the light's ambient term is
+ * not cut off: what the cone does not reach is dark, not black. --ambient-cone on cuts it off, too,
+ * as OpenGL 1.1 does.
  *
  * Look at the hard edge of the cone and how --exponent softens it, and at --interpolation gouraud,
  * where the edge follows the mesh.
@@ -13,6 +15,7 @@
 static int shape_kind = SHAPE_SPHERE;
 static ShapeModel model;
 static double cutoff = 30, exponent = 0;
+static bool ambient_cone;
 static Surface surface = {.name = MATERIAL_GOLD_INDEX, .material = MATERIAL_GOLD};
 static LightColors light_colors = {{0.1, 0.1, 0.1}, {1, 1, 1}, {1, 1, 1}};
 static Vec3 global_ambient = {0, 0, 0};
@@ -24,6 +27,8 @@ static const Parameter parameters[] = {
      .max = 90},
     {"exponent", "how fast it falls off within the cone", PARAMETER_NUMBER, .value = &exponent,
      .min = 0, .max = 128},
+    {"ambient-cone", "cut off the light's ambient term, too, as OpenGL 1.1 does", PARAMETER_SWITCH,
+     .value = &ambient_cone},
     SURFACE_PARAMETERS(surface),
     SHADING_PARAMETERS(shading),
     LIGHT_PARAMETERS(light_colors, global_ambient),
@@ -61,6 +66,10 @@ static void scene(double seconds, int view, Scene *scene)
                 .light_count = 1,
                 .objects = &state.object,
                 .object_count = 1};
+    if (!ambient_cone) { /* then it is the same everywhere, as the scene's own ambient light */
+        scene->global_ambient = vec3_add(global_ambient, light_colors.ambient);
+        state.light.ambient = (Vec3){0, 0, 0};
+    }
     scene_shading_apply(&shading, scene);
 }
 
@@ -74,8 +83,8 @@ const Example SpotLight = {
     .summary = "a light with a cone, its cutoff and its falloff",
     .width = 512,
     .height = 512,
-    .tries = {"--shape cube --interpolation gouraud --global-ambient 0.3",
-              "--exponent 60 --cutoff 60 --global-ambient 0.3",
+    .tries = {"--shape cube --interpolation gouraud --global-ambient 0.2",
+              "--exponent 60 --cutoff 60 --global-ambient 0.2",
               "--shape teapot --cutoff 90 --time 2"},
     .looks = {"no corner is within the cone: nothing is lit",
               "no hard edge: the light fades before the cone ends",

@@ -44,8 +44,7 @@ class Engine {
     run(lines) { return this.module.ccall("page_open", "number", ["string"], [lines.join("\n")]); }
 
     draw(seconds, orbit) {
-        return this.module.ccall("page_draw", "number", ["number", "number", "number", "number"],
-                                 [seconds, ...orbit]) === 1;
+        return this.module._page_draw(seconds, ...orbit) === 1;
     }
 
     /* A copy of the last picture. */

@@ -361,13 +361,13 @@ void page_close(void)
 
 /* Pictures. */
 
-int page_draw(double seconds, double azimuth, double elevation, double distance)
+int page_draw(double seconds, double azimuth, double elevation, double distance, double roll)
 {
     page.message = (Message){0};
     if (!page.example)
         return message_set(&page.message, "no program is open");
     page.options.seconds = seconds;
-    page.options.orbit = (Orbit){azimuth, elevation, distance};
+    page.options.orbit = (Orbit){azimuth, elevation, distance, roll};
     page.image.type = IMAGE_BYTE;
     const DrawRequest request = options_request(&page.options, page.example);
     if (!renderer_picture(&page.renderer, &request, seconds, &page.image, &page.message))

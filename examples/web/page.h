@@ -20,7 +20,7 @@ int page_open(const char *lines);
 const char *page_message(void);
 
 /* Draws the picture at that time, with the camera there. 0 on failure. */
-int page_draw(double seconds, double azimuth, double elevation, double distance);
+int page_draw(double seconds, double azimuth, double elevation, double distance, double roll);
 
 /* Of the last picture: RGBA, row 0 at the top. */
 const unsigned char *page_pixels(void);

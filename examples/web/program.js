@@ -12,7 +12,7 @@ const Page = (() => {
         values: new Map(), /* of options, as the link has them */
         good: new Map(),   /* the last that could be drawn */
         texts: new Map(),  /* of edited shaders */
-        seconds: 0, orbit: [0, 0, 1],
+        seconds: 0, orbit: [0, 0, 1, 0],
         playing: false, last: 0, times: [], picture: null, scheduled: false, controls: null,
     };
 
@@ -35,7 +35,7 @@ const Page = (() => {
         values.delete("orbit");
         if (page.seconds)
             values.set("time", String(+page.seconds.toFixed(3)));
-        if (orbit[0] || orbit[1] || orbit[2] !== 1)
+        if (orbit[0] || orbit[1] || orbit[2] !== 1 || orbit[3])
             values.set("orbit", orbit.join(","));
         return values;
     }
@@ -81,8 +81,8 @@ const Page = (() => {
 
     function readOrbit(text) {
         const numbers = String(text).split(",").map(Number);
-        return !text ? [0, 0, 1] : numbers.length < 2 || numbers.some(isNaN) ? null : [numbers[0], numbers[1],
-                                                                                       numbers[2] || 1];
+        return !text ? [0, 0, 1, 0] : numbers.length < 2 || numbers.some(isNaN) ? null :
+            [numbers[0], numbers[1], numbers[2] || 1, numbers[3] || 0];
     }
 
     function paint(picture) {
@@ -165,17 +165,17 @@ const Page = (() => {
         schedule();
     }
 
-    function turn(azimuth, elevation, factor) {
+    function turn(azimuth, elevation, factor, roll = 0) {
         const limit = (x, min, max) => Math.min(max, Math.max(min, x));
         page.orbit = [(page.orbit[0] + azimuth) % 360, limit(page.orbit[1] + elevation, -90, 90),
-                      limit(page.orbit[2] * factor, 0.01, 100)];
+                      limit(page.orbit[2] * factor, 0.01, 100), (page.orbit[3] + roll) % 360];
         const shown = page.orbit.map(x => +x.toFixed(3)).join(",");
         page.controls.show({...page.engine.json("values"), orbit: shown});
         schedule();
     }
 
     function reset() {
-        page.orbit = [0, 0, 1];
+        page.orbit = [0, 0, 1, 0];
         page.values.delete("orbit");
         turn(0, 0, 1);
     }
@@ -185,6 +185,7 @@ const Page = (() => {
         const keys = {
             ArrowLeft: () => turn(-step, 0, 1), ArrowRight: () => turn(step, 0, 1),
             ArrowUp: () => turn(0, step, 1), ArrowDown: () => turn(0, -step, 1),
+            "[": () => turn(0, 0, 1, step), "]": () => turn(0, 0, 1, -step),
             "+": () => turn(0, 0, 1 / 1.1), "=": () => turn(0, 0, 1 / 1.1), "-": () => turn(0, 0, 1.1),
             " ": () => play(!page.playing), Home: reset,
         };
@@ -271,7 +272,7 @@ const Page = (() => {
 
     /* What is refused changes neither time nor camera. */
     function start(values, seconds = Number(values.get("time") || 0),
-                   orbit = readOrbit(values.get("orbit")) || [0, 0, 1]) {
+                   orbit = readOrbit(values.get("orbit")) || [0, 0, 1, 0]) {
         const before = {seconds: page.seconds, orbit: page.orbit};
         Object.assign(page, {values, seconds, orbit});
         const message = update();

@@ -126,7 +126,7 @@ COMMAND_TEST(options_are_quoted_for_a_shell)
     options.width = 640;
     options.seconds = -0.7;
     options.canvas.samples = 4;
-    options.orbit = (Orbit){-30, 10.5, 0};
+    options.orbit = (Orbit){.azimuth = -30, .elevation = 10.5};
     options.shaders.folder = "-my 'own' shaders";
     options.alpha = options.full = options.linear = options.show_clipped = true;
     options.clamp_vertex = true;
@@ -237,7 +237,7 @@ COMMAND_TEST(frames_are_written_if_given)
     assert_command(&options, "Example --output turn%03d.png --frames 1");
     options.frames = 90;
     options.fps = 24.5;
-    options.orbit = (Orbit){0, 0, 0.25};
+    options.orbit = (Orbit){.distance = 0.25};
     assert_command(&options,
                    "Example --output turn%03d.png --frames 90 --fps 24.5 --orbit 0,0,0.25");
 }
@@ -418,8 +418,9 @@ static void any_options(Setting *setting)
         options->seconds = any_number(-1e9, 1e9);
     options->canvas.samples = below(3) ? 0 : below(65537);
     if (below(2))
-        options->orbit = (Orbit){any_number(-36000, 36000), any_number(-90, 90),
-                                 below(2) ? any_number(0.01, 100) : 0};
+        options->orbit =
+            (Orbit){any_number(-36000, 36000), any_number(-90, 90),
+                    below(2) ? any_number(0.01, 100) : 0, below(2) ? any_number(-36000, 36000) : 0};
     options->canvas.backend = backends[below(3)];
     if (below(3) == 0)
         options->shaders.folder = setting->names[1] = any_name("x", false);
@@ -491,7 +492,8 @@ static bool same_options(const Options *a, const Options *b)
            a->numbered == b->numbered && a->fps == b->fps && same_text(a->format, b->format) &&
            a->canvas.samples == b->canvas.samples && a->orbit.azimuth == b->orbit.azimuth &&
            a->orbit.elevation == b->orbit.elevation && far_a == far_b &&
-           backend_of(a) == backend_of(b) && same_text(a->shaders.folder, b->shaders.folder) &&
+           a->orbit.roll == b->orbit.roll && backend_of(a) == backend_of(b) &&
+           same_text(a->shaders.folder, b->shaders.folder) &&
            same_text(a->shaders.precision, b->shaders.precision) && a->alpha == b->alpha &&
            a->compress == b->compress && a->full == b->full && a->cheap == b->cheap &&
            a->error == b->error && a->clamp_vertex == b->clamp_vertex && a->linear == b->linear &&

@@ -28,11 +28,11 @@ static bool print_machine(void)
 /* The first frame, which may compile, is not timed. */
 static double frame_time(const char *lines, double start, int count)
 {
-    if (page_open(lines) != 0 || !page_draw(start, 0, 0, 1))
+    if (page_open(lines) != 0 || !page_draw(start, 0, 0, 1, 0))
         return -1;
     const double begin = clock_now();
     for (int i = 0; i < count; i++)
-        if (!page_draw(start + 0.1 * i, 0, 0, 1))
+        if (!page_draw(start + 0.1 * i, 0, 0, 1, 0))
             return -1;
     return 1e3 * (clock_now() - begin) / count;
 }

@@ -33,7 +33,7 @@ static const struct {
     {"--linear", "x.png", {SIZE, .linear = true}, false},
     {"--clamp vertex", "x.png", {SIZE, .clamp_vertex = true}, false},
     {"--show-clipped", "x.png", {SIZE, .show_clipped = true}, false},
-    {"--orbit 30,10,0.8", "x.png", {SIZE, .orbit = {30, 10, 0.8}}, false},
+    {"--orbit 30,10,0.8", "x.png", {SIZE, .orbit = {30, 10, 0.8, 0}}, false},
     {"--alpha", "x.png", {SIZE, .alpha = true}, false},
     {"--samples 4", "x.png", {SIZE, .canvas = {.samples = 4}}, false},
     {"floats", "x.exr", {SIZE}, false},

@@ -101,21 +101,22 @@ TEST(a_fold_is_an_edge)
     assert_int_equal(edges_of_made(&m, true), 5);
 }
 
-/* A light without a position has no mark. */
+/* A light without a position is where its direction, as given, leads from the origin. */
 TEST(lights_are_marked_where_they_are)
 {
     const Light lights[] = {
-        {.direction = {1, 2, 3}},
+        {.direction = {1, 2, 3}, .position = {9, 9, 9}},
         {.kind = LIGHT_POINT, .direction = {9, 9, 9}, .position = {4, 5, 6}},
         {.kind = LIGHT_SPOT, .direction = {0, 1, 0}, .position = {7, 8, 9}, .off = true}};
     const Scene scene = {.lights = lights, .light_count = 3};
     CLOSED(overlay_list_close) OverlayList list = {.count = 0};
     overlay_add_lights(&list, &scene);
-    assert_int_equal(list.count, 2);
-    for (int i = 0; i < 2; i++) {
+    const Vec3 places[] = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}};
+    assert_int_equal(list.count, 3);
+    for (int i = 0; i < 3; i++) {
         const Vec3 place = vec3_from_float(list.vertices[i].position);
-        assert_true(vec3_length(vec3_subtract(place, lights[i + 1].position)) == 0);
-        assert_int_equal(list.vertices[i].color[0] == 1, i == 0);
+        assert_true(vec3_length(vec3_subtract(place, places[i])) == 0);
+        assert_int_equal(list.vertices[i].color[0] == 1, i < 2);
     }
 }
 

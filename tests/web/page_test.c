@@ -8,7 +8,7 @@
 static uint32_t drawn(double seconds)
 {
     uint32_t hash = 2166136261u;
-    if (!page_draw(seconds, 0, 0, 1))
+    if (!page_draw(seconds, 0, 0, 1, 0))
         fail_msg("%s", page_message());
     const unsigned char *pixels = page_pixels();
     for (size_t i = 0; i < 4 * (size_t)page_width() * (size_t)page_height(); i++)
@@ -50,7 +50,7 @@ TEST(a_refused_program_leaves_none_open)
     const uint32_t right = drawn(0);
     for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++) {
         assert_int_equal(page_open(refused[i]), 2);
-        assert_int_equal(page_draw(0, 0, 0, 1), 0);
+        assert_int_equal(page_draw(0, 0, 0, 1, 0), 0);
         assert_non_null(strstr(page_message(), "no program"));
         opened("Materials\n--size=40x40\n--light-at=0,1,2,3");
         assert_int_equal(drawn(0), right);
