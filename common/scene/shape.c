@@ -37,6 +37,18 @@ static Mat4 stand(double height)
                         mat4_translate((Vec3){0, 0, -height / 2}));
 }
 
+static bool open_teapot(Shape *shape, bool textbook, Message *message)
+{
+    const double radius = textbook ? 0.5 : 0.8;
+    shape->solid = (Solid){.kind = SOLID_TEAPOT, .radius = radius};
+    shape->closed = false; /* there is a gap under its lid */
+    if (!textbook)
+        return mesh_teapot(&shape->mesh, radius, 10, message);
+    /* The middle of its mesh's box at the origin. */
+    shape->placed = mat4_translate((Vec3){-0.053515625, -0.01875, 0});
+    return mesh_teapot_textbook(&shape->mesh, radius, message);
+}
+
 static bool open_usual(Shape *shape, ShapeKind kind, ShapeStyle style, const ShapeModel *model,
                        Message *message)
 {
@@ -62,14 +74,7 @@ static bool open_usual(Shape *shape, ShapeKind kind, ShapeStyle style, const Sha
         shape->solid = (Solid){.kind = SOLID_SPHERE, .radius = size};
         return mesh_sphere(mesh, size, slices, stacks, message);
     case SHAPE_TEAPOT:
-        shape->closed = false; /* there is a gap under its lid */
-        if (textbook) {        /* the middle of its mesh's box at the origin */
-            shape->solid = (Solid){.kind = SOLID_TEAPOT, .radius = 0.5};
-            shape->placed = mat4_translate((Vec3){-0.053515625, -0.01875, 0});
-            return mesh_teapot_textbook(mesh, 0.5, message);
-        }
-        shape->solid = (Solid){.kind = SOLID_TEAPOT, .radius = 0.8};
-        return mesh_teapot(mesh, 0.8, 10, message);
+        return open_teapot(shape, textbook, message);
     case SHAPE_TORUS:
         shape->solid = (Solid){.kind = SOLID_TORUS, .radius = ring, .tube = tube};
         shape->placed = stand(0);
