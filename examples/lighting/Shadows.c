@@ -52,7 +52,7 @@ static void make_lights(double seconds, int view)
     const Vec3 at = example_turn((Vec3){-1.7, 1.9, 2.1}, seconds);
     const Vec3 from = example_turn((Vec3){2.4, 2.6, 2.6}, -0.5 * seconds);
     state.lights[0] = (Light){.kind = LIGHT_DIRECTIONAL,
-                              .direction = example_turn((Vec3){0.2, 1, 1.1}, 0.7 * seconds),
+                              .direction = example_turn((Vec3){0.5, 2.5, 2.75}, 0.7 * seconds),
                               .diffuse = {0.35, 0.35, 0.3},
                               .specular = {0.3, 0.3, 0.3}};
     state.lights[1] = (Light){.kind = LIGHT_POINT,
