@@ -205,28 +205,23 @@ static void slip(Mesh *mesh, double size)
     }
 }
 
-/* Seams and poles are bitwise equal, and no two parts touch: of each place the first vertex has all
- * triangles that meet there, and its normal is that of the others. */
+/* Seams and poles are bitwise equal, and no two parts touch: of each place the first vertex gets
+ * all triangles that meet there, and the others its normal. */
 bool mesh_teapot_textbook(Mesh *mesh, double size, Message *message)
 {
-    Mesh joined;
     if (!mesh_teapot(mesh, size, 4, message))
         return false;
     slip(mesh, size);
-    if (!mesh_copy(&joined, mesh, message)) {
+    for (size_t i = 0; i < mesh->index_count; i++)
+        mesh->indices[i] = first_at(mesh, mesh->indices[i]);
+    if (!mesh_compute_normals(mesh, MESH_WEIGHT_ANGLE, message)) {
         mesh_close(mesh);
         return false;
     }
-    for (size_t i = 0; i < mesh->index_count; i++)
-        joined.indices[i] = first_at(mesh, mesh->indices[i]);
-    const bool done = mesh_compute_normals(&joined, MESH_WEIGHT_ANGLE, message);
     for (uint32_t i = 0; i < mesh->vertex_count; i++)
-        memcpy(mesh->vertices[i].normal, joined.vertices[first_at(mesh, i)].normal,
+        memcpy(mesh->vertices[i].normal, mesh->vertices[first_at(mesh, i)].normal,
                sizeof mesh->vertices->normal);
-    mesh_close(&joined);
-    if (!done)
-        mesh_close(mesh);
-    return done;
+    return true;
 }
 
 bool mesh_teapot_until(Mesh *mesh, double size, int divisions, const atomic_bool *stop,

@@ -93,30 +93,21 @@ static bool open_mesh(Mesh *mesh, Message *message)
                              : mesh_sphere(mesh, 4, slices, stacks, message);
 }
 
-/* The demo's normal of the sphere's face between two meridians and two circles of latitude. */
-static Vec3 original_normal(const MeshVertex *above, const MeshVertex *below)
-{
-    Vec3 sum = vec3_from_float(below[0].normal), unit;
-    sum = vec3_add(sum, vec3_from_float(above[0].normal));
-    sum = vec3_add(sum, vec3_from_float(below[1].normal));
-    sum = vec3_add(sum, vec3_scale(vec3_from_float(above[1].normal), 0.25));
-    vec3_normalize(sum, &unit);
-    return unit;
-}
-
-/* Of the flat sphere, whose triangles are in the order of the smooth one's faces: two each, but for
- * those at the poles. */
+/* The demo's normals of the flat sphere's faces, whose triangles are in the order of the smooth
+ * one's grid: two for each face, but for those at the poles. */
 static void slip_normals(const Mesh *smooth, Mesh *flat)
 {
-    MeshVertex *vertex = flat->vertices;
-    for (int j = 0; j < stacks; j++) {
-        const MeshVertex *above = smooth->vertices + (size_t)j * (size_t)(slices + 1);
-        for (int i = 0; i < slices; i++) {
-            const Vec3 normal = original_normal(above + i, above + i + slices + 1);
-            const int corners = j == 0 || j == stacks - 1 ? 3 : 6;
-            for (int k = 0; k < corners; k++)
-                vec3_to_float(normal, vertex++->normal);
-        }
+    const int corners[] = {slices + 1, 0, slices + 2, 1}; /* from a face's upper left */
+    for (size_t i = 0, face = 0, row = (size_t)slices + 1; i < flat->vertex_count; face++) {
+        const size_t j = face / (size_t)slices;
+        const MeshVertex *corner = smooth->vertices + j * row + face % (size_t)slices;
+        Vec3 sum = {0, 0, 0};
+        for (int k = 0; k < 4; k++)
+            sum = vec3_add(
+                sum, vec3_scale(vec3_from_float(corner[corners[k]].normal), k == 3 ? 0.25 : 1));
+        sum = vec3_unit(sum);
+        for (int k = j == 0 || j == (size_t)stacks - 1 ? 3 : 6; k > 0; k--)
+            vec3_to_float(sum, flat->vertices[i++].normal);
     }
 }
 

@@ -1035,7 +1035,7 @@ class Scenes(Case):
                 ("Materials", "did you mean gold", "--material", "golf"),
                 ("ShadingModels", "did you mean sphere", "--shape", "sphre"),
                 ("ShadingModels", r"--shape square: must be cube, sphere, .* or \S+$", "--shape", "square"),
-                ("ShadingModels", "blinn-phong or phong", "--reflection", "lambert"),
+                ("ShadingModels", "blinn-phong, phong or original", "--reflection", "lambert"),
                 ("FourLights", "on or off", "--red", "maybe"),
                 ("ShadingModels", "--model: the name is empty", "--model", ""),
                 ("PhongBlinn", "1 to 30", "--shininess", "31"),
@@ -1116,7 +1116,7 @@ class Scenes(Case):
         for program, said, terms in (
                 ("LightTypes", f"--terms: there is no light 7; {has}; light 0", "7"),
                 ("FourLights", "--terms: there is no light 4; .*; lights 0 to 3", "diffuse,3,4"),
-                ("Materials", f"--terms: there is no emission; {has}; light 0", "emission"),
+                ("Materials", "--terms: there is no emission; the scene has diffuse, specular; light 0", "emission"),
                 ("Materials", "--terms difuse,0: difuse: did you mean diffuse?", "difuse,0"),
                 ("Materials", "--terms 32: must be some of ", "32"), ("Materials", "--terms : must be", "")):
             self.refused(2, f"^{program}: {said}", "--terms", terms, program=program)
