@@ -4,19 +4,17 @@
  */
 #include "labs/class/class_judge.h"
 
+#include "base/input.h"
 #include "base/memory.h"
 #include "base/progress.h"
 #include "labs/sandbox/sandboxed_check.h"
 #include "labs/sandbox/source.h"
 #include "labs/submission/verdict_json.h"
 
-#include <errno.h>
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <time.h>
-#include <unistd.h>
 
 enum { ARCHIVE_MAX = 64 << 20 }; /* bytes */
 
@@ -76,30 +74,13 @@ static bool give(Judging *judging, Job *job, VerdictKind kind, const char *sente
     return settle(judging, job, message);
 }
 
-/* The hash of an archive. */
 static bool hash_archive(const char *path, uint64_t *hash, Message *message)
 {
-    unsigned char block[16384];
-    struct stat status;
-    ssize_t count = -1;
-    const int file = open(path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-    bool done = false;
-    *hash = SOURCE_HASH_START;
-    if (file < 0 || fstat(file, &status) != 0)
-        message_set(message, "the archive cannot be read: %s", strerror(errno));
-    else if (!S_ISREG(status.st_mode))
-        message_set(message, "the archive is a link or a device; submit the file itself");
-    else if (status.st_size > ARCHIVE_MAX)
-        message_set(message, "the archive has %.0f MB; at most %d MB",
-                    (double)status.st_size / (1 << 20), ARCHIVE_MAX >> 20);
-    else {
-        while ((count = read(file, block, sizeof block)) > 0)
-            *hash = source_hash_bytes(*hash, block, (size_t)count);
-        done =
-            count == 0 || message_set(message, "the archive cannot be read: %s", strerror(errno));
-    }
-    if (file >= 0)
-        close(file);
+    size_t size;
+    char *bytes = input_read(AT_FDCWD, path, "the archive", ARCHIVE_MAX, &size, message);
+    const bool done = bytes != NULL;
+    *hash = done ? source_hash_bytes(SOURCE_HASH_START, bytes, size) : SOURCE_HASH_START;
+    free(bytes);
     return done;
 }
 

@@ -2,6 +2,7 @@
  * what it was judging, and the next one goes on with the rest. */
 #include "labs/class/class_store.h"
 
+#include "base/input.h"
 #include "base/memory.h"
 #include "base/output.h"
 #include "base/output_text.h"
@@ -17,7 +18,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 enum { FILE_MAX = 4 << 20 }; /* bytes */
@@ -29,29 +29,6 @@ bool class_store_path(const char *store, const char *folder, const char *name, c
                  folder ? folder : "", name ? "/" : "", name ? name : "") >= PATH_MAX)
         return message_set(message, "%s: %s", store, strerror(ENAMETOOLONG));
     return true;
-}
-
-/* The bytes of a file, which the caller frees; NULL, with a message: failed. */
-static unsigned char *read_file(const char *path, size_t *size, Message *message)
-{
-    struct stat status;
-    unsigned char *bytes = NULL;
-    const int file = open(path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-    if (file < 0) {
-        message_set(message, "%s: %s", path, strerror(errno));
-        return NULL;
-    }
-    if (fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_size <= FILE_MAX)
-        bytes = malloc((size_t)status.st_size + 1);
-    *size = bytes ? (size_t)status.st_size : 0;
-    if (bytes && read(file, bytes, *size) != (ssize_t)*size) {
-        free(bytes);
-        bytes = NULL;
-    }
-    close(file);
-    if (!bytes)
-        message_set(message, "%s: cannot be read", path);
-    return bytes;
 }
 
 static bool from_json(const json_t *object, ClassResult *result, Message *message)
@@ -79,10 +56,10 @@ static bool read_result(const char *path, ClassResult *result, Message *message)
     json_error_t error;
     size_t size;
     Message why = {.text = ""};
-    unsigned char *bytes = read_file(path, &size, message);
+    char *bytes = input_read(AT_FDCWD, path, path, FILE_MAX, &size, message);
     if (!bytes)
         return false;
-    json_t *object = json_loadb((const char *)bytes, size, JSON_REJECT_DUPLICATES, &error);
+    json_t *object = json_loadb(bytes, size, JSON_REJECT_DUPLICATES, &error);
     const bool done = object && from_json(object, result, &why);
     json_decref(object);
     free(bytes);
@@ -267,7 +244,7 @@ static unsigned char *read_picture(const ClassStore *from, const ClassResult *re
     if (!result->verdict.picture[0] ||
         !class_store_path(from->folder, result->folder, result->verdict.picture, path, NULL))
         return NULL;
-    return read_file(path, size, NULL);
+    return (unsigned char *)input_read(AT_FDCWD, path, path, FILE_MAX, size, NULL);
 }
 
 bool class_store_merge(ClassStore *store, const ClassStore *from, Message *message)

@@ -1,7 +1,7 @@
-/* Bytes from untrusted folders: every file is opened without following links or waiting, and asked
- * what it is after that, so that it cannot be exchanged in between. */
+/* The files of a submission, which come in folders and under names of many kinds. */
 #include "labs/sandbox/source.h"
 
+#include "base/input.h"
 #include "base/memory.h"
 #include "labs/diagnosis/text_facts.h"
 #include "labs/submission/submission.h"
@@ -54,60 +54,14 @@ bool source_is_wanted(const char *path)
     return false;
 }
 
-static bool too_large(const char *name, double size, Message *message)
-{
-    return message_set(message, "%s: %.1f MB; at most %d KB", name, size / (1 << 20),
-                       SOURCE_FILE_MAX >> 10);
-}
-
-static const char *kind_of(mode_t mode)
-{
-    return S_ISLNK(mode)    ? "a link"
-           : S_ISDIR(mode)  ? "a folder"
-           : S_ISFIFO(mode) ? "a pipe"
-           : S_ISSOCK(mode) ? "a socket"
-                            : "a device";
-}
-
-/* Reads and closes `file`. */
-static bool read_open(Bundle *bundle, int file, const char *name, Message *message)
-{
-    static unsigned char bytes[SOURCE_FILE_MAX + 1];
-    struct stat status;
-    size_t size = 0;
-    ssize_t count = 1;
-    bool done = false;
-    if (fstat(file, &status) != 0) {
-        message_set(message, "%s: %s", name, strerror(errno));
-    } else if (!S_ISREG(status.st_mode)) {
-        message_set(message, "%s: is %s; submit the file itself", name, kind_of(status.st_mode));
-    } else if (status.st_size > SOURCE_FILE_MAX) {
-        too_large(name, (double)status.st_size, message);
-    } else {
-        for (; size <= SOURCE_FILE_MAX && count > 0; size += count > 0 ? (size_t)count : 0)
-            count = read(file, bytes + size, sizeof bytes - size);
-        done = count < 0                ? message_set(message, "%s: %s", name, strerror(errno))
-               : size > SOURCE_FILE_MAX ? too_large(name, (double)size, message)
-                                        : bundle_add(bundle, name, bytes, size, message);
-    }
-    close(file);
-    return done;
-}
-
-/* O_NONBLOCK: opening a pipe must not wait for a writer. */
-enum { OPEN_FLAGS = O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC };
-
 static bool read_at(Bundle *bundle, int folder, const char *entry, const char *name,
                     Message *message)
 {
-    const int file = openat(folder, entry, OPEN_FLAGS);
-    if (file >= 0)
-        return read_open(bundle, file, name, message);
-    if (errno == ELOOP)
-        return message_set(message, "%s: is a link; submit the file itself", name);
-    if (errno == ENXIO)
-        return message_set(message, "%s: is a socket; submit the file itself", name);
-    return message_set(message, "%s: %s", name, strerror(errno));
+    size_t size;
+    char *bytes = input_read(folder, entry, name, SOURCE_FILE_MAX, &size, message);
+    const bool done = bytes && bundle_add(bundle, name, bytes, size, message);
+    free(bytes);
+    return done;
 }
 
 bool source_read_file(Bundle *bundle, const char *path, const char *name, Message *message)

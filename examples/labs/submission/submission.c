@@ -2,6 +2,7 @@
  * these. Drawing is the same for a submission, the starter and a test's fake. */
 #include "labs/submission/submission.h"
 
+#include "base/input.h"
 #include "base/memory.h"
 #include "core/shader_files.h"
 
@@ -11,7 +12,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 enum { MAX_ENTRIES = 1000 }; /* of a folder that are read */
@@ -36,39 +36,15 @@ bool submission_files_add(SubmissionFiles *files, const char *name, const void *
     return true;
 }
 
-/* Reads and closes a file. */
-static bool read_open(SubmissionFiles *files, int file, const char *name, Message *message)
-{
-    struct stat status;
-    bool done = fstat(file, &status) == 0;
-    if (!done)
-        message_set(message, "%s: %s", name, strerror(errno));
-    else if (!S_ISREG(status.st_mode))
-        done = message_set(message, "%s: not a regular file", name);
-    else if (status.st_size > SHADER_FILE_MAX)
-        done = message_set(message, "%s: has %lld bytes; at most %d are allowed", name,
-                           (long long)status.st_size, SHADER_FILE_MAX);
-    if (done) {
-        char *bytes = memory_new((size_t)status.st_size, 1);
-        const ssize_t size = read(file, bytes, (size_t)status.st_size);
-        done = size >= 0 ? submission_files_add(files, name, bytes, (size_t)size, message)
-                         : message_set(message, "%s: %s", name, strerror(errno));
-        free(bytes);
-    }
-    close(file);
-    return done;
-}
-
-/* Reads one file of an open folder; follows no link and never blocks. */
 static bool read_file(SubmissionFiles *files, int folder, const char *name, Message *message)
 {
-    const int file = openat(folder, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-    if (file >= 0)
-        return read_open(files, file, name, message);
-    return message_set(message, "%s: %s", name,
-                       errno == ELOOP    ? "is a link; submit the file itself"
-                       : errno == ENOENT ? SUBMISSION_MISSING
-                                         : strerror(errno));
+    size_t size;
+    if (faccessat(folder, name, F_OK, AT_SYMLINK_NOFOLLOW) != 0 && errno == ENOENT)
+        return message_set(message, "%s: " SUBMISSION_MISSING, name);
+    char *bytes = input_read(folder, name, name, SHADER_FILE_MAX, &size, message);
+    const bool done = bytes && submission_files_add(files, name, bytes, size, message);
+    free(bytes);
+    return done;
 }
 
 bool submission_may_include(const char *name)

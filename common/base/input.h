@@ -1,0 +1,17 @@
+/*
+ * input: a whole file from a folder that is not trusted.
+ */
+#ifndef INPUT_H
+#define INPUT_H
+
+#include "base/message.h"
+
+#include <stddef.h>
+
+/* The bytes of a regular file of at most `max`, with a zero byte after them, to be freed. `path` is
+ * taken from the open folder (AT_FDCWD: the current one); no link is followed, and no pipe waited
+ * for. NULL, with a message that begins with `name`: it cannot be read. */
+char *input_read(int folder, const char *path, const char *name, size_t max, size_t *size,
+                 Message *message);
+
+#endif
