@@ -120,8 +120,8 @@ void options_prepare_process(void);
 bool options_restart(char *const *arguments, Message *message);
 
 /* The beginning of a program: options_prepare_process and options_read, whose message it prints;
- * with --deterministic, starts the program again in an environment that caps the processor. False
- * if the program is to return *code at once. */
+ * with --deterministic, starts the program again in an environment that caps the processor; does
+ * what --doctor asks for. False if the program is to return *code at once. */
 bool options_begin(Options *options, const Usage *usage, int argc, char *argv[], int *code);
 
 /* Prints a message on standard error and returns `code`. */

@@ -1,5 +1,6 @@
 /* The process around a program: its streams, its signals, what it says on standard error. */
 #include "app/options.h"
+#include "app/doctor.h"
 #include "base/memory.h"
 #include "base/output.h"
 #include "base/process.h"
@@ -151,14 +152,16 @@ bool options_begin(Options *options, const Usage *usage, int argc, char *argv[],
     char **given = memory_copy(argv, ((size_t)argc + 1) * sizeof *argv);
     options_prepare_process();
     const OptionsResult result = options_read(options, usage, argc, argv, &message);
-    bool run = result == OPTIONS_RUN;
-    if (!run) {
+    bool run = false;
+    if (result != OPTIONS_RUN)
         *code = result == OPTIONS_ANSWERED ? options_finish(usage->name, 0)
                                            : options_fail(usage->name, &message, EXIT_USAGE);
-    } else if (options->deterministic && !options_restart(given, &message)) {
+    else if (options->deterministic && !options_restart(given, &message))
         *code = options_fail(usage->name, &message, EXIT_FAILED);
-        run = false;
-    }
+    else if (options->doctor)
+        *code = options_finish(usage->name, doctor_run());
+    else
+        run = true;
     free(given);
     return run;
 }

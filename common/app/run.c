@@ -2,7 +2,6 @@
 #include "app/run.h"
 
 #include "app/command.h"
-#include "app/doctor.h"
 #include "app/frames.h"
 #include "app/options.h"
 #include "app/shader_reload.h"
@@ -255,8 +254,6 @@ int example_main(const Example *example, int argc, char *argv[])
     if (command_start(example->name, argc > 0 ? argv[0] : NULL, start, sizeof start))
         options.start = start;
     options.canvas.title = example->name;
-    if (options.doctor)
-        return options_finish(example->name, doctor_run());
     const DrawRequest request = options_request(&options, example);
     const ExampleKind *kind = example_kind(example);
     if (kind->check && !kind->check(example, &request, &message))

@@ -12,6 +12,29 @@ bool text_is_word(char c)
     return isalnum((unsigned char)c) || c == '_';
 }
 
+int text_character(const char *text)
+{
+    static const struct {
+        unsigned char min, max, second_min, second_max;
+        int size;
+    } kinds[] = {
+        {0x01, 0x7F, 0, 0, 1},       {0xC2, 0xDF, 0x80, 0xBF, 2}, {0xE0, 0xE0, 0xA0, 0xBF, 3},
+        {0xE1, 0xEC, 0x80, 0xBF, 3}, {0xED, 0xED, 0x80, 0x9F, 3}, {0xEE, 0xEF, 0x80, 0xBF, 3},
+        {0xF0, 0xF0, 0x90, 0xBF, 4}, {0xF1, 0xF3, 0x80, 0xBF, 4}, {0xF4, 0xF4, 0x80, 0x8F, 4}};
+    const unsigned char *byte = (const unsigned char *)text;
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
+        if (byte[0] < kinds[i].min || byte[0] > kinds[i].max)
+            continue;
+        if (kinds[i].size > 1 && (byte[1] < kinds[i].second_min || byte[1] > kinds[i].second_max))
+            return 0;
+        for (int j = 2; j < kinds[i].size; j++)
+            if ((byte[j] & 0xC0) != 0x80)
+                return 0;
+        return kinds[i].size;
+    }
+    return 0;
+}
+
 const char *text_comment_end(const char *text)
 {
     if (strncmp(text, "//", 2) == 0)

@@ -10,6 +10,9 @@
 /* Whether a character can be part of a name in C or GLSL: a letter, a digit or an underscore. */
 bool text_is_word(char c);
 
+/* The bytes of the UTF-8 character (RFC 3629) that a text begins with; 0: it begins with none. */
+int text_character(const char *text);
+
 /* The end of the comment, of C or GLSL, that begins a text: at the line feed after //, else after
  * its end, or at the end of the text. NULL: no comment begins here. */
 const char *text_comment_end(const char *text);

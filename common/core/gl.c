@@ -114,7 +114,7 @@ const char *gl_error_name(GLenum error)
     }
 }
 
-static bool is_software(const char *renderer)
+bool gl_is_software(const char *renderer)
 {
     static const char *const names[] = {"llvmpipe", "softpipe", "swrast", "SwiftShader",
                                         "Software Rasterizer"};
@@ -134,7 +134,7 @@ bool gl_probe(GlFunction (*address)(const char *name), Message *findings)
     }
     const char *renderer = (const char *)glGetString(GL_RENDERER);
     message_add(findings, "%*s works: renderer %s (%s), %s%s\n", INDENT, "", renderer,
-                is_software(renderer) ? "software" : "hardware", gl_desktop() ? "OpenGL " : "",
+                gl_is_software(renderer) ? "software" : "hardware", gl_desktop() ? "OpenGL " : "",
                 (const char *)glGetString(GL_VERSION));
     return true;
 }

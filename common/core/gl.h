@@ -155,4 +155,7 @@ bool gl_lists(const char *names, const char *name);
 bool gl_has(const char *extension);
 const char *gl_error_name(GLenum error); /* "GL_INVALID_VALUE" */
 
+/* Whether a renderer of this name computes on the processor. */
+bool gl_is_software(const char *renderer);
+
 #endif

@@ -6,7 +6,6 @@
  * one the rest; --verify compares with an earlier gallery.
  */
 #include "app/command.h"
-#include "app/doctor.h"
 #include "app/options.h"
 #include "app/picture_texts.h"
 #include "app/renderer.h"
@@ -390,8 +389,6 @@ int main(int argc, char *argv[])
     static Manifest manifest;
     if (!options_begin(&options, &GALLERY, argc, argv, &code))
         return code;
-    if (options.doctor)
-        return options_finish(GALLERY.name, doctor_run());
     if (!check(&options, &message) ||
         !(verified ? select_verified(&manifest, &selection, &options, &message)
                    : select_examples(&selection, options.names, &message)))

@@ -5,7 +5,6 @@
  * whose pictures match. A second process judges, because submitted shaders may hang or crash the
  * driver.
  */
-#include "app/doctor.h"
 #include "app/options.h"
 #include "base/output.h"
 #include "labs/check/judge.h"
@@ -97,8 +96,6 @@ int main(int argc, char *argv[])
         return code;
     if (!options_begin(&options, &usage, argc, argv, &code))
         return code;
-    if (options.doctor)
-        return options_finish(usage.name, doctor_run());
     char *const *names = options.names;
     if (!names[0] || (expected ? names[1] != NULL : !names[1] || names[2])) {
         message_set(&message, expected ? "--expected FILE takes only LAB"

@@ -5,7 +5,6 @@
  * each scene, which settings are efficient: no other beats them in both error and time. --budget
  * and --time-budget choose one.
  */
-#include "app/doctor.h"
 #include "base/output_text.h"
 #include "base/progress.h"
 #include "study/measure/survey.h"
@@ -428,8 +427,6 @@ int main(int argc, char *argv[])
     make_details();
     if (!options_begin(&options, &usage, argc, argv, &code))
         return code;
-    if (options.doctor)
-        return options_finish(usage.name, doctor_run());
     if (!check(&message))
         return options_fail(usage.name, &message, EXIT_USAGE);
     if (quality_asked && !quality_parse(&quality, quality_asked, &message)) {

@@ -4,7 +4,6 @@
  * Draws each case three times: with the plain formula, as `lighting` does, and exactly. Reports the
  * errors of the first two, and what the stable form costs in time.
  */
-#include "app/doctor.h"
 #include "app/options.h"
 #include "base/clock.h"
 #include "base/output.h"
@@ -59,9 +58,7 @@ static bool draw_frame(const Way *way, Message *message)
 /* Where the processor draws, its time tells what a frame costs even if other programs run. */
 static double clock_of(const Canvas *canvas)
 {
-    const bool software =
-        strstr(canvas->renderer, "llvmpipe") || strstr(canvas->renderer, "softpipe");
-    return software ? clock_processor() : clock_now();
+    return gl_is_software(canvas->renderer) ? clock_processor() : clock_now();
 }
 
 static bool time_of(const Way *way, int frames, double *seconds, Message *message)
@@ -316,8 +313,6 @@ int main(int argc, char *argv[])
         names[i] = i < HARD_CASE_COUNT ? hard_case(i)->name : "all";
     if (!options_begin(&options, &usage, argc, argv, &code))
         return code;
-    if (options.doctor)
-        return options_finish(usage.name, doctor_run());
     if (list) {
         for (int i = 0; i < HARD_CASE_COUNT; i++)
             printf("%-14s %s\n", hard_case(i)->name, hard_case(i)->what);

@@ -135,8 +135,6 @@ int main(int argc, char *argv[])
     Message message = {0};
     if (!options_begin(&options, &usage, argc, argv, &code))
         return code;
-    if (options.doctor)
-        return options_finish(usage.name, doctor_run());
     if (json && markdown) {
         message_set(&message, "--json and --markdown: one of them");
         return options_fail(usage.name, &message, EXIT_USAGE);

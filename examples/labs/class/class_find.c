@@ -3,6 +3,7 @@
 #include "labs/class/class_find.h"
 
 #include "base/memory.h"
+#include "base/text.h"
 #include "labs/sandbox/source.h"
 #include "labs/sandbox/unpack.h"
 
@@ -105,21 +106,11 @@ static void stem(const char *entry, char text[BUNDLE_NAME_SIZE])
 /* Replaces bytes that are not UTF-8 by "?", because names go into pages and tables. */
 static void make_utf8(char *text)
 {
-    for (unsigned char *at = (unsigned char *)text; *at;) {
-        const int more = *at < 0x80                  ? 0
-                         : *at >= 0xC2 && *at < 0xE0 ? 1
-                         : *at >= 0xE0 && *at < 0xF0 ? 2
-                         : *at >= 0xF0 && *at < 0xF5 ? 3
-                                                     : -1;
-        int have = 0;
-        while (have < more && (at[have + 1] & 0xC0) == 0x80)
-            have++;
-        const bool good = more >= 0 && have == more && !(at[0] == 0xE0 && at[1] < 0xA0) &&
-                          !(at[0] == 0xED && at[1] > 0x9F) && !(at[0] == 0xF0 && at[1] < 0x90) &&
-                          !(at[0] == 0xF4 && at[1] > 0x8F) && *at >= ' ' && *at != 0x7F;
-        if (!good)
-            *at = '?';
-        at += good ? more + 1 : 1;
+    while (*text) {
+        const int size = text_character(text);
+        if (!size || (unsigned char)*text < ' ' || *text == 0x7F)
+            *text = '?';
+        text += size ? size : 1;
     }
 }
 

@@ -9,11 +9,11 @@
 #include "base/paths.h"
 #include "base/process.h"
 #include "labs/sandbox/bubblewrap.h"
-#include "labs/sandbox/scratch.h"
 
 #include <arpa/inet.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <ftw.h>
 #include <netinet/in.h>
 #include <poll.h>
 #include <sched.h>
@@ -108,6 +108,37 @@ static bool spawn(SandboxRun *run, char *const words[], bool isolate, Message *m
     run->pipe = end;
     run->running = true;
     return true;
+}
+
+/* Makes a folder in $TMPDIR or /tmp that only its user can enter. The name is empty on failure. */
+static bool scratch_open(char folder[PATH_MAX], Message *message)
+{
+    const char *place = getenv("TMPDIR");
+    const int length =
+        snprintf(folder, PATH_MAX, "%s/check-XXXXXX", place && place[0] ? place : "/tmp");
+    if (length < PATH_MAX && mkdtemp(folder))
+        return true;
+    message_set(message, "a temporary folder in %s: %s", place && place[0] ? place : "/tmp",
+                strerror(length < PATH_MAX ? errno : ENAMETOOLONG));
+    folder[0] = '\0';
+    return false;
+}
+
+static int remove_one(const char *path, const struct stat *status, int kind, struct FTW *walk)
+{
+    (void)status;
+    (void)kind;
+    (void)walk;
+    remove(path);
+    return 0;
+}
+
+/* Removes it with its contents; follows no link, stays on its file system. An empty name is fine.
+ */
+static void scratch_close(const char *folder)
+{
+    if (folder[0])
+        nftw(folder, remove_one, 16, FTW_DEPTH | FTW_PHYS | FTW_MOUNT);
 }
 
 /* Without bubblewrap: a folder on disk for this run. */

@@ -3,6 +3,7 @@
 #include "labs/submission/verdict_json.h"
 
 #include "base/output_text.h"
+#include "base/text.h"
 #include "labs/submission/verdict_fields.h"
 #include "study/results/json.h"
 
@@ -17,17 +18,13 @@ static bool turns_direction(const unsigned char *at)
                              (at[1] == 0x81 && at[2] >= 0xA6 && at[2] <= 0xA9));
 }
 
-static size_t character_size(unsigned char first)
-{
-    return first < 0x80 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
-}
-
 void verdict_clean(char *text, size_t size, const char *from, bool lines)
 {
     size_t length = 0;
     const unsigned char *at = (const unsigned char *)from;
     while (*at) {
-        const size_t count = strnlen((const char *)at, character_size(*at));
+        const int character = text_character((const char *)at);
+        const size_t count = character ? (size_t)character : 1;
         if (turns_direction(at)) {
             at += count;
             continue;

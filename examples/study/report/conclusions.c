@@ -11,13 +11,6 @@
 /* Errors above the smallest one by this share are as good. */
 static const double SLACK = 1.001;
 
-/* The row of a scene with this setting; NULL if there is none. */
-static const ResultRow *row_of(const Results *results, const char *scene, const char *text)
-{
-    Quality quality;
-    return quality_parse(&quality, text, NULL) ? results_find(results, scene, &quality) : NULL;
-}
-
 /* Of a scene's rows with this interpolation: the smallest error; the fastest with at most `limit`.
  * NAN and NULL: there are none. */
 static double least_error(const Results *results, const char *scene, int interpolation)
@@ -98,8 +91,8 @@ static Change change_of(const Results *results, const int *scenes, int count, co
     Change change = {.slow = {INFINITY, 0}, .most = -INFINITY};
     for (int i = 0; i < count; i++) {
         const char *scene = STUDY_SCENES[scenes[i]].name;
-        const ResultRow *usual = row_of(results, scene, "usual");
-        const ResultRow *other = row_of(results, scene, setting);
+        const ResultRow *usual = results_of(results, scene, "usual");
+        const ResultRow *other = results_of(results, scene, setting);
         const double more =
             usual && other ? other->interior_maximum - usual->interior_maximum : NAN;
         if (!isfinite(more))
@@ -154,9 +147,9 @@ static void add_changes(Conclusions *to, const Results *results, const int *scen
 
 static void add_antialiasing(Conclusions *to, const Results *results, const char *scene)
 {
-    const ResultRow *usual = row_of(results, scene, "usual");
-    const ResultRow *samples = row_of(results, scene, "samples=4");
-    const ResultRow *finest = row_of(results, scene, "supersample=4");
+    const ResultRow *usual = results_of(results, scene, "usual");
+    const ResultRow *samples = results_of(results, scene, "samples=4");
+    const ResultRow *finest = results_of(results, scene, "supersample=4");
     char more[64] = "";
     if (!usual || !samples)
         return;
@@ -168,9 +161,9 @@ static void add_antialiasing(Conclusions *to, const Results *results, const char
 
 static void add_matrices(Conclusions *to, const Results *results)
 {
-    const ResultRow *usual = row_of(results, "far", "usual");
-    const ResultRow *floats = row_of(results, "far", "matrices=float");
-    const ResultRow *lecture = row_of(results, "far", "matrices=float order=lecture");
+    const ResultRow *usual = results_of(results, "far", "usual");
+    const ResultRow *floats = results_of(results, "far", "matrices=float");
+    const ResultRow *lecture = results_of(results, "far", "matrices=float order=lecture");
     if (usual && floats && lecture)
         add(to,
             "matrices (far): error %.2f steps in double, %.0f in float, %.0f in the lecture's order",

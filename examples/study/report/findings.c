@@ -16,97 +16,68 @@
 #include <math.h>
 #include <string.h>
 
-/* The row of a scene with this setting; NULL if there is none. */
-static const ResultRow *row_of(const Results *results, const char *scene, const char *text)
-{
-    Quality quality;
-    return quality_parse(&quality, text, NULL) ? results_find(results, scene, &quality) : NULL;
-}
+/* Error over time: curves, each from a setting on along one axis. */
 
-/* Of the newest row; empty if there is none. */
-static void measured_with(const Results *results, char text[RESULT_WITH_SIZE])
-{
-    text[0] = '\0';
-    if (results->count)
-        results_measured_with(&results->rows[results->count - 1], text);
-}
+enum { MAX_CURVES = 4 };
 
-/* Error over time along one axis. */
-
-typedef struct Curve {
-    double x[QUALITY_MAX_CHOICES], y[QUALITY_MAX_CHOICES];
-    int count;
-} Curve;
-
-static void follow(const Results *results, const char *scene, Quality quality, QualityAxis axis,
-                   ErrorKind kind, Curve *curve)
-{
-    for (int choice = 0; choice < QUALITY_AXES[axis].count; choice++) {
-        quality = quality_with(quality, axis, choice);
-        const ResultRow *row = results_find(results, scene, &quality);
-        if (!row)
-            continue;
-        curve->x[curve->count] = row->time;
-        curve->y[curve->count++] = row_error(row, kind);
-    }
-}
-
-static bool plot_interpolation(const Results *results, const char *foot, const char *folder,
-                               Message *message)
-{
-    static const char *const names[] = {"Phong", "Gouraud", "flat"};
-    const ReportAxes axes = {
-        .foot = foot,
-        .title = "Interpolation: shiny32, with 6, 8, 12 ... 512 divisions from left to right",
-        .x = "time of a frame in ms",
-        .y = "largest error inside, in steps of 1/255",
-        .log_x = true,
-        .log_y = true,
-    };
-    Curve curves[3] = {{.count = 0}};
-    ReportSeries series[3];
-    int points = 0;
-    for (int i = 0; i < 3; i++) {
-        const Quality quality = quality_with(quality_usual(), AXIS_INTERPOLATION, i);
-        follow(results, "shiny32", quality, AXIS_DIVISIONS, ERROR_INTERIOR_MAXIMUM, &curves[i]);
-        series[i] = (ReportSeries){names[i], curves[i].x, curves[i].y, curves[i].count};
-        points += curves[i].count;
-    }
-    return points == 0 || report_curves(&axes, series, 3, folder, "finding-interpolation", message);
-}
-
-static bool plot_antialiasing(const Results *results, const char *foot, const char *folder,
-                              Message *message)
-{
-    const ReportAxes axes = {
-        .foot = foot,
-        .title = "Antialiasing: sphere",
-        .x = "time of a frame in ms",
-        .y = "root mean square error of all pixels, in steps of 1/255",
-        .log_x = true,
-        .log_y = true,
-    };
-    Quality fine = quality_usual();
-    quality_choose(&fine, "divisions", "128", NULL);
-    const struct {
-        const char *name;
-        Quality quality;
+typedef struct CurvePlot {
+    const char *file, *scene, *title, *y;
+    ErrorKind kind;
+    struct {
+        const char *name, *setting; /* no name: no more */
         QualityAxis axis;
-    } kinds[] = {
-        {"0 and 4 samples, 64 divisions", quality_usual(), AXIS_SAMPLES},
-        {"1, 2x2, 3x3, 4x4 supersampling, 64 divisions", quality_usual(), AXIS_SUPERSAMPLE},
-        {"0 and 4 samples, 128 divisions", fine, AXIS_SAMPLES},
-        {"1, 2x2, 3x3, 4x4 supersampling, 128 divisions", fine, AXIS_SUPERSAMPLE},
-    };
-    Curve curves[4] = {{.count = 0}};
-    ReportSeries series[4];
-    int points = 0;
-    for (int i = 0; i < 4; i++) {
-        follow(results, "sphere", kinds[i].quality, kinds[i].axis, ERROR_ALL_RMS, &curves[i]);
-        series[i] = (ReportSeries){kinds[i].name, curves[i].x, curves[i].y, curves[i].count};
-        points += curves[i].count;
+    } curves[MAX_CURVES];
+} CurvePlot;
+
+static const CurvePlot CURVE_PLOTS[] = {
+    {"finding-interpolation",
+     "shiny32",
+     "Interpolation: shiny32, with 6, 8, 12 ... 512 divisions from left to right",
+     "largest error inside, in steps of 1/255",
+     ERROR_INTERIOR_MAXIMUM,
+     {{"Phong", "usual", AXIS_DIVISIONS},
+      {"Gouraud", "interpolation=gouraud", AXIS_DIVISIONS},
+      {"flat", "interpolation=flat", AXIS_DIVISIONS}}},
+    {"finding-antialiasing",
+     "sphere",
+     "Antialiasing: sphere",
+     "root mean square error of all pixels, in steps of 1/255",
+     ERROR_ALL_RMS,
+     {{"0 and 4 samples, 64 divisions", "usual", AXIS_SAMPLES},
+      {"1, 2x2, 3x3, 4x4 supersampling, 64 divisions", "usual", AXIS_SUPERSAMPLE},
+      {"0 and 4 samples, 128 divisions", "divisions=128", AXIS_SAMPLES},
+      {"1, 2x2, 3x3, 4x4 supersampling, 128 divisions", "divisions=128", AXIS_SUPERSAMPLE}}},
+};
+
+static bool plot_curves(const Results *results, const CurvePlot *of, const char *foot,
+                        const char *folder, Message *message)
+{
+    const ReportAxes axes = {.foot = foot,
+                             .title = of->title,
+                             .x = "time of a frame in ms",
+                             .y = of->y,
+                             .log_x = true,
+                             .log_y = true};
+    double x[MAX_CURVES][QUALITY_MAX_CHOICES], y[MAX_CURVES][QUALITY_MAX_CHOICES];
+    ReportSeries series[MAX_CURVES];
+    int count = 0, points = 0;
+    for (; count < MAX_CURVES && of->curves[count].name; count++) {
+        const QualityAxis axis = of->curves[count].axis;
+        Quality quality;
+        int here = 0;
+        quality_parse(&quality, of->curves[count].setting, NULL);
+        for (int choice = 0; choice < QUALITY_AXES[axis].count; choice++) {
+            quality = quality_with(quality, axis, choice);
+            const ResultRow *row = results_find(results, of->scene, &quality);
+            if (!row)
+                continue;
+            x[count][here] = row->time;
+            y[count][here++] = row_error(row, of->kind);
+        }
+        series[count] = (ReportSeries){of->curves[count].name, x[count], y[count], here};
+        points += here;
     }
-    return points == 0 || report_curves(&axes, series, 4, folder, "finding-antialiasing", message);
+    return points == 0 || report_curves(&axes, series, count, folder, of->file, message);
 }
 
 /* Bars from 0: one or two values per category, each with a whisker. */
@@ -219,8 +190,8 @@ static bool plot_by_scene(const Results *results, const ByScene *of, const char 
     bars->foot = foot;
     for (int i = 0; i < STUDY_SCENE_COUNT; i++) {
         const char *scene = STUDY_SCENES[i].name;
-        const ResultRow *usual = row_of(results, scene, "usual");
-        const ResultRow *other = row_of(results, scene, of->quality);
+        const ResultRow *usual = results_of(results, scene, "usual");
+        const ResultRow *other = results_of(results, scene, of->quality);
         if (!usual || !other)
             continue;
         snprintf(bars->bars[bars->count].name, sizeof bars->bars[0].name, "%s", scene);
@@ -340,10 +311,10 @@ void findings_matrices(const Results *results, bool markdown, FILE *file)
 {
     char with[RESULT_WITH_SIZE];
     Table table;
-    measured_with(results, with);
+    results_with(results, with);
     table_open(&table, "setting|ns|largest interior error, steps of 1/255");
     for (int i = 0; i < COMPOSITION_COUNT; i++) {
-        const ResultRow *row = row_of(results, "far", COMPOSITIONS[i]);
+        const ResultRow *row = results_of(results, "far", COMPOSITIONS[i]);
         char error[32] = "not measured";
         if (row)
             snprintf(error, sizeof error, "%.2f", row->interior_maximum);
@@ -402,13 +373,14 @@ static void table_by_scene(const Results *results, FILE *file)
                        "infinite viewer: error|time|infinite lights: error|time");
     for (int i = 0; i < STUDY_SCENE_COUNT; i++) {
         const char *scene = STUDY_SCENES[i].name;
-        const ResultRow *usual = row_of(results, scene, "usual");
+        const ResultRow *usual = results_of(results, scene, "usual");
         char first[64], cells[COUNT][64];
         if (!usual)
             continue;
         put_cells(first, usual, NULL, ERROR_INTERIOR_MAXIMUM);
         for (int k = 0; k < COUNT; k++)
-            put_cells(cells[k], row_of(results, scene, columns[k]), usual, ERROR_INTERIOR_MAXIMUM);
+            put_cells(cells[k], results_of(results, scene, columns[k]), usual,
+                      ERROR_INTERIOR_MAXIMUM);
         table_row(&table, "%s|%s|%s|%s|%s|%s", scene, first, cells[0], cells[1], cells[2],
                   cells[3]);
     }
@@ -422,14 +394,14 @@ static void table_antialiasing(const Results *results, FILE *file)
 {
     static const char *const ways[] = {"samples=0", "samples=4", "supersample=2", "supersample=3",
                                        "supersample=4"};
-    const ResultRow *usual = row_of(results, "sphere", "usual");
+    const ResultRow *usual = results_of(results, "sphere", "usual");
     Table table;
     table_open(&table, "antialiasing|64 divisions: rms|time|128 divisions: rms|time");
     for (size_t i = 0; i < sizeof ways / sizeof ways[0]; i++) {
         char fine[64], cells[2][64];
         snprintf(fine, sizeof fine, "%s divisions=128", ways[i]);
-        put_cells(cells[0], row_of(results, "sphere", ways[i]), usual, ERROR_ALL_RMS);
-        put_cells(cells[1], row_of(results, "sphere", fine), usual, ERROR_ALL_RMS);
+        put_cells(cells[0], results_of(results, "sphere", ways[i]), usual, ERROR_ALL_RMS);
+        put_cells(cells[1], results_of(results, "sphere", fine), usual, ERROR_ALL_RMS);
         table_row(&table, "%s|%s|%s", ways[i], cells[0], cells[1]);
     }
     fputs("\nAntialiasing, scene sphere; root mean square error of all pixels:\n\n", file);
@@ -453,7 +425,7 @@ static bool plot_matrices(const Results *results, const char *foot, const char *
                  .y = "rms, and up to the largest; steps of 1/255",
                  .names = {"relative to the eye; lect.: in the lecture's order", NULL}};
     for (int i = 0; i < COMPOSITION_COUNT; i++) {
-        const ResultRow *row = row_of(results, "far", COMPOSITIONS[i]);
+        const ResultRow *row = results_of(results, "far", COMPOSITIONS[i]);
         if (!row || !isfinite(row->interior_maximum))
             continue;
         snprintf(bars.bars[bars.count].name, sizeof bars.bars[0].name, "%s", names[i]);
@@ -469,9 +441,10 @@ static bool plot_matrices(const Results *results, const char *foot, const char *
 bool findings_plot(const Results *results, const char *folder, Message *message)
 {
     char foot[RESULT_WITH_SIZE];
-    measured_with(results, foot);
-    return plot_interpolation(results, foot, folder, message) &&
-           plot_by_scenes(results, foot, folder, message) &&
-           plot_antialiasing(results, foot, folder, message) &&
+    results_with(results, foot);
+    bool done = true;
+    for (size_t i = 0; i < sizeof CURVE_PLOTS / sizeof CURVE_PLOTS[0] && done; i++)
+        done = plot_curves(results, &CURVE_PLOTS[i], foot, folder, message);
+    return done && plot_by_scenes(results, foot, folder, message) &&
            plot_matrices(results, foot, folder, message);
 }

@@ -105,10 +105,9 @@ static void set_table(TemplateValues *page, const Results *results, const char *
 bool report_page(const Results *results, const int *scenes, int count,
                  const Conclusions *conclusions, const char *folder, Message *message)
 {
-    char path[PATH_MAX], with[RESULT_WITH_SIZE] = "";
+    char path[PATH_MAX], with[RESULT_WITH_SIZE];
     TemplateValues *page = template_values();
-    if (results->count)
-        results_measured_with(&results->rows[results->count - 1], with);
+    results_with(results, with);
     template_set(page, "with", "%s", with);
     for (int i = 0; i < count; i++) {
         TemplateValues *scene = set_scene(page, results, &STUDY_SCENES[scenes[i]], folder);

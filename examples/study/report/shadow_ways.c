@@ -148,8 +148,7 @@ static ShadowTime time_of(double ratios[ROUNDS], int count)
 /* Where the processor draws, its time tells what a frame costs even if other programs run. */
 static bool time_frame(Survey *survey, SettingPicture *drawing, double *seconds, Message *message)
 {
-    const char *renderer = setting_renderer_name(survey->renderer);
-    const bool software = strstr(renderer, "llvmpipe") || strstr(renderer, "softpipe");
+    const bool software = gl_is_software(setting_renderer_name(survey->renderer));
     double wall, gpu;
     const double start = clock_processor();
     if (!setting_picture_frame(drawing, survey->renderer, &wall, &gpu, message))

@@ -22,6 +22,13 @@ void results_measured_with(const ResultRow *row, char text[RESULT_WITH_SIZE])
              row->threads, row->width, row->height, row->seed);
 }
 
+void results_with(const Results *results, char text[RESULT_WITH_SIZE])
+{
+    text[0] = '\0';
+    if (results->count)
+        results_measured_with(&results->rows[results->count - 1], text);
+}
+
 void results_add(Results *results, const ResultRow *row)
 {
     if (results->count == results->capacity) {
@@ -40,6 +47,12 @@ const ResultRow *results_find(const Results *results, const char *scene, const Q
             return row;
     }
     return NULL;
+}
+
+const ResultRow *results_of(const Results *results, const char *scene, const char *setting)
+{
+    Quality quality;
+    return quality_parse(&quality, setting, NULL) ? results_find(results, scene, &quality) : NULL;
 }
 
 /* Rows are in one array, so addresses have the order of insertion. */

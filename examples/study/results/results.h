@@ -94,15 +94,20 @@ typedef struct Results {
     int count, capacity;
 } Results;
 
-/* "RENDERER, LP_NUM_THREADS N, WxH, seed N". */
+/* "RENDERER, LP_NUM_THREADS N, WxH, seed N": of a row; of the newest one, empty if there is none.
+ */
 enum { RESULT_WITH_SIZE = 256 };
 void results_measured_with(const ResultRow *row, char text[RESULT_WITH_SIZE]);
+void results_with(const Results *results, char text[RESULT_WITH_SIZE]);
 
 /* Adds a row. */
 void results_add(Results *results, const ResultRow *row);
 
 /* The latest row of a scene and setting; NULL if there is none. */
 const ResultRow *results_find(const Results *results, const char *scene, const Quality *quality);
+
+/* The same of a setting's text, as quality_parse reads it. */
+const ResultRow *results_of(const Results *results, const char *scene, const char *setting);
 
 /* The latest row of each setting of a scene, in the order in which they were added. The caller
  * frees the array; the rows belong to `results`. */
