@@ -6,18 +6,14 @@
 
 #include <stdlib.h>
 
-typedef struct MeshBuffered {
+/* In buffers, or as what casts a shadow. */
+typedef struct MeshMade {
     const Mesh *mesh;
     Interpolation remade;
     MeshBuffer buffer;
-    struct MeshBuffered *next;
-} MeshBuffered;
-
-typedef struct MeshCaster {
-    const Mesh *mesh;
     ShadowCaster shadow;
-    struct MeshCaster *next;
-} MeshCaster;
+    struct MeshMade *next;
+} MeshMade;
 
 /* A copy as this interpolation needs it. */
 static bool remade_copy(const Mesh *mesh, Interpolation kind, Mesh *made, Message *message)
@@ -33,11 +29,11 @@ static bool remade_copy(const Mesh *mesh, Interpolation kind, Mesh *made, Messag
 const MeshBuffer *lighting_mesh_buffer(LightingMeshes *meshes, const Mesh *mesh,
                                        Interpolation remade, Message *message)
 {
-    for (const MeshBuffered *known = meshes->buffers; known; known = known->next)
+    for (const MeshMade *known = meshes->buffers; known; known = known->next)
         if (known->mesh == mesh && known->remade == remade)
             return &known->buffer;
     const bool own = remade != INTERPOLATION_PHONG;
-    MeshBuffered *made = memory_new(1, sizeof *made);
+    MeshMade *made = memory_new(1, sizeof *made);
     Mesh copy = {0};
     const bool done = (!own || remade_copy(mesh, remade, &copy, message)) &&
                       mesh_buffer_open(&made->buffer, own ? &copy : mesh, message);
@@ -55,10 +51,10 @@ const MeshBuffer *lighting_mesh_buffer(LightingMeshes *meshes, const Mesh *mesh,
 
 const ShadowCaster *lighting_mesh_caster(LightingMeshes *meshes, const Mesh *mesh, Message *message)
 {
-    for (const MeshCaster *known = meshes->casters; known; known = known->next)
+    for (const MeshMade *known = meshes->casters; known; known = known->next)
         if (known->mesh == mesh)
             return &known->shadow;
-    MeshCaster *made = memory_new(1, sizeof *made);
+    MeshMade *made = memory_new(1, sizeof *made);
     if (!shadow_caster_open(&made->shadow, mesh, message)) {
         free(made);
         return NULL;
@@ -69,26 +65,23 @@ const ShadowCaster *lighting_mesh_caster(LightingMeshes *meshes, const Mesh *mes
     return &made->shadow;
 }
 
-void lighting_meshes_forget(LightingMeshes *meshes, const Mesh *mesh)
+static void forget(MeshMade **link, const Mesh *mesh)
 {
-    for (MeshBuffered **link = &meshes->buffers; *link;) {
-        MeshBuffered *known = *link;
+    while (*link) {
+        MeshMade *known = *link;
         if (mesh && known->mesh != mesh) {
             link = &known->next;
             continue;
         }
         *link = known->next;
         mesh_buffer_close(&known->buffer);
-        free(known);
-    }
-    for (MeshCaster **link = &meshes->casters; *link;) {
-        MeshCaster *known = *link;
-        if (mesh && known->mesh != mesh) {
-            link = &known->next;
-            continue;
-        }
-        *link = known->next;
         shadow_caster_close(&known->shadow);
         free(known);
     }
+}
+
+void lighting_meshes_forget(LightingMeshes *meshes, const Mesh *mesh)
+{
+    forget(&meshes->buffers, mesh);
+    forget(&meshes->casters, mesh);
 }

@@ -10,8 +10,7 @@
 
 /* Zeroed: nothing. */
 typedef struct LightingMeshes {
-    struct MeshBuffered *buffers;
-    struct MeshCaster *casters;
+    struct MeshMade *buffers, *casters;
 } LightingMeshes;
 
 /* A mesh in buffers, remade as this interpolation needs it (INTERPOLATION_PHONG: as it is), or what

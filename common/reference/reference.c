@@ -7,6 +7,7 @@
 
 #include "reference/reference_pixel.h"
 
+#include <math.h>
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -191,4 +192,15 @@ void reference_close(Reference *reference)
     free(reference->interior);
     free(reference->lights);
     *reference = (Reference){0};
+}
+
+bool reference_image(const Reference *exact, Image *image, Message *message)
+{
+    if (!image_open(image, exact->width, exact->height, IMAGE_BYTE, message))
+        return false;
+    unsigned char *out = image->pixels;
+    for (size_t i = 0; i < 4 * (size_t)exact->width * (size_t)exact->height; i++)
+        out[i] =
+            i % 4 == 3 ? 255 : (unsigned char)lround(255 * (double)exact->color[i / 4 * 3 + i % 4]);
+    return true;
 }

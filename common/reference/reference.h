@@ -26,6 +26,7 @@
 #ifndef REFERENCE_H
 #define REFERENCE_H
 
+#include "base/image.h"
 #include "base/stop.h"
 #include "scene/scene.h"
 
@@ -75,6 +76,9 @@ static inline bool reference_lights_differ(uint32_t a, uint32_t b)
  * mesh has millions of triangles. */
 bool reference_open(Reference *reference, const Scene *scene, const ReferenceOptions *options,
                     Message *message);
+
+/* The picture as bytes. */
+bool reference_image(const Reference *exact, Image *image, Message *message);
 
 /* NULL or a zeroed reference is fine. */
 void reference_close(Reference *reference);

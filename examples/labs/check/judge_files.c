@@ -31,7 +31,7 @@ bool judge_expected(const Lab *lab, const char *path, Message *message)
     const Scene scene = lab_pictures_truth_scene(lab, &lab_scene, 0, objects);
     const ImageOptions file = {.compress = 9};
     const bool done = reference_open(&exact, &scene, &options, message) &&
-                      judge_exact_image(&exact, &image, message) &&
+                      reference_image(&exact, &image, message) &&
                       image_write(&image, path, &file, message);
     image_close(&image);
     reference_close(&exact);

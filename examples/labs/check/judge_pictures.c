@@ -11,20 +11,6 @@ enum { SPACE = 8 };
  * must not look like a mistake. */
 static const double MAX_GAIN = 16;
 
-bool judge_exact_image(const Reference *exact, Image *image, Message *message)
-{
-    if (!image_open(image, exact->width, exact->height, IMAGE_BYTE, message))
-        return false;
-    unsigned char *out = image->pixels;
-    const size_t count = (size_t)exact->width * (size_t)exact->height;
-    for (size_t i = 0; i < count; i++) {
-        for (size_t c = 0; c < 3; c++)
-            out[4 * i + c] = (unsigned char)lround(255 * (double)exact->color[3 * i + c]);
-        out[4 * i + 3] = 255;
-    }
-    return true;
-}
-
 bool judge_difference(const Image *a, const Image *b, const Reference *exact, Image *difference,
                       Message *message)
 {
@@ -66,7 +52,7 @@ bool judge_sheet(const LabPictures *pictures, int number, Image *sheet, Message 
     const int width = picture->image.width, height = picture->image.height;
     const int times = width < 100 ? 3 : width < 200 ? 2 : 1;
     const bool done =
-        judge_exact_image(truth, &exact, message) &&
+        reference_image(truth, &exact, message) &&
         judge_difference(&picture->image, &exact, truth, &difference, message) &&
         image_open(sheet, 3 * times * width + 2 * SPACE, times * height, IMAGE_BYTE, message);
     if (done) {

@@ -15,9 +15,6 @@ bool judge_sheet(const LabPictures *pictures, int picture, Image *sheet, Message
 /* Writes that sheet as folder/worst.png (in a page: keeps it, see labs/web). */
 bool judge_worst(const LabPictures *pictures, int picture, const char *folder, Message *message);
 
-/* The exact picture as bytes. */
-bool judge_exact_image(const Reference *exact, Image *image, Message *message);
-
 /* |a - b|, brightened, where `exact` has no edge. */
 bool judge_difference(const Image *a, const Image *b, const Reference *exact, Image *difference,
                       Message *message);

@@ -249,7 +249,7 @@ int page_expected(double seconds)
     bool done = reference_open(&page.exact, &scene, &options, &page.message);
     if (done)
         lab_pictures_leave_out_edges(&page.exact);
-    done = done && judge_exact_image(&page.exact, &page.right, &page.message) && show(&page.right);
+    done = done && reference_image(&page.exact, &page.right, &page.message) && show(&page.right);
     lab_scene_close(&lab_scene);
     page.exact_lab = done ? page.lab : NULL;
     page.exact_seconds = seconds;

@@ -1,6 +1,7 @@
 #include "study/cases/hard_sheet.h"
 
 #include "images/label.h"
+#include "study/report/report.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -38,52 +39,6 @@ void hard_cost_text(const HardResult *result, char text[HARD_COST_SIZE])
         snprintf(text, HARD_COST_SIZE, "%+.0f%% (noise %.0f%%)", cost, noise);
 }
 
-static unsigned char *pixel_of(const Image *image, int x, int y)
-{
-    return (unsigned char *)image->pixels + 4 * ((size_t)y * (size_t)image->width + (size_t)x);
-}
-
-static void put_pixel(Sheet *sheet, int x, int y, const unsigned char color[3])
-{
-    unsigned char *pixel = pixel_of(&sheet->image, x, y);
-    for (int c = 0; c < 3; c++)
-        pixel[c] = color[c];
-    pixel[3] = 255;
-}
-
-/* A channel of a panel's picture, 0 to 255. */
-static double channel_of(const HardResult *result, int panel, int x, int y, int c)
-{
-    const Reference *exact = &result->exact;
-    if (panel == PANELS - 1)
-        return 255 * (double)exact->color[3 * (y * exact->width + x) + c];
-    return pixel_of(panel ? &result->stable : &result->naive, x, y)[c];
-}
-
-/* Each pixel of the panel is the mean of samples in it. */
-static void put_panel(Sheet *sheet, const HardResult *result, int panel, int left, int top)
-{
-    enum { SIDE = 4 };
-    const Reference *exact = &result->exact;
-    for (int y = 0; y < sheet->height; y++) {
-        for (int x = 0; x < sheet->width; x++) {
-            double sums[3] = {0};
-            unsigned char bytes[3];
-            for (int i = 0; i < SIDE * SIDE; i++) {
-                const int across = 2 * (SIDE * x + i % SIDE) + 1;
-                const int down = 2 * (SIDE * y + i / SIDE) + 1;
-                for (int c = 0; c < 3; c++)
-                    sums[c] +=
-                        channel_of(result, panel, across * exact->width / (2 * SIDE * sheet->width),
-                                   down * exact->height / (2 * SIDE * sheet->height), c);
-            }
-            for (int c = 0; c < 3; c++)
-                bytes[c] = (unsigned char)lrint(sums[c] / (SIDE * SIDE));
-            put_pixel(sheet, left + x, top + y, bytes);
-        }
-    }
-}
-
 static int panels_width(const Sheet *sheet)
 {
     return PANELS * (sheet->width + GAP);
@@ -107,8 +62,12 @@ static void error_text(double error, char text[24])
     snprintf(text, 24, error < 10 ? "off by %.1f steps" : "off by %.0f steps", error);
 }
 
-static void put_case(Sheet *sheet, const HardResult *result, int left, int top)
+static bool put_case(Sheet *sheet, const HardResult *result, int left, int top, Message *message)
 {
+    Image exact;
+    const Image *const panels[PANELS] = {&result->naive, &result->stable, &exact};
+    if (!reference_image(&result->exact, &exact, message))
+        return false;
     char lines[TEXT_LINES][128], title[128], cost[HARD_COST_SIZE], error[24];
     hard_cost_text(result, cost);
     snprintf(title, sizeof title, "%s: %s", result->of->name, result->of->what);
@@ -121,12 +80,17 @@ static void put_case(Sheet *sheet, const HardResult *result, int left, int top)
     snprintf(lines[3], sizeof lines[3], "%s, time %s", error, cost);
     image_label(&sheet->image, left + case_width(sheet) / 2, top + TITLE, TITLE, title, NULL);
     for (int panel = 0; panel < PANELS; panel++)
-        put_panel(sheet, result, panel, left + panel * (sheet->width + GAP), top + TITLE_LINE);
+        report_panel(&sheet->image,
+                     (int[]){left + panel * (sheet->width + GAP), top + TITLE_LINE, sheet->width,
+                             sheet->height},
+                     panels[panel]);
+    image_close(&exact);
     const int space = case_height(sheet) - TITLE_LINE - TEXT_LINES * TEXT_LINE;
     for (int line = 0; line < TEXT_LINES; line++)
         image_label(&sheet->image, left + panels_width(sheet) + TEXT_WIDTH / 2,
                     top + TITLE_LINE + space / 2 + line * TEXT_LINE + TEXT, TEXT, lines[line],
                     NULL);
+    return true;
 }
 
 /* The names of the panels. */
@@ -147,16 +111,15 @@ bool hard_sheet(const HardSheet *of, const char *path, Message *message)
     if (!image_open(&sheet.image, MARGIN + of->columns * across, MARGIN / 2 + HEAD + rows * down,
                     IMAGE_BYTE, message))
         return false;
-    for (int y = 0; y < sheet.image.height; y++)
-        for (int x = 0; x < sheet.image.width; x++)
-            put_pixel(&sheet, x, y, ground);
+    report_fill(&sheet.image, (int[]){0, 0, sheet.image.width, sheet.image.height}, ground);
     for (int i = 0; i < of->columns; i++)
         put_head(&sheet, MARGIN + i * across);
-    for (int i = 0; i < of->count; i++)
-        put_case(&sheet, &of->results[i], MARGIN + i % of->columns * across,
-                 MARGIN / 2 + HEAD + i / of->columns * down);
-    const bool done = image_write(&sheet.image, path,
-                                  &(ImageOptions){.compress = IMAGE_COMPRESS_DEFAULT}, message);
+    bool done = true;
+    for (int i = 0; i < of->count && done; i++)
+        done = put_case(&sheet, &of->results[i], MARGIN + i % of->columns * across,
+                        MARGIN / 2 + HEAD + i / of->columns * down, message);
+    done = done && image_write(&sheet.image, path,
+                               &(ImageOptions){.compress = IMAGE_COMPRESS_DEFAULT}, message);
     image_close(&sheet.image);
     return done;
 }

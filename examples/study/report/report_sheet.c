@@ -16,14 +16,14 @@ enum {
 };
 
 typedef struct Color {
-    unsigned char red, green, blue;
+    unsigned char of[3];
 } Color;
 
-static const Color GROUND = {24, 24, 28};
+static const Color GROUND = {{24, 24, 28}}, WHITE = {{255, 255, 255}};
 
 /* The colour of differences within the rounding to 8 bits. */
-static const Color NEUTRAL = {52, 52, 56};
-static const Color UNDEFINED = {255, 0, 255};
+static const Color NEUTRAL = {{52, 52, 56}};
+static const Color UNDEFINED = {{255, 0, 255}};
 static const double ROUNDING = 0.5, FULL = 255;
 
 /* The layout of a sheet, in pixels. */
@@ -36,17 +36,18 @@ typedef struct Sheet {
 /* Viridis (van der Walt and Smith, 2015): perceptually uniform in lightness. */
 static Color viridis(double t)
 {
-    static const Color stops[] = {{68, 1, 84},    {71, 44, 122},  {59, 81, 139},
-                                  {44, 113, 142}, {33, 144, 141}, {39, 173, 129},
-                                  {92, 200, 99},  {170, 220, 50}, {253, 231, 37}};
+    static const Color stops[] = {{{68, 1, 84}},    {{71, 44, 122}},  {{59, 81, 139}},
+                                  {{44, 113, 142}}, {{33, 144, 141}}, {{39, 173, 129}},
+                                  {{92, 200, 99}},  {{170, 220, 50}}, {{253, 231, 37}}};
     enum { PARTS = (int)(sizeof stops / sizeof stops[0]) - 1 };
     const double place = fmin(fmax(t, 0), 1) * PARTS;
     const int part = place < PARTS ? (int)place : PARTS - 1;
-    const double share = place - part;
-    const Color a = stops[part], b = stops[part + 1];
-    return (Color){(unsigned char)lround(a.red + share * (b.red - a.red)),
-                   (unsigned char)lround(a.green + share * (b.green - a.green)),
-                   (unsigned char)lround(a.blue + share * (b.blue - a.blue))};
+    Color color;
+    for (int c = 0; c < 3; c++) {
+        const double from = stops[part].of[c], to = stops[part + 1].of[c];
+        color.of[c] = (unsigned char)lround(from + (place - part) * (to - from));
+    }
+    return color;
 }
 
 /* The position of a difference, in steps of 1/255, on the logarithmic scale 0..1. */
@@ -67,43 +68,72 @@ static double channel(const Image *image, size_t index)
                                       : ((const unsigned char *)image->pixels)[index] / 255.0;
 }
 
-static unsigned char to_byte(double value)
+void report_fill(Image *sheet, const int place[4], const unsigned char color[3])
 {
-    return (unsigned char)(value > 0 ? lround(255 * fmin(value, 1)) : 0);
+    for (int y = place[1]; y < place[1] + place[3]; y++) {
+        unsigned char *pixel = (unsigned char *)sheet->pixels +
+                               4 * ((size_t)y * (size_t)sheet->width + (size_t)place[0]);
+        for (int x = 0; x < place[2]; x++, pixel += 4)
+            memcpy(pixel, (const unsigned char[4]){color[0], color[1], color[2], 255}, 4);
+    }
 }
 
-/* Whether every channel is finite. */
-static bool is_finite(const Image *image, size_t pixel)
+void report_panel(Image *sheet, const int place[4], const Image *picture)
 {
-    return isfinite(channel(image, 4 * pixel)) && isfinite(channel(image, 4 * pixel + 1)) &&
-           isfinite(channel(image, 4 * pixel + 2));
+    enum { SIDE = 4 };
+    const unsigned char *pixels = picture->pixels;
+    for (int n = 0; n < place[2] * place[3]; n++) {
+        const int x = n % place[2], y = n / place[2];
+        int sums[3] = {0};
+        for (int i = 0; i < SIDE * SIDE; i++) {
+            const int across = (2 * (SIDE * x + i % SIDE) + 1) * picture->width;
+            const int down = (2 * (SIDE * y + i / SIDE) + 1) * picture->height;
+            const int column = across / (2 * SIDE * place[2]), row = down / (2 * SIDE * place[3]);
+            for (int c = 0; c < 3; c++)
+                sums[c] += pixels[4 * (row * picture->width + column) + c];
+        }
+        unsigned char mean[3];
+        for (int c = 0; c < 3; c++)
+            mean[c] = (unsigned char)((sums[c] + SIDE * SIDE / 2) / (SIDE * SIDE));
+        report_fill(sheet, (int[]){place[0] + x, place[1] + y, 1, 1}, mean);
+    }
 }
 
 /* The colour of a pixel in a panel. */
 static Color panel_color(int panel, const Image *drawn, const Reference *exact, size_t pixel)
 {
-    double shown[3];
-    if (panel == 2)
-        return is_finite(drawn, pixel)
-                   ? color_of(pixel_error(drawn, pixel, &exact->color[3 * pixel]).largest)
-                   : UNDEFINED;
-    for (size_t i = 0; i < 3; i++)
-        shown[i] = panel == 0 ? channel(drawn, 4 * pixel + i) : (double)exact->color[3 * pixel + i];
-    return (Color){to_byte(shown[0]), to_byte(shown[1]), to_byte(shown[2])};
+    Color shown;
+    bool finite = true;
+    for (size_t c = 0; c < 3; c++) {
+        const double of_drawn = channel(drawn, 4 * pixel + c);
+        const double value = panel == 0 ? of_drawn : (double)exact->color[3 * pixel + c];
+        finite = finite && isfinite(of_drawn);
+        shown.of[c] = (unsigned char)(value > 0 ? lround(255 * fmin(value, 1)) : 0);
+    }
+    if (panel < 2)
+        return shown;
+    return finite ? color_of(pixel_error(drawn, pixel, &exact->color[3 * pixel]).largest)
+                  : UNDEFINED;
 }
 
-static void fill(Image *image, int left, int top, int width, int height, Color color)
+/* The pictures of the panels. */
+static bool open_panels(Image panels[PANELS], const Image *drawn, const Reference *exact,
+                        Message *message)
 {
-    for (int y = top; y < top + height; y++) {
-        unsigned char *pixel =
-            (unsigned char *)image->pixels + 4 * ((size_t)y * (size_t)image->width + (size_t)left);
-        for (int x = 0; x < width; x++, pixel += 4) {
-            pixel[0] = color.red;
-            pixel[1] = color.green;
-            pixel[2] = color.blue;
-            pixel[3] = 255;
-        }
+    for (int panel = 0; panel < PANELS; panel++) {
+        if (!image_open(&panels[panel], exact->width, exact->height, IMAGE_BYTE, message))
+            return false;
+        for (int i = 0; i < exact->width * exact->height; i++)
+            report_fill(&panels[panel], (int[]){i % exact->width, i / exact->width, 1, 1},
+                        panel_color(panel, drawn, exact, (size_t)i).of);
     }
+    return true;
+}
+
+static void close_panels(Image panels[PANELS])
+{
+    for (int panel = 0; panel < PANELS; panel++)
+        image_close(&panels[panel]);
 }
 
 static int panel_left(const Sheet *sheet, int panel)
@@ -111,37 +141,33 @@ static int panel_left(const Sheet *sheet, int panel)
     return MARGIN + panel * (sheet->width + MARGIN);
 }
 
-static void put_panel(Sheet *sheet, int panel, const Image *drawn, const Reference *exact)
+static void put_panel(Sheet *sheet, int panel, const Image *picture)
 {
     static const char *const titles[PANELS] = {"drawn", "exact", "difference, in steps of 1/255"};
     const int left = panel_left(sheet, panel), top = MARGIN + LINE;
     image_label(&sheet->image, left + sheet->width / 2, MARGIN + LETTERS, LETTERS, titles[panel],
                 NULL);
-    for (int y = 0; y < exact->height; y++)
-        for (int x = 0; x < exact->width; x++)
-            fill(&sheet->image, left + x * sheet->scale, top + y * sheet->scale, sheet->scale,
-                 sheet->scale,
-                 panel_color(panel, drawn, exact, (size_t)y * (size_t)exact->width + (size_t)x));
+    report_panel(&sheet->image, (int[]){left, top, sheet->width, sheet->height}, picture);
 }
 
 /* The scale below the difference: grey for rounding, then the colours up to 255. */
 static void put_scale(Sheet *sheet)
 {
     static const double numbers[] = {0.5, 1, 2, 5, 10, 20, 50, 100, 255};
-    const Color white = {255, 255, 255};
     const int top = 2 * MARGIN + LINE + sheet->height;
     const int width = sheet->width - 2 * MARGIN, neutral = width / 10;
     const int left = panel_left(sheet, 2) + MARGIN, start = left + neutral;
-    fill(&sheet->image, left, top, neutral, BAR, NEUTRAL);
+    report_fill(&sheet->image, (int[]){left, top, neutral, BAR}, NEUTRAL.of);
     for (int x = start; x < left + width; x++)
-        fill(&sheet->image, x, top, 1, BAR, viridis((x - start + 0.5) / (width - neutral)));
+        report_fill(&sheet->image, (int[]){x, top, 1, BAR},
+                    viridis((x - start + 0.5) / (width - neutral)).of);
     image_label(&sheet->image, left, top + BAR + LINE - 6, LETTERS - 2, "0", NULL);
-    fill(&sheet->image, left, top + BAR, 1, 4, white);
+    report_fill(&sheet->image, (int[]){left, top + BAR, 1, 4}, WHITE.of);
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
         char text[16];
         const int x = start + (int)lround(scale_of(numbers[i]) * (width - neutral - 1));
         snprintf(text, sizeof text, "%g", numbers[i]);
-        fill(&sheet->image, x, top + BAR, 1, 4, white);
+        report_fill(&sheet->image, (int[]){x, top + BAR, 1, 4}, WHITE.of);
         image_label(&sheet->image, x, top + BAR + LINE - 6, LETTERS - 2, text, NULL);
     }
 }
@@ -177,39 +203,21 @@ static void put_caption(Sheet *sheet, char lines[MAX_CAPTION_LINES][512], int co
                     lines[i], NULL);
 }
 
-/* The mean of a panel's colors over one pixel of a small picture. */
-static Color mean_color(int panel, const Image *drawn, const Reference *exact, int x, int y,
-                        int height)
-{
-    enum { SIDE = 4 };
-    int red = 0, green = 0, blue = 0;
-    for (int i = 0; i < SIDE * SIDE; i++) {
-        const int across = 2 * (SIDE * x + i % SIDE) + 1, down = 2 * (SIDE * y + i / SIDE) + 1;
-        const size_t column = (size_t)(across * exact->width / (2 * SIDE * REPORT_PANEL));
-        const size_t row = (size_t)(down * exact->height / (2 * SIDE * height));
-        const Color color = panel_color(panel, drawn, exact, row * (size_t)exact->width + column);
-        red += color.red;
-        green += color.green;
-        blue += color.blue;
-    }
-    return (Color){(unsigned char)(red / (SIDE * SIDE)), (unsigned char)(green / (SIDE * SIDE)),
-                   (unsigned char)(blue / (SIDE * SIDE))};
-}
-
 bool report_pair(const Image *drawn, const Reference *exact, const char *path, Message *message)
 {
-    Image pair;
+    enum { SECOND = REPORT_PANEL + REPORT_GAP };
+    Image pair = {.width = 0}, panels[PANELS] = {{.width = 0}};
     const int height = (REPORT_PANEL * exact->height + exact->width - 1) / exact->width;
-    if (!image_open(&pair, 2 * REPORT_PANEL + REPORT_GAP, height, IMAGE_BYTE, message))
-        return false;
-    fill(&pair, 0, 0, pair.width, height, (Color){255, 255, 255});
-    for (int side = 0; side < 2; side++)
-        for (int y = 0; y < height; y++)
-            for (int x = 0; x < REPORT_PANEL; x++)
-                fill(&pair, side * (REPORT_PANEL + REPORT_GAP) + x, y, 1, 1,
-                     mean_color(side ? 2 : 0, drawn, exact, x, y, height));
-    const bool done =
-        image_write(&pair, path, &(ImageOptions){.compress = IMAGE_COMPRESS_DEFAULT}, message);
+    bool done = open_panels(panels, drawn, exact, message) &&
+                image_open(&pair, 2 * REPORT_PANEL + REPORT_GAP, height, IMAGE_BYTE, message);
+    if (done) {
+        report_fill(&pair, (int[]){0, 0, pair.width, height}, WHITE.of);
+        report_panel(&pair, (int[]){0, 0, REPORT_PANEL, height}, &panels[0]);
+        report_panel(&pair, (int[]){SECOND, 0, REPORT_PANEL, height}, &panels[2]);
+        done =
+            image_write(&pair, path, &(ImageOptions){.compress = IMAGE_COMPRESS_DEFAULT}, message);
+    }
+    close_panels(panels);
     image_close(&pair);
     return done;
 }
@@ -228,18 +236,21 @@ bool report_sheet(const Image *drawn, const Reference *exact, const char *captio
     const int width = PANELS * (sheet.width + MARGIN) + MARGIN;
     const int count = break_lines(caption, width - 2 * MARGIN, lines);
     const int height = 3 * MARGIN + LINE + sheet.height + BAR + LINE + MARGIN + count * LINE;
-    if (!image_open(&sheet.image, width, height, IMAGE_BYTE, message))
-        return false;
-    fill(&sheet.image, 0, 0, width, height, GROUND);
-    for (int panel = 0; panel < PANELS; panel++)
-        put_panel(&sheet, panel, drawn, exact);
-    put_scale(&sheet);
-    put_caption(&sheet, lines, count);
-    const ImageText text[] = {{"Description", caption}, {NULL, NULL}};
-    const bool done = image_write(
-        &sheet.image, path,
-        &(ImageOptions){.compress = IMAGE_COMPRESS_DEFAULT, .text = caption[0] ? text : NULL},
-        message);
+    Image panels[PANELS] = {{.width = 0}};
+    bool done = open_panels(panels, drawn, exact, message) &&
+                image_open(&sheet.image, width, height, IMAGE_BYTE, message);
+    if (done) {
+        const ImageText text[] = {{"Description", caption}, {NULL, NULL}};
+        const ImageOptions options = {.compress = IMAGE_COMPRESS_DEFAULT,
+                                      .text = caption[0] ? text : NULL};
+        report_fill(&sheet.image, (int[]){0, 0, width, height}, GROUND.of);
+        for (int panel = 0; panel < PANELS; panel++)
+            put_panel(&sheet, panel, &panels[panel]);
+        put_scale(&sheet);
+        put_caption(&sheet, lines, count);
+        done = image_write(&sheet.image, path, &options, message);
+    }
+    close_panels(panels);
     image_close(&sheet.image);
     return done;
 }
