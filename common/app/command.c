@@ -4,7 +4,6 @@
  */
 #include "app/command.h"
 
-#include "scene/scene_example.h"
 #include "window/backends.h"
 
 #include <stdio.h>

@@ -5,7 +5,6 @@
 #include "base/text.h"
 #include "images/animation.h"
 
-#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 

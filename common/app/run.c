@@ -8,7 +8,6 @@
 #include "app/viewer.h"
 #include "base/clock.h"
 #include "base/output.h"
-#include "window/backends.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -10,7 +10,6 @@
 #include "base/plugin.h"
 
 #include <dlfcn.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 #define OSMESA_PACKAGE "libosmesa6"

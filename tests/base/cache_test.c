@@ -5,7 +5,6 @@
 #include "base/cache.h"
 #include "support/testing.h"
 
-#include <dirent.h>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <sys/wait.h>

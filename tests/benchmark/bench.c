@@ -9,7 +9,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 static bool markdown, brief, processor;
 static char folder[] = "/tmp/lighting-benchmark-XXXXXX";

@@ -14,7 +14,6 @@
 #include "scene/shader_cost.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 
 enum { SIZE = 400, ROUNDS = 21, FRAMES = 4, COMPILATIONS = 3, LIGHTS = 8 };
 

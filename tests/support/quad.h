@@ -9,8 +9,6 @@
 
 #include "core/matrix.h"
 
-#include <float.h>
-
 #if LDBL_MANT_DIG >= 113
 typedef long double Quad;
 #elif defined(__SIZEOF_FLOAT128__)

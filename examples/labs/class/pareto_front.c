@@ -6,7 +6,6 @@
 #include "study/report/report_gnuplot.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 static bool counted(const ClassResult *result)
 {

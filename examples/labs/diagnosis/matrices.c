@@ -4,7 +4,6 @@
  * trace. What is true of these in all scenes are facts; a rule is a set of facts with a name. */
 #include "labs/diagnosis/diagnose.h"
 
-#include "app/options.h"
 #include "core/example.h"
 
 #include <math.h>

@@ -4,7 +4,6 @@
 #include "labs/diagnosis/diagnose.h"
 
 #include <math.h>
-#include <string.h>
 
 /* Sums over the pixels inside the objects in all scenes, in steps of 1/255. */
 typedef struct Overview {

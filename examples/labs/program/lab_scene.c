@@ -1,7 +1,6 @@
 /* What the scenes of all labs are made of: shapes, lights, materials. */
 #include "labs/program/lab_scene.h"
 
-#include "app/options.h"
 #include "core/example.h"
 #include "shapes/mesh_solids.h"
 

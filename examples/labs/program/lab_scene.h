@@ -22,8 +22,6 @@
 #include "base/random.h"
 #include "labs/program/lab.h"
 
-#include <stdint.h>
-
 typedef enum LabSceneKind {
     LAB_SCENE_PLAIN,
     LAB_SCENE_MOVED,

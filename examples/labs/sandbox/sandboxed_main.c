@@ -4,7 +4,6 @@
  * taken for what it is, shaders compiled and drawn, C compiled and called. */
 #include "labs/sandbox/sandbox.h"
 
-#include "base/memory.h"
 #include "base/output.h"
 #include "base/sanitized.h"
 #include "labs/check/judge.h"

@@ -8,7 +8,6 @@
 #include "study/results/json.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* U+202A to U+202E and U+2066 to U+2069, which reorder the characters of a line. */

@@ -1,7 +1,6 @@
 /* Operations are counted by glslang, a process: lab 10's points are those for a right picture. */
 #include "labs/check/budget.h"
 
-#include <math.h>
 #include <stdio.h>
 
 bool budget_score(const LabBudget *budget, GLuint program, Canvas *canvas,

@@ -2,7 +2,6 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
-#include "base/output.h"
 #include "scene/material.h"
 #include "study/measure/scenes.h"
 #include "study/results/table.h"

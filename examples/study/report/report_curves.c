@@ -1,7 +1,6 @@
 #include "study/report/report.h"
 #include "study/report/report_gnuplot.h"
 
-#include <errno.h>
 #include <math.h>
 #include <string.h>
 

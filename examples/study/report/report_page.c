@@ -3,7 +3,6 @@
 #include "base/output.h"
 #include "base/template.h"
 #include "study/measure/scenes.h"
-#include "study/report/report.h"
 #include "study/results/front.h"
 
 #include <limits.h>

@@ -2,7 +2,6 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
-#include "base/output.h"
 #include "reference/picture_error.h"
 #include "study/measure/scenes.h"
 #include "study/report/report.h"
