@@ -1,5 +1,5 @@
 /*
- * text: words, lines and comments of texts.
+ * text: characters, words, lines and comments of texts.
  */
 #ifndef TEXT_H
 #define TEXT_H
