@@ -660,6 +660,7 @@ class Results(Class):
         self.submit("a")
         os.mkdir(self.path("closed"), 0o700)
         copy = shutil.copy(os.path.join(base.EXAMPLES, PROGRAM), self.path("closed"))
+        shutil.copy(os.path.join(base.EXAMPLES, "..", "source_root"), self.path("closed"))
         arguments = ("--class", "class", "--lab", "5", "-o", "out")
         result = self.run_it(*arguments, program=copy, environment={"PATH": self.folder})
         self.assertEqual(result.returncode, 1)
