@@ -251,11 +251,8 @@ void figure_rays(Board *board, const Optics *optics, int number)
     }
     if (strip.lamp_shown)
         board_lamp(board, strip.lamp);
-    const double along = strip.lamp_shown ? 0.5 : 0.75;
+    const Vec3 back = {begin.x - last.x, last.y - begin.y, 0};
     board_label(board, board_at(last, UP, normal), UP, INK, "$N$");
-    board_label(
-        board,
-        (DrawingPoint){last.x + along * (begin.x - last.x), last.y + along * (begin.y - last.y)},
-        (Vec3){begin.x - last.x + hypot(begin.x - last.x, begin.y - last.y), last.y - begin.y, 0},
-        LIGHT_COLOR, "light");
+    board_label(board, board_at(last, back, strip.lamp_shown ? 0.5 : 0.75),
+                vec3_add(vec3_unit(back), (Vec3){1, 0, 0}), LIGHT_COLOR, "light");
 }

@@ -330,11 +330,11 @@ TEST(the_curve_of_attenuation_goes_through_its_values)
     }
 }
 
-static bool is_bar(const Drawing *drawing, int path, Vec3 fill, double height)
+static bool is_bar(const Drawing *drawing, int path, Vec3 fill, double bottom, double height)
 {
     const DrawingBox box = drawing_path_box(drawing, &drawing->paths[path]);
     return memcmp(&drawing->paths[path].style.fill, &fill, sizeof fill) == 0 &&
-           fabs(box.bottom - box.top - height) < PIXELS;
+           fabs(box.bottom - bottom) < PIXELS && fabs(box.bottom - box.top - height) < PIXELS;
 }
 
 TEST(bars_are_as_high_as_what_they_stand_for)
@@ -348,16 +348,20 @@ TEST(bars_are_as_high_as_what_they_stand_for)
         CLOSED(lines_end) Lines lines = lines_of(FIGURE_REFLECTIVITY, &optics, INK, 0.06);
         const double one = lines.ends[0][0].y; /* of the dashed line */
         int path = 0;
+        double bottom = 0;
         find_lines(&lines, INK, 0.1);
-        for (int i = 0; i < 9; i++) { /* in this order, from the bottom */
+        for (int i = 0; i < 9; i++) { /* stacked in this order */
+            const double zero = lines.ends[0][0].y;
             const double shares[] = {d[i / 3], s[i / 3], 1 - d[i / 3] - s[i / 3]};
-            const double height = shares[i % 3] * (lines.ends[0][0].y - one);
+            const double height = shares[i % 3] * (zero - one);
+            bottom = i % 3 ? bottom : zero;
             if (height < PIXELS)
                 continue;
             while (path < lines.drawing.path_count &&
-                   !is_bar(&lines.drawing, path, fills[i % 3], height))
+                   !is_bar(&lines.drawing, path, fills[i % 3], bottom, height))
                 path++;
             assert_true(path < lines.drawing.path_count);
+            bottom -= height;
         }
     }
 }
