@@ -109,8 +109,10 @@ Vec3 mat4_transform_direction(Mat4 a, Vec3 direction);
  * inverse of the upper left 3x3 part, up to a positive factor; the other entries are the
  * identity's. Computed as sign(det) * cofactor matrix, without a division, so it exists for
  * singular matrices too (Turkowski, Graphics Gems, 1990); the sign of a zero mat4_determinant
- * counts as +1. Its largest entry is in [0.5, 1): normalize the transformed normals. Invalid if no
- * surface keeps a normal (rank below 2) or `a` is not finite: the 3x3 part is zero. */
+ * counts as +1. The squares of its entries add up to 3, as an orthogonal matrix's do: of such an
+ * `a` the normal matrix is the 3x3 part itself; after any other, normalize the transformed normals.
+ * Invalid if no surface keeps a normal (rank below 2) or `a` is not finite: the 3x3 part is zero.
+ */
 Mat4 mat4_normal(Mat4 a);
 bool mat4_try_normal(Mat4 a, Mat4 *normal_matrix);
 

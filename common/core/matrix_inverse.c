@@ -196,14 +196,20 @@ bool mat4_try_normal(Mat4 a, Mat4 *normal_matrix)
     double determinant = cofactors(s.b, cofactor);
     double sign = signed_determinant(determinant, cofactor) < 0 ? -1 : 1;
     int largest = EXPONENT_OF_ZERO / 2;
+    double squares = 0;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
             if (exponent_of(cofactor[i][j]) - s.row[i] - s.column[j] > largest)
                 largest = exponent_of(cofactor[i][j]) - s.row[i] - s.column[j];
     for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            normal_matrix->m[4 * j + i] =
-                ldexp(sign * cofactor[i][j], -s.row[i] - s.column[j] - largest);
+        for (int j = 0; j < 3; j++) {
+            const int exponent = -s.row[i] - s.column[j] - largest;
+            const double entry = ldexp(sign * cofactor[i][j], exponent);
+            normal_matrix->m[4 * j + i] = entry;
+            squares += entry * entry;
+        }
+    for (int k = 0; k < 12 && squares > 0; k++)
+        normal_matrix->m[k] /= sqrt(squares / 3);
     return largest != EXPONENT_OF_ZERO / 2;
 }
 

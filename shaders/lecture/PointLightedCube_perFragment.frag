@@ -11,7 +11,7 @@ varying vec3 v_Normal;
 varying vec3 v_Position; // world coordinates
 
 void main() {
-    // Interpolated normals are shorter than 1.
+    // Interpolated normals may be shorter than 1.
     vec3 normal = normalize(v_Normal);
     vec3 lightDirection = normalize(u_LightPosition - v_Position);
     // Cosine of the angle between light and normal; 0 behind the surface.

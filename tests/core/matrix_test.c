@@ -1032,21 +1032,13 @@ TEST_WITH(0, inverse_refuses_to_be_infinite, start_random, NULL)
 
 /* Normals */
 
-static double largest_entry_of_3x3(Mat4 a)
-{
-    double largest = 0;
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            largest = fmax(largest, fabs(a.m[4 * i + j]));
-    return largest;
-}
-
 static void assert_normal_form(Mat4 normal)
 {
-    double largest = largest_entry_of_3x3(normal);
-    if (!(largest >= 0.5 && largest < 1))
-        print_matrix("normal", normal);
-    assert_true(largest >= 0.5 && largest < 1);
+    double squares = 0;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            squares += normal.m[4 * i + j] * normal.m[4 * i + j];
+    assert_near(squares, 3, 24 * UNIT); /* twice the 4 u of an entry and those of the sum */
     for (int i = 0; i < 3; i++)
         assert_true(normal.m[4 * i + 3] == 0 && normal.m[12 + i] == 0);
     assert_true(normal.m[15] == 1);
@@ -1064,33 +1056,46 @@ static Vec3 normal_through(Mat4 a, Vec3 n)
 
 TEST_WITH(0, normal_matrix_has_its_closed_forms, start_random, NULL)
 {
-    const Mat4 half = mat4_scale((Vec3){0.5, 0.5, 0.5});
-    assert_made(mat4_try_normal(mat4_identity(), &got), half, 0);
+    assert_made(mat4_try_normal(mat4_identity(), &got), mat4_identity(), 0);
     /* The bottom row and the last column have no effect. */
     const Mat4 a = {{1, 0, 0, 5, 0, 1, 0, 6, 0, 0, 1, 7, 8, 9, 10, 0}};
-    assert_made(mat4_try_normal(a, &got), half, 0);
-    /* cofactors 8, 4, 2: divided by 16 */
+    assert_made(mat4_try_normal(a, &got), mat4_identity(), 0);
+    /* Cofactors 8, 4, 2, whose squares add up to 84; two roundings. */
+    const double unit = sqrt(28);
     assert_made(mat4_try_normal(mat4_scale((Vec3){1, 2, 4}), &got),
-                mat4_scale((Vec3){0.5, 0.25, 0.125}), 0);
+                mat4_scale((Vec3){8 / unit, 4 / unit, 2 / unit}), 4 * UNIT);
     /* The plane x + y = 0 scaled by (2, 1, 1) is x / 2 + y = 0. */
     Vec3 n = normal_through(mat4_scale((Vec3){2, 1, 1}), (Vec3){1, 1, 0});
-    assert_vector(n, sqrt(0.2), sqrt(0.8), 0, 2 * UNIT); /* a root and a quotient */
+    assert_vector(n, sqrt(0.2), sqrt(0.8), 0, 4 * UNIT); /* two roots and two quotients */
 }
 
-TEST_WITH(0, normal_matrix_of_a_rotation_is_the_rotation, start_random, NULL)
+/* N = M if M is orthogonal: a rotation or, one time in two, with a reflection in a random plane;
+ * of any uniform scale the rotation remains. */
+TEST_WITH(0, normal_matrix_of_an_orthogonal_matrix_is_the_matrix, start_random, NULL)
 {
     for (int i = 0; i < 1000; i++) {
-        Mat4 r, normal;
-        Vec3 axis = random_vector();
-        assert_true(mat4_try_rotate(between(-180, 180), axis, &r));
-        assert_true(mat4_try_normal(r, &normal));
+        Mat4 m, normal;
+        Vec3 axis = random_vector(), unit;
+        assert_true(mat4_try_rotate(between(-180, 180), axis, &m));
+        assert_true(vec3_normalize(random_vector(), &unit));
+        const double n[3] = {unit.x, unit.y, unit.z};
+        Mat4 mirror = mat4_identity();
+        for (int k = 0; k < 9 && i % 2; k++) /* Householder's */
+            mirror.m[k / 3 * 4 + k % 3] -= 2 * n[k / 3] * n[k % 3];
+        m = mat4_product(mirror, m);
+        const double size = random_power(-100, 100);
+        const Mat4 sized = mat4_product(m, mat4_scale((Vec3){size, size, size}));
+        assert_true(mat4_try_normal(m, &normal));
         assert_normal_form(normal);
-        double factor = largest_entry_of_3x3(normal) / largest_entry_of_3x3(r);
-        assert_true(fabs(factor - 1) < 0.01 || fabs(factor - 0.5) < 0.01);
-        factor = factor > 0.75 ? 1 : 0.5;
-        for (int j = 0; j < 12; j++) /* the rotation's own 8 u, in a cofactor of two products */
-            assert_near(normal.m[j], factor * r.m[j], 32 * UNIT);
+        for (int j = 0; j < 12; j++) /* the 24 u of m, in cofactors of two products */
+            assert_near(normal.m[j], m.m[j], 96 * UNIT);
+        assert_true(mat4_try_normal(sized, &normal));
+        for (int j = 0; j < 12; j++)
+            assert_near(normal.m[j], m.m[j], 96 * UNIT);
     }
+    const Mat4 swap = {{0, 1, 0, 0, 0, 0, -1, 0, 1, 0, 0, 0, 0, 0, 0, 1}};
+    assert_matrix(mat4_normal(swap), swap, 0);
+    assert_matrix(mat4_normal(mat4_scale((Vec3){-1, 1, 1})), mat4_scale((Vec3){-1, 1, 1}), 0);
 }
 
 TEST_WITH(0, normal_matrix_exists_for_a_flattened_model, start_random, NULL)
@@ -1103,11 +1108,13 @@ TEST_WITH(0, normal_matrix_exists_for_a_flattened_model, start_random, NULL)
     /* A shear onto z = 0, cofactor (1 * 2 - 0) of z alone */
     const Mat4 shear = {{1, 0, 0, 0, 3, 2, 0, 0, 5, 7, 0, 0, 0, 0, 0, 1}};
     assert_vector(normal_through(shear, n), 0, 0, 1, 0);
-    /* Rank 2 with its kernel on no axis: cofactors -3 6 -3, 6 -12 6, -3 6 -3, exact. */
+    /* Rank 2 with its kernel on no axis: cofactors -3 6 -3, 6 -12 6, -3 6 -3, exact, whose squares
+     * add up to 324; two roundings. */
     const Mat4 rank_two = {{1, 2, 3, 0, 4, 5, 6, 0, 7, 8, 9, 0, 0, 0, 0, 1}};
-    const Mat4 expected = {{-0.1875, 0.375, -0.1875, 0, 0.375, -0.75, 0.375, 0, -0.1875, 0.375,
-                            -0.1875, 0, 0, 0, 0, 1}};
-    assert_made(mat4_try_normal(rank_two, &got), expected, 0);
+    const double e = 3 / sqrt(108);
+    const Mat4 expected = {
+        {-e, 2 * e, -e, 0, 2 * e, -4 * e, 2 * e, 0, -e, 2 * e, -e, 0, 0, 0, 0, 1}};
+    assert_made(mat4_try_normal(rank_two, &got), expected, 4 * UNIT);
 }
 
 TEST_WITH(0, normal_matrix_of_a_mirror_agrees_with_the_inverse_transpose, start_random, NULL)

@@ -216,8 +216,8 @@ const Mistake MISTAKES[] = {
       {{SLOT_NORMAL_UNIT, UNIT_NEVER},
        {SLOT_COSINE, COSINE_SATURATED},
        {SLOT_POWER, POWER_SATURATED}}},
-     "The fragment shader's normal does not have length 1: interpolation shortens it between the "
-     "vertices, and scaling the object changes it everywhere.",
+     "The fragment shader's normal does not have length 1: interpolation may shorten it between "
+     "the vertices, and scaling the object changes it everywhere.",
      "the fragment shader's normal: normalize(v_Normal)"},
 
     /* The direction to the light. */

@@ -15,7 +15,7 @@ varying vec3 v_Normal;
 varying vec3 v_Position; // world space
 
 void main() {
-    // Between vertices the interpolated normal is shorter than 1.
+    // Between vertices the interpolated normal may be shorter than 1.
     vec3 normal = normalize(v_Normal);
     vec3 light = u_AmbientLight;
     for (int i = 0; i < 2; i++) {
