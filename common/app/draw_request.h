@@ -24,8 +24,10 @@ typedef struct DrawRequest {
     /* Of scenes. */
     bool full;         /* the program that has every effect */
     bool clamp_vertex; /* see scene.h */
+    bool signed_dots;
     bool linear;
     bool show_clipped;
+    bool normals; /* as lines over the picture */
     SceneTerms terms;
     ShadowSettings shadows;
     LightPlaces places;

@@ -47,7 +47,8 @@ typedef struct Options {
     const char *generate; /* "man", "bash", "zsh", "fish": what is printed; NULL: nothing */
     /* Of programs that draw scenes. */
     bool explain; /* report the effects that the scene needs, and draw nothing */
-    bool full, clamp_vertex, linear, show_clipped, cheap; /* as in DrawRequest */
+    bool full, clamp_vertex, signed_dots, linear, show_clipped, normals,
+        cheap; /* as in DrawRequest */
     double error;
     SceneTerms terms;
     ShadowSettings shadows;

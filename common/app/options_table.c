@@ -2,6 +2,7 @@
 #include "app/options_table.h"
 
 #include <limits.h>
+#include <string.h>
 
 enum {
     FILM = PROGRAM_ONE | PROGRAM_DIAGRAM | NOT_GALLERY,
@@ -178,6 +179,15 @@ static void add_row(Filling *filling, const Parameter *row)
         option->standard = filling->options->default_output;
 }
 
+/* A program may have an option of its own by a name that other programs of its kind share. */
+static bool has_own(const Usage *usage, const char *name)
+{
+    const Parameter *own = usage->parameters;
+    while (own && own->name && strcmp(own->name, name) != 0)
+        own++;
+    return own && own->name;
+}
+
 int options_table(const Usage *usage, Options *options, OptionsPurpose purpose,
                   Parameter table[OPTIONS_MAX])
 {
@@ -186,7 +196,8 @@ int options_table(const Usage *usage, Options *options, OptionsPurpose purpose,
     for (size_t i = 0; i < sizeof FIRST / sizeof FIRST[0]; i++)
         add_row(&filling, &FIRST[i]);
     for (const Parameter *row = usage->kind ? usage->kind->options : NULL; row && row->name; row++)
-        add_row(&filling, row);
+        if (!has_own(usage, row->name))
+            add_row(&filling, row);
     for (size_t i = 0; i < sizeof LAST / sizeof LAST[0]; i++)
         add_row(&filling, &LAST[i]);
     const int common = filling.count;

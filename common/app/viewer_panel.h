@@ -30,7 +30,7 @@ typedef struct ViewerPanel {
     PanelResult result; /* of this frame */
     bool help;
     ParameterValue defaults[OPTIONS_MAX_PARAMETERS];
-    Parameter options[8]; /* common ones that the panel changes; their values are the viewer's */
+    Parameter options[9]; /* common ones that the panel changes; their values are the viewer's */
     ParameterValue option_defaults[8];
     /* Colors of the lights, diffuse and specular of each, by number. */
     Parameter lights[2 * SCENE_MAX_PLACED + 1];

@@ -328,6 +328,40 @@ static void print_depth(const Canvas *canvas, const Camera *camera)
            canvas->depth_bits, near, far, near * near * step, far * far * step);
 }
 
+/* An entry of a matrix: rounding, relative to its largest entry, is 0. */
+static double entry(const Mat4 *matrix, int row, int column)
+{
+    double largest = 0;
+    for (int k = 0; k < 12; k++)
+        largest = fmax(largest, fabs(matrix->m[k]));
+    const double value = matrix->m[4 * column + row];
+    return fabs(value) > 1e-12 * largest ? value : 0;
+}
+
+/* Of an object: how it is placed, and what keeps its normals perpendicular. */
+static void print_matrices(const Object *object)
+{
+    static const char *const compared[] = {[ORTHONORMAL] = "M is orthogonal: N = M",
+                                           [ORTHOGONAL] = "M scales evenly: N is a multiple of M",
+                                           [GENERAL] = "M scales unevenly or shears: N is not M"};
+    const MeshBox box = mesh_bounds(object->mesh);
+    Mat4 m = object->world_from_object, inverse;
+    for (int k = 0; k < 3; k++)
+        m.m[12 + k] = 0;
+    const bool regular = mat4_inverse(m, &inverse);
+    const Mat4 n = regular ? mat4_transpose(inverse) : mat4_normal(m);
+    printf(
+        "# matrices of view 0, object 0: M to the world, without its translation; N for normals, "
+        "%s\n",
+        regular ? "M^-T" : "M's cofactors");
+    for (int row = 0; row < 3; row++)
+        printf("%s %9.4g %9.4g %9.4g    %s %9.4g %9.4g %9.4g\n",
+               row ? "   " : "M =", entry(&m, row, 0), entry(&m, row, 1), entry(&m, row, 2),
+               row ? "   " : "N =", entry(&n, row, 0), entry(&n, row, 1), entry(&n, row, 2));
+    printf("%s%s\n\n", compared[effects_place(object, &box).transform],
+           object->wrong_normals ? "; the scene has M for normals, too" : "");
+}
+
 static bool explain_objects(const Renderer *renderer, const LightingPlan *plan, bool verbose,
                             int number, Explained *explained, Message *message)
 {
@@ -356,7 +390,9 @@ static bool explain_view(Renderer *renderer, const DrawRequest *request, int num
                 plan_view(&plan, renderer, request, &view, message) &&
                 explain_objects(renderer, &plan, request->verbose, number, explained, message);
     if (done && number == 0 && view.scene.object_count > 0) {
-        printf("%s# what the model leaves out\n", explained->count > 1 ? "\n" : "");
+        printf(explained->count > 1 ? "\n" : "");
+        print_matrices(&view.scene.objects[0]);
+        printf("# what the model leaves out\n");
         done = unmodelled_explain(&view.scene, stdout, message);
         printf("\n");
         print_depth(renderer->canvas, &view.scene.camera);

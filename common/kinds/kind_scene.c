@@ -56,18 +56,25 @@ typedef struct FrameTask {
     bool marks;
 } FrameTask;
 
+/* The annotations, with the overlay opened by who needs it first; and the normals. */
 static bool draw_marks(const FrameTask *task, int number, const Scene *scene, double aspect,
                        Message *message)
 {
     static const double POINT_SIZE = 10;
     const Renderer *renderer = task->renderer;
     const int side = renderer->canvas->supersample; /* of a pixel of the picture */
-    const Overlay *overlay = &scene_state(renderer)->overlay;
+    Overlay *overlay = &scene_state(renderer)->overlay;
+    const SceneExample *example = example_scene(renderer->example);
     Annotations marks = {.lines = {.size = side},
                          .points = {.points = true, .size = side * POINT_SIZE}};
-    example_scene(renderer->example)->annotate(task->seconds, number, scene, &marks);
-    const bool done = overlay_draw(overlay, &marks.lines, scene, aspect, message) &&
-                      overlay_draw(overlay, &marks.points, scene, aspect, message);
+    if (example->annotate)
+        example->annotate(task->seconds, number, scene, &marks);
+    if (task->request->normals)
+        overlay_add_normals(&marks.lines, scene);
+    const bool done =
+        (overlay->buffer || overlay_open(overlay, &task->request->shaders, message)) &&
+        overlay_draw(overlay, &marks.lines, scene, aspect, message) &&
+        overlay_draw(overlay, &marks.points, scene, aspect, message);
     overlay_list_close(&marks.lines);
     overlay_list_close(&marks.points);
     return done;
@@ -76,6 +83,7 @@ static bool draw_marks(const FrameTask *task, int number, const Scene *scene, do
 static bool draw_view(const FrameTask *task, int number, double aspect, Message *message)
 {
     const SceneState *state = scene_state(task->renderer);
+    const bool marks = task->marks && (state->overlay.buffer || task->request->normals);
     SceneView view;
     const bool done =
         scene_view_open(&view, task->renderer, task->request, task->seconds, number, message) &&
@@ -83,8 +91,7 @@ static bool draw_view(const FrameTask *task, int number, double aspect, Message 
             state->lighting,
             &(LightingFrame){&view.scene, view.made.parts, aspect, task->request->full, number},
             message) &&
-        (!task->marks || !state->overlay.buffer ||
-         draw_marks(task, number, &view.scene, aspect, message));
+        (!marks || draw_marks(task, number, &view.scene, aspect, message));
     scene_view_close(&view);
     return done;
 }
@@ -179,8 +186,9 @@ static bool is_changed(const SceneExample *scene, const DrawRequest *request)
 {
     const SceneTerms *terms = &request->terms;
     return terms->left_out || terms->lights_left_out || terms->unlit || request->full ||
-           request->cheap || request->clamp_vertex || request->linear || request->show_clipped ||
-           request->tints.tinted || (request->shadows.way != SHADOWS_OFF) != scene->shadows;
+           request->cheap || request->clamp_vertex || request->signed_dots || request->linear ||
+           request->show_clipped || request->tints.tinted ||
+           (request->shadows.way != SHADOWS_OFF) != scene->shadows;
 }
 
 /* All captions in one size, or none where one does not fit. */

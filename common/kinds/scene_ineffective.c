@@ -201,7 +201,8 @@ static void add_scene(CacheKey *key, const Scene *scene, bool alpha)
     const int kinds[] = {scene->light_count,          (int)scene->interpolation,
                          (int)scene->reflection,      scene->distant_viewer,
                          scene->object_count,         scene->clamp_vertex,
-                         scene->skip_renormalization, scene->linear};
+                         scene->skip_renormalization, scene->linear,
+                         scene->signed_dots};
     cache_key_add(key, kinds, sizeof kinds);
     cache_key_add(key, &scene->camera, sizeof scene->camera);
     cache_key_add(key, &scene->background, sizeof scene->background);

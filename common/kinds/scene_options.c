@@ -243,6 +243,7 @@ static bool write_bias(const Parameter *parameter, char *text, size_t size)
 static const ParameterCodec BIAS = {"CONSTANT,SLOPE,NORMAL", read_bias, write_bias};
 
 static const char *const CLAMPS[] = {"vertex", "end", NULL};
+static const char *const CLAMP_DOTS[] = {"off", "on", NULL};
 static const char *const LIGHTING[] = {"off", "on", NULL};
 
 const Parameter SCENE_OPTIONS[] = {
@@ -262,6 +263,10 @@ const Parameter SCENE_OPTIONS[] = {
      .programs = PROGRAM_ONE},
     {"clamp", "where colours are clamped: at each vertex, as in OpenGL 1.1, or at the end",
      PARAMETER_SWITCH, .choices = CLAMPS, AT(clamp_vertex), .programs = PROGRAM_ONE},
+    {"clamp-dots",
+     "off: where a surface faces away from a light, N.L is negative and takes light away; what it "
+     "casts shadows of stays clamped, as does the highlight",
+     PARAMETER_SWITCH, .choices = CLAMP_DOTS, AT(signed_dots), .programs = PROGRAM_ONE},
     {"linear-light", "compute in linear light; encode as sRGB at the end", PARAMETER_FLAG,
      AT(linear), .programs = PROGRAM_ONE},
     {"terms",
@@ -289,6 +294,9 @@ const Parameter SCENE_OPTIONS[] = {
      PARAMETER_CHOICE, .choices = SHADOW_FILTER_NAMES, AT(shadows.smooth), .programs = PROGRAM_ONE},
     {"lighting", "off: each surface in its own diffuse colour", PARAMETER_SWITCH,
      .choices = LIGHTING, AT(terms.unlit), .programs = PROGRAM_ONE},
+    {"normals",
+     "draw the normals as lines: of the vertices; with --interpolation flat of triangles",
+     PARAMETER_SWITCH, AT(normals), .programs = PROGRAM_ONE},
     {"show-clipped", "paint over-exposed pixels magenta", PARAMETER_FLAG, AT(show_clipped),
      .programs = PROGRAM_ONE},
     {.name = NULL},

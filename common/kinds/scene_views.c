@@ -58,6 +58,7 @@ static bool make_plain(const ViewMoment *moment, Scene *scene, Message *message)
     example_scene(moment->renderer->example)->make(moment->seconds, moment->view, scene);
     orbit_move(request->orbit, &scene->camera.eye, scene->camera.center, &scene->camera.up);
     scene->clamp_vertex |= request->clamp_vertex;
+    scene->signed_dots |= request->signed_dots;
     scene->linear |= request->linear;
     scene->show_clipped |= request->show_clipped;
     scene->camera.aspect = designed_aspect(moment->renderer);

@@ -24,7 +24,7 @@ static const char *const GROUP_UNIFORMS[] = {
 enum { GROUP_UNIFORM_COUNT = sizeof GROUP_UNIFORMS / sizeof GROUP_UNIFORMS[0] };
 
 /* The defines of group.glsl. 16-bit floats need the guard of the attenuation for any light. */
-enum { MAX_GROUP_DEFINES = 12 };
+enum { MAX_GROUP_DEFINES = 13 };
 static int group_defines(const LightGroup *group, bool mediump,
                          const char *defines[MAX_GROUP_DEFINES])
 {
@@ -38,6 +38,7 @@ static int group_defines(const LightGroup *group, bool mediump,
         {terms->kind == LIGHT_SPOT, "SPOT"},
         {terms->ambient, "AMBIENT"},
         {terms->diffuse, "DIFFUSE"},
+        {terms->signed_dots, "SIGNED_DOTS"},
         {terms->specular, "SPECULAR"},
         {terms->half_vector, "HALF_VECTOR"},
         {terms->attenuation, "ATTENUATION"},

@@ -57,7 +57,8 @@ LightSample shade_light(const Shading *shading, const ShadePoint *point, int num
     const Real3 ambient = real3_product(real3(light->ambient), real3(material->ambient));
     const Real3 diffuse = real3_product(real3(light->diffuse), real3(material->diffuse));
     sample.ambient = real3_scale(ambient, share);
-    sample.sum = real3_scale(real3_add(ambient, real3_scale(diffuse, real_max(n_dot_l, 0))), share);
+    const Real arriving = shading->signed_dots && !light->shadows ? n_dot_l : real_max(n_dot_l, 0);
+    sample.sum = real3_scale(real3_add(ambient, real3_scale(diffuse, arriving)), share);
     /* Behind the surface there is no highlight. */
     sample.faces = n_dot_l > 0;
     if (sample.faces)
@@ -84,7 +85,9 @@ void shade_add(const Shading *shading, int number, const LightSample *sample, Re
 {
     shade_note_side(sides, 2 * number + 1, sample->faces, sample->in_cone ? sample->highlight : 0);
     if (shading->lights[number].light->kind == LIGHT_SPOT)
-        shade_note_side(sides, 2 * number, sample->in_cone, real3_largest(sample->sum));
+        shade_note_side(
+            sides, 2 * number, sample->in_cone,
+            real_max(real3_largest(sample->sum), real3_largest(real3_scale(sample->sum, -1))));
     if (sample->in_cone)
         *color = real3_add(*color, sample->sum);
 }

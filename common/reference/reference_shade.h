@@ -27,7 +27,8 @@ typedef struct Shading {
     Real3 global_ambient;
     bool reflection_phong;
     bool distant_viewer;
-    Real3 view; /* unit, towards the viewer where that is distant */
+    bool signed_dots; /* see scene.h */
+    Real3 view;       /* unit, towards the viewer where that is distant */
 } Shading;
 
 /* On which side of its jumps a point lies: of each light whether it is within the cone, and whether

@@ -164,6 +164,7 @@ bool trace_open(Trace **opened, const Scene *scene, const ReferenceOptions *opti
     trace->shading.global_ambient = real3(scene->global_ambient);
     trace->shading.reflection_phong = scene->reflection == REFLECTION_PHONG;
     trace->shading.distant_viewer = scene->distant_viewer;
+    trace->shading.signed_dots = scene->signed_dots;
     set_camera(trace, &scene->camera, eye_from_world, width, height);
     if (!fill(trace, scene, eye_from_world, options)) {
         trace_close(trace);
@@ -331,7 +332,8 @@ static Real3 corner_color(const Trace *trace, const Nearest *nearest, const Surf
     sample->sides_matter = sides.matters;
     sample->lights = sides.lights;
     for (int k = 0; k < 3 && trace->scene->clamp_vertex; k++)
-        sum[k] = (Real3){real_min(sum[k].x, 1), real_min(sum[k].y, 1), real_min(sum[k].z, 1)};
+        sum[k] = (Real3){real_max(real_min(sum[k].x, 1), 0), real_max(real_min(sum[k].y, 1), 0),
+                         real_max(real_min(sum[k].z, 1), 0)};
     return interpolate(sum[0], sum[1], sum[2], weights);
 }
 

@@ -11,7 +11,7 @@
 #include <stdarg.h>
 #include <string.h>
 
-static_assert(sizeof(LightTerms) == 2 * sizeof(int) + 8, "no padding");
+static_assert(sizeof(LightTerms) == 2 * sizeof(int) + 12, "no padding");
 static_assert(sizeof(Effects) == 16 + sizeof(int) + EFFECTS_MAX_LIGHTS * sizeof(LightGroup),
               "none");
 
@@ -86,6 +86,11 @@ static void explain_light(const Decision *made, int number, const LightTerms *te
         say(why, "  %s",
             terms->shadow ? "shadow: looked up, because a surface may come between"
                           : "without shadow: no surface can come between");
+    if (made->scene->signed_dots && terms->diffuse)
+        say(why, terms->signed_dots
+                     ? "  dot products not clamped: requested; where N.L is negative, the light "
+                       "takes light away"
+                     : "  dot products clamped: none of a light with shadows arrives from behind");
     if (terms->attenuation)
         say(why, made->object->guarded >> number & 1
                      ? "  guard of the attenuation: its denominator may be 0, or overflow"
@@ -102,6 +107,7 @@ static bool reflected_terms(const Decision *made, const LightFacts *light, Light
     terms->specular = reflected(made, light->specular, front->specular, back->specular);
     terms->attenuation = light->fades;
     terms->exponent = light->exponent;
+    terms->signed_dots = made->scene->signed_dots && terms->diffuse && !light->shadows;
     terms->ambient =
         varies(light) && reflected(made, light->ambient, front->ambient, back->ambient);
     return terms->diffuse || terms->specular || terms->ambient;
@@ -257,7 +263,7 @@ static void decide_normals(Decision *made)
                                  : "the fragments do it, and all lengths are equal");
     say(why,
         effects->normalize_fragment
-            ? "normals normalized at the fragments: interpolation shortens them"
+            ? "normals normalized at the fragments: interpolation may shorten them"
             : "normals not normalized at the fragments: %s",
         !made->at_fragments ? "no light is computed there"
         : object->flat      ? "constant over a triangle"
@@ -326,6 +332,7 @@ Effects effects_decide_full(const SceneFacts *scene, const ObjectFacts *object)
         terms.kind = LIGHT_SPOT;
         terms.any = terms.ambient = terms.diffuse = terms.specular = true;
         terms.attenuation = terms.exponent = true;
+        terms.signed_dots = scene->signed_dots && !scene->lights[i].shadows;
         terms.at_vertex = scene->interpolation != INTERPOLATION_PHONG;
         if (shadows >> i & 1)
             terms.shadow = 1 + effects_channel(shadows, i) / SHADOW_CHANNELS;

@@ -27,6 +27,8 @@ typedef struct LightTerms {
     bool half_vector; /* constant over the surface: a uniform */
     bool at_vertex;   /* computed per vertex: interpolation is exact, or requested */
     bool any;         /* full program: any kind, selected by coefficients */
+    bool signed_dots; /* a negative N.L counts */
+    bool unused[3];   /* instead of padding */
     /* Another surface may come between: 1 plus the number of the mask that knows where; or 0. */
     int shadow;
 } LightTerms;
@@ -76,7 +78,7 @@ typedef struct LightFacts {
 typedef struct SceneFacts {
     LightFacts lights[EFFECTS_MAX_LIGHTS];
     uint8_t light_count, global_ambient, reflection, interpolation;
-    uint8_t distant_viewer, clamp_vertex, skip_renormalization, linear, show_clipped;
+    uint8_t distant_viewer, clamp_vertex, skip_renormalization, linear, show_clipped, signed_dots;
     uint8_t limit; /* its colors may be very large */
 } SceneFacts;
 

@@ -13,7 +13,7 @@
 #include <string.h>
 
 static_assert(sizeof(ObjectFacts) == 3 * 4 + 2 * sizeof(SideFacts) + 10, "no padding");
-static_assert(sizeof(SceneFacts) == EFFECTS_MAX_LIGHTS * sizeof(LightFacts) + 10, "no padding");
+static_assert(sizeof(SceneFacts) == EFFECTS_MAX_LIGHTS * sizeof(LightFacts) + 11, "no padding");
 
 static uint8_t channels_of(Vec3 color)
 {
@@ -67,6 +67,7 @@ SceneFacts effects_scene(const Scene *scene)
     facts.clamp_vertex = scene->clamp_vertex;
     facts.skip_renormalization = scene->skip_renormalization;
     facts.linear = scene->linear;
+    facts.signed_dots = scene->signed_dots;
     facts.show_clipped = scene->show_clipped;
     facts.limit = brightest(scene) > 6e4;
     return facts;

@@ -25,9 +25,11 @@ typedef struct OverlayList {
 /* The three axes from the origin: x red, y green, z blue. */
 void overlay_add_axes(OverlayList *list, double length);
 
-/* Each vertex's normal, transformed by `normal_matrix` and normalized, as a line of this length. */
-void overlay_add_normals(OverlayList *list, const Mesh *mesh, Mat4 world_from_object,
-                         Mat4 normal_matrix, double length, Vec3 color);
+/* Lines along the normals that objects are lit with, transformed as each has it: of the vertices;
+ * with flat interpolation of the triangles, from their middles. Those of the front are yellow; a
+ * back with a material of its own has the opposite ones, in light blue. Half as long as the
+ * object's radius, or a tenth where there are many. */
+void overlay_add_normals(OverlayList *list, const Scene *scene);
 
 /* The edges of the faces: sides of triangles, each once, but for diagonals, which two triangles of
  * one plane share. Draw the object with `behind_lines`. */

@@ -78,6 +78,8 @@ static bool out_of_range(const Parameter *parameter, const char *text, const cha
     char range[PARAMETER_RANGE_SIZE];
     const char *separator = parameter->kind == PARAMETER_COLOR ? ", each " : ", ";
     parameter_range(parameter, range);
+    if (parameter->kind == PARAMETER_COLOR && parameter->placeholder)
+        what = parameter->placeholder;
     return message_set(message, "--%s %s: must be %s%s%s", parameter->name, text, what,
                        range[0] ? separator : "", range);
 }

@@ -16,7 +16,8 @@ typedef enum ParameterKind {
     PARAMETER_CHOICE, /* int: an index into `choices` */
     PARAMETER_SWITCH, /* bool: "on" or "off" */
     PARAMETER_FLAG,   /* bool: --NAME alone makes it true */
-    PARAMETER_COLOR,  /* Vec3: "R,G,B", each min..max, or one number for grey */
+    PARAMETER_COLOR,  /* Vec3: "R,G,B", each min..max, or one number for grey; with a placeholder no
+                         color but another vector */
     PARAMETER_TEXT,   /* const char *: any text, as a file's name */
 } ParameterKind;
 

@@ -96,8 +96,10 @@ typedef struct Scene {
     bool clamp_vertex;   /* clamp vertex colors before interpolation, as OpenGL 1.1 does; no
                             effect with lighting per fragment */
     bool skip_renormalization; /* do not normalize interpolated normals */
-    bool linear;               /* colors are linear; encode the sum as sRGB */
-    bool show_clipped;         /* magenta if a channel exceeds 1 */
+    bool signed_dots;  /* a negative N.L is not clamped to 0: a light behind a surface takes light
+                          away. Of lights that cast shadows nothing arrives there. */
+    bool linear;       /* colors are linear; encode the sum as sRGB */
+    bool show_clipped; /* magenta if a channel exceeds 1 */
 } Scene;
 
 typedef struct SceneCopy {

@@ -270,6 +270,7 @@ bool edit_color(Context &context, const Parameter &parameter, float width)
     Vec3 *color = static_cast<Vec3 *>(parameter.value);
     double *const parts[3] = {&color->x, &color->y, &color->z};
     const float spacing = 3 * context.scale, button = ImGui::GetFrameHeight();
+    const bool vector = parameter.placeholder;
     bool changed = false;
     ImVec4 seen(float(color->x), float(color->y), float(color->z), 1);
     for (float *part : {&seen.x, &seen.y, &seen.z})
@@ -279,8 +280,11 @@ bool edit_color(Context &context, const Parameter &parameter, float width)
         ImGui::SetNextItemWidth(std::floor((width - button - 3 * spacing) / 3));
         changed |= slide(context, labels[i], parts[i], parameter, true);
         tooltip(parameter);
-        ImGui::SameLine(0, spacing);
+        if (!vector || i < 2)
+            ImGui::SameLine(0, spacing);
     }
+    if (vector)
+        return changed;
     if (ImGui::ColorButton("##color", seen, ImGuiColorEditFlags_NoTooltip, ImVec2(button, button)))
         ImGui::OpenPopup("picker");
     if (ImGui::BeginPopup("picker")) {

@@ -9,7 +9,7 @@
 #include "scene/scene_example.h"
 #include "shapes/mesh_solids.h"
 
-static double linear = 0.2, quadratic = 0.2, cutoff = 25, exponent = 40;
+static double constant = 0.2, linear = 0.2, quadratic = 0.2, cutoff = 25, exponent = 40;
 
 static Surface surface = {
     .name = MATERIAL_COUNT, /* that of red_plastic */
@@ -19,6 +19,8 @@ static Vec3 global_ambient = {0.2, 0.2, 0.2};
 static SceneShading shading = {REFLECTION_BLINN_PHONG, INTERPOLATION_PHONG, VIEWER_LOCAL};
 
 static const Parameter parameters[] = {
+    {"constant", "of 1 / (constant + linear d + quadratic d^2), which arrives at distance d",
+     PARAMETER_NUMBER, .value = &constant, .min = 0, .max = 10},
     {"linear", "attenuation by the distance", PARAMETER_NUMBER, .value = &linear, .min = 0,
      .max = 10},
     {"quadratic", "attenuation by its square", PARAMETER_NUMBER, .value = &quadratic, .min = 0,
@@ -53,7 +55,7 @@ static Light light(double seconds, int view)
     made.kind = view == 0 ? LIGHT_DIRECTIONAL : view == 1 || view == 3 ? LIGHT_POINT : LIGHT_SPOT;
     made.direction = made.kind == LIGHT_DIRECTIONAL ? place : vec3_scale(place, -1);
     if (fading) {
-        made.constant = 0.2;
+        made.constant = constant;
         made.linear = linear;
         made.quadratic = quadratic;
     }
@@ -120,8 +122,9 @@ const Example LightTypes = {
     .summary = "directional, point and spot, with and without attenuation",
     .width = 750,
     .height = 500,
-    .tries = {"--linear 0 --quadratic 1", "--cutoff 60 --exponent 128", "--terms specular"},
-    .looks = {"attenuation by the square of the distance is darker",
+    .tries = {"--constant 0.5 --linear 0 --quadratic 0.1", "--cutoff 60 --exponent 128",
+              "--terms specular"},
+    .looks = {"by the square of the distance: the floor is darker, the sphere is not",
               "the exponent narrows the last spot, not the cutoff",
               "highlights alone: in one place, weaker where attenuated"},
     .init = init,

@@ -5,7 +5,7 @@
  * by the matrix itself. --matrix both shows them side by side.
  *
  * Look at --matrix both --normals on: the wrong normals lean towards the long axis, and the light
- * follows them.
+ * follows them. With --scale 1,1,1 the two are the same: --explain prints both matrices.
  */
 #include "scene/scene_example.h"
 #include "scene/shape.h"
@@ -14,7 +14,7 @@ enum { RIGHT, WRONG, BOTH };
 static const char *const MATRICES[] = {"right", "wrong", "both", NULL};
 
 static int matrix = RIGHT;
-static bool normals;
+static Vec3 scale = {2, 0.7, 0.7};
 static Surface surface = {.name = MATERIAL_GOLD_INDEX, .material = MATERIAL_GOLD};
 static LightColors light_colors = {{0.5, 0.5, 0.5}, {1, 1, 1}, {1, 1, 1}};
 static Vec3 global_ambient = {0, 0, 0};
@@ -23,8 +23,8 @@ static SceneShading shading = {REFLECTION_PHONG, INTERPOLATION_PHONG, VIEWER_LOC
 static const Parameter parameters[] = {
     {"matrix", "by which normals are transformed", PARAMETER_CHOICE, .value = &matrix,
      .choices = MATRICES},
-    {"normals", "draw normals as lines", PARAMETER_SWITCH, .value = &normals,
-     .fixes = 1U << AXIS_NORMALS},
+    {"scale", "of the sphere along the axes; 1,1,1: M is orthogonal, and the wrong matrix is right",
+     PARAMETER_COLOR, .value = &scale, .min = -5, .max = 5, .placeholder = "X,Y,Z"},
     SURFACE_PARAMETERS(surface),
     SHADING_PARAMETERS(shading),
     LIGHT_PARAMETERS(light_colors, global_ambient),
@@ -53,7 +53,7 @@ static void scene(double seconds, int view, Scene *scene)
     state.light =
         (Light){.kind = LIGHT_POINT, .position = example_turn((Vec3){1.5, 1, 0}, seconds)};
     light_colors_apply(&light_colors, &state.light);
-    state.object = shape_object(&state.shape, mat4_scale((Vec3){2, 0.7, 0.7}), surface.material);
+    state.object = shape_object(&state.shape, mat4_scale(scale), surface.material);
     state.object.wrong_normals = is_wrong(view);
     *scene =
         (Scene){.camera = {.eye = {3, 2, 3}, .up = {0, 1, 0}, .fovy = 60, .near = 1, .far = 100},
@@ -64,16 +64,6 @@ static void scene(double seconds, int view, Scene *scene)
                 .objects = &state.object,
                 .object_count = 1};
     scene_shading_apply(&shading, scene);
-}
-
-static void annotate(double seconds, int view, const Scene *scene, Annotations *annotations)
-{
-    const Mat4 world_from_object = state.object.world_from_object;
-    const Mat4 normal_matrix = is_wrong(view) ? world_from_object : mat4_normal(world_from_object);
-    example_annotate(seconds, view, scene, annotations);
-    if (normals)
-        overlay_add_normals(&annotations->lines, &state.shape.mesh, world_from_object,
-                            normal_matrix, 0.2, (Vec3){1, 1, 0});
 }
 
 static void layout(int *columns, int *rows)
@@ -108,8 +98,10 @@ const Example NormalMatrix = {
     .init = init,
     .finish = finish,
     .kind = &SCENE_KIND,
-    .content =
-        &(const SceneExample){
-            .make = scene, .annotate = annotate, .layout = layout, .size = size, .label = label},
+    .content = &(const SceneExample){.make = scene,
+                                     .annotate = example_annotate,
+                                     .layout = layout,
+                                     .size = size,
+                                     .label = label},
     .parameters = parameters,
 };

@@ -20,7 +20,7 @@ enum { SMOOTH, FLAT, ORIGINAL };
 static const char *const NORMALS[] = {"smooth", "flat", "original", NULL};
 
 static int shape, normals, slices = 8, stacks = 4;
-static bool edges;
+static bool edges, show_normals;
 static Surface surface = {.name = MATERIAL_COUNT,
                           .material = {.ambient = {0.7, 0.7, 0.7},
                                        .diffuse = {0.7, 0.7, 0.7},
@@ -50,6 +50,7 @@ static const Parameter parameters[] = {
     {"stacks", "of the sphere, along its axis", PARAMETER_WHOLE, .value = &stacks, .min = 2,
      .max = 32, .fixes = 1U << AXIS_DIVISIONS},
     {"edges", "draw the edges of the faces", PARAMETER_SWITCH, .value = &edges},
+    {"show-normals", "draw the normals as lines", PARAMETER_SWITCH, .value = &show_normals},
     SURFACE_PARAMETERS(surface),
     SHADING_PARAMETERS(shading),
     LIGHT_PARAMETERS(light_colors, global_ambient),
@@ -159,8 +160,11 @@ static void scene(double seconds, int view, Scene *scene)
                      .light_count = 1,
                      .objects = state.objects,
                      .object_count = shape == BAND ? 2 : 1};
-    if (shape == BAND) /* from above, to see outside and inside */
+    if (shape == BAND) { /* from above, to see outside and inside; lit so that no two faces beside
+                            each other have one shade */
         scene->camera = example_camera((Vec3){0, 9, 28}, 5.5);
+        state.light.direction = (Vec3){-0.7, 0.3, 1};
+    }
     scene_shading_apply(&shading, scene);
 }
 
@@ -170,6 +174,8 @@ static void annotate(double seconds, int view, const Scene *scene, Annotations *
     for (int i = 0; i < scene->object_count && edges; i++)
         overlay_add_edges(&annotations->lines, scene->objects[i].mesh,
                           scene->objects[i].world_from_object, (Vec3){0, 0, 0});
+    if (show_normals)
+        overlay_add_normals(&annotations->lines, scene);
 }
 
 static void finish(void)
@@ -184,9 +190,9 @@ const Example SmoothFlat = {
     .width = 300,
     .height = 300,
     .tries = {"--slices 3 --stacks 32", "--shape square --orbit 60,20",
-              "--slices 12 --stacks 6 --normals flat --edges on"},
+              "--normals flat --show-normals on --light-at 0,-0.4,0.7,1"},
     .looks = {"smooth normals hide the edges, but not in the outline",
-              "flat, but shaded as if it bulged", "one normal and one shade for each face"},
+              "flat, but shaded as if it bulged", "one normal, thus one shade, for each face"},
     .init = init,
     .finish = finish,
     .kind = &SCENE_KIND,

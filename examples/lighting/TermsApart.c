@@ -1,8 +1,9 @@
 /*
  * TermsApart: the lighting equation taken apart, term by term and light by light.
  *
- * Above, each term alone: emission, ambient, diffuse, specular. Below, each of two lights alone,
- * the sum without its highlights, and the whole sum. A view computes only what it shows: --costs
+ * Above, each term alone: emission, the ambient light of the scene and that of the lights, diffuse,
+ * specular. Below, all that is ambient, each of two lights alone, the sum without its highlights,
+ * and the whole sum. A view computes only what it shows: --costs
  * says with how many operations per vertex and per fragment, and in what time.
  *
  * Look at what each term adds, and at its price. Any program has --terms for the same.
@@ -16,20 +17,24 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { VIEWS = 8, LIGHTS = 2, ROUNDS = 15 };
+enum { VIEWS = 10, LIGHTS = 2, ROUNDS = 15 };
 
+/* A light's ambient term is part of the light. */
 static const struct {
     const char *name;
     SceneTerms terms;
+    enum { ANY_AMBIENT, OF_SCENE, OF_LIGHTS } ambient;
 } VIEW[VIEWS] = {
-    {"emission", {.left_out = TERM_ALL & ~TERM_EMISSION}},
-    {"ambient", {.left_out = TERM_ALL & ~TERM_AMBIENT}},
-    {"diffuse", {.left_out = TERM_ALL & ~TERM_DIFFUSE}},
-    {"specular", {.left_out = TERM_ALL & ~TERM_SPECULAR}},
-    {"light 0", {.left_out = TERM_AMBIENT | TERM_EMISSION, .lights_left_out = 2}},
-    {"light 1", {.left_out = TERM_AMBIENT | TERM_EMISSION, .lights_left_out = 1}},
-    {"all but specular", {.left_out = TERM_SPECULAR}},
-    {"sum", {.left_out = 0}},
+    {"emission", {.left_out = TERM_ALL & ~TERM_EMISSION}, ANY_AMBIENT},
+    {"global ambient", {.left_out = TERM_ALL & ~TERM_AMBIENT}, OF_SCENE},
+    {"lights' ambient", {.left_out = TERM_ALL & ~TERM_AMBIENT}, OF_LIGHTS},
+    {"diffuse", {.left_out = TERM_ALL & ~TERM_DIFFUSE}, ANY_AMBIENT},
+    {"specular", {.left_out = TERM_ALL & ~TERM_SPECULAR}, ANY_AMBIENT},
+    {"all ambient", {.left_out = TERM_ALL & ~TERM_AMBIENT}, ANY_AMBIENT},
+    {"light 0", {.left_out = TERM_EMISSION, .lights_left_out = 2}, OF_LIGHTS},
+    {"light 1", {.left_out = TERM_EMISSION, .lights_left_out = 1}, OF_LIGHTS},
+    {"all but specular", {.left_out = TERM_SPECULAR}, ANY_AMBIENT},
+    {"sum", {.left_out = 0}, ANY_AMBIENT},
 };
 
 enum { COSTS_OFF, COSTS_OPERATIONS, COSTS_TIME };
@@ -45,7 +50,7 @@ static Surface surface = {.name = MATERIAL_COUNT,
                                        .alpha = 1,
                                        .shininess = 40}};
 static SceneShading shading = {REFLECTION_PHONG, INTERPOLATION_PHONG, VIEWER_LOCAL};
-static Vec3 global_ambient = {0.3, 0.3, 0.3};
+static Vec3 global_ambient = {0.2, 0.2, 0.2}, light_ambient = {0.1, 0.1, 0.1};
 
 static const Parameter parameters[] = {
     SHAPE_PARAMETERS(shape_kind, model),
@@ -54,6 +59,7 @@ static const Parameter parameters[] = {
      PARAMETER_CHOICE, .value = &costs, .choices = COSTS},
     SURFACE_PARAMETERS(surface),
     SHADING_PARAMETERS(shading),
+    COLOR_PARAMETER("light-ambient", "ambient colour of each light", light_ambient),
     COLOR_PARAMETER("global-ambient", "ambient light of the scene", global_ambient),
     {.name = NULL},
 };
@@ -70,10 +76,12 @@ static void scene(double seconds, int view, Scene *scene)
 {
     state.lights[0] = (Light){.kind = LIGHT_POINT,
                               .position = example_turn((Vec3){-3, 3, 2}, seconds),
+                              .ambient = light_ambient,
                               .diffuse = {1, 0.9, 0.7},
                               .specular = {1, 0.9, 0.7}};
     state.lights[1] = (Light){.kind = LIGHT_POINT,
                               .position = example_turn((Vec3){3, 1, 3}, seconds),
+                              .ambient = light_ambient,
                               .diffuse = {0.4, 0.5, 0.8},
                               .specular = {0.4, 0.5, 0.8}};
     state.object = shape_object(&state.shape, mat4_identity(), surface.material);
@@ -87,6 +95,10 @@ static void scene(double seconds, int view, Scene *scene)
     scene_copy_close(&state.kept);
     scene_copy_open(&state.kept, scene);
     scene_keep_terms(&state.kept, VIEW[view].terms);
+    for (int i = 0; i < LIGHTS && VIEW[view].ambient == OF_SCENE; i++)
+        state.kept.lights[i].ambient = (Vec3){0, 0, 0};
+    if (VIEW[view].ambient == OF_LIGHTS)
+        state.kept.scene.global_ambient = (Vec3){0, 0, 0};
     *scene = state.kept.scene;
 }
 
@@ -207,7 +219,7 @@ static void finish(void)
 const Example TermsApart = {
     .name = "TermsApart",
     .summary = "the terms of the lighting equation one by one, and what each costs",
-    .width = 1000,
+    .width = 1250,
     .height = 500,
     .tries = {"--interpolation gouraud", "--shape sphere --costs time", "--shininess 0"},
     .looks = {"all operations move to the vertices", "milliseconds beside the operations",

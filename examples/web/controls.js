@@ -74,7 +74,7 @@ const Controls = (() => {
             return flag;
         if (option.choices.length)
             return choice;
-        return {number, whole: number, color}[option.kind] || text;
+        return {number, whole: number, color: option.placeholder ? text : color}[option.kind] || text;
     }
 
     /* A download. Some browsers read the blob after the click. */

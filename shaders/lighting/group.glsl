@@ -48,6 +48,13 @@ uniform vec4 u_Channel[COUNT]; // 1 in that of the light, of the mask that the g
 #define LIT(value) (value)
 #endif
 
+// From behind no light arrives; without the clamp light would be taken away.
+#ifdef SIGNED_DOTS
+#define ARRIVING(n_dot_l) (n_dot_l)
+#else
+#define ARRIVING(n_dot_l) max(n_dot_l, 0.0)
+#endif
+
 #ifdef TWO_SIDED
 #define PICK(front_value, back_value) (front ? front_value : back_value)
 #else
@@ -106,7 +113,7 @@ void GROUP(vec3 normal, vec3 position, vec3 viewer, bool front, inout vec3 color
         float lit = 1.0 - SHADOWED;
 #endif
 #ifdef DIFFUSE
-        sum += PICK(u_FrontDiffuse[i], u_BackDiffuse[i]) * LIT(max(n_dot_l, 0.0));
+        sum += PICK(u_FrontDiffuse[i], u_BackDiffuse[i]) * LIT(ARRIVING(n_dot_l));
 #endif
 #if defined(VERTEX_COLOR) && defined(AMBIENT) || defined(VERTEX_COLOR) && defined(DIFFUSE)
         sum *= surface_color;
@@ -137,3 +144,4 @@ void GROUP(vec3 normal, vec3 position, vec3 viewer, bool front, inout vec3 color
 
 #undef PICK
 #undef LIT
+#undef ARRIVING

@@ -129,7 +129,7 @@ COMMAND_TEST(options_are_quoted_for_a_shell)
     options.orbit = (Orbit){.azimuth = -30, .elevation = 10.5};
     options.shaders.folder = "-my 'own' shaders";
     options.alpha = options.full = options.linear = options.show_clipped = true;
-    options.clamp_vertex = true;
+    options.clamp_vertex = options.signed_dots = options.normals = true;
     options.compress = 0;
     turn = 1.0 / 3;
     slices = -3;
@@ -139,12 +139,13 @@ COMMAND_TEST(options_are_quoted_for_a_shell)
     color = (Vec3){0.5, 0.5, 0.5};
     model = "";
     title = "~/b\nc";
-    assert_command(&options,
-                   "Example --output 'the picture.png' --size 640x400 --time=-0.7 --samples 4 "
-                   "--orbit=-30,10.5 --shaders='-my '\\''own'\\'' shaders' --alpha --compress 0 "
-                   "--full --clamp vertex --linear-light --show-clipped --turn 0.3333333333333333 "
-                   "--slices=-3 --shape 'tea pot' --marks off --sheet --color 0.5 --model '' "
-                   "--title '~/b\nc'");
+    assert_command(
+        &options,
+        "Example --output 'the picture.png' --size 640x400 --time=-0.7 --samples 4 "
+        "--orbit=-30,10.5 --shaders='-my '\\''own'\\'' shaders' --alpha --compress 0 "
+        "--full --clamp vertex --clamp-dots off --linear-light --normals on --show-clipped --turn 0.3333333333333333 "
+        "--slices=-3 --shape 'tea pot' --marks off --sheet --color 0.5 --model '' "
+        "--title '~/b\nc'");
 }
 
 /* What follows from an option is not written, unless it is otherwise; not even its default. */
@@ -428,6 +429,8 @@ static void any_options(Setting *setting)
     options->compress = below(2) ? IMAGE_COMPRESS_DEFAULT : below(10);
     options->full = below(2);
     options->clamp_vertex = below(2);
+    options->signed_dots = below(2);
+    options->normals = below(2);
     options->linear = below(2);
     options->show_clipped = below(2);
     options->cheap = below(3) == 0;
@@ -496,7 +499,8 @@ static bool same_options(const Options *a, const Options *b)
            same_text(a->shaders.folder, b->shaders.folder) &&
            same_text(a->shaders.precision, b->shaders.precision) && a->alpha == b->alpha &&
            a->compress == b->compress && a->full == b->full && a->cheap == b->cheap &&
-           a->error == b->error && a->clamp_vertex == b->clamp_vertex && a->linear == b->linear &&
+           a->error == b->error && a->clamp_vertex == b->clamp_vertex &&
+           a->signed_dots == b->signed_dots && a->normals == b->normals && a->linear == b->linear &&
            a->show_clipped == b->show_clipped && !b->verbose && !b->watch && !b->explain;
 }
 

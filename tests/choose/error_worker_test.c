@@ -33,6 +33,7 @@ static const struct {
     {"--linear", "x.png", {SIZE, .linear = true}, false},
     {"--clamp vertex", "x.png", {SIZE, .clamp_vertex = true}, false},
     {"--show-clipped", "x.png", {SIZE, .show_clipped = true}, false},
+    {"--clamp-dots off", "x.png", {SIZE, .signed_dots = true}, false},
     {"--orbit 30,10,0.8", "x.png", {SIZE, .orbit = {30, 10, 0.8, 0}}, false},
     {"--alpha", "x.png", {SIZE, .alpha = true}, false},
     {"--samples 4", "x.png", {SIZE, .canvas = {.samples = 4}}, false},
@@ -81,6 +82,7 @@ static Scene scene_of(const Example *example, const Options *options, int view)
     scene.clamp_vertex |= options->clamp_vertex;
     scene.linear |= options->linear;
     scene.show_clipped |= options->show_clipped;
+    scene.signed_dots |= options->signed_dots;
     return scene;
 }
 

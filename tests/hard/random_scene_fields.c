@@ -40,6 +40,7 @@ static const Field SCENE[] = {
     {".clamp_vertex", FIELD_FLAG, offsetof(Scene, clamp_vertex), 0, 0, 0},
     {".linear", FIELD_FLAG, offsetof(Scene, linear), 0, 0, 0},
     {".show_clipped", FIELD_FLAG, offsetof(Scene, show_clipped), 0, 0, 0},
+    {".signed_dots", FIELD_FLAG, offsetof(Scene, signed_dots), 0, 0, 0},
 };
 static const Field LIGHT[] = {
     COLORS(Light, 1e6),

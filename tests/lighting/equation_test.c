@@ -142,6 +142,26 @@ TEST(linear_light_and_clipping_have_their_closed_forms)
     }
 }
 
+/* Not clamped, the light behind takes from what the other one and ambient light bring. */
+TEST(a_negative_cosine_takes_light_away)
+{
+    static const Kind BEHIND = {LIGHT_DIRECTIONAL, 0, 0, 0}, SPOT = {LIGHT_SPOT, 0, 0.1, 4};
+    for (int way = 0; way < 4; way++) {
+        closed_form_world(way < 2 ? &quad : &smooth_sphere, (Turn)way);
+        world.lights[0] = light_of(0, 7, way & 1 ? SPOT : BEHIND);
+        world.lights[0].direction = vec3_scale(world.lights[0].direction, -1);
+        world.lights[0].position = vec3_scale(world.lights[0].position, -1);
+        world.lights[1] = light_of(1, 7, KINDS[3]);
+        world.scene.light_count = 2;
+        world.scene.signed_dots = true;
+        assert_true(assert_closed_form(&world.scene, "closed-form-signed") > SIZE * SIZE / 8);
+        const int taken = pixel(&specialised, SIZE / 2, SIZE / 2)[0];
+        world.scene.signed_dots = false;
+        assert_true(assert_closed_form(&world.scene, "closed-form-signed") > SIZE * SIZE / 8);
+        assert_true(taken + 8 < pixel(&specialised, SIZE / 2, SIZE / 2)[0]);
+    }
+}
+
 /* On a plane under a distant light, lighting at the vertices is lighting everywhere; a sphere of
  * many triangles has the closed form at its vertices, and little else in between. */
 TEST(gouraud_has_the_closed_form_where_triangles_are_small)

@@ -15,12 +15,13 @@ static void describe(const Case *c, char text[128])
     for (int i = 0; i < c->light_count; i++)
         length +=
             snprintf(text + length, 128 - (size_t)length, "-light%d:%d", c->kinds[i], c->terms[i]);
-    snprintf(text + length, 128 - (size_t)length, "%s%s%s%s%s%s%s%s%s%s%s",
+    snprintf(text + length, 128 - (size_t)length, "%s%s%s%s%s%s%s%s%s%s%s%s",
              c->distant_viewer ? "-distant" : "", c->two_sided ? "-two" : "",
              c->base ? "-base" : "", c->alpha ? "-alpha" : "", c->clamp_vertex ? "-clamp" : "",
              c->linear ? "-linear" : "", c->show_clipped ? "-clipped" : "",
              c->bright ? "-bright" : "", c->colored ? "-colored" : "",
-             c->clockwise ? "-clockwise" : "", c->of_viewer ? "-viewers" : "");
+             c->clockwise ? "-clockwise" : "", c->of_viewer ? "-viewers" : "",
+             c->signed_dots ? "-signed" : "");
 }
 
 static void check_case(const Case *c)
@@ -142,6 +143,7 @@ TEST(random_combinations_draw_as_the_full_program)
         c.colored = random_below(&more, 2);
         c.clockwise = random_below(&more, 4) == 0;
         c.of_viewer = random_below(&more, 3) == 0;
+        c.signed_dots = random_below(&more, 3) == 0;
         check_case(&c);
     }
 }

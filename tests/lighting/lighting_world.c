@@ -184,6 +184,7 @@ void make_world(const Case *c)
         .clamp_vertex = c->clamp_vertex,
         .linear = c->linear,
         .show_clipped = c->show_clipped,
+        .signed_dots = c->signed_dots,
     };
 }
 

@@ -1133,7 +1133,7 @@ class Scenes(Case):
                      "1: point, at -5,7,0.25; colour 0.5,0,0"):
             self.assertIn(f"\n{line}\n", text)
         self.assertRegex(text, r"\n2: point, at \S+; colour 1,0\.5,0, specular 0,0,1\n3: ")
-        self.assertIn("\n0: view 4, point, ", self.good("--explain", program="TermsApart").decode())
+        self.assertIn("\n0: view 6, point, ", self.good("--explain", program="TermsApart").decode())
         for option in "--light-color", "--light-at":
             self.refused(2, f"^FourLights: {option} 0,1: must be LIGHT,[^;]*, with LIGHT from 0 to 7",
                          option, "0,1", program="FourLights")

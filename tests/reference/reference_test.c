@@ -372,6 +372,26 @@ TEST_WITH(0, colors_are_clamped_at_vertices_on_request, set_up, tear_down)
                  1.055 * pow(0.2, 1 / 2.4) - 0.055);
 }
 
+/* From behind, at 60 degrees: emission less half of the diffuse color. */
+TEST_WITH(0, a_light_behind_takes_light_away_on_request, set_up, tear_down)
+{
+    Object *quad = add_object((Solid){.kind = SOLID_QUAD}, 3);
+    quad->front.emission = (Vec3){0.9, 0.5, 0.05};
+    world.lights[0].direction = (Vec3){sqrt(3), 0, -1};
+    Reference picture = world_trace((ReferenceOptions){0});
+    assert_color(&picture, MIDDLE, 0.9, 0.5, 0.05);
+    world.scene.signed_dots = true;
+    picture = world_trace((ReferenceOptions){0});
+    assert_color(&picture, MIDDLE, 0.5, 0.25, 0);
+    world.scene.interpolation = INTERPOLATION_GOURAUD;
+    world.scene.clamp_vertex = true;
+    picture = world_trace((ReferenceOptions){.meshes = true});
+    assert_color(&picture, MIDDLE, 0.5, 0.25, 0);
+    world.lights[0].shadows = true; /* none of it arrives */
+    picture = world_trace((ReferenceOptions){0});
+    assert_color(&picture, MIDDLE, 0.9, 0.5, 0.05);
+}
+
 /* Sides and transforms. */
 
 TEST_WITH(0, the_back_has_its_own_material_and_the_reversed_normal, set_up, tear_down)

@@ -106,6 +106,7 @@ static void write_set(const Effects *effects, char text[1024])
         put(text, terms->exponent, "exponent");
         put(text, terms->half_vector, "half");
         put(text, terms->at_vertex, "at_vertex");
+        put(text, terms->signed_dots, "signed");
     }
 }
 
@@ -150,7 +151,7 @@ TEST_WITH(0, diffuse_light_alone_needs_normals_and_no_more, set_up, NULL)
     assert_said("without local viewer: no term is specular");
     assert_said("without normal matrix: the model-view matrix is orthogonal");
     assert_said("normals not normalized at the vertices: the transform keeps their length");
-    assert_said("normals normalized at the fragments: interpolation shortens them");
+    assert_said("normals normalized at the fragments: interpolation may shorten them");
     assert_said("without culling: the object is open");
     assert_said("without clamping at the vertices: not requested");
     assert_said("without sRGB encoding: not requested");
@@ -507,6 +508,17 @@ TEST_WITH(0, overexposure_is_tested_only_if_it_is_possible, set_up, NULL)
     world.scene.clamp_vertex = true;
     assert_set("normals clamp | 0 directional diffuse at_vertex");
     assert_said("without highlighting overexposed pixels: colours are clamped at the vertices");
+}
+
+TEST_WITH(0, dot_products_are_clamped_unless_requested_and_under_lights_with_shadows, set_up, NULL)
+{
+    world.scene.signed_dots = true;
+    assert_set("normals unit_fragment | 0 directional diffuse signed");
+    assert_said("dot products not clamped: requested; where N.L is negative, the light takes "
+                "light away");
+    world.lights[0].shadows = true;
+    assert_set("normals unit_fragment | 0 directional diffuse");
+    assert_said("dot products clamped: none of a light with shadows arrives from behind");
 }
 
 TEST_WITH(0, linear_light_is_off_by_default, set_up, NULL)

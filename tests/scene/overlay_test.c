@@ -1,5 +1,6 @@
 /*
- * The edges of faces: which there are, and that a surface drawn behind its lines leaves them whole.
+ * The edges of faces: which there are, and that a surface drawn behind its lines leaves them whole;
+ * and lines along normals.
  */
 #include "core/canvas.h"
 #include "core/mesh_make.h"
@@ -27,6 +28,68 @@ static int edges_of_made(Mesh *mesh, bool made)
     const int count = edges_of(mesh);
     mesh_close(mesh);
     return count;
+}
+
+static OverlayList normals_of(const Object *object, Interpolation interpolation)
+{
+    OverlayList list = {.count = 0};
+    overlay_add_normals(
+        &list, &(Scene){.objects = object, .object_count = 1, .interpolation = interpolation});
+    assert_false(list.failed);
+    return list;
+}
+
+static Vec3 line_of(const OverlayList *list, int number)
+{
+    return vec3_subtract(vec3_from_float(list->vertices[2 * number + 1].position),
+                         vec3_from_float(list->vertices[2 * number].position));
+}
+
+/* Perpendicular to each other, and towards the outside. */
+TEST(a_cube_has_three_normals_at_each_corner)
+{
+    CLOSED(mesh_close) Mesh cube;
+    require(mesh_cube(&cube, 1, FAILURE), FAILURE);
+    const Object object = {.mesh = &cube, .world_from_object = mat4_scale((Vec3){3, 1, 2})};
+    CLOSED(overlay_list_close) OverlayList list = normals_of(&object, INTERPOLATION_PHONG);
+    assert_int_equal(list.count, 2 * 24);
+    for (int i = 0; i < 24; i++) {
+        const Vec3 foot = vec3_from_float(list.vertices[2 * i].position), own = line_of(&list, i);
+        int here = 0;
+        assert_true(vec3_dot(foot, own) > 0);
+        for (int k = 0; k < 24; k++) {
+            if (memcmp(list.vertices[2 * k].position, list.vertices[2 * i].position,
+                       sizeof list.vertices[0].position) != 0)
+                continue;
+            here++;
+            assert_true(k == i || fabs(vec3_dot(own, line_of(&list, k))) < 1e-6); /* floats */
+        }
+        assert_int_equal(here, 3);
+    }
+}
+
+/* Whatever the object is turned and scaled by; wrong ones are not; a back has the opposite ones. */
+TEST(normals_are_perpendicular_to_the_face_and_a_back_has_its_own)
+{
+    CLOSED(mesh_close) Mesh quad;
+    require(mesh_quad(&quad, 2, FAILURE), FAILURE);
+    const Mat4 shear = {{1, 0, 0.5, 0, 0.25, 2, 0, 0, 0, 0, 3, 0, 1, 2, 3, 1}};
+    Object object = {.mesh = &quad, .world_from_object = shear};
+    for (int way = 0; way < 4; way++) {
+        object.wrong_normals = way == 1;
+        object.two_sided = way == 2;
+        CLOSED(overlay_list_close)
+        OverlayList list =
+            normals_of(&object, way == 3 ? INTERPOLATION_FLAT : INTERPOLATION_GOURAUD);
+        const int lines = way == 2 ? 18 : way == 3 ? 8 : 9; /* vertices; triangles */
+        assert_int_equal(list.count, 2 * lines);
+        for (int i = 0; i < lines; i++) {
+            const Vec3 line = line_of(&list, i), across = {1, 0, 0.5};
+            const double turned = vec3_dot(line, across) / vec3_length(line);
+            assert_true(way == 1 ? turned > 0.1 : fabs(turned) < 1e-6);
+            assert_true(way == 2 && i % 2 ? line.z < 0 : line.z > 0);
+        }
+    }
 }
 
 TEST(solids_have_the_edges_of_their_faces)

@@ -302,10 +302,10 @@ Vec3 oracle_light(const Scene *scene, OraclePoint *at)
                                                                     : vec3_dot(at->normal, half);
         const double highlight = pow(fmax(cosine, 0), material->shininess);
         Vec3 one = times(light->ambient, material->ambient);
-        if (facing > 0) {
+        if (facing > 0 || (scene->signed_dots && !light->shadows))
             one = vec3_add(one, vec3_scale(times(light->diffuse, material->diffuse), facing));
+        if (facing > 0)
             one = vec3_add(one, vec3_scale(times(light->specular, material->specular), highlight));
-        }
         if (highlight > VISIBLE)
             at->from_jump = fmin(at->from_jump, fabs(facing));
         sum = vec3_add(sum, vec3_scale(one, share));
