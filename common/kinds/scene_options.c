@@ -264,8 +264,8 @@ const Parameter SCENE_OPTIONS[] = {
     {"clamp", "where colours are clamped: at each vertex, as in OpenGL 1.1, or at the end",
      PARAMETER_SWITCH, .choices = CLAMPS, AT(clamp_vertex), .programs = PROGRAM_ONE},
     {"clamp-dots",
-     "off: where a surface faces away from a light, N.L is negative and takes light away; what it "
-     "casts shadows of stays clamped, as does the highlight",
+     "off: N.L may be negative, so that a light takes light away from what faces away from it; "
+     "highlights, and lights with shadows, stay clamped",
      PARAMETER_SWITCH, .choices = CLAMP_DOTS, AT(signed_dots), .programs = PROGRAM_ONE},
     {"linear-light", "compute in linear light; encode as sRGB at the end", PARAMETER_FLAG,
      AT(linear), .programs = PROGRAM_ONE},
