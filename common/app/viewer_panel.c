@@ -39,8 +39,8 @@ static const PanelHelp *help_of(const ViewerPanel *panel)
 /* The common options that change a picture that is shown, from the table of all. */
 static void choose_options(ViewerPanel *panel, const Canvas *canvas, Options *options)
 {
-    static const char *const NAMES[] = {"samples",      "precision", "clamp",   "clamp-dots",
-                                        "linear-light", "lighting",  "normals", "show-clipped"};
+    static const char *const NAMES[] = {"samples",  "precision",    "clamp",      "linear-light",
+                                        "lighting", "show-clipped", "clamp-dots", "normals"};
     const Usage usage = options_usage(panel->example);
     Options usual = options_default(&usage);
     Parameter all[OPTIONS_MAX], of_usual[OPTIONS_MAX];

@@ -350,10 +350,9 @@ static void print_matrices(const Object *object)
         m.m[12 + k] = 0;
     const bool regular = mat4_inverse(m, &inverse);
     const Mat4 n = regular ? mat4_transpose(inverse) : mat4_normal(m);
-    printf(
-        "# matrices of view 0, object 0: M to the world, without its translation; N for normals, "
-        "%s\n",
-        regular ? "M^-T" : "M's cofactors");
+    printf("# matrices of view 0, object 0: M to the world, less its translation; N for normals, "
+           "%s\n",
+           regular ? "M^-T" : "M's cofactors");
     for (int row = 0; row < 3; row++)
         printf("%s %9.4g %9.4g %9.4g    %s %9.4g %9.4g %9.4g\n",
                row ? "   " : "M =", entry(&m, row, 0), entry(&m, row, 1), entry(&m, row, 2),
