@@ -389,7 +389,7 @@ static bool explain_view(Renderer *renderer, const DrawRequest *request, int num
                 plan_view(&plan, renderer, request, &view, message) &&
                 explain_objects(renderer, &plan, request->verbose, number, explained, message);
     if (done && number == 0 && view.scene.object_count > 0) {
-        printf(explained->count > 1 ? "\n" : "");
+        fputs(explained->count > 1 ? "\n" : "", stdout);
         print_matrices(&view.scene.objects[0]);
         printf("# what the model leaves out\n");
         done = unmodelled_explain(&view.scene, stdout, message);
