@@ -9,7 +9,6 @@
 #include "base/progress.h"
 #include "study/measure/survey.h"
 #include "study/measure/scenes.h"
-#include "study/report/shadow_ways.h"
 #include "study/report/conclusions.h"
 #include "study/report/report.h"
 #include "study/results/table.h"

@@ -1,7 +1,7 @@
 /*
  * What shadows cost: a teapot over a floor in the light of one and of three lights, and the scene
  * of Shadows, each without shadows, without again, and in each way. How exact they are:
- * examples/study/report/shadow_ways.h.
+ * examples/study/report/conclusions.h.
  */
 #include "benchmark/bench.h"
 #include "core/canvas.h"

@@ -1,7 +1,7 @@
 /*
  * sandbox: files and pictures that are not trusted, and what a confined process cannot do.
  */
-#include "labs/check/confine.h"
+#include "labs/check/code.h"
 #include "labs/sandbox/png_copy.h"
 #include "labs/sandbox/source.h"
 #include "support/testing.h"

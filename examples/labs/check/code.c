@@ -5,7 +5,6 @@
 #include "base/output.h"
 #include "base/paths.h"
 #include "base/process.h"
-#include "labs/check/confine.h"
 
 #include <dlfcn.h>
 #include <math.h>

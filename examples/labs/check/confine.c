@@ -1,6 +1,6 @@
 /* A filter of system calls (seccomp(2)) that stays until the process ends: what is not listed fails
  * with EPERM. Loading a library needs to open files; afterwards a second filter takes that, too. */
-#include "labs/check/confine.h"
+#include "labs/check/code.h"
 
 #include <errno.h>
 #include <fcntl.h>

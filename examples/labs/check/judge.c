@@ -7,7 +7,6 @@
 #include "core/shader_advice.h"
 #include "labs/check/budget.h"
 #include "labs/check/code.h"
-#include "labs/check/judge_pictures.h"
 #include "labs/diagnosis/catalogue.h"
 #include "labs/diagnosis/diagnose.h"
 #include "labs/diagnosis/text_facts.h"

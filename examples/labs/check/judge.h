@@ -8,10 +8,26 @@
 #define JUDGE_H
 
 #include "core/canvas.h"
+#include "labs/submission/lab_pictures.h"
 #include "labs/submission/submission.h"
 #include "labs/submission/verdict.h"
 
 #include <sys/resource.h>
+
+/* The pictures that go with a verdict. */
+
+/* The submission's picture, the right one and their difference, enlarged, side by side. */
+bool judge_sheet(const LabPictures *pictures, int picture, Image *sheet, Message *message);
+
+/* The file that judge_worst writes. */
+#define JUDGE_WORST "worst.png"
+
+/* Writes that sheet as folder/worst.png (in a page: keeps it, see labs/web). */
+bool judge_worst(const LabPictures *pictures, int picture, const char *folder, Message *message);
+
+/* |a - b|, brightened, where `exact` has no edge. */
+bool judge_difference(const Image *a, const Image *b, const Reference *exact, Image *difference,
+                      Message *message);
 
 typedef struct JudgeOptions {
     const Lab *lab;

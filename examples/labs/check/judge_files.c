@@ -2,7 +2,6 @@
 #include "base/output.h"
 #include "images/image_file.h"
 #include "labs/check/judge.h"
-#include "labs/check/judge_pictures.h"
 #include "labs/program/lab_scene_open.h"
 
 bool judge_worst(const LabPictures *pictures, int number, const char *folder, Message *message)

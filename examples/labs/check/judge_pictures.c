@@ -1,5 +1,5 @@
 /* Pictures side by side, enlarged until they are large enough to see pixels. */
-#include "labs/check/judge_pictures.h"
+#include "labs/check/judge.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -5,7 +5,6 @@
 #include "base/memory.h"
 #include "labs/class/class_report.h"
 #include "labs/class/class_judge.h"
-#include "labs/class/class_options.h"
 #include "labs/sandbox/sandbox.h"
 
 #include <ctype.h>

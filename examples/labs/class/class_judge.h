@@ -5,7 +5,7 @@
 #define CLASS_JUDGE_H
 
 #include "labs/class/class_find.h"
-#include "labs/class/class_options.h"
+#include "labs/class/class.h"
 #include "labs/class/class_store.h"
 #include "labs/sandbox/sandbox.h"
 

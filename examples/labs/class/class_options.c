@@ -1,5 +1,5 @@
 /* A table of options. */
-#include "labs/class/class_options.h"
+#include "labs/class/class.h"
 
 #include "app/arguments.h"
 #include "app/help.h"

@@ -7,7 +7,6 @@
 #include "base/output.h"
 #include "base/sanitized.h"
 #include "labs/check/judge.h"
-#include "labs/check/judge_pictures.h"
 #include "labs/sandbox/source.h"
 #include "labs/sandbox/unpack.h"
 #include "labs/submission/verdict_json.h"

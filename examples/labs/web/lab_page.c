@@ -4,7 +4,6 @@
 #include "core/shader_files.h"
 #include "labs/check/code.h"
 #include "labs/check/judge.h"
-#include "labs/check/judge_pictures.h"
 #include "labs/program/lab_scene_open.h"
 #include "labs/submission/verdict_fields.h"
 #include "study/results/json.h"

@@ -5,10 +5,78 @@
 #ifndef ARITHMETIC_H
 #define ARITHMETIC_H
 
+#include "core/canvas.h"
 #include "scene/scene.h"
-#include "study/arithmetic/raster.h"
+#include "study/arithmetic/functions.h"
 
 #include <stdio.h>
+
+/* Lets a driver's vertex and fragment shaders compute, and reads the numbers back. */
+
+typedef enum MeterPrecision {
+    METER_HIGHP,
+    METER_MEDIUMP,
+    METER_LOWP,
+    METER_PRECISIONS
+} MeterPrecision;
+typedef enum MeterStage { METER_VERTEX, METER_FRAGMENT, METER_STAGES } MeterStage;
+extern const char *const METER_PRECISION_NAMES[METER_PRECISIONS];
+extern const char *const METER_STAGE_NAMES[METER_STAGES];
+
+/* Draws one pixel for each invocation into a canvas of floats: a pixel's fragment, or a vertex with
+ * a point as large as a pixel. */
+typedef struct Meter {
+    Canvas canvas;
+    GLuint textures[2], buffers[3]; /* of a and b; and of the points' positions */
+} Meter;
+
+/* False if the driver cannot draw to floats, or if a number does not come back as it was. */
+bool meter_open(Meter *meter, const CanvasBackend *backend, Message *message);
+void meter_close(Meter *meter);
+
+/* Compiles what computes `code`, an expression of vec4 a and vec4 b; or what passes `a` on, as
+ * highp, and computes nothing. 0, with a message, on failure. */
+GLuint meter_program(const char *code, MeterStage stage, MeterPrecision precision,
+                     Message *message);
+GLuint meter_copy(MeterStage stage, Message *message);
+
+/* Invocations of up to BATCH_COUNT inputs, then of results: four numbers each. */
+void meter_load(const Meter *meter, const float (*a)[4], const float (*b)[4], int count);
+void meter_draw(const Meter *meter, GLuint program, MeterStage stage, int count);
+bool meter_run(const Meter *meter, GLuint program, MeterStage stage, float (*results)[4], int count,
+               Message *message);
+
+/* What the driver says about a precision. */
+Claim meter_claim(MeterStage stage, MeterPrecision precision);
+
+/* The format of a precision, from what it computes. */
+bool meter_format(const Meter *meter, MeterStage stage, MeterPrecision precision, Format *format,
+                  Message *message);
+
+/* What happens between vertex and picture: interpolation, edges, positions, depth, and the
+ * framebuffer's rounding. */
+
+enum { RASTER_SUBPIXELS = 10 }; /* as many bits can be told */
+
+typedef struct Raster {
+    /* The largest error of a varying in units in the last place (24 bits) of the largest of its
+     * corners' values: of triangles hundreds of pixels large, and of such whose depth varies up to
+     * eightfold; of triangles of a few pixels in units of the differences of the corners. */
+    double flat, perspective, small;
+    /* Of quadrilaterals of two triangles: the same at pixels that the shared edge passes, and how
+     * many such pixels are drawn twice or not at all. */
+    double edge;
+    long edge_pixels, edge_twice, edge_missed;
+    double bytes;         /* the largest error of rounding to 8 bits, in steps */
+    int subpixel_bits;    /* of positions: of a pixel's width 2^-bits is resolved; at most
+                             RASTER_SUBPIXELS */
+    int claimed_subpixel; /* GL_SUBPIXEL_BITS */
+    int depth_bits;       /* 2^-bits of the depth's range is resolved on average */
+    double depth_step;    /* the largest difference of depths not told apart, in that unit */
+    double depth_error;   /* by how much two triangles in one plane differ, in that unit */
+} Raster;
+
+bool raster_measure(const Meter *meter, Raster *raster, Message *message);
 
 /* Of one precision in one stage. */
 typedef struct Arithmetic {

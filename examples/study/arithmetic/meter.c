@@ -3,7 +3,7 @@
  * drawn, and its colour, a 32-bit float, is the result. First both shaders have to pass numbers of
  * 24 bits unchanged, because otherwise what is read back says nothing of what was computed.
  */
-#include "study/arithmetic/meter.h"
+#include "study/arithmetic/arithmetic.h"
 
 #include "base/memory.h"
 #include "core/shader.h"

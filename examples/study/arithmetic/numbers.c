@@ -5,7 +5,7 @@
  * tell how results are rounded; products at the ends of the range tell exponents, subnormal numbers
  * and infinity. Errors are counted in units in the last place of the exact result.
  */
-#include "study/arithmetic/numbers.h"
+#include "study/arithmetic/functions.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -5,7 +5,7 @@
  * it is drawn once; planes moved towards the eye step by step tell the bits of depth. Nothing that
  * the driver says of itself is used.
  */
-#include "study/arithmetic/raster.h"
+#include "study/arithmetic/arithmetic.h"
 
 #include "base/memory.h"
 #include "base/random.h"

@@ -1,6 +1,6 @@
 #include "study/cases/plain_formulas.h"
 
-#include "study/measure/transforms.h"
+#include "study/measure/setting_picture.h"
 
 #include <math.h>
 

@@ -4,7 +4,6 @@
 #include "base/memory.h"
 #include "reference/picture_error.h"
 #include "scene/shader_cost.h"
-#include "study/measure/transforms.h"
 
 #include <math.h>
 #include <stdlib.h>

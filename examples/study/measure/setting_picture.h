@@ -11,6 +11,15 @@
 #include "reference/reference.h"
 #include "scene/quality.h"
 
+/* Matrices composed in other ways than `lighting` does: in double precision, in single precision,
+ * or in single precision with compensated dot products (Ogita, Rump and Oishi, Accurate sum and dot
+ * product, SIAM J. Sci. Comput. 26(6), 2005: as exact as double precision rounded once). Either
+ * relative to the eye, or in the lecture's order: (clip_from_eye * eye_from_world) *
+ * world_from_object, with the eye's translation in eye_from_world. */
+
+/* For the setting's choices of matrices and order. */
+const LightingTransforms *transforms_of(const Quality *quality);
+
 typedef struct SettingRenderer SettingRenderer;
 
 /* Every picture has this width and height. `loader` says where shaders are. */

@@ -1,4 +1,4 @@
-#include "study/measure/transforms.h"
+#include "study/measure/setting_picture.h"
 
 #include <math.h>
 

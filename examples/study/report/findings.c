@@ -7,7 +7,7 @@
 
 #include "base/clock.h"
 #include "study/measure/scenes.h"
-#include "study/measure/transforms.h"
+#include "study/measure/setting_picture.h"
 #include "study/report/report.h"
 #include "study/report/report_gnuplot.h"
 #include "study/results/front.h"

@@ -1,4 +1,4 @@
-#include "study/report/shadow_ways.h"
+#include "study/report/conclusions.h"
 
 #include "base/clock.h"
 #include "base/memory.h"
