@@ -4,7 +4,6 @@
 #include "labs/class/class_find.h"
 #include "labs/class/class_report.h"
 #include "labs/class/class_judge.h"
-#include "labs/class/class.h"
 #include "labs/class/class_store.h"
 #include "labs/sandbox/bundle.h"
 #include "labs/sandbox/source.h"

@@ -1,15 +1,35 @@
 /*
- * class_judge: judges every submission of a class in a sandbox, several at a time.
+ * class_judge: judges every submission of a class in a sandbox, several at a time, as the command
+ * line wants it.
  */
 #ifndef CLASS_JUDGE_H
 #define CLASS_JUDGE_H
 
+#include "base/parse.h"
 #include "labs/class/class_find.h"
-#include "labs/class/class.h"
 #include "labs/class/class_store.h"
 #include "labs/sandbox/sandbox.h"
 
 #include <signal.h>
+
+enum { CLASS_JOBS_MAX = 256 };
+
+typedef struct ClassOptions {
+    const char *folder; /* --class; NULL: --merge */
+    const char *lab;    /* NULL: as the names tell */
+    const char *output;
+    char *const *merged; /* folders to merge, NULL-terminated */
+    int jobs;
+    Part part;
+    bool deterministic;
+    double limit; /* seconds of computing, for each submission */
+    uint64_t seed;
+    bool again; /* judge what has a result, too */
+    bool help;  /* it has been printed */
+} ClassOptions;
+
+/* False with a message: a usage error. */
+bool class_options_read(ClassOptions *options, int argc, char *argv[], Message *message);
 
 typedef struct ClassJudging {
     const ClassOptions *options;

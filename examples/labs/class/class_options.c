@@ -1,5 +1,5 @@
 /* A table of options. */
-#include "labs/class/class.h"
+#include "labs/class/class_judge.h"
 
 #include "app/arguments.h"
 #include "app/help.h"
