@@ -182,15 +182,6 @@ FOLDER_TEST(a_link_to_a_file_that_is_not_there_makes_it)
     refused("lost.png", "does not exist");
 }
 
-FOLDER_TEST(links_in_a_circle_are_refused)
-{
-    assert_int_equal(symlink("b.png", "a.png"), 0);
-    assert_int_equal(symlink("a.png", "b.png"), 0);
-    assert_int_equal(symlink("self.png", "self.png"), 0);
-    refused("a.png", "symbolic links");
-    refused("self.png", "symbolic links");
-}
-
 FOLDER_TEST(names_of_open_files_are_written_through)
 {
     static const char *const forms[] = {"/dev/fd/%d", "/proc/self/fd/%d"};
@@ -220,48 +211,6 @@ FOLDER_TEST(a_new_file_in_shared_memory_works)
     unlink(path);
     assert_string_equal(message.text, "");
     assert_true(done && there);
-}
-
-FOLDER_TEST(a_dash_is_standard_output)
-{
-    static const struct {
-        const char *target, *said;
-    } cases[] = {{"out", ""}, {"/dev/full", "standard output: cannot write: No space left"}};
-    for (size_t i = 0; i < 2; i++) {
-        fflush(stdout);
-        const int saved = dup(1), target = open(cases[i].target, O_WRONLY | O_CREAT, 0600);
-        assert_true(target >= 0 && dup2(target, 1) == 1);
-        message = (Message){0};
-        const bool possible = output_check("-", &message);
-        const bool done = write_text("-", large);
-        dup2(saved, 1);
-        close(saved);
-        close(target);
-        assert_true(possible);
-        assert_int_equal(done, i == 0);
-        assert_non_null(strstr(message.text, cases[i].said));
-    }
-    assert_true(holds("out", large));
-    assert_int_equal(testing_entries("."), 1);
-}
-
-/* A file size limit of 100000 bytes stands for a quota. */
-static int write_beyond_a_limit(void)
-{
-    const struct rlimit limit = {100000, 100000};
-    make("old.png", "old");
-    if (setrlimit(RLIMIT_FSIZE, &limit) != 0)
-        return 1;
-    if (write_text("old.png", large) || write_text("new.png", large))
-        return 2;
-    if (!strstr(message.text, "new.png: cannot write: File too large"))
-        return 3;
-    return holds("old.png", "old") && testing_entries(".") == 1 ? 0 : 4;
-}
-
-FOLDER_TEST(a_write_that_fails_midway_leaves_the_old_file)
-{
-    assert_int_equal(testing_in_child(write_beyond_a_limit), 0);
 }
 
 FOLDER_TEST(pieces_are_a_file_when_they_are_committed)
@@ -376,20 +325,6 @@ static bool mount_small(const char *path)
 
 enum { NOT_PERMITTED = 77 };
 
-static int write_to_a_full_disk(void)
-{
-    if (!mount_small("small"))
-        return NOT_PERMITTED;
-    make("small/old.png", "old");
-    if (!write_text("small/old.png", "newer") || !holds("small/old.png", "newer"))
-        return 1;
-    if (write_text("small/old.png", large) || write_text("small/new.png", large))
-        return 2;
-    if (!strstr(message.text, "No space left on device; make room and run again"))
-        return 3;
-    return holds("small/old.png", "newer") && testing_entries("small") == 1 ? 0 : 4;
-}
-
 static int write_without_proc(void)
 {
     if (!mount_small("small") || mount("none", "/proc", "tmpfs", 0, NULL) != 0)
@@ -430,11 +365,6 @@ static void check_mounted(int (*body)(void))
         assert_int_equal(result, 0);
 }
 
-FOLDER_TEST(a_full_disk_leaves_the_old_file)
-{
-    check_mounted(write_to_a_full_disk);
-}
-
 FOLDER_TEST(a_file_can_be_written_where_proc_is_not_mounted)
 {
     check_mounted(write_without_proc);
@@ -443,36 +373,6 @@ FOLDER_TEST(a_file_can_be_written_where_proc_is_not_mounted)
 FOLDER_TEST(a_leftover_temporary_name_is_removed_at_the_end)
 {
     check_mounted(end_without_proc);
-}
-
-static int write_what_is_protected(void)
-{
-    if (!testing_drop_root())
-        return 1;
-    refused("protected/new.png", "cannot write to the folder protected/: Permission denied");
-    refused("protected/old.png", "Permission denied");
-    refused("open/read_only.png", "open/read_only.png: Permission denied");
-    refused("hidden/a.png", "Permission denied");
-    return holds("open/read_only.png", "old") && holds("protected/old.png", "old") ? 0 : 2;
-}
-
-FOLDER_TEST(what_is_protected_is_refused)
-{
-    assert_int_equal(chmod(".", 0755), 0); /* so that nobody may enter */
-    assert_int_equal(mkdir("protected", 0755), 0);
-    assert_int_equal(mkdir("open", 0777), 0);
-    assert_int_equal(chmod("open", 0777), 0);
-    make("protected/old.png", "old");
-    make("open/read_only.png", "old");
-    assert_int_equal(chmod("protected/old.png", 0666), 0);
-    assert_int_equal(chmod("open/read_only.png", 0444), 0);
-    assert_int_equal(chmod("protected", 0555), 0);
-    assert_int_equal(mkdir("hidden", 0700), 0);
-    assert_int_equal(chmod("hidden", 0), 0);
-    const int result = testing_in_child(write_what_is_protected);
-    chmod("protected", 0755);
-    chmod("hidden", 0755);
-    assert_int_equal(result, 0);
 }
 
 FOLDER_TEST(checking_beforehand_writes_nothing)

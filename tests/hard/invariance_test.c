@@ -1,7 +1,7 @@
 /*
  * Invariances: random scenes are translated, rotated, mirrored and scaled, their lights permuted
  * and split, their triangles reordered, the picture widened; interior pixels, compared as floats,
- * stay the same. A second run, and any number of driver threads, give the same bits. HARD_SEED and
+ * stay the same. HARD_SEED and
  * HARD_SCENES in the environment choose other scenes.
  */
 #include "core/mesh_make.h"
@@ -9,11 +9,8 @@
 #include "support/picture_check.h"
 #include "support/testing.h"
 
-#include <sys/wait.h>
-#include <unistd.h>
-
 /* Scenes of one kind share programs, because compiling one costs more than many pictures. */
-enum { SIZE = 32, PER_KIND = 60, SCENES = 2500, HASHED = 24 };
+enum { SIZE = 32, PER_KIND = 60, SCENES = 2500 };
 
 static Canvas wide;
 static Image wide_image, picture, other;
@@ -366,84 +363,9 @@ TEST(a_wider_picture_has_the_same_middle)
     report("twice as wide", &tally);
 }
 
-/* Bitwise equality. */
-
-/* FNV-1a. */
-static unsigned long long hash_image(unsigned long long hash, const Image *image)
-{
-    const unsigned char *bytes = image->pixels;
-    for (size_t i = 0; i < image_row_size(image) * (size_t)image->height; i++)
-        hash = (hash ^ bytes[i]) * 0x100000001B3ULL;
-    return hash;
-}
-
-static unsigned long long hash_pictures(void)
-{
-    unsigned long long hash = 0xCBF29CE484222325ULL;
-    for (int i = 0; i < HASHED; i++) {
-        RandomScene scene;
-        make_scene(&scene, i * PER_KIND);
-        Lighting *lighting = hard.lightings[HARD_HIGHP];
-        require(random_scene_draw(&scene, &hard.bytes, lighting, &hard.image, FAILURE) &&
-                    random_scene_draw(&scene, &hard.floats, lighting, &hard.real, FAILURE),
-                FAILURE);
-        hash = hash_image(hash_image(hash, &hard.image), &hard.real);
-    }
-    return hash;
-}
-
-/* The hash of the same scenes drawn by another process with this many driver threads. */
-static unsigned long long hash_of_child(const char *threads)
-{
-    int ends[2], status;
-    char text[32] = "", *end = text, seed_text[24];
-    assert_int_equal(pipe(ends), 0);
-    snprintf(seed_text, sizeof seed_text, "%llu", seed);
-    const pid_t child = fork();
-    if (child == 0) {
-        dup2(ends[1], STDOUT_FILENO);
-        close(ends[0]);
-        close(ends[1]);
-        setenv("LP_NUM_THREADS", threads, 1);
-        execl("/proc/self/exe", "invariance_test", "--hash", seed_text, (char *)NULL);
-        _exit(1);
-    }
-    close(ends[1]);
-    FILE *from = fdopen(ends[0], "r");
-    assert_non_null(from);
-    assert_non_null(fgets(text, sizeof text, from));
-    fclose(from);
-    assert_int_equal(waitpid(child, &status, 0), child);
-    assert_int_equal(status, 0);
-    const unsigned long long hash = strtoull(text, &end, 16);
-    assert_true(end != text);
-    return hash;
-}
-
-TEST(runs_and_threads_make_the_same_bits)
-{
-    const unsigned long long first = hash_pictures();
-    assert_true(hash_pictures() == first);
-    assert_true(hash_of_child("1") == first);
-    assert_true(hash_of_child("1") == first);
-    assert_true(hash_of_child("2") == first);
-    print_message("%d scenes, in bytes and floats: %016llx\n", HASHED, first);
-}
-
-static int main_hash(const char *seed_text)
-{
-    seed = strtoull(seed_text, NULL, 10);
-    if (open_all(NULL) != 0)
-        return 1;
-    printf("%016llx\n", hash_pictures());
-    return close_all(NULL);
-}
-
-int main(int count, char *arguments[])
+int main(void)
 {
     const char *given = getenv("HARD_SEED"), *scenes = getenv("HARD_SCENES");
-    if (count == 3 && strcmp(arguments[1], "--hash") == 0)
-        return main_hash(arguments[2]);
     if (!picture_check_driver("hard invariance"))
         return EXIT_SKIPPED;
     seed = given ? strtoull(given, NULL, 10) : seed;

@@ -28,9 +28,8 @@ static const struct {
 
 static const struct {
     const char *name, *what;
-    bool flat; /* all that shadows fall on */
-} SCENES[SHADOW_SCENES] = {{"sphere", "a sphere over a floor", true},
-                           {"teapot", "teapot and torus over a floor", false}};
+} SCENES[SHADOW_SCENES] = {{"sphere", "a sphere over a floor"},
+                           {"teapot", "teapot and torus over a floor"}};
 
 static void make_scene(int number, StudyScene *made)
 {
