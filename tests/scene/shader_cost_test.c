@@ -238,7 +238,7 @@ TEST_WITH(0, a_count_is_kept_for_the_same_tools, testing_enter_cache, testing_le
     testing_shell("touch -d 2001-01-01 bin/spirv-opt"); /* another one */
     assert_int_equal(runs_of_count(), 6);
     testing_shell("for file in lighting/cost-*; do "
-                  "printf 'x' | dd of=$file bs=1 seek=17 conv=notrunc status=none; done");
+                  "printf 'xxxx' | dd of=$file bs=1 seek=17 conv=notrunc status=none; done");
     assert_int_equal(runs_of_count(), 9);
     setenv("PATH", usual, 1);
     free(usual);
