@@ -2,8 +2,8 @@
  * PointLightedCube_perFragment: the cube of PointLightedCube_animation, lit per fragment.
  *
  * New since PointLightedCube_animation: position and normal are interpolated instead of the colour,
- * and the fragment shader computes the light (Phong interpolation). The interpolated normal has to
- * be normalized again.
+ * and the fragment shader computes the light (Phong interpolation). An interpolated normal may be
+ * shorter than 1, though none on a cube: it is normalized again.
  *
  * Look at how the light falls off on a face, equally in all directions: the diagonal between its
  * two triangles is no longer visible.

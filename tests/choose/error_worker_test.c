@@ -60,7 +60,7 @@ static bool is_drawn(int way, int example)
     const bool teapot = EXAMPLES[example] == &Materials || EXAMPLES[example] == &FourLights ||
                         EXAMPLES[example] == &TermsApart || EXAMPLES[example] == &Shadows;
     const int step = testing_step(9);
-    if (step > 1 && EXAMPLES[example] == &TermsApart) /* the teapot eight times: half of the time */
+    if (step > 1 && EXAMPLES[example] == &TermsApart) /* the teapot ten times: half of the time */
         return false;
     if (step > 1 && way > 0 && (teapot || (way + example) % step))
         return false;
