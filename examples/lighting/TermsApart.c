@@ -50,7 +50,7 @@ static Surface surface = {.name = MATERIAL_COUNT,
                                        .alpha = 1,
                                        .shininess = 40}};
 static SceneShading shading = {REFLECTION_PHONG, INTERPOLATION_PHONG, VIEWER_LOCAL};
-static Vec3 global_ambient = {0.2, 0.2, 0.2}, light_ambient = {0.1, 0.1, 0.1};
+static Vec3 global_ambient = {0.3, 0.3, 0.3}, light_ambient = {0.2, 0.2, 0.2};
 
 static const Parameter parameters[] = {
     SHAPE_PARAMETERS(shape_kind, model),
