@@ -75,7 +75,7 @@ typedef struct Original {
     Vec3 background, global;
     Lamp lamps[LIGHTS];
     Vec3 axis; /* of the spot */
-    bool blinn, local, per_fragment;
+    bool blinn, local, per_fragment, wrong_normals;
 } Original;
 
 static Canvas canvas;
@@ -198,7 +198,7 @@ static void draw_mesh(const Original *original, const Mesh *mesh, Mat4 world_fro
     assert_true(mat4_inverse(eye, &inverse));
     glUseProgram(shader.program);
     set4("u_Eye", eye);
-    set4("u_Normals", mat4_transpose(inverse));
+    set4("u_Normals", original->wrong_normals ? eye : mat4_transpose(inverse));
     set3("u_Ambient", material->ambient);
     set3("u_Diffuse", material->diffuse);
     set3("u_Specular", material->specular);
@@ -801,6 +801,68 @@ TEST(spot_light_has_the_pages_pictures)
     }
     draw_ours(&SpotLight, "--ambient-cone on"); /* as OpenGL 1.1 has it: black beside the cone */
     assert_true(pixels_apart() > SIZE * SIZE / 10);
+}
+
+/* A page with one point light and the camera of two of them. */
+static void point_original(Original *original, Light *light, Vec3 place, double ambient)
+{
+    *original = (Original){
+        .camera = {.eye = {3, 2, 3}, .up = {0, 1, 0}, .fovy = 60, .near = 1, .far = 100}};
+    *light = (Light){.kind = LIGHT_POINT, .position = place};
+    original->lamps[0] = (Lamp){
+        .place = place, .w = 1, .ambient = grey(ambient), .diffuse = grey(1), .specular = grey(1)};
+    to_eye(original);
+}
+
+TEST(normal_matrix_has_the_pages_pictures)
+{
+    CLOSED(mesh_close) Mesh mesh;
+    open_lecture_shape(&mesh, false);
+    for (int i = 0; i < 16; i++) {
+        const double seconds = 2.9 * (i / 2);
+        Original original;
+        Light light;
+        char line[256];
+        point_original(&original, &light, turned((Vec3){1.5, 1, 0}, seconds), 0.5);
+        original.background = grey(0.2);
+        original.wrong_normals = i % 2;
+        snprintf(line, sizeof line, "--matrix %s -t %g %s", i % 2 ? "wrong" : "right", seconds,
+                 set_pair(&original, i / 2 % 4));
+        begin_original(&original);
+        draw_mesh(&original, &mesh, mat4_scale((Vec3){2, 0.7, 0.7}), &GOLD);
+        draw_marks(&original, &light, 1);
+        end_original();
+        assert_equal_pictures(&NormalMatrix, line);
+    }
+}
+
+/* The back has the opposite normal and its own material. */
+TEST(two_sided_lighting_has_the_pages_pictures)
+{
+    static const Material silver = {.ambient = {0.19225, 0.19225, 0.19225},
+                                    .diffuse = {0.50754, 0.50754, 0.50754},
+                                    .specular = {0.508273, 0.508273, 0.508273},
+                                    .shininess = 51.2};
+    for (int i = 0; i < 16; i++) {
+        const double seconds = 1.4 * i;
+        const Vec3 front = turned((Vec3){0, 0, 1}, seconds);
+        const bool back = vec3_dot(front, (Vec3){3, 2, 3}) < 0;
+        CLOSED(mesh_close) Mesh quad;
+        Original original;
+        Light light;
+        char line[256];
+        SUCCEEDS(mesh_quad(&quad, 1, message));
+        for (size_t v = 0; v < quad.vertex_count && back; v++)
+            quad.vertices[v].normal[2] = -1;
+        point_original(&original, &light, (Vec3){0, 0.5, 0.5}, 0.2);
+        original.background = grey(0.5);
+        snprintf(line, sizeof line, "-t %g %s", seconds, set_pair(&original, i % 4));
+        begin_original(&original);
+        draw_mesh(&original, &quad, mat4_rotate(30 * seconds, Y), back ? &silver : &GOLD);
+        draw_marks(&original, &light, 1);
+        end_original();
+        assert_equal_pictures(&TwoSidedLighting, line);
+    }
 }
 
 /* A state of the shading page: two lights, each on or off, directional or a point light. */

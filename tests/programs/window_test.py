@@ -496,6 +496,9 @@ class Keys(Case):
             picture = self.assert_shown(shown)
             for got, wanted in zip(orbit_of(picture), (40, 20, 0.9**2)):
                 self.assertAlmostEqual(got, wanted, places=9)
+            shown.key("bracketleft", "bracketleft", "bracketright")
+            command = self.assert_shown(shown).command
+            self.assertEqual(command[command.index("--orbit") + 1], "40,20,0.81,5")
             shown.leave()
 
     def test_the_pointer_alone_and_other_buttons_move_nothing(self):
