@@ -22,11 +22,6 @@ enum { LARGE = 300000 };
 static char large[LARGE + 1];
 static Message message;
 
-static void make(const char *path, const char *text)
-{
-    testing_write(path, text, strlen(text));
-}
-
 static bool holds(const char *path, const char *text)
 {
     static char found[LARGE + 2];
@@ -96,7 +91,7 @@ FOLDER_TEST(a_new_file_gets_the_bytes_and_the_umask)
 FOLDER_TEST(a_reader_of_the_old_file_keeps_it_whole)
 {
     char text[16] = "";
-    make("old.png", "old");
+    testing_put("old.png", "old");
     assert_int_equal(link("old.png", "other_name.png"), 0);
     const int reader = open("old.png", O_RDONLY);
     written("old.png", "new");
@@ -128,7 +123,7 @@ FOLDER_TEST(every_form_of_a_path_works)
 FOLDER_TEST(unwritable_paths_are_rejected_beforehand)
 {
     char name[300], path[PATH_MAX + 10];
-    make("file.png", "old");
+    testing_put("file.png", "old");
     assert_int_equal(mkdir("sub", 0777), 0);
     assert_int_equal(symlink("sub", "link_to_folder"), 0);
     memset(name, 'n', sizeof name - 1);
@@ -155,7 +150,7 @@ FOLDER_TEST(unwritable_paths_are_rejected_beforehand)
 FOLDER_TEST(a_link_stays_and_what_it_points_to_is_replaced)
 {
     assert_int_equal(mkdir("far", 0777), 0);
-    make("far/target.png", "old");
+    testing_put("far/target.png", "old");
     assert_int_equal(chmod("far/target.png", 0600), 0);
     assert_int_equal(symlink("target.png", "far/beside.png"),
                      0); /* relative to the link's folder */
@@ -215,7 +210,7 @@ FOLDER_TEST(a_new_file_in_shared_memory_works)
 
 FOLDER_TEST(pieces_are_a_file_when_they_are_committed)
 {
-    make("old.png", "old");
+    testing_put("old.png", "old");
     assert_int_equal(chmod("old.png", 0640), 0);
     for (int whole = 0; whole < 2; whole++) {
         Output *output = output_begin("old.png", &message);
@@ -377,7 +372,7 @@ FOLDER_TEST(a_leftover_temporary_name_is_removed_at_the_end)
 
 FOLDER_TEST(checking_beforehand_writes_nothing)
 {
-    make("old.png", "old");
+    testing_put("old.png", "old");
     assert_true(output_check("old.png", NULL));
     assert_true(output_check("new.png", NULL));
     assert_true(output_check("-", NULL));

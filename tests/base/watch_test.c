@@ -33,11 +33,6 @@ static int leave_folder(void **state)
 
 #define WATCH_TEST(name) TEST_WITH(0, name, enter_folder, leave_folder)
 
-static void put(const char *path, const char *text)
-{
-    testing_write(path, text, strlen(text));
-}
-
 static void quiet(const char *after)
 {
     if (watch_wait(watch, QUIET))
@@ -101,7 +96,7 @@ WATCH_TEST(every_way_of_saving_is_reported_once)
         snprintf(path, sizeof path, "%d", i);
         assert_int_equal(mkdir(path, 0777), 0);
         snprintf(path, sizeof path, "%d/a.vert", i);
-        put(path, "old\n");
+        testing_put(path, "old\n");
         watches[i] = watch_open();
         watch_set(watches[i], &(const char *){path}, 1);
         assert_true(watch_wait(watches[i], PATIENCE));
@@ -129,17 +124,17 @@ WATCH_TEST(every_way_of_saving_is_reported_once)
 /* Timestamps advance by ticks of up to 10 ms; a report must not come before the tick has ended. */
 WATCH_TEST(a_write_right_after_a_report_is_reported)
 {
-    put("a.vert", "0");
+    testing_put("a.vert", "0");
     watch_one("a.vert");
     for (int i = 0; i < 15; i++) {
-        put("a.vert", i % 2 ? "0" : "1");
+        testing_put("a.vert", i % 2 ? "0" : "1");
         reported("the same length");
     }
 }
 
 WATCH_TEST(other_files_and_reading_are_not_reported)
 {
-    put("a.vert", "old");
+    testing_put("a.vert", "old");
     assert_int_equal(mkdir("sub", 0777), 0);
     static const char *const paths[] = {"a.vert", "sub/missing.vert"};
     watch_paths(paths, 2);
@@ -154,9 +149,9 @@ WATCH_TEST(other_files_and_reading_are_not_reported)
 WATCH_TEST(a_missing_file_is_reported_when_it_is_made)
 {
     watch_one("a.vert");
-    put("b.vert", "new");
+    testing_put("b.vert", "new");
     quiet("another file");
-    put("a.vert", "new");
+    testing_put("a.vert", "new");
     reported_once("made");
     testing_shell("rm a.vert");
     reported_once("removed");
@@ -258,16 +253,16 @@ WATCH_TEST(circular_links_and_endless_names_end)
 
 WATCH_TEST(paths_can_be_replaced)
 {
-    put("a.vert", "old");
-    put("b.vert", "old");
+    testing_put("a.vert", "old");
+    testing_put("b.vert", "old");
     watch_one("a.vert");
     watch_one("b.vert");
-    put("a.vert", "newer");
+    testing_put("a.vert", "newer");
     quiet("a path no longer watched");
-    put("b.vert", "newer");
+    testing_put("b.vert", "newer");
     reported_once("the path watched now");
     watch_paths(NULL, 0);
-    put("b.vert", "newest");
+    testing_put("b.vert", "newest");
     quiet("no path");
 }
 
@@ -276,13 +271,13 @@ WATCH_TEST(a_file_written_all_the_time_is_reported)
 {
     const double end = clock_now() + 0.5;
     int times = 0;
-    put("a.vert", "old");
+    testing_put("a.vert", "old");
     watch_one("a.vert");
     while (clock_now() < end) {
-        put("a.vert", "newer");
+        testing_put("a.vert", "newer");
         times += watch_wait(watch, 0.001);
     }
-    put("a.vert", "the newest");
+    testing_put("a.vert", "the newest");
     assert_true(watch_wait(watch, PATIENCE));
     assert_true(times >= 1);
 }

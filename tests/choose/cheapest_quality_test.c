@@ -156,10 +156,7 @@ static void write_models(void)
 {
     write_ball(MODELS[0], false);
     write_ball(MODELS[1], true);
-    FILE *file = fopen(MODELS[2], "w");
-    assert_non_null(file);
-    fprintf(file, "v -1 0 0\nv 1 0 0\nv 0 1 0.5\nv 0 -1 0.5\nf 1 2 3\nf 2 1 4\n");
-    fclose(file);
+    testing_put(MODELS[2], "v -1 0 0\nv 1 0 0\nv 0 1 0.5\nv 0 -1 0.5\nf 1 2 3\nf 2 1 4\n");
 }
 
 /* One of six is an end of the range, and one of six near its beginning. */

@@ -229,11 +229,8 @@ static void assert_no_font(const char *path, const char *reason)
 FOLDER_TEST(a_font_that_cannot_be_read_is_named_with_its_package)
 {
     static const char partial[] = "not a complete TrueType font";
-    static char bytes[4 << 20];
-    FILE *font = fopen("/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "rb");
-    assert_non_null(font);
-    const size_t size = fread(bytes, 1, sizeof bytes, font);
-    fclose(font);
+    size_t size;
+    char *bytes = testing_read("/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", &size);
     assert_no_font("missing.ttf", "No such file or directory");
     assert_no_font("/", "No such device");
     const size_t lengths[] = {1, 4, 11, 12, 100, 300, 5000, size / 2, size - 8};
@@ -244,6 +241,7 @@ FOLDER_TEST(a_font_that_cannot_be_read_is_named_with_its_package)
     memset(bytes, 'x', 1000);
     testing_write("words.ttf", bytes, 1000);
     assert_no_font("words.ttf", partial);
+    free(bytes);
 }
 
 /* Whether a pixel within two of this one is black. */

@@ -355,14 +355,12 @@ TEST_WITH(0, the_front_has_unbeaten_results, start, NULL)
         assert_int_equal(pareto_front_has(&store, &results[i]), efficient[i]);
 }
 
-static bool page_has(const char *path, const char *wanted)
+static void assert_page(const char *path, const char *wanted)
 {
-    static char page[1 << 16];
-    FILE *file = fopen(path, "r");
-    assert_non_null(file);
-    page[fread(page, 1, sizeof page - 1, file)] = '\0';
-    fclose(file);
-    return strstr(page, wanted);
+    size_t size;
+    char *page = testing_read(path, &size);
+    assert_non_null(strstr(page, wanted));
+    free(page);
 }
 
 TEST_WITH(0, a_page_shows_only_known_counts, start, NULL)
@@ -377,8 +375,8 @@ TEST_WITH(0, a_page_shows_only_known_counts, start, NULL)
     assert_true(class_store_put(&store, &uncounted, NULL, 0, NULL, &message));
     require(class_html_write(&store, false, &message), &message);
     class_store_close(&store);
-    assert_true(page_has("pages/students/counted/index.html", "Operations: 750000, 0.750 of"));
-    assert_true(page_has("pages/students/uncounted/index.html", "Operations: not counted. Time"));
+    assert_page("pages/students/counted/index.html", "Operations: 750000, 0.750 of");
+    assert_page("pages/students/uncounted/index.html", "Operations: not counted. Time");
 }
 
 int main(void)

@@ -199,10 +199,7 @@ TEST_WITH(0, a_confined_process_can_only_compute, start, NULL)
 {
     static const char path[] = "file";
     int status;
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fputs("x", file);
-    fclose(file);
+    testing_put(path, "x");
     const pid_t child = fork();
     if (child == 0)
         _exit(try_everything(path));

@@ -434,14 +434,13 @@ static void assert_equal_pictures(const Example *example, const char *line)
  * table of examples/guide/originals.md has the line. */
 static void assert_differs(const Example *example, const char *usual, const char *line)
 {
-    char page[20000], wanted[256];
-    FILE *file = fopen(SHADERS_SOURCE "/../examples/guide/originals.md", "rb");
-    assert_non_null(file);
-    page[fread(page, 1, sizeof page - 1, file)] = '\0';
-    fclose(file);
+    char wanted[256];
+    size_t size;
+    char *page = testing_read(SHADERS_SOURCE "/../examples/guide/originals.md", &size);
     snprintf(wanted, sizeof wanted, "`%s %s`", example->name, line);
     if (!strstr(page, wanted))
         fail_msg("originals.md does not have %s", wanted);
+    free(page);
     assert_equal_pictures(example, line);
     draw_ours(example, usual);
     if (pixels_apart() * 1000 <= SIZE * SIZE)

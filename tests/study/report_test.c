@@ -189,18 +189,6 @@ TEST_WITH(0, no_rows_and_full_disks_are_reported, enter, leave)
 
 /* Plots. */
 
-static char *get_file(const char *path, size_t *size)
-{
-    FILE *file = fopen(path, "r");
-    if (!file)
-        fail_msg("%s is missing", path);
-    char *bytes = calloc(1, 1 << 22);
-    assert_non_null(bytes);
-    *size = fread(bytes, 1, (1 << 22) - 1, file);
-    fclose(file);
-    return bytes;
-}
-
 static bool has_gnuplot(void)
 {
     return system("gnuplot --version >/dev/null 2>&1") == 0;
@@ -212,13 +200,13 @@ static char *drawn(const char *name)
     char path[64];
     size_t size;
     snprintf(path, sizeof path, "out/%s.png", name);
-    char *png = get_file(path, &size);
+    char *png = testing_read(path, &size);
     assert_true(size > 1000);
     assert_memory_equal(png, "\x89PNG\r\n\x1a\n", 8);
     assert_memory_equal(png + size - 8, "IEND\xAE\x42\x60\x82", 8);
     free(png);
     snprintf(path, sizeof path, "out/%s.svg", name);
-    char *svg = get_file(path, &size);
+    char *svg = testing_read(path, &size);
     assert_non_null(strstr(svg, "</svg>"));
     assert_int_equal(testing_entries("out"), 2);
     return svg;
@@ -286,15 +274,6 @@ TEST_WITH(0, curves_leave_out_unknown_values, enter, leave)
     }
 }
 
-static void put_program(const char *text)
-{
-    FILE *file = fopen("bin/gnuplot", "w");
-    assert_non_null(file);
-    fputs(text, file);
-    fclose(file);
-    assert_int_equal(chmod("bin/gnuplot", 0755), 0);
-}
-
 TEST_WITH(0, gnuplot_errors_are_passed_on, enter, leave)
 {
     static const char *const cases[][2] = {
@@ -311,8 +290,10 @@ TEST_WITH(0, gnuplot_errors_are_passed_on, enter, leave)
     add_four();
     assert_int_equal(mkdir("bin", 0777), 0);
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        if (cases[i][0])
-            put_program(cases[i][0]);
+        if (cases[i][0]) {
+            testing_put("bin/gnuplot", cases[i][0]);
+            assert_int_equal(chmod("bin/gnuplot", 0755), 0);
+        }
         setenv("PATH", "bin", 1);
         const bool done = plot("title");
         setenv("PATH", before, 1);

@@ -89,24 +89,6 @@ static FILE *create(const char *path)
     return file;
 }
 
-static void put_file(const char *path, const char *text, size_t size)
-{
-    FILE *file = create(path);
-    assert_int_equal(fwrite(text, 1, size, file), size);
-    assert_int_equal(fclose(file), 0);
-}
-
-static char *get_file(const char *path, size_t *size)
-{
-    FILE *file = fopen(path, "r");
-    assert_non_null(file);
-    char *text = calloc(1, 1 << 20);
-    assert_non_null(text);
-    *size = fread(text, 1, (1 << 20) - 1, file);
-    fclose(file);
-    return text;
-}
-
 /* Reads a file, and returns what was said on standard error, the caller's to free. */
 static char *read_file(const char *path, const ResultRow *like)
 {
@@ -125,7 +107,7 @@ static char *read_file(const char *path, const ResultRow *like)
     close(said);
     if (done != (message.text[0] == '\0'))
         fail_msg("%s: %s", path, message.text);
-    return get_file("said", &size);
+    return testing_read("said", &size);
 }
 
 /* Reads a file that has `count` good rows, and nothing to complain about. */
@@ -199,7 +181,7 @@ TEST_WITH(0, a_row_comes_back_as_it_was, testing_enter_folder, leave)
 TEST_WITH(0, there_is_nothing_to_read_at_first, testing_enter_folder, leave)
 {
     read_clean("missing.csv", 0);
-    put_file("empty.csv", "", 0);
+    testing_write("empty.csv", "", 0);
     read_clean("empty.csv", 0);
     const ResultRow row = row_of(1);
     append("empty.csv", &row, 1);
@@ -211,7 +193,7 @@ TEST_WITH(0, unusual_forms_of_a_file_are_read, testing_enter_folder, leave)
     size_t size;
     const ResultRow row = row_of(3);
     append("a.csv", &row, 1);
-    char *text = get_file("a.csv", &size);
+    char *text = testing_read("a.csv", &size);
     FILE *file = create("b.csv");
     fputs("\xEF\xBB\xBFmine,", file); /* a byte order mark, another column, CRLF, blank lines */
     for (const char *p = text; *p; p++) {
@@ -232,7 +214,7 @@ TEST_WITH(0, columns_may_stand_in_any_order, testing_enter_folder, leave)
     size_t size;
     const ResultRow row = row_of(3);
     append("a.csv", &row, 1);
-    char *text = get_file("a.csv", &size);
+    char *text = testing_read("a.csv", &size);
     /* The first column goes to the end. */
     char *lines[2] = {text, strchr(text, '\n') + 1};
     lines[1][-1] = '\0';
@@ -254,13 +236,13 @@ TEST_WITH(0, a_file_that_is_cut_anywhere_keeps_the_rows_before, testing_enter_fo
     size_t size;
     const ResultRow rows[2] = {row_of(1), row_of(2)}, next = row_of(5);
     append("a.csv", rows, 2);
-    char *text = get_file("a.csv", &size);
+    char *text = testing_read("a.csv", &size);
     const size_t header = (size_t)(strchr(text, '\n') - text) + 1;
     const size_t first = (size_t)(strchr(text + header, '\n') - text) + 1;
     for (size_t cut = 0; cut <= size; cut++) {
         /* A row is whole without its line break. */
         const int whole = (cut + 1 >= first) + (cut + 1 >= size);
-        put_file("cut.csv", text, cut);
+        testing_write("cut.csv", text, cut);
         char *said = read_file("cut.csv", NULL);
         assert_string_equal(message.text, "");
         if (results.count != whole)
@@ -286,7 +268,7 @@ static void replaced(const char *column, const char *value)
     snprintf(row.renderer, sizeof row.renderer, "none");
     unlink("a.csv");
     append("a.csv", &row, 1);
-    char *text = get_file("a.csv", &size);
+    char *text = testing_read("a.csv", &size);
     char *names = text, *values = strchr(text, '\n') + 1;
     values[-1] = '\0';
     FILE *file = create("b.csv");
@@ -366,7 +348,7 @@ TEST_WITH(0, many_broken_rows_make_few_lines, testing_enter_folder, leave)
     size_t size;
     const ResultRow row = row_of(1);
     append("a.csv", &row, 1);
-    char *text = get_file("a.csv", &size);
+    char *text = testing_read("a.csv", &size);
     FILE *file = create("b.csv");
     fputs(text, file);
     for (int i = 0; i < 1000; i++)
@@ -388,7 +370,7 @@ TEST_WITH(0, arbitrary_bytes_are_read_safely, testing_enter_folder, leave)
     enum { LONG = 10 << 20 };
     const ResultRow row = row_of(1);
     append("a.csv", &row, 1);
-    char *text = get_file("a.csv", &size), *large = malloc(LONG);
+    char *text = testing_read("a.csv", &size), *large = malloc(LONG);
     assert_non_null(large);
     static const char fillings[] = {'\0', 'a', ',', '"', '\r', '\n', '\xFF'};
     for (size_t i = 0; i < sizeof fillings; i++) {
@@ -403,7 +385,7 @@ TEST_WITH(0, arbitrary_bytes_are_read_safely, testing_enter_folder, leave)
         assert_int_equal(results.count, 2);
         assert_int_equal(lines_in(said), fillings[i] != '\n');
         free(said);
-        put_file("c.csv", large, LONG);
+        testing_write("c.csv", large, LONG);
         read_refused("c.csv", "c.csv: is not a file of results");
         append_refused("c.csv", &row, "c.csv: is not a file of results");
     }
@@ -427,10 +409,10 @@ TEST_WITH(0, other_kinds_of_files_are_refused, testing_enter_folder, leave)
         append_refused(cases[i][0], &row, cases[i][1]);
     }
     append_refused("nowhere/a.csv", &row, "make its folder first");
-    put_file("other.csv", "name,value\n1,2\n", 15);
+    testing_write("other.csv", "name,value\n1,2\n", 15);
     read_refused("other.csv", "name another folder");
     append_refused("other.csv", &row, "it has no column \"scene\"");
-    put_file("other.csv", "scene,scene\n", 12);
+    testing_write("other.csv", "scene,scene\n", 12);
     read_refused("other.csv", "it has two columns \"scene\"");
     ResultRow wrong = row;
     wrong.width = 0;

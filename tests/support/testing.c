@@ -135,6 +135,23 @@ void testing_write(const char *path, const void *bytes, size_t size)
     assert_int_equal(fclose(file), 0);
 }
 
+void testing_put(const char *path, const char *text)
+{
+    testing_write(path, text, strlen(text));
+}
+
+char *testing_read(const char *path, size_t *size)
+{
+    FILE *file = fopen(path, "r");
+    if (!file)
+        fail_msg("%s is missing", path);
+    char *bytes = calloc(1, 1 << 22);
+    assert_non_null(bytes);
+    *size = fread(bytes, 1, (1 << 22) - 1, file);
+    fclose(file);
+    return bytes;
+}
+
 void testing_shell(const char *command)
 {
     if (system(command) != 0)

@@ -102,6 +102,10 @@ int testing_leave_cache(void **state);
 int testing_leave_empty_folder(void **state);
 
 void testing_write(const char *path, const void *bytes, size_t size);
+void testing_put(const char *path, const char *text);
+
+/* All bytes of a file and a zero byte, to be freed. */
+char *testing_read(const char *path, size_t *size);
 
 /* Runs a shell command, which must succeed. */
 void testing_shell(const char *command);
