@@ -26,6 +26,9 @@ void *memory_new(size_t count, size_t size) __attribute__((malloc, returns_nonnu
 void *memory_grow(void *block, size_t count, size_t size)
     __attribute__((warn_unused_result, returns_nonnull));
 
+/* One more item, not set, of the list that `list` points to, which has room for so many. */
+void *memory_add(void *list, int *count, int *room, size_t size) __attribute__((returns_nonnull));
+
 /* A copy, and a zero byte after it. */
 void *memory_copy(const void *bytes, size_t size) __attribute__((malloc, returns_nonnull));
 char *memory_text(const char *text) __attribute__((malloc, returns_nonnull));

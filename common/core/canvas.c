@@ -324,6 +324,14 @@ static void delete_framebuffers(Canvas *canvas)
     canvas->color = canvas->depth = canvas->resolve_color = 0;
 }
 
+static bool begin_anew(Canvas *canvas, Message *message)
+{
+    if (!check_size(canvas, message) || !make_framebuffers(canvas, message))
+        return false;
+    canvas_begin(canvas);
+    return true;
+}
+
 bool canvas_resize(Canvas *canvas, int width, int height, Message *message)
 {
     if (canvas->width == width && canvas->height == height)
@@ -331,10 +339,7 @@ bool canvas_resize(Canvas *canvas, int width, int height, Message *message)
     delete_framebuffers(canvas);
     canvas->width = width;
     canvas->height = height;
-    if (!check_size(canvas, message) || !make_framebuffers(canvas, message))
-        return false;
-    canvas_begin(canvas);
-    return true;
+    return begin_anew(canvas, message);
 }
 
 int canvas_max_samples(const Canvas *canvas)
@@ -355,10 +360,7 @@ bool canvas_set_samples(Canvas *canvas, int samples, bool supersampled, Message 
     canvas->samples = wanted.samples;
     canvas->supersample = wanted.supersample;
     canvas->supersampled = supersampled;
-    if (!check_size(canvas, message) || !make_framebuffers(canvas, message))
-        return false;
-    canvas_begin(canvas);
-    return true;
+    return begin_anew(canvas, message);
 }
 
 bool canvas_check(const Canvas *canvas, Message *message)

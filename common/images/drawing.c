@@ -45,19 +45,8 @@ void drawing_end(Drawing *drawing)
 
 /* Paths. */
 
-/* One more element of a list. */
-static void *one_more(void *list, int *count, int *room, size_t size)
-{
-    void **elements = list;
-    if (*count == *room) {
-        *room = *room ? 2 * *room : 256;
-        *elements = memory_grow(*elements, (size_t)*room, size);
-    }
-    return (char *)*elements + size * (size_t)(*count)++;
-}
-
 #define ONE_MORE(drawing, list, count, room)                                                       \
-    one_more(&(drawing)->list, &(drawing)->count, &(drawing)->room, sizeof *(drawing)->list)
+    memory_add(&(drawing)->list, &(drawing)->count, &(drawing)->room, sizeof *(drawing)->list)
 
 void drawing_path(Drawing *drawing, DrawingStyle style)
 {

@@ -52,11 +52,8 @@ static int split(ChangeText file, Line lines[LINES_MAX])
 
 void changes_add(Changes *changes, ChangeKind kind, const char *text, int length)
 {
-    if (changes->count == changes->room) {
-        changes->room = changes->room ? 2 * changes->room : 64;
-        changes->lines = memory_grow(changes->lines, (size_t)changes->room, sizeof *changes->lines);
-    }
-    ChangeLine *line = &changes->lines[changes->count++];
+    ChangeLine *line =
+        memory_add(&changes->lines, &changes->count, &changes->room, sizeof *changes->lines);
     line->kind = kind;
     snprintf(line->text, sizeof line->text, "%.*s", length, text);
 }

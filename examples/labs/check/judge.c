@@ -217,14 +217,11 @@ static bool look_at_precision(Session *session, Message *message)
                                   &session->canvas, message);
 }
 
-/* Right in 32 bits counts as right, minus a point. */
-static void note_overflow(Verdict *verdict)
+static void blame_known(Verdict *verdict, const char *before, const char *name)
 {
-    const Mistake *known = &MISTAKES[catalogue_find("mediump overflow")];
+    const Mistake *known = &MISTAKES[catalogue_find(name)];
     verdict_add_mistake(verdict, known->name, known->sentence, known->look, 0.9);
-    verdict->points -= 1;
-    snprintf(verdict->message, sizeof verdict->message, "Right except in large scenes: %s",
-             known->name);
+    snprintf(verdict->message, sizeof verdict->message, "%s%s", before, known->name);
 }
 
 /* Lab 10: whether the picture is right with a fine mesh, or with highp. */
@@ -249,13 +246,6 @@ static bool is_right_with(Session *session, int slices, const char *precision, b
     return done;
 }
 
-static void blame_known(Verdict *verdict, const char *name)
-{
-    const Mistake *known = &MISTAKES[catalogue_find(name)];
-    verdict_add_mistake(verdict, known->name, known->sentence, known->look, 0.9);
-    snprintf(verdict->message, sizeof verdict->message, "%s", known->name);
-}
-
 /* Lab 10: a mesh that is too coarse, or mediump. *found: it is one of these. */
 static bool look_at_budget(Session *session, bool *found, Message *message)
 {
@@ -266,11 +256,11 @@ static bool look_at_budget(Session *session, bool *found, Message *message)
     if (!is_right_with(session, FINE, NULL, found, message))
         return false;
     if (*found)
-        blame_known(session->verdict, "mesh too coarse");
+        blame_known(session->verdict, "", "mesh too coarse");
     else if (!is_right_with(session, 0, "highp", found, message))
         return false;
     else if (*found)
-        blame_known(session->verdict, "mediump too coarse");
+        blame_known(session->verdict, "", "mediump too coarse");
     /* As it was. */
     const Painter painter = {.lab = session->lab, .program = session->shader.program};
     return lab_pictures_use_sphere(&session->pictures, session->budget.slices,
@@ -289,7 +279,7 @@ static bool explain(Session *session, const Painter *painter, const char *number
     }
     if (numbers[0] && !session->lab->given) {
         if (text_has_word(session->files, "gl_FragCoord"))
-            blame_known(verdict, "depends on the picture's size");
+            blame_known(verdict, "", "depends on the picture's size");
         else
             snprintf(verdict->message, sizeof verdict->message, "right in small scenes only");
         verdict_add_symptom(verdict, "%s", numbers);
@@ -376,8 +366,10 @@ static bool judge_pictures(Session *session, Message *message)
         return false;
     }
     verdict_score(verdict);
-    if (!wrong && worst >= 0)
-        note_overflow(verdict);
+    if (!wrong && worst >= 0) { /* right in 32 bits counts as right, minus a point */
+        blame_known(verdict, "Right except in large scenes: ", "mediump overflow");
+        verdict->points -= 1;
+    }
     if (session->lab->budget && !budget_score(&session->budget, session->shader.program,
                                               &session->canvas, &session->plain, verdict, message))
         return false;

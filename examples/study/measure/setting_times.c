@@ -15,12 +15,8 @@ void quality_list_add(QualityList *list, const Quality *quality)
     for (int i = 0; i < list->count; i++)
         if (quality_equal(&list->qualities[i], quality))
             return;
-    if (list->count == list->capacity) {
-        list->capacity = list->capacity ? 2 * list->capacity : 64;
-        list->qualities =
-            memory_grow(list->qualities, (size_t)list->capacity, sizeof *list->qualities);
-    }
-    list->qualities[list->count++] = *quality;
+    Quality *added = memory_add(&list->qualities, &list->count, &list->capacity, sizeof *added);
+    *added = *quality;
 }
 
 void quality_list_close(QualityList *list)

@@ -31,12 +31,9 @@ void results_with(const Results *results, char text[RESULT_WITH_SIZE])
 
 void results_add(Results *results, const ResultRow *row)
 {
-    if (results->count == results->capacity) {
-        results->capacity = results->capacity ? 2 * results->capacity : 64;
-        results->rows =
-            memory_grow(results->rows, (size_t)results->capacity, sizeof *results->rows);
-    }
-    results->rows[results->count++] = *row;
+    ResultRow *added =
+        memory_add(&results->rows, &results->count, &results->capacity, sizeof *added);
+    *added = *row;
 }
 
 const ResultRow *results_find(const Results *results, const char *scene, const Quality *quality)
