@@ -87,7 +87,7 @@ static ReferenceOptions options_of(const ErrorView *view, const ReferenceOptions
     return options;
 }
 
-/* The map, if it is not NULL, gets its pixels. */
+/* The map gets its pixels, too. */
 static bool add_view(PictureError *error, Image *map, const Image *image, const ErrorView *view,
                      const ReferenceOptions *given, Message *message)
 {
@@ -100,10 +100,10 @@ static bool add_view(PictureError *error, Image *map, const Image *image, const 
                             .drawn = drawn.lights ? &drawn : NULL,
                             .left = view->place[0],
                             .top = view->place[1]};
-    if (done)
+    if (done) {
         picture_error_add(error, image, &part);
-    if (done && map)
         picture_error_map(map, image, &part);
+    }
     reference_close(&exact);
     reference_close(&drawn);
     return done;
@@ -125,17 +125,6 @@ static bool add_computing(PictureError *error, const Image *image, const ErrorVi
                                    .left = view->place[0],
                                    .top = view->place[1]});
     reference_close(&meshes);
-    return true;
-}
-
-bool error_worker_compute(const ErrorPicture *picture, int threads, const atomic_bool *stop,
-                          PictureError *error, Message *message)
-{
-    const ReferenceOptions given = {.threads = threads, .stop = stop};
-    *error = (PictureError){.all = {0}};
-    for (int i = 0; i < picture->view_count; i++)
-        if (!add_view(error, NULL, &picture->image, &picture->views[i], &given, message))
-            return false;
     return true;
 }
 

@@ -86,9 +86,4 @@ void error_worker_cancel(ErrorWorker *worker);
  * NULL is fine. */
 void error_worker_close(ErrorWorker *worker);
 
-/* `error` without a thread of its own, and with `threads` of them, for those who can wait. False,
- * with a message, where memory runs out. `stop` as in ReferenceOptions. */
-bool error_worker_compute(const ErrorPicture *picture, int threads, const atomic_bool *stop,
-                          PictureError *error, Message *message);
-
 #endif
