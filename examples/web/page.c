@@ -30,9 +30,9 @@ enum { MAX_SIDE = 4096 };
 
 /* The common options that a page has; the others are of files, processes or a terminal. */
 static const char *const SHOWN[] = {
-    "size",        "time",     "angle",   "orbit",        "samples", "precision",
-    "alpha",       "full",     "clamp",   "linear-light", "terms",   "light-at",
-    "light-color", "lighting", "shadows", "show-clipped", NULL};
+    "size",    "time",         "angle",        "orbit",   "samples",  "precision",   "alpha",
+    "full",    "clamp",        "linear-light", "terms",   "light-at", "light-color", "lighting",
+    "shadows", "show-clipped", "clamp-dots",   "normals", NULL};
 /* What a program has itself, but no page: files, and operations, which another process counts. */
 static const char *const ABSENT[] = {"model", "up", "costs", NULL};
 

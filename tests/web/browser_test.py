@@ -50,7 +50,7 @@ HARNESS = """(async () => {
 })()"""
 MOMENTS = [["--time=0"], ["--time=1.3"], ["--time=7.25"]]
 OPTIONS = [["--samples=4"], ["--precision=highp"], ["--precision=mediump"], ["--orbit=30,20,0.9"], ["--size=257x131"]]
-OF_SCENES = [["--linear-light"], ["--full"], ["--clamp=vertex"], ["--terms=diffuse"]]
+OF_SCENES = [["--linear-light"], ["--full"], ["--clamp=vertex"], ["--terms=diffuse"], ["--clamp-dots=off"]]
 OF_ONE = {"Shadows": [["--shadows=map"], ["--shadows=volumes", "--sheet=on"]],
           "SpotLight": [["--shadows=volumes"], ["--shadows=volumes", "--samples=4"], ["--light-color=0,0.2,1,0.5"]]}
 ABSENT = {"--costs"}  # of the tries
