@@ -3,6 +3,9 @@
  * bits, and so are the two directions of an edge. For a volume each triangle then adds 1 or -1 to
  * the net of its three edges, by whether it faces the light; edges whose net is not zero are the
  * silhouette, and each gets as many sides. The time is linear in the triangles.
+ *
+ * A triangle that the light lies on, at a vertex, say, does not keep it from anything, as in the
+ * exact picture: floats do not know which way from the light such a vertex is.
  */
 #include "shadows/silhouette.h"
 
@@ -245,6 +248,25 @@ static bool is_dark(const Silhouette *silhouette, size_t triangle, Vec3 light, b
     return true;
 }
 
+/* Whether the light lies on a triangle, as far as the shader's floats tell: `distance` is some of
+ * their roundings. */
+static bool is_touched(const Silhouette *silhouette, size_t triangle, Vec3 light, double distance)
+{
+    const Vec3 normal = silhouette->normals[triangle];
+    const double least = distance * vec3_length(normal);
+    const Vec3 from = corner(silhouette->mesh, 3 * triangle);
+    if (fabs(vec3_dot(normal, vec3_subtract(light, from))) > least)
+        return false;
+    for (size_t k = 0; k < 3; k++) {
+        const Vec3 a = corner(silhouette->mesh, 3 * triangle + k);
+        const Vec3 side = vec3_subtract(corner(silhouette->mesh, 3 * triangle + (k + 1) % 3), a);
+        if (vec3_dot(vec3_cross(normal, side), vec3_subtract(light, a)) <
+            -least * vec3_length(side))
+            return false;
+    }
+    return true;
+}
+
 /* The share of a triangle of the volume in its edges' nets, and in the cap at the end. */
 static void add_edges(ShadowVolume *volume, const Silhouette *silhouette, size_t triangle, bool lit,
                       bool far)
@@ -277,12 +299,15 @@ bool shadow_volume_make(ShadowVolume *volume, const Silhouette *silhouette,
     const double reach =
         near ? vec3_length(vec3_subtract(place, silhouette->center)) + silhouette->radius
              : vec3_length(place);
+    const double touching = ldexp(reach, -22);
+    const bool may_touch = near && reach <= 2 * silhouette->radius + touching;
     if (!make_room(volume, silhouette))
         return message_set(message, "shadows: not enough memory for a volume of %zu triangles",
                            silhouette->triangle_count);
     memset(silhouette->nets, 0, silhouette->edge_count * sizeof *silhouette->nets);
     for (size_t t = 0; t < silhouette->triangle_count; t++) {
-        if (silhouette->edges[3 * t] == UINT32_MAX)
+        if (silhouette->edges[3 * t] == UINT32_MAX ||
+            (may_touch && is_touched(silhouette, t, place, touching)))
             continue;
         const Vec3 way = near ? vec3_subtract(place, corner(silhouette->mesh, 3 * t)) : place;
         const bool lit = vec3_dot(silhouette->normals[t], way) > 0;

@@ -228,6 +228,49 @@ TEST_WITH(0, eyes_and_lights_may_be_anywhere, open_meshes, close_meshes)
     assert_true(all);
 }
 
+/* Of a triangle: a corner, the middle of a side, its own middle, or a place in its plane. */
+static Vec3 touching(const Mesh *mesh, size_t triangle, int way)
+{
+    static const double weights[][3] = {{1, 0, 0}, {0.5, 0.5, 0}, {0.3, 0.3, 0.4}, {2.5, -1, -0.5}};
+    Vec3 place = {0, 0, 0};
+    for (int k = 0; k < 3; k++) {
+        const MeshVertex *vertex = &mesh->vertices[mesh->indices[3 * triangle + (size_t)k]];
+        place = vec3_add(place, vec3_scale(vec3_from_float(vertex->position), weights[way][k]));
+    }
+    return place;
+}
+
+/* In the plane of a flat face N.L is 0 but for rounding, which decides on each point's highlight:
+ * pixels that may be wrong. A lost shadow is ten times as many. */
+TEST_WITH(0, lights_may_touch_what_throws_the_shadow, open_meshes, close_meshes)
+{
+    static const char *const ways[] = {"at a vertex", "on an edge", "on a triangle",
+                                       "in its plane"};
+    const Mesh *const meshes[] = {&ball, &coarse_ring, &pipe_mesh, &box, &pot};
+    static const char *const names[] = {"ball", "coarse ring", "open pipe", "box", "teapot"};
+    const Mat4 turned = mat4_rotate(-65, (Vec3){1, 0.3, 0.2});
+    Random random = {testing_seed(20261123)};
+    bool all = true;
+    for (int i = 0; i < 5; i++) {
+        const int way_count = meshes[i] == &pot ? 1 : 4; /* its rims are as thin as rounding */
+        for (int way = 0; way < way_count; way++) {
+            for (int turn = 0; turn < 2; turn++) {
+                char name[64];
+                const size_t triangle =
+                    (size_t)random_below(&random, (int)(meshes[i]->index_count / 3));
+                make_world(meshes[i]);
+                turn_first(turn ? turned : mat4_identity());
+                world.lights[0].position = mat4_transform_point(world.objects[0].world_from_object,
+                                                                touching(meshes[i], triangle, way));
+                snprintf(name, sizeof name, "light %s of the %s, %zu", ways[way], names[i],
+                         triangle);
+                all &= check_wrong(name, &world.scene, 100);
+            }
+        }
+    }
+    assert_true(all);
+}
+
 TEST_WITH(0, the_scale_and_the_place_do_not_matter, open_meshes, close_meshes)
 {
     static const double scales[] = {1e-6, 1e6, 1};
