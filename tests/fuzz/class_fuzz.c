@@ -7,7 +7,6 @@
 #include "labs/sandbox/bundle.h"
 #include "labs/sandbox/png_copy.h"
 #include "labs/sandbox/source.h"
-#include "labs/sandbox/unpack.h"
 
 #include <jansson.h>
 #include <stdlib.h>

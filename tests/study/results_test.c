@@ -2,7 +2,7 @@
  * results: rows survive a round trip and damaged files. front: which rows are efficient,
  * and which are not significantly faster.
  */
-#include "study/results/front.h"
+#include "study/results/results.h"
 #include "support/testing.h"
 
 #include <fcntl.h>
