@@ -317,8 +317,8 @@ class Surveys(Study):
             self.wrong(2, said, *arguments)
         self.make("file")
         self.wrong(1, "file: exists and is not a folder", "-o", "file")
-        self.says(1, r"^accuracy: EGL: .*LIBGL_DRIVERS_PATH.*: unset it\n$", "-o", "new", program="accuracy",
-                  environment={**self.own, **base.NO_DRIVER})
+        self.says(1, r"^accuracy: EGL: .*LIBGL_DRIVERS_PATH.*: unset it\n$", "-o", "new",
+                  program="accuracy", environment={**self.own, **base.NO_DRIVER})
         os.makedirs(self.path("other"))
         self.make("other/results.csv", "name,age\nme,7\n")
         self.wrong(1, r"other/results\.csv", "-o", "other", "--scene", "cube", *QUICK)

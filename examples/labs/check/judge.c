@@ -10,7 +10,7 @@
 #include "labs/diagnosis/catalogue.h"
 #include "labs/diagnosis/diagnose.h"
 #include "labs/diagnosis/text_facts.h"
-#include "labs/submission/compiler_dependence.h"
+#include "labs/submission/submission.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -5,7 +5,6 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "labs/sandbox/source.h"
-#include "labs/sandbox/unpack.h"
 
 #include <ctype.h>
 #include <dirent.h>

@@ -1,6 +1,6 @@
 /* Each choice is one term of a product left out, put elsewhere or taken twice, as a student would:
  * a table or a switch has the forms, 0 is always the right one. */
-#include "labs/diagnosis/wrong_object.h"
+#include "labs/diagnosis/wrong_program.h"
 
 #include "core/example.h"
 #include "labs/program/binding.h"

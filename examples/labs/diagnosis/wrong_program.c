@@ -3,7 +3,6 @@
 #include "labs/diagnosis/wrong_program.h"
 
 #include "base/memory.h"
-#include "labs/diagnosis/wrong_object.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -31,7 +31,7 @@ typedef struct Lab {
     bool either;    /* light at the vertices is as right as at the fragments */
     bool two_sided; /* the back has its own colour; objects may be mirrored */
     bool given;     /* the shaders are given, the submission is only C */
-    bool shadow;    /* its light casts shadows: the shaders get its map (lab_shadow_map.h) */
+    bool shadow;    /* its light casts shadows: the shaders get its map (binding.h) */
     bool budget;    /* the submission chooses the mesh and is scored by its cost */
     Reflection reflection;
 } Lab;

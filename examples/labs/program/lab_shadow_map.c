@@ -1,7 +1,7 @@
 /* A shadow map (Williams, Casting curved shadows on curved surfaces, 1978) whose frustum holds just
  * the objects that cast shadows; depth is packed into three bytes, because not every OpenGL ES 2.0
  * has depth textures. */
-#include "labs/program/lab_shadow_map.h"
+#include "labs/program/binding.h"
 
 #include "core/canvas.h"
 #include "core/mesh_buffer.h"

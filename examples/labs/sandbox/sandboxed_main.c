@@ -8,7 +8,6 @@
 #include "base/sanitized.h"
 #include "labs/check/judge.h"
 #include "labs/sandbox/source.h"
-#include "labs/sandbox/unpack.h"
 #include "labs/submission/verdict_json.h"
 
 #include <errno.h>

@@ -1,7 +1,5 @@
 /* libarchive reads the formats. Nothing is written, so what an archive says of paths, links and
  * owners does no harm; what it unpacks to is counted as it comes. */
-#include "labs/sandbox/unpack.h"
-
 #include "labs/sandbox/source.h"
 
 #include <archive.h>

@@ -1,6 +1,6 @@
 /* Pixels at edges differ between right programs, by how a vertex is rounded, so only those inside
  * objects count against the exact picture, and two drawn pictures may be a pixel apart. */
-#include "labs/submission/compare.h"
+#include "labs/submission/lab_pictures.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* Reads a text's directives line by line with a stack of conditions. A macro that depends on an
  * allowed one is as dependent; lines within such a condition may only set precisions. Compilers
  * differ in whether a backslash joins lines, so both readings have to pass. */
-#include "labs/submission/compiler_dependence.h"
+#include "labs/submission/submission.h"
 
 #include "base/memory.h"
 #include "base/text.h"

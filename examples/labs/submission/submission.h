@@ -7,10 +7,13 @@
 #ifndef SUBMISSION_H
 #define SUBMISSION_H
 
+#include "base/message.h"
 #include "core/canvas.h"
 #include "core/shader.h"
 #include "labs/program/binding.h"
 #include "labs/program/lab_scene.h"
+
+#include <stdbool.h>
 
 /* Files of a folder, in memory. Zeroed: none. */
 enum { SUBMISSION_MAX_FILES = 64 };
@@ -84,5 +87,13 @@ typedef struct PainterView {
 bool painter_draw_at(const Painter *painter, const LabScene *lab_scene,
                      const SubmissionGeometry *geometry, PainterView view, Image *image,
                      Message *message);
+
+/* What a driver draws must be what others read and count. So a text may not use the version, the
+ * macros of extensions or the limits of an implementation, and where it depends on GL_ES or
+ * GL_FRAGMENT_PRECISION_HIGH, its branches may differ in precision only. Nor may it read
+ * gl_PointCoord, which is undefined in triangles. */
+
+/* False, with a message that says what to remove (without the file's name): it depends on it. */
+bool compiler_dependence_check(const char *text, Message *message);
 
 #endif

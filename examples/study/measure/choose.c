@@ -9,7 +9,7 @@
 
 #include "base/memory.h"
 #include "study/measure/scenes.h"
-#include "study/results/front.h"
+#include "study/results/results.h"
 
 #include <math.h>
 #include <stdlib.h>

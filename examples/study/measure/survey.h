@@ -7,7 +7,6 @@
 
 #include "app/options.h"
 #include "study/measure/setting_picture.h"
-#include "study/results/front.h"
 #include "study/results/results.h"
 
 #include <stdio.h>

@@ -1,7 +1,7 @@
 #include "study/report/conclusions.h"
 
 #include "study/measure/scenes.h"
-#include "study/results/front.h"
+#include "study/results/results.h"
 
 #include <math.h>
 #include <stdarg.h>

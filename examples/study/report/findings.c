@@ -10,7 +10,7 @@
 #include "study/measure/setting_picture.h"
 #include "study/report/report.h"
 #include "study/report/report_gnuplot.h"
-#include "study/results/front.h"
+#include "study/results/results.h"
 #include "study/results/table.h"
 
 #include <math.h>

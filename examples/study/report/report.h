@@ -6,7 +6,7 @@
 
 #include "images/image_file.h"
 #include "reference/reference.h"
-#include "study/results/front.h"
+#include "study/results/results.h"
 
 #include <limits.h>
 #include <stdio.h>

@@ -3,7 +3,7 @@
 #include "base/output.h"
 #include "base/template.h"
 #include "study/measure/scenes.h"
-#include "study/results/front.h"
+#include "study/results/results.h"
 
 #include <limits.h>
 #include <math.h>

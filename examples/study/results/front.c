@@ -5,7 +5,7 @@
  * the fewest unusual choices stands for all. Sorting costs n log n, looking for such a row n times
  * the front.
  */
-#include "study/results/front.h"
+#include "study/results/results.h"
 
 #include "base/clock.h"
 #include "base/memory.h"
