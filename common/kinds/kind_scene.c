@@ -174,9 +174,14 @@ bool scene_error_picture(Renderer *renderer, const DrawRequest *request, double 
 
 /* The finished picture */
 
+/* Of many frames those that needed another program. */
 static void report(const Renderer *renderer)
 {
-    const LightingCounts counts = lighting_counts(scene_state(renderer)->lighting);
+    SceneState *state = scene_state(renderer);
+    const LightingCounts counts = lighting_counts(state->lighting);
+    if (counts.programs == state->reported)
+        return;
+    state->reported = counts.programs;
     fprintf(stderr, "programs so far: %d, compiled and linked in %.1f ms\n", counts.programs,
             1e3 * counts.compile_seconds);
 }

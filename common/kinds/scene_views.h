@@ -14,6 +14,7 @@
 /* The state of a renderer whose example is of SCENE_KIND. */
 typedef struct SceneState {
     Lighting *lighting;
+    int reported; /* programs, with --verbose */
     Overlay overlay;
     SolidMeshes meshes; /* of the choices */
     /* With --error, by view: what is drawn in pictures of this size, at this time or, in a window

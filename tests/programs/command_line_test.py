@@ -437,6 +437,10 @@ class Options(Case):
             else:
                 self.assertEqual(said, there[name])
 
+    def test_verbose_reports_programs_once(self):
+        result = self.says(0, "", "-v", "-n", "4", "-s", "40", "-o", "p%d.png", program="LightTypes")
+        self.assertEqual(result.stderr.decode().count("programs so far"), 1)
+
     def test_a_named_pipe_gets_a_png(self):
         os.mkfifo(self.path("pipe"))
         with subprocess.Popen(["cat", self.path("pipe")], stdout=subprocess.PIPE) as reader:
