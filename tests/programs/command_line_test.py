@@ -438,7 +438,7 @@ class Options(Case):
                 self.assertEqual(said, there[name])
 
     def test_verbose_reports_programs_once(self):
-        result = self.says(0, "", "-v", "-n", "4", "-s", "40", "-o", "p%d.png", program="LightTypes")
+        result = self.says(0, "opening", "-v", "-n", "4", "-s", "40", "-o", "p%d.png", program="LightTypes")
         self.assertEqual(result.stderr.decode().count("programs so far"), 1)
 
     def test_a_named_pipe_gets_a_png(self):
