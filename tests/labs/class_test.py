@@ -635,7 +635,25 @@ class Results(Class):
         self.assertEqual(without_times("merged"), without_times("whole"))
         picture = "students/student0/worst.png"
         self.assertEqual(self.read(f"merged/{picture}"), self.read(f"whole/{picture}"))
-        self.check_refused("missing/students: No such file", "--merge", "missing", "-o", "merged")
+        # What is missing, double or was judged otherwise is refused by name, and nothing is written.
+        def refused(said, *folders):
+            self.check_refused(said, "--merge", *folders, "-o", "other")
+            self.assertFalse(os.path.exists(self.path("other")))
+
+        refused("missing/run.json: No such file", "part1", "missing")
+        refused("part 2 of 3 is missing; judge that", "part1", "part3")
+        refused("part 1 of 3 is there twice: part1 and part1", "part1", "part1", "part2", "part3")
+        refused("part1 and whole were not judged alike: parts is 3 and 0", "part1", "whole")
+        lost = os.listdir(self.path(f"{judged[0]}/students"))[0]
+        os.remove(self.path(f"{judged[0]}/students/{lost}/result.json"))
+        refused(f"{judged[0]}: without a result: {lost}; judge that", *parts)
+        result = self.run_it("--merge", *parts, "--partial", "-o", "other", program=PROGRAM)
+        self.assertEqual((result.returncode, result.stderr.decode()),
+                         (0, f"check: {judged[0]}: without a result: {lost}\n"))
+        self.assertEqual(len(self.verdicts("other")), count - 1)
+        self.lab5("--part", "2/3", "--seed", "9", out="seed")
+        shutil.rmtree(self.path("other"))
+        refused("part1 and seed were not judged alike: seed is 1 and 9", "part1", "seed", "part3")
 
     def test_results_of_another_lab_are_left_alone(self):
         self.submit("a")

@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "labs/class/class_report.h"
 #include "labs/class/class_judge.h"
+#include "labs/class/class_run.h"
 #include "labs/sandbox/sandbox.h"
 
 #include <ctype.h>
@@ -119,7 +120,8 @@ static bool judge_class(const ClassOptions *options, const FoundList *list, cons
     const ClassJudging judging = {options, lab, list, &sandbox, &store, &interrupted};
     Message notes = {.text = ""};
     bool done = class_store_open(&store, options->output, &notes, message) &&
-                same_lab(&store, lab, message) && open_sandbox(options, lab, &sandbox, message);
+                same_lab(&store, lab, message) && open_sandbox(options, lab, &sandbox, message) &&
+                class_run_write(options, lab, list, message);
     say(&notes);
     options_catch_signals(interrupt, (int)SA_RESETHAND); /* the second ends it at once */
     done = done && class_judge(&judging, message);
@@ -171,8 +173,9 @@ static int run_class(const ClassOptions *options, Message *message)
 static int run_merge(const ClassOptions *options, Message *message)
 {
     ClassStore store = {.lock = -1};
-    Message notes = {.text = ""};
-    bool done = class_store_open(&store, options->output, &notes, message);
+    Message notes = {.text = ""}, missing = {.text = ""};
+    bool done = class_runs_join(options, &missing, message) &&
+                class_store_open(&store, options->output, &notes, message);
     for (char *const *folder = options->merged; done && *folder; folder++) {
         ClassStore part = {.lock = -1};
         done = class_store_read(&part, *folder, &notes, message) &&
@@ -180,6 +183,8 @@ static int run_merge(const ClassOptions *options, Message *message)
         class_store_close(&part);
     }
     say(&notes);
+    if (done)
+        say(&missing);
     done = done && report(&store, message);
     class_store_close(&store);
     if (!done)

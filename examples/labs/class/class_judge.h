@@ -19,6 +19,7 @@ typedef struct ClassOptions {
     const char *lab;    /* NULL: as the names tell */
     const char *output;
     char *const *merged; /* folders to merge, NULL-terminated */
+    bool partial;        /* merge though something is missing */
     int jobs;
     Part part;
     bool deterministic;

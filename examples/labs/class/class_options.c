@@ -38,8 +38,12 @@ bool class_options_read(ClassOptions *options, int argc, char *argv[], Message *
          2147483647, .placeholder = "N"},
         {"part", "only the I-th of N parts; -o another folder for each part", PARAMETER_TEXT,
          &options->part, .codec = &OPTION_PART},
-        {"merge", "join the results in the folders that are named", PARAMETER_FLAG,
-         .value = &merge},
+        {"merge",
+         "join the results in the folders that are named; refused if a part or a student is "
+         "missing, double, or was judged otherwise",
+         PARAMETER_FLAG, .value = &merge},
+        {"partial", "merge what there is, and say what is missing", PARAMETER_FLAG,
+         .value = &options->partial},
         {"deterministic", "judge alike on different x86 processors", PARAMETER_FLAG,
          .value = &options->deterministic},
         {"again", "judge everything again; a worse result replaces none", PARAMETER_FLAG,
@@ -61,6 +65,8 @@ bool class_options_read(ClassOptions *options, int argc, char *argv[], Message *
     }
     if (merge && options->folder)
         return message_set(message, "--class and --merge: one of them");
+    if (options->partial && !merge)
+        return message_set(message, "--partial: is for --merge");
     if (merge && !argv[1])
         return message_set(message, "--merge: needs the folders to merge");
     if (!merge && argv[1])
