@@ -9,6 +9,20 @@
 #include <stdio.h>
 #include <unistd.h>
 
+static bool check_together(const ClassOptions *options, bool merge, Message *message)
+{
+    const char *folder = options->merged[0];
+    if (merge && options->folder)
+        return message_set(message, "--class and --merge: one of them");
+    if (options->partial && !merge)
+        return message_set(message, "--partial: is for --merge");
+    if (merge && !folder)
+        return message_set(message, "--merge: needs the folders to merge");
+    if (!merge && folder)
+        return message_set(message, "%s: not an option; --class takes one folder", folder);
+    return true;
+}
+
 bool class_options_read(ClassOptions *options, int argc, char *argv[], Message *message)
 {
     const long processors = sysconf(_SC_NPROCESSORS_ONLN);
@@ -63,13 +77,5 @@ bool class_options_read(ClassOptions *options, int argc, char *argv[], Message *
         help_options(table);
         return true;
     }
-    if (merge && options->folder)
-        return message_set(message, "--class and --merge: one of them");
-    if (options->partial && !merge)
-        return message_set(message, "--partial: is for --merge");
-    if (merge && !argv[1])
-        return message_set(message, "--merge: needs the folders to merge");
-    if (!merge && argv[1])
-        return message_set(message, "%s: not an option; --class takes one folder", argv[1]);
-    return true;
+    return check_together(options, merge, message);
 }
