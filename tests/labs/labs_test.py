@@ -542,6 +542,11 @@ class Faults(Labs):
         self.make("endless/matrices.c", head + "    for (volatile int i = 0;; i = 0) ;\n}\n")
         code, result = run_check(3, self.path("endless"), 1, "--limit", "2")
         self.assertEqual((code, result["verdict"]), (1, "timeout"), result)
+        if base.LONG:  # it is waited for: 20 s
+            self.make("stopped/matrices.c", "int raise(int);\n" + head + "    raise(19);\n}\n")
+            code, result = run_check(3, self.path("stopped"))
+            self.assertEqual((code, result["verdict"]), (1, "timeout"), result)
+            self.assertIn("it stopped, or waited", result["message"])
 
     def test_the_command_line(self):
         for arguments, code, said in (

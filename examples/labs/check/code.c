@@ -2,6 +2,7 @@
  * to compute and to write numbers into one pipe; what it returns is checked as any input is. */
 #include "labs/check/code.h"
 
+#include "base/clock.h"
 #include "base/output.h"
 #include "base/paths.h"
 #include "base/process.h"
@@ -16,8 +17,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* Seconds of processor time, bytes of memory and of written files. */
-enum { CALL_SECONDS = 2, BUILD_SECONDS = 10, MAX_WRITTEN = 32 << 20 };
+/* Seconds of processor time, bytes of memory and of written files. CALL_WAIT is of the clock on the
+ * wall: code that stops itself uses no processor; a busy machine takes less long. */
+enum { CALL_SECONDS = 2, CALL_WAIT = 20, BUILD_SECONDS = 10, MAX_WRITTEN = 32 << 20 };
 static const rlim_t CALL_MEMORY = (rlim_t)256 << 20, BUILD_MEMORY = (rlim_t)1 << 30;
 
 /* Building. */
@@ -61,11 +63,11 @@ static _Noreturn void compile(const Lab *lab, const char *folder, const char *la
 }
 
 /* And skips the rest, so that the child does not wait for its reader. */
-static size_t read_all(int from, char *bytes, size_t size)
+static size_t read_all(int from, char *bytes, size_t size, double deadline)
 {
     char rest[4096];
-    const size_t got = process_read(from, bytes, size, HUGE_VAL);
-    while (process_read(from, rest, sizeof rest, HUGE_VAL) > 0)
+    const size_t got = process_read(from, bytes, size, deadline);
+    while (process_read(from, rest, sizeof rest, deadline) > 0)
         continue;
     return got;
 }
@@ -108,7 +110,7 @@ static bool build(const Code *code, Message *message)
         return false;
     if (child == 0)
         compile(lab, folder, labs, common, end);
-    const size_t size = read_all(end, said, sizeof said - 1);
+    const size_t size = read_all(end, said, sizeof said - 1, HUGE_VAL);
     close(end);
     said[size] = '\0';
     const int status = process_wait(child);
@@ -187,10 +189,18 @@ static bool run_code(const Code *code, Call *wanted, Message *message)
         return false;
     if (child == 0)
         call(module, wanted, end);
-    const size_t got =
-        read_all(end, wanted->matrices ? (char *)wanted->matrices : (char *)&wanted->budget, size);
+    const double deadline = clock_now() + CALL_WAIT;
+    const size_t got = read_all(
+        end, wanted->matrices ? (char *)wanted->matrices : (char *)&wanted->budget, size, deadline);
+    const bool late = clock_now() >= deadline;
+    if (late)
+        kill(child, SIGKILL);
     close(end);
     const int status = process_wait(child);
+    if (late)
+        return blame(verdict, VERDICT_TIMEOUT,
+                     "%s: it stopped, or waited, and did not go on: look for raise and the like",
+                     lab->code);
     if (WIFEXITED(status) && WEXITSTATUS(status) == 3)
         return message_set(message, "this kernel cannot confine a process, so a submission's C is "
                                     "not run");
