@@ -212,8 +212,9 @@ static bool run(const Example *example, Options *options, const ParameterValue *
         return run_window(example, options, defaults, message);
     if (example_kind(example)->without_gl)
         return run_without_gl(example, options, message);
-    /* llvmpipe's threads would compete with those that encode pictures. */
-    if (options->frames > 1)
+    /* llvmpipe's threads would compete with those that encode pictures: on two cores PNG takes 1.08
+     * times as long with them, but raw pictures 0.7 times. */
+    if (options->frames > 1 && !animation_is_raw(options->animation))
         setenv("LP_NUM_THREADS", "0", 0);
     return options->watch ? run_watching(example, options, message)
                           : run_drawing(example, options, message);

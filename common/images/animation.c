@@ -114,6 +114,12 @@ static bool in_file(const Format *format)
     return format->writer != WRITER_Y4M && format->writer != WRITER_RGB;
 }
 
+bool animation_is_raw(const char *format)
+{
+    const Format *found = format ? find_format(format) : NULL;
+    return found && !in_file(found);
+}
+
 int animation_format_names(const char *names[], int max)
 {
     int count = 0;

@@ -36,6 +36,9 @@ typedef struct AnimationOptions {
  * .gif or .webp is not an animation; in a .apng, .mp4 or .webm it is. */
 const char *animation_format(const char *path, int frames);
 
+/* Whether a format, or NULL, is written as it is, with nothing to encode: y4m, rgb. */
+bool animation_is_raw(const char *format);
+
 /* The names of the formats that a file may have; at most `max`. Returns their number. */
 int animation_format_names(const char *names[], int max);
 

@@ -441,6 +441,22 @@ class Options(Case):
         result = self.says(0, "opening", "-v", "-n", "4", "-s", "40", "-o", "p%d.png", program="LightTypes")
         self.assertEqual(result.stderr.decode().count("programs so far"), 1)
 
+    def test_raw_pictures_are_drawn_by_threads(self):
+        """Nothing else needs the processor; encoders would. The driver names its threads."""
+        def threads(*arguments):
+            with subprocess.Popen([os.path.join(EXAMPLES, "FourLights"), "-n", "9", *arguments], cwd=self.folder,
+                                  env={key: value for key, value in os.environ.items()
+                                       if key != "LP_NUM_THREADS"},
+                                  stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) as process:
+                process.stdout.read(1)  # the rest fills the pipe
+                tasks = glob.glob(f"/proc/{process.pid}/task/*/comm")
+                names = [open(task).read() for task in tasks]
+                process.kill()
+            return sum(name.startswith("llvmpipe") for name in names)
+
+        if os.cpu_count() > 1 and "llvmpipe" in self.run_it("-v", "-o", "-").stderr.decode():
+            self.assertGreater(threads("-o", "-", "--format", "rgb"), 0)
+
     def test_a_named_pipe_gets_a_png(self):
         os.mkfifo(self.path("pipe"))
         with subprocess.Popen(["cat", self.path("pipe")], stdout=subprocess.PIPE) as reader:
