@@ -279,27 +279,60 @@ static bool make_key(const Example *example, const Options *options, CacheKey *k
     return done;
 }
 
-/* --shadows */
+/* --shadows, --clamp-dots */
 
-/* With the lights as the options have them and shadows of all. */
-static bool shadow_falls(const Scene *made, const Options *options)
+typedef bool HasEffect(const LightTerms *terms);
+
+static bool has_shadow(const LightTerms *terms)
+{
+    return terms->shadow > 0;
+}
+
+static bool has_signed_dots(const LightTerms *terms)
+{
+    return terms->signed_dots;
+}
+
+/* Whether any object has the effect, with the lights as the options have them, all with shadows or
+ * none. */
+static bool scene_has(const Scene *made, const Options *options, bool shadows, HasEffect *effect)
 {
     SceneCopy kept;
-    bool falls = false;
+    bool has = false;
     scene_copy_open(&kept, made);
     scene_place_lights(&kept, &options->places);
     scene_tint_lights(&kept, &options->tints);
     scene_keep_terms(&kept, options->terms);
+    kept.scene.signed_dots = options->signed_dots;
     for (int i = 0; i < made->light_count; i++)
-        kept.lights[i].shadows = true;
-    falls = !scene_check(&kept.scene, NULL);
-    for (int i = 0; i < made->object_count && !falls; i++) {
+        kept.lights[i].shadows = shadows;
+    has = !scene_check(&kept.scene, NULL);
+    for (int i = 0; i < made->object_count && !has; i++) {
         const Effects effects = effects_of(&kept.scene, &kept.scene.objects[i]);
         for (int k = 0; k < effects.group_count; k++)
-            falls |= effects.groups[k].terms.shadow > 0;
+            has |= effect(&effects.groups[k].terms);
     }
     scene_copy_close(&kept);
-    return falls;
+    return has;
+}
+
+/* The same at any of the moments. */
+static bool example_has(const Example *example, const Options *options, bool shadows,
+                        HasEffect *effect)
+{
+    const SceneExample *own = example_scene(example);
+    int columns, rows;
+    bool has = !example->init(&NO_SHADERS, NULL);
+    const int views = scene_view_grid(own, &columns, &rows);
+    for (int k = 0; k < INEFFECTIVE_MOMENTS; k++)
+        for (int view = 0; view < views && !has; view++) {
+            Scene scene = {.light_count = 0};
+            own->make(options->seconds + INEFFECTIVE_LATER[k], view, &scene);
+            orbit_move(options->orbit, &scene.camera.eye, scene.camera.center, &scene.camera.up);
+            has = scene_has(&scene, options, shadows, effect);
+        }
+    example->finish();
+    return has;
 }
 
 /* Whether the picture is the same with and without shadows. Several samples of a pixel are drawn in
@@ -307,20 +340,9 @@ static bool shadow_falls(const Scene *made, const Options *options)
 static bool shadows_ineffective(const Example *example, const Options *options)
 {
     const SceneExample *own = example_scene(example);
-    int columns, rows;
-    if (options_have_shadows(options) == own->shadows || options->canvas.samples > 1)
-        return false;
-    bool falls = !example->init(&NO_SHADERS, NULL) || (own->plain_label && own->plain_label(0));
-    const int views = scene_view_grid(own, &columns, &rows);
-    for (int k = 0; k < INEFFECTIVE_MOMENTS; k++)
-        for (int view = 0; view < views && !falls; view++) {
-            Scene scene = {.light_count = 0};
-            own->make(options->seconds + INEFFECTIVE_LATER[k], view, &scene);
-            orbit_move(options->orbit, &scene.camera.eye, scene.camera.center, &scene.camera.up);
-            falls = shadow_falls(&scene, options);
-        }
-    example->finish();
-    return !falls;
+    return options_have_shadows(options) != own->shadows && options->canvas.samples <= 1 &&
+           !(own->plain_label && own->plain_label(0)) &&
+           !example_has(example, options, true, has_shadow);
 }
 
 void ineffective_scene_options(const Example *example, const Options *options,
@@ -331,5 +353,8 @@ void ineffective_scene_options(const Example *example, const Options *options,
         return;
     if (shadows_ineffective(example, options))
         snprintf(text, size, "--shadows");
+    if (options->signed_dots &&
+        !example_has(example, options, options_have_shadows(options), has_signed_dots))
+        snprintf(text + strlen(text), size - strlen(text), "%s--clamp-dots", text[0] ? ", " : "");
     ineffective_options(example, options, defaults, make_key, text, size);
 }

@@ -2,8 +2,9 @@
  * LightedTranslatedRotatedCube: the cube of LightedCube_ambient, turned and moved.
  *
  * New since LightedCube_ambient: a model matrix, and its normal matrix: the inverse transpose.
- * Normals go to world coordinates, because lighting is computed there. The light's direction no
- * longer has an x component.
+ * Normals go to world coordinates, because lighting is computed there. This model only turns and
+ * moves, so that its normal matrix is its rotation; NormalMatrix shows a model that is scaled. The
+ * light's direction no longer has an x component.
  *
  * Look at which faces are bright: those that face the light now, not those that faced it before the
  * rotation.
@@ -99,7 +100,7 @@ static void finish(void)
 
 const Example LightedTranslatedRotatedCube = {
     .name = "LightedTranslatedRotatedCube",
-    .summary = "a transformed cube, and the normal matrix that this needs",
+    .summary = "a turned and moved cube; its normal matrix, which here is the rotation itself",
     .init = init,
     .draw = draw,
     .finish = finish,

@@ -5,7 +5,7 @@
  * by the matrix itself. --matrix both shows them side by side.
  *
  * Look at --matrix both --normals on: the wrong normals lean towards the long axis, and the light
- * follows them. With --scale 1,1,1 the two are the same: --explain prints both matrices.
+ * follows them. With --scale 1,1,1 --rotate 30 they are the same: --explain prints both matrices.
  */
 #include "scene/scene_example.h"
 #include "scene/shape.h"
@@ -15,6 +15,7 @@ static const char *const MATRICES[] = {"right", "wrong", "both", NULL};
 
 static int matrix = RIGHT;
 static Vec3 scale = {2, 0.7, 0.7};
+static double rotate = 0;
 static Surface surface = {.name = MATERIAL_GOLD_INDEX, .material = MATERIAL_GOLD};
 static LightColors light_colors = {{0.5, 0.5, 0.5}, {1, 1, 1}, {1, 1, 1}};
 static Vec3 global_ambient = {0, 0, 0};
@@ -25,6 +26,8 @@ static const Parameter parameters[] = {
      .choices = MATRICES},
     {"scale", "of the sphere along the axes; 1,1,1: M is orthogonal, and the wrong matrix is right",
      PARAMETER_COLOR, .value = &scale, .min = -5, .max = 5, .placeholder = "X,Y,Z"},
+    {"rotate", "turn the scaled sphere about the y axis, in degrees", PARAMETER_NUMBER,
+     .value = &rotate, .min = -360, .max = 360, .placeholder = "DEG"},
     SURFACE_PARAMETERS(surface),
     SHADING_PARAMETERS(shading),
     LIGHT_PARAMETERS(light_colors, global_ambient),
@@ -53,7 +56,9 @@ static void scene(double seconds, int view, Scene *scene)
     state.light =
         (Light){.kind = LIGHT_POINT, .position = example_turn((Vec3){1.5, 1, 0}, seconds)};
     light_colors_apply(&light_colors, &state.light);
-    state.object = shape_object(&state.shape, mat4_scale(scale), surface.material);
+    const Mat4 turn = mat4_rotate(rotate, (Vec3){0, 1, 0});
+    state.object =
+        shape_object(&state.shape, mat4_product(turn, mat4_scale(scale)), surface.material);
     state.object.wrong_normals = is_wrong(view);
     *scene =
         (Scene){.camera = {.eye = {3, 2, 3}, .up = {0, 1, 0}, .fovy = 60, .near = 1, .far = 100},

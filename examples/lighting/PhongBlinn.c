@@ -80,10 +80,13 @@ static void layout(int *columns, int *rows)
 static const char *label(int view)
 {
     static char text[64];
-    if (view == 2)
+    if (view == 2 && gain == 1)
         return "difference";
-    snprintf(text, sizeof text, "%s, shininess %.4g", view == 0 ? "Phong" : "Blinn-Phong",
-             view == 0 ? shininess : state.fitted);
+    if (view == 2)
+        snprintf(text, sizeof text, "%.4g x the difference", gain);
+    else
+        snprintf(text, sizeof text, "%s, shininess %.4g", view == 0 ? "Phong" : "Blinn-Phong",
+                 view == 0 ? shininess : state.fitted);
     return text;
 }
 

@@ -1193,6 +1193,33 @@ class Scenes(Case):
                                     ("Shadows", "--shadows", "off"), ("Shadows", )):
             self.good(*SMALL, *arguments, program=program)
 
+    def test_clamp_dots_that_changes_nothing_is_said(self):
+        """Only N.L of a light without shadows, whose diffuse light a surface reflects, is not clamped."""
+        off = "--clamp-dots", "off"
+        for program, *arguments in (("ShadingModels", "--terms", "specular"), ("ShadingModels", "--lighting", "off"),
+                                    ("Shadows", )):
+            with self.subTest(program=program, arguments=arguments):
+                self.says(0, f"^{program}: --clamp-dots: ignored: has no effect here\n$", *SMALL, *arguments, *off,
+                          "-o", "off.png", program=program)
+                self.assertEqual(self.png("off.png").pixels, self.drawn(*SMALL, *arguments, program=program).pixels)
+        for program, *arguments in (("ShadingModels", ), ("Shadows", "--shadows", "off")):
+            with self.subTest(program=program, arguments=arguments):
+                self.assertNotEqual(self.drawn(*SMALL, *arguments, *off, program=program).pixels,
+                                    self.drawn(*SMALL, *arguments, program=program).pixels)
+
+    def test_the_caption_of_a_difference_says_how_many_times_it_is_shown(self):
+        """The captions differ where the pictures are the same: where there is no difference."""
+        def drawn(gain):
+            picture = self.drawn("--gain", gain, "--light-specular", "0", program="PhongBlinn")
+            above, captions = picture.pixels[:3 * 900 * 270], picture.pixels[3 * 900 * 270:]
+            return above, [captions[i + 1800:i + 2700] for i in range(0, len(captions), 2700)]
+
+        (one, single), (four, times) = drawn("1"), drawn("4")
+        self.assertEqual(one, four)
+        widths = [max(i // 3 for row in rows for i in range(900) if row[i]) -
+                  min(i // 3 for row in rows for i in range(900) if row[i]) for rows in (single, times)]
+        self.assertGreater(widths[1], widths[0] + 30)  # "difference", "4 x the difference"
+
     def test_a_light_has_the_color_that_it_is_given(self):
         """As the option for the colors of all of them, in a scene with one."""
         of_all = "--light-diffuse", "1,0.5,0", "--light-specular", "0,0,1"

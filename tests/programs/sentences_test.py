@@ -56,11 +56,14 @@ class Normals(base.Case):
         self.assertEqual(m, [[2, 0, 0], [0, 0.5, 0], [0, 0, 4]])
         self.assertEqual(n, [[0.5, 0, 0], [0, 2, 0], [0, 0, 0.25]])
         self.assertIn("N is not M", text)
-        for program, arguments in (("NormalMatrix", ("--scale", "1")), ("TwoSidedLighting", ("--time", "1"))):
+        for program, arguments in (("NormalMatrix", ("--scale", "1")),
+                                   ("NormalMatrix", ("--scale", "1", "--rotate", "30")), ("TwoSidedLighting", ("--time", "1"))):
             m, n, text = self.matrices(*arguments, program=program)
             self.assertEqual(len(m), 3)
             self.assertEqual(m, n)
             self.assertIn("M is orthogonal: N = M\n", text)
+        m, _, _ = self.matrices("--scale", "1", "--rotate", "30")
+        self.assertEqual(m, [[0.866, 0, 0.5], [0, 1, 0], [-0.5, 0, 0.866]])
         m, n, text = self.matrices("--scale=-2")
         self.assertEqual((m[1][1], n[1][1]), (-2, -0.5))
         self.assertIn("N is a multiple of M", text)
@@ -73,6 +76,11 @@ class Normals(base.Case):
         self.assertLessEqual(apart(right[0], wrong[0]), 1)
         self.assertGreater(apart(right[1], wrong[1]), 50)
         self.assertEqual(right[1].pixels, self.drawn(program="NormalMatrix").pixels)
+        both = self.drawn("--scale", "1", "--rotate", "30", "--matrix", "both", "-s", "400x200",
+                          program="NormalMatrix")
+        # Below the captions, two equal halves.
+        rows = [both.pixels[1200 * y:][:1200] for y in range(170)]
+        self.assertTrue(all(max(abs(a - b) for a, b in zip(row[:600], row[600:])) <= 1 for row in rows))
         self.refused(2, "--scale 1,2: must be X,Y,Z, each -5 to 5", "--scale", "1,2", program="NormalMatrix")
 
     def test_normals_are_drawn_in_every_scene(self):
