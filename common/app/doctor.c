@@ -57,9 +57,9 @@ static void print_kept(const char *backend, const char *findings)
     if (kept && size == sizeof *kept && memchr(kept->line, 0, sizeof kept->line) &&
         memchr(kept->renderer, 0, sizeof kept->renderer) && strstr(findings, kept->renderer) &&
         memchr(kept->version, 0, sizeof kept->version) && strstr(findings, kept->version))
-        printf("%18s %s\n", "", kept->line);
+        printf("  %-16s %s\n", "precision", kept->line);
     else
-        printf("%18s what it computes with: run precision once\n", "");
+        printf("  %-16s unknown: run precision once\n", "precision");
     free(kept);
 }
 

@@ -26,6 +26,7 @@ typedef struct Options {
     int width, height;
     bool size_given;
     double seconds;
+    bool seconds_given;
     int frames;
     bool numbered; /* --frames was given, and the output's name has a number */
     double fps;

@@ -47,10 +47,10 @@ static const Parameter FIRST[] = {
      GIVEN_AT(size_given), .programs = ALL},
     {"time", "the time to draw", PARAMETER_NUMBER, .min = -OPTIONS_MAX_SECONDS,
      .max = OPTIONS_MAX_SECONDS, .letter = 't', .placeholder = "SECONDS", AT(seconds),
-     .programs = DRAWS},
+     GIVEN_AT(seconds_given), .programs = DRAWS},
     {"angle", "the time at which an animation of 30 degrees per second reaches this angle",
      PARAMETER_TEXT, .letter = 'a', .standard = "", .codec = &OPTION_ANGLE, AT(seconds),
-     .programs = DRAWS | ASIDE},
+     GIVEN_AT(seconds_given), .programs = DRAWS | ASIDE},
     {"frames",
      "N pictures from --time on: all in one file if that is an animation (.gif, .webp, .apng, "
      ".mp4, .webm); otherwise one file each, with a number in its name, as in -o turn%03d.png",

@@ -9,6 +9,14 @@
 #include <string.h>
 #include <unistd.h>
 
+/* Whether it is the program of a build folder that can make the module, and has not yet. */
+static bool unbuilt(const Plugin *plugin)
+{
+    char path[PATH_MAX];
+    return strstr(PLUGINS_TO_BUILD, plugin->file) &&
+           paths_plugin(PATHS_SOURCE, plugin->file, path) && access(path, F_OK) != 0;
+}
+
 static const void *load(const Plugin *plugin, Message *message)
 {
     char path[PATH_MAX], reason[1024] = "";
@@ -22,6 +30,13 @@ static const void *load(const Plugin *plugin, Message *message)
          * missing. */
         if (error && (!reason[0] || access(path, F_OK) == 0))
             snprintf(reason, sizeof reason, "%s", error);
+    }
+    if (!library && unbuilt(plugin)) {
+        message_set(message,
+                    "%s: its module, common/%s, is not built yet: start the program by "
+                    "examples/run, which builds it, or build it with ninja",
+                    plugin->library, plugin->file);
+        return NULL;
     }
     if (!library) {
         message_set(message,
@@ -50,6 +65,11 @@ bool plugin_probe(Plugin *plugin, Message *findings)
 {
     Message message = {0};
     PluginVersion *const *found = plugin_open(plugin, &message);
+    if (!found && unbuilt(plugin))
+        message_add(findings, "  %-12s installed, gives %s; not built yet: built when needed\n",
+                    plugin->library, plugin->purpose);
+    if (!found && unbuilt(plugin))
+        return false;
     return package_tell(findings, plugin->library, found ? (*found)() : NULL, plugin->purpose,
                         found ? NULL : message.text);
 }

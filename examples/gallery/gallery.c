@@ -40,8 +40,9 @@ static bool with_lecture, with_manifest;
 static const char *verified; /* the manifest to verify; NULL: none */
 
 static const Parameter parameters[] = {
-    {"lecture", "the lecture's nine programs, beside those named", PARAMETER_FLAG,
-     .value = &with_lecture},
+    {"lecture",
+     "the lecture's nine programs, beside those named; without --time its animations are at 1 s",
+     PARAMETER_FLAG, .value = &with_lecture},
     {"manifest",
      "also write manifest.txt: the SHA-256 of every picture and of its pixels, for sha256sum -c and "
      "for --verify",
@@ -93,13 +94,24 @@ static bool select_examples(Selection *selection, char *const *names, Message *m
     return true;
 }
 
-/* Without --size a picture has the example's own size. */
+/* At 0 s one of the lecture's animations looks like the program that it moves. */
+static const double MOVED = 1;
+
+static bool is_animation(const Example *example)
+{
+    const char *mark = strrchr(example->name, '_');
+    return !example->kind && mark && strcmp(mark, "_animation") == 0;
+}
+
+/* Without --size a picture has the example's own size, and without --time it shows a movement. */
 static Options options_of(const Example *example, const Options *options)
 {
     Options own = *options;
     const Usage usage = options_usage(example);
     if (!options->size_given)
         options_size(&usage, &own.width, &own.height);
+    if (!options->seconds_given && is_animation(example))
+        own.seconds = MOVED;
     own.shadows = options_default(&usage).shadows;
     return own;
 }

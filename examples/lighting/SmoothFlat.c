@@ -39,12 +39,32 @@ static void shape_changed(const Parameter *parameter)
         surface.material.ambient = surface.material.diffuse = (Vec3){0.75, 0.75, 0};
 }
 
+/* A choice; who draws normals by --normals in other scenes is told the name that this has here. */
+static bool read_normals(const Parameter *parameter, const char *text, Message *message)
+{
+    Parameter choice = *parameter;
+    choice.codec = NULL;
+    return parameter_read(&choice, text, message) ||
+           message_add(message, "; --show-normals on draws them");
+}
+
+static bool write_normals(const Parameter *parameter, char *text, size_t size)
+{
+    Parameter choice = *parameter;
+    choice.codec = NULL;
+    return parameter_write(&choice, text, size);
+}
+
+static const ParameterCodec NORMALS_CODEC = {NULL, read_normals, write_normals};
+
 static const Parameter parameters[] = {
     {"shape", "what is drawn", PARAMETER_CHOICE, .value = &shape, .choices = SHAPES,
      .changed = shape_changed},
     {"normals",
-     "of the sphere and the square; the band has both; original: flat as the textbook's demo has it",
-     PARAMETER_CHOICE, .value = &normals, .choices = NORMALS, .fixes = 1U << AXIS_NORMALS},
+     "of the sphere and the square; the band has both; original: flat as the textbook's demo has "
+     "it; --show-normals draws them",
+     PARAMETER_CHOICE, .value = &normals, .choices = NORMALS, .codec = &NORMALS_CODEC,
+     .fixes = 1U << AXIS_NORMALS},
     {"slices", "around the axis of the sphere, or along the square", PARAMETER_WHOLE,
      .value = &slices, .min = 3, .max = 64, .fixes = 1U << AXIS_DIVISIONS},
     {"stacks", "of the sphere, along its axis", PARAMETER_WHOLE, .value = &stacks, .min = 2,

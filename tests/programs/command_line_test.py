@@ -437,6 +437,26 @@ class Options(Case):
             else:
                 self.assertEqual(said, there[name])
 
+    def test_the_doctor_tells_what_is_not_built_yet_from_what_is_missing(self):
+        """A copy of the build folder has the program, but no module."""
+        os.makedirs(self.path("build/examples"))
+        program = shutil.copy(os.path.join(EXAMPLES, "LightedCube"), self.path("build/examples"))
+        shutil.copy(os.path.join(EXAMPLES, "../source_root"), self.path("build"))
+        text = self.good("--doctor", program=program).decode()
+        for file, name in (("image_oiio.so", "OpenImageIO"), ("model_assimp.so", "Assimp"),
+                           ("drawing_cairo.so", "cairo"), ("panel_imgui.so", "Dear ImGui")):
+            there = os.path.exists(os.path.join(EXAMPLES, "../common", file))
+            self.assertRegex(text, rf"(?m)^  {name} +" + (r"installed, gives .*; not built yet: built when needed$"
+                                                          if there else "missing, gives"))
+        if os.path.exists(MODULE):
+            self.refused(1, "OpenImageIO: its module, common/image_oiio.so, is not built yet: .*examples/run",
+                         *SMALL, "-o", "a.exr", program=program)
+
+    def test_what_a_backend_computes_with_stands_beside_its_displays(self):
+        """And not below one of them, as if it were of that one."""
+        text = self.good("--doctor").decode()
+        self.assertRegex(text, r"(?m)^  precision        \S")
+
     def test_verbose_reports_programs_once(self):
         result = self.says(0, "opening", "-v", "-n", "4", "-s", "40", "-o", "p%d.png", program="LightTypes")
         self.assertEqual(result.stderr.decode().count("programs so far"), 1)
@@ -1049,6 +1069,7 @@ class Scenes(Case):
                 ("SmoothFlat", "3 to 64", "--slices", "2"),
                 ("SmoothFlat", "3 to 64", "--slices", "8.5"),
                 ("SmoothFlat", "2 to 32", "--stacks", "33"),
+                ("SmoothFlat", "smooth, flat or original; --show-normals on draws them", "--normals", "on"),
                 ("Materials", "0 to 128", "--shininess", "129"),
                 ("Materials", "0 to 1", "--diffuse", "0,0,1.1"),
                 ("Materials", "R,G,B or one number", "--specular", "0,0"),
@@ -1307,6 +1328,19 @@ class Gallery(Case):
     def gallery(self, *arguments, **more):
         return self.good(*arguments, program="gallery", **more)
 
+    def moved(self, program):
+        return ["--time", "1"] if program.endswith("_animation") else []
+
+    def test_animations_have_moved_unless_the_time_is_given(self):
+        """Else they look like the program before them."""
+        names = "LightedCube", "LightedCube_animation"
+        for folder, *time in (("moved", ), ("zero", "-t", "0"), ("angle", "-a", "0")):
+            self.gallery(*names, *SMALL, *time, "-o", folder)
+            still, moving = (self.png(f"{folder}/{name}.png") for name in names)
+            self.assertEqual(still.pixels == moving.pixels, bool(time), folder)
+        self.gallery(*names, *SMALL, "--part", "2/2", "-o", "part")
+        self.assertEqual(self.png("part/LightedCube_animation.png").texts["Time"], "1 s")
+
     def test_every_picture_is_the_one_that_its_program_draws(self):
         self.assertEqual(self.gallery(*SMALL, "-o", "pictures"), b"pictures/index.html\n")
         self.assertEqual(sorted(os.listdir(self.path("pictures"))),
@@ -1316,6 +1350,7 @@ class Gallery(Case):
         self.assertNotRegex(page, r'<img(?![^>]* alt="[A-Z]\w+: [^"]{10,}")')
         for program in PROGRAMS + SCENES + DIAGRAMS:
             smooth = [] if program in DIAGRAMS else ["--samples", "4"]
+            smooth = [*self.moved(program), *smooth]
             self.assertEqual(self.drawn(*SMALL, *smooth, program=program).pixels,
                              self.png(f"pictures/{program}.png").pixels)
             said = " ".join([program, "--size 40x40", *smooth])
@@ -1365,7 +1400,7 @@ class Gallery(Case):
             order = re.search(r"lecture_programs = \[(.*?)\]", file.read(), re.DOTALL)[1]
         self.assertEqual(shown, re.findall(r"'(\w+)'", order))
         for program in PROGRAMS[::step(4)]:
-            self.assertEqual(self.drawn(*SMALL, "--samples", "4", program=program).pixels,
+            self.assertEqual(self.drawn(*SMALL, *self.moved(program), "--samples", "4", program=program).pixels,
                              self.png(f"nine/{program}.png").pixels)
         self.gallery("Materials", "--lecture", *SMALL, "-o", "ten")
         self.assertEqual(sorted(os.listdir(self.path("ten"))),

@@ -66,7 +66,7 @@ class Precision(base.Case):
         self.assertIn("fragment shaders compute with 24 bits in highp, 24 in mediump, 24 in lowp",
                       doctor)
         other = self.good("--doctor", program=PROGRAM, environment=cache).decode()
-        self.assertIn("what it computes with: run precision once", other)
+        self.assertIn("  precision        unknown: run precision once", other)
 
     @unittest.skipUnless(base.LONG, "takes as long as the other one")
     def test_text_is_a_screen_of_lines(self):
