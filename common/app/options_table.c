@@ -82,7 +82,7 @@ static const Parameter FIRST[] = {
      .placeholder = "N", .standard = "4", .programs = PROGRAM_GALLERY},
     {"orbit",
      "move the camera about its target: degrees to the right and up, a factor for the distance, "
-     "and degrees to roll",
+     "and degrees by which the picture rolls counter-clockwise",
      PARAMETER_TEXT, .codec = &OPTION_ORBIT, AT(orbit), .programs = GL_DRAWS},
     {"window", "run in a window; h lists the keys", PARAMETER_FLAG, .letter = 'w',
      .codec = &OPTION_WINDOW, AT(canvas.backend), .programs = FILM | ASIDE},

@@ -189,7 +189,8 @@ static bool init(const ShaderLoader *loader, Message *message)
     return done;
 }
 
-/* The picture that the program draws, in a canvas beside that of the page. */
+/* The picture that the program draws, in a canvas beside that of the page; opaque where it draws.
+ */
 static bool draw_slot(Slot *slot, const Frame *frame, const Canvas *page, int side,
                       Message *message)
 {
@@ -209,7 +210,7 @@ static bool draw_slot(Slot *slot, const Frame *frame, const Canvas *page, int si
     for (int i = 0; i < MAX_ATTRIBUTES; i++)
         canvas_set_attribute(&slot->attributes[i]);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, (GLuint)slot->indices);
-    canvas_clear(&slot->canvas, vec3_from_float(slot->example->clear_color), 1);
+    canvas_clear(&slot->canvas, vec3_from_float(slot->example->clear_color), 0);
     slot->example->draw(&own);
     return canvas_read(&slot->canvas, &slot->picture, message);
 }
@@ -245,7 +246,12 @@ static bool paint_difference(Image *page, const Frame *frame, char *text, size_t
     const PageDifference found = page_difference(before, after, difference);
     if (found.pixels && found.factor > 1)
         snprintf(name, sizeof name, "%d × the difference", found.factor);
-    if (found.pixels)
+    if (found.inside && found.inside < found.largest)
+        snprintf(text, size,
+                 "at %.2f s: %d pixels differ, by at most %d steps of 255 inside both objects, "
+                 "%d elsewhere",
+                 frame->seconds, found.pixels, found.inside, found.largest);
+    else if (found.pixels)
         snprintf(text, size, "at %.2f s: %d pixels differ, by at most %d steps of 255",
                  frame->seconds, found.pixels, found.largest);
     else
@@ -256,7 +262,7 @@ static bool paint_difference(Image *page, const Frame *frame, char *text, size_t
 static bool paint(const Frame *frame, const Canvas *canvas, Image *page, Message *message)
 {
     const int side = page_layout(page->width, page->height).side;
-    char title[160], below[80];
+    char title[160], below[120];
     snprintf(title, sizeof title, "lesson %d of %d: %s", lesson + 1, LESSON_COUNT,
              LESSONS[lesson].example->summary);
     snprintf(below, sizeof below, "at %.2f s", frame->seconds);

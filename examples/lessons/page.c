@@ -177,13 +177,21 @@ bool page_paint_lines(Image *page, const Changes *changes, Message *message)
     return done;
 }
 
+static void copy_opaque(unsigned char *to, const unsigned char *from, int width)
+{
+    memcpy(to, from, 4 * (size_t)width);
+    for (int x = 0; x < width; x++)
+        to[4 * x + 3] = 255;
+}
+
 static void put(Image *page, int left, int top, const Image *picture)
 {
     const int width = left + picture->width > page->width ? page->width - left : picture->width;
     for (int y = 0; y < picture->height && top + y < page->height && width > 0; y++)
-        memcpy((char *)page->pixels + (size_t)(top + y) * image_row_size(page) + 4 * (size_t)left,
-               (const char *)picture->pixels + (size_t)y * image_row_size(picture),
-               4 * (size_t)width);
+        copy_opaque((unsigned char *)page->pixels + (size_t)(top + y) * image_row_size(page) +
+                        4 * (size_t)left,
+                    (const unsigned char *)picture->pixels + (size_t)y * image_row_size(picture),
+                    width);
 }
 
 /* In letters with which it is no wider than a picture; none if they could not be read. */
@@ -222,20 +230,22 @@ PageDifference page_difference(const Image *before, const Image *after, Image *d
     const size_t count = (size_t)before->width * (size_t)before->height;
     unsigned char *to = difference->pixels;
     PageDifference found = {.largest = 0};
-    for (size_t i = 0; i < count; i++) {
-        bool differs = false;
-        for (size_t c = 4 * i; c < 4 * i + 3; c++) {
+    for (size_t i = 0; i < 4 * count; i += 4) {
+        int largest = 0;
+        for (size_t c = i; c < i + 3; c++) {
             to[c] = (unsigned char)abs(a[c] - b[c]);
-            differs |= to[c] > 0;
-            found.largest = most(found.largest, to[c]);
+            largest = most(largest, to[c]);
         }
-        found.pixels += differs;
+        to[i + 3] = 255;
+        found.pixels += largest > 0;
+        found.largest = most(found.largest, largest);
+        if (a[i + 3] == 255 && b[i + 3] == 255)
+            found.inside = most(found.inside, largest);
     }
-    found.factor = 255 / most(1, found.largest);
-    for (size_t i = 0; i < count; i++) {
-        for (size_t c = 4 * i; c < 4 * i + 3; c++)
-            to[c] = (unsigned char)(found.factor * to[c]);
-        to[4 * i + 3] = 255;
+    found.factor = 255 / most(1, found.inside ? found.inside : found.largest);
+    for (size_t i = 0; i < 4 * count; i++) {
+        const int scaled = found.factor * to[i];
+        to[i] = (unsigned char)(scaled < 255 ? scaled : 255);
     }
     return found;
 }

@@ -31,9 +31,11 @@ bool page_paint_picture(Image *page, int number, const Image *picture, const cha
 bool page_paint_captions(Image *page, const char *title, const char *below, Message *message);
 
 /* The absolute difference of two pictures of one size, color by color, `factor` times as large so
- * that it is seen; its largest value, and in how many pixels there is one. */
+ * that it is seen; its largest value, and in how many pixels there is one. What decides the factor
+ * is `inside`, the largest value in pixels that are opaque in both pictures, if there is one: where
+ * outlines do not match, an object is compared with the background, and larger values are cut. */
 typedef struct PageDifference {
-    int largest, pixels, factor;
+    int largest, inside, pixels, factor;
 } PageDifference;
 PageDifference page_difference(const Image *before, const Image *after, Image *difference);
 

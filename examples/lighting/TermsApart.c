@@ -1,10 +1,11 @@
 /*
  * TermsApart: the lighting equation taken apart, term by term and light by light.
  *
- * Above, each term alone: emission, the ambient light of the scene and that of the lights, diffuse,
- * specular. Below, all that is ambient, each of two lights alone, the sum without its highlights,
- * and the whole sum. A view computes only what it shows: --costs
- * says with how many operations per vertex and per fragment, and in what time.
+ * Above, each term alone, with its part of the equation (examples/lighting/README.md): emission,
+ * the ambient light of the scene and that of the lights, diffuse, specular. Below, all that is
+ * ambient, each of two lights alone, the sum without its highlights, and the whole sum. A view
+ * computes only what it shows: --costs says with how many operations per vertex and per fragment,
+ * and in what time.
  *
  * Look at what each term adds, and at its price. Any program has --terms for the same.
  */
@@ -25,11 +26,11 @@ static const struct {
     SceneTerms terms;
     enum { ANY_AMBIENT, OF_SCENE, OF_LIGHTS } ambient;
 } VIEW[VIEWS] = {
-    {"emission", {.left_out = TERM_ALL & ~TERM_EMISSION}, ANY_AMBIENT},
-    {"global ambient", {.left_out = TERM_ALL & ~TERM_AMBIENT}, OF_SCENE},
-    {"lights' ambient", {.left_out = TERM_ALL & ~TERM_AMBIENT}, OF_LIGHTS},
-    {"diffuse", {.left_out = TERM_ALL & ~TERM_DIFFUSE}, ANY_AMBIENT},
-    {"specular", {.left_out = TERM_ALL & ~TERM_SPECULAR}, ANY_AMBIENT},
+    {"emission, e", {.left_out = TERM_ALL & ~TERM_EMISSION}, ANY_AMBIENT},
+    {"global ambient, g ka", {.left_out = TERM_ALL & ~TERM_AMBIENT}, OF_SCENE},
+    {"lights' ambient, Σ a ka", {.left_out = TERM_ALL & ~TERM_AMBIENT}, OF_LIGHTS},
+    {"diffuse, Σ (N·L) d kd", {.left_out = TERM_ALL & ~TERM_DIFFUSE}, ANY_AMBIENT},
+    {"specular, Σ h^α p ks", {.left_out = TERM_ALL & ~TERM_SPECULAR}, ANY_AMBIENT},
     {"all ambient", {.left_out = TERM_ALL & ~TERM_AMBIENT}, ANY_AMBIENT},
     {"light 0", {.left_out = TERM_EMISSION, .lights_left_out = 2}, OF_LIGHTS},
     {"light 1", {.left_out = TERM_EMISSION, .lights_left_out = 1}, OF_LIGHTS},
@@ -46,7 +47,7 @@ static Surface surface = {.name = MATERIAL_COUNT,
                           .material = {.ambient = {0.2, 0.5, 0.45},
                                        .diffuse = {0.2, 0.5, 0.45},
                                        .specular = {0.7, 0.7, 0.7},
-                                       .emission = {0.12, 0.02, 0.02},
+                                       .emission = {0.22, 0.03, 0.03},
                                        .alpha = 1,
                                        .shininess = 40}};
 static SceneShading shading = {REFLECTION_PHONG, INTERPOLATION_PHONG, VIEWER_LOCAL};
@@ -69,7 +70,7 @@ static struct {
     Light lights[LIGHTS];
     Object object;
     SceneCopy kept;
-    char labels[VIEWS][64];
+    char labels[VIEWS][128];
 } state;
 
 static void scene(double seconds, int view, Scene *scene)
@@ -174,10 +175,11 @@ static bool make_labels(const ShaderLoader *loader, Message *message)
                       (costs == COSTS_OFF || count_operations(lighting, operations, message)) &&
                       (costs != COSTS_TIME || time_views(lighting, medians, message));
     for (int view = 0; view < VIEWS && done; view++) {
-        char counted[32] = "", timed[32] = "";
+        char counted[64] = "", timed[32] = "";
         const int *own = operations[view];
         if (costs != COSTS_OFF && own[0] >= 0 && own[1] >= 0)
-            snprintf(counted, sizeof counted, ": %d + %d op", own[0], own[1]);
+            snprintf(counted, sizeof counted, ": %d op per vertex, %d per fragment", own[0],
+                     own[1]);
         if (costs == COSTS_TIME)
             snprintf(timed, sizeof timed, "%s%.2f ms", counted[0] ? ", " : ": ", medians[view]);
         snprintf(state.labels[view], sizeof state.labels[view], "%s%s%s", VIEW[view].name, counted,

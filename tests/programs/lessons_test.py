@@ -47,6 +47,8 @@ class Lessons(base.Case):
         taken = list(enumerate(lessons, 1))[::base.step(9)]
         names = {name for _, pair in taken for name in pair if name}
         pictures = {name: self.drawn("-t", "1", program=name).pixels for name in names}
+        opaque = {name: [alpha == 255 for alpha in self.drawn("-t", "1", "--alpha", program=name).pixels[3::4]]
+                  for name in names}
         for number, (name, before) in taken:
             page = self.page("-t", "1", "--lesson", str(number))
             self.assertEqual((page.width, page.height, page.channels), (1280, 960, 3))
@@ -55,8 +57,14 @@ class Lessons(base.Case):
                 continue
             self.assertTrue(part(page, 0) == pictures[before], before)
             apart = [abs(a - b) for a, b in zip(pictures[before], pictures[name])]
-            factor = 255 // max(1, *apart)
-            self.assertTrue(part(page, 2) == bytes(factor * by for by in apart), name)
+            inside = [by for i, by in enumerate(apart) if opaque[before][i // 3] and opaque[name][i // 3]]
+            factor = 255 // (max(inside) or max(1, *apart))
+            self.assertTrue(part(page, 2) == bytes(min(factor * by, 255) for by in apart), name)
+
+    def test_the_difference_of_two_spheres_shows_although_their_outlines_do_not_match(self):
+        """More than 1000 pixels are at least half as bright as can be; 220 were if outlines decided the scale."""
+        page = part(self.page("--lesson", "9"), 2)
+        self.assertGreater(sum(value >= 128 for value in page[::3]), 1000)
 
     def test_a_name_is_as_good_as_a_number(self):
         by_number = self.page("--lesson", "3")
