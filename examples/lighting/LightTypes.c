@@ -124,7 +124,7 @@ const Example LightTypes = {
     .height = 500,
     .tries = {"--constant 0.5 --linear 0 --quadratic 0.1", "--cutoff 60 --exponent 128",
               "--terms specular"},
-    .looks = {"by the square of the distance: the floor dims more than the sphere, which is nearer",
+    .looks = {"by the square of the distance: the floor dims more than the nearer sphere",
               "the exponent narrows the last spot, not the cutoff",
               "highlights alone: in one place, weaker where attenuated"},
     .init = init,
