@@ -14,13 +14,13 @@
 
 #include <math.h>
 
-static int figure = FIGURE_VECTORS, material = MATERIAL_GOLD_INDEX, reflection = REFLECTION_PHONG;
+static int figure = FIGURE_VECTORS, material = MATERIAL_COUNT, reflection = REFLECTION_PHONG;
 static int rays;
 static Optics optics = {.light = 40,
-                        .eye = 20,
+                        .eye = 10,
                         .shininess = 10,
                         .distance = 0.75,
-                        .constant = 1,
+                        .constant = 0.2, /* as LightTypes */
                         .linear = 0.2,
                         .quadratic = 0.2,
                         .sides = 4};

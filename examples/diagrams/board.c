@@ -65,23 +65,29 @@ void board_area(Board *board, const DrawingPoint *points, int count, Vec3 color,
     drawing_close_path(board->drawing);
 }
 
+void board_arrow_head(Board *board, DrawingPoint tail, DrawingPoint tip, Vec3 color)
+{
+    static const double HALF = 0.36;
+    const double dx = tip.x - tail.x, dy = tip.y - tail.y;
+    const DrawingPoint neck = {tip.x - 0.8 * dx, tip.y - 0.8 * dy};
+    board_area(board,
+               (const DrawingPoint[]){tip,
+                                      {tail.x - HALF * dy, tail.y + HALF * dx},
+                                      neck,
+                                      {tail.x + HALF * dy, tail.y - HALF * dx}},
+               4, color, 1);
+    board_keep_away(board, neck, tip);
+}
+
 void board_arrow(Board *board, DrawingPoint from, DrawingPoint to, Vec3 color, double width)
 {
     const double dx = to.x - from.x, dy = to.y - from.y, length = hypot(dx, dy);
     const double head = fmin((0.45 + 2.6 * width) * board->em, 0.6 * length);
     if (!(length > 0))
         return;
-    const double ux = dx / length, uy = dy / length, half = 0.36 * head;
-    const DrawingPoint neck = {to.x - 0.8 * head * ux, to.y - 0.8 * head * uy};
-    const DrawingPoint tail = {to.x - head * ux, to.y - head * uy};
-    board_line(board, from, neck, color, width);
-    board_area(board,
-               (const DrawingPoint[]){to,
-                                      {tail.x - half * uy, tail.y + half * ux},
-                                      neck,
-                                      {tail.x + half * uy, tail.y - half * ux}},
-               4, color, 1);
-    board_keep_away(board, neck, to);
+    const double ux = head * dx / length, uy = head * dy / length;
+    board_line(board, from, (DrawingPoint){to.x - 0.8 * ux, to.y - 0.8 * uy}, color, width);
+    board_arrow_head(board, (DrawingPoint){to.x - ux, to.y - uy}, to, color);
 }
 
 static DrawingPoint on_circle(DrawingPoint center, double radius, double degrees)
@@ -237,10 +243,10 @@ static bool is_free(const Board *board, DrawingBox box, bool of_lines)
     if (!inside(box, board->area))
         return false;
     for (int i = 0; i < drawing->label_count; i++)
-        if (!apart(box, drawing->labels[i].box, 0.2 * board->em))
+        if (!apart(box, drawing->labels[i].box, 0.35 * board->em))
             return false;
     for (int i = 0; i < board->segment_count && of_lines; i++)
-        if (meets(board->segments[i], box, 0.12 * board->em))
+        if (meets(board->segments[i], box, 0.2 * board->em))
             return false;
     return true;
 }
@@ -318,15 +324,22 @@ void board_box(Board *board, DrawingBox box, Vec3 color)
                4, color, 1);
 }
 
-void board_swatch(Board *board, DrawingPoint at, Vec3 color, const char *text)
+void board_framed_box(Board *board, DrawingBox box, Vec3 color)
 {
-    const double em = board->em, right = at.x + 1.9 * em, top = at.y - 0.8 * em;
     const DrawingPoint corners[] = {
-        {at.x, top}, {right, top}, {right, at.y + 0.2 * em}, {at.x, at.y + 0.2 * em}};
-    board_box(board, (DrawingBox){at.x, top, right, corners[2].y}, color);
+        {box.left, box.top}, {box.right, box.top}, {box.right, box.bottom}, {box.left, box.bottom}};
+    board_area(board, corners, 4, color, 1);
     for (int i = 0; i < 4; i++)
         board_line(board, corners[i], corners[(i + 1) % 4], INK, 0.05);
+}
+
+DrawingBox board_swatch(Board *board, DrawingPoint at, Vec3 color, const char *text)
+{
+    const double em = board->em;
+    const DrawingBox box = {at.x, at.y - 0.8 * em, at.x + 1.9 * em, at.y + 0.2 * em};
+    board_framed_box(board, box, color);
     drawing_text(board->drawing, (DrawingPoint){at.x + BOARD_SWATCH * em, at.y}, em, INK, text);
+    return box;
 }
 
 const char *board_number(double number, char text[NUMBER_SIZE])

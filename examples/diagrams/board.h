@@ -32,6 +32,9 @@ void board_line(Board *board, DrawingPoint a, DrawingPoint b, Vec3 color, double
 void board_dashed(Board *board, DrawingPoint a, DrawingPoint b, Vec3 color);
 void board_arrow(Board *board, DrawingPoint from, DrawingPoint to, Vec3 color, double width);
 
+/* An arrow's head alone; its line ends four fifths of the way back from the tip. */
+void board_arrow_head(Board *board, DrawingPoint tail, DrawingPoint tip, Vec3 color);
+
 /* A filled polygon without an outline. */
 void board_area(Board *board, const DrawingPoint *points, int count, Vec3 color, double alpha);
 
@@ -61,12 +64,14 @@ void board_keep_away(Board *board, DrawingPoint a, DrawingPoint b);
 /* A line of text centered on a column, its middle on a row, in a width that it is shrunk to. */
 void board_caption(Board *board, double x, double y, double width, const char *text);
 
-/* A colour and a text to its right, whose baseline begins BOARD_SWATCH ems right of `at`. */
+/* A colour and a text to its right, whose baseline begins BOARD_SWATCH ems right of `at`. Returns
+ * the colour's box. */
 #define BOARD_SWATCH 2.3
-void board_swatch(Board *board, DrawingPoint at, Vec3 color, const char *text);
+DrawingBox board_swatch(Board *board, DrawingPoint at, Vec3 color, const char *text);
 
-/* A rectangle without an outline. */
+/* A rectangle without an outline, and with one. */
 void board_box(Board *board, DrawingBox box, Vec3 color);
+void board_framed_box(Board *board, DrawingBox box, Vec3 color);
 
 /* A number with two decimals and a true minus sign, never a negative zero. */
 enum { NUMBER_SIZE = 32 };

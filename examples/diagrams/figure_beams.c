@@ -97,7 +97,9 @@ static void draw_footprint(Board *board, const Beam *beam, double n_dot_l)
 static void draw_width(Board *board, const Beam *beam, double angle)
 {
     const Vec3 across = beam_across(beam->l);
-    const DrawingPoint near = board_at(beam->at, beam->l, 0.8 * beam->length);
+    const double clear = (0.5 * board->em + beam->width / 2 * fabs(across.y)) / beam->l.y;
+    const DrawingPoint near =
+        board_at(beam->at, beam->l, fmin(fmax(0.8 * beam->length, clear), beam->length));
     dimension(board, board_at(near, across, -beam->width / 2),
               board_at(near, across, beam->width / 2), angle > 0 ? across : vec3_scale(across, -1),
               "$w$");
@@ -140,8 +142,10 @@ void figure_incidence(Board *board, const Optics *optics, int number)
     const double n_length = fmin(4.5 * em, 0.75 * (beam.at.y - part.top));
     const DrawingPoint n_tip = board_at(beam.at, UP, n_length);
     board_arrow(board, beam.at, n_tip, INK, 0.12);
-    if (at.n_dot_l > 0)
+    if (at.n_dot_l > 0) {
         draw_footprint(board, &beam, at.n_dot_l);
+        board->area.bottom = beam.at.y;
+    }
     if (fabs(angle) > 8 && at.n_dot_l > 0) {
         board_arc(board, (Arc){beam.at, 0.5 * n_length, -angle, 0}, INK, 0.06, 0);
         board_label(board, board_at(beam.at, optics_left(angle / 2), 0.5 * n_length),

@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 /* A box whose lower left corner is (0, 0), and its upper right one. */
 typedef struct Chart {
@@ -33,7 +34,7 @@ static DrawingPoint on_chart(const Chart *chart, double x, double y)
 static void draw_axes(Board *board, const Chart *chart)
 {
     const double em = board->em;
-    const int ticks = chart->top > 2 ? 2 : (int)(2 * chart->top);
+    const int ticks = (int)(chart->top > 2 ? chart->top : 2 * chart->top); /* 1 among them */
     for (int i = 0; i <= ticks; i++) {
         char text[FIGURE_TEXT];
         const double y = chart->top * i / ticks;
@@ -101,10 +102,15 @@ void figure_attenuation(Board *board, const Optics *optics, int number)
     const double here = optics_attenuation(optics, optics->distance);
     const double begin = fmin(optics_attenuation(optics, 0), MOST);
     const double tenth = optics_attenuated_to(optics, begin / 10);
+    const double one = optics_attenuated_to(optics, 1); /* nearer than this it is more */
     char first[2 * FIGURE_TEXT], second[FIGURE_TEXT];
     snprintf(first, sizeof first, "1 / (%.4g + %.4g $d$ + %.4g $d$^{2})", optics->constant,
              optics->linear, optics->quadratic);
-    snprintf(second, sizeof second, "at $d$ = %.6g: %.3g of the light", optics->distance, here);
+    snprintf(second, sizeof second, "at $d$ = %.6g: %.3g %s the light", optics->distance, here,
+             here > 1 ? "times" : "of");
+    if (one > 0)
+        snprintf(second + strlen(second), sizeof second - strlen(second),
+                 isinf(one) ? "; amplified everywhere" : "; amplified nearer than %.3g", one);
     Chart chart = make_chart(board, first, second, 1.5, 2.2);
     chart.right = round_up(fmax(1.25 * optics->distance, isinf(tenth) ? 5 : tenth));
     chart.top = round_up(fmax(begin, 1));
@@ -112,6 +118,8 @@ void figure_attenuation(Board *board, const Optics *optics, int number)
     draw_strip(board, &chart, optics);
     draw_axes(board, &chart);
     draw_curve(board, &chart, optics);
+    if (chart.top > 1)
+        board_dashed(board, on_chart(&chart, 0, 1), on_chart(&chart, chart.right, 1), GREY);
     board_dashed(board, at, on_chart(&chart, optics->distance, 0), INK);
     board_dashed(board, at, (DrawingPoint){chart.box.left, at.y}, INK);
     board_dot(board, at, 0.25, R_COLOR);
@@ -120,8 +128,26 @@ void figure_attenuation(Board *board, const Optics *optics, int number)
 
 /* Reflectivity. */
 
+static const Vec3 WHITE = {1, 1, 1};
+enum { DIFFUSE, SPECULAR, ABSORBED };
 static const char *const NAMES[] = {"diffuse", "specular", "absorbed"};
-static const Vec3 *const FILLS[] = {&DIFFUSE_FILL, &SPECULAR_FILL, &PALE};
+/* A share of the light, or its swatch: no colour, as the bars are named by colours. */
+static void draw_share(Board *board, DrawingBox box, int share)
+{
+    const double spacing = 0.4 * board->em, width = box.right - box.left;
+    const double height = box.bottom - box.top;
+    board_framed_box(board, box, share == ABSORBED ? PALE : WHITE);
+    for (double c = spacing; c < width + height && share != ABSORBED; c += spacing) {
+        const double from = fmin(c, width), to = fmax(c - height, 0);
+        const bool rises = share == DIFFUSE;
+        board_line(
+            board,
+            (DrawingPoint){rises ? box.left + from : box.right - from,
+                           box.top + fmax(c - width, 0)},
+            (DrawingPoint){rises ? box.left + to : box.right - to, box.top + fmin(c, height)}, GREY,
+            0.06);
+    }
+}
 
 /* One channel's bar, from the bottom. */
 static void draw_bar(Board *board, const Chart *chart, int channel, const double shares[3])
@@ -134,10 +160,17 @@ static void draw_bar(Board *board, const Chart *chart, int channel, const double
         const DrawingPoint b = on_chart(chart, channel + 0.8, from + shares[i]);
         from += shares[i];
         if (shares[i] > 0)
-            board_box(board, (DrawingBox){a.x, b.y, b.x, a.y}, *FILLS[i]);
-        if (a.y - b.y > 1.05 * board->em)
-            board_caption(board, (a.x + b.x) / 2, (a.y + b.y) / 2, b.x - a.x,
-                          board_number(shares[i], number));
+            draw_share(board, (DrawingBox){a.x, b.y, b.x, a.y}, i);
+        const DrawingPoint middle = {(a.x + b.x) / 2, (a.y + b.y) / 2};
+        const double em = board->em, aside = fmin(em, (b.x - a.x) / 2);
+        if (a.y - b.y <= 1.3 * em)
+            continue;
+        if (i != ABSORBED)
+            board_box(board,
+                      (DrawingBox){middle.x - aside, middle.y - 0.5 * em, middle.x + aside,
+                                   middle.y + 0.5 * em},
+                      WHITE);
+        board_caption(board, middle.x, middle.y, 2 * aside, board_number(shares[i], number));
     }
     const DrawingPoint foot = on_chart(chart, channel + 0.5, 0);
     board_caption(board, foot.x, foot.y + 0.9 * board->em, 5 * board->em, CHANNELS[channel]);
@@ -162,7 +195,9 @@ void figure_reflectivity(Board *board, const Optics *optics, int number)
     board_dashed(board, on_chart(&chart, 0, 1), on_chart(&chart, chart.right, 1), INK);
     for (int i = 0; i < 3; i++) {
         draw_bar(board, &chart, i, shares[i]);
-        board_swatch(board, (DrawingPoint){x, y + 1.5 * i * em}, *FILLS[2 - i], NAMES[2 - i]);
+        draw_share(board,
+                   board_swatch(board, (DrawingPoint){x, y + 1.5 * i * em}, PALE, NAMES[2 - i]),
+                   2 - i);
     }
     draw_axes(board, &chart);
     drawing_text(board->drawing, (DrawingPoint){x, y + 5.5 * em}, em, INK, "the colours:");

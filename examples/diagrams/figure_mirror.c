@@ -38,13 +38,19 @@ void figure_mirror(Board *board, const Optics *optics, int number)
     if (l.y > 0)
         snprintf(text, sizeof text, "only the eye at %s%.4g° is where $R$ goes, and sees the light",
                  sign(mirrored), fabs(mirrored));
-    figure_captions(board, &part, "a mirror sends a ray into one direction, $R$", text);
+    figure_captions(board, &part,
+                    FIGURE_HAS_ANGLE(mirrored) && l.y > 0
+                        ? "a mirror sends a ray into one direction, $R$: equal angles $θ$"
+                        : "a mirror sends a ray into one direction, $R$",
+                    text);
+    const DrawingBox whole = part;
+    part.top += 1.3 * board->em; /* for the label of an eye at the top */
     figure_cover(&units, l);
     const Frame2 frame = figure_fit(part, 1.6 * board->em, units);
-    board->area = part;
+    board->area = whole;
     figure_surface(board, &parallel, frame.origin, frame.origin.x - frame.unit,
                    frame.origin.x + frame.unit, frame.unit);
-    board_arrow(board, figure_at(frame, l), frame.origin, LIGHT_COLOR, 0.13);
+    board_arrow(board, figure_at(frame, l), frame.origin, LIGHT_COLOR, 0.2);
     board_dashed(board, frame.origin, figure_at(frame, n_tip), INK);
     if (l.y > 0)
         draw_eye(board, frame, mirrored, true);
@@ -56,5 +62,11 @@ void figure_mirror(Board *board, const Optics *optics, int number)
         if (fabs(mirrored + side * apart) <= 90)
             draw_eye(board, frame, mirrored + side * apart, false);
     board_label(board, figure_at(frame, n_tip), (Vec3){0, 1, 0}, INK, "$N$");
-    board_label(board, figure_at(frame, l), l, LIGHT_COLOR, "light");
+    /* Beside the ray, as an eye may be where it begins. */
+    board_label(board, figure_at(frame, vec3_scale(l, 0.8)), (Vec3){-l.y, l.x, 0}, LIGHT_COLOR,
+                "light");
+    if (l.y > 0) {
+        figure_angle(board, frame, (Angle){l, n_tip, 0.3}, "$θ$", LIGHT_COLOR);
+        figure_angle(board, frame, (Angle){n_tip, optics_right(mirrored), 0.3}, "$θ$", LIGHT_COLOR);
+    }
 }

@@ -31,11 +31,17 @@ static void make_points(const Optics *optics, bool of_eye, Vec3 points[POINTS])
     points[Z_AT] = (Vec3){0, -AXIS, 0};
 }
 
+/* A number that is zero but for rounding is "0". */
+static const char *coordinate(double number, char text[NUMBER_SIZE])
+{
+    return fabs(number) < 1e-9 ? "0" : board_number(number, text);
+}
+
 static void coordinates(char text[FIGURE_TEXT], const char *name, Vec3 above)
 {
     char x[NUMBER_SIZE], z[NUMBER_SIZE];
-    snprintf(text, FIGURE_TEXT, "%s(%s, 0, %s)", name, board_number(above.x, x),
-             board_number(-above.y, z));
+    snprintf(text, FIGURE_TEXT, "%s(%s, 0, %s)", name, coordinate(above.x, x),
+             coordinate(-above.y, z));
 }
 
 static void draw_vector(Board *board, Frame2 frame, const Vec3 ends[2], Vec3 color,
@@ -56,8 +62,7 @@ void figure_spaces(Board *board, const Optics *optics, int of_eye)
     const Vec3 v = vec3_unit(vec3_subtract(eye, point));
     const Vec3 l = vec3_unit(vec3_subtract(points[LAMP_AT], point));
     DrawingBox part = figure_part(board, of_eye), units = {0, 0, 0, 0};
-    coordinates(v_text,
-                of_eye ? "eye coordinates, along −$z$: $V$ = " : "world coordinates: $V$ = ", v);
+    coordinates(v_text, of_eye ? "eye coordinates: $V$ = " : "world coordinates: $V$ = ", v);
     coordinates(eye_text, "", eye);
     figure_captions(board, &part, v_text,
                     of_eye ? "vec3 V = normalize(-v_Position);"
@@ -83,4 +88,7 @@ void figure_spaces(Board *board, const Optics *optics, int of_eye)
     const double side = at[EYE_AT].x > (part.left + part.right) / 2 ? -1 : 1;
     board_label(board, (DrawingPoint){at[EYE_AT].x + 1.2 * side * board->em, at[EYE_AT].y},
                 (Vec3){side, 0, 0}, V_COLOR, eye_text);
+    if (of_eye)
+        board_label(board, board_at(at[EYE_AT], UP, (EYE - HALF) / 2 * frame.unit), (Vec3){1, 0, 0},
+                    GREY, "looks along −$z$");
 }

@@ -122,24 +122,6 @@ static void draw_lobe(Board *board, const Optics *optics, Frame2 frame, const Op
     drawing_close_path(board->drawing);
 }
 
-/* An angle of a vector from the normal, to the right. */
-static double angle_of(Vec3 direction)
-{
-    return atan2(direction.x, direction.y) * 180 / 3.14159265358979323846;
-}
-
-/* The arc between two vectors, with its name. Small angles have none. */
-static void draw_angle(Board *board, Frame2 frame, const Vec3 sides[2], double radius,
-                       const char *name, Vec3 color)
-{
-    const double from = angle_of(sides[0]), to = angle_of(sides[1]);
-    if (fabs(to - from) < 6 || fabs(to - from) > 174)
-        return;
-    board_arc(board, (Arc){frame.origin, radius * frame.unit, from, to}, color, 0.06, 0);
-    const Vec3 middle = optics_right((from + to) / 2);
-    board_label(board, board_at(frame.origin, middle, radius * frame.unit), middle, color, name);
-}
-
 typedef struct Named {
     const char *name;
     Vec3 direction, color;
@@ -201,10 +183,10 @@ void figure_vectors(Board *board, const Optics *optics, int number)
     label_tips(board, frame, vectors, sizeof vectors / sizeof vectors[0]);
     if (at.n_dot_l <= 0)
         return;
-    draw_angle(board, frame, (Vec3[]){at.l, UP}, 0.42, "$θ$", LIGHT_COLOR);
-    draw_angle(board, frame, (Vec3[]){UP, at.r}, 0.42, "$θ$", LIGHT_COLOR);
+    figure_angle(board, frame, (Angle){at.l, UP, 0.42}, "$θ$", LIGHT_COLOR);
+    figure_angle(board, frame, (Angle){UP, at.r, 0.42}, "$θ$", LIGHT_COLOR);
     if (optics->reflection == REFLECTION_PHONG)
-        draw_angle(board, frame, (Vec3[]){at.r, at.v}, 0.7, "$φ$", R_COLOR);
+        figure_angle(board, frame, (Angle){at.r, at.v, 0.7}, "$φ$", R_COLOR);
     else if (!color_is_black(at.h))
-        draw_angle(board, frame, (Vec3[]){UP, at.h}, 0.7, "$ψ$", H_COLOR);
+        figure_angle(board, frame, (Angle){UP, at.h, 0.7}, "$ψ$", H_COLOR);
 }

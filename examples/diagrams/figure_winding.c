@@ -32,7 +32,7 @@ static void draw_normal(Board *board, Frame2 frame, Vec3 n, Vec3 color, const ch
 
 static void draw_polygon(Board *board, const Polygon *polygon, Vec3 color)
 {
-    enum { STEPS = 40, HEAD = 5 };
+    enum { STEPS = 100, HEAD = 5 };
     DrawingPoint corners[OPTICS_SIDES_MAX];
     for (int i = 0; i < polygon->corners; i++)
         corners[i] = figure_at(polygon->frame, corner(polygon, i));
@@ -44,22 +44,20 @@ static void draw_polygon(Board *board, const Polygon *polygon, Vec3 color)
         board_label(board, corners[i], corner(polygon, i), EDGE_COLOR, number);
     }
     /* How the fingers of the right hand bend. */
-    for (int i = 0; i <= STEPS - HEAD; i++) {
-        const double step = 0.8 * polygon->corners / STEPS;
-        const int to = i < STEPS - HEAD ? i + 1 : STEPS;
-        const Vec3 a = vec3_scale(corner(polygon, step * i), 0.4);
-        const Vec3 b = vec3_scale(corner(polygon, step * to), 0.4);
-        (to < STEPS ? board_line : board_arrow)(board, figure_at(polygon->frame, a),
-                                                figure_at(polygon->frame, b), R_COLOR, 0.08);
+    DrawingPoint arc[STEPS + 1];
+    for (int i = 0; i <= STEPS; i++) {
+        const Vec3 at = corner(polygon, 0.8 * polygon->corners * i / STEPS);
+        arc[i] = figure_at(polygon->frame, vec3_scale(at, 0.4));
+        if (i > 0 && i <= STEPS - HEAD + 1) /* into the head, a fifth of it */
+            board_line(board, arc[i - 1], arc[i], R_COLOR, 0.08);
     }
+    board_arrow_head(board, arc[STEPS - HEAD], arc[STEPS], R_COLOR);
 }
 
 void figure_winding(Board *board, const Optics *optics, int number)
 {
     const int order = number ? -1 : 1;
-    char first[FIGURE_TEXT], cosine[NUMBER_SIZE];
-    const char *second = order > 0 ? "right hand: fingers 1, 2, 3, thumb $N$"
-                                   : "the same face, its other unit normal";
+    char seen[FIGURE_TEXT], cosine[NUMBER_SIZE];
     Polygon polygon = {.eye_from_object =
                            mat4_product(mat4_rotate(DOWN, X), mat4_rotate(-optics->eye, Y)),
                        .corners = (int)fmax(optics->sides, 3),
@@ -70,10 +68,13 @@ void figure_winding(Board *board, const Optics *optics, int number)
     DrawingBox part = figure_part(board, number), units = {-1, 1, 1, -1};
     const char *const side = fabs(n.z) < 0.005 ? "edge-on: neither side"
                              : n.z > 0         ? "counter-clockwise: the front"
-                                               : "clockwise: the back";
+                                               : "clockwise: we see the back";
     /* V is z in eye coordinates */
-    snprintf(first, sizeof first, "%s, $N·V$ = %s", side, board_number(n.z, cosine));
-    figure_captions(board, &part, first, second);
+    snprintf(seen, sizeof seen, "%s, $N·V$ = %s", side, board_number(n.z, cosine));
+    figure_captions(board, &part,
+                    order > 0 ? "right hand: fingers 1, 2, 3, thumb $N$"
+                              : "corners in the opposite order: $N$ turns round",
+                    seen);
     figure_cover(&units, vec3_scale(n, NORMAL));
     figure_cover(&units, vec3_scale(back, NORMAL));
     board->area = part;

@@ -83,6 +83,23 @@ DrawingPoint figure_at(Frame2 frame, Vec3 point)
     return board_at(frame.origin, point, frame.unit);
 }
 
+/* An angle of a vector from the normal, to the right. */
+static double degrees_of(Vec3 direction)
+{
+    return atan2(direction.x, direction.y) * 180 / 3.14159265358979323846;
+}
+
+void figure_angle(Board *board, Frame2 frame, Angle angle, const char *name, Vec3 color)
+{
+    const double from = degrees_of(angle.from), to = degrees_of(angle.to);
+    const double radius = angle.radius * frame.unit;
+    if (!FIGURE_HAS_ANGLE(to - from))
+        return;
+    board_arc(board, (Arc){frame.origin, radius, from, to}, color, 0.06, 0);
+    const Vec3 middle = optics_right((from + to) / 2);
+    board_label(board, board_at(frame.origin, middle, radius), middle, color, name);
+}
+
 void figure_captions(Board *board, DrawingBox *part, const char *first, const char *second)
 {
     const double em = board->em, x = (part->left + part->right) / 2;

@@ -145,7 +145,7 @@ TEST(radiating_rays_come_from_the_lamp)
 /* A drawing of a figure, and the straight lines in it of a colour and a width in ems. */
 typedef struct Lines {
     Drawing drawing;
-    DrawingPoint ends[64][2];
+    DrawingPoint ends[256][2];
     int count;
 } Lines;
 
@@ -154,7 +154,7 @@ static void find_lines(Lines *lines, Vec3 color, double width)
     const Drawing *drawing = &lines->drawing;
     const double em = fmin(drawing->width / 27, drawing->height / 21);
     lines->count = 0;
-    for (int i = 0; i < drawing->path_count && lines->count < 64; i++) {
+    for (int i = 0; i < drawing->path_count && lines->count < 256; i++) {
         const DrawingPath *path = &drawing->paths[i];
         if (path->step_count == 2 && drawing->steps[path->first_step + 1] == DRAWING_LINE &&
             memcmp(&path->style.stroke, &color, sizeof color) == 0 &&
@@ -198,12 +198,20 @@ static void assert_angle(double a, double b)
         fail_msg("%.12g degrees are not %.12g", a, b);
 }
 
-static void assert_text(const Lines *lines, const char *text)
+/* The box of the last label with a text, which is there. */
+static DrawingBox assert_text(const Lines *lines, const char *text)
+{
+    for (int i = lines->drawing.label_count - 1; i >= 0; i--)
+        if (strstr(lines->drawing.labels[i].text, text))
+            return lines->drawing.labels[i].box;
+    fail_msg("no text %s", text);
+    return (DrawingBox){0, 0, 0, 0};
+}
+
+static void assert_no_text(const Lines *lines, const char *text)
 {
     for (int i = 0; i < lines->drawing.label_count; i++)
-        if (strstr(lines->drawing.labels[i].text, text))
-            return;
-    fail_msg("no text %s", text);
+        assert_null(strstr(lines->drawing.labels[i].text, text));
 }
 
 TEST(rays_of_a_far_lamp_are_essentially_parallel)
@@ -234,7 +242,7 @@ TEST(only_the_eye_at_the_mirror_angle_sees_the_ray)
     CLOSED(lines_end) Lines lines = lines_of(FIGURE_MIRROR, &optics, R_COLOR, 0.13);
     assert_int_equal(lines.count, 1);
     assert_angle(angle_of(&lines, 0), 35);
-    find_lines(&lines, LIGHT_COLOR, 0.13);
+    find_lines(&lines, LIGHT_COLOR, 0.2);
     assert_int_equal(lines.count, 1);
     assert_angle(angle_of(&lines, 0), 180 - 35);
     find_lines(&lines, GREY, 0.06); /* eyes that see nothing */
@@ -242,6 +250,52 @@ TEST(only_the_eye_at_the_mirror_angle_sees_the_ray)
     assert_angle(angle_of(&lines, 0), 5);
     assert_angle(angle_of(&lines, 1), 65);
     assert_text(&lines, "only the eye at 35°");
+}
+
+TEST(a_mirror_s_angles_are_marked_and_equal)
+{
+    static const double LIGHTS[] = {-80, -35, 10, 35, 85};
+    for (int i = 0; i < 5; i++) {
+        const Optics optics = usual(LIGHTS[i], 5, 10, REFLECTION_PHONG);
+        CLOSED(lines_end) Lines lines = lines_of(FIGURE_MIRROR, &optics, LIGHT_COLOR, 0.2);
+        int arcs = 0;
+        find_lines(&lines, INK, 0.06); /* N, from the foot of the ray */
+        assert_int_equal(lines.count, 1);
+        const DrawingPoint from = lines.ends[0][0];
+        for (int k = 0; k < lines.drawing.path_count; k++) {
+            const DrawingPath *path = &lines.drawing.paths[k];
+            const DrawingPoint *at = &lines.drawing.points[path->first_point];
+            const int last = path->step_count - 1;
+            if (last < 2 || memcmp(&path->style.stroke, &LIGHT_COLOR, sizeof LIGHT_COLOR) != 0)
+                continue;
+            const double a = atan2(at[0].x - from.x, from.y - at[0].y);
+            const double b = atan2(at[last].x - from.x, from.y - at[last].y);
+            assert_angle((b - a) * 180 / PI, LIGHTS[i]);
+            arcs++;
+        }
+        assert_int_equal(arcs, 2);
+        assert_text(&lines, "equal angles");
+    }
+    const Optics straight = usual(0, 5, 10, REFLECTION_PHONG);
+    CLOSED(lines_end) Lines lines = lines_of(FIGURE_MIRROR, &straight, LIGHT_COLOR, 0.2);
+    assert_no_text(&lines, "θ");
+}
+
+/* At most the height of the surface: what says how wide a beam is, and its name. */
+TEST(a_grazing_beam_s_labels_are_above_the_surface)
+{
+    for (double light = -85; light <= 85; light += 5) {
+        const Optics optics = usual(light, 5, 10, REFLECTION_PHONG);
+        CLOSED(lines_end) Lines lines = lines_of(FIGURE_INCIDENCE, &optics, INK, 0.12);
+        const double surface = lines.ends[0][0].y;
+        assert_true(assert_text(&lines, "light").bottom < surface);
+        find_lines(&lines, INK, 0.06);
+        /* Three lines for each width: of both lit places, and of the beam at an angle. */
+        assert_int_equal(lines.count, light == 0 ? 6 : 9);
+        for (int i = 6; i < lines.count; i++)
+            for (int end = 0; end < 2; end++)
+                assert_true(lines.ends[i][end].y < surface);
+    }
 }
 
 /* N = (0, 0, 1) turned about the vertical by the eye's angle, then seen from 30 degrees above. */
@@ -269,6 +323,29 @@ TEST(a_polygon_has_two_unit_normals_by_the_right_hand_rule)
     }
 }
 
+/* The arc of the fingers, and its head. */
+TEST(a_winding_s_arc_has_no_kink)
+{
+    const Optics optics = usual(0, 20, 10, REFLECTION_PHONG);
+    CLOSED(lines_end) Lines lines = lines_of(FIGURE_WINDING, &optics, R_COLOR, 0.08);
+    const Drawing *drawing = &lines.drawing;
+    int heads = 0;
+    for (int k = 0; k < drawing->path_count; k++) {
+        const DrawingPoint *at = &drawing->points[drawing->paths[k].first_point];
+        if (memcmp(&drawing->paths[k].style.fill, &R_COLOR, sizeof R_COLOR) != 0)
+            continue;
+        const int last = ++heads * lines.count / 2 - 1; /* two parts */
+        const double head = atan2(at[0].x - at[2].x, at[2].y - at[0].y) * 180 / PI;
+        /* A chord of 288 / 100 * 5 degrees, seen at an angle, where the line turns by half of it.
+         */
+        assert_true(fabs(remainder(head - angle_of(&lines, last), 360)) < 15);
+    }
+    assert_int_equal(heads, 2);
+    for (int i = 1; i < lines.count; i++)
+        if (i != lines.count / 2) /* steps of 288 / 100 degrees */
+            assert_true(fabs(remainder(angle_of(&lines, i) - angle_of(&lines, i - 1), 360)) < 6);
+}
+
 /* From above, up in the picture is -z: an eye turned by its angle turns V back by it. */
 TEST(eye_coordinates_are_world_coordinates_turned)
 {
@@ -283,8 +360,16 @@ TEST(eye_coordinates_are_world_coordinates_turned)
         assert_angle(angle_of(&lines, 1), 0);
         snprintf(place, sizeof place, "(%s, 0, %s)", board_number(1.7 + 1.9 * cosine(90 - eye), x),
                  board_number(-0.6 + 1.9 * cosine(eye), z));
-        assert_text(&lines, place);
-        assert_text(&lines, "(0.00, 0, 0.00)");
+        const DrawingBox eye_at = assert_text(&lines, place);
+        /* Nothing runs into it: the label of V. */
+        for (int i = 0; i < lines.drawing.label_count; i++) {
+            const DrawingBox v_at = lines.drawing.labels[i].box;
+            if (strcmp(lines.drawing.labels[i].text, "$V$") == 0)
+                assert_true(v_at.right + 6 < eye_at.left || eye_at.right + 6 < v_at.left ||
+                            v_at.bottom + 6 < eye_at.top || eye_at.bottom + 6 < v_at.top);
+        }
+        assert_text(&lines, "(0, 0, 0)"); /* no rounding of it */
+        assert_text(&lines, "looks along −$z$");
         assert_text(&lines, "normalize(-v_Position)");
         assert_text(&lines, "normalize(u_EyePosition - v_Position)");
     }
@@ -302,6 +387,22 @@ TEST(ambient_light_comes_from_all_directions_alike)
         assert_true(fabs(length_of(&lines, i) - length_of(&lines, 0)) < PIXELS);
     }
     assert_text(&lines, board_number(0.5 * optics.material->ambient.y, text));
+}
+
+/* 0.2 + 0.2 d + 0.2 d^2 = 1 where d = (sqrt(17) - 1) / 2. */
+TEST(amplified_light_is_said)
+{
+    Optics optics = usual(0, 0, 10, REFLECTION_PHONG);
+    CLOSED(lines_end) Lines usually = lines_of(FIGURE_ATTENUATION, &optics, GREY, 0.06);
+    assert_no_text(&usually, "amplified");
+    assert_int_equal(usually.count, 0);
+    optics.constant = 0.2;
+    CLOSED(lines_end) Lines near = lines_of(FIGURE_ATTENUATION, &optics, GREY, 0.06);
+    assert_text(&near, "2.16 times the light; amplified nearer than 1.56");
+    assert_int_equal(near.count, 1); /* where nothing is lost */
+    optics.linear = optics.quadratic = 0;
+    CLOSED(lines_end) Lines everywhere = lines_of(FIGURE_ATTENUATION, &optics, GREY, 0.06);
+    assert_text(&everywhere, "5 times the light; amplified everywhere");
 }
 
 TEST(the_curve_of_attenuation_goes_through_its_values)
@@ -339,7 +440,7 @@ static bool is_bar(const Drawing *drawing, int path, Vec3 fill, double bottom, d
 
 TEST(bars_are_as_high_as_what_they_stand_for)
 {
-    const Vec3 fills[] = {DIFFUSE_FILL, SPECULAR_FILL, PALE};
+    const Vec3 WHITE = {1, 1, 1}, fills[] = {WHITE, WHITE, PALE}; /* two are hatched */
     for (int m = 0; m < MATERIAL_COUNT; m++) {
         const Vec3 kd = MATERIALS[m].material.diffuse, ks = MATERIALS[m].material.specular;
         const double d[] = {kd.x, kd.y, kd.z}, s[] = {ks.x, ks.y, ks.z};

@@ -111,20 +111,27 @@ class Options(Case):
     def test_every_option_changes_the_picture(self):
         plain = {figure: self.drawn("--figure", figure).pixels for figure in FIGURES}
         for figure, *arguments in (
-                ("vectors", "--light", "41"), ("vectors", "--eye", "21"),
+                ("vectors", "--light", "41"), ("vectors", "--eye", "11"),
                 ("vectors", "--shininess", "11"), ("vectors", "--reflection", "blinn-phong"),
                 ("vectors", "--material", "jade"), ("vectors", "--rays", "radiating"),
                 ("vectors", "--swing", "10", "--time", "1"), ("lobe", "--shininess", "0"),
                 ("lobe", "--reflection", "blinn-phong"), ("incidence", "--light", "60"),
                 ("rays", "--light", "10"), ("normals", "--sides", "5"),
-                ("normals", "--light", "0"), ("rays", "--distance", "20"), ("mirror", "--eye", "10"),
+                ("normals", "--light", "0"), ("rays", "--distance", "20"), ("mirror", "--eye", "20"),
                 ("winding", "--sides", "5"), ("winding", "--eye", "50"), ("spaces", "--eye", "50"),
                 ("spaces", "--light", "0"), ("ambient", "--ambient", "0.5"),
                 ("attenuation", "--constant", "0.5"), ("attenuation", "--linear", "1"),
                 ("attenuation", "--quadratic", "1"), ("attenuation", "--distance", "3"),
-                ("reflectivity", "--material", "jade"), ("reflectivity", "--material", "none")):
+                ("reflectivity", "--material", "jade"), ("reflectivity", "--material", "gold")):
             changed = self.drawn("--figure", figure, *arguments).pixels
             self.assertNotEqual(plain[figure], changed, arguments)
+
+    def test_attenuation_is_that_of_light_types(self):
+        """So that the figure is the curve of what that program draws."""
+        helps = [self.good("--help", program=program).decode() for program in ("Vectors", "LightTypes")]
+        for option in "constant", "linear", "quadratic":
+            found = [re.search(rf"--{option} .*?default ([0-9.]+)", said, re.S) for said in helps]
+            self.assertEqual(found[0].group(1), found[1].group(1), option)
 
     def test_the_colour_is_that_of_the_lighting_equation(self):
         """Of red rubber without a highlight, straight below the light: 0.2 ambient + diffuse."""
