@@ -178,8 +178,9 @@ static bool make_labels(const ShaderLoader *loader, Message *message)
         char counted[64] = "", timed[32] = "";
         const int *own = operations[view];
         if (costs != COSTS_OFF && own[0] >= 0 && own[1] >= 0)
-            snprintf(counted, sizeof counted, ": %d op per vertex, %d per fragment", own[0],
-                     own[1]);
+            snprintf(counted, sizeof counted,
+                     view == VIEWS - 1 ? ": %d op per vertex + %d per fragment" : ": %d + %d op",
+                     own[0], own[1]); /* the last explains the others' */
         if (costs == COSTS_TIME)
             snprintf(timed, sizeof timed, "%s%.2f ms", counted[0] ? ", " : ": ", medians[view]);
         snprintf(state.labels[view], sizeof state.labels[view], "%s%s%s", VIEW[view].name, counted,
