@@ -314,22 +314,12 @@ void board_caption(Board *board, double x, double y, double width, const char *t
                  text);
 }
 
-void board_box(Board *board, DrawingBox box, Vec3 color)
-{
-    board_area(board,
-               (const DrawingPoint[]){{box.left, box.top},
-                                      {box.right, box.top},
-                                      {box.right, box.bottom},
-                                      {box.left, box.bottom}},
-               4, color, 1);
-}
-
-void board_framed_box(Board *board, DrawingBox box, Vec3 color)
+void board_box(Board *board, DrawingBox box, Vec3 color, bool framed)
 {
     const DrawingPoint corners[] = {
         {box.left, box.top}, {box.right, box.top}, {box.right, box.bottom}, {box.left, box.bottom}};
     board_area(board, corners, 4, color, 1);
-    for (int i = 0; i < 4; i++)
+    for (int i = 0; i < 4 && framed; i++)
         board_line(board, corners[i], corners[(i + 1) % 4], INK, 0.05);
 }
 
@@ -337,7 +327,7 @@ DrawingBox board_swatch(Board *board, DrawingPoint at, Vec3 color, const char *t
 {
     const double em = board->em;
     const DrawingBox box = {at.x, at.y - 0.8 * em, at.x + 1.9 * em, at.y + 0.2 * em};
-    board_framed_box(board, box, color);
+    board_box(board, box, color, true);
     drawing_text(board->drawing, (DrawingPoint){at.x + BOARD_SWATCH * em, at.y}, em, INK, text);
     return box;
 }

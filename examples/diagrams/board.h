@@ -64,14 +64,12 @@ void board_keep_away(Board *board, DrawingPoint a, DrawingPoint b);
 /* A line of text centered on a column, its middle on a row, in a width that it is shrunk to. */
 void board_caption(Board *board, double x, double y, double width, const char *text);
 
-/* A colour and a text to its right, whose baseline begins BOARD_SWATCH ems right of `at`. Returns
- * the colour's box. */
+/* A colour and a text to its right, whose baseline begins BOARD_SWATCH ems right of `at`.
+ * Returns the colour's box. */
 #define BOARD_SWATCH 2.3
 DrawingBox board_swatch(Board *board, DrawingPoint at, Vec3 color, const char *text);
 
-/* A rectangle without an outline, and with one. */
-void board_box(Board *board, DrawingBox box, Vec3 color);
-void board_framed_box(Board *board, DrawingBox box, Vec3 color);
+void board_box(Board *board, DrawingBox box, Vec3 color, bool framed);
 
 /* A number with two decimals and a true minus sign, never a negative zero. */
 enum { NUMBER_SIZE = 32 };

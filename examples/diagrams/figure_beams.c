@@ -133,7 +133,8 @@ void figure_incidence(Board *board, const Optics *optics, int number)
     room.bottom -= 1.4 * em;
     beam.length = beam_length(&beam, room);
     board->area = part;
-    board_box(board, (DrawingBox){part.left, beam.at.y, part.right, beam.at.y + STRIP * em}, PALE);
+    board_box(board, (DrawingBox){part.left, beam.at.y, part.right, beam.at.y + STRIP * em}, PALE,
+              false);
     board_line(board, (DrawingPoint){part.left, beam.at.y}, (DrawingPoint){part.right, beam.at.y},
                INK, 0.12);
     if (at.n_dot_l > 0)

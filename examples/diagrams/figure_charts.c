@@ -85,7 +85,7 @@ static void draw_strip(Board *board, const Chart *chart, const Optics *optics)
         board_box(
             board,
             (DrawingBox){on_chart(chart, left, 0).x, y, on_chart(chart, right, 0).x, y + 0.8 * em},
-            vec3_scale(BEAM, share));
+            vec3_scale(BEAM, share), false);
     }
     for (int i = 0; i <= TICKS; i++) {
         char text[FIGURE_TEXT];
@@ -128,25 +128,19 @@ void figure_attenuation(Board *board, const Optics *optics, int number)
 
 /* Reflectivity. */
 
-static const Vec3 WHITE = {1, 1, 1};
 enum { DIFFUSE, SPECULAR, ABSORBED };
 static const char *const NAMES[] = {"diffuse", "specular", "absorbed"};
-/* A share of the light, or its swatch: no colour, as the bars are named by colours. */
+
+/* A share of the light, or its swatch: hatched, as the bars are named by colours. */
 static void draw_share(Board *board, DrawingBox box, int share)
 {
-    const double spacing = 0.4 * board->em, width = box.right - box.left;
-    const double height = box.bottom - box.top;
-    board_framed_box(board, box, share == ABSORBED ? PALE : WHITE);
-    for (double c = spacing; c < width + height && share != ABSORBED; c += spacing) {
-        const double from = fmin(c, width), to = fmax(c - height, 0);
-        const bool rises = share == DIFFUSE;
-        board_line(
-            board,
-            (DrawingPoint){rises ? box.left + from : box.right - from,
-                           box.top + fmax(c - width, 0)},
-            (DrawingPoint){rises ? box.left + to : box.right - to, box.top + fmin(c, height)}, GREY,
-            0.06);
-    }
+    const double width = box.right - box.left, height = box.bottom - box.top;
+    const double left = share == DIFFUSE ? box.left : box.right, way = share == DIFFUSE ? 1 : -1;
+    board_box(board, box, share == ABSORBED ? PALE : (Vec3){1, 1, 1}, true);
+    for (double c = 0; c < width + height && share != ABSORBED; c += 0.5 * board->em)
+        board_line(board, (DrawingPoint){left + way * fmin(c, width), box.top + fmax(c - width, 0)},
+                   (DrawingPoint){left + way * fmax(c - height, 0), box.top + fmin(c, height)},
+                   GREY, 0.05);
 }
 
 /* One channel's bar, from the bottom. */
@@ -161,16 +155,9 @@ static void draw_bar(Board *board, const Chart *chart, int channel, const double
         from += shares[i];
         if (shares[i] > 0)
             draw_share(board, (DrawingBox){a.x, b.y, b.x, a.y}, i);
-        const DrawingPoint middle = {(a.x + b.x) / 2, (a.y + b.y) / 2};
-        const double em = board->em, aside = fmin(em, (b.x - a.x) / 2);
-        if (a.y - b.y <= 1.3 * em)
-            continue;
-        if (i != ABSORBED)
-            board_box(board,
-                      (DrawingBox){middle.x - aside, middle.y - 0.5 * em, middle.x + aside,
-                                   middle.y + 0.5 * em},
-                      WHITE);
-        board_caption(board, middle.x, middle.y, 2 * aside, board_number(shares[i], number));
+        if (a.y - b.y > 1.05 * board->em)
+            board_caption(board, (a.x + b.x) / 2, (a.y + b.y) / 2, b.x - a.x,
+                          board_number(shares[i], number));
     }
     const DrawingPoint foot = on_chart(chart, channel + 0.5, 0);
     board_caption(board, foot.x, foot.y + 0.9 * board->em, 5 * board->em, CHANNELS[channel]);

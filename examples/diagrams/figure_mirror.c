@@ -38,16 +38,12 @@ void figure_mirror(Board *board, const Optics *optics, int number)
     if (l.y > 0)
         snprintf(text, sizeof text, "only the eye at %s%.4g° is where $R$ goes, and sees the light",
                  sign(mirrored), fabs(mirrored));
-    figure_captions(board, &part,
-                    FIGURE_HAS_ANGLE(mirrored) && l.y > 0
-                        ? "a mirror sends a ray into one direction, $R$: equal angles $θ$"
-                        : "a mirror sends a ray into one direction, $R$",
+    figure_captions(board, &part, "a mirror sends a ray into one direction, $R$, at an equal angle",
                     text);
-    const DrawingBox whole = part;
+    board->area = part;
     part.top += 1.3 * board->em; /* for the label of an eye at the top */
     figure_cover(&units, l);
     const Frame2 frame = figure_fit(part, 1.6 * board->em, units);
-    board->area = whole;
     figure_surface(board, &parallel, frame.origin, frame.origin.x - frame.unit,
                    frame.origin.x + frame.unit, frame.unit);
     board_arrow(board, figure_at(frame, l), frame.origin, LIGHT_COLOR, 0.2);
@@ -66,7 +62,8 @@ void figure_mirror(Board *board, const Optics *optics, int number)
     board_label(board, figure_at(frame, vec3_scale(l, 0.8)), (Vec3){-l.y, l.x, 0}, LIGHT_COLOR,
                 "light");
     if (l.y > 0) {
-        figure_angle(board, frame, (Angle){l, n_tip, 0.3}, "$θ$", LIGHT_COLOR);
-        figure_angle(board, frame, (Angle){n_tip, optics_right(mirrored), 0.3}, "$θ$", LIGHT_COLOR);
+        figure_angle(board, frame, (Vec3[]){l, n_tip}, 0.3, "$θ$", LIGHT_COLOR);
+        figure_angle(board, frame, (Vec3[]){n_tip, optics_right(mirrored)}, 0.3, "$θ$",
+                     LIGHT_COLOR);
     }
 }

@@ -31,17 +31,15 @@ static void make_points(const Optics *optics, bool of_eye, Vec3 points[POINTS])
     points[Z_AT] = (Vec3){0, -AXIS, 0};
 }
 
-/* A number that is zero but for rounding is "0". */
-static const char *coordinate(double number, char text[NUMBER_SIZE])
-{
-    return fabs(number) < 1e-9 ? "0" : board_number(number, text);
-}
-
+/* Those that are zero but for rounding are "0". */
 static void coordinates(char text[FIGURE_TEXT], const char *name, Vec3 above)
 {
-    char x[NUMBER_SIZE], z[NUMBER_SIZE];
-    snprintf(text, FIGURE_TEXT, "%s(%s, 0, %s)", name, coordinate(above.x, x),
-             coordinate(-above.y, z));
+    char x[NUMBER_SIZE] = "0", z[NUMBER_SIZE] = "0";
+    if (fabs(above.x) > 1e-9)
+        board_number(above.x, x);
+    if (fabs(above.y) > 1e-9)
+        board_number(-above.y, z);
+    snprintf(text, FIGURE_TEXT, "%s(%s, 0, %s)", name, x, z);
 }
 
 static void draw_vector(Board *board, Frame2 frame, const Vec3 ends[2], Vec3 color,

@@ -183,10 +183,10 @@ void figure_vectors(Board *board, const Optics *optics, int number)
     label_tips(board, frame, vectors, sizeof vectors / sizeof vectors[0]);
     if (at.n_dot_l <= 0)
         return;
-    figure_angle(board, frame, (Angle){at.l, UP, 0.42}, "$θ$", LIGHT_COLOR);
-    figure_angle(board, frame, (Angle){UP, at.r, 0.42}, "$θ$", LIGHT_COLOR);
+    figure_angle(board, frame, (Vec3[]){at.l, UP}, 0.42, "$θ$", LIGHT_COLOR);
+    figure_angle(board, frame, (Vec3[]){UP, at.r}, 0.42, "$θ$", LIGHT_COLOR);
     if (optics->reflection == REFLECTION_PHONG)
-        figure_angle(board, frame, (Angle){at.r, at.v, 0.7}, "$φ$", R_COLOR);
+        figure_angle(board, frame, (Vec3[]){at.r, at.v}, 0.7, "$φ$", R_COLOR);
     else if (!color_is_black(at.h))
-        figure_angle(board, frame, (Angle){UP, at.h, 0.7}, "$ψ$", H_COLOR);
+        figure_angle(board, frame, (Vec3[]){UP, at.h}, 0.7, "$ψ$", H_COLOR);
 }

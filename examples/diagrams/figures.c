@@ -41,7 +41,7 @@ void figure_surface(Board *board, const Optics *optics, DrawingPoint origin, dou
         const double b = fmin(left + (right - left) * (i + 1) / pieces + OVERLAP, right);
         const Vec3 middle = {((a + b) / 2 - origin.x) / unit, 0, 0};
         board_box(board, (DrawingBox){a, origin.y, b, bottom},
-                  optics_color(optics, middle, (Vec3){0, 1, 0}));
+                  optics_color(optics, middle, (Vec3){0, 1, 0}), false);
     }
     board_line(board, (DrawingPoint){left, origin.y}, (DrawingPoint){right, origin.y}, INK, 0.12);
     board_keep_away(board, (DrawingPoint){left, bottom}, (DrawingPoint){right, bottom});
@@ -89,15 +89,15 @@ static double degrees_of(Vec3 direction)
     return atan2(direction.x, direction.y) * 180 / 3.14159265358979323846;
 }
 
-void figure_angle(Board *board, Frame2 frame, Angle angle, const char *name, Vec3 color)
+void figure_angle(Board *board, Frame2 frame, const Vec3 sides[2], double radius, const char *name,
+                  Vec3 color)
 {
-    const double from = degrees_of(angle.from), to = degrees_of(angle.to);
-    const double radius = angle.radius * frame.unit;
-    if (!FIGURE_HAS_ANGLE(to - from))
+    const double from = degrees_of(sides[0]), to = degrees_of(sides[1]);
+    if (fabs(to - from) < 6 || fabs(to - from) > 174)
         return;
-    board_arc(board, (Arc){frame.origin, radius, from, to}, color, 0.06, 0);
+    board_arc(board, (Arc){frame.origin, radius * frame.unit, from, to}, color, 0.06, 0);
     const Vec3 middle = optics_right((from + to) / 2);
-    board_label(board, board_at(frame.origin, middle, radius), middle, color, name);
+    board_label(board, board_at(frame.origin, middle, radius * frame.unit), middle, color, name);
 }
 
 void figure_captions(Board *board, DrawingBox *part, const char *first, const char *second)

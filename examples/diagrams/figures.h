@@ -60,14 +60,9 @@ Frame2 figure_fit(DrawingBox part, double margin, DrawingBox units);
 void figure_cover(DrawingBox *units, Vec3 point); /* enlarges the box to have a point */
 DrawingPoint figure_at(Frame2 frame, Vec3 point);
 
-/* The arc between two vectors from the frame's origin, at a radius in units, with its name. Small
- * angles, and nearly flat ones, have none. */
-#define FIGURE_HAS_ANGLE(degrees) (fabs(degrees) >= 6 && fabs(degrees) <= 174)
-typedef struct Angle {
-    Vec3 from, to;
-    double radius;
-} Angle;
-void figure_angle(Board *board, Frame2 frame, Angle angle, const char *name, Vec3 color);
+/* The arc between two vectors, with its name; none where they nearly lie on one line. */
+void figure_angle(Board *board, Frame2 frame, const Vec3 sides[2], double radius, const char *name,
+                  Vec3 color);
 
 /* Two lines at a part's lower end, which are taken off the part. */
 void figure_captions(Board *board, DrawingBox *part, const char *first, const char *second);

@@ -208,12 +208,6 @@ static DrawingBox assert_text(const Lines *lines, const char *text)
     return (DrawingBox){0, 0, 0, 0};
 }
 
-static void assert_no_text(const Lines *lines, const char *text)
-{
-    for (int i = 0; i < lines->drawing.label_count; i++)
-        assert_null(strstr(lines->drawing.labels[i].text, text));
-}
-
 TEST(rays_of_a_far_lamp_are_essentially_parallel)
 {
     static const double DISTANCES[] = {0.5, 0.75, 2, 11740, 1e6};
@@ -254,9 +248,8 @@ TEST(only_the_eye_at_the_mirror_angle_sees_the_ray)
 
 TEST(a_mirror_s_angles_are_marked_and_equal)
 {
-    static const double LIGHTS[] = {-80, -35, 10, 35, 85};
-    for (int i = 0; i < 5; i++) {
-        const Optics optics = usual(LIGHTS[i], 5, 10, REFLECTION_PHONG);
+    for (double light = -85; light <= 85; light += 34) {
+        const Optics optics = usual(light, 5, 10, REFLECTION_PHONG);
         CLOSED(lines_end) Lines lines = lines_of(FIGURE_MIRROR, &optics, LIGHT_COLOR, 0.2);
         int arcs = 0;
         find_lines(&lines, INK, 0.06); /* N, from the foot of the ray */
@@ -268,20 +261,17 @@ TEST(a_mirror_s_angles_are_marked_and_equal)
             const int last = path->step_count - 1;
             if (last < 2 || memcmp(&path->style.stroke, &LIGHT_COLOR, sizeof LIGHT_COLOR) != 0)
                 continue;
-            const double a = atan2(at[0].x - from.x, from.y - at[0].y);
-            const double b = atan2(at[last].x - from.x, from.y - at[last].y);
-            assert_angle((b - a) * 180 / PI, LIGHTS[i]);
+            assert_angle((atan2(at[last].x - from.x, from.y - at[last].y) -
+                          atan2(at[0].x - from.x, from.y - at[0].y)) *
+                             180 / PI,
+                         light);
             arcs++;
         }
         assert_int_equal(arcs, 2);
-        assert_text(&lines, "equal angles");
+        assert_text(&lines, "at an equal angle");
     }
-    const Optics straight = usual(0, 5, 10, REFLECTION_PHONG);
-    CLOSED(lines_end) Lines lines = lines_of(FIGURE_MIRROR, &straight, LIGHT_COLOR, 0.2);
-    assert_no_text(&lines, "θ");
 }
 
-/* At most the height of the surface: what says how wide a beam is, and its name. */
 TEST(a_grazing_beam_s_labels_are_above_the_surface)
 {
     for (double light = -85; light <= 85; light += 5) {
@@ -293,8 +283,7 @@ TEST(a_grazing_beam_s_labels_are_above_the_surface)
         /* Three lines for each width: of both lit places, and of the beam at an angle. */
         assert_int_equal(lines.count, light == 0 ? 6 : 9);
         for (int i = 6; i < lines.count; i++)
-            for (int end = 0; end < 2; end++)
-                assert_true(lines.ends[i][end].y < surface);
+            assert_true(fmax(lines.ends[i][0].y, lines.ends[i][1].y) < surface);
     }
 }
 
@@ -323,26 +312,12 @@ TEST(a_polygon_has_two_unit_normals_by_the_right_hand_rule)
     }
 }
 
-/* The arc of the fingers, and its head. */
 TEST(a_winding_s_arc_has_no_kink)
 {
     const Optics optics = usual(0, 20, 10, REFLECTION_PHONG);
     CLOSED(lines_end) Lines lines = lines_of(FIGURE_WINDING, &optics, R_COLOR, 0.08);
-    const Drawing *drawing = &lines.drawing;
-    int heads = 0;
-    for (int k = 0; k < drawing->path_count; k++) {
-        const DrawingPoint *at = &drawing->points[drawing->paths[k].first_point];
-        if (memcmp(&drawing->paths[k].style.fill, &R_COLOR, sizeof R_COLOR) != 0)
-            continue;
-        const int last = ++heads * lines.count / 2 - 1; /* two parts */
-        const double head = atan2(at[0].x - at[2].x, at[2].y - at[0].y) * 180 / PI;
-        /* A chord of 288 / 100 * 5 degrees, seen at an angle, where the line turns by half of it.
-         */
-        assert_true(fabs(remainder(head - angle_of(&lines, last), 360)) < 15);
-    }
-    assert_int_equal(heads, 2);
     for (int i = 1; i < lines.count; i++)
-        if (i != lines.count / 2) /* steps of 288 / 100 degrees */
+        if (i != lines.count / 2) /* of each part: steps of 2.88 degrees, seen at an angle */
             assert_true(fabs(remainder(angle_of(&lines, i) - angle_of(&lines, i - 1), 360)) < 6);
 }
 
@@ -360,14 +335,7 @@ TEST(eye_coordinates_are_world_coordinates_turned)
         assert_angle(angle_of(&lines, 1), 0);
         snprintf(place, sizeof place, "(%s, 0, %s)", board_number(1.7 + 1.9 * cosine(90 - eye), x),
                  board_number(-0.6 + 1.9 * cosine(eye), z));
-        const DrawingBox eye_at = assert_text(&lines, place);
-        /* Nothing runs into it: the label of V. */
-        for (int i = 0; i < lines.drawing.label_count; i++) {
-            const DrawingBox v_at = lines.drawing.labels[i].box;
-            if (strcmp(lines.drawing.labels[i].text, "$V$") == 0)
-                assert_true(v_at.right + 6 < eye_at.left || eye_at.right + 6 < v_at.left ||
-                            v_at.bottom + 6 < eye_at.top || eye_at.bottom + 6 < v_at.top);
-        }
+        assert_text(&lines, place);
         assert_text(&lines, "(0, 0, 0)"); /* no rounding of it */
         assert_text(&lines, "looks along −$z$");
         assert_text(&lines, "normalize(-v_Position)");
@@ -393,9 +361,6 @@ TEST(ambient_light_comes_from_all_directions_alike)
 TEST(amplified_light_is_said)
 {
     Optics optics = usual(0, 0, 10, REFLECTION_PHONG);
-    CLOSED(lines_end) Lines usually = lines_of(FIGURE_ATTENUATION, &optics, GREY, 0.06);
-    assert_no_text(&usually, "amplified");
-    assert_int_equal(usually.count, 0);
     optics.constant = 0.2;
     CLOSED(lines_end) Lines near = lines_of(FIGURE_ATTENUATION, &optics, GREY, 0.06);
     assert_text(&near, "2.16 times the light; amplified nearer than 1.56");
@@ -476,17 +441,19 @@ TEST(numbers_have_a_minus_sign_and_no_negative_zero)
     assert_string_equal(board_number(-0.001, text), "0.00");
 }
 
-static bool apart(DrawingBox a, DrawingBox b)
+static bool apart(DrawingBox a, DrawingBox b, double gap)
 {
-    return a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top;
+    return a.right + gap <= b.left || b.right + gap <= a.left || a.bottom + gap <= b.top ||
+           b.bottom + gap <= a.top;
 }
 
 static void check_layout(const Drawing *drawing, const char *what)
 {
+    const double gap = 0.25 * fmin(drawing->width / 27, drawing->height / 21); /* in ems */
     for (int i = 0; i < drawing->label_count; i++)
         for (int j = 0; j < i; j++)
-            if (!apart(drawing->labels[i].box, drawing->labels[j].box))
-                fail_msg("%s: %s covers %s", what, drawing->labels[i].text,
+            if (!apart(drawing->labels[i].box, drawing->labels[j].box, gap))
+                fail_msg("%s: %s touches %s", what, drawing->labels[i].text,
                          drawing->labels[j].text);
     for (int i = 0; i < drawing->path_count; i++) {
         const DrawingBox box = drawing_path_box(drawing, &drawing->paths[i]);
