@@ -180,8 +180,9 @@ static void any_value(const Parameter *parameter, char *line, size_t size)
         snprintf(text, sizeof text, "%.3f", any_number(parameter->min, parameter->max));
         break;
     case PARAMETER_WHOLE:
+        /* Not 1024 divisions: the oracle asks every triangle for every pixel. */
         snprintf(text, sizeof text, "%d",
-                 (int)parameter->min + below((int)(parameter->max - parameter->min) + 1));
+                 (int)parameter->min + below((int)fmin(parameter->max - parameter->min, 64) + 1));
         break;
     case PARAMETER_CHOICE:
     case PARAMETER_SWITCH:
