@@ -143,7 +143,7 @@ static Mat4 eye_of(const Original *original)
     const Mat4 eye = mat4_look_at(camera->eye, camera->center, camera->up);
     const Vec3 up = mat4_transform_direction(eye, camera->up);
     const double distance = vec3_length(vec3_subtract(camera->eye, camera->center));
-    const double far = distance * (original->distance ? original->distance : 1);
+    const double far = distance * (original->distance != 0 ? original->distance : 1);
     /* About the centre, seen from the eye: up in the plane x = 0. */
     const Mat4 about = mat4_product(mat4_translate((Vec3){0, 0, distance}), eye);
     const double tilt = atan2(up.z, up.y) * 180 / PI;
