@@ -41,7 +41,7 @@ static const char *placeholder(const Parameter *option, char text[TEXT_SIZE])
         return "TEXT";
     if (option->kind == PARAMETER_COLOR)
         return "R,G,B";
-    if (fmax(fabs(option->min), fabs(option->max)) > 1e6)
+    if (fmax(fabs(option->min), fabs(option->max)) >= 1e6)
         return option->kind == PARAMETER_WHOLE ? "N" : "NUMBER";
     snprintf(text, TEXT_SIZE, "%.10g..%.10g", option->min, option->max);
     return text;
