@@ -4,9 +4,8 @@
 #include "app/options.h"
 #include "images/image_file.h"
 #include "scene/scene_example.h"
+#include "support/read_line.h"
 #include "support/testing.h"
-
-enum { MAX_ARGUMENTS = 8 };
 
 static const Usage PROGRAM = {.name = "LightedCube", .summary = "A summary."};
 static void twice_as_wide(int *width, int *height)
@@ -24,20 +23,10 @@ static const Usage GALLERY = {.name = "gallery", .summary = "A summary.", .galle
 static Options options;
 static Message message;
 
-/* Reads a command line whose arguments are separated by blanks; "" stands for an empty one. */
 static OptionsResult read_as(const Usage *usage, const char *line)
 {
-    static char text[PARAMETER_TEXT_SIZE + 200];
-    static char *arguments[MAX_ARGUMENTS + 2];
-    int count = 0;
-    snprintf(text, sizeof text, "%s %s", usage->name, line);
-    for (char *word = strtok(text, " "); word; word = strtok(NULL, " ")) {
-        assert_true(count <= MAX_ARGUMENTS);
-        arguments[count++] = strcmp(word, "\"\"") == 0 ? word + 2 : word;
-    }
-    arguments[count] = NULL;
     message = (Message){0};
-    return options_read(&options, usage, count, arguments, &message);
+    return read_line(&options, usage, line, &message);
 }
 
 static void accept(const char *line)

@@ -9,6 +9,7 @@
 #include "scene/shape.h"
 #include "support/examples.h"
 #include "support/picture_check.h"
+#include "support/read_line.h"
 #include "support/testing.h"
 
 #define X(NAME) extern const Example NAME;
@@ -19,7 +20,7 @@ LECTURE_EXAMPLES
 static const Example *const LECTURES[] = {LECTURE_EXAMPLES};
 #undef X
 
-enum { SIZE = 96, MOST_PARAMETERS = 64, MOST_WORDS = 12 };
+enum { SIZE = 96, MOST_PARAMETERS = 64 };
 
 static Canvas canvas;
 
@@ -34,25 +35,6 @@ FIXTURE(close_canvas)
 {
     canvas_close(&canvas);
     return 0;
-}
-
-/* Reads a line of arguments, which sets the example's own parameters too. */
-static Options read_line(const Example *example, const char *line)
-{
-    static char text[512];
-    char *words[MOST_WORDS + 1] = {text};
-    int count = 0;
-    Options options;
-    const Usage usage = options_usage(example);
-    snprintf(text, sizeof text, "%s %s", example->name, line);
-    for (char *word = strtok(text, " "); word; word = strtok(NULL, " ")) {
-        assert_true(count < MOST_WORDS);
-        words[count++] = word;
-    }
-    words[count] = NULL;
-    if (options_read(&options, &usage, count, words, FAILURE) != OPTIONS_RUN)
-        fail_msg("%s: %s", text, FAILURE->text);
-    return options;
 }
 
 /* The textbook's teapot, turned, has the tip of its spout 0.6% beyond the original's camera. */
@@ -103,7 +85,10 @@ static void check_line(const Example *example, const char *line, bool drawn)
     int count = 0;
     for (; own && own[count].name; count++)
         before[count] = parameter_save(&own[count]);
-    const Options options = read_line(example, line);
+    Options options;
+    const Usage usage = options_usage(example);
+    if (read_line(&options, &usage, line, FAILURE) != OPTIONS_RUN)
+        fail_msg("%s %s: %s", example->name, line, FAILURE->text);
     const DrawRequest request = options_request(&options, example);
     snprintf(what, sizeof what, "%s %s", example->name, line);
     require(renderer_open(&renderer, example, &canvas, &request, FAILURE), FAILURE);

@@ -13,6 +13,7 @@
 #include "shapes/mesh_solids.h"
 #include "support/examples.h"
 #include "support/picture_check.h"
+#include "support/read_line.h"
 #include "support/testing.h"
 
 #include <math.h>
@@ -20,7 +21,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SIZE = 200, LIGHTS = 4, MOST_WORDS = 24 };
+enum { SIZE = 200, LIGHTS = 4 };
 static const double PI = 3.14159265358979323846;
 
 /* The originals' equation, in eye coordinates; at the vertices or at the fragments. */
@@ -377,9 +378,6 @@ static void open_teapot(Mesh *mesh)
 /* Draws what a line of arguments says into `ours`. */
 static void draw_ours(const Example *example, const char *line)
 {
-    static char text[512];
-    char *words[MOST_WORDS + 1] = {text};
-    int count = 0;
     Options options;
     Renderer renderer;
     ParameterValue before[64];
@@ -388,13 +386,7 @@ static void draw_ours(const Example *example, const char *line)
     for (; own[parameters].name; parameters++)
         before[parameters] = parameter_save(&own[parameters]);
     const Usage usage = options_usage(example);
-    snprintf(text, sizeof text, "%s %s", example->name, line);
-    for (char *word = strtok(text, " "); word; word = strtok(NULL, " ")) {
-        assert_true(count < MOST_WORDS);
-        words[count++] = word;
-    }
-    words[count] = NULL;
-    if (options_read(&options, &usage, count, words, FAILURE) != OPTIONS_RUN)
+    if (read_line(&options, &usage, line, FAILURE) != OPTIONS_RUN)
         fail_msg("%s: %s", line, FAILURE->text);
     const DrawRequest request = options_request(&options, example);
     SUCCEEDS(renderer_open(&renderer, example, &canvas, &request, message));
