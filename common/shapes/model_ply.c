@@ -4,8 +4,8 @@
  *
  * The header names elements, each with a number of rows and with properties: a number each, or a
  * list, which begins with its length. So the end of a row is known only by reading the lists'
- * lengths: one pass over the file's words or bytes, which takes a tenth of Assimp's time. (Greg
- * Turk, "The PLY Polygon File Format", 1994.)
+ * lengths: one pass over the file's words or bytes. Of 500,000 triangles it takes 4% of Assimp's
+ * time in bytes, and a quarter in words. (Greg Turk, "The PLY Polygon File Format", 1994.)
  */
 #include "shapes/model_ply.h"
 
@@ -118,9 +118,11 @@ static int read_header(Ply *ply, Element elements[ELEMENTS_MAX])
         if (sscanf(line, "format %31s", word) == 1) {
             ply->words = strcmp(word, "ascii") == 0;
             ply->big_endian = strcmp(word, "binary_big_endian") == 0;
-        } else if (sscanf(line, "property list %31s %31s", first, second) == 2 && room) {
+        } else if (strncmp(line, "property ", 9) == 0 && !room) {
+            return 0;
+        } else if (sscanf(line, "property list %31s %31s", first, second) == 2) {
             last->properties[last->count++] = (Property){type_bytes(first), type_bytes(second)};
-        } else if (sscanf(line, "property %31s", first) == 1 && room) {
+        } else if (sscanf(line, "property %31s", first) == 1) {
             last->properties[last->count++] = (Property){.bytes = type_bytes(first)};
         } else if (strncmp(line, "element ", 8) == 0) {
             Element element = {.count = 0};

@@ -643,6 +643,27 @@ TEST(a_ply_file_that_was_cut_is_rejected)
     }
 }
 
+/* More properties than the check for cuts knows: as Assimp reads it. */
+TEST(a_ply_file_of_many_properties_is_read)
+{
+    static const float corners[3][2] = {{0, 0}, {1, 0}, {0, 1}};
+    char file[4000] = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                      "property float y\nproperty float z\n";
+    enum { MORE = 70 };
+    for (int i = 0; i < MORE; i++)
+        sprintf(file + strlen(file), "property float p%d\n", i);
+    strcat(file, "element face 1\nproperty list uchar int vertex_indices\nend_header\n");
+    for (int v = 0; v < 3; v++) {
+        sprintf(file + strlen(file), "%g %g 0", corners[v][0], corners[v][1]);
+        for (int i = 0; i < MORE; i++)
+            strcat(file, " 9999"); /* no length of a list */
+        strcat(file, "\n");
+    }
+    Mesh mesh = read_sound("many.ply", text(strcat(file, "3 0 1 2\n")));
+    assert_int_equal(mesh.index_count, 3);
+    mesh_close(&mesh);
+}
+
 TEST(oversized_models_are_rejected)
 {
     const char *path = "large.stl";
