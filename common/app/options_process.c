@@ -74,7 +74,7 @@ static void print_lines(const char *text, int column)
         char words[sizeof((Message *)0)->text];
         const int length = (int)strcspn(line, "\n"), blanks = (int)strspn(line, " ");
         snprintf(words, sizeof words, "%.*s", length, line);
-        if (!wraps || length + column <= window.ws_col || strstr(words, " | ")) {
+        if (!wraps || length + column <= window.ws_col || text_is_quote(words)) {
             fputs(words, stderr);
         } else {
             fprintf(stderr, "%.*s", blanks, line);

@@ -1,7 +1,6 @@
 /* Three places, by the program's own path: it lies in a build folder or in an installation. No path
- * is compiled in but the prefix, so that two builds of one source are the same bytes, and an
- * installed program knows nothing of the source tree. A program of a build finds it by the file
- * that meson writes into the build folder. */
+ * is compiled in but the prefix: an installed program knows nothing of the source tree. A program
+ * of a build finds it by the file that meson writes into the build folder. */
 #include "base/paths.h"
 
 #include <errno.h>

@@ -23,8 +23,8 @@ bool paths_program(char path[PATH_MAX], Message *message);
 bool paths_build(char build[PATH_MAX], char source[PATH_MAX]);
 
 /* A data file or folder by its path below the source tree and below share/lighting ("": that folder
- * itself). False if the path is too long, or, for PATHS_SOURCE, the
- * program lies in no build folder. */
+ * itself). False if the path is too long, or if the program lies in no build folder (PATHS_SOURCE).
+ */
 bool paths_data(PathsPlace place, const char *source, const char *installed, char path[PATH_MAX]);
 
 /* The first place where it exists; false: nowhere, and `path` is the last one tried. */

@@ -65,11 +65,11 @@ bool plugin_probe(Plugin *plugin, Message *findings)
 {
     Message message = {0};
     PluginVersion *const *found = plugin_open(plugin, &message);
-    if (!found && unbuilt(plugin))
+    if (!found && unbuilt(plugin)) {
         message_add(findings, "  %-12s installed, gives %s; not built yet: built when needed\n",
                     plugin->library, plugin->purpose);
-    if (!found && unbuilt(plugin))
         return false;
+    }
     return package_tell(findings, plugin->library, found ? (*found)() : NULL, plugin->purpose,
                         found ? NULL : message.text);
 }

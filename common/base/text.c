@@ -35,6 +35,13 @@ int text_character(const char *text)
     return 0;
 }
 
+bool text_is_quote(const char *line)
+{
+    const char *number = line + strspn(line, " ");
+    const size_t digits = strspn(number, "0123456789");
+    return number >= line + 2 && digits > 0 && strncmp(number + digits, " |", 2) == 0;
+}
+
 const char *text_comment_end(const char *text)
 {
     if (strncmp(text, "//", 2) == 0)

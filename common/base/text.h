@@ -13,6 +13,9 @@ bool text_is_word(char c);
 /* The bytes of the UTF-8 character (RFC 3629) that a text begins with; 0: it begins with none. */
 int text_character(const char *text);
 
+/* Whether a line quotes a source line, as messages do: "  3 | ...". */
+bool text_is_quote(const char *line);
+
 /* The end of the comment, of C or GLSL, that begins a text: at the line feed after //, else after
  * its end, or at the end of the text. NULL: no comment begins here. */
 const char *text_comment_end(const char *text);

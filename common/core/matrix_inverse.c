@@ -208,8 +208,9 @@ bool mat4_try_normal(Mat4 a, Mat4 *normal_matrix)
             normal_matrix->m[4 * j + i] = entry;
             squares += entry * entry;
         }
+    const double length = sqrt(squares / 3);
     for (int k = 0; k < 12 && squares > 0; k++)
-        normal_matrix->m[k] /= sqrt(squares / 3);
+        normal_matrix->m[k] /= length;
     return largest != EXPONENT_OF_ZERO / 2;
 }
 

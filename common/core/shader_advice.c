@@ -299,12 +299,6 @@ bool shader_advice(const char *source, const char *message, char *advice, size_t
     return found || meaning;
 }
 
-/* The source line that follows a message is quoted as "  3 | ...". */
-static bool is_quote(const char *line)
-{
-    return strncmp(line, "  ", 2) == 0 && strcspn(line, "|") < strcspn(line, "\n");
-}
-
 void shader_advise(const char *source, Message *message)
 {
     char advice[512];
@@ -312,7 +306,7 @@ void shader_advise(const char *source, Message *message)
         !shader_advice(source, message->text, advice, sizeof advice))
         return;
     const char *error = first_error(message->text), *end = error + strcspn(error, "\n");
-    if (*end && is_quote(end + 1))
+    if (*end && text_is_quote(end + 1))
         end += 1 + strcspn(end + 1, "\n");
     Message after = {0};
     message_set(&after, "%s", end);

@@ -38,18 +38,22 @@ void overlay_add_axes(OverlayList *list, double length)
         add_line(list, (Vec3){0, 0, 0}, vec3_scale(axes[i], length), axes[i]);
 }
 
-static void add_normal(OverlayList *list, const Object *object, double length, Vec3 foot,
-                       Vec3 normal)
+/* How an object's normals become lines. */
+typedef struct NormalLines {
+    const Object *object;
+    Mat4 normal_matrix;
+    double length;
+} NormalLines;
+
+static void add_normal(OverlayList *list, const NormalLines *lines, Vec3 foot, Vec3 normal)
 {
-    const Mat4 world_from_object = object->world_from_object;
-    const Vec3 along = mat4_transform_direction(
-        object->wrong_normals ? world_from_object : mat4_normal(world_from_object), normal);
-    const Vec3 from = mat4_transform_point(world_from_object, foot);
+    const Vec3 from = mat4_transform_point(lines->object->world_from_object, foot);
+    const double length = lines->length;
     Vec3 unit;
-    if (!vec3_normalize(along, &unit))
+    if (!vec3_normalize(mat4_transform_direction(lines->normal_matrix, normal), &unit))
         return;
     add_line(list, from, vec3_add(from, vec3_scale(unit, length)), (Vec3){1, 1, 0});
-    if (object->two_sided)
+    if (lines->object->two_sided)
         add_line(list, from, vec3_add(from, vec3_scale(unit, -length)), (Vec3){0.4, 0.8, 1});
 }
 
@@ -59,16 +63,19 @@ static void add_normals(OverlayList *list, const Object *object, bool flat)
     const MeshBox box = mesh_bounds(mesh);
     /* In proportion to the object, and to the distance of many from each other. */
     const double share = fmin(fmax(2 / sqrt((double)mesh->vertex_count), 0.1), 0.5);
-    const double length = share * scene_sphere(object, &box).radius;
+    const NormalLines lines = {object,
+                               object->wrong_normals ? object->world_from_object
+                                                     : mat4_normal(object->world_from_object),
+                               share * scene_sphere(object, &box).radius};
     for (size_t i = 0; i < mesh->vertex_count && !flat; i++)
-        add_normal(list, object, length, vec3_from_float(mesh->vertices[i].position),
+        add_normal(list, &lines, vec3_from_float(mesh->vertices[i].position),
                    vec3_from_float(mesh->vertices[i].normal));
     for (size_t i = 0; i < mesh->index_count / 3 && flat; i++) {
         Vec3 sum = {0, 0, 0}, normal;
         for (size_t k = 0; k < 3; k++)
             sum = vec3_add(sum, vec3_from_float(mesh->vertices[mesh->indices[3 * i + k]].position));
         if (mesh_face(mesh, i, &normal))
-            add_normal(list, object, length, vec3_scale(sum, 1.0 / 3), normal);
+            add_normal(list, &lines, vec3_scale(sum, 1.0 / 3), normal);
     }
 }
 

@@ -4,6 +4,16 @@
 #include "base/text.h"
 #include "support/testing.h"
 
+TEST(a_quoted_source_line_is_known)
+{
+    assert_true(text_is_quote("  3 | void main() { a | b; }\nmore"));
+    assert_true(text_is_quote("  16384 |"));
+    assert_false(text_is_quote("  hint: write a | b"));
+    assert_false(text_is_quote("3 | no blanks before it"));
+    assert_false(text_is_quote("   | no number"));
+    assert_false(text_is_quote(""));
+}
+
 TEST(comments_become_blanks)
 {
     static const struct {

@@ -7,9 +7,9 @@
  *   students/FOLDER/results.json   for Gradescope
  *     (https://gradescope-autograders.readthedocs.io/en/latest/specs/)
  *   index.html    the class's page, which opens from disk, without network or scripts
- *   students/FOLDER/index.html     one student's: it names no other student and has no links, so
- * its folder can be handed out front.svg, front.png           lab 10's submissions by cost and
- * error
+ *   students/FOLDER/index.html   one student's, which names no other student and has no links: its
+ *     folder can be handed out
+ *   front.svg, front.png   lab 10's submissions by cost and error
  *
  * Names and driver messages, which students control, are always escaped: never a spreadsheet
  * formula, an element or a value. Each file is written whole or not at all.
