@@ -625,10 +625,11 @@ TEST(scenes_that_were_wrong_are_right)
 
 TEST(random_scenes_keep_the_error_that_is_allowed)
 {
-    /* A scene takes 0.2 to 10 s, a large one up to a minute. LIGHTING_TEST_CASES asks for more. */
-    enum { CASES = 300 };
+    /* A scene takes 0.2 to 50 s where both cores are busy, these 36 about two minutes; a nightly
+     * run asks for LIGHTING_TEST_CASES=300, of another LIGHTING_TEST_SEED each night. */
+    enum { CASES = 36 };
     const char *asked = getenv("LIGHTING_TEST_CASES");
-    const int count = asked ? atoi(asked) : testing_part(CASES, 75);
+    const int count = asked ? atoi(asked) : testing_part(CASES, 9);
     const bool large = testing_step(2) == 1;
     int broken = 0, unreached = 0;
     const unsigned long long seed = testing_seed(1);
