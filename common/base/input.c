@@ -22,8 +22,8 @@ static bool check_file(int file, const char *name, size_t max, size_t *size, Mes
         return message_set(message, "%s: is %s; submit the file itself", name,
                            kind_of(status.st_mode));
     if (status.st_size > (off_t)max)
-        return message_set(message, "%s: %.1f MB; at most %zu KB", name,
-                           (double)status.st_size / (1 << 20), max >> 10);
+        return message_set(message, "%s: has %lld bytes; at most %zu are read", name,
+                           (long long)status.st_size, max);
     *size = (size_t)status.st_size;
     return true;
 }

@@ -33,7 +33,7 @@ static bool read_text(ShaderFile *file, int from, Message *message)
     if (!S_ISREG(status.st_mode))
         return message_set(message, "%s: is not a regular file", file->path);
     if (status.st_size > SHADER_FILE_MAX)
-        return message_set(message, "%s: has %lld bytes; a shader file has at most %d", file->path,
+        return message_set(message, "%s: has %lld bytes; at most %d are read", file->path,
                            (long long)status.st_size, SHADER_FILE_MAX);
     const size_t max = (size_t)status.st_size;
     file->text = memory_new(max + 1, 1);

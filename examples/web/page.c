@@ -468,8 +468,8 @@ int page_replace(const char *name, const char *text, int size)
     }
     if (name[0] == '/' || strstr(name, "..") || size > SHADER_FILE_MAX ||
         snprintf(path, sizeof path, "/tmp/shaders/%s", name) >= (int)sizeof path)
-        return message_set(&page.message, "%.80s: has %d bytes; a shader file has at most %d", name,
-                           size, SHADER_FILE_MAX);
+        return message_set(&page.message, "%.80s: has %d bytes; at most %d are read", name, size,
+                           SHADER_FILE_MAX);
     make_folders(path);
     FILE *file = fopen(path, "w");
     const bool written = file && fwrite(text, 1, (size_t)size, file) == (size_t)size;

@@ -308,7 +308,7 @@ class Abuse(Class):
 
         lines = self.lab5("--limit", "2")
         for student, verdict, said in (
-            ("ten_megabytes", "refused", "9.5 MB; at most"),
+            ("ten_megabytes", "refused", "has 10000755 bytes; at most"),
             ("another_file", "refused|error", r"lab05\.frag"),
             ("absolute", "refused|error", r"secret\.frag"),
             ("device", "refused|error", "/dev/zero"),

@@ -460,7 +460,7 @@ class Pages(Case):
             before = self.page.run("rgb(['LightedCube'])")
             self.assertFalse(self.page.run("""own.replace(new Map([["lecture/LightedCube.vert", "void main() {}"],
                 ["lecture/LightedCube.frag", "é".repeat(600000)]]))"""))
-            self.assertIn("has 1200000 bytes; a shader file has at most 999999", self.page.run("own.message"))
+            self.assertIn("has 1200000 bytes; at most 999999 are read", self.page.run("own.message"))
             self.assertEqual(self.page.run("rgb(['LightedCube'])"), before)
 
     def test_an_included_file_is_edited(self):
