@@ -291,7 +291,7 @@ setup_lock() {
 
 # The source tree that the build folder was configured for.
 setup_tree() {
-    sed -n 's/.*"source": "\([^"]*\)".*/\1/p' "$build/meson-info/meson-info.json" 2>/dev/null
+    cat "$build/source_root" 2>/dev/null
 }
 
 # $build/.configured is as old as the configuration, which is done again if the tree was moved or

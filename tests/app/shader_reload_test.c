@@ -73,7 +73,8 @@ static int enter_folder(void **state)
     unsetenv("LIGHTING_SHADERS");
     if (testing_enter_folder(state) != 0)
         return -1;
-    testing_shell("cp -r " SHADERS_SOURCE " mine");
+    setenv("SHADERS_SOURCE", testing_source("shaders"), 1);
+    testing_shell("cp -r \"$SHADERS_SOURCE\" mine");
     request = (DrawRequest){.fps = 30, .shaders.folder = "mine"};
     error = (Message){0};
     return canvas_open(&canvas, &(CanvasOptions){.width = SIZE, .height = SIZE}, NULL) ? 0 : -1;
@@ -162,7 +163,7 @@ RELOAD_TEST(errors_after_compiling_are_rejected)
                 "varying vec3 v_Color") "; " EDIT("lecture/LightedCube.frag", "= v_Color",
                                                   "= vec4(v_Color, 1.0)"),
            "mine/lecture/LightedCube.frag:5: linking: ");
-    testing_shell("cp " SHADERS_SOURCE "/lecture/LightedCube.frag mine/lecture");
+    testing_shell("cp \"$SHADERS_SOURCE\"/lecture/LightedCube.frag mine/lecture");
     loads();
     breaks("rm -r mine", "mine: no such shader folder");
     testing_shell("mkdir mine");

@@ -129,10 +129,10 @@ SHADER_TEST(the_folders_are_searched_in_order_by_path_and_by_name)
         found("lecture/LightedCube.vert", places[i]);
         assert_int_equal(unlink(places[i]), 0);
     }
-    found("lecture/LightedCube.vert", SHADERS_SOURCE "/lecture/LightedCube.vert");
+    found("lecture/LightedCube.vert", testing_source("shaders/lecture/LightedCube.vert"));
     loader.folder = NULL;
     setenv("LIGHTING_SHADERS", "", 1);
-    found("lecture/LightedCube.vert", SHADERS_SOURCE "/lecture/LightedCube.vert");
+    found("lecture/LightedCube.vert", testing_source("shaders/lecture/LightedCube.vert"));
 }
 
 SHADER_TEST(a_file_name_alone_is_not_found_in_the_source_tree)
@@ -142,10 +142,11 @@ SHADER_TEST(a_file_name_alone_is_not_found_in_the_source_tree)
 
 SHADER_TEST(every_path_that_was_tried_is_listed_in_order)
 {
-    static const char *const tried[] = {
-        "\n  tried one/lecture/nope.vert", "\n  tried one/nope.vert",
-        "\n  tried two/lecture/nope.vert", "\n  tried two/nope.vert",
-        "\n  tried " SHADERS_SOURCE "/lecture/nope.vert"};
+    char last[PATH_MAX + 16];
+    snprintf(last, sizeof last, "\n  tried %s", testing_source("shaders/lecture/nope.vert"));
+    const char *const tried[] = {"\n  tried one/lecture/nope.vert", "\n  tried one/nope.vert",
+                                 "\n  tried two/lecture/nope.vert", "\n  tried two/nope.vert",
+                                 last};
     loader.folder = "one";
     setenv("LIGHTING_SHADERS", "two", 1);
     refused("lecture/nope.vert", "lecture/nope.vert: no such shader file", "");

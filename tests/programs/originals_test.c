@@ -428,7 +428,7 @@ static void assert_differs(const Example *example, const char *usual, const char
 {
     char wanted[256];
     size_t size;
-    char *page = testing_read(SHADERS_SOURCE "/../examples/guide/originals.md", &size);
+    char *page = testing_read(testing_source("examples/guide/originals.md"), &size);
     snprintf(wanted, sizeof wanted, "`%s %s`", example->name, line);
     if (!strstr(page, wanted))
         fail_msg("originals.md does not have %s", wanted);

@@ -23,13 +23,13 @@ TOOLS = {
     "dpkg-query": 'shift 3; for package; do echo "$package installed"; done',
     "meson": 'if [ "$1" = test ]; then case $* in *--list*) printf "a / %s\\n" effects matrix; esac; '
              'exit; fi; [ "$2" != --reconfigure ] || shift; '
-             '[ "$2" != --cross-file ] || shift 2; mkdir -p "$2/meson-info" && '
-             'echo "  \\"source\\": \\"$3\\"" >"$2/meson-info/meson-info.json" && '
+             '[ "$2" != --cross-file ] || shift 2; mkdir -p "$2" && '
+             'echo "$3" >"$2/source_root" && '
              ': >"$2/build.ninja"',
     "ninja": r'''
 cd "$2" || exit 1
 shift 2
-source=$(sed -n 's/.*: "\(.*\)"/\1/p' meson-info/meson-info.json)
+source=$(cat source_root)
 dry=; [ "$1" = -n ] && dry=1 && shift
 for target; do
     case $target in *-plugin | all) continue ;; esac

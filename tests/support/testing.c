@@ -1,5 +1,7 @@
 #include "support/testing.h"
 
+#include "base/paths.h"
+
 #include <dirent.h>
 #include <errno.h>
 #include <limits.h>
@@ -150,6 +152,13 @@ char *testing_read(const char *path, size_t *size)
     *size = fread(bytes, 1, (1 << 22) - 1, file);
     fclose(file);
     return bytes;
+}
+
+const char *testing_source(const char *path)
+{
+    static char found[PATH_MAX];
+    assert_true(paths_data(PATHS_SOURCE, path, "", found));
+    return found;
 }
 
 void testing_shell(const char *command)

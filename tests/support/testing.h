@@ -107,6 +107,9 @@ void testing_put(const char *path, const char *text);
 /* All bytes of a file and a zero byte, to be freed. */
 char *testing_read(const char *path, size_t *size);
 
+/* A path below the source tree, which the test was built from; valid until the next call. */
+const char *testing_source(const char *path);
+
 /* Runs a shell command, which must succeed. */
 void testing_shell(const char *command);
 
