@@ -115,14 +115,11 @@ static int bits_of(uint32_t bits)
     return __builtin_popcount(bits);
 }
 
-void cheapest_quality_text(const CheapestQuality *cheapest, const Scene *scene, char *text,
-                           size_t size)
+/* What was simplified: "object 0: 24 divisions, lit per vertex, viewer at infinity". */
+static void write_simplified(const CheapestQuality *cheapest, const Scene *scene, FILE *file)
 {
     const ObjectQuality plain = object_quality_plain(scene);
-    FILE *file = fmemopen(text, size, "w");
     int written = 0;
-    if (!file)
-        return;
     for (int i = 0; i < cheapest->count; i++) {
         const ObjectQuality *quality = &cheapest->objects[i];
         const char *before = "";
@@ -161,6 +158,37 @@ void cheapest_quality_text(const CheapestQuality *cheapest, const Scene *scene, 
     }
     if (!written)
         fprintf(file, "as the scene says");
-    fclose(file);
-    text[size - 1] = '\0';
+}
+
+static void write_left_out(const LeftOut *left_out, const LeftOut *plain, const char *where,
+                           FILE *file)
+{
+    fprintf(file, "%lld %s", left_out->pixels, where);
+    if (left_out->pixels)
+        fprintf(file, ", by up to %.1f", left_out->largest);
+    fprintf(file, " (plain: %lld", plain->pixels);
+    if (plain->pixels)
+        fprintf(file, ", by up to %.1f", plain->largest);
+    fprintf(file, ")");
+}
+
+void cheapest_quality_write(const CheapestQuality *cheapest, const Scene *scene, double allowed,
+                            FILE *file)
+{
+    write_simplified(cheapest, scene, file);
+    fprintf(file, "; error %.2f of %g allowed inside objects (plain: %.2f)", cheapest->error,
+            allowed, cheapest->plain_error);
+    if (cheapest->moments > 1)
+        fprintf(file, ", at %d moments, and %.2f in reserve", cheapest->moments, cheapest->margin);
+    fprintf(file, "; not counted, but off by more than %g: ", allowed);
+    if (scene_has_shadows(scene)) {
+        char where[80];
+        snprintf(where, sizeof where, "of %lld pixels inside objects, at edges of shadows",
+                 cheapest->inside);
+        write_left_out(&cheapest->left_out[LEFT_OUT_SHADOWS],
+                       &cheapest->plain_left_out[LEFT_OUT_SHADOWS], where, file);
+        fprintf(file, "; ");
+    }
+    write_left_out(&cheapest->left_out[LEFT_OUT_OUTLINES],
+                   &cheapest->plain_left_out[LEFT_OUT_OUTLINES], "pixels at outlines", file);
 }

@@ -22,15 +22,17 @@
 
 #include "choose/cheapest_search.h"
 
+#include <stdio.h>
+
 /* Where the error is unreachable, the cheapest of the most exact is chosen: `error` is then above
  * the task's. Never less exact than the plain picture unless expected to save 30% of its time. */
 bool cheapest_quality_find(CheapestQuality *cheapest, const CheapestQualityTask *task,
                            Message *message);
 void cheapest_quality_close(CheapestQuality *cheapest);
 
-/* What was simplified, as text: "object 0: 24 divisions, lit per vertex, viewer at
- * infinity"; at most `size` characters. */
-void cheapest_quality_text(const CheapestQuality *cheapest, const Scene *scene, char *text,
-                           size_t size);
+/* What was simplified, the error, and what that leaves out, in one line without its end:
+ * "object 0: 24 divisions, lit per vertex; error 1.2 of 2 allowed inside objects...". */
+void cheapest_quality_write(const CheapestQuality *cheapest, const Scene *scene, double allowed,
+                            FILE *file);
 
 #endif

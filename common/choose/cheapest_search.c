@@ -99,24 +99,52 @@ static bool has_its_lights(Drawn *drawn, const Exact *exact, int x, int y)
            !reference_lights_differ(exact->lights[pixel], trace_pixel_lights(rows));
 }
 
+/* Of a pixel of the part that is compared; `i` and `pixel`: its number there and in the image. */
+static double error_at(const Search *search, const Exact *exact, int x, int y, size_t *i,
+                       size_t *pixel)
+{
+    const int *place = search->task->place;
+    const Image *image = &search->image;
+    float color[3];
+    *i = (size_t)y * (size_t)place[2] + (size_t)x;
+    *pixel = (size_t)(place[1] + y) * (size_t)image->width + (size_t)(place[0] + x);
+    for (size_t k = 0; k < 3; k++)
+        color[k] = (float)exact->colors[3 * *i + k] / 65535;
+    return pixel_error(image, *pixel, color).largest;
+}
+
+/* Adds what one moment's drawn picture has of pixels that do not count. */
+static void leave_out(const Search *search, const Exact *exact, const Scene *scene, Drawn *drawn,
+                      LeftOut left_out[LEFT_OUT_COUNT])
+{
+    const Image *image = &search->image;
+    for (int y = 0; y < drawn->height; y++) {
+        for (int x = 0; x < drawn->width; x++) {
+            size_t i, pixel;
+            const double error = error_at(search, exact, x, y, &i, &pixel);
+            const int owner = exact->owner[i];
+            const bool inside = pixel_is_interior(scene, owner, image, pixel);
+            if (error <= search->task->error || (owner == -2 && pixel_is_empty(image, pixel)) ||
+                (inside && has_its_lights(drawn, exact, x, y)))
+                continue;
+            LeftOut *where = &left_out[inside ? LEFT_OUT_SHADOWS : LEFT_OUT_OUTLINES];
+            where->pixels++;
+            where->largest = fmax(where->largest, error);
+        }
+    }
+}
+
 /* Adds the errors of one moment's drawn picture to those of its objects. */
 static void compare(Search *search, const Exact *exact, const Scene *scene, Drawn *drawn,
                     double *largest)
 {
-    const int *place = search->task->place;
-    const Image *image = &search->image;
-    for (int y = 0; y < place[3]; y++) {
-        for (int x = 0; x < place[2]; x++) {
-            const size_t i = (size_t)y * (size_t)place[2] + (size_t)x;
-            const size_t pixel =
-                (size_t)(place[1] + y) * (size_t)image->width + (size_t)(place[0] + x);
+    for (int y = 0; y < drawn->height; y++) {
+        for (int x = 0; x < drawn->width; x++) {
+            size_t i, pixel;
+            const double error = error_at(search, exact, x, y, &i, &pixel);
             const int owner = exact->owner[i];
-            if (!pixel_is_interior(scene, owner, image, pixel))
+            if (!pixel_is_interior(scene, owner, &search->image, pixel))
                 continue;
-            float color[3];
-            for (size_t k = 0; k < 3; k++)
-                color[k] = (float)exact->colors[3 * i + k] / 65535;
-            const double error = pixel_error(image, pixel, color).largest;
             if (error <= fmin(search->found[owner].error, *largest))
                 continue;
             if (!has_its_lights(drawn, exact, x, y)) {
@@ -145,8 +173,9 @@ static bool draw_parts(const CheapestQualityTask *task, const Scene *scene,
         message);
 }
 
-/* Draws `current` at all moments. The errors of objects that are nowhere inside stay 0. */
-static bool evaluate(Search *search, Message *message)
+/* Draws `current` at all moments. The errors of objects that are nowhere inside stay 0. `left_out`:
+ * NULL, or what does not count is added to it. */
+static bool evaluate_with(Search *search, LeftOut *left_out, Message *message)
 {
     const CheapestQualityTask *task = search->task;
     for (int i = 0; i < search->count; i++)
@@ -165,6 +194,8 @@ static bool evaluate(Search *search, Message *message)
         drawn.scene.interpolation = INTERPOLATION_PHONG;
         if (done)
             compare(search, &search->exacts[moment], &scene, &drawn, &largest);
+        if (done && left_out)
+            leave_out(search, &search->exacts[moment], &scene, &drawn, left_out);
         trace_close(drawn.trace);
         quality_parts_close(&made);
         if (!done)
@@ -172,6 +203,11 @@ static bool evaluate(Search *search, Message *message)
         search->every_second[moment % 2] = fmax(search->every_second[moment % 2], largest);
     }
     return task->scene(task->data, 0, &search->scene, message);
+}
+
+static bool evaluate(Search *search, Message *message)
+{
+    return evaluate_with(search, NULL, message);
 }
 
 /* The expected cost of one object, or of all. */
@@ -446,6 +482,25 @@ static bool search_all(Search *search, CheapestQuality *cheapest, Message *messa
     return true;
 }
 
+/* What the choice and the plain picture are off by where it does not count. */
+static bool tell_left_out(Search *search, CheapestQuality *cheapest, Message *message)
+{
+    LeftOut *const both[] = {cheapest->left_out, cheapest->plain_left_out};
+    for (int plain = 0; plain < 2; plain++) {
+        for (int i = 0; i < search->count; i++)
+            search->current[i] =
+                plain ? object_quality_plain(&search->scene) : cheapest->objects[i];
+        memset(both[plain], 0, sizeof cheapest->left_out);
+        if (!evaluate_with(search, both[plain], message))
+            return false;
+    }
+    cheapest->moments = search->task->moments;
+    cheapest->inside = 0;
+    for (int moment = 0; moment < cheapest->moments; moment++)
+        cheapest->inside += (long long)search->exacts[moment].inside;
+    return true;
+}
+
 static void search_close(Search *search)
 {
     for (int i = 0; i < search->task->moments; i++)
@@ -488,7 +543,8 @@ bool cheapest_search(CheapestQuality *cheapest, const CheapestQualityTask *task,
 {
     Search search;
     const bool done = search_open(&search, task, cheapest->count, message) &&
-                      search_all(&search, cheapest, message);
+                      search_all(&search, cheapest, message) &&
+                      tell_left_out(&search, cheapest, message);
     search_close(&search);
     return done;
 }

@@ -29,9 +29,21 @@ typedef struct CheapestQualityTask {
     bool moving;
 } CheapestQualityTask;
 
+/* Pixels that do not count and are off by more than is allowed. */
+typedef struct LeftOut {
+    long long pixels;
+    double largest; /* error of theirs; 0 without pixels */
+} LeftOut;
+
+/* Inside objects, where an edge of a shadow lies elsewhere than in the exact picture; and at
+ * outlines. */
+enum { LEFT_OUT_SHADOWS, LEFT_OUT_OUTLINES, LEFT_OUT_COUNT };
+
 typedef struct CheapestQuality {
     ObjectQuality *objects;
-    int count;
+    int count, moments;
+    long long inside; /* pixels inside objects, of all moments */
+    LeftOut left_out[LEFT_OUT_COUNT], plain_left_out[LEFT_OUT_COUNT];
     double error, plain_error; /* over all moments */
     double cost, plain_cost;   /* expected, see quality_parts_cost */
     double margin;             /* the reserve for the moments between */

@@ -59,7 +59,9 @@ static void exact_fill(Exact *exact, const Reference *reference, size_t pixels)
             exact->colors[3 * i + k] =
                 (uint16_t)lround(65535 * (double)reference->color[3 * i + k]);
         exact->seen[i] = (int16_t)reference->object[i];
-        exact->owner[i] = reference->interior[i] ? exact->seen[i] : -1;
+        exact->owner[i] = reference->interior[i]                                 ? exact->seen[i]
+                          : exact->seen[i] < 0 && reference->coverage[i] >= 1.0F ? -2
+                                                                                 : -1;
     }
     if (exact->lights)
         memcpy(exact->lights, reference->lights, pixels * sizeof *exact->lights);

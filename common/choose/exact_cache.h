@@ -10,7 +10,8 @@
 
 typedef struct Exact {
     uint16_t *colors; /* 65535 is 1 */
-    int16_t *owner;   /* the object whose inside the pixel is; -1: none */
+    int16_t *owner;   /* the object whose inside the pixel is; -1: none, and an edge may run through
+                         it; -2: it is wholly background */
     int16_t *seen;    /* the object at its center; -1: none */
     uint32_t *lights; /* see Reference; NULL: no light casts shadows */
     size_t inside;    /* pixels with an owner */

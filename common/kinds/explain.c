@@ -386,8 +386,10 @@ static bool explain_view(Renderer *renderer, const DrawRequest *request, int num
     SceneView view;
     LightingPlan plan = {.lighting = NULL};
     bool done = scene_view_open(&view, renderer, request, request->seconds, number, message) &&
-                plan_view(&plan, renderer, request, &view, message) &&
-                explain_objects(renderer, &plan, request->verbose, number, explained, message);
+                plan_view(&plan, renderer, request, &view, message);
+    if (done)
+        scene_explain_choice(renderer, request, &view, number, stdout);
+    done = done && explain_objects(renderer, &plan, request->verbose, number, explained, message);
     if (done && number == 0 && view.scene.object_count > 0) {
         fputs(explained->count > 1 ? "\n" : "", stdout);
         print_matrices(&view.scene.objects[0]);

@@ -4,6 +4,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "base/text.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -108,17 +109,12 @@ static void tell(Moments *moments, const CheapestQuality *choice, const int plac
 {
     const ViewMoment *moment = &moments->moment;
     Scene scene;
-    char text[1024];
     if (!moment->request->verbose || choice->count == 0 || !scene_at(moments, 0, &scene, NULL))
         return;
-    cheapest_quality_text(choice, &scene, text, sizeof text);
     /* Compiling says lines of its own. */
     const double ratio = measure(moment, &scene, choice, (double)place[2] / place[3]);
-    fprintf(stderr,
-            "view %d: %s; error %.2f of %g allowed inside objects, edges apart (plain: %.2f)",
-            moment->view, text, choice->error, moment->request->error, choice->plain_error);
-    if (moments->count > 1)
-        fprintf(stderr, ", at %d moments, and %.2f in reserve", moments->count, choice->margin);
+    fprintf(stderr, "view %d: ", moment->view);
+    cheapest_quality_write(choice, &scene, moment->request->error, stderr);
     fprintf(stderr, "; %.2f of the plain time%s\n", ratio,
             choice->cached ? "; from the cache" : "");
 }
@@ -148,6 +144,24 @@ static bool choose(ViewMoment moment, CheapestQuality *choice, Message *message)
     lighting_forget(state->lighting, NULL);
     solid_meshes_close(&state->meshes);
     return done;
+}
+
+void scene_explain_choice(const Renderer *renderer, const DrawRequest *request,
+                          const SceneView *view, int number, FILE *file)
+{
+    const CheapestQuality *choice =
+        request->cheap ? &scene_state(renderer)->choices[number] : &(CheapestQuality){.count = 0};
+    char *text = NULL;
+    size_t size = 0;
+    FILE *line = choice->count ? open_memstream(&text, &size) : NULL;
+    if (!line)
+        return;
+    fprintf(line, "view %d, --error: ", number);
+    cheapest_quality_write(choice, &view->asked, request->error, line);
+    fclose(line);
+    text_wrap(file, text, 0, 2, 100);
+    fprintf(file, "\n\n");
+    free(text);
 }
 
 /* In one line, the view that is farthest from the error allowed. */

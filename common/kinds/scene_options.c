@@ -258,7 +258,8 @@ const Parameter SCENE_OPTIONS[] = {
      "draw as cheaply as an error of E steps of 1/255 allows; explicit options win. The error "
      "is against the exact picture of the shapes (solids) or of the mesh as given (models), the "
      "largest over the pixels inside an object: wholly inside one surface, covered by what is "
-     "drawn, and reached by the same lights; edges, also those of shadows, do not count",
+     "drawn, and reached by the same lights; edges, also those of shadows, do not count: of these --explain and --verbose say how many "
+     "pixels are off by more, and by how much",
      PARAMETER_NUMBER, .max = 255, .placeholder = "E", .standard = "", AT(error), GIVEN_AT(cheap),
      .programs = PROGRAM_ONE},
     {"clamp", "where colours are clamped: at each vertex, as in OpenGL 1.1, or at the end",

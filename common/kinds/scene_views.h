@@ -67,4 +67,8 @@ bool scene_error_picture(Renderer *renderer, const DrawRequest *request, double 
 bool scene_choose(Renderer *renderer, const DrawRequest *request, double seconds, Message *message);
 void scene_forget_choices(SceneState *state);
 
+/* For --explain: what was chosen for a view, as it was opened; nothing without --error. */
+void scene_explain_choice(const Renderer *renderer, const DrawRequest *request,
+                          const SceneView *view, int number, FILE *file);
+
 #endif

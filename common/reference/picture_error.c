@@ -61,6 +61,11 @@ bool pixel_is_interior(const Scene *scene, int object, const Image *image, size_
     return covered;
 }
 
+bool pixel_is_empty(const Image *image, size_t pixel)
+{
+    return steps(image, 4 * pixel + 3) == 0;
+}
+
 bool pixel_has_its_lights(const Reference *exact, const Reference *drawn, size_t pixel)
 {
     return !exact->lights || !drawn || drawn->object[pixel] != exact->object[pixel] ||
@@ -72,7 +77,7 @@ static bool is_background(const Reference *exact, size_t exact_pixel, const Imag
                           size_t pixel)
 {
     return exact->object[exact_pixel] < 0 && exact->coverage[exact_pixel] >= 1 &&
-           steps(image, 4 * pixel + 3) == 0;
+           pixel_is_empty(image, pixel);
 }
 
 static size_t place_in_image(const Image *image, const ExactView *view, int x, int y)

@@ -53,6 +53,9 @@ typedef struct PictureError {
  * what is between is an error of an outline, too. This part is pixel_has_its_lights. */
 bool pixel_is_interior(const Scene *scene, int object, const Image *image, size_t pixel);
 
+/* Whether no object was drawn in any part of it. */
+bool pixel_is_empty(const Image *image, size_t pixel);
+
 /* `drawn`: the exact picture of the meshes as drawn (ReferenceOptions.meshes), lit at every point;
  * NULL: no light casts shadows, or `exact` is that picture. */
 bool pixel_has_its_lights(const Reference *exact, const Reference *drawn, size_t pixel);

@@ -6,6 +6,16 @@ void scene_forget_choices(SceneState *state)
     (void)state;
 }
 
+void scene_explain_choice(const Renderer *renderer, const DrawRequest *request,
+                          const SceneView *view, int number, FILE *file)
+{
+    (void)renderer;
+    (void)request;
+    (void)view;
+    (void)number;
+    (void)file;
+}
+
 bool scene_choose(Renderer *renderer, const DrawRequest *request, double seconds, Message *message)
 {
     (void)renderer;

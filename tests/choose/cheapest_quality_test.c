@@ -322,8 +322,17 @@ static Command any_command(double most, double error, bool lit)
 
 /* Judging. */
 
+/* Pixels that do not count and are off by more than is allowed, surely and perhaps, and by how much
+ * at most. */
+typedef struct Uncounted {
+    long long least, most;
+    double largest;
+} Uncounted;
+
 typedef struct Verdict {
-    double allowed, reached;               /* what was asked, and what the program says */
+    Uncounted uncounted[LEFT_OUT_COUNT];
+    bool tells_uncounted;    /* what the program says agrees; true where it was not asked */
+    double allowed, reached; /* what was asked, and what the program says */
     double by_reference, by_oracle, apart; /* own from the reference */
     int worst[2];                          /* by the reference: column, row */
     long long pixels, oracle_pixels;
@@ -385,19 +394,36 @@ static bool is_lit_otherwise(const Judged *judged, int pixel)
     return false;
 }
 
-/* The drawn pixel, its exact color, and how far they are apart; -1 outside of either outline. */
+/* The drawn pixel, its exact color, and how far they are apart; OUTLINE outside of either outline,
+ * OTHER_LIGHTS where lights do not reach it in both. */
+enum { OUTLINE = -1, OTHER_LIGHTS = -2 };
 static double look(const Judged *judged, int x, int y, double drawn[4], double color[3])
 {
     const int *place = judged->view->place, i = y * place[2] + x;
     const Image *image = &judged->picture->image;
     read_pixel(image, (size_t)(place[1] + y) * (size_t)image->width + (size_t)(place[0] + x),
                drawn);
-    if (!judged->exact.interior[i] || !is_covered(&judged->view->scene.scene, drawn[3]) ||
-        is_lit_otherwise(judged, i))
-        return -1;
     for (int k = 0; k < 3; k++)
         color[k] = 255 * (double)judged->exact.color[3 * i + k];
-    return apart(drawn, color);
+    if (!judged->exact.interior[i] || !is_covered(&judged->view->scene.scene, drawn[3]))
+        return OUTLINE;
+    return is_lit_otherwise(judged, i) ? OTHER_LIGHTS : apart(drawn, color);
+}
+
+/* Of a pixel where look finds none. */
+static void judge_uncounted(const Judged *judged, int x, int y, Verdict *verdict)
+{
+    const int i = y * judged->view->place[2] + x;
+    const Reference *exact = &judged->exact;
+    double drawn[4], color[3];
+    const bool inside = look(judged, x, y, drawn, color) == OTHER_LIGHTS;
+    if (!inside && exact->object[i] < 0 && exact->coverage[i] >= 1.0F && drawn[3] == 0)
+        return;
+    Uncounted *where = &verdict->uncounted[inside ? LEFT_OUT_SHADOWS : LEFT_OUT_OUTLINES];
+    const double off = apart(drawn, color);
+    where->least += off > verdict->allowed + SLACK;
+    where->most += off > verdict->allowed - SLACK;
+    where->largest = fmax(where->largest, off);
 }
 
 static void judge_by_oracle(const Judged *judged, int x, int y, Verdict *verdict)
@@ -440,6 +466,8 @@ static void judge_view(const ErrorPicture *picture, const ErrorView *view, int s
             double drawn[4], color[3];
             const double off = look(&judged, x, y, drawn, color);
             verdict->pixels += off >= 0;
+            if (off < 0)
+                judge_uncounted(&judged, x, y, verdict);
             if (off > largest) {
                 largest = off;
                 worst[0] = x;
@@ -485,6 +513,27 @@ static double measure(Renderer *renderer, const DrawRequest *request)
     return clock_median(ratios, FRAMES);
 }
 
+/* Whether what the choices of all views say of pixels that do not count is so. */
+static bool tells(const SceneState *state, const Uncounted uncounted[LEFT_OUT_COUNT])
+{
+    bool all = true;
+    for (int kind = 0; kind < LEFT_OUT_COUNT; kind++) {
+        LeftOut said = {0, 0};
+        for (int i = 0; i < state->choice_count; i++) {
+            const LeftOut *one = &state->choices[i].left_out[kind];
+            said.pixels += one->pixels;
+            said.largest = fmax(said.largest, one->largest);
+        }
+        const double largest = uncounted[kind].largest;
+        all &= said.pixels >= uncounted[kind].least && said.pixels <= uncounted[kind].most &&
+               fabs(said.largest - (said.pixels ? largest : 0)) <= SLACK;
+        if (getenv("LIGHTING_TEST_VERBOSE"))
+            printf("said %lld, up to %.2f; is %lld to %lld, up to %.2f\n", said.pixels,
+                   said.largest, uncounted[kind].least, uncounted[kind].most, largest);
+    }
+    return all;
+}
+
 /* Runs a command as its program does, up to the picture, and judges that, or measures its time. */
 static Verdict run(const Command *command, bool timed)
 {
@@ -522,6 +571,7 @@ static Verdict run(const Command *command, bool timed)
         error_picture_close(&picture);
     }
     verdict.reached = options.error;
+    verdict.tells_uncounted = timed || options.frames > 1 || tells(state, verdict.uncounted);
     for (int i = 0; i < state->choice_count; i++) {
         verdict.reached = fmax(verdict.reached, state->choices[i].error);
         const CheapestQuality *choice = &state->choices[i];
@@ -555,19 +605,20 @@ static bool check(const Command *command, Verdict *found)
     const Verdict verdict = run(command, false);
     *found = verdict;
     const double limit = fmax(verdict.allowed, verdict.reached) + SLACK;
-    const bool kept =
-        verdict.by_reference <= limit && verdict.by_oracle <= limit && !verdict.in_vain;
+    const bool kept = verdict.by_reference <= limit && verdict.by_oracle <= limit &&
+                      !verdict.in_vain && verdict.tells_uncounted;
     /* The two evaluators agree to a thousandth of a step before encoding. */
     const bool agree = verdict.apart < 1e-3;
     if (!kept || !agree || getenv("LIGHTING_TEST_VERBOSE")) {
         printf("%s", kept && agree ? "" : "FAILED: ");
         print_command(command, stdout);
         printf(": allowed %g, said %.2f, is %.3f by the reference at %d, %d (%lld pixels), "
-               "%.3f by the oracle (%lld), which are %.2g apart; plain %.2f%s\n",
+               "%.3f by the oracle (%lld), which are %.2g apart; plain %.2f%s%s\n",
                verdict.allowed, verdict.reached, verdict.by_reference, verdict.worst[0],
                verdict.worst[1], verdict.pixels, verdict.by_oracle, verdict.oracle_pixels,
                verdict.apart, verdict.plain,
-               verdict.in_vain ? "; less exact than that, and not cheaper" : "");
+               verdict.in_vain ? "; less exact than that, and not cheaper" : "",
+               verdict.tells_uncounted ? "" : "; what does not count is said otherwise");
     }
     return kept && agree;
 }
@@ -593,6 +644,8 @@ TEST(scenes_that_were_wrong_are_right)
         {&SpotLight, {"--time=1", "--exponent=128", "--cutoff=90", "--orbit=0,0,0.4"}, 4},
         {&ShininessRow, {NULL}, 130},
         {&PhongBlinn, {NULL}, 0.6},
+        /* A coarser torus and sphere, whose shadows move. */
+        {&Shadows, {"--time=6.11", "--size=260x260", "--orbit=-55.1,-35.3,1.5", "--spot=off"}, 4},
         {&SmoothFlat,
          {"--size=106x348", "--orbit=-72.6,79.7,0.83", "--shape=square", "--slices=61",
           "--shininess=57.999"},

@@ -357,13 +357,28 @@ class Choices(Study):
 
     def test_error_says_what_it_leaves_away(self):
         for error in ("1", "30"):
-            self.says(0, rf"view 0: .*; error [\d.]+ of {error} allowed inside objects, edges apart "
-                      r"\(plain: [\d.]+\); [\d.]+ of the plain time\n", "--error", error, "-v",
+            self.says(0, rf"view 0: .*; error [\d.]+ of {error} allowed inside objects "
+                      r"\(plain: [\d.]+\); not counted, but off by more than .*; [\d.]+ of the plain time\n", "--error", error, "-v",
                       "-o", error + ".png", program="ShadingModels", environment=self.own)
         self.assertNotEqual(self.png("1.png").pixels, self.png("30.png").pixels)
         self.says(0, "view 0: .*; [\\d.]+ of the plain time; from the cache\n", "--error", "30", "-v",
                   "-o", "again.png", program="ShadingModels", environment=self.own)
         self.assertEqual(self.png("again.png").pixels, self.png("30.png").pixels)
+
+    def test_error_says_what_does_not_count(self):
+        # A coarser torus moves its shadow; the plain picture's is right.
+        options = ("-t", "6.11", "-s", "130x130", "--orbit=-55.1,-35.3,1.5", "--spot", "off",
+                   "--error", "4")
+        said = (r"not counted, but off by more than 4: (\d+) of \d+ pixels inside objects, at edges of "
+                r"shadows, by up to [\d.]+ \(plain: \d+.*?\); \d+ pixels at outlines, by up to "
+                r"[\d.]+ \(plain: \d+, by up to [\d.]+\)")
+        verbose = self.says(0, said, *options, "-v", "-o", "x.png", program="Shadows",
+                            environment=self.own).stderr.decode()
+        explained = self.run_it(*options, "--explain", program="Shadows",
+                                environment=self.own).stdout.decode()
+        found = re.search(said, verbose)
+        self.assertGreater(int(found[1]), 0)
+        self.assertIn(found[0], " ".join(explained.split()))
 
     def test_each_way_of_shadows_has_a_choice_of_its_own(self):
         choices = [self.run_it("--error", "8", "-v", "--shadows", way, "-s", "60x60", "-o", "x.png",
