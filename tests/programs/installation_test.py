@@ -5,7 +5,9 @@ usage: installation_test.py EXAMPLES_FOLDER_OF_THE_BUILD SOURCE_FOLDER [unittest
 
 Installs what is built into a temporary folder.
 """
+import glob
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -64,6 +66,27 @@ class Installation(unittest.TestCase):
         subprocess.run(["meson", "--internal", "uninstall"], cwd=self.folder, check=True, capture_output=True)
         self.assertEqual([path for path in files(root) if os.path.lexists(path)], [])
         self.assertFalse(os.path.exists(root), "empty folders")
+
+    @unittest.skipIf("ASAN_OPTIONS" in os.environ, "a sanitized library needs a sanitized program")
+    def test_another_project_uses_the_library(self):
+        """As examples/guide/library.md shows it, and with our warnings; the picture is the program's."""
+        with open(os.path.join(base.SOURCE, "examples/guide/library.md")) as file:
+            code, commands = re.findall(r"```(?:c|sh)\n(.*?)```", file.read(), re.DOTALL)
+        with open(os.path.join(self.folder, "cube.c"), "w") as file:
+            file.write(code)
+        found, = glob.glob(self.root + "/**/lighting.pc", recursive=True)
+        shaders, = glob.glob(self.root + "/**/lighting/shaders", recursive=True)
+        environment = {**os.environ, "PKG_CONFIG_PATH": os.path.dirname(found), "LIGHTING_SHADERS": shaders}
+        with open(found) as file:
+            prefix = self.root + re.search("^prefix=(.*)", file.read())[1]
+        commands = commands.replace("pkg-config", f"pkg-config --define-variable=prefix={prefix}").replace("cc ", "cc -std=c11 -Wall -Wextra -Wconversion -Wshadow -Werror ")
+        result = subprocess.run(["sh", "-ec", commands], cwd=self.folder, env=environment, text=True, capture_output=True)
+        self.assertEqual((result.returncode, result.stdout + result.stderr), (0, ""))
+        picture = base.Png(subprocess.run(
+            [os.path.join(base.EXAMPLES, "LightedCube"), "-s", "400x300", "--samples", "4", "--orbit", "30,10", "-o", "-"],
+            check=True, capture_output=True).stdout)
+        with open(os.path.join(self.folder, "cube.ppm"), "rb") as file:
+            self.assertTrue(file.read() == b"P6 400 300 255\n" + picture.pixels)
 
 
 if __name__ == "__main__":
