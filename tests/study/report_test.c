@@ -2,6 +2,7 @@
  * report: tables line up, plots are whole files that gnuplot drew, sheets show what is different.
  */
 #include "study/cases/hard_sheet.h"
+#include "study/measure/scenes.h"
 #include "study/report/conclusions.h"
 #include "study/report/report.h"
 #include "study/report/report_labels.h"
@@ -113,7 +114,39 @@ TEST_WITH(0, a_busy_machine_marks_nothing, enter, leave)
     assert_non_null(strstr(text, "The machine was busy"));
     assert_null(strstr(text, "*"));
     assert_non_null(strstr(text, "divisions=24")); /* the rows are still there */
+    assert_non_null(strstr(text, "divisions=32"));
     free(text);
+}
+
+/* The table, the plot, the headline, the conclusions and the page. */
+TEST_WITH(0, a_busy_machine_compares_times_nowhere, enter, leave)
+{
+    const int sphere = study_scene_number("sphere");
+    for (int busy = 0; busy < 2; busy++) {
+        char said[CONCLUSION_SIZE];
+        size_t size;
+        results_close(&results);
+        add_four();
+        for (int i = 0; i < results.count; i++)
+            results.rows[i].noise = busy ? 0.11 : 0.05;
+        const Conclusions conclusions =
+            conclusions_of(&results, &sphere, 1, &(ModelsApart){{0, 0}, {0, 0}});
+        conclusion_of_scene(&results, "sphere", said);
+        assert_int_equal(said[0] == '\0', busy);
+        assert_int_equal(conclusions.busy, busy);
+        bool compared = false;
+        for (int i = 0; i < conclusions.count; i++)
+            compared |= strstr(conclusions.lines[i], " ms") != NULL;
+        assert_int_equal(compared, !busy);
+        require(report_page(&results, &sphere, 1, &conclusions, "out", fresh()), &message);
+        char *page = testing_read("out/index.html", &size);
+        assert_int_equal(strstr(page, "The machine was busy") != NULL, busy);
+        assert_int_equal(strstr(page, "class=\"busy\">the machine was busy in 1 of 1 ") != NULL,
+                         busy);
+        assert_int_equal(strstr(page, "Phong interpolation") == NULL, busy);
+        assert_int_equal(strstr(page, "<td>1.00</td>") == NULL, busy);
+        free(page);
+    }
 }
 
 TEST_WITH(0, a_sentence_compares_at_the_error_that_both_reach, enter, leave)
@@ -138,7 +171,7 @@ TEST_WITH(0, a_sentence_compares_at_the_error_that_both_reach, enter, leave)
     for (int i = 0; i < results.count; i++)
         results.rows[i].noise = 0.37;
     conclusion_of_scene(&results, "sphere", text);
-    assert_non_null(strstr(text, "(the machine was busy: noise 37%)"));
+    assert_string_equal(text, "");
 }
 
 TEST_WITH(0, only_the_efficient_ones_if_asked, enter, leave)
@@ -215,6 +248,25 @@ static char *drawn(const char *name)
 static bool plot(const char *title)
 {
     return report_plot(&results, "sphere", title, ERROR_INTERIOR_MAXIMUM, "out", fresh());
+}
+
+TEST_WITH(0, a_plot_of_a_busy_machine_has_no_line, enter, leave)
+{
+    ReportPins pins;
+    if (!has_gnuplot())
+        skip();
+    add_four();
+    for (int i = 0; i < results.count; i++)
+        results.rows[i].noise = 0.11;
+    require(plot("busy") &&
+                report_pins(&pins, &results, "sphere", ERROR_INTERIOR_MAXIMUM, &message),
+            &message);
+    char *svg = drawn("sphere");
+    assert_non_null(strstr(svg, "The machine was busy"));
+    assert_null(strstr(svg, ">efficient<"));
+    assert_null(strstr(svg, ">usual<"));
+    assert_int_equal(pins.count, 0);
+    free(svg);
 }
 
 TEST_WITH(0, a_plot_names_the_efficient_ones, enter, leave)

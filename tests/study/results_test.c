@@ -2,6 +2,7 @@
  * results: rows survive a round trip and damaged files. front: which rows are efficient,
  * and which are not significantly faster.
  */
+#include "study/measure/survey.h"
 #include "study/results/results.h"
 #include "support/testing.h"
 
@@ -552,7 +553,7 @@ static void front_is(const double *errors)
 {
     Front front;
     int count = 0;
-    front_open(&front, &results, "s", ERROR_INTERIOR_MAXIMUM);
+    front_find(&front, &results, "s", ERROR_INTERIOR_MAXIMUM);
     for (; errors[count] >= 0; count++)
         if (count >= front.count || front.rows[count]->interior_maximum != errors[count])
             fail_msg("%g is not number %d of %d", errors[count], count, front.count);
@@ -566,6 +567,43 @@ static void front_is(const double *errors)
 }
 
 #define FRONT_IS(...) front_is((const double[]){__VA_ARGS__, -1})
+
+/* As measured against each other: their times and errors, and how many unusual choices. */
+static int chosen(const double rows[3][3], double noise, bool is_time)
+{
+    const ChooseLimit limit = {is_time, is_time ? 100 : 4, ERROR_INTERIOR_MAXIMUM};
+    ResultRow made[3];
+    for (int i = 0; i < 3; i++) {
+        const double time = rows[i][0];
+        made[i] = (ResultRow){.quality = quality_usual(),
+                              .time = time,
+                              .run_times = {time, time, time},
+                              .noise = noise,
+                              .interior_maximum = rows[i][1]};
+        for (int axis = 0; axis < (int)rows[i][2]; axis++)
+            made[i].quality.choice[axis] = (unsigned char)(!made[i].quality.choice[axis]);
+    }
+    const ResultRow *best = choose_among(made, 3, &limit);
+    return best ? (int)(best - made) : -1;
+}
+
+TEST(of_tied_settings_the_usual_is_chosen)
+{
+    /* However much faster the median says: it is within the noise. */
+    const double tied[3][3] = {{2, 1, 0}, {1.6, 1, 1}, {1.7, 1, 2}};
+    assert_int_equal(chosen(tied, 0.3, false), 0);
+    assert_int_equal(chosen(tied, 0.01, false), 1);
+    /* The usual one is tied with the second, but surely slower than the third. */
+    const double chain[3][3] = {{2, 1, 0}, {1.7, 1, 1}, {1.5, 1, 2}};
+    assert_int_equal(chosen(chain, 0.2, false), 1);
+    /* Out of the budget. */
+    const double inexact[3][3] = {{2, 4.1, 0}, {1.6, 4, 1}, {1.7, 1, 2}};
+    assert_int_equal(chosen(inexact, 0.3, false), 1);
+    assert_int_equal(chosen((const double[3][3]){{1, 5, 0}, {1, 5, 1}, {1, 5, 2}}, 0.3, false), -1);
+    /* Of a time the most exact, and of those the usual. */
+    assert_int_equal(chosen((const double[3][3]){{9, 1.005, 0}, {8, 1, 1}, {1, 2, 0}}, 0, true), 0);
+    assert_int_equal(chosen((const double[3][3]){{9, 1.02, 0}, {8, 1, 1}, {1, 2, 0}}, 0, true), 1);
+}
 
 TEST_WITH(0, faster_is_more_than_the_noise_and_in_every_run, testing_enter_folder, leave)
 {
@@ -620,7 +658,7 @@ TEST_WITH(0, among_tied_rows_the_most_exact_counts, testing_enter_folder, leave)
     /* Those that the medians alone would take are called tied. */
     Front front;
     add(0, 3, 1.00), add(1, 2, 1.02), add(2, 1, 1.04), add(3, 2.5, 1.03);
-    front_open(&front, &results, "s", ERROR_INTERIOR_MAXIMUM);
+    front_find(&front, &results, "s", ERROR_INTERIOR_MAXIMUM);
     assert_int_equal(front.count, 1);
     assert_int_equal(front.tied_count, 2);
     assert_true(front.tied[0]->interior_maximum == 2 && front.tied[1]->interior_maximum == 3);
@@ -670,7 +708,7 @@ TEST_WITH(0, no_row_of_a_random_front_is_beaten, testing_enter_folder, leave)
                 row->run_times[run] = row->time * (0.99 + rand() % 100 / 5000.0);
             row->noise = rand() % 50 / 1000.0;
         }
-        front_open(&front, &results, "s", ERROR_INTERIOR_RMS);
+        front_find(&front, &results, "s", ERROR_INTERIOR_RMS);
         assert_true(front.count > 0);
         for (int i = 0; i < front.count; i++)
             for (int j = 0; j < front.count; j++)

@@ -1,8 +1,8 @@
 /*
  * The best setting within a limit, from a survey that other programs disturbed: those that may be
  * best by the survey are measured again, against each other, and chosen among by these times alone.
- * Tied are those that the noise does not tell apart; of them the one with the fewest unusual
- * choices is named, so that two runs say the same. If none of the first eight stays within the
+ * Tied are those that none is surely faster than; of them the one with the fewest unusual choices
+ * is named, so that two runs say the same. If none of the first eight stays within the
  * limit, the next are tried.
  */
 #include "study/measure/survey.h"
@@ -107,41 +107,29 @@ static bool is_within(const ResultRow *row, const ChooseLimit *limit)
     return (limit->is_time ? surely(row) : row_error(row, limit->kind)) <= limit->value;
 }
 
-/* Of error: not slower than the fastest by more than the noise; of time: as exact. */
-static bool is_tied(const ResultRow *row, const ResultRow *first, const ChooseLimit *limit)
+/* Whether a row within the limit is the best or cannot be told from it. Of error: no other that is
+ * within is surely faster; of time: none is more exact. */
+static bool is_among_best(const ResultRow *row, const ResultRow *rows, int count,
+                          const ChooseLimit *limit)
 {
-    return is_within(row, limit) &&
-           (limit->is_time ? fabs(row_error(row, limit->kind) - row_error(first, limit->kind)) <
-                                 FRONT_EQUAL_ERROR
-                           : !row_faster(first, row));
+    bool best = is_within(row, limit);
+    for (int i = 0; i < count && best; i++)
+        if (is_within(&rows[i], limit))
+            best = limit->is_time ? row_error(row, limit->kind) <
+                                        row_error(&rows[i], limit->kind) + FRONT_EQUAL_ERROR
+                                  : !row_faster(&rows[i], row);
+    return best;
 }
 
-/* Of those that are again within the limit: the one that no other beats; of tied ones that with the
- * fewest unusual choices, then the most exact. On a busy machine many are tied within the noise:
- * among these a tenth more of the time is the most that a more usual one may take. NULL: none is.
- */
-static const ResultRow *best_finalist(const Finalists *finalists, const ChooseLimit *limit)
+const ResultRow *choose_among(const ResultRow *rows, int count, const ChooseLimit *limit)
 {
-    static const double MORE = 1.1;
-    const ResultRow *first = NULL, *best = NULL;
-    /* First the one with the least time or error. */
-    for (int i = 0; i < finalists->count; i++) {
-        const ResultRow *row = &finalists->rows[i];
-        const bool better =
-            first && (limit->is_time ? row_error(row, limit->kind) < row_error(first, limit->kind)
-                                     : row->time < first->time);
-        if (is_within(row, limit) && (!first || better))
-            first = row;
-    }
-    for (int i = 0; first && i < finalists->count; i++) {
-        const ResultRow *row = &finalists->rows[i];
-        const double error = row_error(row, limit->kind);
+    const ResultRow *best = NULL;
+    for (int i = 0; i < count; i++) {
+        const ResultRow *row = &rows[i];
         const int more =
             best ? quality_unusual(&row->quality) - quality_unusual(&best->quality) : -1;
-        const bool near = limit->is_time || row->time <= MORE * first->time;
-        if (row != first && !(near && is_tied(row, first, limit)))
-            continue;
-        if (!best || more < 0 || (more == 0 && error < row_error(best, limit->kind)))
+        if (is_among_best(row, rows, count, limit) &&
+            (more < 0 || (more == 0 && row_error(row, limit->kind) < row_error(best, limit->kind))))
             best = row;
     }
     return best;
@@ -153,7 +141,7 @@ static void say_ties(const Finalists *finalists, const ResultRow *best, const Ch
         const ResultRow *row = &finalists->rows[i];
         char text[QUALITY_TEXT_SIZE];
         quality_text(&row->quality, text);
-        if (row != best && is_tied(row, best, limit))
+        if (row != best && is_among_best(row, finalists->rows, finalists->count, limit))
             printf("tied with it: %s, %.3f ms\n", text, row->time);
         else if (is_at_limit(row, limit) && !is_within(row, limit) &&
                  row_error(row, limit->kind) < row_error(best, limit->kind) + FRONT_EQUAL_ERROR)
@@ -167,8 +155,9 @@ static void say_ties(const Finalists *finalists, const ResultRow *best, const Ch
     const ResultRow *next = best;
     for (ChooseLimit less = *limit; next && is_at_limit(next, limit);) {
         less.value = nextafter(surely(next), 0);
-        next = best_finalist(finalists, &less);
-        if (next && !is_tied(next, best, limit))
+        next = choose_among(finalists->rows, finalists->count, &less);
+        if (next &&
+            row_error(next, limit->kind) >= row_error(best, limit->kind) + FRONT_EQUAL_ERROR)
             say("if the next measurement finds that too slow", next, limit->kind);
     }
 }
@@ -211,7 +200,7 @@ bool choose(Survey *survey, int scene, const ChooseLimit *limit, Message *messag
     Front front;
     const ResultRow *best = NULL;
     bool done = true;
-    front_open(&front, &survey->results, name, limit->kind);
+    front_find(&front, &survey->results, name, limit->kind);
     /* Measured when other programs ran, some may no longer be within the time, and some now be. */
     for (int i = 0; i < TRIES && done && !best; i++) {
         const bool loose = limit->is_time && i < LOOSE;
@@ -224,7 +213,7 @@ bool choose(Survey *survey, int scene, const ChooseLimit *limit, Message *messag
             continue;
         done = survey_again(survey, scene, finalists->qualities, finalists->count, finalists->rows,
                             message);
-        best = best_finalist(finalists, limit);
+        best = choose_among(finalists->rows, finalists->count, limit);
     }
     if (done && best) {
         say(limit->is_time ? "most exact" : "cheapest", best, limit->kind);

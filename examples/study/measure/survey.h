@@ -73,6 +73,11 @@ typedef struct ChooseLimit {
     ErrorKind kind;
 } ChooseLimit;
 
+/* Of rows as measured against each other: among those within the limit that none of these is surely
+ * faster than (of a limit of time: that are as exact as the most exact) the one with the fewest
+ * unusual choices, then the most exact. NULL: none is within. */
+const ResultRow *choose_among(const ResultRow *rows, int count, const ChooseLimit *limit);
+
 /* Prints the cheapest setting of a surveyed scene within a limit of error, or the most exact one
  * within a limit of time; those tied with it, of which it is the most usual; and what less error or
  * less time would cost. The best settings are measured again, against each other, before one is

@@ -56,17 +56,14 @@ void conclusion_of_scene(const Results *results, const char *scene, char text[CO
     const ResultRow *second = fastest(results, scene, INTERPOLATION_GOURAUD, limit);
     char times[2][24];
     text[0] = '\0';
-    if (isnan(phong) || isnan(gouraud) || !first || !second)
+    if (isnan(phong) || isnan(gouraud) || !first || !second || front_busy(results, scene))
         return;
     put_time(times[0], first->time);
     put_time(times[1], second->time);
     const bool tied = !row_faster(first, second) && !row_faster(second, first);
     int used = snprintf(text, CONCLUSION_SIZE, "%.*f steps: Phong interpolation %s, Gouraud %s",
                         limit < 9.95, limit / SLACK, times[0], times[1]);
-    if (front_busy(results, scene))
-        snprintf(text + used, (size_t)(CONCLUSION_SIZE - used),
-                 " (the machine was busy: noise %.0f%%)", 100 * front_noise(results, scene));
-    else if (tied)
+    if (tied)
         snprintf(text + used, (size_t)(CONCLUSION_SIZE - used), " (the same within the noise)");
 }
 
@@ -80,7 +77,8 @@ __attribute__((format(printf, 2, 3))) static void add(Conclusions *to, const cha
 
 /* One choice changed, over some scenes. */
 typedef struct Change {
-    int count, same;     /* scenes; those whose time is the same within the noise */
+    int count;           /* scenes */
+    int timed, same;     /* those with times; of these those the same within the noise */
     double most;         /* by how many steps the error grows */
     const char *at_most; /* the scene */
     double slow[2];      /* the time over the usual one: least, most */
@@ -99,33 +97,35 @@ static Change change_of(const Results *results, const int *scenes, int count, co
             continue;
         const double ratio = other->time / usual->time;
         change.count++;
-        change.same += !row_faster(usual, other) && !row_faster(other, usual);
-        change.slow[0] = fmin(change.slow[0], ratio);
-        change.slow[1] = fmax(change.slow[1], ratio);
         if (more > change.most) {
             change.most = more;
             change.at_most = scene;
         }
+        if (front_busy(results, scene))
+            continue;
+        change.timed++;
+        change.same += !row_faster(usual, other) && !row_faster(other, usual);
+        change.slow[0] = fmin(change.slow[0], ratio);
+        change.slow[1] = fmax(change.slow[1], ratio);
     }
     return change;
 }
 
 /* "time x 0.97 to 1.05, within the noise in 9 of 12 scenes" */
-static void put_change_time(char text[96], const Change *change, bool busy)
+static void put_change_time(char text[96], const Change *change)
 {
-    if (busy)
+    if (change->timed == 0)
         snprintf(text, 96, "time: too noisy to tell");
-    else if (change->same == change->count)
+    else if (change->same == change->timed)
         snprintf(text, 96, "time the same within the noise");
-    else if (change->count == 1)
+    else if (change->timed == 1)
         snprintf(text, 96, "time x %.2f", change->slow[0]);
     else
         snprintf(text, 96, "time x %.2f to %.2f, within the noise in %d of %d scenes",
-                 change->slow[0], change->slow[1], change->same, change->count);
+                 change->slow[0], change->slow[1], change->same, change->timed);
 }
 
-static void add_changes(Conclusions *to, const Results *results, const int *scenes, int count,
-                        bool busy)
+static void add_changes(Conclusions *to, const Results *results, const int *scenes, int count)
 {
     static const struct {
         const char *setting, *name;
@@ -136,7 +136,7 @@ static void add_changes(Conclusions *to, const Results *results, const int *scen
     for (size_t i = 0; i < sizeof changes / sizeof changes[0]; i++) {
         const Change change = change_of(results, scenes, count, changes[i].setting);
         char time[96];
-        put_change_time(time, &change, busy);
+        put_change_time(time, &change);
         if (change.count && change.most < 0.05)
             add(to, "%s: no larger error; %s", changes[i].name, time);
         else if (change.count)
@@ -176,24 +176,26 @@ Conclusions conclusions_of(const Results *results, const int *scenes, int count,
     Conclusions to = {.count = 0};
     const int shiny = study_scene_number("shiny32");
     const double noise = front_noise(results, NULL);
-    const bool busy = front_busy(results, NULL);
-    int shown = count > 0 ? scenes[0] : 0;
+    int busy = 0, shown = count > 0 ? scenes[0] : 0;
     char text[CONCLUSION_SIZE];
     for (int i = 0; i < count; i++)
         shown = scenes[i] == shiny ? shiny : shown;
+    for (int i = 0; i < count; i++)
+        busy += front_busy(results, STUDY_SCENES[scenes[i]].name);
+    to.busy = busy > 0;
     const char *scene = STUDY_SCENES[shown].name;
     if (busy)
         add(&to,
-            "the machine was busy: half the times have a noise of more than %.0f%%, the bound "
-            "is %.0f%%; measure again with --fresh",
-            100 * noise, 100 * FRONT_NOISE_BOUND);
+            "the machine was busy in %d of %d scenes: half the times there have a noise of more than "
+            "%.0f%%; they are not compared; measure again with --fresh",
+            busy, count, 100 * FRONT_NOISE_BOUND);
     else
         add(&to, "%d scene%s; half the times have a noise of at most %.0f%%", count,
             count == 1 ? "" : "s", ceil(100 * noise));
     conclusion_of_scene(results, scene, text);
     if (text[0])
         add(&to, "%s: %s", scene, text);
-    add_changes(&to, results, scenes, count, busy);
+    add_changes(&to, results, scenes, count);
     add_antialiasing(&to, results, count == 1 ? scene : "sphere");
     add_matrices(&to, results);
     add(&to,

@@ -11,8 +11,8 @@
 #include <stdio.h>
 
 /* "1.3 steps: Phong interpolation 1.8 ms, Gouraud 17 ms": the smallest largest error inside objects
- * that both reach, and what that takes; which times differ by no more than the noise, and that the
- * machine was busy. Empty if one of them was not measured. */
+ * that both reach, and what that takes; which times differ by no more than the noise. Empty if one
+ * of them was not measured, or the machine was busy. */
 enum { CONCLUSION_SIZE = 320 };
 void conclusion_of_scene(const Results *results, const char *scene, char text[CONCLUSION_SIZE]);
 
@@ -22,6 +22,7 @@ enum { CONCLUSIONS = 9 };
 typedef struct Conclusions {
     char lines[CONCLUSIONS][CONCLUSION_SIZE];
     int count;
+    bool busy; /* the machine, for some scenes: the first line says it */
 } Conclusions;
 
 /* Of these scenes, by their numbers. */
@@ -35,8 +36,8 @@ Conclusions conclusions_of(const Results *results, const int *scenes, int count,
  *   viewer         the error of a viewer at infinity
  *   antialiasing   the error of all pixels over time
  *   matrices       the error of arithmetic and order, far from the origin
- * Missing rows are left out, and empty plots. False if gnuplot is missing; the message names the
- * package. */
+ * Missing rows are left out, empty plots, and times where the machine was busy. False if gnuplot is
+ * missing; the message names the package. */
 bool findings_plot(const Results *results, const char *folder, Message *message);
 
 /* A table: the time of composing the matrices of one object and the position of one light, in each

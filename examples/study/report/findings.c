@@ -61,6 +61,8 @@ static bool plot_curves(const Results *results, const CurvePlot *of, const char 
     double x[MAX_CURVES][QUALITY_MAX_CHOICES], y[MAX_CURVES][QUALITY_MAX_CHOICES];
     ReportSeries series[MAX_CURVES];
     int count = 0, points = 0;
+    if (front_busy(results, of->scene))
+        return gnuplot_forget(folder, of->file, message);
     for (; count < MAX_CURVES && of->curves[count].name; count++) {
         const QualityAxis axis = of->curves[count].axis;
         Quality quality;
@@ -180,6 +182,7 @@ typedef void FillBar(const ResultRow *usual, const ResultRow *other, Bar values[
 typedef struct ByScene {
     const char *file, *quality, *title, *y, *names[2];
     FillBar *fill;
+    bool timed;
 } ByScene;
 
 static bool plot_by_scene(const Results *results, const ByScene *of, const char *foot,
@@ -192,7 +195,7 @@ static bool plot_by_scene(const Results *results, const ByScene *of, const char 
         const char *scene = STUDY_SCENES[i].name;
         const ResultRow *usual = results_of(results, scene, "usual");
         const ResultRow *other = results_of(results, scene, of->quality);
-        if (!usual || !other)
+        if (!usual || !other || (of->timed && front_busy(results, scene)))
             continue;
         snprintf(bars->bars[bars->count].name, sizeof bars->bars[0].name, "%s", scene);
         Bar *values = bars->bars[bars->count].values;
@@ -200,7 +203,8 @@ static bool plot_by_scene(const Results *results, const ByScene *of, const char 
         if (isfinite(values[0].value) && (!bars->names[1] || isfinite(values[1].value)))
             bars->count++;
     }
-    return draw_bars(bars, folder, of->file, message);
+    return of->timed && bars->count == 0 ? gnuplot_forget(folder, of->file, message)
+                                         : draw_bars(bars, folder, of->file, message);
 }
 
 /* The root mean square, and up to the largest. */
@@ -232,19 +236,22 @@ static bool plot_by_scenes(const Results *results, const char *foot, const char 
          "Precision of fragment shaders: the error inside the objects",
          errors,
          {"highp", "mediump"},
-         fill_errors},
+         fill_errors,
+         false},
         {"finding-guards",
          "guards=off",
          "Guards: the time of a frame with them, over that without",
          "ratio of times, and the noise",
          {"with guards over without", NULL},
-         fill_guards},
+         fill_guards,
+         true},
         {"finding-viewer",
          "viewer=infinite",
          "A viewer at infinity: the error inside the objects",
          errors,
          {"local viewer", "infinite viewer"},
-         fill_errors},
+         fill_errors,
+         false},
     };
     bool done = true;
     for (size_t i = 0; i < sizeof plots / sizeof plots[0] && done; i++)

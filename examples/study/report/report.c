@@ -128,7 +128,7 @@ typedef struct Shown {
     int count;
     Line *lines; /* of each row */
     Front front;
-    bool only_efficient, busy;
+    bool only_efficient;
 } Shown;
 
 static void put_lines(FILE *file, const Shown *shown)
@@ -156,9 +156,9 @@ static void put_lines(FILE *file, const Shown *shown)
         char text[QUALITY_TEXT_SIZE];
         const bool efficient = front_has(&shown->front, shown->rows[j]);
         const bool tied = front_ties(&shown->front, shown->rows[j]);
-        if (shown->only_efficient && !efficient && !tied)
+        if (shown->only_efficient && !shown->front.busy && !efficient && !tied)
             continue;
-        fprintf(file, "%c ", shown->busy ? ' ' : efficient ? '*' : tied ? '=' : ' ');
+        fprintf(file, "%c ", efficient ? '*' : tied ? '=' : ' ');
         for (int i = 0; i < COLUMNS; i++)
             if (widths[i])
                 fprintf(file, " %*s", widths[i], lines[j].cells[i]);
@@ -172,7 +172,7 @@ static void put_lines(FILE *file, const Shown *shown)
 bool report_table(const Results *results, const char *scene, ErrorKind kind, bool only_efficient,
                   FILE *file, Message *message)
 {
-    Shown shown = {.only_efficient = only_efficient, .busy = front_busy(results, scene)};
+    Shown shown = {.only_efficient = only_efficient};
     bool done = true;
     shown.rows = results_latest(results, scene, &shown.count);
     if (shown.count == 0) {
@@ -184,7 +184,7 @@ bool report_table(const Results *results, const char *scene, ErrorKind kind, boo
     qsort(shown.rows, (size_t)shown.count, sizeof *shown.rows, by_time);
     for (int i = 0; i < shown.count; i++)
         shown.lines[i] = line_of(shown.rows[i]);
-    put_head(file, shown.rows, shown.count, kind, shown.busy);
+    put_head(file, shown.rows, shown.count, kind, shown.front.busy);
     put_lines(file, &shown);
     if (fflush(file) != 0 || ferror(file))
         done = message_set(message, "%s: cannot write the table: %s", scene, strerror(errno));

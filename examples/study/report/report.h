@@ -12,7 +12,7 @@
 #include <stdio.h>
 
 /* A table of a scene's latest rows, sorted by time, with efficient and tied settings marked, unless
- * the machine was busy. `only_efficient`: only those. */
+ * the machine was busy. `only_efficient`: only those; all where none is marked. */
 bool report_table(const Results *results, const char *scene, ErrorKind kind, bool only_efficient,
                   FILE *file, Message *message);
 

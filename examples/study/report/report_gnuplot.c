@@ -110,6 +110,20 @@ bool gnuplot_finish(OutputText *script, const char *folder, const char *name, Me
     return done;
 }
 
+bool gnuplot_forget(const char *folder, const char *name, Message *message)
+{
+    static const char *const ends[] = {"svg", "png"};
+    for (int i = 0; i < 2; i++) {
+        char file[NAME_MAX], path[PATH_MAX];
+        snprintf(file, sizeof file, "%s.%s", name, ends[i]);
+        if (!output_path(path, folder, file, message))
+            return false;
+        if (unlink(path) != 0 && errno != ENOENT)
+            return message_set(message, "%s: cannot be removed: %s", path, strerror(errno));
+    }
+    return true;
+}
+
 void gnuplot_string(FILE *script, const char *text)
 {
     /* Within single quotes only the quote itself is special. */

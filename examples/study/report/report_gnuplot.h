@@ -25,6 +25,9 @@ bool gnuplot_draw(const char *script, size_t size, const char *folder, const cha
 /* Draws a script and frees it. */
 bool gnuplot_finish(OutputText *script, const char *folder, const char *name, Message *message);
 
+/* Removes both files of an earlier run, if there are any. */
+bool gnuplot_forget(const char *folder, const char *name, Message *message);
+
 /* Writes a quoted string. */
 void gnuplot_string(FILE *script, const char *text);
 

@@ -32,11 +32,19 @@ static TemplateValues *set_scene(TemplateValues *page, const Results *results,
     TemplateValues *values = template_add(page, "scene");
     char says[CONCLUSION_SIZE];
     conclusion_of_scene(results, scene->name, says);
+    if (front_busy(results, scene->name))
+        template_set(template_add(values, "busy"), "noise", "%.0f",
+                     100 * front_noise(results, scene->name));
+    else
+        template_set(template_add(values, "quiet"), "says", "%s", says);
     template_set(values, "name", "%s", scene->name);
     template_set(values, "what", "%s", scene->what);
-    template_set(values, "says", "%s", says);
     if (has_plot(folder, scene->name))
-        template_add(values, "plot");
+        template_set(template_add(values, "plot"), "marks", "%s",
+                     front_busy(results, scene->name)
+                         ? "none is marked as efficient, because the machine was busy."
+                         : "the efficient ones are joined, with their pictures and differences "
+                           "above.");
     for (size_t i = 0; i < sizeof sheets / sizeof sheets[0]; i++) {
         char file[NAME_MAX];
         snprintf(file, sizeof file, "%s-%s.png", scene->name, sheets[i]);
@@ -64,6 +72,8 @@ static void set_findings(TemplateValues *page, const Conclusions *conclusions, c
         {"shadows-teapot-time",
          "The time of a teapot's and a torus' shadows by the size of the map"},
     };
+    if (conclusions->busy)
+        template_set(template_add(page, "banner"), "text", "%s", conclusions->lines[0]);
     for (int i = 0; i < conclusions->count; i++)
         template_set(template_add(page, "conclusion"), "text", "%s", conclusions->lines[i]);
     for (size_t i = 0; i < sizeof findings / sizeof findings[0]; i++) {
@@ -82,7 +92,7 @@ static void set_table(TemplateValues *page, const Results *results, const char *
 {
     Front front;
     front_open(&front, results, scene, ERROR_INTERIOR_MAXIMUM);
-    TemplateValues *table = template_add(page, "table");
+    TemplateValues *table = template_add(page, front.busy ? "untold" : "table");
     template_set(table, "scene", "%s", scene);
     for (int i = 0; i < front.count; i++) {
         const ResultRow *row = front.rows[i];

@@ -269,6 +269,23 @@ static void put_axes(FILE *script, const Plot *plot, const char *title)
                 (MIN.x + 6) / GNUPLOT_WIDTH);
 }
 
+/* The line of the efficient ones; where the machine was busy that instead. */
+static void put_efficient(FILE *script, const Plot *plot)
+{
+    if (!plot->front.busy) {
+        put_front(script, plot);
+        fputs("plot $front using 1:2 with lines lw 1.5 lc rgb '#555555' title 'efficient', \\\n"
+              "  $front using 3:2:4:(0) with vectors nohead lw 1.5 lc rgb '#555555' notitle",
+              script);
+        return;
+    }
+    fprintf(script,
+            "set label 'The machine was busy: half the times have a noise of more than %.0f%%; no "
+            "setting is marked.' at screen 0.5,%.5f center front textcolor rgb '#b00000'\n"
+            "plot NaN notitle",
+            100 * FRONT_NOISE_BOUND, (STRIP + STRIP_HEIGHT / 2) / GNUPLOT_HEIGHT);
+}
+
 /* Later ones cover earlier ones. */
 static void put_plot(FILE *script, const Plot *plot)
 {
@@ -278,10 +295,7 @@ static void put_plot(FILE *script, const Plot *plot)
         other[i] = put_rows(script, plot, i, false);
         efficient[i] = put_rows(script, plot, i, true);
     }
-    put_front(script, plot);
-    fputs("plot $front using 1:2 with lines lw 1.5 lc rgb '#555555' title 'efficient', \\\n"
-          "  $front using 3:2:4:(0) with vectors nohead lw 1.5 lc rgb '#555555' notitle",
-          script);
+    put_efficient(script, plot);
     for (int i = 0; i < INTERPOLATIONS; i++)
         if (other[i])
             fprintf(script,

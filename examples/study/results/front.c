@@ -172,13 +172,14 @@ static void take_tied(Front *front, const Entry *entries, int count)
     }
 }
 
-void front_open(Front *front, const Results *results, const char *scene, ErrorKind kind)
+void front_find(Front *front, const Results *results, const char *scene, ErrorKind kind)
 {
     int count;
     const ResultRow **rows = results_latest(results, scene, &count);
     Entry *entries = memory_new((size_t)count, sizeof *entries);
     *front = (Front){.rows = memory_new((size_t)count, sizeof *front->rows),
-                     .tied = memory_new((size_t)count, sizeof *front->tied)};
+                     .tied = memory_new((size_t)count, sizeof *front->tied),
+                     .busy = front_busy(results, scene)};
     count = select_entries(entries, rows, count, kind);
     front->count = take_faster(entries, count, front->rows);
     front->count = take_more_exact(front->rows, front->count, kind);
@@ -186,6 +187,13 @@ void front_open(Front *front, const Results *results, const char *scene, ErrorKi
     take_tied(front, entries, count);
     free(entries);
     free(rows);
+}
+
+void front_open(Front *front, const Results *results, const char *scene, ErrorKind kind)
+{
+    front_find(front, results, scene, kind);
+    if (front->busy)
+        front->count = front->tied_count = 0;
 }
 
 bool front_has(const Front *front, const ResultRow *row)

@@ -162,8 +162,8 @@ bool row_beats(const ResultRow *a, const ResultRow *b, ErrorKind kind);
 /* With a median noise above this the machine was busy, and times are not compared. */
 #define FRONT_NOISE_BOUND 0.1
 
-/* The median noise of a scene's rows, or of all (NULL); NAN: not known. And whether it is above the
- * bound. */
+/* The median noise of a scene's rows, or of all (NULL); NAN: not known. And whether a scene's is
+ * above the bound: what compares times, in words or in pictures, asks this. */
 double front_noise(const Results *results, const char *scene);
 bool front_busy(const Results *results, const char *scene);
 
@@ -177,8 +177,12 @@ bool front_busy(const Results *results, const char *scene);
 typedef struct Front {
     const ResultRow **rows, **tied;
     int count, tied_count;
+    bool busy; /* front_busy */
 } Front;
 
+void front_find(Front *front, const Results *results, const char *scene, ErrorKind kind);
+
+/* To be shown: empty where the machine was busy. */
 void front_open(Front *front, const Results *results, const char *scene, ErrorKind kind);
 
 /* Whether a row is efficient; whether it is tied. */
