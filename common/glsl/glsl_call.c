@@ -1,0 +1,338 @@
+/* Constructors and calls: which function is meant, and whether the arguments fit. */
+#include "glsl/glsl_parser.h"
+
+#include "base/text.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { ARGUMENTS = 64 };
+
+/* Arguments of a call. */
+typedef struct Arguments {
+    int count, nodes[ARGUMENTS], types[ARGUMENTS];
+    bool unknown; /* something was said about one of them */
+} Arguments;
+
+static Arguments arguments_of(const Parser *parser, int node)
+{
+    Arguments arguments = {.unknown = parser->stopped};
+    for (int i = node_at(parser, node)->first; i; i = node_at(parser, i)->next) {
+        if (arguments.count < ARGUMENTS) {
+            arguments.nodes[arguments.count] = i;
+            arguments.types[arguments.count] = node_at(parser, i)->type;
+        }
+        arguments.count++;
+        arguments.unknown |= node_at(parser, i)->type == GLSL_ERROR;
+    }
+    return arguments;
+}
+
+/* The type that a letter of GlslFunction's `types` means, where the generic ones have a size. */
+static int meant(char letter, int size)
+{
+    switch (letter) {
+    case 'g':
+    case 'V':
+        return GLSL_FLOAT + size - 1;
+    case 'I':
+        return GLSL_INT + size - 1;
+    case 'B':
+        return GLSL_BOOL + size - 1;
+    case 'm':
+        return GLSL_MAT2 + size - 2;
+    case 'f':
+        return GLSL_FLOAT;
+    case 'b':
+        return GLSL_BOOL;
+    case 's':
+        return GLSL_SAMPLER_2D;
+    case 'c':
+        return GLSL_SAMPLER_CUBE;
+    default:
+        return GLSL_FLOAT + letter - '1';
+    }
+}
+
+/* The size that makes a list of types this function's, 0: none. */
+static int match(const GlslFunction *function, const int *types, int count)
+{
+    if ((int)strlen(function->types) != count + 1)
+        return 0;
+    const char *generic = strpbrk(function->types + 1, "gVIBm");
+    const int least = generic && *generic != 'g' ? 2 : 1, most = generic ? 4 : 1;
+    for (int size = least; size <= most; size++) {
+        int i = 0;
+        while (i < count && types[i] == meant(function->types[i + 1], size))
+            i++;
+        if (i == count)
+            return size;
+    }
+    return 0;
+}
+
+static bool enabled(const Parser *parser, const GlslFunction *function)
+{
+    return (function->stages & 1 << parser->tree->stage) &&
+           (function->extension & ~parser->tree->extensions) == 0;
+}
+
+int find_built_in(const Parser *parser, int name, const int *types, int count)
+{
+    const int first = parser->names.items[name].function;
+    const char *text = first ? GLSL_FUNCTIONS[first - 1].name : "";
+    for (int i = first; first && i <= GLSL_FUNCTION_COUNT; i++) {
+        const GlslFunction *function = &GLSL_FUNCTIONS[i - 1];
+        if (strcmp(function->name, text) == 0 && enabled(parser, function) &&
+            match(function, types, count))
+            return i;
+    }
+    return 0;
+}
+
+static void settle_call(Parser *parser, int node, int type, bool constant)
+{
+    GlslNode *call = node_at(parser, node);
+    call->type = type;
+    for (int i = call->first; i; i = node_at(parser, i)->next) {
+        constant &= node_at(parser, i)->constant;
+        if (node_at(parser, i)->precision > call->precision)
+            call->precision = node_at(parser, i)->precision;
+    }
+    call->constant = constant;
+    if (constant)
+        fold(parser->tree, node);
+}
+
+/* Later GLSL's, HLSL's and C's functions. */
+static const char *advice_for(const char *name)
+{
+    static const char *const ADVICE[][2] = {
+        {"inverse", "compute the inverse in the program, and pass it as a uniform"},
+        {"transpose", "write vector * matrix instead of transpose(matrix) * vector"},
+        {"texture", "write texture2D(sampler, point)"},
+        {"textureSize", "pass the size as a uniform"},
+        {"saturate", "write clamp(x, 0.0, 1.0)"},
+        {"lerp", "write mix(a, b, x)"},
+        {"frac", "write fract(x)"},
+        {"round", "write floor(x + 0.5)"},
+        {"trunc", "write sign(x) * floor(abs(x))"},
+        {"mul", "write matrix * vector"},
+        {"fmod", "write mod(x, y)"},
+        {"atan2", "write atan(y, x)"},
+        {"rsqrt", "write inversesqrt(x)"},
+        {"fabs", "write abs(x)"},
+        {"powf", "write pow(x, y)"},
+        {"dFdx", "write #extension GL_OES_standard_derivatives : enable first"},
+        {"dFdy", "write #extension GL_OES_standard_derivatives : enable first"},
+        {"fwidth", "write #extension GL_OES_standard_derivatives : enable first"},
+    };
+    for (size_t i = 0; i < sizeof ADVICE / sizeof ADVICE[0]; i++)
+        if (strcmp(ADVICE[i][0], name) == 0)
+            return ADVICE[i][1];
+    return NULL;
+}
+
+enum { NAMES_MAX = 2000 };
+
+/* A name in scope or a function of the language that is similar; NULL: none. */
+static const char *nearest(const Parser *parser, const char *name, bool function)
+{
+    const char *names[NAMES_MAX + 1];
+    int count = 0;
+    for (int i = 0; i < parser->names.count && count < NAMES_MAX; i++) {
+        const Name *item = &parser->names.items[i];
+        const GlslSymbol *symbol = &parser->tree->symbols[item->symbol];
+        const bool function_symbol = symbol->kind == GLSL_FUNCTION;
+        if (item->symbol && function_symbol == function && item->kept)
+            names[count++] = item->kept;
+        else if (function && item->function)
+            names[count++] = GLSL_FUNCTIONS[item->function - 1].name;
+    }
+    names[count] = NULL;
+    return text_nearest(name, names);
+}
+
+void undeclared(Parser *parser, const Token *token, int symbol)
+{
+    const char *name = keep_name(parser, token->name);
+    const char *near = nearest(parser, name, false);
+    if (symbol)
+        complain(parser, token->place, "%.60s is a %s, not a variable", name,
+                 parser->tree->symbols[symbol].kind == GLSL_STRUCT ? "structure" : "function");
+    else if (near)
+        complain(parser, token->place, "%.60s is not declared: did you mean %.60s?", name, near);
+    else
+        complain(parser, token->place,
+                 "%.60s is not declared: check its spelling and case; declare a varying or uniform "
+                 "in each shader that uses it",
+                 name);
+}
+
+/* "max(x, 0): x is a float, 0 an int: write 0.0". */
+static void no_match(Parser *parser, int node, const char *name, const Arguments *arguments)
+{
+    char said[4 * 2 * sizeof(Phrase)] = "";
+    Phrase advice = {""};
+    for (int i = 0; i < arguments->count && i < 4; i++) {
+        const size_t used = strlen(said);
+        snprintf(said + used, sizeof said - used, "%s%s %s%s", i ? ", " : "",
+                 text_phrase(parser, arguments->nodes[i]).text, i ? "" : "is ",
+                 type_phrase(parser, arguments->types[i]).text);
+        if (!advice.text[0] && arguments->types[i] == GLSL_INT)
+            advice = conversion(parser, arguments->nodes[i], GLSL_FLOAT);
+    }
+    if (!advice.text[0])
+        snprintf(advice.text, sizeof advice.text, ": %.40s takes other types or another number",
+                 name);
+    complain(parser, node_at(parser, node)->place, "%s: %.130s%s", text_phrase(parser, node).text,
+             arguments->count ? said : "there are no arguments", advice.text);
+}
+
+static void check_outputs(Parser *parser, const GlslSymbol *function, const Arguments *arguments)
+{
+    for (int i = 0; i < function->parameters; i++)
+        if (parser->tree->symbols[function->parameter + i].storage >= GLSL_OUT)
+            check_writable(parser, arguments->nodes[i]);
+}
+
+static int find_function(const GlslTree *tree, int symbol, const Arguments *arguments)
+{
+    for (; symbol; symbol = tree->symbols[symbol].overload) {
+        const GlslSymbol *function = &tree->symbols[symbol];
+        bool fits = function->parameters == arguments->count && arguments->count <= ARGUMENTS;
+        for (int i = 0; i < function->parameters && fits; i++)
+            fits = tree->symbols[function->parameter + i].type == arguments->types[i];
+        if (fits)
+            return symbol;
+    }
+    return 0;
+}
+
+static void no_function(Parser *parser, int node, const char *name)
+{
+    const char *advice = advice_for(name), *near = nearest(parser, name, true);
+    if (advice)
+        complain(parser, node_at(parser, node)->place, "GLSL ES 1.00 has no %.60s here: %s", name,
+                 advice);
+    else if (near)
+        complain(parser, node_at(parser, node)->place,
+                 "there is no function %.60s: did you mean %.60s?", name, near);
+    else
+        complain(parser, node_at(parser, node)->place,
+                 "there is no function %.60s: check its spelling, and declare it before its use",
+                 name);
+}
+
+void check_call(Parser *parser, int node, int name)
+{
+    GlslTree *tree = parser->tree;
+    const Arguments arguments = arguments_of(parser, node);
+    const int symbol = symbol_of(parser, name);
+    const char *text = keep_name(parser, name);
+    const bool own = tree->symbols[symbol].kind == GLSL_FUNCTION;
+    if (symbol && !own) {
+        complain(parser, node_at(parser, node)->place, "%.60s is a variable, not a function", text);
+        return;
+    }
+    if (arguments.unknown)
+        return;
+    const int function = own ? find_function(tree, symbol, &arguments) : 0;
+    const int built_in = function || arguments.count > ARGUMENTS
+                             ? 0
+                             : find_built_in(parser, name, arguments.types, arguments.count);
+    GlslNode *call = node_at(parser, node);
+    if (function) {
+        call->symbol = function;
+        settle_call(parser, node, tree->symbols[function].type, false);
+        node_at(parser, node)->precision = tree->symbols[function].precision;
+        check_outputs(parser, &tree->symbols[function], &arguments);
+    } else if (built_in) {
+        const GlslFunction *found = &GLSL_FUNCTIONS[built_in - 1];
+        call->kind = GLSL_BUILT_IN;
+        call->symbol = built_in - 1;
+        settle_call(parser, node,
+                    meant(found->types[0], match(found, arguments.types, arguments.count)),
+                    found->id < GLSL_DFDX);
+    } else if (own || (parser->names.items[name].function && !advice_for(text))) {
+        no_match(parser, node, text, &arguments);
+    } else {
+        no_function(parser, node, text);
+    }
+}
+
+static void construct_struct(Parser *parser, int node, const Arguments *arguments)
+{
+    GlslTree *tree = parser->tree;
+    const GlslType *type = &tree->types[node_at(parser, node)->type];
+    const GlslPlace place = node_at(parser, node)->place;
+    if (type->array)
+        complain(parser, place, "%.60s has an array: set its fields one by one", type->name);
+    else if (arguments->count != type->fields)
+        complain(parser, place, "%.60s has %d field%s, not %d", type->name, type->fields,
+                 type->fields == 1 ? "" : "s", arguments->count);
+    else
+        for (int i = 0; i < type->fields && i < ARGUMENTS; i++) {
+            const GlslField *field = &tree->fields[type->field + i];
+            if (field->type != arguments->types[i]) {
+                complain(parser, place, "%.60s is %s, %s %s%s", field->name,
+                         type_phrase(parser, field->type).text,
+                         text_phrase(parser, arguments->nodes[i]).text,
+                         type_phrase(parser, arguments->types[i]).text,
+                         conversion(parser, arguments->nodes[i], field->type).text);
+                return;
+            }
+        }
+}
+
+/* Numbers of a scalar, vector or matrix. */
+static void construct_numbers(Parser *parser, int node, const Arguments *arguments)
+{
+    const GlslTree *tree = parser->tree;
+    const int type = node_at(parser, node)->type, wanted = tree->types[type].scalars;
+    const GlslPlace place = node_at(parser, node)->place;
+    int given = 0, before = 0, matrices = 0;
+    for (int i = 0; i < arguments->count; i++) {
+        const int part = i < ARGUMENTS ? arguments->types[i] : GLSL_FLOAT;
+        before = given;
+        given += glsl_size(part) ? tree->types[part].scalars : 0;
+        matrices += glsl_is_matrix(part);
+        if (!glsl_size(part)) {
+            complain(parser, place, "%s is %s: %s is made of numbers",
+                     text_phrase(parser, arguments->nodes[i]).text, type_phrase(parser, part).text,
+                     type_phrase(parser, type).text);
+            return;
+        }
+    }
+    const Phrase own = text_phrase(parser, node);
+    const char *text = own.text;
+    if (matrices && glsl_is_matrix(type) && arguments->count == 1)
+        return;
+    if (matrices && glsl_is_matrix(type))
+        complain(parser, place, "%.50s: a matrix is made of one other matrix, or of none", text);
+    else if (given == 1 && arguments->count == 1)
+        return;
+    else if (given < wanted)
+        complain(parser, place, "%.50s: %s needs %d numbers, not %d", text,
+                 type_phrase(parser, type).text, wanted, given);
+    else if (before >= wanted)
+        complain(parser, place, "%.50s: %s takes %d number%s, here are more: remove some", text,
+                 type_phrase(parser, type).text, wanted, wanted == 1 ? "" : "s");
+}
+
+void check_construct(Parser *parser, int node)
+{
+    const Arguments arguments = arguments_of(parser, node);
+    const int type = node_at(parser, node)->type, before = parser->tree->message_count;
+    if (arguments.unknown)
+        return;
+    if (parser->tree->types[type].fields)
+        construct_struct(parser, node, &arguments);
+    else if (glsl_size(type))
+        construct_numbers(parser, node, &arguments);
+    else
+        complain(parser, node_at(parser, node)->place, "%s cannot be made",
+                 type_phrase(parser, type).text);
+    if (before == parser->tree->message_count)
+        settle_call(parser, node, type, true);
+}

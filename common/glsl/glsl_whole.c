@@ -1,0 +1,227 @@
+/* What is asked of a whole, valid text: by the linker, and by appendix A of the specification. */
+#include "glsl/glsl.h"
+
+#include "base/memory.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void complain(GlslTree *tree, GlslPlace place, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+static void complain(GlslTree *tree, GlslPlace place, const char *format, ...)
+{
+    if (tree->message_count == GLSL_MESSAGES)
+        return;
+    va_list arguments;
+    va_start(arguments, format);
+    GlslMessage *message = &tree->messages[tree->message_count++];
+    message->place = place;
+    vsnprintf(message->text, sizeof message->text, format, arguments);
+    va_end(arguments);
+}
+
+/* Functions that are being walked, and those that have been: depth first. */
+typedef struct Walk {
+    GlslTree *tree;
+    enum { NEW, OPEN, DONE } * states;
+    int depth;
+} Walk;
+
+enum { CALLS_MAX = 200 };
+
+static void walk_calls(Walk *walk, int node);
+
+static void walk_function(Walk *walk, int symbol, GlslPlace place)
+{
+    GlslTree *tree = walk->tree;
+    const GlslSymbol *function = &tree->symbols[symbol];
+    if (walk->states[symbol] == DONE)
+        return;
+    if (walk->states[symbol] == OPEN)
+        complain(tree, place, "%.60s calls itself: a GLSL function must not: use a loop",
+                 function->name);
+    else if (!function->node)
+        complain(tree, place, "%.60s has no body: { ... } is missing", function->name);
+    else if (walk->depth > CALLS_MAX)
+        complain(tree, place, "functions call each other more than %d deep", CALLS_MAX);
+    else {
+        walk->states[symbol] = OPEN;
+        walk->depth++;
+        walk_calls(walk, function->node);
+        walk->depth--;
+    }
+    walk->states[symbol] = DONE;
+}
+
+static void walk_calls(Walk *walk, int node)
+{
+    const GlslTree *tree = walk->tree;
+    if (tree->nodes[node].kind == GLSL_CALL)
+        walk_function(walk, tree->nodes[node].symbol, tree->nodes[node].place);
+    for (int i = tree->nodes[node].first; i; i = tree->nodes[i].next)
+        walk_calls(walk, i);
+}
+
+bool glsl_check_whole(GlslTree *tree)
+{
+    Walk walk = {.tree = tree,
+                 .states = memory_new((size_t)tree->symbol_count, sizeof *walk.states)};
+    if (tree->message_count)
+        return false;
+    if (!tree->main)
+        complain(tree, (GlslPlace){0, 1, 1}, "a function `void main()` is missing");
+    for (int i = 1; i < tree->symbol_count; i++)
+        if (tree->symbols[i].kind == GLSL_FUNCTION && tree->symbols[i].node)
+            walk_function(&walk, i, tree->symbols[i].place);
+    free(walk.states);
+    return tree->message_count == 0;
+}
+
+/* Loops. `indices` are the symbols of the loops around; `depth`, how many. */
+typedef struct Loops {
+    GlslTree *tree;
+    int indices[CALLS_MAX];
+    int depth;
+} Loops;
+
+#define LOOPS                                                                                      \
+    "write loops like for (int i = 0; i < 2; i++), with constant bounds (GLSL ES 1.00, appendix A)"
+
+static const GlslNode *at(const GlslTree *tree, int node)
+{
+    return &tree->nodes[node];
+}
+
+static bool is_index(const GlslTree *tree, int node, int symbol)
+{
+    return at(tree, node)->kind == GLSL_NAME && at(tree, node)->symbol == symbol;
+}
+
+/* i < constant, with any comparison. */
+static bool is_bound(const GlslTree *tree, int node, int symbol)
+{
+    const int right = glsl_child(tree, node, 1);
+    return at(tree, node)->kind == GLSL_BINARY && at(tree, node)->op >= GLSL_LESS &&
+           at(tree, node)->op <= GLSL_NOT_EQUAL && is_index(tree, at(tree, node)->first, symbol) &&
+           at(tree, right)->constant;
+}
+
+/* i++, i--, i += constant, i -= constant. */
+static bool is_step(const GlslTree *tree, int node, int symbol)
+{
+    const GlslNode *step = at(tree, node);
+    if (!step->first || !is_index(tree, step->first, symbol))
+        return false;
+    return step->kind == GLSL_UNARY
+               ? step->op >= GLSL_PRE_INCREMENT
+               : step->kind == GLSL_ASSIGN && (step->op == GLSL_ADD || step->op == GLSL_SUBTRACT) &&
+                     at(tree, glsl_child(tree, node, 1))->constant;
+}
+
+/* The loop's index; 0: the loop is none of these. */
+static int loop_index(GlslTree *tree, int node)
+{
+    const int start = glsl_child(tree, node, 0), variable = at(tree, start)->first;
+    const GlslNode *declared = at(tree, variable);
+    if (at(tree, start)->kind != GLSL_DECLARE || declared->kind != GLSL_VARIABLE_NODE ||
+        declared->next || !declared->first || !at(tree, declared->first)->constant ||
+        (declared->type != GLSL_INT && declared->type != GLSL_FLOAT) ||
+        !is_bound(tree, glsl_child(tree, node, 1), declared->symbol) ||
+        !is_step(tree, glsl_child(tree, node, 2), declared->symbol))
+        return 0;
+    return declared->symbol;
+}
+
+/* What a statement may not do to the index of a loop around it. */
+static void check_change(Loops *loops, int node)
+{
+    GlslTree *tree = loops->tree;
+    for (int target = node; target; target = at(tree, target)->first)
+        for (int i = 0; i < loops->depth; i++)
+            if (is_index(tree, target, loops->indices[i])) {
+                complain(tree, at(tree, node)->place,
+                         "%.60s counts a loop: only its head may "
+                         "change it (GLSL ES 1.00, appendix A)",
+                         tree->symbols[loops->indices[i]].name);
+                return;
+            }
+}
+
+static void check_changes(Loops *loops, int node)
+{
+    const GlslTree *tree = loops->tree;
+    const GlslNode *own = at(tree, node);
+    if (own->kind == GLSL_ASSIGN || (own->kind == GLSL_UNARY && own->op >= GLSL_PRE_INCREMENT))
+        check_change(loops, own->first);
+    int k = 0;
+    if (own->kind == GLSL_CALL)
+        for (int i = own->first; i; i = at(tree, i)->next, k++)
+            if (tree->symbols[tree->symbols[own->symbol].parameter + k].storage >= GLSL_OUT)
+                check_change(loops, i);
+}
+
+/* Constants and loop indices, and what is made of them. */
+static bool is_constant_index(const Loops *loops, int node)
+{
+    const GlslTree *tree = loops->tree;
+    const GlslNode *own = at(tree, node);
+    if (own->constant)
+        return true;
+    if (own->kind == GLSL_NAME) {
+        for (int i = 0; i < loops->depth; i++)
+            if (own->symbol == loops->indices[i])
+                return true;
+        return false;
+    }
+    if (own->kind == GLSL_CALL || own->kind == GLSL_ASSIGN || !own->first)
+        return false;
+    for (int i = own->first; i; i = at(tree, i)->next)
+        if (!is_constant_index(loops, i))
+            return false;
+    return true;
+}
+
+static void check_index(const Loops *loops, int node)
+{
+    GlslTree *tree = loops->tree;
+    const int base = at(tree, node)->first;
+    const bool sampler = tree->types[at(tree, base)->type].sampler;
+    if ((sampler || tree->stage == GLSL_FRAGMENT) &&
+        !is_constant_index(loops, at(tree, base)->next))
+        complain(tree, at(tree, node)->place,
+                 "an index here must be constant or count a loop (GLSL ES 1.00, appendix A)");
+}
+
+static void walk_loops(Loops *loops, int node)
+{
+    GlslTree *tree = loops->tree;
+    const int kind = at(tree, node)->kind;
+    int index = 0, last = 0;
+    if (kind == GLSL_WHILE || kind == GLSL_DO)
+        complain(tree, at(tree, node)->place, LOOPS);
+    else if (kind == GLSL_FOR && !(index = loop_index(tree, node)))
+        complain(tree, at(tree, node)->place, LOOPS);
+    else if (kind == GLSL_INDEX)
+        check_index(loops, node);
+    check_changes(loops, node);
+    for (int i = at(tree, node)->first; i; i = at(tree, i)->next)
+        last = i;
+    for (int i = at(tree, node)->first; i; i = at(tree, i)->next) {
+        const bool body = index && i == last && loops->depth < CALLS_MAX;
+        if (body)
+            loops->indices[loops->depth++] = index;
+        walk_loops(loops, i);
+        loops->depth -= body;
+    }
+}
+
+bool glsl_check_loops(GlslTree *tree)
+{
+    Loops loops = {.tree = tree};
+    if (!tree->message_count)
+        walk_loops(&loops, tree->root);
+    return tree->message_count == 0;
+}

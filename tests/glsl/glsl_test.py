@@ -1,0 +1,193 @@
+#!/usr/bin/env python3
+"""The front end of GLSL ES 1.00 against glslang and the driver: what is accepted, and the line of the first error.
+
+usage: glsl_test.py EXAMPLES_FOLDER_OF_THE_BUILD SOURCE_FOLDER [unittest's arguments]
+
+Shaders of every program as the driver gets them, every submission of the corpus, random programs, and mutations of all.
+Where the two judges differ, RULINGS says which of them the specification is with. LIGHTING_TEST_SEED seeds.
+"""
+import glob
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+EXAMPLES, SOURCE = (os.path.abspath(path) for path in sys.argv[1:3])
+sys.path[:0] = [os.path.join(SOURCE, "tests/labs"), os.path.join(SOURCE, "tests/glsl")]
+import corpus
+import glsl_random
+
+JUDGE = os.path.join(EXAMPLES, "../tests/glsl_judge")
+LONG = bool(os.environ.get("LIGHTING_TEST_LONG"))
+SEED = int(os.environ.get("LIGHTING_TEST_SEED", "28"))
+BATCH = 200
+# What the specification says where the judges differ: what one of them says of a text that the other accepts, and whether the
+# text is in error. examples/guide/glsl.md lists them.
+RULINGS = [
+    (r"starting with .gl_. are reserved", True, "names that begin with gl_ are reserved (3.7); Mesa takes them for parameters and locals"),
+]
+
+
+def programs():
+    """The shaders of the programs that draw, by name."""
+    with open(os.path.join(SOURCE, "examples/meson.build")) as file:
+        listed = re.findall(r"^  '(\w+)',$", file.read(), re.MULTILINE)
+    for program in listed:
+        if program == "check" or any(os.path.exists(os.path.join(SOURCE, "examples", folder, program + ".c"))
+                                     for folder in ("study", "diagrams")):
+            continue
+        for stage in ("vert", "frag"):
+            done = subprocess.run([os.path.join(EXAMPLES, program), f"--print-shader={stage}"], capture_output=True, text=True)
+            for i, text in enumerate(re.split(r"^(?=#version)", done.stdout, flags=re.MULTILINE)[1:]):
+                yield f"{program}-{i}.{stage}", text
+
+
+def submissions():
+    for lab in range(1, 12):
+        for name, files in corpus.read(lab).items():
+            for file, content in files.items():
+                if file.endswith((".vert", ".frag")):
+                    yield f"lab{lab:02}-{name}-{file}", content
+
+
+def glslang(paths):
+    """Of each text "ok", or the line and the message."""
+    done = subprocess.run(["glslangValidator", *paths], capture_output=True, text=True, errors="replace")
+    if done.returncode < 0:  # it crashed on one of them
+        if len(paths) == 1:
+            return {paths[0]: "crash"}
+        middle = len(paths) // 2
+        return {**glslang(paths[:middle]), **glslang(paths[middle:])}
+    said, path = {}, None
+    for line in done.stdout.splitlines():
+        if line in paths:
+            path = line
+            said[path] = "ok"
+        elif line.startswith("ERROR: ") and path and said[path] == "ok":
+            found = re.match(r"ERROR: -?\d+:(-?\d+): (.*)", line)
+            said[path] = f"{found.group(1)} {found.group(2)}" if found else f"0 {line}"
+    return said
+
+
+def ours_and_driver(paths):
+    done = subprocess.run([JUDGE], input="\n".join(paths) + "\n", capture_output=True, text=True, errors="replace")
+    if done.returncode == 77:
+        print(done.stderr)
+        sys.exit(77)
+    assert done.returncode == 0, (done.returncode, done.stderr[-2000:], done.stdout[-300:])
+    return {line.split("\t")[0]: line.split("\t")[1:3] for line in done.stdout.splitlines() if line.count("\t") >= 2}
+
+
+class Count:
+    """Of many texts, how many each judge judges as we do, and the rest."""
+
+    def __init__(self):
+        self.texts = self.valid = self.both = self.glslang = self.driver = self.ruled = 0
+        self.lines = self.same_line = 0
+        self.wrong = []
+
+    def add(self, name, ours, other, driver):
+        self.texts += 1
+        accepted = [said == "ok" for said in (ours, other, driver)]
+        self.valid += accepted[0]
+        self.glslang += accepted[0] == accepted[1]
+        self.driver += accepted[0] == accepted[2]
+        if accepted[0] == accepted[1] == accepted[2]:
+            self.both += 1
+            if not accepted[0]:
+                self.lines += 1
+                line = ours.split(" ")[0]
+                near = line in (other.split(" ")[0], driver.split(" ")[0])
+                self.same_line += near
+                if not near:
+                    self.wrong.append(("line", name, ours, other, driver))
+        elif ours != "differs" and ruled(ours, other, driver):
+            self.ruled += 1
+        else:
+            self.wrong.append(("verdict", name, ours, other, driver))
+
+    def __str__(self):
+        return (f"{self.texts} texts, {self.valid} valid; as glslang {self.glslang}, as the driver {self.driver}, as both {self.both}, "
+                f"by a ruling {self.ruled}; of {self.lines} in error for all, {self.same_line} in a judge's line")
+
+
+def ruled(ours, other, driver):
+    if (other == "ok") == (driver == "ok"):
+        return False
+    said = driver if other == "ok" else other
+    return any(re.search(pattern, said) and error == (ours != "ok") for pattern, error, _ in RULINGS)
+
+
+def compare(texts):
+    """texts: pairs of a name, which ends like the file, and the text."""
+    count, batch = Count(), []
+
+    def judge():
+        with tempfile.TemporaryDirectory(prefix="glsl-") as folder:
+            paths = []
+            for name, text in batch:
+                paths.append(os.path.join(folder, name))
+                with open(paths[-1], "wb") as file:
+                    file.write(text if isinstance(text, bytes) else text.encode())
+            others, mine = glslang(paths), ours_and_driver(paths)
+            for path, (_, text) in zip(paths, batch):
+                before = len(count.wrong)
+                count.add(os.path.basename(path), mine[path][0], others.get(path, "ok"), mine[path][1])
+                keep = os.environ.get("GLSL_KEEP")
+                if keep and len(count.wrong) > before:
+                    with open(os.path.join(keep, os.path.basename(path)), "wb") as file:
+                        file.write(text if isinstance(text, bytes) else text.encode())
+        batch.clear()
+
+    for pair in texts:
+        batch.append(pair)
+        if len(batch) == BATCH:
+            judge()
+    if batch:
+        judge()
+    return count
+
+
+class Judges(unittest.TestCase):
+    def check(self, what, texts, lines=1.0):
+        count = compare(texts)
+        print(f"{what}: {count}", flush=True)
+        shown = "\n".join(" | ".join(entry) for entry in count.wrong[:40])
+        self.assertGreater(count.texts, 0)
+        self.assertEqual([entry for entry in count.wrong if entry[0] == "verdict"], [], shown)
+        self.assertGreaterEqual(count.same_line, lines * count.lines, shown)
+
+    def test_shaders_of_the_programs(self):
+        self.check("programs", programs())
+
+    def test_submissions(self):
+        self.check("corpus", list(submissions())[:: 1 if LONG else 6])
+
+    def test_random_programs(self):
+        self.check("random", self.random_programs(4000 if LONG else 150), 0.97)
+
+    def random_programs(self, count):
+        for i in range(count):
+            program = glsl_random.Program(SEED * 1000003 + i, slips=(0, 1, 2, 4)[i % 4])
+            text = program.text()
+            yield f"random{i}.{program.stage}", text
+
+    def test_mutations(self):
+        originals = list(programs()) + [pair for pair in submissions()][::7]
+        originals += list(self.random_programs(200))
+        count = 6000 if LONG else 200
+        texts = []
+        for i in range(count):
+            name, text = originals[i * 7919 % len(originals)]
+            text = text.decode(errors="replace") if isinstance(text, bytes) else text
+            texts.append((f"mutation{i}-{name}", glsl_random.mutate(text, SEED * 1000003 + i)))
+        self.check("mutations", texts, 0.9)
+
+
+if __name__ == "__main__":
+    if not any(os.access(os.path.join(folder, "glslangValidator"), os.X_OK) for folder in os.environ["PATH"].split(":")):
+        print("glslangValidator is missing: apt install glslang-tools")
+        sys.exit(77)
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])
