@@ -76,11 +76,13 @@ enum {
     GLSL_INOUT
 };
 
+enum { GLSL_VARIABLE = 1, GLSL_FUNCTION, GLSL_STRUCT };
+
 /* A variable, parameter, function or structure. Built-in variables are symbols, too. */
 typedef struct GlslSymbol {
     const char *name;
     GlslPlace place;
-    enum { GLSL_VARIABLE = 1, GLSL_FUNCTION, GLSL_STRUCT } kind;
+    int kind;
     unsigned char storage, precision, said;
     bool invariant, built_in;
     bool global, written;      /* `written`: something assigns it, or a part of it */
@@ -215,7 +217,8 @@ GlslTree *glsl_parse(const char *text, GlslStage stage, const GlslLimits *limits
 void glsl_tree_free(GlslTree *tree);
 
 /* What linking asks of one stage alone, and compilers do not: a main, a body for each function that
- * is called, and no recursion. Adds messages; false if there are some. */
+ * is called, no recursion, and only one of gl_FragColor and gl_FragData. Adds messages; false if
+ * there are some. */
 bool glsl_check_whole(GlslTree *tree);
 
 /* Whether loops and indices are as restricted as appendix A says, which WebGL asks for. Likewise.

@@ -255,6 +255,8 @@ void check_call(Parser *parser, int node, int name)
                     meant(found->types[0], match(found, arguments.types, arguments.count)),
                     found->id < GLSL_DFDX);
     } else if (own || (parser->names.items[name].function && !advice_for(text))) {
+        call->kind = own ? GLSL_CALL : GLSL_BUILT_IN;
+        call->symbol = own ? symbol : parser->names.items[name].function - 1;
         no_match(parser, node, text, &arguments);
     } else {
         no_function(parser, node, text);

@@ -368,7 +368,7 @@ int select_field(Parser *parser, int base, const Token *token)
         settle(parser, node, of.type);
         node_at(parser, node)->precision = of.precision;
     } else {
-        complain(parser, place, "%s is %s, which has no %s .%.60s%s",
+        complain(parser, token->place, "%s is %s, which has no %s .%.60s%s",
                  text_phrase(parser, base).text, type_phrase(parser, type).text,
                  glsl_is_vector(type) ? "component" : "field", name,
                  glsl_size(type) == 1 ? ": only vectors have components" : "");

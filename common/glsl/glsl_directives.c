@@ -293,6 +293,9 @@ static void pragma(Preprocessor *all, const Tokens *line)
 static void directive(Preprocessor *all)
 {
     Tokens line = read_line(all);
+    /* What is skipped is read for its #endif alone: `# #endif` is one to all compilers. */
+    while (!reading(all) && line.items[0].kind == '#')
+        memmove(line.items, line.items + 1, (size_t)--line.count * sizeof *line.items);
     const Token *word = &line.items[0];
     const bool named = word->kind == TOKEN_NAME;
     if (named && (is(word, "if") || is(word, "ifdef") || is(word, "ifndef")))

@@ -209,9 +209,8 @@ static int parse_postfix(Parser *parser)
             set_children(parser, node, list);
             check_index(parser, node);
         } else if (take_if(parser, '.')) {
-            const Token *name = take(parser);
-            if (name->kind == TOKEN_NAME)
-                node = select_field(parser, node, name);
+            if (peek(parser, 0)->kind == TOKEN_NAME)
+                node = select_field(parser, node, take(parser));
             else
                 syntax_error(parser, "the name of a component or field is missing after the dot");
         } else if (take_if(parser, TOKEN_INCREMENT)) {
@@ -241,8 +240,6 @@ static int parse_unary(Parser *parser)
     for (size_t i = 0; i < sizeof OPERATORS / sizeof OPERATORS[0] && !node; i++)
         if (take_if(parser, OPERATORS[i].kind))
             node = unary(parser, OPERATORS[i].op, parse_unary(parser), token->place);
-    if (!node && strchr("~%^&|", token->kind) && token->kind)
-        syntax_error(parser, "GLSL ES 1.00 has no operator %c", token->kind);
     if (!node)
         node = parse_postfix(parser);
     parser->depth--;
@@ -298,6 +295,11 @@ static int parse_binary(Parser *parser, int precedence)
         const int mine = op;
         left = pair(parser, GLSL_BINARY, mine, left, parse_binary(parser, own + 1));
     }
+    const Token *token = peek(parser, 0);
+    if (token->kind && (strchr("%^&|", token->kind) || token->kind == TOKEN_LEFT ||
+                        token->kind == TOKEN_RIGHT || token->kind == TOKEN_LATER))
+        syntax_error(parser, "GLSL ES 1.00 has no operator %.*s%s", token->length, token->text,
+                     token->kind == '%' ? ": write mod(x, y), or a - a / b * b for ints" : "");
     return left;
 }
 

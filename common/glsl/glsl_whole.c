@@ -65,12 +65,22 @@ static void walk_calls(Walk *walk, int node)
         walk_calls(walk, i);
 }
 
+static bool written(const GlslTree *tree, const char *built_in)
+{
+    for (int i = 1; i < tree->symbol_count; i++)
+        if (tree->symbols[i].built_in && strcmp(tree->symbols[i].name, built_in) == 0)
+            return tree->symbols[i].written;
+    return false;
+}
+
 bool glsl_check_whole(GlslTree *tree)
 {
-    Walk walk = {.tree = tree,
-                 .states = memory_new((size_t)tree->symbol_count, sizeof *walk.states)};
     if (tree->message_count)
         return false;
+    Walk walk = {.tree = tree,
+                 .states = memory_new((size_t)tree->symbol_count, sizeof *walk.states)};
+    if (written(tree, "gl_FragColor") && written(tree, "gl_FragData"))
+        complain(tree, (GlslPlace){0, 1, 1}, "set gl_FragColor or gl_FragData, not both");
     if (!tree->main)
         complain(tree, (GlslPlace){0, 1, 1}, "a function `void main()` is missing");
     for (int i = 1; i < tree->symbol_count; i++)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The front end of GLSL ES 1.00 against glslang and the driver: what is accepted, and the line of the first error.
 
-usage: glsl_test.py EXAMPLES_FOLDER_OF_THE_BUILD SOURCE_FOLDER [unittest's arguments]
+usage: judges_test.py EXAMPLES_FOLDER_OF_THE_BUILD SOURCE_FOLDER [unittest's arguments]
 
 Shaders of every program as the driver gets them, every submission of the corpus, random programs, and mutations of all.
 Where the two judges differ, RULINGS says which of them the specification is with. LIGHTING_TEST_SEED seeds.
@@ -23,10 +23,27 @@ JUDGE = os.path.join(EXAMPLES, "../tests/glsl_judge")
 LONG = bool(os.environ.get("LIGHTING_TEST_LONG"))
 SEED = int(os.environ.get("LIGHTING_TEST_SEED", "28"))
 BATCH = 200
-# What the specification says where the judges differ: what one of them says of a text that the other accepts, and whether the
-# text is in error. examples/guide/glsl.md lists them.
+# Where the judges differ, what one of them says of a text that the other accepts, whether it is in error by the specification,
+# why, and what the text has if that is not clear from what was said. tests/EVIDENCE.md lists them.
 RULINGS = [
-    (r"starting with .gl_. are reserved", True, "names that begin with gl_ are reserved (3.7); Mesa takes them for parameters and locals"),
+    (r"starting with .gl_. are reserved", True, "names that begin with gl_ are reserved; Mesa takes them for parameters and locals"),
+    (r"identifiers containing consecutive underscores", True, "names with __ are reserved; Mesa warns"),
+    (r"'line continuation'", True, "no line is continued by a backslash; Mesa does it"),
+    (r"'floating-point suffix'", True, "floats have no suffix; Mesa takes 1.0f"),
+    (r"'extraneous semicolon'", True, "no semicolon alone outside functions; Mesa takes it"),
+    (r"'arrayed type'", True, "an array's length follows the name; Mesa takes float[2] a"),
+    (r"numeric literal too big", True, "ints have 32 bits; Mesa warns"),
+    (r"^\d+ '=' : global const initializers must be constant", True, "a comma is in no constant expression; Mesa takes it"),
+    (r"Too few args in Macro", False, "a macro of one parameter may get an empty argument; glslang wants one"),
+    (r"overloaded functions must have the same parameter precision", True, "a prototype has the precisions of its function; Mesa does not compare them"),
+    (r"only in GLSL|GLSL \d\.\d+ is not supported", True, "#version 100 only; glslang takes the desktop's"),
+    (r"unexpected end of file$", True, "a text has at least one declaration; glslang takes an empty one"),
+    (r"second and third operands of \?: operator cannot be arrays", True, "? takes no arrays; glslang does"),
+    (r"formal parameter lacks a name", False, "a parameter that is not used needs no name; Mesa wants one"),
+    (r"`\w+' redeclared", False, "a function's body is a scope in that of its parameters; Mesa has one for both"),
+    (r"preprocessor error: syntax error, unexpected .*expecting (IDENTIFIER|NEWLINE)", False, "what is skipped needs only #if, #elif, #else and #endif; Mesa reads their lines"),
+    (r"Unterminated #if", False, "`# #endif` ends what is skipped; Mesa does not see it"),
+    (r"syntax error, unexpected IDENTIFIER$", False, "a word of the language can be a macro; glslang expands it sometimes only", r"# *define +(int|float|void|vec\d|mat\d|uniform|varying)\b"),
 ]
 
 
@@ -88,7 +105,7 @@ class Count:
         self.lines = self.same_line = 0
         self.wrong = []
 
-    def add(self, name, ours, other, driver):
+    def add(self, name, text, ours, other, driver):
         self.texts += 1
         accepted = [said == "ok" for said in (ours, other, driver)]
         self.valid += accepted[0]
@@ -103,7 +120,7 @@ class Count:
                 self.same_line += near
                 if not near:
                     self.wrong.append(("line", name, ours, other, driver))
-        elif ours != "differs" and ruled(ours, other, driver):
+        elif ours != "differs" and ruled(text, ours, other, driver):
             self.ruled += 1
         else:
             self.wrong.append(("verdict", name, ours, other, driver))
@@ -113,11 +130,13 @@ class Count:
                 f"by a ruling {self.ruled}; of {self.lines} in error for all, {self.same_line} in a judge's line")
 
 
-def ruled(ours, other, driver):
+def ruled(text, ours, other, driver):
     if (other == "ok") == (driver == "ok"):
         return False
     said = driver if other == "ok" else other
-    return any(re.search(pattern, said) and error == (ours != "ok") for pattern, error, _ in RULINGS)
+    text = text.decode(errors="replace") if isinstance(text, bytes) else text
+    return any(re.search(pattern, said) and error == (ours != "ok") and all(re.search(wanted, text) for wanted in texts)
+               for pattern, error, _, *texts in RULINGS)
 
 
 def compare(texts):
@@ -134,7 +153,7 @@ def compare(texts):
             others, mine = glslang(paths), ours_and_driver(paths)
             for path, (_, text) in zip(paths, batch):
                 before = len(count.wrong)
-                count.add(os.path.basename(path), mine[path][0], others.get(path, "ok"), mine[path][1])
+                count.add(os.path.basename(path), text, mine[path][0], others.get(path, "ok"), mine[path][1])
                 keep = os.environ.get("GLSL_KEEP")
                 if keep and len(count.wrong) > before:
                     with open(os.path.join(keep, os.path.basename(path)), "wb") as file:
@@ -154,9 +173,9 @@ class Judges(unittest.TestCase):
     def check(self, what, texts, lines=1.0):
         count = compare(texts)
         print(f"{what}: {count}", flush=True)
-        shown = "\n".join(" | ".join(entry) for entry in count.wrong[:40])
+        shown = "\n".join(" | ".join(entry) for entry in count.wrong[:200])
         self.assertGreater(count.texts, 0)
-        self.assertEqual([entry for entry in count.wrong if entry[0] == "verdict"], [], shown)
+        self.assertEqual([entry for entry in count.wrong if entry[0] == "verdict"], [], "\n" + shown)
         self.assertGreaterEqual(count.same_line, lines * count.lines, shown)
 
     def test_shaders_of_the_programs(self):

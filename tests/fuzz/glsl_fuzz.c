@@ -1,0 +1,33 @@
+/*
+ * glsl_fuzz: no bytes may do harm to the front end of the shaders' language, and what it accepts
+ * prints as a text that parses, and prints as the same text again.
+ *
+ * The first byte is the stage. Seeds: the files of shaders/.
+ */
+#include "fuzz/fuzz.h"
+#include "glsl/glsl.h"
+
+#include <string.h>
+
+FUZZ(data, size)
+{
+    char *text = strndup((const char *)data + (size > 0), size ? size - 1 : 0);
+    const GlslStage stage = size && data[0] & 1 ? GLSL_FRAGMENT : GLSL_VERTEX;
+    GlslTree *tree = glsl_parse(text, stage, NULL);
+    if (tree->message_count == 0) {
+        char *printed = glsl_print(tree, tree->root);
+        GlslTree *again = glsl_parse(printed, stage, NULL);
+        char *twice = glsl_print(again, again->root);
+        require(again->message_count == 0 && strcmp(printed, twice) == 0);
+        glsl_check_loops(tree);
+        glsl_check_whole(again);
+        free(twice);
+        free(printed);
+        glsl_tree_free(again);
+    } else {
+        require(tree->messages[0].text[0] && !glsl_check_whole(tree));
+    }
+    glsl_tree_free(tree);
+    free(text);
+    return 0;
+}
