@@ -56,22 +56,45 @@ static double moment(const Options *options, int i)
     return options->seconds + i / options->fps;
 }
 
+/* Draws picture `i`; or, of a part that is run again, keeps the file if it is what would be drawn.
+ * The part's first picture is drawn in any case: only then is known which shader files it reads. */
+static bool draw_frame(Renderer *renderer, const Options *options, int i, PictureSources *sources,
+                       Picture *picture, bool *kept, Message *message)
+{
+    const Example *example = renderer->example;
+    const double seconds = moment(options, i);
+    *kept = false;
+    if (!frames_path(options, i, picture->path, message))
+        return false;
+    if (options->part.count && sources->text[0] && picture->image.type == IMAGE_BYTE) {
+        picture_texts_set(example, renderer->canvas, options, seconds, picture);
+        picture_texts_sources(sources, example, options, picture);
+        *kept = picture_texts_kept(picture);
+    }
+    if (*kept)
+        return true;
+    const DrawRequest request = options_request(options, example);
+    if (!renderer_picture(renderer, &request, seconds, &picture->image, message))
+        return false;
+    picture_texts_set(example, renderer->canvas, options, seconds, picture);
+    if (options->numbered)
+        picture_texts_sources(sources, example, options, picture);
+    return true;
+}
+
 bool frames_draw(Renderer *renderer, const Options *options, PictureQueue *queue, Message *message)
 {
     const Example *example = renderer->example;
-    const DrawRequest request = options_request(options, example);
     Progress progress = progress_start(example->name);
-    bool done = true;
+    PictureSources sources = {.files = 0};
+    Picture *picture = NULL;
+    bool done = true, kept = false;
     for (int i = 0; i < options->frames && done; i++) {
-        const double seconds = moment(options, i);
         if (!part_has(options->part, (uint64_t)i))
             continue;
-        Picture *picture = picture_queue_take(queue);
-        done = frames_path(options, i, picture->path, message) &&
-               renderer_picture(renderer, &request, seconds, &picture->image, message);
-        if (done)
-            picture_texts_set(example, renderer->canvas, options, seconds, picture);
-        done = done && picture_queue_give(queue, picture, message);
+        picture = kept ? picture : picture_queue_take(queue);
+        done = draw_frame(renderer, options, i, &sources, picture, &kept, message) &&
+               (kept || picture_queue_give(queue, picture, message));
         progress_update(&progress, i + 1, options->frames);
     }
     progress_end(&progress);
@@ -140,7 +163,7 @@ bool frames_merge(const Example *example, const Options *options, Message *messa
                                                                         : backend_default(message)};
     FrameParts parts;
     FrameSink sink = {.queue = NULL};
-    char driver[PICTURE_DRIVER_SIZE] = "";
+    PictureOrigin origin = {.driver = ""};
     if (!frames_find_parts(&parts, options, message) || !parts_are_whole(&parts, message))
         return false;
     bool done = frames_open(&sink, &canvas, options, message);
@@ -149,7 +172,7 @@ bool frames_merge(const Example *example, const Options *options, Message *messa
         done = frames_path(&parts.options, i, picture->path, message);
         if (done)
             picture_texts_set(example, &canvas, &parts.options, moment(options, i), picture);
-        done = done && picture_texts_check(picture, driver, message) &&
+        done = done && picture_texts_check(picture, &origin, message) &&
                picture_queue_give(sink.queue, picture, message);
     }
     return frames_close(&sink, done, message);

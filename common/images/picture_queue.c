@@ -40,15 +40,17 @@ struct PictureQueue {
 /* Calls image_write or, with a file, image_encode. */
 static bool write_picture(const Picture *picture, ImageFile *file, Message *message)
 {
-    const bool again = picture->command[0];
-    const ImageText text[] = {
+    ImageText text[7] = {
         {"Title", picture->title},
         {"Software", "lighting " VERSION},
         {"Time", picture->moment},
         {"Driver", picture->driver},
-        {again ? "Command" : NULL, picture->command},
-        {NULL, NULL},
     };
+    ImageText *last = text + 4;
+    if (picture->command[0])
+        *last++ = (ImageText){"Command", picture->command};
+    if (picture->sources[0])
+        *last = (ImageText){"Sources", picture->sources};
     const ImageOptions options = {
         .compress = picture->compress, .alpha = picture->alpha, .text = text};
     return file ? image_encode(&picture->image, "png", &options, file, message)

@@ -8,6 +8,8 @@
 
 #include <limits.h>
 
+enum { PICTURE_DRIVER_SIZE = 512, PICTURE_SOURCES_SIZE = 4000 };
+
 /* An image and everything its file needs. */
 typedef struct Picture {
     Image image;
@@ -15,9 +17,10 @@ typedef struct Picture {
     int compress;
     bool alpha;
     /* The file's text chunks. */
-    char title[64];             /* the program's name */
-    char moment[64];            /* the time drawn: "1.5 s" */
-    char driver[512];           /* backend, platform, renderer */
+    char title[64];                     /* the program's name */
+    char moment[64];                    /* the time drawn: "1.5 s" */
+    char driver[PICTURE_DRIVER_SIZE];   /* backend, platform, renderer */
+    char sources[PICTURE_SOURCES_SIZE]; /* what it was drawn from; "": not said */
     char command[4 * PATH_MAX]; /* makes the file again, under another name; "": there is none */
 } Picture;
 

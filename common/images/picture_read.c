@@ -29,6 +29,7 @@ static void read_texts(png_structp png, png_infop info, Picture *picture)
     } wanted[] = {{"Title", picture->title, sizeof picture->title},
                   {"Time", picture->moment, sizeof picture->moment},
                   {"Driver", picture->driver, sizeof picture->driver},
+                  {"Sources", picture->sources, sizeof picture->sources},
                   {"Command", picture->command, sizeof picture->command}};
     png_textp texts = NULL;
     const int count = png_get_text(png, info, &texts, NULL);

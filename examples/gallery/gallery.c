@@ -16,6 +16,7 @@
 #include "base/progress.h"
 #include "base/template.h"
 #include "base/text.h"
+#include "core/shader_files.h"
 #include "gallery/manifest.h"
 #include "gallery/sheet.h"
 #include "window/backends.h"
@@ -142,25 +143,40 @@ static bool draw_one(const Example *example, Canvas *canvas, const Options *opti
                      Picture *picture, Message *message)
 {
     Renderer renderer;
-    const Options own = options_of(example, options);
+    ShaderFiles files = {.count = 0};
+    Options own = options_of(example, options);
+    own.shaders.files = &files;
     const DrawRequest request = options_request(&own, example);
     const bool shadows = options_have_shadows(&own);
     if ((shadows != canvas->supersampled &&
          !canvas_set_samples(canvas, own.canvas.samples, shadows, message)) ||
         !canvas_resize(canvas, own.width, own.height, message) ||
-        !renderer_open(&renderer, example, canvas, &request, message))
+        !renderer_open(&renderer, example, canvas, &request, message)) {
+        shader_files_close(&files);
         return false;
+    }
     if (renderer.warning.text[0])
         options_warn(example->name, &renderer.warning);
     const bool drawn = renderer_picture(&renderer, &request, own.seconds, &picture->image, message);
     renderer_close(&renderer);
     picture_texts_set(example, canvas, &own, own.seconds, picture);
+    PictureSources sources = {.files = 0};
+    if (own.part.count)
+        picture_texts_sources(&sources, example, &own, picture);
+    shader_files_close(&files);
     return drawn;
+}
+
+/* Parts have theirs beside that of the whole. */
+static const char *beside(const Options *options)
+{
+    return options->part.count ? ".parts" : "";
 }
 
 static void set_path(Picture *picture, const Example *example, const Options *options)
 {
-    snprintf(picture->path, sizeof picture->path, "%s/%s.png", options->output, example->name);
+    snprintf(picture->path, sizeof picture->path, "%s%s/%s.png", options->output, beside(options),
+             example->name);
 }
 
 static bool draw_all(const Selection *selection, Canvas *canvas, const Options *options,
@@ -190,24 +206,31 @@ static bool draw_all(const Selection *selection, Canvas *canvas, const Options *
     return picture_queue_close(queue, message) && done;
 }
 
-/* --merge: the pictures that the parts have drawn, onto the sheet. */
-static bool read_all(const Selection *selection, const Options *options, Image *sheet,
+/* --merge: the pictures that the parts have drawn, to the folder and onto the sheet, or only
+ * checked so that a failure leaves no half gallery. */
+static bool read_all(const Selection *selection, const Options *options, bool checks, Image *sheet,
                      Message *message)
 {
     const CanvasBackend *given = options->canvas.backend;
     const CanvasBackend *backend = given ? given : backend_default(message);
+    Options drawn = *options;
+    drawn.part = (Part){1, 1};
     Picture *picture = memory_new(1, sizeof *picture);
     bool done = backend != NULL;
-    char drivers[2][PICTURE_DRIVER_SIZE] = {"", ""}; /* of diagrams and of others */
+    PictureOrigin origins[2] = {{.driver = ""}}; /* of diagrams and of others */
     for (int i = 0; i < selection->count && done; i++) {
         const Example *example = selection->examples[i];
         const Options own = options_of(example, options);
         const Canvas canvas = {.width = own.width, .height = own.height, .backend = backend};
-        set_path(picture, example, options);
+        set_path(picture, example, &drawn);
         picture_texts_set(example, &canvas, &own, own.seconds, picture);
-        done = picture_texts_check(picture, drivers[!example_kind(example)->without_gl], message);
-        if (done)
-            sheet_put(sheet, i, &picture->image);
+        done = picture_texts_check(picture, &origins[!example_kind(example)->without_gl], message);
+        if (!done || checks)
+            continue;
+        sheet_put(sheet, i, &picture->image);
+        set_path(picture, example, options);
+        picture->sources[0] = '\0';
+        done = picture_write(picture, message);
     }
     image_close(&picture->image);
     free(picture);
@@ -273,7 +296,9 @@ static bool merge_gallery(const Selection *selection, const Options *options, Me
 {
     Image sheet = {0};
     const bool done = sheet_open(&sheet, selection->count, message) &&
-                      read_all(selection, options, &sheet, message) &&
+                      read_all(selection, options, true, &sheet, message) &&
+                      output_folder(options->output, message) &&
+                      read_all(selection, options, false, &sheet, message) &&
                       write_rest(selection, options, &sheet, message);
     image_close(&sheet);
     return done;
@@ -285,6 +310,8 @@ static bool write_gallery(const Selection *selection, const Options *options, Me
     Renderer renderer;
     Image sheet = {0};
     const bool whole = !options->part.count;
+    char folder[PATH_MAX];
+    snprintf(folder, sizeof folder, "%s%s", options->output, beside(options));
     bool done = open_canvas(&canvas, options, message);
     /* Each is opened once before anything is written: a failure must not leave half a gallery. */
     for (int i = 0; i < selection->count && done; i++) {
@@ -294,7 +321,7 @@ static bool write_gallery(const Selection *selection, const Options *options, Me
             renderer_close(&renderer);
     }
     if (done && !options->shaders.print)
-        done = output_folder(options->output, message) &&
+        done = output_folder(folder, message) &&
                (!whole || sheet_open(&sheet, selection->count, message)) &&
                draw_all(selection, &canvas, options, &sheet, message) &&
                (!whole || write_rest(selection, options, &sheet, message));

@@ -61,7 +61,89 @@ class Parts(base.Case):
                 self.assertRegex(name, r"^\.lighting-\d+-\d+$")  # of one that was killed
 
 
+    def copy_shaders(self, *names):
+        """Copies of shaders in the folder `mine`: their paths."""
+        os.makedirs(self.path("mine"), exist_ok=True)
+        return [shutil.copy(os.path.join(base.SOURCE, "shaders", name), self.path("mine"))
+                for name in names]
+
+    def edit(self, path):
+        with open(path, "a") as file:
+            file.write("// edited\n")
+
+    def inodes(self, folder):
+        return {name: os.stat(self.path(folder, name)).st_ino for name in os.listdir(self.path(folder))}
+
+
 class Films(Parts):
+    def assert_mixture_is_refused(self, program, draw, changed, change):
+        """After a change between the parts, of the file `changed`."""
+        draw = (*TURN, *draw, "-o", "a.gif")
+        for part in (1, 2):
+            self.good(*draw, "--part", f"{part}/2", program=program)
+            change()
+        self.wrong(1, rf"a\.gif\.parts/000001\.png: was drawn from another {changed} than those before "
+                      "it", *draw, "--merge", program=program)
+        self.assertNotIn("a.gif", os.listdir(self.folder))
+        for part in (1, 2):
+            self.good(*draw, "--part", f"{part}/2", program=program)
+        if os.path.exists(base.MODULE):
+            self.good(*draw, "--merge", program=program)
+            self.good(*draw[:-1], "one.gif", program=program)
+            self.assertTrue(self.read("a.gif") == self.read("one.gif"))
+            os.remove(self.path("a.gif"))
+        shutil.rmtree(self.path("a.gif.parts"))
+
+    def test_parts_of_different_shaders_models_or_programs_are_not_merged(self):
+        lecture, scene = self.copy_shaders("lecture/LightedCube_animation.frag", "lighting/cone.glsl")
+        own = ("--shaders", "mine")
+        self.assert_mixture_is_refused("LightedCube_animation", own,
+                                       r"LightedCube_animation\.frag", lambda: self.edit(lecture))
+        self.assert_mixture_is_refused("FourLights", own, r"cone\.glsl", lambda: self.edit(scene))
+        points = ["v 0 0 0\nv 1 0 0\nv 0 1 0\n"]
+
+        def move():
+            points[0] += "v 0 0 1\n"
+            self.make("a b.obj", points[0] + "f 1 2 3\n" + "f 1 2 4\n" * (points[0].count("v") > 3))
+
+        move()
+        if os.path.exists(os.path.join(base.EXAMPLES, "../common/model_assimp.so")):
+            self.assert_mixture_is_refused("ShadingModels", ("--model", "a b.obj"), r"a b\.obj", move)
+
+    def test_parts_of_different_programs_are_not_merged(self):
+        draw = (*TURN, "--shaders", os.path.join(base.SOURCE, "shaders"), "-o", "a.gif")
+        other = self.path("bin/LightedCube_animation")
+        os.mkdir(self.path("bin"))
+        shutil.copy(os.path.join(base.EXAMPLES, "LightedCube_animation"), other)
+        with open(other, "ab") as file:
+            file.write(b"changed")
+        self.good(*draw, "--part", "1/2", program="LightedCube_animation")
+        subprocess.run([other, *draw, "--part", "2/2"], cwd=self.folder, check=True)
+        self.wrong(1, r"a\.gif\.parts/000001\.png: was drawn from another LightedCube_animation than ",
+                   *draw, "--merge")
+
+    def test_a_part_that_is_run_again_keeps_what_matches(self):
+        lecture = self.copy_shaders("lecture/LightedCube_animation.frag")[0]
+        for output, folder in (("a.gif", "a.gif.parts"), ("numbers/%d.png", "numbers")):
+            os.makedirs(self.path(folder), exist_ok=True)
+            draw = ("--shaders", "mine", "-o", output, "--part", "1/2")
+            self.film(*draw)
+            drawn, pictures = self.inodes(folder), self.everything()
+            names = sorted(drawn, key=lambda name: int(name[:-4]))
+            os.remove(self.path(folder, names[1]))
+            self.make(f"{folder}/{names[2]}", self.read(f"{folder}/{names[2]}")[:-30])
+            self.make(f"{folder}/{names[3]}", self.read(f"{folder}/{names[0]}"))
+            before = self.inodes(folder)
+            self.film(*draw)
+            after = self.inodes(folder)
+            # The first tells what a picture is drawn from.
+            self.assertEqual([name for name in names if after[name] == before.get(name)], names[4:])
+            self.assertTrue(self.everything() == pictures)
+            self.edit(lecture)
+            self.film(*draw)
+            last = self.inodes(folder)
+            self.assertEqual([name for name in names if last[name] == after[name]], [])
+
     def test_pictures_with_numbers_are_those_of_one_run(self):
         self.film("-o", "one%d.png")
         for part in (3, 1, 2):
@@ -157,8 +239,8 @@ class Galleries(Parts):
         command = [os.path.join(base.EXAMPLES, "gallery"), *base.SMALL, *SOME, "-o", "parts"]
         self.gallery(*SOME, "-o", "one", *(("--manifest",) if self.hashes() else ()))
         self.killed(100 if base.LONG else 3, 2, command)
-        self.assert_whole("parts")
-        self.assertNotIn("index.html", os.listdir(self.path("parts")))
+        self.assert_whole("parts.parts")
+        self.assertNotIn("parts", os.listdir(self.folder))
         self.gallery(*SOME, "-o", "parts", "--merge", *(("--manifest",) if self.hashes() else ()))
         names = os.listdir(self.path("one"))
         self.assertEqual(filecmp.cmpfiles(self.path("one"), self.path("parts"), names, False)[1:],
@@ -166,10 +248,23 @@ class Galleries(Parts):
 
     def test_merging_what_is_not_there_fails(self):
         self.gallery("LightedCube", "--part", "1/1", "-o", "g")
-        self.wrong(1, r"g/Materials\.png: cannot read", *base.SMALL, "LightedCube", "Materials",
+        self.wrong(1, r"g\.parts/Materials\.png: cannot read", *base.SMALL, "LightedCube", "Materials",
                    "--merge", "-o", "g", program="gallery")
-        self.wrong(1, r"g/LightedCube\.png: is not of this command", "-s", "41x41", "LightedCube",
+        self.wrong(1, r"g\.parts/LightedCube\.png: is not of this command", "-s", "41x41", "LightedCube",
                    "--merge", "-o", "g", program="gallery")
+        self.assertEqual(os.listdir(self.folder), ["g.parts"])
+
+    def test_parts_of_two_versions_of_a_shader_are_no_gallery(self):
+        mine = self.copy_shaders("lighting/cone.glsl")
+        draw = ("Materials", "ColoredLights", "--shaders", "mine", "-o", "g")
+        self.gallery(*draw, "--part", "1/2")
+        self.edit(mine[0])
+        self.gallery(*draw, "--part", "2/2")
+        self.wrong(1, r"g\.parts/ColoredLights\.png: was drawn from another cone\.glsl ", *base.SMALL,
+                   *draw, "--merge", program="gallery")
+        self.assertNotIn("g", os.listdir(self.folder))
+        self.gallery(*draw, "--part", "1/2")
+        self.gallery(*draw, "--merge")
 
     def hashes(self):
         result = self.run_it("LightedCube", *base.SMALL, "--manifest", "-o", "probe",
