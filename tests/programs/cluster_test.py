@@ -119,6 +119,8 @@ class OneMachine(Cluster):
 
     @needs("ffmpeg")
     def test_make_makes_a_film(self):
+        shader = shutil.copy(os.path.join(base.SOURCE, "shaders/lighting/cone.glsl"),
+                             os.makedirs(self.path("mine")) or self.path("mine"))
         self.make("Makefile", films("$(parts)"))
         self.sh("make", "-j4")
         self.assert_film()
@@ -126,6 +128,12 @@ class OneMachine(Cluster):
         # After an interruption only the parts that have not ended run again.
         os.remove(self.path("lights.part3"))
         self.assertEqual(len(re.findall("--part", self.sh("make", "-j4"))), 1)
+        self.assert_film()
+        # A shader that has changed is in every picture.
+        with open(shader, "a") as file:
+            file.write("// edited\n")
+        os.utime(shader, (time.time() + 1,) * 2)
+        self.assertEqual(len(re.findall("--part", self.sh("make", "-j4"))), 8)
         self.assert_film()
 
     def test_gnu_parallel_judges_a_class(self):
