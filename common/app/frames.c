@@ -56,8 +56,9 @@ static double moment(const Options *options, int i)
     return options->seconds + i / options->fps;
 }
 
-/* Draws picture `i`; or, of a part that is run again, keeps the file if it is what would be drawn.
- * The part's first picture is drawn in any case: only then is known which shader files it reads. */
+/* Draws picture `i`; or, of a part of an animation that is run again, keeps the file if it is what
+ * would be drawn. The part's first picture is drawn in any case: only then is known which shader
+ * files it reads. */
 static bool draw_frame(Renderer *renderer, const Options *options, int i, PictureSources *sources,
                        Picture *picture, bool *kept, Message *message)
 {
@@ -66,7 +67,7 @@ static bool draw_frame(Renderer *renderer, const Options *options, int i, Pictur
     *kept = false;
     if (!frames_path(options, i, picture->path, message))
         return false;
-    if (options->part.count && sources->text[0] && picture->image.type == IMAGE_BYTE) {
+    if (options->keeps && sources->text[0]) {
         picture_texts_set(example, renderer->canvas, options, seconds, picture);
         picture_texts_sources(sources, example, options, picture);
         *kept = picture_texts_kept(picture);
@@ -77,7 +78,7 @@ static bool draw_frame(Renderer *renderer, const Options *options, int i, Pictur
     if (!renderer_picture(renderer, &request, seconds, &picture->image, message))
         return false;
     picture_texts_set(example, renderer->canvas, options, seconds, picture);
-    if (options->numbered)
+    if (options->keeps)
         picture_texts_sources(sources, example, options, picture);
     return true;
 }
@@ -122,6 +123,7 @@ bool frames_find_parts(FrameParts *parts, const Options *options, Message *messa
     size_t length = 0;
     parts->options = *options;
     parts->options.animation = NULL;
+    parts->options.keeps = true;
     parts->options.numbered = true;
     parts->options.output = parts->pictures;
     if (snprintf(parts->folder, sizeof parts->folder, "%s.parts", options->output) >= PATH_MAX)

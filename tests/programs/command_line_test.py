@@ -1340,7 +1340,7 @@ class Gallery(Case):
             still, moving = (self.png(f"{folder}/{name}.png") for name in names)
             self.assertEqual(still.pixels == moving.pixels, bool(time), folder)
         self.gallery(*names, *SMALL, "--part", "2/2", "-o", "part")
-        self.assertEqual(self.png("part/LightedCube_animation.png").texts["Time"], "1 s")
+        self.assertEqual(self.png("part.parts/LightedCube_animation.png").texts["Time"], "1 s")
 
     def test_every_picture_is_the_one_that_its_program_draws(self):
         self.assertEqual(self.gallery(*SMALL, "-o", "pictures"), b"pictures/index.html\n")
