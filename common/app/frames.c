@@ -60,19 +60,19 @@ static double moment(const Options *options, int i)
  * would be drawn. The part's first picture is drawn in any case: only then is known which shader
  * files it reads. */
 static bool draw_frame(Renderer *renderer, const Options *options, int i, PictureSources *sources,
-                       Picture *picture, bool *kept, Message *message)
+                       Picture *picture, Message *message)
 {
     const Example *example = renderer->example;
     const double seconds = moment(options, i);
-    *kept = false;
+    sources->kept = false;
     if (!frames_path(options, i, picture->path, message))
         return false;
     if (options->keeps && sources->text[0]) {
         picture_texts_set(example, renderer->canvas, options, seconds, picture);
         picture_texts_sources(sources, example, options, picture);
-        *kept = picture_texts_kept(picture);
+        sources->kept = picture_texts_kept(picture);
     }
-    if (*kept)
+    if (sources->kept)
         return true;
     const DrawRequest request = options_request(options, example);
     if (!renderer_picture(renderer, &request, seconds, &picture->image, message))
@@ -89,13 +89,13 @@ bool frames_draw(Renderer *renderer, const Options *options, PictureQueue *queue
     Progress progress = progress_start(example->name);
     PictureSources sources = {.files = 0};
     Picture *picture = NULL;
-    bool done = true, kept = false;
+    bool done = true;
     for (int i = 0; i < options->frames && done; i++) {
         if (!part_has(options->part, (uint64_t)i))
             continue;
-        picture = kept ? picture : picture_queue_take(queue);
-        done = draw_frame(renderer, options, i, &sources, picture, &kept, message) &&
-               (kept || picture_queue_give(queue, picture, message));
+        picture = sources.kept ? picture : picture_queue_take(queue);
+        done = draw_frame(renderer, options, i, &sources, picture, message) &&
+               (sources.kept || picture_queue_give(queue, picture, message));
         progress_update(&progress, i + 1, options->frames);
     }
     progress_end(&progress);

@@ -17,6 +17,7 @@ void picture_texts_set(const Example *example, const Canvas *canvas, const Optio
 typedef struct PictureSources {
     char text[PICTURE_SOURCES_SIZE];
     int files; /* read shader files */
+    bool kept; /* the last picture was there already */
 } PictureSources;
 
 /* Brings it up to date after drawing, and gives it to the picture. */
