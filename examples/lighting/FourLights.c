@@ -21,12 +21,12 @@ static bool viewpoint_on = true, red_on = true, green_on = true, blue_on = true,
 static bool base = true;
 static ShapeModel pot;
 static SceneShading shading = {REFLECTION_PHONG, INTERPOLATION_GOURAUD, VIEWER_LOCAL};
-static Surface surface = {.name = MATERIAL_COUNT,
-                          .material = {.ambient = {0.7, 0.7, 0.7},
-                                       .diffuse = {0.7, 0.7, 0.7},
-                                       .specular = {0.2, 0.2, 0.2},
-                                       .alpha = 1,
-                                       .shininess = 32}};
+static int material = MATERIAL_COUNT;
+static const Material OWN = {.ambient = {0.7, 0.7, 0.7},
+                             .diffuse = {0.7, 0.7, 0.7},
+                             .specular = {0.2, 0.2, 0.2},
+                             .alpha = 1,
+                             .shininess = 32};
 
 static const Parameter parameters[] = {
     {"viewpoint", "the dim grey light at the viewer", PARAMETER_SWITCH, .value = &viewpoint_on,
@@ -37,7 +37,8 @@ static const Parameter parameters[] = {
     {"ambient", "global ambient light", PARAMETER_SWITCH, .value = &ambient_on},
     {"base", "the coloured disc below the teapot", PARAMETER_SWITCH, .value = &base},
     DIVISIONS_PARAMETER(pot),
-    MATERIAL_PARAMETER(surface),
+    {"material", "of the teapot; none: its own", PARAMETER_CHOICE, .value = &material,
+     .choices = MATERIAL_NAMES},
     SHADING_PARAMETERS(shading),
     {.name = NULL},
 };
@@ -143,7 +144,7 @@ static void scene(double seconds, int view, Scene *scene)
                               .specular = {0.5, 0.5, 0.5}};
     state.objects[0] =
         shape_object(&state.teapot, mat4_product(raised, mat4_scale((Vec3){SIZE, SIZE, SIZE})),
-                     surface.material);
+                     material < MATERIAL_COUNT ? MATERIALS[material].material : OWN);
     for (int i = 0; i < COLORED; i++)
         colored_light(seconds, i);
     base_object();

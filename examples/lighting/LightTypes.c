@@ -11,9 +11,10 @@
 
 static double constant = 0.2, linear = 0.2, quadratic = 0.2, cutoff = 25, exponent = 40;
 
-static Surface surface = {
-    .name = MATERIAL_COUNT, /* that of red_plastic */
-    .material = {.diffuse = {0.5, 0, 0}, .specular = {0.7, 0.6, 0.6}, .alpha = 1, .shininess = 32}};
+static int material = MATERIAL_COUNT;
+/* That of red_plastic. */
+static const Material OWN = {
+    .diffuse = {0.5, 0, 0}, .specular = {0.7, 0.6, 0.6}, .alpha = 1, .shininess = 32};
 static LightColors light_colors = {.diffuse = {1, 1, 1}, .specular = {0.6, 0.6, 0.6}};
 static Vec3 global_ambient = {0.2, 0.2, 0.2};
 static SceneShading shading = {REFLECTION_BLINN_PHONG, INTERPOLATION_PHONG, VIEWER_LOCAL};
@@ -28,7 +29,8 @@ static const Parameter parameters[] = {
     {"cutoff", "half the spot's angle, in degrees", PARAMETER_NUMBER, .value = &cutoff, .min = 0,
      .max = 90},
     {"exponent", "the spot's falloff", PARAMETER_NUMBER, .value = &exponent, .min = 0, .max = 128},
-    MATERIAL_PARAMETER(surface),
+    {"material", "of the sphere; none: its own", PARAMETER_CHOICE, .value = &material,
+     .choices = MATERIAL_NAMES},
     SHADING_PARAMETERS(shading),
     LIGHT_PARAMETERS(light_colors, global_ambient),
     {.name = NULL},
@@ -70,11 +72,12 @@ static void scene(double seconds, int view, Scene *scene)
     const Mat4 below = mat4_translate((Vec3){0, -1, -0.7});
     const Mat4 large = mat4_scale((Vec3){3.3, 3.3, 3.3});
     state.light = light(seconds, view);
-    state.objects[0] = (Object){.mesh = &state.sphere,
-                                .solid = {.kind = SOLID_SPHERE, .radius = 1},
-                                .closed = true,
-                                .world_from_object = mat4_identity(),
-                                .front = surface.material};
+    state.objects[0] =
+        (Object){.mesh = &state.sphere,
+                 .solid = {.kind = SOLID_SPHERE, .radius = 1},
+                 .closed = true,
+                 .world_from_object = mat4_identity(),
+                 .front = material < MATERIAL_COUNT ? MATERIALS[material].material : OWN};
     state.objects[1] =
         (Object){.mesh = &state.floor,
                  .solid = {.kind = SOLID_QUAD},
