@@ -1,9 +1,11 @@
 "use strict";
-/* The shader files in a text field with numbered lines, under the same text in colours; what has an error is marked. The
- * texts are kept on this device, if it lets us. */
+/* The shader files in a text field with numbered lines, under the same text in colours; what has an error is marked. Only
+ * the lines that show have numbers and colours, so that a change costs the same in any text. The texts are kept on this
+ * device, if it lets us; a text that another tab keeps is this tab's, too. */
 const Editor = (() => {
     const WAIT = 300; /* ms after the last key */
-    const COLOURED = 50000; /* letters; longer texts have no colours */
+    const COLOURED = 50000; /* letters; more that show at once have no colours */
+    const MOST = 5000; /* of them, where drawing takes long: twice its time */
     const INDENT = 4;
     const NOT_KEPT = " This browser keeps nothing: save your text before you leave.";
     const {element} = Controls;
@@ -14,40 +16,73 @@ const Editor = (() => {
         "sampler2D|samplerCube|true|false";
     const TOKENS = new RegExp("(//.*|/\\*[^]*?(?:\\*/|$(?![^])))|(^[ \\t]*#[ \\t]*\\w*|\\bgl_\\w+)|\\b(" + WORDS +
                               ")\\b|(\\b\\d[\\w.]*|\\.\\d+|\"[^\"\\n]*\")", "gm");
+    const COMMENTS = /\/\/.*|\/\*[^]*?(?:\*\/|$)/g;
     const KINDS = ["comment", "special", "word", "number"];
 
-    /* The text as spans and strings. */
-    function coloured(text) {
+    /* The text between two places as spans and strings; a comment may begin before them. */
+    function coloured(text, from, to) {
         const pieces = [];
-        let at = 0;
-        for (const match of text.matchAll(TOKENS)) {
+        let at = from;
+        TOKENS.lastIndex = beginning(text, from);
+        for (let match; (match = TOKENS.exec(text)) && match.index < to;) {
             const kind = KINDS[match.slice(1).findIndex(part => part !== undefined)];
-            pieces.push(text.slice(at, match.index), element("span", {class: kind}, match[0]));
-            at = match.index + match[0].length;
+            const start = Math.max(match.index, from), end = Math.min(TOKENS.lastIndex, to);
+            if (end > from) {
+                pieces.push(text.slice(at, start), element("span", {class: kind}, text.slice(start, end)));
+                at = end;
+            }
         }
-        return [...pieces, text.slice(at)];
+        return [...pieces, text.slice(at, to)];
     }
 
-    function stored(key) {
+    /* Where the comment begins that goes on at a line's beginning; else the line's. */
+    function beginning(text, at) {
+        for (const match of text.slice(0, at).matchAll(COMMENTS))
+            if (match.index + match[0].length >= at && !match[0].startsWith("//"))
+                return match.index;
+        return at;
+    }
+
+    /* The texts are kept one by one, so that several tabs keep theirs: a file's key is the page's and its name. */
+    const place = (key, name) => key + ": " + name;
+
+    /* null: nothing is kept, or can be. */
+    function recall(key, name) {
         try {
-            const pairs = JSON.parse(localStorage.getItem(key) || "[]");
-            return new Map(pairs.filter(pair => Array.isArray(pair) && pair.length === 2 &&
-                                                pair.every(text => typeof text === "string")));
+            return localStorage.getItem(place(key, name));
         } catch {
-            return new Map();
+            return null;
         }
     }
 
     /* False if nothing can be kept. */
-    function store(key, texts) {
+    function keep(key, name, text) {
         try {
-            if (texts.size)
-                localStorage.setItem(key, JSON.stringify([...texts]));
+            if (text === null)
+                localStorage.removeItem(place(key, name));
             else
-                localStorage.removeItem(key);
+                localStorage.setItem(place(key, name), text);
             return true;
         } catch {
-            return false;
+            return text === null;
+        }
+    }
+
+    /* The names of all files of which a text is kept. Earlier versions kept them all in one. */
+    function kept(key) {
+        try {
+            const before = localStorage.getItem(key);
+            localStorage.removeItem(key);
+            for (const pair of JSON.parse(before || "[]") || [])
+                if (Array.isArray(pair) && pair.length === 2 && pair.every(text => typeof text === "string") &&
+                    !keep(key, ...pair))
+                    localStorage.setItem(key, before);
+        } catch { /* then it is none of ours */ }
+        try {
+            const start = place(key, "");
+            return Object.keys(localStorage).filter(name => name.startsWith(start)).map(name => name.slice(start.length));
+        } catch {
+            return [];
         }
     }
 
@@ -69,50 +104,92 @@ const Editor = (() => {
         const field = part("source"), gutter = part("gutter"), files = part("files"), list = part("errors");
         const live = part("live"), said = part("said"), colours = part("colours");
         const originals = new Map(shaders.map(({name, text}) => [name, text]));
-        const names = [...originals.keys()], edited = new Map(), others = stored(key);
-        let marks = [], timer = 0, inside = false;
+        const names = [...originals.keys()], edited = new Map();
+        const seen = new Map(names.map(name => [name, null])); /* what is kept of each */
+        let marks = [], timer = 0, pending = false, notKept = "", inside = false, took = 0;
 
-        /* Others may be read with other options. */
-        for (const name of names.filter(name => others.has(name))) {
-            edited.set(name, others.get(name));
-            others.delete(name);
-        }
-        const keep = () => store(key, new Map([...edited, ...others])) || !edited.size;
         const text = name => edited.has(name) ? edited.get(name) : originals.get(name);
 
-        function number() {
-            const wrong = new Map();
+        /* The files whose kept text is not ours: another tab's, or that of last time. */
+        function recallAll() {
+            return names.filter(name => {
+                const now = recall(key, name);
+                if (now === seen.get(name))
+                    return false;
+                seen.set(name, now);
+                if (now === null)
+                    edited.delete(name);
+                else
+                    edited.set(name, now);
+                return true;
+            });
+        }
+
+        /* As it is laid out, which is not quite what the style says. */
+        function lineHeight(value) {
+            const style = getComputedStyle(field), padding = parseFloat(style.paddingTop) + parseFloat(style.paddingBottom);
+            let count = 1;
+            for (let at = -1; (at = value.indexOf("\n", at + 1)) >= 0;)
+                count++;
+            return field.scrollHeight > field.clientHeight ? (field.scrollHeight - padding) / count :
+                parseFloat(style.lineHeight) || 19;
+        }
+
+        function keepOne(name, value) {
+            const done = keep(key, name, value);
+            notKept = done ? "" : NOT_KEPT;
+            if (done)
+                seen.set(name, value);
+        }
+
+        /* Lines are numbered and coloured where they show. */
+        function show() {
+            const value = field.value, height = lineHeight(value);
+            const first = Math.max(0, Math.floor(field.scrollTop / height) - 1);
+            const last = first + Math.ceil(field.clientHeight / height) + 2;
+            let line = 0, from = 0;
+            while (line < first && value.indexOf("\n", from) >= 0) {
+                from = value.indexOf("\n", from) + 1;
+                line++;
+            }
+            const wrong = new Map(), numbers = [];
             for (const {name, line, text} of marks)
                 if (name === files.value)
                     wrong.set(line, (wrong.has(line) ? wrong.get(line) + "\n" : "") + text);
-            const count = field.value.split("\n").length;
-            gutter.replaceChildren(...Array.from({length: count}, (_, i) =>
-                element("span", wrong.has(i + 1) ? {class: "wrong", title: wrong.get(i + 1)} : {},
-                        (wrong.has(i + 1) ? "✖ " : "") + (i + 1) + "\n")));
-            scroll();
-        }
-
-        function scroll() {
-            gutter.scrollTop = field.scrollTop;
-            colours.firstChild.style.transform = "translate(" + -field.scrollLeft + "px, " + -field.scrollTop + "px)";
-        }
-
-        function colour() {
-            const plain = field.value.length > COLOURED;
+            const shift = line * height - field.scrollTop;
+            let to = from;
+            for (; line < last && to >= 0; line++) {
+                const number = line + 1;
+                numbers.push(element("span", wrong.has(number) ? {class: "wrong", title: wrong.get(number)} : {},
+                                     (wrong.has(number) ? "✖ " : "") + number + "\n"));
+                to = value.indexOf("\n", to) + 1 || -1;
+            }
+            to = to < 0 ? value.length : to;
+            const plain = to - from > COLOURED;
             field.classList.toggle("plain", plain);
-            colours.firstChild.replaceChildren(...plain ? [] : coloured(field.value));
+            colours.firstChild.replaceChildren(...plain ? [] : coloured(value, from, to));
+            colours.firstChild.style.transform = "translate(" + -field.scrollLeft + "px, " + shift + "px)";
+            gutter.firstChild.replaceChildren(...numbers);
+            gutter.firstChild.style.transform = "translate(0, " + shift + "px)";
         }
 
-        function show() {
-            field.value = text(files.value);
-            colour();
-            number();
+        /* Once a frame. */
+        function showSoon() {
+            if (!pending)
+                requestAnimationFrame(() => { pending = false; show(); });
+            pending = true;
+        }
+
+        function put(name) {
+            files.value = name;
+            field.value = text(name);
+            show();
         }
 
         /* The cursor to a line's beginning. */
         function go({name, line}) {
-            files.value = name;
-            show();
+            if (files.value !== name)
+                put(name);
             const lines = field.value.split("\n"), at = lines.slice(0, line - 1).join("\n").length + (line > 1 ? 1 : 0);
             field.focus();
             inside = true;
@@ -132,39 +209,47 @@ const Editor = (() => {
             const count = bad ? "Errors: " + bad + "\n" : "Warnings: " + marks.length + "\n";
             said.textContent = marks.length ? count + message.split("\n").filter(line =>
                 !/^[\w./-]+:\d+: |^ *\d+ \| /.test(line)).join("\n") : message || (edited.size ? "Drawn with your text." : "");
-            number();
+            said.textContent += notKept;
+            show();
         }
 
         const texts = () => edited.size ? new Map(names.map(name => [name, text(name)])) : new Map();
 
         async function run() {
             clearTimeout(timer);
-            const kept = keep();
-            const message = await apply(texts());
-            if (message === null)
-                return;
-            tell(message);
-            if (!kept)
-                said.textContent += NOT_KEPT;
+            const start = performance.now(), message = Loops.refuse(texts()) || await apply(texts());
+            took = performance.now() - start;
+            if (message !== null)
+                tell(message);
         }
 
         function change() {
+            const name = files.value, value = field.value, same = value === originals.get(name);
             inside = true;
-            if (field.value === originals.get(files.value))
-                edited.delete(files.value);
+            if (same)
+                edited.delete(name);
             else
-                edited.set(files.value, field.value);
-            colour();
-            number();
-            if (!keep())
-                said.textContent = NOT_KEPT;
+                edited.set(name, value);
+            keepOne(name, same ? null : value);
+            if (notKept)
+                said.textContent = notKept;
+            showSoon();
             clearTimeout(timer);
             if (live.checked)
-                timer = setTimeout(run, WAIT);
+                timer = setTimeout(run, Math.min(MOST, Math.max(WAIT, 2 * took)));
+        }
+
+        /* What another tab has kept is shown; what is drawn changes when something is typed here. */
+        function join() {
+            const changed = recallAll();
+            if (changed.includes(files.value) && field.value !== text(files.value))
+                put(files.value);
+            if (changed.length)
+                said.textContent = "Your text of another tab; Apply draws with it.";
         }
 
         /* Types over a part of the text, so that it can be undone. */
-        function put(from, to, text) {
+        function type(from, to, text) {
             field.setSelectionRange(from, to);
             if ((from < to || text) && !document.execCommand(text ? "insertText" : "delete", false, text)) {
                 field.setRangeText(text, from, to, "end");
@@ -177,7 +262,7 @@ const Editor = (() => {
         /* A new line begins as the one before. */
         function breakLine() {
             const {selectionStart: start, selectionEnd: end, value} = field;
-            put(start, end, "\n" + value.slice(lineStart(start), start).match(/^[ \t]*/)[0]);
+            type(start, end, "\n" + value.slice(lineStart(start), start).match(/^[ \t]*/)[0]);
         }
 
         /* The cursor, or the selected lines. */
@@ -185,13 +270,13 @@ const Editor = (() => {
             const {selectionStart: start, selectionEnd: end, value} = field, first = lineStart(start);
             const several = value.slice(start, end).includes("\n");
             if (!back && !several)
-                return put(start, end, " ".repeat(INDENT - (start - first) % INDENT));
+                return type(start, end, " ".repeat(INDENT - (start - first) % INDENT));
             const found = value.indexOf("\n", Math.max(start, end - 1)), last = found < 0 ? value.length : found;
             const before = value.slice(first, last);
             const after = back ? before.replace(/^(?:\t| {1,4})/gm, "") : before.replace(/^(?=.)/gm, " ".repeat(INDENT));
             if (after === before)
                 return;
-            put(first, last, after);
+            type(first, last, after);
             if (several)
                 field.setSelectionRange(first, first + after.length);
             else
@@ -215,31 +300,36 @@ const Editor = (() => {
         }
 
         function revert() {
-            const lost = [...edited.keys(), ...others.keys()];
+            const lost = [...new Set([...edited.keys(), ...kept(key)])];
             if (lost.length && !confirm("Discard your text of " + lost.join(", ") + "?"))
                 return;
+            for (const name of lost)
+                keepOne(name, null);
             edited.clear();
-            others.clear();
-            show();
+            put(files.value);
             run();
         }
 
         const save = () => Controls.save(files.value.replace(/.*\//, ""), new Blob([field.value], {type: "text/plain"}));
 
         files.append(...names.map(name => element("option", {value: name}, name)));
-        files.addEventListener("change", show);
+        gutter.append(element("span"));
+        files.addEventListener("change", () => put(files.value));
         field.addEventListener("input", change);
-        field.addEventListener("scroll", scroll);
+        field.addEventListener("scroll", show);
         field.addEventListener("keydown", press);
         field.addEventListener("pointerdown", () => { inside = true; });
         field.addEventListener("blur", () => { inside = false; });
+        new ResizeObserver(showSoon).observe(field);
+        for (const kind of ["storage", "focus", "pageshow"])
+            window.addEventListener(kind, join);
         part("apply").addEventListener("click", run);
         part("revert").addEventListener("click", revert);
         part("save").addEventListener("click", save);
+        kept(key);
+        recallAll();
         const last = [...edited.keys()][0];
-        if (last)
-            files.value = last;
-        show();
+        put(last || files.value);
         /* Not applied: if it hung the page, it would again. */
         if (last)
             said.textContent = "Your text of last time; Apply draws with it.";

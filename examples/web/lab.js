@@ -101,9 +101,14 @@ const Lab = (() => {
 
     /* As natively: other scenes each time. */
     async function check(seed = crypto.getRandomValues(new Uint32Array(1))[0] & 0x7fffffff) {
+        lab.texts = lab.editor.texts();
+        const refused = Loops.refuse(lab.texts);
+        if (refused) {
+            part("result").replaceChildren(element("p", {class: "error"}, refused));
+            return {message: refused};
+        }
         part("check").disabled = true;
         part("result").textContent = "Checking...";
-        lab.texts = lab.editor.texts();
         const answer = await ask({what: "check", seed});
         part("check").disabled = false;
         if (!answer || answer.message) {
@@ -145,10 +150,14 @@ const Lab = (() => {
         lab.files = answer.labs.find(({name}) => name === lab.name).files;
         lab.editor = Editor.open(part("editor"), "lighting " + lab.name, lab.files, apply);
         listen();
-        /* The text of last time is drawn, unless it hung the page. */
-        const message = hung && lab.editor.edited() ? await draw(true) : await lab.editor.run();
+        part("time").value = part("slider").value = lab.seconds; /* a browser may have filled in others */
+        /* The text of last time is drawn, unless it hung the page, or would. */
+        const refused = Loops.refuse(lab.editor.texts());
+        const message = (hung && lab.editor.edited()) || refused ? await draw(true) : "";
         if (message)
             throw message;
+        if (refused || !hung || !lab.editor.edited())
+            await lab.editor.run();
         document.body.dataset.ready = "yes";
     }
 

@@ -22,6 +22,7 @@ function startWorker(work) {
 class Engine {
     static async open(compiled, canvas) {
         const engine = new Engine();
+        Engine.drawColourless();
         engine.lines = [];
         /* Emscripten waits for done() for ever. */
         engine.module = await new Promise((resolve, reject) => lightingFactory()({
@@ -34,6 +35,20 @@ class Engine {
             },
         }).then(resolve, reject));
         return engine;
+    }
+
+    /* A fragment shader that sets no colour draws whatever there is; WebGL fails instead. It draws nothing visible here. */
+    static drawColourless() {
+        const context = self.WebGL2RenderingContext && WebGL2RenderingContext.prototype;
+        if (!context || Engine.source)
+            return;
+        const source = Engine.source = context.shaderSource;
+        context.shaderSource = function (shader, text) {
+            const words = text.replace(/\/\/.*|\/\*[^]*?\*\//g, " ");
+            const colourless = /\bmain\b/.test(words) && !/\bgl_Frag(Color|Data)\b/.test(words);
+            source.call(this, shader, colourless && this.getShaderParameter(shader, this.SHADER_TYPE) === this.FRAGMENT_SHADER ?
+                text.replace(/\bmain\b/g, "page_main") + "\nvoid main() { page_main(); gl_FragColor = vec4(0); }" : text);
+        };
     }
 
     text(name, ...values) { return this.module.ccall("page_" + name, "string", values.map(() => "string"), values); }

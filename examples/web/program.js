@@ -10,7 +10,6 @@ const Page = (() => {
         name: document.body.dataset.program,
         engine: null, program: null, compiled: null,
         values: new Map(), /* of options, as the link has them */
-        good: new Map(),   /* the last that could be drawn */
         texts: new Map(),  /* of edited shaders */
         seconds: 0, orbit: [0, 0, 1, 0],
         playing: false, last: 0, times: [], picture: null, scheduled: false, controls: null,
@@ -27,46 +26,52 @@ const Page = (() => {
         return [page.name, ...[...values].map(([name, value]) => "--" + name + (value === true ? "" : "=" + value))];
     }
 
+    /* What time and camera come to by playing and dragging has few digits, and is drawn as the link and the command have it;
+     * what was typed or in a link is drawn with all of its own. */
+    const rounded = (x, digits = 1e3) => Math.round(x * digits) / digits || 0;
+
     /* Time and camera as numbers; they change from frame to frame. */
     function current() {
-        const values = new Map(page.values);
-        const orbit = page.orbit.map(x => +x.toFixed(3));
+        const values = new Map(page.values), {seconds, orbit} = page;
         values.delete("time");
         values.delete("orbit");
-        if (page.seconds)
-            values.set("time", String(+page.seconds.toFixed(3)));
+        if (seconds)
+            values.set("time", String(seconds));
         if (orbit[0] || orbit[1] || orbit[2] !== 1 || orbit[3])
             values.set("orbit", orbit.join(","));
         return values;
     }
 
-    /* Opens the program with page.values; "" or why it cannot be drawn so. */
+    /* Opens the program with page.values; "" or why it cannot be. */
     function reopen() {
-        if (page.engine.run(lines(page.values)) === 0)
-            return "";
-        return page.engine.message || "cannot be drawn";
+        return page.engine.run(lines(page.values)) === 0 ? "" : page.engine.message || "cannot be drawn";
     }
 
-    /* The same; on failure the picture stays that of the values before. */
-    function update() {
-        const message = reopen();
+    /* Opens and draws with other values, or the same; "", or why not, and then nothing changes: not the link either. */
+    function update(next = {}) {
+        const {values, seconds, orbit} = page;
+        Object.assign(page, next);
+        const message = reopen() || takeAngle() || tryDraw();
         page.controls.blame(message);
         fail(message);
         if (message) {
-            page.values = new Map(page.good);
+            Object.assign(page, {values, seconds, orbit});
             reopen();
+            setLink(page.noted);
             return message;
         }
-        const values = page.engine.json("values");
-        /* An angle is a time. */
-        if (page.values.delete("angle"))
-            page.seconds = Number(values.time);
-        page.good = new Map(page.values);
+        const shown = page.engine.json("values");
         for (const option of page.program.options)
             if (option.kind === "flag")
-                values[option.name] = page.values.get(option.name) === true;
-        page.controls.show(values);
-        draw();
+                shown[option.name] = page.values.get(option.name) === true;
+        page.controls.show(shown);
+        return "";
+    }
+
+    /* An angle is a time. */
+    function takeAngle() {
+        if (page.values.delete("angle"))
+            page.seconds = Number(page.engine.json("values").time);
         return "";
     }
 
@@ -96,20 +101,27 @@ const Page = (() => {
         part("frame").textContent = sorted[sorted.length >> 1].toFixed(1) + " ms";
     }
 
-    function draw() {
+    /* "" or why it cannot be drawn. */
+    function tryDraw() {
         const start = performance.now();
-        if (!page.engine.draw(page.seconds, page.orbit)) {
-            fail(page.engine.message);
-            setPlaying(false);
-            return;
-        }
+        if (!page.engine.draw(page.seconds, page.orbit))
+            return page.engine.message || "cannot be drawn";
         paint(page.engine.picture());
         tellTime(performance.now() - start);
         part("command").textContent = page.engine.text("command");
-        part("time").value = +page.seconds.toFixed(3);
+        part("time").value = page.seconds;
         part("slider").value = ((page.seconds % TURN) + TURN) % TURN;
         if (!page.playing)
             note();
+        return "";
+    }
+
+    function draw() {
+        const message = tryDraw();
+        if (message) {
+            fail(message);
+            setPlaying(false);
+        }
     }
 
     /* What is said of a picture at rest, once. */
@@ -124,9 +136,7 @@ const Page = (() => {
             part("compared").textContent = "The picture has changed since it was compared.";
         }
         ErrorWorker.cancel("The picture has changed; compare again.");
-        try {
-            history.replaceState(null, "", "#" + link);
-        } catch { /* too often, or not allowed: the link is then an earlier one */ }
+        setLink(link);
     }
 
     /* Once a frame, however many events there are. */
@@ -137,8 +147,9 @@ const Page = (() => {
         requestAnimationFrame(now => {
             page.scheduled = false;
             if (page.playing) {
-                page.seconds += Math.min(0.25, Math.max(0, now - page.last) / 1000);
-                page.last = now;
+                const passed = Math.round(Math.max(0, now - page.last));
+                page.seconds = rounded(page.seconds + Math.min(250, passed) / 1000);
+                page.last += passed;
             }
             draw();
             if (page.playing)
@@ -167,10 +178,9 @@ const Page = (() => {
 
     function turn(azimuth, elevation, factor, roll = 0) {
         const limit = (x, min, max) => Math.min(max, Math.max(min, x));
-        page.orbit = [(page.orbit[0] + azimuth) % 360, limit(page.orbit[1] + elevation, -90, 90),
-                      limit(page.orbit[2] * factor, 0.01, 100), (page.orbit[3] + roll) % 360];
-        const shown = page.orbit.map(x => +x.toFixed(3)).join(",");
-        page.controls.show({...page.engine.json("values"), orbit: shown});
+        page.orbit = [rounded((page.orbit[0] + azimuth) % 360), rounded(limit(page.orbit[1] + elevation, -90, 90)),
+                      rounded(limit(page.orbit[2] * factor, 0.01, 100), 1e6), rounded((page.orbit[3] + roll) % 360)];
+        page.controls.show({...page.engine.json("values"), orbit: page.orbit.join(",")});
         schedule();
     }
 
@@ -270,15 +280,22 @@ const Page = (() => {
         return values;
     }
 
-    /* What is refused changes neither time nor camera. */
+    let late = 0;
+
+    /* A browser that refuses, because there were too many, is asked again. */
+    function setLink(link = "") {
+        const before = location.hash;
+        clearTimeout(late);
+        try {
+            history.replaceState(null, "", "#" + link);
+        } catch { /* it is as before */ }
+        if (location.hash === before && before.slice(1) !== link)
+            late = setTimeout(() => setLink(page.noted), 1000);
+    }
+
     function start(values, seconds = Number(values.get("time") || 0),
                    orbit = readOrbit(values.get("orbit")) || [0, 0, 1, 0]) {
-        const before = {seconds: page.seconds, orbit: page.orbit};
-        Object.assign(page, {values, seconds, orbit});
-        const message = update();
-        if (message)
-            Object.assign(page, before);
-        return message;
+        return update({values, seconds, orbit});
     }
 
     function listTries() {
@@ -330,8 +347,8 @@ const Page = (() => {
         canvas.addEventListener("keydown", press);
         listenToPointers(canvas);
         click("play", () => play(!page.playing));
-        click("back", () => setTime(page.seconds - 0.1));
-        click("forward", () => setTime(page.seconds + 0.1));
+        click("back", () => setTime(rounded(page.seconds - 0.1)));
+        click("forward", () => setTime(rounded(page.seconds + 0.1)));
         click("reset", reset);
         click("save", save);
         click("default", () => start(new Map()));
@@ -345,13 +362,14 @@ const Page = (() => {
         }
     }
 
-    /* A link's options; if they are wrong the picture is that without them. */
+    /* A link's options; if they are wrong the picture and the link are those without them. */
     function follow() {
         let message;
         try {
             message = start(Link.read(location.hash));
         } catch (error) {
             message = String(error);
+            setLink(page.noted);
         }
         if (message && !page.picture)
             start(new Map());
@@ -363,7 +381,7 @@ const Page = (() => {
         if (!page.engine.replace(texts))
             return page.engine.message;
         page.texts = texts;
-        const message = reopen() || (page.engine.draw(page.seconds, page.orbit) ? "" : page.engine.message);
+        const message = reopen() || tryDraw();
         if (message) {
             page.engine.replace(page.drawn);
             page.texts = page.drawn;
@@ -371,7 +389,6 @@ const Page = (() => {
             return message.replace(/\/tmp\/shaders\//g, "");
         }
         page.drawn = texts;
-        draw();
         return page.engine.message.replace(/\/tmp\/shaders\//g, "");
     }
 

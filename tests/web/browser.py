@@ -69,11 +69,27 @@ class Browser(Page):
         os.close(theirs_out)
         self.output, self.input = ours_out, os.fdopen(ours_in, "rb")
         self.number, self.session, self.events, self.rest = 0, None, [], b""
+        self.size = size
+        self.new_tab()
+
+    def new_tab(self):
+        """Goes on in another tab; returns that of before, for `show_tab`."""
+        before, self.session = self.session, None
         target = self.call("Target.createTarget", url="about:blank")["targetId"]
         self.session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
         for domain in ("Page", "Runtime", "Log", "Network"):
             self.call(domain + ".enable")
-        self.resize(*size)
+        self.resize(*self.size)
+        return before
+
+    def show_tab(self, session):
+        """One that is not shown draws no frames."""
+        self.session = session
+        self.call("Page.bringToFront")
+
+    def close_tab(self, then):
+        self.call("Page.close")
+        self.show_tab(then)
 
     def close(self):
         try:

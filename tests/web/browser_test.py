@@ -31,7 +31,7 @@ import sizes
 import firefox_pages
 from firefox_pages import InFirefox
 from labs_pages import Accessible, Labs, Verdicts
-from pages import EXAMPLES, RENDERER, SITE, SOURCE, Case, address, differences, make, native
+from pages import CONFIRM, EXAMPLES, RENDERER, SITE, SOURCE, Case, address, differences, make, native
 
 # Draws by a module of its own: no page in between.
 HARNESS = """(async () => {
@@ -218,6 +218,7 @@ class Pages(Case):
             self.page.run(f"location.hash = {json.dumps(link)}")
             self.page.wait("document.getElementById('error').textContent")
             self.assertEqual(self.page.run(state), good, link)
+            self.assertEqual(self.page.run("location.hash"), "#time=2&orbit=10,20,1,0")
             self.page.run("document.getElementById('error').textContent = ''")
         self.page.run("""(() => {
             const field = document.getElementById("option-orbit");
@@ -230,6 +231,101 @@ class Pages(Case):
         self.page.click("#back")
         self.settle()
         self.assertEqual(self.shown(), before)
+
+    def test_a_refused_link_is_not_in_the_address_bar(self):
+        for link in ("material=gold&bogus=1", "time=5&shininess=1000", "orbit=10,20&=1", "alpha=5"):
+            self.open("Materials", link)
+            self.assertTrue(self.text("#error"))
+            self.assertEqual(self.page.run("[location.hash, Page.page.seconds, String(Page.page.orbit)]"), ["", 0, "0,0,1,0"])
+            self.assert_native()
+
+    def test_link_command_and_picture_are_one(self):
+        """Whatever time and camera came from."""
+        def one(what):
+            self.assert_native()
+            shown = self.shown()
+            link = self.page.run("location.href")
+            self.page.open(link)
+            self.assertEqual(self.shown(), shown, (what, link))
+            self.assert_native()
+        self.open("FourLights", "time=1.23456789&orbit=12.3456789,-7.654321,0.987654321,3.14159265")
+        one("a link")
+        self.open("FourLights")
+        self.page.click("#play")
+        self.page.wait("Page.page.seconds > 0.3")
+        self.page.click("#play")
+        one("playing")
+        self.page.run("document.getElementById('picture').focus()")
+        for script in ("Page.page.orbit[2]", "Page.page.orbit[2]"):
+            for key in ("ArrowRight", "+", "+", "+"):
+                self.page.key(key)
+            self.page.drag("#picture", 7, 3)
+            one("the camera")
+            self.assertNotEqual(self.page.run(script), 1)
+            self.page.run("document.getElementById('picture').focus()")
+        self.page.run("""(canvas => { canvas.focus(); canvas.dispatchEvent(new WheelEvent("wheel", {deltaY: 37})); })(
+            document.getElementById("picture"))""")
+        one("the wheel")
+        self.page.run("document.getElementById('time').value = ''")
+        self.page.click("#time")
+        self.page.type("2.71828182845")
+        self.page.key("Tab")
+        one("a time that was typed")
+
+    def test_options_that_are_unset_leave_nothing(self):
+        """Each control of each page, set and unset by itself, and all of them by Default options."""
+        set_and_unset = """(() => {
+            const canvas = document.getElementById("picture"), wrong = [];
+            const shown = () => new Uint32Array(canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height)
+                .data.buffer).reduce((hash, pixel) => Math.imul(hash ^ pixel, 16777619), canvas.width);
+            const put = (input, value) => {
+                input[input.type === "checkbox" ? "checked" : "value"] = value;
+                input.dispatchEvent(new Event("input"));
+            };
+            const standard = shown(), small = () => Page.start(new Map([["size", "60x40"]]));
+            small();
+            const fresh = shown();
+            let count = 0;
+            for (const {name, kind, choices, min, max, value} of Page.page.program.options) {
+                const input = document.getElementById("option-" + name);
+                if (!input || name === "size")
+                    continue;
+                const others = kind === "flag" ? [true] : choices.length ? choices.filter(one => one !== value).slice(0, 3) :
+                    kind === "color" ? ["0.9,0.1,0.3", "0,1,2,3"] : min !== undefined ? [min, Math.min(max, min + 37)] :
+                    ["1", "0,1,2,3"];
+                for (const other of others) {
+                    const none = kind === "flag" ? false : choices.length && kind !== "text" ? value : "";
+                    const same = (picture, what) => shown() === picture || wrong.push([name, other, what].join(" "));
+                    put(input, other);
+                    const refused = document.getElementById("error").textContent, set = shown();
+                    put(input, none);
+                    if (name !== "angle") /* which has become the time */
+                        same(fresh, "unset");
+                    if (refused)
+                        continue;
+                    count++;
+                    put(input, other);
+                    same(set, "again");
+                    document.getElementById("default").click();
+                    same(standard, "Default options");
+                    if (Page.page.noted !== "")
+                        wrong.push(Page.page.noted);
+                    small();
+                }
+            }
+            return {wrong, count};
+        })()"""
+        self.open("LightedCube")
+        count = 0
+        for program in self.programs():
+            self.open(program["name"])
+            with self.subTest(program["name"]):
+                found = self.page.run(set_and_unset)
+                self.assertEqual(found["wrong"], [])
+                # A browser takes some links a second.
+                self.page.wait("location.hash === '#size=60x40'")
+                count += found["count"]
+        self.assertGreater(count, 350)
 
     def test_the_camera_by_mouse_touch_and_keys(self):
         self.open("FourLights")
@@ -327,16 +423,16 @@ class Pages(Case):
                 field.dispatchEvent(new Event("scroll"));
                 const a = field.getBoundingClientRect(), b = shown.getBoundingClientRect();
                 const words = [...shown.children].map(span => span.className + " " + span.textContent);
-                return [shown.textContent === field.value, style(field) === style(shown), b.left - a.left, b.top - a.top,
+                return [field.value.includes(shown.textContent), style(field) === style(shown), b.left - a.left, b.top - a.top,
                         field.scrollLeft, field.scrollTop, words];
             })()""")
             self.assertEqual(said[:2], [True, True])
-            self.assertEqual(said[2:4], [-said[4], -said[5]])
+            self.assertEqual(said[2:4], [-said[4], -said[5]])  # from the first line, which is above the field
             self.assertGreater(said[5], 0)
             for word in ("special #define", "number 1.0", "comment /* <b> */", "word void", "special gl_Position"):
                 self.assertIn(word, said[6])
-        # A long text has none: it is to be typed in without a pause.
-        self.page.run("(field => { field.value += '/'.repeat(60000); field.dispatchEvent(new Event('input')); })"
+        # A long line has none: it is to be typed in without a pause.
+        self.page.run("(field => { field.value = '/'.repeat(60000); field.dispatchEvent(new Event('input')); })"
                       "(document.querySelector('.source'))")
         self.assertEqual(self.text(".colours"), "")
         self.assertNotEqual(self.page.run("getComputedStyle(document.querySelector('.source')).webkitTextFillColor"),
@@ -386,27 +482,198 @@ class Pages(Case):
         self.page.click(".revert")
 
     def test_texts_are_kept(self):
-        key = "lighting LightedCube"
+        """One by one; those of earlier versions, which were kept together, are taken over."""
+        key, other = "lighting LightedCube", "localStorage.getItem('lighting LightedCube: lighting/other.glsl')"
         pairs = [["x", 5], "ab", None, ["lighting/other.glsl", "of other options"], ["lecture/LightedCube.frag", "mine"]]
         self.open("LightedCube")
-        self.page.run(f"localStorage.setItem({json.dumps(key)}, {json.dumps(json.dumps(pairs))})")
-        self.open("LightedCube")
-        self.assertEqual(self.page.complaints(), [])
+        for hostile in ("5", "null", "{", '"<b>"', json.dumps(pairs)):
+            self.page.run(f"localStorage.setItem({json.dumps(key)}, {json.dumps(hostile)})")
+            self.open("LightedCube")
+            self.assertEqual(self.page.complaints(), [])
         self.assertEqual(self.page.run("document.querySelector('.source').value"), "mine")
         self.page.click(".live")
         self.edit("mine", "not drawn")
         self.open("LightedCube")
         self.assertEqual(self.page.run("document.querySelector('.source').value"), "not drawn")
-        kept = f"new Map(JSON.parse(localStorage.getItem({json.dumps(key)}))).get('lighting/other.glsl')"
-        self.assertEqual(self.page.run(kept), "of other options")
+        self.assertEqual(self.page.run(other), "of other options")
         self.page.run("window.refuses = true")
         self.page.click(".revert")
-        self.assertEqual(self.page.run(kept), "of other options")
+        self.assertEqual(self.page.run(other), "of other options")
         self.page.run("window.refuses = false")
         self.page.click(".revert")
         self.assertEqual(self.page.run(f"[asked.length, {KEPT}]"), [2, 0])
         self.page.click(".revert")  # nothing is lost
         self.assertEqual(self.page.run("asked.length"), 2)
+
+    def test_two_tabs(self):
+        """What one has kept the other shows, and does not drop."""
+        value = "document.querySelector('.source').value"
+        self.open("LightedCube")
+        first = self.page.new_tab()
+        self.page.before_pages(CONFIRM)
+        self.open("LightedCube")
+        second = self.page.session
+        try:
+            self.choose("lecture/LightedCube.frag")
+            self.edit("void main", "void /* second */ main")
+            self.page.show_tab(first)
+            self.edit("void main", "void /* first */ main")
+            self.page.show_tab(second)
+            self.choose("lecture/LightedCube.vert")
+            self.page.wait(value + ".includes('/* first */')")
+            # Both in one file, one after the other.
+            self.edit("/* first */", "/* first */ /* then second */")
+            self.page.show_tab(first)
+            self.page.wait(value + ".includes('/* then second */')")
+            self.assertIn("another tab", self.text(".said"))
+            self.edit("/* first */", "/* first again */")
+            self.page.click(".apply")
+            self.page.wait("document.querySelector('.said').textContent.startsWith('Drawn with')")
+            self.open("LightedCube")
+            self.assertIn("/* first again */ /* then second */", self.page.run(value))
+            self.choose("lecture/LightedCube.frag")
+            self.assertIn("/* second */", self.page.run(value))
+            self.page.click(".revert")
+            self.page.show_tab(second)
+            self.page.wait("!" + value + ".includes('/*')")
+            self.assertEqual(self.page.run(KEPT), 0)
+        finally:
+            self.page.show_tab(second)
+            self.page.close_tab(first)
+
+    def choose(self, name):
+        self.page.run(f"""(files => {{ files.value = {json.dumps(name)}; files.dispatchEvent(new Event("change")); }})(
+            document.querySelector(".files"))""")
+
+    def test_undo(self):
+        """Undoes what was typed here, and never puts one file's text into another."""
+        value = "document.querySelector('.source').value"
+        self.open("LightedCube")
+        texts = {}
+        for name in ("lecture/LightedCube.frag", "lecture/LightedCube.vert"):
+            self.choose(name)
+            texts[name] = self.page.run(value)
+        self.edit("void main", "void /* mine */ main")
+        self.page.run("document.execCommand('undo')")
+        self.assertEqual(self.page.run(value), texts["lecture/LightedCube.vert"])
+        self.assertEqual(self.page.run(KEPT), 0)
+        self.page.run("document.execCommand('redo')")
+        self.assertIn("/* mine */", self.page.run(value))
+        self.choose("lecture/LightedCube.frag")
+        self.page.run("document.querySelector('.source').focus()")
+        for _ in range(3):
+            self.page.run("document.execCommand('undo')")
+        self.assertEqual(self.page.run(value), texts["lecture/LightedCube.frag"])
+        self.choose("lecture/LightedCube.vert")
+        self.assertIn("/* mine */", self.page.run(value))
+        self.page.click(".revert")
+
+    def test_back_and_forward(self):
+        self.open("Materials", "time=2&material=gold")
+        before = self.shown()
+        self.page.click("#forward")
+        self.settle()
+        moved = self.shown()
+        self.page.navigate(address("index"))
+        self.page.wait("location.pathname.endsWith('index.html') && document.body?.dataset.ready")
+        self.page.run("history.back()")
+        self.page.wait("location.pathname.endsWith('Materials.html') && document.body?.dataset.ready")
+        self.assertEqual(self.page.run("location.hash"), "#material=gold&time=2.1")
+        self.assert_native()
+        self.assertEqual(self.shown(), moved)
+        self.page.run("location.hash = '#time=2&material=gold'")
+        self.page.wait("Page.page.seconds === 2")
+        self.settle()
+        self.assertEqual(self.shown(), before)
+        self.page.run("history.back()")
+        self.page.wait("Page.page.seconds === 2.1")
+        self.assert_native()
+        self.assertEqual(self.shown(), moved)
+        self.page.run("history.forward()")
+        self.page.wait("Page.page.seconds === 2")
+        self.assert_native()
+        self.assertEqual(self.shown(), before)
+
+    def test_a_long_text_is_typed_in(self):
+        """A change costs what shows, not the whole: it was 6 s at 10,000 lines. The browser's own text field takes some 30 ms
+        for so many lines, and this machine may be busy."""
+        self.open("LightedCube")
+        self.page.click(".live")
+        cost = self.page.run("""(async () => {
+            const field = document.querySelector(".source"), costs = [];
+            field.value = "precision mediump float; // a line of the text\\n".repeat(10000);
+            field.dispatchEvent(new Event("input"));
+            field.focus();
+            for (let i = 0; i < 9; i++) {
+                const at = Math.floor(field.value.length * i / 9), start = performance.now();
+                field.setSelectionRange(at, at);
+                document.execCommand("insertText", false, "x");
+                field.dispatchEvent(new Event("scroll"));
+                costs.push(performance.now() - start);
+            }
+            field.scrollTop = 5000 * (field.scrollHeight / 10001);
+            field.dispatchEvent(new Event("scroll"));
+            return costs.sort((a, b) => a - b)[4];
+        })()""")
+        self.assertLess(cost, 300)
+        # The numbers are beside their lines, however long the text is.
+        said = self.page.run("""(() => {
+            const box = name => document.querySelector(name).getBoundingClientRect();
+            const [first] = document.querySelector(".gutter > span").children, field = document.querySelector(".source");
+            const padding = parseFloat(getComputedStyle(document.querySelector(".colours pre")).paddingTop);
+            return [Number(first.textContent), box(".gutter > span").top, box(".colours pre").top + padding, box(".source").top,
+                    document.querySelector(".colours").textContent.split("\\n")[0]];
+        })()""")
+        self.assertAlmostEqual(said[0], 5000, delta=2)
+        self.assertLess(abs(said[1] - said[2]), 1)
+        self.assertLess(abs(said[2] - said[3]), 45)
+        self.assertIn("mediump", said[4])
+        # 420 kB, which spreading its 120,000 lines into arguments does not take.
+        self.page.run("""(field => { field.value = "//\\n\\n".repeat(105000); field.dispatchEvent(new Event("input")); })(
+            document.querySelector(".source"))""")
+        self.assertEqual(self.page.complaints(), [])
+        self.open("LightedCube")
+        self.assertEqual(self.page.run("document.querySelector('.source').value.length"), 420000)
+        self.page.click(".revert")
+
+    def test_loops_that_would_hang_the_page(self):
+        """Are not drawn: neither while they are typed nor after a reload."""
+        sines = "void main() { float x = 0.0;" + "".join(
+            f" for (int {i} = 0; {i} < 10000; {i}++)" for i in "ijk") + " x += sin(float(i)); gl_FragColor = vec4(x); }"
+        step = "void main() { for (float x = 0.0; x < 1.0; x += %s) gl_FragColor = vec4(x); }"
+        self.open("LightedCube")
+        before = self.shown()
+        for text, said in ((sines, "takes about 1,[0-9]00,000,000 steps"), (step % "1e-9", "never ends"), (step % "-0.1", "never ends"),
+                           ("#define N 1000\n#define M N * N\n" + sines.replace("10000", "M"), "takes about"),
+                           ("float f() { float x; for (int i = 0; i < 1000; ++i) x += 1.0; return x; }" +
+                            step.replace("= vec4(x)", "= vec4(f())") % "0.001", "takes about")):
+            with self.subTest(text):
+                text = "precision highp float;\n" + text
+                self.choose("lecture/LightedCube.frag")
+                self.page.run("document.querySelector('.source').focus(), document.querySelector('.source').select()")
+                self.page.type(text)
+                self.page.wait("document.querySelectorAll('.errors li').length")
+                self.assertRegex(self.text(".errors li"), r"^lecture/LightedCube.frag:\d: error: this loop " + said)
+                self.assertIn("Your text is kept", self.text(".said"))
+                self.assertEqual(self.shown(), before)
+                self.open("LightedCube")
+                self.assertEqual(self.shown(), before)
+                self.assertEqual(self.page.run("document.querySelector('.source').value"), text)
+        # As many as are drawn are.
+        self.page.run("document.querySelector('.source').focus(), document.querySelector('.source').select()")
+        self.page.type("precision highp float;\n" + step % "0.01")
+        self.page.wait("/Drawn with|Warnings/.test(document.querySelector('.said').textContent)")
+        self.assertNotEqual(self.shown(), before)
+        self.page.click(".revert")
+
+    def test_a_shader_without_a_colour_draws(self):
+        """Natively it draws what there is by chance; WebGL alone would fail."""
+        self.open("LightedCube")
+        self.choose("lecture/LightedCube.frag")
+        self.page.run("document.querySelector('.source').focus(), document.querySelector('.source').select()")
+        self.page.type("// gl_FragColor\nvoid main() {}")
+        self.page.wait("/Drawn with|Warnings/.test(document.querySelector('.said').textContent)")
+        self.page.click(".revert")
 
     def edit(self, old, new):
         """Selects a part of the text and types over it."""

@@ -332,9 +332,18 @@ class Labs(OfLabs):
     def test_an_endless_loop_costs_no_text(self):
         loop = SOLUTION["lab05.frag"].replace("void main() {", "void main() {\n    for (int i = 0; i < 2000000000; i++)\n"
                                               "        if (float(i) < -1.0) discard;")
-        self.page.run("LabWorker.limit = 2000")
+        before = self.pixels("drawn")
         self.put({"lab05.vert": SOLUTION["lab05.vert"], "lab05.frag": loop})
-        self.page.wait("document.querySelector('.said').textContent.match(/endless loop|Drawn with/)")
+        self.page.wait("document.querySelectorAll('.errors li').length")
+        self.assertRegex(self.text(".errors li"), r"^lab05.frag:\d+: error: this loop takes about \d+,000,000,000 steps")
+        self.finish()
+        self.assertIn("this loop takes", self.text("#result"))
+        # The page is loaded again with the text, says the same, and shows the starter.
+        self.open(mistakes.NAMES[5])
+        self.assertIn("this loop takes", self.text(".errors li"))
+        self.assertTrue(self.pixels("drawn") == before)
+        self.page.run("document.querySelector('.files').value = 'lab05.frag'")
+        self.page.run("document.querySelector('.files').dispatchEvent(new Event('change'))")
         self.assertEqual(self.page.run("document.querySelector('.source').value"), loop)
         self.put(SOLUTION)
         self.page.wait("parseFloat(document.getElementById('compared').textContent.split(': ')[1]) < 1")
@@ -345,6 +354,41 @@ class Labs(OfLabs):
         self.assertIn("Your text of last time", self.text(".said"))
         self.page.click(".apply")
         self.page.wait("parseFloat(document.getElementById('compared').textContent.split(': ')[1]) < 1")
+
+    def test_a_worker_that_does_not_answer_is_ended(self):
+        self.page.run("LabWorker.limit = 1")
+        self.put(SOLUTION)
+        self.page.wait("document.querySelector('.said').textContent.includes('endless loop')")
+        self.page.run("LabWorker.limit = 60000")
+        self.page.click(".apply")
+        self.page.wait("parseFloat(document.getElementById('compared').textContent.split(': ')[1]) < 1")
+
+    def test_a_reload_in_the_middle_of_a_check(self):
+        self.put(SOLUTION)
+        self.page.wait("parseFloat(document.getElementById('compared').textContent.split(': ')[1]) < 1")
+        self.page.run("Lab.check(1), 0")
+        self.open(mistakes.NAMES[5])
+        self.assertIn(self.page.run("document.querySelector('.source').value"), SOLUTION.values())
+        self.finish()
+        self.assertIn("right, 10 of 10 points", self.text("#result"))
+        self.assertEqual(self.page.complaints(), [])
+
+    def test_two_tabs(self):
+        """One edits the vertex shader, the other the fragment shader: both have both."""
+        first = self.page.new_tab()
+        self.open(mistakes.NAMES[5])
+        second = self.page.session
+        try:
+            self.put({"lab05.frag": SOLUTION["lab05.frag"]})
+            self.page.show_tab(first)
+            self.put({"lab05.vert": SOLUTION["lab05.vert"]})
+            for session in (first, second):
+                self.page.show_tab(session)
+                self.page.click(".apply")
+                self.page.wait("parseFloat(document.getElementById('compared').textContent.split(': ')[1]) < 1")
+        finally:
+            self.page.show_tab(second)
+            self.page.close_tab(first)
 
     def test_labs_with_c(self):
         self.open(mistakes.NAMES[3])
