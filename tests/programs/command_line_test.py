@@ -1113,7 +1113,7 @@ class Scenes(Case):
                 ("ShadingModels", "--terms", "0"), ("SmoothFlat", "--shape", "square"),
                 ("SmoothFlat", "--interpolation", "constant"), ("FourLights", "--base", "off"),
                 ("FourLights", "--orbit", "0,30"), ("ColoredLights", "--light", "0,1,1"),
-                ("TermsApart", "--costs", "off")):
+                ("TermsApart", "--costs", "off"))[::step(3)]:
             with self.subTest(program=program, arguments=arguments):
                 # Captions are left out where there is no room for them.
                 size = ("-s", "600x300" if program == "TermsApart" else "120x120")
@@ -1137,7 +1137,7 @@ class Scenes(Case):
                 ("TermsApart", "", "--costs=off", "--shape=cube"),
                 ("SpotLight", "", "--cutoff=10", "--exponent=3", "--shape=cube"),
                 *((("Vectors", "--shininess", "--figure=rays", "--shininess=3"),)
-                  if DIAGRAMS else ())):
+                  if DIAGRAMS else ()))[::step(2)]:
             with self.subTest(program=program, arguments=arguments):
                 size = "600x300" if program == "TermsApart" else "120x120"  # room for captions
                 draw = functools.partial(self.good_or_unused, "-s", size, program=program)
@@ -1282,7 +1282,7 @@ class Index(Case):
         commands = [words for words in commands if words[0] in PROGRAMS + SCENES + DIAGRAMS and words[-1] != "FILE"]
         self.assertGreater(len(commands), 20)
         size, plain = ("-s", "120x120"), {}
-        for program, *options in commands:
+        for program, *options in commands[::step(3)]:
             with self.subTest(program=program, options=options):
                 if program not in plain:
                     plain[program] = self.drawn(*size, program=program).pixels
@@ -1349,11 +1349,12 @@ class Gallery(Case):
                                 ["contact-sheet.png", "index.html"]))
         page = self.read("pictures/index.html").decode()
         self.assertNotRegex(page, r'<img(?![^>]* alt="[A-Z]\w+: [^"]{10,}")')
-        for program in PROGRAMS + SCENES + DIAGRAMS:
+        for number, program in enumerate(PROGRAMS + SCENES + DIAGRAMS):
             smooth = [] if program in DIAGRAMS else ["--samples", "4"]
             smooth = [*self.moved(program), *smooth]
-            self.assertEqual(self.drawn(*SMALL, *smooth, program=program).pixels,
-                             self.png(f"pictures/{program}.png").pixels)
+            if number % step(4) == 0:
+                self.assertEqual(self.drawn(*SMALL, *smooth, program=program).pixels,
+                                 self.png(f"pictures/{program}.png").pixels)
             said = " ".join([program, "--size 40x40", *smooth])
             self.assertIn(f"<code>examples/run {said}</code>", page)
 
@@ -1475,7 +1476,7 @@ class Again(Case):
         pictures = sorted(glob.glob(os.path.join(SOURCE, "examples", "**", "pictures", "*.png"),
                                     recursive=True))
         self.assertGreater(len(pictures), 20)
-        for path in pictures[::step(6)]:
+        for path in pictures[::step(15)]:
             data = self.read(path)
             if b"Command" not in data:
                 continue  # of a window or a page
