@@ -14,7 +14,10 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
+#include <pthread.h>
 #include <pwd.h>
+#include <signal.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -73,6 +76,59 @@ static DIR *open_folder(char folder[PATH_MAX], bool write)
     return NULL;
 }
 
+/* To open a pipe waits for its other end: it is opened as both and removed. */
+static void remove_pipes(int at, const char *path, int depth)
+{
+    const int file = openat(at, path, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    DIR *folder = file < 0 ? NULL : fdopendir(file);
+    if (!folder)
+        return;
+    for (const struct dirent *entry; (entry = readdir(folder)) != NULL;) {
+        if (depth && entry->d_type == DT_DIR && entry->d_name[0] != '.')
+            remove_pipes(file, entry->d_name, depth - 1);
+        if (entry->d_type != DT_FIFO)
+            continue;
+        const int both = openat(file, entry->d_name, O_RDWR | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC);
+        unlinkat(file, entry->d_name, 0);
+        if (both >= 0)
+            close(both);
+    }
+    closedir(folder);
+}
+
+/* Mesa and fontconfig would wait for ever for a pipe in their folders. To look for one costs time,
+ * so that is done once, for a program that runs longer than most. */
+static void *remove_pipes_later(void *cache)
+{
+    enum { SECONDS = 3 };
+    const int at = open(cache, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    free(cache);
+    if (at < 0)
+        return NULL;
+    sleep(SECONDS);
+    remove_pipes(at, "mesa_shader_cache", 1);
+    remove_pipes(at, "fontconfig", 0);
+    close(at);
+    return NULL;
+}
+
+static void guard_against_pipes(const char *cache)
+{
+    static atomic_flag guarded = ATOMIC_FLAG_INIT;
+    sigset_t all, old;
+    pthread_t thread;
+    char *path = atomic_flag_test_and_set(&guarded) ? NULL : strdup(cache);
+    if (!path)
+        return;
+    sigfillset(&all); /* signals are for the main thread */
+    pthread_sigmask(SIG_SETMASK, &all, &old);
+    if (pthread_create(&thread, NULL, remove_pipes_later, path) == 0)
+        pthread_detach(thread);
+    else
+        free(path);
+    pthread_sigmask(SIG_SETMASK, &old, NULL);
+}
+
 void cache_prepare_driver(void)
 {
     char folder[PATH_MAX];
@@ -88,6 +144,8 @@ void cache_prepare_driver(void)
                        stat(folder, &status) == 0 && S_ISDIR(status.st_mode);
     if (!there || access(folder, W_OK | X_OK) != 0)
         setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
+    if (there)
+        guard_against_pipes(folder);
 }
 
 /* What a file begins with: its key, and a hash of all bytes after this. Damage, and a file that was

@@ -37,10 +37,9 @@ void *cache_read(const char *kind, const CacheKey *key, size_t *size);
 /* Keeps bytes; `kind` is the beginning of the file's name. */
 void cache_write(const char *kind, const CacheKey *key, const void *bytes, size_t size);
 
-/* Before a driver is loaded. Mesa keeps compiled shaders in the same place, and complains on
- * standard error if it cannot make its folder, as in a home that is read-only: it is then told to
- * keep none.
- */
+/* Before a driver, or fontconfig, is loaded. Mesa keeps compiled shaders in the same place, and
+ * complains on standard error if it cannot make its folder, as in a home that is read-only: it is
+ * then told to keep none. A pipe in its folder, for which it would wait, is removed after 3 s. */
 void cache_prepare_driver(void);
 
 #endif

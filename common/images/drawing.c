@@ -7,6 +7,7 @@
  */
 #include "images/drawing.h"
 
+#include "base/cache.h"
 #include "base/memory.h"
 #include "base/output.h"
 #include "base/plugin.h"
@@ -187,9 +188,15 @@ void drawing_text(Drawing *drawing, DrawingPoint at, double size, Vec3 color, co
 
 static Plugin cairo = PLUGIN_DRAWINGS;
 
+static const DrawingPlugin *open_cairo(Message *message)
+{
+    cache_prepare_driver();
+    return plugin_open(&cairo, message);
+}
+
 bool drawing_paint(const Drawing *drawing, Image *image, bool transparent, Message *message)
 {
-    const DrawingPlugin *plugin = plugin_open(&cairo, message);
+    const DrawingPlugin *plugin = open_cairo(message);
     if (!plugin)
         return false;
     const char *reason = plugin->paint(drawing, image, transparent);
@@ -221,7 +228,7 @@ static void drop_surface_number(ImageFile *file)
 bool drawing_encode(const Drawing *drawing, const char *format, bool transparent, ImageFile *file,
                     Message *message)
 {
-    const DrawingPlugin *plugin = plugin_open(&cairo, message);
+    const DrawingPlugin *plugin = open_cairo(message);
     char *bytes = NULL;
     *file = (ImageFile){0};
     if (!plugin)

@@ -50,7 +50,7 @@ bool font_open(Font *font, const char *path, const char *package, Message *messa
 {
     struct stat status;
     *font = (Font){.size = 0};
-    const int file = open(path, O_RDONLY | O_CLOEXEC);
+    const int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (file >= 0 && fstat(file, &status) == 0) {
         font->size = (size_t)status.st_size;
         void *mapped = mmap(NULL, font->size, PROT_READ, MAP_PRIVATE, file, 0);

@@ -157,7 +157,7 @@ static bool is_whole(Ply *ply, char *reason, size_t reason_size)
 bool model_ply_is_whole(const char *path, char *reason, size_t reason_size)
 {
     struct stat status;
-    const int file = open(path, O_RDONLY | O_CLOEXEC);
+    const int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     bool whole = true;
     if (file >= 0 && fstat(file, &status) == 0 && status.st_size > 0) {
         const size_t size = (size_t)status.st_size;

@@ -484,6 +484,19 @@ class Options(Case):
             self.run_it("-s", "8", "-o", "pipe")
             self.assertEqual(Png(reader.stdout.read()).pixels, self.drawn("-s", "8x8").pixels)
 
+    def test_a_cache_of_pipes_is_not_waited_for(self):
+        """Of what the programs keep, and Mesa, which opens each file that its index does not rule out."""
+        for program in ("FourLights", *DIAGRAMS):
+            for spared in ("index", "none"):
+                draw = {"program": program, "environment": {"XDG_CACHE_HOME": self.path("cache")}}
+                picture = self.good(*SMALL, "-o", "-", **draw)
+                for folder, _, files in os.walk(self.path("cache")):
+                    for path in (os.path.join(folder, file) for file in files if file != spared):
+                        os.remove(path)
+                        os.mkfifo(path)
+                self.assertEqual(self.good(*SMALL, "-o", "-", **draw), picture)
+                shutil.rmtree(self.path("cache"), ignore_errors=True)
+
     def test_without_a_driver_one_line_names_the_cause(self):
         """The variable that chooses none; otherwise the packages."""
         self.make("LightedCube.png")
