@@ -8,11 +8,6 @@ uniform mat4 u_ClipFromObject;
 uniform float u_Near;
 #endif
 
-// Of a projection without a far plane, less two steps of a depth of 24 bits, so that infinity is
-// not clipped. (Everitt and Kilgard, Practical and Robust Stenciled Shadow Volumes, 2002; Lengyel,
-// The mechanics of robust stencil shadows, 2002)
-#define FARTHEST (1.0 - 2.4e-7)
-
 invariant gl_Position;
 
 #ifdef DRAW_MAP
@@ -48,7 +43,12 @@ void main() {
     v_Depth = gl_Position.zw;
 #endif
 #else
-    gl_Position.z = FARTHEST * gl_Position.w - (1.0 + FARTHEST) * u_Near * place.w;
+    // Of a projection without a far plane. At infinity z is w, bit by bit, and stays so where a
+    // face is cut at the picture's sides: one that fills nearly half of all directions, because the
+    // light is close before it, is cut where most of z and w cancel, and is not to be beyond the
+    // far plane by what is left of their roundings. (Everitt and Kilgard, Practical and Robust
+    // Stenciled Shadow Volumes, 2002)
+    gl_Position.z = gl_Position.w - 2.0 * u_Near * place.w;
 #endif
 #ifdef LOOK_UP
     v_MapPlace = (u_LightFromObject * place).xyz;

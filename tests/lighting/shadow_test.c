@@ -6,6 +6,7 @@
  * maps see shadow_map_test.c.
  */
 #include "base/random.h"
+#include "core/mesh_make.h"
 #include "lighting/shadow_world.h"
 #include "scene/scene_example.h"
 #include "support/examples.h"
@@ -240,18 +241,39 @@ static Vec3 touching(const Mesh *mesh, size_t triangle, int way)
     return place;
 }
 
+/* Triangles that share some of their corners, at random. */
+static void make_soup(Random *random, Mesh *mesh)
+{
+    enum { CORNERS = 12, TRIANGLES = 14 };
+    require(mesh_open(mesh, CORNERS, 3 * TRIANGLES, FAILURE), FAILURE);
+    for (size_t i = 0; i < CORNERS; i++) {
+        vec3_to_float(random_place(random, 0.8), mesh->vertices[i].position);
+        mesh->vertices[i].normal[2] = 1;
+    }
+    for (size_t i = 0; i < TRIANGLES; i++) {
+        const int first = random_below(random, CORNERS), second = 1 + random_below(random, 5);
+        mesh->indices[3 * i] = (uint32_t)first;
+        mesh->indices[3 * i + 1] = (uint32_t)((first + second) % CORNERS);
+        mesh->indices[3 * i + 2] =
+            (uint32_t)((first + second + 1 + random_below(random, 6)) % CORNERS);
+    }
+}
+
 /* In the plane of a flat face N.L is 0 but for rounding, which decides on each point's highlight:
  * pixels that may be wrong. A lost shadow is ten times as many. */
 TEST_WITH(0, lights_may_touch_what_throws_the_shadow, open_meshes, close_meshes)
 {
     static const char *const ways[] = {"at a vertex", "on an edge", "on a triangle",
                                        "in its plane"};
-    const Mesh *const meshes[] = {&ball, &coarse_ring, &pipe_mesh, &box, &pot};
-    static const char *const names[] = {"ball", "coarse ring", "open pipe", "box", "teapot"};
-    const Mat4 turned = mat4_rotate(-65, (Vec3){1, 0.3, 0.2});
+    Mesh soup;
     Random random = {testing_seed(20261123)};
+    make_soup(&random, &soup);
+    const Mesh *const meshes[] = {&ball, &coarse_ring, &pipe_mesh, &box, &pot, &soup};
+    static const char *const names[] = {"ball", "coarse ring", "open pipe",
+                                        "box",  "teapot",      "random triangles"};
+    const Mat4 turned = mat4_rotate(-65, (Vec3){1, 0.3, 0.2});
     bool all = true;
-    for (int i = 0; i < 5; i++) {
+    for (int i = 0; i < 6; i++) {
         const int way_count = meshes[i] == &pot ? 1 : 4; /* its rims are as thin as rounding */
         for (int way = 0; way < way_count; way++) {
             for (int turn = 0; turn < 2; turn++) {
@@ -267,6 +289,35 @@ TEST_WITH(0, lights_may_touch_what_throws_the_shadow, open_meshes, close_meshes)
                 all &= check_wrong(name, &world.scene, 100);
             }
         }
+    }
+    lighting_forget(lighting, NULL);
+    mesh_close(&soup);
+    assert_true(all);
+}
+
+/* In front of a triangle or behind it, so near that it fills almost half of all directions: its
+ * shadow is as large as that. Nearer than a few roundings of a float, 1e-6, which side it is on is
+ * not known. */
+TEST_WITH(0, lights_may_be_close_before_what_throws_the_shadow, open_meshes, close_meshes)
+{
+    const Mesh *const meshes[] = {&pot, &pot, &pipe_mesh, &box};
+    static const char *const names[] = {"teapot", "teapot", "open pipe", "box"};
+    Random random = {testing_seed(20261124)};
+    const int count = 4 * 60 / testing_step(3);
+    bool all = true;
+    for (int i = 0; i < count; i++) {
+        char name[96];
+        const Mesh *mesh = meshes[i % 4];
+        const size_t triangle = (size_t)random_below(&random, (int)(mesh->index_count / 3));
+        const MeshVertex *vertex = &mesh->vertices[mesh->indices[3 * triangle]];
+        const Vec3 normal = vec3_from_float(vertex->normal);
+        const double before =
+            (random_below(&random, 2) ? 1 : -1) * pow(10, random_between(&random, -5, -2));
+        make_world(mesh);
+        world.lights[0].position =
+            vec3_add(touching(mesh, triangle, 2), vec3_scale(normal, before));
+        snprintf(name, sizeof name, "light %.2g before %s, %zu", before, names[i % 4], triangle);
+        all &= check(name, &world.scene);
     }
     assert_true(all);
 }
