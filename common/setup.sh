@@ -154,6 +154,7 @@ setup() {
     if ! setup_can_write; then
         setup_elsewhere "$@" && return
     fi
+    [ ! "$(setup_missing "$@")" ] || setup_lock # another call may be installing them
     setup_packages "$@"
     setup_lock
     printf '%s\n' "$root" "$*" >"$build/.begun"
@@ -163,15 +164,21 @@ setup() {
     exec 9>&-
 }
 
+# Those of the packages that are not installed.
+setup_missing() {
+    command -v dpkg-query >/dev/null || return
+    dpkg-query -W -f '${Package} ${db:Status-Status}\n' "$@" 2>/dev/null |
+        awk -v wanted="$*" '$2 == "installed" { have[$1] = 1 }
+            END { n = split(wanted, w, " "); for (i = 1; i <= n; i++) if (!(w[i] in have)) print w[i] }'
+}
+
 setup_packages() {
     command -v dpkg-query >/dev/null || {
         hint="; it needs $(packages_elsewhere "$@")"
         command -v meson >/dev/null && return 0
         fail 1 "this is not a Debian system$hint"
     }
-    missing=$(dpkg-query -W -f '${Package} ${db:Status-Status}\n' "$@" 2>/dev/null |
-        awk -v wanted="$*" '$2 == "installed" { have[$1] = 1 }
-            END { n = split(wanted, w, " "); for (i = 1; i <= n; i++) if (!(w[i] in have)) print w[i] }')
+    missing=$(setup_missing "$@")
     [ -n "$missing" ] || return 0
     # shellcheck disable=SC2086
     missing=$(packages_of_this_release $missing)
@@ -206,7 +213,7 @@ setup_packages() {
 
 update() {
     [ "$waits" ] || say "fetching the package lists"
-    $sudo env LC_ALL=C apt-get update >>"$log" 2>&1 </dev/null
+    $sudo env LC_ALL=C apt-get update >>"$log" 2>&1 </dev/null 9>&-
 }
 
 # "160 MB to fetch, 650 MB on disk", as apt words it; nothing if it has no lists.
@@ -229,7 +236,7 @@ install() {
         # shellcheck disable=SC2016
         code=$({ {
             $sudo env DEBIAN_FRONTEND=noninteractive LC_ALL=C sh -c '"$@" 3>&1 >&2' sh \
-                "$@" -o APT::Status-Fd=3 2>>"$log" </dev/null
+                "$@" -o APT::Status-Fd=3 2>>"$log" </dev/null 9>&-
             echo $? >&4
         } | while IFS=: read -r kind _ percent text; do
             case $kind in
@@ -239,7 +246,7 @@ install() {
         printf '\r\033[K' >&2
         return "$code"
     fi
-    $sudo env DEBIAN_FRONTEND=noninteractive LC_ALL=C "$@" >>"$log" 2>&1 </dev/null
+    $sudo env DEBIAN_FRONTEND=noninteractive LC_ALL=C "$@" >>"$log" 2>&1 </dev/null 9>&-
 }
 
 # Those of the packages that there are, as far as the package lists say; where there are no lists,
@@ -279,13 +286,15 @@ packages_elsewhere() {
     printf 'what these packages of Debian contain: %s' "$*"
 }
 
-# Two calls must not build in one folder at once: the second waits. The children of a call that was
-# killed keep the lock until they end.
+# Two calls must not install for one folder or build in it at once: the second waits. The children of a call
+# that was killed keep the lock until they end, except apt-get's, which may be services.
 setup_lock() {
     setup_can_write || {
         fail 1 "cannot write to the build folder $build; LIGHTING_BUILD names another"
     }
     exec 9>>"$build/.lock"
+    flock -n 9 && return
+    say "another command uses $build; waiting for it"
     flock 9
 }
 
@@ -329,10 +338,10 @@ setup_configure() {
     : >"$stamp"
 }
 
-# What ninja did and failed at, on standard error: on a terminal as it says it; otherwise, of a long
-# build, each quarter, and everything only if it fails.
+# What ninja does and fails at, on standard error: the first build of a target on a terminal as it says it;
+# otherwise, of a long build, each quarter and how far it is every 10 s, and everything only if it fails.
 build_seen() {
-    if [ -t 2 ]; then
+    if [ "$first" ] && [ -t 2 ]; then
         ninja -C "$build" "$@" >&2
         return
     fi
@@ -340,26 +349,29 @@ build_seen() {
     code=$({ {
         ninja -C "$build" "$@" 2>&1
         echo $? >&4
-    } | tee "$log" | awk -v from="${self#"$root"/}" -F '[][/]' '
-        /^\[[0-9]+\/[0-9]+\]/ && $3 >= 40 && $2 * 4 >= $3 * (quarter + 1) && quarter < 3 {
-            quarter = int($2 * 4 / $3)
-            printf "%s: built %d of %d files\n", from, $2, $3 >"/dev/stderr"
-        }'; } 4>&1)
+    } | tee "$log" | {
+        quarter=1
+        said=$(date +%s)
+        while IFS='[/]' read -r _ built all _; do # [BUILT/ALL]; awk would read in blocks, and so later
+            case $built$all in '' | *[!0-9]*) continue ;; esac
+            now=$(date +%s)
+            { [ "$all" -ge 40 ] && [ $((built * 4)) -ge $((all * quarter)) ] && [ $quarter -lt 4 ]; } ||
+                { [ "$built" -lt "$all" ] && [ $((now - said)) -ge 10 ]; } || continue
+            say "built $built of $all files"
+            quarter=$((built * 4 / all + 1))
+            said=$now
+        done
+    }; } 4>&1)
     [ "$code" = 0 ] || cat "$log" >&2
     rm -f "$log"
     return "$code"
 }
 
-# The first build of a target is seen; others say something if they fail.
 setup_build() {
-    if [ -f "$build/.done-$name" ]; then
-        # shellcheck disable=SC2086
-        output=$(ninja -C "$build" $targets 2>&1) && return
-        printf '%s\n' "$output" >&2
-    else
-        say "building"
-        # shellcheck disable=SC2086
-        build_seen $targets && return
-    fi
+    first=
+    [ -f "$build/.done-$name" ] || first=1
+    [ ! "$first" ] || say "building $name"
+    # shellcheck disable=SC2086
+    build_seen $targets && return
     fail 1 "the build failed${hint-}"
 }
