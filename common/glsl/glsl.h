@@ -18,28 +18,13 @@ typedef enum GlslStage { GLSL_VERTEX, GLSL_FRAGMENT } GlslStage;
 
 /* Types that the language has; those with an index from GLSL_TYPES on are the text's own. Scalars
  * and vectors come in fours: type - 1 is 4 * what + size - 1. */
+/* clang-format off */
 enum {
-    GLSL_ERROR,
-    GLSL_FLOAT,
-    GLSL_VEC2,
-    GLSL_VEC3,
-    GLSL_VEC4,
-    GLSL_INT,
-    GLSL_IVEC2,
-    GLSL_IVEC3,
-    GLSL_IVEC4,
-    GLSL_BOOL,
-    GLSL_BVEC2,
-    GLSL_BVEC3,
-    GLSL_BVEC4,
-    GLSL_MAT2,
-    GLSL_MAT3,
-    GLSL_MAT4,
-    GLSL_SAMPLER_2D,
-    GLSL_SAMPLER_CUBE,
-    GLSL_VOID,
-    GLSL_TYPES
+    GLSL_ERROR, GLSL_FLOAT, GLSL_VEC2, GLSL_VEC3, GLSL_VEC4, GLSL_INT, GLSL_IVEC2, GLSL_IVEC3,
+    GLSL_IVEC4, GLSL_BOOL, GLSL_BVEC2, GLSL_BVEC3, GLSL_BVEC4, GLSL_MAT2, GLSL_MAT3, GLSL_MAT4,
+    GLSL_SAMPLER_2D, GLSL_SAMPLER_CUBE, GLSL_VOID, GLSL_TYPES
 };
+/* clang-format on */
 
 /* Arrays have an element, structures have fields; other types neither. */
 typedef struct GlslType {
@@ -65,16 +50,12 @@ typedef struct GlslPlace {
     int file, line, column;
 } GlslPlace;
 
+/* clang-format off */
 enum {
-    GLSL_LOCAL,
-    GLSL_CONST,
-    GLSL_ATTRIBUTE,
-    GLSL_UNIFORM,
-    GLSL_VARYING,
-    GLSL_IN,
-    GLSL_OUT,
+    GLSL_LOCAL, GLSL_CONST, GLSL_ATTRIBUTE, GLSL_UNIFORM, GLSL_VARYING, GLSL_IN, GLSL_OUT,
     GLSL_INOUT
 };
+/* clang-format on */
 
 enum { GLSL_VARIABLE = 1, GLSL_FUNCTION, GLSL_STRUCT };
 
@@ -133,30 +114,14 @@ enum {
 };
 
 /* Operators; those of assignments are = with GLSL_SET, += with GLSL_ADD, and so on. */
+/* clang-format off */
 enum {
-    GLSL_SET,
-    GLSL_ADD,
-    GLSL_SUBTRACT,
-    GLSL_MULTIPLY,
-    GLSL_DIVIDE,
-    GLSL_LESS,
-    GLSL_GREATER,
-    GLSL_LESS_EQUAL,
-    GLSL_GREATER_EQUAL,
-    GLSL_EQUAL,
-    GLSL_NOT_EQUAL,
-    GLSL_AND,
-    GLSL_OR,
-    GLSL_XOR,
-    GLSL_COMMA,
-    GLSL_PLUS,
-    GLSL_MINUS,
-    GLSL_NOT,
-    GLSL_PRE_INCREMENT,
-    GLSL_PRE_DECREMENT,
-    GLSL_POST_INCREMENT,
-    GLSL_POST_DECREMENT
+    GLSL_SET, GLSL_ADD, GLSL_SUBTRACT, GLSL_MULTIPLY, GLSL_DIVIDE, GLSL_LESS, GLSL_GREATER,
+    GLSL_LESS_EQUAL, GLSL_GREATER_EQUAL, GLSL_EQUAL, GLSL_NOT_EQUAL, GLSL_AND, GLSL_OR,
+    GLSL_XOR, GLSL_COMMA, GLSL_PLUS, GLSL_MINUS, GLSL_NOT, GLSL_PRE_INCREMENT,
+    GLSL_PRE_DECREMENT, GLSL_POST_INCREMENT, GLSL_POST_DECREMENT
 };
+/* clang-format on */
 
 typedef struct GlslNode {
     unsigned char kind, precision; /* `precision`: the highest of its operands', or none */
@@ -270,65 +235,20 @@ static inline int glsl_swizzle(int op, int i)
 }
 
 /* Built-in functions, whatever their parameters. */
+/* clang-format off */
 enum {
-    GLSL_RADIANS,
-    GLSL_DEGREES,
-    GLSL_SIN,
-    GLSL_COS,
-    GLSL_TAN,
-    GLSL_ASIN,
-    GLSL_ACOS,
-    GLSL_ATAN,
-    GLSL_POW,
-    GLSL_EXP,
-    GLSL_LOG,
-    GLSL_EXP2,
-    GLSL_LOG2,
-    GLSL_SQRT,
-    GLSL_INVERSESQRT,
-    GLSL_ABS,
-    GLSL_SIGN,
-    GLSL_FLOOR,
-    GLSL_CEIL,
-    GLSL_FRACT,
-    GLSL_MOD,
-    GLSL_MIN,
-    GLSL_MAX,
-    GLSL_CLAMP,
-    GLSL_MIX,
-    GLSL_STEP,
-    GLSL_SMOOTHSTEP,
-    GLSL_LENGTH,
-    GLSL_DISTANCE,
-    GLSL_DOT,
-    GLSL_CROSS,
-    GLSL_NORMALIZE,
-    GLSL_FACEFORWARD,
-    GLSL_REFLECT,
-    GLSL_REFRACT,
-    GLSL_MATRIX_COMP_MULT,
-    GLSL_LESS_THAN,
-    GLSL_LESS_THAN_EQUAL,
-    GLSL_GREATER_THAN,
-    GLSL_GREATER_THAN_EQUAL,
-    GLSL_EQUAL_TO,
-    GLSL_NOT_EQUAL_TO,
-    GLSL_ANY,
-    GLSL_ALL,
-    GLSL_NOT_EACH,
-    GLSL_DFDX,
-    GLSL_DFDY,
-    GLSL_FWIDTH,
-    GLSL_TEXTURE_2D,
-    GLSL_TEXTURE_2D_PROJ,
-    GLSL_TEXTURE_2D_LOD,
-    GLSL_TEXTURE_2D_PROJ_LOD,
-    GLSL_TEXTURE_2D_GRAD,
-    GLSL_TEXTURE_2D_PROJ_GRAD,
-    GLSL_TEXTURE_CUBE,
-    GLSL_TEXTURE_CUBE_LOD,
-    GLSL_TEXTURE_CUBE_GRAD
+    GLSL_RADIANS, GLSL_DEGREES, GLSL_SIN, GLSL_COS, GLSL_TAN, GLSL_ASIN, GLSL_ACOS, GLSL_ATAN,
+    GLSL_POW, GLSL_EXP, GLSL_LOG, GLSL_EXP2, GLSL_LOG2, GLSL_SQRT, GLSL_INVERSESQRT, GLSL_ABS,
+    GLSL_SIGN, GLSL_FLOOR, GLSL_CEIL, GLSL_FRACT, GLSL_MOD, GLSL_MIN, GLSL_MAX, GLSL_CLAMP,
+    GLSL_MIX, GLSL_STEP, GLSL_SMOOTHSTEP, GLSL_LENGTH, GLSL_DISTANCE, GLSL_DOT, GLSL_CROSS,
+    GLSL_NORMALIZE, GLSL_FACEFORWARD, GLSL_REFLECT, GLSL_REFRACT, GLSL_MATRIX_COMP_MULT,
+    GLSL_LESS_THAN, GLSL_LESS_THAN_EQUAL, GLSL_GREATER_THAN, GLSL_GREATER_THAN_EQUAL,
+    GLSL_EQUAL_TO, GLSL_NOT_EQUAL_TO, GLSL_ANY, GLSL_ALL, GLSL_NOT_EACH, GLSL_DFDX, GLSL_DFDY,
+    GLSL_FWIDTH, GLSL_TEXTURE_2D, GLSL_TEXTURE_2D_PROJ, GLSL_TEXTURE_2D_LOD,
+    GLSL_TEXTURE_2D_PROJ_LOD, GLSL_TEXTURE_2D_GRAD, GLSL_TEXTURE_2D_PROJ_GRAD,
+    GLSL_TEXTURE_CUBE, GLSL_TEXTURE_CUBE_LOD, GLSL_TEXTURE_CUBE_GRAD
 };
+/* clang-format on */
 
 /* A line of the table of built-in functions, one for each list of parameters. `types` is what it
  * returns, then what it takes: f float, 2 3 4 vectors, b bool, s sampler2D, c samplerCube; g float

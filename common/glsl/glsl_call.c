@@ -31,27 +31,19 @@ static Arguments arguments_of(const Parser *parser, int node)
 /* The type that a letter of GlslFunction's `types` means, where the generic ones have a size. */
 static int meant(char letter, int size)
 {
+    /* clang-format off */
     switch (letter) {
-    case 'g':
-    case 'V':
-        return GLSL_FLOAT + size - 1;
-    case 'I':
-        return GLSL_INT + size - 1;
-    case 'B':
-        return GLSL_BOOL + size - 1;
-    case 'm':
-        return GLSL_MAT2 + size - 2;
-    case 'f':
-        return GLSL_FLOAT;
-    case 'b':
-        return GLSL_BOOL;
-    case 's':
-        return GLSL_SAMPLER_2D;
-    case 'c':
-        return GLSL_SAMPLER_CUBE;
-    default:
-        return GLSL_FLOAT + letter - '1';
+    case 'g': case 'V': return GLSL_FLOAT + size - 1;
+    case 'I': return GLSL_INT + size - 1;
+    case 'B': return GLSL_BOOL + size - 1;
+    case 'm': return GLSL_MAT2 + size - 2;
+    case 'f': return GLSL_FLOAT;
+    case 'b': return GLSL_BOOL;
+    case 's': return GLSL_SAMPLER_2D;
+    case 'c': return GLSL_SAMPLER_CUBE;
+    default: return GLSL_FLOAT + letter - '1';
     }
+    /* clang-format on */
 }
 
 /* The size that makes a list of types this function's, 0: none. */

@@ -16,26 +16,15 @@ static long long fail(Condition *condition, const char *error)
 
 static int precedence_of(int kind)
 {
+    /* clang-format off */
     static const struct {
         unsigned char kind, precedence;
-    } TABLE[] = {{TOKEN_OR, 1},
-                 {TOKEN_AND, 2},
-                 {'|', 3},
-                 {'^', 4},
-                 {'&', 5},
-                 {TOKEN_EQUAL, 6},
-                 {TOKEN_NOT_EQUAL, 6},
-                 {'<', 7},
-                 {'>', 7},
-                 {TOKEN_LESS_EQUAL, 7},
-                 {TOKEN_GREATER_EQUAL, 7},
-                 {TOKEN_LEFT, 8},
-                 {TOKEN_RIGHT, 8},
-                 {'+', 9},
-                 {'-', 9},
-                 {'*', 10},
-                 {'/', 10},
-                 {'%', 10}};
+    } TABLE[] = {
+        {TOKEN_OR, 1}, {TOKEN_AND, 2}, {'|', 3}, {'^', 4}, {'&', 5}, {TOKEN_EQUAL, 6},
+        {TOKEN_NOT_EQUAL, 6}, {'<', 7}, {'>', 7}, {TOKEN_LESS_EQUAL, 7},
+        {TOKEN_GREATER_EQUAL, 7}, {TOKEN_LEFT, 8}, {TOKEN_RIGHT, 8}, {'+', 9}, {'-', 9},
+        {'*', 10}, {'/', 10}, {'%', 10}};
+    /* clang-format on */
     for (size_t i = 0; i < sizeof TABLE / sizeof TABLE[0]; i++)
         if (TABLE[i].kind == kind)
             return TABLE[i].precedence;
@@ -61,18 +50,15 @@ static long long operand(Condition *condition)
         condition->at++;
         return value;
     }
+    /* clang-format off */
     switch (token->kind) {
-    case '+':
-        return value_of(condition, UNARY);
-    case '-':
-        return -value_of(condition, UNARY);
-    case '~':
-        return ~value_of(condition, UNARY);
-    case '!':
-        return !value_of(condition, UNARY);
-    default:
-        return fail(condition, "only integers, macros and their operators may stand here");
+    case '+': return value_of(condition, UNARY);
+    case '-': return -value_of(condition, UNARY);
+    case '~': return ~value_of(condition, UNARY);
+    case '!': return !value_of(condition, UNARY);
+    default: return fail(condition, "only integers, macros and their operators may stand here");
     }
+    /* clang-format on */
 }
 
 /* In 32 bits, as the language's integers have. */
@@ -80,44 +66,28 @@ static long long apply(Condition *condition, int kind, long long a, long long b)
 {
     if ((kind == '/' || kind == '%') && b == 0)
         return condition->unused ? 0 : fail(condition, "division by zero");
+    /* clang-format off */
     switch (kind) {
-    case TOKEN_OR:
-        return a || b;
-    case TOKEN_AND:
-        return a && b;
-    case '|':
-        return a | b;
-    case '^':
-        return a ^ b;
-    case '&':
-        return a & b;
-    case TOKEN_EQUAL:
-        return a == b;
-    case TOKEN_NOT_EQUAL:
-        return a != b;
-    case '<':
-        return a < b;
-    case '>':
-        return a > b;
-    case TOKEN_LESS_EQUAL:
-        return a <= b;
-    case TOKEN_GREATER_EQUAL:
-        return a >= b;
-    case TOKEN_LEFT:
-        return (long long)((unsigned long long)a << (b & 31));
-    case TOKEN_RIGHT:
-        return a >> (b & 31);
-    case '+':
-        return a + b;
-    case '-':
-        return a - b;
-    case '*':
-        return a * b;
-    case '/':
-        return a / b;
-    default:
-        return a % b;
+    case TOKEN_OR: return a || b;
+    case TOKEN_AND: return a && b;
+    case '|': return a | b;
+    case '^': return a ^ b;
+    case '&': return a & b;
+    case TOKEN_EQUAL: return a == b;
+    case TOKEN_NOT_EQUAL: return a != b;
+    case '<': return a < b;
+    case '>': return a > b;
+    case TOKEN_LESS_EQUAL: return a <= b;
+    case TOKEN_GREATER_EQUAL: return a >= b;
+    case TOKEN_LEFT: return (long long)((unsigned long long)a << (b & 31));
+    case TOKEN_RIGHT: return a >> (b & 31);
+    case '+': return a + b;
+    case '-': return a - b;
+    case '*': return a * b;
+    case '/': return a / b;
+    default: return a % b;
     }
+    /* clang-format on */
 }
 
 static long long value_of(Condition *condition, int precedence)

@@ -360,7 +360,8 @@ int parse_declaration(Parser *parser, bool global)
     const int node = node_new(parser, GLSL_DECLARE, specifier.type, first->place);
     node_at(parser, node)->symbol = specifier.structure;
     node_at(parser, node)->op = specifier.invariant;
-    if (peek(parser, 0)->kind != ';')
+    /* The grammar lets the first name be left out. */
+    if (take_if(parser, ',') || peek(parser, 0)->kind != ';')
         do {
             if (!at_free_name(parser)) {
                 syntax_error(parser, "the name of the variable is missing");

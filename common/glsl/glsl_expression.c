@@ -249,21 +249,16 @@ static int parse_unary(Parser *parser)
 /* The precedence of a binary operator; 0: it is none. */
 static int binary_operator(int kind, int *op)
 {
+    /* clang-format off */
     static const struct {
         unsigned char kind, op, precedence;
-    } OPERATORS[] = {{TOKEN_OR, GLSL_OR, 1},
-                     {TOKEN_XOR, GLSL_XOR, 2},
-                     {TOKEN_AND, GLSL_AND, 3},
-                     {TOKEN_EQUAL, GLSL_EQUAL, 4},
-                     {TOKEN_NOT_EQUAL, GLSL_NOT_EQUAL, 4},
-                     {'<', GLSL_LESS, 5},
-                     {'>', GLSL_GREATER, 5},
-                     {TOKEN_LESS_EQUAL, GLSL_LESS_EQUAL, 5},
-                     {TOKEN_GREATER_EQUAL, GLSL_GREATER_EQUAL, 5},
-                     {'+', GLSL_ADD, 6},
-                     {'-', GLSL_SUBTRACT, 6},
-                     {'*', GLSL_MULTIPLY, 7},
-                     {'/', GLSL_DIVIDE, 7}};
+    } OPERATORS[] = {
+        {TOKEN_OR, GLSL_OR, 1}, {TOKEN_XOR, GLSL_XOR, 2}, {TOKEN_AND, GLSL_AND, 3},
+        {TOKEN_EQUAL, GLSL_EQUAL, 4}, {TOKEN_NOT_EQUAL, GLSL_NOT_EQUAL, 4},
+        {'<', GLSL_LESS, 5}, {'>', GLSL_GREATER, 5}, {TOKEN_LESS_EQUAL, GLSL_LESS_EQUAL, 5},
+        {TOKEN_GREATER_EQUAL, GLSL_GREATER_EQUAL, 5}, {'+', GLSL_ADD, 6},
+        {'-', GLSL_SUBTRACT, 6}, {'*', GLSL_MULTIPLY, 7}, {'/', GLSL_DIVIDE, 7}};
+    /* clang-format on */
     for (size_t i = 0; i < sizeof OPERATORS / sizeof OPERATORS[0]; i++)
         if (OPERATORS[i].kind == kind) {
             *op = OPERATORS[i].op;

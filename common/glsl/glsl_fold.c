@@ -46,30 +46,21 @@ static bool all_equal(Operand a, Operand b)
 
 static double apply(int op, double a, double b)
 {
+    /* clang-format off */
     switch (op) {
-    case GLSL_ADD:
-        return a + b;
-    case GLSL_SUBTRACT:
-        return a - b;
-    case GLSL_MULTIPLY:
-        return a * b;
-    case GLSL_DIVIDE:
-        return a / b;
-    case GLSL_LESS:
-        return a < b;
-    case GLSL_GREATER:
-        return a > b;
-    case GLSL_LESS_EQUAL:
-        return a <= b;
-    case GLSL_GREATER_EQUAL:
-        return a >= b;
-    case GLSL_AND:
-        return a != 0 && b != 0;
-    case GLSL_OR:
-        return a != 0 || b != 0;
-    default:
-        return (a != 0) != (b != 0);
+    case GLSL_ADD: return a + b;
+    case GLSL_SUBTRACT: return a - b;
+    case GLSL_MULTIPLY: return a * b;
+    case GLSL_DIVIDE: return a / b;
+    case GLSL_LESS: return a < b;
+    case GLSL_GREATER: return a > b;
+    case GLSL_LESS_EQUAL: return a <= b;
+    case GLSL_GREATER_EQUAL: return a >= b;
+    case GLSL_AND: return a != 0 && b != 0;
+    case GLSL_OR: return a != 0 || b != 0;
+    default: return (a != 0) != (b != 0);
     }
+    /* clang-format on */
 }
 
 /* Of matrices in columns; a vector is a row on the left and a column on the right. */
@@ -156,73 +147,49 @@ static double dot(Operand a, Operand b)
 static double function_1(int id, double x)
 {
     static const double DEGREE = 0.017453292519943295769;
+    /* clang-format off */
     switch (id) {
-    case GLSL_RADIANS:
-        return x * DEGREE;
-    case GLSL_DEGREES:
-        return x / DEGREE;
-    case GLSL_SIN:
-        return sin(x);
-    case GLSL_COS:
-        return cos(x);
-    case GLSL_TAN:
-        return tan(x);
-    case GLSL_ASIN:
-        return asin(x);
-    case GLSL_ACOS:
-        return acos(x);
-    case GLSL_ATAN:
-        return atan(x);
-    case GLSL_EXP:
-        return exp(x);
-    case GLSL_LOG:
-        return log(x);
-    case GLSL_EXP2:
-        return exp2(x);
-    case GLSL_LOG2:
-        return log2(x);
-    case GLSL_SQRT:
-        return sqrt(x);
-    case GLSL_INVERSESQRT:
-        return 1 / sqrt(x);
-    case GLSL_ABS:
-        return fabs(x);
-    case GLSL_SIGN:
-        return (x > 0) - (x < 0);
-    case GLSL_FLOOR:
-        return floor(x);
-    case GLSL_CEIL:
-        return ceil(x);
-    case GLSL_FRACT:
-        return x - floor(x);
-    default: /* GLSL_NOT_EACH */
-        return x == 0;
+    case GLSL_RADIANS: return x * DEGREE;
+    case GLSL_DEGREES: return x / DEGREE;
+    case GLSL_SIN: return sin(x);
+    case GLSL_COS: return cos(x);
+    case GLSL_TAN: return tan(x);
+    case GLSL_ASIN: return asin(x);
+    case GLSL_ACOS: return acos(x);
+    case GLSL_ATAN: return atan(x);
+    case GLSL_EXP: return exp(x);
+    case GLSL_LOG: return log(x);
+    case GLSL_EXP2: return exp2(x);
+    case GLSL_LOG2: return log2(x);
+    case GLSL_SQRT: return sqrt(x);
+    case GLSL_INVERSESQRT: return 1 / sqrt(x);
+    case GLSL_ABS: return fabs(x);
+    case GLSL_SIGN: return (x > 0) - (x < 0);
+    case GLSL_FLOOR: return floor(x);
+    case GLSL_CEIL: return ceil(x);
+    case GLSL_FRACT: return x - floor(x);
+    default: /* GLSL_NOT_EACH */ return x == 0;
     }
+    /* clang-format on */
 }
 
 static double function_3(int id, double x, double y, double z)
 {
+    /* clang-format off */
     switch (id) {
-    case GLSL_ATAN:
-        return atan2(x, y);
-    case GLSL_POW:
-        return pow(x, y);
-    case GLSL_MOD:
-        return x - y * floor(x / y);
-    case GLSL_MIN:
-        return y < x ? y : x;
-    case GLSL_MAX:
-        return x < y ? y : x;
-    case GLSL_CLAMP:
-        return x < y ? y : z < x ? z : x;
-    case GLSL_MIX:
-        return x * (1 - z) + y * z;
-    case GLSL_STEP:
-        return y < x ? 0 : 1;
+    case GLSL_ATAN: return atan2(x, y);
+    case GLSL_POW: return pow(x, y);
+    case GLSL_MOD: return x - y * floor(x / y);
+    case GLSL_MIN: return y < x ? y : x;
+    case GLSL_MAX: return x < y ? y : x;
+    case GLSL_CLAMP: return x < y ? y : z < x ? z : x;
+    case GLSL_MIX: return x * (1 - z) + y * z;
+    case GLSL_STEP: return y < x ? 0 : 1;
     case GLSL_SMOOTHSTEP: {
         const double t = fmin(fmax((z - x) / (y - x), 0), 1);
         return t * t * (3 - 2 * t);
     }
+    /* clang-format on */
     case GLSL_LESS_THAN:
         return x < y;
     case GLSL_LESS_THAN_EQUAL:

@@ -7,33 +7,14 @@
 #include "glsl/glsl_tokens.h"
 
 /* The first names are those of types, in the order of the types; then words in this order. */
+/* clang-format off */
 enum {
-    WORD_CONST = GLSL_TYPES,
-    WORD_ATTRIBUTE,
-    WORD_UNIFORM,
-    WORD_VARYING,
-    WORD_IN,
-    WORD_OUT,
-    WORD_INOUT,
-    WORD_LOWP,
-    WORD_MEDIUMP,
-    WORD_HIGHP,
-    WORD_PRECISION,
-    WORD_INVARIANT,
-    WORD_STRUCT,
-    WORD_IF,
-    WORD_ELSE,
-    WORD_FOR,
-    WORD_WHILE,
-    WORD_DO,
-    WORD_RETURN,
-    WORD_BREAK,
-    WORD_CONTINUE,
-    WORD_DISCARD,
-    WORD_TRUE,
-    WORD_FALSE,
-    WORD_RESERVED
+    WORD_CONST = GLSL_TYPES, WORD_ATTRIBUTE, WORD_UNIFORM, WORD_VARYING, WORD_IN, WORD_OUT,
+    WORD_INOUT, WORD_LOWP, WORD_MEDIUMP, WORD_HIGHP, WORD_PRECISION, WORD_INVARIANT,
+    WORD_STRUCT, WORD_IF, WORD_ELSE, WORD_FOR, WORD_WHILE, WORD_DO, WORD_RETURN, WORD_BREAK,
+    WORD_CONTINUE, WORD_DISCARD, WORD_TRUE, WORD_FALSE, WORD_RESERVED
 };
+/* clang-format on */
 
 typedef struct Parser {
     GlslTree *tree;
@@ -43,6 +24,7 @@ typedef struct Parser {
     int words;     /* names from here on are free */
     bool stopped;  /* a syntax error: nothing more is read */
     bool broken;   /* the preprocessor stopped where the tokens end */
+    bool cut;      /* and the parser there, too */
     int *declared; /* symbols of the scopes that are open */
     int declared_count, declared_room;
     int scope;                            /* where the innermost one begins in these */

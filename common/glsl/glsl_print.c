@@ -75,18 +75,15 @@ static int strength(const GlslNode *node)
         [GLSL_LESS] = 7,  [GLSL_GREATER] = 7,   [GLSL_LESS_EQUAL] = 7, [GLSL_GREATER_EQUAL] = 7,
         [GLSL_EQUAL] = 8, [GLSL_NOT_EQUAL] = 8, [GLSL_AND] = 12,       [GLSL_XOR] = 13,
         [GLSL_OR] = 14,   [GLSL_COMMA] = 17};
+    /* clang-format off */
     switch (node->kind) {
-    case GLSL_UNARY:
-        return node->op >= GLSL_POST_INCREMENT ? 2 : 3;
-    case GLSL_BINARY:
-        return BINARY[node->op];
-    case GLSL_CONDITIONAL:
-        return 15;
-    case GLSL_ASSIGN:
-        return 16;
-    default:
-        return 2;
+    case GLSL_UNARY: return node->op >= GLSL_POST_INCREMENT ? 2 : 3;
+    case GLSL_BINARY: return BINARY[node->op];
+    case GLSL_CONDITIONAL: return 15;
+    case GLSL_ASSIGN: return 16;
+    default: return 2;
     }
+    /* clang-format on */
 }
 
 static void expression(Printer *printer, int node, int weakest);

@@ -150,16 +150,14 @@ int parse_block(Parser *parser)
 /* What begins with a word of its own. */
 static int parse_keyword(Parser *parser)
 {
+    /* clang-format off */
     static const struct {
         unsigned char word, kind;
-    } KINDS[] = {{WORD_IF, GLSL_IF},
-                 {WORD_FOR, GLSL_FOR},
-                 {WORD_WHILE, GLSL_WHILE},
-                 {WORD_DO, GLSL_DO},
-                 {WORD_RETURN, GLSL_RETURN},
-                 {WORD_BREAK, GLSL_BREAK},
-                 {WORD_CONTINUE, GLSL_CONTINUE},
-                 {WORD_DISCARD, GLSL_DISCARD}};
+    } KINDS[] = {
+        {WORD_IF, GLSL_IF}, {WORD_FOR, GLSL_FOR}, {WORD_WHILE, GLSL_WHILE}, {WORD_DO, GLSL_DO},
+        {WORD_RETURN, GLSL_RETURN}, {WORD_BREAK, GLSL_BREAK}, {WORD_CONTINUE, GLSL_CONTINUE},
+        {WORD_DISCARD, GLSL_DISCARD}};
+    /* clang-format on */
     const GlslPlace place = peek(parser, 0)->place;
     int kind = 0, word = 0;
     for (size_t i = 0; i < sizeof KINDS / sizeof KINDS[0] && !kind; i++)

@@ -243,8 +243,12 @@ void complain(Parser *parser, GlslPlace place, const char *format, ...)
 void syntax_error(Parser *parser, const char *format, ...)
 {
     /* Where the preprocessor stopped, it says why. */
-    if (parser->stopped || (parser->broken && peek(parser, 0)->kind == TOKEN_END))
+    if (parser->stopped)
         return;
+    if (parser->broken && peek(parser, 0)->kind == TOKEN_END) {
+        parser->stopped = parser->cut = true;
+        return;
+    }
     va_list arguments;
     va_start(arguments, format);
     add_message(parser, peek(parser, 0)->place, format, arguments);
@@ -279,7 +283,8 @@ GlslTree *glsl_parse(const char *text, GlslStage stage, const GlslLimits *limits
     declare_built_ins(&parser);
     set_precisions(&parser);
     tree->root = parse_unit(&parser);
-    if (parser.broken && !parser.stopped)
+    parser.stopped &= !parser.cut;
+    if (parser.broken)
         complain(&parser, message.place, "%s", message.text);
     free(parser.tokens.items);
     free(parser.declared);

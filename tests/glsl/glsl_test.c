@@ -76,6 +76,7 @@ TEST(messages_name_the_line)
          "#if: a name here must be a macro: ask #ifdef, or defined(NAME) &&, first");
     says(FRAGMENT "#define M(a) \\\n a", 2,
          "GLSL ES 1.00 cannot continue a line by \\: write it as one line");
+    says(FRAGMENT "float f() {\n#define\n", 3, "a name must follow");
     says("/*\n*/ #error no light\n", 2, "#error no light");
 }
 
