@@ -355,7 +355,7 @@ class Streams(Animations):
             self.assertIn(f" F{said} ", header, given)
 
     def test_a_terminal_is_refused(self):
-        ours, theirs = os.openpty()
+        ours, theirs = base.terminal()
         self.addCleanup(os.close, ours)
         for kind in ("y4m", "rgb"):
             self.refused(2, "is a terminal", "-o", "-", "--format", kind, stdout=theirs)

@@ -90,4 +90,4 @@ class Installation(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    sys.exit(0 if unittest.main(argv=[sys.argv[0], *sys.argv[3:]], exit=False).result.wasSuccessful() else 1)
+    sys.exit(base.run_tests())

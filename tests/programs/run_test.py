@@ -492,5 +492,4 @@ esac
 
 
 if __name__ == "__main__":
-    sys.exit(0 if unittest.main(argv=[sys.argv[0], *sys.argv[3:]], exit=False).result.wasSuccessful()
-             else 1)
+    sys.exit(base.run_tests())
