@@ -20,8 +20,9 @@ static Arithmetics found;
 FIXTURE(measure)
 {
     Meter meter;
-    width = 240 / testing_step(3);
-    height = 180 / testing_step(3);
+    const int part = testing_step(3) == 1 ? 1 : 3;
+    width = 240 / part;
+    height = 180 / part;
     require(meter_open(&meter, NULL, FAILURE), FAILURE);
     require(arithmetic_measure(&meter, 1, &found, FAILURE), FAILURE);
     meter_close(&meter);

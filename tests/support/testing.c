@@ -31,7 +31,8 @@ int testing_step(int step)
     const char *everything = getenv("LIGHTING_TEST_LONG"), *backend = getenv("LIGHTING_BACKEND");
     if (everything && everything[0])
         return 1;
-    return backend && strcmp(backend, "osmesa") == 0 ? 4 * step : step;
+    const bool few = getenv("ASAN_OPTIONS") || (backend && strcmp(backend, "osmesa") == 0);
+    return few ? 4 * step : step;
 }
 
 int testing_part(int count, int step)

@@ -59,7 +59,8 @@ int testing_run(int list, const char *name, CMFixtureFunction setup, CMFixtureFu
 enum { EXIT_SKIPPED = 77 };
 
 /* The short form of the tests takes every `step`-th of many similar cases, and of four times fewer
- * on the second backend; the long form (LIGHTING_TEST_LONG in the environment, set by tests/run
+ * on the second backend and under AddressSanitizer; the long form (LIGHTING_TEST_LONG in the
+ * environment, set by tests/run
  * --long) takes all: then this is 1. */
 int testing_step(int step);
 
