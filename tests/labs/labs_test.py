@@ -329,6 +329,11 @@ class Holes(Labs):
             self.assertEqual(named(result), ["index beyond the array"])
 
     @LONG
+    def test_an_index_beyond_the_array_of_another_lab(self):
+        """Whose file lies in the same folder."""
+        other = mistakes.read(2)["lab02.vert"].replace("i < 2", "i < 3")
+        self.assertEqual(check_texts(1, {**mistakes.read(1), "lab02.vert": other})["verdict"], "right")
+
     def test_an_exponent_a_little_off(self):
         result = self.wrong(6, ("frag", "u_Shininess)", "0.95 * u_Shininess)"))
         self.assertEqual(named(result), ["wrong exponent"])

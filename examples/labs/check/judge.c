@@ -21,8 +21,9 @@ typedef struct Session {
     Verdict *verdict;
     Canvas canvas;
     const SubmissionFiles *files;
-    SubmissionFiles plain; /* lab 10: its shaders, preprocessed; none: they cannot be */
-    Shader shader, own;    /* the latter with the files' own precision, if that is another */
+    SubmissionFiles plain;  /* lab 10: its shaders, preprocessed; none: they cannot be */
+    SubmissionFiles mended; /* what is judged instead of `files`; none: there is nothing to mend */
+    Shader shader, own;     /* the latter with the files' own precision, if that is another */
     LabPictures pictures;
     LabBudget budget; /* lab 10 */
     bool settled;     /* the submission is at fault: there is a verdict */
@@ -124,6 +125,12 @@ static bool open_shader(Session *session, Message *message)
         return settle(session, VERDICT_ERROR, &own, NULL);
     if (!check_conditions(session, &own))
         return settle(session, VERDICT_REFUSED, &own, NULL);
+    if (text_mend_overruns(session->lab, session->files, &session->mended)) {
+        session->files = &session->mended;
+        shader_close(&session->own);
+        if (!submission_compile(&session->own, session->lab, session->files, NULL, &own))
+            return settle(session, VERDICT_ERROR, &own, NULL);
+    }
     if (session->lab->budget) {
         /* The driver draws the very text that is counted. Without the tools nothing is counted. */
         if (!budget_preprocess(session->files, &session->plain, NULL) ||
@@ -351,8 +358,8 @@ static bool judge_pictures(Session *session, Message *message)
     int worst = add_probes(&session->pictures, verdict);
     if (!look_closer(session, &painter, worst, &outside, numbers, message))
         return false;
-    const bool overrun =
-        worst < 0 && !outside && !session->lab->given && text_find_overrun(session->files, verdict);
+    const bool overrun = worst < 0 && !outside && session->mended.count > 0 &&
+                         text_find_overrun(session->lab, session->options->files, verdict);
     const bool wrong = worst >= 0 || outside || overrun;
     verdict->kind = wrong ? VERDICT_WRONG : VERDICT_RIGHT;
     if (!wrong) {
@@ -403,6 +410,7 @@ bool judge(const JudgeOptions *options, Verdict *verdict, Message *message)
     shader_close(&session.shader);
     shader_close(&session.own);
     submission_files_close(&session.plain);
+    submission_files_close(&session.mended);
     canvas_close(&session.canvas);
     verdict->seconds = clock_now() - start;
     return done;

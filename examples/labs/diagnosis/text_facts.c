@@ -218,24 +218,32 @@ static int array_size(const char *plain, const char *array)
     return 0;
 }
 
-/* "int COUNTER = N; COUNTER < N; COUNTER++)": the counter, its last value, and what follows. NULL:
- * something else. */
-static const char *read_header(const char *plain, const char *p, char counter[64], int *last)
+/* A loop "for (int COUNTER = N; COUNTER < N; COUNTER++)". */
+typedef struct Loop {
+    char counter[64];
+    int last;         /* its last value */
+    const char *test; /* "<" or "<=" */
+    const char *body;
+} Loop;
+
+/* What follows "for"; false: something else. */
+static bool read_header(const char *plain, const char *p, Loop *loop)
 {
-    char word[64];
-    int first;
+    char word[64], *counter = loop->counter;
+    int first, *last = &loop->last;
     if (*(p = skip_spaces(p)) != '(' || !(p = read_name(p + 1, word)) || strcmp(word, "int") != 0 ||
         !(p = read_name(p, counter)) || *p != '=' || !(p = read_size(plain, p + 1, &first)) ||
         *p != ';' || !(p = read_name(p + 1, word)) || strcmp(word, counter) != 0 || *p != '<')
-        return NULL;
+        return false;
     const bool up_to = p[1] == '=';
+    loop->test = p;
     if (!(p = read_size(plain, p + 1 + up_to, last)) || *p != ';')
-        return NULL;
+        return false;
     *last -= !up_to;
     const size_t length = strcspn(p + 1, ");");
     const char *step = strstr(p, "++");
-    return step && step < p + 1 + length && p[1 + length] == ')' ? skip_spaces(p + length + 2)
-                                                                 : NULL;
+    loop->body = skip_spaces(p + length + 1 + (p[1 + length] == ')'));
+    return step && step < p + 1 + length && p[1 + length] == ')';
 }
 
 /* The end of a statement. NULL: one that is not a block or simple. */
@@ -285,27 +293,70 @@ static bool overruns(const char *plain, const char *body, const char *end, const
     return found;
 }
 
-bool text_find_overrun(const SubmissionFiles *files, Verdict *verdict)
+/* The first loop that reads beyond an array, which it names. */
+static bool find_overrun(const char *plain, Loop *loop, char array[64])
 {
-    char counter[64], array[64];
-    int last;
+    for (const char *at = plain; (at = strstr(at, "for")); at += 3) {
+        if ((at > plain && text_is_word(at[-1])) || text_is_word(at[3]) ||
+            !read_header(plain, at + 3, loop))
+            continue;
+        const char *end = statement_end(loop->body);
+        if (end && overruns(plain, loop->body, end, loop->counter, loop->last, array))
+            return true;
+    }
+    return false;
+}
+
+/* Not another lab's, which may lie in the same folder. */
+static bool is_drawn(const Lab *lab, const char *name)
+{
+    return strncmp(name, lab->file, strlen(lab->file)) == 0 || strstr(name, ".glsl");
+}
+
+bool text_find_overrun(const Lab *lab, const SubmissionFiles *files, Verdict *verdict)
+{
+    Loop loop;
+    char array[64];
     bool found = false;
     for (int i = 0; i < files->count && !found; i++) {
+        if (!is_drawn(lab, files->texts[i].name))
+            continue;
         char *plain = plain_text(files->texts[i].text);
-        for (const char *at = plain; (at = strstr(at, "for")) && !found; at += 3) {
-            if ((at > plain && text_is_word(at[-1])) || text_is_word(at[3]))
-                continue;
-            const char *body = read_header(plain, at + 3, counter, &last);
-            const char *end = body ? statement_end(body) : NULL;
-            found = end && overruns(plain, body, end, counter, last, array);
-        }
+        found = find_overrun(plain, &loop, array);
         free(plain);
     }
     if (found)
         blame(verdict, "index beyond the array", array,
-              "A loop reads beyond the last element, where anything may be: here it is 0, with "
-              "another driver the last light once more.",
+              "A loop reads beyond the last element, where anything may be: 0 with one driver, the "
+              "last light once more with another.",
               "the loop's condition: i < 2 for an array of two");
+    return found;
+}
+
+bool text_mend_overruns(const Lab *lab, const SubmissionFiles *files, SubmissionFiles *mended)
+{
+    Loop loop;
+    char array[64];
+    bool found = false;
+    *mended = (SubmissionFiles){.count = 0};
+    for (int i = 0; i < files->count; i++) {
+        char *text = memory_text(files->texts[i].text), *plain = plain_text(text);
+        while (is_drawn(lab, files->texts[i].name) && find_overrun(plain, &loop, array)) {
+            const size_t size = strlen(plain) + 32;
+            free(text);
+            text = memory_new(size, 1);
+            snprintf(text, size, "%.*s< %d%s", (int)(loop.test - plain), plain,
+                     array_size(plain, array), strchr(loop.test, ';'));
+            free(plain);
+            plain = plain_text(text);
+            found = true;
+        }
+        submission_files_add(mended, files->texts[i].name, text, strlen(text), NULL);
+        free(text);
+        free(plain);
+    }
+    if (!found)
+        submission_files_close(mended);
     return found;
 }
 

@@ -146,7 +146,7 @@ int page_replace(const char *name, const char *text, int size)
     if (i == count)
         return message_set(&page.message, "%.80s: not a file of %s", name, page.lab->name);
     if (size > SHADER_FILE_MAX)
-        return message_set(&page.message, "%s: has %d bytes; at most %d are allowed", name, size,
+        return message_set(&page.message, "%s: has %d bytes; at most %d are read", name, size,
                            SHADER_FILE_MAX);
     return write_file(name, text, (size_t)size);
 }
