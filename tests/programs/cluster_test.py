@@ -3,8 +3,8 @@
 
 usage: cluster_test.py EXAMPLES_FOLDER_OF_THE_BUILD SOURCE_FOLDER [unittest's arguments]
 
-What the parts make together is what one process makes. Slurm is one node that takes four tasks at
-once: its daemons are started with a configuration of their own, in a temporary folder, on free ports
+What the parts make together is what one process makes. Slurm has three nodes that take two tasks at
+once each: its daemons are started with a configuration of their own, in a temporary folder, on free ports
 of the loopback interface, and end with the test. That needs root.
 """
 import csv
@@ -20,7 +20,8 @@ import unittest
 
 import command_line_test as base
 
-TASKS = 4
+TASKS = 2
+NODES = ("one", "two", "three")
 TREE = os.path.join(base.SOURCE, "tests/labs/solutions/lab05_per_fragment")
 STARTER = os.path.join(base.SOURCE, "examples/labs/lab05_per_fragment")
 # Of the pages' words, what is smaller here.
@@ -73,6 +74,33 @@ class Cluster(base.Case):
 
     def shell(self, text):
         return self.sh("sh", "-ec", text)
+
+    def cluster(self, *arguments):
+        process = subprocess.Popen([os.path.join(base.SOURCE, "examples/cluster"), *arguments], text=True,
+                                   cwd=self.folder, env=self.environment, stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE)
+        self.addCleanup(process.kill)
+        return process
+
+    def end_of(self, process, status=0):
+        """Waits for a command. Returns what it said."""
+        error = process.communicate(timeout=base.PATIENCE)[1]
+        self.assertEqual(process.returncode, status, error)
+        return error
+
+    def slow_film(self, engine):
+        """A film whose parts take their time."""
+        self.make("bin/FourLights", "#!/bin/sh\ncase $* in *--part*) sleep 2 ;; esac\n"
+                  f'exec {base.EXAMPLES}/FourLights "$@"\n')
+        os.chmod(self.path("bin/FourLights"), 0o755)
+        return self.cluster(engine, "6", "--", self.path("bin/FourLights"), "-n", "24", "-s", "40x30",
+                            "-o", "lights.mp4")
+
+    def wait_for(self, happened):
+        end = time.monotonic() + base.PATIENCE
+        while not happened():
+            self.assertLess(time.monotonic(), end)
+            time.sleep(0.1)
 
     def assert_film(self):
         self.sh("FourLights", "-n", "24", "-s", "40x30", "-o", "one.mp4")
@@ -136,6 +164,45 @@ class OneMachine(Cluster):
         self.assertEqual(len(re.findall("--part", self.sh("make", "-j4"))), 8)
         self.assert_film()
 
+    @needs("ffmpeg")
+    def test_parallel_continues_after_an_interruption(self):
+        process = self.slow_film("--parallel")
+        self.wait_for(lambda: os.path.exists(self.path("lights.mp4.parts/000000.png")))
+        process.send_signal(signal.SIGINT)
+        self.assertIn("interrupted; the same command continues", self.end_of(process, 130))
+        self.assertNotIn("lights.mp4", os.listdir(self.folder))
+        self.end_of(self.slow_film("--parallel"))
+        self.assert_film()
+        self.assertNotIn("lights.mp4.cluster", os.listdir(self.folder))
+
+    def test_one_command_makes_a_gallery_a_survey_and_a_class(self):
+        said = self.end_of(self.cluster("2", "--parallel", "--", "gallery", "-s", "40x40", "-o", "gallery"))
+        self.assertRegex(said, "^examples/run cluster: 0 of 2 parts\n(.*\n)*.*: 2 of 2 parts\n$")
+        self.assert_gallery()
+        survey = ("accuracy", "--scene", "cube", "--quick", "-s", "48x48", "-o")
+        self.end_of(self.cluster("--parallel", "2", "--", *survey, "study"))
+        self.sh(*survey, "one_study")
+        self.assertEqual(*(self.rows(folder, "results.csv", "time|run_|noise")
+                           for folder in ("study", "one_study")))
+        self.make_class()
+        said = self.end_of(self.cluster("--parallel", "3", "--", "check", "--class", "class", "--lab",
+                                        "5", "-o", "results"))
+        self.assertRegex(said, "3 of 3 parts, 10 students\n$")
+        self.assertEqual(*(self.rows(folder, "class.csv", "seconds") for folder in ("whole", "results")))
+
+    def test_a_part_that_dies_is_tried_again_and_one_that_fails_is_named(self):
+        self.make("bin/LightedCube", "#!/bin/sh\ncase $* in *2/3*) test -e died || { : >died; kill -9 "
+                  f"$$; }} ;; esac\nexec {base.EXAMPLES}/LightedCube \"$@\"\n")
+        os.chmod(self.path("bin/LightedCube"), 0o755)
+        draw = ("3", "--parallel", "--", "bin/LightedCube", "-s", "20x20", "-n", "6")
+        self.assertRegex(self.end_of(self.cluster(*draw, "-o", "a%d.png")),
+                         "\n.*: part 2 of 3 failed: .*; trying again: 2\n.*: 3 of 3 parts\n$")
+        self.assertEqual(sum(name.startswith("a") for name in os.listdir(self.folder)), 6)
+        self.assertRegex(self.end_of(self.cluster(*draw, "-o", "a%d.png", "--shaders", "none"), 1),
+                         "missing after 3 tries: 1 2 3; part 1 of 3 failed: .*: none: no such shader")
+        self.assertRegex(self.end_of(self.cluster(*draw, "-o", "a%d.png", "--samples", "x"), 2),
+                         "part 1 of 3 failed: LightedCube: --samples x")
+
     def test_gnu_parallel_judges_a_class(self):
         self.make_class()
         self.shell(classes("parallel ").replace("parallel ", "parallel --will-cite "))
@@ -151,6 +218,7 @@ class Slurm(Cluster):
             process = subprocess.Popen(command, cwd=self.folder, env=self.environment, stdout=log,
                                        stderr=subprocess.STDOUT, start_new_session=True)
         self.addCleanup(self.end, process)
+        return process
 
     def end(self, process):
         process.terminate()
@@ -171,10 +239,10 @@ class Slurm(Cluster):
         self.start("munged", "--foreground", "--force",  # --force: in a folder that all may enter
                    *(f"--{what}-file={place}/munge/{what}" for what in ("key", "pid", "log", "seed")),
                    f"--socket={place}/munge/socket")
-        ports = [socket.socket() for _ in range(2)]
+        ports = [socket.socket() for _ in range(1 + len(NODES))]
         for port in ports:
             port.bind(("127.0.0.1", 0))
-        control, node = (port.getsockname()[1] for port in ports)
+        control, *own = (port.getsockname()[1] for port in ports)
         for port in ports:
             port.close()
         self.make("slurm/slurm.conf", f"""
@@ -190,28 +258,29 @@ class Slurm(Cluster):
             MpiDefault=none
             ReturnToService=2
             StateSaveLocation={place}/state
-            SlurmdSpoolDir={place}/spool
+            SlurmdSpoolDir={place}/spool-%n
+            SlurmdPidFile={place}/slurmd-%n.pid
+            SlurmdTimeout=20
             SlurmctldPidFile={place}/slurmctld.pid
             SlurmdPidFile={place}/slurmd.pid
             SlurmctldPort={control}
-            SlurmdPort={node}
             SelectType=select/cons_tres
             SelectTypeParameters=CR_CPU
             SlurmdParameters=config_overrides
-            NodeName={host} NodeAddr=127.0.0.1 CPUs={TASKS}
-            PartitionName=all Nodes={host} Default=YES State=UP
-        """.replace("\n            ", "\n"))
+            PartitionName=all Nodes={",".join(NODES)} Default=YES State=UP
+        """.replace("\n            ", "\n") + "".join(
+            f"NodeName={name} NodeHostname={host} NodeAddr=127.0.0.1 Port={port} CPUs={TASKS}\n"
+            for name, port in zip(NODES, own)))
         os.mkdir(os.path.join(place, "state"))
-        os.mkdir(os.path.join(place, "spool"))
         self.environment["SLURM_CONF"] = os.path.join(place, "slurm.conf")
         self.start("slurmctld", "-D", "-c")
-        self.start("slurmd", "-D", "-c")
+        self.nodes = {name: self.start("slurmd", "-D", "-c", "-N", name) for name in NODES}
         end = time.monotonic() + base.PATIENCE
-        while "idle" not in subprocess.run(["sinfo", "-h", "-o", "%t"], env=self.environment,
-                                           capture_output=True, text=True).stdout:
+        while subprocess.run(["sinfo", "-h", "-N", "-o", "%t"], env=self.environment, text=True,
+                             capture_output=True).stdout.split() != ["idle"] * len(NODES):
             if time.monotonic() > end:
                 logs = b"".join(self.read("slurm/" + name + ".log")[-500:] for name in DAEMONS)
-                self.fail(f"the node does not come up: {logs.decode()}")
+                self.fail(f"a node does not come up: {logs.decode()}")
             time.sleep(0.2)
 
     def batch(self, job):
@@ -233,6 +302,42 @@ class Slurm(Cluster):
         os.mkdir(self.path("parts"))
         self.batch(classes("#SBATCH"))
         self.assert_class()
+
+    def kill_node(self, name):
+        """As if its machine had lost power: the daemon, the steps and what they run."""
+        jobs = self.sh("squeue", "-h", "-w", name, "-t", "R", "-o", "%A").split()
+        self.assertTrue(jobs)
+        self.nodes[name].kill()
+        self.nodes[name].wait()
+        for process in filter(str.isdigit, os.listdir("/proc")):
+            try:
+                with open(f"/proc/{process}/environ", "rb") as file:
+                    environment = file.read().split(b"\0")
+                with open(f"/proc/{process}/cmdline", "rb") as file:
+                    line = file.read().decode(errors="replace")
+            except OSError:
+                continue
+            step = re.match(r"slurmstepd: \[(\d+)\.", line)
+            if f"SLURM_CONF={self.path('slurm/slurm.conf')}".encode() in environment and (
+                    step and step[1] in jobs or f"SLURMD_NODENAME={name}".encode() in environment):
+                os.kill(int(process), signal.SIGKILL)
+
+    def test_a_node_that_dies_costs_no_picture(self):
+        process = self.slow_film("--slurm")
+        self.wait_for(lambda: self.sh("squeue", "-h", "-w", "two", "-t", "R"))
+        self.kill_node("two")
+        said = self.end_of(process)
+        self.assertRegex(said, "6 of 6 parts, 24 of 24 pictures\n$")
+        self.assert_film()
+
+    def test_a_command_that_was_ended_waits_for_the_parts_again(self):
+        process = self.slow_film("--slurm")
+        self.wait_for(lambda: self.sh("squeue", "-h", "-t", "R"))
+        process.send_signal(signal.SIGINT)
+        self.assertRegex(self.end_of(process, 130), "the parts go on in Slurm; the same command waits")
+        self.end_of(self.slow_film("--slurm"))
+        self.assert_film()
+        self.assertEqual(len(set(self.sh("squeue", "-h", "-t", "all", "-o", "%F").split())), 1)
 
 
 if __name__ == "__main__":
