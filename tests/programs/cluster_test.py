@@ -213,7 +213,7 @@ class OneMachine(Cluster):
 @unittest.skipIf(os.getuid(), "Slurm's daemons need root")
 class Slurm(Cluster):
     def start(self, *command):
-        log = open(self.path("slurm", os.path.basename(command[0]) + ".log"), "wb")
+        log = open(self.path("slurm", os.path.basename(command[0]) + ".log"), "ab")
         with log:
             process = subprocess.Popen(command, cwd=self.folder, env=self.environment, stdout=log,
                                        stderr=subprocess.STDOUT, start_new_session=True)
@@ -262,7 +262,6 @@ class Slurm(Cluster):
             SlurmdPidFile={place}/slurmd-%n.pid
             SlurmdTimeout=20
             SlurmctldPidFile={place}/slurmctld.pid
-            SlurmdPidFile={place}/slurmd.pid
             SlurmctldPort={control}
             SelectType=select/cons_tres
             SelectTypeParameters=CR_CPU

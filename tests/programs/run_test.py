@@ -96,6 +96,15 @@ class Names(Case):
                                         environment={"LIGHTING_BUILD": self.path("build")})
             self.assertEqual((code, said in error), (2, True), error)
 
+    def test_cluster_wants_a_number_and_a_command(self):
+        self.assertRegex(self.start("cluster", "--help")[1], "^cluster: many processes or machines share")
+        for arguments, said in (((), "which command"), (("8",), "which command"),
+                                (("8", "--"), "which command"), (("--pbs", "8"), "--pbs: no such option")):
+            code, text, error = self.start("cluster", *arguments)
+            self.assertEqual((code, text), (2, ""))
+            self.assertRegex(error, f"^examples/run cluster: {said}")
+        self.assertEqual(self.start("cluster", "8", "--", "gallry")[0], 2)
+
     def test_pages_replace_only_pages(self):
         for arguments, code, said in (((), 2, "web: -o DIR names the folder for the pages"),
                                       (("-o",), 2, "-o: name a folder, as in -o pages"),
