@@ -1,8 +1,9 @@
 /*
  * animation: several pictures in one file or stream.
  *
- * GIF is written by OpenImageIO; WebP, APNG, MP4 and WebM by an ffmpeg process that reads raw
- * pictures from a pipe; y4m and rgb, for pipes, are written here. Picture i starts at i / fps:
+ * GIF, WebP, APNG, MP4 and WebM are written by an ffmpeg process that reads raw pictures from a
+ * pipe, GIF by OpenImageIO where there is none; y4m and rgb, for pipes, are written here. Picture i
+ * starts at i / fps:
  *
  *   gif   256 colors per picture, no alpha; to the nearest hundredth of a second
  *   webp  lossless, alpha; to the nearest millisecond

@@ -3,8 +3,8 @@
  * and at 30 per second no number is right: 3 makes 33 per second. So delays differ: picture i
  * begins at the hundredth nearest to i / fps, and is shown until the next begins, which keeps the
  * error below half a hundredth however long the animation is. OpenImageIO writes the same delay for
- * all; when the file is complete, its blocks are walked and each delay is replaced in place.
- * (GIF89a specification, sections 17 to 23)
+ * all, ffmpeg other ones; when the file is complete, its blocks are walked and each delay is
+ * replaced in place. (GIF89a specification, sections 17 to 23)
  */
 #include "images/image_gif.h"
 
@@ -67,14 +67,13 @@ static void gif_skip_colors(FILE *file, int flags)
 }
 
 /* In hundredths of a second. */
-static long gif_delay(const ImageGif *gif, int number)
+static long gif_delay(double fps, int number)
 {
-    const double fps = gif->options.fps;
     return lround(100 * (number + 1) / fps) - lround(100 * number / fps);
 }
 
 /* Replaces the delay in the graphic control extension of each picture. */
-static bool gif_set_delays(const ImageGif *gif, FILE *file)
+static bool gif_set_delays(int descriptor, const GifOptions *options, FILE *file)
 {
     int kind, flags, number = 0;
     fseek(file, 10, SEEK_SET);
@@ -83,10 +82,10 @@ static bool gif_set_delays(const ImageGif *gif, FILE *file)
     gif_skip_colors(file, flags);
     while ((kind = getc(file)) == 0x21 || kind == 0x2C) {
         if (kind == 0x21 && getc(file) == 0xF9) {
-            const long delay = gif_delay(gif, number++);
+            const long delay = gif_delay(options->fps, number++);
             const unsigned char bytes[2] = {(unsigned char)(delay & 255),
                                             (unsigned char)(delay >> 8)};
-            if (pwrite(gif->file, bytes, 2, ftell(file) + 2) != 2)
+            if (pwrite(descriptor, bytes, 2, ftell(file) + 2) != 2)
                 return false;
         } else if (kind == 0x2C) {
             for (int i = 0; i < 8; i++)
@@ -98,7 +97,20 @@ static bool gif_set_delays(const ImageGif *gif, FILE *file)
             break;
     }
     errno = EILSEQ;
-    return kind == 0x3B && number == gif->options.count;
+    return kind == 0x3B && number == options->count;
+}
+
+bool image_gif_set_times(int file, const GifOptions *options, Message *message)
+{
+    const int again = dup(file);
+    FILE *stream = again < 0 ? NULL : fdopen(again, "rb");
+    const bool done = (stream && gif_set_delays(file, options, stream)) ||
+                      message_set(message, "GIF: cannot set the times: %s", strerror(errno));
+    if (stream)
+        fclose(stream);
+    else if (again >= 0)
+        close(again);
+    return done;
 }
 
 bool image_gif_close(ImageGif *gif, Message *message)
@@ -109,17 +121,8 @@ bool image_gif_close(ImageGif *gif, Message *message)
     bool done = !gif->plugin || gif->plugin->gif_close(gif->own, reason, sizeof reason);
     if (!done)
         message_set(message, "GIF: %s", reason);
-    if (done && !gif->failed) {
-        const int again = dup(gif->file);
-        FILE *file = again < 0 ? NULL : fdopen(again, "rb");
-        done = file && gif_set_delays(gif, file);
-        if (!done)
-            message_set(message, "GIF: cannot set the times: %s", strerror(errno));
-        if (file)
-            fclose(file);
-        else if (again >= 0)
-            close(again);
-    }
+    if (done && !gif->failed)
+        done = image_gif_set_times(gif->file, &gif->options, message);
     done = done && !gif->failed;
     free(gif);
     return done;

@@ -19,6 +19,9 @@ typedef struct ImageGif ImageGif;
  * forever. image_gif_close is called after a failure too; NULL is fine. */
 bool image_gif_open(ImageGif **gif, int file, const GifOptions *options, Message *message);
 bool image_gif_add(ImageGif *gif, const Image *image, Message *message);
+/* Sets the times of a complete GIF with as many pictures; its delays were any. */
+bool image_gif_set_times(int file, const GifOptions *options, Message *message);
+
 bool image_gif_close(ImageGif *gif, Message *message);
 
 #endif

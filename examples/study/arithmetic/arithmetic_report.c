@@ -113,6 +113,15 @@ static void columns_of(const Arithmetics *found, Columns *columns)
 static const char *const ROUNDING_NAMES[] = {"nearest, ties to even", "nearest", "towards 0",
                                              "other"};
 
+static const char *smaller_text(const Format *format)
+{
+    return format->denormals != format->denormal_inputs ? format->denormals
+                                                              ? "become 0 as inputs, not as results"
+                                                              : "become 0 as results, not as inputs"
+           : format->denormals                          ? "are kept"
+                                                        : "become 0";
+}
+
 static void put_formats(const Columns *columns, bool markdown, FILE *file)
 {
     Table table;
@@ -120,9 +129,9 @@ static void put_formats(const Columns *columns, bool markdown, FILE *file)
     for (int i = 0; i < columns->count; i++) {
         const Format *format = &columns->of[i]->format;
         table_row(&table, "%s|%d|2^%d to 2^%d|%s|%s|%s|%s", columns->names[i], format->bits,
-                  format->min_exponent, format->max_exponent + 1,
-                  format->denormals ? "are kept" : "become 0", ROUNDING_NAMES[format->rounding],
-                  format->infinity ? "not finite" : "finite", format->nan ? "NaN" : "a number");
+                  format->min_exponent, format->max_exponent + 1, smaller_text(format),
+                  ROUNDING_NAMES[format->rounding], format->infinity ? "not finite" : "finite",
+                  format->nan ? "NaN" : "a number");
     }
     table_close(&table, markdown, file);
 }
@@ -274,6 +283,7 @@ static void put_arithmetic_json(const Arithmetic *of, FILE *file)
     put_number(file, "min_exponent", format->min_exponent, false);
     put_number(file, "max_exponent", format->max_exponent, false);
     put_flag(file, "denormals", format->denormals, false);
+    put_flag(file, "denormal_inputs", format->denormal_inputs, false);
     fprintf(file, "\"rounding\": \"%s\", ", ROUNDING_NAMES[format->rounding]);
     put_flag(file, "infinity", format->infinity, false);
     put_flag(file, "nan", format->nan, false);

@@ -307,7 +307,8 @@ void batch_judge(const Batch *batch, Function function, const Format *format,
         for (int i = 0; i < 4; i++) {
             const float x = batch->a[n][i], y = batch->b[n][i];
             const double exact = batch->exact[n][i];
-            if (FUNCTIONS[function].inputs == 1 && !format->denormals && !is_normal(format, x))
+            if (FUNCTIONS[function].inputs == 1 && !format->denormal_inputs &&
+                !is_normal(format, x))
                 continue;
             accuracy_add(accuracy, format, (float[]){x, y}, (double)results[n][i], exact,
                          batch->magnitude[n][i]);

@@ -38,7 +38,8 @@ typedef struct Format {
     int bits;                       /* of the significand, with the first, which is always 1 */
     int min_exponent, max_exponent; /* of normal numbers: 2^min_exponent to just below
                                        2^(max_exponent + 1) */
-    bool denormals;                 /* smaller ones are kept, not taken for 0 */
+    bool denormals;                 /* smaller results are kept, not taken for 0 */
+    bool denormal_inputs;           /* smaller inputs are */
     Rounding rounding;              /* of sums */
     bool infinity, nan;             /* what overflows is not finite; inf - inf is not a number */
 } Format;
@@ -57,7 +58,8 @@ double format_unit(const Format *format);
 double format_ulp(const Format *format, double magnitude);
 
 /* The probes: FORMAT_PROBES sums of two numbers, and as many products (x y) z of three, whose
- * results, computed in some way, tell the format. Products may leave the range on their way. */
+ * results, computed in some way, tell the format. Products may leave the range on their way, or
+ * begin below it. */
 enum { FORMAT_PROBES = 512 };
 typedef struct FormatProbes {
     float x[FORMAT_PROBES], y[FORMAT_PROBES], z[FORMAT_PROBES];

@@ -38,7 +38,7 @@ Interval interval_widened(Machine machine, Interval a, double ulps, double magni
         return a;
     const double most = format_max(format);
     double error = ulps * format_ulp(format, largest < most ? largest : most);
-    if (!format->denormals)
+    if (!format->denormals || !format->denormal_inputs)
         error = interval_larger(error, power_of_two(format->min_exponent)); /* taken for 0 */
     if (a.low > -INFINITY)
         a.low -= error;

@@ -15,7 +15,8 @@ bool format_equal(const Format *a, const Format *b)
 {
     return a->bits == b->bits && a->min_exponent == b->min_exponent &&
            a->max_exponent == b->max_exponent && a->denormals == b->denormals &&
-           a->rounding == b->rounding && a->infinity == b->infinity && a->nan == b->nan;
+           a->denormal_inputs == b->denormal_inputs && a->rounding == b->rounding &&
+           a->infinity == b->infinity && a->nan == b->nan;
 }
 
 bool format_is_half(const Format *format)
@@ -82,8 +83,10 @@ void format_sums(FormatProbes *probes)
     probes->y[SUM_SPECIAL] = -INFINITY;
 }
 
-/* Products that are 2^k on their way, k from FIRST_POWER on, and come back near 1. */
-enum { FIRST_POWER = -170 };
+/* Products that are 2^k on their way, k from FIRST_POWER to its opposite, and come back near 1;
+ * from number INPUTS on those of which the first factor is 2^k, from FIRST_POWER on, and the second
+ * brings it back. */
+enum { FIRST_POWER = -170, INPUTS = 1 - 2 * FIRST_POWER };
 
 static int back_of(int power)
 {
@@ -99,11 +102,22 @@ void format_products(FormatProbes *probes)
         probes->y[i] = possible ? ldexpf(1, power - half) : 0;
         probes->z[i] = possible ? ldexpf(1, back_of(power)) : 0;
     }
+    for (int i = INPUTS; i < FORMAT_PROBES; i++) {
+        const int power = FIRST_POWER + i - INPUTS;
+        probes->x[i] = ldexpf(1, power);
+        probes->y[i] = ldexpf(1, back_of(power));
+        probes->z[i] = 1;
+    }
 }
 
 static bool passes(const float *products, int power)
 {
     return products[power - FIRST_POWER] == ldexpf(1, power + back_of(power));
+}
+
+static bool passes_as_input(const float *products, int power)
+{
+    return products[INPUTS + power - FIRST_POWER] == ldexpf(1, power + back_of(power));
 }
 
 static Rounding rounding_of(const float *sums, int bits)
@@ -137,6 +151,7 @@ bool format_of(const float sums[FORMAT_PROBES], const float products[FORMAT_PROB
         .max_exponent = high,
         .min_exponent = low < 1 - high ? 1 - high : low,
         .denormals = low < 1 - high,
+        .denormal_inputs = passes_as_input(products, -1 - high),
         .rounding = rounding_of(sums, bits),
         .infinity = !isfinite(products[high + 1 - FIRST_POWER]),
         .nan = isnan(sums[SUM_SPECIAL]),
