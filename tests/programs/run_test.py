@@ -490,6 +490,47 @@ esac
             self.assertRegex(error, "^examples/run: this is not a Debian system; it needs " + said)
             self.assertEqual("untested" in error, bool(manager), error)
 
+    def wanted(self, *words):
+        """The packages that examples/run asks for."""
+        self.tool("dpkg-query", 'shift 3; echo "$*" >>"$HOME/wanted"; exit 1')
+        self.start(*words, environment={"LIGHTING_BUILD": self.path("build")})
+        return self.read("home/wanted").decode().split("\n")[0].split()
+
+    @unittest.skipUnless(base.LONG and shutil.which("strace") and shutil.which("apt-get"),
+                         "the long form, with strace and apt-get")
+    def test_a_program_opens_only_what_its_packages_bring(self):
+        """Those that examples/run installs for it, and what they depend on, on an empty system."""
+        plain = {**os.environ, "LC_ALL": "C"}
+        ask = lambda *command: subprocess.run(command, env=plain, text=True, capture_output=True).stdout
+        essential = set(re.findall(r"^(\S+) required$", ask("dpkg-query", "-W", "-f", "${Package} ${Priority}\n"), re.M))
+        all_brought, owner = {}, {}
+        for program in sorted(set(base.EVERY) - {"gallery", "accuracy", "hard_cases", "precision", "lessons"}) + ["lessons"]:
+            packages = self.wanted(program)
+            os.remove(self.path("home/wanted"))
+            if tuple(packages) not in all_brought:
+                listed = ask("apt-get", "-s", "-o", "Dir::State::status=/dev/null", "--no-install-recommends", "install",
+                             *packages)
+                all_brought[tuple(packages)] = set(re.findall(r"^Inst (\S+)", listed, re.M)) | essential
+            brought = all_brought[tuple(packages)]
+            if not set(packages) <= brought:
+                self.skipTest("apt-get has no package lists")
+            draw = [program, "1", os.path.join(base.SOURCE, "tests/labs/solutions/lab01_diffuse")] if program == "check" \
+                else [program, "-s", "40x40", "-o", self.path("a.png")]
+            subprocess.run(["strace", "-f", "-z", "-qq", "-e", "trace=openat,execve", "-o", self.path("trace"),
+                            os.path.join(base.EXAMPLES, draw[0]), *draw[1:]], cwd=self.folder, capture_output=True,
+                           check=True, env={**plain, "LP_NUM_THREADS": "0"})
+            with open(self.path("trace")) as file:
+                paths = set(re.findall(r'"(/(?:usr|lib)[^"]*)"', file.read()))
+            names = {name for path in map(os.path.realpath, paths) if os.path.isfile(path)
+                     for name in (path, path.removeprefix("/usr"))}
+            owner.update(dict.fromkeys(names - set(owner)))
+            for line in ask("dpkg", "-S", "/none", *(name for name in names if owner[name] is None)).splitlines():
+                package, _, name = line.partition(": ")
+                owner[name] = package.split(":")[0]
+            owners = {owner[name] for name in names} - {None}
+            self.assertGreater(len(owners), 3)
+            self.assertEqual(owners - brought, set(), program)
+
     def test_every_package_has_its_names_elsewhere(self):
         with open(os.path.join(base.SOURCE, "common/setup.sh")) as file:
             text = file.read().replace("\\\n", " ")
