@@ -101,11 +101,11 @@ static void remove_pipes(int at, const char *path, int depth)
 static void *remove_pipes_later(void *cache)
 {
     enum { SECONDS = 3 };
+    sleep(SECONDS);
     const int at = open(cache, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     free(cache);
     if (at < 0)
         return NULL;
-    sleep(SECONDS);
     remove_pipes(at, "mesa_shader_cache", 1);
     remove_pipes(at, "fontconfig", 0);
     close(at);
