@@ -15,7 +15,7 @@ build=${LIGHTING_BUILD:-$root/build}
 # Debian's packages, by what needs them. To build and draw:
 packages_to_draw="gcc libc6-dev pkg-config meson ninja-build libegl-dev libgles-dev libegl-mesa0 \
 libgl1-mesa-dri libglfw3-dev libpng-dev libstb-dev fonts-dejavu-core"
-# The panel in a window, model files, pictures other than PNG, animations other than GIF:
+# The panel in a window, model files, pictures other than PNG, animations:
 packages_to_window="g++ libimgui-dev"
 packages_to_model="libassimp-dev"
 packages_to_convert="g++ libopenimageio-dev"
@@ -346,12 +346,12 @@ build_seen() {
         return
     fi
     log=$(mktemp) || exit 1
+    quarter=1
+    said=$(date +%s)
     code=$({ {
         ninja -C "$build" "$@" 2>&1
         echo $? >&4
     } | tee "$log" | {
-        quarter=1
-        said=$(date +%s)
         while IFS='[/]' read -r _ built all _; do # [BUILT/ALL]; awk would read in blocks, and so later
             case $built$all in '' | *[!0-9]*) continue ;; esac
             now=$(date +%s)

@@ -107,6 +107,7 @@ static void *remove_pipes_later(void *cache)
     if (at < 0)
         return NULL;
     remove_pipes(at, "mesa_shader_cache", 1);
+    remove_pipes(at, "mesa_shader_cache_db", 1);
     remove_pipes(at, "fontconfig", 0);
     close(at);
     return NULL;

@@ -502,6 +502,6 @@ bool animation_probe(Message *findings)
     pid_t process;
     const bool found =
         process_start(&process, words, (int[]){-1, -1, -1, -1}) == 0 && process_wait(process) == 0;
-    return package_tell(findings, "ffmpeg", NULL, "animations: .webp, .apng, .mp4 and .webm",
+    return package_tell(findings, "ffmpeg", NULL, "animations: .gif, .webp, .apng, .mp4 and .webm",
                         found ? NULL : "install the package ffmpeg");
 }

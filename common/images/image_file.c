@@ -53,7 +53,7 @@ bool image_file_read(ImageFile *file, const char *path, Message *message)
 
 Plugin image_openimageio = {
     "image_oiio.so",      "image_plugin",
-    "OpenImageIO",        "GIF animations, and picture files other than PNG",
+    "OpenImageIO",        "picture files other than PNG, and GIF animations without ffmpeg",
     "libopenimageio-dev", NULL};
 
 bool image_probe(Message *findings)

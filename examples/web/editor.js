@@ -71,12 +71,10 @@ const Editor = (() => {
     /* The names of all files of which a text is kept. Earlier versions kept them all in one. */
     function kept(key) {
         try {
-            const before = localStorage.getItem(key);
-            localStorage.removeItem(key);
-            for (const pair of JSON.parse(before || "[]") || [])
-                if (Array.isArray(pair) && pair.length === 2 && pair.every(text => typeof text === "string") &&
-                    !keep(key, ...pair))
-                    localStorage.setItem(key, before);
+            const pairs = JSON.parse(localStorage.getItem(key) || "[]").filter(pair =>
+                Array.isArray(pair) && pair.length === 2 && pair.every(text => typeof text === "string"));
+            if (pairs.every(([name, text]) => recall(key, name) !== null || keep(key, name, text)))
+                localStorage.removeItem(key);
         } catch { /* then it is none of ours */ }
         try {
             const start = place(key, "");
@@ -106,7 +104,8 @@ const Editor = (() => {
         const originals = new Map(shaders.map(({name, text}) => [name, text]));
         const names = [...originals.keys()], edited = new Map();
         const seen = new Map(names.map(name => [name, null])); /* what is kept of each */
-        let marks = [], timer = 0, pending = false, notKept = "", inside = false, took = 0;
+        const unkept = new Set(); /* the names of texts that could not be kept */
+        let marks = [], timer = 0, pending = false, inside = false, took = 0;
 
         const text = name => edited.has(name) ? edited.get(name) : originals.get(name);
 
@@ -114,7 +113,7 @@ const Editor = (() => {
         function recallAll() {
             return names.filter(name => {
                 const now = recall(key, name);
-                if (now === seen.get(name))
+                if (now === seen.get(name) || unkept.has(name))
                     return false;
                 seen.set(name, now);
                 if (now === null)
@@ -136,10 +135,12 @@ const Editor = (() => {
         }
 
         function keepOne(name, value) {
-            const done = keep(key, name, value);
-            notKept = done ? "" : NOT_KEPT;
-            if (done)
-                seen.set(name, value);
+            if (!keep(key, name, value)) {
+                unkept.add(name);
+                return;
+            }
+            unkept.delete(name);
+            seen.set(name, value);
         }
 
         /* Lines are numbered and coloured where they show. */
@@ -209,7 +210,7 @@ const Editor = (() => {
             const count = bad ? "Errors: " + bad + "\n" : "Warnings: " + marks.length + "\n";
             said.textContent = marks.length ? count + message.split("\n").filter(line =>
                 !/^[\w./-]+:\d+: |^ *\d+ \| /.test(line)).join("\n") : message || (edited.size ? "Drawn with your text." : "");
-            said.textContent += notKept;
+            said.textContent += unkept.size ? NOT_KEPT : "";
             show();
         }
 
@@ -231,8 +232,8 @@ const Editor = (() => {
             else
                 edited.set(name, value);
             keepOne(name, same ? null : value);
-            if (notKept)
-                said.textContent = notKept;
+            if (unkept.size)
+                said.textContent = NOT_KEPT;
             showSoon();
             clearTimeout(timer);
             if (live.checked)
@@ -245,7 +246,8 @@ const Editor = (() => {
             if (changed.includes(files.value) && field.value !== text(files.value))
                 put(files.value);
             if (changed.length)
-                said.textContent = "Your text of another tab; Apply draws with it.";
+                said.textContent = changed.some(name => edited.has(name)) ?
+                    "Your text of another tab; Apply draws with it." : "The original, as in another tab; Apply draws it.";
         }
 
         /* Types over a part of the text, so that it can be undone. */

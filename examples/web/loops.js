@@ -6,28 +6,43 @@
 const Loops = (() => {
     const MOST = 300000;     /* steps at each pixel or vertex: seconds of a picture, by a slow renderer */
     const UNKNOWN = 16;      /* turns of a loop whose bounds are not in the text */
-    const LONGEST = 1000000; /* words, with macros expanded */
-    const WORDS = /[A-Za-z_]\w*|(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|\+\+|--|[-+*/<>=!]=|\S/g;
+    const LONGEST = 2000000; /* words that are read, with macros expanded */
+    const WORDS = /[A-Za-z_]\w*|0[xX][\da-fA-F]+|(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|\+\+|--|[-+*/<>=!]=|\S/g;
     const COMMENTS = /\/\/.*|\/\*[^]*?(?:\*\/|$)/g;
     const SIGNS = {"+": (a, b) => a + b, "-": (a, b) => a - b, "*": (a, b) => a * b, "/": (a, b) => a / b};
+
+    let left = 0; /* words that may still be read */
+
+    /* What takes the browser too long to count is not counted. */
+    class TooLong extends Error {}
+    function spend() {
+        if (--left < 0)
+            throw new TooLong();
+    }
 
     /* The words of a file and those it includes, [{word, name, line}], and the macros. */
     function read(texts, name, macros, chain = []) {
         const words = [];
         const plain = texts.get(name).replace(COMMENTS, text => text.replace(/[^\n]+/g, " ")).replace(/\\\r?\n/g, " ");
         plain.split("\n").forEach((text, i) => {
+            spend();
             const include = text.match(/^\s*#\s*include\s*"([^"]*)"/);
             const define = text.match(/^\s*#\s*define\s+(\w+)(?:\(([^)]*)\))?(.*)/);
             const found = include && [...texts.keys()].find(other => other === include[1] ||
                                                                      other.endsWith("/" + include[1].replace(/.*\//, "")));
             if (found && !chain.includes(found) && chain.length < 32)
-                words.push(...read(texts, found, macros, [...chain, name]));
-            else if (define)
-                macros.set(define[1], {takes: define[2] === undefined ? null : define[2].split(",").map(word => word.trim()),
-                                       gives: define[3].match(WORDS) || []});
-            else if (!/^\s*#/.test(text))
-                for (const word of text.match(WORDS) || [])
+                for (const word of read(texts, found, macros, [...chain, name]))
+                    words.push(word);
+            else if (define) {
+                const gives = define[3].match(WORDS) || [], before = macros.get(define[1]);
+                if (!before || !(Number(before.gives[0]) > Number(gives[0]))) /* defined twice, a number is the larger one */
+                    macros.set(define[1], {takes: define[2] === undefined ? null :
+                        define[2].split(",").map(word => word.trim()), gives});
+            } else if (!/^\s*#/.test(text))
+                for (const word of text.match(WORDS) || []) {
+                    spend();
                     words.push({word, name, line: i + 1});
+                }
         });
         return words;
     }
@@ -49,7 +64,8 @@ const Loops = (() => {
     }
 
     function expand(words, macros, out = [], inside = []) {
-        for (let i = 0; i < words.length && out.length < LONGEST; i++) {
+        for (let i = 0; i < words.length; i++) {
+            spend();
             const {word, name, line} = words[i], macro = inside.includes(word) ? null : macros.get(word);
             const called = macro && macro.takes && words[i + 1] && words[i + 1].word === "(";
             if (!macro || (macro.takes && !called)) {
@@ -78,7 +94,7 @@ const Loops = (() => {
                 at += words[at] === ")" ? 1 : 1000;
                 return word === "int" ? {value: Math.trunc(value), whole: true} : {value, whole: whole && word !== "float"};
             }
-            return constants.get(word) || {value: /^[\d.]/.test(word) ? Number(word) : NaN, whole: /^\d+$/.test(word)};
+            return constants.get(word) || {value: /^[\d.]/.test(word) ? Number(word) : NaN, whole: /^(?:\d+|0[xX].*)$/.test(word)};
         }
         function chain(next, signs) {
             let left = next();
@@ -131,7 +147,7 @@ const Loops = (() => {
             if (depth === 0 && word === "(" && i > 0) {
                 const {end} = argumentsAt(words, i);
                 if (words[end] && words[end].word === "{")
-                    functions.set(words[i - 1].word, end);
+                    functions.set(words[i - 1].word, [...functions.get(words[i - 1].word) || [], end]);
                 i = end - 1;
             } else {
                 depth += (word === "{") - (word === "}");
@@ -147,8 +163,12 @@ const Loops = (() => {
             const text = words.slice(begin, at).map(({word}) => word).join(" ");
             for (const part of text.split(" , ")) {
                 const equal = part.indexOf(" = ");
-                if (equal > 0)
-                    constants.set(part.slice(0, equal).replace(/.* /, ""), evaluate(part.slice(equal + 3).split(" "), constants));
+                if (equal < 1)
+                    continue;
+                const name = part.slice(0, equal).replace(/.* /, ""), before = constants.get(name);
+                const now = evaluate(part.slice(equal + 3).split(" "), constants);
+                if (!before || !(Math.abs(now.value) <= Math.abs(before.value))) /* in any scope: the larger one */
+                    constants.set(name, now);
             }
             return at - begin;
         }
@@ -157,8 +177,10 @@ const Loops = (() => {
             if (!known.has(name)) {
                 const before = at;
                 known.set(name, 0); /* no recursion */
-                at = functions.get(name);
-                known.set(name, statement());
+                known.set(name, Math.max(...functions.get(name).map(begin => { /* the costliest overload */
+                    at = begin;
+                    return statement();
+                })));
                 at = before;
             }
             return known.get(name);
@@ -173,6 +195,17 @@ const Loops = (() => {
             return all;
         }
 
+        /* The words before `end`, and what they call. */
+        function span(end) {
+            let count = 0;
+            while (at < end && at < words.length) {
+                const word = here();
+                at++;
+                count += 1 + (functions.has(word) && here() === "(" ? call(word) : 0);
+            }
+            return count;
+        }
+
         function statement() {
             let count = 0;
             if (here() === "{") {
@@ -183,13 +216,20 @@ const Loops = (() => {
             }
             if (here() === "for")
                 return loop();
+            if (here() === "if") {
+                count = span(argumentsAt(words, at + 1).end) + statement();
+                if (here() === "else") {
+                    at++;
+                    count += statement();
+                }
+                return count;
+            }
             if (here() === "const")
                 count += declare();
             for (let depth = 0; at < words.length && (depth || !["{", "}", "for"].includes(here()));) {
                 const word = here();
                 depth += (word === "(") - (word === ")");
-                at++;
-                count += 1 + (functions.has(word) && here() === "(" ? call(word) : 0);
+                count += span(at + 1);
                 if (word === ";" && depth <= 0)
                     break;
             }
@@ -211,12 +251,16 @@ const Loops = (() => {
                 continue;
             const macros = new Map();
             let found = null;
+            left = LONGEST;
             try {
                 steps(expand(read(texts, name, macros), macros), (word, count) => {
                     if (count > MOST && !found)
                         found = {...word, count};
                 });
             } catch (error) {
+                if (error instanceof TooLong)
+                    return name + ":1: error: with its macros and what it includes it has more than " +
+                        LONGEST.toLocaleString("en") + " words; the page draws shorter ones. Your text is kept.";
                 if (!(error instanceof RangeError))
                     throw error;
                 /* Deeper than any compiler goes. */

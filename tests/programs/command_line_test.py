@@ -422,8 +422,8 @@ class Options(Case):
 
         gives = {"EGL": "pictures without a display", "OSMesa": "pictures without a display and without EGL",
                  "GLFW": "windows", "libpng": "PNG files",
-                 "OpenImageIO": "GIF animations, and picture files other than PNG",
-                 "ffmpeg": "animations: .webp, .apng, .mp4 and .webm", "Assimp": "model files", "cairo": "diagrams",
+                 "OpenImageIO": "picture files other than PNG, and GIF animations without ffmpeg",
+                 "ffmpeg": "animations: .gif, .webp, .apng, .mp4 and .webm", "Assimp": "model files", "cairo": "diagrams",
                  "Dear ImGui": "the panel of windows"}
         there = packages()
         self.assertEqual(list(there), list(gives))

@@ -51,12 +51,13 @@ class Installation(unittest.TestCase):
             with open(path, "rb") as file:
                 content = file.read()
             for folder in BUILD, base.SOURCE:
-                self.assertNotIn(os.fsencode(folder) + b"/", content, path)
+                if folder.count("/") > 1: # "/lighting" may be in any path
+                    self.assertNotIn(os.fsencode(folder) + b"/", content, path)
 
     def test_what_is_uninstalled_leaves_nothing(self):
         root = os.path.join(self.folder, "again")
         shutil.copytree(self.root, root, symlinks=True)
-        self.assertGreater(len(files(root)), 300)
+        self.assertGreater(len(files(root)), 100)
         os.mkdir(os.path.join(self.folder, "meson-logs"))
         with open(os.path.join(self.folder, "install-log.txt")) as file:
             log = file.read().replace(self.root, root)

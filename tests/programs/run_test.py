@@ -315,9 +315,10 @@ class Folders(Case):
         """Every 10 s, and not only the first time."""
         self.assertIn("building LightedCube\n", super().start("LightedCube", run=self.run_path)[2])
         os.utime(self.path("tree/examples/lecture/LightedCube.c"), (time.time() + 60,) * 2)
-        self.tool("ninja", 'echo "[1/3] Compiling"; sleep 11; echo "[2/3] Compiling"; echo "[3/3] Linking"')
-        self.assertEqual(super().start("LightedCube", run=self.run_path)[2],
-                         "examples/run: built 2 of 3 files\n")
+        self.tool("ninja", 'echo "[1/3] Compiling"; sleep 15; echo "[2/3] Compiling"; echo "[3/3] Linking"')
+        # The first line if the machine is so busy that it comes late.
+        self.assertRegex(super().start("LightedCube", run=self.run_path)[2],
+                         "^(examples/run: built 1 of 3 files\n)?examples/run: built 2 of 3 files\n$")
 
     def test_two_first_commands_wait_for_each_other(self):
         """The second installs nothing."""
@@ -325,15 +326,20 @@ class Folders(Case):
         self.tool("dpkg-query", '[ ! -e "$HOME/installed" ] || { shift 3; for package; do '
                                 'echo "$package installed"; done; }')
         self.tool("apt-get", 'case " $* " in *" --print-uris "*) echo "Need to get 1 B of archives."; exit;; esac\n'
-                             'echo >>"$HOME/calls"; sleep 2; : >"$HOME/installed"')
-        with subprocess.Popen([self.run_path, "LightedCube"], env=self.environment(), stdout=subprocess.PIPE,
-                              stderr=subprocess.PIPE, text=True) as first:
+                             'echo >>"$HOME/calls"; while [ ! -e "$HOME/go" ]; do sleep 0.1; done\n'
+                             ': >"$HOME/installed"')
+        def begin():
+            return subprocess.Popen([self.run_path, "LightedCube"], env=self.environment(), stdout=subprocess.PIPE,
+                                    stderr=subprocess.PIPE, text=True)
+        with begin() as first:
             while first.poll() is None and not os.path.exists(self.path("home/calls")):
                 time.sleep(0.01)
-            second = super().start("LightedCube", run=self.run_path)
-            text, said = first.communicate()
-        self.assertEqual((first.returncode, second[:2]), (0, (0, text)), (said, second))
-        self.assertIn(f"another command uses {self.path('tree/build')}; waiting for it\n", second[2])
+            with begin() as second:
+                line = second.stderr.readline()
+                self.make("home/go", b"")
+                text, said = second.communicate()
+            self.assertEqual((first.communicate()[0], first.returncode, second.returncode), (text, 0, 0), said)
+        self.assertTrue(line.endswith(f"another command uses {self.path('tree/build')}; waiting for it\n"), line)
         self.assertEqual(self.read("home/calls"), b"\n")
 
     def test_two_tools_find_that_nothing_has_changed(self):
