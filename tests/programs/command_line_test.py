@@ -499,6 +499,8 @@ class Options(Case):
             for spared in ("index", "none"):
                 draw = {"program": program, "environment": {"XDG_CACHE_HOME": self.path("cache")}}
                 picture = self.good(*SMALL, "-o", "-", **draw)
+                if os.path.exists(self.path("cache/mesa_shader_cache_db")):
+                    self.skipTest("this Mesa keeps a database, and waits for pipes in its place")
                 for folder, _, files in os.walk(self.path("cache")):
                     for path in (os.path.join(folder, file) for file in files if file != spared):
                         os.remove(path)
