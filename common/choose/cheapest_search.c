@@ -60,7 +60,8 @@ typedef struct Search {
     Scene scene;   /* at the first moment */
     Exact *exacts; /* by moment */
     Image image;
-    int count; /* of objects */
+    LightingPlan plan; /* of a candidate, to know its cost */
+    int count;         /* of objects */
     double allowed;
     ObjectQuality *current; /* what is drawn, by object */
     Found *found;           /* by object */
@@ -219,7 +220,12 @@ static double cost_of(Search *search, int object, const ObjectQuality *quality)
     alone.object_count = 1;
     if (!quality_parts_open(&made, &alone, quality, search->task->meshes, NULL))
         return INFINITY;
-    const double cost = quality_parts_cost(&made, 0, search->found[object].fragments);
+    const LightingFrame frame = {.scene = &made.scene, .parts = made.parts, .aspect = 1};
+    double cost = INFINITY;
+    if (lighting_decide(&search->plan, search->task->lighting, &frame, NULL)) {
+        const Effects effects = lighting_plan_effects(&search->plan, 0);
+        cost = quality_parts_cost(&made, 0, &effects, search->found[object].fragments);
+    }
     quality_parts_close(&made);
     return cost;
 }
@@ -508,6 +514,7 @@ static void search_close(Search *search)
     free(search->exacts);
     free(search->current);
     free(search->found);
+    lighting_plan_close(&search->plan);
     image_close(&search->image);
 }
 

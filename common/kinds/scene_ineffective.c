@@ -5,6 +5,7 @@
 #include "base/cache.h"
 #include "kinds/scene_options.h"
 #include "kinds/scene_views.h"
+#include "lighting/lighting.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -295,23 +296,26 @@ static bool has_signed_dots(const LightTerms *terms)
 
 /* Whether any object has the effect, with the lights as the options have them, all with shadows or
  * none. */
-static bool scene_has(const Scene *made, const Options *options, bool shadows, HasEffect *effect)
+static bool scene_has(Lighting *lighting, const Scene *made, const Options *options, bool shadows,
+                      HasEffect *effect)
 {
     SceneCopy kept;
-    bool has = false;
+    LightingPlan plan = {.lighting = NULL};
     scene_copy_open(&kept, made);
+    const LightingFrame frame = {.scene = &kept.scene, .aspect = 1};
     scene_place_lights(&kept, &options->places);
     scene_tint_lights(&kept, &options->tints);
     scene_keep_terms(&kept, options->terms);
     kept.scene.signed_dots = options->signed_dots;
     for (int i = 0; i < made->light_count; i++)
         kept.lights[i].shadows = shadows;
-    has = !scene_check(&kept.scene, NULL);
+    bool has = !scene_check(&kept.scene, NULL) || !lighting_decide(&plan, lighting, &frame, NULL);
     for (int i = 0; i < made->object_count && !has; i++) {
-        const Effects effects = effects_of(&kept.scene, &kept.scene.objects[i]);
+        const Effects effects = lighting_plan_effects(&plan, i);
         for (int k = 0; k < effects.group_count; k++)
             has |= effect(&effects.groups[k].terms);
     }
+    lighting_plan_close(&plan);
     scene_copy_close(&kept);
     return has;
 }
@@ -322,16 +326,18 @@ static bool example_has(const Example *example, const Options *options, bool sha
 {
     const SceneExample *own = example_scene(example);
     int columns, rows;
-    bool has = !example->init(&NO_SHADERS, NULL);
+    Lighting *lighting = NULL;
+    bool has = !lighting_open(&lighting, &NO_SHADERS, NULL) || !example->init(&NO_SHADERS, NULL);
     const int views = scene_view_grid(own, &columns, &rows);
     for (int k = 0; k < INEFFECTIVE_MOMENTS; k++)
         for (int view = 0; view < views && !has; view++) {
             Scene scene = {.light_count = 0};
             own->make(options->seconds + INEFFECTIVE_LATER[k], view, &scene);
             orbit_move(options->orbit, &scene.camera.eye, scene.camera.center, &scene.camera.up);
-            has = scene_has(&scene, options, shadows, effect);
+            has = scene_has(lighting, &scene, options, shadows, effect);
         }
     example->finish();
+    lighting_close(lighting);
     return has;
 }
 

@@ -115,6 +115,11 @@ typedef struct LightingPlan {
 bool lighting_plan(LightingPlan *plan, Lighting *lighting, const LightingFrame *frame,
                    Message *message);
 
+/* The same, but only decides: compiles and uploads nothing, and needs no GL unless shadows are by
+ * maps. The plan is to be read, not drawn. */
+bool lighting_decide(LightingPlan *plan, Lighting *lighting, const LightingFrame *frame,
+                     Message *message);
+
 /* Draws the frame into the current canvas, without clearing it. The plan is that of this frame.
  * Where a light has shadows that may fall on something, masks of them are drawn first
  * (shadows/shadow_mask.h), or maps, which the programs look up (shadows/shadow_map.h). */
@@ -127,7 +132,7 @@ bool lighting_show(Lighting *lighting, const LightingFrame *frame, Message *mess
 
 /* What a plan says of an object: its effects and program, and a line for each effect and for each
  * one left out, with the reason. */
-const Effects *lighting_plan_effects(const LightingPlan *plan, int object);
+Effects lighting_plan_effects(const LightingPlan *plan, int object);
 GLuint lighting_plan_program(const LightingPlan *plan, int object);
 void lighting_plan_explain(const LightingPlan *plan, int object, FILE *file);
 
@@ -140,8 +145,7 @@ void lighting_plan_explain_shadows(const LightingPlan *plan, const Scene *scene,
 bool lighting_plan_sources(const LightingPlan *plan, int object, bool full, ShaderSource sources[2],
                            Message *message);
 
-/* The same for an object of a scene without a plan: compiles and uploads nothing, and needs no GL
- * unless shadows are by maps. */
+/* The same for an object of a scene, from a plan that is only decided. */
 bool lighting_sources(Lighting *lighting, const Scene *scene, const Object *object, bool full,
                       ShaderSource sources[2], Message *message);
 

@@ -229,11 +229,20 @@ bool lighting_plan(LightingPlan *plan, Lighting *lighting, const LightingFrame *
            make_plan(plan, frame, false, message);
 }
 
+bool lighting_decide(LightingPlan *plan, Lighting *lighting, const LightingFrame *frame,
+                     Message *message)
+{
+    return check_frame(frame, message) && open_plan(plan, lighting, frame, message) &&
+           make_plan(plan, frame, true, message);
+}
+
 /* Reading it */
 
-const Effects *lighting_plan_effects(const LightingPlan *plan, int object)
+Effects lighting_plan_effects(const LightingPlan *plan, int object)
 {
-    return &plan->objects[object].variant->key.effects;
+    LightingKey key;
+    make_key(plan, object, plan->full, &key);
+    return key.effects;
 }
 
 GLuint lighting_plan_program(const LightingPlan *plan, int object)
@@ -261,8 +270,7 @@ bool lighting_sources(Lighting *lighting, const Scene *scene, const Object *obje
     LightingPlan plan = {.lighting = NULL};
     sources[SHADER_VERTEX] = sources[SHADER_FRAGMENT] = (ShaderSource){0};
     const bool done =
-        check_frame(&frame, message) && open_plan(&plan, lighting, &frame, message) &&
-        make_plan(&plan, &frame, true, message) &&
+        lighting_decide(&plan, lighting, &frame, message) &&
         lighting_plan_sources(&plan, (int)(object - scene->objects), full, sources, message);
     lighting_plan_close(&plan);
     return done;

@@ -340,24 +340,3 @@ Effects effects_decide_full(const SceneFacts *scene, const ObjectFacts *object)
     }
     return made.effects;
 }
-
-Effects effects_of(const Scene *scene, const Object *object)
-{
-    const SceneFacts facts = effects_scene(scene);
-    const ObjectFacts own = effects_facts(scene, object);
-    return effects_decide(&facts, &own, NULL);
-}
-
-Effects effects_full(const Scene *scene, const Object *object)
-{
-    const SceneFacts facts = effects_scene(scene);
-    const ObjectFacts own = effects_facts(scene, object);
-    return effects_decide_full(&facts, &own);
-}
-
-void effects_explain(const Scene *scene, const Object *object, FILE *file)
-{
-    const SceneFacts facts = effects_scene(scene);
-    const ObjectFacts own = effects_facts(scene, object);
-    effects_decide(&facts, &own, file);
-}

@@ -132,12 +132,6 @@ Effects effects_decide(const SceneFacts *scene, const ObjectFacts *object, FILE 
  * coefficients: there are shadows if a light of the scene has them. */
 Effects effects_decide_full(const SceneFacts *scene, const ObjectFacts *object);
 
-/* All at once for an object of a scene that has passed scene_check: for tests and estimates. */
-ObjectFacts effects_facts(const Scene *scene, const Object *object);
-Effects effects_of(const Scene *scene, const Object *object);
-Effects effects_full(const Scene *scene, const Object *object);
-void effects_explain(const Scene *scene, const Object *object, FILE *file);
-
 /* The lights that have shadows, a bit each; the number of a light among them, for which the masks
  * have a channel each. */
 uint32_t effects_shadows(const SceneFacts *scene);

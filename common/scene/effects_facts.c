@@ -181,25 +181,3 @@ int effects_channel(uint32_t shadows, int light)
 {
     return __builtin_popcount(shadows & (((uint32_t)1 << light) - 1));
 }
-
-/* Where memory runs out, all lights that have shadows cast them on it. */
-ObjectFacts effects_facts(const Scene *scene, const Object *object)
-{
-    const MeshBox box = mesh_bounds(object->mesh);
-    const EffectsPlace place = effects_place(object, &box);
-    const SceneFacts facts = effects_scene(scene);
-    ShadowPairs pairs = {.count = 0};
-    EffectsView view;
-    uint32_t shadowed = effects_shadows(&facts);
-    if (shadowed && shadow_pairs_open(&pairs, scene->object_count, NULL)) {
-        for (int i = 0; i < scene->object_count; i++) {
-            pairs.boxes[i] = mesh_bounds(scene->objects[i].mesh);
-            pairs.placed[i] = placed_box(&pairs.boxes[i], scene->objects[i].world_from_object);
-        }
-        shadow_pairs_find(&pairs, scene);
-        shadowed = pairs.receives[object - scene->objects];
-    }
-    shadow_pairs_close(&pairs);
-    effects_view(&view, scene);
-    return effects_object(&view, object, &place, shadowed);
-}

@@ -3,7 +3,6 @@
 #include "scene/quality.h"
 
 #include "base/memory.h"
-#include "scene/effects.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -329,21 +328,21 @@ static double shadow_cost(const Scene *scene, const Object *object, double fragm
     return lights * (TRIANGLE * triangles + FRAGMENT * fragments);
 }
 
-double quality_parts_cost(const QualityParts *made, int number, double fragments)
+double quality_parts_cost(const QualityParts *made, int number, const Effects *effects,
+                          double fragments)
 {
     static const double TRIANGLE = 50, VERTEX = 20, OF_VERTEX = 0.3, FRAGMENT = 3,
                         OF_FRAGMENT = 0.12;
     const Scene *part = &made->parts[number];
     const Object *object = &made->objects[number];
-    const Effects effects = effects_of(part, object);
     const bool flattened = part->interpolation == INTERPOLATION_CONSTANT ||
                            (part->interpolation == INTERPOLATION_FLAT && !object->flat);
     const double vertices =
         (double)(flattened ? object->mesh->index_count : object->mesh->vertex_count);
     return shadow_cost(&made->scene, object, fragments) +
            TRIANGLE * (double)object->mesh->index_count / 3 +
-           vertices * (VERTEX + OF_VERTEX * operations(&effects, true)) +
-           fragments * (FRAGMENT + OF_FRAGMENT * operations(&effects, false));
+           vertices * (VERTEX + OF_VERTEX * operations(effects, true)) +
+           fragments * (FRAGMENT + OF_FRAGMENT * operations(effects, false));
 }
 
 void quality_loader(QualityLoader *made, const ShaderLoader *base, const Quality *quality)

@@ -7,10 +7,9 @@
 
 #include "core/canvas.h"
 #include "core/shader.h"
-#include "scene/scene.h"
+#include "scene/effects.h"
 
 #include <stdint.h>
-#include <stdio.h>
 
 typedef enum QualityAxis {
     AXIS_INTERPOLATION,
@@ -111,11 +110,12 @@ bool quality_parts_open(QualityParts *made, const Scene *scene, const ObjectQual
                         SolidMeshes *meshes, Message *message);
 void quality_parts_close(QualityParts *made);
 
-/* The expected time to draw object `number`, in arbitrary units that differ from nanoseconds on
- * llvmpipe (Mesa 22.3, two cores) by a factor of two: from its triangles and vertices, the
- * fragments that it covers, the operations that its effects call for, and the volumes of shadows.
- * The same on every machine, so that what is chosen by it is, too. */
-double quality_parts_cost(const QualityParts *made, int number, double fragments);
+/* The expected time to draw object `number` with these effects, in arbitrary units that differ from
+ * nanoseconds on llvmpipe (Mesa 22.3, two cores) by a factor of two: from its triangles and
+ * vertices, the fragments that it covers, the operations that the effects call for, and the volumes
+ * of shadows. The same on every machine, so that what is chosen by it is, too. */
+double quality_parts_cost(const QualityParts *made, int number, const Effects *effects,
+                          double fragments);
 
 /* The shader loader: precision, and replacements for the files of guards, highlight and output. */
 typedef struct QualityLoader {

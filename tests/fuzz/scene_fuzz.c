@@ -9,7 +9,7 @@
 #include "fuzz/fuzz.h"
 #include "hard/random_scene.h"
 #include "reference/reference.h"
-#include "scene/effects.h"
+#include "support/effects_of.h"
 
 #include <float.h>
 #include <math.h>

@@ -339,8 +339,8 @@ TEST_WITH(0, parts_have_their_own_facts, make_world, NULL)
         assert_int_equal(plan.decisions, before + (off ? 1 : OBJECTS));
     }
     assert_memory_not_equal(pixels[0], pixels[1], PIXELS);
-    assert_true(lighting_plan_effects(&plan, 0)->group_count <
-                lighting_plan_effects(&plan, 1)->group_count);
+    assert_true(lighting_plan_effects(&plan, 0).group_count <
+                lighting_plan_effects(&plan, 1).group_count);
 }
 
 /* Spheres rule out no pair that boxes do not, and one partner for each object is enough. */

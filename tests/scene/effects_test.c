@@ -1,7 +1,7 @@
 /*
  * Which effects a scene needs, and the reasons given for them. No GL.
  */
-#include "scene/effects.h"
+#include "support/effects_of.h"
 #include "support/testing.h"
 
 /* An object lit by one source, to be changed by each test. */
