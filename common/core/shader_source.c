@@ -425,20 +425,6 @@ static ShaderLoader with_files(const ShaderLoader *loader, ShaderFiles *own)
     return caching;
 }
 
-bool shader_source_parse(ShaderSource *source, const ShaderLoader *loader, ShaderText made,
-                         size_t size, ShaderStage stage, Message *message)
-{
-    ShaderFiles own = {0};
-    const ShaderLoader caching = with_files(loader, &own);
-    Search found = {.files = caching.files};
-    *source = (ShaderSource){0};
-    snprintf(found.path, sizeof found.path, "%s", made.name);
-    set_text(&found, made.text, size);
-    const bool done = parse(source, &caching, &found, stage, message);
-    shader_files_close(&own);
-    return done;
-}
-
 bool shader_source_open(ShaderSource *source, const ShaderLoader *loader, const char *name,
                         ShaderStage stage, Message *message)
 {

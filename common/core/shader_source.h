@@ -65,10 +65,6 @@ bool shader_loader_check(const ShaderLoader *loader, Message *message);
  * installation; the message lists all paths tried. No GL. `source` is zeroed on failure. */
 bool shader_source_open(ShaderSource *source, const ShaderLoader *loader, const char *name,
                         ShaderStage stage, Message *message);
-
-/* The same for `size` bytes in memory, as if they were a file at the path made.name. */
-bool shader_source_parse(ShaderSource *source, const ShaderLoader *loader, ShaderText made,
-                         size_t size, ShaderStage stage, Message *message);
 void shader_source_close(ShaderSource *source);
 
 /* Maps the driver's log to files: a line that begins with a source string and line number becomes

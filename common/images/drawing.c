@@ -87,25 +87,6 @@ void drawing_close_path(Drawing *drawing)
     add_step(drawing, DRAWING_CLOSE, NULL, 0);
 }
 
-DrawingBox drawing_path_box(const Drawing *drawing, const DrawingPath *path)
-{
-    static const int POINTS[] = {
-        [DRAWING_MOVE] = 1, [DRAWING_LINE] = 1, [DRAWING_CURVE] = 3, [DRAWING_CLOSE] = 0};
-    const double pen = path->style.width / 2;
-    DrawingBox box = {INFINITY, INFINITY, -INFINITY, -INFINITY};
-    int count = 0;
-    for (int i = 0; i < path->step_count; i++)
-        count += POINTS[drawing->steps[path->first_step + i]];
-    for (int i = 0; i < count; i++) {
-        const DrawingPoint p = drawing->points[path->first_point + i];
-        box.left = fmin(box.left, p.x - pen);
-        box.right = fmax(box.right, p.x + pen);
-        box.top = fmin(box.top, p.y - pen);
-        box.bottom = fmax(box.bottom, p.y + pen);
-    }
-    return box;
-}
-
 /* Text. */
 
 /* The outline of a glyph. */

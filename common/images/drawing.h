@@ -31,9 +31,6 @@ DrawingBox drawing_text_box(const Drawing *drawing, double size, const char *tex
 /* Adds a text with its baseline's beginning at `at`. */
 void drawing_text(Drawing *drawing, DrawingPoint at, double size, Vec3 color, const char *text);
 
-/* Where the ink of a path lies, or more: control points and the pen's width count. */
-DrawingBox drawing_path_box(const Drawing *drawing, const DrawingPath *path);
-
 /* "svg" or "pdf", as a path's extension has it; NULL: neither. */
 const char *drawing_format(const char *path);
 

@@ -130,10 +130,9 @@ void lighting_plan_close(LightingPlan *plan); /* NULL or zeroed is fine */
 /* Both at once, with a plan that is kept for the next frame of this view. */
 bool lighting_show(Lighting *lighting, const LightingFrame *frame, Message *message);
 
-/* What a plan says of an object: its effects and program, and a line for each effect and for each
- * one left out, with the reason. */
+/* What a plan says of an object: its effects, and a line for each one and for each one left out,
+ * with the reason. */
 Effects lighting_plan_effects(const LightingPlan *plan, int object);
-GLuint lighting_plan_program(const LightingPlan *plan, int object);
 void lighting_plan_explain(const LightingPlan *plan, int object, FILE *file);
 
 /* A line for each light with shadows: how they are drawn, or that nothing can come between; of maps

@@ -245,11 +245,6 @@ Effects lighting_plan_effects(const LightingPlan *plan, int object)
     return key.effects;
 }
 
-GLuint lighting_plan_program(const LightingPlan *plan, int object)
-{
-    return plan->objects[object].variant->program->program;
-}
-
 void lighting_plan_explain(const LightingPlan *plan, int object, FILE *file)
 {
     effects_decide(&plan->scenes[plan->in_parts ? object : 0], &plan->objects[object].facts, file);

@@ -8,6 +8,7 @@
 #include "core/canvas.h"
 #include "core/mesh_buffer.h"
 #include "lighting/lighting.h"
+#include "lighting/lighting_program.h"
 #include "shapes/mesh_solids.h"
 
 #include <math.h>
@@ -94,7 +95,7 @@ static bool open_loop(Message *message)
     const LightingFrame frame = {.scene = &scene, .aspect = 1};
     if (!lighting_plan(&plan, lighting, &frame, message))
         return false;
-    loop.program = lighting_plan_program(&plan, 0);
+    loop.program = plan.objects[0].variant->program->program;
     lighting_plan_close(&plan);
     loop.position = glGetAttribLocation(loop.program, "a_Position");
     loop.normal = glGetAttribLocation(loop.program, "a_Normal");

@@ -308,23 +308,23 @@ SHADER_TEST(precision_is_overridden_in_fragment_shaders_alone)
 {
     static const char text[] = "precision mediump float;\n";
     static const char *const defines[] = {"FOG", NULL};
+    static const ShaderText texts[] = {{"a.frag", text}, {"a.vert", text}, {NULL, NULL}};
     static const struct {
         const char *precision, *header;
     } cases[] = {{"highp", "#version 100\n#define mediump highp\n#define FOG\n"},
                  {"mediump", "#version 100\n#define highp mediump\n#define FOG\n"},
                  {NULL, "#version 100\n#define FOG\n"}};
     loader.defines = defines;
+    loader.texts = texts;
     for (size_t i = 0; i < 3; i++) {
         char expected[256];
         loader.precision = cases[i].precision;
         snprintf(expected, sizeof expected, "%s%s", cases[i].header, text);
         shader_source_close(&source);
-        assert_true(shader_source_parse(&source, &loader, (ShaderText){"a.frag", text},
-                                        strlen(text), SHADER_FRAGMENT, NULL));
+        assert_true(shader_source_open(&source, &loader, "a.frag", SHADER_FRAGMENT, NULL));
         text_is(expected);
         shader_source_close(&source);
-        assert_true(shader_source_parse(&source, &loader, (ShaderText){"a.vert", text},
-                                        strlen(text), SHADER_VERTEX, NULL));
+        assert_true(shader_source_open(&source, &loader, "a.vert", SHADER_VERTEX, NULL));
         text_is("#version 100\n#define FOG\nprecision mediump float;\n");
     }
 }
@@ -509,8 +509,11 @@ static void parse(const char *text)
 {
     shader_source_close(&source);
     message = (Message){0};
-    const ShaderText made = {"main.vert", text};
-    if (!shader_source_parse(&source, &loader, made, strlen(text), SHADER_VERTEX, &message))
+    const ShaderText made[] = {{"main.vert", text}, {NULL, NULL}};
+    loader.texts = made;
+    const bool done = shader_source_open(&source, &loader, "main.vert", SHADER_VERTEX, &message);
+    loader.texts = NULL;
+    if (!done)
         fail_msg("%s", message.text);
 }
 

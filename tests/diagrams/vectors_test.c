@@ -1,6 +1,7 @@
 /* The figures of Vectors: their numbers against closed forms, and that nothing in them overlaps or
  * is cut. */
 #include "diagrams/figures.h"
+#include "images/path_box.h"
 #include "support/testing.h"
 
 /* Of sums and products of a few numbers near 1 in double precision. */
@@ -397,7 +398,7 @@ TEST(the_curve_of_attenuation_goes_through_its_values)
 
 static bool is_bar(const Drawing *drawing, int path, Vec3 fill, double bottom, double height)
 {
-    const DrawingBox box = drawing_path_box(drawing, &drawing->paths[path]);
+    const DrawingBox box = path_box(drawing, &drawing->paths[path]);
     return memcmp(&drawing->paths[path].style.fill, &fill, sizeof fill) == 0 &&
            fabs(box.bottom - bottom) < PIXELS && fabs(box.bottom - box.top - height) < PIXELS;
 }
@@ -456,7 +457,7 @@ static void check_layout(const Drawing *drawing, const char *what)
                 fail_msg("%s: %s touches %s", what, drawing->labels[i].text,
                          drawing->labels[j].text);
     for (int i = 0; i < drawing->path_count; i++) {
-        const DrawingBox box = drawing_path_box(drawing, &drawing->paths[i]);
+        const DrawingBox box = path_box(drawing, &drawing->paths[i]);
         if (!(box.left >= 0 && box.top >= 0 && box.right <= drawing->width &&
               box.bottom <= drawing->height) &&
             drawing->paths[i].step_count)
@@ -534,7 +535,7 @@ TEST(the_figure_of_a_very_wide_picture_is_in_its_middle)
         SUCCEEDS(drawing_begin(&drawing, SIZES[i][0], SIZES[i][1], message));
         figure_draw(FIGURE_VECTORS, &optics, &drawing);
         for (int k = 0; k < drawing.path_count; k++) {
-            const DrawingBox box = drawing_path_box(&drawing, &drawing.paths[k]);
+            const DrawingBox box = path_box(&drawing, &drawing.paths[k]);
             if (drawing.paths[k].style.dash == 0)
                 continue;
             arcs++;

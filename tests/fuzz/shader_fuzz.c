@@ -50,20 +50,20 @@ FUZZ(data, size)
         make_folder();
     made = true;
 
-    const char *text = (const char *)data;
-    const char *zero = size ? memchr(text, '\0', size) : NULL;
-    const size_t text_size = zero ? (size_t)(zero - text) : size;
-    char *log = strndup(zero ? zero + 1 : "", zero ? size - text_size - 1 : 0);
+    char *text = strndup((const char *)data, size);
+    const size_t used = strlen(text) + 1; /* a zero divides the text from the log */
+    char *log = used < size ? strndup((const char *)data + used, size - used) : strdup("");
     /* The first byte also chooses what is added. */
     static const char *const defines[] = {"FOG", "LIGHTS 3", NULL};
     const unsigned choice = size ? data[0] : 0;
-    const ShaderLoader loader = {.folder = folder,
+    const ShaderText texts[] = {{"main.frag", text}, {NULL, NULL}};
+    const ShaderLoader loader = {.texts = texts,
+                                 .folder = folder,
                                  .precision = choice & 1 ? "highp" : NULL,
                                  .defines = choice & 2 ? defines : NULL};
-    const ShaderText shader = {"main.frag", text};
     ShaderSource source;
     Message message = {0};
-    if (shader_source_parse(&source, &loader, shader, text_size, SHADER_FRAGMENT, &message)) {
+    if (shader_source_open(&source, &loader, "main.frag", SHADER_FRAGMENT, &message)) {
         require(!message.text[0] && strlen(source.text) == source.size &&
                 strncmp(source.text, "#version 100\n", 13) == 0);
         require(!shader_explain_log(&source, log, &message));
@@ -71,6 +71,7 @@ FUZZ(data, size)
     } else {
         require(message.text[0] && !source.text && !source.files);
     }
+    free(text);
     free(log);
     return 0;
 }

@@ -1,5 +1,6 @@
 /* Drawings: paths and text in pixels, transparency, and that equal drawings are equal files. */
 #include "images/drawing.h"
+#include "images/path_box.h"
 #include "support/testing.h"
 
 static const Vec3 RED = {1, 0, 0}, BLUE = {0, 0, 1};
@@ -61,12 +62,12 @@ TEST(a_transparent_background_keeps_colours)
 TEST(boxes_hold_the_ink)
 {
     CLOSED(drawing_end) Drawing drawing = opened();
-    const DrawingBox box = drawing_path_box(&drawing, &drawing.paths[1]);
+    const DrawingBox box = path_box(&drawing, &drawing.paths[1]);
     assert_true(box.left == 5 && box.right == 7 && box.top == -5 && box.bottom == 9);
     const DrawingBox text = drawing_text_box(&drawing, 100, "$N$");
     drawing_text(&drawing, (DrawingPoint){10, 20}, 100, RED, "$N$");
     const DrawingLabel *label = &drawing.labels[0];
-    const DrawingBox path = drawing_path_box(&drawing, &drawing.paths[2]);
+    const DrawingBox path = path_box(&drawing, &drawing.paths[2]);
     /* A capital is about two thirds of an em high, and its outline is what was measured. */
     assert_true(text.top < -60 && text.top > -75 && fabs(text.bottom) < 2);
     assert_true(label->box.left == 10 + text.left && fabs(label->box.top - 20 - text.top) < 1e-9);
