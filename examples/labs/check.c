@@ -41,7 +41,7 @@ static const Usage usage = {
     .name = "check",
     .summary = "says what is wrong with a lab's submission, and where to look",
     .names = "LAB PATH",
-    .details = "LAB is 5, lab05 or lab05_per_fragment; PATH is the folder with the files. The\n"
+    .details = "LAB is 5, lab05 or lab05_per_fragment; PATH is a folder, an archive or a file. The\n"
                "exit status is 0 if the submission is right.\n"
                "\nTry:  check lab05 mine\n"
                "      check lab05 mine --pictures found --json found/result.json\n"

@@ -490,7 +490,21 @@ class Faults(Labs):
         self.refused_with(5, mine, r"lab05\.frag")
         os.mkdir(os.path.join(mine, "lab05.frag"))
         self.refused_with(5, mine, r"lab05\.frag")
-        self.refused_with(5, os.path.join(mine, "lab05.vert"), r"lab05\.vert")
+        self.refused_with(5, os.path.join(mine, "lab05.vert"), r"lab05\.frag")  # one file of two
+
+    def test_a_submission_is_read_as_one_of_a_class_is(self):
+        """Names, folders, archives and sizes that a class's students may use."""
+        solution = os.path.join(base.SOURCE, "tests/labs/solutions/lab05_per_fragment")
+        for path, name, bulk in (
+            ("mine/Lab05.VERT", "lab05.vert", 0),
+            ("mine/my shader.fs", "lab05.frag", 300_000),
+        ):
+            with open(os.path.join(solution, name)) as file:
+                self.make(path, file.read().encode() + b"//" + b"x" * bulk + b"\n")
+        shutil.make_archive(self.path("handed in"), "zip", self.path("mine"))
+        for path in ("mine", ".", "handed in.zip"):
+            code, result = run_check(5, self.path(path))
+            self.assertEqual((code, result["verdict"]), (0, "right"), (path, result))
 
     def test_files_that_are_not_text(self):
         for name, content, said in (

@@ -58,8 +58,7 @@ void sandbox_describe(const Sandbox *sandbox, char text[256]);
 
 /* What a submission is on disk. */
 typedef enum SandboxSource {
-    SOURCE_EXACT,   /* a folder with the lab's very files */
-    SOURCE_FOLDER,  /* one with these files somewhere, under whatever names (source.h) */
+    SOURCE_FOLDER,  /* a folder with the lab's files somewhere, under whatever names (source.h) */
     SOURCE_FILES,   /* such files */
     SOURCE_ARCHIVE, /* an archive of such a folder */
 } SandboxSource;

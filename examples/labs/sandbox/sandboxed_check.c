@@ -6,12 +6,15 @@
 #include "base/clock.h"
 #include "base/output.h"
 #include "labs/sandbox/png_copy.h"
+#include "labs/sandbox/source.h"
 #include "labs/submission/verdict_json.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 bool sandboxed_check_start(const Sandbox *sandbox, SandboxRun *run, int slot,
                            const SandboxedCheck *check, Message *message)
@@ -84,22 +87,39 @@ static bool take_picture(const SandboxRun *run, const char *folder, Verdict *ver
            output_write(path, picture, size, message);
 }
 
-bool sandboxed_check(const JudgeOptions *options, const char *folder, double limit,
-                     Verdict *verdict, Message *message)
+/* What is at a path that a person named. False, with a message: nothing that can be judged. */
+static bool kind_of(const char *path, SandboxSource *kind, Message *message)
+{
+    struct stat status;
+    if (stat(path, &status) != 0)
+        return message_set(message, "%s: %s", path, strerror(errno));
+    *kind = S_ISDIR(status.st_mode)   ? SOURCE_FOLDER
+            : unpack_is_archive(path) ? SOURCE_ARCHIVE
+                                      : SOURCE_FILES;
+    return S_ISDIR(status.st_mode) ||
+           (S_ISREG(status.st_mode) &&
+            (*kind == SOURCE_ARCHIVE || source_is_wanted(strrchr(path, '/') + 1))) ||
+           message_set(message, "%s: neither a folder nor an archive nor a shader", path);
+}
+
+bool sandboxed_check(const JudgeOptions *options, const char *path, double limit, Verdict *verdict,
+                     Message *message)
 {
     static Sandbox sandbox; /* large */
-    SubmissionFiles files;
+    char place[PATH_MAX];
     Message why = {.text = ""};
     SandboxRun run = {.pipe = -1};
     SandboxRun *const runs[] = {&run};
-    const SandboxInput input = {folder, ""};
-    const SandboxedCheck check = {options->lab, options->seed, SOURCE_EXACT, {&input, 1}};
-    /* A fault of the folder needs no sandbox, and is said with its name. */
-    if (!submission_files_open(&files, options->lab, folder, &why)) {
+    SandboxedCheck check = {options->lab, options->seed, SOURCE_FOLDER, {NULL, 1}};
+    /* A fault of the path needs no sandbox, and is said with its name. */
+    if (!realpath(path, place))
+        message_set(&why, "%s: %s", path, strerror(errno));
+    if (why.text[0] || !kind_of(place, &check.kind, &why)) {
         verdict_refuse(verdict, options->seed, &why);
         return true;
     }
-    submission_files_close(&files);
+    const SandboxInput input = {place, strrchr(place, '/') + 1};
+    check.inputs.items = &input;
     /* Nothing in a sandbox needs this file, and every system has it. */
     if (!sandbox_open(&sandbox, options->lab, ceil(limit), "/etc/passwd", message) ||
         !sandbox_admits(&sandbox, options->lab, message))

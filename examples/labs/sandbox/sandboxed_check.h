@@ -23,10 +23,10 @@ bool sandboxed_check_start(const Sandbox *sandbox, SandboxRun *run, int slot,
 bool sandboxed_check_end(const Sandbox *sandbox, const SandboxRun *run, const SandboxedCheck *check,
                          Verdict *verdict, Message *message);
 
-/* Judges the folder `folder` as judge would, with `limit` seconds of processor time for compiling
- * and drawing: diagnosing does not count. False, with a message: this machine cannot; also if a lab
- * with C has no sandbox. */
-bool sandboxed_check(const JudgeOptions *options, const char *folder, double limit,
-                     Verdict *verdict, Message *message);
+/* Judges what is at `path`, a folder, an archive or a file, as a class's submissions are, with
+ * `limit` seconds of processor time for compiling and drawing: diagnosing does not count. False,
+ * with a message: this machine cannot; also if a lab with C has no sandbox. */
+bool sandboxed_check(const JudgeOptions *options, const char *path, double limit, Verdict *verdict,
+                     Message *message);
 
 #endif

@@ -147,9 +147,6 @@ static void read_submitted(Submitted *of, int count, char *arguments[])
                       .kind = (SandboxSource)atoi(arguments[2]),
                       .archive = -1};
     switch (of->kind) {
-    case SOURCE_EXACT:
-        read = submission_files_open(&of->files, of->lab, place, &of->why);
-        break;
     case SOURCE_FOLDER:
         read = source_read_folder(&of->bundle, place, &of->why);
         break;
@@ -169,8 +166,8 @@ static void read_submitted(Submitted *of, int count, char *arguments[])
 /* Takes the lab's files from what was read. */
 static bool look_into(Submitted *of)
 {
-    if (of->refused || of->kind == SOURCE_EXACT)
-        return !of->refused;
+    if (of->refused)
+        return false;
     if (of->kind == SOURCE_ARCHIVE && !unpack_sources(&of->bundle, of->archive, &of->why))
         return false;
     if (!source_choose(&of->bundle, of->lab, &of->why))

@@ -214,9 +214,11 @@ bool source_choose(Bundle *bundle, const Lab *lab, Message *message)
 {
     char chosen[BUNDLE_NAME_SIZE] = "", other[BUNDLE_NAME_SIZE] = "";
     int nearest = BUNDLE_DEPTH_MAX + 1;
+    char names[LAB_MAX_FILES][LAB_NAME_SIZE];
     bool several = false;
+    lab_files(lab, names);
     if (bundle->count == 0)
-        return message_set(message, "no source files: no name ends in .vert, .frag or .c");
+        return message_set(message, "no source files: %s is missing", names[0]);
     for (int i = 0; i < bundle->count; i++)
         if (folder_depth(bundle->files[i].name) < nearest)
             nearest = folder_depth(bundle->files[i].name);

@@ -4,13 +4,14 @@
 #ifndef SOURCE_H
 #define SOURCE_H
 
+#include "core/shader_files.h"
 #include "labs/program/lab.h"
 #include "labs/sandbox/bundle.h"
 #include "labs/submission/submission.h"
 
 #include <stdint.h>
 
-enum { SOURCE_FILE_MAX = 256 << 10 }; /* bytes; the largest of the labs' own has 4000 */
+enum { SOURCE_FILE_MAX = SHADER_FILE_MAX }; /* bytes; the largest of the labs' own has 4000 */
 
 /* Whether a path is that of a source file: .vert, .frag, .glsl, .vs, .fs, .c or .h, in any case,
  * also with ".txt" added, with no part hidden or added by macOS ("__MACOSX", "._lab05.frag"). */
