@@ -41,12 +41,13 @@ static const Usage usage = {
     .name = "check",
     .summary = "says what is wrong with a lab's submission, and where to look",
     .names = "LAB PATH",
-    .details = "LAB is 5, lab05 or lab05_per_fragment; PATH is a folder, an archive or a file. The\n"
-               "exit status is 0 if the submission is right.\n"
-               "\nTry:  check lab05 mine\n"
-               "      check lab05 mine --pictures found --json found/result.json\n"
-               "      check --class DIR --lab 5 -o results\n"
-               "The last judges a whole class: see check --class DIR --help.\n",
+    .details =
+        "LAB is 5, lab05 or lab05_per_fragment; PATH is a folder, an archive or a file; the\n"
+        "exit status is 0 if the submission is right.\n"
+        "\nTry:  check lab05 mine\n"
+        "      check lab05 mine --pictures found --json found/result.json\n"
+        "      check --class DIR --lab 5 -o results\n"
+        "The last judges a whole class: see check --class DIR --help.\n",
     .study = true,
     .parameters = parameters,
 };
