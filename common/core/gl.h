@@ -59,6 +59,7 @@
     X(GETATTRIBLOCATION, GetAttribLocation)                                                        \
     X(GETBOOLEANV, GetBooleanv)                                                                    \
     X(GETERROR, GetError)                                                                          \
+    X(GETFLOATV, GetFloatv)                                                                        \
     X(GETINTEGERV, GetIntegerv)                                                                    \
     X(GETPROGRAMINFOLOG, GetProgramInfoLog)                                                        \
     X(GETPROGRAMIV, GetProgramiv)                                                                  \
@@ -66,7 +67,10 @@
     X(GETSHADERINFOLOG, GetShaderInfoLog)                                                          \
     X(GETSHADERIV, GetShaderiv)                                                                    \
     X(GETSHADERPRECISIONFORMAT, GetShaderPrecisionFormat)                                          \
+    X(GETSHADERSOURCE, GetShaderSource)                                                            \
     X(GETSTRING, GetString)                                                                        \
+    X(GETTEXPARAMETERIV, GetTexParameteriv)                                                        \
+    X(GETUNIFORMFV, GetUniformfv)                                                                  \
     X(GETUNIFORMLOCATION, GetUniformLocation)                                                      \
     X(GETVERTEXATTRIBFV, GetVertexAttribfv)                                                        \
     X(GETVERTEXATTRIBIV, GetVertexAttribiv)                                                        \
@@ -87,8 +91,12 @@
     X(UNIFORM1FV, Uniform1fv)                                                                      \
     X(UNIFORM1I, Uniform1i)                                                                        \
     X(UNIFORM2FV, Uniform2fv)                                                                      \
+    X(UNIFORM2IV, Uniform2iv)                                                                      \
     X(UNIFORM3FV, Uniform3fv)                                                                      \
+    X(UNIFORM3IV, Uniform3iv)                                                                      \
     X(UNIFORM4FV, Uniform4fv)                                                                      \
+    X(UNIFORM4IV, Uniform4iv)                                                                      \
+    X(UNIFORMMATRIX2FV, UniformMatrix2fv)                                                          \
     X(UNIFORMMATRIX3FV, UniformMatrix3fv)                                                          \
     X(UNIFORMMATRIX4FV, UniformMatrix4fv)                                                          \
     X(USEPROGRAM, UseProgram)                                                                      \

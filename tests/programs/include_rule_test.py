@@ -5,7 +5,7 @@ import re
 import sys
 
 # From the ground up; a program stands on all of them.
-FLOORS = ["base", "glsl", "core", "shapes", "shadows", "scene", "lighting", "reference", "choose", "images", "window", "app",
+FLOORS = ["base", "glsl", "core", "shapes", "shadows", "scene", "lighting", "reference", "probe", "choose", "images", "window", "app",
           "kinds"]
 # What the programs' own libraries may include besides common/: themselves and those before them.
 STUDY = ["study/results", "study/measure", "study/report", "study/cases", "study/arithmetic"]

@@ -1,0 +1,81 @@
+/*
+ * A capture holds all that a picture depends on: drawn again from its data alone, each program's
+ * picture is the same, byte for byte. Shadows are not compared here.
+ */
+#include "probe/capture.h"
+
+#include "app/renderer.h"
+#include "probe/replay.h"
+#include "support/examples.h"
+#include "support/picture_check.h"
+#include "support/testing.h"
+
+#define X(NAME) extern const Example NAME;
+LECTURE_EXAMPLES
+#undef X
+
+#define X(NAME) &NAME,
+static const Example *const LECTURES[] = {LECTURE_EXAMPLES};
+#undef X
+
+enum { SIDE = 96, LECTURE_COUNT = sizeof LECTURES / sizeof LECTURES[0] };
+
+static Canvas canvas;
+
+FIXTURE(open_canvas)
+{
+    require(canvas_open(&canvas, &(CanvasOptions){.width = SIDE, .height = SIDE}, FAILURE),
+            FAILURE);
+    return 0;
+}
+
+FIXTURE(close_canvas)
+{
+    canvas_close(&canvas);
+    return 0;
+}
+
+/* Labels, which are painted afterwards, are not in it. */
+static void check(const Example *example, const DrawRequest *request, const char *what)
+{
+    CLOSED(capture_close) Capture capture;
+    CLOSED(image_close) Image drawn = {.width = 0}, again = {.width = 0};
+    Renderer renderer;
+    long differ = 0;
+    require(image_open(&drawn, SIDE, SIDE, IMAGE_BYTE, FAILURE) &&
+                image_open(&again, SIDE, SIDE, IMAGE_BYTE, FAILURE),
+            FAILURE);
+    capture_begin(&capture, &canvas);
+    require(renderer_open(&renderer, example, &canvas, request, FAILURE) &&
+                renderer_draw(&renderer, request, request->seconds, FAILURE),
+            FAILURE);
+    capture_end(&capture);
+    require(canvas_read(&canvas, &drawn, FAILURE), FAILURE);
+    assert_true(capture.draw_count > 0);
+    require(replay_draw(&capture, &canvas, NULL, NULL, FAILURE) &&
+                canvas_read(&canvas, &again, FAILURE),
+            FAILURE);
+    renderer_close(&renderer);
+    for (int i = 0; i < SIDE * SIDE; i++)
+        differ += memcmp((unsigned char *)drawn.pixels + 4 * i,
+                         (unsigned char *)again.pixels + 4 * i, 4) != 0;
+    if (differ)
+        fail_msg("%s%s: %ld of %d pixels are others when drawn again from what was captured",
+                 example->name, what, differ, SIDE * SIDE);
+}
+
+TEST(a_capture_draws_the_lectures_pictures_again)
+{
+    const DrawRequest request = {.seconds = 0.7};
+    for (int i = 0; i < LECTURE_COUNT; i++)
+        check(LECTURES[i], &request, "");
+}
+
+TEST(a_capture_draws_scenes_again)
+{
+    const DrawRequest request = {.seconds = 0.7};
+    for (int i = 0; i < EXAMPLE_COUNT; i++)
+        check(EXAMPLES[i], &request, "");
+}
+
+TEST_MAIN("capture", open_canvas, close_canvas)
