@@ -190,6 +190,12 @@ bool glsl_check_whole(GlslTree *tree);
  */
 bool glsl_check_loops(GlslTree *tree);
 
+/* The most turns that all loops together can take while main runs once, of a text that passed both
+ * checks; a loop that turns more often than GLSL_TURNS_MAX counts as that. *place: the loop that
+ * turns most. */
+enum { GLSL_TURNS_MAX = 1000000 };
+double glsl_count_turns(const GlslTree *tree, GlslPlace *place);
+
 /* The tree as text, which parses to the same tree. An expression or statement prints alone, too. */
 char *glsl_print(const GlslTree *tree, int node); /* for free() */
 

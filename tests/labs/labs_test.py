@@ -492,9 +492,25 @@ class Faults(Labs):
         self.refused_with(5, mine, r"lab05\.frag")
         self.refused_with(5, os.path.join(mine, "lab05.vert"), r"lab05\.frag")  # one file of two
 
+    def test_loops_that_do_not_end_soon(self):
+        """The driver stops them and draws; appendix A forbids the second."""
+        for loop, said in (
+            ("for (int i = 0; i < 20000000; i++) light += u_AmbientLight * 0.0;", r"loops turn 100000\d times or more"),
+            ("for (int i = 0; i < 400; i++) for (int k = 400; k > 0; k--) light += vec3(0.0);", "160400"),
+            ("while (light.r < 0.0) light += vec3(1.0);", "constant bounds"),
+            ("for (float x = 1.0; x > 0.0; x += 0.0) light *= 1.0;", r"loops turn 100000\d times or more"),
+        ):
+            mine = self.copy(5, f"loop {len(loop)}")
+            path = os.path.join(mine, "lab05.frag")
+            with open(path) as file:
+                text = file.read()
+            with open(path, "w") as file:
+                file.write(text.replace("vec3 light = u_AmbientLight;", f"vec3 light = u_AmbientLight; {loop}"))
+            self.refused_with(5, mine, r"^lab05\.frag:\d+: ", said)
+
     def test_a_submission_is_read_as_one_of_a_class_is(self):
         """Names, folders, archives and sizes that a class's students may use."""
-        solution = os.path.join(base.SOURCE, "tests/labs/solutions/lab05_per_fragment")
+        solution = self.folder_of(5)
         for path, name, bulk in (
             ("mine/Lab05.VERT", "lab05.vert", 0),
             ("mine/my shader.fs", "lab05.frag", 300_000),

@@ -5,6 +5,8 @@
 
 #include "base/clock.h"
 #include "core/shader_advice.h"
+#include "core/shader_source.h"
+#include "glsl/glsl.h"
 #include "labs/check/budget.h"
 #include "labs/check/code.h"
 #include "labs/diagnosis/catalogue.h"
@@ -89,7 +91,32 @@ static const char *text_with_error(const Session *session, const char *message)
     return "";
 }
 
-/* What the driver gets is what every other compiler would. */
+/* At most this many turns of loops for a vertex or a pixel: the labs need a dozen. Drivers stop a
+ * loop when they like to, and then draw. */
+enum { TURNS_MAX = 100000 };
+
+/* Loops as appendix A wants them, which end soon enough. */
+static bool check_loops(const ShaderSource *source, ShaderStage stage, Message *message)
+{
+    GlslTree *tree =
+        glsl_parse(source->text, stage == SHADER_VERTEX ? GLSL_VERTEX : GLSL_FRAGMENT, NULL);
+    char log[sizeof tree->messages[0].text + 64];
+    GlslMessage why = {.text = ""};
+    double turns = 0;
+    const bool read = tree->message_count == 0; /* else the driver knows better */
+    if (read && !(glsl_check_whole(tree) && glsl_check_loops(tree)))
+        why = tree->messages[0];
+    else if (read && (turns = glsl_count_turns(tree, &why.place)) > TURNS_MAX)
+        snprintf(why.text, sizeof why.text,
+                 "loops turn %.0f times or more for one %s; at most %d are allowed", turns,
+                 stage == SHADER_VERTEX ? "vertex" : "pixel", TURNS_MAX);
+    snprintf(log, sizeof log, "%d:%d(%d): error: %s", why.place.file, why.place.line,
+             why.place.column, why.text);
+    glsl_tree_free(tree);
+    return !why.text[0] || shader_explain_log(source, log, message);
+}
+
+/* What the driver gets is what every other compiler would, and ends. */
 static bool check_conditions(const Session *session, Message *message)
 {
     static const char *const endings[] = {[SHADER_VERTEX] = ".vert", [SHADER_FRAGMENT] = ".frag"};
@@ -103,6 +130,7 @@ static bool check_conditions(const Session *session, Message *message)
         done = shader_source_open(&source, &loader, name, (ShaderStage)stage, message);
         if (done && !compiler_dependence_check(source.text, &why))
             done = message_set(message, "%s: %s", name, why.text);
+        done = done && check_loops(&source, (ShaderStage)stage, message);
         shader_source_close(&source);
     }
     return done;
