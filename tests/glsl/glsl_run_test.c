@@ -1,0 +1,250 @@
+/*
+ * glsl_run: operators and functions against C's doubles, control flow, arrays, structures,
+ * functions with `out`, what is undefined, loops without end, the log of events and the speed.
+ */
+#include "base/clock.h"
+#include "glsl/glsl_run.h"
+#include "support/testing.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct Shader {
+    GlslTree *tree;
+    GlslCode *code;
+    GlslRun *run;
+} Shader;
+
+static Shader shader_open(const char *text)
+{
+    Shader shader = {.tree = glsl_parse(text, GLSL_FRAGMENT, NULL)};
+    if (shader.tree->message_count)
+        fail_msg("%s in %s", shader.tree->messages[0].text, text);
+    shader.code = glsl_compile(shader.tree);
+    if (shader.code->message.text[0])
+        fail_msg("%s", shader.code->message.text);
+    shader.run = glsl_run_open(shader.code);
+    return shader;
+}
+
+static void shader_close(Shader *shader)
+{
+    glsl_run_close(shader->run);
+    glsl_code_free(shader->code);
+    glsl_tree_free(shader->tree);
+}
+
+static double *registers(const Shader *shader, const char *name)
+{
+    GlslVariable found;
+    if (!glsl_find(shader->code, name, &found))
+        fail_msg("no %s", name);
+    return shader->run->registers + found.first;
+}
+
+#define HEAD                                                                                       \
+    "precision highp float; precision highp int;\n"                                                \
+    "uniform float x, y, z; uniform int i; struct Light { vec3 p; float f[2]; };\n"                \
+    "struct Pair { float a; vec2 b; }; uniform Light u_Light[3]; uniform sampler2D map[2];\n"      \
+    "void twice(inout float v, out float w) { w = v; v *= 2.0; if (v > 1.0) return; v = 0.0; }\n"  \
+    "float sum(int n) { float s = 0.0; for (int k = 0; k < 100; k++) {\n"                          \
+    "    if (k >= n) return s; if (k == 2) continue; s += float(k); } return s; }\n"
+
+/* gl_FragColor.r after statements, with x = .3, y = 1.7, z = -.6, i = 2. */
+static Shader ran(const char *statements)
+{
+    char text[4096];
+    snprintf(text, sizeof text, HEAD "void main() { float r = 0.0;\n%s\ngl_FragColor = vec4(r); }",
+             statements);
+    Shader shader = shader_open(text);
+    *registers(&shader, "x") = .3;
+    *registers(&shader, "y") = 1.7;
+    *registers(&shader, "z") = -.6;
+    *registers(&shader, "i") = 2;
+    *registers(&shader, "u_Light[2].p") = 5;
+    registers(&shader, "u_Light[1].f")[1] = 7;
+    registers(&shader, "map[1]")[0] = 4;
+    glsl_run(shader.run);
+    return shader;
+}
+
+static void gives(const char *statements, double expected)
+{
+    Shader shader = ran(statements);
+    const double got = *registers(&shader, "gl_FragColor");
+    if (!(fabs(got - expected) <= 1e-14 * fmax(1, fabs(expected))))
+        fail_msg("%s gives %.17g, not %.17g", statements, got, expected);
+    shader_close(&shader);
+}
+
+static void functions_are_c(void **state)
+{
+    (void)state;
+    const double x = .3, y = 1.7, z = -.6, l = sqrt(x * x + y * y + z * z);
+    const struct {
+        const char *text;
+        double value;
+    } CASES[] = {
+        {"x + y * z - x / y", x + y * z - x / y},
+        {"float(i / 3 + 7 / i)", 3},
+        {"radians(x)", x * acos(-1) / 180},
+        {"degrees(x)", x * 180 / acos(-1)},
+        {"sin(x) + cos(y) + tan(z)", sin(x) + cos(y) + tan(z)},
+        {"asin(x) + acos(z) + atan(y)", asin(x) + acos(z) + atan(y)},
+        {"atan(y, z)", atan2(y, z)},
+        {"pow(y, z)", pow(y, z)},
+        {"exp(x) + log(y)", exp(x) + log(y)},
+        {"exp2(z) + log2(x)", exp2(z) + log2(x)},
+        {"sqrt(y)", sqrt(y)},
+        {"inversesqrt(y)", 1 / sqrt(y)},
+        {"abs(z) + sign(z)", .6 - 1},
+        {"floor(z) + ceil(x) * 10.0 + fract(z)", -1 + 10 + .4},
+        {"mod(z, x * 3.0)", .3},
+        {"min(x, y) + max(x, z) + clamp(y, z, x)", .9},
+        {"mix(x, y, z)", x + z * (y - x)},
+        {"step(x, y) + step(y, x)", 1},
+        {"smoothstep(z, y, x)", .9 / 2.3 * (.9 / 2.3) * (3 - 1.8 / 2.3)},
+        {"length(vec3(x, y, z))", l},
+        {"distance(vec2(x, y), vec2(z, x))", hypot(x - z, y - x)},
+        {"dot(vec3(x, y, z), vec3(y, z, x))", x * y + y * z + z * x},
+        {"cross(vec3(x, y, z), vec3(y, z, x)).y", z * y - x * x},
+        {"normalize(vec3(x, y, z)).z", z / l},
+        {"faceforward(vec2(x), vec2(y), vec2(x)).x", -x},
+        {"reflect(vec2(x, y), vec2(z, x)).x", x - 2 * (x * z + y * x) * z},
+        {"refract(vec2(0, -1), vec2(0, 1), y).y", -1},
+        {"refract(vec2(1, 0), vec2(0, 1), y).x", 0},
+        {"matrixCompMult(mat2(x), mat2(y))[1].y", x * y},
+        {"(mat2(x, y, z, 1.0) * vec2(x, y)).y", y * x + y},
+        {"(vec2(x, y) * mat2(x, y, z, 1.0)).y", x * z + y},
+        {"(mat2(x, y, z, 1.0) * mat2(x))[0][1]", x * y},
+        {"mat3(mat2(x))[2][2]", 1},
+        {"all(lessThan(vec2(x, z), vec2(y))) ? 1.0 : 2.0", 1},
+        {"any(not(equal(vec2(x), vec2(x)))) ? 1.0 : 2.0", 2},
+        {"vec3(x) == vec3(x, x, y) ? 1.0 : 2.0", 2},
+        {"float(x < y ^^ x > y) + float(int(z * 5.0))", -2},
+        {"u_Light[i].p.x + u_Light[i - 1].f[i / 2]", 12},
+        {"sum(6)", 13},
+        {"texture2D(map[1], vec2(x)).a", 1},
+    };
+    for (size_t k = 0; k < sizeof CASES / sizeof CASES[0]; k++) {
+        char text[256];
+        snprintf(text, sizeof text, "r = %s;", CASES[k].text);
+        gives(text, CASES[k].value);
+    }
+}
+
+static void statements_run(void **state)
+{
+    (void)state;
+    gives("float v = 3.0; twice(v, r); r += v;", 9);
+    gives("vec3 v = vec3(1.0, 2.0, 3.0); v.xy = v.yx; v[i] = 8.0; r = v.x + v.z * 10.0;", 82);
+    gives("float a[3]; for (int k = 0; k < 3; k++) a[k] = float(k); r = a[i] * 10.0 + a[1];", 21);
+    gives("int k = 0; while (true) { if (k == 5) break; k++; } r = float(k--) + float(k);", 9);
+    gives("int k = 0; do { k += 2; if (k == 4) continue; r += 1.0; } while (k < 7); r += float(k);",
+          11);
+    gives("bool b = false; if (b && (r = 5.0) > 0.0) r = 6.0; if (true || (r = 7.0) > 0.0) r++;",
+          1);
+    gives(
+        "Pair l = Pair(x, vec2(y)); Pair k = l; k.b.x = 3.0; r = l.b.x + k.b.x + (k == l ? 1.0 : 0.0);",
+        4.7);
+    gives("mat2 m = mat2(0.0); m[1].x = x; m[i - 1] += vec2(1.0); r = m[1][0];", 1.3);
+}
+
+static void notes(const char *statements, int kind)
+{
+    Shader shader = ran(statements);
+    bool found = kind == GLSL_NOTE_NONE && shader.run->note_count == 0;
+    for (int k = 0; k < shader.run->note_count; k++)
+        found |= shader.run->notes[k].kind == kind &&
+                 shader.tree->nodes[shader.run->notes[k].node].place.line >= 2;
+    if (!found)
+        fail_msg("%s: not noted: %s", statements, glsl_note_text(kind));
+    assert_true(shader.run->stopped == (kind == GLSL_NOTE_LOOP));
+    shader_close(&shader);
+}
+
+static void undefined_is_noted(void **state)
+{
+    (void)state;
+    notes("r = x; float q; q = r; r = q;", GLSL_NOTE_NONE);
+    notes("while (x < y) r += 1.0;", GLSL_NOTE_LOOP);
+    notes("float q; r = q;", GLSL_NOTE_UNSET);
+    notes("float a[2]; a[0] = x; r = a[i - 1];", GLSL_NOTE_UNSET);
+    notes("r = (x - x) / (y - y);", GLSL_NOTE_ZERO);
+    notes("r = normalize(vec3(x - x)).x;", GLSL_NOTE_ZERO);
+    notes("r = pow(z, 2.0);", GLSL_NOTE_POW);
+    notes("r = pow(x - x, y - y);", GLSL_NOTE_POW);
+    notes("r = sqrt(z);", GLSL_NOTE_ROOT);
+    notes("r = log(z);", GLSL_NOTE_LOG);
+    notes("r = acos(y);", GLSL_NOTE_ARC);
+    notes("r = smoothstep(x, x, y);", GLSL_NOTE_EDGES);
+    notes("vec3 v = vec3(x); r = v[i + 1];", GLSL_NOTE_INDEX);
+    notes("r = 1.0 / (x - x); r = r - r;", GLSL_NOTE_NAN);
+}
+
+/* The sum of 1 and 1e-9 is lost in a driver's arithmetic, unless it is exact from before it on. */
+static void events_say_where_digits_are_lost(void **state)
+{
+    (void)state;
+    Shader shader = ran("float a = x + 1.0;\nfloat b = a - 1.0;\nr = b - x;");
+    GlslRun *run = shader.run;
+    run->trace = true;
+    glsl_run(run);
+    assert_int_equal(run->event_count, 5);
+    assert_string_equal(shader.tree->symbols[run->events[1].symbol].name, "a");
+    assert_true(run->values[glsl_last(run, "b")->value] == .3 + 1 - 1);
+    double errors[4];
+    run->arithmetic = &GLSL_LLVMPIPE;
+    for (int from = 0; from < 4; from++) {
+        *registers(&shader, "x") = (float).3;
+        run->exact_from = from - 1;
+        glsl_run(run);
+        errors[from] = *registers(&shader, "gl_FragColor");
+    }
+    assert_true(fabs(errors[1]) < 1e-15 && fabs(errors[2]) > 1e-9);
+    shader_close(&shader);
+}
+
+/* Results of float arithmetic in C, which is what the driver's highp is, to the last bit. */
+static void single_is_c(void **state)
+{
+    (void)state;
+    Shader shader = ran("vec3 v = normalize(vec3(x, y, z)); r = v.x / 3.0 + sqrt(v.y) * x;");
+    shader.run->arithmetic = &GLSL_LLVMPIPE;
+    for (int k = 0; k < 1000; k++) {
+        const float x = (float)k * .37F + .1F, y = 3.3F, z = (float)(k % 17);
+        *registers(&shader, "x") = x;
+        *registers(&shader, "y") = y;
+        *registers(&shader, "z") = z;
+        glsl_run(shader.run);
+        const float xx = x * x, yy = y * y, zz = z * z, two = xx + yy, all = two + zz;
+        const float length = sqrtf(all), scale = 1 / length, vx = x * scale, vy = y * scale;
+        const float third = vx / 3, root = sqrtf(vy), product = root * x, sum = third + product;
+        assert_true(*registers(&shader, "gl_FragColor") == sum);
+    }
+    shader_close(&shader);
+}
+
+static void twenty_million_a_second(void **state)
+{
+    (void)state;
+    Shader shader = ran("for (int k = 0; k < 20000; k++) r = r * x + y * sqrt(y);");
+    shader.run->operations = 0;
+    shader.run->arithmetic = &GLSL_LLVMPIPE;
+    const double start = clock_processor();
+    for (int k = 0; k < 20; k++)
+        glsl_run(shader.run);
+    print_message("%.0f million operations a second\n",
+                  (double)shader.run->operations / (clock_processor() - start) / 1e6);
+    shader_close(&shader);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(functions_are_c),    cmocka_unit_test(statements_run),
+        cmocka_unit_test(undefined_is_noted), cmocka_unit_test(events_say_where_digits_are_lost),
+        cmocka_unit_test(single_is_c),        cmocka_unit_test(twenty_million_a_second),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
