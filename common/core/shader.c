@@ -195,7 +195,10 @@ static GLuint build(const ShaderSource sources[2], const ShaderLoader *loader, M
         }
     }
     if (!program && loader->advise)
-        shader_advise(fragment ? "" : sources[vertex ? SHADER_FRAGMENT : SHADER_VERTEX].text,
+        shader_advise(sources,
+                      fragment ? SHADER_LINKING
+                      : vertex ? SHADER_FRAGMENT
+                               : SHADER_VERTEX,
                       message);
     if (vertex && !fragment)
         explain_precision(loader, message);

@@ -1,18 +1,16 @@
 /*
- * shader_advice: what the driver's errors usually mean.
+ * shader_advice: what the front end of the shaders' language says of what a driver refuses.
  */
 #ifndef SHADER_ADVICE_H
 #define SHADER_ADVICE_H
 
-#include "base/message.h"
+#include "core/shader_source.h"
 
-#include <stddef.h>
+enum { SHADER_LINKING = 2 };
 
-/* What an unknown name was probably meant to be, of those in the source, and a sentence on what the
- * driver's error usually means; false: neither is known. */
-bool shader_advice(const char *source, const char *message, char *advice, size_t size);
-
-/* Adds that as a line, "  hint: ...", after the first error and its source line. */
-void shader_advise(const char *source, Message *message);
+/* Adds a line, "  hint: ...", after the first line of the driver's message and the source quoted
+ * there; with its place, unless the message begins with the same. `refused` is a stage, or
+ * SHADER_LINKING. Adds nothing if the front end finds nothing wrong. */
+void shader_advise(const ShaderSource sources[2], int refused, Message *message);
 
 #endif

@@ -196,6 +196,10 @@ bool glsl_check_loops(GlslTree *tree);
 enum { GLSL_TURNS_MAX = 1000000 };
 double glsl_count_turns(const GlslTree *tree, GlslPlace *place);
 
+/* What linking asks of both: a varying that the fragment shader uses is one of the vertex shader's,
+ * and what both declare has one type, uniforms also one precision. Adds messages to `fragment`. */
+bool glsl_check_pair(const GlslTree *vertex, GlslTree *fragment);
+
 /* The tree as text, which parses to the same tree. An expression or statement prints alone, too. */
 char *glsl_print(const GlslTree *tree, int node); /* for free() */
 
@@ -230,7 +234,8 @@ static inline bool glsl_is_matrix(int type)
     return type >= GLSL_MAT2 && type <= GLSL_MAT4;
 }
 
-/* GLSL_SWIZZLE's `op`: the number of components, and each of them, in three bits each. */
+/* GLSL_SWIZZLE's `op`: the number of components, and each of them, in three bits each. Above, the
+ * letters that the text uses: 0 xyzw, 1 rgba, 2 stpq. */
 static inline int glsl_swizzle_count(int op)
 {
     return op & 7;

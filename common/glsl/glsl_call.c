@@ -1,6 +1,7 @@
 /* Constructors and calls: which function is meant, and whether the arguments fit. */
 #include "glsl/glsl_parser.h"
 
+#include "base/message.h"
 #include "base/text.h"
 
 #include <stdio.h>
@@ -96,10 +97,11 @@ static void settle_call(Parser *parser, int node, int type, bool constant)
         fold(parser->tree, node);
 }
 
-/* Later GLSL's, HLSL's and C's functions. */
-static const char *advice_for(const char *name)
+const char *replacement_for(const Parser *parser, const char *name)
 {
-    static const char *const ADVICE[][2] = {
+#define DERIVATIVES "write #extension GL_OES_standard_derivatives : enable first"
+#define SHADOW "take a sampler2D, and compare the depth that texture2D returns with the point's own"
+    static const char *const WORDS[][2] = {
         {"inverse", "compute the inverse in the program, and pass it as a uniform"},
         {"transpose", "write vector * matrix instead of transpose(matrix) * vector"},
         {"texture", "write texture2D(sampler, point)"},
@@ -115,31 +117,54 @@ static const char *advice_for(const char *name)
         {"rsqrt", "write inversesqrt(x)"},
         {"fabs", "write abs(x)"},
         {"powf", "write pow(x, y)"},
-        {"dFdx", "write #extension GL_OES_standard_derivatives : enable first"},
-        {"dFdy", "write #extension GL_OES_standard_derivatives : enable first"},
-        {"fwidth", "write #extension GL_OES_standard_derivatives : enable first"},
+        {"dFdx", DERIVATIVES},
+        {"dFdy", DERIVATIVES},
+        {"fwidth", DERIVATIVES},
+        {"float2", "write vec2"},
+        {"float3", "write vec3"},
+        {"float4", "write vec4"},
+        {"float3x3", "write mat3"},
+        {"float4x4", "write mat4"},
+        {"double", "write float"},
+        {"half", "write mediump float"},
+        {"long", "write int"},
+        {"short", "write int"},
+        {"unsigned", "write int"},
+        {"uint", "write int"},
+        {"layout", "remove it and its parentheses"},
+        {"static", "remove it"},
+        {"inline", "remove it"},
+        {"switch", "write if and else"},
+        {"goto", "write a loop"},
+        {"sampler2DShadow", SHADOW},
+        {"sampler3D", "there are sampler2D and samplerCube"},
     };
-    for (size_t i = 0; i < sizeof ADVICE / sizeof ADVICE[0]; i++)
-        if (strcmp(ADVICE[i][0], name) == 0)
-            return ADVICE[i][1];
+    const bool vertex = parser->tree->stage == GLSL_VERTEX;
+    if (strcmp(name, "in") == 0)
+        return vertex ? "write attribute" : "write varying";
+    if (strcmp(name, "out") == 0)
+        return vertex ? "write varying" : "set gl_FragColor";
+    for (size_t i = 0; i < sizeof WORDS / sizeof WORDS[0]; i++)
+        if (strcmp(WORDS[i][0], name) == 0)
+            return WORDS[i][1];
     return NULL;
 }
 
 enum { NAMES_MAX = 2000 };
 
-/* A name in scope or a function of the language that is similar; NULL: none. */
-static const char *nearest(const Parser *parser, const char *name, bool function)
+const char *nearest(Parser *parser, const char *name, int kind)
 {
     const char *names[NAMES_MAX + 1];
     int count = 0;
     for (int i = 0; i < parser->names.count && count < NAMES_MAX; i++) {
         const Name *item = &parser->names.items[i];
         const GlslSymbol *symbol = &parser->tree->symbols[item->symbol];
-        const bool function_symbol = symbol->kind == GLSL_FUNCTION;
-        if (item->symbol && function_symbol == function && item->kept)
+        if (item->symbol && symbol->kind == kind && item->kept)
             names[count++] = item->kept;
-        else if (function && item->function)
+        else if (kind == GLSL_FUNCTION && item->function)
             names[count++] = GLSL_FUNCTIONS[item->function - 1].name;
+        else if (kind == GLSL_STRUCT && i > 0 && i < WORD_STRUCT)
+            names[count++] = keep_name(parser, i);
     }
     names[count] = NULL;
     return text_nearest(name, names);
@@ -148,7 +173,7 @@ static const char *nearest(const Parser *parser, const char *name, bool function
 void undeclared(Parser *parser, const Token *token, int symbol)
 {
     const char *name = keep_name(parser, token->name);
-    const char *near = nearest(parser, name, false);
+    const char *near = nearest(parser, name, GLSL_VARIABLE);
     if (symbol)
         complain(parser, token->place, "%.60s is a %s, not a variable", name,
                  parser->tree->symbols[symbol].kind == GLSL_STRUCT ? "structure" : "function");
@@ -161,24 +186,76 @@ void undeclared(Parser *parser, const Token *token, int symbol)
                  name);
 }
 
-/* "max(x, 0): x is a float, 0 an int: write 0.0". */
-static void no_match(Parser *parser, int node, const char *name, const Arguments *arguments)
+/* "max(float or vec, the same)". */
+static void add_built_in(Message *said, const GlslFunction *function)
 {
-    char said[4 * 2 * sizeof(Phrase)] = "";
+    bool generic = false;
+    for (const char *letter = function->types + 1; *letter; letter++) {
+        const char *name = *letter == 'g'   ? "float or vec"
+                           : *letter == 'V' ? "vec"
+                           : *letter == 'I' ? "ivec"
+                           : *letter == 'B' ? "bvec"
+                           : *letter == 'm' ? "mat"
+                                            : NULL;
+        char type[8];
+        snprintf(type, sizeof type, "vec%c", *letter);
+        if (name && generic)
+            name = "the same";
+        generic |= name != NULL;
+        message_add(said, "%s%s", letter == function->types + 1 ? "" : ", ",
+                    name             ? name
+                    : *letter == 'f' ? "float"
+                    : *letter == 'b' ? "bool"
+                    : *letter == 's' ? "sampler2D"
+                    : *letter == 'c' ? "samplerCube"
+                                     : type);
+    }
+}
+
+/* The parameters of each function of this name: "; there is max(float or vec, the same)". */
+static void add_signatures(const Parser *parser, int name, Message *said)
+{
+    const GlslTree *tree = parser->tree;
+    const int first = parser->names.items[name].function;
+    const char *text = parser->names.items[name].kept, *before = "; there is ";
+    for (int i = symbol_of(parser, name); i; i = tree->symbols[i].overload, before = ", ") {
+        const GlslSymbol *function = &tree->symbols[i];
+        message_add(said, "%s%.40s(", before, text);
+        for (int k = 0; k < function->parameters; k++) {
+            char type[64];
+            message_add(said, "%s%s", k ? ", " : "",
+                        glsl_type_text(tree, tree->symbols[function->parameter + k].type, type));
+        }
+        message_add(said, ")");
+    }
+    for (int i = first; first && i <= GLSL_FUNCTION_COUNT; i++)
+        if (strcmp(GLSL_FUNCTIONS[i - 1].name, GLSL_FUNCTIONS[first - 1].name) == 0 &&
+            enabled(parser, &GLSL_FUNCTIONS[i - 1])) {
+            message_add(said, "%s%s(", before, text);
+            add_built_in(said, &GLSL_FUNCTIONS[i - 1]);
+            message_add(said, ")");
+            before = ", ";
+        }
+}
+
+/* "max(x, 0): x is a float, 0 an int: write 0.0". */
+static void no_match(Parser *parser, int node, int name, const Arguments *arguments)
+{
+    Message said = {0};
     Phrase advice = {""};
     for (int i = 0; i < arguments->count && i < 4; i++) {
-        const size_t used = strlen(said);
-        snprintf(said + used, sizeof said - used, "%s%s %s%s", i ? ", " : "",
-                 text_phrase(parser, arguments->nodes[i]).text, i ? "" : "is ",
-                 type_phrase(parser, arguments->types[i]).text);
+        message_add(&said, "%s%s %s%s", i ? ", " : "",
+                    text_phrase(parser, arguments->nodes[i]).text, i ? "" : "is ",
+                    type_phrase(parser, arguments->types[i]).text);
         if (!advice.text[0] && arguments->types[i] == GLSL_INT)
             advice = conversion(parser, arguments->nodes[i], GLSL_FLOAT);
     }
-    if (!advice.text[0])
-        snprintf(advice.text, sizeof advice.text, ": %.40s takes other types or another number",
-                 name);
-    complain(parser, node_at(parser, node)->place, "%s: %.130s%s", text_phrase(parser, node).text,
-             arguments->count ? said : "there are no arguments", advice.text);
+    if (advice.text[0])
+        message_add(&said, "%s", advice.text);
+    else
+        add_signatures(parser, name, &said);
+    complain(parser, node_at(parser, node)->place, "%s: %s%s", text_phrase(parser, node).text,
+             arguments->count ? "" : "there are no arguments", said.text);
 }
 
 static void check_outputs(Parser *parser, const GlslSymbol *function, const Arguments *arguments)
@@ -203,7 +280,8 @@ static int find_function(const GlslTree *tree, int symbol, const Arguments *argu
 
 static void no_function(Parser *parser, int node, const char *name)
 {
-    const char *advice = advice_for(name), *near = nearest(parser, name, true);
+    const char *advice = replacement_for(parser, name),
+               *near = nearest(parser, name, GLSL_FUNCTION);
     if (advice)
         complain(parser, node_at(parser, node)->place, "GLSL ES 1.00 has no %.60s here: %s", name,
                  advice);
@@ -246,10 +324,10 @@ void check_call(Parser *parser, int node, int name)
         settle_call(parser, node,
                     meant(found->types[0], match(found, arguments.types, arguments.count)),
                     found->id < GLSL_DFDX);
-    } else if (own || (parser->names.items[name].function && !advice_for(text))) {
+    } else if (own || (parser->names.items[name].function && !replacement_for(parser, text))) {
         call->kind = own ? GLSL_CALL : GLSL_BUILT_IN;
         call->symbol = own ? symbol : parser->names.items[name].function - 1;
-        no_match(parser, node, text, &arguments);
+        no_match(parser, node, name, &arguments);
     } else {
         no_function(parser, node, text);
     }
@@ -307,8 +385,9 @@ static void construct_numbers(Parser *parser, int node, const Arguments *argumen
     else if (given == 1 && arguments->count == 1)
         return;
     else if (given < wanted)
-        complain(parser, place, "%.50s: %s needs %d numbers, not %d", text,
-                 type_phrase(parser, type).text, wanted, given);
+        complain(parser, place, "%.50s: %s needs %d numbers, not %d%s", text,
+                 type_phrase(parser, type).text, wanted, given,
+                 wanted == 4 && given == 3 ? ": add one, as in vec4(..., 1.0)" : "");
     else if (before >= wanted)
         complain(parser, place, "%.50s: %s takes %d number%s, here are more: remove some", text,
                  type_phrase(parser, type).text, wanted, wanted == 1 ? "" : "s");

@@ -56,7 +56,8 @@ Phrase conversion(const Parser *parser, int node, int type)
         snprintf(phrase.text, sizeof phrase.text, ": write .%s of it",
                  type == GLSL_VEC3 ? "xyz" : "xy");
     } else if (from == GLSL_VEC3 && type == GLSL_VEC4) {
-        snprintf(phrase.text, sizeof phrase.text, ": write vec4(..., 1.0), or 0.0 for a direction");
+        snprintf(phrase.text, sizeof phrase.text,
+                 ": write vec4(%.40s, 1.0), or 0.0 for a direction", text);
     } else if (glsl_is_vector(from) && glsl_size(from) > 1 && glsl_is_vector(type) &&
                glsl_size(type) == 1) {
         snprintf(phrase.text, sizeof phrase.text, ": write one component (.x), or dot or length");
@@ -83,11 +84,10 @@ static void mismatch(Parser *parser, int node)
         advice = conversion(parser, left, GLSL_FLOAT);
     else if (b == GLSL_INT && glsl_scalar(a) == GLSL_FLOAT)
         advice = conversion(parser, right, GLSL_FLOAT);
+    else if ((a == GLSL_MAT4 && b == GLSL_VEC3) || (b == GLSL_MAT4 && a == GLSL_VEC3))
+        advice = conversion(parser, a == GLSL_VEC3 ? left : right, GLSL_VEC4);
     else if (glsl_is_matrix(a) || glsl_is_matrix(b))
-        snprintf(advice.text, sizeof advice.text, "%s",
-                 (a == GLSL_MAT4 && b == GLSL_VEC3) || (b == GLSL_MAT4 && a == GLSL_VEC3)
-                     ? ": write vec4(..., 1.0), or 0.0 for a direction"
-                     : ": their sizes differ");
+        snprintf(advice.text, sizeof advice.text, ": their sizes differ");
     else if (glsl_size(a) > 1 && glsl_size(b) > 1 && glsl_scalar(a) == glsl_scalar(b))
         snprintf(advice.text, sizeof advice.text,
                  ": use .xyz of the longer one, or vec4(..., 1.0)");
@@ -326,7 +326,7 @@ static int components(const char *name, int length, int type)
     if (!glsl_is_vector(type) || glsl_size(type) < 2 || length > 4)
         return 0;
     for (int set = 0; set < 3; set++) {
-        int op = length, i = 0;
+        int op = length | set << 14, i = 0;
         for (; i < length; i++) {
             const char *found = strchr(SETS[set], name[i]);
             if (!found || found - SETS[set] >= glsl_size(type))

@@ -1,6 +1,7 @@
 /* Declarations: variables, structures, precisions. */
 #include "glsl/glsl_parser.h"
 
+#include <stdio.h>
 #include <string.h>
 
 static int take_precision(Parser *parser)
@@ -44,6 +45,30 @@ static void settle_precision(Parser *parser, Specifier *specifier)
 
 static int parse_struct(Parser *parser, Specifier *specifier);
 
+Sentence reserved(Parser *parser, int word)
+{
+    Sentence sentence;
+    const char *name = keep_name(parser, word), *instead = replacement_for(parser, name);
+    snprintf(sentence.text, sizeof sentence.text, "%.40s belongs to C or a later GLSL%s%s", name,
+             instead ? ": " : "", instead ? instead : "");
+    return sentence;
+}
+
+static void no_type(Parser *parser, const char *name)
+{
+    const char *instead = replacement_for(parser, name);
+    const char *near = nearest(parser, name, GLSL_STRUCT);
+    if (instead)
+        syntax_error(parser, "GLSL ES 1.00 has no %.60s: %s", name, instead);
+    else if (near)
+        syntax_error(parser, "%.60s is no type: did you mean %.60s?", name, near);
+    else
+        syntax_error(parser,
+                     "%.60s is no type: check its spelling, and the line before for a semicolon "
+                     "that is missing",
+                     name);
+}
+
 void parse_type(Parser *parser, Specifier *specifier)
 {
     const Token *token = peek(parser, 0);
@@ -59,15 +84,9 @@ void parse_type(Parser *parser, Specifier *specifier)
         specifier->type = parser->tree->symbols[symbol_of(parser, take(parser)->name)].type;
     } else if (token->kind == TOKEN_NAME && token->name < parser->words &&
                token->name >= WORD_RESERVED) {
-        syntax_error(
-            parser,
-            "%.40s belongs to C or a later GLSL: GLSL ES 1.00 has float, int, bool, vec, mat",
-            keep_name(parser, token->name));
+        syntax_error(parser, "%s", reserved(parser, token->name).text);
     } else if (token->kind == TOKEN_NAME && token->name >= parser->words) {
-        syntax_error(
-            parser,
-            "%.60s is no type: check its spelling, and the line before for a semicolon that is missing",
-            keep_name(parser, token->name));
+        no_type(parser, keep_name(parser, token->name));
     } else {
         syntax_error(parser, "a type is missing: check the line before, too");
     }
@@ -307,7 +326,7 @@ static void parse_qualifiers(Parser *parser, Specifier *specifier)
             break;
         }
     if (at_word(parser, WORD_IN) || at_word(parser, WORD_OUT) || at_word(parser, WORD_INOUT))
-        syntax_error(parser, "`in` and `out` belong to a later GLSL: use attribute and varying");
+        syntax_error(parser, "%s", reserved(parser, peek(parser, 0)->name).text);
     if (specifier->invariant && specifier->storage != GLSL_VARYING)
         complain(parser, specifier->place, "only varyings can be invariant");
 }

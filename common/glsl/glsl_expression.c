@@ -156,7 +156,7 @@ static void no_expression(Parser *parser, const Token *token)
         syntax_error(parser, "the language has no such character");
     else if (token->kind == TOKEN_NAME && token->name >= WORD_RESERVED &&
              token->name < parser->words)
-        syntax_error(parser, "%.*s belongs to C or a later GLSL", length, token->text);
+        syntax_error(parser, "%s", reserved(parser, token->name).text);
     else if (token->kind == TOKEN_END)
         syntax_error(parser, "the text ends here, in the middle of an expression");
     else

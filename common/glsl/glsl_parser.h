@@ -114,6 +114,11 @@ bool check_writable(Parser *parser, int node);
 bool check_initial(Parser *parser, int symbol, int value, GlslPlace place);
 void undeclared(Parser *parser, const Token *name,
                 int symbol); /* no variable, but perhaps a symbol */
+/* What GLSL ES 1.00 has in the place of a word of C, HLSL or a later GLSL; NULL: unknown. */
+const char *replacement_for(const Parser *parser, const char *name);
+/* A name in scope or of the language that is similar: GLSL_VARIABLE, GLSL_FUNCTION, or GLSL_STRUCT
+ * for types; NULL: none. */
+const char *nearest(Parser *parser, const char *name, int kind);
 int select_field(Parser *parser, int base, const Token *name);
 
 /* Computes what a constant expression is. */
@@ -121,10 +126,15 @@ void fold(GlslTree *tree, int node);
 
 /* For messages: "a float", "an int", "a vec3". */
 typedef struct Phrase {
-    char text[80];
+    char text[96];
 } Phrase;
 Phrase type_phrase(const Parser *parser, int type);
 Phrase text_phrase(const Parser *parser, int node);
+typedef struct Sentence {
+    char text[160];
+} Sentence;
+/* Of a word that the language reserves, "layout belongs to ...". */
+Sentence reserved(Parser *parser, int word);
 /* How a value becomes of another type: "write 2.0", or "". */
 Phrase conversion(const Parser *parser, int node, int type);
 

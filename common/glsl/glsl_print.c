@@ -143,7 +143,7 @@ static void part(Printer *printer, const GlslNode *node)
     if (node->kind == GLSL_SWIZZLE) {
         put(printer, ".");
         for (int i = 0; i < glsl_swizzle_count(node->op); i++)
-            put(printer, "%c", "xyzw"[glsl_swizzle(node->op, i)]);
+            put(printer, "%c", "xyzwrgbastpq"[4 * (node->op >> 14) + glsl_swizzle(node->op, i)]);
     } else if (node->kind == GLSL_FIELD) {
         const GlslType *type = &printer->tree->types[base->type];
         put(printer, ".%s",

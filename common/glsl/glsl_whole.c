@@ -90,6 +90,75 @@ bool glsl_check_whole(GlslTree *tree)
     return tree->message_count == 0;
 }
 
+static bool same_type(const GlslTree *a, int type, const GlslTree *b, int other)
+{
+    const GlslType *mine = &a->types[type], *its = &b->types[other];
+    bool same = strcmp(mine->name, its->name) == 0 && mine->length == its->length &&
+                mine->fields == its->fields && mine->scalars == its->scalars;
+    for (int i = 0; i < mine->fields && same; i++) {
+        const GlslField *field = &a->fields[mine->field + i],
+                        *its_field = &b->fields[its->field + i];
+        same = strcmp(field->name, its_field->name) == 0 &&
+               same_type(a, field->type, b, its_field->type);
+    }
+    return same;
+}
+
+static bool is_named(const GlslTree *tree, int symbol)
+{
+    for (int i = 1; i < tree->node_count; i++)
+        if (tree->nodes[i].kind == GLSL_NAME && tree->nodes[i].symbol == symbol)
+            return true;
+    return false;
+}
+
+/* A global variable of the text; 0: there is none. */
+static int find_global(const GlslTree *tree, const char *name)
+{
+    for (int i = 1; i < tree->symbol_count; i++)
+        if (tree->symbols[i].kind == GLSL_VARIABLE && tree->symbols[i].global &&
+            tree->symbols[i].storage >= GLSL_ATTRIBUTE && strcmp(tree->symbols[i].name, name) == 0)
+            return i;
+    return 0;
+}
+
+static void check_shared(const GlslTree *vertex, GlslTree *fragment, int symbol)
+{
+    const GlslSymbol *mine = &fragment->symbols[symbol];
+    const int found = find_global(vertex, mine->name);
+    const GlslSymbol *its = &vertex->symbols[found];
+    const bool varying = mine->storage == GLSL_VARYING;
+    char type[64], other[64];
+    if (!found && varying && is_named(fragment, symbol))
+        complain(fragment, mine->place,
+                 "the vertex shader has no varying %.60s: compare the names in both files",
+                 mine->name);
+    else if (found && its->storage != mine->storage)
+        complain(fragment, mine->place, "%.60s is something else in the vertex shader: rename one",
+                 mine->name);
+    else if (found && !same_type(vertex, its->type, fragment, mine->type))
+        complain(fragment, mine->place,
+                 "%.60s is %s here and %s in the vertex shader: declare it alike in both",
+                 mine->name, glsl_type_text(fragment, mine->type, type),
+                 glsl_type_text(vertex, its->type, other));
+    else if (found && !varying && its->precision != mine->precision)
+        complain(fragment, mine->place,
+                 "%.60s has another precision in the vertex shader: write highp or mediump before "
+                 "its type in both",
+                 mine->name);
+}
+
+bool glsl_check_pair(const GlslTree *vertex, GlslTree *fragment)
+{
+    for (int i = 1; i < fragment->symbol_count; i++) {
+        const GlslSymbol *symbol = &fragment->symbols[i];
+        if (symbol->kind == GLSL_VARIABLE && symbol->global && !symbol->built_in &&
+            (symbol->storage == GLSL_VARYING || symbol->storage == GLSL_UNIFORM))
+            check_shared(vertex, fragment, i);
+    }
+    return fragment->message_count == 0;
+}
+
 /* Loops. `indices` are the symbols of the loops around; `depth`, how many. */
 typedef struct Loops {
     GlslTree *tree;

@@ -572,50 +572,63 @@ SHADER_TEST(log_lines_without_a_location_are_kept)
     }
 }
 
-/* As Chromium says them; other drivers' words are tested with check. */
-SHADER_TEST(what_a_browser_says_is_explained)
+/* Reads both stages, of which these are the bodies, as if a driver had refused one. */
+static const char *hint(const char *vertex, const char *fragment, int refused, const char *said)
 {
-    static const struct {
-        const char *said, *meaning;
-    } lines[] = {
-        {"'nDotL' : undeclared identifier", "did you mean nDotl?"},
-        {"'normalise' : no matching overloaded function found", "did you mean normalize?"},
-        {"'max' : no matching overloaded function found", "max(x, 0.0)"},
-        {"'abs' : no matching overloaded function found", "count the components"},
-        {"'*' : wrong operand types - no operation '*' exists that takes a left-hand operand of type "
-         "'const int' and a right operand of type 'highp float'",
-         "2.0 instead of 2"},
-        {"'*' : wrong operand types - no operation '*' exists that takes a left-hand operand of type "
-         "'uniform highp 4X4 matrix of float' and a right operand of type 'highp 3-component vector "
-         "of float'",
-         "vec4(position, 1.0)"},
-        {"'+' : wrong operand types - no operation '+' exists that takes a left-hand operand of type "
-         "'highp 3-component vector of float' and a right operand of type 'highp 4-component vector "
-         "of float'",
-         ".xyz"},
-        {"'=' : cannot convert from 'const int' to 'highp float'", "1.0 instead of 1"},
-        {"'=' : dimension mismatch", ".xyz"},
-        {"'assign' : l-value required (can't modify a varying \"v_Normal\")", "read-only"},
-        {"'transpose' : no matching overloaded function found", "vector * matrix"},
-        {"'saturate' : no matching overloaded function found", "clamp"},
-        {"'sampler2DShadow' : Illegal use of reserved word", "take a sampler2D"},
-        {"'' : Missing main()", "void main()"},
-        {"'' : syntax error", "closing brace"},
-        {"'foo' : syntax error", "line before"},
-        {"'in' : storage qualifier supported in GLSL ES 3.00 and above only",
-         "attribute and varying"},
-        {"'x' :  field selection requires structure or vector on left hand side", "components"},
-        {"'i' : Loop index cannot be compared with non-constant expression", "constant bounds"},
-        {"'while' : This type of loop is not allowed", "constant bounds"},
-        {"'eye' : global variable initializers must be constant expressions", "in main"},
-    };
-    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
-        char line[512], advice[512];
-        snprintf(line, sizeof line, "lab05.frag:3: %s", lines[i].said);
-        assert_true(shader_advice("float nDotl = 1.0;\n", line, advice, sizeof advice));
-        if (!strstr(advice, lines[i].meaning) || (strstr(advice, "did you mean") && i > 1))
-            fail_msg("%s: %s", line, advice);
-    }
+    ShaderSource both[2];
+    const ShaderText texts[] = {{"a.vert", vertex}, {"a.frag", fragment}, {NULL, NULL}};
+    const ShaderLoader own = {.texts = texts, .only_texts = true};
+    message = (Message){0};
+    assert_true(shader_source_open(&both[0], &own, "a.vert", SHADER_VERTEX, &message));
+    assert_true(shader_source_open(&both[1], &own, "a.frag", SHADER_FRAGMENT, &message));
+    message_set(&message, "%s", said);
+    shader_advise(both, refused, &message);
+    shader_source_close(&both[0]);
+    shader_source_close(&both[1]);
+    return message.text;
+}
+
+#define V                                                                                          \
+    "attribute vec4 a_P;\nvarying vec3 v_N;\nvoid main() { v_N = a_P.xyz; gl_Position = a_P; }\n"
+#define F(body) "precision highp float;\nvarying vec3 v_N;\nvoid main() {\n" body "\n}\n"
+
+SHADER_TEST(a_hint_follows_the_drivers_first_line_and_quote)
+{
+    assert_string_equal(
+        hint(V, F("gl_FragColor = v_N;"), SHADER_FRAGMENT,
+             "a.frag:4: no\n  4 | gl_FragColor = v_N;\na.frag:4: more"),
+        "a.frag:4: no\n  4 | gl_FragColor = v_N;\n  hint: gl_FragColor is a vec4, v_N a "
+        "vec3: write vec4(v_N, 1.0), or 0.0 for a direction\na.frag:4: more");
+    assert_string_equal(
+        hint(V, F("float a = max(v_N.x, 0);"), SHADER_FRAGMENT, "refused"),
+        "refused\n  hint: a.frag:4: max(v_N.x, 0): v_N.x is a float, 0 an int: write 0.0");
+    assert_string_equal(hint(V, F(""), SHADER_FRAGMENT, "refused"), "refused");
+    assert_string_equal(hint("float f;", F(""), SHADER_VERTEX, "no main"),
+                        "no main\n  hint: a.vert:1: a function `void main()` is missing");
+}
+
+SHADER_TEST(what_does_not_link_is_explained)
+{
+    static const char other[] =
+        "precision highp float;\nvarying vec4 v_N;\nvoid main() { gl_FragColor = v_N; }\n";
+    static const char none[] =
+        "precision highp float;\nvarying vec4 v_M;\nvoid main() { gl_FragColor = v_M; }\n";
+    assert_string_equal(
+        hint(V, other, SHADER_LINKING, "no"),
+        "no\n  hint: a.frag:2: v_N is vec4 here and vec3 in the vertex shader: declare it "
+        "alike in both");
+    assert_non_null(strstr(hint(V, none, SHADER_LINKING, "no"),
+                           "a.frag:2: the vertex shader has no varying v_M"));
+    assert_string_equal(hint(V, F("gl_FragColor = vec4(v_N, 1.0);"), SHADER_LINKING, "no"), "no");
+    assert_non_null(
+        strstr(hint("uniform float u;\n" V,
+                    "uniform mediump float u;\nvoid main() { gl_FragColor = vec4(u); }\n",
+                    SHADER_LINKING, "no"),
+               "another precision"));
+}
+
+SHADER_TEST(what_a_driver_says_of_a_missing_main_has_a_file)
+{
     parse("void mian() {}\n");
     shader_explain_log(&source, "ERROR: -1:-1: '' : Missing main()\n", &message);
     assert_non_null(strstr(message.text, ": '' : Missing main()"));

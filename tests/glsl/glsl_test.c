@@ -39,11 +39,11 @@ TEST(messages_know_types)
     body_says("x = i;", "x is a float, i an int: write float(i)");
     body_says("x = i + 1;", "x is a float, i + 1 an int: write float(i + 1)");
     body_says("v = w;", "v is a vec3, w a vec4: write .xyz of it");
-    body_says("w = v;", "w is a vec4, v a vec3: write vec4(..., 1.0), or 0.0 for a direction");
+    body_says("w = v;", "w is a vec4, v a vec3: write vec4(v, 1.0), or 0.0 for a direction");
     body_says("x = v;", "x is a float, v a vec3: write one component (.x), or dot or length");
     body_says("v = x;", "v is a vec3, x a float: write vec3(x)");
     body_says("v = v * m;",
-              "v * m: v is a vec3, m a mat4: write vec4(..., 1.0), or 0.0 for a direction");
+              "v * m: v is a vec3, m a mat4: write vec4(v, 1.0), or 0.0 for a direction");
     body_says("v = v + w;",
               "v + w: v is a vec3, w a vec4: use .xyz of the longer one, or vec4(..., 1.0)");
     body_says("if (x) x = 1.0;", "a condition must be a bool; x is a float: compare it");
@@ -53,13 +53,31 @@ TEST(messages_know_types)
     body_says("v = normalise(v);", "there is no function normalise: did you mean normalize?");
     body_says("v = v_normal;", "v_normal is not declared: did you mean v_Normal?");
     body_says("x = saturate(x);", "GLSL ES 1.00 has no saturate here: write clamp(x, 0.0, 1.0)");
-    body_says("w = vec4(v);", "vec4(v): a vec4 needs 4 numbers, not 3");
+    body_says("w = vec4(v);",
+              "vec4(v): a vec4 needs 4 numbers, not 3: add one, as in vec4(..., 1.0)");
     body_says("x = x.y;", "x is a float, which has no component .y: only vectors have components");
     body_says("v.xx = w.xy;", "v.xx: each component can be set only once");
     body_says("x = v[3];", "v[3]: the elements are 0 to 2");
     body_says("x = 1.0f;", "1.0f is no number of GLSL ES 1.00: it has no suffixes such as f");
     body_says("i = i % 2;",
               "GLSL ES 1.00 has no operator %: write mod(x, y), or a - a / b * b for ints");
+    body_says(
+        "x = max(x);",
+        "max(x): x is a float; there is max(float or vec, the same), max(float or vec, float)");
+    body_says("x = own(v);", "own(v): v is a vec3; there is own(vec3, float)");
+    body_says("x = dot(v, w);",
+              "dot(v, w): v is a vec3, w a vec4; there is dot(float or vec, the same)");
+    body_says(
+        "w = texture2D(v, w.xy);",
+        "texture2D(v, w.xy): v is a vec3, w.xy a vec2; there is texture2D(sampler2D, vec2), texture2D(sampler2D, vec2, float)");
+    body_says(
+        "x = max();",
+        "max(): there are no arguments; there is max(float or vec, the same), max(float or vec, float)");
+    body_says("float3 n = v;", "GLSL ES 1.00 has no float3: write vec3");
+    body_says("vce3 n = v;", "vce3 is no type: did you mean vec3?");
+    body_says("double d = x;", "double belongs to C or a later GLSL: write float");
+    body_says("w = texture(map, v.xy);",
+              "GLSL ES 1.00 has no texture here: write texture2D(sampler, point)");
     body_says("const float c = x;", "c is const: its value must be a constant expression");
 }
 
@@ -67,6 +85,11 @@ TEST(messages_name_the_line)
 {
     says("float f;", 1,
          "floats have no default precision here: add `precision highp float;` at the top");
+    says(FRAGMENT "in vec3 v;", 2, "in belongs to C or a later GLSL: write varying");
+    says(FRAGMENT "out vec4 color;", 2, "out belongs to C or a later GLSL: set gl_FragColor");
+    says(FRAGMENT "unifrom vec3 v;", 2, "unifrom is no type: did you mean uniform?");
+    says(FRAGMENT "layout(location = 0) varying vec3 v;", 2,
+         "GLSL ES 1.00 has no layout: remove it and its parentheses");
     says(FRAGMENT "void main() {\n  float x = 1.0\n  x = 2.0;\n}", 4,
          "a semicolon is missing, probably at the end of line 3");
     says(

@@ -136,7 +136,7 @@ class Verdicts(OfLabs):
                              ("no such file beside it", text + '#include "none.glsl"\n'),
                              ("through lab05.frag", text + '#include "lab05.vert"\n'),
                              ("depends on __VERSION__", text + "#if __VERSION__ == 100\n#endif\n"),
-                             ("needs a function", text.replace("void main", "void mine")),
+                             ("function `void main()`", text.replace("void main", "void mine")),
                              ("has no #endif", "#if 1\n" + text), ("does not end with", text + "/* open\n")):
             texts = {**SOLUTION, "lab05.frag": wrong}
             if "through" in words:

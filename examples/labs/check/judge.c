@@ -4,7 +4,6 @@
 #include "labs/check/judge.h"
 
 #include "base/clock.h"
-#include "core/shader_advice.h"
 #include "core/shader_source.h"
 #include "glsl/glsl.h"
 #include "labs/check/budget.h"
@@ -33,7 +32,7 @@ typedef struct Session {
 } Session;
 
 /* Settles on a verdict: the first line is the message, the others are details. */
-static bool settle(Session *session, VerdictKind kind, const Message *message, const char *advice)
+static bool settle(Session *session, VerdictKind kind, const Message *message)
 {
     Verdict *verdict = session->verdict;
     /* An error comes before warnings. */
@@ -47,8 +46,8 @@ static bool settle(Session *session, VerdictKind kind, const Message *message, c
     session->settled = true;
     verdict->kind = kind;
     snprintf(verdict->message, sizeof verdict->message, "%.*s", (int)length, first);
-    snprintf(verdict->details, sizeof verdict->details, "%.*s%s%s%s", (int)(first - message->text),
-             message->text, rest, rest[0] && advice ? "\n" : "", advice ? advice : "");
+    snprintf(verdict->details, sizeof verdict->details, "%.*s%s", (int)(first - message->text),
+             message->text, rest);
     return true;
 }
 
@@ -74,21 +73,6 @@ static bool has_mediump(const SubmissionFiles *files)
         if (strstr(files->texts[i].text, "mediump"))
             return true;
     return false;
-}
-
-/* The text of the file that an error is in, where the names are that could have been meant. */
-static const char *text_with_error(const Session *session, const char *message)
-{
-    const char *error = strstr(message, ": error:"), *line = error ? error : message;
-    while (line > message && line[-1] != '\n')
-        line--;
-    for (int i = 0; i < session->files->count; i++) {
-        const ShaderText *file = &session->files->texts[i];
-        const size_t length = strlen(file->name);
-        if (strncmp(line, file->name, length) == 0 && line[length] == ':')
-            return file->text;
-    }
-    return "";
 }
 
 /* At most this many turns of loops for a vertex or a pixel: the labs need a dozen. Drivers stop a
@@ -143,21 +127,17 @@ static bool open_shader(Session *session, Message *message)
     Message own = {0};
     if (session->lab->given)
         return open_given(session, message);
-    if (!submission_compile(&session->own, session->lab, session->files, NULL, &own)) {
-        char advice[512];
-        const bool known =
-            shader_advice(text_with_error(session, own.text), own.text, advice, sizeof advice);
-        return settle(session, VERDICT_ERROR, &own, known ? advice : NULL);
-    }
+    if (!submission_compile(&session->own, session->lab, session->files, NULL, &own))
+        return settle(session, VERDICT_ERROR, &own);
     if (!binding_check(session->lab, &session->own, &own))
-        return settle(session, VERDICT_ERROR, &own, NULL);
+        return settle(session, VERDICT_ERROR, &own);
     if (!check_conditions(session, &own))
-        return settle(session, VERDICT_REFUSED, &own, NULL);
+        return settle(session, VERDICT_REFUSED, &own);
     if (text_mend_overruns(session->lab, session->files, &session->mended)) {
         session->files = &session->mended;
         shader_close(&session->own);
         if (!submission_compile(&session->own, session->lab, session->files, NULL, &own))
-            return settle(session, VERDICT_ERROR, &own, NULL);
+            return settle(session, VERDICT_ERROR, &own);
     }
     if (session->lab->budget) {
         /* The driver draws the very text that is counted. Without the tools nothing is counted. */

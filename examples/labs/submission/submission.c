@@ -109,7 +109,8 @@ void submission_files_close(SubmissionFiles *files)
 bool submission_compile(Shader *shader, const Lab *lab, const SubmissionFiles *files,
                         const char *precision, Message *message)
 {
-    const ShaderLoader loader = {.texts = files->texts, .only_texts = true, .precision = precision};
+    const ShaderLoader loader = {
+        .texts = files->texts, .only_texts = true, .precision = precision, .advise = true};
     return shader_open(shader, &loader, lab->file, message);
 }
 
