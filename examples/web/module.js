@@ -1,12 +1,133 @@
 "use strict";
-/* The compiled programs. lighting.js, which the build makes, has LIGHTING_WASM, gzip in base64, and lightingFactory(),
- * which returns Emscripten's createLighting. This file's functions also run in a worker, as their own text. */
+/* The compiled programs. lighting.js, which the build makes, has LIGHTING_WASM, LZMA in base64, LIGHTING_SIZE, how long that
+ * is unpacked, and lightingFactory(), which returns Emscripten's createLighting. This file's functions also run in a worker,
+ * as their own text. */
+
+/* The decoder of LZMA (Igor Pavlov's specification, lc = 3, lp = pb = 0): a seventh smaller than gzip, which browsers have. */
+class Lzma {
+    constructor(packed, size) {
+        Object.assign(this, {packed, at: 5, range: -1 >>> 0, code: 0, out: new Uint8Array(size)});
+        for (let i = 1; i < 5; i++)
+            this.code = (this.code << 8 | packed[i]) >>> 0;
+    }
+
+    static bits(count) { return new Uint16Array(count).fill(1024); }
+
+    normalize() {
+        if (this.range < 0x1000000) {
+            this.range = this.range * 256 >>> 0;
+            this.code = (this.code * 256 | this.packed[this.at++]) >>> 0;
+        }
+    }
+
+    bit(model, i) {
+        const bound = (this.range >>> 11) * model[i], one = this.code >= bound;
+        if (one) {
+            this.range -= bound;
+            this.code -= bound;
+            model[i] -= model[i] >>> 5;
+        } else {
+            this.range = bound;
+            model[i] += 2048 - model[i] >>> 5;
+        }
+        this.normalize();
+        return +one;
+    }
+
+    tree(model, count, from = 0) {
+        let m = 1;
+        for (let i = 0; i < count; i++)
+            m = m << 1 | this.bit(model, from + m);
+        return m - (1 << count);
+    }
+
+    /* The lowest bit first. */
+    reversed(model, count, from = 0) {
+        let m = 1, value = 0;
+        for (let i = 0; i < count; i++) {
+            const bit = this.bit(model, from + m);
+            m = m << 1 | bit;
+            value |= bit << i;
+        }
+        return value;
+    }
+
+    direct(count) {
+        let value = 0;
+        for (let i = 0; i < count; i++) {
+            this.range >>>= 1;
+            const one = this.code >= this.range;
+            if (one)
+                this.code -= this.range;
+            this.normalize();
+            value = value << 1 | +one;
+        }
+        return value;
+    }
+
+    static lengths() { return {choice: Lzma.bits(2), low: Lzma.bits(8), middle: Lzma.bits(8), high: Lzma.bits(256)}; }
+
+    length(model) {
+        if (!this.bit(model.choice, 0))
+            return 2 + this.tree(model.low, 3);
+        return this.bit(model.choice, 1) ? 18 + this.tree(model.high, 8) : 10 + this.tree(model.middle, 3);
+    }
+
+    distance(models, length) {
+        const slot = this.tree(models.slots, 6, 64 * Math.min(length - 2, 3)), low = (slot >> 1) - 1;
+        if (slot < 4)
+            return slot;
+        const base = (2 | slot & 1) << low;
+        return slot < 14 ? base + this.reversed(models.near, low, base - slot)
+            : base + 16 * this.direct(low - 4) + this.reversed(models.align, 4);
+    }
+
+    literal(model, at, state, distance) {
+        const {out} = this, from = 0x300 * ((at && out[at - 1]) >> 5);
+        let symbol = 1;
+        for (let match = out[at - distance - 1], same = state >= 7; symbol < 256;) {
+            const bit = match >> 7 & 1, one = this.bit(model, from + (same ? 256 * (1 + bit) : 0) + symbol);
+            symbol = symbol << 1 | one;
+            match <<= 1;
+            same = same && one === bit;
+        }
+        out[at] = symbol;
+    }
+
+    unpack() {
+        const {bits} = Lzma, literals = bits(0x300 * 8), match = bits(12), rep = bits(12), rep0 = bits(12), rep1 = bits(12);
+        const rep2 = bits(12), long0 = bits(12), lengths = Lzma.lengths(), repeated = Lzma.lengths();
+        const models = {slots: bits(256), near: bits(128), align: bits(16)}, {out} = this;
+        let recent = [0, 0, 0, 0], state = 0;
+        for (let at = 0; at < out.length;) {
+            if (!this.bit(match, state)) {
+                this.literal(literals, at++, state, recent[0]);
+                state -= state < 4 ? state : state < 10 ? 3 : 6;
+                continue;
+            }
+            let length = 1;
+            if (!this.bit(rep, state)) {
+                length = this.length(lengths);
+                recent = [this.distance(models, length), ...recent.slice(0, 3)];
+                state = state < 7 ? 7 : 10;
+            } else {
+                const which = !this.bit(rep0, state) ? 0 : !this.bit(rep1, state) ? 1 : 2 + this.bit(rep2, state);
+                const short = which === 0 && !this.bit(long0, state);
+                recent.unshift(...recent.splice(which, 1));
+                length = short ? 1 : this.length(repeated);
+                state = state < 7 ? (short ? 9 : 8) : 11;
+            }
+            for (let i = 0; i < length; i++, at++)
+                out[at] = out[at - recent[0] - 1];
+        }
+        return out;
+    }
+}
 
 /* Instances of the module share what is compiled. */
-async function compileLighting() {
+function compileLighting() {
     const packed = Uint8Array.from(atob(LIGHTING_WASM), letter => letter.charCodeAt(0));
-    const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
-    return WebAssembly.compile(await new Response(stream).arrayBuffer());
+    return WebAssembly.compile(new Lzma(packed, LIGHTING_SIZE).unpack());
 }
 
 /* A worker that has Engine and runs a function. From a file none is allowed without a server, from a text one is. */

@@ -9,9 +9,9 @@ scripts.
 """
 import base64
 import difflib
-import gzip
 import hashlib
 import html
+import lzma
 import os
 import pathlib
 import re
@@ -92,9 +92,11 @@ assert predecessors, "lessons.c: no LESSON_LIST"
 
 def module_js(module):
     """The module in a function, whose text a worker gets too, and the WebAssembly. A page has one module."""
-    packed = gzip.compress(module.with_suffix(".wasm").read_bytes(), 9, mtime=0)
-    return ('"use strict";\nconst LIGHTING_WASM = "%s";\nfunction lightingFactory() {\n%s\nreturn createLighting;\n}\n'
-            % (base64.b64encode(packed).decode(), read(module)))
+    wasm = module.with_suffix(".wasm").read_bytes()
+    packed = lzma.compress(wasm, lzma.FORMAT_RAW, filters=[{"id": lzma.FILTER_LZMA1, "preset": 9 | lzma.PRESET_EXTREME, "lc": 3,
+                                                            "lp": 0, "pb": 0}])
+    return ('"use strict";\nconst LIGHTING_WASM = "%s", LIGHTING_SIZE = %d;\nfunction lightingFactory() {\n%s\n'
+            'return createLighting;\n}\n' % (base64.b64encode(packed).decode(), len(wasm), read(module)))
 
 
 def summary(folder, name):

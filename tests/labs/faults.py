@@ -94,7 +94,7 @@ FAULTS = {
         "frag",
         r"write texture2D",
     ),
-    "later GLSL": fault(1, vert("// Lab 1", "#version 300 es\n// Lab 1"), "vert", r""),
+    "later GLSL": fault(1, vert("// Lab 1", "#version 300 es\n// Lab 1"), "vert", r"^"),
     "in and out": fault(
         1, vert("attribute", "in") + vert("varying", "out"), "vert", r"attribute|varying"
     ),
