@@ -9,13 +9,14 @@ static int op(Compiler *compiler, int what, int a, int b)
     return compute(compiler, what, a, b);
 }
 
+/* From the last product on. */
 static int dot(Compiler *compiler, Value a, Value b)
 {
     int sum = -1;
-    for (int i = 0; i < a.count; i++) {
+    for (int i = a.count - 1; i >= 0; i--) {
         const int product =
             op(compiler, OP_MULTIPLY, register_of(compiler, a, i), register_of(compiler, b, i));
-        sum = i ? op(compiler, OP_ADD, sum, product) : product;
+        sum = i < a.count - 1 ? op(compiler, OP_ADD, sum, product) : product;
     }
     return sum;
 }

@@ -144,7 +144,7 @@ Value compile_read(Compiler *compiler, int node)
     return loaded(compiler, value);
 }
 
-/* Products of a matrix: sums from the first column on. */
+/* Products of a matrix: sums of its columns, or of a vector and a column as dot sums. */
 static Value multiply(Compiler *compiler, Value a, int a_type, Value b, int b_type, int type)
 {
     const int rows = glsl_is_matrix(a_type) ? glsl_size(a_type) : 1, inner = glsl_size(b_type);
@@ -154,11 +154,12 @@ static Value multiply(Compiler *compiler, Value a, int a_type, Value b, int b_ty
     for (int k = 0; k < columns && !compiler->code->message.text[0]; k++)
         for (int i = 0; i < rows; i++) {
             int sum = -1;
-            for (int j = 0; j < inner; j++) {
+            for (int n = 0; n < inner; n++) {
+                const int j = rows > 1 ? n : inner - 1 - n;
                 const int product =
                     compute(compiler, OP_MULTIPLY, register_of(compiler, a, rows * j + i),
                             register_of(compiler, b, inner * k + j));
-                sum = j ? compute(compiler, OP_ADD, sum, product) : product;
+                sum = n ? compute(compiler, OP_ADD, sum, product) : product;
             }
             emit(compiler, OP_SET, result.base + rows * k + i, sum, 0);
         }

@@ -212,12 +212,13 @@ static void single_is_c(void **state)
     Shader shader = ran("vec3 v = normalize(vec3(x, y, z)); r = v.x / 3.0 + sqrt(v.y) * x;");
     shader.run->arithmetic = &GLSL_LLVMPIPE;
     for (int k = 0; k < 1000; k++) {
-        const float x = (float)k * .37F + .1F, y = 3.3F, z = (float)(k % 17);
+        const float x = (float)k * .37F + .1F, y = (float)(k % 29) * .73F + .2F,
+                    z = (float)(k % 17) * 1.3F;
         *registers(&shader, "x") = x;
         *registers(&shader, "y") = y;
         *registers(&shader, "z") = z;
         glsl_run(shader.run);
-        const float xx = x * x, yy = y * y, zz = z * z, two = xx + yy, all = two + zz;
+        const float xx = x * x, yy = y * y, zz = z * z, two = zz + yy, all = two + xx;
         const float length = sqrtf(all), scale = 1 / length, vx = x * scale, vy = y * scale;
         const float third = vx / 3, root = sqrtf(vy), product = root * x, sum = third + product;
         assert_true(*registers(&shader, "gl_FragColor") == sum);
