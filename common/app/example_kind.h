@@ -113,6 +113,10 @@ struct ExampleKind {
     /* --explain, on standard output. */
     bool (*explain)(Renderer *renderer, const DrawRequest *request, Message *message);
 
+    /* The exact colour at a pixel's centre, and what is seen there. False: unknown. */
+    bool (*exact)(Renderer *renderer, const DrawRequest *request, const int pixel[2],
+                  float color[3], char name[64]);
+
     /* Turns so many pages, as far as there are; false: none. */
     bool (*turn_page)(const Example *example, int pages);
 

@@ -4,6 +4,7 @@
 #include "window/backends.h"
 
 #include <stdio.h>
+#include <math.h>
 #include <string.h>
 
 bool option_put_numbers(char *text, size_t size, const double *numbers, int count)
@@ -51,6 +52,22 @@ static bool read_angle(const Parameter *parameter, const char *text, Message *me
 }
 
 const ParameterCodec OPTION_ANGLE = {"DEG", read_angle, NULL};
+
+static bool read_probe(const Parameter *parameter, const char *text, Message *message)
+{
+    static const double min[] = {0, 0}, max[] = {PARSE_SIZE_MAX - 1, PARSE_SIZE_MAX - 1};
+    Options *options = (Options *)((char *)parameter->value - offsetof(Options, probe));
+    double at[2];
+    options->probe.asked =
+        parse_numbers(text, 2, min, max, at) == 2 && at[0] == floor(at[0]) && at[1] == floor(at[1]);
+    if (!options->probe.asked)
+        return message_set(message, "--probe %s: must be a column and a row, as in 200,150", text);
+    options->probe.column = (int)at[0];
+    options->probe.row = (int)at[1];
+    return true;
+}
+
+const ParameterCodec OPTION_PROBE = {"X,Y", read_probe, NULL};
 
 static bool read_orbit(const Parameter *parameter, const char *text, Message *message)
 {

@@ -46,6 +46,10 @@ typedef struct Options {
     int compress;
     bool verbose;
     bool doctor;
+    struct {
+        bool asked;
+        int column, row;  /* of the pixel, from the picture's upper left corner */
+    } probe;              /* instead of drawing a file, explain a pixel */
     const char *generate; /* "man", "bash", "zsh", "fish": what is printed; NULL: nothing */
     /* Of programs that draw scenes. */
     bool explain; /* report the effects that the scene needs, and draw nothing */

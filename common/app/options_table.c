@@ -103,6 +103,11 @@ static const Parameter FIRST[] = {
      .standard = "as the shader says", AT(shaders.precision), .programs = GL_DRAWS},
     {"print-shader", "print the source that the driver gets; draw nothing", PARAMETER_FLAG,
      .choices = STAGES, .codec = &OPTION_PRINT, AT(shaders.print), .programs = GL_DRAWS | ASIDE},
+    {"probe",
+     "explain a pixel, column X and row Y from the upper left: what each line of its shader "
+     "computes, and exactly; draw nothing",
+     PARAMETER_TEXT, .standard = "", .codec = &OPTION_PROBE, AT(probe),
+     .programs = GL_FILM | ASIDE},
     {"deterministic",
      "use no more of an x86 processor than SSE4.1 and vectors of 128 bits, in Mesa and in the C "
      "library, so that different processors give the same bytes",

@@ -26,7 +26,7 @@ enum {
 
 /* Values that are of no ParameterKind. */
 extern const ParameterCodec OPTION_SIZE, OPTION_ANGLE, OPTION_ORBIT, OPTION_PART, OPTION_BACKEND,
-    OPTION_WINDOW, OPTION_PRINT;
+    OPTION_WINDOW, OPTION_PRINT, OPTION_PROBE;
 
 /* Appends numbers in the fewest digits, with commas between them. False if they do not fit. */
 bool option_put_numbers(char *text, size_t size, const double *numbers, int count);

@@ -8,6 +8,7 @@
 #include "app/viewer.h"
 #include "base/clock.h"
 #include "base/output.h"
+#include "probe/probe.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -160,6 +161,58 @@ static bool run_drawing(const Example *example, Options *options, Message *messa
     return done;
 }
 
+static bool tell_pixel(Renderer *renderer, const DrawRequest *request, const Capture *capture,
+                       const Options *options, Message *message)
+{
+    const int pixel[2] = {options->probe.column, options->probe.row};
+    char object[64];
+    ProbeQuestion question = {
+        .capture = capture, .column = pixel[0], .row = pixel[1], .height = options->height};
+    Image image = {.width = 0};
+    if (!image_open(&image, options->width, options->height, IMAGE_BYTE, message))
+        return false;
+    const bool read = canvas_read(renderer->canvas, &image, message);
+    memcpy(question.drawn,
+           (unsigned char *)image.pixels +
+               4 * ((size_t)pixel[1] * (size_t)image.width + (size_t)pixel[0]),
+           sizeof question.drawn);
+    image_close(&image);
+    if (renderer->kind->exact &&
+        renderer->kind->exact(renderer, request, pixel, question.exact, object))
+        question.object = object;
+    char *text = read ? probe_text(&question, message) : NULL;
+    fputs(text ? text : "", stdout);
+    free(text);
+    return text != NULL;
+}
+
+/* --probe. */
+static bool run_probing(const Example *example, Options *options, Message *message)
+{
+    Canvas canvas = {0};
+    Renderer renderer = {.example = NULL};
+    Capture capture;
+    const DrawRequest request = options_request(options, example);
+    if (options->probe.column >= options->width || options->probe.row >= options->height)
+        return message_set(message, "--probe %d,%d: the picture has %dx%d pixels",
+                           options->probe.column, options->probe.row, options->width,
+                           options->height);
+    if (options->canvas.samples > 1 || options->canvas.supersample > 1)
+        return message_set(message, "--probe: a pixel of several samples has no one colour; leave "
+                                    "out --samples");
+    if (!options_open_canvas(&canvas, options, "x.png", message))
+        return false;
+    capture_begin(&capture, &canvas);
+    bool done = renderer_open(&renderer, example, &canvas, &request, message) &&
+                renderer_draw(&renderer, &request, request.seconds, message);
+    capture_end(&capture);
+    done = done && tell_pixel(&renderer, &request, &capture, options, message);
+    capture_close(&capture);
+    renderer_close(&renderer);
+    canvas_close(&canvas);
+    return done;
+}
+
 /* Neither a driver nor a display is needed. */
 static bool run_without_gl(const Example *example, const Options *options, Message *message)
 {
@@ -201,6 +254,8 @@ static bool run(const Example *example, Options *options, const ParameterValue *
         return false;
     if (options->shaders.print || options->explain)
         return run_printing(example, options, message);
+    if (options->probe.asked)
+        return run_probing(example, options, message);
     if (options->part.count && options->animation) {
         if (!frames_find_parts(&parts, options, message) || !output_folder(parts.folder, message))
             return false;
@@ -225,7 +280,7 @@ static void tell_written(const Example *example, const Options *options)
     const int count = options->frames;
     char first[PATH_MAX], last[PATH_MAX];
     if (options_in_window(options) || options->shaders.print || options->explain ||
-        options->part.count || strcmp(options->output, "-") == 0 ||
+        options->probe.asked || options->part.count || strcmp(options->output, "-") == 0 ||
         !frames_path(options, 0, first, NULL) || !frames_path(options, count - 1, last, NULL))
         return;
     if (count == 1)

@@ -7,9 +7,11 @@
 #include "kinds/scene_ineffective.h"
 #include "kinds/scene_options.h"
 #include "kinds/scene_views.h"
+#include "reference/reference_trace.h"
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static void describe(const Example *example, Usage *usage)
 {
@@ -172,6 +174,35 @@ bool scene_error_picture(Renderer *renderer, const DrawRequest *request, double 
     return false;
 }
 
+static bool exact_pixel(Renderer *renderer, const DrawRequest *request, const int pixel[2],
+                        float color[3], char name[64])
+{
+    bool known = false;
+    for (int number = 0; number < scene_view_count(renderer) && !known; number++) {
+        SceneCopy kept = {.lights = NULL};
+        Scene scene;
+        Sample sample;
+        Trace *trace = NULL;
+        int place[4];
+        if (!scene_view_place(renderer, number, place) || pixel[0] < place[0] ||
+            pixel[1] < place[1] || pixel[0] >= place[0] + place[2] ||
+            pixel[1] >= place[1] + place[3])
+            continue;
+        const ViewMoment moment = {renderer, request, request->seconds, number};
+        const ReferenceOptions size = {.width = place[2], .height = place[3], .threads = 1};
+        known = scene_view_make(&moment, &kept, &scene, NULL) && scene.object_count > 0 &&
+                trace_open(&trace, &scene, &size, NULL);
+        if (known) {
+            trace_sample(trace, pixel[0] - place[0] + 0.5, pixel[1] - place[1] + 0.5, &sample);
+            memcpy(color, sample.color, sizeof sample.color);
+            snprintf(name, 64, sample.object < 0 ? "the background" : "object %d", sample.object);
+        }
+        trace_close(trace);
+        scene_copy_close(&kept);
+    }
+    return known;
+}
+
 /* The finished picture */
 
 /* Of many frames those that needed another program. */
@@ -245,5 +276,6 @@ const ExampleKind SCENE_KIND = {
     .retouches = retouches,
     .retouch = retouch,
     .explain = explain_programs,
+    .exact = exact_pixel,
     .panel = &SCENE_PANEL,
 };

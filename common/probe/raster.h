@@ -1,0 +1,42 @@
+/*
+ * raster: which triangle of a capture a pixel shows, and its shaders, run for it.
+ *
+ * Coverage and depth are by OpenGL ES 2.0.25, sections 2.12 to 3.5, and vertices snap to 1/256 of a
+ * pixel, as llvmpipe's do. Interpolation is in double precision. Lines and points are not looked
+ * for.
+ */
+#ifndef RASTER_H
+#define RASTER_H
+
+#include "glsl/glsl_run.h"
+#include "probe/capture.h"
+
+typedef struct Raster Raster;
+
+/* The capture has to live as long. False: a shader cannot be run, and why. */
+bool raster_open(Raster **raster, const Capture *capture, Message *message);
+void raster_close(Raster *raster); /* NULL is fine */
+
+typedef struct RasterPixel {
+    int draw;            /* of the capture; -1: the background */
+    unsigned corners[3]; /* the triangle's vertices, by number in its buffers */
+    bool front;
+    double weights[3]; /* of the corners: perspective-correct barycentrics */
+    double coord[4];   /* gl_FragCoord */
+} RasterPixel;
+
+/* In columns and rows of the framebuffer; row 0 is its bottom. */
+void raster_find(Raster *raster, int column, int row, RasterPixel *pixel);
+
+/* Runs both stages of a draw for the pixel, with one arithmetic; the fragment's run is returned, as
+ * it is until the next. Its numbers are exact after event `exact_from` (INT_MAX: none). */
+const GlslRun *raster_run(Raster *raster, const RasterPixel *pixel,
+                          const GlslArithmetic *arithmetic, int exact_from, double color[4]);
+
+/* Runs the vertex stage for a corner. */
+const GlslRun *raster_corner(Raster *raster, const RasterPixel *pixel, int corner,
+                             const GlslArithmetic *arithmetic);
+
+const GlslTree *raster_tree(const Raster *raster, int draw, int stage);
+
+#endif

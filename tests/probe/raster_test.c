@@ -1,0 +1,121 @@
+/*
+ * The evaluator against the driver: in highp the colour that is computed for a pixel inside an
+ * object is the picture's byte, of all programs. A pixel is inside if its neighbours show the same
+ * draw and side, and no line or point is drawn over it.
+ */
+#include "probe/raster.h"
+
+#include "app/renderer.h"
+#include "probe/replay.h"
+#include "support/examples.h"
+#include "support/picture_check.h"
+#include "support/testing.h"
+
+#include <limits.h>
+
+#define X(NAME) extern const Example NAME;
+LECTURE_EXAMPLES
+#undef X
+
+#define X(NAME) &NAME,
+static const Example *const LECTURES[] = {LECTURE_EXAMPLES};
+#undef X
+
+enum { SIDE = 160, LECTURE_COUNT = sizeof LECTURES / sizeof LECTURES[0] };
+
+static Canvas canvas;
+static long compared, equal;
+
+FIXTURE(open_canvas)
+{
+    require(canvas_open(&canvas, &(CanvasOptions){.width = SIDE, .height = SIDE}, FAILURE),
+            FAILURE);
+    return 0;
+}
+
+FIXTURE(close_canvas)
+{
+    canvas_close(&canvas);
+    return 0;
+}
+
+static bool is_inside(Raster *raster, int column, int row, RasterPixel *pixel)
+{
+    static const int around[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+    raster_find(raster, column, row, pixel);
+    for (int i = 0; i < 4 && pixel->draw >= 0; i++) {
+        RasterPixel next;
+        raster_find(raster, column + around[i][0], row + around[i][1], &next);
+        if (next.draw != pixel->draw || next.front != pixel->front)
+            return false;
+    }
+    return pixel->draw >= 0;
+}
+
+static void compare(Raster *raster, const Image *image, int step, const char *name)
+{
+    long here = 0, same = 0;
+    for (int i = 0; i < SIDE * SIDE; i += step) {
+        const unsigned char *drawn = (unsigned char *)image->pixels + 4 * i;
+        RasterPixel pixel;
+        double color[4];
+        bool is_same = true;
+        if (!is_inside(raster, i % SIDE, SIDE - 1 - i / SIDE, &pixel))
+            continue;
+        raster_run(raster, &pixel, &GLSL_LLVMPIPE, INT_MAX, color);
+        for (int c = 0; c < 3; c++)
+            is_same &= drawn[c] == (int)(255 * fmin(fmax(color[c], 0), 1) + 0.5);
+        here++;
+        same += is_same;
+        if (!is_same && here - same <= 3)
+            printf("%s %d,%d: drawn %d %d %d, computed %.4f %.4f %.4f\n", name, i % SIDE, i / SIDE,
+                   drawn[0], drawn[1], drawn[2], 255 * color[0], 255 * color[1], 255 * color[2]);
+    }
+    printf("%s: %ld of %ld\n", name, same, here);
+    compared += here;
+    equal += same;
+}
+
+/* Lines and points are programs of their own. */
+static bool is_filled(const CaptureDraw *draw, char *sources[2], void *context)
+{
+    (void)sources;
+    (void)context;
+    return draw->mode == GL_TRIANGLES || draw->mode == GL_TRIANGLE_STRIP;
+}
+
+/* Sampled; drawn without lines and points. */
+static void check(const Example *example)
+{
+    CLOSED(capture_close) Capture capture;
+    CLOSED(image_close) Image drawn = {.width = 0};
+    const DrawRequest request = {.seconds = 0.7, .shaders = {.precision = "highp"}};
+    Renderer renderer;
+    Raster *raster;
+    require(image_open(&drawn, SIDE, SIDE, IMAGE_BYTE, FAILURE), FAILURE);
+    capture_begin(&capture, &canvas);
+    require(renderer_open(&renderer, example, &canvas, &request, FAILURE) &&
+                renderer_draw(&renderer, &request, request.seconds, FAILURE),
+            FAILURE);
+    capture_end(&capture);
+    require(replay_draw(&capture, &canvas, is_filled, NULL, FAILURE) &&
+                canvas_read(&canvas, &drawn, FAILURE),
+            FAILURE);
+    renderer_close(&renderer);
+    require(raster_open(&raster, &capture, FAILURE), FAILURE);
+    compare(raster, &drawn, testing_step(61), example->name);
+    raster_close(raster);
+}
+
+TEST(computed_colours_are_the_pictures)
+{
+    for (int i = 0; i < LECTURE_COUNT; i++)
+        check(LECTURES[i]);
+    for (int i = 0; i < EXAMPLE_COUNT; i++)
+        check(EXAMPLES[i]);
+    printf("%ld of %ld pixels inside objects have the picture's bytes\n", equal, compared);
+    assert_true(compared > 1000);
+    assert_true((double)equal >= 0.999 * (double)compared);
+}
+
+TEST_MAIN("raster", open_canvas, close_canvas)
