@@ -44,6 +44,13 @@ int emit(Compiler *compiler, int op, int d, int a, int b)
     return code->instruction_count - 1;
 }
 
+/* The list may move while it grows. */
+void emit_counted(Compiler *compiler, int op, int d, int a, int n)
+{
+    const int at = emit(compiler, op, d, a, 0);
+    compiler->code->instructions[at].n = n;
+}
+
 int reserve(Compiler *compiler, int count)
 {
     GlslCode *code = compiler->code;
@@ -143,7 +150,7 @@ static void compile_variable(Compiler *compiler, int node)
     if (valued)
         compile_event(compiler, node, at->symbol, to);
     else
-        compiler->code->instructions[emit(compiler, OP_UNSET, to.base, 0, 0)].n = count;
+        emit_counted(compiler, OP_UNSET, to.base, 0, count);
     compiler->unset[at->symbol] = !valued;
 }
 
@@ -253,7 +260,7 @@ static void pass_in(Compiler *compiler, int symbol, Value value, int to)
     const GlslSymbol *parameter = &compiler->tree->symbols[symbol];
     compiler->unset[symbol] = parameter->storage == GLSL_OUT;
     if (parameter->storage == GLSL_OUT)
-        compiler->code->instructions[emit(compiler, OP_UNSET, to, 0, 0)].n = value.count;
+        emit_counted(compiler, OP_UNSET, to, 0, value.count);
     else
         for (int i = 0; i < value.count; i++)
             emit(compiler, OP_SET, to + i, register_of(compiler, value, i), 0);

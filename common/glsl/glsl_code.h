@@ -51,6 +51,7 @@ typedef struct Compiler {
 } Compiler;
 
 int emit(Compiler *compiler, int op, int d, int a, int b);
+void emit_counted(Compiler *compiler, int op, int d, int a, int n);
 int reserve(Compiler *compiler, int count); /* registers */
 void cannot(Compiler *compiler, const char *why);
 int number(Compiler *compiler, double value);            /* a register that holds it */

@@ -132,9 +132,7 @@ static void check_read(Compiler *compiler, int node, Value value)
         return;
     for (int i = 0; i < value.count && value.count <= 16 && value.address < 0; i++)
         if (!compiler->code->message.text[0])
-            compiler->code
-                ->instructions[emit(compiler, OP_CHECK, 0, register_of(compiler, value, i), 0)]
-                .n = 1;
+            emit_counted(compiler, OP_CHECK, 0, register_of(compiler, value, i), 1);
 }
 
 Value compile_read(Compiler *compiler, int node)
