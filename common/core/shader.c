@@ -31,6 +31,8 @@ static GLuint compile(const ShaderSource *source, ShaderStage stage, Message *me
     const GLchar *text = source->text;
     const GLint size = (GLint)source->size;
     GLint compiled = GL_FALSE;
+    if (!shader_bounded(source, stage, message))
+        return 0;
     GLuint shader = glCreateShader(stage == SHADER_VERTEX ? GL_VERTEX_SHADER : GL_FRAGMENT_SHADER);
     glShaderSource(shader, 1, &text, &size);
     glCompileShader(shader);

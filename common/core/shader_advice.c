@@ -36,6 +36,18 @@ static void add_hint(const ShaderSource *source, const GlslMessage *said, Messag
     message_add(message, "\n  hint: %s%s%s", same ? "" : place, said->text, after.text);
 }
 
+bool shader_bounded(const ShaderSource *source, ShaderStage stage, Message *message)
+{
+    GlslTree *tree = glsl_parse(source->text, (GlslStage)stage, NULL);
+    const bool bounded = !tree->grown;
+    const GlslMessage *said = &tree->messages[0];
+    char log[sizeof said->text + 64];
+    snprintf(log, sizeof log, "%d:%d(%d): error: %s", said->place.file, said->place.line,
+             said->place.column, said->text);
+    glsl_tree_free(tree);
+    return bounded || shader_explain_log(source, log, message);
+}
+
 void shader_advise(const ShaderSource sources[2], int refused, Message *message)
 {
     GlslTree *trees[2] = {NULL, NULL};
@@ -50,7 +62,7 @@ void shader_advise(const ShaderSource sources[2], int refused, Message *message)
         }
     if (found < 0 && refused == SHADER_LINKING && !glsl_check_pair(trees[0], trees[1]))
         found = SHADER_FRAGMENT;
-    if (found >= 0)
+    if (found >= 0 && !trees[found]->grown)
         add_hint(&sources[found], &trees[found]->messages[0], message);
     glsl_tree_free(trees[0]);
     glsl_tree_free(trees[1]);

@@ -13,4 +13,7 @@ enum { SHADER_LINKING = 2 };
  * SHADER_LINKING. Adds nothing if the front end finds nothing wrong. */
 void shader_advise(const ShaderSource sources[2], int refused, Message *message);
 
+/* False for a text with macros that grow beyond what drivers end with, which no driver gets. */
+bool shader_bounded(const ShaderSource *source, ShaderStage stage, Message *message);
+
 #endif

@@ -161,6 +161,7 @@ typedef struct GlslTree {
     GlslLimits limits;
     int extensions; /* that the text enables */
     bool invariant; /* #pragma STDGL invariant(all) */
+    bool grown;     /* its macros expand to more tokens than the limit */
     int root;       /* GLSL_UNIT */
     int main;       /* the function, 0: it has none */
     GlslNode *nodes;

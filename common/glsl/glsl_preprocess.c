@@ -33,6 +33,13 @@ void preprocess_fail(Preprocessor *all, GlslPlace place, const char *format, ...
     va_end(arguments);
 }
 
+static void grown(Preprocessor *all, GlslPlace place)
+{
+    all->tree->grown = true;
+    preprocess_fail(all, place, "the macros expand to more than %d tokens",
+                    all->tree->limits.tokens);
+}
+
 static void push(Preprocessor *all, Tokens tokens, int macro, bool barrier)
 {
     *(Source *)memory_add(&all->sources, &all->source_count, &all->source_room, sizeof(Source)) =
@@ -62,8 +69,7 @@ static Token next_raw(Preprocessor *all)
         if (top->at < top->tokens.count) {
             const Token token = top->tokens.items[top->at++];
             if (++all->expanded > all->tree->limits.tokens)
-                preprocess_fail(all, token.place, "the macros expand to more than %d tokens",
-                                all->tree->limits.tokens);
+                grown(all, token.place);
             return token;
         }
         if (top->barrier)
@@ -139,8 +145,7 @@ static void substitute(Preprocessor *all, const Macro *macro, GlslPlace place,
         const Tokens *argument = &arguments[token.name];
         all->expanded += argument->count;
         if (all->expanded > all->tree->limits.tokens)
-            preprocess_fail(all, place, "the macros expand to more than %d tokens",
-                            all->tree->limits.tokens);
+            grown(all, place);
         for (int k = 0; k < argument->count && !all->failed; k++)
             tokens_add(result, argument->items[k]);
     }

@@ -607,6 +607,18 @@ SHADER_TEST(a_hint_follows_the_drivers_first_line_and_quote)
                         "no main\n  hint: a.vert:1: a function `void main()` is missing");
 }
 
+SHADER_TEST(macros_that_grow_come_to_no_driver)
+{
+    char text[2000] = "#define A0 1.0\n";
+    for (int i = 1; i < 40; i++)
+        snprintf(text + strlen(text), sizeof text - strlen(text), "#define A%d A%d + A%d\n", i,
+                 i - 1, i - 1);
+    strcat(text, "const float a = A39;\n");
+    parse(text);
+    assert_false(shader_bounded(&source, SHADER_VERTEX, &message));
+    assert_non_null(strstr(message.text, ":41: error: "));
+}
+
 SHADER_TEST(what_does_not_link_is_explained)
 {
     static const char other[] =

@@ -29,6 +29,8 @@ RULINGS = [
     (r"starting with .gl_. are reserved", True, "names that begin with gl_ are reserved; Mesa takes them for parameters and locals"),
     (r"identifiers containing consecutive underscores", True, "names with __ are reserved; Mesa warns"),
     (r"uses reserved .gl_. prefix", True, "as before; glslang takes a variable named gl_FragColor"),
+    (r"l-value required", True, "only a variable or a part of it is assigned; Mesa takes some values that nothing depends on"),
+    (r"'void' : cannot construct", True, "void has no constructor; Mesa takes one whose value nothing uses"),
     (r"'line continuation'", True, "no line is continued by a backslash; Mesa does it"),
     (r"'floating-point suffix'", True, "floats have no suffix; Mesa takes 1.0f"),
     (r"'extraneous semicolon'", True, "no semicolon alone outside functions; Mesa takes it"),
