@@ -10,7 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST = 1000000, DEEPEST = 64 }; /* instructions or registers; calls in each other */
+/* Instructions or registers; calls in each other, and all. */
+enum { MOST = 1000000, DEEPEST = 64, CALLS = 100000 };
 
 void cannot(Compiler *compiler, const char *why)
 {
@@ -287,6 +288,8 @@ Value compile_call(Compiler *compiler, int node)
     const int block = function->node ? glsl_child(tree, function->node, function->parameters) : 0;
     const Value result = value_at(reserve(compiler, scalars_of(tree, function->type)),
                                   scalars_of(tree, function->type));
+    if (++compiler->calls > CALLS)
+        cannot(compiler, "this shader is too large to run here: 100,000 calls");
     if (++compiler->depth > DEEPEST || !block || function->parameters > PARAMETERS)
         cannot(compiler, block ? "a function calls itself, or calls are too deep"
                                : "a function is called that has no body");

@@ -44,9 +44,9 @@ typedef struct Waiting {
 typedef struct Compiler {
     GlslCode *code;
     const GlslTree *tree;
-    int *where;              /* the first register of each symbol, -1 */
-    bool *unset;             /* may be read before it has a value */
-    int node, depth, result; /* result: of the function that is inlined */
+    int *where;                     /* the first register of each symbol, -1 */
+    bool *unset;                    /* may be read before it has a value */
+    int node, depth, calls, result; /* result: of the function that is inlined */
     Waiting returns, breaks, continues;
 } Compiler;
 

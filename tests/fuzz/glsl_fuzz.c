@@ -1,13 +1,29 @@
 /*
  * glsl_fuzz: no bytes may do harm to the front end of the shaders' language, and what it accepts
- * prints as a text that parses, and prints as the same text again.
+ * prints as a text that parses, and prints as the same text again; what could be linked is compiled
+ * and runs.
  *
  * The first byte is the stage. Seeds: the files of shaders/.
  */
 #include "fuzz/fuzz.h"
-#include "glsl/glsl.h"
+#include "glsl/glsl_run.h"
 
 #include <string.h>
+
+static void run(const GlslTree *tree)
+{
+    GlslCode *code = glsl_compile(tree);
+    require(code->message.text[0] || code->instruction_count > 0);
+    GlslRun *run = glsl_run_open(code);
+    run->loops = 100;
+    run->trace = true;
+    glsl_run(run);
+    run->arithmetic = &GLSL_LLVMPIPE;
+    run->exact_from = 3;
+    glsl_run(run);
+    glsl_run_close(run);
+    glsl_code_free(code);
+}
 
 FUZZ(data, size)
 {
@@ -20,7 +36,8 @@ FUZZ(data, size)
         char *twice = glsl_print(again, again->root);
         require(again->message_count == 0 && strcmp(printed, twice) == 0);
         glsl_check_loops(tree);
-        glsl_check_whole(again);
+        if (glsl_check_whole(again))
+            run(again);
         free(twice);
         free(printed);
         glsl_tree_free(again);

@@ -226,6 +226,22 @@ static void single_is_c(void **state)
     shader_close(&shader);
 }
 
+/* Calls that double forty times end with one message. */
+static void too_large_is_said(void **state)
+{
+    (void)state;
+    char text[4096] = "void f0() { }\n";
+    for (int k = 1; k <= 40; k++)
+        snprintf(text + strlen(text), sizeof text - strlen(text), "void f%d() { f%d(); f%d(); }\n",
+                 k, k - 1, k - 1);
+    strcat(text, "void main() { f40(); }");
+    GlslTree *tree = glsl_parse(text, GLSL_FRAGMENT, NULL);
+    GlslCode *code = glsl_compile(tree);
+    assert_non_null(strstr(code->message.text, "too large"));
+    glsl_code_free(code);
+    glsl_tree_free(tree);
+}
+
 static void twenty_million_a_second(void **state)
 {
     (void)state;
@@ -243,9 +259,13 @@ static void twenty_million_a_second(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(functions_are_c),    cmocka_unit_test(statements_run),
-        cmocka_unit_test(undefined_is_noted), cmocka_unit_test(events_say_where_digits_are_lost),
-        cmocka_unit_test(single_is_c),        cmocka_unit_test(twenty_million_a_second),
+        cmocka_unit_test(functions_are_c),
+        cmocka_unit_test(statements_run),
+        cmocka_unit_test(undefined_is_noted),
+        cmocka_unit_test(too_large_is_said),
+        cmocka_unit_test(events_say_where_digits_are_lost),
+        cmocka_unit_test(single_is_c),
+        cmocka_unit_test(twenty_million_a_second),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
