@@ -261,22 +261,24 @@ TEST_WITH(0, what_is_not_finite_is_refused, start_random, NULL)
         int count;
         double good[16];
         bool nothing; /* is made instead, not the identity */
+        bool endless; /* the last number may be infinite */
     } makers[] = {
-        {make_unit, 3, {1, 2, 3}, true},
-        {make_rotation, 4, {1, 2, 3, 40}, false},
-        {make_view, 9, {1, 2, 3, 4, 5, 7, 0, 1, 0}, false},
-        {make_ortho, 6, {-1, 2, -3, 4, 5, 6}, false},
-        {make_frustum, 6, {-1, 2, -3, 4, 5, 6}, false},
-        {make_inverse, 16, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, false},
-        {make_inverse, 16, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 2}, false},
-        {make_normal, 16, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, true},
+        {make_unit, 3, {1, 2, 3}, true, false},
+        {make_rotation, 4, {1, 2, 3, 40}, false, false},
+        {make_view, 9, {1, 2, 3, 4, 5, 7, 0, 1, 0}, false, false},
+        {make_ortho, 6, {-1, 2, -3, 4, 5, 6}, false, false},
+        {make_perspective, 4, {60, 1, 1, 2}, false, true},
+        {make_frustum, 6, {-1, 2, -3, 4, 5, 6}, false, true},
+        {make_inverse, 16, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, false, false},
+        {make_inverse, 16, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 2}, false, false},
+        {make_normal, 16, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, true, false},
     };
     for (size_t k = 0; k < sizeof makers / sizeof makers[0]; k++) {
         for (int i = 0; i < 3 * makers[k].count; i++) {
             double v[16];
             memcpy(v, makers[k].good, sizeof v);
             v[i / 3] = bad[i % 3];
-            if (makers[k].make == make_frustum && v[5] == infinity) /* it may have that one */
+            if (makers[k].endless && v[makers[k].count - 1] == infinity)
                 continue;
             assert_refused(makers[k].make, v, makers[k].nothing ? NONE : mat4_identity());
             if (makers[k].count == 16)
@@ -608,14 +610,12 @@ TEST_WITH(0, look_at_replaces_an_up_that_is_zero_or_parallel, start_random, NULL
 
 TEST_WITH(0, look_at_from_the_center_itself_looks_along_minus_z, start_random, NULL)
 {
-    const Vec3 eye = {1, 2, 3};
+    const Vec3 eye = {1, 2, 3}, ups[] = {{0, 9, 1}, {0, 0, 0}, {0, 0, 1}};
     Mat4 view;
-    assert_false(mat4_try_look_at(eye, eye, (Vec3){0, 9, 1}, &view));
-    assert_matrix(view, mat4_translate((Vec3){-1, -2, -3}), 0);
-    assert_false(mat4_try_look_at(eye, eye, (Vec3){0, 0, 0}, &view));
-    assert_matrix(view, mat4_translate((Vec3){-1, -2, -3}), 0);
-    assert_false(mat4_try_look_at(eye, eye, (Vec3){0, 0, 1}, &view));
-    assert_matrix(view, mat4_translate((Vec3){-1, -2, -3}), 0);
+    for (int i = 0; i < 3; i++) {
+        assert_false(mat4_try_look_at(eye, eye, ups[i], &view));
+        assert_matrix(view, mat4_translate((Vec3){-1, -2, -3}), 0);
+    }
     assert_false(mat4_try_look_at(eye, eye, (Vec3){-1, 0, 0}, &view));
     assert_rigid(view, eye);
     assert_vector(mat4_transform_direction(view, (Vec3){-1, 0, 0}), 0, 1, 0, 0);
@@ -737,21 +737,13 @@ TEST_WITH(0, perspective_refuses_what_is_out_of_range, start_random, NULL)
                              {180, 1, 1, 2},
                              {270, 1, 1, 2},
                              {360, 1, 1, 2},
-                             {not_a_number, 1, 1, 2},
-                             {infinity, 1, 1, 2},
                              {60, 0, 1, 2},
                              {60, -1, 1, 2},
-                             {60, infinity, 1, 2},
-                             {60, not_a_number, 1, 2},
                              {60, 1, 1, 1},
                              {60, 1, 2, 1},
                              {60, 1, 0, 1},
                              {60, 1, -1, 1},
-                             {60, 1, not_a_number, 1},
-                             {60, 1, 1, not_a_number},
                              {60, 1, infinity, infinity},
-                             {60, 1, -infinity, 1},
-                             {60, 1, 1, -infinity},
                              {1e-320, 1, 1, 2},
                              {1, 1e-308, 1, 2},
                              {60, 1, 1.6e308, 1.7e308},
@@ -822,10 +814,9 @@ TEST_WITH(0, frustum_and_ortho_refuse_empty_or_infinite_volumes, start_random, N
         assert_refused(make_ortho, empty[i], mat4_identity());
         assert_refused(make_frustum, empty[i], mat4_identity());
     }
-    assert_false(mat4_try_frustum((MatrixSides){-1, 1, -1, 1, 0, 1}, &p));
-    assert_false(mat4_try_frustum((MatrixSides){-1, 1, -1, 1, -1, 1}, &p));
-    assert_false(mat4_try_frustum((MatrixSides){-1, 1, -1, 1, 2, 1}, &p));
-    assert_false(mat4_try_frustum((MatrixSides){-1, 1, -1, 1, infinity, infinity}, &p));
+    const double planes[][2] = {{0, 1}, {-1, 1}, {2, 1}, {infinity, infinity}};
+    for (int i = 0; i < 4; i++)
+        assert_false(mat4_try_frustum((MatrixSides){-1, 1, -1, 1, planes[i][0], planes[i][1]}, &p));
     assert_true(
         mat4_try_ortho((MatrixSides){1, -1, 1, -1, 2, 1}, &p)); /* mirrored, but not empty */
 }
@@ -997,19 +988,15 @@ TEST_WITH(0, inverse_is_independent_of_the_scale_of_rows_and_columns, start_rand
 
 TEST_WITH(0, inverse_refuses_singular_matrices, start_random, NULL)
 {
-    const Mat4 zero = {{0}};
-    const Mat4 rank_one = {{1, 2, 3, 0, 2, 4, 6, 0, 3, 6, 9, 0, 1, 2, 3, 1}};
-    const Mat4 rank_two = {{1, 2, 3, 0, 4, 5, 6, 0, 7, 8, 9, 0, 0, 0, 0, 1}};
-    const Mat4 dense = {{1, 2, 3, 4, 2, 4, 6, 8, 1, 1, 1, 1, 5, 0, 2, 9}};
-    Mat4 flat = zero;
-    flat.m[15] = 1;
-    assert_no_inverse(zero);
-    assert_no_inverse(flat);
-    assert_no_inverse(rank_one);
-    assert_no_inverse(rank_two);
-    assert_no_inverse(dense);
-    assert_no_inverse(mat4_scale((Vec3){1, 0, 1}));
-    assert_no_inverse(mat4_scale((Vec3){1e300, 0, 1e300}));
+    const Mat4 bad[] = {{{0}},
+                        NONE,
+                        {{1, 2, 3, 0, 2, 4, 6, 0, 3, 6, 9, 0, 1, 2, 3, 1}}, /* rank 1 */
+                        {{1, 2, 3, 0, 4, 5, 6, 0, 7, 8, 9, 0, 0, 0, 0, 1}}, /* rank 2 */
+                        {{1, 2, 3, 4, 2, 4, 6, 8, 1, 1, 1, 1, 5, 0, 2, 9}}, /* dense */
+                        mat4_scale((Vec3){1, 0, 1}),
+                        mat4_scale((Vec3){1e300, 0, 1e300})};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+        assert_no_inverse(bad[i]);
     for (int i = 0; i < 4; i++) { /* a column, a row of zeros */
         Mat4 a = random_matrix();
         for (int j = 0; j < 4; j++)
