@@ -156,6 +156,25 @@ static void put_notes(FILE *file, const GlslTree *tree, const Trail *driver)
                 glsl_note_text(driver->notes[i].kind));
 }
 
+/* What samplers have is asked of the driver, which does not tell of all. False: what is
+ * computed is not the picture's. */
+static bool put_samplers(FILE *file, const CaptureDraw *draw)
+{
+    bool known = true;
+    for (int i = 0; i < draw->uniform_count; i++) {
+        const CaptureUniform *uniform = &draw->uniforms[i];
+        const int texture = uniform->type == GL_SAMPLER_2D ? (int)uniform->values[0] : 0;
+        if (uniform->type == GL_SAMPLER_2D && texture < 0)
+            fprintf(file, "%s: a sampler without a texture: black\n", uniform->name);
+        else if (uniform->type == GL_SAMPLER_2D && !draw->textures[texture]->texels) {
+            fprintf(file, "%s: a depth texture, which cannot be read: taken as black\n",
+                    uniform->name);
+            known = false;
+        }
+    }
+    return known;
+}
+
 static void put_corners(FILE *file, Raster *raster, const RasterPixel *pixel)
 {
     for (int c = 0; c < 3; c++) {
@@ -194,8 +213,10 @@ static void put_pixel(FILE *file, Raster *raster, const RasterPixel *pixel,
         fprintf(file, "the picture is not that: a line or point is drawn over it, an edge runs "
                       "through it, or the driver computes otherwise\n");
     put_trail(file, tree, &driver, &exact);
+    const bool known = put_samplers(file, &question->capture->draws[pixel->draw]);
     put_notes(file, tree, &driver);
-    put_verdict(file, raster, pixel, &driver, &exact, question);
+    if (known)
+        put_verdict(file, raster, pixel, &driver, &exact, question);
     put_corners(file, raster, pixel);
     forget(&driver);
     forget(&exact);
