@@ -663,7 +663,7 @@ class Generated(Case):
     @unittest.skipUnless(shutil.which("bash"), "bash is not installed")
     def test_bash_completes_options_and_values(self):
         self.generate("bash")
-        for words, expected in (("--siz", "--size"), ("--pr", "--precision --print-shader"),
+        for words, expected in (("--siz", "--size"), ("--pr", "--precision --print-shader --probe"),
                                 ("--alpha --backend o", "osmesa"), ("-b e", "egl"),
                                 ("--precision = m", "mediump"), ("--format =", "png y4m rgb"),
                                 ("a", ""), ("-o --siz", "--size")):

@@ -380,7 +380,7 @@ class Folders(Case):
 
 class Build(unittest.TestCase):
     def test_a_program_of_the_lecture_needs_few_files(self):
-        """What scenes alone need is not compiled for it."""
+        """What scenes alone need is not compiled for it; --probe runs its shaders, so the language is."""
         build = os.path.dirname(base.EXAMPLES)
         if not shutil.which("ninja") or not os.path.exists(os.path.join(build, "build.ninja")):
             self.skipTest("not ninja's build folder")
@@ -391,7 +391,7 @@ class Build(unittest.TestCase):
             self.assertNotIn(f"/common/{folder}/", commands)
         # keep_loaded.c is compiled for the sanitizers alone.
         files = re.findall(r" -c (\S+)", commands)
-        self.assertLessEqual(sum("keep_loaded" not in file for file in files), 65)
+        self.assertLessEqual(sum("keep_loaded" not in file for file in files), 90)
 
 
 class Packages(Case):
