@@ -3,6 +3,7 @@
 #include "app/command.h"
 #include "app/options.h"
 #include "app/renderer.h"
+#include "base/json_writer.h"
 #include "choose/error_worker.h"
 #include "core/shader_files.h"
 #include "kinds/scene_views.h"
@@ -85,25 +86,6 @@ static void restore_defaults(int number)
 
 /* Texts. */
 
-static void put_json(FILE *file, const char *text)
-{
-    fputc('"', file);
-    for (; text && *text; text++) {
-        const unsigned char c = (unsigned char)*text;
-        if (c < 0x20)
-            fprintf(file, "\\u%04x", c);
-        else
-            fprintf(file, "%s%c", c == '"' || c == '\\' ? "\\" : "", c);
-    }
-    fputc('"', file);
-}
-
-static void put_pair(FILE *file, const char *name, const char *text)
-{
-    fprintf(file, ", \"%s\": ", name);
-    put_json(file, text);
-}
-
 /* Replaces the text that was returned last by what is written. */
 static FILE *text_begin(void)
 {
@@ -119,82 +101,78 @@ static const char *text_end(FILE *file)
     return whole && page.text ? page.text : "";
 }
 
-static void put_option(FILE *file, const Parameter *option, bool own)
+static void put_option(JsonWriter *json, const Parameter *option, bool own)
 {
     static const char *const KINDS[] = {"number", "whole", "choice", "switch",
                                         "flag",   "color", "text"};
     char value[PARAMETER_TEXT_SIZE], range[PARAMETER_RANGE_SIZE];
     const char *const *choices = parameter_choices(option);
-    const char *written = parameter_text(option, value);
-    fputs("{\"name\": ", file);
-    put_json(file, option->name);
-    put_pair(file, "help", option->help);
-    put_pair(file, "kind", KINDS[option->kind]);
-    put_pair(file, "value", written);
-    put_pair(file, "standard", option->standard);
-    put_pair(file, "placeholder", parameter_placeholder(option));
+    json_write_object(json, NULL);
+    json_write_text(json, "name", option->name);
+    json_write_text(json, "help", option->help);
+    json_write_text(json, "kind", KINDS[option->kind]);
+    json_write_text(json, "value", parameter_text(option, value));
+    json_write_text(json, "standard", option->standard ? option->standard : "");
+    json_write_text(json, "placeholder", parameter_placeholder(option));
     if (option->kind == PARAMETER_NUMBER || option->kind == PARAMETER_WHOLE ||
         option->kind == PARAMETER_COLOR)
-        put_pair(file, "range", parameter_range(option, range));
-    if (isfinite(option->min) && isfinite(option->max) && option->min < option->max)
-        fprintf(file, ", \"min\": %.17g, \"max\": %.17g", option->min, option->max);
-    fprintf(file, ", \"own\": %s, \"choices\": [", own ? "true" : "false");
-    for (int i = 0; choices && choices[i]; i++) {
-        fputs(i ? ", " : "", file);
-        put_json(file, choices[i]);
+        json_write_text(json, "range", parameter_range(option, range));
+    if (isfinite(option->min) && isfinite(option->max) && option->min < option->max) {
+        json_write_number(json, "min", option->min);
+        json_write_number(json, "max", option->max);
     }
-    fputs("]}", file);
+    json_write_flag(json, "own", own);
+    json_write_list(json, "choices");
+    for (int i = 0; choices && choices[i]; i++)
+        json_write_text(json, NULL, choices[i]);
+    json_write_end(json);
+    json_write_end(json);
 }
 
-static void put_program(FILE *file, const Example *example)
+static void put_program(JsonWriter *json, const Example *example)
 {
     Parameter table[OPTIONS_MAX];
     const Usage usage = options_usage(example);
     Options options = options_default(&usage);
     const int common = options_table(&usage, &options, OPTIONS_TO_SHOW, table);
-    bool first = true;
-    fputs("{\"name\": ", file);
-    put_json(file, example->name);
-    put_pair(file, "summary", example->summary);
-    fprintf(file, ", \"scene\": %s, \"tries\": [", example_scene(example) ? "true" : "false");
+    json_write_object(json, NULL);
+    json_write_text(json, "name", example->name);
+    json_write_text(json, "summary", example->summary);
+    json_write_flag(json, "scene", example_scene(example) != NULL);
+    json_write_list(json, "tries");
     for (int i = 0; i < 4 && example->tries[i]; i++) {
-        fprintf(file, "%s{\"arguments\": ", i ? ", " : "");
-        put_json(file, example->tries[i]);
-        put_pair(file, "looks", example->looks[i]);
-        fputc('}', file);
+        json_write_object(json, NULL);
+        json_write_text(json, "arguments", example->tries[i]);
+        json_write_text(json, "looks", example->looks[i] ? example->looks[i] : "");
+        json_write_end(json);
     }
-    fputs("], \"options\": [", file);
-    for (int i = 0; table[i].name; i++) {
-        if (!is_shown(&table[i], i >= common))
-            continue;
-        fputs(first ? "\n" : ",\n", file);
-        put_option(file, &table[i], i >= common);
-        first = false;
-    }
-    fputs("], \"absent\": [", file);
-    first = true;
-    for (int i = common; table[i].name; i++) {
-        if (is_shown(&table[i], true))
-            continue;
-        fputs(first ? "" : ", ", file);
-        put_json(file, table[i].name);
-        first = false;
-    }
-    fputs("]}", file);
+    json_write_end(json);
+    json_write_list(json, "options");
+    for (int i = 0; table[i].name; i++)
+        if (is_shown(&table[i], i >= common))
+            put_option(json, &table[i], i >= common);
+    json_write_end(json);
+    json_write_list(json, "absent");
+    for (int i = common; table[i].name; i++)
+        if (!is_shown(&table[i], true))
+            json_write_text(json, NULL, table[i].name);
+    json_write_end(json);
+    json_write_end(json);
 }
 
 const char *page_programs(void)
 {
-    FILE *file = text_begin();
-    for (int i = 0; file && i < COUNT; i++) {
+    JsonWriter json = {.file = text_begin()};
+    if (json.file)
+        json_write_list(&json, NULL);
+    for (int i = 0; json.file && i < COUNT; i++) {
         restore_defaults(i);
-        fputs(i ? ",\n" : "[", file);
-        put_program(file, ALL[i]);
+        put_program(&json, ALL[i]);
     }
-    if (file)
-        fputs("]", file);
+    if (json.file)
+        json_write_end(&json);
     page.example = NULL; /* its options are the defaults now */
-    return text_end(file);
+    return text_end(json.file);
 }
 
 const char *page_message(void)
@@ -255,17 +233,12 @@ const char *page_values(void)
         return text_end(file);
     const Usage usage = options_usage(page.example);
     const int common = options_table(&usage, &page.options, OPTIONS_TO_SHOW, table);
-    bool first = true;
-    for (int i = 0; table[i].name; i++) {
-        if (!is_shown(&table[i], i >= common))
-            continue;
-        fputs(first ? "{" : ", ", file);
-        put_json(file, table[i].name);
-        fputs(": ", file);
-        put_json(file, parameter_text(&table[i], value));
-        first = false;
-    }
-    fputc('}', file);
+    JsonWriter json = {.file = file};
+    json_write_object(&json, NULL);
+    for (int i = 0; table[i].name; i++)
+        if (is_shown(&table[i], i >= common))
+            json_write_text(&json, table[i].name, parameter_text(&table[i], value));
+    json_write_end(&json);
     return text_end(file);
 }
 
@@ -428,23 +401,21 @@ static const char *shader_name(const char *path)
 
 const char *page_shaders(void)
 {
-    FILE *file = text_begin();
-    bool first = true;
-    if (!file)
+    JsonWriter json = {.file = text_begin()};
+    if (!json.file)
         return "";
-    fputc('[', file);
+    json_write_list(&json, NULL);
     for (int i = 0; i < page.files.count; i++) {
         const ShaderFile *shader = &page.files.files[i];
         if (!shader->text || strstr(shader->path, "overlay."))
             continue;
-        fputs(first ? "{\"name\": " : ",\n{\"name\": ", file);
-        put_json(file, shader_name(shader->path));
-        put_pair(file, "text", shader->text);
-        fputc('}', file);
-        first = false;
+        json_write_object(&json, NULL);
+        json_write_text(&json, "name", shader_name(shader->path));
+        json_write_text(&json, "text", shader->text);
+        json_write_end(&json);
     }
-    fputc(']', file);
-    return text_end(file);
+    json_write_end(&json);
+    return text_end(json.file);
 }
 
 static bool make_folders(char *path)
@@ -518,11 +489,14 @@ static bool compute(const ErrorPicture *drawn, PictureError *error, Image *map, 
     return true;
 }
 
-static void put_sum(FILE *file, const char *name, const ErrorSum *sum)
+static void put_sum(JsonWriter *json, const char *name, const ErrorSum *sum)
 {
-    const double rms = sum->pixels ? error_sum_rms(sum) : 0;
-    fprintf(file, "\"%s\": {\"pixels\": %lld, \"wrong\": %lld, \"rms\": %.17g, \"maximum\": %.17g}",
-            name, sum->pixels, sum->wrong, rms, sum->maximum);
+    json_write_object(json, name);
+    json_write_whole(json, "pixels", sum->pixels);
+    json_write_whole(json, "wrong", sum->wrong);
+    json_write_number(json, "rms", sum->pixels ? error_sum_rms(sum) : 0);
+    json_write_number(json, "maximum", sum->maximum);
+    json_write_end(json);
 }
 
 const char *page_error(void)
@@ -546,10 +520,13 @@ const char *page_error(void)
     FILE *file = done ? text_begin() : NULL;
     if (!file)
         return "";
-    fputc('{', file);
-    put_sum(file, "inside", &error.interior);
-    fputs(", ", file);
-    put_sum(file, "all", &error.all);
-    fprintf(file, ", \"bits\": \"%016llx\"}", (unsigned long long)hash);
+    char bits[20];
+    snprintf(bits, sizeof bits, "%016llx", (unsigned long long)hash);
+    JsonWriter json = {.file = file};
+    json_write_object(&json, NULL);
+    put_sum(&json, "inside", &error.interior);
+    put_sum(&json, "all", &error.all);
+    json_write_text(&json, "bits", bits);
+    json_write_end(&json);
     return text_end(file);
 }

@@ -47,9 +47,10 @@ static char *written(const Verdict *verdict, const char *lab)
     size_t size;
     FILE *file = open_memstream(&text, &size);
     require(file);
-    fputc('{', file);
-    verdict_put(file, verdict, lab);
-    fputc('}', file);
+    JsonWriter json = {.file = file};
+    json_write_object(&json, NULL);
+    verdict_put(&json, verdict, lab);
+    json_write_end(&json);
     require(fclose(file) == 0);
     return text;
 }

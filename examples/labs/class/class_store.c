@@ -9,7 +9,6 @@
 #include "labs/sandbox/png_copy.h"
 #include "labs/submission/verdict_fields.h"
 #include "labs/submission/verdict_json.h"
-#include "study/results/json.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -177,26 +176,28 @@ bool class_result_is_worse(const ClassResult *next, const ClassResult *old)
     return next->verdict.points < old->verdict.points;
 }
 
-void class_result_put(FILE *file, const ClassResult *result)
+void class_result_put(JsonWriter *json, const ClassResult *result)
 {
-    verdict_put(file, &result->verdict, result->lab);
-    fputs(",\n  \"student\": ", file);
-    json_put_string(file, result->student);
-    fputs(",\n  \"id\": ", file);
-    json_put_string(file, result->id);
-    fprintf(file, ",\n  \"attempt\": %d,\n  \"finished\": %s", result->attempt,
-            result->finished ? "true" : "false");
+    verdict_put(json, &result->verdict, result->lab);
+    json_write_text(json, "student", result->student);
+    json_write_text(json, "id", result->id);
+    json_write_whole(json, "attempt", result->attempt);
+    json_write_flag(json, "finished", result->finished);
 }
 
 static bool write_result(const char *path, const ClassResult *result, Message *message)
 {
     OutputText out;
+    char hash[20];
     output_text_open(&out);
-    fputs("{\n  ", out.file);
-    class_result_put(out.file, result);
-    fprintf(out.file,
-            ",\n  \"hash\": \"%016" PRIx64 "\",\n  \"limit\": %.9g,\n  \"when\": %lld\n}\n",
-            result->hash, result->limit, result->when);
+    snprintf(hash, sizeof hash, "%016" PRIx64, result->hash);
+    JsonWriter json = {.file = out.file, .lines = 2};
+    json_write_object(&json, NULL);
+    class_result_put(&json, result);
+    json_write_text(&json, "hash", hash);
+    json_write_number(&json, "limit", result->limit);
+    json_write_whole(&json, "when", result->when);
+    json_write_end(&json);
     return output_text_write(&out, path, message);
 }
 

@@ -7,6 +7,7 @@
 #ifndef CLASS_STORE_H
 #define CLASS_STORE_H
 
+#include "base/json_writer.h"
 #include "labs/class/class_find.h"
 #include "labs/sandbox/bundle.h"
 #include "labs/submission/verdict.h"
@@ -47,7 +48,7 @@ bool class_store_path(const char *store, const char *folder, const char *name, c
 ClassResult *class_store_find(const ClassStore *store, const char *folder);
 
 /* Writes a result's members as JSON, without the braces. */
-void class_result_put(FILE *file, const ClassResult *result);
+void class_result_put(JsonWriter *json, const ClassResult *result);
 
 /* Whether a submission need not be judged again: its result is finished, or timed out after at
  * least `limit` seconds. */

@@ -6,7 +6,6 @@
 #include "base/output.h"
 #include "base/output_text.h"
 #include "base/template.h"
-#include "study/results/json.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -94,33 +93,33 @@ bool class_table_csv(const ClassStore *store, Message *message)
     return output_text_put(&out, store->folder, "class.csv", message);
 }
 
-static void put_member(FILE *file, const char *start, const char *name, const char *text)
-{
-    fprintf(file, "%s\"%s\": ", start, name);
-    json_put_string(file, text);
-}
-
 bool class_table_json(const ClassStore *store, Message *message)
 {
     int count;
     OutputText out;
     output_text_open(&out);
     ClassMistake *made = class_mistakes(store, &count);
-    put_member(out.file, "{", "lab", store->count ? store->results[0].lab : "");
-    fputs(",\n\"mistakes\": [", out.file);
+    JsonWriter json = {.file = out.file, .lines = 3};
+    json_write_object(&json, NULL);
+    json_write_text(&json, "lab", store->count ? store->results[0].lab : "");
+    json_write_list(&json, "mistakes");
     for (int i = 0; i < count; i++) {
-        put_member(out.file, i ? ",\n  {" : "\n  {", "name", made[i].name);
-        fprintf(out.file, ", \"students\": %d}", made[i].count);
+        json_write_object(&json, NULL);
+        json_write_text(&json, "name", made[i].name);
+        json_write_whole(&json, "students", made[i].count);
+        json_write_end(&json);
     }
     free(made);
-    fputs("],\n\"students\": [", out.file);
+    json_write_end(&json);
+    json_write_list(&json, "students");
     for (int i = 0; i < store->count; i++) {
-        fputs(i ? ",\n {" : "\n {", out.file);
-        class_result_put(out.file, &store->results[i]);
-        put_member(out.file, ",\n  ", "folder", store->results[i].folder);
-        fputc('}', out.file);
+        json_write_object(&json, NULL);
+        class_result_put(&json, &store->results[i]);
+        json_write_text(&json, "folder", store->results[i].folder);
+        json_write_end(&json);
     }
-    fputs("]}\n", out.file);
+    json_write_end(&json);
+    json_write_end(&json);
     return output_text_put(&out, store->folder, "class.json", message);
 }
 
@@ -183,39 +182,49 @@ bool class_table_junit(const ClassStore *store, Message *message)
 }
 
 /* The scenes as tests without points of their own. */
-static void put_tests(FILE *file, const Verdict *verdict)
+static void put_tests(JsonWriter *json, const Verdict *verdict)
 {
+    json_write_list(json, "tests");
     for (int i = 0; i < verdict->probe_count; i++) {
         const VerdictProbe *probe = &verdict->probes[i];
         char name[80], output[120];
         snprintf(name, sizeof name, "scene %s, %s, %dx%d, at %.3f s", probe->name,
                  probe->known ? "known" : "of a seed", probe->width, probe->height, probe->seconds);
         snprintf(output, sizeof output, "largest error: %.2f steps of 1/255", probe->maximum);
-        put_member(file, i ? ",\n    {" : "\n    {", "name", name);
-        put_member(file, ", ", "status", probe->passed ? "passed" : "failed");
-        put_member(file, ", ", "output", output);
-        put_member(file, ", ", "visibility", "visible");
-        fputc('}', file);
+        json_write_object(json, NULL);
+        json_write_text(json, "name", name);
+        json_write_text(json, "status", probe->passed ? "passed" : "failed");
+        json_write_text(json, "output", output);
+        json_write_text(json, "visibility", "visible");
+        json_write_end(json);
     }
+    json_write_end(json);
 }
 
 static bool write_gradescope(const ClassStore *store, const ClassResult *result, Message *message)
 {
-    char folder[PATH_MAX];
+    char folder[PATH_MAX], seed[24];
     OutputText out;
     const Verdict *verdict = &result->verdict;
     if (!class_store_path(store->folder, result->folder, NULL, folder, message))
         return false;
     output_text_open(&out);
     char *text = advice_text(verdict);
-    fprintf(out.file, "{\"score\": %.9g, \"execution_time\": %.9g", verdict->points,
-            verdict->seconds);
-    put_member(out.file, ",\n  ", "output", text);
-    fputs(",\n  \"output_format\": \"text\", \"visibility\": \"visible\", \"tests\": [", out.file);
-    put_tests(out.file, verdict);
-    put_member(out.file, "],\n  \"extra_data\": {", "lab", result->lab);
-    put_member(out.file, ", ", "verdict", VERDICT_NAMES[verdict->kind]);
-    fprintf(out.file, ", \"seed\": %llu}}\n", (unsigned long long)verdict->seed);
+    snprintf(seed, sizeof seed, "%llu", (unsigned long long)verdict->seed);
+    JsonWriter json = {.file = out.file, .lines = 2};
+    json_write_object(&json, NULL);
+    json_write_number(&json, "score", verdict->points);
+    json_write_number(&json, "execution_time", verdict->seconds);
+    json_write_text(&json, "output", text);
+    json_write_text(&json, "output_format", "text");
+    json_write_text(&json, "visibility", "visible");
+    put_tests(&json, verdict);
+    json_write_object(&json, "extra_data");
+    json_write_text(&json, "lab", result->lab);
+    json_write_text(&json, "verdict", VERDICT_NAMES[verdict->kind]);
+    json_write_value(&json, "seed", seed);
+    json_write_end(&json);
+    json_write_end(&json);
     free(text);
     return output_text_put(&out, folder, "results.json", message);
 }

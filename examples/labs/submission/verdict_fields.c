@@ -1,8 +1,6 @@
 /* The one writer of verdicts, natively and in a page, for which a JSON library is too large. */
 #include "labs/submission/verdict_fields.h"
 
-#include "study/results/json.h"
-
 #include <math.h>
 
 static const char *const SETS[] = {"seed", "known", NULL};
@@ -65,32 +63,24 @@ const Field VERDICT_COST_FIELDS[] = {
     FIELD_END,
 };
 
-static void put_fields(FILE *file, const Field *fields, const void *record, const char *between);
+static void put_fields(JsonWriter *json, const Field *fields, const void *record);
 
-/* JSON has neither infinities nor NaN. */
-static void put_number(FILE *file, double number)
-{
-    if (isfinite(number))
-        fprintf(file, "%.9g", number);
-    else
-        fputs("null", file);
-}
-
-static void put_list(FILE *file, const Field *field, const char *record)
+static void put_list(JsonWriter *json, const Field *field, const char *record)
 {
     const int count = *(const int *)(record + field->count);
-    fputc('[', file);
+    const bool named = field->items->name != NULL;
+    json_write_list(json, field->name);
     for (int i = 0; i < count; i++) {
-        const char *item = record + field->offset + (size_t)i * field->item_size;
-        const bool named = field->items->name != NULL;
-        fprintf(file, "%s\n    %s", i ? "," : "", named ? "{" : "");
-        put_fields(file, field->items, item, ", ");
-        fputs(named ? "}" : "", file);
+        if (named)
+            json_write_object(json, NULL);
+        put_fields(json, field->items, record + field->offset + (size_t)i * field->item_size);
+        if (named)
+            json_write_end(json);
     }
-    fputc(']', file);
+    json_write_end(json);
 }
 
-static void put_field(FILE *file, const Field *field, const char *record)
+static void put_field(JsonWriter *json, const Field *field, const char *record)
 {
     const void *at = record + field->offset;
     const int number = field->kind == FIELD_FLAG ? *(const bool *)at
@@ -98,55 +88,50 @@ static void put_field(FILE *file, const Field *field, const char *record)
                            ? *(const int *)at
                            : 0;
     if (field->kind == FIELD_TEXT || field->kind == FIELD_LINES)
-        json_put_string(file, at);
+        json_write_text(json, field->name, at);
     else if (field->kind == FIELD_NUMBER || field->kind == FIELD_ERROR)
-        put_number(file, *(const double *)at);
+        json_write_number(json, field->name, *(const double *)at);
     else if (field->kind == FIELD_LIST)
-        put_list(file, field, record);
+        put_list(json, field, record);
     else if (field->choices)
-        json_put_string(file, field->choices[number]);
+        json_write_text(json, field->name, field->choices[number]);
     else if (field->kind == FIELD_FLAG)
-        fputs(number ? "true" : "false", file);
+        json_write_flag(json, field->name, number);
     else
-        fprintf(file, "%d", number);
+        json_write_whole(json, field->name, number);
 }
 
-static void put_fields(FILE *file, const Field *fields, const void *record, const char *between)
+static void put_fields(JsonWriter *json, const Field *fields, const void *record)
 {
-    for (const Field *field = fields; (int)field->kind >= 0; field++) {
-        fputs(field == fields ? "" : between, file);
-        if (field->name)
-            fprintf(file, "\"%s\": ", field->name);
-        put_field(file, field, record);
-    }
+    for (const Field *field = fields; (int)field->kind >= 0; field++)
+        put_field(json, field, record);
 }
 
-static void put_cost(FILE *file, const VerdictCost *cost)
+static void put_cost(JsonWriter *json, const VerdictCost *cost)
 {
+    const bool counted = cost->operations >= 0;
     if (!cost->known) {
-        fputs("null", file);
+        json_write_text(json, "cost", NULL);
         return;
     }
-    fputc('{', file);
-    put_fields(file, VERDICT_COST_FIELDS, cost, ", ");
-    if (cost->operations >= 0)
-        fprintf(file, ", \"operations\": %ld, \"operations_ratio\": ", cost->operations);
-    else
-        fputs(", \"operations\": null, \"operations_ratio\": ", file);
-    put_number(file, cost->operations >= 0 ? cost->operations_ratio : NAN);
-    fputc('}', file);
+    json_write_object(json, "cost");
+    put_fields(json, VERDICT_COST_FIELDS, cost);
+    json_write_number(json, "operations", counted ? (double)cost->operations : NAN);
+    json_write_number(json, "operations_ratio", counted ? cost->operations_ratio : NAN);
+    json_write_end(json);
 }
 
-void verdict_put(FILE *file, const Verdict *verdict, const char *lab)
+void verdict_put(JsonWriter *json, const Verdict *verdict, const char *lab)
 {
-    fputs("\"lab\": ", file);
-    json_put_string(file, lab);
-    fprintf(file, ",\n  \"seed\": %llu,\n  \"most\": %d,\n  ", (unsigned long long)verdict->seed,
-            VERDICT_MAX_POINTS);
-    put_fields(file, VERDICT_FIELDS, verdict, ",\n  ");
-    fputs(",\n  \"pictures\": [", file);
+    char seed[24];
+    snprintf(seed, sizeof seed, "%llu", (unsigned long long)verdict->seed);
+    json_write_text(json, "lab", lab);
+    json_write_value(json, "seed", seed);
+    json_write_whole(json, "most", VERDICT_MAX_POINTS);
+    put_fields(json, VERDICT_FIELDS, verdict);
+    json_write_list(json, "pictures");
     if (verdict->picture[0])
-        json_put_string(file, verdict->picture);
-    fputs("],\n  \"cost\": ", file);
-    put_cost(file, &verdict->cost);
+        json_write_text(json, NULL, verdict->picture);
+    json_write_end(json);
+    put_cost(json, &verdict->cost);
 }

@@ -4,6 +4,7 @@
 #ifndef VERDICT_FIELDS_H
 #define VERDICT_FIELDS_H
 
+#include "base/json_writer.h"
 #include "labs/submission/verdict.h"
 
 #include <stddef.h>
@@ -42,6 +43,6 @@ extern const Field VERDICT_COST_FIELDS[];
 
 /* Writes a verdict's members, without the braces. Bytes that are not UTF-8 become the replacement
  * character; infinities and NaN become null. */
-void verdict_put(FILE *file, const Verdict *verdict, const char *lab);
+void verdict_put(JsonWriter *json, const Verdict *verdict, const char *lab);
 
 #endif

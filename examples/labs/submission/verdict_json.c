@@ -5,7 +5,6 @@
 #include "base/output_text.h"
 #include "base/text.h"
 #include "labs/submission/verdict_fields.h"
-#include "study/results/json.h"
 
 #include <math.h>
 #include <string.h>
@@ -217,10 +216,11 @@ bool verdict_write(const Verdict *verdict, const Lab *lab, const char *submissio
 {
     OutputText out;
     output_text_open(&out);
-    fputs("{\n  ", out.file);
-    verdict_put(out.file, verdict, lab->name);
-    fputs(",\n  \"path\": ", out.file);
-    json_put_string(out.file, submission);
-    fputs(",\n  \"student\": null\n}\n", out.file);
+    JsonWriter json = {.file = out.file, .lines = 2};
+    json_write_object(&json, NULL);
+    verdict_put(&json, verdict, lab->name);
+    json_write_text(&json, "path", submission);
+    json_write_text(&json, "student", NULL);
+    json_write_end(&json);
     return output_text_write(&out, path, message);
 }

@@ -6,7 +6,6 @@
 #include "labs/check/judge.h"
 #include "labs/program/lab_scene_open.h"
 #include "labs/submission/verdict_fields.h"
-#include "study/results/json.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -52,13 +51,7 @@ static const char *text_end(FILE *file)
     return whole && page.text ? page.text : "";
 }
 
-static void put_pair(FILE *file, const char *start, const char *name, const char *text)
-{
-    fprintf(file, "%s\"%s\": ", start, name);
-    json_put_string(file, text);
-}
-
-static void put_files(FILE *file, const Lab *lab)
+static void put_files(JsonWriter *json, const Lab *lab)
 {
     char folder[PATH_MAX], names[LAB_MAX_FILES][LAB_NAME_SIZE];
     SubmissionFiles starter = {.count = 0};
@@ -66,29 +59,35 @@ static void put_files(FILE *file, const Lab *lab)
         !submission_files_open(&starter, lab, folder, &page.message))
         return;
     for (int i = 0, count = lab_files(lab, names); i < count; i++) {
-        put_pair(file, i ? ", {" : "{", "name", names[i]);
-        put_pair(file, ", ", "text", submission_file(&starter, names[i]));
-        fputs("}", file);
+        json_write_object(json, NULL);
+        json_write_text(json, "name", names[i]);
+        json_write_text(json, "text", submission_file(&starter, names[i]));
+        json_write_end(json);
     }
     submission_files_close(&starter);
 }
 
 const char *page_labs(void)
 {
-    FILE *file = text_begin();
+    JsonWriter json = {.file = text_begin()};
     page.message = (Message){0};
-    for (int i = 0; file && i < LAB_COUNT; i++) {
+    if (!json.file)
+        return "";
+    json_write_list(&json, NULL);
+    for (int i = 0; i < LAB_COUNT; i++) {
         const Lab *lab = &LABS[i];
-        put_pair(file, i ? ",\n{" : "[{", "name", lab->name);
-        put_pair(file, ", ", "summary", lab->summary);
-        put_pair(file, ", ", "code", lab->code ? lab->code : "");
-        fprintf(file, ", \"shaders\": %s, \"files\": [", lab->given ? "false" : "true");
-        put_files(file, lab);
-        fputs("]}", file);
+        json_write_object(&json, NULL);
+        json_write_text(&json, "name", lab->name);
+        json_write_text(&json, "summary", lab->summary);
+        json_write_text(&json, "code", lab->code ? lab->code : "");
+        json_write_flag(&json, "shaders", !lab->given);
+        json_write_list(&json, "files");
+        put_files(&json, lab);
+        json_write_end(&json);
+        json_write_end(&json);
     }
-    if (file)
-        fputs("]", file);
-    return text_end(file);
+    json_write_end(&json);
+    return text_end(json.file);
 }
 
 const char *page_message(void)
@@ -298,10 +297,11 @@ static const char *put_verdict(const Verdict *verdict)
     }
     file = text_begin();
     if (file) {
-        fputc('{', file);
-        verdict_put(file, verdict, page.lab->name);
-        put_pair(file, ", ", "text", printed ? printed : "");
-        fputc('}', file);
+        JsonWriter json = {.file = file};
+        json_write_object(&json, NULL);
+        verdict_put(&json, verdict, page.lab->name);
+        json_write_text(&json, "text", printed ? printed : "");
+        json_write_end(&json);
     }
     free(printed);
     return text_end(file);

@@ -1,9 +1,9 @@
 #include "study/arithmetic/arithmetic.h"
 
+#include "base/json_writer.h"
 #include "scene/quality.h"
 #include "study/measure/scenes.h"
 #include "study/report/report.h"
-#include "study/results/json.h"
 #include "study/results/table.h"
 
 #include <math.h>
@@ -260,92 +260,97 @@ void arithmetic_text(const Arithmetics *found, const Forecast *forecast, bool ma
 
 /* JSON. */
 
-/* A number, or null if it is none. */
-static void put_number(FILE *file, const char *name, double value, bool last)
+static void put_format(JsonWriter *json, const Format *format)
 {
-    if (isfinite(value))
-        fprintf(file, "\"%s\": %.9g", name, value);
-    else
-        fprintf(file, "\"%s\": null", name);
-    fputs(last ? "" : ", ", file);
+    json_write_number(json, "bits", format->bits);
+    json_write_number(json, "min_exponent", format->min_exponent);
+    json_write_number(json, "max_exponent", format->max_exponent);
+    json_write_flag(json, "denormals", format->denormals);
+    json_write_flag(json, "denormal_inputs", format->denormal_inputs);
+    json_write_text(json, "rounding", ROUNDING_NAMES[format->rounding]);
+    json_write_flag(json, "infinity", format->infinity);
+    json_write_flag(json, "nan", format->nan);
 }
 
-static void put_flag(FILE *file, const char *name, bool value, bool last)
+static void put_arithmetic_json(const Arithmetic *of, const char *name, JsonWriter *json)
 {
-    fprintf(file, "\"%s\": %s%s", name, value ? "true" : "false", last ? "" : ", ");
-}
-
-static void put_arithmetic_json(const Arithmetic *of, FILE *file)
-{
-    const Format *format = &of->format;
-    fputs("{", file);
-    put_number(file, "bits", format->bits, false);
-    put_number(file, "min_exponent", format->min_exponent, false);
-    put_number(file, "max_exponent", format->max_exponent, false);
-    put_flag(file, "denormals", format->denormals, false);
-    put_flag(file, "denormal_inputs", format->denormal_inputs, false);
-    fprintf(file, "\"rounding\": \"%s\", ", ROUNDING_NAMES[format->rounding]);
-    put_flag(file, "infinity", format->infinity, false);
-    put_flag(file, "nan", format->nan, false);
-    fprintf(file, "\"claim\": {\"min\": %d, \"max\": %d, \"bits\": %d},\n      \"functions\": {\n",
-            of->claim.min, of->claim.max, of->claim.bits);
+    json_write_object(json, name);
+    put_format(json, &of->format);
+    json_write_object(json, "claim");
+    json_write_whole(json, "min", of->claim.min);
+    json_write_whole(json, "max", of->claim.max);
+    json_write_whole(json, "bits", of->claim.bits);
+    json_write_end(json);
+    json_write_object(json, "functions");
     for (int i = 0; i < FUNCTION_COUNT; i++) {
         const Accuracy *accuracy = &of->accuracies[i];
-        fprintf(file, "        \"%s\": {", FUNCTIONS[i].name);
-        put_number(file, "largest", accuracy->largest, false);
-        put_number(file, "mean", accuracy_mean(accuracy), false);
-        put_number(file, "inputs", (double)accuracy->count, false);
-        put_number(file, "not_finite", (double)accuracy->wrong, false);
-        put_number(file, "x", (double)accuracy->at[0], false);
-        put_number(file, "y", (double)accuracy->at[1], true);
-        fputs(i + 1 < FUNCTION_COUNT ? "},\n" : "}\n      }}", file);
+        json_write_object(json, FUNCTIONS[i].name);
+        json_write_number(json, "largest", accuracy->largest);
+        json_write_number(json, "mean", accuracy_mean(accuracy));
+        json_write_number(json, "inputs", (double)accuracy->count);
+        json_write_number(json, "not_finite", (double)accuracy->wrong);
+        json_write_number(json, "x", (double)accuracy->at[0]);
+        json_write_number(json, "y", (double)accuracy->at[1]);
+        json_write_end(json);
     }
+    json_write_end(json);
+    json_write_end(json);
 }
 
-static void put_raster_json(const Raster *raster, FILE *file)
+static void put_raster_json(const Raster *raster, JsonWriter *json)
 {
-    fputs("  \"raster\": {", file);
-    put_number(file, "varying", raster->flat, false);
-    put_number(file, "perspective", raster->perspective, false);
-    put_number(file, "small", raster->small, false);
-    put_number(file, "shared_edge", raster->edge, false);
-    put_number(file, "edge_pixels", (double)raster->edge_pixels, false);
-    put_number(file, "edge_twice", (double)raster->edge_twice, false);
-    put_number(file, "edge_missed", (double)raster->edge_missed, false);
-    put_number(file, "bytes", raster->bytes, false);
-    put_number(file, "subpixel_bits", raster->subpixel_bits, false);
-    put_number(file, "depth_bits", raster->depth_bits, false);
-    put_number(file, "depth_step", raster->depth_step, false);
-    put_number(file, "depth_error", raster->depth_error, true);
-    fputs("},\n", file);
+    json_write_object(json, "raster");
+    json_write_number(json, "varying", raster->flat);
+    json_write_number(json, "perspective", raster->perspective);
+    json_write_number(json, "small", raster->small);
+    json_write_number(json, "shared_edge", raster->edge);
+    json_write_number(json, "edge_pixels", (double)raster->edge_pixels);
+    json_write_number(json, "edge_twice", (double)raster->edge_twice);
+    json_write_number(json, "edge_missed", (double)raster->edge_missed);
+    json_write_number(json, "bytes", raster->bytes);
+    json_write_number(json, "subpixel_bits", raster->subpixel_bits);
+    json_write_number(json, "depth_bits", raster->depth_bits);
+    json_write_number(json, "depth_step", raster->depth_step);
+    json_write_number(json, "depth_error", raster->depth_error);
+    json_write_end(json);
+}
+
+/* What each precision costs a picture. */
+static void put_steps(JsonWriter *json, const char *name, double highp, double mediump)
+{
+    json_write_object(json, name);
+    json_write_number(json, "highp", highp);
+    json_write_number(json, "mediump", mediump);
+    json_write_end(json);
 }
 
 void arithmetic_json(const Arithmetics *found, const Forecast *forecast, FILE *file)
 {
-    fputs("{\n  \"renderer\": ", file);
-    json_put_string(file, found->renderer);
-    fputs(",\n  \"version\": ", file);
-    json_put_string(file, found->version);
-    fprintf(file, ",\n  \"inputs\": %ld,\n", found->inputs);
+    JsonWriter json = {.file = file, .lines = 4};
+    json_write_object(&json, NULL);
+    json_write_text(&json, "renderer", found->renderer);
+    json_write_text(&json, "version", found->version);
+    json_write_whole(&json, "inputs", found->inputs);
     for (int stage = 0; stage < METER_STAGES; stage++) {
-        fprintf(file, "  \"%s\": {\n", METER_STAGE_NAMES[stage]);
-        for (int precision = 0; precision < METER_PRECISIONS; precision++) {
-            fprintf(file, "    \"%s\": ", METER_PRECISION_NAMES[precision]);
-            put_arithmetic_json(&found->of[stage][precision], file);
-            fputs(precision + 1 < METER_PRECISIONS ? ",\n" : "\n  },\n", file);
-        }
+        json_write_object(&json, METER_STAGE_NAMES[stage]);
+        for (int precision = 0; precision < METER_PRECISIONS; precision++)
+            put_arithmetic_json(&found->of[stage][precision], METER_PRECISION_NAMES[precision],
+                                &json);
+        json_write_end(&json);
     }
-    put_raster_json(&found->raster, file);
-    fprintf(file, "  \"picture_height\": %d,\n  \"pictures\": {\n", forecast->height);
+    put_raster_json(&found->raster, &json);
+    json_write_whole(&json, "picture_height", forecast->height);
+    json_write_object(&json, "pictures");
     for (int i = 0; i < FORECAST_SCENES; i++)
-        fprintf(file, "    \"%s\": {\"highp\": %.4f, \"mediump\": %.4f},\n", forecast->scenes[i],
-                forecast->steps[i][0], forecast->steps[i][1]);
+        put_steps(&json, forecast->scenes[i], rint(1e4 * forecast->steps[i][0]) / 1e4,
+                  rint(1e4 * forecast->steps[i][1]) / 1e4);
     for (int i = 0; i < FORECAST_SHININESSES; i++) {
-        fprintf(file, "    \"pow alone, shininess %g\": {", forecast->shininess[i]);
-        put_number(file, "highp", forecast->power[i][0], false);
-        put_number(file, "mediump", forecast->power[i][1], true);
-        fputs(i + 1 < FORECAST_SHININESSES ? "},\n" : "}\n  }\n}\n", file);
+        char name[64];
+        snprintf(name, sizeof name, "pow alone, shininess %g", forecast->shininess[i]);
+        put_steps(&json, name, forecast->power[i][0], forecast->power[i][1]);
     }
+    json_write_end(&json);
+    json_write_end(&json);
 }
 
 bool arithmetic_plot(const Arithmetics *found, const char *folder, Message *message)

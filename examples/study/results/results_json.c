@@ -1,74 +1,68 @@
+#include "base/json_writer.h"
 #include "base/output_text.h"
-#include "study/results/json.h"
 #include "study/results/results.h"
 
-static void put_value(FILE *file, const ResultRow *row, const Column *column)
+static void put_value(JsonWriter *json, const ResultRow *row, const Column *column)
 {
     char text[RESULTS_FIELD_SIZE];
     column_text(row, column, text);
-    json_put_string(file, column->name);
-    fputs(": ", file);
     if (column->kind == COLUMN_TEXT || column->kind == COLUMN_CHOICE)
-        json_put_string(file, text);
+        json_write_text(json, column->name, text);
     else
-        fputs(text[0] ? text : "null", file);
+        json_write_value(json, column->name, text);
 }
 
-static void put_row(FILE *file, const ResultRow *row)
+static void put_row(JsonWriter *json, const ResultRow *row)
 {
-    fputs("    {\"setting\": {", file);
-    for (int i = 0, count = 0; i < RESULTS_COLUMNS; i++) {
-        const Column column = column_at(i);
-        if (column.kind != COLUMN_CHOICE)
-            continue;
-        fputs(count++ ? ", " : "", file);
-        put_value(file, row, &column);
-    }
-    fputs("}", file);
+    json_write_object(json, NULL);
+    json_write_object(json, "setting");
     for (int i = 0; i < RESULTS_COLUMNS; i++) {
         const Column column = column_at(i);
         if (column.kind == COLUMN_CHOICE)
-            continue;
-        fputs(", ", file);
-        put_value(file, row, &column);
+            put_value(json, row, &column);
     }
-    fputs("}", file);
+    json_write_end(json);
+    for (int i = 0; i < RESULTS_COLUMNS; i++) {
+        const Column column = column_at(i);
+        if (column.kind != COLUMN_CHOICE)
+            put_value(json, row, &column);
+    }
+    json_write_end(json);
 }
 
 /* The axes, their choices and the usual one. */
-static void put_axes(FILE *file)
+static void put_axes(JsonWriter *json)
 {
-    fputs("  \"axes\": {\n", file);
+    json_write_object(json, "axes");
     for (int axis = 0; axis < AXIS_COUNT; axis++) {
         const QualityAxisInfo *info = &QUALITY_AXES[axis];
-        fputs("    ", file);
-        json_put_string(file, info->name);
-        fputs(": {\"usual\": ", file);
-        json_put_string(file, info->choices[info->usual]);
-        fputs(", \"choices\": [", file);
-        for (int i = 0; i < info->count; i++) {
-            fputs(i ? ", " : "", file);
-            json_put_string(file, info->choices[i]);
-        }
-        fprintf(file, "]}%s\n", axis + 1 < AXIS_COUNT ? "," : "");
+        json_write_object(json, info->name);
+        json_write_text(json, "usual", info->choices[info->usual]);
+        json_write_list(json, "choices");
+        for (int i = 0; i < info->count; i++)
+            json_write_text(json, NULL, info->choices[i]);
+        json_write_end(json);
+        json_write_end(json);
     }
-    fputs("  },\n", file);
+    json_write_end(json);
 }
 
 bool results_write_json(const Results *results, const char *path, Message *message)
 {
     OutputText text;
     output_text_open(&text);
-    fputs("{\n"
-          "  \"units\": {\"errors\": \"steps of 1/255\", \"times\": \"milliseconds\", "
-          "\"noise\": \"a fraction of the time\"},\n",
-          text.file);
-    put_axes(text.file);
-    fputs("  \"rows\": [", text.file);
-    for (int i = 0; i < results->count; i++) {
-        fputs(i ? ",\n" : "\n", text.file);
-        put_row(text.file, &results->rows[i]);
-    }
-    fputs(results->count ? "\n  ]\n}\n" : "]\n}\n", text.file);
+    JsonWriter json = {.file = text.file, .lines = 2};
+    json_write_object(&json, NULL);
+    json_write_object(&json, "units");
+    json_write_text(&json, "errors", "steps of 1/255");
+    json_write_text(&json, "times", "milliseconds");
+    json_write_text(&json, "noise", "a fraction of the time");
+    json_write_end(&json);
+    put_axes(&json);
+    json_write_list(&json, "rows");
+    for (int i = 0; i < results->count; i++)
+        put_row(&json, &results->rows[i]);
+    json_write_end(&json);
+    json_write_end(&json);
     return output_text_write(&text, path, message);
 }
