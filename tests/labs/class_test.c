@@ -56,7 +56,9 @@ TEST_WITH(0, names_of_people_and_platforms_are_read, start, NULL)
     assert_name("mueller_anna.zip", false, "mueller_anna", "", "");
     assert_name("mueller_anna.tar.gz", false, "mueller_anna", "", "");
     assert_name("mueller_anna_lab05.frag", false, "mueller_anna", "", "lab05.frag");
-    assert_name("a\xFF_b", true, "a?_b", "", ""); /* not UTF-8 */
+    assert_name("a\xFF_b", true, "a?_b", "", "");                /* not UTF-8 */
+    assert_name("a\xE2\x80\xAEgpj.b", true, "a?gpj.b", "", "");  /* from right to left */
+    assert_name("a\xE2\x80\x93", true, "a\xE2\x80\x93", "", ""); /* a dash */
 }
 
 TEST_WITH(0, other_files_are_ignored, start, NULL)

@@ -568,7 +568,11 @@ class Faults(Labs):
     def test_c_that_does_not_compile_or_end(self):
         head = '#include "lab_code.h"\nvoid lab_matrices(double s, Mat4 *w, Mat4 *n)\n{\n'
         broken = (
-            ("semicolon", head + "    *w = mat4_identity()\n}\n", r"matrices\.c:4"),
+            (
+                "semicolon",
+                head + "    *w = mat4_identity()\n}\n",
+                r"matrices\.c:4(.|\n)*mat4_identity\(\)(.|\n)*A semicolon is missing",
+            ),
             ("missing", '#include "lab_code.h"\nstatic int unused;\n', r"function|lab_matrices"),
             ("outside", '#include "/etc/passwd"\n' + head + "}\n", r"No such file"),
             ("spliced", '#include \\ \n"/etc/passwd"\n' + head + "}\n", r"No such file"),
@@ -577,6 +581,11 @@ class Faults(Labs):
                 'asm(".incbin \\"/etc/passwd\\"");\n' + head + "}\n",
                 r"file not found|No such file",
             ),
+            (
+                "instruction",
+                head + '    asm("foo bar");\n}\n',
+                r"^matrices\.c: Error: no such instruction: `foo bar'\nWrite it in C",
+            ),
             ("crash", head + "    *(volatile int *)8 = 1;\n}\n", r"."),
         )
         for name, text, said in broken[:: base.step(2)]:
@@ -584,7 +593,7 @@ class Faults(Labs):
             code, result = run_check(3, self.path(name))
             self.assertEqual(code, 1, name)
             self.assertIn(result["verdict"], ("error", "refused"), (name, result))
-            self.assertRegex(result["message"] + result["details"], said, name)
+            self.assertRegex(result["message"] + "\n" + result["details"], said, name)
         self.make("endless/matrices.c", head + "    for (volatile int i = 0;; i = 0) ;\n}\n")
         code, result = run_check(3, self.path("endless"), 1, "--limit", "1")
         self.assertEqual((code, result["verdict"]), (1, "timeout"), result)

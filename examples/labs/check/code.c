@@ -56,9 +56,8 @@ static _Noreturn void compile(const Lab *lab, const char *folder, const char *la
     /* The folder itself is no -I: a student's file could replace a header. */
     if (chdir(folder) == 0)
         execlp("cc", "cc", "-std=gnu11", "-O0", "-fPIC", "-shared", "-Wall",
-               "-Werror=implicit-function-declaration", "-fno-diagnostics-show-caret", include[0],
-               include[1], include[2], "-o", "module.so", lab->code, matrix, inverse, "-lm",
-               (char *)NULL);
+               "-Werror=implicit-function-declaration", include[0], include[1], include[2], "-o",
+               "module.so", lab->code, matrix, inverse, "-lm", (char *)NULL);
     _exit(127);
 }
 
@@ -79,19 +78,52 @@ static bool blame(Verdict *verdict, VerdictKind kind, const char *format, const 
     return false;
 }
 
-/* The compiler's first error as the message, its other output as details. */
-static bool blame_text(Verdict *verdict, VerdictKind kind, const char *said)
+/* What the compiler's errors usually mean. */
+static const char *advise(const char *error)
 {
-    const char *error = strstr(said, "error:"), *begin = error ? error : said;
+    static const char *const known[][2] = {
+        {"Assembler", "Write it in C: the assembler does not know this instruction."},
+        {"expected ';'", "A semicolon is missing where the line before ends."},
+        {"expected declaration or statement at end", "A } is missing."},
+        {"implicit declaration", "There is no such function: core/matrix.h, which lab_code.h "
+                                 "includes, and math.h have those that the lab needs."},
+        {"undeclared", "Declare it, or check its spelling."},
+        {"conflicting types", "Write the function's head as lab_code.h has it."},
+        {"incompatible type", "A Mat4 is a struct, returned by value: see core/matrix.h."},
+        {"invalid operands", "C has no operators for matrices and vectors: call mat4_product and "
+                             "the others of core/matrix.h."},
+        {"No such file", "Only lab_code.h and C's own headers can be included."}};
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
+        if (strstr(error, known[i][0]))
+            return known[i][1];
+    return "";
+}
+
+/* The compiler's first error as the message; its source line, a hint and what else was said as
+ * details. The assembler's place is a line of the compiler's output, of which nobody knows. */
+static bool blame_text(Verdict *verdict, const char *file, const char *said)
+{
+    const char *error = strcasestr(said, "error:"), *begin = error ? error : said;
     while (begin > said && begin[-1] != '\n')
         begin--;
-    verdict->kind = kind;
-    snprintf(verdict->message, sizeof verdict->message, "%.*s", (int)strcspn(begin, "\n"), begin);
-    if (!verdict->message[0])
-        snprintf(verdict->message, sizeof verdict->message, "the compiler failed");
     const char *rest = begin + strcspn(begin, "\n");
-    snprintf(verdict->details, sizeof verdict->details, "%.*s%s", (int)(begin - said), said,
-             rest[0] ? rest + 1 : rest);
+    const bool assembler = strstr(said, "Assembler messages") != NULL;
+    char line[VERDICT_SENTENCE_SIZE];
+    snprintf(line, sizeof line, "%.*s", (int)(rest - begin), begin);
+    verdict->kind = VERDICT_ERROR;
+    if (assembler && error)
+        snprintf(verdict->message, sizeof verdict->message, "%s: %.*s", file, (int)(rest - error),
+                 error);
+    else
+        snprintf(verdict->message, sizeof verdict->message, "%s",
+                 line[0] ? line : "the compiler failed");
+    rest += *rest == '\n';
+    int shown = 0; /* the quoted line, and what marks its place */
+    while (rest[shown] == ' ' && rest[shown + (int)strspn(rest + shown, " 0123456789")] == '|')
+        shown += (int)strcspn(rest + shown, "\n") + (strchr(rest + shown, '\n') != NULL);
+    snprintf(verdict->details, sizeof verdict->details, "%.*s%s\n%.*s%s", shown, rest,
+             advise(assembler ? "Assembler" : line), assembler ? 0 : (int)(begin - said), said,
+             assembler ? "" : rest + shown);
     return false;
 }
 
@@ -120,7 +152,7 @@ static bool build(const Code *code, Message *message)
         return message_set(message, "cc: no C compiler was found; apt-get install gcc");
     if (!WIFEXITED(status) || size == 0)
         return blame(verdict, VERDICT_ERROR, "%s: the compiler failed", lab->code);
-    return blame_text(verdict, VERDICT_ERROR, said);
+    return blame_text(verdict, lab->code, said);
 }
 
 /* Calling. */

@@ -102,15 +102,34 @@ static void stem(const char *entry, char text[BUNDLE_NAME_SIZE])
         *ending = '\0';
 }
 
-/* Replaces bytes that are not UTF-8 by "?", because names go into pages and tables. */
-static void make_utf8(char *text)
+/* U+200E, U+200F, U+202A to U+202E, U+2066 to U+2069 and U+061C turn the direction of what follows
+ * (Unicode Standard Annex 9), so that a name could make a table's line read otherwise. */
+static bool turns_direction(const char *text)
 {
+    const unsigned char *byte = (const unsigned char *)text;
+    if (byte[0] != 0xE2)
+        return byte[0] == 0xD8 && byte[1] == 0x9C;
+    return (byte[1] == 0x80 &&
+            (byte[2] == 0x8E || byte[2] == 0x8F || (byte[2] >= 0xAA && byte[2] <= 0xAE))) ||
+           (byte[1] == 0x81 && byte[2] >= 0xA6 && byte[2] <= 0xA9);
+}
+
+/* Replaces by "?" what is not UTF-8, a control character or one of direction, because names go into
+ * pages and tables. */
+static void make_plain(char *text)
+{
+    char *to = text;
     while (*text) {
         const int size = text_character(text);
-        if (!size || (unsigned char)*text < ' ' || *text == 0x7F)
-            *text = '?';
+        if (!size || (unsigned char)*text < ' ' || *text == 0x7F || turns_direction(text)) {
+            *to++ = '?';
+        } else {
+            memmove(to, text, (size_t)size);
+            to += size;
+        }
         text += size ? size : 1;
     }
+    *to = '\0';
 }
 
 bool class_name_read(const char *entry, bool is_folder, ClassName *name)
@@ -137,7 +156,7 @@ bool class_name_read(const char *entry, bool is_folder, ClassName *name)
     name->attempt = drop_number(name->file);
     if (is_of_digits(name->student) && !name->id[0])
         snprintf(name->id, sizeof name->id, "%.31s", name->student);
-    make_utf8(name->student);
+    make_plain(name->student);
     return name->student[0] != '\0';
 }
 
