@@ -224,6 +224,7 @@ static void change_number(Search *search, RandomScene *scene)
     *numbers[i].value = search->tame ? tamed(value, &numbers[i]) : value;
 }
 
+/* A corner of a random face or, once in three times, the middle of an edge. */
 static Vec3 random_corner(Search *search, const RandomScene *scene, Vec3 *normal)
 {
     const Object *object =
@@ -231,11 +232,16 @@ static Vec3 random_corner(Search *search, const RandomScene *scene, Vec3 *normal
     const Mesh *mesh = object->mesh;
     const size_t triangle = (size_t)random_below(&search->random, (int)(mesh->index_count / 3));
     const float *p = mesh->vertices[mesh->indices[3 * triangle]].position;
+    const float *q = mesh->vertices[mesh->indices[3 * triangle + 1]].position;
+    const double share = random_below(&search->random, 3) == 0 ? 0.5 : 0;
+    Vec3 corner;
     const Mat4 matrix = mat4_normal(object->world_from_object);
     mesh_face(mesh, triangle, normal);
     vec3_normalize(mat4_transform_direction(matrix, *normal), normal);
-    return mat4_transform_point(object->world_from_object,
-                                (Vec3){(double)p[0], (double)p[1], (double)p[2]});
+    corner.x = (1 - share) * (double)p[0] + share * (double)q[0];
+    corner.y = (1 - share) * (double)p[1] + share * (double)q[1];
+    corner.z = (1 - share) * (double)p[2] + share * (double)q[2];
+    return mat4_transform_point(object->world_from_object, corner);
 }
 
 /* Puts two things at exactly the same place, plane or direction. */
