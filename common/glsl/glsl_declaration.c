@@ -369,7 +369,9 @@ int parse_declaration(Parser *parser, bool global)
     }
     parse_qualifiers(parser, &specifier);
     parse_type(parser, &specifier);
-    if (at_free_name(parser) && peek(parser, 1)->kind == '(') {
+    if (global && at_free_name(parser) && peek(parser, 1)->kind == '{')
+        syntax_error(parser, "() is missing after a function's name: void main() {");
+    else if (at_free_name(parser) && peek(parser, 1)->kind == '(') {
         if (global && !specifier.storage && !specifier.invariant)
             return parse_function(parser, &specifier);
         syntax_error(parser, global ? "a function has no qualifier such as const: remove it"
