@@ -93,16 +93,15 @@ TEST(messages_name_the_line)
     says(FRAGMENT "void main() {\n  float x = 1.0\n  x = 2.0;\n}", 4,
          "a semicolon is missing, probably at the end of line 3");
     says(FRAGMENT "void main {\n}", 2, "() is missing after a function's name: void main() {");
-         "() is missing after a function's name: void main() {");
-         says(
-             FRAGMENT "#line 40 2\nint a = b;", 40,
-             "b is not declared: check its spelling and case; declare a varying or uniform in each shader that uses it");
-         says(FRAGMENT "#if LIGHTS > 1\n#endif", 2,
-              "#if: a name here must be a macro: ask #ifdef, or defined(NAME) &&, first");
-         says(FRAGMENT "#define M(a) \\\n a", 2,
-              "GLSL ES 1.00 cannot continue a line by \\: write it as one line");
-         says(FRAGMENT "float f() {\n#define\n", 3, "a name must follow");
-         says("/*\n*/ #error no light\n", 2, "#error no light");
+    says(
+        FRAGMENT "#line 40 2\nint a = b;", 40,
+        "b is not declared: check its spelling and case; declare a varying or uniform in each shader that uses it");
+    says(FRAGMENT "#if LIGHTS > 1\n#endif", 2,
+         "#if: a name here must be a macro: ask #ifdef, or defined(NAME) &&, first");
+    says(FRAGMENT "#define M(a) \\\n a", 2,
+         "GLSL ES 1.00 cannot continue a line by \\: write it as one line");
+    says(FRAGMENT "float f() {\n#define\n", 3, "a name must follow");
+    says("/*\n*/ #error no light\n", 2, "#error no light");
 }
 
 /* The value of a constant expression. */
