@@ -76,7 +76,7 @@ int scalars_of(const GlslTree *tree, int type)
         count = (long long)of->length * scalars_of(tree, of->element);
     } else if (of->fields) {
         count = 0;
-        for (int i = 0; i < of->fields; i++)
+        for (int i = 0; i < of->fields && count < MOST; i++) /* else 2^n of n structures */
             count += scalars_of(tree, tree->fields[of->field + i].type);
     } else {
         count = 1;

@@ -285,6 +285,7 @@ static int control(GlslRun *run, const GlslInstruction *at, int next, int *loops
         return next;
     case OP_STORE: r[at->d + (int)r[at->b]] = r[at->a]; return next;
     case OP_UNSET:
+        *loops += at->n / 100; /* large arrays in loops take as long as turns */
         for (int i = 0; i < at->n; i++)
             r[at->d + i] = unset();
         return next;

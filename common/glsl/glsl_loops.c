@@ -13,6 +13,7 @@
 typedef struct Count {
     const GlslTree *tree;
     double *functions; /* of each symbol; below 0: not yet known */
+    double counted;    /* turns, one by one */
     double most;
     int worst; /* the loop that turns most often, with those around it */
 } Count;
@@ -75,7 +76,10 @@ static double count_in(Count *count, int node, double times)
         sum += times * *called;
     }
     if (own->kind == GLSL_FOR) {
-        times *= turns(tree, node);
+        const double own_turns =
+            count->counted < 100.0 * GLSL_TURNS_MAX ? turns(tree, node) : GLSL_TURNS_MAX;
+        count->counted += own_turns;
+        times *= own_turns;
         sum += times;
         if (times > count->most) {
             count->most = times;

@@ -90,17 +90,28 @@ bool glsl_check_whole(GlslTree *tree)
     return tree->message_count == 0;
 }
 
-static bool same_type(const GlslTree *a, int type, const GlslTree *b, int other)
+/* Structures in global ones have unique names, so that each is `compared` once. */
+static bool same_type(const GlslTree *a, int type, const GlslTree *b, int other, bool *compared)
 {
     const GlslType *mine = &a->types[type], *its = &b->types[other];
     bool same = strcmp(mine->name, its->name) == 0 && mine->length == its->length &&
                 mine->fields == its->fields && mine->scalars == its->scalars;
-    for (int i = 0; i < mine->fields && same; i++) {
+    const int fields = compared[type] ? 0 : mine->fields;
+    compared[type] = true;
+    for (int i = 0; i < fields && same; i++) {
         const GlslField *field = &a->fields[mine->field + i],
                         *its_field = &b->fields[its->field + i];
         same = strcmp(field->name, its_field->name) == 0 &&
-               same_type(a, field->type, b, its_field->type);
+               same_type(a, field->type, b, its_field->type, compared);
     }
+    return same;
+}
+
+static bool is_same(const GlslTree *a, int type, const GlslTree *b, int other)
+{
+    bool *compared = memory_new((size_t)a->type_count, sizeof *compared);
+    const bool same = same_type(a, type, b, other, compared);
+    free(compared);
     return same;
 }
 
@@ -136,7 +147,7 @@ static void check_shared(const GlslTree *vertex, GlslTree *fragment, int symbol)
     else if (found && its->storage != mine->storage)
         complain(fragment, mine->place, "%.60s is something else in the vertex shader: rename one",
                  mine->name);
-    else if (found && !same_type(vertex, its->type, fragment, mine->type))
+    else if (found && !is_same(vertex, its->type, fragment, mine->type))
         complain(fragment, mine->place,
                  "%.60s is %s here and %s in the vertex shader: declare it alike in both",
                  mine->name, glsl_type_text(fragment, mine->type, type),

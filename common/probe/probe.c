@@ -103,20 +103,36 @@ static void put_trail(FILE *file, const GlslTree *tree, const Trail *driver, con
     }
 }
 
-/* The event from which on most of the colour's error is there; -1: it is there before the first. */
+/* The event from which on most of the colour's error is there; -1: it is there before the first.
+ * Of very many, it is looked for in parts, then in the part with the largest jump. */
 static int find_birth(Raster *raster, const RasterPixel *pixel, const Trail *driver,
                       const Trail *exact)
 {
-    double before = 0, largest = -1, color[4];
-    int birth = -1;
-    for (int i = -1; i < driver->count; i++) {
-        raster_run(raster, pixel, &GLSL_LLVMPIPE, i, color);
-        const double error = apart(color, exact->color), jump = fabs(error - before);
-        if (jump > largest) {
-            largest = jump;
-            birth = i;
+    enum { PARTS = 500 };
+    double start = 0, color[4];
+    int birth = -1, first = -1, last = driver->count - 1;
+    for (int step = 1 + (last - first) / PARTS;; step = 1 + (last - first) / PARTS) {
+        double before = start, largest = -1, base = start;
+        int begin = first, after = first; /* of the part with the largest jump; of the next */
+        for (int i = first;; i = i + step < last ? i + step : last) {
+            raster_run(raster, pixel, &GLSL_LLVMPIPE, i, color);
+            const double error = apart(color, exact->color), jump = fabs(error - before);
+            if (jump > largest) {
+                largest = jump;
+                birth = i;
+                base = before;
+                begin = after;
+            }
+            before = error;
+            after = i + 1;
+            if (i >= last)
+                break;
         }
-        before = error;
+        if (step == 1)
+            break;
+        first = begin;
+        last = birth;
+        start = base;
     }
     return birth;
 }

@@ -242,6 +242,50 @@ static void too_large_is_said(void **state)
     glsl_tree_free(tree);
 }
 
+/* Structures that double forty times are compared, and refused, in no time. */
+static void doubled_structures_end(void **state)
+{
+    (void)state;
+    static const char *const INNERMOST[] = {"struct A0 { sampler2D s; };\n",
+                                            "struct A0 { lowp float s; };\n"};
+    for (int i = 0; i < 2; i++) {
+        char text[4096];
+        snprintf(text, sizeof text, "%s", INNERMOST[i]);
+        for (int k = 1; k <= 40; k++)
+            snprintf(text + strlen(text), sizeof text - strlen(text), "struct A%d { A%d a, b; };\n",
+                     k, k - 1);
+        strcat(text, "uniform A40 u; void main() { }");
+        GlslTree *tree = glsl_parse(text, GLSL_FRAGMENT, NULL);
+        GlslCode *code = glsl_compile(tree);
+        assert_non_null(strstr(code->message.text, "too large"));
+        assert_true(glsl_check_pair(tree, tree));
+        glsl_code_free(code);
+        glsl_tree_free(tree);
+    }
+}
+
+/* Loops that do not end within a second are not run, and not counted, to their end. */
+static void long_loops_end(void **state)
+{
+    (void)state;
+    Shader shader = ran("for (int i = 0; i < 90000; i++) { float a[900000]; a[3] = x; r = a[3]; }");
+    assert_true(shader.run->stopped);
+    shader_close(&shader);
+    static const char LOOP[] = "for (int i = 0; i < 999999999; i++) ;\n";
+    enum { LOOPS = 10000 };
+    char *text = calloc(1, LOOPS * sizeof LOOP + 100);
+    char *end = text + sprintf(text, "void main() {\n");
+    for (int i = 0; i < LOOPS; i++)
+        end = stpcpy(end, LOOP);
+    strcpy(end, "}");
+    GlslTree *tree = glsl_parse(text, GLSL_FRAGMENT, NULL);
+    GlslPlace place;
+    assert_true(glsl_count_turns(tree, &place) == (double)LOOPS * GLSL_TURNS_MAX);
+    assert_int_equal(place.line, 2);
+    glsl_tree_free(tree);
+    free(text);
+}
+
 static void twenty_million_a_second(void **state)
 {
     (void)state;
@@ -263,6 +307,8 @@ int main(void)
         cmocka_unit_test(statements_run),
         cmocka_unit_test(undefined_is_noted),
         cmocka_unit_test(too_large_is_said),
+        cmocka_unit_test(doubled_structures_end),
+        cmocka_unit_test(long_loops_end),
         cmocka_unit_test(events_say_where_digits_are_lost),
         cmocka_unit_test(single_is_c),
         cmocka_unit_test(twenty_million_a_second),
