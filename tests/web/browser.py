@@ -34,7 +34,12 @@ class Page:
         """Until an expression is true; its value."""
         deadline = time.monotonic() + PATIENCE
         while time.monotonic() < deadline:
-            value = self.run(script)
+            try:
+                value = self.run(script)
+            except Failed as failed:
+                if "navigated" not in str(failed):  # the page goes while it is asked
+                    raise
+                value = None
             if value:
                 return value
             time.sleep(0.05)
