@@ -225,13 +225,15 @@ static void put_pixel(FILE *file, Raster *raster, const RasterPixel *pixel,
             step(exact.color[0]), step(exact.color[1]), step(exact.color[2]));
     if (driver.stopped)
         fprintf(file, "a loop does not end\n");
-    if (apart(computed, driver.color) > 0.51)
+    if (driver.discarded)
+        fprintf(file, "the fragment is discarded: the pixel shows what is behind it\n");
+    else if (apart(computed, driver.color) > 0.51)
         fprintf(file, "the picture is not that: a line or point is drawn over it, an edge runs "
                       "through it, or the driver computes otherwise\n");
     put_trail(file, tree, &driver, &exact);
     const bool known = put_samplers(file, &question->capture->draws[pixel->draw]);
     put_notes(file, tree, &driver);
-    if (known)
+    if (known && !driver.discarded)
         put_verdict(file, raster, pixel, &driver, &exact, question);
     put_corners(file, raster, pixel);
     forget(&driver);

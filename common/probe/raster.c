@@ -379,7 +379,7 @@ const GlslRun *raster_run(Raster *raster, const RasterPixel *pixel,
     run->trace = true;
     glsl_run(run);
     const double *written = numbers(run, "gl_FragColor", &found);
-    if (!written)
+    if (!written || !run->code->tree->symbols[found.symbol].written)
         written = numbers(run, "gl_FragData[0]", &found);
     for (int i = 0; i < 4; i++)
         color[i] = written ? written[i] : 0;
