@@ -118,4 +118,22 @@ TEST(computed_colours_are_the_pictures)
     assert_true((double)equal >= 0.999 * (double)compared);
 }
 
+TEST(frag_data_is_a_colour)
+{
+    unsigned vertices[3] = {0, 1, 2};
+    CaptureDraw draw = {.sources = {"void main() { gl_Position = vec4(1.0); }",
+                                    "void main() { gl_FragData[0] = vec4(0.25); }"},
+                        .mode = GL_TRIANGLES,
+                        .vertex_count = 3,
+                        .vertices = vertices};
+    const Capture capture = {.draws = &draw, .draw_count = 1};
+    const RasterPixel pixel = {.weights = {1, 0, 0}};
+    Raster *raster;
+    double color[4];
+    require(raster_open(&raster, &capture, FAILURE), FAILURE);
+    raster_run(raster, &pixel, &GLSL_EXACT, INT_MAX, color);
+    assert_true(color[0] == 0.25);
+    raster_close(raster);
+}
+
 TEST_MAIN("raster", open_canvas, close_canvas)
