@@ -114,7 +114,7 @@ TEST(computed_colours_are_the_pictures)
     for (int i = 0; i < EXAMPLE_COUNT; i++)
         check(EXAMPLES[i]);
     printf("%ld of %ld pixels inside objects have the picture's bytes\n", equal, compared);
-    assert_true(compared > 1000);
+    assert_true(compared > 200); /* else nothing is seen: 583 where sanitizers sample */
     assert_true((double)equal >= 0.999 * (double)compared);
 }
 
