@@ -194,7 +194,7 @@ static bool put_samplers(FILE *file, const CaptureDraw *draw)
 static void put_corners(FILE *file, Raster *raster, const RasterPixel *pixel)
 {
     for (int c = 0; c < 3; c++) {
-        const GlslRun *run = raster_corner(raster, pixel, c, &GLSL_LLVMPIPE);
+        const GlslRun *run = raster_vertex(raster, pixel->draw, pixel->corners[c], &GLSL_LLVMPIPE);
         fprintf(file, "vertex %u, weight %.6f:", pixel->corners[c], pixel->weights[c]);
         for (int k = 0; k < run->code->variable_count; k++) {
             const GlslVariable *variable = &run->code->variables[k];

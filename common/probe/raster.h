@@ -17,6 +17,9 @@ typedef struct Raster Raster;
 bool raster_open(Raster **raster, const Capture *capture, Message *message);
 void raster_close(Raster *raster); /* NULL is fine */
 
+/* For another thread: shares what is constant with `first`, and is closed before it. */
+Raster *raster_beside(const Raster *first);
+
 typedef struct RasterPixel {
     int draw;            /* of the capture; -1: the background */
     unsigned corners[3]; /* the triangle's vertices, by number in its buffers */
@@ -26,15 +29,22 @@ typedef struct RasterPixel {
 } RasterPixel;
 
 /* In columns and rows of the framebuffer; row 0 is its bottom. */
-void raster_find(Raster *raster, int column, int row, RasterPixel *pixel);
+void raster_find(const Raster *raster, int column, int row, RasterPixel *pixel);
+
+/* The same for all pixels of a window: column, row, width, height. */
+void raster_scan(const Raster *raster, const int window[4], RasterPixel *pixels);
 
 /* Runs both stages of a draw for the pixel, with one arithmetic; the fragment's run is returned, as
- * it is until the next. Its numbers are exact after event `exact_from` (INT_MAX: none). */
+ * it is until the next. Its numbers are exact after event `exact_from` (INT_MAX: none; only then
+ * events are logged). */
 const GlslRun *raster_run(Raster *raster, const RasterPixel *pixel,
                           const GlslArithmetic *arithmetic, int exact_from, double color[4]);
 
-/* Runs the vertex stage for a corner. */
-const GlslRun *raster_corner(Raster *raster, const RasterPixel *pixel, int corner,
+/* Whatever the arithmetic, this varying is what the driver computes; NULL: none. */
+void raster_keep(Raster *raster, const char *varying);
+
+/* Runs the vertex stage. */
+const GlslRun *raster_vertex(Raster *raster, int draw, unsigned vertex,
                              const GlslArithmetic *arithmetic);
 
 const GlslTree *raster_tree(const Raster *raster, int draw, int stage);

@@ -1,10 +1,8 @@
 /*
- * A triangle is never clipped: with clip coordinates (x, y, w) of its corners as the columns of a
- * matrix M, M^-1 (X, Y, 1) gives the corners' weights over w at a place (X, Y) of the viewport,
- * also where a corner is behind the eye (Olano and Greer, Triangle scan conversion using 2D
- * homogeneous coordinates, 1997).
+ * A program's shaders are compiled once for all its draws, and a vertex is run when a pixel needs
+ * it, once for each arithmetic: what it hands to the fragment is kept.
  */
-#include "probe/raster.h"
+#include "probe/raster_state.h"
 
 #include "base/memory.h"
 
@@ -12,27 +10,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* Both stages of a program, once for all its draws. */
-typedef struct Stages {
-    const char *sources[2];
-    GlslTree *trees[2];
-    GlslCode *codes[2];
-    GlslRun *runs[2];
-} Stages;
-
-/* The vertices' clip coordinates, by number. */
-typedef struct DrawState {
-    int stages;
-    double (*places)[4];
-} DrawState;
-
-struct Raster {
-    const Capture *capture;
-    Stages *stages;
-    int count, room;
-    DrawState *draws;
-};
 
 /* The shaders of a draw */
 
@@ -93,12 +70,15 @@ static void set_uniforms(GlslRun *run, const CaptureDraw *draw)
 
 static GlslRun *begin(Raster *raster, int draw, int stage, const GlslArithmetic *arithmetic)
 {
-    GlslRun *run = raster->stages[raster->draws[draw].stages].runs[stage];
+    Stages *stages = &raster->stages[raster->draws[draw].stages];
+    GlslRun *run = stages->runs[stage];
     run->arithmetic = arithmetic;
     run->exact_from = INT_MAX;
     run->texture = look_up;
     run->context = &raster->capture->draws[draw];
-    set_uniforms(run, &raster->capture->draws[draw]);
+    if (stages->set_for[stage] != draw + 1)
+        set_uniforms(run, &raster->capture->draws[draw]);
+    stages->set_for[stage] = draw + 1;
     return run;
 }
 
@@ -141,6 +121,23 @@ static bool compile(Stages *stages, const CaptureDraw *draw, Message *message)
     return true;
 }
 
+/* The varyings that both stages have. */
+static void link_stages(Stages *stages)
+{
+    const GlslCode *fragment = stages->codes[1];
+    stages->links = memory_new((size_t)fragment->variable_count + 1, sizeof *stages->links);
+    for (int k = 0; k < fragment->variable_count; k++) {
+        const GlslVariable *to = &fragment->variables[k];
+        GlslVariable from;
+        if (to->storage != GLSL_VARYING || !glsl_find(stages->codes[0], to->name, &from))
+            continue;
+        const int count = to->count < from.count ? to->count : from.count;
+        stages->links[stages->link_count++] =
+            (Link){to->first, from.first, count, stages->handed, to->name};
+        stages->handed += count;
+    }
+}
+
 static bool find_stages(Raster *raster, const CaptureDraw *draw, int *number, Message *message)
 {
     for (*number = 0; *number < raster->count; ++*number) {
@@ -150,10 +147,13 @@ static bool find_stages(Raster *raster, const CaptureDraw *draw, int *number, Me
     }
     Stages *made = memory_add(&raster->stages, &raster->count, &raster->room, sizeof *made);
     *made = (Stages){.sources = {NULL, NULL}};
-    return compile(made, draw, message);
+    if (!compile(made, draw, message))
+        return false;
+    link_stages(made);
+    return true;
 }
 
-static bool is_filled(const CaptureDraw *draw)
+bool raster_is_filled(const CaptureDraw *draw)
 {
     return draw->mode == GL_TRIANGLES || draw->mode == GL_TRIANGLE_STRIP ||
            draw->mode == GL_TRIANGLE_FAN;
@@ -165,11 +165,10 @@ static void place_vertices(Raster *raster, int number)
     const CaptureDraw *draw = &raster->capture->draws[number];
     DrawState *state = &raster->draws[number];
     GlslRun *run = begin(raster, number, 0, &GLSL_LLVMPIPE);
-    unsigned most = 0;
     for (int i = 0; i < draw->vertex_count; i++)
-        most = draw->vertices[i] > most ? draw->vertices[i] : most;
-    bool *done = memory_new((size_t)most + 1, sizeof *done);
-    state->places = memory_new((size_t)most + 1, sizeof *state->places);
+        state->most = draw->vertices[i] > state->most ? draw->vertices[i] : state->most;
+    bool *done = memory_new((size_t)state->most + 1, sizeof *done);
+    state->places = memory_new((size_t)state->most + 1, sizeof *state->places);
     run->trace = false;
     for (int i = 0; i < draw->vertex_count; i++) {
         const unsigned vertex = draw->vertices[i];
@@ -191,7 +190,7 @@ bool raster_open(Raster **opened, const Capture *capture, Message *message)
     raster->capture = capture;
     raster->draws = memory_new((size_t)capture->draw_count + 1, sizeof *raster->draws);
     for (int i = 0; i < capture->draw_count; i++) {
-        if (!is_filled(&capture->draws[i]))
+        if (!raster_is_filled(&capture->draws[i]))
             continue;
         if (!find_stages(raster, &capture->draws[i], &raster->draws[i].stages, message)) {
             raster_close(raster);
@@ -203,167 +202,120 @@ bool raster_open(Raster **opened, const Capture *capture, Message *message)
     return true;
 }
 
+Raster *raster_beside(const Raster *first)
+{
+    Raster *raster = memory_copy(first, sizeof *first);
+    raster->first = first;
+    raster->stages = memory_copy(first->stages, sizeof *first->stages * (size_t)first->count);
+    raster->draws =
+        memory_copy(first->draws, sizeof *first->draws * (size_t)first->capture->draw_count);
+    for (int i = 0; i < raster->count; i++)
+        for (int k = 0; k < 2; k++) {
+            raster->stages[i].runs[k] = glsl_run_open(raster->stages[i].codes[k]);
+            raster->stages[i].set_for[k] = 0;
+        }
+    for (int i = 0; i < raster->capture->draw_count; i++)
+        memset(raster->draws[i].handed, 0, sizeof raster->draws[i].handed);
+    return raster;
+}
+
+static void close_stage(Stages *stages, int stage, bool owned)
+{
+    glsl_run_close(stages->runs[stage]);
+    if (owned && stages->codes[stage])
+        glsl_code_free(stages->codes[stage]);
+    if (owned && stages->trees[stage])
+        glsl_tree_free(stages->trees[stage]);
+}
+
 void raster_close(Raster *raster)
 {
-    for (int i = 0; raster && i < raster->count; i++) {
+    if (!raster)
+        return;
+    for (int i = 0; i < raster->count; i++) {
+        for (int k = 0; k < 2; k++)
+            close_stage(&raster->stages[i], k, !raster->first);
+        if (!raster->first)
+            free(raster->stages[i].links);
+    }
+    for (int i = 0; i < raster->capture->draw_count; i++) {
+        DrawState *draw = &raster->draws[i];
         for (int k = 0; k < 2; k++) {
-            if (raster->stages[i].runs[k])
-                glsl_run_close(raster->stages[i].runs[k]);
-            if (raster->stages[i].codes[k])
-                glsl_code_free(raster->stages[i].codes[k]);
-            if (raster->stages[i].trees[k])
-                glsl_tree_free(raster->stages[i].trees[k]);
+            free(draw->handed[k].known);
+            free(draw->handed[k].numbers);
         }
+        if (!raster->first)
+            free(draw->places);
     }
-    for (int i = 0; raster && i < raster->capture->draw_count; i++)
-        free(raster->draws[i].places);
-    if (raster) {
-        free(raster->draws);
-        free(raster->stages);
-    }
+    free(raster->draws);
+    free(raster->stages);
     free(raster);
-}
-
-/* Coverage */
-
-/* x, y and w of three corners, and of a place. */
-typedef struct Corners {
-    double at[3][3];
-} Corners;
-
-static double determinant(const double a[3], const double b[3], const double c[3])
-{
-    return a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) +
-           a[2] * (b[0] * c[1] - b[1] * c[0]);
-}
-
-/* The weights, which add up to 1, if the place is in the triangle. `area` has its sign. */
-static bool weigh(const Corners *p, const double at[3], double weights[3], double *area)
-{
-    *area = determinant(p->at[0], p->at[1], p->at[2]);
-    weights[0] = determinant(at, p->at[1], p->at[2]) / *area;
-    weights[1] = determinant(p->at[0], at, p->at[2]) / *area;
-    weights[2] = determinant(p->at[0], p->at[1], at) / *area;
-    const bool inside = weights[0] >= 0 && weights[1] >= 0 && weights[2] >= 0;
-    const double sum = weights[0] + weights[1] + weights[2];
-    for (int i = 0; i < 3; i++)
-        weights[i] /= sum;
-    return inside && sum > 0;
-}
-
-static Corners snapped(const Corners *p, const int viewport[4])
-{
-    static const double GRID = 256;
-    Corners moved = *p;
-    for (int i = 0; i < 3; i++) {
-        const double w = p->at[i][2];
-        for (int k = 0; k < 2 && w > 0; k++) {
-            const double half = viewport[2 + k] / 2.0;
-            moved.at[i][k] = w * rint((p->at[i][k] / w) * half * GRID) / (half * GRID);
-        }
-    }
-    return moved;
-}
-
-static bool passes(GLenum function, double depth, double before)
-{
-    return function == GL_ALWAYS || (function == GL_LESS && depth < before) ||
-           (function == GL_LEQUAL && depth <= before) || (function == GL_EQUAL && depth == before);
-}
-
-/* Tries a triangle of a draw; `depth` is that of what the pixel shows so far. */
-static void try_triangle(const Raster *raster, RasterPixel *pixel, const RasterPixel *tried,
-                         double *depth)
-{
-    const CaptureDraw *draw = &raster->capture->draws[tried->draw];
-    const int *v = draw->viewport;
-    const double at[3] = {2 * (tried->coord[0] - v[0]) / v[2] - 1,
-                          2 * (tried->coord[1] - v[1]) / v[3] - 1, 1};
-    RasterPixel found = *tried;
-    Corners corners;
-    double area, z = 0, w = 0;
-    for (int i = 0; i < 3; i++) {
-        const double *place = raster->draws[tried->draw].places[tried->corners[i]];
-        memcpy(corners.at[i], (double[3]){place[0], place[1], place[3]}, sizeof corners.at[i]);
-    }
-    const Corners grid = snapped(&corners, v);
-    if (!weigh(&grid, at, found.weights, &area))
-        return;
-    weigh(&corners, at, found.weights, &area);
-    for (int i = 0; i < 3; i++) {
-        z += found.weights[i] * raster->draws[tried->draw].places[tried->corners[i]][2];
-        w += found.weights[i] * corners.at[i][2];
-    }
-    found.front = (area > 0) == (draw->front_face == GL_CCW);
-    found.coord[2] = (z / w + 1) / 2;
-    found.coord[3] = 1 / w;
-    if (fabs(z) > w || (draw->culls && (draw->cull_face == GL_FRONT_AND_BACK ||
-                                        found.front == (draw->cull_face == GL_FRONT))))
-        return;
-    if (draw->tests_depth && !passes(draw->depth_func, found.coord[2], *depth))
-        return;
-    if (draw->tests_depth && draw->writes_depth)
-        *depth = found.coord[2];
-    *pixel = found;
-}
-
-static bool is_within(const int box[4], int column, int row)
-{
-    return column >= box[0] && column < box[0] + box[2] && row >= box[1] && row < box[1] + box[3];
-}
-
-void raster_find(Raster *raster, int column, int row, RasterPixel *pixel)
-{
-    double depth = 1;
-    *pixel = (RasterPixel){.draw = -1};
-    for (int d = 0; d < raster->capture->draw_count; d++) {
-        const CaptureDraw *draw = &raster->capture->draws[d];
-        RasterPixel tried = {.draw = d, .coord = {column + 0.5, row + 0.5}};
-        const int step = draw->mode == GL_TRIANGLES ? 3 : 1;
-        if (!is_filled(draw) || !is_within(draw->viewport, column, row) ||
-            (draw->scissors && !is_within(draw->scissor, column, row)) || !draw->colors[0])
-            continue;
-        for (int i = 0; i + 2 < draw->vertex_count; i += step) {
-            const bool odd = draw->mode == GL_TRIANGLE_STRIP && i % 2;
-            tried.corners[0] = draw->vertices[draw->mode == GL_TRIANGLE_FAN ? 0 : i + odd];
-            tried.corners[1] = draw->vertices[i + 1 - odd];
-            tried.corners[2] = draw->vertices[i + 2];
-            try_triangle(raster, pixel, &tried, &depth);
-        }
-    }
 }
 
 /* Running */
 
-const GlslRun *raster_corner(Raster *raster, const RasterPixel *pixel, int corner,
+const GlslRun *raster_vertex(Raster *raster, int draw, unsigned vertex,
                              const GlslArithmetic *arithmetic)
 {
-    GlslRun *run = begin(raster, pixel->draw, 0, arithmetic);
+    GlslRun *run = begin(raster, draw, 0, arithmetic);
     run->trace = true;
-    run_vertex(run, &raster->capture->draws[pixel->draw], pixel->corners[corner]);
+    run_vertex(run, &raster->capture->draws[draw], vertex);
     return run;
+}
+
+/* The numbers of a vertex's varyings. */
+static const double *hand_over(Raster *raster, int draw, unsigned vertex,
+                               const GlslArithmetic *arithmetic)
+{
+    DrawState *state = &raster->draws[draw];
+    const Stages *stages = &raster->stages[state->stages];
+    const size_t room = (size_t)state->most + 1, each = (size_t)stages->handed;
+    const int exact = arithmetic == &GLSL_EXACT;
+    if (state->handed[exact].arithmetic != arithmetic) {
+        free(state->handed[exact].known);
+        free(state->handed[exact].numbers);
+        state->handed[exact].arithmetic = arithmetic;
+        state->handed[exact].known = memory_new(room, sizeof(bool));
+        state->handed[exact].numbers = memory_new(room * each, sizeof(double));
+    }
+    double *numbers = state->handed[exact].numbers + each * vertex;
+    if (state->handed[exact].known[vertex])
+        return numbers;
+    state->handed[exact].known[vertex] = true;
+    GlslRun *run = begin(raster, draw, 0, arithmetic);
+    run->trace = false;
+    run_vertex(run, &raster->capture->draws[draw], vertex);
+    for (int i = 0; i < stages->link_count; i++)
+        memcpy(numbers + stages->links[i].at, run->registers + stages->links[i].vertex,
+               sizeof(double) * (size_t)stages->links[i].count);
+    return numbers;
 }
 
 /* What the fragment gets of the corners: each varying, weighted. */
 static void interpolate(Raster *raster, const RasterPixel *pixel, GlslRun *fragment,
                         const GlslArithmetic *arithmetic)
 {
-    const GlslCode *code = fragment->code;
-    for (int k = 0; k < code->variable_count; k++)
-        if (code->variables[k].storage == GLSL_VARYING)
-            for (int i = 0; i < code->variables[k].count; i++)
-                fragment->registers[code->variables[k].first + i] = 0;
-    for (int c = 0; c < 3; c++) {
-        const GlslRun *corner = raster_corner(raster, pixel, c, arithmetic);
-        for (int k = 0; k < code->variable_count; k++) {
-            const GlslVariable *varying = &code->variables[k];
-            GlslVariable found;
-            const double *values =
-                varying->storage == GLSL_VARYING ? numbers(corner, varying->name, &found) : NULL;
-            for (int i = 0; values && i < varying->count && i < found.count; i++)
-                fragment->registers[varying->first + i] += pixel->weights[c] * values[i];
+    const Stages *stages = &raster->stages[raster->draws[pixel->draw].stages];
+    for (int k = 0; k < stages->link_count; k++) {
+        const Link *link = &stages->links[k];
+        const bool kept = raster->kept && strcmp(link->name, raster->kept) == 0;
+        const double *corners[3];
+        for (int c = 0; c < 3; c++)
+            corners[c] = hand_over(raster, pixel->draw, pixel->corners[c],
+                                   kept ? &GLSL_LLVMPIPE : arithmetic) +
+                         link->at;
+        for (int i = 0; i < link->count; i++) {
+            double sum = 0;
+            for (int c = 0; c < 3; c++)
+                sum += pixel->weights[c] * corners[c][i];
+            fragment->registers[link->fragment + i] = sum;
         }
     }
+}
+
+void raster_keep(Raster *raster, const char *varying)
+{
+    raster->kept = varying;
 }
 
 const GlslRun *raster_run(Raster *raster, const RasterPixel *pixel,
@@ -376,7 +328,7 @@ const GlslRun *raster_run(Raster *raster, const RasterPixel *pixel,
     set(run, "gl_FragCoord", pixel->coord, 4);
     set(run, "gl_FrontFacing", &front, 1);
     run->exact_from = exact_from;
-    run->trace = true;
+    run->trace = exact_from == INT_MAX;
     glsl_run(run);
     const double *written = numbers(run, "gl_FragColor", &found);
     if (!written || !run->code->tree->symbols[found.symbol].written)
