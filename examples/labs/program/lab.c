@@ -1,4 +1,4 @@
-/* A table, and how people write its names. */
+/* How people write the names of the labs. */
 #include "labs/program/lab.h"
 
 #include "base/paths.h"
@@ -7,50 +7,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* examples/run reads names and summaries here. */
-/* clang-format off */
-const Lab LABS[LAB_COUNT] = {
-    {.number = 1, .name = "lab01_diffuse", .file = "lab01",
-     .summary = "lab 1: diffuse light on a cube",
-     .light = LIGHT_DIRECTIONAL, .lights = 1, .flat = true, .rigid = true, .either = true},
-    {.number = 2, .name = "lab02_ambient", .file = "lab02",
-     .summary = "lab 2: two lights, and ambient light once",
-     .light = LIGHT_DIRECTIONAL, .lights = 2, .ambient = true, .flat = true, .rigid = true,
-     .either = true},
-    {.number = 3, .name = "lab03_normal_matrix", .file = "lab03", .code = "matrices.c",
-     .summary = "lab 3: the model matrix and the normal matrix of a cube (C)",
-     .light = LIGHT_DIRECTIONAL, .lights = 1, .ambient = true, .flat = true, .given = true},
-    {.number = 4, .name = "lab04_point_light", .file = "lab04",
-     .summary = "lab 4: two point lights",
-     .light = LIGHT_POINT, .lights = 2, .ambient = true, .flat = true, .either = true},
-    {.number = 5, .name = "lab05_per_fragment", .file = "lab05",
-     .summary = "lab 5: light at every fragment, with renormalized normals",
-     .light = LIGHT_POINT, .lights = 2, .ambient = true},
-    {.number = 6, .name = "lab06_phong", .file = "lab06",
-     .summary = "lab 6: Phong's highlight, on the lit side only",
-     .light = LIGHT_POINT, .lights = 2, .ambient = true, .specular = true,
-     .reflection = REFLECTION_PHONG},
-    {.number = 7, .name = "lab07_blinn_phong", .file = "lab07",
-     .summary = "lab 7: Blinn-Phong's highlight, fitted to Phong's",
-     .light = LIGHT_POINT, .lights = 2, .ambient = true, .specular = true, .fitted = true,
-     .reflection = REFLECTION_BLINN_PHONG},
-    {.number = 8, .name = "lab08_spot", .file = "lab08",
-     .summary = "lab 8: a spot light with a soft edge, and attenuation",
-     .light = LIGHT_SPOT, .lights = 1, .ambient = true, .specular = true,
-     .reflection = REFLECTION_PHONG},
-    {.number = 9, .name = "lab09_two_sided", .file = "lab09",
-     .summary = "lab 9: both sides of a surface, also mirrored",
-     .light = LIGHT_POINT, .lights = 1, .ambient = true, .flat = true, .two_sided = true},
-    {.number = 10, .name = "lab10_budget", .file = "lab10", .code = "budget.c",
-     .summary = "lab 10: at most one step of error, as cheap as possible (C)",
-     .light = LIGHT_POINT, .lights = 1, .ambient = true, .specular = true, .rigid = true,
-     .budget = true, .reflection = REFLECTION_PHONG},
-    {.number = 11, .name = "lab11_shadow_map", .file = "lab11",
-     .summary = "lab 11: shadows, by looking up a shadow map",
-     .light = LIGHT_POINT, .lights = 1, .ambient = true, .flat = true, .shadow = true},
-};
-/* clang-format on */
 
 /* The number in "5", "05", "lab5" or "lab05"; 0: none. */
 static int lab_number(const char *text)

@@ -1,9 +1,9 @@
 /*
- * lab: the eleven labs as data: names, what their scenes contain, which uniforms the shaders may
- * use. No GL.
+ * lab: a lab as data: names, what its scenes contain, which uniforms the shaders may use. No GL.
  *
- * A lab has a folder of its name with its task and starter, examples/labs/NAME in the source tree
- * and share/lighting/labs/NAME in an installation. Its shaders are NN.vert and NN.frag
+ * A lab is a folder with its task, its starter and lab.json, which says all of this. Those that
+ * come with the programs are examples/labs/NAME in the source tree and share/lighting/labs/NAME in
+ * an installation; their lab.json are compiled in. Its shaders are NN.vert and NN.frag
  * ("lab05.vert").
  */
 #ifndef LAB_H
@@ -14,6 +14,36 @@
 #include <limits.h>
 
 enum { LAB_COUNT = 11, LAB_MAX_LIGHTS = 2 };
+
+/* What scenes show; the flat ones come first. */
+typedef enum LabShape {
+    SHAPE_OF_CUBE,
+    SHAPE_OF_CUBE_ON_CORNER, /* lab 3: scaling along the axes tilts its faces */
+    SHAPE_OF_ICOSAHEDRON,
+    SHAPE_OF_DODECAHEDRON,
+    SHAPE_OF_OCTAHEDRON,
+    SHAPE_OF_QUAD,
+    SHAPE_OF_TUBE, /* an open cylinder of flat strips */
+    SHAPE_OF_BALL,
+    SHAPE_OF_COARSE_BALL,
+    SHAPE_OF_TORUS,
+    SHAPE_OF_SPHERE, /* lab 10: compared with the exact sphere of radius 1 */
+} LabShape;
+
+/* The scene of a lab's program. */
+typedef struct LabOwnScene {
+    LabShape shape;
+    double scale; /* after it has been turned; 0: not turned */
+    Vec3 eye, center;
+    struct {
+        Vec3 place, color;
+    } lights[LAB_MAX_LIGHTS];
+    Vec3 at; /* a spot light's aim */
+    double cutoff, exponent;
+    Vec3 attenuation; /* constant, linear, quadratic */
+    Vec3 color;
+    double shininess;
+} LabOwnScene;
 
 typedef struct Lab {
     int number;          /* 1 to LAB_COUNT */
@@ -34,6 +64,7 @@ typedef struct Lab {
     bool shadow;    /* its light casts shadows: the shaders get its map (binding.h) */
     bool budget;    /* the submission chooses the mesh and is scored by its cost */
     Reflection reflection;
+    LabOwnScene scene;
 } Lab;
 
 extern const Lab LABS[LAB_COUNT];

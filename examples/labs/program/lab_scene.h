@@ -61,21 +61,6 @@ Mat4 lab_scene_world(double seconds);
 
 /* What scenes are made of. */
 
-/* The flat ones come first. */
-typedef enum LabShape {
-    SHAPE_OF_CUBE,
-    SHAPE_OF_CUBE_ON_CORNER, /* lab 3: scaling along the axes tilts its faces */
-    SHAPE_OF_ICOSAHEDRON,
-    SHAPE_OF_DODECAHEDRON,
-    SHAPE_OF_OCTAHEDRON,
-    SHAPE_OF_QUAD,
-    SHAPE_OF_TUBE, /* an open cylinder of flat strips */
-    SHAPE_OF_BALL,
-    SHAPE_OF_COARSE_BALL,
-    SHAPE_OF_TORUS,
-    SHAPE_OF_SPHERE, /* lab 10: compared with the exact sphere of radius 1 */
-} LabShape;
-
 /* Of an object; `back` counts if the lab has two sides. */
 typedef struct LabSurface {
     Vec3 color, specular, back;

@@ -11,81 +11,9 @@
 /* Of LAB_SCENE_HUGE: squared distances then exceed the largest 16-bit float, 65504. */
 static const double HUGE_FACTOR = 300;
 
-/* The labs' own scenes, by number: what is not zero. */
-typedef struct UsualScene {
-    LabShape shape;
-    double scale; /* after it has been turned; 0: not turned */
-    Vec3 eye, center;
-    struct {
-        Vec3 place, color;
-    } lights[LAB_MAX_LIGHTS];
-    Vec3 color;
-    double shininess;
-} UsualScene;
-
-#define WHITE                                                                                      \
-    {                                                                                              \
-        0.8, 0.8, 0.8                                                                              \
-    }
-#define ORANGE                                                                                     \
-    {                                                                                              \
-        1, 0.5, 0.2                                                                                \
-    }
-/* Shows three faces of a cube turned by 30 degrees. */
-#define CORNER                                                                                     \
-    {                                                                                              \
-        -3, 3, 7                                                                                   \
-    }
-
-static const UsualScene USUAL[LAB_COUNT + 1] = {
-    [1] = {SHAPE_OF_CUBE, 1, CORNER, .lights = {{{0.5, 3, 4}, {1, 0.95, 0.8}}}, .color = ORANGE},
-    [2] = {SHAPE_OF_CUBE, 1, CORNER,
-           .lights = {{{0.5, 3, 4}, {0.6, 0.55, 0.5}}, {{-3, 1, 0.5}, {0.2, 0.3, 0.6}}},
-           .color = ORANGE},
-    [3] = {SHAPE_OF_CUBE_ON_CORNER, .eye = {4.5, 4.3, 11}, .center = {0.5, 0.3, -0.8},
-           .lights = {{{0.5, 3, 4}, {0.8, 0.75, 0.7}}}, .color = ORANGE},
-    [4] = {SHAPE_OF_CUBE,
-           2,
-           {-6, 6, 14},
-           .lights = {{{2.3, 4, 3.5}, {0.6, 0.55, 0.5}}, {{-4, 3, 5}, {0.15, 0.2, 0.4}}},
-           .color = ORANGE},
-    [5] = {SHAPE_OF_COARSE_BALL,
-           1,
-           {0, 0, 6},
-           .lights = {{{2, 2.5, 2.5}, {0.6, 0.55, 0.5}}, {{-3, 1, 2}, {0.2, 0.3, 0.45}}},
-           .color = ORANGE},
-    [6] = {SHAPE_OF_BALL,
-           1,
-           {0, 0, 6},
-           .lights = {{{2, 2.5, 2.5}, {0.6, 0.55, 0.5}}, {{-3, 1, -1}, {0.2, 0.3, 0.45}}},
-           .color = ORANGE,
-           .shininess = 20},
-    [7] = {SHAPE_OF_BALL,
-           1,
-           {0, 0, 6},
-           .lights = {{{2, 2.5, 2.5}, {0.6, 0.55, 0.5}}, {{-3, 1, -1}, {0.2, 0.3, 0.45}}},
-           .color = ORANGE,
-           .shininess = 20},
-    [8] = {SHAPE_OF_CUBE, 1.1, CORNER, .lights = {{{1.5, 3, 3}, {0.9, 0.85, 0.8}}}, .color = ORANGE,
-           .shininess = 10},
-    [9] = {SHAPE_OF_TUBE, 1, {2, 3, 5}, .lights = {{{1, 2.5, 3}, WHITE}}, .color = ORANGE},
-    [10] = {SHAPE_OF_SPHERE,
-            0,
-            {0, 0, 6},
-            .lights = {{{5, 8, 7}, WHITE}},
-            .color = {0.7, 0.4, 0.2},
-            .shininess = 32},
-    [11] = {SHAPE_OF_CUBE,
-            0.65,
-            {-2, 4.5, 5.5},
-            {0.2, -0.35, 0},
-            .lights = {{{-2.2, 3.6, 1.2}, WHITE}},
-            .color = ORANGE},
-};
-
 static bool open_usual(LabScene *lab_scene, const Lab *lab, double seconds, Message *message)
 {
-    const UsualScene *usual = &USUAL[lab->number];
+    const LabOwnScene *usual = &lab->scene;
     const double scale = usual->scale;
     /* Lab 9's is mirrored in every second second. */
     const bool mirrored = lab->two_sided && fmod(floor(seconds), 2) != 0;
@@ -99,10 +27,10 @@ static bool open_usual(LabScene *lab_scene, const Lab *lab, double seconds, Mess
     for (int i = 0; i < lab->lights; i++)
         lab_scene_set_light(lab_scene, i, usual->lights[i].place, usual->lights[i].color);
     if (lab->light == LIGHT_SPOT) {
-        lab_scene_set_spot(lab_scene, (Vec3){-0.2, 0.3, 0.4}, 14, 40);
-        lab_scene->lights[0].constant = 0.7;
-        lab_scene->lights[0].linear = 0.05;
-        lab_scene->lights[0].quadratic = 0.02;
+        lab_scene_set_spot(lab_scene, usual->at, usual->cutoff, usual->exponent);
+        lab_scene->lights[0].constant = usual->attenuation.x;
+        lab_scene->lights[0].linear = usual->attenuation.y;
+        lab_scene->lights[0].quadratic = usual->attenuation.z;
     }
     if (!lab_scene_add_object(lab_scene, usual->shape, world, message))
         return false;
