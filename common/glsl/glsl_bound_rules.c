@@ -4,7 +4,7 @@
  * of what has a corner, as max, it has the derivatives at both sides (Clarke's), and of what jumps
  * it is unknown.
  */
-#include "glsl/glsl_bound_rules.h"
+#include "glsl/glsl_bound_tape.h"
 
 #include <stdint.h>
 #include <string.h>
@@ -67,7 +67,7 @@ static GlslRange power(GlslRange a, GlslRange b)
 static GlslRange wave(GlslRange a)
 {
     if (!(a.high - a.low < 2 * PI))
-        return (GlslRange){-1, 1};
+        return !isfinite(a.high - a.low) ? ANY : (GlslRange){-1, 1};
     static const double SHIFT = 1e-15; /* the rounding of PI / 2, and more */
     const double low = cos(a.low), high = cos(a.high);
     const double first = ceil(a.low / (2 * PI)) * 2 * PI;
@@ -145,6 +145,8 @@ static GlslRange truth(int op, GlslRange a, GlslRange b)
 
 static GlslRange function(int op, GlslRange a, GlslRange b)
 {
+    if (!isfinite(magnitude(a)) && op >= OP_SIN && op <= OP_INVERSE_SQRT)
+        return ANY; /* it may be no number */
     /* clang-format off */
     switch (op) {
     case OP_SIN: return is_point(a) ? rising(sin, a) : wave(shifted(a, -PI / 2));
@@ -174,7 +176,10 @@ GlslRange range_of(int op, GlslRange a, GlslRange b, bool same)
     case OP_SUBTRACT:
         return same && isfinite(magnitude(a)) ? (GlslRange){0, 0}
                                               : range_sum(a, (GlslRange){-b.high, -b.low});
-    case OP_MULTIPLY: return same ? square(a) : range_product(a, b);
+    case OP_MULTIPLY:
+        return !isfinite(magnitude(a)) || !isfinite(magnitude(b)) ? ANY /* 0 times infinity */
+               : same                                             ? square(a)
+                                                                  : range_product(a, b);
     case OP_DIVIDE: return quotient(a, b);
     case OP_SET: return a;
     case OP_NEGATE: return (GlslRange){-a.high, -a.low};

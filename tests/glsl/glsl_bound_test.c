@@ -239,8 +239,8 @@ static double check_shader(Random *random, bool narrow, const GlslErrors *errors
         if (isnan(exact) || isnan(driver))
             fail_msg("not a number, in\n%s", text);
         if (!is_in(exact, bound.exact) || !(fabs(driver - exact) <= bound.error))
-            fail_msg("%.17g is not in %.17g to %.17g, or %.9g farther from it than %g, in\n%s", exact,
-                     bound.exact.low, bound.exact.high, driver, bound.error, text);
+            fail_msg("%.17g is not in %.17g to %.17g, or %.9g farther from it than %g, in\n%s",
+                     exact, bound.exact.low, bound.exact.high, driver, bound.error, text);
         most = fmax(most, fabs(driver - exact));
     }
     shader_close(&shader);
@@ -269,6 +269,53 @@ TEST(results_are_within_their_bounds)
                   bounded, ratios[bounded / 2]);
     assert_true(bounded > count * 9 / 10);
     free(ratios);
+}
+
+/* gl_FragColor.r of statements at a = (x, 0, 0), with an error of 1e-3. */
+static GlslBound bound_of(const char *statements, double x, const double pixel[2][2], int *stopped,
+                          bool *edges)
+{
+    const GlslErrors errors = rounded_errors();
+    char text[TEXT];
+    snprintf(text, sizeof text, "precision highp float; uniform vec3 a;\nvoid main() {\n%s\n}",
+             statements);
+    Shader shader = shader_open(text, &errors);
+    GlslInput *input = &shader.bounds->inputs[shader.inputs[0].first];
+    *input = (GlslInput){.middle = x, .error = 1e-3, .slope = {{1, 1}, {0, 0}}};
+    memcpy(shader.bounds->pixel, pixel, sizeof shader.bounds->pixel);
+    const bool ran = glsl_bound_run(shader.bounds);
+    const GlslBound bound = glsl_bound(shader.bounds, shader.color.first);
+    *stopped = ran ? 0 : shader.tree->nodes[shader.bounds->node].place.line;
+    *edges = shader.bounds->edges;
+    shader_close(&shader);
+    return bound;
+}
+
+TEST(errors_depend_on_each_other)
+{
+    static const double none[2][2] = {{0, 0}, {0, 0}}, pixel[2][2] = {{.1, 0}, {0, .1}};
+    int line;
+    bool edges;
+    assert_true(bound_of("gl_FragColor = vec4(a.x - a.x);", .7, none, &line, &edges).error < 1e-5);
+    /* 1e-3 relative to .7, squared, and a few times that: what is not known of the slope. */
+    const char *const unit = "gl_FragColor = vec4(length(normalize(a)));";
+    const GlslBound length = bound_of(unit, .7, none, &line, &edges);
+    if (!(length.error < 3e-5))
+        fail_msg("%g", length.error);
+    /* Near to a condition's change the driver may be on its other side, or an edge runs there. */
+    const char *const step = "gl_FragColor = vec4(a.x > .7 ? .5 : .25);";
+    assert_true(bound_of(step, .7005, none, &line, &edges).error == .25 && !edges);
+    assert_true(bound_of(step, .7005, pixel, &line, &edges).error == 0 && edges);
+    assert_true(bound_of(step, .702, none, &line, &edges).error == 0 && !edges);
+    /* What has no bound, and the line. */
+    bound_of("gl_FragColor = vec4(1.);\nif (a.x > .7) discard;", .7, none, &line, &edges);
+    assert_int_equal(line, 4);
+    bound_of("float s = 0.;\nwhile (a.x > s * 0.)\ns += 1.;", .7, none, &line, &edges);
+    assert_true(line >= 3);
+    const GlslBound root = bound_of("float s = a.x;\ns = inversesqrt(s);\n"
+                                    "gl_FragColor = vec4(s);",
+                                    .0005, none, &line, &edges);
+    assert_true(line == 0 && isinf(root.error));
 }
 
 TEST_MAIN("glsl_bound", NULL, NULL)
