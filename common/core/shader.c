@@ -31,7 +31,7 @@ static GLuint compile(const ShaderSource *source, ShaderStage stage, Message *me
     const GLchar *text = source->text;
     const GLint size = (GLint)source->size;
     GLint compiled = GL_FALSE;
-    if (!shader_bounded(source, stage, message))
+    if (!shader_bounded(source, stage, 0, message))
         return 0;
     GLuint shader = glCreateShader(stage == SHADER_VERTEX ? GL_VERTEX_SHADER : GL_FRAGMENT_SHADER);
     glShaderSource(shader, 1, &text, &size);

@@ -13,7 +13,11 @@ enum { SHADER_LINKING = 2 };
  * SHADER_LINKING. Adds nothing if the front end finds nothing wrong. */
 void shader_advise(const ShaderSource sources[2], int refused, Message *message);
 
-/* False for a text with macros that grow beyond what drivers end with, which no driver gets. */
-bool shader_bounded(const ShaderSource *source, ShaderStage stage, Message *message);
+/* False, with a message, for a text that no driver gets: its macros grow, or functions that call
+ * each other, beyond what compilers end with; in a page, loops that would hang it. With `turns_max`
+ * above 0 loops have to be as appendix A wants them, and to turn no more often for one vertex or
+ * pixel. What does not parse is left to the driver. */
+bool shader_bounded(const ShaderSource *source, ShaderStage stage, double turns_max,
+                    Message *message);
 
 #endif

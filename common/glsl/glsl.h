@@ -191,11 +191,16 @@ bool glsl_check_whole(GlslTree *tree);
  */
 bool glsl_check_loops(GlslTree *tree);
 
-/* The most turns that all loops together can take while main runs once, of a text that passed both
- * checks; a loop that turns more often than GLSL_TURNS_MAX counts as that. *place: the loop that
- * turns most. */
+/* The most that main does while it runs once, of a text that passed both checks; a loop that turns
+ * more often than GLSL_TURNS_MAX counts as that. */
+typedef struct GlslWork {
+    double size;     /* nodes, with functions put where they are called */
+    double turns;    /* of all loops together */
+    double steps;    /* nodes, as often as they run */
+    GlslPlace place; /* the loop that turns most; without one main */
+} GlslWork;
 enum { GLSL_TURNS_MAX = 1000000 };
-double glsl_count_turns(const GlslTree *tree, GlslPlace *place);
+GlslWork glsl_count_work(const GlslTree *tree);
 
 /* What linking asks of both: a varying that the fragment shader uses is one of the vertex shader's,
  * and what both declare has one type, uniforms also one precision. Adds messages to `fragment`. */

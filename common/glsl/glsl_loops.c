@@ -1,8 +1,9 @@
 /*
- * How often a text's loops turn. As appendix A restricts them, a loop's first value, bound and step
+ * How much a text runs, at most. As appendix A restricts them, a loop's first value, bound and step
  * are constants, so that counting needs no values of the program: a loop turns as often as its head
- * says, each turn runs the loops in its body once, and a call those of the function. Branches count
- * as taken, and `break` as not reached: what is counted is the most that can happen.
+ * says, each turn runs what is in its body once, and a call what is in the function. Branches count
+ * as taken, and `break` as not reached: what is counted is the most that can happen. A function is
+ * counted once, however often it is called.
  */
 #include "glsl/glsl.h"
 
@@ -12,8 +13,8 @@
 
 typedef struct Count {
     const GlslTree *tree;
-    double *functions; /* of each symbol; below 0: not yet known */
-    double counted;    /* turns, one by one */
+    GlslWork *functions; /* of each symbol; its size is 0: not yet known */
+    double counted;      /* turns, one by one */
     double most;
     int worst; /* the loop that turns most often, with those around it */
 } Count;
@@ -63,42 +64,48 @@ static double turns(const GlslTree *tree, int node)
     return count;
 }
 
-/* The turns of all loops in a node that runs `times` times. */
-static double count_in(Count *count, int node, double times)
+static void add(GlslWork *sum, const GlslWork *part, double times)
+{
+    sum->size += part->size;
+    sum->turns += times * part->turns;
+    sum->steps += times * part->steps;
+}
+
+/* Of a node that runs once, in loops that turn `around` times. */
+static GlslWork count_in(Count *count, int node, double around)
 {
     const GlslTree *tree = count->tree;
     const GlslNode *own = &tree->nodes[node];
-    double sum = 0;
+    GlslWork work = {.size = 1, .steps = 1};
+    double times = 1;
     if (own->kind == GLSL_CALL && tree->symbols[own->symbol].node) {
-        double *called = &count->functions[own->symbol];
-        if (*called < 0)
+        GlslWork *called = &count->functions[own->symbol];
+        if (called->size == 0)
             *called = count_in(count, tree->symbols[own->symbol].node, 1);
-        sum += times * *called;
+        add(&work, called, 1);
     }
     if (own->kind == GLSL_FOR) {
-        const double own_turns =
-            count->counted < 100.0 * GLSL_TURNS_MAX ? turns(tree, node) : GLSL_TURNS_MAX;
-        count->counted += own_turns;
-        times *= own_turns;
-        sum += times;
-        if (times > count->most) {
-            count->most = times;
+        times = count->counted < 100.0 * GLSL_TURNS_MAX ? turns(tree, node) : GLSL_TURNS_MAX;
+        count->counted += times;
+        work.turns = times;
+        if (around * times > count->most) {
+            count->most = around * times;
             count->worst = node;
         }
     }
-    for (int i = own->first; i; i = tree->nodes[i].next)
-        sum += count_in(count, i, times);
-    return sum;
+    for (int i = own->first; i; i = tree->nodes[i].next) {
+        const GlslWork part = count_in(count, i, around * times);
+        add(&work, &part, times);
+    }
+    return work;
 }
 
-double glsl_count_turns(const GlslTree *tree, GlslPlace *place)
+GlslWork glsl_count_work(const GlslTree *tree)
 {
     Count count = {.tree = tree,
                    .functions = memory_new((size_t)tree->symbol_count, sizeof *count.functions)};
-    for (int i = 0; i < tree->symbol_count; i++)
-        count.functions[i] = -1;
-    const double sum = count_in(&count, tree->symbols[tree->main].node, 1);
-    *place = tree->nodes[count.worst].place;
+    GlslWork work = count_in(&count, tree->symbols[tree->main].node, 1);
+    work.place = tree->nodes[count.worst ? count.worst : tree->symbols[tree->main].node].place;
     free(count.functions);
-    return sum;
+    return work;
 }

@@ -615,8 +615,20 @@ SHADER_TEST(macros_that_grow_come_to_no_driver)
                  i - 1, i - 1);
     strcat(text, "const float a = A39;\n");
     parse(text);
-    assert_false(shader_bounded(&source, SHADER_VERTEX, &message));
+    assert_false(shader_bounded(&source, SHADER_VERTEX, 0, &message));
     assert_non_null(strstr(message.text, ":41: error: "));
+}
+
+SHADER_TEST(functions_that_double_come_to_no_driver)
+{
+    char text[8000] = "float f0() { return 1.0; }\n";
+    for (int i = 1; i < 40; i++)
+        snprintf(text + strlen(text), sizeof text - strlen(text),
+                 "float f%d() { return f%d() + f%d(); }\n", i, i - 1, i - 1);
+    strcat(text, "void main() { gl_Position = vec4(f39()); }\n");
+    parse(text);
+    assert_false(shader_bounded(&source, SHADER_VERTEX, 0, &message));
+    assert_non_null(strstr(message.text, ":41: error: with each function put"));
 }
 
 SHADER_TEST(what_does_not_link_is_explained)

@@ -279,9 +279,9 @@ static void long_loops_end(void **state)
         end = stpcpy(end, LOOP);
     strcpy(end, "}");
     GlslTree *tree = glsl_parse(text, GLSL_FRAGMENT, NULL);
-    GlslPlace place;
-    assert_true(glsl_count_turns(tree, &place) == (double)LOOPS * GLSL_TURNS_MAX);
-    assert_int_equal(place.line, 2);
+    const GlslWork work = glsl_count_work(tree);
+    assert_true(work.turns == (double)LOOPS * GLSL_TURNS_MAX);
+    assert_int_equal(work.place.line, 2);
     glsl_tree_free(tree);
     free(text);
 }

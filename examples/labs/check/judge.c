@@ -4,8 +4,7 @@
 #include "labs/check/judge.h"
 
 #include "base/clock.h"
-#include "core/shader_source.h"
-#include "glsl/glsl.h"
+#include "core/shader_advice.h"
 #include "labs/check/budget.h"
 #include "labs/check/code.h"
 #include "labs/diagnosis/catalogue.h"
@@ -79,27 +78,6 @@ static bool has_mediump(const SubmissionFiles *files)
  * loop when they like to, and then draw. */
 enum { TURNS_MAX = 100000 };
 
-/* Loops as appendix A wants them, which end soon enough. */
-static bool check_loops(const ShaderSource *source, ShaderStage stage, Message *message)
-{
-    GlslTree *tree =
-        glsl_parse(source->text, stage == SHADER_VERTEX ? GLSL_VERTEX : GLSL_FRAGMENT, NULL);
-    char log[sizeof tree->messages[0].text + 64];
-    GlslMessage why = {.text = ""};
-    double turns = 0;
-    const bool read = tree->message_count == 0; /* else the driver knows better */
-    if (read && !(glsl_check_whole(tree) && glsl_check_loops(tree)))
-        why = tree->messages[0];
-    else if (read && (turns = glsl_count_turns(tree, &why.place)) > TURNS_MAX)
-        snprintf(why.text, sizeof why.text,
-                 "loops turn %.0f times or more for one %s; at most %d are allowed", turns,
-                 stage == SHADER_VERTEX ? "vertex" : "pixel", TURNS_MAX);
-    snprintf(log, sizeof log, "%d:%d(%d): error: %s", why.place.file, why.place.line,
-             why.place.column, why.text);
-    glsl_tree_free(tree);
-    return !why.text[0] || shader_explain_log(source, log, message);
-}
-
 /* What the driver gets is what every other compiler would, and ends. */
 static bool check_conditions(const Session *session, Message *message)
 {
@@ -114,7 +92,7 @@ static bool check_conditions(const Session *session, Message *message)
         done = shader_source_open(&source, &loader, name, (ShaderStage)stage, message);
         if (done && !compiler_dependence_check(source.text, &why))
             done = message_set(message, "%s: %s", name, why.text);
-        done = done && check_loops(&source, (ShaderStage)stage, message);
+        done = done && shader_bounded(&source, (ShaderStage)stage, TURNS_MAX, message);
         shader_source_close(&source);
     }
     return done;
