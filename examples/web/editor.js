@@ -218,7 +218,7 @@ const Editor = (() => {
 
         async function run() {
             clearTimeout(timer);
-            const start = performance.now(), message = Loops.refuse(texts()) || await apply(texts());
+            const start = performance.now(), message = await apply(texts());
             took = performance.now() - start;
             if (message !== null)
                 tell(message);

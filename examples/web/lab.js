@@ -102,11 +102,6 @@ const Lab = (() => {
     /* As natively: other scenes each time. */
     async function check(seed = crypto.getRandomValues(new Uint32Array(1))[0] & 0x7fffffff) {
         lab.texts = lab.editor.texts();
-        const refused = Loops.refuse(lab.texts);
-        if (refused) {
-            part("result").replaceChildren(element("p", {class: "error"}, refused));
-            return {message: refused};
-        }
         part("check").disabled = true;
         part("result").textContent = "Checking...";
         const answer = await ask({what: "check", seed});
@@ -151,12 +146,12 @@ const Lab = (() => {
         lab.editor = Editor.open(part("editor"), "lighting " + lab.name, lab.files, apply);
         listen();
         part("time").value = part("slider").value = lab.seconds; /* a browser may have filled in others */
-        /* The text of last time is drawn, unless it hung the page, or would. */
-        const refused = Loops.refuse(lab.editor.texts());
-        const message = (hung && lab.editor.edited()) || refused ? await draw(true) : "";
+        /* The starter, which is there if the text of last time is refused; that is drawn unless it
+         * hung the page. */
+        const message = lab.editor.edited() ? await draw(true) : "";
         if (message)
             throw message;
-        if (refused || !hung || !lab.editor.edited())
+        if (!hung || !lab.editor.edited())
             await lab.editor.run();
         document.body.dataset.ready = "yes";
     }

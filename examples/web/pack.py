@@ -21,10 +21,10 @@ import sys
 import markdown
 
 INDEX = ["lighting.js", "module.js", "index.js"]
-PROGRAM = ["lighting.js", "module.js", "worker.js", "png.js", "link.js", "controls.js", "loops.js", "editor.js",
+PROGRAM = ["lighting.js", "module.js", "worker.js", "png.js", "link.js", "controls.js", "editor.js",
            "program.js"]
 LABS = ["progress.js", "labs.js"]
-LAB = ["labs_module.js", "module.js", "progress.js", "lab_worker.js", "png.js", "zip.js", "controls.js", "loops.js",
+LAB = ["labs_module.js", "module.js", "progress.js", "lab_worker.js", "png.js", "zip.js", "controls.js",
        "editor.js", "lab.js"]
 CHECK = """<div class="row"><button type="button" id="check">Check</button></div>
 <p><small>Draws your files in a dozen scenes and says what is wrong, as <code>check</code> does natively.</small></p>"""

@@ -642,18 +642,17 @@ class Pages(Case):
         step = "void main() { for (float x = 0.0; x < 1.0; x += %s) gl_FragColor = vec4(x); }"
         self.open("LightedCube")
         before = self.shown()
-        for text, said in ((sines, "takes about 1,[0-9]00,000,000 steps"), (step % "1e-9", "never ends"), (step % "-0.1", "never ends"),
-                           ("#define N 1000\n#define M N * N\n" + sines.replace("10000", "M"), "takes about"),
-                           ("float f() { float x; for (int i = 0; i < 1000; ++i) x += 1.0; return x; }" +
-                            step.replace("= vec4(x)", "= vec4(f())") % "0.001", "takes about")):
+        for text in (sines, step % "1e-9", step % "-0.1",
+                     "#define N 1000\n#define M N * N\n" + sines.replace("10000", "M"),
+                     "float f() { float x; for (int i = 0; i < 1000; ++i) x += 1.0; return x; }" +
+                     step.replace("= vec4(x)", "= vec4(f())") % "0.001"):
             with self.subTest(text):
                 text = "precision highp float;\n" + text
                 self.choose("lecture/LightedCube.frag")
                 self.page.run("document.querySelector('.source').focus(), document.querySelector('.source').select()")
                 self.page.type(text)
                 self.page.wait("document.querySelectorAll('.errors li').length")
-                self.assertRegex(self.text(".errors li"), r"^lecture/LightedCube.frag:\d: error: this loop " + said)
-                self.assertIn("Your text is kept", self.text(".said"))
+                self.assertRegex(self.text(".errors li"), r"^lecture/LightedCube.frag:\d: error: this loop takes about \d+ steps")
                 self.assertEqual(self.shown(), before)
                 self.open("LightedCube")
                 self.assertEqual(self.shown(), before)
