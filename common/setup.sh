@@ -17,7 +17,7 @@ packages_to_draw="gcc libc6-dev pkg-config meson ninja-build libegl-dev libgles-
 libgl1-mesa-dri libglfw3-dev libpng-dev libstb-dev fonts-dejavu-core"
 # The panel in a window, model files, pictures other than PNG, animations:
 packages_to_window="g++ libimgui-dev"
-packages_to_model="libassimp-dev"
+packages_to_model="libassimp-dev libjansson-dev"
 packages_to_convert="g++ libopenimageio-dev"
 packages_to_animate="ffmpeg"
 # Vectors:

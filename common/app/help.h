@@ -23,6 +23,7 @@ typedef struct Usage {
     const struct ExampleKind *kind; /* of the example that it draws; NULL: it draws none */
     ShadowSettings shadows;         /* without --shadows */
     const char *names;              /* the operands in --help, "LAB PATH"; NULL: there are none */
+    const char **operand;           /* of one that is needed: where it goes; may be NULL */
     const char *const *tries;       /* as in an Example; may be NULL */
     const char *const *looks;       /* as many */
     int width, height;              /* of the picture without --size; zero: 400 */

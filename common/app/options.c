@@ -98,6 +98,17 @@ static void print_about(const Usage *usage, const char *form)
     help_print(usage, table);
 }
 
+/* The first name as the value of the option that is for it. */
+static void take_operand(Options *options, const Usage *usage)
+{
+    for (int i = 0; usage->operand && options->names[0] && usage->parameters[i].name; i++)
+        if (usage->parameters[i].value == usage->operand) {
+            *usage->operand = *options->names++;
+            options->own_given[i] = true;
+            return;
+        }
+}
+
 OptionsResult options_read(Options *options, const Usage *usage, int argc, char *argv[],
                            Message *message)
 {
@@ -118,6 +129,7 @@ OptionsResult options_read(Options *options, const Usage *usage, int argc, char 
     if (!options->size_given)
         options_size(usage, &options->width, &options->height);
     options->names = argv + (argc > 0);
+    take_operand(options, usage);
     if (options_in_window(options)) /* by LIGHTING_BACKEND too, which core reads without windows */
         options->canvas.backend = backend_find("window", NULL);
     if (options->frames > 1)

@@ -131,7 +131,10 @@ bool options_check(Options *options, const Usage *usage, Message *message)
 {
     const bool window = options_in_window(options), stream = strcmp(options->output, "-") == 0;
     const char *silent = options->explain ? "--explain" : "--print-shader";
-    if (!usage->gallery && !usage->names && options->names[0])
+    if (usage->operand && !*usage->operand && !options->doctor)
+        return message_set(message, "no file is named; %s %s -o PICTURE.png", usage->name,
+                           usage->names);
+    if (!usage->gallery && (!usage->names || usage->operand) && options->names[0])
         return message_set(message, "%s: not an option; --help lists them, -o %s",
                            options->names[0],
                            usage->study ? "DIR names the folder" : "FILE names the picture");

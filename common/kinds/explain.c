@@ -395,6 +395,8 @@ static bool explain_view(Renderer *renderer, const DrawRequest *request, int num
         print_matrices(&view.scene.objects[0]);
         printf("# what the model leaves out\n");
         done = unmodelled_explain(&view.scene, stdout, message);
+        if (example_scene(renderer->example)->explain)
+            example_scene(renderer->example)->explain(stdout);
         printf("\n");
         print_depth(renderer->canvas, &view.scene.camera);
         lighting_plan_explain_shadows(&plan, &view.scene, stdout);

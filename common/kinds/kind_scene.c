@@ -19,6 +19,8 @@ static void describe(const Example *example, Usage *usage)
     usage->shadows = SHADOWS_DEFAULT;
     usage->shadows.way = scene->shadows ? SHADOWS_ON : SHADOWS_OFF;
     usage->resize = scene->size;
+    usage->operand = scene->operand;
+    usage->names = scene->operand ? "FILE" : NULL;
 }
 
 static bool open_scene(Renderer *renderer, const ShaderLoader *loader, Message *message)

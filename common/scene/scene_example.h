@@ -13,6 +13,8 @@
 #include "scene/quality.h"
 #include "scene/scene.h"
 
+#include <stdio.h>
+
 /* Lines and points of the overlay, in world coordinates. */
 typedef struct Annotations {
     OverlayList lines, points;
@@ -42,6 +44,9 @@ typedef struct SceneExample {
     const char *(*plain_label)(int view);
     bool shadows;                  /* its lights have them, unless the option says otherwise */
     void (*retouch)(Image *image); /* changes the finished picture, in bytes */
+    const char **operand; /* of a program that needs a file: where its name goes; or NULL */
+    /* Writes what is not in the scene, though it should be, a line each; may be NULL. */
+    void (*explain)(FILE *file);
 } SceneExample;
 
 /* NULL: the example describes no scene. */

@@ -3,7 +3,7 @@
 
 #include "shapes/fox_head.h"
 #include "shapes/mesh_solids.h"
-#include "shapes/model.h"
+#include "scene/model.h"
 
 const char *const SHAPE_NAMES[SHAPE_COUNT + 1] = {
     "cube",         "sphere",      "teapot",     "torus",        "cone",

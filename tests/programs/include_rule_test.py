@@ -15,7 +15,7 @@ LECTURE_HEADERS, LECTURE_LINES = 9, 700
 SPEAKS = re.compile(r"\b(v?printf|puts|putchar|perror|exit|_exit|_Exit|abort)\s*\(|\b(stdout|stderr)\b")
 MAY_SPEAK = {"base/memory_end.c",    # the end of a program that gets no memory
              "base/progress.c",  # its bar is on stderr
-             "shapes/model.c"}   # _exit in a forked child
+             "scene/scene_file_read.c"}   # _exit in a forked child
 OPTION = re.compile(r'"[^"\n]*(?<![\w-])--[a-z]')
 MAY_NAME_OPTIONS = {"scene/shader_cost.c"}     # of the disassembler's command
 

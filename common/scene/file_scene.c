@@ -1,0 +1,251 @@
+/* From lists of a file to a scene: objects and lights go where their nodes are; what a file may
+ * leave open is chosen from the box around everything. */
+#include "scene/file_scene.h"
+
+#include "base/memory.h"
+#include "base/parse.h"
+#include "scene/model.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Grows a box by another one, wherever a matrix puts that. */
+static void grow(MeshBox *all, const MeshBox *box, Mat4 world_from_box)
+{
+    for (int corner = 0; corner < 8; corner++) {
+        const Vec3 p =
+            mat4_transform_point(world_from_box, (Vec3){corner & 1 ? box->high.x : box->low.x,
+                                                        corner & 2 ? box->high.y : box->low.y,
+                                                        corner & 4 ? box->high.z : box->low.z});
+        all->low = (Vec3){fmin(all->low.x, p.x), fmin(all->low.y, p.y), fmin(all->low.z, p.z)};
+        all->high = (Vec3){fmax(all->high.x, p.x), fmax(all->high.y, p.y), fmax(all->high.z, p.z)};
+    }
+}
+
+static void find_middle(FileScene *made)
+{
+    const SceneFile *file = &made->file;
+    MeshBox all = {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
+    MeshBox *boxes = memory_new((size_t)file->mesh_count, sizeof *boxes);
+    for (int i = 0; i < file->mesh_count; i++)
+        boxes[i] = mesh_bounds(&file->meshes[i]);
+    for (int i = 0; i < file->object_count; i++)
+        grow(&all, &boxes[file->objects[i].mesh], made->poses[file->objects[i].node]);
+    free(boxes);
+    const Vec3 half = vec3_scale(vec3_subtract(all.high, all.low), 0.5);
+    made->middle = vec3_add(all.low, half);
+    made->radius = vec3_length(half);
+}
+
+/* Cameras */
+
+static bool list_cameras(const SceneFile *file, const char *asked, Message *message)
+{
+    message_set(message, "camera %s: there is none; the file has ", asked);
+    for (int i = 0; i < file->camera_count && i < 20; i++)
+        message_add(message, "%s%d%s%s", i ? ", " : "", i, file->cameras[i].name[0] ? " " : "",
+                    file->cameras[i].name);
+    return message_add(message, "%s", file->camera_count ? ", and fit" : "none, and fit");
+}
+
+static bool choose_camera(FileScene *made, const char *asked, Message *message)
+{
+    const SceneFile *file = &made->file;
+    made->camera = file->camera_count > 0 ? 0 : -1;
+    if (asked && strcmp(asked, "fit") == 0)
+        made->camera = -1;
+    else if (asked && !parse_whole(asked, 0, file->camera_count - 1, &made->camera)) {
+        int i = 0;
+        while (i < file->camera_count && strcmp(file->cameras[i].name, asked) != 0)
+            i++;
+        if (i == file->camera_count)
+            return list_cameras(file, asked, message);
+        made->camera = i;
+    }
+    return true;
+}
+
+/* From in front, the right and above, so far away that the sphere around everything is seen. */
+static Camera fitting_camera(const FileScene *made)
+{
+    static const double FOVY = 40, MARGIN = 1.05, RADIANS = 0.017453292519943295;
+    const double distance = made->radius / sin(FOVY * RADIANS / 2), r = MARGIN * made->radius;
+    const Vec3 way = vec3_unit((Vec3){0.5, 0.35, 1});
+    return (Camera){.eye = vec3_add(made->middle, vec3_scale(way, distance)),
+                    .center = made->middle,
+                    .up = {0, 1, 0},
+                    .fovy = FOVY,
+                    .near = distance - r,
+                    .far = distance + r};
+}
+
+static Camera file_camera(const FileScene *made)
+{
+    const FileCamera *from = &made->file.cameras[made->camera];
+    Camera camera = from->camera;
+    if (from->node >= 0) {
+        const Mat4 world_from_node = made->poses[from->node];
+        const Vec3 eye = camera.eye, look = vec3_subtract(camera.center, eye);
+        camera.eye = mat4_transform_point(world_from_node, eye);
+        camera.center =
+            vec3_add(camera.eye, /* of any length, but not lost beside the eye */
+                     vec3_scale(vec3_unit(mat4_transform_direction(world_from_node, look)),
+                                fmax(made->radius, 1e-3 * vec3_length(camera.eye))));
+        camera.up = vec3_unit(mat4_transform_direction(world_from_node, camera.up));
+    }
+    const double farthest =
+        vec3_length(vec3_subtract(camera.eye, made->middle)) + 1.05 * made->radius;
+    if (!(camera.far > 0))
+        camera.far = camera.near > 0 ? fmax(farthest, 2 * camera.near) : farthest;
+    if (!(camera.near > 0))
+        camera.near = 1e-4 * camera.far;
+    return camera;
+}
+
+/* Lights */
+
+static Light light_at(const FileScene *made, const FileLight *from)
+{
+    Light light = from->light;
+    if (from->node >= 0) {
+        const Mat4 m = made->poses[from->node];
+        light.position = mat4_transform_point(m, light.position);
+        light.direction = vec3_unit(mat4_transform_direction(m, light.direction));
+    }
+    if (light.kind != LIGHT_POINT && vec3_length(light.direction) == 0)
+        light.direction = (Vec3){0, -1, 0};
+    light.diffuse = vec3_scale(light.diffuse, made->exposure);
+    light.specular = vec3_scale(light.specular, made->exposure);
+    return light;
+}
+
+static Light viewers_light(void)
+{
+    return (Light){.kind = LIGHT_DIRECTIONAL,
+                   .space = LIGHT_EYE,
+                   .direction = {0, 0, 1},
+                   .diffuse = {0.9, 0.9, 0.9},
+                   .specular = {0.9, 0.9, 0.9}};
+}
+
+/* What a white surface in the middle that faces all lights reflects at most; a near light is half
+ * the radius away. */
+static double brightness(const FileScene *made)
+{
+    double sum = 0;
+    for (int i = 0; i < made->file.light_count; i++) {
+        const Light light = light_at(made, &made->file.lights[i]);
+        const double away = vec3_length(vec3_subtract(light.position, made->middle));
+        const double d = fmax(away, made->radius / 2);
+        sum += fmax(fmax(light.diffuse.x, light.diffuse.y), light.diffuse.z) /
+               (light.kind == LIGHT_DIRECTIONAL ? 1 : d * d);
+    }
+    return sum;
+}
+
+static void choose_exposure(FileScene *made, double asked)
+{
+    static const double DARK = 0.1, BRIGHT = 1.5;
+    made->exposure = asked > 0 ? asked : 1;
+    const double sum = brightness(made);
+    if (asked <= 0 && made->file.photometric && sum > 0 && (sum < DARK || sum > BRIGHT))
+        made->exposure = 1 / sum;
+}
+
+/* The scene */
+
+/* Meshes as they are drawn: with all normals; which are closed, and which are flat. */
+static bool finish_meshes(FileScene *made, Message *message)
+{
+    SceneFile *file = &made->file;
+    bool *closed = memory_new((size_t)file->mesh_count + 1, sizeof *closed);
+    bool done = true;
+    int kept = 0;
+    for (int i = 0; i < file->mesh_count && done; i++)
+        if (file->meshes[i].index_count > 0) {
+            done = model_complete(&file->meshes[i], message);
+            closed[i] = done && scene_file_is_closed(&file->meshes[i]);
+        }
+    for (int i = 0; i < file->object_count && done; i++) {
+        FileObject *object = &file->objects[i];
+        if (file->meshes[object->mesh].index_count == 0)
+            continue;
+        object->object.closed |= closed[object->mesh];
+        file->objects[kept++] = *object;
+    }
+    free(closed);
+    file->object_count = kept;
+    return done && (kept > 0 || message_set(message, "holds no triangle with an area"));
+}
+
+static bool open_file(FileScene *made, const FileSceneOptions *options, Message *message)
+{
+    SceneFile *file = &made->file;
+    Scene scene;
+    if (!finish_meshes(made, message) || !choose_camera(made, options->camera, message))
+        return false;
+    made->poses = memory_new((size_t)file->node_count + 1, sizeof *made->poses);
+    made->objects = memory_new((size_t)file->object_count, sizeof *made->objects);
+    for (; file->light_count > EFFECTS_MAX_LIGHTS; file->light_count--)
+        scene_file_note(file, NOTE_LIGHTS);
+    made->exposure = 1;
+    scene_file_pose(file, 0, made->poses);
+    find_middle(made);
+    choose_exposure(made, options->exposure);
+    file_scene_make(made, 0, &scene);
+    return scene_check(&scene, message);
+}
+
+bool file_scene_open(FileScene *made, const FileSceneOptions *options, Message *message)
+{
+    Message why = {0};
+    *made = (FileScene){.camera = -1};
+    if (!scene_file_read(options->path, (ModelUp)options->up, &made->file, message))
+        return false;
+    return open_file(made, options, &why) ||
+           message_set(message, "%s: %s", options->path, why.text);
+}
+
+void file_scene_make(FileScene *made, double seconds, Scene *scene)
+{
+    const SceneFile *file = &made->file;
+    scene_file_pose(file, seconds, made->poses);
+    *scene = file->scene;
+    for (int i = 0; i < file->object_count; i++) {
+        made->objects[i] = file->objects[i].object;
+        made->objects[i].mesh = &file->meshes[file->objects[i].mesh];
+        made->objects[i].world_from_object = made->poses[file->objects[i].node];
+    }
+    for (int i = 0; i < file->light_count; i++)
+        made->lights[i] = light_at(made, &file->lights[i]);
+    if (file->light_count == 0)
+        made->lights[0] = viewers_light();
+    scene->lights = made->lights;
+    scene->light_count = file->light_count ? file->light_count : 1;
+    scene->objects = made->objects;
+    scene->object_count = file->object_count;
+    scene->camera = made->camera < 0 ? fitting_camera(made) : file_camera(made);
+}
+
+void file_scene_explain(const FileScene *made, FILE *file)
+{
+    for (int i = 0; i < made->file.note_count; i++)
+        fprintf(file, "of the file, %d times: %s\n", made->file.notes[i].count,
+                made->file.notes[i].text);
+    if (made->exposure != 1)
+        fprintf(file, "of the file: how bright its lights are; drawn %.4g times as bright\n",
+                made->exposure);
+    if (made->file.light_count == 0)
+        fprintf(file, "the file has no light: there is one at the viewer\n");
+    if (made->file.camera_count == 0)
+        fprintf(file, "the file has no camera: one that sees all\n");
+}
+
+void file_scene_close(FileScene *made)
+{
+    scene_file_close(&made->file);
+    free(made->poses);
+    free(made->objects);
+    *made = (FileScene){.camera = -1};
+}

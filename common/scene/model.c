@@ -1,0 +1,177 @@
+/*
+ * A file of a scene as one mesh. Equal vertices are merged, by a hash table with open addressing
+ * that holds indices (Knuth, The art of computer programming, volume 3, section 6.4, algorithm L):
+ * bytes equal in position and normal are one vertex, so that computed normals are smooth across
+ * triangles.
+ */
+#include "scene/model.h"
+
+#include "base/memory.h"
+#include "core/mesh_make.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Appends an object's mesh, in the world. */
+static void add_object(const Mesh *part, Mat4 world_from_part, Mesh *mesh)
+{
+    const Mat4 normal_matrix = mat4_normal(world_from_part); /* zero if singular: no normals */
+    /* A reflection reverses the orientation of triangles. */
+    const bool mirrored = mat4_determinant(world_from_part) < 0;
+    const uint32_t first = (uint32_t)mesh->vertex_count;
+    for (size_t i = 0; i < part->vertex_count; i++) {
+        MeshVertex *vertex = &mesh->vertices[mesh->vertex_count++];
+        vec3_to_float(
+            mat4_transform_point(world_from_part, vec3_from_float(part->vertices[i].position)),
+            vertex->position);
+        vec3_to_float(
+            mat4_transform_direction(normal_matrix, vec3_from_float(part->vertices[i].normal)),
+            vertex->normal);
+    }
+    for (size_t i = 0; i < part->index_count; i += 3) {
+        uint32_t *corner = mesh->indices + mesh->index_count;
+        corner[0] = first + part->indices[i];
+        corner[1] = first + part->indices[i + (mirrored ? 2 : 1)];
+        corner[2] = first + part->indices[i + (mirrored ? 1 : 2)];
+        mesh->index_count += 3;
+    }
+}
+
+/* All meshes of a file, where its nodes have them. */
+static bool flatten(const char *path, const SceneFile *file, Mesh *mesh, Message *message)
+{
+    size_t vertices = 0, indices = 0;
+    for (int i = 0; i < file->object_count; i++) {
+        vertices += file->meshes[file->objects[i].mesh].vertex_count;
+        indices += file->meshes[file->objects[i].mesh].index_count;
+    }
+    if (vertices > MODEL_VERTICES_MAX || indices / 3 > MODEL_TRIANGLES_MAX)
+        return message_set(message,
+                           "%s: cannot read: %zu vertices and %zu triangles; at most %d and %d are "
+                           "read",
+                           path, vertices, indices / 3, MODEL_VERTICES_MAX, MODEL_TRIANGLES_MAX);
+    if (!mesh_open(mesh, vertices, indices, message))
+        return false;
+    mesh->vertex_count = mesh->index_count = 0;
+    Mat4 *poses = memory_new((size_t)file->node_count + 1, sizeof *poses);
+    scene_file_pose(file, 0, poses);
+    for (int i = 0; i < file->object_count; i++)
+        add_object(&file->meshes[file->objects[i].mesh], poses[file->objects[i].node], mesh);
+    free(poses);
+    Message why = {0};
+    return mesh_check(mesh, &why) || message_set(message, "%s: %s", path, why.text);
+}
+
+/* Finds an equal vertex, or an empty slot, in a hash table of indices + 1. */
+static uint32_t *find(uint32_t *table, size_t table_size, const MeshVertex *vertices,
+                      const MeshVertex *vertex)
+{
+    uint32_t words[sizeof *vertex / sizeof(uint32_t)];
+    uint64_t hash = 0;
+    memcpy(words, vertex, sizeof *vertex);
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
+        hash = (hash ^ words[i]) * 0x9e3779b97f4a7c15u; /* 2^64 / the golden ratio (Knuth, 6.4) */
+    size_t place = (size_t)(hash >> 32) & (table_size - 1);
+    while (table[place] && memcmp(&vertices[table[place] - 1], vertex, sizeof *vertex) != 0)
+        place = (place + 1) & (table_size - 1);
+    return &table[place];
+}
+
+/* Keeps triangles with an area and the vertices they use, equal ones merged. */
+static bool join(const char *path, const Mesh *parts, Mesh *mesh, Message *message)
+{
+    size_t table_size = 1;
+    while (table_size < 2 * parts->vertex_count)
+        table_size *= 2;
+    uint32_t *table = calloc(table_size, sizeof *table);
+    if (!table)
+        return message_set(message, "%s: not enough memory for its vertices", path);
+    if (!mesh_open(mesh, parts->vertex_count, parts->index_count, message)) {
+        free(table);
+        return false;
+    }
+    mesh->vertex_count = mesh->index_count = 0;
+    for (size_t triangle = 0; triangle < parts->index_count / 3; triangle++) {
+        Vec3 normal;
+        if (!mesh_face(parts, triangle, &normal))
+            continue;
+        for (size_t i = 3 * triangle; i < 3 * triangle + 3; i++) {
+            const MeshVertex *vertex = &parts->vertices[parts->indices[i]];
+            uint32_t *found = find(table, table_size, mesh->vertices, vertex);
+            if (!*found) {
+                mesh->vertices[mesh->vertex_count++] = *vertex;
+                *found = (uint32_t)mesh->vertex_count;
+            }
+            mesh->indices[mesh->index_count++] = *found - 1;
+        }
+    }
+    free(table);
+    if (mesh->index_count == 0)
+        return message_set(message, "%s: holds no triangle with an area", path);
+    return true;
+}
+
+static bool is_zero(const float normal[3])
+{
+    return normal[0] == 0 && normal[1] == 0 && normal[2] == 0;
+}
+
+/* Computes the missing normals: all of a copy, of which it takes those. */
+static bool fill_normals(Mesh *mesh, Message *message)
+{
+    Mesh copy = *mesh;
+    copy.vertices = malloc(mesh->vertex_count * sizeof *mesh->vertices);
+    if (!copy.vertices)
+        return message_set(message, "model: not enough memory for the normals of %zu vertices",
+                           mesh->vertex_count);
+    memcpy(copy.vertices, mesh->vertices, mesh->vertex_count * sizeof *mesh->vertices);
+    const bool done = mesh_compute_normals(&copy, MESH_WEIGHT_ANGLE, message);
+    for (size_t i = 0; done && i < mesh->vertex_count; i++)
+        if (is_zero(mesh->vertices[i].normal))
+            mesh->vertices[i] = copy.vertices[i];
+    free(copy.vertices);
+    return done;
+}
+
+static bool complete_normals(Mesh *mesh, Message *message)
+{
+    bool missing = false;
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
+        float *normal = mesh->vertices[i].normal;
+        Vec3 unit;
+        vec3_normalize((Vec3){normal[0], normal[1], normal[2]}, &unit);
+        vec3_to_float(unit, normal);
+        missing |= is_zero(normal);
+    }
+    return !missing || fill_normals(mesh, message);
+}
+
+bool model_complete(Mesh *mesh, Message *message)
+{
+    Mesh joined;
+    bool missing = false;
+    for (size_t i = 0; i < mesh->index_count && !missing; i++)
+        missing = is_zero(mesh->vertices[mesh->indices[i]].normal);
+    if (!missing || mesh->colors || mesh->lit_positions)
+        return !missing || fill_normals(mesh, message);
+    if (!join("mesh", mesh, &joined, message))
+        return false;
+    mesh_close(mesh);
+    *mesh = joined;
+    return fill_normals(mesh, message);
+}
+
+bool model_read(const char *path, ModelUp up, Mesh *mesh, Message *message)
+{
+    SceneFile file;
+    Mesh parts = {.vertices = NULL};
+    *mesh = (Mesh){0};
+    const bool done = scene_file_read(path, up, &file, message) &&
+                      flatten(path, &file, &parts, message) && join(path, &parts, mesh, message) &&
+                      complete_normals(mesh, message);
+    scene_file_close(&file);
+    mesh_close(&parts);
+    if (!done)
+        mesh_close(mesh);
+    return done;
+}

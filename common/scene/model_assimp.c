@@ -1,0 +1,531 @@
+/*
+ * The plugin that reads files of scenes with Assimp; glTF 2.0 goes to gltf.c.
+ */
+#include "core/mesh_make.h"
+#include "scene/model_module.h"
+#include "scene/model_ply.h"
+
+#include <assimp/cfileio.h>
+#include <assimp/cimport.h>
+#include <assimp/commonMetaData.h>
+#include <assimp/config.h>
+#include <assimp/material.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <assimp/version.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* What is read into what. */
+typedef struct Walk {
+    const struct aiScene *scene;
+    SceneFile *file;
+    double scale; /* of the file's lengths in the world */
+    size_t vertices, indices;
+    Message *reason;
+} Walk;
+
+/* Assimp's matrices are for column vectors too, but stored row-major. */
+static Mat4 matrix(const struct aiMatrix4x4 *a)
+{
+    return (Mat4){{a->a1, a->b1, a->c1, a->d1, a->a2, a->b2, a->c2, a->d2, a->a3, a->b3, a->c3,
+                   a->d3, a->a4, a->b4, a->c4, a->d4}};
+}
+
+static Vec3 vector(const struct aiVector3D *a)
+{
+    return (Vec3){a->x, a->y, a->z};
+}
+
+/* A reflectivity. */
+static Vec3 within_one(Vec3 c)
+{
+    return (Vec3){fmin(fmax(c.x, 0), 1), fmin(fmax(c.y, 0), 1), fmin(fmax(c.z, 0), 1)};
+}
+
+static void set_name(char name[FILE_NAME], const char *text)
+{
+    snprintf(name, FILE_NAME, "%.47s", text);
+}
+
+/* The rotation that turns an axis, 0 to 2, or its opposite, to y. */
+static Mat4 upright(int axis, bool down)
+{
+    const Mat4 turned = axis == 0   ? mat4_rotate(90, (Vec3){0, 0, 1})
+                        : axis == 2 ? mat4_rotate(-90, (Vec3){1, 0, 0})
+                                    : mat4_identity();
+    return down ? mat4_product(mat4_rotate(180, (Vec3){0, 0, 1}), turned) : turned;
+}
+
+static bool metadata_is(const struct aiScene *scene, const char *key, int *value)
+{
+    const struct aiMetadata *all = scene->mMetaData;
+    for (unsigned i = 0; all && i < all->mNumProperties; i++) {
+        if (strcmp(all->mKeys[i].data, key) == 0 && all->mValues[i].mType == AI_INT32) {
+            *value = *(const int32_t *)all->mValues[i].mData;
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool importer_is(const struct aiScene *scene, const char *name)
+{
+    const struct aiMetadata *all = scene->mMetaData;
+    for (unsigned i = 0; all && i < all->mNumProperties; i++)
+        if (strcmp(all->mKeys[i].data, AI_METADATA_SOURCE_FORMAT) == 0 &&
+            all->mValues[i].mType == AI_AISTRING)
+            return strstr(((const struct aiString *)all->mValues[i].mData)->data, name);
+    return false;
+}
+
+/* Assimp itself turns z of 3DS files to y, and the axis that a COLLADA file names (unless
+ * read_file forbids it). It reports an FBX file's axis, and leaves it as it is or, since 5.4, turns
+ * the root by the file's three axes: by a singular matrix where the file names one only. */
+static Mat4 stand_up(const struct aiScene *scene, ModelUp up)
+{
+    int axis = 1, sign = 1;
+    const bool turned = importer_is(scene, "3DS");
+    if (up != MODEL_UP_FILE)
+        return mat4_product(upright((int)up - MODEL_UP_X, false),
+                            turned ? mat4_rotate(90, (Vec3){1, 0, 0}) : mat4_identity());
+    if (importer_is(scene, "STL") || importer_is(scene, "Blender"))
+        return upright(2, false);
+    if (metadata_is(scene, "UpAxis", &axis))
+        metadata_is(scene, "UpAxisSign", &sign);
+    return upright(axis, sign < 0);
+}
+
+/* Meshes */
+
+static bool fill_mesh(const struct aiMesh *part, Vec3 diffuse, Mesh *mesh, Message *reason)
+{
+    const struct aiColor4D *colors = part->mColors[0];
+    if (!mesh_open(mesh, part->mNumVertices, 3 * (size_t)part->mNumFaces, reason) ||
+        (colors && !mesh_open_colors(mesh, reason)))
+        return false;
+    for (unsigned i = 0; i < part->mNumVertices; i++) {
+        vec3_to_float(vector(&part->mVertices[i]), mesh->vertices[i].position);
+        if (part->mNormals)
+            vec3_to_float(vector(&part->mNormals[i]), mesh->vertices[i].normal);
+        if (colors)
+            vec3_to_float(within_one((Vec3){colors[i].r * diffuse.x, colors[i].g * diffuse.y,
+                                            colors[i].b * diffuse.z}),
+                          mesh->colors[i]);
+    }
+    mesh->index_count = 0;
+    for (unsigned i = 0; i < part->mNumFaces; i++) {
+        const struct aiFace *face = &part->mFaces[i];
+        for (unsigned k = 0; face->mNumIndices == 3 && k < 3; k++) /* no point and no line */
+            mesh->indices[mesh->index_count++] = face->mIndices[k];
+    }
+    return true;
+}
+
+static bool color_of(const struct aiMaterial *material, const char *key, Vec3 *color)
+{
+    struct aiColor4D found;
+    if (aiGetMaterialColor(material, key, 0, 0, &found) != aiReturn_SUCCESS)
+        return false;
+    *color = within_one((Vec3){found.r, found.g, found.b});
+    return true;
+}
+
+static double number_of(const struct aiMaterial *material, const char *key, double usual)
+{
+    float found;
+    return aiGetMaterialFloatArray(material, key, 0, 0, &found, NULL) == aiReturn_SUCCESS &&
+                   isfinite(found)
+               ? (double)found
+               : usual;
+}
+
+static void note_material(SceneFile *file, const struct aiMaterial *material, double alpha)
+{
+    unsigned textures = 0;
+    for (int kind = 1; kind <= AI_TEXTURE_TYPE_MAX; kind++)
+        textures += aiGetMaterialTextureCount(material, (enum aiTextureType)kind);
+    if (textures)
+        scene_file_note(file, NOTE_TEXTURES);
+    if (alpha < 1)
+        scene_file_note(file, NOTE_TRANSPARENT);
+}
+
+/* An object's material; Assimp gives Phong's terms. */
+static void set_material(const struct aiMaterial *from, Object *object)
+{
+    Material *to = &object->front;
+    Vec3 black = {0, 0, 0};
+    int two_sided = 0;
+    *to = (Material){.diffuse = {0.8, 0.8, 0.8}, .alpha = 1};
+    if (!from)
+        return;
+    color_of(from, "$clr.diffuse", &to->diffuse);
+    if (!color_of(from, "$clr.ambient", &to->ambient) || color_is_black(to->ambient))
+        to->ambient = to->diffuse;
+    color_of(from, "$clr.emissive", &to->emission);
+    to->shininess = fmin(fmax(number_of(from, "$mat.shininess", 0), 0), 128);
+    if (color_of(from, "$clr.specular", &to->specular))
+        to->specular = within_one(vec3_scale(to->specular, number_of(from, "$mat.shinpercent", 1)));
+    if (to->shininess == 0) /* no exponent: no highlight */
+        to->specular = black;
+    to->alpha = fmin(fmax(number_of(from, "$mat.opacity", 1), 0), 1);
+    aiGetMaterialIntegerArray(from, "$mat.twosided", 0, 0, &two_sided, NULL);
+    object->two_sided = two_sided != 0;
+    object->back = *to;
+}
+
+static const struct aiMaterial *material_of(const struct aiScene *scene, const struct aiMesh *part)
+{
+    return part->mMaterialIndex < scene->mNumMaterials ? scene->mMaterials[part->mMaterialIndex]
+                                                       : NULL;
+}
+
+/* Each mesh once, with triangles or without. */
+static bool add_meshes(Walk *walk)
+{
+    for (unsigned i = 0; i < walk->scene->mNumMeshes; i++) {
+        const struct aiMesh *part = walk->scene->mMeshes[i];
+        Object object = {.lamp = 0};
+        Mesh *mesh = scene_file_add(walk->file, FILE_MESHES);
+        walk->vertices += part->mNumVertices;
+        walk->indices += 3 * (size_t)part->mNumFaces;
+        if (!mesh || walk->vertices > MODEL_VERTICES_MAX || walk->indices / 3 > MODEL_TRIANGLES_MAX)
+            continue;
+        set_material(material_of(walk->scene, part), &object);
+        if (!fill_mesh(part, object.front.diffuse, mesh, walk->reason))
+            return false;
+    }
+    if (walk->scene->mNumMeshes > FILE_ITEMS_MAX)
+        return message_set(walk->reason, "%u meshes; at most %d are read", walk->scene->mNumMeshes,
+                           FILE_ITEMS_MAX);
+    if (walk->vertices > MODEL_VERTICES_MAX || walk->indices / 3 > MODEL_TRIANGLES_MAX)
+        return message_set(
+            walk->reason, "%zu vertices and %zu triangles; at most %d and %d are read",
+            walk->vertices, walk->indices / 3, MODEL_VERTICES_MAX, MODEL_TRIANGLES_MAX);
+    return true;
+}
+
+/* Lights, cameras, animations */
+
+static bool add_light(Walk *walk, const struct aiLight *from, int node)
+{
+    static const double DEGREES = 57.29577951308232;
+    const Vec3 diffuse = {from->mColorDiffuse.r, from->mColorDiffuse.g, from->mColorDiffuse.b};
+    if (from->mType == aiLightSource_AMBIENT) {
+        const Vec3 ambient = {from->mColorAmbient.r, from->mColorAmbient.g, from->mColorAmbient.b};
+        Vec3 *sum = &walk->file->scene.global_ambient;
+        *sum = vec3_add(*sum, color_is_black(ambient) ? diffuse : ambient);
+        return true;
+    }
+    FileLight *to = scene_file_add(walk->file, FILE_LIGHTS);
+    if (!to)
+        return message_set(walk->reason, "more than %d lights", FILE_ITEMS_MAX);
+    set_name(to->name, from->mName.data);
+    to->node = node;
+    to->light = (Light){
+        .kind = from->mType == aiLightSource_DIRECTIONAL ? LIGHT_DIRECTIONAL
+                : from->mType == aiLightSource_SPOT      ? LIGHT_SPOT
+                                                         : LIGHT_POINT,
+        .position = vector(&from->mPosition),
+        .direction = vector(&from->mDirection),
+        .diffuse = diffuse,
+        .specular = {from->mColorSpecular.r, from->mColorSpecular.g, from->mColorSpecular.b},
+        .constant = from->mAttenuationConstant,
+        .linear = from->mAttenuationLinear / walk->scale,
+        .quadratic = from->mAttenuationQuadratic / (walk->scale * walk->scale)};
+    if (from->mType == aiLightSource_AREA)
+        scene_file_note(walk->file, NOTE_AREA);
+    if (color_is_black(to->light.specular))
+        to->light.specular = diffuse;
+    if (to->light.kind == LIGHT_DIRECTIONAL)
+        to->light.direction = vec3_scale(to->light.direction, -1);
+    if (to->light.kind == LIGHT_SPOT) { /* whole angles */
+        to->light.cutoff = fmin(from->mAngleOuterCone / 2 * DEGREES, 90);
+        to->light.exponent =
+            scene_file_spot_exponent(from->mAngleInnerCone / 2, from->mAngleOuterCone / 2);
+    }
+    return true;
+}
+
+static bool add_camera(Walk *walk, const struct aiCamera *from, int node)
+{
+    static const double DEGREES = 57.29577951308232;
+    FileCamera *to = scene_file_add(walk->file, FILE_CAMERAS);
+    if (!to)
+        return message_set(walk->reason, "more than %d cameras", FILE_ITEMS_MAX);
+    const double aspect = from->mAspect > 0 ? from->mAspect : 1;
+    const double fovy = 2 * DEGREES * atan(tan(from->mHorizontalFOV / 2) / aspect);
+    set_name(to->name, from->mName.data);
+    to->node = node;
+    to->camera = (Camera){.eye = vector(&from->mPosition),
+                          .center = vec3_add(vector(&from->mPosition), vector(&from->mLookAt)),
+                          .up = vector(&from->mUp),
+                          .fovy = fovy > 1e-3 && fovy < 179 ? fovy : 45,
+                          .near = from->mClipPlaneNear * walk->scale,
+                          .far = from->mClipPlaneFar * walk->scale};
+    return true;
+}
+
+/* A channel of so many keys, whose numbers are to be filled in; NULL: no room. */
+static float *add_channel(Walk *walk, int node, FilePath path, unsigned count)
+{
+    SceneFile *file = walk->file;
+    const long long numbers = (long long)count * (path == FILE_ROTATION ? 5 : 4);
+    FileChannel *channel = count > 0 && file->key_count + numbers <= FILE_KEYS_MAX
+                               ? scene_file_add(file, FILE_CHANNELS)
+                               : NULL;
+    if (!channel)
+        return NULL;
+    *channel = (FileChannel){node, (int)path, FILE_LINEAR, (int)count, file->key_count};
+    for (long long i = 0; i < numbers; i++)
+        scene_file_add(file, FILE_KEYS);
+    file->nodes[node].moving = true;
+    return file->keys + channel->first;
+}
+
+static void add_vectors(Walk *walk, int node, FilePath path, const struct aiVectorKey *keys,
+                        unsigned count, double rate)
+{
+    float *times = add_channel(walk, node, path, count);
+    for (unsigned i = 0; times && i < count; i++) {
+        times[i] = (float)(keys[i].mTime / rate);
+        vec3_to_float(vector(&keys[i].mValue), times + count + 3 * i);
+    }
+}
+
+/* What the first animation does with a node. */
+static bool add_motion(Walk *walk, const struct aiNode *node, int number)
+{
+    const struct aiAnimation *all =
+        walk->scene->mNumAnimations ? walk->scene->mAnimations[0] : NULL;
+    for (unsigned i = 0; all && i < all->mNumChannels; i++) {
+        const struct aiNodeAnim *moves = all->mChannels[i];
+        const double rate = all->mTicksPerSecond > 0 ? all->mTicksPerSecond : 25;
+        FileNode *to = &walk->file->nodes[number];
+        struct aiVector3D scale, place;
+        struct aiQuaternion turn;
+        if (strcmp(moves->mNodeName.data, node->mName.data) != 0 || node == walk->scene->mRootNode)
+            continue;
+        aiDecomposeMatrix(&node->mTransformation, &scale, &turn, &place);
+        to->translation = vector(&place);
+        to->scale = vector(&scale);
+        to->rotation = (Vec4){turn.x, turn.y, turn.z, turn.w};
+        add_vectors(walk, number, FILE_TRANSLATION, moves->mPositionKeys, moves->mNumPositionKeys,
+                    rate);
+        add_vectors(walk, number, FILE_SCALE, moves->mScalingKeys, moves->mNumScalingKeys, rate);
+        const unsigned count = moves->mNumRotationKeys;
+        float *times = add_channel(walk, number, FILE_ROTATION, count);
+        for (unsigned k = 0; times && k < count; k++) {
+            const struct aiQuaternion *q = &moves->mRotationKeys[k].mValue;
+            const float values[4] = {q->x, q->y, q->z, q->w};
+            times[k] = (float)(moves->mRotationKeys[k].mTime / rate);
+            memcpy(times + count + 4 * k, values, sizeof values);
+        }
+        return true;
+    }
+    return true;
+}
+
+/* Nodes */
+
+static bool add_object(Walk *walk, const struct aiNode *node, int number, unsigned index)
+{
+    const struct aiMesh *part = walk->scene->mMeshes[index];
+    const struct aiMaterial *material = material_of(walk->scene, part);
+    if (walk->file->meshes[index].index_count == 0) {
+        scene_file_note(walk->file, NOTE_LINES);
+        return true;
+    }
+    FileObject *object = scene_file_add(walk->file, FILE_OBJECTS);
+    if (!object)
+        return message_set(walk->reason, "more than %d objects", FILE_ITEMS_MAX);
+    object->node = number;
+    object->mesh = (int)index;
+    set_name(object->name, node->mName.data);
+    set_material(material, &object->object);
+    if (material)
+        note_material(walk->file, material, object->object.front.alpha);
+    if (part->mNumBones)
+        scene_file_note(walk->file, NOTE_SKIN);
+    if (part->mNumAnimMeshes)
+        scene_file_note(walk->file, NOTE_MORPH);
+    return true;
+}
+
+/* The lights and the cameras that the node's name places. */
+static bool add_named(Walk *walk, const struct aiNode *node, int number)
+{
+    for (unsigned i = 0; i < walk->scene->mNumLights; i++)
+        if (strcmp(walk->scene->mLights[i]->mName.data, node->mName.data) == 0 &&
+            !add_light(walk, walk->scene->mLights[i], number))
+            return false;
+    for (unsigned i = 0; i < walk->scene->mNumCameras; i++)
+        if (strcmp(walk->scene->mCameras[i]->mName.data, node->mName.data) == 0 &&
+            !add_camera(walk, walk->scene->mCameras[i], number))
+            return false;
+    return true;
+}
+
+static bool visit(Walk *walk, const struct aiNode *node, int parent, const Mat4 *world_from_file)
+{
+    FileNode *added = scene_file_add(walk->file, FILE_NODES);
+    if (!added)
+        return message_set(walk->reason, "more than %d nodes", FILE_ITEMS_MAX);
+    const int number = walk->file->node_count - 1;
+    const Mat4 own = matrix(&node->mTransformation);
+    added->parent = parent;
+    added->parent_from_node = world_from_file ? mat4_product(*world_from_file, own) : own;
+    for (unsigned i = 0; i < node->mNumMeshes; i++)
+        if (!add_object(walk, node, number, node->mMeshes[i]))
+            return false;
+    if (node->mName.length > 0 &&
+        (!add_named(walk, node, number) || !add_motion(walk, node, number)))
+        return false;
+    for (unsigned i = 0; i < node->mNumChildren; i++)
+        if (!visit(walk, node->mChildren[i], number, NULL))
+            return false;
+    return true;
+}
+
+static bool collect(const struct aiScene *scene, ModelUp up, SceneFile *file, Message *reason)
+{
+    const Mat4 world_from_file = stand_up(scene, up);
+    Walk walk = {.scene = scene, .file = file, .reason = reason};
+    if (importer_is(scene, "FBX"))
+        aiIdentityMatrix4(&scene->mRootNode->mTransformation);
+    walk.scale = cbrt(fabs(mat4_determinant(matrix(&scene->mRootNode->mTransformation))));
+    walk.scale = walk.scale > 0 ? walk.scale : 1;
+    for (unsigned i = 1; i < scene->mNumAnimations; i++)
+        scene_file_note(file, NOTE_ANIMATION);
+    return add_meshes(&walk) && visit(&walk, scene->mRootNode, -1, &world_from_file);
+}
+
+/* Files that Assimp opens: the one that was asked for, and others in its folder. */
+
+typedef struct Folder {
+    const char *path;
+    size_t length; /* of the folder's name in the path, with its slash */
+    char refused[256];
+} Folder;
+
+static bool is_within(const Folder *folder, const char *path)
+{
+    const char *rest =
+        strncmp(path, folder->path, folder->length) == 0 ? path + folder->length : "/";
+    return strcmp(path, folder->path) == 0 ||
+           (rest[0] != '/' && rest[0] != '\\' && !strstr(rest, "..") && !strstr(rest, ":"));
+}
+
+static size_t file_read(struct aiFile *file, char *bytes, size_t size, size_t count)
+{
+    return fread(bytes, size, count, (FILE *)file->UserData);
+}
+
+static size_t file_write(struct aiFile *file, const char *bytes, size_t size, size_t count)
+{
+    (void)file, (void)bytes, (void)size, (void)count;
+    return 0;
+}
+
+static size_t file_tell(struct aiFile *file)
+{
+    return (size_t)ftell((FILE *)file->UserData);
+}
+
+static size_t file_size(struct aiFile *file)
+{
+    FILE *open = (FILE *)file->UserData;
+    const long here = ftell(open);
+    fseek(open, 0, SEEK_END);
+    const long size = ftell(open);
+    fseek(open, here, SEEK_SET);
+    return size > 0 ? (size_t)size : 0;
+}
+
+static enum aiReturn file_seek(struct aiFile *file, size_t offset, enum aiOrigin origin)
+{
+    const int from = origin == aiOrigin_CUR   ? SEEK_CUR
+                     : origin == aiOrigin_END ? SEEK_END
+                                              : SEEK_SET;
+    return fseek((FILE *)file->UserData, (long)offset, from) == 0 ? aiReturn_SUCCESS
+                                                                  : aiReturn_FAILURE;
+}
+
+static void file_flush(struct aiFile *file)
+{
+    (void)file;
+}
+
+static struct aiFile *file_open(struct aiFileIO *io, const char *path, const char *mode)
+{
+    Folder *folder = (Folder *)io->UserData;
+    FILE *open = NULL;
+    if (strchr(mode, 'w') || !is_within(folder, path))
+        snprintf(folder->refused, sizeof folder->refused, "%s", path);
+    else
+        open = fopen(path, "rb");
+    struct aiFile *file = open ? malloc(sizeof *file) : NULL;
+    if (file)
+        *file = (struct aiFile){file_read, file_write, file_tell,   file_size,
+                                file_seek, file_flush, (char *)open};
+    return file;
+}
+
+static void file_close(struct aiFileIO *io, struct aiFile *file)
+{
+    (void)io;
+    fclose((FILE *)file->UserData);
+    free(file);
+}
+
+bool assimp_read(const char *path, ModelUp up, SceneFile *file, Message *reason)
+{
+    char cut[256] = "";
+    const char *slash = strrchr(path, '/');
+    Folder folder = {.path = path, .length = slash ? (size_t)(slash + 1 - path) : 0};
+    struct aiFileIO io = {file_open, file_close, (char *)&folder};
+    if (!model_ply_is_whole(path, cut, sizeof cut))
+        return message_set(reason, "%s", cut);
+    struct aiPropertyStore *properties = aiCreatePropertyStore();
+    /* By default Assimp makes meshes for files of bones alone. */
+    aiSetImportPropertyInteger(properties, AI_CONFIG_IMPORT_NO_SKELETON_MESHES, 1);
+    aiSetImportPropertyInteger(properties, AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION,
+                               up != MODEL_UP_FILE);
+    const struct aiScene *scene = aiImportFileExWithProperties(
+        path, aiProcess_Triangulate | aiProcess_ValidateDataStructure, &io, properties);
+    aiReleasePropertyStore(properties);
+    if (!scene && folder.refused[0])
+        return message_set(reason, "it needs %s, which is outside its folder", folder.refused);
+    if (!scene)
+        return message_set(reason, "%s", aiGetErrorString());
+    if (folder.refused[0])
+        scene_file_note(file, NOTE_OUTSIDE);
+    const bool collected = collect(scene, up, file, reason);
+    aiReleaseImport(scene);
+    return collected;
+}
+
+static bool read_file(const char *path, ModelUp up, SceneFile *file, Message *reason)
+{
+    bool other = false;
+    const bool read = gltf_read(path, file, &other, reason);
+    if (other)
+        return assimp_read(path, up, file, reason);
+    if (read && up != MODEL_UP_FILE) /* the first is the world */
+        file->nodes[0].parent_from_node = upright((int)up - MODEL_UP_X, false);
+    return read;
+}
+
+static const char *version(void)
+{
+    static char text[32];
+    snprintf(text, sizeof text, "%u.%u.%u", aiGetVersionMajor(), aiGetVersionMinor(),
+             aiGetVersionPatch());
+    return text;
+}
+
+__attribute__((visibility("default"))) const ModelModule model_module = {version, read_file};

@@ -1,0 +1,24 @@
+/*
+ * model_module: the plugin that reads files of scenes, as scene_file.c calls it.
+ */
+#ifndef MODEL_MODULE_H
+#define MODEL_MODULE_H
+
+#include "base/plugin.h"
+#include "scene/scene_file.h"
+
+/* The variable `model_module`. */
+typedef struct ModelModule {
+    PluginVersion *version;
+    /* Reads a file, unchecked: numbers may be infinite or NaN; missing normals are zero. On failure
+     * sets the reason, without a subject. */
+    bool (*read)(const char *path, ModelUp up, SceneFile *file, Message *reason);
+} ModelModule;
+
+/* The two readers. */
+bool assimp_read(const char *path, ModelUp up, SceneFile *file, Message *reason);
+
+/* glTF 2.0. `*other`, and true: it is not of this format. */
+bool gltf_read(const char *path, SceneFile *file, bool *other, Message *reason);
+
+#endif

@@ -1,0 +1,295 @@
+/*
+ * Lists that grow, where nodes are at a time, and whether a mesh is closed.
+ *
+ * A mesh is closed and consistently turned where its boundary is nothing: each edge is passed as
+ * often in one direction as in the other. With a random number for each pair of corners, added for
+ * one direction and subtracted for the other, the sum is 0 then, and otherwise only by a chance of
+ * 1 in 2^64: no table of edges is needed. (Carter and Wegman, Universal classes of hash functions,
+ * 1979.) Connected parts are found by union and find with path halving (Tarjan and van Leeuwen,
+ * 1984): one that holds a negative volume is turned inside out.
+ */
+#include "scene/scene_file.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Lists */
+
+FileListPlace scene_file_list(SceneFile *file, FileList list)
+{
+    const FileListPlace places[FILE_LISTS] = {
+        [FILE_NODES] = {(void **)&file->nodes, &file->node_count, sizeof *file->nodes,
+                        FILE_ITEMS_MAX},
+        [FILE_OBJECTS] = {(void **)&file->objects, &file->object_count, sizeof *file->objects,
+                          FILE_ITEMS_MAX},
+        [FILE_LIGHTS] = {(void **)&file->lights, &file->light_count, sizeof *file->lights,
+                         FILE_ITEMS_MAX},
+        [FILE_CAMERAS] = {(void **)&file->cameras, &file->camera_count, sizeof *file->cameras,
+                          FILE_ITEMS_MAX},
+        [FILE_CHANNELS] = {(void **)&file->channels, &file->channel_count, sizeof *file->channels,
+                           FILE_ITEMS_MAX},
+        [FILE_KEYS] = {(void **)&file->keys, &file->key_count, sizeof *file->keys, FILE_KEYS_MAX},
+        [FILE_NOTES] = {(void **)&file->notes, &file->note_count, sizeof *file->notes, 100},
+        [FILE_MESHES] = {(void **)&file->meshes, &file->mesh_count, sizeof *file->meshes,
+                         FILE_ITEMS_MAX},
+    };
+    return places[list];
+}
+
+void *scene_file_add(SceneFile *file, FileList list)
+{
+    const FileListPlace place = scene_file_list(file, list);
+    const int count = *place.count;
+    if (count >= place.most)
+        return NULL;
+    if ((count & (count - 1)) == 0) /* a power of two is full */
+        *place.items = memory_grow(*place.items, count ? 2 * (size_t)count : 1, place.size);
+    *place.count = count + 1;
+    return memset((char *)*place.items + (size_t)count * place.size, 0, place.size);
+}
+
+void scene_file_note(SceneFile *file, const char *text)
+{
+    FileNote *note = file->notes;
+    for (int i = 0; i < file->note_count; i++, note++)
+        if (strcmp(note->text, text) == 0) {
+            note->count++;
+            return;
+        }
+    if (!(note = scene_file_add(file, FILE_NOTES)))
+        return;
+    snprintf(note->text, sizeof note->text, "%s", text);
+    note->count = 1;
+}
+
+void scene_file_close(SceneFile *file)
+{
+    if (!file)
+        return;
+    for (int i = 0; i < file->mesh_count; i++)
+        mesh_close(&file->meshes[i]);
+    for (int list = 0; list < FILE_LISTS; list++)
+        free(*scene_file_list(file, (FileList)list).items);
+    *file = (SceneFile){.photometric = false};
+}
+
+/* Poses */
+
+/* A rotation by a quaternion of any length. (Shoemake, Animating rotation with quaternion curves,
+ * 1985) */
+static Mat4 rotate_by(Vec4 q)
+{
+    const double norm = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+    const double s = norm > 0 ? 2 / norm : 0;
+    return (Mat4){{1 - s * (q.y * q.y + q.z * q.z), s * (q.x * q.y + q.w * q.z),
+                   s * (q.x * q.z - q.w * q.y), 0, s * (q.x * q.y - q.w * q.z),
+                   1 - s * (q.x * q.x + q.z * q.z), s * (q.y * q.z + q.w * q.x), 0,
+                   s * (q.x * q.z + q.w * q.y), s * (q.y * q.z - q.w * q.x),
+                   1 - s * (q.x * q.x + q.y * q.y), 0, 0, 0, 0, 1}};
+}
+
+Mat4 scene_file_moved(const FileNode *node)
+{
+    return mat4_product(mat4_translate(node->translation),
+                        mat4_product(rotate_by(node->rotation), mat4_scale(node->scale)));
+}
+
+/* Spherical interpolation on the shorter arc; nearly equal ones linearly. */
+static void slerp(const float *a, const float *b, double t, double *value)
+{
+    double dot = 0;
+    for (int k = 0; k < 4; k++)
+        dot += (double)a[k] * (double)b[k];
+    const double sign = dot < 0 ? -1 : 1, angle = acos(fmin(fabs(dot), 1));
+    const double s = sin(angle);
+    const double from = s > 1e-6 ? sin((1 - t) * angle) / s : 1 - t;
+    const double to = sign * (s > 1e-6 ? sin(t * angle) / s : t);
+    for (int k = 0; k < 4; k++)
+        value[k] = from * (double)a[k] + to * (double)b[k];
+}
+
+/* Between the keys i and i + 1, at the part t of `step` seconds: glTF 2.0, appendix C. */
+static void interpolate(const FileChannel *channel, const float *values, double t, double step,
+                        double *value)
+{
+    const int size = channel->path == FILE_ROTATION ? 4 : 3;
+    if (channel->step == FILE_LINEAR && channel->path == FILE_ROTATION) {
+        slerp(values, values + size, t, value);
+        return;
+    }
+    for (int k = 0; k < size; k++) {
+        if (channel->step == FILE_CUBIC) { /* in-tangent, value, out-tangent */
+            const double a = (double)values[size + k], b = (double)values[4 * size + k];
+            const double out = step * (double)values[2 * size + k];
+            const double in = step * (double)values[3 * size + k];
+            value[k] =
+                a + t * (out + t * (3 * (b - a) - 2 * out - in + t * (2 * (a - b) + out + in)));
+        } else {
+            const double a = (double)values[k], b = (double)values[size + k];
+            value[k] = channel->step == FILE_STEP ? a : a + t * (b - a);
+        }
+    }
+}
+
+/* The value at a time; before the first key and after the last, theirs. */
+static void channel_value(const SceneFile *file, const FileChannel *channel, double seconds,
+                          double value[4])
+{
+    const float *times = file->keys + channel->first, *values = times + channel->count;
+    const int size = channel->path == FILE_ROTATION ? 4 : 3;
+    const int stride = channel->step == FILE_CUBIC ? 3 * size : size, last = channel->count - 1;
+    int i = 0;
+    if (!(seconds > (double)times[0]) || last == 0 || seconds >= (double)times[last]) {
+        const float *end = values + stride * (seconds > (double)times[0] ? last : 0);
+        for (int k = 0; k < size; k++)
+            value[k] = (double)end[k + (channel->step == FILE_CUBIC ? size : 0)];
+        return;
+    }
+    for (int high = last; high - i > 1;) {
+        const int middle = (i + high) / 2;
+        *(seconds >= (double)times[middle] ? &i : &high) = middle;
+    }
+    const double step = (double)times[i + 1] - (double)times[i];
+    interpolate(channel, values + stride * i, step > 0 ? (seconds - (double)times[i]) / step : 0,
+                step, value);
+}
+
+/* Sets what the channels change, at a time that begins again after the last key. */
+static void animate(const SceneFile *file, double seconds)
+{
+    double end = 0;
+    for (int i = 0; i < file->channel_count; i++)
+        end = fmax(end, (double)file->keys[file->channels[i].first + file->channels[i].count - 1]);
+    if (end > 0 && seconds > end)
+        seconds = fmod(seconds, end);
+    for (int i = 0; i < file->channel_count; i++) {
+        const FileChannel *channel = &file->channels[i];
+        FileNode *node = &file->nodes[channel->node];
+        double v[4];
+        channel_value(file, channel, seconds, v);
+        if (channel->path == FILE_ROTATION)
+            node->rotation = (Vec4){v[0], v[1], v[2], v[3]};
+        else
+            *(channel->path == FILE_SCALE ? &node->scale : &node->translation) =
+                (Vec3){v[0], v[1], v[2]};
+    }
+}
+
+void scene_file_pose(const SceneFile *file, double seconds, Mat4 *world_from_nodes)
+{
+    const bool moves = seconds > 0;
+    if (moves)
+        animate(file, seconds);
+    for (int i = 0; i < file->node_count; i++) {
+        const FileNode *node = &file->nodes[i];
+        const Mat4 own = node->moving && moves ? scene_file_moved(node) : node->parent_from_node;
+        world_from_nodes[i] =
+            node->parent < 0 ? own : mat4_product(world_from_nodes[node->parent], own);
+    }
+}
+
+/* Of the light ((cos - cos outer) / (cos inner - cos outer))^2: KHR_lights_punctual. */
+double scene_file_spot_exponent(double inner, double outer)
+{
+    const double edge = cos(fmin(fmax(outer, 0), 1.5707963267948966));
+    const double core = fmax(cos(fmin(fmax(inner, 0), outer)), edge);
+    const double half = edge + sqrt(0.5) * (core - edge);
+    return core - edge > 1e-3 && half > 0 && half < 1 ? fmin(log(0.5) / log(half), 128) : 0;
+}
+
+/* Closed meshes */
+
+static uint64_t mixed(uint64_t x) /* splitmix64 (Steele, Lea and Flood, 2014) */
+{
+    x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ x >> 27) * 0x94d049bb133111ebu;
+    return x ^ x >> 31;
+}
+
+/* Of each vertex the first one at its position, in `ids`; the table has size - 1 as a mask. */
+static void find_places(const Mesh *mesh, uint32_t *ids, uint32_t *table, size_t size)
+{
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
+        uint32_t words[3];
+        float at[3];
+        for (int k = 0; k < 3; k++)
+            at[k] = mesh->vertices[i].position[k] + 0.0f; /* no -0 */
+        memcpy(words, at, sizeof words);
+        size_t place = mixed(mixed((uint64_t)words[0] << 32 | words[1]) + words[2]) & (size - 1);
+        while (table[place]) {
+            const float *other = mesh->vertices[table[place] - 1].position;
+            if (other[0] == at[0] && other[1] == at[1] && other[2] == at[2])
+                break;
+            place = (place + 1) & (size - 1);
+        }
+        if (!table[place])
+            table[place] = (uint32_t)i + 1;
+        ids[i] = table[place] - 1;
+    }
+}
+
+static uint32_t root_of(uint32_t *parents, uint32_t i)
+{
+    while (parents[i] != i)
+        i = parents[i] = parents[parents[i]];
+    return i;
+}
+
+static uint64_t edge(uint32_t a, uint32_t b)
+{
+    const uint64_t number = mixed(a < b ? (uint64_t)a << 32 | b : (uint64_t)b << 32 | a);
+    return a < b ? number : -number;
+}
+
+/* Six times the volumes of the parts, at their roots, about a point of the mesh. */
+static bool have_volume(const Mesh *mesh, const uint32_t *ids, uint32_t *parents, double *volumes)
+{
+    const Vec3 origin = vec3_from_float(mesh->vertices[0].position);
+    for (size_t i = 0; i < mesh->index_count; i++)
+        parents[ids[mesh->indices[i]]] = ids[mesh->indices[i]];
+    for (size_t i = 0; i < mesh->index_count; i += 3)
+        for (size_t k = 1; k < 3; k++)
+            parents[root_of(parents, ids[mesh->indices[i]])] =
+                root_of(parents, ids[mesh->indices[i + k]]);
+    for (size_t i = 0; i < mesh->index_count; i += 3) {
+        Vec3 v[3];
+        for (size_t k = 0; k < 3; k++)
+            v[k] = vec3_subtract(vec3_from_float(mesh->vertices[mesh->indices[i + k]].position),
+                                 origin);
+        volumes[root_of(parents, ids[mesh->indices[i]])] += vec3_dot(v[0], vec3_cross(v[1], v[2]));
+    }
+    for (size_t i = 0; i < mesh->index_count; i++) {
+        const uint32_t id = ids[mesh->indices[i]];
+        if (parents[id] == id && !(volumes[id] > 0))
+            return false;
+    }
+    return true;
+}
+
+bool scene_file_is_closed(const Mesh *mesh)
+{
+    size_t size = 1;
+    uint64_t sum = 0;
+    while (size < 2 * mesh->vertex_count)
+        size *= 2;
+    uint32_t *ids = calloc(2 * mesh->vertex_count + size, sizeof *ids);
+    if (!ids || mesh->index_count == 0) {
+        free(ids);
+        return false;
+    }
+    find_places(mesh, ids, ids + 2 * mesh->vertex_count, size);
+    for (size_t i = 0; i < mesh->index_count; i += 3) {
+        const uint32_t a = ids[mesh->indices[i]], b = ids[mesh->indices[i + 1]];
+        const uint32_t c = ids[mesh->indices[i + 2]];
+        sum += edge(a, b) + edge(b, c) + edge(c, a);
+    }
+    double *volumes = sum ? NULL : calloc(mesh->vertex_count, sizeof *volumes);
+    const bool closed = volumes && have_volume(mesh, ids, ids + mesh->vertex_count, volumes);
+    free(volumes);
+    free(ids);
+    return closed;
+}

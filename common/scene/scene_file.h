@@ -1,0 +1,148 @@
+/*
+ * scene_file: what a file of a scene holds: nodes, meshes, materials, lights, cameras. No GL.
+ *
+ * glTF 2.0 is read by scene/gltf.c, all other formats by Assimp, both in the plugin and in a child
+ * process with limited time and memory, because damaged files can make a reader loop or crash.
+ */
+#ifndef SCENE_FILE_H
+#define SCENE_FILE_H
+
+#include "scene/scene.h"
+
+/* Limits. Vertices count before equal ones are merged. */
+enum {
+    MODEL_BYTES_MAX = 1 << 30,
+    MODEL_VERTICES_MAX = 10000000,
+    MODEL_TRIANGLES_MAX = 20000000,
+    FILE_ITEMS_MAX = 100000, /* nodes, objects, lights... of a kind */
+    FILE_KEYS_MAX = 10000000,
+    FILE_NAME = 48,
+};
+
+/* The axis of the file that points up. MODEL_UP_FILE: the one that the file names (FBX, COLLADA),
+ * or its format's custom: z for STL, 3DS and Blender, y for all others. */
+typedef enum ModelUp { MODEL_UP_FILE, MODEL_UP_X, MODEL_UP_Y, MODEL_UP_Z } ModelUp;
+
+typedef struct FileNode {
+    int parent; /* an earlier node; -1: the world */
+    Mat4 parent_from_node;
+    bool moving; /* channels change these, of which the matrix is made then */
+    Vec3 translation, scale;
+    Vec4 rotation; /* a quaternion */
+} FileNode;
+
+/* One mesh at one node: without a mesh and a matrix, which follow from those. */
+typedef struct FileObject {
+    Object object;
+    int node, mesh;
+    char name[FILE_NAME];
+} FileObject;
+
+/* In its node's space. */
+typedef struct FileLight {
+    Light light;
+    double range; /* farther away there is none of it; 0: everywhere */
+    int node;     /* -1: as it is */
+    char name[FILE_NAME];
+} FileLight;
+
+typedef struct FileCamera {
+    Camera camera; /* far 0: as the scene needs it */
+    int node;      /* -1: as it is */
+    char name[FILE_NAME];
+} FileCamera;
+
+/* What changes of a node, by time. */
+typedef enum FilePath { FILE_TRANSLATION, FILE_ROTATION, FILE_SCALE } FilePath;
+typedef enum FileStep { FILE_LINEAR, FILE_STEP, FILE_CUBIC } FileStep;
+typedef struct FileChannel {
+    int node, path, step, count;
+    int first; /* in the keys: `count` times; then 3 or 4 numbers for each, of FILE_CUBIC three
+                  times as many */
+} FileChannel;
+
+/* What of the file is not drawn, and how often it occurs. */
+typedef struct FileNote {
+    char text[120];
+    int count;
+} FileNote;
+
+typedef struct SceneFile {
+    Scene scene;      /* all else of it, as its colours are meant; without lights and objects */
+    bool photometric; /* lights are in candela and lux */
+    FileNode *nodes;
+    FileObject *objects;
+    FileLight *lights;
+    FileCamera *cameras;
+    FileChannel *channels;
+    float *keys;
+    FileNote *notes;
+    Mesh *meshes;
+    int node_count, object_count, light_count, camera_count, channel_count, key_count, note_count,
+        mesh_count;
+} SceneFile;
+
+/* Reads a file. Numbers of meshes are finite, indices in range, triangles have an area; normals are
+ * normalized, and zero where the file has none. `up` turns it so that y points up.
+ *
+ * Fails, with a message of one line and a zeroed file, if the file cannot be read, is none, is
+ * damaged (as far as its format shows) or too large. */
+bool scene_file_read(const char *path, ModelUp up, SceneFile *file, Message *message);
+
+/* Where nodes are at a time: of each, world_from_node. Until 0 they rest, and then the animation
+ * begins, again and again. */
+void scene_file_pose(const SceneFile *file, double seconds, Mat4 *world_from_nodes);
+
+/* A node's matrix from what channels change. */
+Mat4 scene_file_moved(const FileNode *node);
+
+/* Of a file that is made: one more item, zeroed, of one of its lists; NULL: there are too many. */
+typedef enum FileList {
+    FILE_NODES,
+    FILE_OBJECTS,
+    FILE_LIGHTS,
+    FILE_CAMERAS,
+    FILE_CHANNELS,
+    FILE_KEYS,
+    FILE_NOTES,
+    FILE_MESHES,
+    FILE_LISTS,
+} FileList;
+void *scene_file_add(SceneFile *file, FileList list);
+
+/* Where a list begins, how many items it has, the bytes of one and the most there may be. */
+typedef struct FileListPlace {
+    void **items;
+    int *count;
+    size_t size;
+    int most;
+} FileListPlace;
+FileListPlace scene_file_list(SceneFile *file, FileList list);
+
+/* Counts one more of what is not drawn. */
+void scene_file_note(SceneFile *file, const char *text);
+#define NOTE_TEXTURES "textures: the material's own colours alone"
+#define NOTE_TRANSPARENT "transparency: drawn opaque"
+#define NOTE_LINES "points and lines: left out"
+#define NOTE_SKIN "skins: the mesh as it rests"
+#define NOTE_MORPH "morph targets: the mesh as it rests"
+#define NOTE_AREA "lights with an area: as points"
+#define NOTE_ANIMATION "animations after the first: left out"
+#define NOTE_SPOT "soft edges of spot lights: fitted by an exponent"
+#define NOTE_ORTHOGRAPHIC "orthographic cameras: from far away"
+#define NOTE_INSTANCES "instances of EXT_mesh_gpu_instancing: one of them"
+#define NOTE_LIGHTS "lights after the 32nd: left out"
+#define NOTE_OUTSIDE "files outside its folder: refused"
+
+/* The exponent of a spot whose light fades between these angles from its axis, in radians: as
+ * strong as the file's where that is half as strong. */
+double scene_file_spot_exponent(double inner, double outer);
+
+/* Whether all of a mesh is its outside: its triangles' edges come in pairs of opposite directions,
+ * and each connected part holds a volume. */
+bool scene_file_is_closed(const Mesh *mesh);
+
+/* NULL or zeroed is fine. */
+void scene_file_close(SceneFile *file);
+
+#endif
