@@ -2,10 +2,10 @@
  * The plugin that reads files of scenes with Assimp; glTF 2.0 goes to gltf.c.
  */
 #include "core/mesh_make.h"
+#include "scene/assimp_files.h"
 #include "scene/model_module.h"
 #include "scene/model_ply.h"
 
-#include <assimp/cfileio.h>
 #include <assimp/cimport.h>
 #include <assimp/commonMetaData.h>
 #include <assimp/config.h>
@@ -404,90 +404,12 @@ static bool collect(const struct aiScene *scene, ModelUp up, SceneFile *file, Me
     return add_meshes(&walk) && visit(&walk, scene->mRootNode, -1, &world_from_file);
 }
 
-/* Files that Assimp opens: the one that was asked for, and others in its folder. */
-
-typedef struct Folder {
-    const char *path;
-    size_t length; /* of the folder's name in the path, with its slash */
-    char refused[256];
-} Folder;
-
-static bool is_within(const Folder *folder, const char *path)
-{
-    const char *rest =
-        strncmp(path, folder->path, folder->length) == 0 ? path + folder->length : "/";
-    return strcmp(path, folder->path) == 0 ||
-           (rest[0] != '/' && rest[0] != '\\' && !strstr(rest, "..") && !strstr(rest, ":"));
-}
-
-static size_t file_read(struct aiFile *file, char *bytes, size_t size, size_t count)
-{
-    return fread(bytes, size, count, (FILE *)file->UserData);
-}
-
-static size_t file_write(struct aiFile *file, const char *bytes, size_t size, size_t count)
-{
-    (void)file, (void)bytes, (void)size, (void)count;
-    return 0;
-}
-
-static size_t file_tell(struct aiFile *file)
-{
-    return (size_t)ftell((FILE *)file->UserData);
-}
-
-static size_t file_size(struct aiFile *file)
-{
-    FILE *open = (FILE *)file->UserData;
-    const long here = ftell(open);
-    fseek(open, 0, SEEK_END);
-    const long size = ftell(open);
-    fseek(open, here, SEEK_SET);
-    return size > 0 ? (size_t)size : 0;
-}
-
-static enum aiReturn file_seek(struct aiFile *file, size_t offset, enum aiOrigin origin)
-{
-    const int from = origin == aiOrigin_CUR   ? SEEK_CUR
-                     : origin == aiOrigin_END ? SEEK_END
-                                              : SEEK_SET;
-    return fseek((FILE *)file->UserData, (long)offset, from) == 0 ? aiReturn_SUCCESS
-                                                                  : aiReturn_FAILURE;
-}
-
-static void file_flush(struct aiFile *file)
-{
-    (void)file;
-}
-
-static struct aiFile *file_open(struct aiFileIO *io, const char *path, const char *mode)
-{
-    Folder *folder = (Folder *)io->UserData;
-    FILE *open = NULL;
-    if (strchr(mode, 'w') || !is_within(folder, path))
-        snprintf(folder->refused, sizeof folder->refused, "%s", path);
-    else
-        open = fopen(path, "rb");
-    struct aiFile *file = open ? malloc(sizeof *file) : NULL;
-    if (file)
-        *file = (struct aiFile){file_read, file_write, file_tell,   file_size,
-                                file_seek, file_flush, (char *)open};
-    return file;
-}
-
-static void file_close(struct aiFileIO *io, struct aiFile *file)
-{
-    (void)io;
-    fclose((FILE *)file->UserData);
-    free(file);
-}
-
 bool assimp_read(const char *path, ModelUp up, SceneFile *file, Message *reason)
 {
     char cut[256] = "";
     const char *slash = strrchr(path, '/');
     Folder folder = {.path = path, .length = slash ? (size_t)(slash + 1 - path) : 0};
-    struct aiFileIO io = {file_open, file_close, (char *)&folder};
+    struct aiFileIO io = assimp_files(&folder);
     if (!model_ply_is_whole(path, cut, sizeof cut))
         return message_set(reason, "%s", cut);
     struct aiPropertyStore *properties = aiCreatePropertyStore();
@@ -511,8 +433,10 @@ bool assimp_read(const char *path, ModelUp up, SceneFile *file, Message *reason)
 
 static bool read_file(const char *path, ModelUp up, SceneFile *file, Message *reason)
 {
-    bool other = false;
-    const bool read = gltf_read(path, file, &other, reason);
+    bool other = true, read = false;
+#ifdef HAVE_JANSSON /* without it Assimp reads glTF 2.0, too */
+    read = gltf_read(path, file, &other, reason);
+#endif
     if (other)
         return assimp_read(path, up, file, reason);
     if (read && up != MODEL_UP_FILE) /* the first is the world */
