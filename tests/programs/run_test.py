@@ -130,7 +130,7 @@ class Names(Case):
         self.assertEqual((code, said), (0, ""))
         programs = json.loads(text)
         self.assertEqual({one["name"] for one in programs},
-                         set(base.EVERY) | {"Vectors"} | {"check"})
+                         set(base.EVERY) | {"Vectors"} | {"check", "Scene"})
         self.assertEqual("".join(f"{one['name']:32} {one['summary']}\n" for one in programs),
                          self.start("--list")[1])
         for one in programs:
