@@ -10,6 +10,7 @@
 #include "labs/check/judge.h"
 #include "labs/class/class.h"
 #include "labs/sandbox/sandboxed_check.h"
+#include "labs/submission/lab_json.h"
 #include "labs/submission/verdict_json.h"
 
 #include <errno.h>
@@ -21,9 +22,11 @@
 
 static int seed = -1;
 static double limit = 10;
-static const char *json, *pictures, *expected;
+static const char *json, *pictures, *expected, *own;
 
 static const Parameter parameters[] = {
+    {"lab", "the folder of a lab of your own, instead of LAB; see TEACHING.md", PARAMETER_TEXT,
+     .value = &own, .placeholder = "DIR"},
     {"seed", "seed of the second set of scenes; -1: random", PARAMETER_WHOLE, .value = &seed,
      .min = -1, .max = 2147483647},
     {"json", "the result as JSON; - is standard output", PARAMETER_TEXT, .value = &json,
@@ -46,6 +49,7 @@ static const Usage usage = {
         "exit status is 0 if the submission is right.\n"
         "\nTry:  check lab05 mine\n"
         "      check lab05 mine --pictures found --json found/result.json\n"
+        "      check --lab mylab mine\n"
         "      check --class DIR --lab 5 -o results\n"
         "The last judges a whole class: see check --class DIR --help.\n",
     .study = true,
@@ -98,16 +102,21 @@ int main(int argc, char *argv[])
     if (!options_begin(&options, &usage, argc, argv, &code))
         return code;
     char *const *names = options.names;
-    if (!names[0] || (expected ? names[1] != NULL : !names[1] || names[2])) {
-        message_set(&message, expected ? "--expected FILE takes only LAB"
+    const int count = !own + !expected;
+    int given = 0;
+    while (names[given])
+        given++;
+    if (given != count) {
+        message_set(&message, expected ? "--expected FILE takes only LAB or --lab DIR"
+                              : own    ? "needs a submission: check --lab mylab mine"
                                        : "needs a lab and a folder: check lab05 mine");
         return options_fail(usage.name, &message, EXIT_USAGE);
     }
-    const Lab *lab = lab_find(names[0], &message);
+    const Lab *lab = lab_open(own ? own : names[0], &message);
     if (!lab)
         return options_fail(usage.name, &message, EXIT_USAGE);
     if (!expected)
-        return check(&options, lab, names[1], &message);
+        return check(&options, lab, names[count - 1], &message);
     if (!judge_expected(lab, expected, &message))
         return options_fail(usage.name, &message, EXIT_FAILED);
     options_tell(usage.name, "wrote %s", expected);

@@ -23,7 +23,7 @@ static void check_text(const char *text, size_t size, bool lines)
 
 static void check(const Verdict *verdict)
 {
-    require(verdict->points >= 0 && verdict->points <= VERDICT_MAX_POINTS &&
+    require(verdict->points >= 0 && verdict->points <= verdict_most(verdict) &&
             verdict->kind <= VERDICT_TIMEOUT && verdict->mistake_count <= VERDICT_MAX_MISTAKES &&
             verdict->symptom_count <= VERDICT_MAX_SYMPTOMS &&
             verdict->probe_count <= VERDICT_MAX_PROBES && !strchr(verdict->picture, '/') &&

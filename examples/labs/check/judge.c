@@ -28,6 +28,8 @@ typedef struct Session {
     LabBudget budget; /* lab 10 */
     bool settled;     /* the submission is at fault: there is a verdict */
     bool moved;       /* its outline is wrong */
+    Shader solutions[LAB_MAX_SOLUTIONS];
+    Painter right[LAB_MAX_SOLUTIONS]; /* with these */
 } Session;
 
 /* Settles on a verdict: the first line is the message, the others are details. */
@@ -57,6 +59,29 @@ static bool open_given(Session *session, Message *message)
         return false;
     const ShaderLoader loader = {.folder = folder, .precision = "highp"};
     return shader_open(&session->shader, &loader, session->lab->file, message);
+}
+
+/* What the lab's solutions draw becomes what is right. Their faults are the lab's. */
+static bool take_solutions(Session *session, Message *message)
+{
+    const Lab *lab = session->lab;
+    if (!lab->solution_count)
+        return true;
+    for (int i = 0; i < lab->solution_count; i++) {
+        Shader *shader = &session->solutions[i];
+        const SubmissionFiles *files = &lab->solutions[i];
+        Message why = {.text = ""};
+        if ((!submission_compile(shader, lab, files, "highp", NULL) &&
+             !submission_compile(shader, lab, files, NULL, &why)) ||
+            !binding_check(lab, shader, &why)) {
+            for (char *at = why.text; *at; at++)
+                *at = *at == '\n' ? ' ' : *at;
+            return message_set(message, "the solution of %.200s: %.700s", lab->name, why.text);
+        }
+        session->right[i] = (Painter){.lab = lab, .program = shader->program};
+    }
+    return lab_pictures_use_solutions(&session->pictures, session->right, &session->canvas,
+                                      message);
 }
 
 /* As the files are written. */
@@ -202,7 +227,7 @@ static bool look_at_precision(Session *session, Message *message)
 {
     const Lab *lab = session->lab;
     const Painter painter = {.lab = lab, .program = own_program(session)};
-    if (lab->given || lab->budget)
+    if (lab->given || lab->budget || lab->solution_count)
         return true;
     if (lab->either)
         return lab_pictures_draw_own(&session->pictures, &painter, &session->canvas, message);
@@ -283,6 +308,12 @@ static bool explain(Session *session, const Painter *painter, const char *number
         symptoms_describe(&session->pictures, session->moved, verdict);
         return true;
     }
+    if (session->lab->solution_count) {
+        symptoms_describe(&session->pictures, session->moved, verdict);
+        snprintf(verdict->message, sizeof verdict->message,
+                 "Unknown mistake: it draws something else than the solution");
+        return true;
+    }
     if (!diagnose(&session->pictures, painter, session->moved, &session->canvas, verdict, message))
         return false;
     /* A mistake with a name is more than a mesh that would hide it. */
@@ -305,6 +336,11 @@ static bool look_closer(Session *session, const Painter *painter, int worst, boo
     bool right = true;
     if (!outline_check(&session->pictures, painter, &session->canvas, &session->moved, message))
         return false;
+    bool bent = false; /* the solution itself moves vertices */
+    if (session->moved && session->lab->solution_count &&
+        !outline_check(&session->pictures, session->right, &session->canvas, &bent, message))
+        return false;
+    session->moved &= !bent;
     *wrong =
         session->lab->given ? !matrices_are_right(&session->pictures, numbers) : session->moved;
     if (worst < 0 && !*wrong && !session->lab->given &&
@@ -358,7 +394,7 @@ static bool judge_pictures(Session *session, Message *message)
     } else if (!overrun && !explain(session, &painter, numbers, message)) {
         return false;
     }
-    verdict_score(verdict);
+    verdict_score(verdict, session->lab);
     if (!wrong && worst >= 0) { /* right in 32 bits counts as right, minus a point */
         blame_known(verdict, "Right except in large scenes: ", "mediump overflow");
         verdict->points -= 1;
@@ -379,7 +415,8 @@ static bool judge_submission(Session *session, Message *message)
         lab_pictures_open(&session->pictures, session->lab, session->options->seed, message) &&
         take_code(session, message);
     if (done && !session->settled)
-        done = canvas_open(&session->canvas, &canvas, message) && open_shader(session, message);
+        done = canvas_open(&session->canvas, &canvas, message) &&
+               take_solutions(session, message) && open_shader(session, message);
     if (done && !session->settled)
         done = judge_pictures(session, message);
     return done;
@@ -395,6 +432,8 @@ bool judge(const JudgeOptions *options, Verdict *verdict, Message *message)
     lab_pictures_close(&session.pictures);
     shader_close(&session.shader);
     shader_close(&session.own);
+    for (int i = 0; i < LAB_MAX_SOLUTIONS; i++)
+        shader_close(&session.solutions[i]);
     submission_files_close(&session.plain);
     submission_files_close(&session.mended);
     canvas_close(&session.canvas);

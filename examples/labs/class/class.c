@@ -7,6 +7,7 @@
 #include "labs/class/class_judge.h"
 #include "labs/class/class_run.h"
 #include "labs/sandbox/sandbox.h"
+#include "labs/submission/lab_json.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -61,7 +62,7 @@ static const Lab *choose_lab(const ClassOptions *options, const FoundList *list,
 {
     char path[PATH_MAX], text[16];
     if (options->lab)
-        return lab_find(options->lab, message);
+        return lab_open(options->lab, message);
     const char *name = realpath(options->folder, path) ? strrchr(path, '/') : NULL;
     int number = name ? lab_in_name(name) : 0;
     if (!number)

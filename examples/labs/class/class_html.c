@@ -93,7 +93,7 @@ static void set_scenes(TemplateValues *page, const Verdict *verdict)
 static void set_verdict(TemplateValues *values, const Verdict *verdict)
 {
     template_set(values, "points", "%g", verdict->points);
-    template_set(values, "most", "%d", VERDICT_MAX_POINTS);
+    template_set(values, "most", "%g", verdict_most(verdict));
     template_set(values, "verdict", "%s", VERDICT_NAMES[verdict->kind]);
     template_set(values, "picture", "%s", verdict->picture);
 }
@@ -133,6 +133,14 @@ static double median(const ClassStore *store)
     return middle;
 }
 
+static double most_of(const ClassStore *store)
+{
+    double most = VERDICT_MAX_POINTS;
+    for (int i = 0; i < store->count; i++)
+        most = fmax(i ? most : 0, verdict_most(&store->results[i].verdict));
+    return most;
+}
+
 static void set_summary(TemplateValues *page, const ClassStore *store)
 {
     int kinds[VERDICT_TIMEOUT + 1] = {0};
@@ -146,7 +154,7 @@ static void set_summary(TemplateValues *page, const ClassStore *store)
         template_set(page, VERDICT_NAMES[kind], "%d", kinds[kind]);
     template_set(page, "mean", "%.1f", store->count ? sum / store->count : 0);
     template_set(page, "median", "%.1f", median(store));
-    template_set(page, "most", "%d", VERDICT_MAX_POINTS);
+    template_set(page, "most", "%g", most_of(store));
 }
 
 /* A bar chart. */
@@ -168,15 +176,16 @@ static void add_bar(TemplateValues *bars, const char *name, int count, int max)
 
 static void set_bars(TemplateValues *page, const ClassStore *store)
 {
-    int counts[VERDICT_MAX_POINTS + 1] = {0}, max = 0, count;
+    int counts[VERDICT_POINTS_END + 1] = {0}, max = 0, count;
+    const int most = (int)most_of(store), step = (most + 19) / 20; /* at most 20 bars */
     for (int i = 0; i < store->count; i++) {
-        const int points = (int)store->results[i].verdict.points;
+        const int points = (int)store->results[i].verdict.points / step * step;
         if (++counts[points] > max)
             max = counts[points];
     }
     TemplateValues *points =
         add_bars(page, "Points", "Number of students, half points rounded down.");
-    for (int i = VERDICT_MAX_POINTS; i >= 0; i--) {
+    for (int i = most / step * step; i >= 0; i -= step) {
         char name[16];
         snprintf(name, sizeof name, "%d", i);
         add_bar(points, name, counts[i], max);

@@ -69,6 +69,7 @@ static bool give(Judging *judging, Job *job, VerdictKind kind, const char *sente
     Verdict *verdict = &job->result.verdict;
     verdict->kind = kind;
     verdict->points = 0;
+    verdict->most = judging->of->lab->points.most;
     job->result.finished = kind == VERDICT_REFUSED;
     verdict_clean(verdict->message, sizeof verdict->message, sentence, false);
     return settle(judging, job, message);
@@ -110,7 +111,8 @@ static SandboxedCheck check_of(const Judging *judging, const Found *found, const
 }
 
 /* Hashes a submission, which has to be readable. *archive: it is in this one. */
-static bool hash_found(const Found *found, char archive[PATH_MAX], uint64_t *hash, Message *why)
+static bool hash_found(const Found *found, const Lab *lab, char archive[PATH_MAX], uint64_t *hash,
+                       Message *why)
 {
     Bundle *files = memory_new(1, sizeof *files);
     const bool done = class_read(found, files, archive, why);
@@ -118,7 +120,9 @@ static bool hash_found(const Found *found, char archive[PATH_MAX], uint64_t *has
         *hash = source_hash(files);
     bundle_close(files);
     free(files);
-    return done && (!archive[0] || hash_archive(archive, hash, why));
+    const bool hashed = done && (!archive[0] || hash_archive(archive, hash, why));
+    *hash ^= lab->hash;
+    return hashed;
 }
 
 /* Starts one submission. *ended: it is settled already. */
@@ -136,7 +140,7 @@ static bool start(Judging *judging, Job *job, const Found *found, int slot, bool
     memcpy(job->result.folder, found->folder, sizeof job->result.folder);
     snprintf(job->result.lab, sizeof job->result.lab, "%s", judging->of->lab->name);
     *ended = true;
-    if (!hash_found(found, archive, &job->result.hash, &why)) {
+    if (!hash_found(found, judging->of->lab, archive, &job->result.hash, &why)) {
         /* Unreadable: no content to hash, so hash the reason. */
         if (!archive[0])
             job->result.hash = source_hash_bytes(SOURCE_HASH_START, why.text, strlen(why.text));

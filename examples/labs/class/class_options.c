@@ -38,8 +38,9 @@ bool class_options_read(ClassOptions *options, int argc, char *argv[], Message *
          "judge every submission in DIR: folders, archives or files, one for each student, as "
          "people or learning platforms name them; each in a sandboxed process",
          PARAMETER_TEXT, &options->folder, .min = 1, .placeholder = "DIR", .standard = ""},
-        {"lab", "which lab; default: the one that the names in DIR say", PARAMETER_TEXT,
-         &options->lab, .placeholder = "LAB"},
+        {"lab",
+         "which lab, or the folder of a lab of your own; default: the one that the names in DIR say",
+         PARAMETER_TEXT, &options->lab, .placeholder = "LAB"},
         {"output",
          "the folder for results. A run continues an interrupted one: what is finished is judged "
          "again only if the submission has changed",

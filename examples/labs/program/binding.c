@@ -4,6 +4,7 @@
 
 #include "base/text.h"
 
+#include <math.h>
 #include <string.h>
 
 typedef enum Kind {
@@ -12,7 +13,9 @@ typedef enum Kind {
     KIND_DIRECTION,
     KIND_COLOR,
     KIND_NUMBER,
-    KIND_MAP
+    KIND_MAP,
+    KIND_PAIR,
+    KIND_FOUR
 } Kind;
 
 /* A uniform of the interface. */
@@ -24,14 +27,23 @@ typedef struct Value {
     float v[LAB_MAX_LIGHTS][4], number; /* anything else */
 } Value;
 
-enum { MAX_VALUES = 24, MAX_NAME = 256 };
+enum { MAX_VALUES = 28 + LAB_MAX_UNIFORMS, MAX_NAME = 256 };
 
 typedef struct Values {
     Value values[MAX_VALUES];
     int count;
 } Values;
 
-static const char *const ATTRIBUTES[] = {"a_Position", "a_Normal", "a_Color", NULL};
+enum { POSITION, NORMAL, COLOR, ATTRIBUTES };
+
+static void attributes_of(const Lab *lab, const char *names[ATTRIBUTES + 1])
+{
+    const LabAttributes *own = &lab->attributes;
+    names[POSITION] = own->position ? own->position : "a_Position";
+    names[NORMAL] = own->normal ? own->normal : "a_Normal";
+    names[COLOR] = own->color ? own->color : "a_Color";
+    names[ATTRIBUTES] = NULL;
+}
 
 static Value *add(Values *values, const char *name, Kind kind)
 {
@@ -82,6 +94,7 @@ static void add_lights(Values *values, const Lab *lab, const Scene *scene)
     vec3_normalize(spot->direction, &axis);
     add_vector(values, "u_SpotDirection", KIND_DIRECTION, axis);
     add_number(values, "u_SpotCutoff", spot->cutoff);
+    add_number(values, "cosine of u_SpotCutoff", cos(spot->cutoff * acos(-1) / 180));
     add_number(values, "u_SpotExponent", spot->exponent);
     add_vector(values, "u_Attenuation", KIND_DIRECTION,
                (Vec3){spot->constant, spot->linear, spot->quadratic});
@@ -95,6 +108,38 @@ Mat4 binding_normal_matrix(Mat4 matrix)
     matrix.m[15] = 1;
     mat4_inverse(matrix, &inverse);
     return mat4_transpose(inverse);
+}
+
+static const Value *find(const Values *values, const char *name)
+{
+    for (int i = values->count - 1; i >= 0; i--)
+        if (strcmp(values->values[i].name, name) == 0)
+            return &values->values[i];
+    return NULL;
+}
+
+/* What a lab's folder adds: other names, and values of its own. */
+static void add_own(Values *values, const Lab *lab, const double (*own)[4])
+{
+    static const Kind kinds[] = {KIND_NUMBER, KIND_PAIR, KIND_COLOR, KIND_FOUR};
+    for (int i = 0; i < lab->uniform_count; i++) {
+        const LabUniform *uniform = &lab->uniforms[i];
+        const Value *of = uniform->is ? find(values, uniform->is) : NULL;
+        Value *value = add(values, uniform->name, of ? of->kind : kinds[uniform->size - 1]);
+        if (of) {
+            *value = *of;
+            value->name = uniform->name;
+            if (uniform->light >= 0) {
+                memmove(value->v[0], of->v[uniform->light], sizeof value->v[0]);
+                value->count = 1;
+            }
+            continue;
+        }
+        value->v[0][3] = 1;
+        for (int c = 0; c < uniform->size && own; c++)
+            value->v[0][c] = (float)own[i][c];
+        value->number = value->v[0][0];
+    }
 }
 
 /* Without `drawn` only names and kinds. */
@@ -138,15 +183,14 @@ static bool gather(Values *values, const Lab *lab, const Drawn *drawn, Message *
         add_vector(values, "u_BackColor", KIND_COLOR, object->back.diffuse);
         add_number(values, "u_Mirrored", mat4_determinant(world) < 0 ? -1 : 1);
     }
+    add_own(values, lab, drawn ? drawn->own : NULL);
     return true;
 }
 
-static const Value *find(const Values *values, const char *name)
+bool binding_has(const Lab *lab, const char *name)
 {
-    for (int i = 0; i < values->count; i++)
-        if (strcmp(values->values[i].name, name) == 0)
-            return &values->values[i];
-    return NULL;
+    Values values;
+    return gather(&values, lab, NULL, NULL) && find(&values, name);
 }
 
 static bool suits(const Value *value, GLenum type)
@@ -157,12 +201,15 @@ static bool suits(const Value *value, GLenum type)
         return type == GL_FLOAT || type == GL_INT;
     if (value->kind == KIND_MAP)
         return type == GL_SAMPLER_2D;
+    if (value->kind == KIND_PAIR || value->kind == KIND_FOUR)
+        return type == (value->kind == KIND_PAIR ? GL_FLOAT_VEC2 : GL_FLOAT_VEC4);
     return type == GL_FLOAT_VEC3 || type == GL_FLOAT_VEC4;
 }
 
 static const char *type_of(const Value *value)
 {
-    static const char *const NAMES[] = {"mat4", "vec3", "vec3", "vec3", "float", "sampler2D"};
+    static const char *const NAMES[] = {"mat4",  "vec3",      "vec3", "vec3",
+                                        "float", "sampler2D", "vec2", "vec4"};
     return NAMES[value->kind];
 }
 
@@ -179,7 +226,9 @@ static Uniform uniform_at(GLuint program, GLint i, const Values *values)
     Uniform uniform = {.size = 0};
     glGetActiveUniform(program, (GLuint)i, sizeof uniform.name, NULL, &uniform.size, &uniform.type,
                        uniform.name);
-    uniform.name[strcspn(uniform.name, "[")] = '\0'; /* an array's ends in [0] */
+    char *element = strrchr(uniform.name, '['); /* an array's ends in [0] */
+    if (element && strcmp(element, "[0]") == 0)
+        *element = '\0';
     uniform.value = find(values, uniform.name);
     return uniform;
 }
@@ -203,10 +252,12 @@ static bool mistyped(const Shader *shader, const char *kind, const char *name, c
     return shader_complain(shader, name, text.text, message);
 }
 
-static bool check_attributes(const Shader *shader, Message *message)
+static bool check_attributes(const Lab *lab, const Shader *shader, Message *message)
 {
     const GLuint program = shader->program;
+    const char *names[ATTRIBUTES + 1];
     GLint count = 0;
+    attributes_of(lab, names);
     glGetProgramiv(program, GL_ACTIVE_ATTRIBUTES, &count);
     for (GLint i = 0; i < count; i++) {
         char name[MAX_NAME] = "";
@@ -214,10 +265,10 @@ static bool check_attributes(const Shader *shader, Message *message)
         GLenum type;
         bool known = false;
         glGetActiveAttrib(program, (GLuint)i, sizeof name, NULL, &size, &type, name);
-        for (int k = 0; ATTRIBUTES[k]; k++)
-            known |= strcmp(name, ATTRIBUTES[k]) == 0;
+        for (int k = 0; names[k]; k++)
+            known |= strcmp(name, names[k]) == 0;
         if (!known && strncmp(name, "gl_", 3) != 0)
-            return unknown(shader, "attribute", name, ATTRIBUTES, message);
+            return unknown(shader, "attribute", name, names, message);
         if (known && type != GL_FLOAT_VEC3 && type != GL_FLOAT_VEC4)
             return mistyped(shader, "attribute", name, "vec4 or vec3", message);
     }
@@ -244,7 +295,7 @@ bool binding_check(const Lab *lab, const Shader *shader, Message *message)
         if (!suits(uniform.value, uniform.type))
             return mistyped(shader, "uniform", uniform.name, type_of(uniform.value), message);
     }
-    return check_attributes(shader, message);
+    return check_attributes(lab, shader, message);
 }
 
 static void set_matrix(GLint location, GLenum type, const float m[16])
@@ -271,6 +322,8 @@ static void set_value(GLint location, const Uniform *uniform)
         glUniform1i(location, 0); /* the unit it is bound to */
     } else if (type == GL_INT) {
         glUniform1i(location, (GLint)value->number);
+    } else if (type == GL_FLOAT_VEC2) {
+        glUniform2fv(location, 1, value->v[0]);
     } else if (type == GL_FLOAT) {
         glUniform1fv(location, 1, &value->number);
     } else if (type == GL_FLOAT_VEC4) {
@@ -298,13 +351,15 @@ bool binding_draw(const Lab *lab, GLuint program, const MeshBuffer *mesh, const 
                   Message *message)
 {
     Values values;
+    const char *names[ATTRIBUTES + 1];
     if (!gather(&values, lab, drawn, message))
         return false;
+    attributes_of(lab, names);
     glUseProgram(program);
     set_uniforms(program, &values);
-    mesh_buffer_bind(mesh, glGetAttribLocation(program, "a_Position"),
-                     glGetAttribLocation(program, "a_Normal"));
-    const GLint color = glGetAttribLocation(program, "a_Color");
+    mesh_buffer_bind(mesh, glGetAttribLocation(program, names[POSITION]),
+                     glGetAttribLocation(program, names[NORMAL]));
+    const GLint color = glGetAttribLocation(program, names[COLOR]);
     if (color >= 0) {
         float rgba[4] = {0, 0, 0, 1};
         vec3_to_float(drawn->scene->objects[drawn->object].front.diffuse, rgba);

@@ -40,11 +40,15 @@ typedef struct Drawn {
     const Mat4 *world_from_object; /* lab 3's; NULL: the object's */
     const Mat4 *normal_matrix;     /* lab 3's; NULL: the inverse transpose */
     const LabShadowMap *map;       /* lab 11's; stays bound */
+    const double (*own)[4];        /* LabScene.own; NULL if the lab has none */
 } Drawn;
 
 /* Checks every active attribute and uniform of a linked program. False, with a message about the
  * first that the lab's interface lacks (naming the nearest) or that has another type. */
 bool binding_check(const Lab *lab, const Shader *shader, Message *message);
+
+/* Whether the lab's interface has a value of this name. */
+bool binding_has(const Lab *lab, const char *name);
 
 /* Sets the uniforms and the colour, binds the mesh and draws it with the program, which stays in
  * use. False, with a message: the camera is degenerate. */

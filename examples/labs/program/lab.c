@@ -48,7 +48,11 @@ int lab_files(const Lab *lab, char names[LAB_MAX_FILES][LAB_NAME_SIZE])
 
 bool lab_folder(const Lab *lab, char folder[PATH_MAX], Message *message)
 {
-    char source[64];
+    char source[PATH_MAX];
+    if (lab->folder) {
+        snprintf(folder, PATH_MAX, "%s", lab->folder);
+        return true;
+    }
     snprintf(source, sizeof source, "examples/labs/%s", lab->name);
     if (paths_find_data(source, source + strlen("examples/"), folder))
         return true;

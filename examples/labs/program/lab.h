@@ -12,8 +12,9 @@
 #include "scene/scene.h"
 
 #include <limits.h>
+#include <stdint.h>
 
-enum { LAB_COUNT = 11, LAB_MAX_LIGHTS = 2 };
+enum { LAB_COUNT = 11, LAB_MAX_LIGHTS = 2, LAB_MAX_UNIFORMS = 24, LAB_MAX_SOLUTIONS = 4 };
 
 /* What scenes show; the flat ones come first. */
 typedef enum LabShape {
@@ -45,8 +46,27 @@ typedef struct LabOwnScene {
     double shininess;
 } LabOwnScene;
 
+/* A uniform that only this lab's shaders have, or their own name for one that others have, too. */
+typedef struct LabUniform {
+    const char *name;                /* "u_FogColor", "lights[1].position" */
+    const char *is;                  /* whose value it has (binding.c); NULL: its own */
+    int light;                       /* of an array, the element; -1: all */
+    int size;                        /* of its own: 1 to 4 numbers */
+    double value[4], min[4], max[4]; /* in the lab's own scene, and the range in others */
+} LabUniform;
+
+/* What a lab's shaders call the attributes. */
+typedef struct LabAttributes {
+    const char *position, *normal, *color; /* NULL: a_Position, a_Normal, a_Color */
+} LabAttributes;
+
+/* Of a lab: of a right submission; of a wrong one that draws, and for all scenes right. */
+typedef struct LabPoints {
+    double most, drawn, scenes;
+} LabPoints;
+
 typedef struct Lab {
-    int number;          /* 1 to LAB_COUNT */
+    int number;          /* 1 to LAB_COUNT, or any */
     const char *name;    /* of its folder and program: "lab05_per_fragment" */
     const char *file;    /* of its shaders, without extension: "lab05" */
     const char *summary; /* one line */
@@ -65,6 +85,16 @@ typedef struct Lab {
     bool budget;    /* the submission chooses the mesh and is scored by its cost */
     Reflection reflection;
     LabOwnScene scene;
+    /* Of a lab that is read from its folder (submission/lab_json.h). */
+    const char *folder; /* NULL: it comes with the programs */
+    const LabUniform *uniforms;
+    int uniform_count;
+    LabAttributes attributes;
+    const struct SubmissionFiles *solutions; /* what they draw is right; none: the exact picture */
+    int solution_count;
+    double tolerance; /* in steps of 1/255; 0: as in other labs */
+    LabPoints points; /* zeroed: 10, 1 and 8 */
+    uint64_t hash;    /* of its files */
 } Lab;
 
 extern const Lab LABS[LAB_COUNT];

@@ -4,6 +4,8 @@
 #include "core/example.h"
 #include "shapes/mesh_solids.h"
 
+#include <string.h>
+
 const char *const LAB_SCENE_NAMES[LAB_SCENE_KIND_COUNT] = {"A", "B", "C", "D", "E",
                                                            "F", "G", "H", "I"};
 
@@ -114,6 +116,8 @@ void lab_scene_begin(LabScene *lab_scene, const Lab *lab, LabSceneKind kind)
     };
     for (int i = 0; i < lab->lights; i++)
         lab_scene->lights[i] = (Light){.kind = lab->light, .shadows = lab->shadow};
+    for (int i = 0; i < lab->uniform_count; i++)
+        memcpy(lab_scene->own[i], lab->uniforms[i].value, sizeof lab_scene->own[i]);
 }
 
 void lab_scene_set_light(LabScene *lab_scene, int i, Vec3 place, Vec3 color)

@@ -50,6 +50,7 @@ typedef struct LabScene {
     Object objects[LAB_SCENE_MAX_OBJECTS];
     Mesh meshes[LAB_SCENE_MAX_OBJECTS];
     double fitted[LAB_SCENE_MAX_OBJECTS]; /* lab 7: Blinn-Phong's exponent for the object's */
+    double own[LAB_MAX_UNIFORMS][4];      /* values of the lab's own uniforms */
 } LabScene;
 
 /* Lab 3's model matrix is move * turn * scale; the turn is about LAB_SCENE_AXIS, by

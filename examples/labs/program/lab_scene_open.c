@@ -271,6 +271,10 @@ static bool open_random(LabScene *lab_scene, const Lab *lab, Random *random, Mes
         enlarge(lab_scene);
     if (kind == LAB_SCENE_ALONG && !lab->budget)
         look_from_origin(lab_scene);
+    for (int i = 0; i < lab->uniform_count; i++)
+        for (int c = 0; c < lab->uniforms[i].size; c++)
+            lab_scene->own[i][c] =
+                random_between(random, lab->uniforms[i].min[c], lab->uniforms[i].max[c]);
     return true;
 }
 

@@ -391,7 +391,7 @@ bool sandbox_open(Sandbox *sandbox, const Lab *lab, double seconds, const char *
     if (!lab_folder(lab, sandbox->folder, message) || !paths_program(sandbox->program, message))
         return false;
     char *slash = strrchr(sandbox->folder, '/');
-    if (slash)
+    if (slash && (!lab->folder || lab->code))
         *slash = '\0';
     if (prove(sandbox, hidden, &why) && (sandbox->proven & SANDBOX_LIMITS))
         return true;

@@ -22,9 +22,11 @@ bool sandboxed_check_start(const Sandbox *sandbox, SandboxRun *run, int slot,
     char seed[32], kind[16];
     snprintf(seed, sizeof seed, "%llu", (unsigned long long)check->seed);
     snprintf(kind, sizeof kind, "%d", (int)check->kind);
-    return sandbox_start(sandbox, run, slot,
-                         (const char *const[]){"check", check->lab->name, seed, kind, NULL},
-                         check->inputs, message);
+    return sandbox_start(
+        sandbox, run, slot,
+        (const char *const[]){"check", check->lab->folder ? check->lab->folder : check->lab->name,
+                              seed, kind, NULL},
+        check->inputs, message);
 }
 
 static void explain_end(const SandboxRun *run, double limit, Verdict *verdict)
@@ -54,7 +56,7 @@ bool sandboxed_check_end(const Sandbox *sandbox, const SandboxRun *run, const Sa
     size_t size, picture_size;
     Message why = {.text = ""};
     const SandboxEnd end = sandbox_end(run);
-    *verdict = (Verdict){.seed = check->seed};
+    *verdict = (Verdict){.seed = check->seed, .most = check->lab->points.most};
     if (end == SANDBOX_FAILED) {
         sandbox_reason(run, reason);
         return message_set(message, "judging failed: %s", reason);

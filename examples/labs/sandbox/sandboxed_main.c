@@ -8,6 +8,7 @@
 #include "base/sanitized.h"
 #include "labs/check/judge.h"
 #include "labs/sandbox/source.h"
+#include "labs/submission/lab_json.h"
 #include "labs/submission/verdict_json.h"
 
 #include <errno.h>
@@ -142,7 +143,7 @@ static void read_submitted(Submitted *of, int count, char *arguments[])
 {
     char *const place = arguments[3];
     bool read = true;
-    *of = (Submitted){.lab = lab_find(arguments[0], NULL),
+    *of = (Submitted){.lab = lab_open(arguments[0], &of->why),
                       .seed = strtoull(arguments[1], NULL, 10),
                       .kind = (SandboxSource)atoi(arguments[2]),
                       .archive = -1};
@@ -181,6 +182,7 @@ static bool check(Submitted *of, double seconds, const char *folder, Message *me
     static Verdict verdict; /* large */
     if (!look_into(of)) {
         verdict_refuse(&verdict, of->seed, &of->why);
+        verdict.most = of->lab->points.most;
         return put_part("", 0, message) && put_part("", 0, message) &&
                verdict_write(&verdict, of->lab, "", "-", message);
     }

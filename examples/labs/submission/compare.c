@@ -124,6 +124,16 @@ static bool at_edge(const Image *image, int x, int y)
            (y + 1 < image->height && apart(here, pixel(image, x, y + 1)) > EDGE);
 }
 
+void compare_take(Reference *exact, const Image *image)
+{
+    const unsigned char *bytes = image->pixels;
+    for (int p = 0; p < image->width * image->height; p++) {
+        for (int c = 0; c < 3; c++)
+            exact->color[3 * p + c] = (float)bytes[4 * p + c] / 255;
+        exact->interior[p] &= !at_edge(image, p % image->width, p / image->width);
+    }
+}
+
 static bool is_dark(const unsigned char *p)
 {
     return p[0] == 0 && p[1] == 0 && p[2] == 0;

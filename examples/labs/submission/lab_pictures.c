@@ -26,7 +26,7 @@ Scene lab_pictures_truth_scene(const Lab *lab, const LabScene *lab_scene, int tr
     Scene scene = lab_scene->scene;
     memcpy(objects, lab_scene->objects, LAB_SCENE_MAX_OBJECTS * sizeof *objects);
     scene.objects = objects;
-    if (lab->either && truth == 1)
+    if (lab->either && truth == 1 && !lab->solution_count)
         scene.interpolation = INTERPOLATION_GOURAUD;
     for (int i = 0; i < scene.object_count; i++) {
         double *shininess = &objects[i].front.shininess;
@@ -115,11 +115,42 @@ static bool open_all(LabPictures *pictures, uint64_t seed, Message *message)
 
 bool lab_pictures_open(LabPictures *pictures, const Lab *lab, uint64_t seed, Message *message)
 {
-    *pictures = (LabPictures){.lab = lab, .truth_count = lab->either || lab->fitted ? 2 : 1};
+    *pictures = (LabPictures){.lab = lab,
+                              .truth_count = lab->solution_count          ? lab->solution_count
+                                             : lab->either || lab->fitted ? 2
+                                                                          : 1};
     if (open_all(pictures, seed, message))
         return true;
     lab_pictures_close(pictures);
     return false;
+}
+
+/* Draws a solution there. */
+static bool take_solution(const Painter *solution, const LabScene *lab_scene, PainterView view,
+                          Reference *exact, Message *message)
+{
+    const SubmissionGeometry geometry = {.mesh = NULL};
+    Image image = {0};
+    const bool done =
+        image_open(&image, lab_scene->width, lab_scene->height, IMAGE_BYTE, message) &&
+        painter_draw_at(solution, lab_scene, &geometry, view, &image, message);
+    if (done)
+        compare_take(exact, &image);
+    image_close(&image);
+    return done;
+}
+
+bool lab_pictures_use_solutions(LabPictures *pictures, const Painter *solutions, Canvas *canvas,
+                                Message *message)
+{
+    bool done = true;
+    pictures->solutions = solutions;
+    for (int i = 0; i < pictures->count; i++)
+        for (int k = 0; k < pictures->truth_count && done; k++)
+            done =
+                take_solution(&solutions[k], &pictures->items[i].lab_scene,
+                              (PainterView){canvas, 0, 0}, &pictures->items[i].truths[k], message);
+    return done;
 }
 
 SubmissionGeometry lab_pictures_geometry(const LabPictures *pictures, int i)
@@ -170,13 +201,18 @@ bool lab_pictures_draw_own(LabPictures *pictures, const Painter *painter, Canvas
     return lab_pictures_draw(pictures, painter, canvas, message);
 }
 
+static double tolerance_of(const Lab *lab)
+{
+    return lab->tolerance > 0 ? lab->tolerance : lab->budget ? BUDGET_TOLERANCE : COMPARE_TOLERANCE;
+}
+
 double lab_pictures_tolerance(const LabPictures *pictures, int i)
 {
     if (pictures->own)
         return MEDIUMP_MATTE_TOLERANCE;
     if (pictures->items[i].lab_scene.kind == LAB_SCENE_HUGE)
         return pictures->lab->specular ? MEDIUMP_TOLERANCE : MEDIUMP_MATTE_TOLERANCE;
-    return pictures->lab->budget ? BUDGET_TOLERANCE : COMPARE_TOLERANCE;
+    return tolerance_of(pictures->lab);
 }
 
 bool lab_pictures_draw_huge(LabPictures *pictures, uint64_t seed, const Painter *painter,
@@ -243,15 +279,17 @@ static bool check_place(const LabPictures *pictures, const Painter *painter, Can
     lab_scene.width = place.width;
     lab_scene.height = place.height;
     Scene scene = lab_pictures_truth_scene(pictures->lab, &lab_scene, pictures->truth, objects);
-    bool done = open_exact(&exact, &lab_scene, &scene, !budget, message);
+    const PainterView view = {canvas, place.left, place.top};
+    bool done = open_exact(&exact, &lab_scene, &scene, !budget, message) &&
+                (!pictures->solutions || take_solution(&pictures->solutions[pictures->truth],
+                                                       &lab_scene, view, &exact, message));
     if (budget)
         objects[0].mesh = &pictures->mesh;
     done = done && (!budget || open_exact(&mask, &lab_scene, &scene, true, message)) &&
            image_open(&image, place.width, place.height, IMAGE_BYTE, message) &&
-           painter_draw_at(painter, &lab_scene, &geometry,
-                           (PainterView){canvas, place.left, place.top}, &image, message);
-    if (done && compare_exact(&image, &exact, budget ? &mask : NULL).maximum >
-                    (budget ? BUDGET_TOLERANCE : COMPARE_TOLERANCE))
+           painter_draw_at(painter, &lab_scene, &geometry, view, &image, message);
+    if (done &&
+        compare_exact(&image, &exact, budget ? &mask : NULL).maximum > tolerance_of(pictures->lab))
         *right = false;
     image_close(&image);
     reference_close(&exact);

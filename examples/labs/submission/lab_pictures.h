@@ -23,6 +23,9 @@
  * one. */
 ErrorSum compare_exact(const Image *image, const Reference *exact, const Reference *mask);
 
+/* Makes what a solution drew the exact picture; pixels at edges are not interior. */
+void compare_take(Reference *exact, const Image *image);
+
 /* The difference of two drawn pictures of one size. */
 typedef struct Likeness {
     double maximum; /* of the pixels compared */
@@ -38,8 +41,8 @@ typedef struct Likeness {
 Likeness compare_drawn(const Image *a, const Image *b, double tolerance, int max, bool soft);
 
 /* Two pictures may be right: light at the vertices or at the fragments, or in lab 7 the fitted
- * exponent or four times Phong's. */
-enum { LAB_PICTURE_MAX_TRUTHS = 2 };
+ * exponent or four times Phong's; or what each solution draws. */
+enum { LAB_PICTURE_MAX_TRUTHS = LAB_MAX_SOLUTIONS };
 
 typedef struct LabPicture {
     LabScene lab_scene;
@@ -60,10 +63,16 @@ typedef struct LabPictures {
     SubmissionGeometry geometry;
     Mat4 world_from_object[LAB_PICTURES_MAX], normal_matrix[LAB_PICTURES_MAX]; /* lab 3 */
     Mesh mesh;                                                                 /* lab 10 */
+    const Painter *solutions; /* as many as truths; NULL: the exact pictures are right */
 } LabPictures;
 
 /* Makes the scenes and their exact pictures. Zeroed on failure. */
 bool lab_pictures_open(LabPictures *pictures, const Lab *lab, uint64_t seed, Message *message);
+
+/* What these draw, one for each of the lab's solutions, is right. They must outlive the pictures.
+ */
+bool lab_pictures_use_solutions(LabPictures *pictures, const Painter *solutions, Canvas *canvas,
+                                Message *message);
 
 /* Draws all scenes with a submission's program, resizing the canvas. */
 bool lab_pictures_draw(LabPictures *pictures, const Painter *painter, Canvas *canvas,

@@ -146,7 +146,8 @@ static bool paint(const Painter *painter, const LabScene *lab_scene,
                              .aspect = (double)lab_scene->width / lab_scene->height,
                              .world_from_object = geometry->world_from_object,
                              .normal_matrix = geometry->normal_matrix,
-                             .map = &buffers.map};
+                             .map = &buffers.map,
+                             .own = lab_scene->own};
         done = binding_draw(painter->lab, painter->program, &buffers.buffers[i], &drawn, message);
     }
     lab_scene_buffers_close(&buffers);

@@ -43,13 +43,17 @@ static int passed(const Verdict *verdict)
     return count;
 }
 
-void verdict_score(Verdict *verdict)
+void verdict_score(Verdict *verdict, const Lab *lab)
 {
+    const LabPoints usual = {VERDICT_MAX_POINTS, 1, 8};
+    const LabPoints *points = lab->points.most > 0 ? &lab->points : &usual;
     verdict->points = 0;
+    verdict->most = points->most;
     if (verdict->kind == VERDICT_RIGHT)
-        verdict->points = VERDICT_MAX_POINTS;
+        verdict->points = points->most;
     else if (verdict->kind == VERDICT_WRONG && verdict->probe_count > 0)
-        verdict->points = 1 + floor(2.0 * 8 * passed(verdict) / verdict->probe_count) / 2;
+        verdict->points = points->drawn +
+                          floor(2.0 * points->scenes * passed(verdict) / verdict->probe_count) / 2;
 }
 
 /* Text. */
@@ -84,9 +88,9 @@ void verdict_print(const Verdict *verdict, const Lab *lab, const char *pictures,
                           ? MESSAGE_RED
                           : MESSAGE_YELLOW;
     const int terminal = fileno(file); /* -1: a file in memory */
-    fprintf(file, "%s: %s%s%s, %g of %d points\n%s\n", lab->name, message_color(color, terminal),
+    fprintf(file, "%s: %s%s%s, %g of %g points\n%s\n", lab->name, message_color(color, terminal),
             VERDICT_NAMES[verdict->kind], message_color(MESSAGE_PLAIN, terminal), verdict->points,
-            VERDICT_MAX_POINTS, verdict->message);
+            verdict_most(verdict), verdict->message);
     if (verdict->details[0])
         fprintf(file, "%s\n", verdict->details);
     print_mistakes(verdict, file);

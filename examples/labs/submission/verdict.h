@@ -24,7 +24,8 @@ typedef enum VerdictKind {
 extern const char *const VERDICT_NAMES[];
 
 enum {
-    VERDICT_MAX_POINTS = 10,
+    VERDICT_MAX_POINTS = 10,   /* of the labs that come with the programs */
+    VERDICT_POINTS_END = 1000, /* of any */
     VERDICT_MAX_MISTAKES = 6,
     VERDICT_MAX_SYMPTOMS = 8,
     VERDICT_MAX_PROBES = 16,
@@ -62,7 +63,7 @@ typedef struct VerdictCost {
 typedef struct Verdict {
     VerdictKind kind;
     uint64_t seed;
-    double points;
+    double points, most;                 /* `most` 0: as verdict_most has it */
     char message[VERDICT_SENTENCE_SIZE]; /* one sentence */
     char details[VERDICT_DETAILS_SIZE];  /* more lines: from driver or compiler */
     VerdictMistake mistakes[VERDICT_MAX_MISTAKES];
@@ -86,9 +87,15 @@ void verdict_add_mistake(Verdict *verdict, const char *name, const char *sentenc
 /* The verdict on a submission whose files cannot be judged. */
 void verdict_refuse(Verdict *verdict, uint64_t seed, const Message *why);
 
-/* Sets the points: 10 if right; otherwise 1 for compiling and drawing, and up to 8 for the share of
- * scenes passed, in halves. Lab 10: see budget_score. */
-void verdict_score(Verdict *verdict);
+/* How many points there are. */
+static inline double verdict_most(const Verdict *verdict)
+{
+    return verdict->most > 0 ? verdict->most : VERDICT_MAX_POINTS;
+}
+
+/* Sets the points, unless the lab has its own: 10 if right; otherwise 1 for compiling and drawing,
+ * and up to 8 for the share of scenes passed, in halves. Lab 10: see budget_score. */
+void verdict_score(Verdict *verdict, const Lab *lab);
 
 /* For a terminal. */
 void verdict_print(const Verdict *verdict, const Lab *lab, const char *pictures, FILE *file);

@@ -45,7 +45,7 @@ static const Field PROBE[] = {
 };
 
 const Field VERDICT_FIELDS[] = {
-    NUMBER(Verdict, points, 0, VERDICT_MAX_POINTS),
+    NUMBER(Verdict, points, 0, VERDICT_POINTS_END),
     {.name = "verdict", .kind = FIELD_CHOICE, AT(Verdict, kind), .choices = VERDICT_NAMES},
     TEXT(Verdict, message),
     {.name = "details", .kind = FIELD_LINES, AT(Verdict, details), .max = VERDICT_DETAILS_SIZE},
@@ -127,7 +127,7 @@ void verdict_put(JsonWriter *json, const Verdict *verdict, const char *lab)
     snprintf(seed, sizeof seed, "%llu", (unsigned long long)verdict->seed);
     json_write_text(json, "lab", lab);
     json_write_value(json, "seed", seed);
-    json_write_whole(json, "most", VERDICT_MAX_POINTS);
+    json_write_number(json, "most", verdict_most(verdict));
     put_fields(json, VERDICT_FIELDS, verdict);
     json_write_list(json, "pictures");
     if (verdict->picture[0])

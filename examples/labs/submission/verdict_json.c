@@ -191,9 +191,12 @@ bool verdict_from_json(const json_t *object, char lab[64], Verdict *verdict, Mes
         return message_set(message, "must be an object");
     if (!verdict_text(object, "lab", lab, 64, message) ||
         !verdict_number(object, "seed", 0, 9007199254740992.0, &seed, message) ||
+        !verdict_number(object, "most", 1, VERDICT_POINTS_END, &verdict->most, message) ||
         !read_fields(object, VERDICT_FIELDS, (char *)verdict, message))
         return false;
     verdict->seed = (uint64_t)seed;
+    if (verdict->points > verdict->most)
+        return message_set(message, "\"points\": must be 0 to %g", verdict->most);
     return read_picture(object, verdict->picture, message) &&
            read_cost(object, &verdict->cost, message);
 }

@@ -1,0 +1,472 @@
+/* A table of keys for each object: what a key's value has to be, and where it goes. What a table
+ * lacks is refused, with the nearest key, so that a typing error does not become a default. */
+#include "labs/submission/lab_json.h"
+
+#include "base/input.h"
+#include "base/text.h"
+
+#include <ctype.h>
+#include <fcntl.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+/* What is read: the message begins with the file and the keys that lead here. */
+typedef struct Reading {
+    LabFolder *folder;
+    char where[256];
+    Message *message;
+} Reading;
+
+typedef bool Read(Reading *reading, const json_t *value);
+
+typedef struct Key {
+    const char *name;
+    enum { KEY_FLAG, KEY_NUMBER, KEY_VECTOR, KEY_TEXT, KEY_CHOICE, KEY_READ } kind;
+    bool needed;
+    size_t offset; /* in Lab */
+    double min, max;
+    const char *const *choices;
+    Read *read;
+} Key;
+
+#define AT(member) .offset = offsetof(Lab, member)
+
+static bool fail(const Reading *reading, const char *key, const char *what)
+{
+    return message_set(reading->message, "%s/lab.json: %s\"%s\": %s", reading->folder->path,
+                       reading->where, key, what);
+}
+
+static bool read_number(const Reading *reading, const Key *key, const json_t *value)
+{
+    char what[128];
+    const double number = json_number_value(value);
+    snprintf(what, sizeof what, "must be a number from %g to %g", key->min, key->max);
+    if (!json_is_number(value) || !(number >= key->min && number <= key->max))
+        return fail(reading, key->name, what);
+    void *at = (char *)&reading->folder->lab + key->offset;
+    if (key->offset == offsetof(Lab, number))
+        *(int *)at = (int)number;
+    else
+        *(double *)at = number;
+    return true;
+}
+
+/* `count` numbers; one may stand for a list of one. */
+static bool read_numbers(const json_t *value, size_t count, double numbers[])
+{
+    if (count == 1 && json_is_number(value)) {
+        numbers[0] = json_number_value(value);
+        return isfinite(numbers[0]);
+    }
+    if (!json_is_array(value) || json_array_size(value) != count)
+        return false;
+    for (size_t i = 0; i < count; i++) {
+        const json_t *number = json_array_get(value, i);
+        numbers[i] = json_number_value(number);
+        if (!json_is_number(number) || fabs(numbers[i]) > 1e6)
+            return false;
+    }
+    return true;
+}
+
+static bool read_vector(const Reading *reading, const char *name, const json_t *value, Vec3 *vector)
+{
+    double numbers[3];
+    if (!read_numbers(value, 3, numbers))
+        return fail(reading, name, "must be a list of three numbers, like [1, 0.5, 0.2]");
+    *vector = (Vec3){numbers[0], numbers[1], numbers[2]};
+    return true;
+}
+
+static bool read_choice(const Reading *reading, const Key *key, const json_t *value)
+{
+    char what[256] = "must be one of";
+    const char *text = json_string_value(value);
+    for (int i = 0; key->choices[i]; i++) {
+        if (text && strcmp(text, key->choices[i]) == 0) {
+            *(int *)((char *)&reading->folder->lab + key->offset) = i;
+            return true;
+        }
+        const size_t used = strlen(what);
+        snprintf(what + used, sizeof what - used, "%s \"%s\"", i ? "," : "", key->choices[i]);
+    }
+    return fail(reading, key->name, what);
+}
+
+static bool read_key(Reading *reading, const Key *key, const json_t *value)
+{
+    void *at = (char *)&reading->folder->lab + key->offset;
+    switch (key->kind) {
+    case KEY_FLAG:
+        *(bool *)at = json_is_true(value);
+        return json_is_boolean(value) || fail(reading, key->name, "must be true or false");
+    case KEY_NUMBER:
+        return read_number(reading, key, value);
+    case KEY_VECTOR:
+        return read_vector(reading, key->name, value, at);
+    case KEY_TEXT:
+        *(const char **)at = json_string_value(value);
+        return (json_is_string(value) && json_string_length(value) > 0) ||
+               fail(reading, key->name, "must be a text");
+    case KEY_CHOICE:
+        return read_choice(reading, key, value);
+    default:
+        return key->read(reading, value);
+    }
+}
+
+/* Reads an object by its keys, which end with a NULL name. */
+static bool read_object(Reading *reading, const char *name, const json_t *object, const Key *keys)
+{
+    enum { KEYS_MAX = 24 };
+    const char *names[KEYS_MAX + 1] = {NULL}, *found;
+    char what[128];
+    json_t *value;
+    const size_t used = strlen(reading->where);
+    if (!json_is_object(object))
+        return fail(reading, name, "must be an object, in braces");
+    if (name[0])
+        snprintf(reading->where + used, sizeof reading->where - used, "\"%s\": ", name);
+    for (int i = 0; keys[i].name; i++)
+        names[i] = keys[i].name;
+    json_object_foreach((json_t *)object, found, value)
+    {
+        int i = 0;
+        while (names[i] && strcmp(names[i], found) != 0)
+            i++;
+        const char *nearest = text_nearest(found, names);
+        snprintf(what, sizeof what, "no such key; %s%s%s",
+                 nearest ? "did you mean \"" : "TEACHING.md lists them", nearest ? nearest : "",
+                 nearest ? "\"?" : "");
+        if (names[i] ? !read_key(reading, &keys[i], value) : fail(reading, found, what))
+            return false;
+    }
+    for (int i = 0; keys[i].name; i++)
+        if (keys[i].needed && !json_object_get(object, keys[i].name))
+            return fail(reading, keys[i].name, "is missing");
+    reading->where[used] = '\0';
+    return true;
+}
+
+static bool read_lights(Reading *reading, const json_t *list)
+{
+    Lab *lab = &reading->folder->lab;
+    const size_t count = json_array_size(list);
+    char what[64];
+    snprintf(what, sizeof what, "must be a list of one to %d lights", LAB_MAX_LIGHTS);
+    if (!json_is_array(list) || count < 1 || count > LAB_MAX_LIGHTS)
+        return fail(reading, "lights", what);
+    lab->lights = (int)count;
+    for (size_t i = 0; i < count; i++) {
+        const Key keys[] = {
+            {"place", KEY_VECTOR, .needed = true, AT(scene.lights[i].place)},
+            {"color", KEY_VECTOR, .needed = true, AT(scene.lights[i].color)},
+            {.name = NULL},
+        };
+        if (!read_object(reading, "lights", json_array_get(list, i), keys))
+            return false;
+    }
+    return true;
+}
+
+static bool read_spot(Reading *reading, const json_t *value)
+{
+    static const Key keys[] = {
+        {"at", KEY_VECTOR, .needed = true, AT(scene.at)},
+        {"cutoff", KEY_NUMBER, .needed = true, AT(scene.cutoff), .min = 1, .max = 90},
+        {"exponent", KEY_NUMBER, .needed = true, AT(scene.exponent), .min = 0, .max = 128},
+        {"attenuation", KEY_VECTOR, .needed = true, AT(scene.attenuation)},
+        {.name = NULL},
+    };
+    return read_object(reading, "spot", value, keys);
+}
+
+static bool read_scene(Reading *reading, const json_t *value)
+{
+    static const char *const shapes[] = {
+        "cube", "cube on corner", "icosahedron", "dodecahedron", "octahedron", "quad",
+        "tube", "ball",           "coarse ball", "torus",        "sphere",     NULL};
+    static const Key keys[] = {
+        {"shape", KEY_CHOICE, .needed = true, AT(scene.shape), .choices = shapes},
+        {"scale", KEY_NUMBER, AT(scene.scale), .min = 0.01, .max = 100},
+        {"eye", KEY_VECTOR, .needed = true, AT(scene.eye)},
+        {"center", KEY_VECTOR, AT(scene.center)},
+        {"lights", KEY_READ, .needed = true, .read = read_lights},
+        {"spot", KEY_READ, .read = read_spot},
+        {"color", KEY_VECTOR, .needed = true, AT(scene.color)},
+        {"shininess", KEY_NUMBER, AT(scene.shininess), .min = 0, .max = 1000},
+        {.name = NULL},
+    };
+    return read_object(reading, "scene", value, keys);
+}
+
+static bool read_highlight(Reading *reading, const json_t *value)
+{
+    static const char *const names[] = {"Blinn-Phong", "Phong", NULL};
+    const Key key = {"highlight", AT(reflection), .choices = names};
+    reading->folder->lab.specular = true;
+    return read_choice(reading, &key, value);
+}
+
+static bool read_special(Reading *reading, const json_t *value)
+{
+    Lab *lab = &reading->folder->lab;
+    const char *text = json_string_value(value);
+    lab->given = text && strcmp(text, "matrices") == 0;
+    lab->budget = text && strcmp(text, "budget") == 0;
+    lab->shadow = text && strcmp(text, "shadow map") == 0;
+    return lab->given || lab->budget || lab->shadow ||
+           fail(reading, "special", "must be \"matrices\", \"budget\" or \"shadow map\"");
+}
+
+static bool read_attributes(Reading *reading, const json_t *value)
+{
+    static const Key keys[] = {
+        {"position", KEY_TEXT, AT(attributes.position)},
+        {"normal", KEY_TEXT, AT(attributes.normal)},
+        {"color", KEY_TEXT, AT(attributes.color)},
+        {.name = NULL},
+    };
+    return read_object(reading, "attributes", value, keys);
+}
+
+/* A uniform with the value of another: "u_MvpMatrix", or {"is": "u_LightPosition", "light": 0}. */
+static bool read_other_name(const Reading *reading, LabUniform *uniform, const json_t *value)
+{
+    const json_t *light = json_object_get(value, "light");
+    uniform->is = json_string_value(json_is_string(value) ? value : json_object_get(value, "is"));
+    uniform->light = light ? (int)json_integer_value(light) : -1;
+    return (!light ||
+            (json_is_integer(light) && uniform->light >= 0 && uniform->light < LAB_MAX_LIGHTS)) ||
+           fail(reading, uniform->name, "\"light\" must be 0 or 1");
+}
+
+/* Its own: {"value": 0.2, "min": 0.1, "max": 0.4}, or lists of two to four numbers. */
+static bool read_uniform(const Reading *reading, LabUniform *uniform, const json_t *value)
+{
+    const json_t *own = json_object_get(value, "value");
+    uniform->size = json_is_array(own) ? (int)json_array_size(own) : 1;
+    if (json_is_string(value) || json_object_get(value, "is"))
+        return read_other_name(reading, uniform, value);
+    const size_t size = (size_t)uniform->size;
+    if (size < 1 || size > 4 || !read_numbers(own, size, uniform->value) ||
+        !read_numbers(json_object_get(value, "min"), size, uniform->min) ||
+        !read_numbers(json_object_get(value, "max"), size, uniform->max))
+        return fail(reading, uniform->name,
+                    "must be a name like \"u_MvpMatrix\", or have \"value\", \"min\" and \"max\": "
+                    "each a number, or two to four");
+    for (int i = 0; i < uniform->size; i++)
+        if (uniform->min[i] > uniform->max[i])
+            return fail(reading, uniform->name, "\"min\" must not exceed \"max\"");
+    return true;
+}
+
+static bool read_uniforms(Reading *reading, const json_t *object)
+{
+    Lab *lab = &reading->folder->lab;
+    const char *name;
+    json_t *value;
+    if (!json_is_object(object) || json_object_size(object) > LAB_MAX_UNIFORMS)
+        return fail(reading, "uniforms", "must be an object of at most 24 uniforms, by name");
+    snprintf(reading->where, sizeof reading->where, "\"uniforms\": ");
+    json_object_foreach((json_t *)object, name, value)
+    {
+        LabUniform *uniform = &reading->folder->uniforms[lab->uniform_count++];
+        *uniform = (LabUniform){.name = name, .light = -1};
+        if (!read_uniform(reading, uniform, value))
+            return false;
+    }
+    reading->where[0] = '\0';
+    return true;
+}
+
+static bool read_points(Reading *reading, const json_t *value)
+{
+    static const Key keys[] = {
+        {"most", KEY_NUMBER, .needed = true, AT(points.most), .min = 1, .max = 1000},
+        {"drawn", KEY_NUMBER, .needed = true, AT(points.drawn), .min = 0, .max = 1000},
+        {"scenes", KEY_NUMBER, .needed = true, AT(points.scenes), .min = 0, .max = 1000},
+        {.name = NULL},
+    };
+    const LabPoints *points = &reading->folder->lab.points;
+    return read_object(reading, "points", value, keys) &&
+           (points->drawn + points->scenes <= points->most ||
+            fail(reading, "points", "\"drawn\" and \"scenes\" together must not exceed \"most\""));
+}
+
+static bool read_solutions(Reading *reading, const json_t *list)
+{
+    Lab *lab = &reading->folder->lab;
+    const size_t count = json_array_size(list);
+    char path[2 * PATH_MAX];
+    Message why = {.text = ""};
+    if (!json_is_array(list) || count < 1 || count > LAB_MAX_SOLUTIONS)
+        return fail(reading, "solutions", "must be a list of one to four folders");
+    for (size_t i = 0; i < count; i++) {
+        const char *name = json_string_value(json_array_get(list, i));
+        if (!name || strchr(name, '/') || name[0] == '.')
+            return fail(reading, "solutions", "must name folders in the lab's own");
+        snprintf(path, sizeof path, "%s/%s", reading->folder->path, name);
+        if (!submission_files_open(&reading->folder->solutions[i], lab, path, &why))
+            return message_set(reading->message, "%s: %.500s", path, why.text);
+        lab->solution_count++;
+    }
+    return true;
+}
+
+/* Read at the end, because other keys say what its files are called. */
+static bool leave(Reading *reading, const json_t *value)
+{
+    (void)reading, (void)value;
+    return true;
+}
+
+static bool read_lab(Reading *reading, const json_t *object)
+{
+    static const char *const lights[] = {"directional", "point", "spot", NULL};
+    static const Key keys[] = {
+        {"number", KEY_NUMBER, AT(number), .min = 0, .max = 99},
+        {"summary", KEY_TEXT, .needed = true, AT(summary)},
+        {"special", KEY_READ, .read = read_special},
+        {"code", KEY_TEXT, AT(code)},
+        {"light", KEY_CHOICE, .needed = true, AT(light), .choices = lights},
+        {"ambient", KEY_FLAG, AT(ambient)},
+        {"highlight", KEY_READ, .read = read_highlight},
+        {"fitted", KEY_FLAG, AT(fitted)},
+        {"flat", KEY_FLAG, AT(flat)},
+        {"rigid", KEY_FLAG, AT(rigid)},
+        {"either", KEY_FLAG, AT(either)},
+        {"two_sided", KEY_FLAG, AT(two_sided)},
+        {"tolerance", KEY_NUMBER, AT(tolerance), .min = 0.6, .max = 50},
+        {"scene", KEY_READ, .needed = true, .read = read_scene},
+        {"attributes", KEY_READ, .read = read_attributes},
+        {"uniforms", KEY_READ, .read = read_uniforms},
+        {"points", KEY_READ, .read = read_points},
+        {"shaders", KEY_TEXT, AT(file)},
+        {"solutions", KEY_READ, .read = leave},
+        {.name = NULL},
+    };
+    return read_object(reading, "", object, keys);
+}
+
+/* What keys need of each other. */
+static bool check_lab(const Reading *reading)
+{
+    const Lab *lab = &reading->folder->lab;
+    Lab plain = *lab;
+    plain.uniform_count = 0;
+    if (lab->light == LIGHT_SPOT && lab->scene.cutoff == 0)
+        return fail(reading, "spot", "is missing in \"scene\": \"light\" is \"spot\"");
+    if (lab->light == LIGHT_SPOT && lab->lights > 1)
+        return fail(reading, "lights", "must be one: \"light\" is \"spot\"");
+    if (lab->specular && lab->scene.shininess == 0)
+        return fail(reading, "shininess", "is missing in \"scene\": there is a \"highlight\"");
+    if (strspn(lab->file, "abcdefghijklmnopqrstuvwxyz0123456789_-") != strlen(lab->file) ||
+        strlen(lab->file) > LAB_NAME_SIZE - 8)
+        return fail(reading, "shaders", "must be a file's name without .vert: a-z, 0-9, _ and -");
+    if ((lab->given || lab->budget) && !lab->code)
+        return fail(reading, "code", "is missing: the name of the C file");
+    for (int i = 0; i < lab->uniform_count; i++) {
+        const char *is = lab->uniforms[i].is;
+        char what[128];
+        snprintf(what, sizeof what, "\"%.40s\" is none of this lab's values", is ? is : "");
+        if (is && !binding_has(&plain, is))
+            return fail(reading, lab->uniforms[i].name, what);
+    }
+    return true;
+}
+
+static uint64_t hash_text(uint64_t hash, const char *text)
+{
+    while (*text)
+        hash = (hash ^ (unsigned char)*text++) * 1099511628211ULL; /* FNV-1a */
+    return hash;
+}
+
+/* The folder's name, and that of its shaders: what is before the first "_". */
+static bool name_lab(LabFolder *folder, const char *path, Message *message)
+{
+    if (!realpath(path, folder->path))
+        return message_set(message, "%s: no such folder", path);
+    const char *name = strrchr(folder->path, '/') + 1;
+    if (strlen(name) >= sizeof folder->name)
+        return message_set(message, "%s: the name is too long", path);
+    memcpy(folder->name, name, strlen(name) + 1);
+    for (size_t i = 0; i < strcspn(name, "_"); i++)
+        folder->file[i] = (char)tolower((unsigned char)name[i]);
+    folder->lab = (Lab){.name = folder->name,
+                        .file = folder->file,
+                        .folder = folder->path,
+                        .uniforms = folder->uniforms,
+                        .solutions = folder->solutions};
+    return true;
+}
+
+/* One in the folder "solution" needs no key. */
+static bool add_solutions(Reading *reading)
+{
+    LabFolder *folder = reading->folder;
+    char path[2 * PATH_MAX];
+    struct stat status;
+    snprintf(path, sizeof path, "%s/solution", folder->path);
+    if (json_object_get(folder->json, "solutions"))
+        return read_solutions(reading, json_object_get(folder->json, "solutions"));
+    if (stat(path, &status) != 0)
+        return true;
+    json_t *list = json_pack("[s]", "solution");
+    const bool done = read_solutions(reading, list);
+    json_decref(list);
+    return done;
+}
+
+bool lab_folder_open(LabFolder *folder, const char *path, Message *message)
+{
+    enum { BYTES_MAX = 1 << 20 };
+    char file[2 * PATH_MAX];
+    json_error_t error;
+    size_t size;
+    Reading reading = {.folder = folder, .message = message};
+    *folder = (LabFolder){.json = NULL};
+    if (!name_lab(folder, path, message))
+        return false;
+    snprintf(file, sizeof file, "%s/lab.json", folder->path);
+    char *text = input_read(AT_FDCWD, file, file, BYTES_MAX, &size, message);
+    if (!text)
+        return false;
+    Lab *lab = &folder->lab;
+    lab->hash = hash_text(14695981039346656037ULL, text);
+    folder->json = json_loadb(text, size, JSON_REJECT_DUPLICATES, &error);
+    free(text);
+    bool done =
+        folder->json != NULL || message_set(message, "%s:%d: %s", file, error.line, error.text);
+    done =
+        done && read_lab(&reading, folder->json) && check_lab(&reading) && add_solutions(&reading);
+    for (int i = 0; i < lab->solution_count; i++)
+        for (int k = 0; k < folder->solutions[i].count; k++)
+            lab->hash = hash_text(lab->hash, folder->solutions[i].texts[k].text);
+    if (!done)
+        lab_folder_close(folder);
+    return done;
+}
+
+void lab_folder_close(LabFolder *folder)
+{
+    for (int i = 0; i < LAB_MAX_SOLUTIONS; i++)
+        submission_files_close(&folder->solutions[i]);
+    json_decref(folder->json);
+    *folder = (LabFolder){.json = NULL};
+}
+
+const Lab *lab_open(const char *text, Message *message)
+{
+    static LabFolder folder;
+    struct stat status;
+    const Lab *known = strchr(text, '/') ? NULL : lab_find(text, NULL);
+    if (known || (stat(text, &status) != 0 && !strchr(text, '/')))
+        return known ? known : lab_find(text, message);
+    lab_folder_close(&folder);
+    return lab_folder_open(&folder, text, message) ? &folder.lab : NULL;
+}

@@ -1,0 +1,192 @@
+#!/usr/bin/env python3
+"""Labs by folder alone: judged by their solutions, and one clear line for what is wrong in a lab.json.
+
+usage: own_labs_test.py EXAMPLES_FOLDER_OF_THE_BUILD SOURCE_FOLDER [unittest's arguments]
+Exit code: 77 if nothing can be drawn.
+"""
+import csv
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.dont_write_bytecode = True
+sys.path[:0] = [os.path.join(os.path.dirname(HERE), "programs")]
+import command_line_test as base
+
+LABS = os.path.join(base.SOURCE, "examples", "labs")
+EXTRA = os.path.join(LABS, "extra")
+CHECK = os.path.join(base.EXAMPLES, "check")
+
+
+def check(*arguments):
+    return subprocess.run([CHECK, *arguments], stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                          timeout=base.PATIENCE)
+
+
+def result(lab, path, *more):
+    done = check("--lab", lab, path, "--seed", "1", "--limit", str(base.PATIENCE), "--json", "-", *more)
+    assert done.stdout.startswith("{"), done
+    found = json.loads(done.stdout)
+    found.pop("seconds")
+    return found
+
+
+def read(*path):
+    with open(os.path.join(*path)) as file:
+        return file.read()
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory(prefix="own_labs_test-")
+        self.addCleanup(self.folder.cleanup)
+
+    def path(self, *names):
+        return os.path.join(self.folder.name, *names)
+
+    def write(self, text, *names):
+        os.makedirs(os.path.dirname(self.path(*names)), exist_ok=True)
+        with open(self.path(*names), "w") as file:
+            file.write(text)
+        return os.path.dirname(self.path(*names))
+
+    def copy(self, name, target):
+        shutil.copytree(os.path.join(EXTRA, name), self.path(target))
+        return self.path(target)
+
+    def change(self, old, new, *names):
+        text = read(self.path(*names))
+        self.assertIn(old, text)
+        self.write(text.replace(old, new), *names)
+
+
+class Extra(Case):
+    """The labs of examples/labs/extra."""
+
+    def test_solutions_are_right_and_starters_are_not(self):
+        for name in sorted(os.listdir(EXTRA)):
+            lab = os.path.join(EXTRA, name)
+            self.assertEqual(result(lab, os.path.join(lab, "solution"))["points"], 10, name)
+            starter = result(lab, lab)
+            self.assertEqual((starter["verdict"], starter["message"]), ("wrong", "unchanged: this is the starter"))
+
+    def test_a_mistake_is_wrong_in_words(self):
+        lab = os.path.join(EXTRA, "fog")
+        solution = read(lab, "solution", "fog.frag")
+        self.write(read(lab, "solution", "fog.vert"), "mine", "fog.vert")
+        mine = self.write(solution.replace("-depth * depth", "-depth"), "mine", "fog.frag")
+        wrong = result(lab, mine)
+        self.assertEqual((wrong["verdict"], wrong["points"]), ("wrong", 1))
+        self.assertIn("The outline is right: the mistake is in the light.", wrong["symptoms"])
+        # Written otherwise it is right.
+        self.write(solution.replace("exp(-depth * depth)", "1.0 / exp2(1.442695 * depth * depth)"), "mine", "fog.frag")
+        self.assertEqual(result(lab, mine)["verdict"], "right")
+
+    def test_a_class(self):
+        lab, results = os.path.join(EXTRA, "fog"), self.path("results")
+        for name, source in ("anna", "solution"), ("ben", "."):
+            for file in "fog.vert", "fog.frag":
+                self.write(read(lab, source, file), "class", name, file)
+        done = check("--class", self.path("class"), "--lab", lab, "-o", results)
+        self.assertEqual(done.returncode, 0, done)
+        with open(os.path.join(results, "class.csv"), newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([(row["student"], row["lab"], row["points"], row["most"]) for row in rows],
+                         [("anna", "fog", "10", "10"), ("ben", "fog", "1", "10")])
+
+
+class Folder(Case):
+    def test_the_labs_of_the_programs_are_the_same_by_their_folders(self):
+        names = sorted(name for name in os.listdir(LABS) if os.path.exists(os.path.join(LABS, name, "lab.json")))
+        self.assertEqual(len(names), 11)
+        for name in names:
+            pictures = [self.path("a.png"), self.path("b.png")]
+            self.assertEqual(check(name, "--expected", pictures[0]).returncode, 0)
+            self.assertEqual(check("--lab", os.path.join(LABS, name), "--expected", pictures[1]).returncode, 0)
+            with open(pictures[0], "rb") as one, open(pictures[1], "rb") as other:
+                self.assertEqual(one.read(), other.read(), name)
+        by_name = check("lab06", os.path.join(HERE, "solutions", "lab06_phong"), "--seed", "1", "--json", "-")
+        by_folder = result(os.path.join(LABS, "lab06_phong"), os.path.join(HERE, "solutions", "lab06_phong"))
+        self.assertEqual({**json.loads(by_name.stdout), "seconds": 0}, {**by_folder, "seconds": 0})
+
+    def test_points_and_tolerance(self):
+        lab = self.copy("fog", "fog")
+        self.change('"most": 10, "drawn": 1, "scenes": 8', '"most": 30, "drawn": 5, "scenes": 10', "fog", "lab.json")
+        right, starter = result(lab, self.path("fog", "solution")), result(lab, lab)
+        self.assertEqual((right["points"], right["most"], starter["points"]), (30, 30, 5))
+        self.change('"light":', '"tolerance": 50, "light":', "fog", "lab.json")
+        self.write(read(lab, "solution", "fog.vert"), "mine", "fog.vert")
+        near = self.write(read(lab, "solution", "fog.frag").replace("exp(-depth", "0.97 * exp(-depth"), "mine", "fog.frag")
+        self.assertEqual(result(lab, near)["verdict"], "right")
+
+    def test_names_of_its_own_several_solutions_and_another_folder_name(self):
+        lab = self.copy("fog", "my lab")
+        for file in "lab.json", os.path.join("solution", "fog.vert"), os.path.join("solution", "fog.frag"):
+            text = read(lab, file).replace("a_Position", "position").replace("u_MvpMatrix", "mvp")
+            self.write(text.replace("u_LightPosition", "sun.place"), "my lab", file)
+        self.change("uniform vec3 sun.place;", "struct Sun { vec3 place; };\nuniform Sun sun;", "my lab", "solution", "fog.frag")
+        self.change('"uniforms": {', '"shaders": "fog", "attributes": {"position": "position"}, "uniforms": {"mvp": '
+                    '"u_MvpMatrix", "sun.place": {"is": "u_LightPosition", "light": 0},', "my lab", "lab.json")
+        self.assertEqual(result(lab, self.path("my lab", "solution"))["verdict"], "right")
+        shutil.copytree(self.path("my lab", "solution"), self.path("my lab", "linear"))
+        self.change("-depth * depth", "-depth", "my lab", "linear", "fog.frag")
+        self.assertEqual(result(lab, self.path("my lab", "linear"))["verdict"], "wrong")
+        self.change('"shaders"', '"solutions": ["solution", "linear"], "shaders"', "my lab", "lab.json")
+        self.assertEqual(result(lab, self.path("my lab", "linear"))["verdict"], "right")
+
+    BROKEN = [
+        ('"light":', '"lihgt":', '"lihgt": no such key; did you mean "light"?'),
+        ('"point"', '"pont"', '"light": must be one of "directional", "point", "spot"'),
+        ('"ambient": true', '"ambient": 1', '"ambient": must be true or false'),
+        ('"eye": [0, 0, 6],', "", '"scene": "eye": is missing'),
+        ('"eye": [0, 0, 6]', '"eye": [0, 6]', '"scene": "eye": must be a list of three numbers, like [1, 0.5, 0.2]'),
+        ('"scale": 1,', '"scale": 1000,', '"scene": "scale": must be a number from 0.01 to 100'),
+        ('"coarse ball"', '"bal"', '"scene": "shape": must be one of "cube", '),
+        ('{"place": [2, 2.5, 2.5], "color": [0.8, 0.75, 0.7]}', "", '"scene": "lights": must be a list of one to 2 lights'),
+        ('"place"', '"pos"', '"scene": "lights": "pos": no such key'),
+        ('"min": 0.08', '"min": 0.8', '"uniforms": "u_FogDensity": "min" must not exceed "max"'),
+        ('"value": 0.12, ', "", '"uniforms": "u_FogDensity": must be a name like "u_MvpMatrix", or have "value"'),
+        ('{"value": 0.12, "min": 0.08, "max": 0.16}', '"u_Fog"', '"u_FogDensity": "u_Fog" is none of this lab\'s values'),
+        ('"most": 10', '"most": 5', '"points": "drawn" and "scenes" together must not exceed "most"'),
+        ('"light": "point"', '"light": "spot"', '"spot": is missing in "scene": "light" is "spot"'),
+        ('"ambient": true', '"highlight": "Phong"', '"shininess": is missing in "scene": there is a "highlight"'),
+        ('"ambient": true', '"shaders": "Fog/x"', '"shaders": must be a file\'s name without .vert: a-z, 0-9, _ and -'),
+        ('"ambient": true', '"solutions": ["../x"]', '"solutions": must name folders in the lab\'s own'),
+        ('"ambient": true', '"ambient": true, "ambient": true', "duplicate object key near '\"ambient\"'"),
+        ('"ambient": true,', '"ambient": true', "lab.json:5: '}' expected near '\"scene\"'"),
+    ]
+
+    def test_a_broken_file_has_one_clear_line(self):
+        lab = self.copy("fog", "fog")
+        text = read(lab, "lab.json")
+        for old, new, said in self.BROKEN:
+            self.assertIn(old, text)
+            self.write(text.replace(old, new, 1), "fog", "lab.json")
+            done = check("--lab", lab, lab)
+            self.assertEqual((done.returncode, done.stdout), (2, ""), (new, done))
+            self.assertIn(said, done.stderr)
+            self.assertIn(os.path.join(os.path.realpath(lab), "lab.json"), done.stderr)
+            self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+
+    def test_a_lab_that_cannot_be_judged(self):
+        lab = self.copy("fog", "fog")
+        self.change('"u_FogDensity"', '"u_FogDensitx"', "fog", "lab.json")
+        done = check("--lab", lab, lab)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("the solution of fog: uniform u_FogDensity does not exist in this lab; did you mean u_FogDensitx?",
+                      done.stderr)
+        os.remove(self.path("fog", "solution", "fog.frag"))
+        self.assertIn("solution: fog.frag: is missing from the folder", check("--lab", lab, lab).stderr)
+        self.assertIn("lab.json: No such file", check("--lab", self.folder.name, lab).stderr)
+        self.assertEqual(check("--lab", lab).returncode, 2)
+
+
+if __name__ == "__main__":
+    if not os.path.exists(CHECK):
+        sys.exit(77)
+    sys.exit(base.main())
