@@ -50,6 +50,8 @@ typedef struct Options {
         bool asked;
         int column, row;  /* of the pixel, from the picture's upper left corner */
     } probe;              /* instead of drawing a file, explain a pixel */
+    const char *show;     /* instead of the picture, what its shaders compute: see show.h */
+    bool show_unknown;    /* no shader has it */
     const char *generate; /* "man", "bash", "zsh", "fish": what is printed; NULL: nothing */
     /* Of programs that draw scenes. */
     bool explain; /* report the effects that the scene needs, and draw nothing */

@@ -157,9 +157,16 @@ bool options_check(Options *options, const Usage *usage, Message *message)
         return message_set(message,
                            "--output -: in a window each press of s saves a picture; name a "
                            "file");
+    if (options->show && (window || options->numbered || options->watch))
+        return message_set(message,
+                           "--show %s: makes one picture; leave out --frames, --window "
+                           "and --watch",
+                           options->show);
     if (!(stream ? check_stream(options, message) : check_file(options, usage, message)) ||
         !check_parts(options, message))
         return false;
+    if (options->show && options->animation)
+        return message_set(message, "--show %s: makes one picture; name a .png", options->show);
     const AnimationOptions animation = {.format = options->animation,
                                         .width = options->width,
                                         .height = options->height,

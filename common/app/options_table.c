@@ -108,6 +108,10 @@ static const Parameter FIRST[] = {
      "computes, and exactly; draw nothing",
      PARAMETER_TEXT, .standard = "", .codec = &OPTION_PROBE, AT(probe),
      .programs = GL_FILM | ASIDE},
+    {"show",
+     "draw a variable of the shaders instead, as in normal.z; error: what rounding changes; "
+     "error:NAME: what of that NAME causes; blame: in which line",
+     PARAMETER_TEXT, .min = 1, .placeholder = "NAME", AT(show), .programs = GL_FILM},
     {"deterministic",
      "use no more of an x86 processor than SSE4.1 and vectors of 128 bits, in Mesa and in the C "
      "library, so that different processors give the same bytes",

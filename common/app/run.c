@@ -4,11 +4,11 @@
 #include "app/command.h"
 #include "app/frames.h"
 #include "app/options.h"
+#include "app/probing.h"
 #include "app/shader_reload.h"
 #include "app/viewer.h"
 #include "base/clock.h"
 #include "base/output.h"
-#include "probe/probe.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -161,58 +161,6 @@ static bool run_drawing(const Example *example, Options *options, Message *messa
     return done;
 }
 
-static bool tell_pixel(Renderer *renderer, const DrawRequest *request, const Capture *capture,
-                       const Options *options, Message *message)
-{
-    const int pixel[2] = {options->probe.column, options->probe.row};
-    char object[64];
-    ProbeQuestion question = {
-        .capture = capture, .column = pixel[0], .row = pixel[1], .height = options->height};
-    Image image = {.width = 0};
-    if (!image_open(&image, options->width, options->height, IMAGE_BYTE, message))
-        return false;
-    const bool read = canvas_read(renderer->canvas, &image, message);
-    memcpy(question.drawn,
-           (unsigned char *)image.pixels +
-               4 * ((size_t)pixel[1] * (size_t)image.width + (size_t)pixel[0]),
-           sizeof question.drawn);
-    image_close(&image);
-    if (renderer->kind->exact &&
-        renderer->kind->exact(renderer, request, pixel, question.exact, object))
-        question.object = object;
-    char *text = read ? probe_text(&question, message) : NULL;
-    fputs(text ? text : "", stdout);
-    free(text);
-    return text != NULL;
-}
-
-/* --probe. */
-static bool run_probing(const Example *example, Options *options, Message *message)
-{
-    Canvas canvas = {0};
-    Renderer renderer = {.example = NULL};
-    Capture capture;
-    const DrawRequest request = options_request(options, example);
-    if (options->probe.column >= options->width || options->probe.row >= options->height)
-        return message_set(message, "--probe %d,%d: the picture has %dx%d pixels",
-                           options->probe.column, options->probe.row, options->width,
-                           options->height);
-    if (options->canvas.samples > 1 || options->canvas.supersample > 1)
-        return message_set(message, "--probe: a pixel of several samples has no one colour; leave "
-                                    "out --samples");
-    if (!options_open_canvas(&canvas, options, "x.png", message))
-        return false;
-    capture_begin(&capture, &canvas);
-    bool done = renderer_open(&renderer, example, &canvas, &request, message) &&
-                renderer_draw(&renderer, &request, request.seconds, message);
-    capture_end(&capture);
-    done = done && tell_pixel(&renderer, &request, &capture, options, message);
-    capture_close(&capture);
-    renderer_close(&renderer);
-    canvas_close(&canvas);
-    return done;
-}
-
 /* Neither a driver nor a display is needed. */
 static bool run_without_gl(const Example *example, const Options *options, Message *message)
 {
@@ -255,7 +203,9 @@ static bool run(const Example *example, Options *options, const ParameterValue *
     if (options->shaders.print || options->explain)
         return run_printing(example, options, message);
     if (options->probe.asked)
-        return run_probing(example, options, message);
+        return probing_tell(example, options, message);
+    if (options->show)
+        return check_first(options, message) && probing_show(example, options, message);
     if (options->part.count && options->animation) {
         if (!frames_find_parts(&parts, options, message) || !output_folder(parts.folder, message))
             return false;
@@ -315,7 +265,8 @@ int example_main(const Example *example, int argc, char *argv[])
         return options_fail(example->name, &message, EXIT_USAGE);
     tell_ineffective(example, &options, defaults);
     if (!run(example, &options, defaults, &message))
-        return options_fail(example->name, &message, EXIT_FAILED);
+        return options_fail(example->name, &message,
+                            options.show_unknown ? EXIT_USAGE : EXIT_FAILED);
     tell_written(example, &options);
     return options_finish(example->name, 0);
 }

@@ -1,6 +1,7 @@
 /* Pixels in one block. */
 #include "base/image.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 static size_t value_size(ImageType type)
@@ -30,4 +31,18 @@ void image_close(Image *image)
         return;
     free(image->pixels);
     *image = (Image){0};
+}
+
+void image_viridis(double t, unsigned char color[3])
+{
+    static const unsigned char stops[][3] = {{68, 1, 84},    {71, 44, 122},  {59, 81, 139},
+                                             {44, 113, 142}, {33, 144, 141}, {39, 173, 129},
+                                             {92, 200, 99},  {170, 220, 50}, {253, 231, 37}};
+    enum { PARTS = (int)(sizeof stops / sizeof stops[0]) - 1 };
+    const double place = fmin(fmax(t, 0), 1) * PARTS;
+    const int part = place < PARTS ? (int)place : PARTS - 1;
+    for (int c = 0; c < 3; c++) {
+        const double from = stops[part][c], to = stops[part + 1][c];
+        color[c] = (unsigned char)lround(from + (place - part) * (to - from));
+    }
 }

@@ -23,6 +23,11 @@ typedef struct Image {
 /* Opens an image of zeros. */
 bool image_open(Image *image, int width, int height, ImageType type, Message *message);
 void image_close(Image *image);
+
+/* Viridis (van der Walt and Smith, 2015), perceptually uniform in lightness: from 0, dark violet,
+ * over blue and green to 1, yellow; red, green, blue. */
+void image_viridis(double t, unsigned char color[3]);
+
 size_t image_row_size(const Image *image); /* in bytes */
 
 #endif

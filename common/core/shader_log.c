@@ -18,11 +18,11 @@ bool shader_line_directive(const char *text, int *file, int *line)
     return true;
 }
 
-/* Line `line` of source string `file`, found by following our own #line directives. */
-static const char *find_line(const ShaderSource *source, int file, int line, int *length)
+/* By following our own #line directives. */
+const char *shader_find_line(const char *text, int file, int line, int *length)
 {
     int at_file = -1, at_line = 0;
-    for (const char *p = source->text; p && *p;) {
+    for (const char *p = text; p && *p;) {
         const char *newline = strchr(p, '\n');
         const int n = newline ? (int)(newline - p) : (int)strlen(p);
         if (!shader_line_directive(p, &at_file, &at_line)) {
@@ -58,7 +58,7 @@ static const char *parse_position(const char *log, int *file, int *line)
 static void show_line(const ShaderSource *source, int file, int line, Message *message)
 {
     int length;
-    const char *text = find_line(source, file, line, &length);
+    const char *text = shader_find_line(source->text, file, line, &length);
     if (text)
         message_add(message, "\n  %d | %.*s", line, length < 200 ? length : 200, text);
 }

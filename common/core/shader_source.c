@@ -286,6 +286,19 @@ static const char *directive(const char *line, size_t length, const char *name, 
     return line + i;
 }
 
+/* Whether a line ends a part of a condition that may be left out; counts those that are open. */
+static bool ends_part(const char *line, size_t length, int *open)
+{
+    static const char *const WORDS[] = {"if", "ifdef", "ifndef", "else", "elif", "endif"};
+    size_t rest;
+    for (int i = 0; i < 6; i++)
+        if (directive(line, length, WORDS[i], &rest)) {
+            *open += i < 3 ? 1 : i == 5 ? -1 : 0;
+            return i >= 3;
+        }
+    return false;
+}
+
 static bool assemble(Assembly *assembly, const char *path, const char *text, size_t size);
 
 /* Whether the files being read may include a file. */
@@ -343,20 +356,21 @@ static bool assemble(Assembly *assembly, const char *path, const char *text, siz
         return false;
     assembly->chain[assembly->depth++] = file;
 
-    bool in_comment = false;
-    int number = 0;
+    bool in_comment = false, included = false;
+    int number = 0, open = 0;
     for (const char *line = text, *end = text + size; line < end;) {
         const char *newline = memchr(line, '\n', (size_t)(end - line));
         const size_t length = newline ? (size_t)(newline - line) : (size_t)(end - line);
         size_t rest = 0;
         const char *argument;
         bool removed = false;
+        const bool ended = !in_comment && ends_part(line, length, &open);
         number++;
         if (!in_comment && (argument = directive(line, length, "include", &rest))) {
             if (!include(assembly, path, number, argument, rest) ||
                 !append_line_directive(assembly, number, file))
                 return false;
-            removed = true;
+            removed = included = true;
         } else if (!in_comment && (argument = directive(line, length, "version", &rest))) {
             if (rest < 3 || strncmp(argument, "100", 3) != 0 ||
                 (rest > 3 && !isspace((unsigned char)argument[3])))
@@ -378,6 +392,10 @@ static bool assemble(Assembly *assembly, const char *path, const char *text, siz
         } else if (!append(assembly, line, length) || !append(assembly, "\n", 1)) {
             return false;
         }
+        /* The #line after an include counts only where the include does. */
+        if (included && ended && !in_comment && !append_line_directive(assembly, number + 1, file))
+            return false;
+        included &= open > 0;
         line += length + (newline ? 1 : 0);
     }
     assembly->depth--;

@@ -78,4 +78,7 @@ enum { SHADER_LINES_OF_FILE = 1000000 };
 /* Whether a line of a source is a #line directive, and the file and line it gives the next. */
 bool shader_line_directive(const char *text, int *file, int *line);
 
+/* A line of a file in a text that the driver gets; NULL: it is not there. */
+const char *shader_find_line(const char *text, int file, int line, int *length);
+
 #endif

@@ -65,6 +65,21 @@ static void note(GlslRun *run, int kind, int node)
         run->notes[run->note_count++] = (GlslNote){kind, node};
 }
 
+/* Outside of what is normal. */
+static double round_slowly(const GlslArithmetic *arithmetic, int precision, double x)
+{
+    const int bits = arithmetic->of[precision].bits;
+    const int least = arithmetic->of[precision].least;
+    int exponent;
+    frexp(x, &exponent);
+    exponent = exponent - 1 < least ? least : exponent - 1;
+    const double unit = ldexp(1, exponent - bits + 1), rounded = nearbyint(x / unit) * unit;
+    if (fabs(rounded) >= ldexp(1, arithmetic->of[precision].most + 1))
+        return copysign(INFINITY, x);
+    return arithmetic->of[precision].denormals || fabs(rounded) >= ldexp(1, least) ? rounded
+                                                                                   : copysign(0, x);
+}
+
 static double round_to(const GlslArithmetic *arithmetic, int precision, double x)
 {
     const int bits = arithmetic->of[precision].bits;
@@ -75,15 +90,18 @@ static double round_to(const GlslArithmetic *arithmetic, int precision, double x
         return arithmetic->of[precision].denormals || fabsf(single) >= 0x1p-126F ? (double)single
                                                                                  : copysign(0, x);
     }
-    const int least = arithmetic->of[precision].least;
-    int exponent;
-    frexp(x, &exponent);
-    exponent = exponent - 1 < least ? least : exponent - 1;
-    const double unit = ldexp(1, exponent - bits + 1), rounded = nearbyint(x / unit) * unit;
-    if (fabs(rounded) >= ldexp(1, arithmetic->of[precision].most + 1))
-        return copysign(INFINITY, x);
-    return arithmetic->of[precision].denormals || fabs(rounded) >= ldexp(1, least) ? rounded
-                                                                                   : copysign(0, x);
+    /* To the nearest, of two the even one, in the bits that are stored: a carry goes on into the
+     * exponent. */
+    uint64_t stored;
+    memcpy(&stored, &x, sizeof stored);
+    const int exponent = (int)(stored >> 52 & 2047) - 1023;
+    if (exponent < arithmetic->of[precision].least || exponent >= arithmetic->of[precision].most)
+        return round_slowly(arithmetic, precision, x);
+    const int left_out = 53 - bits;
+    stored += (UINT64_C(1) << (left_out - 1)) - 1 + (stored >> left_out & 1);
+    stored &= ~((UINT64_C(1) << left_out) - 1);
+    memcpy(&x, &stored, sizeof stored);
+    return x;
 }
 
 static float add_product(const GlslArithmetic *arithmetic, float a, float b, float c)
@@ -360,6 +378,12 @@ void glsl_run_close(GlslRun *run)
     free(run->events);
     free(run->values);
     free(run);
+}
+
+int glsl_event_symbol(const GlslCode *code, int instruction)
+{
+    const GlslInstruction *at = &code->instructions[instruction];
+    return at->op == OP_EVENT ? at->c : 0;
 }
 
 const GlslEvent *glsl_last(const GlslRun *run, const char *name)

@@ -44,6 +44,9 @@ void glsl_code_free(GlslCode *code);
  */
 bool glsl_find(const GlslCode *code, const char *name, GlslVariable *found);
 
+/* The variable that an instruction logs as assigned; 0: it is another instruction. */
+int glsl_event_symbol(const GlslCode *code, int instruction);
+
 /* A driver's numbers: for each precision (see GLSL_HIGHP), significant bits and the least and
  * largest exponent of 2 of a normal number. 53 bits: as double. Ints have the first, without
  * precision. */

@@ -1,13 +1,11 @@
-/*
- * The fragment's shader is run as the driver computes, exactly, and as the driver computes up to
- * each of its assignments and exactly from there on: where the error of the colour jumps from one
- * to the next, it is born.
+/* The fragment's shader is run as the driver computes and exactly, and what it assigned is
+ * compared.
  */
 #include "probe/probe.h"
 
 #include "base/memory.h"
 #include "core/shader_source.h"
-#include "probe/raster.h"
+#include "probe/origin.h"
 
 #include <limits.h>
 #include <math.h>
@@ -43,20 +41,6 @@ static void forget(Trail *trail)
 {
     free(trail->events);
     free(trail->values);
-}
-
-/* Of a colour as a framebuffer keeps it, in steps. */
-static double step(double channel)
-{
-    return 255 * fmin(fmax(channel, 0), 1);
-}
-
-static double apart(const double a[4], const double b[4])
-{
-    double most = 0;
-    for (int i = 0; i < 3; i++)
-        most = fmax(most, fabs(step(a[i]) - step(b[i])));
-    return most;
 }
 
 /* What an event assigned. */
@@ -103,54 +87,21 @@ static void put_trail(FILE *file, const GlslTree *tree, const Trail *driver, con
     }
 }
 
-/* The event from which on most of the colour's error is there; -1: it is there before the first.
- * Of very many, it is looked for in parts, then in the part with the largest jump. */
-static int find_birth(Raster *raster, const RasterPixel *pixel, const Trail *driver,
-                      const Trail *exact)
-{
-    enum { PARTS = 500 };
-    double start = 0, color[4];
-    int birth = -1, first = -1, last = driver->count - 1;
-    for (int step = 1 + (last - first) / PARTS;; step = 1 + (last - first) / PARTS) {
-        double before = start, largest = -1, base = start;
-        int begin = first, after = first; /* of the part with the largest jump; of the next */
-        for (int i = first;; i = i + step < last ? i + step : last) {
-            raster_run(raster, pixel, &GLSL_LLVMPIPE, i, color);
-            const double error = apart(color, exact->color), jump = fabs(error - before);
-            if (jump > largest) {
-                largest = jump;
-                birth = i;
-                base = before;
-                begin = after;
-            }
-            before = error;
-            after = i + 1;
-            if (i >= last)
-                break;
-        }
-        if (step == 1)
-            break;
-        first = begin;
-        last = birth;
-        start = base;
-    }
-    return birth;
-}
-
 static void put_verdict(FILE *file, Raster *raster, const RasterPixel *pixel, const Trail *driver,
                         const Trail *exact, const ProbeQuestion *question)
 {
-    const GlslTree *tree = raster_tree(raster, pixel->draw, 1);
-    const double rounding = apart(driver->color, exact->color);
+    const GlslTree *tree = raster_code(raster, pixel->draw, 1)->tree;
+    const double rounding = origin_apart(driver->color, exact->color);
     if (question->object) {
         const double picture[4] = {(double)question->exact[0], (double)question->exact[1],
                                    (double)question->exact[2], 1};
         fprintf(file, "verdict: %.2f steps off: %.2f by the formula, %.2f by rounding",
-                apart(driver->color, picture), apart(exact->color, picture), rounding);
+                origin_apart(driver->color, picture), origin_apart(exact->color, picture),
+                rounding);
     } else {
         fprintf(file, "verdict: %.2f steps off by rounding", rounding);
     }
-    const int birth = find_birth(raster, pixel, driver, exact);
+    const int birth = origin_find(raster, pixel, driver->count, exact->color);
     if (rounding < 0.01) {
         fprintf(file, "\n");
     } else if (birth < 0) {
@@ -211,7 +162,7 @@ static void put_corners(FILE *file, Raster *raster, const RasterPixel *pixel)
 static void put_pixel(FILE *file, Raster *raster, const RasterPixel *pixel,
                       const ProbeQuestion *question)
 {
-    const GlslTree *tree = raster_tree(raster, pixel->draw, 1);
+    const GlslTree *tree = raster_code(raster, pixel->draw, 1)->tree;
     double color[4];
     const GlslRun *run = raster_run(raster, pixel, &GLSL_LLVMPIPE, INT_MAX, color);
     Trail driver = keep(run, color);
@@ -221,13 +172,14 @@ static void put_pixel(FILE *file, Raster *raster, const RasterPixel *pixel,
     for (int i = 0; i < 4; i++)
         computed[i] = (double)question->drawn[i] / 255;
     fprintf(file, "computed: %.3f, %.3f, %.3f; exactly, the same text: %.3f, %.3f, %.3f\n",
-            step(driver.color[0]), step(driver.color[1]), step(driver.color[2]),
-            step(exact.color[0]), step(exact.color[1]), step(exact.color[2]));
+            origin_step(driver.color[0]), origin_step(driver.color[1]),
+            origin_step(driver.color[2]), origin_step(exact.color[0]), origin_step(exact.color[1]),
+            origin_step(exact.color[2]));
     if (driver.stopped)
         fprintf(file, "a loop does not end\n");
     if (driver.discarded)
         fprintf(file, "the fragment is discarded: the pixel shows what is behind it\n");
-    else if (apart(computed, driver.color) > 0.51)
+    else if (origin_apart(computed, driver.color) > 0.51)
         fprintf(file, "the picture is not that: a line or point is drawn over it, an edge runs "
                       "through it, or the driver computes otherwise\n");
     put_trail(file, tree, &driver, &exact);

@@ -47,6 +47,7 @@ void raster_keep(Raster *raster, const char *varying);
 const GlslRun *raster_vertex(Raster *raster, int draw, unsigned vertex,
                              const GlslArithmetic *arithmetic);
 
-const GlslTree *raster_tree(const Raster *raster, int draw, int stage);
+/* NULL: not a draw of triangles. */
+const GlslCode *raster_code(const Raster *raster, int draw, int stage);
 
 #endif

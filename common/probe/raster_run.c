@@ -338,7 +338,9 @@ const GlslRun *raster_run(Raster *raster, const RasterPixel *pixel,
     return run;
 }
 
-const GlslTree *raster_tree(const Raster *raster, int draw, int stage)
+const GlslCode *raster_code(const Raster *raster, int draw, int stage)
 {
-    return raster->stages[raster->draws[draw].stages].trees[stage];
+    return raster_is_filled(&raster->capture->draws[draw])
+               ? raster->stages[raster->draws[draw].stages].codes[stage]
+               : NULL;
 }

@@ -352,6 +352,15 @@ SHADER_TEST(a_file_included_twice_appears_twice_with_one_number)
     assert_int_equal(source.file_count, 2);
 }
 
+/* Where an include is left out, so is the #line after it. */
+SHADER_TEST(lines_after_an_include_that_is_left_out_keep_their_numbers)
+{
+    make("a.glsl", "int a;\nint a1;\n");
+    make("main.vert", "#if 0\n#if 1\n#include \"a.glsl\"\n#endif\n#else\nint b;\n#endif\nint c;\n");
+    found("main.vert", "./main.vert");
+    assert_non_null(strstr(source.text, "#else\n#line 6 0\nint b;\n#endif\n#line 8 0\nint c;\n"));
+}
+
 SHADER_TEST(includes_in_comments_are_ignored)
 {
     make("a.glsl", "int a;\n");

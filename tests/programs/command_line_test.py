@@ -759,6 +759,18 @@ class Outputs(Case):
         self.assertEqual(self.good(*SMALL, "-o", "-"), self.read("a.png"))
         self.assertEqual(os.listdir(self.folder), ["a.png"])
 
+    def test_what_shaders_compute_is_drawn_instead(self):
+        result = self.run_it(*SMALL, "--show", "v_Color", "-o", "shown.png")
+        self.assertEqual(result.returncode, 0)
+        self.assertRegex(result.stderr.decode(), r"^v_Color: as a colour, from 0 to [\d.]+; black: no triangle\n$")
+        drawn = self.run_it(*SMALL, "-o", "drawn.png")
+        self.assertEqual(drawn.returncode, 0)
+        self.assertEqual(self.png("shown.png").pixels, self.png("drawn.png").pixels)
+        self.refused(2, "--show v_Colour: no shader here has it; there are v_Color, ", *SMALL, "--show", "v_Colour")
+        self.refused(2, "--show error: makes one picture; leave out --frames", *SMALL, "--show", "error",
+                     "--frames", "2", "-o", "a%d.png")
+        self.refused(1, "--show: a pixel of several samples", *SMALL, "--show", "error", "--samples", "4")
+
     def test_output_that_does_not_arrive_is_a_failure(self):
         for arguments in (("--help",), ("--version",), ("-o", "-"), ("--print-shader",),
                           ("--doctor",)):

@@ -33,20 +33,10 @@ typedef struct Sheet {
     int width, height; /* of a panel */
 } Sheet;
 
-/* Viridis (van der Walt and Smith, 2015): perceptually uniform in lightness. */
 static Color viridis(double t)
 {
-    static const Color stops[] = {{{68, 1, 84}},    {{71, 44, 122}},  {{59, 81, 139}},
-                                  {{44, 113, 142}}, {{33, 144, 141}}, {{39, 173, 129}},
-                                  {{92, 200, 99}},  {{170, 220, 50}}, {{253, 231, 37}}};
-    enum { PARTS = (int)(sizeof stops / sizeof stops[0]) - 1 };
-    const double place = fmin(fmax(t, 0), 1) * PARTS;
-    const int part = place < PARTS ? (int)place : PARTS - 1;
     Color color;
-    for (int c = 0; c < 3; c++) {
-        const double from = stops[part].of[c], to = stops[part + 1].of[c];
-        color.of[c] = (unsigned char)lround(from + (place - part) * (to - from));
-    }
+    image_viridis(t, color.of);
     return color;
 }
 

@@ -1,0 +1,124 @@
+/* The program draws once while its draws are captured. */
+#include "app/probing.h"
+
+#include "app/frames.h"
+#include "app/picture_texts.h"
+#include "app/renderer.h"
+#include "base/clock.h"
+#include "probe/probe.h"
+#include "probe/show.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A program whose picture is drawn and captured. */
+typedef struct Probing {
+    Canvas canvas;
+    Renderer renderer;
+    Capture capture;
+    DrawRequest request;
+} Probing;
+
+/* To be closed whatever it returns. */
+static bool open(Probing *probing, const Example *example, const Options *options, Message *message)
+{
+    *probing = (Probing){.request = options_request(options, example)};
+    if (options->canvas.samples > 1 || options->canvas.supersample > 1)
+        return message_set(message,
+                           "--%s: a pixel of several samples has no one colour; leave out "
+                           "--samples",
+                           options->show ? "show" : "probe");
+    if (!options_open_canvas(&probing->canvas, options, "x.png", message))
+        return false;
+    capture_begin(&probing->capture, &probing->canvas);
+    const bool done =
+        renderer_open(&probing->renderer, example, &probing->canvas, &probing->request, message) &&
+        renderer_draw(&probing->renderer, &probing->request, probing->request.seconds, message);
+    capture_end(&probing->capture);
+    return done;
+}
+
+static void end(Probing *probing)
+{
+    capture_close(&probing->capture);
+    renderer_close(&probing->renderer);
+    canvas_close(&probing->canvas);
+}
+
+static bool tell_pixel(Probing *probing, const Options *options, Message *message)
+{
+    Renderer *renderer = &probing->renderer;
+    const int pixel[2] = {options->probe.column, options->probe.row};
+    char object[64];
+    ProbeQuestion question = {.capture = &probing->capture,
+                              .column = pixel[0],
+                              .row = pixel[1],
+                              .height = options->height};
+    Image image = {.width = 0};
+    if (!image_open(&image, options->width, options->height, IMAGE_BYTE, message))
+        return false;
+    const bool read = canvas_read(renderer->canvas, &image, message);
+    memcpy(question.drawn,
+           (unsigned char *)image.pixels +
+               4 * ((size_t)pixel[1] * (size_t)image.width + (size_t)pixel[0]),
+           sizeof question.drawn);
+    image_close(&image);
+    if (renderer->kind->exact &&
+        renderer->kind->exact(renderer, &probing->request, pixel, question.exact, object))
+        question.object = object;
+    char *text = read ? probe_text(&question, message) : NULL;
+    fputs(text ? text : "", stdout);
+    free(text);
+    return text != NULL;
+}
+
+bool probing_tell(const Example *example, const Options *options, Message *message)
+{
+    Probing probing;
+    if (options->probe.column >= options->width || options->probe.row >= options->height)
+        return message_set(message, "--probe %d,%d: the picture has %dx%d pixels",
+                           options->probe.column, options->probe.row, options->width,
+                           options->height);
+    const bool done =
+        open(&probing, example, options, message) && tell_pixel(&probing, options, message);
+    end(&probing);
+    return done;
+}
+
+static bool write_shown(const Probing *probing, const Show *show, const Options *options,
+                        Message *message)
+{
+    const Example *example = probing->renderer.example;
+    Picture picture = {.image = {.width = 0}};
+    bool done = image_open(&picture.image, show->width, show->height, IMAGE_BYTE, message) &&
+                frames_path(options, 0, picture.path, message);
+    if (done) {
+        show_paint(show, &picture.image, stderr);
+        picture_texts_set(example, &probing->canvas, options, options->seconds, &picture);
+        done = picture_write(&picture, message);
+    }
+    image_close(&picture.image);
+    return done;
+}
+
+bool probing_show(const Example *example, Options *options, Message *message)
+{
+    Probing probing;
+    Show show = {.pixels = NULL};
+    const int size[2] = {options->width, options->height};
+    const double start = clock_now();
+    bool done = open(&probing, example, options, message);
+    const double drawn = clock_now();
+    Message why = {.located = false};
+    if (done && !show_open(&show, &probing.capture, options->show, size, &why))
+        done = message_set(message, "--show %s", why.text);
+    options->show_unknown = show.unknown;
+    done = done && write_shown(&probing, &show, options, message);
+    if (done && options->verbose)
+        fprintf(stderr, "drawing took %.1f ms, running its shaders and writing %.1f ms\n",
+                1e3 * (drawn - start), 1e3 * (clock_now() - drawn));
+    show_close(&show);
+    end(&probing);
+    return done;
+}

@@ -1,0 +1,47 @@
+/*
+ * show: any value of a captured frame's shaders over the whole picture, as the driver computes it;
+ * how far that is from the exact colour, and which value or line causes it.
+ */
+#ifndef SHOW_H
+#define SHOW_H
+
+#include "base/image.h"
+#include "probe/capture.h"
+#include "probe/place.h"
+
+#include <stdio.h>
+
+/* A pixel: `count` numbers, 0 if nothing has the value there. */
+typedef struct ShowPixel {
+    signed char count;
+    float values[4];
+    int draw;        /* with SHOW_BLAME */
+    GlslPlace place; /* of a fragment's shader; line 0: the vertex shader, -1: nothing to blame */
+} ShowPixel;
+
+/* The value's own numbers; of the colour in steps of 1/255 red, green and blue; places. */
+typedef enum ShowKind { SHOW_VALUE, SHOW_ERROR, SHOW_BLAME } ShowKind;
+
+extern const double SHOW_LEAST; /* the least error that is shown and blamed, in steps of 1/255 */
+
+typedef struct Show {
+    const Capture *capture; /* has to live as long */
+    ShowKind kind;
+    const char *what;
+    int width, height;
+    ShowPixel *pixels; /* row 0 is the picture's top */
+    bool unknown; /* why it failed: no shader has the value; the message lists those there are */
+} Show;
+
+/* `what` is a variable's name, with a component as in "N.x"; "error", the driver's colour less the
+ * exact one of the same text; "error:NAME", what of that the assignments of a variable of the
+ * fragment shader cause, or a varying; "blame", the line in which most of it is born. What all
+ * assignments cause, and the vertex shader, adds up to error. */
+bool show_open(Show *show, const Capture *capture, const char *what, const int size[2],
+               Message *message);
+void show_close(Show *show); /* a zeroed one is fine */
+
+/* Into a picture of bytes of the same size; writes what the colours mean, in lines. */
+void show_paint(const Show *show, Image *picture, FILE *legend);
+
+#endif
