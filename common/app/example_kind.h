@@ -110,6 +110,10 @@ struct ExampleKind {
     bool (*write_vector)(const Example *example, double seconds, const VectorFile *file,
                          Message *message);
 
+    /* --save-scene; without a canvas. */
+    bool (*save)(const Example *example, const DrawRequest *request, const char *path,
+                 Message *message);
+
     /* --explain, on standard output. */
     bool (*explain)(Renderer *renderer, const DrawRequest *request, Message *message);
 

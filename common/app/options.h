@@ -54,7 +54,8 @@ typedef struct Options {
     bool show_unknown;    /* no shader has it */
     const char *generate; /* "man", "bash", "zsh", "fish": what is printed; NULL: nothing */
     /* Of programs that draw scenes. */
-    bool explain; /* report the effects that the scene needs, and draw nothing */
+    const char *save_scene; /* a file to write instead of drawing; NULL: none */
+    bool explain;           /* report the effects that the scene needs, and draw nothing */
     bool full, clamp_vertex, signed_dots, linear, show_clipped, normals,
         cheap; /* as in DrawRequest */
     double error;

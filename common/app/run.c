@@ -198,6 +198,10 @@ static bool run(const Example *example, Options *options, const ParameterValue *
         return frames_merge(example, options, message);
     if (options->vector && !options_in_window(options))
         return check_first(options, message) && frames_write_vectors(example, options, message);
+    if (options->save_scene) {
+        const DrawRequest request = options_request(options, example);
+        return example_kind(example)->save(example, &request, options->save_scene, message);
+    }
     if (!example_kind(example)->without_gl && !shader_loader_check(&options->shaders, message))
         return false;
     if (options->shaders.print || options->explain)
@@ -230,8 +234,9 @@ static void tell_written(const Example *example, const Options *options)
     const int count = options->frames;
     char first[PATH_MAX], last[PATH_MAX];
     if (options_in_window(options) || options->shaders.print || options->explain ||
-        options->probe.asked || options->part.count || strcmp(options->output, "-") == 0 ||
-        !frames_path(options, 0, first, NULL) || !frames_path(options, count - 1, last, NULL))
+        options->save_scene || options->probe.asked || options->part.count ||
+        strcmp(options->output, "-") == 0 || !frames_path(options, 0, first, NULL) ||
+        !frames_path(options, count - 1, last, NULL))
         return;
     if (count == 1)
         options_tell(example->name, "wrote %s, %dx%d", first, options->width, options->height);

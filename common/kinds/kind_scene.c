@@ -6,6 +6,7 @@
 #include "kinds/panel_scene.h"
 #include "kinds/scene_ineffective.h"
 #include "kinds/scene_options.h"
+#include "kinds/scene_save.h"
 #include "kinds/scene_views.h"
 #include "reference/reference_trace.h"
 
@@ -263,6 +264,23 @@ static bool retouch(Renderer *renderer, const DrawRequest *request, Image *image
     return !scene->label || label_views(renderer, request, image, message);
 }
 
+/* The first view, as it is asked for. */
+static bool save(const Example *example, const DrawRequest *request, const char *path,
+                 Message *message)
+{
+    static const ShaderLoader none = {.only_texts = true};
+    const Renderer renderer = {.example = example};
+    const ViewMoment moment = {&renderer, request, request->seconds, 0};
+    SceneCopy kept = {.lights = NULL};
+    Scene scene;
+    const bool done = example->init(&none, message) &&
+                      scene_view_make(&moment, &kept, &scene, message) &&
+                      scene_save(&scene, path, message);
+    scene_copy_close(&kept);
+    example->finish();
+    return done;
+}
+
 const ExampleKind SCENE_KIND = {
     .compiles_late = true,
     .program = PROGRAM_ONE,
@@ -277,6 +295,7 @@ const ExampleKind SCENE_KIND = {
     .report = report,
     .retouches = retouches,
     .retouch = retouch,
+    .save = save,
     .explain = explain_programs,
     .exact = exact_pixel,
     .panel = &SCENE_PANEL,

@@ -252,6 +252,9 @@ const Parameter SCENE_OPTIONS[] = {
      "what they cost; draw nothing. Of several objects only what differs; with --verbose "
      "everything",
      PARAMETER_FLAG, AT(explain), .programs = PROGRAM_ONE | ASIDE},
+    {"save-scene", "write the scene as a file of glTF 2.0, which Scene reads; draw nothing",
+     PARAMETER_TEXT, .placeholder = "FILE", .min = 1, .standard = "", AT(save_scene),
+     .programs = PROGRAM_ONE | ASIDE},
     {"full", "draw with the program that has every effect", PARAMETER_FLAG, AT(full),
      .programs = PROGRAM_ONE},
     {"error",

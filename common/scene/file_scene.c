@@ -171,7 +171,7 @@ static bool finish_meshes(FileScene *made, Message *message)
         FileObject *object = &file->objects[i];
         if (file->meshes[object->mesh].index_count == 0)
             continue;
-        object->object.closed |= closed[object->mesh];
+        object->object.closed |= closed[object->mesh] && !file->own;
         file->objects[kept++] = *object;
     }
     free(closed);
@@ -219,10 +219,10 @@ void file_scene_make(FileScene *made, double seconds, Scene *scene)
     }
     for (int i = 0; i < file->light_count; i++)
         made->lights[i] = light_at(made, &file->lights[i]);
-    if (file->light_count == 0)
+    if (file->light_count == 0 && !file->own)
         made->lights[0] = viewers_light();
     scene->lights = made->lights;
-    scene->light_count = file->light_count ? file->light_count : 1;
+    scene->light_count = file->light_count || file->own ? file->light_count : 1;
     scene->objects = made->objects;
     scene->object_count = file->object_count;
     scene->camera = made->camera < 0 ? fitting_camera(made) : file_camera(made);
@@ -236,7 +236,7 @@ void file_scene_explain(const FileScene *made, FILE *file)
     if (made->exposure != 1)
         fprintf(file, "of the file: how bright its lights are; drawn %.4g times as bright\n",
                 made->exposure);
-    if (made->file.light_count == 0)
+    if (made->file.light_count == 0 && !made->file.own)
         fprintf(file, "the file has no light: there is one at the viewer\n");
     if (made->file.camera_count == 0)
         fprintf(file, "the file has no camera: one that sees all\n");

@@ -281,6 +281,7 @@ bool gltf_read(const char *path, SceneFile *file, bool *other, Message *reason)
         for (size_t i = 0; i < nodes; i++)
             reading.nodes[i] = -1;
         file->scene.linear = true;
+        file->own = gltf_own(scene) != NULL;
         gltf_fields(gltf_own(scene), SCENE_FIELDS, &file->scene);
         read = read_nodes(&reading) && read_animation(&reading);
         for (size_t i = 0; i < count_of(&reading, "meshes"); i++)

@@ -70,6 +70,7 @@ typedef struct FileNote {
 typedef struct SceneFile {
     Scene scene;      /* all else of it, as its colours are meant; without lights and objects */
     bool photometric; /* lights are in candela and lux */
+    bool own;         /* written by us: nothing of it is to be chosen */
     FileNode *nodes;
     FileObject *objects;
     FileLight *lights;

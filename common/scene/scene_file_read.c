@@ -51,7 +51,7 @@ static bool check_file(const char *path, off_t *size, Message *message)
  * vertices, indices, and what else it has of each vertex. */
 
 typedef struct Answer {
-    bool read, photometric;
+    bool read, photometric, own;
     Scene scene;
     int counts[FILE_LISTS];
     char reason[1024];
@@ -103,6 +103,7 @@ _Noreturn static void read_in_child(const ModelModule *module, const char *path,
     answer.read = module->read(path, up, &file, &reason);
     snprintf(answer.reason, sizeof answer.reason, "%.1000s", reason.text);
     answer.photometric = file.photometric;
+    answer.own = file.own;
     answer.scene = file.scene;
     for (int list = 0; list < FILE_LISTS; list++)
         answer.counts[list] = *scene_file_list(&file, (FileList)list).count;
@@ -165,6 +166,7 @@ static bool take_answer(const char *path, int pipe_end, SceneFile *file, Message
         return message_set(message, "%s: cannot read: %s", path, answer.reason);
     }
     file->photometric = answer.photometric;
+    file->own = answer.own;
     file->scene = answer.scene;
     file->scene.light_count = file->scene.object_count = 0;
     for (int list = 0; list < FILE_LISTS; list++) {
