@@ -365,7 +365,10 @@ static bool explain_objects(const Renderer *renderer, const LightingPlan *plan, 
                             int number, Explained *explained, Message *message)
 {
     bool done = true;
+    bool *told = !verbose && plan->object_count > EXPLAIN_FEW ? explain_groups(plan) : NULL;
     for (int i = 0; i < plan->object_count && done; i++) {
+        if (told && !told[i])
+            continue;
         const ExplainedObject said = {.view = number, .object = i};
         if (!verbose) {
             done = explain_object(renderer, plan, said, explained, message);
@@ -377,6 +380,7 @@ static bool explain_objects(const Renderer *renderer, const LightingPlan *plan, 
     }
     if (!verbose)
         print_same(explained);
+    free(told);
     return done;
 }
 

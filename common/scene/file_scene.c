@@ -94,12 +94,21 @@ static Camera file_camera(const FileScene *made)
                                 fmax(made->radius, 1e-3 * vec3_length(camera.eye))));
         camera.up = vec3_unit(mat4_transform_direction(world_from_node, camera.up));
     }
-    const double farthest =
-        vec3_length(vec3_subtract(camera.eye, made->middle)) + 1.05 * made->radius;
+    if (made->file.own)
+        return camera;
+    /* As near and as far as the file has it, but no nearer or farther than anything is. */
+    const double r = 1.05 * made->radius;
+    const double depth = vec3_dot(vec3_subtract(made->middle, camera.eye),
+                                  vec3_unit(vec3_subtract(camera.center, camera.eye)));
+    const double last = fmax(depth + r, r);
+    const bool moves = made->file.channel_count > 0;
     if (!(camera.far > 0))
-        camera.far = camera.near > 0 ? fmax(farthest, 2 * camera.near) : farthest;
-    if (!(camera.near > 0))
-        camera.near = 1e-4 * camera.far;
+        camera.far = fmax(moves ? 2 * last : last, 2 * camera.near);
+    if (!moves && camera.near < last && last < camera.far)
+        camera.far = last;
+    camera.near = fmax(camera.near, 1e-5 * camera.far);
+    if (!moves && depth - r > camera.near && depth - r < camera.far)
+        camera.near = depth - r;
     return camera;
 }
 

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { SAMPLES = 200 };
+enum { SAMPLES = 200, FEW_OBJECTS = 24 };
 
 static const char *name_of(const Object *object)
 {
@@ -197,8 +197,33 @@ static int explain_shadows(const Scene *scene, const Placed *placed, FILE *file)
     return lines;
 }
 
+/* Of many objects how many: pairs of them would be many lines, and take long to find. */
+static void explain_many(const Scene *scene, FILE *file)
+{
+    int emitting = 0, clear = 0, unshadowed = 0;
+    for (int i = 0; i < scene->object_count; i++) {
+        emitting += !color_is_black(scene->objects[i].front.emission);
+        clear += scene->objects[i].front.alpha < 1;
+    }
+    for (int i = 0; i < scene->light_count; i++)
+        unshadowed += !scene->lights[i].off && !scene->lights[i].shadows;
+    if (unshadowed)
+        fprintf(file, "objects would cast shadows on each other, in %d of %d lights\n", unshadowed,
+                scene->light_count);
+    if (emitting)
+        fprintf(file, "%d objects emit, and would light other surfaces too\n", emitting);
+    if (clear)
+        fprintf(file, "%d objects would let light through, and refract it\n", clear);
+    fprintf(file, "surfaces would light each other with what they reflect; ambient light stands "
+                  "for it\n");
+}
+
 bool unmodelled_explain(const Scene *scene, FILE *file, Message *message)
 {
+    if (scene->object_count > FEW_OBJECTS) {
+        explain_many(scene, file);
+        return true;
+    }
     Placed *placed = placed_open(scene);
     if (!placed)
         return message_set(message, "scene: not enough memory to look for shadows");
