@@ -1,0 +1,314 @@
+#!/usr/bin/env python3
+"""Scene: files of scenes, made here and Assimp's; the second reader is this file's own.
+
+usage: scene_test.py EXAMPLES_FOLDER_OF_THE_BUILD SOURCE_FOLDER [unittest's arguments]
+"""
+import base64
+import copy
+import glob
+import json
+import math
+import os
+import random
+import re
+import struct
+import sys
+
+import command_line_test as base
+
+MODELS = "/usr/share/assimp/models*"  # of Debian's assimp-testmodels
+FORMATS = ("gltf", "glb", "dae", "zae", "fbx", "blend", "3ds", "obj", "ply", "stl", "x", "ase", "lwo", "off", "ac")
+SEED = int(os.environ.get("LIGHTING_TEST_SEED", random.SystemRandom().randrange(1 << 30)))
+
+POSITIONS = (0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1)
+CORNERS = (0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3)
+DATA = struct.pack("<12f12H", *POSITIONS, *CORNERS)
+
+
+def tetrahedron(**members):
+    """A file with one tetrahedron, node 0, and other members."""
+    file = {
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, 0],
+                       "max": [1, 1, 1]},
+                      {"bufferView": 1, "componentType": 5123, "count": 12, "type": "SCALAR"}],
+        "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 24}],
+        "buffers": [{"byteLength": len(DATA), "uri": data_uri(DATA)}]}
+    file.update(members)
+    return file
+
+
+def data_uri(data):
+    return "data:application/octet-stream;base64," + base64.b64encode(data).decode()
+
+
+def glb(file, data=DATA):
+    file = copy.deepcopy(file)
+    file["buffers"] = [{"byteLength": len(data)}]
+    text = json.dumps(file).encode()
+    text += b" " * (-len(text) % 4)
+    chunks = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(data), b"BIN\0") + data
+    return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
+
+
+# Matrices as rows.
+
+def product(a, b):
+    return [[sum(a[i][k] * b[k][j] for k in range(4)) for j in range(4)] for i in range(4)]
+
+
+def local(node):
+    if "matrix" in node:
+        return [[node["matrix"][4 * j + i] for j in range(4)] for i in range(4)]
+    x, y, z, w = node.get("rotation", (0, 0, 0, 1))
+    turn = [[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w), 0],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w), 0],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y), 0], [0, 0, 0, 1]]
+    move, scale = node.get("translation", (0, 0, 0)), node.get("scale", (1, 1, 1))
+    return [[turn[i][j] * (scale[j] if j < 3 else 1) + (move[i] if j == 3 and i < 3 else 0) for j in range(4)]
+            for i in range(4)]
+
+
+def apply(matrix, vector, w=1):
+    return [sum(matrix[i][k] * (*vector, w)[k] for k in range(4)) for i in range(3)]
+
+
+def unit(v):
+    length = math.sqrt(sum(x * x for x in v))
+    return [x / length for x in v]
+
+
+def worlds(file):
+    """Of each node that the scene has: its matrix."""
+    found = {}
+
+    def visit(number, parent):
+        found[number] = product(parent, local(file["nodes"][number]))
+        for child in file["nodes"][number].get("children", ()):
+            visit(child, found[number])
+
+    for root in file["scenes"][file.get("scene", 0)]["nodes"]:
+        visit(root, local({}))
+    return found
+
+
+class Scene(base.Case):
+    def save(self, name, file):
+        self.make(name, file if isinstance(file, bytes) else json.dumps(file))
+        return name
+
+    def read_back(self, name, *options):
+        """What --save-scene writes of a file: objects' matrices, lights and the camera in the world."""
+        self.good(name, *options, "--save-scene", "back.gltf", program="Scene")
+        file = json.loads(self.read("back.gltf"))
+        lights = file["extensions"]["KHR_lights_punctual"]["lights"]
+        return ([node["matrix"] for node in file["nodes"] if "mesh" in node],
+                [light["extras"]["lighting"] for light in lights], file["cameras"][0]["extras"]["lighting"])
+
+    def near(self, found, expected, places=9):
+        for a, b in zip(found, expected, strict=True):
+            self.assertAlmostEqual(a, b, places, (SEED, found, expected))
+
+    def one_line(self, result, *what):
+        text = result.stderr.decode()
+        self.assertEqual((result.returncode, text.count("\n"), result.stdout), (1, 1, b""), (SEED, what, text))
+        return text
+
+    def random_file(self, chance):
+        def node(**members):
+            return {"translation": [chance.uniform(-3, 3) for _ in range(3)],
+                    "rotation": unit([chance.uniform(-1, 1) for _ in range(4)]),
+                    "scale": [chance.choice((-1, 1)) * chance.uniform(0.5, 2)] * 3, **members}
+
+        nodes = [node(mesh=0, children=[1, 2]), node(children=[3, 4]), node(mesh=0, camera=0), node(mesh=0)]
+        nodes += [node(extensions={"KHR_lights_punctual": {"light": i}}) for i in range(3)]
+        nodes[3]["children"] = [5]
+        kinds = ({"type": "point", "color": [1, 0.5, 0.25], "intensity": 10}, {"type": "directional"},
+                 {"type": "spot", "intensity": 40, "spot": {"innerConeAngle": 0.2, "outerConeAngle": 0.6}})
+        return tetrahedron(nodes=nodes, scenes=[{"nodes": [0, 6]}], extensions={"KHR_lights_punctual": {"lights": kinds}},
+                           cameras=[{"type": "perspective", "perspective": {"yfov": 0.7, "znear": 0.1}, "name": "eye"}])
+
+    def test_nodes_lights_and_cameras_are_where_a_second_reader_has_them(self):
+        chance = random.Random(SEED)
+        for _ in range(10 // base.step(3)):
+            file = self.random_file(chance)
+            found = worlds(file)
+            objects, lights, camera = self.read_back(self.save("a.glb", glb(file)), "--exposure", str(math.pi))
+            order = [0, 1, 3, 5, 4, 2, 6]  # depth first
+            expected = [found[number] for number in order if "mesh" in file["nodes"][number]]
+            for matrix, rows in zip(objects, expected, strict=True):
+                self.near(matrix, [rows[i][j] for j in range(4) for i in range(4)])
+            numbers = [number for number in order if "extensions" in file["nodes"][number]]
+            for light, number in zip(lights, numbers, strict=True):
+                index = file["nodes"][number]["extensions"]["KHR_lights_punctual"]["light"]
+                self.assertEqual(light["kind"], (1, 0, 2)[index])
+                if index != 1:
+                    self.near(light["position"], apply(found[number], (0, 0, 0)))
+                if index != 0:
+                    self.near(light["direction"], unit(apply(found[number], (0, 0, 1 if index == 1 else -1), 0)))
+            near = {light["kind"]: light for light in lights}
+            self.near(near[1]["diffuse"], (10, 5, 2.5))
+            self.assertAlmostEqual(near[2]["cutoff"], math.degrees(0.6))
+            self.assertEqual((near[1]["constant"], near[1]["linear"], near[1]["quadratic"]), (0, 0, 1))
+            eye = apply(found[2], (0, 0, 0))
+            self.near(camera["eye"], eye)
+            self.near(unit([c - e for c, e in zip(camera["center"], eye)]), unit(apply(found[2], (0, 0, -1), 0)), 6)
+            self.near(camera["up"], unit(apply(found[2], (0, 1, 0), 0)))
+            self.assertAlmostEqual(camera["fovy"], math.degrees(0.7))
+
+    def test_animations_move_nodes(self):
+        times, places = struct.pack("<3f", 0, 1, 3), struct.pack("<9f", 0, 0, 0, 2, 0, 0, 2, 4, 0)
+        turns = struct.pack("<12f", 0, 0, 0, 1, 0, 0, math.sin(math.pi / 4), math.cos(math.pi / 4), 0, 0, 1, 0)
+        data = DATA + times + places + turns
+        file = tetrahedron()
+        file["accessors"] += [{"bufferView": 2, "componentType": 5126, "count": 3, "type": "SCALAR"},
+                              {"bufferView": 3, "componentType": 5126, "count": 3, "type": "VEC3"},
+                              {"bufferView": 4, "componentType": 5126, "count": 3, "type": "VEC4"}]
+        file["bufferViews"] += [{"buffer": 0, "byteOffset": 72, "byteLength": 12},
+                                {"buffer": 0, "byteOffset": 84, "byteLength": 36},
+                                {"buffer": 0, "byteOffset": 120, "byteLength": 48}]
+        file["animations"] = [{"samplers": [{"input": 2, "output": 3}, {"input": 2, "output": 4},
+                                            {"input": 2, "output": 3, "interpolation": "STEP"}],
+                               "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}},
+                                            {"sampler": 1, "target": {"node": 0, "path": "rotation"}}]}]
+        self.save("a.glb", glb(file, data))
+        for time, place, angle in ((0, (0, 0, 0), 0), (0.5, (1, 0, 0), 45), (1, (2, 0, 0), 90), (2, (2, 2, 0), 135),
+                                   (3.5, (1, 0, 0), 45)):
+            matrix = self.read_back("a.glb", "--time", str(time))[0][0]
+            self.near(matrix[12:15], place, 6)
+            self.near(matrix[:2], (math.cos(math.radians(angle)), math.sin(math.radians(angle))), 6)
+        file["animations"][0]["channels"] = [{"sampler": 2, "target": {"node": 0, "path": "translation"}}]
+        self.save("a.glb", glb(file, data))
+        self.near(self.read_back("a.glb", "--time", "2.9")[0][0][12:15], (2, 0, 0))
+
+    def test_a_scene_that_was_saved_draws_the_same_picture(self):
+        for program, *options in (("Materials", "--shape", "head"), ("SmoothFlat", "--linear-light"), ("FourLights",),
+                                  ("FourLights", "--interpolation", "gouraud", "--shadows", "on")):
+            arguments = (*options, "-t", "1.5", "-s", "200x200")
+            self.good(*arguments, "--save-scene", "a.gltf", program=program)
+            self.good("a.gltf", "--save-scene", "b.gltf", program="Scene")
+            expected = self.drawn(*arguments, program=program).pixels
+            for name in ("a.gltf", "b.gltf"):
+                self.assertEqual(self.drawn(name, "-s", "200x200", program="Scene").pixels, expected, (program, name))
+
+    def test_cameras_by_number_and_name(self):
+        file = tetrahedron(nodes=[{"mesh": 0}, {"camera": 0, "name": "left", "translation": [-1, 0, 9]},
+                                  {"camera": 0, "name": "far", "translation": [0, 0, 30]}],
+                           scenes=[{"nodes": [0, 1, 2]}],
+                           cameras=[{"type": "perspective", "perspective": {"yfov": 0.5, "znear": 1}}])
+        self.save("a.gltf", file)
+        for option, eye in ((), (-1, 0, 9)), (("--camera", "1"), (0, 0, 30)), (("--camera", "far"), (0, 0, 30)):
+            self.near(self.read_back("a.gltf", *option)[2]["eye"], eye)
+        self.assertNotIn(self.read_back("a.gltf", "--camera", "fit")[2]["eye"][2], (9, 30))
+        said = self.one_line(self.run_it("a.gltf", "--camera", "4", program="Scene"))
+        self.assertIn("camera 4: there is none; the file has 0 left, 1 far, and fit", said)
+        result = self.run_it(program="Scene")
+        self.assertEqual(result.returncode, 2)
+        self.assertEqual(self.run_it("a.gltf", "b.gltf", program="Scene").returncode, 2)
+
+    def test_what_is_not_drawn_is_counted(self):
+        material = {"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}, "alphaMode": "BLEND"}
+        file = tetrahedron(materials=[material], nodes=[{"mesh": 0, "skin": 0}] * 30, scenes=[{"nodes": list(range(30))}])
+        file["meshes"][0]["primitives"][0]["material"] = 0
+        said = self.good(self.save("a.gltf", file), "--explain", program="Scene").decode()
+        for text in ("30 of 30 objects, first object 0: 1 directional light", "of the file, 30 times: textures: ",
+                     "of the file, 30 times: transparency", "of the file, 30 times: skins",
+                     "the file has no light: there is one at the viewer"):
+            self.assertIn(text, said)
+
+    def bad_files(self):
+        """Name, file, what its message says."""
+        def changed(path, value):
+            file = tetrahedron()
+            *path, last = path
+            item = file
+            for key in path:
+                item = item[key]
+            item[last] = value
+            return file
+
+        huge = 10 ** 9
+        yield "a.gltf", b"{", "line 1"
+        yield "a.gltf", b"[]", "no object"
+        yield "a.gltf", b'{"asset": {"version": "3.0"}}', "version 3.0"
+        yield "a.gltf", b"\xff\xfe{}", "JSON"
+        yield "a.gltf", b"[" * 100000, "JSON"
+        yield "a.gltf", json.dumps(tetrahedron()).replace("[0, 0, 0]", "[0, 0, 1e999]").encode(), "JSON"
+        yield "a.glb", b"glTF", "ends after"
+        yield "a.glb", b"nothing of that kind", "does not begin"
+        yield "a.glb", glb(tetrahedron())[:-30], "ends after"
+        yield "a.glb", glb(tetrahedron())[:12] + struct.pack("<I", 1 << 31) + glb(tetrahedron())[16:], "first chunk"
+        yield "a.gltf", changed(("nodes", 0), {"mesh": 0, "children": [0]}), "nodes 0: is reached twice"
+        yield "a.gltf", changed(("nodes",), [{"children": [1]}, {"mesh": 0, "children": [0]}]), "is reached twice"
+        yield "a.gltf", changed(("nodes", 0, "mesh"), huge), f"meshes {huge}: there is none; the file has 1"
+        yield "a.gltf", changed(("nodes", 0, "matrix"), [0] * 16), "must be finite and affine"
+        yield "a.gltf", changed(("scenes", 0, "nodes"), [7]), "nodes 7: there is none"
+        yield "a.gltf", changed(("scene",), 3), "scenes 3: there is none"
+        yield "a.gltf", changed(("accessors", 0, "count"), huge), f"count {huge}"
+        yield "a.gltf", changed(("accessors", 0, "count"), 5), "leave its bufferView of 48 bytes"
+        yield "a.gltf", changed(("accessors", 0, "byteOffset"), 1 << 40), "leave its bufferView"
+        yield "a.gltf", changed(("accessors", 1, "componentType"), 5), "type is unknown"
+        yield "a.gltf", changed(("bufferViews", 0, "byteLength"), huge), "leaves its buffer of 72"
+        yield "a.gltf", changed(("bufferViews", 0, "byteStride"), 1 << 30), "leave"
+        yield "a.gltf", changed(("buffers", 0, "byteLength"), huge), "byteLength 1000000000, but it has 72 bytes"
+        for uri, what in (("http://example.org/a.bin", "refused"), ("file:///etc/passwd", "refused"),
+                          ("../a.bin", "outside"), ("/etc/passwd", "outside"), ("x/..%2f..%2fa.bin", "outside"),
+                          ("%2e%2e/a.bin", "outside"), ("..\\a.bin", "outside"), ("none.bin", "No such file")):
+            yield "a.gltf", changed(("buffers", 0, "uri"), uri), what
+        nan = struct.pack("<12f12H", math.nan, *POSITIONS[1:], *CORNERS)
+        yield "a.gltf", changed(("buffers", 0, "uri"), data_uri(nan)), "position (nan"
+        far = struct.pack("<12f12H", *POSITIONS, 9, *CORNERS[1:])
+        yield "a.glb", glb(tetrahedron(), far), "index 9; there are 4 vertices"
+        flat = struct.pack("<12f12H", *(0,) * 12, *CORNERS)
+        yield "a.glb", glb(tetrahedron(), flat), "no triangle with an area"
+        yield "a.gltf", tetrahedron(extensionsRequired=["KHR_draco_mesh_compression"]), "requires KHR_draco"
+        yield "a.dae", b"<COLLADA>", "cannot read"
+        yield "a.obj", b"mtllib ../../../etc/passwd\n", "cannot read"
+
+    def test_bad_files_end_with_one_line(self):
+        for name, file, what in self.bad_files():
+            self.save(name, file)
+            said = self.one_line(self.run_it(name, *base.SMALL, program="Scene"), file, what)
+            self.assertTrue(said.startswith(f"Scene: {name}: ") and what in said, (what, said))
+
+    def test_damaged_files_are_drawn_or_refused(self):
+        chance = random.Random(SEED)
+        whole = glb(self.random_file(chance))
+        for _ in range(400 // base.step(20)):
+            data = bytearray(whole[:chance.choice((len(whole), chance.randrange(len(whole))))])
+            for _ in range(chance.randrange(4)):
+                data[chance.randrange(len(data))] = chance.randrange(256)
+            self.save("a.glb", bytes(data) or b"x")
+            result = self.run_it("a.glb", *base.SMALL, program="Scene")
+            if result.returncode:
+                self.one_line(result, bytes(data))
+
+    def test_files_of_assimp_draw_or_end_with_one_line(self):
+        paths = sorted(path for path in glob.glob(MODELS + "/**", recursive=True)
+                       if path.rpartition(".")[2].lower() in FORMATS)
+        if not paths:
+            self.skipTest("no models; apt-get install assimp-testmodels")
+        drawn = 0
+        paths = paths[SEED % base.step(12)::base.step(12)]
+        for path in paths:
+            result = self.run_it(path, *base.SMALL, program="Scene")
+            if result.returncode:
+                self.one_line(result, path)
+            drawn += result.returncode == 0
+        self.assertGreater(drawn, len(paths) / 2)
+
+    def test_the_exact_picture_agrees(self):
+        paths = [path for name in ("Collada/duck.dae", "OBJ/spider.obj", "glTF2/ClearCoat-glTF/ClearCoatTest.gltf",
+                                   "glTF2/2CylinderEngine-glTF-Binary/2CylinderEngine.glb", "3DS/fels.3ds")
+                 for path in glob.glob(f"{MODELS}/{name}")]
+        paths.append(self.path(self.save("own.glb", glb(self.random_file(random.Random(1))))))
+        for path in paths[::-base.step(2)]:
+            said = self.good(path, "--camera", "fit", "--error", "1", "--explain", "-s", "160x160", program="Scene").decode()
+            # Half a step is rounding to bytes.
+            error = float(re.search(r"error ([\d.]+)\s+of\s+1\s+allowed", said)[1])
+            self.assertLessEqual(error, 1, path)
+
+
+if __name__ == "__main__":
+    sys.exit(base.main())
