@@ -157,6 +157,10 @@ bool options_check(Options *options, const Usage *usage, Message *message)
         return message_set(message,
                            "--output -: in a window each press of s saves a picture; name a "
                            "file");
+    if (options->format && strcmp(options->format, "json") == 0 && !options->probe.asked)
+        return message_set(message, "--format json: is of --probe");
+    if (options->probe.asked)
+        return !options->show || message_set(message, "--probe and --show: one of them");
     if (options->show && (window || options->numbered || options->watch))
         return message_set(message,
                            "--show %s: makes one picture; leave out --frames, --window "

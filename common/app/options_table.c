@@ -13,7 +13,7 @@ enum {
     ALL = DRAWS | PROGRAM_STUDY,
 };
 
-static const char *const FORMATS[] = {"png", "y4m", "rgb", NULL};
+static const char *const FORMATS[] = {"png", "y4m", "rgb", "json", NULL};
 static const char *const DIAGRAM_FORMATS[] = {"png", "y4m", "rgb", "svg", "pdf", NULL};
 static const char *const BACKEND_NAMES[] = {"egl", "osmesa", "window", NULL};
 static const char *const PRECISIONS[] = {"highp", "mediump", NULL};

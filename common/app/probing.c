@@ -67,10 +67,14 @@ static bool tell_pixel(Probing *probing, const Options *options, Message *messag
     if (renderer->kind->exact &&
         renderer->kind->exact(renderer, &probing->request, pixel, question.exact, object))
         question.object = object;
-    char *text = read ? probe_text(&question, message) : NULL;
+    Probe probe = {.raster = NULL};
+    const bool done = read && probe_open(&probe, &question, message);
+    const bool json = options->format && strcmp(options->format, "json") == 0;
+    char *text = !done ? NULL : json ? probe_json(&probe) : probe_text(&probe);
     fputs(text ? text : "", stdout);
     free(text);
-    return text != NULL;
+    probe_close(&probe);
+    return done;
 }
 
 bool probing_tell(const Example *example, const Options *options, Message *message)

@@ -1,10 +1,11 @@
 /*
- * probe: what a pixel of a captured frame is made of, as text: its shaders' values, line by line.
+ * probe: what a pixel of a captured frame is made of: its shaders' values, line by line.
  */
 #ifndef PROBE_H
 #define PROBE_H
 
-#include "probe/capture.h"
+#include "probe/place.h"
+#include "probe/raster.h"
 
 typedef struct ProbeQuestion {
     const Capture *capture;
@@ -14,7 +15,35 @@ typedef struct ProbeQuestion {
     float exact[3];     /* its colour there, with `object` */
 } ProbeQuestion;
 
-/* For free(); NULL: a shader cannot be run, and why. */
-char *probe_text(const ProbeQuestion *question, Message *message);
+/* What a run of the fragment's shader assigned, and the colour. */
+typedef struct ProbeTrail {
+    GlslEvent *events;
+    double *values;
+    int count;
+    double color[4];
+} ProbeTrail;
+
+typedef struct Probe {
+    ProbeQuestion question;
+    Raster *raster;
+    RasterPixel pixel;
+    ProbeTrail driver, exact; /* none of the background */
+    char *remarks;            /* what is undefined or cannot be known, in lines */
+    /* The verdict, in steps of 1/255: the driver's colour against the exact picture; what of that
+     * is the formula's, and what is rounding. */
+    bool judged;
+    double whole, formula, rounding;
+    int birth;        /* the event in which the rounding is born; -1: before the first */
+    int magnifier;    /* the event that magnifies it most; -1: none does so twice */
+    double magnified; /* so many times */
+} Probe;
+
+/* False: a shader cannot be run, and why. */
+bool probe_open(Probe *probe, const ProbeQuestion *question, Message *message);
+void probe_close(Probe *probe); /* a zeroed one is fine */
+
+/* For free(). */
+char *probe_text(const Probe *probe);
+char *probe_json(const Probe *probe);
 
 #endif

@@ -43,6 +43,9 @@ const GlslRun *raster_run(Raster *raster, const RasterPixel *pixel,
 /* Whatever the arithmetic, this varying is what the driver computes; NULL: none. */
 void raster_keep(Raster *raster, const char *varying);
 
+/* Events are logged with `exact_from`, too. */
+void raster_log(Raster *raster, bool always);
+
 /* Runs the vertex stage. */
 const GlslRun *raster_vertex(Raster *raster, int draw, unsigned vertex,
                              const GlslArithmetic *arithmetic);

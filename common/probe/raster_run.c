@@ -318,6 +318,11 @@ void raster_keep(Raster *raster, const char *varying)
     raster->kept = varying;
 }
 
+void raster_log(Raster *raster, bool always)
+{
+    raster->logs = always;
+}
+
 const GlslRun *raster_run(Raster *raster, const RasterPixel *pixel,
                           const GlslArithmetic *arithmetic, int exact_from, double color[4])
 {
@@ -328,7 +333,7 @@ const GlslRun *raster_run(Raster *raster, const RasterPixel *pixel,
     set(run, "gl_FragCoord", pixel->coord, 4);
     set(run, "gl_FrontFacing", &front, 1);
     run->exact_from = exact_from;
-    run->trace = exact_from == INT_MAX;
+    run->trace = raster->logs || exact_from == INT_MAX;
     glsl_run(run);
     const double *written = numbers(run, "gl_FragColor", &found);
     if (!written || !run->code->tree->symbols[found.symbol].written)

@@ -42,7 +42,8 @@ struct Raster {
     int count, room;
     DrawState *draws;
     const Raster *first; /* which owns what is constant; NULL: this one */
-    const char *kept;    /* see raster_keep */
+    bool logs;
+    const char *kept; /* see raster_keep */
 };
 
 bool raster_is_filled(const CaptureDraw *draw); /* of triangles */

@@ -435,7 +435,8 @@ TEST(pictures_go_to_one_animation_or_each_to_its_file)
     refuse("-o a.webm --fps 1001", "webm has 0.001 to 1000");
     refuse("-o a.png --format y4m", "--format y4m: applies to standard output, -o -");
     refuse("--format png", "--format png: applies to standard output, -o -");
-    refuse("-o - --format gif", "--format gif: must be png, y4m or rgb");
+    refuse("-o - --format gif", "--format gif: must be png, y4m, rgb or json");
+    refuse("-o - --format json", "--format json: is of --probe");
     refuse("-o - --format y4m --alpha", "y4m has no alpha channel");
     refuse_as(&GALLERY, "--format y4m", "--format: a gallery");
     takes("-o a.mp4 --print-shader --format y4m", NULL, false);

@@ -1,7 +1,8 @@
 /*
- * --show against closed forms: a square over the whole picture, whose shader computes functions of
- * the place, in highp and mediump. Needs no driver.
+ * --show and --probe against closed forms: a square over the whole picture, whose shader computes
+ * functions of the place, in highp and mediump. Needs no driver.
  */
+#include "probe/probe.h"
 #include "probe/show.h"
 
 #include "support/testing.h"
@@ -16,8 +17,8 @@ static const char VERTEX[] = "attribute vec2 a_Place;\n"
                              "    gl_Position = vec4(a_Place, 0.0, 1.0);\n"
                              "}\n";
 
-/* Shows a value of a fragment shader over the square from -1 to 1. */
-static bool show(Show *shown, const char *fragment, const char *what, Message *message)
+/* Draws the square from -1 to 1; valid until the next. */
+static const Capture *capture_of(const char *fragment)
 {
     static const float corners[4][2] = {{-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
     static unsigned vertices[4] = {0, 1, 2, 3};
@@ -37,7 +38,12 @@ static bool show(Show *shown, const char *fragment, const char *what, Message *m
                          .attribute_count = 1,
                          .viewport = {0, 0, SIDE, SIDE},
                          .colors = {true, true, true, true}};
-    return show_open(shown, &capture, what, (const int[2]){SIDE, SIDE}, message);
+    return &capture;
+}
+
+static bool show(Show *shown, const char *fragment, const char *what, Message *message)
+{
+    return show_open(shown, capture_of(fragment), what, (const int[2]){SIDE, SIDE}, message);
 }
 
 /* The same as a picture, and what is said of it. */
@@ -239,6 +245,40 @@ TEST(the_line_that_loses_digits_is_blamed)
         if (place[0] < -0.55) /* black whatever the digits */
             assert_true(is(at(&picture, i), 64, 64, 64));
     }
+}
+
+TEST(a_power_magnifies_what_rounding_has_left)
+{
+    static const char power[] = "#line 1 0\n"
+                                "precision mediump float;\n"
+                                "varying vec2 v_Place;\n"
+                                "void main() {\n"
+                                "    float base = 0.5 * v_Place.x + 0.5;\n"
+                                "    float power = pow(base, 24.0);\n"
+                                "    gl_FragColor = vec4(power);\n"
+                                "}\n";
+    ProbeQuestion question = {.capture = capture_of(power), .height = SIDE};
+    int judged = 0;
+    for (question.column = SIDE / 2; question.column < SIDE; question.column++) {
+        CLOSED(probe_close) Probe probe;
+        double place[2];
+        place_of(question.column, place);
+        const double base = (place[0] + 1) / 2, slope = 24 * pow(base, 23);
+        require(probe_open(&probe, &question, FAILURE), FAILURE);
+        /* What pow rounds in 11 bits, at most: log2, below 0.25 here; the product, below 4; exp2.
+         */
+        const double own = (24 * 0x1p-15 + 0x1p-11) * 0.7 * pow(base, 24) + 0x1p-12;
+        const double left = fabs(mediump(0.5 * mediump(place[0]) + 0.5) - base);
+        if (base < 0.9 || left * slope < own)
+            continue;
+        char *text = probe_text(&probe);
+        assert_non_null(strstr(text, "born in line 4 (0.5 * v_Place.x + 0.5), magnified "));
+        assert_non_null(strstr(text, " times in line 5 (pow(base, 24.0))"));
+        assert_true(fabs(probe.magnified / slope - 1) < 0.01); /* 23 / 2 of 2^-11 by curvature */
+        free(text);
+        judged++;
+    }
+    assert_true(judged > 1);
 }
 
 TEST(an_unknown_name_is_told_with_those_there_are)

@@ -11,6 +11,7 @@ import array
 import functools
 import glob
 import itertools
+import json
 import os
 import pty
 import pwd
@@ -665,7 +666,7 @@ class Generated(Case):
         self.generate("bash")
         for words, expected in (("--siz", "--size"), ("--pr", "--precision --print-shader --probe"),
                                 ("--alpha --backend o", "osmesa"), ("-b e", "egl"),
-                                ("--precision = m", "mediump"), ("--format =", "png y4m rgb"),
+                                ("--precision = m", "mediump"), ("--format =", "png y4m rgb json"),
                                 ("a", ""), ("-o --siz", "--size")):
             said = self.shell("bash", "-c", f". ./bash; COMP_WORDS=(LightedCube {words}); "
                               "COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _LightedCube; "
@@ -770,6 +771,21 @@ class Outputs(Case):
         self.refused(2, "--show error: makes one picture; leave out --frames", *SMALL, "--show", "error",
                      "--frames", "2", "-o", "a%d.png")
         self.refused(1, "--show: a pixel of several samples", *SMALL, "--show", "error", "--samples", "4")
+
+    def test_a_pixel_is_explained_as_text_and_json(self):
+        for program in "LightedCube", "PhongBlinn":
+            probe = "-s", "60x60", "--precision", "mediump", "--probe", "30,25"
+            text = self.run_it(*probe, program=program).stdout.decode()
+            data = json.loads(self.run_it(*probe, "--format", "json", program=program).stdout)
+            self.assertIn(f"verdict: {data['verdict']['text']}\n", text)
+            self.assertIn("born", data["verdict"])
+            last = data["assignments"][-1]
+            self.assertEqual(last["name"], "gl_FragColor")
+            self.assertIn("gl_FragColor = ", last["source"])
+            for drawn, driver in zip(data["drawn"], last["driver"]):
+                self.assertLess(abs(255 * drawn - 255 * min(driver, 1)), 0.51)
+        self.assertRegex(text, r"\ngroup\.glsl:\d+  float n_dot_l = dot\(normal, to_light\);\n +n_dot_l: ")
+        self.refused(2, "--format json: is of --probe", "--format", "json")
 
     def test_output_that_does_not_arrive_is_a_failure(self):
         for arguments in (("--help",), ("--version",), ("-o", "-"), ("--print-shader",),

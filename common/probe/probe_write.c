@@ -1,0 +1,294 @@
+/* A probe for people, and for programs. */
+#include "probe/probe.h"
+
+#include "base/json_writer.h"
+#include "base/memory.h"
+#include "core/shader_source.h"
+#include "probe/origin.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const CaptureDraw *draw_of(const Probe *probe)
+{
+    return &probe->question.capture->draws[probe->pixel.draw];
+}
+
+static const GlslTree *tree_of(const Probe *probe)
+{
+    return raster_code(probe->raster, probe->pixel.draw, 1)->tree;
+}
+
+static GlslPlace place_of(const Probe *probe, int event)
+{
+    return tree_of(probe)->nodes[probe->driver.events[event].node].place;
+}
+
+/* The exact run's event; NULL: it went another way. */
+static const GlslEvent *exact_event(const Probe *probe, int event)
+{
+    const GlslEvent *exact = event < probe->exact.count ? &probe->exact.events[event] : NULL;
+    return exact && exact->node == probe->driver.events[event].node ? exact : NULL;
+}
+
+static double steps_apart(const Probe *probe, const GlslEvent *event, const GlslEvent *exact)
+{
+    double most = 0;
+    for (int k = 0; k < event->count; k++)
+        most = fmax(most, fabs(probe->driver.values[event->value + k] -
+                               probe->exact.values[exact->value + k]));
+    return 255 * most;
+}
+
+/* " in line 15 (pow(base, 8.0))". */
+static void put_event(FILE *file, const Probe *probe, int event)
+{
+    const GlslTree *tree = tree_of(probe);
+    const int node = probe->driver.events[event].node, kind = tree->nodes[node].kind;
+    char place[PLACE_TEXT], text[64];
+    place_name(draw_of(probe)->sources[1], place_of(probe, event), place);
+    glsl_expression_text(tree,
+                         kind == GLSL_VARIABLE_NODE ? tree->nodes[node].first
+                         : kind == GLSL_ASSIGN      ? glsl_child(tree, node, 1)
+                                                    : node,
+                         text, sizeof text);
+    fprintf(file, " in %s (%s)", place, text);
+}
+
+static void put_verdict(FILE *file, const Probe *probe)
+{
+    if (probe->question.object)
+        fprintf(file, "%.2f steps off: %.2f by the formula, %.2f by rounding", probe->whole,
+                probe->formula, probe->rounding);
+    else
+        fprintf(file, "%.2f steps off by rounding", probe->rounding);
+    if (probe->rounding < 0.01)
+        return;
+    fprintf(file, ", born");
+    if (probe->birth < 0)
+        fprintf(file, " in the vertex shader");
+    else
+        put_event(file, probe, probe->birth);
+    if (probe->magnifier >= 0) {
+        fprintf(file, ", magnified %.3g times", probe->magnified);
+        put_event(file, probe, probe->magnifier);
+    }
+}
+
+/* Text */
+
+static void put_numbers(FILE *file, const double *values, int count)
+{
+    for (int i = 0; i < count && i < 4; i++)
+        fprintf(file, "%s%.7g", i ? ", " : "", values[i]);
+    fprintf(file, count > 4 ? ", ..." : "");
+}
+
+static void put_steps(FILE *file, const char *name, const double color[3])
+{
+    fprintf(file, "%s %.3f, %.3f, %.3f", name, origin_step(color[0]), origin_step(color[1]),
+            origin_step(color[2]));
+}
+
+/* The lines of a text of several files are shown, for nobody has it at hand. */
+static void put_trail(FILE *file, const Probe *probe)
+{
+    char place[PLACE_TEXT], before[PLACE_TEXT] = "", line[PLACE_TEXT];
+    fprintf(file, "line, name: driver | exact | difference in steps of 1/255\n");
+    for (int i = 0; i < probe->driver.count; i++) {
+        const GlslEvent *event = &probe->driver.events[i], *exact = exact_event(probe, i);
+        const char *source = draw_of(probe)->sources[1];
+        place_name(source, place_of(probe, i), place);
+        const bool single = strncmp(place, "line ", 5) == 0;
+        place_line(source, place_of(probe, i), line);
+        if (!single && strcmp(place, before) != 0)
+            fprintf(file, "%s  %s\n", place, line);
+        memcpy(before, place, sizeof before);
+        fprintf(file, "%4s  %s: ", single ? place + 5 : "",
+                tree_of(probe)->symbols[event->symbol].name);
+        put_numbers(file, probe->driver.values + event->value, event->count);
+        if (exact) {
+            fprintf(file, " | ");
+            put_numbers(file, probe->exact.values + exact->value, exact->count);
+            fprintf(file, " | %.3g\n", steps_apart(probe, event, exact));
+        } else {
+            fprintf(file, " | the exact one goes another way\n");
+        }
+    }
+}
+
+static bool is_handed_over(const GlslVariable *variable)
+{
+    return variable->storage == GLSL_VARYING || strcmp(variable->name, "gl_Position") == 0;
+}
+
+static void put_corner(FILE *file, const Probe *probe, int corner)
+{
+    const unsigned vertex = probe->pixel.corners[corner];
+    const GlslRun *run = raster_vertex(probe->raster, probe->pixel.draw, vertex, &GLSL_LLVMPIPE);
+    fprintf(file, "vertex %u, weight %.6f:", vertex, probe->pixel.weights[corner]);
+    for (int k = 0; k < run->code->variable_count; k++) {
+        const GlslVariable *variable = &run->code->variables[k];
+        if (!is_handed_over(variable))
+            continue;
+        fprintf(file, " %s (", variable->name);
+        put_numbers(file, run->registers + variable->first, variable->count);
+        fprintf(file, ")");
+    }
+    fprintf(file, "\n");
+}
+
+static FILE *open_text(char **text)
+{
+    static size_t size;
+    FILE *file = open_memstream(text, &size);
+    if (!file)
+        memory_end();
+    return file;
+}
+
+char *probe_text(const Probe *probe)
+{
+    const ProbeQuestion *question = &probe->question;
+    const unsigned char *drawn = question->drawn;
+    const double exact[3] = {(double)question->exact[0], (double)question->exact[1],
+                             (double)question->exact[2]};
+    char *text;
+    FILE *file = open_text(&text);
+    fprintf(file, "pixel %d,%d: drawn %d, %d, %d\n", question->column, question->row, drawn[0],
+            drawn[1], drawn[2]);
+    if (question->object) {
+        put_steps(file, "exact picture:", exact);
+        fprintf(file, ", %s\n", question->object);
+    }
+    if (probe->pixel.draw >= 0) {
+        put_steps(file, "computed:", probe->driver.color);
+        put_steps(file, "; exactly, the same text:", probe->exact.color);
+        fprintf(file, "\n");
+        put_trail(file, probe);
+    }
+    fputs(probe->remarks, file);
+    if (probe->judged) {
+        fprintf(file, "verdict: ");
+        put_verdict(file, probe);
+        fprintf(file, "\n(the line from which on the error of the colour stays when all that "
+                      "follows is computed exactly)\n");
+    }
+    for (int c = 0; c < 3 && probe->pixel.draw >= 0; c++)
+        put_corner(file, probe, c);
+    fclose(file);
+    return text;
+}
+
+/* JSON */
+
+static void write_numbers(JsonWriter *json, const char *name, const double *values, int count)
+{
+    json_write_list(json, name);
+    for (int i = 0; i < count; i++)
+        json_write_number(json, NULL, values[i]);
+    json_write_end(json);
+}
+
+static void write_place(JsonWriter *json, const Probe *probe, int event)
+{
+    char text[PLACE_TEXT];
+    const GlslPlace place = place_of(probe, event);
+    place_name(draw_of(probe)->sources[1], place, text);
+    json_write_text(json, "place", text);
+    json_write_whole(json, "line", place.line % SHADER_LINES_OF_FILE);
+    place_line(draw_of(probe)->sources[1], place, text);
+    json_write_text(json, "source", text);
+}
+
+static void write_trail(JsonWriter *json, const Probe *probe)
+{
+    json_write_list(json, "assignments");
+    for (int i = 0; i < probe->driver.count; i++) {
+        const GlslEvent *event = &probe->driver.events[i], *exact = exact_event(probe, i);
+        json_write_object(json, NULL);
+        write_place(json, probe, i);
+        json_write_text(json, "name", tree_of(probe)->symbols[event->symbol].name);
+        write_numbers(json, "driver", probe->driver.values + event->value, event->count);
+        if (exact) {
+            write_numbers(json, "exact", probe->exact.values + exact->value, exact->count);
+            json_write_number(json, "steps", steps_apart(probe, event, exact));
+        }
+        json_write_end(json);
+    }
+    json_write_end(json);
+}
+
+static void write_verdict(JsonWriter *json, const Probe *probe)
+{
+    char *text;
+    FILE *file = open_text(&text);
+    put_verdict(file, probe);
+    fclose(file);
+    json_write_object(json, "verdict");
+    json_write_text(json, "text", text);
+    free(text);
+    if (probe->question.object) {
+        json_write_number(json, "steps", probe->whole);
+        json_write_number(json, "formula", probe->formula);
+    }
+    json_write_number(json, "rounding", probe->rounding);
+    json_write_whole(json, "born", probe->birth); /* which of the assignments */
+    if (probe->magnifier >= 0) {
+        json_write_whole(json, "magnifier", probe->magnifier);
+        json_write_number(json, "magnified", probe->magnified);
+    }
+    json_write_end(json);
+}
+
+static void write_corner(JsonWriter *json, const Probe *probe, int corner)
+{
+    const unsigned vertex = probe->pixel.corners[corner];
+    const GlslRun *run = raster_vertex(probe->raster, probe->pixel.draw, vertex, &GLSL_LLVMPIPE);
+    json_write_object(json, NULL);
+    json_write_whole(json, "vertex", vertex);
+    json_write_number(json, "weight", probe->pixel.weights[corner]);
+    for (int k = 0; k < run->code->variable_count; k++) {
+        const GlslVariable *variable = &run->code->variables[k];
+        if (is_handed_over(variable))
+            write_numbers(json, variable->name, run->registers + variable->first, variable->count);
+    }
+    json_write_end(json);
+}
+
+/* Of colours 0 to 1 is the range that a framebuffer keeps. */
+char *probe_json(const Probe *probe)
+{
+    const ProbeQuestion *question = &probe->question;
+    double drawn[3], exact[3];
+    char *text;
+    JsonWriter json = {.file = open_text(&text), .lines = 2};
+    for (int i = 0; i < 3; i++) {
+        drawn[i] = question->drawn[i] / 255.0;
+        exact[i] = (double)question->exact[i];
+    }
+    json_write_object(&json, NULL);
+    json_write_whole(&json, "column", question->column);
+    json_write_whole(&json, "row", question->row);
+    write_numbers(&json, "drawn", drawn, 3);
+    if (question->object) {
+        write_numbers(&json, "exact_picture", exact, 3);
+        json_write_text(&json, "object", question->object);
+    }
+    if (probe->pixel.draw >= 0) {
+        write_numbers(&json, "computed", probe->driver.color, 4);
+        write_numbers(&json, "exact", probe->exact.color, 4);
+        write_trail(&json, probe);
+        json_write_list(&json, "vertices");
+        for (int c = 0; c < 3; c++)
+            write_corner(&json, probe, c);
+        json_write_end(&json);
+    }
+    json_write_text(&json, "remarks", probe->remarks);
+    if (probe->judged)
+        write_verdict(&json, probe);
+    json_write_end(&json);
+    fclose(json.file);
+    return text;
+}
