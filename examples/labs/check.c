@@ -8,6 +8,7 @@
 #include "app/options.h"
 #include "base/output.h"
 #include "labs/check/judge.h"
+#include "labs/check/new_lab.h"
 #include "labs/class/class.h"
 #include "labs/sandbox/sandboxed_check.h"
 #include "labs/submission/lab_json.h"
@@ -22,11 +23,15 @@
 
 static int seed = -1;
 static double limit = 10;
-static const char *json, *pictures, *expected, *own;
+static const char *json, *pictures, *expected, *own, *fresh, *solution;
 
 static const Parameter parameters[] = {
     {"lab", "the folder of a lab of your own, instead of LAB; see TEACHING.md", PARAMETER_TEXT,
      .value = &own, .placeholder = "DIR"},
+    {"new-lab", "make this folder, a lab to edit, from the shaders of --solution", PARAMETER_TEXT,
+     .value = &fresh, .placeholder = "DIR"},
+    {"solution", "its vertex shader that works; the fragment shader follows", PARAMETER_TEXT,
+     .value = &solution, .placeholder = "FILE.vert FILE.frag"},
     {"seed", "seed of the second set of scenes; -1: random", PARAMETER_WHOLE, .value = &seed,
      .min = -1, .max = 2147483647},
     {"json", "the result as JSON; - is standard output", PARAMETER_TEXT, .value = &json,
@@ -49,6 +54,7 @@ static const Usage usage = {
         "exit status is 0 if the submission is right.\n"
         "\nTry:  check lab05 mine\n"
         "      check lab05 mine --pictures found --json found/result.json\n"
+        "      check --new-lab mylab --solution my.vert my.frag\n"
         "      check --lab mylab mine\n"
         "      check --class DIR --lab 5 -o results\n"
         "The last judges a whole class: see check --class DIR --help.\n",
@@ -92,6 +98,20 @@ static int check(const Options *options, const Lab *lab, const char *folder, Mes
     return options_finish(usage.name, verdict.kind == VERDICT_RIGHT ? 0 : EXIT_FAILED);
 }
 
+static int make_lab(char *const *names, Message *message)
+{
+    if (!fresh || !solution || !names[0] || names[1]) {
+        message_set(message, "a new lab needs two shaders: check --new-lab mylab --solution "
+                             "my.vert my.frag");
+        return options_fail(usage.name, message, EXIT_USAGE);
+    }
+    if (!new_lab_write(fresh, solution, names[0], message))
+        return options_fail(usage.name, message, EXIT_FAILED);
+    printf("%s: edit TASK.md, lab.json and the starter; then check --lab %s %s/solution\n", fresh,
+           fresh, fresh);
+    return options_finish(usage.name, 0);
+}
+
 int main(int argc, char *argv[])
 {
     Options options;
@@ -102,6 +122,8 @@ int main(int argc, char *argv[])
     if (!options_begin(&options, &usage, argc, argv, &code))
         return code;
     char *const *names = options.names;
+    if (fresh || solution)
+        return make_lab(names, &message);
     const int count = !own + !expected;
     int given = 0;
     while (names[given])

@@ -83,9 +83,44 @@ class Extra(Case):
         wrong = result(lab, mine)
         self.assertEqual((wrong["verdict"], wrong["points"]), ("wrong", 1))
         self.assertIn("The outline is right: the mistake is in the light.", wrong["symptoms"])
-        # Written otherwise it is right.
-        self.write(solution.replace("exp(-depth * depth)", "1.0 / exp2(1.442695 * depth * depth)"), "mine", "fog.frag")
-        self.assertEqual(result(lab, mine)["verdict"], "right")
+
+    # Of the solution: what becomes what.
+    MISTAKES = {
+        "fog": {
+            "a linear exponent": ("-depth * depth", "-depth"),
+            "from the origin": ("u_EyePosition - v_Position", "v_Position"),
+            "the fog's share for the surface's": ("mix(u_FogColor, lit, seen)", "mix(lit, u_FogColor, seen)"),
+            "fog only on the light": ("mix(u_FogColor, lit, seen)", "lit * seen"),
+            "the distance squared, not the density": ("exp(-depth * depth)", "exp(-depth * length(u_EyePosition - v_Position))"),
+        },
+        "spot": {
+            "a linear edge": ("smoothstep(u_CosOuterCut, u_CosInnerCut, cosine)",
+                              "clamp((cosine - u_CosOuterCut) / (u_CosInnerCut - u_CosOuterCut), 0.0, 1.0)"),
+            "a hard edge": ("smoothstep(u_CosOuterCut, u_CosInnerCut, cosine)", "step(u_CosOuterCut, cosine)"),
+            "no attenuation": (" * attenuation)", ")"),
+            "no quadratic term": (" + u_Attenuation.z * d * d", ""),
+            "ambient light in the cone only": ("u_AmbientLight + u_LightColor * (nDotL * spot", "(u_AmbientLight + u_LightColor * nDotL) * (spot"),
+            "not normalized": ("normalize(v_Normal)", "v_Normal"),
+            "no max": ("max(dot(normalize(v_Normal), lightDirection), 0.0)", "dot(normalize(v_Normal), lightDirection)"),
+        },
+    }
+    ALTERNATIVES = {
+        "fog": {"written otherwise": ("exp(-depth * depth)", "1.0 / exp2(1.442695 * depth * depth)")},
+        "spot": {"by hand": ("smoothstep(u_CosOuterCut, u_CosInnerCut, cosine);",
+                             "clamp((cosine - u_CosOuterCut) / (u_CosInnerCut - u_CosOuterCut), 0.0, 1.0);\n"
+                             "    spot *= spot * (3.0 - 2.0 * spot);")},
+    }
+
+    def test_mistakes_are_wrong_and_alternatives_right(self):
+        for verdict, changes in (("wrong", self.MISTAKES), ("right", self.ALTERNATIVES)):
+            for name, of_lab in changes.items():
+                lab = os.path.join(EXTRA, name)
+                self.write(read(lab, "solution", name + ".vert"), name, name + ".vert")
+                solution = read(lab, "solution", name + ".frag")
+                for kind, (old, new) in of_lab.items():
+                    self.assertIn(old, solution, kind)
+                    mine = self.write(solution.replace(old, new), name, name + ".frag")
+                    self.assertEqual(result(lab, mine)["verdict"], verdict, kind)
 
     def test_a_class(self):
         lab, results = os.path.join(EXTRA, "fog"), self.path("results")
@@ -184,6 +219,94 @@ class Folder(Case):
         self.assertIn("solution: fog.frag: is missing from the folder", check("--lab", lab, lab).stderr)
         self.assertIn("lab.json: No such file", check("--lab", self.folder.name, lab).stderr)
         self.assertEqual(check("--lab", lab).returncode, 2)
+
+
+class New(Case):
+    """check --new-lab, from shaders in the manner of other courses."""
+
+    VERTEX = """attribute vec3 aPos;
+attribute vec3 aNormal;
+uniform mat4 model, view, projection;
+uniform mat3 normalMatrix;
+varying vec3 place, normal;
+void main()
+{
+    place = vec3(model * vec4(aPos, 1.0));
+    normal = normalMatrix * aNormal;
+    gl_Position = projection * view * vec4(place, 1.0);
+}
+"""
+    FRAGMENT = """precision highp float;
+struct Lamp { vec3 position, direction, diffuse; float cutOff, outerCutOff, linear; };
+uniform Lamp lamp[1];
+uniform vec3 viewPos, objectColor, mist;
+uniform float wrap;
+varying vec3 place, normal;
+float cosine(vec3 a, vec3 b) { return dot(normalize(a), normalize(b)); }
+void main()
+{
+    vec3 way = lamp[0].position - place;
+    float edge = smoothstep(lamp[0].outerCutOff, lamp[0].cutOff, cosine(-way, lamp[0].direction));
+    float lit = max((cosine(normal, way) + wrap) / (1.0 + wrap), 0.0) * edge / (1.0 + lamp[0].linear * length(way));
+    gl_FragColor = vec4(mix(lamp[0].diffuse * lit * objectColor, mist, 0.01 * length(viewPos - place)), 1.0);
+}
+"""
+    MEANT = {
+        "model": "u_ModelMatrix", "view": "u_ViewMatrix", "projection": "u_ProjMatrix", "normalMatrix": "u_NormalMatrix",
+        "viewPos": "u_EyePosition", "objectColor": "color of the object",
+        "lamp[0].position": {"is": "u_LightPosition", "light": 0}, "lamp[0].direction": "u_SpotDirection",
+        "lamp[0].diffuse": {"is": "u_LightColor", "light": 0}, "lamp[0].cutOff": "cosine of 0.8 u_SpotCutoff",
+        "lamp[0].outerCutOff": "cosine of u_SpotCutoff", "lamp[0].linear": "linear of u_Attenuation",
+        "wrap": {"value": 0.5, "min": 0.25, "max": 0.75},
+        "mist": {"value": [0.5] * 3, "min": [0.25] * 3, "max": [0.75] * 3},
+    }
+
+    def make(self, vertex, fragment, name="mist_lab"):
+        self.write(vertex, "my.vert")
+        self.write(fragment, "my.frag")
+        return check("--new-lab", self.path(name), "--solution", self.path("my.vert"), self.path("my.frag"))
+
+    def test_a_lab_in_the_manner_of_another_course(self):
+        self.assertEqual(self.make(self.VERTEX, self.FRAGMENT.replace("lamp", "light").replace("Lamp", "Light")).returncode, 0)
+        lab = self.path("mist_lab")
+        with open(os.path.join(lab, "lab.json")) as file:
+            made = json.load(file)
+        self.assertEqual(made["uniforms"], {name.replace("lamp", "light"): meant for name, meant in self.MEANT.items()})
+        self.assertEqual((made["attributes"], made["light"]), ({"position": "aPos", "normal": "aNormal"}, "spot"))
+        self.assertEqual(result(lab, os.path.join(lab, "solution"))["points"], 10)
+        self.assertEqual(result(lab, lab)["message"], "unchanged: this is the starter")
+        starter = read(lab, "mist.frag")
+        self.assertTrue(starter.startswith(self.FRAGMENT.replace("lamp", "light").replace("Lamp", "Light")
+                                           .split("float cosine")[0]))
+        self.assertNotIn("smoothstep", starter)
+        self.assertIn("| `wrap` | uniform float | to do |", read(lab, "TASK.md"))
+        self.assertTrue(os.path.exists(os.path.join(lab, "expected.png")))
+
+    def test_light_at_the_vertices(self):
+        for name in "lab01_diffuse", "lab09_two_sided":
+            folder = os.path.join(HERE, "solutions", name)
+            shaders = [read(folder, name.split("_")[0] + ending) for ending in (".vert", ".frag")]
+            self.assertEqual(self.make(*shaders, name).returncode, 0)
+            lab = self.path(name)
+            self.assertEqual(result(lab, os.path.join(lab, "solution"))["points"], 10)
+            self.assertEqual(result(lab, lab)["verdict"], "wrong")
+        self.assertIn("gl_Position = u_MvpMatrix * a_Position;", read(self.path("lab01_diffuse"), "lab01.vert"))
+
+    def test_what_is_no_lab(self):
+        for vertex, fragment, said in (
+            (self.VERTEX.replace("vec3 aNormal;", "vec3 aNormal;\nattribute vec2 aTexCoords;"), self.FRAGMENT,
+             "vec2 aTexCoords: no lab has one; there are positions, normals and colours"),
+            (self.VERTEX, self.FRAGMENT.replace("uniform float", "uniform sampler2D picture;\nuniform float"),
+             "sampler2D picture: no lab has one"),
+            (self.VERTEX, self.FRAGMENT.replace("float lit =", "float lot ="), "my.frag:13:"),
+        ):
+            done = self.make(vertex, fragment)
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1), done)
+            self.assertIn(said, done.stderr)
+            self.assertFalse(os.path.exists(self.path("mist_lab")))
+        self.write("", "mist_lab", "mine")
+        self.assertIn("mist_lab: File exists", self.make(self.VERTEX, self.FRAGMENT).stderr)
+        self.assertEqual(check("--new-lab", self.path("x")).returncode, 2)
 
 
 if __name__ == "__main__":

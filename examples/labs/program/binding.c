@@ -27,7 +27,7 @@ typedef struct Value {
     float v[LAB_MAX_LIGHTS][4], number; /* anything else */
 } Value;
 
-enum { MAX_VALUES = 28 + LAB_MAX_UNIFORMS, MAX_NAME = 256 };
+enum { MAX_VALUES = 32 + LAB_MAX_UNIFORMS, MAX_NAME = 256 };
 
 typedef struct Values {
     Value values[MAX_VALUES];
@@ -94,7 +94,12 @@ static void add_lights(Values *values, const Lab *lab, const Scene *scene)
     vec3_normalize(spot->direction, &axis);
     add_vector(values, "u_SpotDirection", KIND_DIRECTION, axis);
     add_number(values, "u_SpotCutoff", spot->cutoff);
+    /* What other courses hand over instead. */
     add_number(values, "cosine of u_SpotCutoff", cos(spot->cutoff * acos(-1) / 180));
+    add_number(values, "cosine of 0.8 u_SpotCutoff", cos(0.8 * spot->cutoff * acos(-1) / 180));
+    add_number(values, "constant of u_Attenuation", spot->constant);
+    add_number(values, "linear of u_Attenuation", spot->linear);
+    add_number(values, "quadratic of u_Attenuation", spot->quadratic);
     add_number(values, "u_SpotExponent", spot->exponent);
     add_vector(values, "u_Attenuation", KIND_DIRECTION,
                (Vec3){spot->constant, spot->linear, spot->quadratic});
@@ -118,19 +123,44 @@ static const Value *find(const Values *values, const char *name)
     return NULL;
 }
 
+/* The value that a lab's uniform has, which may begin with "eye ", in eye space, and "minus ". */
+static const Value *find_meant(const Values *values, const char *is, bool *eye, bool *minus)
+{
+    *eye = strncmp(is, "eye ", 4) == 0;
+    is += *eye ? 4 : 0;
+    *minus = strncmp(is, "minus ", 6) == 0;
+    return find(values, is + (*minus ? 6 : 0));
+}
+
+static void change(Value *value, const Mat4 *eye_from_world, bool minus)
+{
+    for (int i = 0; i < LAB_MAX_LIGHTS; i++) {
+        Vec3 v = vec3_from_float(value->v[i]);
+        if (eye_from_world)
+            v = value->kind == KIND_DIRECTION ? mat4_transform_direction(*eye_from_world, v)
+                                              : mat4_transform_point(*eye_from_world, v);
+        set_vector(value, i, minus ? vec3_scale(v, -1) : v);
+    }
+}
+
 /* What a lab's folder adds: other names, and values of its own. */
-static void add_own(Values *values, const Lab *lab, const double (*own)[4])
+static void add_own(Values *values, const Lab *lab, const double (*own)[4],
+                    const Mat4 *eye_from_world)
 {
     static const Kind kinds[] = {KIND_NUMBER, KIND_PAIR, KIND_COLOR, KIND_FOUR};
     for (int i = 0; i < lab->uniform_count; i++) {
         const LabUniform *uniform = &lab->uniforms[i];
-        const Value *of = uniform->is ? find(values, uniform->is) : NULL;
+        bool eye = false, minus = false;
+        const Value *of = uniform->is ? find_meant(values, uniform->is, &eye, &minus) : NULL;
         Value *value = add(values, uniform->name, of ? of->kind : kinds[uniform->size - 1]);
         if (of) {
             *value = *of;
             value->name = uniform->name;
+            if (eye || minus)
+                change(value, eye ? eye_from_world : NULL, minus);
             if (uniform->light >= 0) {
-                memmove(value->v[0], of->v[uniform->light], sizeof value->v[0]);
+                const int light = uniform->light < of->count ? uniform->light : 0;
+                memmove(value->v[0], value->v[light], sizeof value->v[0]);
                 value->count = 1;
             }
             continue;
@@ -168,6 +198,7 @@ static bool gather(Values *values, const Lab *lab, const Drawn *drawn, Message *
     add_matrix(values, "u_EyeNormalMatrix", eye_normal);
     add_vector(values, "u_EyePosition", KIND_POINT, scene->camera.eye);
     add_vector(values, "u_AmbientLight", KIND_COLOR, scene->global_ambient);
+    add_vector(values, "color of the object", KIND_COLOR, object->front.diffuse);
     add_lights(values, lab, scene);
     if (lab->specular) {
         add_vector(values, "u_SpecularColor", KIND_COLOR, object->front.specular);
@@ -183,14 +214,15 @@ static bool gather(Values *values, const Lab *lab, const Drawn *drawn, Message *
         add_vector(values, "u_BackColor", KIND_COLOR, object->back.diffuse);
         add_number(values, "u_Mirrored", mat4_determinant(world) < 0 ? -1 : 1);
     }
-    add_own(values, lab, drawn ? drawn->own : NULL);
+    add_own(values, lab, drawn ? drawn->own : NULL, &eye_from_world);
     return true;
 }
 
 bool binding_has(const Lab *lab, const char *name)
 {
     Values values;
-    return gather(&values, lab, NULL, NULL) && find(&values, name);
+    bool eye, minus;
+    return gather(&values, lab, NULL, NULL) && find_meant(&values, name, &eye, &minus);
 }
 
 static bool suits(const Value *value, GLenum type)

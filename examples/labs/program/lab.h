@@ -14,7 +14,7 @@
 #include <limits.h>
 #include <stdint.h>
 
-enum { LAB_COUNT = 11, LAB_MAX_LIGHTS = 2, LAB_MAX_UNIFORMS = 24, LAB_MAX_SOLUTIONS = 4 };
+enum { LAB_COUNT = 11, LAB_MAX_LIGHTS = 2, LAB_MAX_UNIFORMS = 40, LAB_MAX_SOLUTIONS = 4 };
 
 /* What scenes show; the flat ones come first. */
 typedef enum LabShape {

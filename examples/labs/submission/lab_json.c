@@ -270,7 +270,7 @@ static bool read_uniforms(Reading *reading, const json_t *object)
     const char *name;
     json_t *value;
     if (!json_is_object(object) || json_object_size(object) > LAB_MAX_UNIFORMS)
-        return fail(reading, "uniforms", "must be an object of at most 24 uniforms, by name");
+        return fail(reading, "uniforms", "must be an object of at most 40 uniforms, by name");
     snprintf(reading->where, sizeof reading->where, "\"uniforms\": ");
     json_object_foreach((json_t *)object, name, value)
     {
