@@ -143,5 +143,5 @@ const Controls = (() => {
         };
     }
 
-    return {element, save, paint, refuseFiles, fill};
+    return {element, title, save, paint, refuseFiles, fill};
 })();

@@ -7,6 +7,7 @@ const Editor = (() => {
     const COLOURED = 50000; /* letters; more that show at once have no colours */
     const MOST = 5000; /* of them, where drawing takes long: twice its time */
     const INDENT = 4;
+    const LONGEST = 1000000; /* bytes of a file that is opened */
     const NOT_KEPT = " This browser keeps nothing: save your text before you leave.";
     const {element} = Controls;
 
@@ -106,6 +107,7 @@ const Editor = (() => {
         const seen = new Map(names.map(name => [name, null])); /* what is kept of each */
         const unkept = new Set(); /* the names of texts that could not be kept */
         let marks = [], timer = 0, pending = false, inside = false, took = 0;
+        let borrowed = false, held = false; /* texts that are not the reader's; which are not drawn yet */
 
         const text = name => edited.has(name) ? edited.get(name) : originals.get(name);
 
@@ -113,7 +115,7 @@ const Editor = (() => {
         function recallAll() {
             return names.filter(name => {
                 const now = recall(key, name);
-                if (now === seen.get(name) || unkept.has(name))
+                if (borrowed || now === seen.get(name) || unkept.has(name))
                     return false;
                 seen.set(name, now);
                 if (now === null)
@@ -135,6 +137,8 @@ const Editor = (() => {
         }
 
         function keepOne(name, value) {
+            if (borrowed)
+                return;
             if (!keep(key, name, value)) {
                 unkept.add(name);
                 return;
@@ -218,6 +222,7 @@ const Editor = (() => {
 
         async function run() {
             clearTimeout(timer);
+            held = false;
             const start = performance.now(), message = await apply(texts());
             took = performance.now() - start;
             if (message !== null)
@@ -236,7 +241,7 @@ const Editor = (() => {
                 said.textContent = NOT_KEPT;
             showSoon();
             clearTimeout(timer);
-            if (live.checked)
+            if (live.checked && !held)
                 timer = setTimeout(run, Math.min(MOST, Math.max(WAIT, 2 * took)));
         }
 
@@ -302,7 +307,7 @@ const Editor = (() => {
         }
 
         function revert() {
-            const lost = [...new Set([...edited.keys(), ...kept(key)])];
+            const lost = [...new Set([...edited.keys(), ...borrowed ? [] : kept(key)])];
             if (lost.length && !confirm("Discard your text of " + lost.join(", ") + "?"))
                 return;
             for (const name of lost)
@@ -313,6 +318,93 @@ const Editor = (() => {
         }
 
         const save = () => Controls.save(files.value.replace(/.*\//, ""), new Blob([field.value], {type: "text/plain"}));
+
+        /* The texts in place of all that were here. */
+        function take(others) {
+            edited.clear();
+            for (const [name, value] of others)
+                if (value !== originals.get(name))
+                    edited.set(name, value);
+            tell("");
+            put([...edited.keys()][0] || files.value);
+        }
+
+        /* Others' texts are shown, neither kept nor drawn; null: the reader's own again. */
+        function borrow(others) {
+            clearTimeout(timer);
+            borrowed = held = others !== null;
+            if (!borrowed)
+                names.forEach(name => seen.set(name, null));
+            take(others || new Map());
+            if (!borrowed)
+                showKept();
+            else
+                said.textContent = "The link's text, not drawn yet.";
+        }
+
+        /* What is here becomes the reader's; false if the reader would lose another text and does not want to. */
+        function own() {
+            const lost = names.filter(name => ![null, text(name)].includes(recall(key, name)));
+            if (lost.length && !confirm("Discard your own text of " + lost.join(", ") + "?"))
+                return false;
+            borrowed = held = false;
+            for (const name of names)
+                keepOne(name, edited.has(name) ? edited.get(name) : null);
+            return true;
+        }
+
+        /* Those of last time. Not applied: if it hung the page, it would again. */
+        function showKept() {
+            recallAll();
+            const [last] = edited.keys();
+            put(last || files.value);
+            if (last)
+                said.textContent = "Your text of last time; Apply draws with it.";
+        }
+
+        /* As `--shaders` finds it in a folder. */
+        const inFolder = name => name.replace(/^lecture\//, "");
+
+        function saveAll() {
+            Controls.save(key.replace(/.* /, "") + "-shaders.zip",
+                          Zip.encode(new Map(names.map(name => ["mine/" + inFolder(name), text(name)]))));
+        }
+
+        /* Which file is meant, in whatever folder it is; null: none of these. */
+        function meant(path) {
+            const ends = name => ("/" + path).endsWith("/" + inFolder(name));
+            return names.filter(ends).sort((a, b) => b.length - a.length)[0] || null;
+        }
+
+        async function read(file) {
+            const name = meant(file.name);
+            if (name)
+                return new Map([[name, await file.text()]]);
+            return Zip.decode(await file.arrayBuffer(), meant, LONGEST);
+        }
+
+        /* Archives and single files, chosen by the reader. */
+        async function load(chosen) {
+            const found = new Map();
+            for (const file of chosen)
+                try {
+                    const texts = await read(file);
+                    if (!texts.size)
+                        throw "has none of these files: " + names.map(inFolder).join(", ");
+                    texts.forEach((value, name) => found.set(name, value.replace(/\r\n?/g, "\n")));
+                } catch (error) {
+                    said.textContent = file.name + ": " + (typeof error === "string" ? error : "is damaged, or none of " +
+                        names.map(inFolder).join(", ") + " and no ZIP archive of them");
+                    return;
+                }
+            const lost = [...found.keys()].filter(name => edited.has(name) && edited.get(name) !== found.get(name));
+            if (!found.size || lost.length && !confirm("Discard your text of " + lost.join(", ") + "?"))
+                return;
+            take(new Map([...edited, ...found]));
+            for (const name of found.keys())
+                keepOne(name, edited.has(name) ? edited.get(name) : null);
+            run();
+        }
 
         files.append(...names.map(name => element("option", {value: name}, name)));
         gutter.append(element("span"));
@@ -328,14 +420,17 @@ const Editor = (() => {
         part("apply").addEventListener("click", run);
         part("revert").addEventListener("click", revert);
         part("save").addEventListener("click", save);
+        if (part("all"))
+            part("all").addEventListener("click", saveAll);
+        part("open").addEventListener("click", () => part("chosen").click());
+        part("chosen").addEventListener("change", async event => {
+            await load([...event.target.files]);
+            event.target.value = ""; /* the same once more is a change */
+        });
         kept(key);
-        recallAll();
-        const last = [...edited.keys()][0];
-        put(last || files.value);
-        /* Not applied: if it hung the page, it would again. */
-        if (last)
-            said.textContent = "Your text of last time; Apply draws with it.";
-        return {run, texts, edited: () => edited.size > 0};
+        showKept();
+        return {run, texts, edited: () => edited.size > 0, changed: () => new Map(edited), borrow, own,
+                strange: others => [...others.keys()].find(name => !originals.has(name))};
     }
 
     return {open};

@@ -21,8 +21,8 @@ import sys
 import markdown
 
 INDEX = ["lighting.js", "module.js", "index.js"]
-PROGRAM = ["lighting.js", "module.js", "worker.js", "png.js", "link.js", "controls.js", "editor.js",
-           "program.js"]
+PROGRAM = ["lighting.js", "module.js", "worker.js", "png.js", "zip.js", "link.js", "controls.js", "editor.js",
+           "lent.js", "share.js", "program.js"]
 LABS = ["progress.js", "labs.js"]
 LAB = ["labs_module.js", "module.js", "progress.js", "lab_worker.js", "png.js", "zip.js", "controls.js",
        "editor.js", "lab.js"]
@@ -60,10 +60,13 @@ EDITOR = """<div class="row">
 <div class="row">
 <button type="button" class="apply">Apply (Ctrl+Enter)</button>
 <button type="button" class="revert">Restore all files</button>
-<button type="button" class="save">Save this file</button>
+<button type="button" class="save">Save this file</button>%s
+<button type="button" class="open">Open files or a ZIP</button>
+<input type="file" class="chosen" multiple accept=".zip,.vert,.frag,.glsl,.c" aria-label="Files to open" hidden>
 </div>
 <p class="said" role="status"></p>
 <ul class="errors" aria-label="Errors"></ul>"""
+ALL = '\n<button type="button" class="all">Save all as ZIP</button>'
 SHADERS = '<section aria-labelledby="shaders-heading" id="editor">\n<h2 id="shaders-heading">Shaders</h2>\n%s\n</section>\n'
 # Effects are of scenes.
 EXPLAIN = """<details id="explain"><summary>What is computed, and why (<code>--explain</code>)</summary>
@@ -152,7 +155,7 @@ def page(folder, name, parts, single):
         more = (f"<details class=\"diff\"><summary>What differs from {before}</summary>\n<p>The predecessor is {link}.</p>\n"
                 f'<pre tabindex="0">{diff(before, name)}</pre></details>')
     links = "" if single else '<nav aria-label="Pages"><a href="index.html">All programs</a></nav>'
-    shaders = SHADERS % (EDITOR % "shader file") + more
+    shaders = SHADERS % (EDITOR % ("shader file", ALL)) + more
     # A lecture program is its shaders; a scene its options.
     return fill("program.html", name=name, summary=html.escape(summary(folder, name)), links=links,
                 first="" if scene else shaders, last=shaders if scene else "", exact=EXACT if scene else NO_SCENE,
@@ -179,7 +182,7 @@ def lab_page(name, parts, single):
     task = markdown.to_html(task.replace("## Run and check", "## The same natively"))
     note = f"<p>{NOTES[name]}</p>" if name in NOTES else ""
     return fill("lab.html", name=name, title=html.escape(title(name)), task=task, links=links, note=note,
-                editor=EDITOR % "file", check=NO_CHECK if name == "lab03_normal_matrix" else CHECK, **parts)
+                editor=EDITOR % ("file", ""), check=NO_CHECK if name == "lab03_normal_matrix" else CHECK, **parts)
 
 
 def lab_card(name):

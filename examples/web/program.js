@@ -126,7 +126,7 @@ const Page = (() => {
 
     /* What is said of a picture at rest, once. */
     function note() {
-        const link = Link.write(current());
+        const link = Link.join(current(), Lent.lent.packed);
         if (page.noted === link && page.notedTexts === page.texts)
             return;
         page.noted = link;
@@ -137,6 +137,7 @@ const Page = (() => {
         }
         ErrorWorker.cancel("The picture has changed; compare again.");
         setLink(link);
+        part("whole").hash = link;
     }
 
     /* Once a frame, however many events there are. */
@@ -237,12 +238,36 @@ const Page = (() => {
         }, {passive: false});
     }
 
-    async function save() {
+    function png() {
         const texts = {Title: page.name, Command: page.engine.text("command"), Software: "lighting, in a browser"};
-        const blob = await Png.encode(page.picture, page.values.has("alpha"), texts);
+        return Png.encode(page.picture, page.values.has("alpha"), texts);
+    }
+
+    async function save() {
+        const blob = await png();
         Controls.save(page.name + ".png", blob);
         return blob;
     }
+
+    /* The options and the texts of the editor. */
+    async function wholeLink() {
+        return Link.join(current(), await Link.pack(page.editor.changed()));
+    }
+
+    const wholeAddress = async () => location.href.replace(/[?#].*/, "") + "#" + await wholeLink();
+
+    function listenToShares(click) {
+        click("copy-picture", () => Share.copyPicture(png()));
+        click("copy-link", () => Share.copy(page.editor.changed().size ? "the link, which has your shader text" : "the link",
+                                            wholeAddress()));
+        click("copy-command", () => Share.copy("the command", part("command").textContent));
+        click("record", () => Share.record(part("picture"), page.name, play));
+        part("record").hidden = !Share.canRecord();
+        const own = page.program.options.filter(({name}) => name !== "time");
+        Share.embed(own, async chosen => Share.frame(await wholeLink(), chosen, {name: page.name, ...sizeOf(page.picture)}));
+    }
+
+    const sizeOf = ({width, height}) => ({width, height});
 
     async function compare() {
         const show = message => { part("compared").textContent = message; };
@@ -355,7 +380,11 @@ const Page = (() => {
         part("slider").addEventListener("input", event => setTime(Number(event.target.value)));
         part("time").addEventListener("change", event => setTime(Number(event.target.value)));
         part("options").addEventListener("submit", event => event.preventDefault());
-        window.addEventListener("hashchange", follow);
+        window.addEventListener("hashchange", () => {
+            follow();
+            Lent.show();
+        });
+        listenToShares(click);
         if (page.program.scene) {
             click("compare", compare);
             part("explain").addEventListener("toggle", tellEffects);
@@ -365,6 +394,7 @@ const Page = (() => {
     /* A link's options; if they are wrong the picture and the link are those without them. */
     function follow() {
         let message;
+        Lent.lent.packed = Link.packed(location.hash);
         try {
             message = start(Link.read(location.hash));
         } catch (error) {
@@ -389,16 +419,22 @@ const Page = (() => {
             return message.replace(/\/tmp\/shaders\//g, "");
         }
         page.drawn = texts;
+        Lent.drawn();
         return page.engine.message.replace(/\/tmp\/shaders\//g, "");
     }
 
+    /* The names of the controls that a part of another page shows: ?embed=material,shininess; null: the page is whole. */
+    const embedded = new URLSearchParams(location.search).get("embed")?.split(",") || null;
+    const shows = ({name}) => !embedded || embedded.includes(name);
+
     async function open() {
+        document.body.classList.toggle("embed", Boolean(embedded));
         const begin = performance.now();
         page.drawn = new Map();
         page.compiled = await compileLighting();
         page.engine = await Engine.open(page.compiled, newCanvas());
         page.program = page.engine.json("programs").find(({name}) => name === page.name);
-        page.controls = Controls.fill(part("options"), page.program.options, change);
+        page.controls = Controls.fill(part("options"), page.program.options.filter(shows), change);
         listTries();
         listAbsent();
         listen();
@@ -406,7 +442,8 @@ const Page = (() => {
         if (!page.picture)
             return;
         part("status").textContent = "First picture after " + (performance.now() - begin).toFixed(0) + " ms.";
-        Editor.open(part("editor"), "lighting " + page.name, page.engine.json("shaders"), replace);
+        page.editor = Editor.open(part("editor"), "lighting " + page.name, page.engine.json("shaders"), replace);
+        await Lent.open(page.editor, {note, fail, draw: replace});
         document.body.dataset.ready = "yes";
     }
 

@@ -1,5 +1,5 @@
 "use strict";
-/* Archives of a few texts, not compressed (PKWARE's APPNOTE 6.3). */
+/* Archives of a few texts (PKWARE's APPNOTE 6.3): written as they are, read also where they are deflated. */
 const Zip = (() => {
     /* Both headers of a file have these fields; `start`: the signature and what is before them. */
     function header(start, size, name, bytes, crc) {
@@ -37,5 +37,47 @@ const Zip = (() => {
         return new Blob([...files, ...entries, end], {type: "application/zip"});
     }
 
-    return {encode};
+    const through = (bytes, stream) => new Blob([bytes]).stream().pipeThrough(stream);
+
+    async function deflate(bytes) {
+        return new Uint8Array(await new Response(through(bytes, new CompressionStream("deflate-raw"))).arrayBuffer());
+    }
+
+    /* The text of deflated UTF-8; throws if it is damaged, or has more than so many bytes, which are not unpacked. */
+    async function inflate(bytes, most) {
+        const reader = through(bytes, new DecompressionStream("deflate-raw")).getReader(), chunks = [];
+        for (let size = 0, next; !(next = await reader.read()).done; chunks.push(next.value))
+            if ((size += next.value.length) > most) {
+                reader.cancel();
+                throw "more than " + most + " bytes";
+            }
+        return new TextDecoder("utf-8", {fatal: true}).decode(await new Blob(chunks).arrayBuffer());
+    }
+
+    /* The texts of those files whose name() is not null, by these names. Throws what is wrong. */
+    async function decode(buffer, name, most) {
+        const bytes = new Uint8Array(buffer), view = new DataView(buffer), texts = new Map();
+        const short = at => view.getUint16(at, true), long = at => view.getUint32(at, true);
+        let end = bytes.length - 22;
+        while (end >= 0 && long(end) !== 0x06054b50)
+            end--;
+        if (end < 0)
+            throw "no ZIP archive";
+        for (let at = long(end + 16), left = short(end + 10); left > 0; left--) {
+            const to = at + 46 + short(at + 28), known = name(new TextDecoder().decode(bytes.subarray(at + 46, to)));
+            if (known !== null) {
+                const method = short(at + 10), start = long(at + 42);
+                const from = start + 30 + short(start + 26) + short(start + 28), packed = bytes.subarray(from, from + long(at + 20));
+                if (method && method !== 8)
+                    throw known + ": is neither stored nor deflated";
+                if (!method && packed.length > most)
+                    throw known + ": more than " + most + " bytes";
+                texts.set(known, method ? await inflate(packed, most) : new TextDecoder("utf-8", {fatal: true}).decode(packed));
+            }
+            at = to + short(at + 30) + short(at + 32);
+        }
+        return texts;
+    }
+
+    return {encode, decode, deflate, inflate};
 })();

@@ -31,6 +31,7 @@ import sizes
 import firefox_pages
 from firefox_pages import InFirefox
 from labs_pages import Accessible, Corpus, Labs, Verdicts
+from sharing_pages import Sharing
 from pages import CONFIRM, EXAMPLES, RENDERER, SITE, SOURCE, Case, address, differences, make, native
 
 # Draws by a module of its own: no page in between.
@@ -950,7 +951,7 @@ class Pages(Case):
 
 
 # Those that take longest first.
-CLASSES = ["Parity", "Verdicts", "Corpus", "Accessible", "InFirefox", "Labs", "Pages", "SwiftShader"]
+CLASSES = ["Parity", "Verdicts", "Corpus", "Accessible", "InFirefox", "Labs", "Pages", "Sharing", "SwiftShader"]
 
 
 def run(name):

@@ -1,0 +1,275 @@
+"""What is taken from a page elsewhere, and what comes to it: links with shader texts, archives, films, parts of other pages."""
+import base64
+import html
+import io
+import json
+import os
+import pathlib
+import re
+import shlex
+import subprocess
+import tempfile
+import time
+import zipfile
+import zlib
+
+import browser
+from pages import EXAMPLES, SITE, Case, address, differences
+
+VALUE = "document.querySelector('.source').value"
+KEPT = "Object.keys(localStorage).filter(key => key.startsWith('lighting LightedCube'))"
+
+
+def packed(data):
+    """As a link has it."""
+    squeeze = zlib.compressobj(9, zlib.DEFLATED, -15)
+    return base64.urlsafe_b64encode(squeeze.compress(data) + squeeze.flush()).decode().rstrip("=")
+
+
+class Sharing(Case):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.page.call("Browser.grantPermissions", permissions=["clipboardReadWrite", "clipboardSanitizedWrite"])
+
+    def setUp(self):
+        self.open("LightedCube")
+        self.page.run("localStorage.clear()")
+        self.open("LightedCube")
+
+    def edit(self, old, new):
+        self.page.run(f"""(() => {{
+            const field = document.querySelector(".source"), at = field.value.indexOf({json.dumps(old)});
+            field.focus();
+            field.setSelectionRange(at, at + {len(old)});
+        }})()""")
+        self.page.type(new)
+
+    def copied(self, button):
+        self.page.run("document.getElementById('status').textContent = ''")
+        self.page.click(button)
+        self.page.wait("document.getElementById('status').textContent.startsWith('Copied')")
+        return self.page.run("navigator.clipboard.readText()")
+
+    def saved(self, folder, button, name):
+        self.page.call("Page.setDownloadBehavior", behavior="allow", downloadPath=folder)
+        self.page.click(button)
+        path, deadline = pathlib.Path(folder, name), time.monotonic() + browser.PATIENCE
+        while not path.exists():
+            self.assertLess(time.monotonic(), deadline, f"{name} is not saved")
+            time.sleep(0.05)
+        return path
+
+    def choose(self, *paths):
+        root = self.page.call("DOM.getDocument")["root"]["nodeId"]
+        node = self.page.call("DOM.querySelector", nodeId=root, selector=".chosen")["nodeId"]
+        self.page.run("document.querySelector('.said').textContent = ''")
+        self.page.call("DOM.setFileInputFiles", nodeId=node, files=[str(path) for path in paths])
+        self.page.wait("document.querySelector('.said').textContent")
+
+    def test_an_edited_shader_travels_in_the_link(self):
+        """It is drawn when the reader says so; the reader's own text stays."""
+        original, before = self.page.run(VALUE), self.shown()
+        self.edit("vec4(diffuse, a_Color.a)", "vec4(diffuse.bgr, a_Color.a)")
+        self.page.wait("document.querySelector('.said').textContent.startsWith('Drawn with')")
+        self.page.click("#forward")
+        self.settle()
+        edited = self.shown()
+        self.assertNotEqual(edited, before)
+        link = self.copied("#copy-link")
+        self.assertRegex(link, r"LightedCube.html#time=0.1&text=[\w-]+$")
+        self.assertLess(len(link), 2000)
+        self.assertNotIn("text=", self.page.run("location.hash"))
+        # Another reader, who has a text, too.
+        self.page.click(".revert")
+        self.page.click("#back")
+        self.edit("void main", "void /* own */ main")
+        self.page.wait("document.querySelector('.said').textContent.startsWith('Drawn with')")
+        self.page.open(link)
+        self.assertTrue(self.page.run("document.getElementById('lent').offsetHeight"))
+        self.assertRegex(self.text("#lent-said"), "LightedCube.vert.*neither yours")
+        self.assertIn("diffuse.bgr", self.page.run(VALUE))
+        self.assertNotEqual(self.shown(), edited)
+        self.assertNotIn("--shaders", self.text("#command"))
+        # Not even when something is typed.
+        self.edit("void main", "void  main")
+        self.page.run("new Promise(done => setTimeout(done, 700))")
+        self.assertNotIn("--shaders", self.text("#command"))
+        self.page.click("#draw-it")
+        self.page.wait("document.getElementById('lent-said').textContent.startsWith('Drawn')")
+        self.assertEqual(self.shown(), edited)
+        # What is changed stays in the link, and in it alone.
+        self.edit("void  main", "void /* changed */ main")
+        self.page.wait(f"Link.unpack(Link.packed(location.hash)).then(texts => [...texts.values()].join().includes('changed'))")
+        self.open("LightedCube")
+        self.assertIn("/* own */", self.page.run(VALUE))
+        self.page.open(link)
+        self.page.click("#leave-it")
+        self.settle()
+        self.assertIn("/* own */", self.page.run(VALUE))
+        self.assertEqual(self.page.run("location.hash"), "#time=0.1")
+        self.assertFalse(self.page.run("document.getElementById('lent').offsetHeight"))
+        # In a page that is open, and then kept.
+        self.page.run(f"location.hash = {json.dumps(link.split('#')[1])}")
+        self.page.wait("document.getElementById('lent').offsetHeight")
+        self.page.run("window.refuses = true")
+        self.page.click("#keep-it")
+        self.assertTrue(self.page.run("document.getElementById('lent').offsetHeight"))
+        self.page.run("window.refuses = false")
+        self.page.click("#keep-it")
+        self.assertEqual(self.page.run("asked[1]"), "Discard your own text of lecture/LightedCube.vert?")
+        self.open("LightedCube")
+        self.assertIn("diffuse.bgr", self.page.run(VALUE))
+        self.page.click(".revert")
+        self.assertEqual(self.page.run(VALUE), original)
+        self.assertEqual(self.page.complaints(), [])
+
+    def test_restoring_a_links_text_keeps_the_own(self):
+        self.edit("void main", "void /* own */ main")
+        texts = json.dumps([["lecture/LightedCube.frag", "void main() { gl_FragColor = vec4(0.5); }"]])
+        self.page.open(address("LightedCube", "text=" + packed(texts.encode())))
+        self.page.click("#draw-it")
+        self.page.wait("document.getElementById('lent-said').textContent.startsWith('Drawn')")
+        self.page.click(".revert")
+        self.page.wait("document.getElementById('lent').hidden")
+        self.assertEqual(self.page.run("location.hash"), "")
+        self.assertIn("/* own */", self.page.run(VALUE))
+        self.assertEqual(self.page.run(KEPT + ".length"), 1)
+
+    def test_wrong_texts_of_a_link(self):
+        before = self.shown()
+        name = "lecture/LightedCube.frag"
+        for text in ("!", "AAAA", packed(b"{"), packed(b"{}"), packed(b"[1]"), packed(b'[["a"]]'), packed(b'[[1, "a"]]'),
+                     packed(json.dumps([["lighting/none.glsl", "<b>"]]).encode()), packed(b"\xff\xfe"),
+                     packed(json.dumps([["<img src=x onerror=window.hacked=1>", ""]]).encode()),
+                     packed(b"[" + b" " * 300000000), "A" * 200000):
+            with self.subTest(text[:40]):
+                self.page.open(address("LightedCube", "text=" + text))
+                self.assertRegex(self.text("#error"), "^link: ")
+                self.assertNotIn("\n", self.text("#error"))
+                self.assertEqual(self.page.run("[location.hash, document.getElementById('lent').hidden]"), ["", True])
+                self.assertEqual(self.shown(), before)
+                self.assertEqual(self.page.complaints(), [])
+        self.assertIsNone(self.page.run("window.hacked"))
+        # A loop that would hang the page is refused as anywhere.
+        wrong = "precision highp float; void main() { for (float x = 0.0; x < 1.0; x += 1e-9) gl_FragColor = vec4(x); }"
+        self.page.open(address("LightedCube", "text=" + packed(json.dumps([[name, wrong]]).encode())))
+        self.page.click("#draw-it")
+        self.page.wait("document.querySelectorAll('.errors li').length")
+        self.assertEqual(self.shown(), before)
+
+    def test_a_part_of_another_page(self):
+        self.open("Materials", "material=gold")
+        self.page.click("#embed summary")
+        self.page.click("#embed-controls input[value=shininess]")
+        text = self.copied("#copy-iframe")
+        self.assertEqual(text, self.page.run("document.getElementById('iframe').value"))
+        found = re.match(r'<iframe src="(.*?)" width="(\d+)" height="(\d+)" title="Materials, drawn live"', text)
+        self.assertEqual(found[1], "Materials.html?embed=shininess#material=gold")
+        self.page.resize(int(found[2]), int(found[3]))
+        self.page.open(pathlib.Path(SITE).as_uri() + "/" + html.unescape(found[1]))
+        self.assert_native()
+        self.assertIn("--material gold", self.text("#command"))
+        self.assertEqual(self.page.run("""[...document.querySelectorAll("button, input, select, textarea, h1, summary")]
+            .filter(part => part.offsetHeight).map(part => part.id || part.type)"""),
+                         ["play", "back", "forward", "slider", "time", "option-shininess", "range"])
+        self.assertLessEqual(self.page.run("document.documentElement.scrollHeight"), int(found[3]))
+        self.page.run("""(field => { field.value = "90"; field.dispatchEvent(new Event("input")); })(
+            document.getElementById("option-shininess"))""")
+        self.assert_native()
+        self.assertTrue(self.page.run("document.getElementById('whole').href").endswith(
+            "Materials.html#material=gold&shininess=90"))
+        # With another's text: it asks here, too.
+        texts = [["lighting/output.glsl", "vec3 output_color(vec3 color) { return color.bgr; }"]]
+        self.page.open(address("Materials").replace(".html", ".html?embed") + "#text=" + packed(json.dumps(texts).encode()))
+        self.assertTrue(self.page.run("document.getElementById('draw-it').offsetHeight"))
+
+    def test_the_picture_and_the_command_are_copied(self):
+        self.open("LightedCube", "time=1")
+        self.assertEqual(self.copied("#copy-command"), self.text("#command"))
+        self.page.run("document.getElementById('status').textContent = ''")
+        self.page.click("#copy-picture")
+        self.page.wait("document.getElementById('status').textContent.startsWith('Copied')")
+        same = self.page.run("""(async () => {
+            const [item] = await navigator.clipboard.read();
+            const image = await createImageBitmap(await item.getType("image/png"));
+            const canvas = new OffscreenCanvas(image.width, image.height), context = canvas.getContext("2d");
+            context.drawImage(image, 0, 0);
+            const {data} = context.getImageData(0, 0, image.width, image.height);
+            return data.join() === document.getElementById("picture").getContext("2d").getImageData(0, 0, image.width,
+                image.height).data.join();
+        })()""")
+        self.assertTrue(same)
+
+    def test_all_shader_files_in_an_archive(self):
+        """As `--shaders mine` takes them; opened again, also as another program packs them."""
+        before = self.shown()
+        self.edit("vec4(diffuse, a_Color.a)", "vec4(diffuse.bgr, a_Color.a)")
+        self.page.wait("document.querySelector('.said').textContent.startsWith('Drawn with')")
+        edited = self.shown()
+        with tempfile.TemporaryDirectory() as folder:
+            path = self.saved(folder, ".all", "LightedCube-shaders.zip")
+            with zipfile.ZipFile(path) as archive:
+                self.assertIsNone(archive.testzip())
+                self.assertEqual(sorted(archive.namelist()), ["mine/LightedCube.frag", "mine/LightedCube.vert"])
+                archive.extractall(folder)
+            words = shlex.split(self.text("#command"))
+            self.assertEqual(words[2:], ["--shaders", "mine"])
+            drawn = subprocess.run([os.path.join(EXAMPLES, words[1]), *words[2:], "-o", "-", "--format", "rgb"], check=True,
+                                   stdout=subprocess.PIPE, cwd=folder).stdout
+            self.assertEqual(differences(edited, drawn), (0, 0))
+            self.page.click(".revert")
+            self.choose(path)
+            self.assertEqual(self.shown(), edited)
+            self.page.click(".revert")
+            other = pathlib.Path(folder, "other.zip")
+            with zipfile.ZipFile(other, "w", zipfile.ZIP_DEFLATED) as archive:
+                archive.writestr("readme.txt", "x" * 1000)
+                archive.write(os.path.join(folder, "mine/LightedCube.vert"), "a/b/LightedCube.vert")
+            self.choose(other)
+            self.assertEqual(self.shown(), edited)
+            self.page.click(".revert")
+            self.choose(os.path.join(folder, "mine/LightedCube.vert"))
+            self.assertEqual(self.shown(), edited)
+            # Not without asking in place of another text.
+            self.edit("diffuse.bgr", "diffuse.brg")
+            self.page.run("window.refuses = true, window.asked = []")
+            root = self.page.run(VALUE)
+            self.page.call("DOM.setFileInputFiles", files=[str(path)], nodeId=self.page.call(
+                "DOM.querySelector", selector=".chosen", nodeId=self.page.call("DOM.getDocument")["root"]["nodeId"])["nodeId"])
+            self.page.wait("asked.length")
+            self.assertEqual(self.page.run(VALUE), root)
+            self.page.run("window.refuses = false")
+            self.page.click(".revert")
+            self.refuse_archives(folder, path.read_bytes(), before)
+
+    def refuse_archives(self, folder, good, before):
+        bomb = io.BytesIO()
+        with zipfile.ZipFile(bomb, "w", zipfile.ZIP_DEFLATED) as archive:
+            archive.writestr("LightedCube.vert", "/" * 50000000)
+        none = io.BytesIO()
+        with zipfile.ZipFile(none, "w") as archive:
+            archive.writestr("lab05.frag", "void main() {}")
+        for name, data, words in (("a.zip", b"no archive", "no ZIP archive"), ("b.zip", good[:-30] + b"\xff" * 8 + good[-22:], ""),
+                                  ("c.zip", good[:200] + good[-22:], ""), ("d.zip", bomb.getvalue(), "more than 1000000 bytes"),
+                                  ("e.zip", none.getvalue(), "has none of these files: LightedCube.vert, LightedCube.frag"),
+                                  ("f.zip", b"", "no ZIP archive")):
+            with self.subTest(name):
+                path = pathlib.Path(folder, name)
+                path.write_bytes(data)
+                self.choose(path)
+                self.assertTrue(self.text(".said").startswith(name + ": "))
+                self.assertIn(words, self.text(".said"))
+                self.settle()
+                self.assertEqual(self.shown(), before)
+        self.assertEqual(self.page.complaints(), [])
+
+    def test_a_film(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.page.call("Page.setDownloadBehavior", behavior="allow", downloadPath=folder)
+            self.page.click("#record")
+            self.page.wait("Page.page.seconds > 0.5")
+            path = self.saved(folder, "#record", "LightedCube.webm")
+            self.assertEqual(path.read_bytes()[:4], b"\x1a\x45\xdf\xa3")  # EBML
+            self.assertEqual(self.page.run("[Page.page.playing, document.getElementById('record').textContent]"),
+                             [False, "Record WebM"])
