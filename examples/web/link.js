@@ -63,7 +63,7 @@ const Link = (() => {
             throw "link: more than " + LONGEST_TEXTS + " letters of shader texts";
         try {
             const bytes = Uint8Array.from(atob(text.replace(/-/g, "+").replace(/_/g, "/")), letter => letter.charCodeAt(0));
-            pairs = JSON.parse(await Zip.inflate(bytes, LONGEST_FILE));
+            pairs = JSON.parse(Zip.decoded(await Zip.inflate(bytes, LONGEST_FILE)));
         } catch {
             throw "link: its shader texts are damaged; ask for the link again";
         }

@@ -441,7 +441,8 @@ const Page = (() => {
         follow();
         if (!page.picture)
             return;
-        part("status").textContent = "First picture after " + (performance.now() - begin).toFixed(0) + " ms.";
+        if (!embedded)
+            part("status").textContent = "First picture after " + (performance.now() - begin).toFixed(0) + " ms.";
         page.editor = Editor.open(part("editor"), "lighting " + page.name, page.engine.json("shaders"), replace);
         await Lent.open(page.editor, {note, fail, draw: replace});
         document.body.dataset.ready = "yes";

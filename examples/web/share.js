@@ -58,7 +58,7 @@ const Share = (() => {
     function frame(link, chosen, {name, width, height}) {
         const page = location.protocol === "file:" ? name + ".html" : location.href.replace(/[?#].*/, "");
         const address = page + "?embed" + (chosen.length ? "=" + chosen.join(",") : "") + (link && "#" + link);
-        return `<iframe src="${quoted(address)}" width="${Math.max(320, width + 20)}" height="${height + 110 + 75 * chosen.length}"` +
+        return `<iframe src="${quoted(address)}" width="${Math.max(320, width + 20)}" height="${height + 140 + 80 * chosen.length}"` +
             ` title="${quoted(name)}, drawn live" loading="lazy" style="border: 0"></iframe>`;
     }
 

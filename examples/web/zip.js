@@ -43,7 +43,7 @@ const Zip = (() => {
         return new Uint8Array(await new Response(through(bytes, new CompressionStream("deflate-raw"))).arrayBuffer());
     }
 
-    /* The text of deflated UTF-8; throws if it is damaged, or has more than so many bytes, which are not unpacked. */
+    /* Throws if they are damaged, or more than so many, and then they are not unpacked. */
     async function inflate(bytes, most) {
         const reader = through(bytes, new DecompressionStream("deflate-raw")).getReader(), chunks = [];
         for (let size = 0, next; !(next = await reader.read()).done; chunks.push(next.value))
@@ -51,8 +51,11 @@ const Zip = (() => {
                 reader.cancel();
                 throw "more than " + most + " bytes";
             }
-        return new TextDecoder("utf-8", {fatal: true}).decode(await new Blob(chunks).arrayBuffer());
+        return new Uint8Array(await new Blob(chunks).arrayBuffer());
     }
+
+    /* Throws if they are not in UTF-8. */
+    const decoded = bytes => new TextDecoder("utf-8", {fatal: true}).decode(bytes);
 
     /* The texts of those files whose name() is not null, by these names. Throws what is wrong. */
     async function decode(buffer, name, most) {
@@ -72,12 +75,15 @@ const Zip = (() => {
                     throw known + ": is neither stored nor deflated";
                 if (!method && packed.length > most)
                     throw known + ": more than " + most + " bytes";
-                texts.set(known, method ? await inflate(packed, most) : new TextDecoder("utf-8", {fatal: true}).decode(packed));
+                const unpacked = method ? await inflate(packed, most) : packed;
+                if (Png.crc(unpacked) !== long(at + 16))
+                    throw known + ": is damaged";
+                texts.set(known, decoded(unpacked));
             }
             at = to + short(at + 30) + short(at + 32);
         }
         return texts;
     }
 
-    return {encode, decode, deflate, inflate};
+    return {encode, decode, deflate, inflate, decoded};
 })();

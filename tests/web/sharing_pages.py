@@ -250,7 +250,7 @@ class Sharing(Case):
         none = io.BytesIO()
         with zipfile.ZipFile(none, "w") as archive:
             archive.writestr("lab05.frag", "void main() {}")
-        for name, data, words in (("a.zip", b"no archive", "no ZIP archive"), ("b.zip", good[:-30] + b"\xff" * 8 + good[-22:], ""),
+        for name, data, words in (("a.zip", b"no archive", "no ZIP archive"), ("b.zip", good.replace(b"main", b"mine"), "is damaged"),
                                   ("c.zip", good[:200] + good[-22:], ""), ("d.zip", bomb.getvalue(), "more than 1000000 bytes"),
                                   ("e.zip", none.getvalue(), "has none of these files: LightedCube.vert, LightedCube.frag"),
                                   ("f.zip", b"", "no ZIP archive")):
