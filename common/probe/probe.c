@@ -79,26 +79,39 @@ static bool put_samplers(FILE *file, const CaptureDraw *draw)
     return known;
 }
 
+static void put_notes(FILE *file, const char *source, const GlslRun *run, int count)
+{
+    for (int i = 0; i < count; i++) {
+        char place[PLACE_TEXT];
+        place_name(source, run->code->tree->nodes[run->notes[i].node].place, place);
+        fprintf(file, "%s: %s\n", place, glsl_note_text(run->notes[i].kind));
+    }
+}
+
 /* Of the driver's run, which is the last. False: there is no colour to judge. */
 static bool put_remarks(FILE *file, const Probe *probe, const GlslRun *run)
 {
     const CaptureDraw *draw = &probe->question.capture->draws[probe->pixel.draw];
+    const bool discarded = run->discarded;
     double drawn[4];
     for (int i = 0; i < 4; i++)
         drawn[i] = (double)probe->question.drawn[i] / 255;
     if (run->stopped)
         fprintf(file, "a loop does not end\n");
-    if (run->discarded)
+    if (discarded)
         fprintf(file, "the fragment is discarded: the pixel shows what is behind it\n");
     else if (origin_apart(drawn, probe->driver.color) > 0.51)
         fprintf(file, "the picture is not that: a line or point is drawn over it, an edge runs "
                       "through it, or the driver computes otherwise\n");
-    for (int i = 0; i < run->note_count; i++) {
-        char place[PLACE_TEXT];
-        place_name(draw->sources[1], run->code->tree->nodes[run->notes[i].node].place, place);
-        fprintf(file, "%s: %s\n", place, glsl_note_text(run->notes[i].kind));
+    put_notes(file, draw->sources[1], run, run->note_count);
+    for (int c = 0; c < 3; c++) {
+        run = raster_vertex(probe->raster, probe->pixel.draw, probe->pixel.corners[c],
+                            &GLSL_LLVMPIPE);
+        if (run->note_count)
+            fprintf(file, "vertex %u: ", probe->pixel.corners[c]);
+        put_notes(file, draw->sources[0], run, run->note_count > 0);
     }
-    return put_samplers(file, draw) && !run->discarded;
+    return put_samplers(file, draw) && !discarded;
 }
 
 bool probe_open(Probe *probe, const ProbeQuestion *question, Message *message)

@@ -44,6 +44,7 @@ void probe_close(Probe *probe); /* a zeroed one is fine */
 
 /* For free(). */
 char *probe_text(const Probe *probe);
+char *probe_verdict(const Probe *probe); /* its end: the remarks and the verdict */
 char *probe_json(const Probe *probe);
 
 #endif

@@ -148,6 +148,25 @@ static FILE *open_text(char **text)
     return file;
 }
 
+static void put_end(FILE *file, const Probe *probe)
+{
+    fputs(probe->remarks, file);
+    if (probe->judged) {
+        fprintf(file, "verdict: ");
+        put_verdict(file, probe);
+        fprintf(file, "\n");
+    }
+}
+
+char *probe_verdict(const Probe *probe)
+{
+    char *text;
+    FILE *file = open_text(&text);
+    put_end(file, probe);
+    fclose(file);
+    return text;
+}
+
 char *probe_text(const Probe *probe)
 {
     const ProbeQuestion *question = &probe->question;
@@ -168,13 +187,10 @@ char *probe_text(const Probe *probe)
         fprintf(file, "\n");
         put_trail(file, probe);
     }
-    fputs(probe->remarks, file);
-    if (probe->judged) {
-        fprintf(file, "verdict: ");
-        put_verdict(file, probe);
-        fprintf(file, "\n(the line from which on the error of the colour stays when all that "
+    put_end(file, probe);
+    if (probe->judged)
+        fprintf(file, "(the line from which on the error of the colour stays when all that "
                       "follows is computed exactly)\n");
-    }
     for (int c = 0; c < 3 && probe->pixel.draw >= 0; c++)
         put_corner(file, probe, c);
     fclose(file);

@@ -8,6 +8,7 @@
 #include "base/clock.h"
 #include "base/output.h"
 #include "base/progress.h"
+#include "probe/probe.h"
 #include "reference/picture_error.h"
 #include "study/cases/hard_sheet.h"
 #include "study/results/table.h"
@@ -102,11 +103,13 @@ static bool measure(const Way *naive, const Way *stable, HardResult *result, Mes
     return true;
 }
 
-static HardError error_of(const Image *image, const Reference *exact, const Scene *scene)
+static HardError error_of(const Image *image, const Reference *exact, const Scene *scene,
+                          size_t *worst)
 {
     PictureError error = {.all = {0}};
     picture_error_add(&error, image, &(ExactView){.exact = exact, .scene = scene});
     const ErrorSum *inside = &error.interior;
+    *worst = inside->worst;
     return (HardError){
         .maximum = inside->maximum,
         .wrong = inside->pixels ? (double)inside->wrong / (double)inside->pixels : 0,
@@ -126,8 +129,10 @@ static bool draw_ways(Way *naive, Way *stable, HardResult *result, Message *mess
     if (!draw_frame(naive, message) || !canvas_read(canvas, &result->naive, message) ||
         !draw_frame(stable, message) || !canvas_read(canvas, &result->stable, message))
         return false;
-    result->naive_error = error_of(&result->naive, &result->exact, stable->scene);
-    result->stable_error = error_of(&result->stable, &result->exact, stable->scene);
+    size_t unused;
+    result->naive_error =
+        error_of(&result->naive, &result->exact, stable->scene, &result->naive_worst);
+    result->stable_error = error_of(&result->stable, &result->exact, stable->scene, &unused);
     return true;
 }
 
@@ -159,6 +164,43 @@ static bool open_naive(Lighting **lighting, const HardCase *of, const ShaderLoad
     return true;
 }
 
+/* What the plain formula's shader does at its worst pixel inside an object. */
+static bool find_cause(HardResult *result, const Way *way, const ShaderLoader *stable,
+                       Message *message)
+{
+    const size_t worst = result->naive_worst, width = (size_t)way->canvas->width;
+    ProbeQuestion question = {.column = (int)(worst % width),
+                              .row = (int)(worst / width),
+                              .height = way->canvas->height,
+                              .object = "inside an object"};
+    ShaderReplacement replaced[3];
+    Way captured = *way;
+    Capture capture;
+    Probe probe = {.raster = NULL};
+    captured.lighting = NULL;
+    capture_begin(&capture, way->canvas);
+    bool done = open_naive(&captured.lighting, result->of, stable, replaced, false, message) &&
+                draw_frame(&captured, message);
+    capture_end(&capture);
+    question.capture = &capture;
+    memcpy(question.drawn, (unsigned char *)result->naive.pixels + 4 * worst, 4);
+    memcpy(question.exact, result->exact.color + 3 * worst, sizeof question.exact);
+    done = done && probe_open(&probe, &question, message);
+    if (done)
+        result->verdict = probe_verdict(&probe);
+    probe_close(&probe);
+    lighting_close(captured.lighting);
+    capture_close(&capture);
+    return done;
+}
+
+/* Whether it is in a shader that lights. */
+static bool is_shaders(const HardCase *of)
+{
+    return of->precision ||
+           (of->replaced[0].name && strncmp(of->replaced[0].name, "lighting/", 9) == 0);
+}
+
 static bool draw_case(const HardCase *of, const Canvas *first, const Options *options,
                       HardResult *result, Message *message)
 {
@@ -182,6 +224,8 @@ static bool draw_case(const HardCase *of, const Canvas *first, const Options *op
         use_shadows(stable.lighting, &(ShadowSettings){.way = SHADOWS_OFF});
     done = done && draw_ways(&naive, &stable, result, message) &&
            measure(&timed, &stable, result, message);
+    if (done && asked < HARD_CASE_COUNT && is_shaders(of))
+        done = find_cause(result, &naive, &loader, message);
     lighting_close(naive.lighting);
     lighting_close(timed.lighting);
     lighting_close(stable.lighting);
@@ -195,6 +239,7 @@ static void close_result(HardResult *result)
     image_close(&result->naive);
     image_close(&result->stable);
     reference_close(&result->exact);
+    free(result->verdict);
 }
 
 static void print_table(const HardResult *results, int count)
@@ -280,6 +325,10 @@ static bool draw_and_report(const Options *options, Message *message)
         print_table(results, count);
     if (done && !markdown)
         printf("\nwrote %s/%s.png\n", options->output, count > 1 ? "*" : results[0].of->name);
+    if (done && !markdown && results[0].verdict)
+        printf("\nThe plain formula at its worst pixel, %d,%d:\n%s",
+               (int)results[0].naive_worst % results[0].naive.width,
+               (int)results[0].naive_worst / results[0].naive.width, results[0].verdict);
     for (int i = 0; i < count; i++)
         close_result(&results[i]);
     canvas_close(&canvas);
@@ -294,7 +343,8 @@ static const Usage usage = {
                "hard_shadows.png those. Errors are of pixels inside the objects, away from edges\n"
                "of shadows, in steps of 1/255. Times are of frames drawn in turn, of the\n"
                "processor where it draws; the noise is the difference between frames of the\n"
-               "same program.\n"
+               "same program. Of a case that is a shader's, --case ends with what --probe finds\n"
+               "at the worst pixel: which line is undefined or loses the digits.\n"
                "\nTry:  hard_cases\n"
                "      hard_cases --list\n"
                "      hard_cases --case mirror -s 560x432\n",

@@ -6,6 +6,7 @@ usage: hard_cases_test.py EXAMPLES_FOLDER_OF_THE_BUILD SOURCE_FOLDER [unittest's
 No test depends on how long anything takes. Exit code: 77 where nothing can be drawn.
 """
 import os
+import re
 import struct
 import sys
 import unittest
@@ -82,6 +83,25 @@ class Cases(Study):
         sheet = self.png("hard_cases/mirror.png")
         self.assertGreater(sheet.width, 3 * 280)
         self.assertGreater(self.colors("hard_cases/mirror.png"), 200)
+
+    def test_a_case_of_a_shader_ends_with_the_line_that_the_stable_form_changes(self):
+        for name, file in (("zero-normals", "unguarded.glsl"), ("cancelling", "unguarded.glsl"),
+                           ("opposite", "unguarded.glsl"), ("touching", "unguarded.glsl"),
+                           ("pow", "unguarded_pow.glsl"), ("negative", "highlight_plain.glsl")):
+            text = self.hard_cases("--case", name)
+            number = re.search(rf"\n(?:vertex \d+: )?{file}:(\d+): .* undefined\n(.*\n)*verdict: .*\n$", text)
+            self.assertIsNotNone(number, text)
+            stable = "highlight.glsl" if name == "negative" else "guards.glsl"
+            with open(os.path.join(base.SOURCE, "shaders/study", file)) as plain, \
+                    open(os.path.join(base.SOURCE, "shaders/lighting", stable)) as other:
+                self.assertNotIn(plain.read().splitlines()[int(number[1]) - 1], other.read().splitlines())
+        # Those of mediump: where digits are lost, and what magnifies that.
+        for name, lost, magnifier in (("spot", "dot(-to_light, ", "in_cone("), ("wide", "dot(way, way)", ""),
+                                      ("highlight", "", "highlight(")):
+            verdict = self.hard_cases("--case", name).splitlines()[-1]
+            self.assertRegex(verdict, r"steps off: 0\.\d\d by the formula, .*, born in \S+ \(.*\)")
+            self.assertIn(lost, verdict)
+            self.assertIn(magnifier, verdict.partition("magnified ")[2])
 
     def test_markdown_is_a_table_below_the_machine(self):
         lines = self.hard_cases("--case", "leak", "--markdown", *SMALL).splitlines()

@@ -19,6 +19,8 @@ typedef struct HardResult {
     Image naive, stable;
     Reference exact;
     HardError naive_error, stable_error;
+    size_t naive_worst; /* the pixel with the largest error */
+    char *verdict;      /* of a probe there; NULL: not asked for */
     double cost, noise; /* fractions: of a stable frame over a naive one, and A/A */
 } HardResult;
 
