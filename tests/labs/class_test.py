@@ -31,7 +31,7 @@ sys.path[:0] = [os.path.join(os.path.dirname(HERE), "programs"), HERE]
 import command_line_test as base
 
 PROGRAM = "check"
-SOLUTIONS = os.path.join(HERE, "solutions")
+SOLUTIONS = os.path.join(base.SOURCE, "shaders/labs/solutions")
 SOLUTION = os.path.join(SOLUTIONS, "lab05_per_fragment")
 STARTER = os.path.join(base.SOURCE, "examples/labs/lab05_per_fragment")
 VERT, FRAG = "lab05.vert", "lab05.frag"

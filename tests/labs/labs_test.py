@@ -52,7 +52,7 @@ def run_check(lab, folder, seed=1, *more):
 @functools.cache
 def check_solution(lab):
     """Of seed 1; several tests need it."""
-    return run_check(lab, os.path.join(HERE, "solutions", LABS[lab]))
+    return run_check(lab, os.path.join(mistakes.SOLUTIONS, LABS[lab]))
 
 
 def check_texts(lab, texts, seed=1):
@@ -132,7 +132,8 @@ LONG = unittest.skipUnless(base.LONG, "the long form")
 
 class Labs(base.Case):
     def folder_of(self, lab, kind="solutions"):
-        return os.path.join(EXAMPLES if kind == "starter" else os.path.join(HERE, kind), LABS[lab])
+        kinds = {"starter": EXAMPLES, "solutions": mistakes.SOLUTIONS}
+        return os.path.join(kinds.get(kind, os.path.join(HERE, kind)), LABS[lab])
 
     def assert_right(self, jobs):
         def run(lab, folder, seed):

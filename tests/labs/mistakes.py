@@ -5,7 +5,8 @@ text). An old text that is missing is a fault of this file.
 """
 import os
 
-SOLUTIONS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "solutions")
+SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+SOLUTIONS = os.path.join(SOURCE, "shaders/labs/solutions")
 NAMES = {int(name[3:5]): name for name in sorted(os.listdir(SOLUTIONS))}
 SHADERS = (1, 2, 4, 5, 6, 7, 8, 9, 10, 11)  # labs whose shaders the student writes
 FRAGMENTS = (5, 6, 7, 8, 9, 10, 11)  # labs lit at the fragments

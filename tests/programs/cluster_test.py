@@ -22,7 +22,7 @@ import command_line_test as base
 
 TASKS = 2
 NODES = ("one", "two", "three")
-TREE = os.path.join(base.SOURCE, "tests/labs/solutions/lab05_per_fragment")
+TREE = os.path.join(base.SOURCE, "shaders/labs/solutions/lab05_per_fragment")
 STARTER = os.path.join(base.SOURCE, "examples/labs/lab05_per_fragment")
 # Of the pages' words, what is smaller here.
 SMALLER = (("-n 900", "-n 24 -s 40x30"), ("-s 800x800", "-s 40x40"),

@@ -570,7 +570,7 @@ class Terminal(Case):
     @unittest.skipUnless("check" in os.listdir(EXAMPLES), "check is not built")
     def test_verdicts_are_in_colour(self):
         for folder, verdict in (("examples/labs/lab01_diffuse", "\x1b[31mwrong\x1b[0m, "),
-                                ("tests/labs/solutions/lab01_diffuse", "\x1b[32mright\x1b[0m, ")):
+                                ("shaders/labs/solutions/lab01_diffuse", "\x1b[32mright\x1b[0m, ")):
             ours, theirs = terminal()
             subprocess.run([os.path.join(EXAMPLES, "check"), "1", os.path.join(SOURCE, folder)],
                            stdout=theirs, cwd=self.folder, env={**os.environ, "TERM": "xterm"})

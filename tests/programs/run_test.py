@@ -520,7 +520,7 @@ esac
             brought = all_brought[tuple(packages)]
             if not set(packages) <= brought:
                 self.skipTest("apt-get has no package lists")
-            draw = [program, "1", os.path.join(base.SOURCE, "tests/labs/solutions/lab01_diffuse")] if program == "check" \
+            draw = [program, "1", os.path.join(base.SOURCE, "shaders/labs/solutions/lab01_diffuse")] if program == "check" \
                 else [program, "-s", "40x40", "-o", self.path("a.png")]
             subprocess.run(["strace", "-f", "-z", "-qq", "-e", "trace=openat,execve", "-o", self.path("trace"),
                             os.path.join(base.EXAMPLES, draw[0]), *draw[1:]], cwd=self.folder, capture_output=True,

@@ -371,7 +371,8 @@ void judge_limit(rlim_t seconds)
 static bool judge_pictures(Session *session, Message *message)
 {
     Verdict *verdict = session->verdict;
-    const Painter painter = {.lab = session->lab, .program = session->shader.program};
+    const Painter painter = {
+        .lab = session->lab, .program = session->shader.program, .files = session->files};
     char numbers[VERDICT_SENTENCE_SIZE];
     bool outside;
     if (!lab_pictures_draw(&session->pictures, &painter, &session->canvas, message))

@@ -6,6 +6,7 @@
 #include "labs/diagnosis/diagnose.h"
 
 #include "base/memory.h"
+#include "labs/diagnosis/derive.h"
 #include "labs/diagnosis/suspects.h"
 #include "labs/program/lab_scene_open.h"
 
@@ -234,7 +235,9 @@ static bool find(Lineup *lineup, Verdict *verdict, bool *named, Message *message
         if (*named && verdict->mistake_count == 1 && all.tried[0].choices.factor)
             say_number(verdict, &all.tried[0]);
     }
-    if (done && all.left == 0) {
+    if (done && all.left == 0 && lineup->painter->files && !lineup->pictures->lab->given)
+        done = derive_name(lineup->pictures, lineup->painter->files, verdict, named, message);
+    if (done && all.left == 0 && !*named) {
         pairs = make_pairs(lineup, all.singles, all.single_count, &pair_count);
         done = narrow(lineup, verdict->seed, pairs, &pair_count, &near, message);
         *named = done && name(verdict, pairs, pair_count, near ? less_sure : SURE);

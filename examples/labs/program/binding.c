@@ -27,7 +27,7 @@ typedef struct Value {
     float v[LAB_MAX_LIGHTS][4], number; /* anything else */
 } Value;
 
-enum { MAX_VALUES = 32 + LAB_MAX_UNIFORMS, MAX_NAME = 256 };
+enum { MAX_VALUES = BINDING_VALUES, MAX_NAME = 256 };
 
 typedef struct Values {
     Value values[MAX_VALUES];
@@ -216,6 +216,28 @@ static bool gather(Values *values, const Lab *lab, const Drawn *drawn, Message *
     }
     add_own(values, lab, drawn ? drawn->own : NULL, &eye_from_world);
     return true;
+}
+
+int binding_values(const Lab *lab, const Drawn *drawn, BindingValue values[BINDING_VALUES],
+                   Message *message)
+{
+    Values all;
+    if (!gather(&all, lab, drawn, message))
+        return 0;
+    for (int i = 0; i < all.count; i++) {
+        const Value *from = &all.values[i];
+        BindingValue *to = &values[i];
+        *to = (BindingValue){from->name, from->count, from->kind == KIND_PAIR ? 2 : 4, {0}};
+        if (from->kind == KIND_MATRIX)
+            to->size = 16, memcpy(to->numbers, from->m, sizeof from->m);
+        else if (from->kind == KIND_NUMBER)
+            to->size = 1, to->numbers[0] = from->number;
+        else if (from->kind == KIND_MAP)
+            to->size = 0;
+        else
+            memcpy(to->numbers, from->v, sizeof from->v);
+    }
+    return all.count;
 }
 
 bool binding_has(const Lab *lab, const char *name)

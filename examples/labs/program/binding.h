@@ -55,6 +55,18 @@ bool binding_has(const Lab *lab, const char *name);
 bool binding_draw(const Lab *lab, GLuint program, const MeshBuffer *mesh, const Drawn *drawn,
                   Message *message);
 
+/* A uniform of the interface as numbers, without a program. No GL. */
+typedef struct BindingValue {
+    const char *name;
+    int count, size; /* of array elements; of each one's numbers, a vector's 4; of a map 0 */
+    float numbers[16];
+} BindingValue;
+enum { BINDING_VALUES = 32 + LAB_MAX_UNIFORMS };
+
+/* How many the lab has; 0, with a message: the camera is degenerate. */
+int binding_values(const Lab *lab, const Drawn *drawn, BindingValue values[BINDING_VALUES],
+                   Message *message);
+
 /* The inverse transpose of the matrix's 3x3 part; the identity if it is singular. Unlike
  * mat4_normal it keeps the scale. */
 Mat4 binding_normal_matrix(Mat4 matrix);

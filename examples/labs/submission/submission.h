@@ -67,6 +67,7 @@ void lab_scene_buffers_close(LabSceneBuffers *buffers);
 typedef struct Painter {
     const Lab *lab;
     GLuint program;
+    const SubmissionFiles *files; /* NULL: a test's, whose texts nobody reads */
     /* Draws a scene's objects into the cleared canvas; NULL: with the program. */
     bool (*paint)(const struct Painter *painter, const LabScene *lab_scene,
                   const SubmissionGeometry *geometry, Message *message);
