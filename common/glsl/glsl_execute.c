@@ -347,6 +347,8 @@ bool glsl_run(GlslRun *run)
         } else if (at->op == OP_EVENT) {
             if (run->trace)
                 add_event(run, at);
+            if (run->assigned)
+                run->assigned(run, &(GlslEvent){at->node, at->c, at->a, at->n, -1}, run->observer);
             if (events++ == run->exact_from)
                 arithmetic = &GLSL_EXACT;
         } else {

@@ -95,6 +95,9 @@ typedef struct GlslRun {
     GlslTexture *texture; /* NULL: opaque black */
     void *context;
     bool trace;
+    /* After each event; may change the numbers that were assigned. NULL: none. */
+    void (*assigned)(struct GlslRun *run, const GlslEvent *event, void *observer);
+    void *observer;
     /* Set inputs here before a run, and read results after it. Registers of local variables and
      * globals without storage begin with what `start` says; inputs keep what they hold. */
     double *registers;

@@ -7,42 +7,16 @@
 
 #include "base/memory.h"
 #include "core/shader_source.h"
-#include "labs/diagnosis/mutation.h"
-#include "labs/diagnosis/points.h"
+#include "labs/diagnosis/derivation.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Equal formulas differ by 1e-12; constants like 3.14159, or guards like + 0.0001, by more. A match
- * leaves at most a hundredth of the submission's error. */
-static const double EQUAL = 2e-4, LEFT = 0.01, ALIKE = 1e-6;
-
-enum { MAX_FOUND = 40, TRACED = 6, MAX_VALUES = 400 };
-
-typedef struct Found {
-    Mutation mutation;
-    GlslStage stage;
-    char *text;
-    double apart;
-    int shared; /* of the submission's values */
-} Found;
-
-typedef struct Derivation {
-    const Lab *lab;
-    Points points;
-    PointShader own[2], right[2]; /* by GlslStage */
-    ShaderSource sources[2];      /* the submission's */
-    double (*wanted)[POINT_NUMBERS], (*exact)[POINT_NUMBERS];
-    int *order; /* of the points: where it is farthest from right, and where it is right, in turn */
-    double wrong_by;
-    double numbers[MUTATION_NUMBERS];
-    int number_count;
-    GlslStage stage; /* that is mutated */
-    Found found[MAX_FOUND];
-    int found_count, tried;
-} Derivation;
+/* Equal formulas differ by 1e-12, with attributes in floats by 1e-7, with constants like 3.14159 by
+ * more. A highlight that nearly vanishes is 1e-4 from one that does. */
+static const double EQUAL = 5e-5, ALIKE = 1e-6;
 
 static bool read_source(const Lab *lab, const ShaderLoader *loader, const char *folder, int stage,
                         ShaderSource *source)
@@ -119,7 +93,7 @@ static void take_number(Derivation *all, double number)
     for (int i = 0; i < all->number_count; i++)
         if (fabs(all->numbers[i] - number) <= 1e-9 * number)
             return;
-    if (number > 1e-6 && number < 1e6 && number != 1 && all->number_count < MUTATION_NUMBERS)
+    if (number > 1e-6 && number < 1e6 && all->number_count < MUTATION_NUMBERS)
         all->numbers[all->number_count++] = number;
 }
 
@@ -138,26 +112,79 @@ static double run_all(Derivation *all, PointShader pair[2], double (*numbers)[PO
     double sum = 0;
     for (int i = 0; i < all->points.count; i++) {
         points_run(&all->points, &pair[0], &pair[1], i, numbers[i]);
+        all->noted |= !wanted && pair[0].run->note_count + pair[1].run->note_count > 0;
         sum += wanted ? points_apart(numbers[i], wanted[i]) : 0;
     }
     return sum;
 }
 
-static bool run_right(Derivation *all)
+static void take_all_numbers(Derivation *all)
+{
+    for (int i = 0; i < 2; i++)
+        take_numbers(all, all->own[i].tree, all->own[i].tree->root);
+    const int count = all->own_number_count = all->number_count;
+    for (int i = 0; i < count; i++)
+        take_number(all, 1 / all->numbers[i]);
+    for (int i = 0; i < count; i++)
+        take_number(all, 1 + all->numbers[i]), take_number(all, 1 - all->numbers[i]);
+}
+
+/* Numbers that a right program may choose: what a task leaves open. */
+static bool is_free(const Lab *lab, const char *was, double number)
+{
+    return (lab->fitted && strcmp(was, "1.3") == 0 &&
+            (number == 0 || (number > 0.5 && number < 2))) ||
+           (lab->shadow && strcmp(was, "0.002") == 0 && number > 0.0004 && number < 0.0065);
+}
+
+/* A number that the submission has is its own; else 0, as if it were left out. */
+static double expected(const Derivation *all, double number)
+{
+    for (int i = 0; i < all->own_number_count; i++)
+        if (fabs(all->numbers[i] - number) < 1e-9)
+            return 2e6;
+    return number == 0 ? 1e6 : 0;
+}
+
+/* Keeps a right program with another of these numbers if it is nearer to the submission. */
+static bool try_right(void *context, const Mutation *mutation, const char *text)
+{
+    Derivation *all = context;
+    PointShader pair[2] = {all->right[0], {.setting = -1}};
+    const double number = atof(mutation->by + (mutation->by[0] == '('));
+    if (!is_free(all->lab, mutation->was, number) ||
+        !point_shader_open(&pair[1], text, GLSL_FRAGMENT))
+        return true;
+    const double apart =
+        run_all(all, pair, all->exact, (const double (*)[POINT_NUMBERS])all->wanted) -
+        expected(all, number);
+    const double was = all->nearest_right - (all->nearest_text ? 0 : expected(all, atof(mutation->was)));
+    if (apart < was) {
+        all->nearest_right = apart;
+        free(all->nearest_text);
+        all->nearest_text = memory_text(text);
+    }
+    point_shader_close(&pair[1]);
+    return true;
+}
+
+/* Of the right programs the nearest: light at the vertices or not, and with which numbers. */
+static void run_right(Derivation *all)
 {
     const double (*wanted)[POINT_NUMBERS] = (const double (*)[POINT_NUMBERS])all->wanted;
-    const double corners = run_all(all, all->right, all->exact, wanted);
-    if (!all->lab->either)
-        return true;
-    /* Light at the vertices or not: whichever is nearer. */
-    memset(all->right[0].done, 0, (size_t)all->points.count * sizeof(bool));
-    all->right[0].at_once = true;
-    if (run_all(all, all->right, all->exact, wanted) < corners)
-        return true;
-    memset(all->right[0].done, 0, (size_t)all->points.count * sizeof(bool));
-    all->right[0].at_once = false;
+    all->nearest_right = run_all(all, all->right, all->exact, wanted);
+    for (int at_once = 1; at_once >= 0 && all->lab->either; at_once--) {
+        memset(all->right[0].done, 0, (size_t)all->points.count * sizeof(bool));
+        all->right[0].at_once = at_once;
+        if (run_all(all, all->right, all->exact, wanted) <= all->nearest_right)
+            break;
+    }
+    mutations_each(all->right[1].tree, all->numbers, all->number_count, try_right, all);
+    if (all->nearest_text) {
+        point_shader_close(&all->right[1]);
+        point_shader_open(&all->right[1], all->nearest_text, GLSL_FRAGMENT);
+    }
     run_all(all, all->right, all->exact, NULL);
-    return true;
 }
 
 typedef struct Apart {
@@ -172,110 +199,86 @@ static int farthest_first(const void *a, const void *b)
                                 : p->point - q->point;
 }
 
+/* The worst first; then some where it is wrong, in steps that leave none out, and some where it is
+ * right, in turn. */
 static void sort_points(Derivation *all)
 {
     const int count = all->points.count;
+    int wrong = 0, used = 0;
     Apart *list = memory_new((size_t)count, sizeof *list);
-    for (int i = 0; i < count; i++)
+    for (int i = 0; i < count; i++) {
         list[i] = (Apart){points_apart(all->wanted[i], all->exact[i]), i};
+        wrong += list[i].apart > 4 * EQUAL;
+    }
     qsort(list, (size_t)count, sizeof *list, farthest_first);
     all->wrong_by = list[0].apart;
-    for (int i = 0; i < count; i++)
-        all->order[i] = list[i % 2 ? count - 1 - i / 2 : i / 2].point;
+    for (int step = 0; used < count; step++) {
+        const int stride = 1009; /* a prime above both counts: none is left over */
+        if (step < wrong)
+            all->order[used++] = list[step * stride % wrong].point;
+        if (step < count - wrong)
+            all->order[used++] = list[wrong + step * stride % (count - wrong)].point;
+    }
     free(list);
 }
 
-static double limit_of(const Derivation *all)
-{
-    return fmax(EQUAL, LEFT * fmin(all->wrong_by, 0.4));
-}
+enum { FIRST_POINTS = 16, MOST = 30000 /* mutants: some seconds */ };
 
-/* How far the pair is from the submission; more than the limit: it is not looked at further. */
-static double distance(Derivation *all, PointShader *vertex, PointShader *fragment)
+/* How far the pair is from the submission, and how many of the first points are alike; far away:
+ * it is not looked at further. */
+static double distance(Derivation *all, PointShader *vertex, PointShader *fragment, int *like)
 {
-    const double limit = limit_of(all);
     double most = 0, numbers[POINT_NUMBERS];
-    for (int i = 0; i < all->points.count && most <= limit; i++) {
+    *like = 0;
+    for (int i = 0; i < all->points.count && (most <= EQUAL || i < FIRST_POINTS); i++) {
         const int point = all->order[i];
         points_run(&all->points, vertex, fragment, point, numbers);
-        most = fmax(most, points_apart(numbers, all->wanted[point]));
+        const double apart = points_apart(numbers, all->wanted[point]);
+        most = fmax(most, apart);
+        *like += i < FIRST_POINTS && apart <= EQUAL;
+        if ((i == FIRST_POINTS / 2 && *like == 0) || /* hopeless */
+            (!all->noted && vertex->run->note_count + fragment->run->note_count > 0))
+            return 2;
     }
     return most;
+}
+
+static void keep_nearest(Derivation *all, const Found *found)
+{
+    int at = all->nearest_count;
+    if (all->first || found->like <= all->like ||
+        (at == MAX_FIRST && found->like <= all->nearest[at - 1].like))
+        return;
+    if (at == MAX_FIRST)
+        free(all->nearest[--at].text);
+    else
+        all->nearest_count++;
+    for (; at > 0 && all->nearest[at - 1].like < found->like; at--)
+        all->nearest[at] = all->nearest[at - 1];
+    all->nearest[at] = *found;
+    all->nearest[at].text = memory_text(found->text);
 }
 
 static bool try_mutant(void *context, const Mutation *mutation, const char *text)
 {
     Derivation *all = context;
     PointShader shader;
+    Found found = {.mutation = *mutation, .stage = all->stage, .first = all->first};
     all->tried++;
     if (!point_shader_open(&shader, text, all->stage))
         return true;
     shader.at_once = all->stage == GLSL_VERTEX && all->right[0].at_once;
-    const double apart = all->stage == GLSL_VERTEX ? distance(all, &shader, &all->right[1])
-                                                   : distance(all, &all->right[0], &shader);
-    if (apart <= limit_of(all))
-        all->found[all->found_count++] =
-            (Found){*mutation, all->stage, memory_text(text), apart, 0};
+    found.text = memory_text(text);
+    found.apart = all->stage == GLSL_VERTEX
+                      ? distance(all, &shader, all->base[1], &found.like)
+                      : distance(all, all->base[0], &shader, &found.like);
+    keep_nearest(all, &found);
+    if (found.apart <= EQUAL)
+        all->found[all->found_count++] = found;
+    else
+        free(found.text);
     point_shader_close(&shader);
-    return all->found_count < MAX_FOUND;
-}
-
-/* Values on the way. */
-
-typedef struct Values {
-    double numbers[MAX_VALUES][4];
-    int sizes[MAX_VALUES], lines[MAX_VALUES], count;
-} Values;
-
-static void take_events(Values *values, GlslRun *run)
-{
-    for (int i = 0; i < run->event_count && values->count < MAX_VALUES; i++) {
-        const GlslEvent *event = &run->events[i];
-        if (event->count > 4)
-            continue;
-        values->sizes[values->count] = event->count;
-        values->lines[values->count] = run->code->tree->nodes[event->node].place.line;
-        memcpy(values->numbers[values->count++], &run->values[event->value],
-               (size_t)event->count * sizeof(double));
-    }
-}
-
-/* What both shaders assign at a point: at its last corner, and there. */
-static void trace(Derivation *all, PointShader *vertex, PointShader *fragment, int point,
-                  Values *values)
-{
-    double numbers[POINT_NUMBERS];
-    vertex->run->trace = fragment->run->trace = true;
-    values->count = 0;
-    points_run(&all->points, vertex, fragment, point, numbers);
-    if (vertex->done)
-        vertex->done[point] = false;
-    points_run(&all->points, vertex, fragment, point, numbers);
-    take_events(values, vertex->run);
-    take_events(values, fragment->run);
-    vertex->run->trace = fragment->run->trace = false;
-}
-
-static bool same_value(const Values *a, int i, const Values *b, int k)
-{
-    if (a->sizes[i] != b->sizes[k] && (a->sizes[i] < 3 || b->sizes[k] < 3))
-        return false;
-    for (int c = 0; c < a->sizes[i] && c < b->sizes[k]; c++)
-        if (!(fabs(a->numbers[i][c] - b->numbers[k][c]) <= 1e-5 * (1 + fabs(a->numbers[i][c]))))
-            return false;
-    return true;
-}
-
-static int count_shared(const Values *own, const Values *other)
-{
-    int shared = 0;
-    for (int i = 0; i < own->count; i++) {
-        bool found = false;
-        for (int k = 0; k < other->count && !found; k++)
-            found = same_value(own, i, other, k);
-        shared += found;
-    }
-    return shared;
+    return all->found_count < MAX_FOUND && (!all->first || all->tried < MOST);
 }
 
 /* Opens a mutant again, beside the right program's other stage. */
@@ -287,24 +290,60 @@ static bool open_found(Derivation *all, const Found *found, PointShader *shader)
     return true;
 }
 
+/* Both stages of a mutant: one is the right program's, unless the first of two mutations is there. */
+typedef struct Pair {
+    PointShader own, other;
+    PointShader *stages[2];
+} Pair;
+
+static bool open_pair(Derivation *all, const Found *found, Pair *pair)
+{
+    const bool both = found->first && found->first->stage != found->stage;
+    *pair = (Pair){.other = {.setting = -1}};
+    if (!open_found(all, found, &pair->own) ||
+        (both && !open_found(all, found->first, &pair->other))) {
+        point_shader_close(&pair->own);
+        return false;
+    }
+    pair->stages[found->stage] = &pair->own;
+    pair->stages[1 - found->stage] = both ? &pair->other : &all->right[1 - found->stage];
+    return true;
+}
+
+static void close_pair(Pair *pair)
+{
+    point_shader_close(&pair->own);
+    point_shader_close(&pair->other);
+}
+
 static void compare_values(Derivation *all)
 {
-    static Values own, other; /* too large for a stack */
+    Values *own = memory_new(2, sizeof *own), *other = own + 1;
     for (int i = 0; i < all->found_count; i++) {
         Found *found = &all->found[i];
-        PointShader shader;
-        if (!open_found(all, found, &shader))
+        Pair pair;
+        if (!open_pair(all, found, &pair))
             continue;
-        const bool vertex = found->stage == GLSL_VERTEX;
-        for (int k = 0; k < TRACED && k < all->points.count; k++) {
-            const int point = all->order[2 * k % all->points.count];
-            trace(all, &all->own[0], &all->own[1], point, &own);
-            trace(all, vertex ? &shader : &all->right[0], vertex ? &all->right[1] : &shader, point,
-                  &other);
-            found->shared += count_shared(&own, &other);
+        for (int k = 0; k < TRACED && 2 * k < all->points.count; k++) {
+            const int point = all->order[2 * k];
+            values_trace(&all->points, &all->own[0], &all->own[1], point, own);
+            values_trace(&all->points, pair.stages[0], pair.stages[1], point, other);
+            found->shared += values_shared(own, other);
         }
-        point_shader_close(&shader);
+        for (int k = 0; k < 2; k++)
+            found->other += values_count_other(pair.stages[k]->tree, all->own[k].tree);
+        close_pair(&pair);
     }
+    free(own);
+}
+
+static bool is_nearer(const Found *a, const Found *b)
+{
+    return a->shared != b->shared  ? a->shared > b->shared
+           : a->other != b->other ? a->other < b->other
+           : a->mutation.rank != b->mutation.rank
+               ? a->mutation.rank < b->mutation.rank
+               : strlen(a->mutation.name) < strlen(b->mutation.name);
 }
 
 static const Found *choose(Derivation *all)
@@ -314,42 +353,92 @@ static const Found *choose(Derivation *all)
     for (int i = 0; i < all->found_count; i++)
         least = fmin(least, all->found[i].apart);
     compare_values(all);
-    for (int i = 0; i < all->found_count; i++) {
-        const Found *found = &all->found[i];
-        if (found->apart > fmax(4 * least, ALIKE))
-            continue;
-        if (!best || found->shared > best->shared ||
-            (found->shared == best->shared && found->mutation.rank < best->mutation.rank))
-            best = found;
-    }
+    for (int i = 0; i < all->found_count; i++)
+        if (all->found[i].apart <= fmax(4 * least, ALIKE) &&
+            (!best || is_nearer(&all->found[i], best)))
+            best = &all->found[i];
     return best;
 }
 
-static void say(Derivation *all, const Found *found, Verdict *verdict)
+/* Where the submission's first value is that is wrong; else the name of what is. */
+static void find_place(Derivation *all, const Found *found, char *place, size_t size)
+{
+    Values *own = memory_new(3, sizeof *own), *mutant = own + 1, *right = own + 2;
+    Pair pair;
+    const int point = all->order[0];
+    int first = -1;
+    if (open_pair(all, found, &pair)) {
+        values_trace(&all->points, &all->own[0], &all->own[1], point, own);
+        values_trace(&all->points, &all->right[0], &all->right[1], point, right);
+        values_trace(&all->points, pair.stages[0], pair.stages[1], point, mutant);
+        first = values_first(own, mutant, right);
+        close_pair(&pair);
+    }
+    if (first >= 0)
+        derivation_place(all, own->items[first].stage, own->items[first].node, place, size);
+    else
+        snprintf(place, size, "where %s should be", found->mutation.was);
+    free(own);
+}
+
+static void add(const Mutation *mutation, const char *place, Verdict *verdict)
 {
     char name[64], sentence[VERDICT_SENTENCE_SIZE];
-    const Mutation *mutation = &found->mutation;
-    snprintf(name, sizeof name, "%s", mutation->name);
+    snprintf(name, sizeof name, "%.63s", mutation->name);
     snprintf(sentence, sizeof sentence,
              "%s%sIt draws what the right program draws with %s instead of %s.",
              mutation->sentence, mutation->sentence[0] ? " " : "",
              mutation->by[0] ? mutation->by : "nothing", mutation->was);
-    verdict_add_mistake(verdict, name, sentence, mutation->was, 0.9);
-    snprintf(verdict->message, sizeof verdict->message, "%s", mutation->name);
-    (void)all;
+    verdict_add_mistake(verdict, name, sentence, place, 0.9);
+}
+
+static void say(Derivation *all, const Found *found, Verdict *verdict)
+{
+    char place[VERDICT_SENTENCE_SIZE];
+    find_place(all, found, place, sizeof place);
+    if (found->first)
+        add(&found->first->mutation, place, verdict);
+    add(&found->mutation, place, verdict);
+    snprintf(verdict->message, sizeof verdict->message, "%s%s%s%s",
+             found->first ? "Two mistakes: " : "", found->first ? found->first->mutation.name : "",
+             found->first ? "; " : "", found->mutation.name);
+}
+
+/* All mutants of both stages of the base. */
+static void mutate(Derivation *all)
+{
+    for (int stage = GLSL_FRAGMENT; stage >= GLSL_VERTEX; stage--) {
+        all->stage = (GlslStage)stage;
+        if (all->found_count < MAX_FOUND)
+            mutations_each(all->base[stage]->tree, all->numbers, all->number_count, try_mutant,
+                           all);
+    }
+}
+
+/* Two mutations: of those that explain some points more than none, each with all others. */
+static void mutate_twice(Derivation *all)
+{
+    for (int i = 0; i < all->nearest_count && all->found_count == 0 && all->tried < MOST; i++) {
+        PointShader shader;
+        const Found *first = &all->nearest[i];
+        if (!open_found(all, first, &shader))
+            continue;
+        all->first = first;
+        all->base[first->stage] = &shader;
+        mutate(all);
+        all->base[first->stage] = &all->right[first->stage];
+        point_shader_close(&shader);
+    }
 }
 
 static bool search(Derivation *all)
 {
-    for (int i = 0; i < 2; i++)
-        take_numbers(all, all->own[i].tree, all->own[i].tree->root);
-    for (int i = 0, count = all->number_count; i < count; i++)
-        take_number(all, 1 / all->numbers[i]);
-    all->stage = GLSL_FRAGMENT;
-    mutations_each(all->right[1].tree, all->numbers, all->number_count, try_mutant, all);
-    all->stage = GLSL_VERTEX;
-    if (all->found_count < MAX_FOUND)
-        mutations_each(all->right[0].tree, all->numbers, all->number_count, try_mutant, all);
+    all->base[0] = &all->right[0];
+    all->base[1] = &all->right[1];
+    distance(all, all->base[0], all->base[1], &all->like);
+    mutate(all);
+    if (all->found_count == 0)
+        mutate_twice(all);
     return all->found_count > 0;
 }
 
@@ -362,7 +451,10 @@ static void close_all(Derivation *all)
     }
     for (int i = 0; i < all->found_count; i++)
         free(all->found[i].text);
+    for (int i = 0; i < all->nearest_count; i++)
+        free(all->nearest[i].text);
     points_close(&all->points);
+    free(all->nearest_text);
     free(all->wanted);
     free(all->exact);
     free(all->order);
@@ -382,19 +474,22 @@ bool derive_name(const LabPictures *pictures, const SubmissionFiles *files, Verd
         all->exact = memory_new(count, sizeof *all->exact);
         all->order = memory_new(count, sizeof *all->order);
         run_all(all, all->own, all->wanted, NULL);
+        take_all_numbers(all);
         run_right(all);
         sort_points(all);
         if (all->wrong_by > 4 * EQUAL && search(all)) {
             say(all, choose(all), verdict);
             *named = true;
+        } else {
+            wrong_part_describe(all, verdict);
         }
         if (getenv("DERIVE"))
             fprintf(stderr, "derive: %d points, wrong by %g, %d mutants, %d found, %d numbers\n",
                     all->points.count, all->wrong_by, all->tried, all->found_count,
                     all->number_count);
         for (int i = 0; i < all->found_count && getenv("DERIVE"); i++)
-            fprintf(stderr, "  %g shared %d rank %d: %s | %s -> %s\n", all->found[i].apart,
-                    all->found[i].shared, all->found[i].mutation.rank, all->found[i].mutation.name,
+            fprintf(stderr, "  %g shared %d other %d rank %d: %s | %s -> %s\n", all->found[i].apart,
+                    all->found[i].shared, all->found[i].other, all->found[i].mutation.rank, all->found[i].mutation.name,
                     all->found[i].mutation.was, all->found[i].mutation.by);
     }
     close_all(all);

@@ -260,7 +260,7 @@ bool diagnose(const LabPictures *pictures, const Painter *painter, bool moved, C
     if (!done)
         return false;
     symptoms_describe(pictures, moved, verdict);
-    if (!named)
+    if (!named && !verdict->message[0])
         snprintf(verdict->message, sizeof verdict->message,
                  "Unknown mistake: no known mistake or pair of them draws this in every scene");
     return true;

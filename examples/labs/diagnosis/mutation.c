@@ -4,7 +4,9 @@
 #include "labs/diagnosis/mutation.h"
 
 #include "base/memory.h"
+#include "base/text.h"
 
+#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -80,6 +82,7 @@ static const Rule RULES[] = {
     {ANY_NAME, GLSL_BOOL, "!($0)", "reversed: $0", "A condition is the wrong way round."},
     {GLSL_BINARY, GLSL_OR, "$1", "not asked: $2", "A part of a condition is missing."},
     {GLSL_BINARY, GLSL_OR, "$2", "not asked: $1", "A part of a condition is missing."},
+    {GLSL_BINARY, GLSL_OR, "$6", "only asked: $6", "Parts of a condition are missing."},
     {GLSL_BINARY, GLSL_AND, "$1", "not asked: $2", "A part of a condition is missing."},
     {GLSL_BINARY, GLSL_AND, "$2", "not asked: $1", "A part of a condition is missing."},
     {GLSL_BINARY, GLSL_GREATER, "$1 > #", "compared with #: $1", ""},
@@ -96,6 +99,12 @@ static const Rule RULES[] = {
     {ANY_VEC3, 0, "(u_NormalMatrix * vec4($0, 0.0)).xyz", "times the normal matrix: $0", SPACE},
     {ANY_VEC3, 0, "(u_MvpMatrix * vec4($0, 1.0)).xyz", "in clip space: $0", SPACE},
     {ANY_VEC3, 0, "gl_FragCoord.xyz", "gl_FragCoord for $0", SPACE},
+    {ANY_VEC3, 0, "(gl_Position.xyz / gl_Position.w)", "in normalized device coordinates: $0", SPACE},
+    {ANY_VEC3, 0, "u_Mirrored * normalize(v_Normal)", "u_Mirrored times the normal for $0", ""},
+    {ANY_VEC3, 0, "normalize(v_Normal)", "the front's normal for $0", ""},
+    {ANY_FLOAT, 0, "(front ? $0 : 0.0)", "nothing on the back: $0", ""},
+    {ANY_FLOAT, 0, "(front ? $0 : # * $0)", "on the back times #: $0", ""},
+    {ANY_VEC3, 0, "(front ? $0 : # * $0)", "on the back times #: $0", ""},
     {ANY_FLOAT, 0, "gl_FragCoord.z", "gl_FragCoord.z for $0", SPACE},
     {ANY_VEC3, 0, "normalize($0)", "normalized: $0", "A vector must keep its length."},
     {ANY_BOTH, 0, "-$0", "sign of $0 reversed", ""},
@@ -108,6 +117,9 @@ static const Rule RULES[] = {
     {ANY_VEC3, 0, "vec3(1.0)", "1 for $0", ""},
     {ANY_FLOAT, 0, "0.0", "0 for $0", ""},
     {ANY_FLOAT, 0, "1.0", "1 for $0", ""},
+    /* Of the other light. */
+    {GLSL_NAME, 0, "$4", "of the first light, also in the second: $0", "An index is the other light's."},
+    {GLSL_NAME, 0, "$5", "of the second light, also in the first: $0", "An index is the other light's."},
     /* The cosine. */
     {GLSL_BUILT_IN, GLSL_MAX, "abs($1)", "absolute value of $1", "What is turned away is lit, too."},
     {GLSL_BUILT_IN, GLSL_MAX, "max(-$1, $2)", "sign of $1 reversed", ""},
@@ -157,6 +169,15 @@ static const Rule RULES[] = {
      "highlight times (n + 2) / 2pi", ""},
     {GLSL_BUILT_IN, GLSL_POW, "(u_Shininess + 8.0) / 25.1327412 * $0",
      "highlight times (n + 8) / 8pi", ""},
+    {GLSL_BUILT_IN, GLSL_POW,
+     "($0 + pow(max(dot(reflect(-lightDirection, normal), viewDirection), 0.0), u_Shininess))",
+     "Phong's highlight besides Blinn's", ""},
+    {GLSL_BUILT_IN, GLSL_POW,
+     "($0 + pow(max(dot(normal, normalize(lightDirection + viewDirection)), 0.0), u_Shininess))",
+     "Blinn's highlight besides Phong's", ""},
+    {ANY_FLOAT, 0, "dot(normal, viewDirection)", "N.V for $0", "One value is taken for another."},
+    {ANY_FLOAT, 0, "dot(normal, lightDirection)", "N.L for $0", "One value is taken for another."},
+    {ANY_FLOAT, 0, "dot(viewDirection, lightDirection)", "V.L for $0", ""},
     {GLSL_BUILT_IN, GLSL_POW, "$0 * pow(1.0 - max(dot(normal, viewDirection), 0.0), 5.0)",
      "Fresnel factor of the highlight", ""},
     {ANY_NAME, GLSL_VEC3, "($0 + (1.0 - $0) * pow(1.0 - max(dot(normal, viewDirection), 0.0), 5.0))",
@@ -207,6 +228,12 @@ static const Rule RULES[] = {
     {ANY_BOTH, 0, "$0 * @", "times @: $0", ""},
     {ANY_BOTH, 0, "($0 + @)", "@ added to $0", ""},
     {ANY_BOTH, 0, "$0 / @", "divided by @: $0", ""},
+    {ANY_BOTH, 0, "$0 / length(@)", "divided by the length of @: $0", ""},
+    {ANY_BOTH, 0, "$0 / length(u_LightPosition[0] - v_Position)", "divided by the distance: $0", ""},
+    {ANY_BOTH, 0, "$0 / length(u_LightPosition[1] - v_Position)", "divided by the distance: $0", ""},
+    {ANY_BOTH, 0, "$0 / length(u_LightPosition[i] - v_Position)", "divided by the distance: $0", ""},
+    {ANY_BOTH, 0, "$0 / length(u_LightPosition[i] - position)", "divided by the distance: $0", ""},
+    {ANY_BOTH, 0, "$0 / length(u_LightPosition - v_Position)", "divided by the distance: $0", ""},
     {ANY_BOTH, 0, "$0 * $0", "squared: $0", ""},
     {ANY_BOTH, 0, "sqrt($0)", "square root of $0", ""},
     {ANY_BOTH, 0, "# * $0", "times #: $0", "A number has no place here."},
@@ -245,7 +272,8 @@ typedef struct Maker {
     void *context;
     bool ended;
     char *before, *after;  /* the text around the node */
-    char operands[4][512]; /* the node's text, and those of its children */
+    char operands[7][512]; /* the node's text, those of its children, and what a variable begins with,
+                              of the first and the second light; 6: its first grandchild's */
     int node;
 } Maker;
 
@@ -277,16 +305,72 @@ static bool cut(Maker *maker, int mark)
     return at;
 }
 
+/* Replaces words of a text by their values in parentheses: variables by what they begin with, and
+ * the loop's index by a number. */
+static void replace_word(char *text, size_t size, const char *word, const char *by)
+{
+    const size_t length = strlen(word);
+    char *rest;
+    for (char *at = text; (at = strstr(at, word)); at++) {
+        if ((at > text && text_is_word(at[-1])) || text_is_word(at[length]) ||
+            strlen(text) + strlen(by) + 3 >= size)
+            continue;
+        rest = memory_text(at + length);
+        at += snprintf(at, size - (size_t)(at - text), isdigit((unsigned char)by[0]) ? "%s" : "(%s)",
+                       by);
+        snprintf(at, size - (size_t)(at - text), "%s", rest);
+        free(rest);
+    }
+}
+
+/* The variable's value as its declaration has it, with a light's number for the index; "": it does
+ * not depend on the light. */
+static void read_light(const GlslTree *tree, int symbol, int light, char *text, size_t size)
+{
+    const int values = tree->node_count;
+    text[0] = '\0';
+    for (int round = 0; round < 3; round++) {
+        for (int i = values - 1; i > 0; i--) {
+            const GlslNode *at = &tree->nodes[i];
+            char value[256];
+            if (at->kind != GLSL_VARIABLE_NODE || !at->first ||
+                tree->symbols[at->symbol].global || tree->symbols[at->symbol].type == GLSL_INT)
+                continue;
+            glsl_expression_text(tree, at->first, value, sizeof value);
+            if (round == 0 && at->symbol == symbol)
+                snprintf(text, size, "%s", value);
+            else if (round > 0 && (strstr(value, "[i]") || strstr(value, "Direction")))
+                replace_word(text, size, tree->symbols[at->symbol].name, value);
+        }
+    }
+    if (strstr(text, "[i]"))
+        replace_word(text, size, "i", light == 0 ? "0" : "1");
+    else
+        text[0] = '\0';
+}
+
 static void read_operands(Maker *maker)
 {
     int child = maker->tree->nodes[maker->node].first;
-    glsl_expression_text(maker->tree, maker->node, maker->operands[0], sizeof maker->operands[0]);
+    const bool statement = maker->tree->nodes[maker->node].kind == GLSL_EXPRESSION;
+    glsl_expression_text(maker->tree, statement ? child : maker->node, maker->operands[0],
+                         sizeof maker->operands[0]);
     for (int i = 1; i < 4; i++) {
         maker->operands[i][0] = '\0';
         if (child)
             glsl_expression_text(maker->tree, child, maker->operands[i],
                                  sizeof maker->operands[i]);
         child = child ? maker->tree->nodes[child].next : 0;
+    }
+    child = maker->tree->nodes[maker->tree->nodes[maker->node].first].first;
+    maker->operands[6][0] = '\0';
+    if (child)
+        glsl_expression_text(maker->tree, child, maker->operands[6], sizeof maker->operands[6]);
+    for (int light = 0; light < 2; light++) {
+        maker->operands[4 + light][0] = '\0';
+        if (maker->tree->nodes[maker->node].kind == GLSL_NAME)
+            read_light(maker->tree, maker->tree->nodes[maker->node].symbol, light,
+                       maker->operands[4 + light], sizeof maker->operands[0]);
     }
 }
 
@@ -311,7 +395,7 @@ static void fill(const Maker *maker, const char *form, const char *name, const c
     for (const char *at = form; *at && used + 1 < size; at++) {
         const char *put = NULL;
         char one[2] = {*at, '\0'};
-        if (*at == '$' && at[1] >= '0' && at[1] <= '3')
+        if (*at == '$' && at[1] >= '0' && at[1] <= '6')
             put = maker->operands[*++at - '0'];
         else if (*at == '@')
             put = name;
@@ -328,9 +412,9 @@ static void make(Maker *maker, int rule, const char *name, const char *number)
     char by[2048];
     fill(maker, RULES[rule].by, name, number, true, by, sizeof by);
     fill(maker, RULES[rule].name, name, number, false, mutation.name, sizeof mutation.name);
-    snprintf(mutation.was, sizeof mutation.was, "%s", maker->operands[0]);
-    snprintf(mutation.by, sizeof mutation.by, "%s", by);
-    if (strcmp(by, maker->operands[0]) == 0)
+    snprintf(mutation.was, sizeof mutation.was, "%.159s", maker->operands[0]);
+    snprintf(mutation.by, sizeof mutation.by, "%.159s", by);
+    if (strcmp(by, maker->operands[0]) == 0 || (!by[0] && RULES[rule].by[0]))
         return;
     /* A statement is followed by its semicolon; within an expression anything is grouped. */
     const GlslNode *node = &maker->tree->nodes[maker->node];
@@ -387,12 +471,12 @@ static bool is_name(const GlslNode *node)
 
 static bool matches(const GlslNode *node, const Rule *rule)
 {
-    const bool literal = node->kind == GLSL_LITERAL;
+    const bool literal = node->kind == GLSL_LITERAL || node->kind == GLSL_ASSIGN;
     switch (rule->kind) {
     case ANY_FLOAT:
         return node->type == GLSL_FLOAT && !literal;
     case ANY_VEC3:
-        return node->type == GLSL_VEC3;
+        return node->type == GLSL_VEC3 && !literal;
     case ANY_BOTH:
         return (node->type == GLSL_VEC3 || node->type == GLSL_FLOAT) && !literal;
     case ANY_NAME:
@@ -442,7 +526,8 @@ static void walk(Maker *maker, int node, int mark)
 void mutations_each(GlslTree *tree, const double *numbers, int count, MutationTake *take,
                     void *context)
 {
-    Maker maker = {tree, numbers, count, take, context, false, NULL, NULL, {""}, 0};
+    Maker maker = {
+        .tree = tree, .numbers = numbers, .number_count = count, .take = take, .context = context};
     *(GlslSymbol *)memory_add(&tree->symbols, &tree->symbol_count, &tree->symbol_room,
                               sizeof(GlslSymbol)) =
         (GlslSymbol){.name = MARK, .kind = GLSL_VARIABLE};

@@ -9,7 +9,7 @@
 
 #include "glsl/glsl.h"
 
-enum { MUTATION_TEXT = 160, MUTATION_NUMBERS = 12 };
+enum { MUTATION_TEXT = 160, MUTATION_NUMBERS = 16 };
 
 typedef struct Mutation {
     int node;                 /* of the right tree */

@@ -352,9 +352,10 @@ static void corner_places(const PointShader *vertex, int number, double clip[POI
     }
 }
 
+/* What is undefined is like nothing else. */
 static double from_0_to_1(double number)
 {
-    return number > 0 ? fmin(number, 1) : 0; /* NaN as 0 */
+    return isnan(number) ? -2 : fmax(0, fmin(number, 1));
 }
 
 static void set_inputs(const Points *points, const PointShader *vertex, PointShader *fragment,

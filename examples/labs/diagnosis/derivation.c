@@ -1,0 +1,123 @@
+/* Values are compared as numbers, not as names: what a submission calls l, the right program calls
+ * lightDirection. */
+#include "labs/diagnosis/derivation.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void take_events(const PointShader *shader, GlslStage stage, Values *values)
+{
+    for (int i = 0; i < shader->run->event_count && values->count < MAX_VALUES; i++) {
+        const GlslEvent *event = &shader->run->events[i];
+        if (event->count > 4)
+            continue;
+        values->items[values->count].size = event->count;
+        values->items[values->count].node = event->node;
+        values->items[values->count].symbol = event->symbol;
+        values->items[values->count].stage = stage;
+        memcpy(values->items[values->count++].numbers, &shader->run->values[event->value],
+               (size_t)event->count * sizeof(double));
+    }
+}
+
+void values_trace(const Points *points, PointShader *vertex, PointShader *fragment, int point,
+                  Values *values)
+{
+    double numbers[POINT_NUMBERS];
+    vertex->run->trace = fragment->run->trace = true;
+    values->count = 0;
+    if (vertex->done)
+        vertex->done[point] = false;
+    points_run(points, vertex, fragment, point, numbers);
+    take_events(vertex, GLSL_VERTEX, values);
+    take_events(fragment, GLSL_FRAGMENT, values);
+    vertex->run->trace = fragment->run->trace = false;
+}
+
+/* A vec4 has the same value as its first three numbers. */
+static bool has_value(const Values *values, const double *numbers, int size)
+{
+    for (int i = 0; i < values->count; i++) {
+        const int other = values->items[i].size;
+        bool same = size == other || (size >= 3 && other >= 3);
+        for (int c = 0; c < size && c < other && same; c++)
+            same = fabs(numbers[c] - values->items[i].numbers[c]) <= 1e-5 * (1 + fabs(numbers[c]));
+        if (same)
+            return true;
+    }
+    return false;
+}
+
+int values_shared(const Values *own, const Values *other)
+{
+    int shared = 0;
+    for (int i = 0; i < own->count; i++)
+        shared += has_value(other, own->items[i].numbers, own->items[i].size);
+    return shared;
+}
+
+int values_first(const Values *own, const Values *mutant, const Values *right)
+{
+    for (int i = 0; i < own->count; i++) {
+        const double *numbers = own->items[i].numbers;
+        if (has_value(mutant, numbers, own->items[i].size) &&
+            !has_value(right, numbers, own->items[i].size))
+            return i;
+    }
+    return -1;
+}
+
+enum { BAG = 1024 };
+
+static unsigned hash_text(const char *text)
+{
+    unsigned hash = 2166136261u;
+    for (; *text; text++)
+        hash = (hash ^ (unsigned char)*text) * 16777619u;
+    return hash;
+}
+
+static void fill_bag(const GlslTree *tree, int node, int bag[BAG], int by)
+{
+    const GlslNode *at = &tree->nodes[node];
+    char text[64] = "";
+    if (at->kind == GLSL_BUILT_IN)
+        snprintf(text, sizeof text, "%d()", GLSL_FUNCTIONS[at->symbol].id);
+    else if (at->kind == GLSL_BINARY || at->kind == GLSL_UNARY || at->kind == GLSL_SWIZZLE)
+        snprintf(text, sizeof text, "%d %d", at->kind, at->op);
+    else if (at->kind == GLSL_LITERAL)
+        snprintf(text, sizeof text, "%g", tree->values[at->value]);
+    else if (at->kind == GLSL_NAME && tree->symbols[at->symbol].storage >= GLSL_ATTRIBUTE &&
+             tree->symbols[at->symbol].storage <= GLSL_UNIFORM)
+        snprintf(text, sizeof text, "%.60s", tree->symbols[at->symbol].name);
+    if (text[0])
+        bag[hash_text(text) % BAG] += by;
+    for (int i = at->first; i; i = tree->nodes[i].next)
+        fill_bag(tree, i, bag, by);
+}
+
+int values_count_other(const GlslTree *a, const GlslTree *b)
+{
+    int bag[BAG] = {0}, sum = 0;
+    fill_bag(a, a->root, bag, 1);
+    fill_bag(b, b->root, bag, -1);
+    for (int i = 0; i < BAG; i++)
+        sum += abs(bag[i]);
+    return sum;
+}
+
+void derivation_place(const Derivation *all, GlslStage stage, int node, char *text, size_t size)
+{
+    const GlslTree *tree = all->own[stage].tree;
+    const GlslNode *at = &tree->nodes[node];
+    const ShaderSource *source = &all->sources[stage];
+    const int file = at->place.file >= 0 && at->place.file < source->file_count ? at->place.file : 0;
+    const char *path = source->file_count ? source->files[file] : "", *slash = strrchr(path, '/');
+    char code[80];
+    const int shown = at->kind == GLSL_VARIABLE_NODE ? at->first : node;
+    glsl_expression_text(tree, shown, code, sizeof code);
+    snprintf(text, size, "line %d of %s: %s%s%s", at->place.line, slash ? slash + 1 : path,
+             shown == node ? "" : tree->symbols[at->symbol].name, shown == node ? "" : " = ", code);
+}

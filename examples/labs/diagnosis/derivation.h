@@ -1,0 +1,78 @@
+/*
+ * derivation: what derive.c and its parts share: a submission and a right program at points.
+ */
+#ifndef DERIVATION_H
+#define DERIVATION_H
+
+#include "core/shader_source.h"
+#include "labs/diagnosis/mutation.h"
+#include "labs/diagnosis/points.h"
+#include "labs/submission/verdict.h"
+
+enum { MAX_FOUND = 60, MAX_FIRST = 6, TRACED = 6, MAX_VALUES = 400 };
+
+/* One mutation, or two: of a text that has another already. */
+typedef struct Found {
+    Mutation mutation;
+    const struct Found *first; /* NULL: one */
+    GlslStage stage;
+    char *text;
+    double apart;
+    int like;   /* of the first points, how many */
+    int shared; /* of the submission's values */
+    int other;  /* operations and names that the submission has more or less often */
+} Found;
+
+typedef struct Derivation {
+    const Lab *lab;
+    Points points;
+    PointShader own[2], right[2]; /* by GlslStage */
+    ShaderSource sources[2];      /* the submission's */
+    double (*wanted)[POINT_NUMBERS], (*exact)[POINT_NUMBERS];
+    int *order; /* of the points: where it is farthest from right, and where it is right, in turn */
+    double nearest_right; /* the sum of how far it is from the right program */
+    char *nearest_text;   /* of its fragment shader, if it has other numbers */
+    double wrong_by;
+    bool noted; /* the submission does what is undefined */
+    double numbers[MUTATION_NUMBERS];
+    int number_count, own_number_count; /* as they are in the submission */
+    GlslStage stage;       /* that is mutated */
+    PointShader *base[2];  /* of what: the right program, or a mutant of it */
+    const Found *first;    /* that mutant */
+    Found nearest[MAX_FIRST]; /* single mutations that explain some points more */
+    int nearest_count, like;
+    Found found[MAX_FOUND];
+    int found_count, tried;
+} Derivation;
+
+/* What shaders assign on their way, in order. */
+typedef struct Values {
+    struct {
+        double numbers[4];
+        int size, node, symbol;
+        GlslStage stage;
+    } items[MAX_VALUES];
+    int count;
+} Values;
+
+/* Of both shaders at a point: at its last corner, and there. */
+void values_trace(const Points *points, PointShader *vertex, PointShader *fragment, int point,
+                  Values *values);
+
+/* How many of `own` are among the others. */
+int values_shared(const Values *own, const Values *other);
+
+/* The first of the submission's values that is the mutant's and not the right program's; -1: none. */
+int values_first(const Values *own, const Values *mutant, const Values *right);
+
+/* How often operations, built-in functions, uniforms and numbers occur more in one than in the
+ * other. */
+int values_count_other(const GlslTree *a, const GlslTree *b);
+
+/* "line 14 of lab06.frag, float d = dot(n, l)". */
+void derivation_place(const Derivation *all, GlslStage stage, int node, char *text, size_t size);
+
+/* Says which terms are right or wrong and, if one value alone explains all, which. */
+void wrong_part_describe(Derivation *all, Verdict *verdict);
+
+#endif

@@ -1,0 +1,235 @@
+/* Light is a sum, so its terms can be seen one by one without knowing the text: what a uniform
+ * switches off is left out of both programs. Then each value that the submission assigns is
+ * replaced by each value of the right program: if one makes all right, the mistake is there. */
+#include "labs/diagnosis/derivation.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* That of pictures; and the share of points that may differ, at edges of shadows. */
+static const double TOLERANCE = 2.5 / 255, MAY_DIFFER = 0.03;
+
+enum { UNSEEN, RIGHT, WRONG, MAX_TERMS = 6 };
+
+/* What of the light is seen with `without` and not with `beside`. */
+typedef struct Term {
+    char name[40];
+    int without, beside;
+} Term;
+
+static int list_terms(const Lab *lab, Term terms[MAX_TERMS])
+{
+    static const int LIGHTS = POINTS_NO_FIRST | POINTS_NO_SECOND;
+    static const int NOTHING = LIGHTS | POINTS_NO_AMBIENT | POINTS_NO_SPECULAR;
+    int count = 0;
+    if (lab->ambient)
+        terms[count++] = (Term){"the ambient term", LIGHTS, NOTHING};
+    for (int specular = 0; specular <= lab->specular; specular++) {
+        for (int i = 0; i < lab->lights; i++) {
+            const int other = i == 0 ? POINTS_NO_SECOND : POINTS_NO_FIRST;
+            const int diffuse = POINTS_NO_AMBIENT | POINTS_NO_SPECULAR | other;
+            Term *term = &terms[count++];
+            *term = specular ? (Term){"", POINTS_NO_AMBIENT | other, diffuse}
+                             : (Term){"", diffuse, NOTHING};
+            snprintf(term->name, sizeof term->name, "%s%s",
+                     specular ? "the highlight" : "the diffuse term",
+                     lab->lights == 1 ? ""
+                     : i == 0         ? " of light 1"
+                                      : " of light 2");
+        }
+    }
+    return count;
+}
+
+typedef double (*Numbers)[POINT_NUMBERS];
+
+static void run_without(Derivation *all, PointShader pair[2], int without, Numbers numbers)
+{
+    all->points.without = without;
+    for (int i = 0; i < all->points.count; i++)
+        points_run(&all->points, &pair[0], &pair[1], i, numbers[i]);
+    all->points.without = 0;
+}
+
+static int judge_term(Derivation *all, const Term *term)
+{
+    const int count = all->points.count;
+    int seen = 0, wrong = 0;
+    Numbers own = memory_new((size_t)(4 * count), sizeof *own), own_beside = own + count;
+    Numbers right = own + 2 * count, right_beside = own + 3 * count;
+    run_without(all, all->own, term->without, own);
+    run_without(all, all->own, term->beside, own_beside);
+    run_without(all, all->right, term->without, right);
+    run_without(all, all->right, term->beside, right_beside);
+    for (int i = 0; i < count; i++) {
+        double apart = 0, light = 0;
+        for (int c = 0; c < 3; c++) {
+            const double own_light = own[i][c] - own_beside[i][c];
+            const double right_light = right[i][c] - right_beside[i][c];
+            /* Where all is white already nothing shows. */
+            const bool full = fmax(own[i][c], right[i][c]) > 0.995 &&
+                              fmin(own_beside[i][c], right_beside[i][c]) > TOLERANCE;
+            apart = fmax(apart, full ? 0 : fabs(own_light - right_light));
+            light = fmax(light, full ? 0 : fmax(fabs(own_light), right_light));
+        }
+        seen += light > TOLERANCE;
+        wrong += apart > TOLERANCE;
+    }
+    free(own);
+    return wrong > MAY_DIFFER * seen && wrong > 0 ? WRONG : seen > 4 ? RIGHT : UNSEEN;
+}
+
+/* "a", "a and b", "a, b and c" of the terms that are so. */
+static void list_names(const Term *terms, const int *states, int count, int state, char text[256])
+{
+    int left = 0;
+    size_t used = 0;
+    text[0] = '\0';
+    for (int i = 0; i < count; i++)
+        left += states[i] == state;
+    for (int i = 0; i < count; i++) {
+        if (states[i] != state)
+            continue;
+        left--;
+        used += (size_t)snprintf(text + used, 256 - used, "%s%s", terms[i].name,
+                                 left > 1    ? ", "
+                                 : left == 1 ? " and "
+                                             : "");
+    }
+}
+
+/* Replacing. */
+
+typedef struct Repair {
+    const Values *right; /* at this point */
+    const Values *own;
+    int node;           /* of the submission, whose value is replaced */
+    int symbol, offset; /* of the right program: whose value it gets, from which turn on */
+    GlslStage stage;    /* that of the right program's value */
+    int turn;           /* how often the node was reached */
+} Repair;
+
+static void replace(GlslRun *run, const GlslEvent *event, void *observer)
+{
+    Repair *repair = observer;
+    if (event->node != repair->node)
+        return;
+    int turn = repair->turn++ + repair->offset;
+    for (int i = 0; i < repair->right->count; i++) {
+        if (repair->right->items[i].symbol != repair->symbol ||
+            repair->right->items[i].stage != repair->stage || turn-- > 0)
+            continue;
+        for (int k = 0; k < event->count && k < repair->right->items[i].size; k++)
+            run->registers[event->first + k] = repair->right->items[i].numbers[k];
+        return;
+    }
+}
+
+/* Whether the submission is right where its node's values are the right program's. */
+static bool repairs(Derivation *all, const Values *rights, int own_stage, Repair *repair)
+{
+    bool right = true;
+    for (int i = 0; i < all->points.count && right; i++) {
+        const int point = all->order[i];
+        double numbers[POINT_NUMBERS];
+        repair->right = &rights[point];
+        repair->turn = 0;
+        GlslRun *run = all->own[own_stage].run;
+        run->assigned = replace;
+        run->observer = repair;
+        all->own[0].done[point] = false;
+        points_run(&all->points, &all->own[0], &all->own[1], point, numbers);
+        run->assigned = NULL;
+        right = points_apart(numbers, all->exact[point]) <= TOLERANCE;
+        if (own_stage == GLSL_VERTEX)
+            all->own[0].done[point] = false;
+    }
+    return right;
+}
+
+static bool is_result(const char *name)
+{
+    return strncmp(name, "gl_", 3) == 0;
+}
+
+/* The first value of the submission that one of the right program's can replace; -1: none. */
+static int find_repair(Derivation *all, const Values *rights, const Values *own, Repair *repair)
+{
+    const Values *right = &rights[all->order[0]];
+    for (int i = 0; i < own->count; i++) {
+        const GlslTree *tree = all->own[own->items[i].stage].tree;
+        if (is_result(tree->symbols[own->items[i].symbol].name))
+            continue;
+        for (int k = 0; k < right->count; k++) {
+            const GlslTree *other = all->right[right->items[k].stage].tree;
+            if (right->items[k].size != own->items[i].size ||
+                is_result(other->symbols[right->items[k].symbol].name))
+                continue;
+            for (int offset = 0; offset < 3; offset++) {
+                *repair = (Repair){.node = own->items[i].node,
+                                   .symbol = right->items[k].symbol,
+                                   .stage = right->items[k].stage,
+                                   .offset = offset};
+                if (repairs(all, rights, own->items[i].stage, repair))
+                    return i;
+            }
+        }
+    }
+    return -1;
+}
+
+/* The line where another value makes right what is seen `without` some parts; false: there is none.
+ * One run for a point, as if all three corners were there. */
+static bool find_line(Derivation *all, int without, char place[VERDICT_SENTENCE_SIZE])
+{
+    const int count = all->points.count;
+    const bool own_at_once = all->own[0].at_once, right_at_once = all->right[0].at_once;
+    Values *rights = memory_new((size_t)count + 1, sizeof *rights), *own = &rights[count];
+    Repair repair;
+    all->own[0].at_once = all->right[0].at_once = true;
+    all->points.without = without;
+    memset(all->own[0].done, 0, (size_t)count * sizeof(bool));
+    for (int i = 0; i < count; i++) {
+        values_trace(&all->points, &all->right[0], &all->right[1], i, &rights[i]);
+        points_run(&all->points, &all->right[0], &all->right[1], i, all->exact[i]);
+    }
+    values_trace(&all->points, &all->own[0], &all->own[1], all->order[0], own);
+    const int at = find_repair(all, rights, own, &repair);
+    if (at >= 0)
+        derivation_place(all, own->items[at].stage, own->items[at].node, place,
+                         VERDICT_SENTENCE_SIZE);
+    all->own[0].at_once = own_at_once;
+    all->right[0].at_once = right_at_once;
+    all->points.without = 0;
+    free(rights);
+    return at >= 0;
+}
+
+void wrong_part_describe(Derivation *all, Verdict *verdict)
+{
+    Term terms[MAX_TERMS];
+    int states[MAX_TERMS], first = -1;
+    char right[256], wrong[256], place[VERDICT_SENTENCE_SIZE] = "";
+    const int count = list_terms(all->lab, terms);
+    for (int i = 0; i < count; i++)
+        states[i] = judge_term(all, &terms[i]);
+    for (int i = count; i-- > 0;)
+        first = states[i] == WRONG ? i : first;
+    list_names(terms, states, count, RIGHT, right);
+    list_names(terms, states, count, WRONG, wrong);
+    if (wrong[0])
+        verdict_add_symptom(verdict, "Wrong, each seen alone: %s.", wrong);
+    if (right[0])
+        verdict_add_symptom(verdict, "Right, each seen alone: %s.", right);
+    if (find_line(all, 0, place))
+        verdict_add_symptom(verdict, "With another value there all would be right: %s.", place);
+    else if (first >= 0 && find_line(all, terms[first].without, place))
+        verdict_add_symptom(verdict, "With another value there %s would be right: %s.",
+                            terms[first].name, place);
+    snprintf(verdict->message, sizeof verdict->message, "Unknown mistake%s%s%s%s",
+             wrong[0] ? " in " : "", wrong, place[0] ? ", " : "", place);
+}
