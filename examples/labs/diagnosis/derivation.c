@@ -113,7 +113,8 @@ void derivation_place(const Derivation *all, GlslStage stage, int node, char *te
     const GlslTree *tree = all->own[stage].tree;
     const GlslNode *at = &tree->nodes[node];
     const ShaderSource *source = &all->sources[stage];
-    const int file = at->place.file >= 0 && at->place.file < source->file_count ? at->place.file : 0;
+    const int file =
+        at->place.file >= 0 && at->place.file < source->file_count ? at->place.file : 0;
     const char *path = source->file_count ? source->files[file] : "", *slash = strrchr(path, '/');
     char code[80];
     const int shown = at->kind == GLSL_VARIABLE_NODE ? at->first : node;

@@ -36,14 +36,29 @@ typedef struct Derivation {
     bool noted; /* the submission does what is undefined */
     double numbers[MUTATION_NUMBERS];
     int number_count, own_number_count; /* as they are in the submission */
-    GlslStage stage;       /* that is mutated */
-    PointShader *base[2];  /* of what: the right program, or a mutant of it */
-    const Found *first;    /* that mutant */
-    Found nearest[MAX_FIRST]; /* single mutations that explain some points more */
+    GlslStage stage;                    /* that is mutated */
+    PointShader *base[2];               /* of what: the right program, or a mutant of it */
+    const Found *first;                 /* that mutant */
+    Found nearest[MAX_FIRST];           /* single mutations that explain some points more */
     int nearest_count, like;
     Found found[MAX_FOUND];
     int found_count, tried;
 } Derivation;
+
+/* Reads a lab's shader of a stage from a folder that ends in a slash, or "". `ending`: of its name.
+ */
+bool derivation_read(const Lab *lab, const ShaderLoader *loader, const char *folder, int stage,
+                     const char *ending, ShaderSource *source);
+
+/* Runs a pair at all points; the sum of how far it is from `wanted`, which may be NULL. */
+double derivation_run(Derivation *all, PointShader pair[2], double (*numbers)[POINT_NUMBERS],
+                      const double (*wanted)[POINT_NUMBERS]);
+
+/* The lab's solution, or one that is written in another way; false: it has none. */
+bool right_open(Derivation *all, const char *ending);
+
+/* Makes it the right program that is nearest to the submission, and runs it. */
+void right_run(Derivation *all);
 
 /* What shaders assign on their way, in order. */
 typedef struct Values {
@@ -62,7 +77,8 @@ void values_trace(const Points *points, PointShader *vertex, PointShader *fragme
 /* How many of `own` are among the others. */
 int values_shared(const Values *own, const Values *other);
 
-/* The first of the submission's values that is the mutant's and not the right program's; -1: none. */
+/* The first of the submission's values that is the mutant's and not the right program's; -1: none.
+ */
 int values_first(const Values *own, const Values *mutant, const Values *right);
 
 /* How often operations, built-in functions, uniforms and numbers occur more in one than in the

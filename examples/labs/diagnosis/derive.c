@@ -18,71 +18,13 @@
  * more. A highlight that nearly vanishes is 1e-4 from one that does. */
 static const double EQUAL = 5e-5, ALIKE = 1e-6;
 
-static bool read_source(const Lab *lab, const ShaderLoader *loader, const char *folder, int stage,
-                        ShaderSource *source)
-{
-    char name[128];
-    snprintf(name, sizeof name, "%s%s.%s", folder, lab->file, stage == 0 ? "vert" : "frag");
-    return shader_source_open(source, loader, name, (ShaderStage)stage, NULL);
-}
-
 static bool open_own(Derivation *all, const SubmissionFiles *files)
 {
-    const ShaderLoader loader = {
-        .texts = files->texts, .only_texts = true, .precision = "highp"};
+    const ShaderLoader loader = {.texts = files->texts, .only_texts = true, .precision = "highp"};
     for (int i = 0; i < 2; i++)
-        if (!read_source(all->lab, &loader, "", i, &all->sources[i]) ||
+        if (!derivation_read(all->lab, &loader, "", i, "", &all->sources[i]) ||
             !point_shader_open(&all->own[i], all->sources[i].text, (GlslStage)i))
             return false;
-    return true;
-}
-
-/* The interface's uniforms that a right program does not use, but a mutant may. */
-static char *declare_rest(const Points *points, const GlslTree *tree)
-{
-    char *text = memory_text("");
-    const PointSetting *setting = &points->settings[0];
-    for (int i = 0; i < setting->value_count; i++) {
-        const BindingValue *value = &setting->values[i];
-        bool known = value->size == 0;
-        for (int k = 1; k < tree->symbol_count; k++)
-            known |= strcmp(tree->symbols[k].name, value->name) == 0;
-        if (known)
-            continue;
-        char *more = memory_format(
-            "%suniform highp %s %s%s;\n", text,
-            value->size == 16  ? "mat4"
-            : value->size == 1 ? "float"
-                               : "vec3",
-            value->name, value->count > 1 ? "[2]" : "");
-        free(text);
-        text = more;
-    }
-    return text;
-}
-
-static bool open_right(Derivation *all)
-{
-    const ShaderLoader loader = {.precision = "highp"};
-    char folder[96];
-    snprintf(folder, sizeof folder, "labs/solutions/%s/", all->lab->name);
-    for (int i = 0; i < 2; i++) {
-        ShaderSource source;
-        if (!read_source(all->lab, &loader, folder, i, &source))
-            return false;
-        GlslTree *tree = glsl_parse(source.text, (GlslStage)i, NULL);
-        char *rest = declare_rest(&all->points, tree), *body = glsl_print(tree, tree->root);
-        const int version = (int)strcspn(body, "\n") + 1; /* comes first */
-        char *text = memory_format("%.*s%s%s", version, body, rest, body + version);
-        const bool opened = point_shader_open(&all->right[i], text, (GlslStage)i);
-        free(text);
-        free(body);
-        free(rest);
-        glsl_tree_free(tree);
-        shader_source_close(&source);
-        if (!opened)
-            return false;
-    }
     return true;
 }
 
@@ -106,18 +48,6 @@ static void take_numbers(Derivation *all, const GlslTree *tree, int node)
         take_numbers(all, tree, i);
 }
 
-static double run_all(Derivation *all, PointShader pair[2], double (*numbers)[POINT_NUMBERS],
-                      const double (*wanted)[POINT_NUMBERS])
-{
-    double sum = 0;
-    for (int i = 0; i < all->points.count; i++) {
-        points_run(&all->points, &pair[0], &pair[1], i, numbers[i]);
-        all->noted |= !wanted && pair[0].run->note_count + pair[1].run->note_count > 0;
-        sum += wanted ? points_apart(numbers[i], wanted[i]) : 0;
-    }
-    return sum;
-}
-
 static void take_all_numbers(Derivation *all)
 {
     for (int i = 0; i < 2; i++)
@@ -127,64 +57,6 @@ static void take_all_numbers(Derivation *all)
         take_number(all, 1 / all->numbers[i]);
     for (int i = 0; i < count; i++)
         take_number(all, 1 + all->numbers[i]), take_number(all, 1 - all->numbers[i]);
-}
-
-/* Numbers that a right program may choose: what a task leaves open. */
-static bool is_free(const Lab *lab, const char *was, double number)
-{
-    return (lab->fitted && strcmp(was, "1.3") == 0 &&
-            (number == 0 || (number > 0.5 && number < 2))) ||
-           (lab->shadow && strcmp(was, "0.002") == 0 && number > 0.0004 && number < 0.0065);
-}
-
-/* A number that the submission has is its own; else 0, as if it were left out. */
-static double expected(const Derivation *all, double number)
-{
-    for (int i = 0; i < all->own_number_count; i++)
-        if (fabs(all->numbers[i] - number) < 1e-9)
-            return 2e6;
-    return number == 0 ? 1e6 : 0;
-}
-
-/* Keeps a right program with another of these numbers if it is nearer to the submission. */
-static bool try_right(void *context, const Mutation *mutation, const char *text)
-{
-    Derivation *all = context;
-    PointShader pair[2] = {all->right[0], {.setting = -1}};
-    const double number = atof(mutation->by + (mutation->by[0] == '('));
-    if (!is_free(all->lab, mutation->was, number) ||
-        !point_shader_open(&pair[1], text, GLSL_FRAGMENT))
-        return true;
-    const double apart =
-        run_all(all, pair, all->exact, (const double (*)[POINT_NUMBERS])all->wanted) -
-        expected(all, number);
-    const double was = all->nearest_right - (all->nearest_text ? 0 : expected(all, atof(mutation->was)));
-    if (apart < was) {
-        all->nearest_right = apart;
-        free(all->nearest_text);
-        all->nearest_text = memory_text(text);
-    }
-    point_shader_close(&pair[1]);
-    return true;
-}
-
-/* Of the right programs the nearest: light at the vertices or not, and with which numbers. */
-static void run_right(Derivation *all)
-{
-    const double (*wanted)[POINT_NUMBERS] = (const double (*)[POINT_NUMBERS])all->wanted;
-    all->nearest_right = run_all(all, all->right, all->exact, wanted);
-    for (int at_once = 1; at_once >= 0 && all->lab->either; at_once--) {
-        memset(all->right[0].done, 0, (size_t)all->points.count * sizeof(bool));
-        all->right[0].at_once = at_once;
-        if (run_all(all, all->right, all->exact, wanted) <= all->nearest_right)
-            break;
-    }
-    mutations_each(all->right[1].tree, all->numbers, all->number_count, try_right, all);
-    if (all->nearest_text) {
-        point_shader_close(&all->right[1]);
-        point_shader_open(&all->right[1], all->nearest_text, GLSL_FRAGMENT);
-    }
-    run_all(all, all->right, all->exact, NULL);
 }
 
 typedef struct Apart {
@@ -222,7 +94,7 @@ static void sort_points(Derivation *all)
     free(list);
 }
 
-enum { FIRST_POINTS = 16, MOST = 30000 /* mutants: some seconds */ };
+enum { FIRST_POINTS = 16, MOST = 40000 /* mutants: some seconds */ };
 
 /* How far the pair is from the submission, and how many of the first points are alike; far away:
  * it is not looked at further. */
@@ -269,9 +141,8 @@ static bool try_mutant(void *context, const Mutation *mutation, const char *text
         return true;
     shader.at_once = all->stage == GLSL_VERTEX && all->right[0].at_once;
     found.text = memory_text(text);
-    found.apart = all->stage == GLSL_VERTEX
-                      ? distance(all, &shader, all->base[1], &found.like)
-                      : distance(all, all->base[0], &shader, &found.like);
+    found.apart = all->stage == GLSL_VERTEX ? distance(all, &shader, all->base[1], &found.like)
+                                            : distance(all, all->base[0], &shader, &found.like);
     keep_nearest(all, &found);
     if (found.apart <= EQUAL)
         all->found[all->found_count++] = found;
@@ -290,7 +161,8 @@ static bool open_found(Derivation *all, const Found *found, PointShader *shader)
     return true;
 }
 
-/* Both stages of a mutant: one is the right program's, unless the first of two mutations is there. */
+/* Both stages of a mutant: one is the right program's, unless the first of two mutations is there.
+ */
 typedef struct Pair {
     PointShader own, other;
     PointShader *stages[2];
@@ -339,7 +211,7 @@ static void compare_values(Derivation *all)
 
 static bool is_nearer(const Found *a, const Found *b)
 {
-    return a->shared != b->shared  ? a->shared > b->shared
+    return a->shared != b->shared ? a->shared > b->shared
            : a->other != b->other ? a->other < b->other
            : a->mutation.rank != b->mutation.rank
                ? a->mutation.rank < b->mutation.rank
@@ -386,9 +258,9 @@ static void add(const Mutation *mutation, const char *place, Verdict *verdict)
     char name[64], sentence[VERDICT_SENTENCE_SIZE];
     snprintf(name, sizeof name, "%.63s", mutation->name);
     snprintf(sentence, sizeof sentence,
-             "%s%sIt draws what the right program draws with %s instead of %s.",
-             mutation->sentence, mutation->sentence[0] ? " " : "",
-             mutation->by[0] ? mutation->by : "nothing", mutation->was);
+             "%s%sIt draws what the right program draws with %s instead of %s.", mutation->sentence,
+             mutation->sentence[0] ? " " : "", mutation->by[0] ? mutation->by : "nothing",
+             mutation->was);
     verdict_add_mistake(verdict, name, sentence, place, 0.9);
 }
 
@@ -431,30 +303,59 @@ static void mutate_twice(Derivation *all)
     }
 }
 
+static void forget_right(Derivation *all)
+{
+    for (int i = 0; i < 2; i++)
+        point_shader_close(&all->right[i]);
+    for (int i = 0; i < all->nearest_count; i++)
+        free(all->nearest[i].text);
+    free(all->nearest_text);
+    all->nearest_text = NULL;
+    all->nearest_count = 0;
+    all->first = NULL;
+}
+
+static bool use_right(Derivation *all, const char *ending)
+{
+    forget_right(all);
+    if (!right_open(all, ending))
+        return false;
+    right_run(all);
+    sort_points(all);
+    for (int i = 0; i < 2; i++)
+        all->base[i] = &all->right[i];
+    distance(all, all->base[0], all->base[1], &all->like);
+    return true;
+}
+
+/* One mutation of each right program, then two. */
 static bool search(Derivation *all)
 {
-    all->base[0] = &all->right[0];
-    all->base[1] = &all->right[1];
-    distance(all, all->base[0], all->base[1], &all->like);
-    mutate(all);
-    if (all->found_count == 0)
-        mutate_twice(all);
+    static const char *const ENDINGS[] = {"_apart", ""};
+    for (int count = 1; count <= 2; count++) {
+        for (int i = 0; i < 2 && all->found_count == 0; i++) {
+            /* Where it computes what is right, it is wrong by what is undefined, or by precision.
+             */
+            if (!use_right(all, ENDINGS[i]) || all->wrong_by <= 4 * EQUAL)
+                continue;
+            mutate(all);
+            if (count == 2 && all->found_count == 0)
+                mutate_twice(all);
+        }
+    }
     return all->found_count > 0;
 }
 
 static void close_all(Derivation *all)
 {
+    forget_right(all);
     for (int i = 0; i < 2; i++) {
         point_shader_close(&all->own[i]);
-        point_shader_close(&all->right[i]);
         shader_source_close(&all->sources[i]);
     }
     for (int i = 0; i < all->found_count; i++)
         free(all->found[i].text);
-    for (int i = 0; i < all->nearest_count; i++)
-        free(all->nearest[i].text);
     points_close(&all->points);
-    free(all->nearest_text);
     free(all->wanted);
     free(all->exact);
     free(all->order);
@@ -468,29 +369,18 @@ bool derive_name(const LabPictures *pictures, const SubmissionFiles *files, Verd
     all->lab = pictures->lab;
     *named = false;
     const bool done = points_open(&all->points, pictures, message);
-    if (done && open_own(all, files) && open_right(all)) {
+    if (done && open_own(all, files)) {
         const size_t count = (size_t)all->points.count;
         all->wanted = memory_new(count, sizeof *all->wanted);
         all->exact = memory_new(count, sizeof *all->exact);
         all->order = memory_new(count, sizeof *all->order);
-        run_all(all, all->own, all->wanted, NULL);
+        derivation_run(all, all->own, all->wanted, NULL);
         take_all_numbers(all);
-        run_right(all);
-        sort_points(all);
-        if (all->wrong_by > 4 * EQUAL && search(all)) {
+        *named = search(all);
+        if (*named)
             say(all, choose(all), verdict);
-            *named = true;
-        } else {
+        else if (all->wrong_by > 4 * EQUAL)
             wrong_part_describe(all, verdict);
-        }
-        if (getenv("DERIVE"))
-            fprintf(stderr, "derive: %d points, wrong by %g, %d mutants, %d found, %d numbers\n",
-                    all->points.count, all->wrong_by, all->tried, all->found_count,
-                    all->number_count);
-        for (int i = 0; i < all->found_count && getenv("DERIVE"); i++)
-            fprintf(stderr, "  %g shared %d other %d rank %d: %s | %s -> %s\n", all->found[i].apart,
-                    all->found[i].shared, all->found[i].other, all->found[i].mutation.rank, all->found[i].mutation.name,
-                    all->found[i].mutation.was, all->found[i].mutation.by);
     }
     close_all(all);
     return done;

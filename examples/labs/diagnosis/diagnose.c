@@ -1,8 +1,8 @@
 /* Elimination, from the simplest explanation on: single mistakes, mistakes that are one wrong
- * number, soft edges of shadows, pairs. What is left after the submission's own scenes is drawn in
- * further ones, until all that are left have one name. Several names are given only if they look
- * alike in all of these, and none rather than a guess: how sure a name is has been measured on
- * submissions that were not seen before (TEACHING.md). */
+ * number, soft edges of shadows, pairs; then the mutants of a right program. What is left after the
+ * submission's own scenes is drawn in further ones, until all that are left have one name. Several
+ * names are given only if they look alike in all of these, and none rather than a guess: how sure a
+ * name is has been measured on submissions that were not seen before (TEACHING.md). */
 #include "labs/diagnosis/diagnose.h"
 
 #include "base/memory.h"
@@ -235,13 +235,13 @@ static bool find(Lineup *lineup, Verdict *verdict, bool *named, Message *message
         if (*named && verdict->mistake_count == 1 && all.tried[0].choices.factor)
             say_number(verdict, &all.tried[0]);
     }
-    if (done && all.left == 0 && lineup->painter->files && !lineup->pictures->lab->given)
-        done = derive_name(lineup->pictures, lineup->painter->files, verdict, named, message);
-    if (done && all.left == 0 && !*named) {
+    if (done && all.left == 0) {
         pairs = make_pairs(lineup, all.singles, all.single_count, &pair_count);
         done = narrow(lineup, verdict->seed, pairs, &pair_count, &near, message);
         *named = done && name(verdict, pairs, pair_count, near ? less_sure : SURE);
     }
+    if (done && !*named && lineup->painter->files && !lineup->pictures->lab->given)
+        done = derive_name(lineup->pictures, lineup->painter->files, verdict, named, message);
     free(all.singles);
     free(all.numbers);
     free(all.tried);

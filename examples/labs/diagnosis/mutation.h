@@ -12,8 +12,8 @@
 enum { MUTATION_TEXT = 160, MUTATION_NUMBERS = 16 };
 
 typedef struct Mutation {
-    int node;                 /* of the right tree */
-    char name[MUTATION_TEXT]; /* "not normalized: u_EyePosition - v_Position" */
+    int node;                                   /* of the right tree */
+    char name[MUTATION_TEXT];                   /* "not normalized: u_EyePosition - v_Position" */
     char was[MUTATION_TEXT], by[MUTATION_TEXT]; /* the node's text, and what is there instead */
     const char *sentence;                       /* what is wrong, or "" */
     int rank;                                   /* of two that are as near, the lower is named */

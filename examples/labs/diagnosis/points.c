@@ -310,8 +310,7 @@ static bool interpolate(const Points *points, const PointShader *vertex, int num
                         const char *name, double *numbers, int count)
 {
     const Point *point = &points->items[number];
-    const double *from =
-        vertex->outputs + (size_t)number * POINT_CORNERS * (size_t)vertex->width;
+    const double *from = vertex->outputs + (size_t)number * POINT_CORNERS * (size_t)vertex->width;
     for (int i = 0; i < vertex->code->variable_count; i++) {
         const GlslVariable *variable = &vertex->code->variables[i];
         if (!is_output(variable))
@@ -340,8 +339,7 @@ static bool is_front(const double clip[POINT_CORNERS][4])
 
 static void corner_places(const PointShader *vertex, int number, double clip[POINT_CORNERS][4])
 {
-    const double *from =
-        vertex->outputs + (size_t)number * POINT_CORNERS * (size_t)vertex->width;
+    const double *from = vertex->outputs + (size_t)number * POINT_CORNERS * (size_t)vertex->width;
     for (int i = 0; i < vertex->code->variable_count; i++) {
         const GlslVariable *variable = &vertex->code->variables[i];
         if (!is_output(variable))
@@ -393,8 +391,9 @@ void points_run(const Points *points, PointShader *vertex, PointShader *fragment
     const bool found = glsl_find(fragment->code, "gl_FragColor", &color) ||
                        glsl_find(fragment->code, "gl_FragData[0]", &color);
     for (int i = 0; i < 3; i++) {
-        numbers[i] =
-            ran && found ? from_0_to_1(fragment->run->registers[color.first + i]) : ran ? 0 : -1;
+        numbers[i] = ran && found ? from_0_to_1(fragment->run->registers[color.first + i])
+                     : ran        ? 0
+                                  : -1;
         numbers[3 + i] = clip[i] / clip[3];
     }
 }

@@ -1,0 +1,160 @@
+/* A right program is one of many: light at the vertices or not, another bias, another fitted
+ * exponent. Mutants are made of the one that is nearest to the submission; what a task leaves open
+ * is no mistake, but all that is compared would differ by it. */
+#include "labs/diagnosis/derivation.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool derivation_read(const Lab *lab, const ShaderLoader *loader, const char *folder, int stage,
+                     const char *ending, ShaderSource *source)
+{
+    char name[128];
+    snprintf(name, sizeof name, "%s%s%s.%s", folder, lab->file, ending,
+             stage == 0 ? "vert" : "frag");
+    return shader_source_open(source, loader, name, (ShaderStage)stage, NULL);
+}
+
+static bool normalizes(const GlslTree *tree, int node)
+{
+    const GlslNode *at = &tree->nodes[node];
+    const int id = at->kind == GLSL_BUILT_IN ? GLSL_FUNCTIONS[at->symbol].id : -1;
+    bool found = id == GLSL_NORMALIZE || id == GLSL_LENGTH || id == GLSL_INVERSESQRT;
+    for (int i = at->first; i && !found; i = tree->nodes[i].next)
+        found = normalizes(tree, i);
+    return found;
+}
+
+/* The interface's uniforms that a right program does not use, but a mutant may. */
+static char *declare_rest(const Points *points, const GlslTree *tree)
+{
+    char *text = memory_text("");
+    const PointSetting *setting = &points->settings[0];
+    for (int i = 0; i < setting->value_count; i++) {
+        const BindingValue *value = &setting->values[i];
+        bool known = value->size == 0;
+        for (int k = 1; k < tree->symbol_count; k++)
+            known |= strcmp(tree->symbols[k].name, value->name) == 0;
+        if (known)
+            continue;
+        char *more = memory_format("%suniform highp %s %s%s;\n", text,
+                                   value->size == 16  ? "mat4"
+                                   : value->size == 1 ? "float"
+                                                      : "vec3",
+                                   value->name, value->count > 1 ? "[2]" : "");
+        free(text);
+        text = more;
+    }
+    return text;
+}
+
+/* What differs from the tree's text: uniforms that are declared, and a vertex shader whose normals
+ * are normalized in the fragment shader only, if the submission's are. */
+static char *make_text(const Derivation *all, GlslTree *tree)
+{
+    char *rest = declare_rest(&all->points, tree), *body = glsl_print(tree, tree->root);
+    const int version = (int)strcspn(body, "\n") + 1; /* comes first */
+    char *at = strstr(body, "v_Normal = normalize(");
+    if (tree->stage == GLSL_VERTEX && at && !normalizes(all->own[0].tree, all->own[0].tree->root))
+        memcpy(at + strlen("v_Normal = "), "         ", strlen("normalize"));
+    char *text = memory_format("%.*s%s%s", version, body, rest, body + version);
+    free(rest);
+    free(body);
+    return text;
+}
+
+bool right_open(Derivation *all, const char *ending)
+{
+    const ShaderLoader loader = {.precision = "highp"};
+    char folder[96];
+    snprintf(folder, sizeof folder, "labs/solutions/%s/", all->lab->name);
+    for (int i = 0; i < 2; i++) {
+        ShaderSource source;
+        if (!derivation_read(all->lab, &loader, folder, i, i == 0 ? "" : ending, &source))
+            return false;
+        GlslTree *tree = glsl_parse(source.text, (GlslStage)i, NULL);
+        char *text = make_text(all, tree);
+        const bool opened = point_shader_open(&all->right[i], text, (GlslStage)i);
+        free(text);
+        glsl_tree_free(tree);
+        shader_source_close(&source);
+        if (!opened)
+            return false;
+    }
+    return true;
+}
+
+double derivation_run(Derivation *all, PointShader pair[2], double (*numbers)[POINT_NUMBERS],
+                      const double (*wanted)[POINT_NUMBERS])
+{
+    double sum = 0;
+    for (int i = 0; i < all->points.count; i++) {
+        points_run(&all->points, &pair[0], &pair[1], i, numbers[i]);
+        all->noted |= !wanted && pair[0].run->note_count + pair[1].run->note_count > 0;
+        sum += wanted ? points_apart(numbers[i], wanted[i]) : 0;
+    }
+    return sum;
+}
+
+/* Numbers that a right program may choose: what a task leaves open. */
+static bool is_free(const Lab *lab, const char *was, double number)
+{
+    return (lab->fitted && strcmp(was, "1.3") == 0 &&
+            (number == 0 || (number > 0.5 && number < 2))) ||
+           (lab->shadow && strcmp(was, "0.002") == 0 && number > 0.0004 && number < 0.0065);
+}
+
+/* A number that the submission has is its own; else 0, as if it were left out. */
+static double expected(const Derivation *all, double number)
+{
+    for (int i = 0; i < all->own_number_count; i++)
+        if (fabs(all->numbers[i] - number) < 1e-9)
+            return 2e6;
+    return number == 0 ? 1e6 : 0;
+}
+
+/* Keeps a right program with another of these numbers if it is nearer to the submission. */
+static bool try_right(void *context, const Mutation *mutation, const char *text)
+{
+    Derivation *all = context;
+    PointShader pair[2] = {all->right[0], {.setting = -1}};
+    const double number = atof(mutation->by + (mutation->by[0] == '('));
+    if (!is_free(all->lab, mutation->was, number) ||
+        !point_shader_open(&pair[1], text, GLSL_FRAGMENT))
+        return true;
+    const double apart =
+        derivation_run(all, pair, all->exact, (const double(*)[POINT_NUMBERS])all->wanted) -
+        expected(all, number);
+    const double was =
+        all->nearest_right - (all->nearest_text ? 0 : expected(all, atof(mutation->was)));
+    if (apart < was) {
+        all->nearest_right = apart;
+        free(all->nearest_text);
+        all->nearest_text = memory_text(text);
+    }
+    point_shader_close(&pair[1]);
+    return true;
+}
+
+/* Of the right programs the nearest: light at the vertices or not, and with which numbers. */
+void right_run(Derivation *all)
+{
+    const double(*wanted)[POINT_NUMBERS] = (const double(*)[POINT_NUMBERS])all->wanted;
+    all->nearest_right = derivation_run(all, all->right, all->exact, wanted);
+    for (int at_once = 1; at_once >= 0 && all->lab->either; at_once--) {
+        memset(all->right[0].done, 0, (size_t)all->points.count * sizeof(bool));
+        all->right[0].at_once = at_once;
+        if (derivation_run(all, all->right, all->exact, wanted) <= all->nearest_right)
+            break;
+    }
+    mutations_each(all->right[1].tree, all->numbers, all->number_count, try_right, all);
+    if (all->nearest_text) {
+        point_shader_close(&all->right[1]);
+        point_shader_open(&all->right[1], all->nearest_text, GLSL_FRAGMENT);
+    }
+    derivation_run(all, all->right, all->exact, NULL);
+}

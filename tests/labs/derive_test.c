@@ -1,0 +1,132 @@
+/* Mutants of the labs' solutions, handed in as submissions: each that changes what is computed is
+ * explained by itself, or by another that computes the same. */
+#include "labs/diagnosis/derive.h"
+
+#include "labs/diagnosis/mutation.h"
+#include "core/shader_source.h"
+#include "support/testing.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { MUTANTS = 3 }; /* of each shader */
+
+typedef struct Trial {
+    const Lab *lab;
+    LabPictures pictures;
+    char *texts[2];
+    int stage;      /* that is mutated */
+    int step, seen; /* every so manieth is tried */
+    int tried, named, same;
+} Trial;
+
+static char *read_solution(const Lab *lab, int stage)
+{
+    const ShaderLoader loader = {.precision = "highp"};
+    char name[128];
+    ShaderSource source;
+    Message message = {0};
+    snprintf(name, sizeof name, "labs/solutions/%s/%s.%s", lab->name, lab->file,
+             stage == 0 ? "vert" : "frag");
+    if (!shader_source_open(&source, &loader, name, (ShaderStage)stage, &message))
+        fail_msg("%s", message.text);
+    GlslTree *tree = glsl_parse(source.text, (GlslStage)stage, NULL);
+    char *text = glsl_print(tree, tree->root);
+    glsl_tree_free(tree);
+    shader_source_close(&source);
+    return text;
+}
+
+/* After its first line, which the loader writes itself. */
+static void add_file(SubmissionFiles *files, const Lab *lab, int stage, const char *text)
+{
+    char name[64];
+    const char *body = strchr(text, '\n') + 1;
+    snprintf(name, sizeof name, "%s.%s", lab->file, stage == 0 ? "vert" : "frag");
+    assert_true(submission_files_add(files, name, body, strlen(body) + 1, NULL) ||
+                submission_files_add(files, name, body, strlen(body), NULL));
+}
+
+static void try(Trial *trial, const Mutation *mutation, const char *text)
+{
+    static Verdict verdict;
+    SubmissionFiles files = {.count = 0};
+    Message message = {0};
+    bool named = false;
+    verdict = (Verdict){.seed = 1};
+    for (int i = 0; i < 2; i++)
+        add_file(&files, trial->lab, i, i == trial->stage ? text : trial->texts[i]);
+    if (!derive_name(&trial->pictures, &files, &verdict, &named, &message))
+        fail_msg("%s", message.text);
+    submission_files_close(&files);
+    if (!verdict.message[0]) /* it computes what is right, or does not compile */
+        return;
+    trial->tried++;
+    trial->named += named;
+    trial->same += named && verdict.mistake_count == 1 &&
+                   strncmp(verdict.mistakes[0].name, mutation->name, 63) == 0;
+    if (!named)
+        printf("%s: without a name: %s\n", trial->lab->file, mutation->name);
+}
+
+static bool take(void *context, const Mutation *mutation, const char *text)
+{
+    Trial *trial = context;
+    if (trial->seen++ % trial->step == trial->step / 2)
+        try(trial, mutation, text);
+    return true;
+}
+
+static bool count(void *context, const Mutation *mutation, const char *text)
+{
+    (void)mutation;
+    (void)text;
+    ++*(int *)context;
+    return true;
+}
+
+static void test_lab(const Lab *lab, Trial *sum)
+{
+    static Trial trial;
+    const double numbers[] = {0.4};
+    Message message = {0};
+    trial = (Trial){.lab = lab};
+    if (!lab_pictures_open(&trial.pictures, lab, 1, &message))
+        fail_msg("%s", message.text);
+    for (int i = 0; i < 2; i++)
+        trial.texts[i] = read_solution(lab, i);
+    for (trial.stage = 0; trial.stage < 2; trial.stage++) {
+        GlslTree *tree = glsl_parse(trial.texts[trial.stage], (GlslStage)trial.stage, NULL);
+        int all = 0;
+        mutations_each(tree, numbers, 1, count, &all);
+        glsl_tree_free(tree);
+        tree = glsl_parse(trial.texts[trial.stage], (GlslStage)trial.stage, NULL);
+        trial.step = all / MUTANTS + 1;
+        trial.seen = 0;
+        mutations_each(tree, numbers, 1, take, &trial);
+        glsl_tree_free(tree);
+    }
+    for (int i = 0; i < 2; i++)
+        free(trial.texts[i]);
+    lab_pictures_close(&trial.pictures);
+    sum->tried += trial.tried;
+    sum->named += trial.named;
+    sum->same += trial.same;
+}
+
+TEST(test_mutants)
+{
+    static Trial sum;
+    for (int i = 0; i < LAB_COUNT; i += testing_step(2))
+        if (!LABS[i].given && !LABS[i].budget && !LABS[i].shadow) /* the last needs a driver */
+            test_lab(&LABS[i], &sum);
+    printf("%d mutants, %d named, %d by their own names\n", sum.tried, sum.named, sum.same);
+    assert_true(sum.tried >= 10);
+    assert_int_equal(sum.named, sum.tried);
+    assert_true(2 * sum.same >= sum.tried);
+}
+
+int main(void)
+{
+    return testing_run(0, "derive", NULL, NULL);
+}
