@@ -89,7 +89,8 @@ static bool add_scene(Points *points, const LabScene *lab_scene, const Mesh *mes
         const Drawn drawn = {.scene = &lab_scene->scene,
                              .object = i,
                              .aspect = (double)lab_scene->width / lab_scene->height,
-                             .map = &map};
+                             .map = &map,
+                             .own = lab_scene->own};
         *setting = (PointSetting){
             .width = lab_scene->width, .height = lab_scene->height, .color = {0, 0, 0, 1}};
         setting->value_count = binding_values(points->lab, &drawn, setting->values, message);
@@ -233,16 +234,23 @@ static void use_setting(const Points *points, PointShader *shader, int number)
     }
 }
 
-static void set_attributes(PointShader *shader, const PointSetting *setting,
+static bool is_called(const char *name, const char *own, const char *usual)
+{
+    return strcmp(name, own ? own : usual) == 0;
+}
+
+static void set_attributes(const Points *points, PointShader *shader, const PointSetting *setting,
                            const MeshVertex *vertex)
 {
+    const LabAttributes *names = &points->lab->attributes;
     for (int i = 0; i < shader->code->variable_count; i++) {
         const GlslVariable *variable = &shader->code->variables[i];
         if (variable->storage != GLSL_ATTRIBUTE)
             continue;
-        const float *from = strcmp(variable->name, "a_Position") == 0 ? vertex->position
-                            : strcmp(variable->name, "a_Normal") == 0 ? vertex->normal
-                                                                      : setting->color;
+        const float *from = is_called(variable->name, names->position, "a_Position")
+                                ? vertex->position
+                            : is_called(variable->name, names->normal, "a_Normal") ? vertex->normal
+                                                                                   : setting->color;
         double *to = shader->run->registers + variable->first;
         for (int k = 0; k < variable->count; k++)
             to[k] = k == 3 ? 1 : from[k]; /* also of a normal */
@@ -291,7 +299,7 @@ static void run_corners(const Points *points, PointShader *shader, int number)
     double *to = shader->outputs + (size_t)number * POINT_CORNERS * (size_t)shader->width;
     for (int corner = 0; corner < POINT_CORNERS; corner++) {
         const MeshVertex center = middle(point);
-        set_attributes(shader, &points->settings[point->setting],
+        set_attributes(points, shader, &points->settings[point->setting],
                        shader->at_once ? &center : &point->corners[corner]);
         glsl_run(shader->run);
         for (int i = 0; i < shader->code->variable_count; i++) {

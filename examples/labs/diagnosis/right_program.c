@@ -13,7 +13,7 @@
 bool derivation_read(const Lab *lab, const ShaderLoader *loader, const char *folder, int stage,
                      const char *ending, ShaderSource *source)
 {
-    char name[128];
+    char name[PATH_MAX + 64];
     snprintf(name, sizeof name, "%s%s%s.%s", folder, lab->file, ending,
              stage == 0 ? "vert" : "frag");
     return shader_source_open(source, loader, name, (ShaderStage)stage, NULL);
@@ -36,7 +36,7 @@ static char *declare_rest(const Points *points, const GlslTree *tree)
     const PointSetting *setting = &points->settings[0];
     for (int i = 0; i < setting->value_count; i++) {
         const BindingValue *value = &setting->values[i];
-        bool known = value->size == 0;
+        bool known = value->size == 0 || strpbrk(value->name, " .[");
         for (int k = 1; k < tree->symbol_count; k++)
             known |= strcmp(tree->symbols[k].name, value->name) == 0;
         if (known)
@@ -69,9 +69,14 @@ static char *make_text(const Derivation *all, GlslTree *tree)
 
 bool right_open(Derivation *all, const char *ending)
 {
-    const ShaderLoader loader = {.precision = "highp"};
-    char folder[96];
-    snprintf(folder, sizeof folder, "labs/solutions/%s/", all->lab->name);
+    /* A lab that is read from its folder has its own. */
+    const bool own = all->lab->solution_count > 0;
+    const ShaderLoader loader = {.precision = "highp",
+                                 .texts = own ? all->lab->solutions[0].texts : NULL,
+                                 .only_texts = own};
+    char folder[PATH_MAX] = "";
+    if (!own)
+        snprintf(folder, sizeof folder, "labs/solutions/%s/", all->lab->name);
     for (int i = 0; i < 2; i++) {
         ShaderSource source;
         if (!derivation_read(all->lab, &loader, folder, i, i == 0 ? "" : ending, &source))

@@ -13,7 +13,7 @@
 /* That of pictures; and the share of points that may differ, at edges of shadows. */
 static const double TOLERANCE = 2.5 / 255, MAY_DIFFER = 0.03;
 
-enum { UNSEEN, RIGHT, WRONG, MAX_TERMS = 6 };
+enum { UNSEEN, RIGHT, WRONG, MAX_TERMS = 7 };
 
 /* What of the light is seen with `without` and not with `beside`. */
 typedef struct Term {
@@ -26,6 +26,8 @@ static int list_terms(const Lab *lab, Term terms[MAX_TERMS])
     static const int LIGHTS = POINTS_NO_FIRST | POINTS_NO_SECOND;
     static const int NOTHING = LIGHTS | POINTS_NO_AMBIENT | POINTS_NO_SPECULAR;
     int count = 0;
+    /* Nothing, if it is right. */
+    terms[count++] = (Term){"what is there without any light", NOTHING, -1};
     if (lab->ambient)
         terms[count++] = (Term){"the ambient term", LIGHTS, NOTHING};
     for (int specular = 0; specular <= lab->specular; specular++) {
@@ -50,7 +52,7 @@ typedef double (*Numbers)[POINT_NUMBERS];
 static void run_without(Derivation *all, PointShader pair[2], int without, Numbers numbers)
 {
     all->points.without = without;
-    for (int i = 0; i < all->points.count; i++)
+    for (int i = 0; i < all->points.count && without >= 0; i++)
         points_run(&all->points, &pair[0], &pair[1], i, numbers[i]);
     all->points.without = 0;
 }
