@@ -54,14 +54,12 @@ static void add_names(const GlslCode *code, const char ***names, int *count, int
 
 static bool has_name(const GlslCode *code, const char *name)
 {
-    const char **names = NULL;
     GlslVariable variable;
-    int count = 0, room = 0;
     bool has = glsl_find(code, name, &variable) && is_shown(code, &variable);
-    add_names(code, &names, &count, &room);
-    for (int i = 0; i < count; i++)
-        has |= strcmp(names[i], name) == 0;
-    free(names);
+    for (int i = 0; i < code->instruction_count && !has; i++) {
+        const GlslSymbol *symbol = &code->tree->symbols[glsl_event_symbol(code, i)];
+        has = symbol->name && strcmp(symbol->name, name) == 0 && glsl_is_vector(symbol->type);
+    }
     return has;
 }
 

@@ -1,7 +1,8 @@
 /*
- * Colours for values. A scalar has a place on a scale from the least to the largest; a vector is a
- * direction if all have about length 1, else a place if most have a negative component, else a
- * colour. What is out of order has a colour that no direction and no place of the scale has.
+ * Colours for values. A number has a place on a scale from the least to the largest, an error on a
+ * logarithmic one, because errors of neighbours may differ a thousandfold; vectors are directions
+ * if all have about length 1, else places if most have a negative component, else colours. What is
+ * out of order has a colour that no direction and no place of the scale has.
  */
 #include "probe/show.h"
 
@@ -14,89 +15,118 @@
 
 const double SHOW_LEAST = 0.01;
 
-static const unsigned char NEGATIVE[3] = {0, 128, 255}, CLIPPED[3] = {255, 0, 255},
-                           UNDEFINED[3] = {255, 128, 0}, SMALL[3] = {64, 64, 64},
+static const unsigned char NEGATIVE_COLOR[3] = {0, 128, 255}, CLIPPED_COLOR[3] = {255, 0, 255},
+                           UNDEFINED_COLOR[3] = {255, 128, 0}, SMALL[3] = {64, 64, 64},
                            OTHER[3] = {160, 160, 160};
 
 /* Lengths of directions: interpolated normals of a coarse mesh are shorter than 1. */
 static const double DIRECTION = 0.125;
 
+/* What is out of order with a pixel. */
+enum { UNDEFINED = 1, NEGATIVE = 2, CLIPPED = 4 };
+
+typedef enum Form { NUMBERS, ERRORS, DIRECTIONS, PLACES, COLORS } Form;
+
 /* What there is of a value. */
 typedef struct Range {
-    long shown, negative, clipped, undefined; /* pixels */
-    double least, most;                       /* of numbers that are not negative */
-    double largest;                           /* component, without its sign */
-    int count;                                /* of components */
-    bool directions;
+    Form form;
+    long shown, half, faults[CLIPPED + 1]; /* pixels; half: with an error over half a step */
+    double least, most;                    /* of numbers that are not negative */
+    double largest;                        /* component, without its sign */
 } Range;
 
-static double length_of(const ShowPixel *pixel)
+static double largest_of(const ShowPixel *pixel)
+{
+    double largest = 0;
+    for (int k = 0; k < pixel->count; k++)
+        largest = fmax(largest, fabs((double)pixel->values[k]));
+    return largest;
+}
+
+static int faults_of(const ShowPixel *pixel)
+{
+    int faults = 0;
+    for (int k = 0; k < pixel->count; k++)
+        faults |= !isfinite(pixel->values[k]) ? UNDEFINED
+                  : pixel->values[k] < 0      ? NEGATIVE
+                  : pixel->values[k] > 1      ? CLIPPED
+                                              : 0;
+    return faults;
+}
+
+static bool is_direction(const ShowPixel *pixel)
 {
     double sum = 0;
-    for (int i = 0; i < pixel->count; i++)
-        sum += (double)pixel->values[i] * (double)pixel->values[i];
-    return sqrt(sum);
-}
-
-static bool has(const ShowPixel *pixel, bool (*kind)(double value))
-{
-    for (int i = 0; i < pixel->count; i++)
-        if (kind((double)pixel->values[i]))
-            return true;
-    return false;
-}
-
-static bool is_undefined(double value)
-{
-    return !isfinite(value);
-}
-
-static bool is_negative(double value)
-{
-    return value < 0;
-}
-
-static bool is_clipped(double value)
-{
-    return value > 1;
+    for (int k = 0; k < pixel->count; k++)
+        sum += (double)pixel->values[k] * (double)pixel->values[k];
+    return pixel->count == 3 && fabs(sqrt(sum) - 1) <= DIRECTION;
 }
 
 static Range range_of(const Show *show)
 {
-    Range range = {.least = INFINITY, .directions = true};
-    const size_t count = (size_t)show->width * (size_t)show->height;
-    for (size_t i = 0; i < count; i++) {
+    Range range = {.least = INFINITY};
+    long directions = 0;
+    int components = 0;
+    for (int i = 0; i < show->width * show->height; i++) {
         const ShowPixel *pixel = &show->pixels[i];
-        if (!pixel->count)
+        const int faults = faults_of(pixel);
+        range.shown += pixel->count > 0;
+        for (int fault = UNDEFINED; fault <= CLIPPED; fault *= 2)
+            range.faults[fault] += (faults & fault) != 0;
+        if (!pixel->count || faults & UNDEFINED)
             continue;
-        range.shown++;
-        range.count = pixel->count > range.count ? pixel->count : range.count;
-        if (has(pixel, is_undefined)) {
-            range.undefined++;
-            continue;
-        }
-        range.negative += has(pixel, is_negative);
-        range.clipped += has(pixel, is_clipped);
-        range.directions &= pixel->count == 3 && fabs(length_of(pixel) - 1) <= DIRECTION;
+        components = pixel->count > components ? pixel->count : components;
+        directions += is_direction(pixel);
+        range.half += largest_of(pixel) > 0.5;
+        range.largest = fmax(range.largest, largest_of(pixel));
         for (int k = 0; k < pixel->count; k++) {
             const double value = (double)pixel->values[k];
             range.least = value >= 0 ? fmin(range.least, value) : range.least;
             range.most = fmax(range.most, value);
-            range.largest = fmax(range.largest, fabs(value));
         }
     }
-    range.directions &= range.shown > range.undefined;
+    range.least = fmin(range.least, range.most);
+    range.form = show->kind == SHOW_ERROR                                            ? ERRORS
+                 : components < 2                                                    ? NUMBERS
+                 : directions && directions == range.shown - range.faults[UNDEFINED] ? DIRECTIONS
+                 : 2 * range.faults[NEGATIVE] > range.shown                          ? PLACES
+                                                                                     : COLORS;
     return range;
 }
 
-static void set(unsigned char color[4], const unsigned char value[3])
+/* On the scale. */
+static void paint_number(const Range *range, double value, unsigned char color[3])
 {
-    memcpy(color, value, 3);
+    if (range->form == NUMBERS)
+        image_viridis(
+            range->most > range->least ? (value - range->least) / (range->most - range->least) : 1,
+            color);
+    else if (value < SHOW_LEAST)
+        memcpy(color, SMALL, 3);
+    else
+        image_viridis(log(value / SHOW_LEAST) / log(fmax(range->largest / SHOW_LEAST, 2)), color);
 }
 
-static unsigned char byte(double value)
+static void paint_pixel(const Range *range, const ShowPixel *pixel, unsigned char color[3])
 {
-    return (unsigned char)(origin_step(value) + 0.5);
+    const int faults = faults_of(pixel);
+    const double scale = range->form == DIRECTIONS ? 1 : range->largest;
+    if (faults & UNDEFINED)
+        memcpy(color, UNDEFINED_COLOR, 3);
+    else if (faults & NEGATIVE && (range->form == NUMBERS || range->form == COLORS))
+        memcpy(color, NEGATIVE_COLOR, 3);
+    else if (faults & CLIPPED && range->form == COLORS)
+        memcpy(color, CLIPPED_COLOR, 3);
+    else if (range->form <= ERRORS)
+        paint_number(range, largest_of(pixel), color);
+    else
+        for (int k = 0; k < 3 && k < pixel->count; k++) {
+            const double value = (double)pixel->values[k];
+            color[k] =
+                (unsigned char)(origin_step(range->form == COLORS ? value
+                                                                  : 0.5 + 0.5 * value / scale) +
+                                0.5);
+        }
 }
 
 static void put_count(FILE *legend, long count, const char *what)
@@ -105,92 +135,27 @@ static void put_count(FILE *legend, long count, const char *what)
         fprintf(legend, "; %s: %ld pixels", what, count);
 }
 
-/* One number. */
-static void paint_scalars(const Show *show, const Range *range, Image *picture, FILE *legend)
+static void put_legend(const Range *range, FILE *legend)
 {
-    const double least = range->least <= range->most ? range->least : 0;
-    const double width = range->most - least;
-    for (int i = 0; i < show->width * show->height; i++) {
-        const ShowPixel *pixel = &show->pixels[i];
-        const double value = (double)pixel->values[0];
-        unsigned char *color = (unsigned char *)picture->pixels + 4 * (size_t)i;
-        if (!pixel->count)
-            continue;
-        if (is_undefined(value))
-            set(color, UNDEFINED);
-        else if (is_negative(value))
-            set(color, NEGATIVE);
-        else
-            image_viridis(width > 0 ? (value - least) / width : 1, color);
-    }
-    fprintf(legend, "%s: from %.6g, dark violet, to %.6g, yellow", show->what, least, range->most);
-    put_count(legend, range->negative, "negative, in azure");
-}
-
-/* Two to four. */
-static void paint_vectors(const Show *show, const Range *range, Image *picture, FILE *legend)
-{
-    const bool colors = !range->directions && 2 * range->negative <= range->shown;
-    const double scale = range->directions ? 1 : range->largest;
-    for (int i = 0; i < show->width * show->height; i++) {
-        const ShowPixel *pixel = &show->pixels[i];
-        unsigned char *color = (unsigned char *)picture->pixels + 4 * (size_t)i;
-        if (!pixel->count)
-            continue;
-        for (int k = 0; k < 3 && k < pixel->count; k++) {
-            const double value = (double)pixel->values[k];
-            color[k] = byte(colors ? value : 0.5 + 0.5 * value / scale);
-        }
-        if (has(pixel, is_undefined))
-            set(color, UNDEFINED);
-        else if (colors && has(pixel, is_negative))
-            set(color, NEGATIVE);
-        else if (colors && has(pixel, is_clipped))
-            set(color, CLIPPED);
-    }
-    if (colors) {
-        fprintf(legend, "%s: as a colour, from %.6g to %.6g", show->what,
-                range->least <= range->most ? range->least : 0, range->most);
-        put_count(legend, range->negative, "negative, in azure");
-        put_count(legend, range->clipped, "over 1, in magenta");
-    } else if (range->directions) {
-        fprintf(legend, "%s: directions, each component c as 0.5 + 0.5 c", show->what);
-    } else {
-        fprintf(legend, "%s: each component c as 0.5 + 0.5 c / %.6g", show->what, scale);
-    }
-}
-
-static double error_of(const ShowPixel *pixel)
-{
-    double error = 0;
-    for (int k = 0; k < pixel->count; k++)
-        error = fmax(error, fabs((double)pixel->values[k]));
-    return error;
-}
-
-/* On a logarithmic scale, because errors of neighbours may differ a thousandfold. */
-static void paint_errors(const Show *show, const Range *range, Image *picture, FILE *legend)
-{
-    const double decades = log(fmax(range->largest, 2 * SHOW_LEAST) / SHOW_LEAST);
-    long half = 0;
-    for (int i = 0; i < show->width * show->height; i++) {
-        const ShowPixel *pixel = &show->pixels[i];
-        unsigned char *color = (unsigned char *)picture->pixels + 4 * (size_t)i;
-        const double error = error_of(pixel);
-        if (!pixel->count)
-            continue;
-        half += error > 0.5;
-        if (has(pixel, is_undefined))
-            set(color, UNDEFINED);
-        else if (error < SHOW_LEAST)
-            set(color, SMALL);
-        else
-            image_viridis(log(error / SHOW_LEAST) / decades, color);
-    }
-    fprintf(legend,
-            "%s: from %g, dark violet, to %.3g steps of 1/255, yellow, on a logarithmic scale; "
-            "less, in dark grey; over half a step: %ld of %ld pixels",
-            show->what, SHOW_LEAST, range->largest, half, range->shown);
+    if (range->form == NUMBERS)
+        fprintf(legend, "from %.6g, dark violet, to %.6g, yellow", range->least, range->most);
+    else if (range->form == ERRORS)
+        fprintf(legend,
+                "from %g, dark violet, to %.3g steps of 1/255, yellow, on a logarithmic scale; "
+                "less, in dark grey; over half a step: %ld of %ld pixels",
+                SHOW_LEAST, range->largest, range->half, range->shown);
+    else if (range->form == DIRECTIONS)
+        fprintf(legend, "directions, each component c as 0.5 + 0.5 c");
+    else if (range->form == PLACES)
+        fprintf(legend, "each component c as 0.5 + 0.5 c / %.6g", range->largest);
+    else
+        fprintf(legend, "as a colour, from %.6g to %.6g", range->least, range->most);
+    if (range->form == NUMBERS || range->form == COLORS)
+        put_count(legend, range->faults[NEGATIVE], "negative, in azure");
+    if (range->form == COLORS)
+        put_count(legend, range->faults[CLIPPED], "over 1, in magenta");
+    put_count(legend, range->faults[UNDEFINED], "no number, in orange");
+    fprintf(legend, "; black: no triangle%s\n", range->shown ? "" : ": nothing here computes it");
 }
 
 /* Blame */
@@ -252,7 +217,7 @@ static const struct {
                {"blue", {0, 114, 178}},
                {"vermilion", {213, 94, 0}},
                {"reddish purple", {204, 121, 167}}};
-enum { COLORS = sizeof PALETTE / sizeof PALETTE[0] };
+enum { PALETTE_COLORS = sizeof PALETTE / sizeof PALETTE[0] };
 
 static void paint_blame(const Show *show, Image *picture, FILE *legend)
 {
@@ -274,16 +239,16 @@ static void paint_blame(const Show *show, Image *picture, FILE *legend)
         const ShowPixel *pixel = &show->pixels[i];
         unsigned char *color = (unsigned char *)picture->pixels + 4 * (size_t)i;
         if (pixel->count && pixel->place.line < 0)
-            set(color, SMALL);
+            memcpy(color, SMALL, 3);
         else if (pixel->count) {
             const int line = line_of(show, pixel, &lines, &count, &room);
-            set(color, line < COLORS ? PALETTE[line].color : OTHER);
+            memcpy(color, line < PALETTE_COLORS ? PALETTE[line].color : OTHER, 3);
         }
     }
-    fprintf(legend, "blame: the line in which most of a pixel's error by rounding is born\n");
+    fprintf(legend, "the line in which most of a pixel's error by rounding is born\n");
     for (int i = 0; i < count; i++)
         fprintf(legend, "%8ld pixels, %s: %s%s%s\n", lines[i].pixels,
-                i < COLORS ? PALETTE[i].name : "light grey", lines[i].name,
+                i < PALETTE_COLORS ? PALETTE[i].name : "light grey", lines[i].name,
                 lines[i].text[0] ? ": " : "", lines[i].text);
     fprintf(legend, "%8ld pixels, dark grey: off by less than a hundredth of a step\n", small);
     free(lines);
@@ -293,18 +258,15 @@ void show_paint(const Show *show, Image *picture, FILE *legend)
 {
     const Range range = range_of(show);
     unsigned char *bytes = picture->pixels;
-    for (size_t i = 0; i < (size_t)show->width * (size_t)show->height; i++)
-        memcpy(bytes + 4 * i, (unsigned char[4]){0, 0, 0, 255}, 4);
-    if (show->kind == SHOW_BLAME) {
-        paint_blame(show, picture, legend);
-        return;
+    const size_t count = (size_t)show->width * (size_t)show->height;
+    for (size_t i = 0; i < count; i++, bytes += 4) {
+        memcpy(bytes, (unsigned char[4]){0, 0, 0, 255}, 4);
+        if (show->kind != SHOW_BLAME && show->pixels[i].count)
+            paint_pixel(&range, &show->pixels[i], bytes);
     }
-    if (show->kind == SHOW_ERROR)
-        paint_errors(show, &range, picture, legend);
-    else if (range.count > 1)
-        paint_vectors(show, &range, picture, legend);
+    fprintf(legend, "%s: ", show->what);
+    if (show->kind == SHOW_BLAME)
+        paint_blame(show, picture, legend);
     else
-        paint_scalars(show, &range, picture, legend);
-    put_count(legend, range.undefined, "no number, in orange");
-    fprintf(legend, "; black: no triangle%s\n", range.shown ? "" : ": nothing here computes it");
+        put_legend(&range, legend);
 }
