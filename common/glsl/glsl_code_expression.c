@@ -54,6 +54,30 @@ static void store(Compiler *compiler, Value to, int i, int from)
         emit(compiler, OP_STORE, at, from, to.address);
 }
 
+/* An operation that ends as OP_INDEX says; returns its register. */
+static int compile_step(Compiler *compiler, int address, int index, int step, int length)
+{
+    const int d = reserve(compiler, 1), at = emit(compiler, OP_INDEX, d, address, index);
+    if (!compiler->code->message.text[0]) {
+        compiler->code->instructions[at].c = step;
+        compiler->code->instructions[at].n = length;
+    }
+    return d;
+}
+
+/* Of a swizzle, whose components are looked up in a list. */
+static Value compile_picked_index(Compiler *compiler, Value value, int index)
+{
+    const int list = reserve(compiler, value.count), place = reserve(compiler, 1);
+    const int at = register_of(compiler, compile_expression(compiler, index), 0);
+    for (int i = 0; i < value.count && !compiler->code->message.text[0]; i++)
+        compiler->code->start[list + i] = value.pick[i];
+    emit(compiler, OP_LOAD, place, list, compile_step(compiler, -1, at, 1, value.count));
+    const int address =
+        value.address < 0 ? place : compile_step(compiler, value.address, place, 1, 4);
+    return (Value){.base = value.base, .count = 1, .address = address};
+}
+
 static Value compile_index(Compiler *compiler, int node)
 {
     const GlslTree *tree = compiler->tree;
@@ -62,12 +86,8 @@ static Value compile_index(Compiler *compiler, int node)
     Value value = compile_expression(compiler, first);
     const int step = scalars_of(tree, tree->nodes[node].type);
     const int length = step ? value.count / step : 0;
-    if (value.picked) { /* a swizzle of a vector: its copy */
-        const Value copy = value_at(reserve(compiler, value.count), value.count);
-        for (int i = 0; i < value.count; i++)
-            emit(compiler, OP_SET, copy.base + i, register_of(compiler, value, i), 0);
-        value = copy;
-    }
+    if (value.picked)
+        return compile_picked_index(compiler, value, second);
     value.count = step;
     if (index->constant) {
         const double at = tree->values[index->value];
@@ -75,12 +95,7 @@ static Value compile_index(Compiler *compiler, int node)
         return value;
     }
     const int b = register_of(compiler, compile_expression(compiler, second), 0);
-    const int d = reserve(compiler, 1), at = emit(compiler, OP_INDEX, d, value.address, b);
-    if (!compiler->code->message.text[0]) {
-        compiler->code->instructions[at].c = step;
-        compiler->code->instructions[at].n = length;
-    }
-    value.address = d;
+    value.address = compile_step(compiler, value.address, b, step, length);
     return value;
 }
 

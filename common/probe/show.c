@@ -98,27 +98,15 @@ static int value_of(const GlslRun *run, const char *name, double value[4])
 {
     const GlslTree *tree = run->code->tree;
     GlslVariable variable;
-    int count = 0;
     if (glsl_find(run->code, name, &variable) && is_shown(run->code, &variable)) {
         memcpy(value, run->registers + variable.first, sizeof *value * (size_t)variable.count);
         return variable.count;
     }
-    for (int i = 0; i < run->event_count; i++) {
-        const GlslEvent *event = &run->events[i];
-        const GlslSymbol *symbol = &tree->symbols[event->symbol];
-        const int left = glsl_child(tree, event->node, 0);
-        if (strcmp(symbol->name, name) != 0 || !glsl_is_vector(symbol->type))
-            continue;
-        if (!count)
-            memset(value, 0, 4 * sizeof *value);
-        count = glsl_size(symbol->type);
-        if (event->count == count)
-            memcpy(value, run->values + event->value, sizeof *value * (size_t)count);
-        else if (tree->nodes[left].kind == GLSL_SWIZZLE)
-            for (int k = 0; k < event->count; k++)
-                value[glsl_swizzle(tree->nodes[left].op, k)] = run->values[event->value + k];
-    }
-    return count;
+    const GlslEvent *event = glsl_last(run, name);
+    if (!event || !glsl_is_vector(tree->symbols[event->symbol].type))
+        return 0;
+    memcpy(value, run->values + event->value, sizeof *value * (size_t)event->count);
+    return event->count;
 }
 
 /* Of the vertices, weighted as varyings are. */

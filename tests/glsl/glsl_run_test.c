@@ -138,6 +138,10 @@ static void statements_run(void **state)
     (void)state;
     gives("float v = 3.0; twice(v, r); r += v;", 9);
     gives("vec3 v = vec3(1.0, 2.0, 3.0); v.xy = v.yx; v[i] = 8.0; r = v.x + v.z * 10.0;", 82);
+    gives("vec3 v = vec3(1.0, 2.0, 3.0); v.zx[i - 1] = 8.0; v.yz[0] += 5.0; r = v.x + v.y * 10.0;",
+          78);
+    gives("vec2 a[3]; a[2] = vec2(1.0, 2.0); a[i].yx[i - 2] = 4.0; r = a[2].y * 10.0 + a[2].yx[1];",
+          41);
     gives("float a[3]; for (int k = 0; k < 3; k++) a[k] = float(k); r = a[i] * 10.0 + a[1];", 21);
     gives("int k = 0; while (true) { if (k == 5) break; k++; } r = float(k--) + float(k);", 9);
     gives("int k = 0; do { k += 2; if (k == 4) continue; r += 1.0; } while (k < 7); r += float(k);",
