@@ -107,10 +107,11 @@ static bool measure(const Options *options, Message *message)
         arithmetic_line(&found, line);
         doctor_keep(&meter.canvas, line);
     }
-    meter_close(&meter);
     if (done && options->verbose)
         fprintf(stderr, "measured in %.1f s\n", found.seconds);
-    return done && report(&found, options, message);
+    const bool reported = done && report(&found, options, message);
+    meter_close(&meter);
+    return reported;
 }
 
 static const Usage usage = {

@@ -1,0 +1,386 @@
+/*
+ * The scene's shaders, as the driver gets them, run over pieces of its triangles with the errors
+ * that its operations were measured to have (glsl/glsl_bound.h): the vertex shader at each vertex,
+ * then the fragment shader, whose varyings are what the vertices have between them, as far off as
+ * the farthest of the three and as interpolation was measured. What of the result can differ, after
+ * clamping, is the bound.
+ */
+#include "study/arithmetic/proof.h"
+
+#include "base/memory.h"
+#include "lighting/lighting.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A varying in both stages: registers, and where a vertex's numbers have it. */
+typedef struct Varying {
+    int vertex, fragment, first, count;
+} Varying;
+
+enum { VARYINGS = 32 };
+
+/* A number of a vertex. */
+typedef struct Output {
+    double value, error;
+} Output;
+
+typedef struct ProofDraw {
+    GlslTree *trees[2];
+    GlslCode *codes[2];
+    GlslBoundRun *runs[2];
+    GlslErrors errors[2];
+    Varying varyings[VARYINGS];
+    int varying_count, outputs;
+    Output *vertices;    /* by number, `outputs` of each */
+    double (*places)[4]; /* clip coordinates */
+} ProofDraw;
+
+/* Measured errors as those of operations. */
+static void set_errors(GlslErrors *errors, int precision, const Arithmetic *of)
+{
+    static const Function functions[GLSL_UNITS] = {
+        [GLSL_UNITS_SUM] = FUNCTION_ADD,         [GLSL_UNITS_PRODUCT] = FUNCTION_MULTIPLY,
+        [GLSL_UNITS_QUOTIENT] = FUNCTION_DIVIDE, [GLSL_UNITS_SQRT] = FUNCTION_SQRT,
+        [GLSL_UNITS_EXP2] = FUNCTION_EXP2,       [GLSL_UNITS_INVERSE_SQRT] = FUNCTION_INVERSESQRT,
+        [GLSL_UNITS_LOG2] = FUNCTION_LOG2,       [GLSL_UNITS_SIN] = FUNCTION_SIN,
+        [GLSL_UNITS_COS] = FUNCTION_COS,
+    };
+    const Format *format = &of->format;
+    errors->numbers.of[precision].bits = format->bits;
+    errors->numbers.of[precision].least = format->min_exponent;
+    errors->numbers.of[precision].most = format->max_exponent;
+    errors->numbers.of[precision].denormals = format->denormals && format->denormal_inputs;
+    for (int i = 0; i < GLSL_UNITS; i++) {
+        const Accuracy *accuracy = &of->accuracies[functions[i]];
+        const bool known = i != GLSL_UNITS_OTHER && !accuracy->wrong;
+        errors->units[precision][i] = known ? accuracy->largest : (double)INFINITY;
+    }
+    for (int i = 0; i < 16; i++)
+        errors->pow[precision][i] = (double)of->accuracies[FUNCTION_POW].absolute[i];
+}
+
+static GlslErrors errors_of(const ProofDriver *driver, int stage)
+{
+    GlslErrors errors = {.numbers = GLSL_EXACT};
+    const bool narrow = stage && driver->fragment->format.bits < driver->vertex->format.bits;
+    const Arithmetic *of = stage ? driver->fragment : driver->vertex;
+    set_errors(&errors, GLSL_LOWP, of);
+    set_errors(&errors, GLSL_MEDIUMP, of);
+    set_errors(&errors, GLSL_HIGHP, narrow ? driver->vertex : of);
+    return errors;
+}
+
+/* A uniform is rounded to a float, unless it was meant to be short: of 2^12 numbers one is by
+ * chance. */
+static double uniform_error(double value)
+{
+    int exponent;
+    const double part = frexp(value, &exponent) * 0x1p12;
+    return part == rint(part) ? 0 : ldexp(1, exponent - 25);
+}
+
+static void set_uniforms(GlslBoundRun *run, const CaptureDraw *draw)
+{
+    for (int i = 0; i < draw->uniform_count; i++) {
+        const CaptureUniform *uniform = &draw->uniforms[i];
+        for (int k = 0; k < uniform->length; k++) {
+            GlslVariable found;
+            char *name = memory_format(uniform->length > 1 ? "%s[%d]" : "%s", uniform->name, k);
+            const bool used = glsl_find(run->code, name, &found);
+            for (int j = 0; used && j < uniform->numbers && j < found.count; j++) {
+                const double value = (double)uniform->values[k * uniform->numbers + j];
+                run->inputs[found.first + j] =
+                    (GlslInput){.middle = value, .error = uniform_error(value)};
+            }
+            free(name);
+        }
+    }
+}
+
+static bool compile(ProofDraw *made, const CaptureDraw *draw, const ProofDriver *driver,
+                    Message *message)
+{
+    for (int i = 0; i < 2; i++) {
+        made->trees[i] = glsl_parse(draw->sources[i], i ? GLSL_FRAGMENT : GLSL_VERTEX, NULL);
+        made->codes[i] = glsl_compile(made->trees[i]);
+        made->errors[i] = errors_of(driver, i);
+        if (made->codes[i]->message.text[0])
+            return message_set(message, "%s shader: line %d: %s", i ? "fragment" : "vertex",
+                               made->codes[i]->message.place.line, made->codes[i]->message.text);
+    }
+    for (int i = 0; i < made->codes[1]->variable_count; i++) {
+        const GlslVariable *to = &made->codes[1]->variables[i];
+        GlslVariable from;
+        if (to->storage != GLSL_VARYING || !glsl_find(made->codes[0], to->name, &from) ||
+            made->varying_count == VARYINGS)
+            continue;
+        made->varyings[made->varying_count++] =
+            (Varying){from.first, to->first, made->outputs, to->count};
+        made->outputs += to->count;
+    }
+    return true;
+}
+
+static void run_vertex(ProofDraw *made, const CaptureDraw *draw, unsigned vertex)
+{
+    GlslBoundRun *run = made->runs[0];
+    GlslVariable found;
+    for (int i = 0; i < draw->attribute_count; i++) {
+        float value[4];
+        capture_attribute(&draw->attributes[i], vertex, value);
+        if (glsl_find(run->code, draw->attributes[i].name, &found))
+            for (int k = 0; k < found.count && k < 4; k++)
+                run->inputs[found.first + k] = (GlslInput){.middle = (double)value[k]};
+    }
+    glsl_bound_run(run);
+    for (int i = 0; i < made->varying_count; i++)
+        for (int k = 0; k < made->varyings[i].count; k++) {
+            const GlslBound bound = glsl_bound(run, made->varyings[i].vertex + k);
+            made->vertices[vertex * (size_t)made->outputs + (size_t)(made->varyings[i].first + k)] =
+                (Output){(bound.exact.low + bound.exact.high) / 2,
+                         run->stopped ? (double)INFINITY : bound.error};
+        }
+    for (int k = 0; k < 4 && glsl_find(run->code, "gl_Position", &found); k++) {
+        const GlslRange exact = glsl_bound(run, found.first + k).exact;
+        made->places[vertex][k] = (exact.low + exact.high) / 2;
+    }
+}
+
+static void run_vertices(ProofDraw *made, const CaptureDraw *draw)
+{
+    unsigned most = 0;
+    for (int i = 0; i < draw->vertex_count; i++)
+        most = draw->vertices[i] > most ? draw->vertices[i] : most;
+    bool *done = memory_new((size_t)most + 1, sizeof *done);
+    made->places = memory_new((size_t)most + 1, sizeof *made->places);
+    made->vertices =
+        memory_new(((size_t)most + 1) * (size_t)made->outputs + 1, sizeof *made->vertices);
+    for (int i = 0; i < draw->vertex_count; i++) {
+        const unsigned vertex = draw->vertices[i];
+        if (!done[vertex])
+            run_vertex(made, draw, vertex);
+        done[vertex] = true;
+    }
+    free(done);
+}
+
+static bool is_seen(const CaptureDraw *draw)
+{
+    return draw->mode == GL_TRIANGLES && draw->colors[0] && draw->sources[0] && draw->sources[1];
+}
+
+static bool open_draws(Proof *proof, Message *message)
+{
+    const Capture *capture = &proof->capture;
+    proof->draws = memory_new((size_t)capture->draw_count + 1, sizeof *proof->draws);
+    for (int i = 0; i < capture->draw_count; i++) {
+        ProofDraw *made = &proof->draws[i];
+        const CaptureDraw *draw = &capture->draws[i];
+        if (!is_seen(draw))
+            continue;
+        if (!compile(made, draw, &proof->driver, message))
+            return false;
+        for (int k = 0; k < 2; k++) {
+            made->runs[k] = glsl_bound_open(made->codes[k], &made->errors[k]);
+            set_uniforms(made->runs[k], draw);
+        }
+        run_vertices(made, draw);
+    }
+    return true;
+}
+
+bool proof_open(Proof *proof, const Scene *scene, const ProofDriver *driver, bool shadows,
+                Message *message)
+{
+    const bool narrow = driver->fragment->format.bits < driver->vertex->format.bits;
+    const ShaderLoader loader = {.precision = narrow ? "mediump" : "highp"};
+    const ShadowSettings none = {.way = SHADOWS_OFF};
+    Lighting *lighting = NULL;
+    GLint framebuffer = 0;
+    *proof = (Proof){.driver = *driver};
+    glGetIntegerv(GL_FRAMEBUFFER_BINDING, &framebuffer);
+    capture_begin(&proof->capture, &(Canvas){.framebuffer = (GLuint)framebuffer});
+    bool done = lighting_open(&lighting, &loader, message);
+    if (done && !shadows)
+        lighting_use_shadows(lighting, &none);
+    done = done && lighting_show(lighting, &(LightingFrame){.scene = scene, .aspect = 1}, message);
+    capture_end(&proof->capture);
+    lighting_close(lighting);
+    if (done && open_draws(proof, message))
+        return true;
+    proof_close(proof);
+    return false;
+}
+
+void proof_close(Proof *proof)
+{
+    for (int i = 0; proof->draws && i < proof->capture.draw_count; i++) {
+        ProofDraw *draw = &proof->draws[i];
+        for (int k = 0; k < 2; k++) {
+            if (draw->runs[k])
+                glsl_bound_close(draw->runs[k]);
+            glsl_code_free(draw->codes[k]);
+            if (draw->trees[k])
+                glsl_tree_free(draw->trees[k]);
+        }
+        free(draw->vertices);
+        free(draw->places);
+    }
+    free(proof->draws);
+    capture_close(&proof->capture);
+    *proof = (Proof){.draws = NULL};
+}
+
+/* Triangles */
+
+static double place(const Proof *proof, const ProofTriangle *triangle, int corner, int k)
+{
+    return proof->draws[triangle->draw].places[triangle->corners[corner]][k];
+}
+
+/* Of x, y and w of the corners. */
+static double area_of(const Proof *proof, const ProofTriangle *triangle)
+{
+    double sum = 0;
+    for (int i = 0; i < 3; i++) {
+        const int k = (i + 1) % 3, n = (i + 2) % 3;
+        sum +=
+            place(proof, triangle, 0, i == 2 ? 3 : i) *
+            (place(proof, triangle, 1, k == 2 ? 3 : k) * place(proof, triangle, 2, n == 2 ? 3 : n) -
+             place(proof, triangle, 1, n == 2 ? 3 : n) * place(proof, triangle, 2, k == 2 ? 3 : k));
+    }
+    return sum;
+}
+
+bool proof_next(const Proof *proof, ProofTriangle *triangle)
+{
+    for (;; triangle->draw++, triangle->number = -1) {
+        if (triangle->draw >= proof->capture.draw_count)
+            return false;
+        const CaptureDraw *draw = &proof->capture.draws[triangle->draw];
+        if (!is_seen(draw))
+            continue;
+        while (3 * ++triangle->number + 2 < draw->vertex_count) {
+            double w = 1;
+            for (int i = 0; i < 3; i++) {
+                triangle->corners[i] = draw->vertices[3 * triangle->number + i];
+                w *= fmax(place(proof, triangle, i, 3), 0);
+            }
+            const double area = area_of(proof, triangle);
+            triangle->front = (area > 0) == (draw->front_face == GL_CCW);
+            triangle->area = w > 0 ? fabs(area) / w / 8 : (double)INFINITY;
+            if (!draw->culls || (draw->cull_face == GL_BACK && triangle->front) ||
+                (draw->cull_face == GL_FRONT && !triangle->front))
+                return true;
+        }
+    }
+}
+
+/* How the shares of the corners change from a pixel to the next, by the derivative of x / w and
+ * y / w at a place; zeroed, if it is behind the eye or seen from the side. */
+static void find_pixel(const Proof *proof, const ProofTriangle *triangle, const double at[2],
+                       double pixel[2][2])
+{
+    double p[3], change[3][2], slope[2][2];
+    for (int k = 0; k < 3; k++) {
+        const int of = k == 2 ? 3 : k;
+        const double first = place(proof, triangle, 0, of);
+        change[k][0] = place(proof, triangle, 1, of) - first;
+        change[k][1] = place(proof, triangle, 2, of) - first;
+        p[k] = first + at[0] * change[k][0] + at[1] * change[k][1];
+    }
+    memset(pixel, 0, 4 * sizeof pixel[0][0]);
+    for (int k = 0; k < 2; k++)
+        for (int i = 0; i < 2; i++)
+            slope[k][i] = (change[k][i] * p[2] - p[k] * change[2][i]) / (p[2] * p[2]) *
+                          proof->driver.height / 2;
+    const double area = slope[0][0] * slope[1][1] - slope[0][1] * slope[1][0];
+    if (!(p[2] > 0) || !(fabs(area) > 0))
+        return;
+    pixel[0][0] = slope[1][1] / area;
+    pixel[0][1] = -slope[1][0] / area;
+    pixel[1][0] = -slope[0][1] / area;
+    pixel[1][1] = slope[0][0] / area;
+}
+
+/* Pieces */
+
+static void set(GlslBoundRun *run, const char *name, int at, GlslInput input)
+{
+    GlslVariable found;
+    if (glsl_find(run->code, name, &found) && at < found.count)
+        run->inputs[found.first + at] = input;
+}
+
+/* A varying's number: linear, with the corners' error and the interpolation's. */
+static GlslInput interpolated(const Proof *proof, const Output *const corners[3],
+                              const double at[2])
+{
+    const Raster *raster = proof->driver.raster;
+    const Format *format = &proof->driver.vertex->format;
+    const double a = corners[0]->value, s = corners[1]->value - a, t = corners[2]->value - a;
+    const double most = fmax(fabs(a), fmax(fabs(a + s), fabs(a + t)));
+    const double range = fmax(fmax(fabs(s), fabs(t)), fabs(s - t));
+    const double error = fmax(corners[0]->error, fmax(corners[1]->error, corners[2]->error));
+    return (GlslInput){.middle = a + at[0] * s + at[1] * t,
+                       .error = error +
+                                fmax(raster->flat, raster->perspective) *
+                                    format_ulp(format, fmax(most, 1e-30)) +
+                                raster->small * format_unit(format) * range,
+                       .slope = {{s, s}, {t, t}}};
+}
+
+static void set_inputs(const Proof *proof, const ProofTriangle *triangle, const double at[2])
+{
+    ProofDraw *draw = &proof->draws[triangle->draw];
+    GlslBoundRun *run = draw->runs[1];
+    static const GlslRange any = {-(double)INFINITY, (double)INFINITY};
+    for (int i = 0; i < draw->varying_count; i++)
+        for (int k = 0; k < draw->varyings[i].count; k++) {
+            const Output *corners[3];
+            for (int c = 0; c < 3; c++)
+                corners[c] = draw->vertices + triangle->corners[c] * (size_t)draw->outputs +
+                             draw->varyings[i].first + k;
+            run->inputs[draw->varyings[i].fragment + k] = interpolated(proof, corners, at);
+        }
+    set(run, "gl_FrontFacing", 0, (GlslInput){.middle = triangle->front});
+    for (int k = 0; k < 4; k++) /* only masks are looked up there */
+        set(run, "gl_FragCoord", k, (GlslInput){.middle = .5, .slope = {any, any}});
+    find_pixel(proof, triangle, at, run->pixel);
+}
+
+static double clamped(double a)
+{
+    return a > 0 ? fmin(a, 1) : 0;
+}
+
+ProofBound proof_piece(const Proof *proof, const ProofTriangle *triangle, const double center[2],
+                       double half)
+{
+    const ProofDraw *draw = &proof->draws[triangle->draw];
+    GlslBoundRun *run = draw->runs[1];
+    ProofBound worst = {.bounded = true};
+    GlslVariable color;
+    set_inputs(proof, triangle, center);
+    run->radius = half;
+    const bool ran = glsl_bound_run(run);
+    if (run->discarded || !glsl_find(run->code, "gl_FragColor", &color))
+        return worst;
+    worst.edges = run->edges;
+    for (int i = 0; i < 3; i++) {
+        const GlslBound bound = glsl_bound(run, color.first + i);
+        const double above = clamped(bound.driver.high) - clamped(bound.exact.low);
+        const double below = clamped(bound.exact.high) - clamped(bound.driver.low);
+        const double error = ran ? fmin(bound.error, fmax(fmax(above, below), 0)) : 1;
+        if (255 * error <= worst.steps)
+            continue;
+        const int node = ran ? bound.node : run->node;
+        worst.steps = 255 * error;
+        worst.bounded = ran && isfinite(bound.error);
+        worst.line = node ? draw->trees[1]->nodes[node].place.line : 0;
+        worst.share = bound.error > 0 ? 255 * error * bound.share / bound.error : 0;
+    }
+    return worst;
+}

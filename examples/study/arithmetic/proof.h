@@ -1,0 +1,54 @@
+/*
+ * proof: by how much a driver's arithmetic can change what a scene's shaders give, over pieces of
+ * its triangles.
+ */
+#ifndef PROOF_H
+#define PROOF_H
+
+#include "glsl/glsl_bound.h"
+#include "probe/capture.h"
+#include "study/arithmetic/arithmetic.h"
+
+/* What is measured of the driver; `height`: of the picture, in pixels. */
+typedef struct ProofDriver {
+    const Arithmetic *vertex, *fragment; /* of the precision that the fragment shader declares */
+    const Raster *raster;
+    int height;
+} ProofDriver;
+
+/* A scene as it is drawn in the current context, into what is bound there. */
+typedef struct Proof {
+    ProofDriver driver;
+    Capture capture;
+    struct ProofDraw *draws; /* of the capture */
+} Proof;
+
+/* `shadows`: with them. False: a shader cannot be run, and why. */
+bool proof_open(Proof *proof, const Scene *scene, const ProofDriver *driver, bool shadows,
+                Message *message);
+void proof_close(Proof *proof);
+
+/* A triangle of a draw that is not culled. */
+typedef struct ProofTriangle {
+    int draw, number;
+    unsigned corners[3];
+    bool front;
+    double area; /* of the picture's height squared; INFINITY: it begins behind the eye */
+} ProofTriangle;
+
+/* The next after *triangle, which begins with {.draw = 0, .number = -1}; false: there is none. */
+bool proof_next(const Proof *proof, ProofTriangle *triangle);
+
+/* Of a piece of a triangle: the shares of its second and third corner are center[0] and [1], or up
+ * to `half` less or more. */
+typedef struct ProofBound {
+    double steps; /* the largest error of a channel, clamped, before it is rounded to a byte */
+    bool bounded; /* without the clamp, too */
+    bool edges;   /* there are pixels through which an edge of light runs, which are left out */
+    int line;     /* of the fragment shader: the one that makes most of it, 0: what it gets */
+    double share; /* what that makes, in steps */
+} ProofBound;
+ProofBound proof_piece(const Proof *proof, const ProofTriangle *triangle, const double center[2],
+                       double half);
+
+#endif
