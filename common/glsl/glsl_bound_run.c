@@ -283,9 +283,9 @@ static void run_operation(GlslBoundRun *run, const GlslInstruction *at)
     if (at->op == OP_SELECT) {
         const int of[2] = {b, tape_convert(run, tape_read(run, at->c), at->precision)};
         const int ways = ways_of(&run->state->entries[a]);
-        const int made = ways == BOTH_FIRST    ? of[0]
-                         : ways == BOTH_SECOND ? of[1]
-                                               : tape_join(run, of, of, ways, at->node);
+        const int made = (ways & ~EDGE) == BOTH_FIRST    ? of[0]
+                         : (ways & ~EDGE) == BOTH_SECOND ? of[1]
+                                                         : tape_join(run, of, of, ways, at->node);
         map[at->d] = made;
         return;
     }
@@ -310,9 +310,9 @@ static int run_from(GlslBoundRun *run, int next, int until)
             next = at->d;
         else if (at->op == OP_JUMP_FALSE) {
             const int ways = ways_of(&state->entries[tape_read(run, at->a)]);
-            next = ways == BOTH_FIRST    ? next
-                   : ways == BOTH_SECOND ? at->d
-                                         : run_branch(run, at, next);
+            next = (ways & ~EDGE) == BOTH_FIRST    ? next
+                   : (ways & ~EDGE) == BOTH_SECOND ? at->d
+                                                   : run_branch(run, at, next);
         } else if (at->op == OP_INDEX)
             run_index(run, at);
         else if (at->op == OP_LOAD || at->op == OP_STORE)
@@ -367,6 +367,23 @@ static void find_meets(const GlslCode *code, int *meets)
     }
 }
 
+/* A text's lines may have large numbers, those of its files. */
+static void number_lines(const GlslTree *tree, State *state)
+{
+    int *firsts = memory_new((size_t)tree->node_count + 1, sizeof *firsts), count = 1;
+    state->line_of = memory_new((size_t)tree->node_count + 1, sizeof(int));
+    for (int i = 1; i < tree->node_count; i++) {
+        int at = count - 1; /* most often the last */
+        while (at > 0 && tree->nodes[firsts[at]].place.line != tree->nodes[i].place.line)
+            at--;
+        if (at == 0)
+            firsts[at = count++] = i;
+        state->line_of[i] = at;
+    }
+    state->lines = memory_new((size_t)count, sizeof(double));
+    free(firsts);
+}
+
 GlslBoundRun *glsl_bound_open(const GlslCode *code, const GlslErrors *errors)
 {
     GlslBoundRun *run = memory_new(1, sizeof *run);
@@ -387,12 +404,7 @@ GlslBoundRun *glsl_bound_open(const GlslCode *code, const GlslErrors *errors)
             .middle = value,
             .error = kept ? 0 : conversion_of(errors, GLSL_HIGHP, (GlslRange){value, value})};
     }
-    state->line_count = 1;
-    for (int i = 0; i < code->tree->node_count; i++)
-        if (code->tree->nodes[i].place.line >= state->line_count)
-            state->line_count = code->tree->nodes[i].place.line + 1;
-    state->lines = memory_new((size_t)state->line_count, sizeof(double));
-    state->nodes = memory_new((size_t)state->line_count, sizeof(int));
+    number_lines(code->tree, state);
     return run;
 }
 
@@ -406,7 +418,7 @@ void glsl_bound_close(GlslBoundRun *run)
     free(run->state->leaves);
     free(run->state->meets);
     free(run->state->lines);
-    free(run->state->nodes);
+    free(run->state->line_of);
     free(run->state);
     free(run->inputs);
     free(run);

@@ -133,6 +133,69 @@ int tape_convert(GlslBoundRun *run, int at, int precision)
     return added;
 }
 
+/* Backward */
+
+static GlslRange *weigh(State *state, int result)
+{
+    if (state->weight_room < state->count) {
+        state->weights = memory_grow(state->weights, (size_t)state->room, sizeof(GlslRange));
+        state->weight_room = state->room;
+    }
+    memset(state->weights, 0, (size_t)(result + 1) * sizeof(GlslRange));
+    state->weights[result] = ONE;
+    return state->weights;
+}
+
+/* Of a number on the tape. */
+static GlslBound bound_of(GlslBoundRun *run, int result)
+{
+    State *state = run->state;
+    GlslRange *weights = weigh(state, result);
+    const Entry last = state->entries[result];
+    GlslBound bound = {.exact = last.exact, .driver = last.driver};
+    for (int i = result; i >= 0; i--) {
+        const Entry *entry = &state->entries[i];
+        if (weights[i].low == 0 && weights[i].high == 0)
+            continue;
+        if (entry->born > 0) {
+            const double share = magnitude(weights[i]) * entry->born;
+            const int line = state->line_of[entry->node];
+            bound.error += share;
+            state->lines[line] += share;
+        }
+        for (int k = 0; k < 2; k++)
+            if (entry->from[k] >= 0)
+                weights[entry->from[k]] =
+                    range_sum(weights[entry->from[k]], range_product(weights[i], entry->by[k]));
+    }
+    for (int i = result; i >= 0; i--) {
+        const int node = state->entries[i].node;
+        double *line = &state->lines[state->line_of[node]];
+        if (*line > bound.share) {
+            bound.share = *line;
+            bound.node = node;
+        }
+        *line = 0;
+    }
+    if (!(bound.error <= last.error))
+        bound.error = last.error;
+    return bound;
+}
+
+/* Makes an error, and with it the driver's range, smaller where much depends on it. */
+static void tighten(GlslBoundRun *run, int at)
+{
+    if (!(run->state->entries[at].error > 0))
+        return;
+    const GlslBound bound = bound_of(run, at);
+    Entry *entry = &run->state->entries[at];
+    entry->error = bound.error;
+    if (run->state->apart == 0) {
+        entry->driver.low = larger(entry->driver.low, entry->exact.low - bound.error);
+        entry->driver.high = smaller(entry->driver.high, entry->exact.high + bound.error);
+    }
+}
+
 /* Whether an edge at which two numbers are equal runs through each pixel in which the driver's can
  * be on its other side; `slope`: of their difference. */
 static bool is_edge(const GlslBoundRun *run, const GlslRange slope[2], double error)
@@ -169,12 +232,8 @@ static void compare(GlslBoundRun *run, Entry *entry)
         GlslRange slope[2];
         for (int k = 0; k < 2; k++)
             slope[k] = range_sum(a->slope[k], range_product(b->slope[k], (GlslRange){-1, -1}));
-        if (!whole && is_edge(run, slope, error)) {
-            entry->driver = entry->exact;
-            run->edges = true;
-        } else {
-            entry->born = range_difference(entry->exact, entry->driver);
-        }
+        entry->edge = !whole && is_edge(run, slope, error);
+        entry->born = range_difference(entry->exact, entry->driver);
     }
     entry->error = entry->born;
 }
@@ -189,8 +248,12 @@ static double middle_of(const GlslInstruction *at, double a, double b)
 int tape_compute(GlslBoundRun *run, const GlslInstruction *at, int a, int b)
 {
     Entry entry = {.op = at->op, .precision = at->precision, .node = at->node, .from = {a, b}};
-    const Entry *x = &run->state->entries[a], *y = &run->state->entries[b];
     const bool same = a == b;
+    const Entry *x = &run->state->entries[a], *y = &run->state->entries[b];
+    if (at->op == OP_POW || at->op == OP_LESS || at->op == OP_LESS_EQUAL) {
+        tighten(run, a);
+        tighten(run, b);
+    }
     entry.exact = range_of(at->op, x->exact, y->exact, same);
     entry.driver = range_of(at->op, x->driver, y->driver, same);
     entry.middle = middle_of(at, x->middle, y->middle);
@@ -201,6 +264,7 @@ int tape_compute(GlslBoundRun *run, const GlslInstruction *at, int a, int b)
         } else {
             const bool known = x->error == 0 && y->error == 0;
             entry.driver = known ? entry.exact : entry.driver;
+            entry.edge = (x->error == 0 || x->edge) && (y->error == 0 || y->edge) && !known;
             entry.born = entry.error = known ? 0 : range_difference(entry.exact, entry.driver);
             for (int k = 0; k < 2; k++)
                 entry.slope[k] = is_point(entry.exact) ? NONE : ANY;
@@ -223,31 +287,34 @@ int tape_compute(GlslBoundRun *run, const GlslInstruction *at, int a, int b)
 /* One of two numbers; `near`: the same where the two may go different ways, -1: as these. */
 int tape_join(GlslBoundRun *run, const int of[2], const int near[2], int ways, int node)
 {
+    /* Less than a quarter of a step is no edge that can be seen. */
+    static const double SEEN = .25 / 255;
     const Entry a = run->state->entries[of[0]], b = run->state->entries[of[1]];
     const Entry c = run->state->entries[near[0]], d = run->state->entries[near[1]];
     const bool exact_a = ways & (BOTH_FIRST | FIRST_SECOND),
                exact_b = ways & (BOTH_SECOND | SECOND_FIRST);
-    const bool driver_a = ways & (BOTH_FIRST | SECOND_FIRST),
-               driver_b = ways & (BOTH_SECOND | FIRST_SECOND);
     Entry made = {.node = node, .op = OP_SELECT, .from = {of[0], of[1]}};
     made.precision =
         run->errors->numbers.of[a.precision].bits > run->errors->numbers.of[b.precision].bits
             ? a.precision
             : b.precision;
-    made.exact = exact_a && exact_b ? hull(a.exact, b.exact) : exact_a ? a.exact : b.exact;
-    made.driver = driver_a && driver_b ? hull(a.driver, b.driver) : driver_a ? a.driver : b.driver;
-    made.by[0] = (GlslRange){ways & BOTH_FIRST && !(ways & BOTH_SECOND), !!(ways & BOTH_FIRST)};
-    made.by[1] = (GlslRange){ways & BOTH_SECOND && !(ways & BOTH_FIRST), !!(ways & BOTH_SECOND)};
-    double error = 0;
     if (ways & FIRST_SECOND)
         made.born = larger(made.born, range_difference(c.exact, d.driver));
     if (ways & SECOND_FIRST)
         made.born = larger(made.born, range_difference(d.exact, c.driver));
-    if (ways & BOTH_FIRST)
-        error = a.error;
-    if (ways & BOTH_SECOND)
-        error = larger(error, b.error);
-    made.error = larger(error, made.born);
+    if (ways & EDGE && made.born > SEEN) {
+        run->edges = true;
+        made.born = 0;
+        ways = (exact_a ? BOTH_FIRST : 0) | (exact_b ? BOTH_SECOND : 0);
+    }
+    const bool driver_a = ways & (BOTH_FIRST | SECOND_FIRST),
+               driver_b = ways & (BOTH_SECOND | FIRST_SECOND);
+    made.exact = exact_a && exact_b ? hull(a.exact, b.exact) : exact_a ? a.exact : b.exact;
+    made.driver = driver_a && driver_b ? hull(a.driver, b.driver) : driver_a ? a.driver : b.driver;
+    made.by[0] = (GlslRange){ways & BOTH_FIRST && !(ways & BOTH_SECOND), !!(ways & BOTH_FIRST)};
+    made.by[1] = (GlslRange){ways & BOTH_SECOND && !(ways & BOTH_FIRST), !!(ways & BOTH_SECOND)};
+    made.error = larger(made.born,
+                        larger(ways & BOTH_FIRST ? a.error : 0, ways & BOTH_SECOND ? b.error : 0));
     const bool alone = !(exact_a && exact_b);
     made.middle = alone ? (exact_a ? a.middle : b.middle) : (double)NAN;
     made.slack = alone ? (exact_a ? a.slack : b.slack) : 0;
@@ -263,52 +330,10 @@ int ways_of(const Entry *condition)
     const bool differ = condition->error > 0;
     return (yes && driver_yes ? BOTH_FIRST : 0) | (no && driver_no ? BOTH_SECOND : 0) |
            (yes && driver_no && differ ? FIRST_SECOND : 0) |
-           (no && driver_yes && differ ? SECOND_FIRST : 0);
-}
-
-/* Backward */
-
-static GlslRange *weigh(State *state, int result)
-{
-    if (state->weight_room < state->count) {
-        state->weights = memory_grow(state->weights, (size_t)state->room, sizeof(GlslRange));
-        state->weight_room = state->room;
-    }
-    memset(state->weights, 0, (size_t)(result + 1) * sizeof(GlslRange));
-    state->weights[result] = ONE;
-    return state->weights;
+           (no && driver_yes && differ ? SECOND_FIRST : 0) | (condition->edge ? EDGE : 0);
 }
 
 GlslBound glsl_bound(GlslBoundRun *run, int at)
 {
-    State *state = run->state;
-    const int result = tape_read(run, at);
-    GlslRange *weights = weigh(state, result);
-    const Entry last = state->entries[result];
-    GlslBound bound = {.exact = last.exact, .driver = last.driver};
-    memset(state->lines, 0, (size_t)state->line_count * sizeof *state->lines);
-    for (int i = result; i >= 0; i--) {
-        const Entry *entry = &state->entries[i];
-        if (weights[i].low == 0 && weights[i].high == 0)
-            continue;
-        if (entry->born > 0) {
-            const double share = magnitude(weights[i]) * entry->born;
-            const int line = run->code->tree->nodes[entry->node].place.line;
-            bound.error += share;
-            state->lines[line] += share;
-            state->nodes[line] = entry->node;
-        }
-        for (int k = 0; k < 2; k++)
-            if (entry->from[k] >= 0)
-                weights[entry->from[k]] =
-                    range_sum(weights[entry->from[k]], range_product(weights[i], entry->by[k]));
-    }
-    int most = 0;
-    for (int i = 1; i < state->line_count; i++)
-        most = state->lines[i] > state->lines[most] ? i : most;
-    bound.node = most ? state->nodes[most] : 0;
-    bound.share = state->lines[most];
-    if (!(bound.error <= last.error))
-        bound.error = last.error;
-    return bound;
+    return bound_of(run, tape_read(run, at));
 }

@@ -44,6 +44,7 @@ typedef struct Entry {
     int converted;     /* to another precision, 0: not yet */
     unsigned char op, precision, converted_to;
     bool narrowed; /* only for a way of a branch */
+    bool edge;     /* a condition: where the two may differ, it changes within each pixel */
 } Entry;
 
 typedef struct GlslBoundState {
@@ -56,7 +57,7 @@ typedef struct GlslBoundState {
     int apart; /* how many branches are open in which the driver may go another way */
     int depth, operations;
     double *lines; /* errors by line; 0: of the inputs */
-    int *nodes, line_count;
+    int *line_of;  /* each node's, counted from 0 */
 } State;
 
 /* Adds a number; its index. */
@@ -72,8 +73,9 @@ int tape_convert(GlslBoundRun *run, int at, int precision);
 /* What an operation makes of two; of one number, both are that. */
 int tape_compute(GlslBoundRun *run, const GlslInstruction *at, int a, int b);
 
-/* Ways that the exact numbers and the driver's may take, as bits. */
-enum { BOTH_FIRST = 1, BOTH_SECOND = 2, FIRST_SECOND = 4, SECOND_FIRST = 8 };
+/* Ways that the exact numbers and the driver's may take, as bits; EDGE: where they take different
+ * ones, the condition changes within each pixel. */
+enum { BOTH_FIRST = 1, BOTH_SECOND = 2, FIRST_SECOND = 4, SECOND_FIRST = 8, EDGE = 16 };
 int ways_of(const Entry *condition);
 
 /* One of two numbers; `near`: the same where the two may go different ways. */
