@@ -11,29 +11,6 @@
 
 static const double PI = 3.14159265358979323846;
 
-GlslRange range_sum(GlslRange a, GlslRange b)
-{
-    const GlslRange sum = {a.low + b.low, a.high + b.high};
-    return sum.low <= sum.high ? sum : ANY; /* not of infinities that cancel */
-}
-
-GlslRange range_product(GlslRange a, GlslRange b)
-{
-    if (is_point(a) && is_point(b) && isfinite(a.low * b.low))
-        return (GlslRange){a.low * b.low, a.low * b.low};
-    if ((a.low == 0 && a.high == 0) || (b.low == 0 && b.high == 0))
-        return (GlslRange){0, 0};
-    const double ends[4] = {a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high};
-    GlslRange product = {ends[0], ends[0]};
-    for (int i = 0; i < 4; i++) {
-        if (isnan(ends[i])) /* 0 times infinity */
-            return ANY;
-        product.low = smaller(product.low, ends[i]);
-        product.high = larger(product.high, ends[i]);
-    }
-    return product;
-}
-
 static GlslRange square(GlslRange a)
 {
     const double low = a.low > 0 ? a.low : a.high < 0 ? -a.high : 0, high = magnitude(a);
@@ -177,9 +154,10 @@ GlslRange range_of(int op, GlslRange a, GlslRange b, bool same)
         return same && isfinite(magnitude(a)) ? (GlslRange){0, 0}
                                               : range_sum(a, (GlslRange){-b.high, -b.low});
     case OP_MULTIPLY:
-        return !isfinite(magnitude(a)) || !isfinite(magnitude(b)) ? ANY /* 0 times infinity */
-               : same                                             ? square(a)
-                                                                  : range_product(a, b);
+        if ((!isfinite(magnitude(a)) && holds_zero(b)) ||
+            (!isfinite(magnitude(b)) && holds_zero(a)))
+            return ANY; /* 0 times infinity */
+        return same ? square(a) : range_product(a, b);
     case OP_DIVIDE: return quotient(a, b);
     case OP_SET: return a;
     case OP_NEGATE: return (GlslRange){-a.high, -a.low};

@@ -69,6 +69,7 @@ static void narrow(GlslBoundRun *run, int condition, bool yes, bool near)
     }
     if (at->op != OP_LESS && at->op != OP_LESS_EQUAL)
         return;
+    const bool less = yes && at->op == OP_LESS;
     const int of[2] = {at->from[0], at->from[1]};
     const Entry a = run->state->entries[of[0]], b = run->state->entries[of[1]];
     const double z = near ? a.error + b.error : (double)INFINITY;
@@ -79,6 +80,7 @@ static void narrow(GlslBoundRun *run, int condition, bool yes, bool near)
         const GlslRange p = ends[i][0], q = ends[i][1];
         low[i] = (GlslRange){yes ? q.low - z : q.low, yes ? q.high : q.high + z};
         high[i] = (GlslRange){yes ? p.low : p.low - z, yes ? p.high + z : p.high};
+        high[i].low = less ? nextafter(high[i].low, none) : high[i].low; /* as pow needs it */
         if (yes) {
             low[i].low = near ? low[i].low : -none;
             high[i].high = near ? high[i].high : none;

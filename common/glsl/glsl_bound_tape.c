@@ -245,6 +245,34 @@ static double middle_of(const GlslInstruction *at, double a, double b)
 }
 
 /* Where its middle is not known, nor are slopes. */
+static double secant(double from, double to, double exponent)
+{
+    return to - from > 1e-6 * to ? (pow(to, exponent) - pow(from, exponent)) / (to - from)
+                                 : exponent * pow(to, exponent - 1);
+}
+
+/* The slope of a power between exact and driver's numbers: that of a secant, which grows with both
+ * ends. */
+static void narrow_power(const Entry *x, const Entry *y, Entry *power)
+{
+    const double low = smaller(x->exact.low, x->driver.low);
+    const double high = larger(x->exact.high, x->driver.high), exponent = y->exact.low;
+    if (low < 0 || !is_point(y->exact) || !is_point(y->driver) || !(exponent >= 1))
+        return;
+    power->by[0].high = smaller(power->by[0].high, secant(x->exact.high, high, exponent));
+    power->by[0].low = 0;
+}
+
+/* What is too large becomes infinite; how the least result of positive numbers is rounded. */
+static double least_rounding(const GlslBoundRun *run, const GlslInstruction *at, const Entry *x,
+                             const Entry *y)
+{
+    const GlslRange a = {x->driver.low, x->driver.low}, b = {y->driver.low, y->driver.low};
+    if ((at->op != OP_ADD && at->op != OP_MULTIPLY) || !(a.low >= 0) || !(b.low >= 0))
+        return (double)INFINITY;
+    return rounding_of(run->errors, at, a, b, range_of(at->op, a, b, false));
+}
+
 int tape_compute(GlslBoundRun *run, const GlslInstruction *at, int a, int b)
 {
     Entry entry = {.op = at->op, .precision = at->precision, .node = at->node, .from = {a, b}};
@@ -272,8 +300,10 @@ int tape_compute(GlslBoundRun *run, const GlslInstruction *at, int a, int b)
     } else {
         const GlslRange p = hull(x->exact, x->driver), q = hull(y->exact, y->driver);
         slopes_of(at->op, p, q, same, hull(entry.exact, entry.driver), entry.by);
+        if (at->op == OP_POW)
+            narrow_power(x, y, &entry);
         entry.born = rounding_of(run->errors, at, x->driver, y->driver, entry.driver);
-        entry.driver.low -= entry.born;
+        entry.driver.low -= isfinite(entry.born) ? entry.born : least_rounding(run, at, x, y);
         entry.driver.high += entry.born;
         if (at->op == OP_SQRT || at->op == OP_POW || (same && at->op == OP_MULTIPLY))
             entry.driver.low = larger(entry.driver.low, 0);

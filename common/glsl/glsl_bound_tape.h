@@ -32,8 +32,28 @@ static inline bool is_point(GlslRange a)
     return a.low == a.high;
 }
 
-GlslRange range_product(GlslRange a, GlslRange b);
-GlslRange range_sum(GlslRange a, GlslRange b);
+static inline GlslRange range_sum(GlslRange a, GlslRange b)
+{
+    const GlslRange sum = {a.low + b.low, a.high + b.high};
+    return sum.low <= sum.high ? sum : ANY; /* not of infinities that cancel */
+}
+
+static inline GlslRange range_product(GlslRange a, GlslRange b)
+{
+    if (is_point(a) && is_point(b) && isfinite(a.low * b.low))
+        return (GlslRange){a.low * b.low, a.low * b.low};
+    if ((a.low == 0 && a.high == 0) || (b.low == 0 && b.high == 0))
+        return (GlslRange){0, 0};
+    const double ends[4] = {a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high};
+    GlslRange product = {ends[0], ends[0]};
+    for (int i = 0; i < 4; i++) {
+        if (isnan(ends[i])) /* 0 times infinity */
+            return ANY;
+        product.low = smaller(product.low, ends[i]);
+        product.high = larger(product.high, ends[i]);
+    }
+    return product;
+}
 
 /* A number on the tape. `slope`: by s and t; `by`: of the result by the operands `from`. */
 typedef struct Entry {
