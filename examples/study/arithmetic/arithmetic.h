@@ -101,11 +101,10 @@ bool arithmetic_measure(const Meter *meter, long inputs, Arithmetics *found, Mes
 enum { ARITHMETIC_LINE = 160 };
 void arithmetic_line(const Arithmetics *found, char line[ARITHMETIC_LINE]);
 
-/* The largest error that measured arithmetic can make in the picture of a scene. No GL. The
- * lighting equation is computed with intervals: of every intermediate result all values that the
- * shader may have there, from its inputs and the largest measured error of each operation. An
- * optimizer that computes something more exactly, or in another order, stays within them.
- */
+/* The largest error that measured arithmetic can make in the picture of a scene: its shaders, as
+ * the driver gets them, run with ranges that hold all that the largest measured error of each
+ * operation allows (glsl/glsl_bound.h). They are taken from a frame that is drawn for that: a
+ * canvas is open, whose picture changes. */
 
 /* In steps of 1/255, against the exact picture of the meshes as given, inside objects: at least the
  * half step of rounding, at most 255. `height`: of the picture, in pixels. `fragment`: of the
