@@ -26,16 +26,14 @@ packages_to_diagram="libcairo2-dev fonts-liberation"
 packages_to_verify="libgcrypt20-dev"
 # precision: the truth.
 packages_to_measure="libmpfr-dev gnuplot-nox"
-# accuracy and hard_cases: plots, and counts of operations.
-packages_to_count="glslang-tools spirv-tools" # the operations of a shader
-packages_to_study="gnuplot-nox glslang-tools spirv-tools"
-# check: archives, JSON, the sandbox of a submission, and counts.
-packages_to_check="libarchive-dev libjansson-dev libseccomp-dev zlib1g-dev bubblewrap glslang-tools \
-spirv-tools"
+# accuracy and hard_cases: plots.
+packages_to_study="gnuplot-nox"
+# check: archives, JSON, the sandbox of a submission.
+packages_to_check="libarchive-dev libjansson-dev libseccomp-dev zlib1g-dev bubblewrap"
 # The pages for a browser, and to test them.
 packages_to_web="emscripten node-acorn python3 fonttools meson ninja-build libstb-dev fonts-dejavu-core"
 packages_to_browse="chromium firefox-esr"
-packages_to_test="libcmocka-dev libosmesa6-dev python3 libwebpdemux2 locales xvfb xauth xdotool \
+packages_to_test="libcmocka-dev libosmesa6-dev glslang-tools python3 libwebpdemux2 locales xvfb xauth xdotool \
 poppler-utils"
 # tests/run --long: what the pages show of several processes and machines.
 packages_to_cluster="make munge parallel slurm-client slurmctld slurmd"

@@ -26,10 +26,8 @@ typedef struct CacheKey {
 } CacheKey;
 void cache_key_add(CacheKey *key, const void *bytes, size_t size);
 
-/* The program that runs, which another or an older one is not; and one that it starts, as it is
- * found in PATH: false if it is not. */
+/* The program that runs, which another or an older one is not. */
 void cache_key_add_program(CacheKey *key);
-bool cache_key_add_tool(CacheKey *key, const char *name);
 
 /* The bytes kept under a key, to be freed; NULL: none. */
 void *cache_read(const char *kind, const CacheKey *key, size_t *size);

@@ -6,11 +6,8 @@
 #include "base/version.h"
 
 #include <limits.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 /* The finalizer of MurmurHash3 (Appleby, 2011). */
 static uint64_t mixed(uint64_t z)
@@ -51,18 +48,4 @@ void cache_key_add_program(CacheKey *key)
     cache_key_add(key, VERSION, sizeof VERSION);
     if (paths_program(path, NULL))
         add_file(key, path);
-}
-
-bool cache_key_add_tool(CacheKey *key, const char *name)
-{
-    const char *folder = getenv("PATH");
-    for (size_t length; folder && folder[0]; folder += length + (folder[length] == ':')) {
-        char path[PATH_MAX];
-        length = strcspn(folder, ":");
-        if (length &&
-            snprintf(path, sizeof path, "%.*s/%s", (int)length, folder, name) < PATH_MAX &&
-            access(path, X_OK) == 0 && add_file(key, path))
-            return true;
-    }
-    return false;
 }

@@ -181,12 +181,13 @@ static Value multiply(Compiler *compiler, Value a, int a_type, Value b, int b_ty
 
 static Value compile_equal(Compiler *compiler, Value a, Value b, bool differ)
 {
-    int all = number(compiler, 1);
-    for (int i = 0; i < a.count && !compiler->code->message.text[0]; i++)
-        all = compute(
-            compiler, OP_AND, all,
-            compute(compiler, OP_EQUAL, register_of(compiler, a, i), register_of(compiler, b, i)));
-    return value_at(differ ? compute(compiler, OP_NOT, all, 0) : all, 1);
+    int all = -1;
+    for (int i = 0; i < a.count && !compiler->code->message.text[0]; i++) {
+        const int one = compute(compiler, differ ? OP_NOT_EQUAL : OP_EQUAL,
+                                register_of(compiler, a, i), register_of(compiler, b, i));
+        all = i ? compute(compiler, differ ? OP_OR : OP_AND, all, one) : one;
+    }
+    return value_at(all, 1);
 }
 
 /* `types` are those of the operands and the result. */
@@ -342,9 +343,9 @@ static Value compile_construct(Compiler *compiler, int node)
     for (int i = at->first; i && !compiler->code->message.text[0]; i = tree->nodes[i].next) {
         const Value part = compile_read(compiler, i);
         const int type = tree->nodes[i].type, from = glsl_scalar(type), size = glsl_size(type);
-        const int op = scalar == GLSL_BOOL && from != GLSL_BOOL   ? OP_BOOL
-                       : scalar == GLSL_INT && from == GLSL_FLOAT ? OP_TRUNCATE
-                                                                  : OP_SET;
+        const int op = !scalar || scalar == from ? OP_SET
+                       : scalar == GLSL_BOOL     ? OP_BOOL
+                                                 : OP_TRUNCATE;
         const bool alone = i == at->first && !tree->nodes[i].next;
         const int wanted = glsl_size(at->type);
         if (alone && matrix && (part.count == 1 || glsl_is_matrix(type))) {

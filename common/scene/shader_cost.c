@@ -1,476 +1,502 @@
-/* glslangValidator compiles to SPIR-V, a list of instructions for values that are assigned once;
- * spirv-opt inlines, unrolls and removes until no instruction is there for nothing. Then the cost
- * of a shader is a sum over its instructions: each has a rule, by the number of components of what
- * it makes and of what it takes. The module is read as words, of which only types, constants and
- * the one function matter. */
+/* The flat code of a shader (glsl/glsl_run.h) is followed once, with numbers where the shader has
+ * values: a number is known, an input, or what an operation makes of others. Known conditions
+ * choose the way, so that loops unroll; others split it, and where ways meet, what differs is a
+ * choice. The instructions of one operation of the text, as a matrix times a vector, are a group,
+ * which is needed whole or not at all. What outputs need, and what that needs, is counted. */
 #include "scene/shader_cost.h"
 
-#include "base/cache.h"
 #include "base/memory.h"
-#include "base/process.h"
-#include "base/text.h"
+#include "glsl/glsl_code.h"
 
-#include <errno.h>
-#include <stdio.h>
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* The cost of an instruction whose result has n components, and whose largest operand has m:
- * arithmetic n * each + m * operand + once, special n * special_each + special. */
-typedef struct Rule {
-    const char *name;
-    int number, each, operand, once, special_each, special;
-    bool uncounted;
-} Rule;
+/* The work that is done at most, in units of a nanosecond or so. */
+enum { MOST = 200000000, STEP = 400, HOP = 10, BUCKETS = 1 << 14 };
 
-/* Added to the number of a function of GLSL, an operand of OpExtInst. */
-enum { GLSL = 1000 };
+/* What no operation makes; above those of code. The number 0 is none: not assigned yet. */
+enum { NUMBER_KNOWN = OP_END + 1, NUMBER_INPUT, NUMBER_CHOICE };
 
-/* What GLSL ES 1.00 can become. (SPIR-V specification, section 3.42; SPIR-V extended instructions
- * for GLSL, section 2) */
-static const Rule RULES[] = {
-    {.name = "OpFNegate", .number = 127, .each = 1},
-    {.name = "OpFAdd", .number = 129, .each = 1},
-    {.name = "OpFSub", .number = 131, .each = 1},
-    {.name = "OpFMul", .number = 133, .each = 1},
-    {.name = "OpFDiv", .number = 136, .special_each = 1},
-    {.name = "OpFMod", .number = 141, .special_each = 1},
-    {.name = "OpSNegate", .number = 126, .each = 1},
-    {.name = "OpIAdd", .number = 128, .each = 1},
-    {.name = "OpISub", .number = 130, .each = 1},
-    {.name = "OpIMul", .number = 132, .each = 1},
-    {.name = "OpSDiv", .number = 135, .special_each = 1},
-    {.name = "OpVectorTimesScalar", .number = 142, .each = 1},
-    {.name = "OpMatrixTimesScalar", .number = 143, .each = 1},
-    {.name = "OpMatrixTimesVector", .number = 145, .each = -1, .operand = 2},
-    {.name = "OpVectorTimesMatrix", .number = 144, .each = -1, .operand = 2},
-    {.name = "OpDot", .number = 148, .operand = 2, .once = -1},
-    {.name = "OpConvertFToS", .number = 110, .each = 1},
-    {.name = "OpConvertSToF", .number = 111, .each = 1},
-    {.name = "OpSelect", .number = 169, .each = 1},
-    {.name = "OpAny", .number = 154, .operand = 1, .once = -1},
-    {.name = "OpAll", .number = 155, .operand = 1, .once = -1},
-    {.name = "OpLogicalNot", .number = 168, .each = 1},
-    {.name = "OpLogicalAnd", .number = 167, .each = 1},
-    {.name = "OpLogicalOr", .number = 166, .each = 1},
-    {.name = "OpLogicalEqual", .number = 164, .each = 1},
-    {.name = "OpLogicalNotEqual", .number = 165, .each = 1},
-    {.name = "OpIEqual", .number = 170, .each = 1},
-    {.name = "OpINotEqual", .number = 171, .each = 1},
-    {.name = "OpSLessThan", .number = 177, .each = 1},
-    {.name = "OpSLessThanEqual", .number = 179, .each = 1},
-    {.name = "OpSGreaterThan", .number = 173, .each = 1},
-    {.name = "OpSGreaterThanEqual", .number = 175, .each = 1},
-    {.name = "OpFOrdEqual", .number = 180, .each = 1},
-    {.name = "OpFOrdNotEqual", .number = 182, .each = 1},
-    {.name = "OpFUnordNotEqual", .number = 183, .each = 1},
-    {.name = "OpFOrdLessThan", .number = 184, .each = 1},
-    {.name = "OpFOrdLessThanEqual", .number = 188, .each = 1},
-    {.name = "OpFOrdGreaterThan", .number = 186, .each = 1},
-    {.name = "OpFOrdGreaterThanEqual", .number = 190, .each = 1},
-    {.name = "FAbs", .number = GLSL + 4, .each = 1},
-    {.name = "FSign", .number = GLSL + 6, .each = 1},
-    {.name = "Floor", .number = GLSL + 8, .each = 1},
-    {.name = "Ceil", .number = GLSL + 9, .each = 1},
-    {.name = "Fract", .number = GLSL + 10, .each = 2},
-    {.name = "FMin", .number = GLSL + 37, .each = 1},
-    {.name = "FMax", .number = GLSL + 40, .each = 1},
-    {.name = "FClamp", .number = GLSL + 43, .each = 2},
-    {.name = "FMix", .number = GLSL + 46, .each = 3},
-    {.name = "Fma", .number = GLSL + 50, .each = 2},
-    {.name = "Step", .number = GLSL + 48, .each = 1},
-    {.name = "SmoothStep", .number = GLSL + 49, .each = 8, .special_each = 1},
-    {.name = "Cross", .number = GLSL + 68, .each = 3},
-    {.name = "Length", .number = GLSL + 66, .operand = 2, .once = -1, .special = 1},
-    {.name = "Distance", .number = GLSL + 67, .operand = 3, .once = -1, .special = 1},
-    {.name = "Normalize", .number = GLSL + 69, .each = 1, .operand = 2, .once = -1, .special = 1},
-    {.name = "Reflect", .number = GLSL + 71, .each = 2, .operand = 2},
-    {.name = "FaceForward", .number = GLSL + 70, .each = 1, .operand = 2},
-    {.name = "Sqrt", .number = GLSL + 31, .special_each = 1},
-    {.name = "InverseSqrt", .number = GLSL + 32, .special_each = 1},
-    {.name = "Pow", .number = GLSL + 26, .special_each = 1},
-    {.name = "Exp", .number = GLSL + 27, .special_each = 1},
-    {.name = "Exp2", .number = GLSL + 29, .special_each = 1},
-    {.name = "Log", .number = GLSL + 28, .special_each = 1},
-    {.name = "Log2", .number = GLSL + 30, .special_each = 1},
-    {.name = "Sin", .number = GLSL + 13, .special_each = 1},
-    {.name = "Cos", .number = GLSL + 14, .special_each = 1},
-    {.name = "Tan", .number = GLSL + 15, .special_each = 1},
-    {.name = "Asin", .number = GLSL + 16, .special_each = 1},
-    {.name = "Acos", .number = GLSL + 17, .special_each = 1},
-    {.name = "Atan", .number = GLSL + 18, .special_each = 1},
-    {.name = "Atan2", .number = GLSL + 25, .special_each = 1},
-    {.name = "OpImageSampleImplicitLod", .number = 87, .special = 1},
-    /* Moves and bookkeeping. */
-    {.name = "OpLoad", .number = 61},
-    {.name = "OpStore", .number = 62},
-    {.name = "OpAccessChain", .number = 65},
-    {.name = "OpCompositeConstruct", .number = 80},
-    {.name = "OpCompositeExtract", .number = 81},
-    {.name = "OpCompositeInsert", .number = 82},
-    {.name = "OpVectorExtractDynamic", .number = 77},
-    {.name = "OpVectorInsertDynamic", .number = 78},
-    {.name = "OpVectorShuffle", .number = 79},
-    {.name = "OpCopyObject", .number = 83},
-    {.name = "OpUndef", .number = 1},
-    {.name = "OpVariable", .number = 59},
-    {.name = "OpPhi", .number = 245},
-    {.name = "OpFunction", .number = 54},
-    {.name = "OpFunctionEnd", .number = 56},
-    {.name = "OpLabel", .number = 248},
-    {.name = "OpSelectionMerge", .number = 247},
-    {.name = "OpBranch", .number = 249},
-    {.name = "OpBranchConditional", .number = 250}, /* counted apart */
-    {.name = "OpSwitch",
-     .number = 251}, /* spirv-opt's way of leaving a block; the language has none */
-    {.name = "OpReturn", .number = 253},
-    {.name = "OpKill", .number = 252},
-    {.name = "OpUnreachable", .number = 255},
-    /* Not counted, but known by name. */
-    {.name = "OpMatrixTimesMatrix", .number = 146, .uncounted = true},
-    {.name = "OpImageSampleProjImplicitLod", .number = 91, .uncounted = true},
-    {.name = "Radians", .number = GLSL + 11, .uncounted = true},
-    {.name = "Degrees", .number = GLSL + 12, .uncounted = true},
-    {.name = "Refract", .number = GLSL + 72, .uncounted = true},
-};
+typedef struct Number {
+    int op, a, b;    /* a and b: the operands */
+    double value;    /* of a known one; else it tells similar ones apart */
+    int group, next; /* next: of the same hash */
+    int same;        /* within its group, the number that a sum with 0 or the like is; or itself */
+} Number;
 
-static const Rule *find_rule(int number)
+/* Numbers that were not there before. */
+typedef struct Group {
+    int first, count, block; /* of numbers from the first on those that say so */
+    ShaderCost cost;         /* of all its operations */
+    bool needed, whole;      /* whole: an operation is not the same as a number */
+} Group;
+
+/* What runs from a split, or a meeting, of ways on. A number is there in its block and in those
+ * whose parents, which come before them, lead to it. */
+typedef struct Block {
+    int parent;
+    int condition; /* of a split's */
+    int from[2];   /* of a meeting's: the blocks that meet */
+} Block;
+
+/* The numbers of the registers, on the way to an instruction. */
+typedef struct Way {
+    int *numbers, block, target;
+} Way;
+
+typedef struct Counter {
+    const GlslCode *code;
+    Number *numbers;
+    Group *groups;
+    Block *blocks;
+    Way *ways;                                /* that wait */
+    int *needed, *assigned, buckets[BUCKETS]; /* groups; registers, by the last group */
+    int number_count, number_room, group_count, group_room, block_count, block_room, way_count,
+        way_room, needed_count, needed_room, assigned_count, assigned_room;
+    Way way;  /* numbers NULL: it has ended */
+    int node; /* of the last group */
+    long long work;
+} Counter;
+
+static Group *last_group(const Counter *counter)
 {
-    for (size_t i = 0; i < sizeof RULES / sizeof RULES[0]; i++)
-        if (RULES[i].number == number)
-            return &RULES[i];
-    return NULL;
+    return &counter->groups[counter->group_count - 1];
 }
 
-/* Of instructions, by the specification's section 3.42. */
-enum {
-    OP_UNDEF = 1,
-    OP_EXT_INST = 12,
-    OP_TYPE_BOOL = 20,
-    OP_TYPE_INT,
-    OP_TYPE_FLOAT,
-    OP_TYPE_VECTOR,
-    OP_TYPE_MATRIX,
-    OP_FIRST_CONSTANT = 41,
-    OP_CONSTANT = 43,
-    OP_FUNCTION = 54,
-    OP_FUNCTION_END = 56,
-    OP_STORE = 62,
-    OP_DECORATE = 71,
-    OP_LAST_DECORATE = 76,
-    OP_VECTOR_TIMES_SCALAR = 142,
-    OP_LOOP_MERGE = 246,
-    OP_BRANCH_CONDITIONAL = 250,
-};
-
-/* Whether an instruction begins with the ids of its type and its result. */
-static bool is_typed(int op)
+static bool is_within(Counter *counter, int block, int outer)
 {
-    return op == OP_UNDEF || op == OP_EXT_INST ||
-           (op >= OP_FIRST_CONSTANT && op < OP_LOOP_MERGE && op != OP_FUNCTION_END &&
-            op != OP_STORE && (op < OP_DECORATE || op > OP_LAST_DECORATE));
+    for (; block > outer && outer; counter->work++)
+        block = counter->blocks[block].parent;
+    return !outer || block == outer;
 }
 
-/* What is known of a module so far. */
-typedef struct Module {
-    unsigned bound;            /* ids of types and values are less */
-    unsigned char *components; /* of each; 0 if not a number */
-    unsigned real, one;        /* the type float, and its constant 1.0 */
-    bool function;             /* the shader's only one has begun */
-} Module;
-
-/* The components of an instruction's result, which it notes; 0: it has none. */
-static int note_result(Module *module, int op, const uint32_t *operands, int count)
+static int block_new(Counter *counter, Block block)
 {
-    static const uint32_t ONE = 0x3F800000;
-    const uint32_t first = count > 0 && operands[0] < module->bound ? operands[0] : 0;
-    const uint32_t second = count > 1 && operands[1] < module->bound ? operands[1] : 0;
-    unsigned char *components = module->components;
-    if (op == OP_TYPE_FLOAT || op == OP_TYPE_INT || op == OP_TYPE_BOOL)
-        components[first] = 1;
-    else if ((op == OP_TYPE_VECTOR || op == OP_TYPE_MATRIX) && count > 2)
-        components[first] = (unsigned char)(components[second] * operands[2]);
-    if (op == OP_TYPE_FLOAT)
-        module->real = first;
-    if (!is_typed(op))
+    *(Block *)memory_add(&counter->blocks, &counter->block_count, &counter->block_room,
+                         sizeof block) = block;
+    return counter->block_count - 1;
+}
+
+static bool is_there(Counter *counter, int number, int block)
+{
+    return is_within(counter, block, counter->groups[counter->numbers[number].group].block);
+}
+
+static bool is_known(const Counter *counter, int number, double *value)
+{
+    *value = counter->numbers[number].value;
+    return counter->numbers[number].op == NUMBER_KNOWN;
+}
+
+/* The number that is there already, or a new one. */
+static int number_of(Counter *counter, int op, int a, int b, double value)
+{
+    static const uint64_t FACTOR = 0x9e3779b97f4a7c15;
+    uint64_t hash;
+    memcpy(&hash, &value, sizeof hash);
+    hash =
+        (((hash * FACTOR ^ (unsigned)op) * FACTOR ^ (unsigned)a) * FACTOR ^ (unsigned)b) * FACTOR;
+    int *bucket = &counter->buckets[(hash >> 40) % BUCKETS];
+    for (int i = *bucket; i; i = counter->numbers[i].next, counter->work += HOP) {
+        const Number *there = &counter->numbers[i];
+        if (there->op == op && there->a == a && there->b == b &&
+            memcmp(&there->value, &value, sizeof value) == 0 &&
+            is_there(counter, i, counter->way.block))
+            return i;
+    }
+    const bool made = op != NUMBER_KNOWN && op != NUMBER_INPUT;
+    counter->work += STEP;
+    Number *number = memory_add(&counter->numbers, &counter->number_count, &counter->number_room,
+                                sizeof *number);
+    *number = (Number){
+        op, a, b, value, made ? counter->group_count - 1 : 0, *bucket, counter->number_count - 1};
+    *bucket = number->same;
+    last_group(counter)->whole |= made && op >= OP_NUMBERS;
+    return number->same;
+}
+
+static int known(Counter *counter, double value)
+{
+    return number_of(counter, NUMBER_KNOWN, 0, 0, value);
+}
+
+static void assign(Counter *counter, int target, int number)
+{
+    counter->way.numbers[target] = number;
+    *(int *)memory_add(&counter->assigned, &counter->assigned_count, &counter->assigned_room,
+                       sizeof(int)) = target;
+}
+
+/* Ends the last group, and begins one. Operations that are all the same as numbers are none. */
+static void group_new(Counter *counter, int node)
+{
+    if (counter->group_count) {
+        Group *group = last_group(counter);
+        int *numbers = counter->way.numbers;
+        for (int i = 0; i < counter->assigned_count && !group->whole; i++)
+            numbers[counter->assigned[i]] = counter->numbers[numbers[counter->assigned[i]]].same;
+        for (int i = group->first; i < counter->number_count; i++)
+            counter->numbers[i].same = i;
+        if (!group->whole)
+            group->cost = (ShaderCost){0};
+        group->count = counter->number_count - group->first;
+    }
+    counter->assigned_count = 0;
+    counter->node = node;
+    *(Group *)memory_add(&counter->groups, &counter->group_count, &counter->group_room,
+                         sizeof(Group)) =
+        (Group){.first = counter->number_count, .block = counter->way.block};
+}
+
+/* Which of two operands a sum with 0, a product with 0 or 1 or the like is; 0: neither. */
+static int shortcut(const Counter *counter, int op, int a, int b)
+{
+    double x, y;
+    const bool a_known = is_known(counter, a, &x), b_known = is_known(counter, b, &y);
+    const bool sum = op == OP_ADD || op == OP_SUBTRACT || op == OP_OR;
+    const bool product = op == OP_MULTIPLY || op == OP_AND;
+    if (!sum && !product && op != OP_DIVIDE)
         return 0;
-    components[second] = components[first];
-    if (op == OP_CONSTANT && first == module->real && count > 2 && operands[2] == ONE)
-        module->one = second;
-    return components[second];
+    if (b_known && y == !sum)
+        return a;
+    if (a_known && x == !sum && op != OP_SUBTRACT && op != OP_DIVIDE)
+        return b;
+    if (!sum && a_known && x == 0)
+        return a;
+    return product && b_known && y == 0 ? b : 0;
 }
 
-/* Adds what one instruction costs. */
-static bool count_instruction(Module *module, int op, const uint32_t *operands, int count,
-                              ShaderCost *cost, Message *message)
+/* The number that an operation leaves; 0: another one. */
+static int simplify(Counter *counter, const GlslInstruction *at, int a, int b)
 {
-    const int each = note_result(module, op, operands, count);
-    const uint32_t last = count > 0 ? operands[count - 1] : 0;
-    const bool function = op == OP_EXT_INST && count > 3;
-    int max = 0;
-    module->function |= op == OP_FUNCTION;
-    /* spirv-opt leaves it, no driver does. */
-    if (!module->function || (op == OP_VECTOR_TIMES_SCALAR && last == module->one))
-        return true;
-    if (op == OP_LOOP_MERGE)
-        return message_set(message, "operations: cannot unroll a loop");
-    for (int i = function ? 4 : 2; i < count; i++)
-        if (operands[i] < module->bound && module->components[operands[i]] > max)
-            max = module->components[operands[i]];
-    const int number = function ? GLSL + (int)operands[3] : op;
-    const Rule *rule = find_rule(number);
-    if (!rule)
-        return message_set(message, "operations: cannot count SPIR-V's %s %d",
-                           function ? "function" : "instruction", number % GLSL);
-    if (rule->uncounted)
-        return message_set(message, "operations: cannot count %s", rule->name);
-    cost->arithmetic += each * rule->each + max * rule->operand + rule->once;
-    cost->special += each * rule->special_each + rule->special;
-    cost->branches += op == OP_BRANCH_CONDITIONAL;
+    double registers[3] = {0};
+    if (!is_known(counter, a, &registers[0]) || (b && !is_known(counter, b, &registers[1])))
+        return shortcut(counter, at->op, a, b);
+    GlslInstruction two[] = {
+        {.op = at->op, .precision = at->precision ? GLSL_HIGHP : 0, .d = 2, .b = 1},
+        {.op = OP_END}};
+    const GlslCode code = {.instructions = two};
+    GlslRun run = {
+        .code = &code, .arithmetic = &GLSL_LLVMPIPE, .exact_from = INT_MAX, .registers = registers};
+    glsl_run(&run);
+    return known(counter, registers[2]);
+}
+
+static void add_cost(Counter *counter, int op, int divisor)
+{
+    const GlslNode *node = &counter->code->tree->nodes[counter->node];
+    const int id = node->kind == GLSL_BUILT_IN ? GLSL_FUNCTIONS[node->symbol].id : -1;
+    const bool one = id == GLSL_EXP || id == GLSL_LOG || id == GLSL_MOD || id == GLSL_TAN;
+    const bool function = (op >= OP_SIN && op <= OP_INVERSE_SQRT) || op == OP_TEXTURE;
+    const bool division = op == OP_INT_DIVIDE || op == OP_DIVIDE;
+    ShaderCost *cost = &last_group(counter)->cost;
+    if (one ? op == OP_DIVIDE || op == OP_EXP2 || op == OP_LOG2
+            : function || (division && counter->numbers[divisor].op != NUMBER_KNOWN))
+        cost->special++;
+    else if (!one)
+        cost->arithmetic++;
+}
+
+static void operate(Counter *counter, const GlslInstruction *at)
+{
+    const int op = at->op, *numbers = counter->way.numbers;
+    const bool unary = op == OP_NEGATE || op == OP_NOT || (op >= OP_ABS && op <= OP_ATAN) ||
+                       (op >= OP_EXP2 && op <= OP_BOOL);
+    const bool symmetric = op == OP_ADD || op == OP_MULTIPLY || (op >= OP_EQUAL && op <= OP_MAX);
+    const int a = numbers[at->a];
+    const int b = unary             ? 0
+                  : op == OP_SELECT ? number_of(counter, op, numbers[at->b], numbers[at->c], 0)
+                                    : numbers[at->b];
+    const int x = counter->numbers[a].same, y = counter->numbers[b].same;
+    const bool turn = symmetric && a > b;
+    const int number = number_of(counter, op, turn ? b : a, turn ? a : b, 0);
+    const int same = simplify(counter, at, x, y);
+    add_cost(counter, op, b);
+    if (same)
+        counter->numbers[number].same = same;
+    last_group(counter)->whole |= !same;
+    assign(counter, at->d, number);
+}
+
+/* An index that is not known has as its value how many registers it may select from. */
+static void index_array(Counter *counter, const GlslInstruction *at)
+{
+    double base = 0, index;
+    const int *numbers = counter->way.numbers, from = at->a < 0 ? 0 : numbers[at->a];
+    const bool base_known = at->a < 0 || is_known(counter, from, &base);
+    const bool index_known = is_known(counter, numbers[at->b], &index) && base_known;
+    const double most = at->n - 1, in = index < 0 ? 0 : index > most ? most : (int)index;
+    assign(counter, at->d,
+           index_known
+               ? known(counter, base + at->c * in)
+               : number_of(counter, OP_INDEX, from, numbers[at->b], base + 1.0 * at->c * at->n));
+}
+
+/* Reads or assigns a register, or each that it may be. */
+static void select_register(Counter *counter, const GlslInstruction *at)
+{
+    const bool load = at->op == OP_LOAD;
+    const int base = load ? at->a : at->d, *numbers = counter->way.numbers;
+    double value;
+    const bool chosen = is_known(counter, numbers[at->b], &value);
+    const int room = counter->code->register_count - base;
+    const int extent = value < room ? (int)value : room - 1;
+    int number = numbers[at->b];
+    if (!load && !chosen)
+        number = number_of(counter, OP_STORE, number, numbers[at->a], 0);
+    for (int i = 0; i < extent && !chosen; i++) {
+        const int next = number_of(counter, at->op, number, numbers[base + i], i);
+        if (load)
+            number = next;
+        else
+            assign(counter, base + i, next);
+    }
+    if (load)
+        assign(counter, at->d, chosen ? numbers[base + extent] : number);
+    else if (chosen)
+        assign(counter, base + extent, numbers[at->a]);
+}
+
+static void look_up(Counter *counter, const GlslInstruction *at)
+{
+    const int *numbers = counter->way.numbers;
+    int number = numbers[at->a];
+    add_cost(counter, OP_TEXTURE, 0);
+    for (int i = 0; i < at->n; i++)
+        number = number_of(counter, OP_TEXTURE, number, numbers[at->b + i], at->c);
+    for (int i = 0; i < 4; i++)
+        assign(counter, at->d + i, number_of(counter, OP_TEXTURE, number, 0, i));
+}
+
+/* Sends the present way to an instruction after this one. */
+static void send(Counter *counter, int target)
+{
+    counter->way.target = target;
+    *(Way *)memory_add(&counter->ways, &counter->way_count, &counter->way_room, sizeof(Way)) =
+        counter->way;
+    counter->way.numbers = NULL;
+}
+
+/* Two ways: one if the condition is true, and one that is sent to an instruction if not. */
+static void split(Counter *counter, int condition, int target)
+{
+    const size_t size = (size_t)counter->code->register_count * sizeof(int);
+    const Block block = {.parent = counter->way.block, .condition = condition};
+    const Way on = {memory_copy(counter->way.numbers, size), block_new(counter, block), 0};
+    counter->way.block = block_new(counter, block);
+    counter->work += counter->code->register_count;
+    send(counter, target);
+    counter->way = on;
+}
+
+/* The present way and one that waited, which ends. */
+static void meet(Counter *counter, Way other)
+{
+    Way *way = &counter->way;
+    group_new(counter, 0);
+    Block block = {.parent = way->block, .from = {way->block, other.block}};
+    while (!is_within(counter, other.block, block.parent))
+        block.parent = counter->blocks[block.parent].parent;
+    way->block = block_new(counter, block);
+    counter->work += counter->code->register_count;
+    for (int i = 0; i < counter->code->register_count; i++) {
+        const int a = way->numbers[i], b = other.numbers[i];
+        if (a == b || !b)
+            continue;
+        way->numbers[i] = b;
+        if (!a)
+            continue;
+        group_new(counter, 0);
+        way->numbers[i] = number_of(counter, NUMBER_CHOICE, a, b, way->block);
+        last_group(counter)->cost.arithmetic =
+            is_there(counter, a, block.parent) && is_there(counter, b, block.parent);
+    }
+    free(other.numbers);
+}
+
+/* All that wait for this instruction meet, the latest first. If no way is there, the nearest one
+ * goes on; returns where, -1: there is none. */
+static int arrive(Counter *counter, int next)
+{
+    for (int i = 0; i < counter->way_count && !counter->way.numbers; i++)
+        if (i == 0 || counter->ways[i].target < next)
+            next = counter->ways[i].target;
+    for (int i = counter->way_count - 1; i >= 0; i--) {
+        const Way way = counter->ways[i];
+        if (way.target != next)
+            continue;
+        memmove(counter->ways + i, counter->ways + i + 1,
+                (size_t)(--counter->way_count - i) * sizeof way);
+        if (counter->way.numbers)
+            meet(counter, way);
+        else
+            counter->way = way;
+    }
+    return counter->way.numbers ? next : -1;
+}
+
+static void need(Counter *counter, int number)
+{
+    const int group = counter->numbers[number].group;
+    if (group && !counter->groups[group].needed)
+        *(int *)memory_add(&counter->needed, &counter->needed_count, &counter->needed_room,
+                           sizeof(int)) = group;
+    counter->groups[group].needed = true;
+}
+
+/* What leads to a block from an outer one. */
+static void need_way(Counter *counter, int block, int outer)
+{
+    for (; block != outer; block = counter->blocks[block].parent)
+        need(counter, counter->blocks[block].condition);
+}
+
+/* Adds up what is needed, and what that needs. */
+static void add_up(Counter *counter, ShaderCost *cost)
+{
+    for (int i = 0; i < counter->needed_count; i++) {
+        const int index = counter->needed[i];
+        const Group group = counter->groups[index];
+        const Block block = counter->blocks[group.block];
+        cost->arithmetic += group.cost.arithmetic;
+        cost->special += group.cost.special;
+        for (int k = group.first; k < group.first + group.count; k++) {
+            const Number number = counter->numbers[k];
+            if (number.group == index) {
+                need(counter, number.a);
+                need(counter, number.b);
+            }
+            for (int n = 0; n < 2 && number.op == NUMBER_CHOICE; n++)
+                need_way(counter, block.from[n], block.parent);
+        }
+    }
+}
+
+/* Where an instruction leads that is no operation on numbers; -1: it turns an unknown number of
+ * times. */
+static int follow(Counter *counter, const GlslInstruction *at, int next)
+{
+    Way *way = &counter->way;
+    const int kind = counter->code->tree->nodes[at->node].kind;
+    double value;
+    group_new(counter, 0);
+    if (at->op == OP_JUMP_FALSE && !is_known(counter, way->numbers[at->a], &value)) {
+        if (kind == GLSL_FOR || kind == GLSL_WHILE || kind == GLSL_DO)
+            return -1;
+        split(counter, way->numbers[at->a], at->d);
+    } else if (at->op == OP_JUMP || (at->op == OP_JUMP_FALSE && value == 0)) {
+        if (at->d < next)
+            return at->d;
+        send(counter, at->d);
+    } else if (at->op == OP_DISCARD) {
+        need_way(counter, way->block, 0);
+        free(way->numbers);
+        way->numbers = NULL;
+    }
+    return next;
+}
+
+/* Where the next instruction is. */
+static int step(Counter *counter, int next)
+{
+    const GlslInstruction *at = &counter->code->instructions[next++];
+    if (at->node != counter->node && at->op < OP_END)
+        group_new(counter, at->node);
+    /* clang-format off */
+    switch (at->op) {
+    case OP_SET: assign(counter, at->d, counter->way.numbers[at->a]); return next;
+    case OP_INDEX: index_array(counter, at); return next;
+    case OP_LOAD: case OP_STORE: select_register(counter, at); return next;
+    case OP_TEXTURE: look_up(counter, at); return next;
+    case OP_CHECK: case OP_EDGES: case OP_EVENT: return next;
+    case OP_UNSET:
+        memset(counter->way.numbers + at->d, 0, (size_t)at->n * sizeof(int));
+        return next;
+    default:
+        if (at->op >= OP_NUMBERS)
+            return follow(counter, at, next);
+        operate(counter, at);
+        return next;
+    }
+    /* clang-format on */
+}
+
+static bool is_input(const GlslCode *code, const GlslVariable *variable)
+{
+    const int storage = variable->storage;
+    return storage == GLSL_ATTRIBUTE || storage == GLSL_UNIFORM || storage == GLSL_IN ||
+           (storage == GLSL_VARYING && code->tree->stage == GLSL_FRAGMENT);
+}
+
+/* What code assigns has no number yet. */
+static void begin(Counter *counter)
+{
+    const GlslCode *code = counter->code;
+    int *numbers = memory_new((size_t)code->register_count, sizeof *numbers);
+    counter->way.numbers = numbers;
+    block_new(counter, (Block){0});
+    group_new(counter, 0);
+    number_of(counter, NUMBER_INPUT, 0, 0, 0); /* none */
+    for (int i = 0; i < code->register_count; i++)
+        numbers[i] = known(counter, code->start[i]);
+    for (int i = 0; i < code->instruction_count; i++)
+        if (code->instructions[i].op < OP_NUMBERS)
+            numbers[code->instructions[i].d] = 0;
+    for (int i = 0; i < code->variable_count; i++)
+        for (int k = 0; k < code->variables[i].count; k++)
+            if (is_input(code, &code->variables[i]))
+                numbers[code->variables[i].first + k] = number_of(counter, NUMBER_INPUT, i, k, 1);
+}
+
+/* To the end of main, where the outputs are set. */
+static bool count(Counter *counter, ShaderCost *cost, Message *message)
+{
+    const GlslCode *code = counter->code;
+    int next = 0;
+    begin(counter);
+    while ((next = arrive(counter, next)) >= 0 && code->instructions[next].op != OP_END) {
+        const GlslNode *node = &code->tree->nodes[code->instructions[next].node];
+        next = step(counter, next);
+        counter->work += 1 + counter->way_count;
+        if (next < 0)
+            return message_set(message, "operations: line %d: cannot unroll a loop",
+                               node->place.line);
+        if (counter->work > MOST)
+            return message_set(message, "operations: too many to count");
+    }
+    if (counter->way.numbers)
+        group_new(counter, 0);
+    for (int i = 0; i < code->variable_count && counter->way.numbers; i++) {
+        const GlslVariable *variable = &code->variables[i];
+        for (int k = 0; k < variable->count && !is_input(code, variable); k++)
+            if (variable->storage == GLSL_OUT || variable->storage == GLSL_VARYING)
+                need(counter, counter->way.numbers[variable->first + k]);
+    }
+    add_up(counter, cost);
     return true;
-}
-
-/* A module is a header of five words, the fourth of which is the bound of all ids, and
- * instructions: a word of their length in words and their number, and the operands. (section 2.3)
- */
-static bool count_module(FILE *file, ShaderCost *cost, Message *message)
-{
-    enum { LONGEST = 65535 };
-    static const uint32_t MAGIC = 0x07230203, IDS = 1 << 22;
-    uint32_t header[5], word;
-    Module module = {.bound = 0};
-    bool done = fread(header, sizeof header, 1, file) == 1 && header[0] == MAGIC && header[3] < IDS;
-    if (done) {
-        module.bound = header[3];
-        module.components = memory_new(module.bound + 1, 1);
-    }
-    uint32_t *operands = memory_new(LONGEST, sizeof *operands);
-    while (done && fread(&word, sizeof word, 1, file) == 1) {
-        const size_t count = word >> 16 ? (word >> 16) - 1 : 0;
-        done =
-            fread(operands, sizeof *operands, count, file) == count &&
-            count_instruction(&module, (int)(word & 0xFFFF), operands, (int)count, cost, message);
-    }
-    free(operands);
-    free(module.components);
-    return done && !module.function ? message_set(message, "operations: spirv-opt says nothing")
-                                    : done;
-}
-
-/* What a tool that failed said first. glslangValidator reports errors on standard output, since 14
- * on standard error. */
-static void first_words(FILE *output, FILE *errors, char said[static 200])
-{
-    rewind(errors);
-    if (fscanf(errors, " %199[^\n]", said) != 1)
-        (void)!fscanf(output, " %199[^\n]", said);
-}
-
-/* Runs a tool from `input`, which is closed, to the file that is returned; NULL on failure. */
-static FILE *run_tool(const char *const *arguments, const char *package, FILE *input,
-                      Message *message)
-{
-    FILE *output = input ? tmpfile() : NULL;
-    FILE *errors = output ? tmpfile() : NULL;
-    pid_t child;
-    int status = 0, error = ENOMEM;
-    if (errors) {
-        rewind(input); /* and writes what is buffered */
-        const int files[] = {fileno(input), fileno(output), fileno(errors), -1};
-        error = process_start(&child, arguments, files);
-    }
-    if (!error)
-        status = process_wait(child);
-    if (input)
-        fclose(input);
-    if (output)
-        rewind(output);
-    char said[200] = "failed";
-    if (error == ENOENT)
-        snprintf(said, sizeof said, "not found; install the package %s", package);
-    else if (error)
-        snprintf(said, sizeof said, "%s", strerror(error));
-    else if (status != 0)
-        first_words(output, errors, said);
-    if (errors)
-        fclose(errors);
-    if (!error && status == 0)
-        return output;
-    message_set(message, "operations: %s: %s", arguments[0], said);
-    if (output)
-        fclose(output);
-    return NULL;
-}
-
-/* The text as GLSL ES 1.00 whose directives are carried out, so that nothing depends any more on
- * what a compiler defines; NULL on failure. */
-static FILE *preprocess(const char *text, ShaderStage stage, Message *message)
-{
-    const char *const arguments[] = {
-        "glslangValidator", "-E", "--stdin", "-S", stage == SHADER_VERTEX ? "vert" : "frag", NULL};
-    FILE *file = tmpfile();
-    if (!file) {
-        message_set(message, "operations: no temporary file: %s", strerror(errno));
-        return NULL;
-    }
-    fprintf(file, "%s%s\n", strncmp(text, "#version", 8) == 0 ? "" : "#version 100\n", text);
-    return run_tool(arguments, "glslang-tools", file, message);
-}
-
-/* All of a file, which is closed. */
-static char *read_text(FILE *file)
-{
-    char *text = NULL;
-    size_t size = 0;
-    if (file && getdelim(&text, &size, '\0', file) < 0) {
-        free(text);
-        text = NULL;
-    }
-    if (file)
-        fclose(file);
-    return text;
-}
-
-char *shader_preprocess(const char *text, ShaderStage stage, Message *message)
-{
-    FILE *file = preprocess(text, stage, message);
-    char *done = read_text(file);
-    if (file && !done)
-        message_set(message, "operations: the preprocessor says nothing");
-    return done;
-}
-
-/* Names that a shader of GLSL ES 1.00 may define, but that 3.10 keeps for itself. */
-static const char LATER[] =
-    "transpose inverse determinant outerProduct round roundEven trunc modf isnan isinf "
-    "sinh cosh tanh asinh acosh atanh fma frexp ldexp bitCount texture textureSize "
-    "textureLod textureGrad textureProj textureOffset texelFetch textureGather dFdx dFdy "
-    "fwidth barrier memoryBarrier findLSB findMSB layout centroid smooth patch sample "
-    "uint uvec2 uvec3 uvec4 mat2x2 mat2x3 mat2x4 mat3x2 mat3x3 mat3x4 mat4x2 mat4x3 "
-    "mat4x4 shared coherent restrict readonly writeonly buffer precise subroutine "
-    "resource common partition active filter image1D image2D image3D imageCube "
-    "isampler2D usampler2D sampler2DArray samplerCubeShadow atomic_uint uimage2D "
-    "iimage2D imageBuffer samplerBuffer noise1 noise2 noise3 noise4 ";
-
-static bool has_word(const char *text, const char *word)
-{
-    const size_t length = strlen(word);
-    for (const char *at = strstr(text, word); at; at = strstr(at + 1, word))
-        if ((at == text || !text_is_word(at[-1])) && !text_is_word(at[length]))
-            return true;
-    return false;
-}
-
-/* The preprocessed shader as GLSL ES 3.10, the oldest that becomes SPIR-V; NULL on failure. */
-static FILE *translate(const char *text, ShaderStage stage)
-{
-    FILE *file = tmpfile();
-    if (!file)
-        return NULL;
-    if (strncmp(text, "#version", 8) == 0)
-        text += strcspn(text, "\n");
-    fputs("#version 310 es\n"
-          "#extension GL_EXT_control_flow_attributes : enable\n"
-          "#define for [[unroll]] for\n",
-          file);
-    if (stage == SHADER_FRAGMENT && strstr(text, "gl_FragData"))
-        fputs("#define gl_FragData operations_FragData\n"
-              "layout(location = 0) out highp vec4 operations_FragData[1];\n",
-              file);
-    for (const char *at = LATER; *at; at += strcspn(at, " ") + 1) {
-        char word[32];
-        snprintf(word, sizeof word, "%.*s", (int)strcspn(at, " "), at);
-        if (has_word(text, word))
-            fprintf(file, "#define %s operations_%s\n", word, word);
-    }
-    if (stage == SHADER_VERTEX)
-        fputs("#define attribute in\n#define varying out\n", file);
-    else if (strstr(text, "gl_FragData"))
-        fputs("#define varying in\n", file);
-    else
-        fputs("#define varying in\n#define texture2D texture\n"
-              "#define gl_FragColor operations_FragColor\n"
-              "out highp vec4 operations_FragColor;\n",
-              file);
-    fprintf(file, "%s\n", text);
-    return file;
-}
-
-static bool count(const char *text, ShaderStage stage, ShaderCost *cost, Message *message)
-{
-    const char *const compile[] = {"glslangValidator",
-                                   "-G",
-                                   "--aml",
-                                   "--quiet",
-                                   "--stdin",
-                                   "-S",
-                                   stage == SHADER_VERTEX ? "vert" : "frag",
-                                   "-o",
-                                   "/dev/stdout",
-                                   NULL};
-    static const char *const optimize[] = {"spirv-opt", "-O", "-", "-o", "-", NULL};
-    char *plain = shader_preprocess(text, stage, message);
-    FILE *file = plain ? translate(plain, stage) : NULL;
-    *cost = (ShaderCost){0};
-    if (!plain)
-        return false;
-    free(plain);
-    if (!file)
-        return message_set(message, "operations: no temporary file: %s", strerror(errno));
-    file = run_tool(compile, "glslang-tools", file, message);
-    file = file ? run_tool(optimize, "spirv-tools", file, message) : NULL;
-    const bool done = file && count_module(file, cost, message);
-    if (file)
-        fclose(file);
-    if (!done)
-        *cost = (ShaderCost){0};
-    return done;
-}
-
-/* Kept between runs: a count takes four processes, and a figure of all terms 16 counts. */
-typedef struct Kept {
-    CacheKey check; /* of key and cost, against damage */
-    ShaderCost cost;
-} Kept;
-
-static CacheKey check_of(CacheKey key, const ShaderCost *cost)
-{
-    cache_key_add(&key, cost, sizeof *cost);
-    return key;
-}
-
-static bool find_kept(const CacheKey *key, ShaderCost *cost)
-{
-    size_t size = 0;
-    Kept *kept = cache_read("cost", key, &size);
-    bool found = kept && size == sizeof *kept;
-    if (found) {
-        const CacheKey check = check_of(*key, &kept->cost);
-        found = memcmp(&check, &kept->check, sizeof check) == 0;
-    }
-    if (found)
-        *cost = kept->cost;
-    free(kept);
-    return found;
 }
 
 bool shader_cost(const char *text, ShaderStage stage, ShaderCost *cost, Message *message)
 {
-    CacheKey key = {{(uint64_t)stage, 0}};
-    cache_key_add(&key, text, strlen(text));
-    cache_key_add_program(&key);
-    const bool keeps =
-        cache_key_add_tool(&key, "glslangValidator") && cache_key_add_tool(&key, "spirv-opt");
-    if (keeps && find_kept(&key, cost))
-        return true;
-    if (!count(text, stage, cost, message))
-        return false;
-    if (keeps) {
-        Kept kept;
-        memset(&kept, 0, sizeof kept); /* padding too is written */
-        kept.check = check_of(key, cost);
-        kept.cost = *cost;
-        cache_write("cost", &key, &kept, sizeof kept);
-    }
-    return true;
+    GlslTree *tree = glsl_parse(text, (GlslStage)stage, NULL);
+    GlslCode *code = glsl_compile(tree);
+    const GlslMessage *said = tree->message_count ? &tree->messages[0] : &code->message;
+    Counter counter = {.code = code};
+    *cost = (ShaderCost){0};
+    const bool done = said->text[0] ? message_set(message, "operations: line %d: %s",
+                                                  said->place.line, said->text)
+                                    : count(&counter, cost, message);
+    for (int i = 0; i < counter.way_count; i++)
+        free(counter.ways[i].numbers);
+    free(counter.way.numbers);
+    free(counter.numbers);
+    free(counter.groups);
+    free(counter.blocks);
+    free(counter.ways);
+    free(counter.needed);
+    free(counter.assigned);
+    glsl_code_free(code);
+    glsl_tree_free(tree);
+    return done;
 }

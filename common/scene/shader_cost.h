@@ -1,11 +1,18 @@
 /*
- * shader_cost: operations per invocation of a shader. glslangValidator compiles it to SPIR-V,
- * spirv-opt inlines functions, unrolls loops and removes dead code, and the remaining instructions
- * are counted. No GL; writes no file but in the cache (base/cache.h), where counts are kept.
+ * shader_cost: operations per invocation of a shader, counted in its text. No GL.
  *
  * Counts do not depend on the machine or the driver, which may optimize further. They are scalar
  * operations: a sum of two vec3 is 3, a dot product of two vec3 is 5, a mat4 times a vec4 is 28.
- * All branches count, because neighboring invocations may take different ones.
+ * Built-in functions are what the specification says they are: clamp is 2 for each component, fract
+ * 2, mix 3, reflect of vec3 12; normalize of n components is 3 n - 1 and 1 special, length 2 n - 1
+ * and 1 special, smoothstep 8 and 1 special. mod, tan, exp and log are 1 special, and so is a lookup
+ * of a texture, whatever its coordinates. A division by a known number is a product.
+ *
+ * Functions count where they are called, loops in each turn, and all branches, because neighboring
+ * invocations may take different ones. What costs nothing: copies, parts and constructors; what no
+ * output needs; what is known; sums with 0, products with 0 or 1, and what was computed before of
+ * the same, if that holds for all components; the choice between ways that compute what differs.
+ * A choice between values that are there on both ways is 1 for each component that is needed.
  */
 #ifndef SHADER_COST_H
 #define SHADER_COST_H
@@ -14,17 +21,11 @@
 
 typedef struct ShaderCost {
     int arithmetic; /* sums, products, comparisons, choices, minima, conversions... */
-    int special;    /* divisions, roots, powers, exponentials, logarithms, sines... */
-    int branches;
+    int special;    /* divisions, roots, powers, exponentials, logarithms, sines, lookups... */
 } ShaderCost;
 
-/* `text` is GLSL ES 1.00, as the driver receives it. False if a tool is missing (the message names
- * its package), the text does not compile, or a loop cannot be unrolled. */
+/* `text` is GLSL ES 1.00, as the driver receives it. False, with zeros, if it is in error, or a loop
+ * does not turn a known number of times. */
 bool shader_cost(const char *text, ShaderStage stage, ShaderCost *cost, Message *message);
-
-/* The text with its directives carried out as GLSL ES 1.00 has them, in memory that the caller
- * frees: what shader_cost counts. A driver that is given it draws what is counted. NULL, with a
- * message: a tool is missing, or a directive is invalid. */
-char *shader_preprocess(const char *text, ShaderStage stage, Message *message);
 
 #endif

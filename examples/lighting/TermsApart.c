@@ -103,35 +103,22 @@ static void scene(double seconds, int view, Scene *scene)
     *scene = state.kept.scene;
 }
 
-/* The operations of a view's shader: those of an earlier view with the same, or counted now; -1
- * where the tools that count them are missing. */
-static int operations_of(ShaderSource sources[VIEWS][2], int operations[VIEWS][2], int view,
-                         int stage)
-{
-    ShaderCost cost;
-    const char *text = sources[view][stage].text;
-    for (int earlier = 0; earlier < view; earlier++)
-        if (text && strcmp(sources[earlier][stage].text, text) == 0)
-            return operations[earlier][stage];
-    return text && shader_cost(text, (ShaderStage)stage, &cost, NULL)
-               ? cost.arithmetic + cost.special
-               : -1;
-}
-
 static bool count_operations(Lighting *lighting, int operations[VIEWS][2], Message *message)
 {
-    ShaderSource sources[VIEWS][2] = {{{0}}};
     bool done = true;
     for (int view = 0; view < VIEWS && done; view++) {
         Scene shown;
+        ShaderSource sources[2] = {{0}};
         scene(0, view, &shown);
-        done = lighting_sources(lighting, &shown, &shown.objects[0], false, sources[view], message);
-        for (int stage = 0; stage < 2 && done; stage++)
-            operations[view][stage] = operations_of(sources, operations, view, stage);
+        done = lighting_sources(lighting, &shown, &shown.objects[0], false, sources, message);
+        for (int stage = 0; stage < 2 && done; stage++) {
+            ShaderCost cost;
+            done = shader_cost(sources[stage].text, (ShaderStage)stage, &cost, message);
+            operations[view][stage] = cost.arithmetic + cost.special;
+        }
+        shader_source_close(&sources[0]);
+        shader_source_close(&sources[1]);
     }
-    for (int view = 0; view < VIEWS; view++)
-        for (int stage = 0; stage < 2; stage++)
-            shader_source_close(&sources[view][stage]);
     return done;
 }
 
@@ -177,7 +164,7 @@ static bool make_labels(const ShaderLoader *loader, Message *message)
     for (int view = 0; view < VIEWS && done; view++) {
         char counted[64] = "", timed[32] = "";
         const int *own = operations[view];
-        if (costs != COSTS_OFF && own[0] >= 0 && own[1] >= 0)
+        if (costs != COSTS_OFF)
             snprintf(counted, sizeof counted,
                      view == VIEWS - 1 ? ": %d op per vertex + %d per fragment" : ": %d + %d op",
                      own[0], own[1]); /* the last explains the others' */

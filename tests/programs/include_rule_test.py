@@ -17,7 +17,6 @@ MAY_SPEAK = {"base/memory_end.c",    # the end of a program that gets no memory
              "base/progress.c",  # its bar is on stderr
              "scene/scene_file_read.c"}   # _exit in a forked child
 OPTION = re.compile(r'"[^"\n]*(?<![\w-])--[a-z]')
-MAY_NAME_OPTIONS = {"scene/shader_cost.c"}     # of the disassembler's command
 
 root = pathlib.Path(sys.argv[1])
 failures = []
@@ -50,7 +49,7 @@ for floor in FLOORS[:-2]:
         if found and name not in MAY_SPEAK:
             failures.append(f"common/{name}: {found.group()}: only app prints and ends the process")
         found = OPTION.search(code)
-        if found and name not in MAY_NAME_OPTIONS:
+        if found:
             failures.append(f"common/{name}: {found.group()}: only app names options of the command line")
 check(root / "common/web", "what differs in a browser", FLOORS)
 check(root / "examples/web", "the pages' module", FLOORS + ["web"])

@@ -5,6 +5,8 @@
 #include "labs/check/budget.h"
 
 #include "base/clock.h"
+#include "base/memory.h"
+#include "glsl/glsl.h"
 #include "labs/program/lab_scene_open.h"
 #include "lighting/lighting.h"
 #include "scene/shader_cost.h"
@@ -102,7 +104,7 @@ static bool count_pixels(const Way *way, const Setting *of, long *pixels, Messag
     return done;
 }
 
-/* -1, with a message: no tool counts them. */
+/* -1, with a message: they cannot be counted. */
 static long operations_of(const char *text, ShaderStage stage, Message *message)
 {
     ShaderCost counted;
@@ -129,14 +131,14 @@ bool budget_preprocess(const SubmissionFiles *files, SubmissionFiles *plain, Mes
     for (int stage = 0; stage < 2 && done; stage++) {
         ShaderSource source = {0};
         done = shader_source_open(&source, &loader, names[stage], (ShaderStage)stage, message);
-        char *text = done ? shader_preprocess(source.text, (ShaderStage)stage, message) : NULL;
-        char *name = text ? strdup(names[stage]) : NULL;
-        shader_source_close(&source);
-        done = name != NULL;
+        GlslTree *tree = done ? glsl_parse(source.text, (GlslStage)stage, NULL) : NULL;
+        if (done && tree->message_count)
+            done = message_set(message, "operations: %s", tree->messages[0].text);
         if (done)
-            plain->texts[plain->count++] = (ShaderText){name, text};
-        else
-            free(text);
+            plain->texts[plain->count++] =
+                (ShaderText){memory_text(names[stage]), glsl_print(tree, tree->root)};
+        glsl_tree_free(tree);
+        shader_source_close(&source);
     }
     if (!done)
         submission_files_close(plain);
@@ -175,10 +177,7 @@ static void count_both(const Way *way, const Way *plain, const LabScene *lab_sce
 {
     VerdictCost *cost = &verdict->cost;
     Message message = {0};
-    if (files->count == 0)
-        message_set(&message, "glslangValidator cannot preprocess the shaders, or is not installed "
-                              "(package glslang-tools)");
-    cost->operations = files->count ? count_submission(way, files, pixels, &message) : -1;
+    cost->operations = count_submission(way, files, pixels, &message);
     const long whole =
         cost->operations < 0 ? -1 : count_plain(plain, &lab_scene->scene, pixels, &message);
     cost->operations_ratio = whole > 0 ? (double)cost->operations / (double)whole : -1;

@@ -18,8 +18,8 @@
 bool budget_score(const LabBudget *budget, GLuint program, Canvas *canvas,
                   const SubmissionFiles *files, Verdict *verdict, Message *message);
 
-/* A lab's two shaders as what is counted: with all directives carried out. False, with a message: a
- * tool is missing, or cannot read them; then `plain` has no files. */
+/* A lab's two shaders with all directives carried out as GLSL ES 1.00 has them. False, with a
+ * message: one is in error; then `plain` has no files. */
 bool budget_preprocess(const SubmissionFiles *files, SubmissionFiles *plain, Message *message);
 
 #endif

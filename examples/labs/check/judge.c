@@ -143,7 +143,7 @@ static bool open_shader(Session *session, Message *message)
             return settle(session, VERDICT_ERROR, &own);
     }
     if (session->lab->budget) {
-        /* The driver draws the very text that is counted. Without the tools nothing is counted. */
+        /* The driver draws the very text that is counted. */
         if (!budget_preprocess(session->files, &session->plain, NULL) ||
             !submission_compile(&session->shader, session->lab, &session->plain, NULL, NULL))
             return submission_compile(&session->shader, session->lab, session->files, NULL,
@@ -400,8 +400,9 @@ static bool judge_pictures(Session *session, Message *message)
         blame_known(verdict, "Right except in large scenes: ", "mediump overflow");
         verdict->points -= 1;
     }
-    if (session->lab->budget && !budget_score(&session->budget, session->shader.program,
-                                              &session->canvas, &session->plain, verdict, message))
+    if (session->lab->budget &&
+        !budget_score(&session->budget, session->shader.program, &session->canvas,
+                      session->plain.count ? &session->plain : session->files, verdict, message))
         return false;
     if (worst < 0 || !session->options->pictures)
         return true;

@@ -9,13 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_CANVASES = 16, MAX_LIGHTINGS = 16, MAX_COUNTED = 512 };
-
-/* Operation counts by shader text: each text is counted once. */
-typedef struct Counted {
-    char *text;
-    int operations;
-} Counted;
+enum { MAX_CANVASES = 16, MAX_LIGHTINGS = 16 };
 
 struct SettingRenderer {
     ShaderLoader loader;
@@ -33,8 +27,6 @@ struct SettingRenderer {
     int lighting_count;
     SolidMeshes meshes;
     GLuint timer;
-    Counted counted[2][MAX_COUNTED]; /* by ShaderStage */
-    int counted_count[2];
 };
 
 bool setting_renderer_open(SettingRenderer **opened, const ShaderLoader *loader,
@@ -208,21 +200,13 @@ SettingError setting_picture_error(const SettingPicture *drawing, const Referenc
                           .interior_pixels = (int)found.interior.pixels};
 }
 
-/* Counting starts three processes, so results are cached by text. */
-static int count_operations(SettingRenderer *renderer, const char *text, ShaderStage stage)
+/* -1: they cannot be counted. */
+static int count_operations(const ShaderSource *source, ShaderStage stage)
 {
-    Counted *all = renderer->counted[stage];
-    int *count = &renderer->counted_count[stage];
     ShaderCost operations;
-    for (int i = 0; i < *count; i++)
-        if (strcmp(all[i].text, text) == 0)
-            return all[i].operations;
-    const int counted = shader_cost(text, stage, &operations, NULL)
-                            ? operations.arithmetic + operations.special
-                            : -1;
-    if (*count < MAX_COUNTED)
-        all[(*count)++] = (Counted){memory_text(text), counted};
-    return counted;
+    return shader_cost(source->text, stage, &operations, NULL)
+               ? operations.arithmetic + operations.special
+               : -1;
 }
 
 static bool is_covered(const Image *image, size_t pixel)
@@ -245,9 +229,8 @@ bool setting_picture_counts(const SettingPicture *drawing, SettingRenderer *rend
             (long long)(flattened ? object->mesh->index_count : object->mesh->vertex_count);
         if (!lighting_sources(drawing->lighting, scene, object, false, sources, message))
             return false;
-        const int vertex = count_operations(renderer, sources[SHADER_VERTEX].text, SHADER_VERTEX);
-        const int fragment =
-            count_operations(renderer, sources[SHADER_FRAGMENT].text, SHADER_FRAGMENT);
+        const int vertex = count_operations(&sources[SHADER_VERTEX], SHADER_VERTEX);
+        const int fragment = count_operations(&sources[SHADER_FRAGMENT], SHADER_FRAGMENT);
         shader_source_close(&sources[SHADER_VERTEX]);
         shader_source_close(&sources[SHADER_FRAGMENT]);
         if (vertex > counts->vertex_operations)
@@ -281,8 +264,5 @@ void setting_renderer_close(SettingRenderer *renderer)
     if (renderer->timer)
         glDeleteQueriesEXT(1, &renderer->timer);
     canvas_close(&renderer->first);
-    for (int stage = 0; stage < 2; stage++)
-        for (int i = 0; i < renderer->counted_count[stage]; i++)
-            free(renderer->counted[stage][i].text);
     free(renderer);
 }
