@@ -33,8 +33,7 @@ NO_CHECK = """<p>This lab is written in C, which the browser does not compile. C
 NOTES = {"lab03_normal_matrix": "The browser compiles no C: the picture is that of the starter. Your text is kept, and saved "
                                 "below to be handed in.",
          "lab10_budget": "Of <code>budget.c</code> the browser reads assignments of numbers, which may have names "
-                         "(<code>#define</code> or <code>const int</code>). Operations are not counted, so Check gives at most "
-                         "five of the ten points."}
+                         "(<code>#define</code> or <code>const int</code>)."}
 EXACT = """<p><button type="button" id="compare">Compare with the exact picture</button></p>
 <p id="compared" role="status"></p>
 <figure id="exact" hidden><canvas id="map" width="400" height="400" role="img" aria-label="Map of the errors"></canvas>

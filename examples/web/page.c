@@ -34,8 +34,8 @@ static const char *const SHOWN[] = {
     "size",    "time",         "angle",        "orbit",   "samples",  "precision",   "alpha",
     "full",    "clamp",        "linear-light", "terms",   "light-at", "light-color", "lighting",
     "shadows", "show-clipped", "clamp-dots",   "normals", NULL};
-/* What a program has itself, but no page: files, and operations, which another process counts. */
-static const char *const ABSENT[] = {"model", "up", "costs", NULL};
+/* What a program has itself, but no page: files. */
+static const char *const ABSENT[] = {"model", "up", NULL};
 
 static struct {
     Message message;
@@ -77,11 +77,8 @@ static void restore_defaults(int number)
     }
     saved = true;
     const Parameter *own = ALL[number]->parameters;
-    for (int k = 0; own && own[k].name; k++) {
+    for (int k = 0; own && own[k].name; k++)
         parameter_restore(&own[k], defaults[number][k]);
-        if (strcmp(own[k].name, "costs") == 0)
-            parameter_read(&own[k], "off", NULL);
-    }
 }
 
 /* Texts. */

@@ -54,7 +54,6 @@ OPTIONS = [["--samples=4"], ["--precision=highp"], ["--precision=mediump"], ["--
 OF_SCENES = [["--linear-light"], ["--full"], ["--clamp=vertex"], ["--terms=diffuse"], ["--clamp-dots=off"]]
 OF_ONE = {"Shadows": [["--shadows=map"], ["--shadows=volumes", "--sheet=on"]],
           "SpotLight": [["--shadows=volumes"], ["--shadows=volumes", "--samples=4"], ["--light-color=0,0.2,1,0.5"]]}
-ABSENT = {"--costs"}  # of the tries
 
 
 def decode_png(data):
@@ -81,11 +80,10 @@ class Parity(Case):
         for program in programs:
             cases = MOMENTS + OPTIONS + (OF_SCENES if program["scene"] else []) + OF_ONE.get(program["name"], [])
             for arguments in cases + [self.joined(words["arguments"]) for words in program["tries"]]:
+                if "--costs=time" in arguments:  # which differs from run to run
+                    continue
                 drawn = self.page.run(f"rgb({json.dumps([program['name'], *arguments])})")
                 with self.subTest(program["name"], arguments=arguments):
-                    if "not in the browser" in drawn:
-                        self.assertIn(drawn[2:].split(":")[0], ABSENT)
-                        continue
                     self.assertNotIn("!", drawn[:1])
                     self.assertEqual(differences(base64.b64decode(drawn), native(program["name"], arguments)), (0, 0))
                 count += 1
@@ -778,8 +776,7 @@ class Pages(Case):
         explained = subprocess.run([os.path.join(EXAMPLES, "TwoSidedLighting"), "--explain"], stdout=subprocess.PIPE,
                                    text=True, check=True).stdout
         said = self.text("#explained")
-        self.assertIn(explained.split("operations")[0].strip(), said)
-        self.assertIn("not counted in the browser", said)
+        self.assertIn(explained.split("# programs")[0].strip(), said)
 
     def test_the_picture_is_saved(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -120,12 +120,12 @@ class Verdicts(OfLabs):
         for name, lab, texts, expected in self.beside(undefined() + cases + made(12)):
             with self.subTest(name, lab=lab):
                 self.assertEqual(said(self.judge(lab, texts)), said(expected))
-        # Operations are not counted.
+        # Operations are counted; of the C, numbers are read.
         texts = mistakes.read(10)
         named = texts["budget.c"].replace("lices = 112;", "lices = SLICES;").replace("\nvoid", "\n#define SLICES 112\nvoid")
         for text in (texts["budget.c"], named, named.replace("#define SLICES 112", "").replace("{", "{ const int SLICES = 112;")):
             verdict = self.judge(10, {**texts, "budget.c": text})
-            self.assertEqual((verdict["verdict"], verdict["points"]), ("right", 5), text)
+            self.assertEqual((verdict["verdict"], verdict["points"]), ("right", 10), text)
 
     def test_what_is_refused_is_refused_natively(self):
         """With the same words; where they are the compiler's, the verdict and the advice are the same."""

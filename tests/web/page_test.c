@@ -115,10 +115,9 @@ TEST(options_that_are_set_and_unset_leave_nothing)
     page_close();
 }
 
-/* The command on one line as what page_open takes, which counts no operations. */
+/* The command on one line as what page_open takes. */
 static void command_lines(const char *command, char *lines)
 {
-    char *start = lines;
     bool quoted = false, flag = true;
     command += strlen("examples/run ");
     for (; *command; command++)
@@ -134,9 +133,6 @@ static void command_lines(const char *command, char *lines)
             flag = false;
         }
     *lines = '\0';
-    char *costs = strstr(start, "\n--costs=off");
-    if (costs)
-        memmove(costs, costs + 12, strlen(costs + 12) + 1);
 }
 
 /* As a window's panel sets and resets one of a program's own options. */

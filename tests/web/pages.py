@@ -37,9 +37,7 @@ def address(name, link=""):
 
 
 def native(name, arguments):
-    """Rows of red, green, blue. A page counts no operations."""
-    if name == "TermsApart" and "--costs" not in arguments:
-        arguments = ["--costs", "off", *arguments]
+    """Rows of red, green, blue."""
     return subprocess.run([os.path.join(EXAMPLES, name), *arguments, "-o", "-", "--format", "rgb"], check=True,
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE).stdout
 
