@@ -283,8 +283,8 @@ static bool measure_compiling(const Run *run, double *seconds, Message *message)
     return true;
 }
 
-/* "30 (1)" for each stage: all operations, and how many of them are special; "?" if no tool counts
- * them. */
+/* "30 (1)" for each stage: all operations, and how many of them are special; "?" if they cannot be
+ * counted. */
 static void tell_operations(const Run *run, char told[2][16])
 {
     static Message said; /* once */

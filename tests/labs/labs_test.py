@@ -385,8 +385,6 @@ class Holes(Labs):
 
     def test_what_is_drawn_is_what_is_counted(self):
         right = check_solution(10)[1]
-        if right["cost"]["operations"] is None:
-            self.skipTest(right["details"])
         texts = edited(10)
         texts["lab10.frag"] = texts["lab10.frag"].replace("void main() {", "#define X 1\n#if X\nvoid main() {") + (
             "#else\nvoid main() {}\n#endif\n"
@@ -445,8 +443,7 @@ class Holes(Labs):
         )
         result = check_texts(10, texts)
         self.assertEqual(result["verdict"], "right", result["message"])
-        if shutil.which("glslangValidator"):
-            self.assertIsNotNone(result["cost"]["operations"], result["details"])
+        self.assertIsNotNone(result["cost"]["operations"], result["details"])
 
 
 class Faults(Labs):
@@ -642,8 +639,6 @@ class Faults(Labs):
             for name in ("operations", "operations_ratio"):
                 self.assertEqual(cost[name], second["cost"][name], name)
             self.assertEqual(first["points"], second["points"])
-        if cost["operations"] is None:
-            self.skipTest(first["details"])
         self.assertGreater(cost["time_ratio"], 0)
         # All five points at 0.63 of the plain program's operations, none at 1; in halves.
         share = min(max((1 - cost["operations_ratio"]) / 0.37, 0), 1)

@@ -104,7 +104,7 @@ class Surveys(Study):
         for row in usual:
             self.assertLess(float(row["interior_maximum"]), 0.51)
             self.assertGreater(float(row["time"]), 0)
-        for row in rows:  # glslangValidator took each program
+        for row in rows:
             self.assertGreater(int(row["vertex_operations"]), 0, row)
             self.assertGreaterEqual(int(row["fragment_operations"]), 0, row)
         data = json.loads(self.read("accuracy/results.json"))

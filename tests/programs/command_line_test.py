@@ -1052,7 +1052,7 @@ class Scenes(Case):
         self.assertEqual(self.png("Shadows.png").pixels, self.png("full.png").pixels)
 
     def test_every_scene_explains_itself_and_draws_nothing(self):
-        for program in SCENES[::step(3)]:  # a fresh build counts all operations
+        for program in SCENES[::step(3)]:
             with self.subTest(program=program):
                 text = self.good("--explain", program=program).decode()
                 self.assertRegex(text, r"lights? 0[: ]")
