@@ -12,7 +12,8 @@
  * invocations may take different ones. What costs nothing: copies, parts and constructors; what no
  * output needs; what is known; sums with 0, products with 0 or 1, and what was computed before of
  * the same, if that holds for all components; the choice between ways that compute what differs.
- * A choice between values that are there on both ways is 1 for each component that is needed.
+ * A choice between values that are there on both ways is 1 for each component that is needed. Terms
+ * count as they are written: nothing is factored out of a sum, and no product is fused with one.
  */
 #ifndef SHADER_COST_H
 #define SHADER_COST_H
