@@ -5,8 +5,8 @@
  * operations: a sum of two vec3 is 3, a dot product of two vec3 is 5, a mat4 times a vec4 is 28.
  * Built-in functions are what the specification says they are: clamp is 2 for each component, fract
  * 2, mix 3, reflect of vec3 12; normalize of n components is 3 n - 1 and 1 special, length 2 n - 1
- * and 1 special, smoothstep 8 and 1 special. mod, tan, exp and log are 1 special, and so is a lookup
- * of a texture, whatever its coordinates. A division by a known number is a product.
+ * and 1 special, smoothstep 8 and 1 special. mod, tan, exp and log are 1 special, and so is a
+ * lookup of a texture, whatever its coordinates. A division by a known number is a product.
  *
  * Functions count where they are called, loops in each turn, and all branches, because neighboring
  * invocations may take different ones. What costs nothing: copies, parts and constructors; what no
@@ -25,8 +25,8 @@ typedef struct ShaderCost {
     int special;    /* divisions, roots, powers, exponentials, logarithms, sines, lookups... */
 } ShaderCost;
 
-/* `text` is GLSL ES 1.00, as the driver receives it. False, with zeros, if it is in error, or a loop
- * does not turn a known number of times. */
+/* `text` is GLSL ES 1.00, as the driver receives it. False, with zeros, if it is in error, or a
+ * loop does not turn a known number of times. */
 bool shader_cost(const char *text, ShaderStage stage, ShaderCost *cost, Message *message);
 
 #endif
