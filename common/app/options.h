@@ -48,11 +48,12 @@ typedef struct Options {
     bool doctor;
     struct {
         bool asked;
-        int column, row;  /* of the pixel, from the picture's upper left corner */
-    } probe;              /* instead of drawing a file, explain a pixel */
-    const char *show;     /* instead of the picture, what its shaders compute: see show.h */
-    bool show_unknown;    /* no shader has it */
-    const char *generate; /* "man", "bash", "zsh", "fish": what is printed; NULL: nothing */
+        int column, row;    /* of the pixel, from the picture's upper left corner */
+    } probe;                /* instead of drawing a file, explain a pixel */
+    const char *show;       /* instead of the picture, what its shaders compute: see show.h */
+    bool show_unknown;      /* no shader has it */
+    const char *arithmetic; /* the device as which the shaders are computed; NULL: llvmpipe */
+    const char *generate;   /* "man", "bash", "zsh", "fish": what is printed; NULL: nothing */
     /* Of programs that draw scenes. */
     const char *save_scene; /* a file to write instead of drawing; NULL: none */
     bool explain;           /* report the effects that the scene needs, and draw nothing */

@@ -161,16 +161,18 @@ bool options_check(Options *options, const Usage *usage, Message *message)
         return message_set(message, "--format json: is of --probe");
     if (options->probe.asked)
         return !options->show || message_set(message, "--probe and --show: one of them");
-    if (options->show && (window || options->numbered || options->watch))
+    const char *one = options->show ? "show" : "arithmetic";
+    const char *of = options->show ? options->show : options->arithmetic;
+    if (of && (window || options->numbered || options->watch))
         return message_set(message,
-                           "--show %s: makes one picture; leave out --frames, --window "
+                           "--%s %s: makes one picture; leave out --frames, --window "
                            "and --watch",
-                           options->show);
+                           one, of);
     if (!(stream ? check_stream(options, message) : check_file(options, usage, message)) ||
         !check_parts(options, message))
         return false;
-    if (options->show && options->animation)
-        return message_set(message, "--show %s: makes one picture; name a .png", options->show);
+    if (of && options->animation)
+        return message_set(message, "--%s %s: makes one picture; name a .png", one, of);
     const AnimationOptions animation = {.format = options->animation,
                                         .width = options->width,
                                         .height = options->height,

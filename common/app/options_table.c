@@ -112,6 +112,10 @@ static const Parameter FIRST[] = {
      "draw a variable of the shaders instead, as in normal.z; error: what rounding changes; "
      "error:NAME: what of that NAME causes; blame: in which line",
      PARAMETER_TEXT, .min = 1, .placeholder = "NAME", AT(show), .programs = GL_FILM},
+    {"arithmetic",
+     "draw what another device would: llvmpipe, llvmpipe-128, softpipe, half, float, or a file or "
+     "link with what precision measured there; with --probe and --show, of that device",
+     PARAMETER_TEXT, .min = 1, .placeholder = "DEVICE", AT(arithmetic), .programs = GL_FILM},
     {"deterministic",
      "use no more of an x86 processor than SSE4.1 and vectors of 128 bits, in Mesa and in the C "
      "library, so that different processors give the same bytes",

@@ -5,31 +5,58 @@
 #include "app/picture_texts.h"
 #include "app/renderer.h"
 #include "base/clock.h"
+#include "base/input.h"
 #include "probe/probe.h"
 #include "probe/show.h"
 
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* A program whose picture is drawn and captured. */
+/* A program whose picture is drawn and captured, and the device that is imitated. */
 typedef struct Probing {
+    GlslArithmetic driver;
     Canvas canvas;
     Renderer renderer;
     Capture capture;
     DrawRequest request;
 } Probing;
 
+enum { MEASURED_MAX = 1 << 20 }; /* bytes */
+
+/* A device's name, a link, or a file with the same text. */
+static bool find_driver(const char *name, GlslArithmetic *driver, Message *message)
+{
+    size_t size;
+    if (glsl_arithmetic_read(name ? name : "llvmpipe", driver))
+        return true;
+    char *text = input_read(AT_FDCWD, name, name, MEASURED_MAX, &size, NULL);
+    const bool read = text && glsl_arithmetic_read(text, driver);
+    free(text);
+    if (read)
+        return true;
+    message_set(message, "--arithmetic %s: neither a file with what precision measured nor one of",
+                name);
+    for (const GlslDevice *device = GLSL_DEVICES; device->name; device++)
+        message_add(message, " %s", device->name);
+    return false;
+}
+
 /* To be closed whatever it returns. */
-static bool open(Probing *probing, const Example *example, const Options *options, Message *message)
+static bool open_probing(Probing *probing, const Example *example, const Options *options,
+                         Message *message)
 {
     *probing = (Probing){.request = options_request(options, example)};
     if (options->canvas.samples > 1 || options->canvas.supersample > 1)
         return message_set(message,
                            "--%s: a pixel of several samples has no one colour; leave out "
                            "--samples",
-                           options->show ? "show" : "probe");
-    if (!options_open_canvas(&probing->canvas, options, "x.png", message))
+                           options->probe.asked ? "probe"
+                           : options->show      ? "show"
+                                                : "arithmetic");
+    if (!find_driver(options->arithmetic, &probing->driver, message) ||
+        !options_open_canvas(&probing->canvas, options, "x.png", message))
         return false;
     capture_begin(&probing->capture, &probing->canvas);
     const bool done =
@@ -52,6 +79,7 @@ static bool tell_pixel(Probing *probing, const Options *options, Message *messag
     const int pixel[2] = {options->probe.column, options->probe.row};
     char object[64];
     ProbeQuestion question = {.capture = &probing->capture,
+                              .driver = &probing->driver,
                               .column = pixel[0],
                               .row = pixel[1],
                               .height = options->height};
@@ -85,7 +113,7 @@ bool probing_tell(const Example *example, const Options *options, Message *messa
                            options->probe.column, options->probe.row, options->width,
                            options->height);
     const bool done =
-        open(&probing, example, options, message) && tell_pixel(&probing, options, message);
+        open_probing(&probing, example, options, message) && tell_pixel(&probing, options, message);
     end(&probing);
     return done;
 }
@@ -112,11 +140,11 @@ bool probing_show(const Example *example, Options *options, Message *message)
     Show show = {.pixels = NULL};
     const int size[2] = {options->width, options->height};
     const double start = clock_now();
-    bool done = open(&probing, example, options, message);
+    bool done = open_probing(&probing, example, options, message);
     const double drawn = clock_now();
     Message why = {.located = false};
-    if (done && !show_open(&show, &probing.capture, options->show, size, &why))
-        done = message_set(message, "--show %s", why.text);
+    if (done && !show_open(&show, &probing.capture, &probing.driver, options->show, size, &why))
+        done = message_set(message, options->show ? "--show %s" : "--arithmetic: %s", why.text);
     options->show_unknown = show.unknown;
     done = done && write_shown(&probing, &show, options, message);
     if (done && options->verbose)

@@ -208,7 +208,7 @@ static bool run(const Example *example, Options *options, const ParameterValue *
         return run_printing(example, options, message);
     if (options->probe.asked)
         return probing_tell(example, options, message);
-    if (options->show)
+    if (options->show || options->arithmetic)
         return check_first(options, message) && probing_show(example, options, message);
     if (options->part.count && options->animation) {
         if (!frames_find_parts(&parts, options, message) || !output_folder(parts.folder, message))

@@ -47,18 +47,34 @@ bool glsl_find(const GlslCode *code, const char *name, GlslVariable *found);
 /* The variable that an instruction logs as assigned; 0: it is another instruction. */
 int glsl_event_symbol(const GlslCode *code, int instruction);
 
-/* A driver's numbers: for each precision (see GLSL_HIGHP), significant bits and the least and
- * largest exponent of 2 of a normal number. 53 bits: as double. Ints have the first, without
- * precision. */
+/* Significant bits, and the least and largest exponent of 2 of a normal number. 53 bits: as double.
+ */
+typedef struct GlslNumbers {
+    int bits, least, most;
+    bool denormals; /* smaller numbers are kept */
+} GlslNumbers;
+
+/* A driver's numbers, for each precision (see GLSL_HIGHP). Ints have the first, without precision.
+ */
 typedef struct GlslArithmetic {
-    struct {
-        int bits, least, most;
-        bool denormals;
-    } of[GLSL_HIGHP + 1];
+    GlslNumbers of[GLSL_HIGHP + 1];
     bool mesa;  /* exp2, log2 and what is made of them by gallivm's polynomials */
     bool fused; /* in which products are added with one rounding */
 } GlslArithmetic;
 extern const GlslArithmetic GLSL_EXACT, GLSL_LLVMPIPE;
+
+typedef struct GlslDevice {
+    const char *name;
+    GlslArithmetic arithmetic;
+} GlslDevice;
+extern const GlslDevice GLSL_DEVICES[]; /* the last has no name */
+
+/* A device's name, or any text that holds "highp=24,-126,127;mediump=11,-14,15,kept": bits, least
+ * and largest exponent, and "kept" with denormals; "llvmpipe" in it: with Mesa's functions. False:
+ * neither. */
+bool glsl_arithmetic_read(const char *text, GlslArithmetic *arithmetic);
+void glsl_arithmetic_print(const GlslNumbers *highp, const GlslNumbers *mediump, char *text,
+                           size_t size);
 
 /* What is undefined or suspicious, once for each place and run. */
 /* clang-format off */

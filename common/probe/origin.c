@@ -29,7 +29,7 @@ int origin_find(Raster *raster, const RasterPixel *pixel, int events, const doub
         double before = start, largest = -1, base = start;
         int begin = first, after = first; /* of the part with the largest jump; of the next */
         for (int i = first;; i = i + step < last ? i + step : last) {
-            raster_run(raster, pixel, &GLSL_LLVMPIPE, i, color);
+            raster_run(raster, pixel, raster_driver(raster), i, color);
             const double error = origin_apart(color, exact), jump = fabs(error - before);
             if (jump > largest) {
                 largest = jump;

@@ -27,7 +27,7 @@ static void find_magnifier(Probe *probe)
     double color[4], before = 0, least = 2;
     raster_log(probe->raster, true);
     const GlslRun *run =
-        raster_run(probe->raster, &probe->pixel, &GLSL_LLVMPIPE, probe->birth, color);
+        raster_run(probe->raster, &probe->pixel, raster_driver(probe->raster), probe->birth, color);
     raster_log(probe->raster, false);
     for (int i = probe->birth; i < run->event_count && i < probe->exact.count; i++) {
         const GlslEvent *event = &run->events[i], *exact = &probe->exact.events[i];
@@ -118,7 +118,7 @@ bool probe_open(Probe *probe, const ProbeQuestion *question, Message *message)
 {
     size_t size;
     *probe = (Probe){.question = *question};
-    if (!raster_open(&probe->raster, question->capture, message))
+    if (!raster_open(&probe->raster, question->capture, question->driver, message))
         return false;
     FILE *file = open_memstream(&probe->remarks, &size);
     if (!file)
@@ -131,7 +131,7 @@ bool probe_open(Probe *probe, const ProbeQuestion *question, Message *message)
         probe->exact = keep(raster_run(probe->raster, &probe->pixel, &GLSL_EXACT, INT_MAX, color));
         memcpy(probe->exact.color, color, sizeof color);
         const GlslRun *run =
-            raster_run(probe->raster, &probe->pixel, &GLSL_LLVMPIPE, INT_MAX, color);
+            raster_run(probe->raster, &probe->pixel, raster_driver(probe->raster), INT_MAX, color);
         probe->driver = keep(run);
         memcpy(probe->driver.color, color, sizeof color);
         judges = put_remarks(file, probe, run);

@@ -9,7 +9,8 @@
 
 typedef struct ProbeQuestion {
     const Capture *capture;
-    int column, row, height; /* of the picture, from its upper left corner */
+    const GlslArithmetic *driver; /* as which device it is computed */
+    int column, row, height;      /* of the picture, from its upper left corner */
     unsigned char drawn[4];
     const char *object; /* what is seen there in the exact picture; NULL: unknown */
     float exact[3];     /* its colour there, with `object` */

@@ -126,7 +126,8 @@ static bool is_handed_over(const GlslVariable *variable)
 static void put_corner(FILE *file, const Probe *probe, int corner)
 {
     const unsigned vertex = probe->pixel.corners[corner];
-    const GlslRun *run = raster_vertex(probe->raster, probe->pixel.draw, vertex, &GLSL_LLVMPIPE);
+    const GlslRun *run =
+        raster_vertex(probe->raster, probe->pixel.draw, vertex, raster_driver(probe->raster));
     fprintf(file, "vertex %u, weight %.6f:", vertex, probe->pixel.weights[corner]);
     for (int k = 0; k < run->code->variable_count; k++) {
         const GlslVariable *variable = &run->code->variables[k];
@@ -261,7 +262,8 @@ static void write_verdict(JsonWriter *json, const Probe *probe)
 static void write_corner(JsonWriter *json, const Probe *probe, int corner)
 {
     const unsigned vertex = probe->pixel.corners[corner];
-    const GlslRun *run = raster_vertex(probe->raster, probe->pixel.draw, vertex, &GLSL_LLVMPIPE);
+    const GlslRun *run =
+        raster_vertex(probe->raster, probe->pixel.draw, vertex, raster_driver(probe->raster));
     json_write_object(json, NULL);
     json_write_whole(json, "vertex", vertex);
     json_write_number(json, "weight", probe->pixel.weights[corner]);

@@ -14,8 +14,10 @@
 typedef struct Raster Raster;
 
 /* The capture has to live as long. False: a shader cannot be run, and why. */
-bool raster_open(Raster **raster, const Capture *capture, Message *message);
-void raster_close(Raster *raster); /* NULL is fine */
+bool raster_open(Raster **raster, const Capture *capture, const GlslArithmetic *driver,
+                 Message *message);
+const GlslArithmetic *raster_driver(const Raster *raster); /* what it was opened with */
+void raster_close(Raster *raster);                         /* NULL is fine */
 
 /* For another thread: shares what is constant with `first`, and is closed before it. */
 Raster *raster_beside(const Raster *first);

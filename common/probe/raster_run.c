@@ -164,7 +164,7 @@ static void place_vertices(Raster *raster, int number)
 {
     const CaptureDraw *draw = &raster->capture->draws[number];
     DrawState *state = &raster->draws[number];
-    GlslRun *run = begin(raster, number, 0, &GLSL_LLVMPIPE);
+    GlslRun *run = begin(raster, number, 0, raster->driver);
     for (int i = 0; i < draw->vertex_count; i++)
         state->most = draw->vertices[i] > state->most ? draw->vertices[i] : state->most;
     bool *done = memory_new((size_t)state->most + 1, sizeof *done);
@@ -184,10 +184,12 @@ static void place_vertices(Raster *raster, int number)
     free(done);
 }
 
-bool raster_open(Raster **opened, const Capture *capture, Message *message)
+bool raster_open(Raster **opened, const Capture *capture, const GlslArithmetic *driver,
+                 Message *message)
 {
     Raster *raster = *opened = memory_new(1, sizeof *raster);
     raster->capture = capture;
+    raster->driver = driver;
     raster->draws = memory_new((size_t)capture->draw_count + 1, sizeof *raster->draws);
     for (int i = 0; i < capture->draw_count; i++) {
         if (!raster_is_filled(&capture->draws[i]))
@@ -200,6 +202,11 @@ bool raster_open(Raster **opened, const Capture *capture, Message *message)
         place_vertices(raster, i);
     }
     return true;
+}
+
+const GlslArithmetic *raster_driver(const Raster *raster)
+{
+    return raster->driver;
 }
 
 Raster *raster_beside(const Raster *first)
@@ -302,7 +309,7 @@ static void interpolate(Raster *raster, const RasterPixel *pixel, GlslRun *fragm
         const double *corners[3];
         for (int c = 0; c < 3; c++)
             corners[c] = hand_over(raster, pixel->draw, pixel->corners[c],
-                                   kept ? &GLSL_LLVMPIPE : arithmetic) +
+                                   kept ? raster->driver : arithmetic) +
                          link->at;
         for (int i = 0; i < link->count; i++) {
             double sum = 0;

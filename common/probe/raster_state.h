@@ -38,6 +38,7 @@ typedef struct DrawState {
 
 struct Raster {
     const Capture *capture;
+    const GlslArithmetic *driver;
     Stages *stages;
     int count, room;
     DrawState *draws;

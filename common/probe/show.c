@@ -115,7 +115,8 @@ static int vertex_value(Raster *raster, const RasterPixel *pixel, const char *na
     int count = 0;
     memset(value, 0, 4 * sizeof *value);
     for (int c = 0; c < 3; c++) {
-        const GlslRun *run = raster_vertex(raster, pixel->draw, pixel->corners[c], &GLSL_LLVMPIPE);
+        const GlslRun *run =
+            raster_vertex(raster, pixel->draw, pixel->corners[c], raster_driver(raster));
         double corner[4];
         count = value_of(run, name, corner);
         for (int i = 0; i < count; i++)
@@ -132,7 +133,7 @@ static int find_value(const Job *job, Raster *raster, const RasterPixel *pixel, 
     if (stage == 0) {
         count = vertex_value(raster, pixel, job->name, value);
     } else if (stage == 1) {
-        const GlslRun *run = raster_run(raster, pixel, &GLSL_LLVMPIPE, INT_MAX, color);
+        const GlslRun *run = raster_run(raster, pixel, raster_driver(raster), INT_MAX, color);
         count = run->discarded ? 0 : value_of(run, job->name, value);
     }
     if (job->component < 0)
@@ -168,8 +169,8 @@ static void add_events(const Job *job, Raster *raster, const RasterPixel *pixel,
         if (known == i - 1)
             memcpy(before, after, sizeof before);
         else
-            raster_run(raster, pixel, &GLSL_LLVMPIPE, i - 1, before);
-        raster_run(raster, pixel, &GLSL_LLVMPIPE, i, after);
+            raster_run(raster, pixel, raster_driver(raster), i - 1, before);
+        raster_run(raster, pixel, raster_driver(raster), i, after);
         known = i;
         add_apart(value, after, before);
     }
@@ -186,7 +187,7 @@ static int find_error(const Job *job, Raster *raster, const RasterPixel *pixel, 
 {
     double exact[4], color[4];
     memset(value, 0, 4 * sizeof *value);
-    const GlslRun *run = raster_run(raster, pixel, &GLSL_LLVMPIPE, INT_MAX, color);
+    const GlslRun *run = raster_run(raster, pixel, raster_driver(raster), INT_MAX, color);
     if (run->discarded || job->stages[pixel->draw] != 1)
         return 0;
     if (job->name[0] && !is_varying(run->code, job->name)) {
@@ -207,7 +208,7 @@ static void find_blame(Raster *raster, const RasterPixel *pixel, ShowPixel *show
 {
     double exact[4], color[4];
     raster_run(raster, pixel, &GLSL_EXACT, INT_MAX, exact);
-    const GlslRun *run = raster_run(raster, pixel, &GLSL_LLVMPIPE, INT_MAX, color);
+    const GlslRun *run = raster_run(raster, pixel, raster_driver(raster), INT_MAX, color);
     if (run->discarded)
         return;
     shown->count = 1;
@@ -235,9 +236,14 @@ static void show_pixel(const Job *job, Raster *raster, const RasterPixel *pixel,
         find_blame(raster, pixel, shown);
         return;
     }
-    shown->count =
-        (signed char)(job->show->kind == SHOW_ERROR ? find_error(job, raster, pixel, value)
-                                                    : find_value(job, raster, pixel, value));
+    if (job->show->kind == SHOW_COLOR) {
+        const GlslRun *run = raster_run(raster, pixel, raster_driver(raster), INT_MAX, value);
+        shown->count = run->discarded ? 0 : 4;
+    } else {
+        shown->count =
+            (signed char)(job->show->kind == SHOW_ERROR ? find_error(job, raster, pixel, value)
+                                                        : find_value(job, raster, pixel, value));
+    }
     for (int i = 0; i < 4; i++)
         shown->values[i] = (float)value[i];
 }
@@ -305,19 +311,42 @@ static bool find_name(Job *job, const char *name, const Raster *raster)
     return found || !job->name[0];
 }
 
-bool show_open(Show *show, const Capture *capture, const char *what, const int size[2],
-               Message *message)
+static ShowKind kind_of(const char *what)
 {
-    const bool part = strncmp(what, "error:", 6) == 0;
-    const bool whole = strcmp(what, "error") == 0 || strcmp(what, "blame") == 0;
+    if (!what)
+        return SHOW_COLOR;
+    if (strcmp(what, "blame") == 0)
+        return SHOW_BLAME;
+    return strcmp(what, "error") == 0 || strncmp(what, "error:", 6) == 0 ? SHOW_ERROR : SHOW_VALUE;
+}
+
+/* Each pixel is one triangle's or the background's; lines and points are left out. */
+static bool check_draws(const Capture *capture, Message *message)
+{
+    for (int i = 0; i < capture->draw_count; i++) {
+        const CaptureDraw *draw = &capture->draws[i];
+        if (draw->mode >= GL_TRIANGLES && (draw->blends || draw->tests_stencil))
+            return message_set(message, "it is drawn with %s, which is not imitated",
+                               draw->blends ? "blending" : "a stencil, as volumes of shadow are");
+    }
+    return true;
+}
+
+bool show_open(Show *show, const Capture *capture, const GlslArithmetic *driver, const char *what,
+               const int size[2], Message *message)
+{
     *show = (Show){.capture = capture, .what = what, .width = size[0], .height = size[1]};
-    show->kind = strcmp(what, "blame") == 0 ? SHOW_BLAME : part || whole ? SHOW_ERROR : SHOW_VALUE;
+    show->kind = kind_of(what);
+    const char *name = show->kind == SHOW_VALUE                                     ? what
+                       : show->kind == SHOW_ERROR && strlen(what) > strlen("error") ? what + 6
+                                                                                    : "";
     Raster *raster;
-    if (!raster_open(&raster, capture, message))
+    if ((!what && !check_draws(capture, message)) ||
+        !raster_open(&raster, capture, driver, message))
         return false;
     Job job = {.show = show, .raster = raster};
     job.stages = memory_new((size_t)capture->draw_count + 1, 1);
-    show->unknown = !find_name(&job, whole ? "" : part ? what + 6 : what, raster);
+    show->unknown = !find_name(&job, name, raster);
     bool done = !show->unknown || unknown(&job, raster, message);
     show->pixels = done ? calloc((size_t)size[0] * (size_t)size[1], sizeof *show->pixels) : NULL;
     if (done && !show->pixels)

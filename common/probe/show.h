@@ -6,6 +6,7 @@
 #define SHOW_H
 
 #include "base/image.h"
+#include "glsl/glsl_run.h"
 #include "probe/capture.h"
 #include "probe/place.h"
 
@@ -19,8 +20,9 @@ typedef struct ShowPixel {
     GlslPlace place; /* of a fragment's shader; line 0: the vertex shader, -1: nothing to blame */
 } ShowPixel;
 
-/* The value's own numbers; of the colour in steps of 1/255 red, green and blue; places. */
-typedef enum ShowKind { SHOW_VALUE, SHOW_ERROR, SHOW_BLAME } ShowKind;
+/* The value's own numbers; the colour; of its error in steps of 1/255 red, green and blue; places.
+ */
+typedef enum ShowKind { SHOW_VALUE, SHOW_COLOR, SHOW_ERROR, SHOW_BLAME } ShowKind;
 
 extern const double SHOW_LEAST; /* the least error that is shown and blamed, in steps of 1/255 */
 
@@ -35,10 +37,11 @@ typedef struct Show {
 
 /* `what` is a variable's name, with a component as in "N.x"; "error", the driver's colour less the
  * exact one of the same text; "error:NAME", what of that the assignments of a variable of the
- * fragment shader cause, or a varying; "blame", the line in which most of it is born. What all
- * assignments cause, and the vertex shader, adds up to error. */
-bool show_open(Show *show, const Capture *capture, const char *what, const int size[2],
-               Message *message);
+ * fragment shader cause, or a varying; "blame", the line in which most of it is born; NULL, the
+ * picture as the driver computes it, which must not blend or use a stencil. What all assignments
+ * cause, and the vertex shader, adds up to error. */
+bool show_open(Show *show, const Capture *capture, const GlslArithmetic *driver, const char *what,
+               const int size[2], Message *message);
 void show_close(Show *show); /* a zeroed one is fine */
 
 /* Into a picture of bytes of the same size; writes what the colours mean, in lines. */

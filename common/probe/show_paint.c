@@ -143,7 +143,7 @@ static void put_legend(const Range *range, FILE *legend)
         fprintf(legend,
                 "from %g, dark violet, to %.3g steps of 1/255, yellow, on a logarithmic scale; "
                 "less, in dark grey; over half a step: %ld of %ld pixels",
-                SHOW_LEAST, range->largest, range->half, range->shown);
+                SHOW_LEAST, fmax(range->largest, 2 * SHOW_LEAST), range->half, range->shown);
     else if (range->form == DIRECTIONS)
         fprintf(legend, "directions, each component c as 0.5 + 0.5 c");
     else if (range->form == PLACES)
@@ -254,8 +254,25 @@ static void paint_blame(const Show *show, Image *picture, FILE *legend)
     free(lines);
 }
 
+/* As a framebuffer of bytes keeps them, over the background. */
+static void paint_colors(const Show *show, Image *picture)
+{
+    unsigned char *bytes = picture->pixels;
+    for (size_t i = 0; i < (size_t)show->width * (size_t)show->height; i++, bytes += 4) {
+        const ShowPixel *pixel = &show->pixels[i];
+        for (int k = 0; k < 3; k++)
+            bytes[k] = (unsigned char)rint(origin_step(
+                (double)(pixel->count ? pixel->values[k] : show->capture->clear_color[k])));
+        bytes[3] = 255;
+    }
+}
+
 void show_paint(const Show *show, Image *picture, FILE *legend)
 {
+    if (show->kind == SHOW_COLOR) {
+        paint_colors(show, picture);
+        return;
+    }
     const Range range = range_of(show);
     unsigned char *bytes = picture->pixels;
     const size_t count = (size_t)show->width * (size_t)show->height;

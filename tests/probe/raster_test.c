@@ -106,7 +106,7 @@ static void check(const Example *example)
                 canvas_read(&canvas, &drawn, FAILURE),
             FAILURE);
     renderer_close(&renderer);
-    require(raster_open(&raster, &capture, FAILURE), FAILURE);
+    require(raster_open(&raster, &capture, &GLSL_LLVMPIPE, FAILURE), FAILURE);
     compare(raster, &drawn, example->name);
     raster_close(raster);
 }
@@ -134,7 +134,7 @@ TEST(frag_data_is_a_colour)
     const RasterPixel pixel = {.weights = {1, 0, 0}};
     Raster *raster;
     double color[4];
-    require(raster_open(&raster, &capture, FAILURE), FAILURE);
+    require(raster_open(&raster, &capture, &GLSL_LLVMPIPE, FAILURE), FAILURE);
     raster_run(raster, &pixel, &GLSL_EXACT, INT_MAX, color);
     assert_true(color[0] == 0.25);
     raster_close(raster);

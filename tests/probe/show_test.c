@@ -43,7 +43,8 @@ static const Capture *capture_of(const char *fragment)
 
 static bool show(Show *shown, const char *fragment, const char *what, Message *message)
 {
-    return show_open(shown, capture_of(fragment), what, (const int[2]){SIDE, SIDE}, message);
+    return show_open(shown, capture_of(fragment), &GLSL_LLVMPIPE, what, (const int[2]){SIDE, SIDE},
+                     message);
 }
 
 /* The same as a picture, and what is said of it. */
@@ -257,7 +258,8 @@ TEST(a_power_magnifies_what_rounding_has_left)
                                 "    float power = pow(base, 24.0);\n"
                                 "    gl_FragColor = vec4(power);\n"
                                 "}\n";
-    ProbeQuestion question = {.capture = capture_of(power), .height = SIDE};
+    ProbeQuestion question = {
+        .driver = &GLSL_LLVMPIPE, .capture = capture_of(power), .height = SIDE};
     int judged = 0;
     for (question.column = SIDE / 2; question.column < SIDE; question.column++) {
         CLOSED(probe_close) Probe probe;

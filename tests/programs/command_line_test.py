@@ -772,6 +772,22 @@ class Outputs(Case):
                      "--frames", "2", "-o", "a%d.png")
         self.refused(1, "--show: a pixel of several samples", *SMALL, "--show", "error", "--samples", "4")
 
+    def test_a_picture_as_another_device_would_draw_it(self):
+        """Exactly what the driver draws, if the device is this one; with two digits, something else."""
+        with open(os.path.join(self.folder, "measured.json"), "w") as file:
+            file.write('{"arithmetic": "highp=2,-126,127;mediump=2,-126,127"}')
+        pictures = []
+        for device in "float", "highp=24,-126,127;mediump=24,-126,127", "measured.json":
+            self.good(*SMALL, "--arithmetic", device, "-o", "a.png")
+            pictures.append(self.png("a.png").pixels)
+        self.good(*SMALL, "-o", "drawn.png")
+        self.assertEqual(pictures[0], self.png("drawn.png").pixels)
+        self.assertEqual(pictures[1], pictures[0])
+        self.assertNotEqual(pictures[2], pictures[0])
+        self.refused(1, "--arithmetic phone: neither a file with what precision measured nor one of llvmpipe ", *SMALL,
+                     "--arithmetic", "phone")
+        self.refused(2, "--arithmetic half: makes one picture", *SMALL, "--arithmetic", "half", "--frames", "2", "-o", "a%d.png")
+
     def test_a_pixel_is_explained_as_text_and_json(self):
         for program in "LightedCube", "PhongBlinn":
             probe = "-s", "60x60", "--precision", "mediump", "--probe", "30,25"

@@ -1,6 +1,8 @@
 #include "study/arithmetic/arithmetic.h"
 
 #include "base/json_writer.h"
+#include "core/shader.h"
+#include "glsl/glsl_run.h"
 #include "scene/quality.h"
 #include "study/measure/scenes.h"
 #include "study/report/report.h"
@@ -236,6 +238,18 @@ static void put_meaning(const Arithmetics *found, FILE *file)
         }
 }
 
+/* For --arithmetic: of fragment shaders. */
+static void device_text(const Arithmetics *found, char *text, size_t size)
+{
+    GlslNumbers numbers[METER_PRECISIONS];
+    for (int i = 0; i < METER_PRECISIONS; i++) {
+        const Format *format = &found->of[SHADER_FRAGMENT][i].format;
+        numbers[i] = (GlslNumbers){format->bits, format->min_exponent, format->max_exponent,
+                                   format->denormals};
+    }
+    glsl_arithmetic_print(&numbers[METER_HIGHP], &numbers[METER_MEDIUMP], text, size);
+}
+
 void arithmetic_text(const Arithmetics *found, const Forecast *forecast, bool markdown, FILE *file)
 {
     Columns columns;
@@ -256,6 +270,9 @@ void arithmetic_text(const Arithmetics *found, const Forecast *forecast, bool ma
     put_forecast(forecast, markdown, file);
     fputc('\n', file);
     put_meaning(found, file);
+    char device[128];
+    device_text(found, device, sizeof device);
+    fprintf(file, "\nTo draw as this driver does elsewhere: --arithmetic \"%s\"\n", device);
 }
 
 /* JSON. */
@@ -330,6 +347,9 @@ void arithmetic_json(const Arithmetics *found, const Forecast *forecast, FILE *f
     json_write_object(&json, NULL);
     json_write_text(&json, "renderer", found->renderer);
     json_write_text(&json, "version", found->version);
+    char device[128];
+    device_text(found, device, sizeof device);
+    json_write_text(&json, "arithmetic", device);
     json_write_whole(&json, "inputs", found->inputs);
     for (int stage = 0; stage < METER_STAGES; stage++) {
         json_write_object(&json, METER_STAGE_NAMES[stage]);

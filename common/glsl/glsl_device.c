@@ -1,0 +1,61 @@
+/* Devices by name, or by what `precision` measured of one: text of each precision's significant
+ * bits, least and largest exponent, and whether smaller numbers are kept. Functions beyond the four
+ * operations and roots are taken as rounded correctly, except Mesa's, which are known. */
+#include "glsl/glsl_run.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* clang-format off */
+#define FLOAT {24, -126, 127, false}
+#define KEPT {24, -126, 127, true}
+#define HALF {11, -14, 15, true}
+#define ALL(highp, mediump) {{53, -1022, 1023, true}, mediump, mediump, highp}
+/* clang-format on */
+
+const GlslDevice GLSL_DEVICES[] = {
+    {"llvmpipe", {.of = ALL(FLOAT, HALF), .mesa = true, .fused = true}},
+    {"llvmpipe-128", {.of = ALL(FLOAT, FLOAT), .mesa = true}}, /* without F16C and FMA */
+    {"softpipe", {.of = ALL(KEPT, KEPT)}},
+    {"half", {.of = ALL(FLOAT, HALF)}},
+    {"float", {.of = ALL(KEPT, KEPT)}},
+    {NULL, {.mesa = false}},
+};
+
+/* "24,-126,127,kept" after `name`. */
+static bool read_numbers(const char *text, const char *name, GlslNumbers *numbers)
+{
+    const char *at = strstr(text, name);
+    char *end;
+    if (!at)
+        return false;
+    const long bits = strtol(at + strlen(name), &end, 10);
+    const long least = *end == ',' ? strtol(end + 1, &end, 10) : 1;
+    const long most = *end == ',' ? strtol(end + 1, &end, 10) : 0;
+    *numbers = (GlslNumbers){(int)bits, (int)least, (int)most, strncmp(end, ",kept", 5) == 0};
+    return bits >= 2 && bits <= 53 && least >= -1022 && least < 0 && most > 0 && most <= 1023;
+}
+
+bool glsl_arithmetic_read(const char *text, GlslArithmetic *arithmetic)
+{
+    const GlslDevice *device = GLSL_DEVICES;
+    while (device->name && strcmp(device->name, text) != 0)
+        device++;
+    *arithmetic = device->name ? device->arithmetic : GLSL_DEVICES[0].arithmetic;
+    if (device->name)
+        return true;
+    arithmetic->mesa = arithmetic->fused = strstr(text, "llvmpipe") != NULL;
+    const bool read = read_numbers(text, "highp=", &arithmetic->of[GLSL_HIGHP]) &&
+                      read_numbers(text, "mediump=", &arithmetic->of[GLSL_MEDIUMP]);
+    arithmetic->of[GLSL_LOWP] = arithmetic->of[GLSL_MEDIUMP];
+    return read;
+}
+
+void glsl_arithmetic_print(const GlslNumbers *highp, const GlslNumbers *mediump, char *text,
+                           size_t size)
+{
+    snprintf(text, size, "highp=%d,%d,%d%s;mediump=%d,%d,%d%s", highp->bits, highp->least,
+             highp->most, highp->denormals ? ",kept" : "", mediump->bits, mediump->least,
+             mediump->most, mediump->denormals ? ",kept" : "");
+}
