@@ -127,8 +127,9 @@ static bool check_version(const Gltf *gltf, bool *other)
 
 static bool load(Gltf *gltf, size_t size, bool binary, bool *other)
 {
-    const char *text = gltf->file;
-    size_t length = size;
+    const bool marked = size >= 3 && memcmp(gltf->file, "\xef\xbb\xbf", 3) == 0; /* UTF-8 */
+    const char *text = gltf->file + (marked ? 3 : 0);
+    size_t length = size - (marked ? 3 : 0);
     json_error_t error;
     *other = binary && size >= 8 && word_at(gltf->file + 4) == 1;
     if (*other || (binary && !find_chunks(gltf, size, &text, &length)))

@@ -161,14 +161,39 @@ bool model_complete(Mesh *mesh, Message *message)
     return fill_normals(mesh, message);
 }
 
+/* Whether there is nothing to join: a vertex is used three times on average, as in a file with
+ * indices, and each at least once; triangles have an area. */
+static bool is_joined(const Mesh *mesh)
+{
+    if (mesh->vertex_count > mesh->index_count / 3)
+        return false;
+    bool *used = memory_new(mesh->vertex_count + 1, sizeof *used);
+    bool joined = true;
+    for (size_t i = 0; i < mesh->index_count; i++)
+        used[mesh->indices[i]] = true;
+    for (size_t i = 0; i < mesh->vertex_count && joined; i++)
+        joined = used[i];
+    free(used);
+    for (size_t i = 0; i < mesh->index_count / 3 && joined; i++) {
+        Vec3 normal;
+        joined = mesh_face(mesh, i, &normal);
+    }
+    return joined;
+}
+
 bool model_read(const char *path, ModelUp up, Mesh *mesh, Message *message)
 {
     SceneFile file;
     Mesh parts = {.vertices = NULL};
     *mesh = (Mesh){0};
-    const bool done = scene_file_read(path, up, &file, message) &&
-                      flatten(path, &file, &parts, message) && join(path, &parts, mesh, message) &&
-                      complete_normals(mesh, message);
+    bool done = scene_file_read(path, up, &file, message) && flatten(path, &file, &parts, message);
+    if (done && is_joined(&parts)) {
+        *mesh = parts;
+        parts = (Mesh){.vertices = NULL};
+    } else if (done) {
+        done = join(path, &parts, mesh, message);
+    }
+    done = done && complete_normals(mesh, message);
     scene_file_close(&file);
     mesh_close(&parts);
     if (!done)

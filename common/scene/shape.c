@@ -63,7 +63,10 @@ static bool open_usual(Shape *shape, ShapeKind kind, ShapeStyle style, const Sha
     *shape = (Shape){.closed = !file, .placed = mat4_identity()};
     if (file) {
         shape->placed = mat4_scale((Vec3){size, size, size});
-        return open_model(mesh, model, message);
+        if (!open_model(mesh, model, message))
+            return false;
+        shape->closed = scene_file_is_closed(mesh);
+        return true;
     }
     switch (kind) {
     case SHAPE_CUBE:
