@@ -165,7 +165,7 @@ bool model_complete(Mesh *mesh, Message *message)
  * indices, and each at least once; triangles have an area. */
 static bool is_joined(const Mesh *mesh)
 {
-    if (mesh->vertex_count > mesh->index_count / 3)
+    if (mesh->index_count == 0 || mesh->vertex_count > mesh->index_count / 3)
         return false;
     bool *used = memory_new(mesh->vertex_count + 1, sizeof *used);
     bool joined = true;
