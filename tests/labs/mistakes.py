@@ -447,7 +447,7 @@ MISTAKES = {
     "no shadow": {11: frag(SUM, SUM.replace("visibility() * ", ""))},
     "outside of the map not asked for": {11: frag(OUTSIDE, "")},
     "outside of the map dark": {11: frag(OUTSIDE, OUTSIDE.replace("1.0;", "0.0;"))},
-    "ambient light in shadow, too": {
+    "shadows keep off the ambient light, too": {
         11: frag(SUM, "visibility() * (u_AmbientLight + u_LightColor * nDotL)")
     },
     "shadow on the ambient light only": {

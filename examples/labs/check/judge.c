@@ -8,8 +8,10 @@
 #include "labs/check/budget.h"
 #include "labs/check/code.h"
 #include "labs/diagnosis/catalogue.h"
+#include "labs/diagnosis/derive.h"
 #include "labs/diagnosis/diagnose.h"
 #include "labs/diagnosis/text_facts.h"
+#include "labs/diagnosis/undefined.h"
 #include "labs/submission/submission.h"
 
 #include <stdio.h>
@@ -303,15 +305,20 @@ static bool explain(Session *session, const Painter *painter, const char *number
         verdict_add_symptom(verdict, "%s", numbers);
         return true;
     }
-    if (!session->lab->given &&
-        text_find_fault(session->lab, session->files, own_program(session), verdict)) {
+    found = !session->lab->given && text_find_fault(session->lab, session->files, verdict);
+    if (!found && !session->lab->given &&
+        !undefined_explain(&session->pictures, session->files, verdict, &found, message))
+        return false;
+    if (found) {
         symptoms_describe(&session->pictures, session->moved, verdict);
         return true;
     }
     if (session->lab->solution_count) {
-        symptoms_describe(&session->pictures, session->moved, verdict);
         snprintf(verdict->message, sizeof verdict->message,
                  "Unknown mistake: it draws something else than the solution");
+        if (!derive_name(&session->pictures, session->files, verdict, &found, message))
+            return false;
+        symptoms_describe(&session->pictures, session->moved, verdict);
         return true;
     }
     if (!diagnose(&session->pictures, painter, session->moved, &session->canvas, verdict, message))
@@ -386,7 +393,9 @@ static bool judge_pictures(Session *session, Message *message)
     const bool wrong = worst >= 0 || outside || overrun;
     verdict->kind = wrong ? VERDICT_WRONG : VERDICT_RIGHT;
     if (!wrong) {
-        if (!look_at_precision(session, message))
+        if (!look_at_precision(session, message) ||
+            (!session->lab->given &&
+             !undefined_warn(&session->pictures, session->files, verdict, message)))
             return false;
         verdict->probe_count = 0;
         worst = add_probes(&session->pictures, verdict);

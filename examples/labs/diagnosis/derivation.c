@@ -2,6 +2,8 @@
  * lightDirection. */
 #include "labs/diagnosis/derivation.h"
 
+#include "base/memory.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -121,4 +123,46 @@ void derivation_place(const Derivation *all, GlslStage stage, int node, char *te
     glsl_expression_text(tree, shown, code, sizeof code);
     snprintf(text, size, "line %d of %s: %s%s%s", at->place.line, slash ? slash + 1 : path,
              shown == node ? "" : tree->symbols[at->symbol].name, shown == node ? "" : " = ", code);
+}
+
+static bool open_own(Derivation *all, const SubmissionFiles *files)
+{
+    const ShaderLoader loader = {.texts = files->texts, .only_texts = true, .precision = "highp"};
+    for (int i = 0; i < 2; i++)
+        if (!derivation_read(all->lab, &loader, "", i, "", &all->sources[i]) ||
+            !point_shader_open(&all->own[i], all->sources[i].text, (GlslStage)i))
+            return false;
+    return true;
+}
+
+Derivation *derivation_open(const LabPictures *pictures, const SubmissionFiles *files,
+                            Message *message)
+{
+    Derivation *all = memory_new(1, sizeof *all);
+    all->lab = pictures->lab;
+    if (!points_open(&all->points, pictures, message) || !open_own(all, files)) {
+        derivation_close(all);
+        return NULL;
+    }
+    const size_t count = (size_t)all->points.count;
+    all->wanted = memory_new(count, sizeof *all->wanted);
+    all->exact = memory_new(count, sizeof *all->exact);
+    all->order = memory_new(count, sizeof *all->order);
+    return all;
+}
+
+void derivation_close(Derivation *all)
+{
+    right_close(all);
+    for (int i = 0; i < 2; i++) {
+        point_shader_close(&all->own[i]);
+        shader_source_close(&all->sources[i]);
+    }
+    for (int i = 0; i < all->found_count; i++)
+        free(all->found[i].text);
+    points_close(&all->points);
+    free(all->wanted);
+    free(all->exact);
+    free(all->order);
+    free(all);
 }

@@ -45,6 +45,11 @@ typedef struct Derivation {
     int found_count, tried;
 } Derivation;
 
+/* A submission at points. NULL: it cannot be run, or, with a message, the driver failed. */
+Derivation *derivation_open(const LabPictures *pictures, const SubmissionFiles *files,
+                            Message *message);
+void derivation_close(Derivation *all);
+
 /* Reads a lab's shader of a stage from a folder that ends in a slash, or "". `ending`: of its name.
  */
 bool derivation_read(const Lab *lab, const ShaderLoader *loader, const char *folder, int stage,
@@ -56,6 +61,8 @@ double derivation_run(Derivation *all, PointShader pair[2], double (*numbers)[PO
 
 /* The lab's solution, or one that is written in another way; false: it has none. */
 bool right_open(Derivation *all, const char *ending);
+
+void right_close(Derivation *all);
 
 /* Makes it the right program that is nearest to the submission, and runs it. */
 void right_run(Derivation *all);

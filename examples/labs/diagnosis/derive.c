@@ -18,16 +18,6 @@
  * more. A highlight that nearly vanishes is 1e-4 from one that does. */
 static const double EQUAL = 5e-5, ALIKE = 1e-6;
 
-static bool open_own(Derivation *all, const SubmissionFiles *files)
-{
-    const ShaderLoader loader = {.texts = files->texts, .only_texts = true, .precision = "highp"};
-    for (int i = 0; i < 2; i++)
-        if (!derivation_read(all->lab, &loader, "", i, "", &all->sources[i]) ||
-            !point_shader_open(&all->own[i], all->sources[i].text, (GlslStage)i))
-            return false;
-    return true;
-}
-
 /* Constants of a shader that may be a mistake's numbers: they and their reciprocals. */
 static void take_number(Derivation *all, double number)
 {
@@ -303,21 +293,9 @@ static void mutate_twice(Derivation *all)
     }
 }
 
-static void forget_right(Derivation *all)
-{
-    for (int i = 0; i < 2; i++)
-        point_shader_close(&all->right[i]);
-    for (int i = 0; i < all->nearest_count; i++)
-        free(all->nearest[i].text);
-    free(all->nearest_text);
-    all->nearest_text = NULL;
-    all->nearest_count = 0;
-    all->first = NULL;
-}
-
 static bool use_right(Derivation *all, const char *ending)
 {
-    forget_right(all);
+    right_close(all);
     if (!right_open(all, ending))
         return false;
     right_run(all);
@@ -346,42 +324,20 @@ static bool search(Derivation *all)
     return all->found_count > 0;
 }
 
-static void close_all(Derivation *all)
-{
-    forget_right(all);
-    for (int i = 0; i < 2; i++) {
-        point_shader_close(&all->own[i]);
-        shader_source_close(&all->sources[i]);
-    }
-    for (int i = 0; i < all->found_count; i++)
-        free(all->found[i].text);
-    points_close(&all->points);
-    free(all->wanted);
-    free(all->exact);
-    free(all->order);
-    free(all);
-}
-
 bool derive_name(const LabPictures *pictures, const SubmissionFiles *files, Verdict *verdict,
                  bool *named, Message *message)
 {
-    Derivation *all = memory_new(1, sizeof *all);
-    all->lab = pictures->lab;
+    Derivation *all = derivation_open(pictures, files, message);
     *named = false;
-    const bool done = points_open(&all->points, pictures, message);
-    if (done && open_own(all, files)) {
-        const size_t count = (size_t)all->points.count;
-        all->wanted = memory_new(count, sizeof *all->wanted);
-        all->exact = memory_new(count, sizeof *all->exact);
-        all->order = memory_new(count, sizeof *all->order);
-        derivation_run(all, all->own, all->wanted, NULL);
-        take_all_numbers(all);
-        *named = search(all);
-        if (*named)
-            say(all, choose(all), verdict);
-        else if (all->wrong_by > 4 * EQUAL)
-            wrong_part_describe(all, verdict);
-    }
-    close_all(all);
-    return done;
+    if (!all)
+        return !message->text[0];
+    derivation_run(all, all->own, all->wanted, NULL);
+    take_all_numbers(all);
+    *named = search(all);
+    if (*named)
+        say(all, choose(all), verdict);
+    else if (all->wrong_by > 4 * EQUAL)
+        wrong_part_describe(all, verdict);
+    derivation_close(all);
+    return true;
 }

@@ -198,7 +198,8 @@ static void say_number(Verdict *verdict, const Suspect *number)
     const size_t used = strlen(verdict->message);
     const Factor factor = number->choices.factor;
     const int sign = factor == FACTOR_SHADOW_BELOW ? -1 : 1;
-    if (factor == FACTOR_BIAS_CLIP) /* not that of the comparison */
+    /* Not that of the comparison; as near as it can be told it may be one that is right. */
+    if (factor == FACTOR_BIAS_CLIP || factor == FACTOR_BIAS_LARGE)
         return;
     snprintf(verdict->message + used, sizeof verdict->message - used, ": %s %.2g",
              factor == FACTOR_PLUS_LIGHT || factor == FACTOR_PLUS_COLOR ||

@@ -35,27 +35,44 @@ static const float *value_of(const PointSetting *setting, const char *name)
     return NULL;
 }
 
-/* The corner's place in normalized device coordinates; false: behind the eye. */
-static bool project(const float m[16], const MeshVertex *vertex, double place[2])
+static void multiply(const float m[16], const double v[3], double clip[4])
 {
-    double clip[4];
     for (int i = 0; i < 4; i++)
-        clip[i] = m[i] * vertex->position[0] + m[4 + i] * vertex->position[1] +
-                  m[8 + i] * vertex->position[2] + m[12 + i];
-    place[0] = clip[0] / clip[3];
-    place[1] = clip[1] / clip[3];
-    return clip[3] > 0;
+        clip[i] = m[i] * v[0] + m[4 + i] * v[1] + m[8 + i] * v[2] + m[12 + i];
+}
+
+/* Counter-clockwise, as the eye sees it. */
+static bool is_front(double clip[POINT_CORNERS][4])
+{
+    const double *a = clip[0], *b = clip[1], *c = clip[2];
+    return a[0] * (b[1] * c[3] - c[1] * b[3]) - a[1] * (b[0] * c[3] - c[0] * b[3]) +
+               a[3] * (b[0] * c[1] - c[0] * b[1]) >
+           0;
 }
 
 static bool faces_eye(const PointSetting *setting, const Point *point)
 {
     const float *matrix = value_of(setting, "u_MvpMatrix");
-    double at[POINT_CORNERS][2];
-    for (int i = 0; i < POINT_CORNERS; i++)
-        if (!project(matrix, &point->corners[i], at[i]))
+    double clip[POINT_CORNERS][4];
+    for (int i = 0; i < POINT_CORNERS; i++) {
+        const float *p = point->corners[i].position;
+        multiply(matrix, (double[]){p[0], p[1], p[2]}, clip[i]);
+        if (clip[i][3] <= 0)
             return false;
-    return (at[1][0] - at[0][0]) * (at[2][1] - at[0][1]) >
-           (at[2][0] - at[0][0]) * (at[1][1] - at[0][1]);
+    }
+    return is_front(clip);
+}
+
+void points_place(const Points *points, int point, double place[3])
+{
+    const Point *at = &points->items[point];
+    double middle[3] = {0}, clip[4];
+    for (int i = 0; i < POINT_CORNERS; i++)
+        for (int k = 0; k < 3; k++)
+            middle[k] += at->weights[i] * at->corners[i].position[k];
+    multiply(value_of(&points->settings[at->setting], "u_MvpMatrix"), middle, clip);
+    for (int k = 0; k < 3; k++)
+        place[k] = clip[k] / clip[3];
 }
 
 static void add_points(Points *points, const Mesh *mesh, Random *random)
@@ -95,8 +112,8 @@ static bool add_scene(Points *points, const LabScene *lab_scene, const Mesh *mes
             .width = lab_scene->width, .height = lab_scene->height, .color = {0, 0, 0, 1}};
         setting->value_count = binding_values(points->lab, &drawn, setting->values, message);
         vec3_to_float(lab_scene->objects[i].front.diffuse, setting->color);
-        if (points->lab->shadow)
-            setting->map = read_map(&map);
+        setting->owns_map = points->lab->shadow && i == 0;
+        setting->map = setting->owns_map ? read_map(&map) : i > 0 ? setting[-1].map : NULL;
         done = setting->value_count > 0;
         if (done)
             add_points(points, mesh ? mesh : &lab_scene->meshes[i], &random);
@@ -130,7 +147,8 @@ bool points_open(Points *points, const LabPictures *pictures, Message *message)
 void points_close(Points *points)
 {
     for (int i = 0; i < points->setting_count; i++)
-        free(points->settings[i].map);
+        if (points->settings[i].owns_map)
+            free(points->settings[i].map);
     free(points->settings);
     free(points->items);
     *points = (Points){.count = 0};
@@ -334,15 +352,6 @@ static bool interpolate(const Points *points, const PointShader *vertex, int num
         from += variable->count;
     }
     return false;
-}
-
-/* Counter-clockwise, as the eye sees it. */
-static bool is_front(const double clip[POINT_CORNERS][4])
-{
-    const double *a = clip[0], *b = clip[1], *c = clip[2];
-    return a[0] * (b[1] * c[3] - c[1] * b[3]) - a[1] * (b[0] * c[3] - c[0] * b[3]) +
-               a[3] * (b[0] * c[1] - c[0] * b[1]) >
-           0;
 }
 
 static void corner_places(const PointShader *vertex, int number, double clip[POINT_CORNERS][4])

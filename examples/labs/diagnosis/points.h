@@ -19,7 +19,8 @@ typedef struct PointSetting {
     BindingValue values[BINDING_VALUES];
     int value_count, width, height;
     float color[4];
-    unsigned char *map; /* lab 11: texels, the lowest row first */
+    unsigned char *map; /* lab 11: texels, the lowest row first; of all objects of a scene */
+    bool owns_map;
 } PointSetting;
 
 typedef struct Point {
@@ -63,6 +64,9 @@ void point_shader_close(PointShader *shader); /* NULL or zeroed is fine */
  * coordinates. A colour of -1: discarded. */
 void points_run(const Points *points, PointShader *vertex, PointShader *fragment, int point,
                 double numbers[POINT_NUMBERS]);
+
+/* Where u_MvpMatrix puts the point. */
+void points_place(const Points *points, int point, double place[3]);
 
 /* The largest difference of such numbers. */
 double points_apart(const double a[POINT_NUMBERS], const double b[POINT_NUMBERS]);

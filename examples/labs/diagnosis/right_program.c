@@ -163,3 +163,15 @@ void right_run(Derivation *all)
     }
     derivation_run(all, all->right, all->exact, NULL);
 }
+
+void right_close(Derivation *all)
+{
+    for (int i = 0; i < 2; i++)
+        point_shader_close(&all->right[i]);
+    for (int i = 0; i < all->nearest_count; i++)
+        free(all->nearest[i].text);
+    free(all->nearest_text);
+    all->nearest_text = NULL;
+    all->nearest_count = 0;
+    all->first = NULL;
+}

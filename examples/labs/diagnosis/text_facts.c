@@ -82,31 +82,6 @@ static bool find_unset(const char *vertex, const char *fragment, char name[64])
     return false;
 }
 
-/* The name in "`x' used uninitialized" of the shaders' logs. */
-static bool find_uninitialized(GLuint program, char name[64])
-{
-    GLuint shaders[2];
-    GLsizei count = 0;
-    glGetAttachedShaders(program, 2, &count, shaders);
-    for (int i = 0; i < count; i++) {
-        static char log[4096];
-        log[0] = '\0';
-        /* In a browser a shader that only the program keeps has no name. */
-        if ((GLint)shaders[i] <= 0)
-            continue;
-        glGetShaderInfoLog(shaders[i], sizeof log, NULL, log);
-        const char *used = strstr(log, "' used uninitialized");
-        const char *start = used;
-        while (start && start > log && start[-1] != '`')
-            start--;
-        if (used && start > log) {
-            snprintf(name, 64, "%.*s", (int)(used - start), start);
-            return true;
-        }
-    }
-    return false;
-}
-
 static void blame(Verdict *verdict, const char *name, const char *variable, const char *sentence,
                   const char *look)
 {
@@ -116,7 +91,7 @@ static void blame(Verdict *verdict, const char *name, const char *variable, cons
     snprintf(verdict->message, sizeof verdict->message, "%s", text);
 }
 
-bool text_find_fault(const Lab *lab, const SubmissionFiles *files, GLuint program, Verdict *verdict)
+bool text_find_fault(const Lab *lab, const SubmissionFiles *files, Verdict *verdict)
 {
     char name[64];
     snprintf(name, sizeof name, "%s.vert", lab->file);
@@ -137,10 +112,6 @@ bool text_find_fault(const Lab *lab, const SubmissionFiles *files, GLuint progra
               "The vertex shader declares a varying and never sets it; the fragment shader reads "
               "what is there by chance.",
               "the vertex shader: set each varying in main");
-    } else if (find_uninitialized(program, name)) {
-        blame(verdict, "variable never set", name,
-              "A variable is read before it has a value, so anything may be drawn.",
-              "its declaration: float x = 0.0");
     } else {
         found = false;
     }

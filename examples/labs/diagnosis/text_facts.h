@@ -17,10 +17,8 @@ bool text_is_starter(const Lab *lab, const SubmissionFiles *files);
 bool text_has_word(const SubmissionFiles *files, const char *word);
 
 /* Adds a mistake for the fault that explains any picture: no gl_FragColor, a varying that is never
- * set, a variable that the compiler calls uninitialized in the linked program's log. False: none.
- */
-bool text_find_fault(const Lab *lab, const SubmissionFiles *files, GLuint program,
-                     Verdict *verdict);
+ * set. False: none. */
+bool text_find_fault(const Lab *lab, const SubmissionFiles *files, Verdict *verdict);
 
 /* Adds a mistake for a loop that counts beyond the last element of a uniform array, and uses its
  * counter as an index alone: what it reads there is undefined, and nothing with some drivers.
