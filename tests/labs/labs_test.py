@@ -272,6 +272,33 @@ class Holes(Labs):
     vec3 normal = normalize(place);
     vec3 lightDirection = normalize(u_LightPosition - place);"""
 
+    def test_values_explain_what_pictures_do_not(self):
+        """Black, or anything: what is drawn is told from the numbers."""
+        start, out = "vec3 light = u_AmbientLight;", "vec4(light * v_Color.rgb"
+        helper = "vec3 n;\nvec3 lit(int i) {\n    return vec3(abs(dot(n, vec3(0.6, 0.8, 0.0))));\n}\n"
+        cases = {
+            "variable never set: line 24": [("frag", start, "vec3 light;")],
+            "black: 0 from here on: line 24": [
+                ("frag", start, "vec3 light = vec3(0.0);"),
+                ("frag", "light += u_LightColor[i] * nDotL", "light *= u_LightColor[i] * nDotL"),
+            ],
+            "no number: line 26": [("frag", out, "vec4(sqrt(-1.0 - light) * v_Color.rgb")],
+            "every pixel discarded": [
+                ("frag", mistakes.MAIN, mistakes.MAIN + "    if (gl_FragCoord.z >= 0.0) discard;\n")
+            ],
+            # Set in main, read in a function above it.
+            "": [
+                ("frag", mistakes.MAIN, helper + mistakes.MAIN),
+                ("frag", "    vec3 light", "    n = normal;\n    vec3 light"),
+                ("frag", out, "vec4(lit(0) * light * v_Color.rgb"),
+            ],
+        }
+        jobs = [(5, edited(5, *edits), 2) for edits in cases.values()]
+        for said, result in zip(cases, in_parallel(check_texts, jobs)):
+            self.assertEqual(result["verdict"], "wrong")
+            self.assertTrue(result["message"].startswith(said), (said, result["message"]))
+            self.assertNotIn("variable never set" if not said else "matrices", result["message"])
+
     def wrong(self, lab, *edits):
         result = check_texts(lab, edited(lab, *edits), 1)
         self.assertEqual(result["verdict"], "wrong", (lab, edits, result["message"]))
