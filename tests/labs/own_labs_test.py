@@ -145,8 +145,9 @@ class Folder(Case):
             self.assertEqual(check("--lab", os.path.join(LABS, name), "--expected", pictures[1]).returncode, 0)
             with open(pictures[0], "rb") as one, open(pictures[1], "rb") as other:
                 self.assertEqual(one.read(), other.read(), name)
-        by_name = check("lab06", os.path.join(HERE, "solutions", "lab06_phong"), "--seed", "1", "--json", "-")
-        by_folder = result(os.path.join(LABS, "lab06_phong"), os.path.join(HERE, "solutions", "lab06_phong"))
+        solution = os.path.join(base.SOURCE, "shaders/labs/solutions/lab06_phong")
+        by_name = check("lab06", solution, "--seed", "1", "--json", "-")
+        by_folder = result(os.path.join(LABS, "lab06_phong"), solution)
         self.assertEqual({**json.loads(by_name.stdout), "seconds": 0}, {**by_folder, "seconds": 0})
 
     def test_points_and_tolerance(self):
@@ -284,7 +285,7 @@ void main()
 
     def test_light_at_the_vertices(self):
         for name in "lab01_diffuse", "lab09_two_sided":
-            folder = os.path.join(HERE, "solutions", name)
+            folder = os.path.join(base.SOURCE, "shaders/labs/solutions", name)
             shaders = [read(folder, name.split("_")[0] + ending) for ending in (".vert", ".frag")]
             self.assertEqual(self.make(*shaders, name).returncode, 0)
             lab = self.path(name)
