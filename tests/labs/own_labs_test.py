@@ -12,6 +12,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import zipfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.dont_write_bytecode = True
@@ -133,6 +134,64 @@ class Extra(Case):
             rows = list(csv.DictReader(file))
         self.assertEqual([(row["student"], row["lab"], row["points"], row["most"]) for row in rows],
                          [("anna", "fog", "10", "10"), ("ben", "fog", "1", "10")])
+
+
+class Platform(Case):
+    """Archives as Moodle and Canvas hand them out, and what they take back."""
+
+    def class_of(self, names, out):
+        """A class by the names of the platform's files, each with what its student hands in."""
+        lab = os.path.join(EXTRA, "fog")
+        with zipfile.ZipFile(self.path(out + ".zip"), "w") as archive:
+            for name, source in names:
+                for file in "fog.vert", "fog.frag":
+                    archive.writestr(name + file, read(lab, source, file))
+        done = check("--class", self.path(out + ".zip"), "--lab", lab, "-o", self.path(out))
+        self.assertEqual(done.returncode, 0, done)
+        return self.path(out)
+
+    def test_moodle(self):
+        out = self.class_of([("Zoë Ünal_4711_assignsubmission_file_/", "solution"), ("Ben Li_12_assignsubmission_file_/", ".")],
+                            "moodle")
+        with open(os.path.join(out, "moodle.csv"), newline="") as file:
+            rows = list(csv.DictReader(file))
+        # What the importer needs: mod/assign/feedback/offline/importgradeslib.php.
+        self.assertEqual([(row["Identifier"], row["Full name"], row["Grade"], row["Last modified (grade)"]) for row in rows],
+                         [("Participant 12", "Ben Li", "1", "-"), ("Participant 4711", "Zoë Ünal", "10", "-")])
+        with zipfile.ZipFile(os.path.join(out, "feedback.zip")) as archive:
+            self.assertIsNone(archive.testzip())
+            found = {}
+            for path in archive.namelist():
+                # As mod/assign/feedback/file/importziplib.php divides names.
+                folder, file = path.split("/")
+                name, number, plugin, kind, rest = folder.split("_", 4)
+                self.assertEqual((plugin, kind, rest), ("assignfeedback", "file", ""))
+                found.setdefault((name, int(number)), []).append(file)
+            self.assertEqual(found, {("Ben Li", 12): ["index.html", "worst.png"], ("Zoë Ünal", 4711): ["index.html"]})
+            self.assertIn("1 of 10", archive.read("Ben Li_12_assignfeedback_file_/index.html").decode())
+
+    def test_canvas(self):
+        out = self.class_of([("unalzoe_LATE_901_5551_", "solution"), ("liben_902_5552_", ".")], "canvas")
+        with open(os.path.join(out, "canvas.csv"), newline="") as file:
+            rows = list(csv.reader(file))
+        self.assertEqual(rows, [["Student", "ID", "SIS User ID", "SIS Login ID", "Section", "fog"],
+                                ["    Points Possible", "", "", "", "", "10"],
+                                ["liben", "902", "", "", "", "1"], ["unalzoe", "901", "", "", "", "10"]])
+
+    def test_archives_that_are_refused(self):
+        link = zipfile.ZipInfo("Ann_1_assignsubmission_file_/fog.vert")
+        link.create_system, link.external_attr = 3, 0o120777 << 16
+        for entry, said in (("../evil.vert", "not unpacked: ../evil.vert"), ("/tmp/evil.vert", "not unpacked: /tmp/evil.vert"),
+                            (link, "not unpacked: Ann_1"), (None, "name the platform's .zip or a folder")):
+            with open(self.path("bad.zip"), "wb") as file:
+                file.write(b"no archive")
+            if entry:
+                with zipfile.ZipFile(self.path("bad.zip"), "w") as archive:
+                    archive.writestr(entry, "/etc/passwd")
+            done = check("--class", self.path("bad.zip"), "--lab", os.path.join(EXTRA, "fog"), "-o", self.path("out"))
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1), done)
+            self.assertIn(said, done.stderr)
+            self.assertFalse(os.path.exists(self.path("evil.vert")) or os.path.lexists(self.path("out", "evil.vert")))
 
 
 class Folder(Case):

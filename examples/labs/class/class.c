@@ -3,10 +3,12 @@
 
 #include "app/options.h"
 #include "base/memory.h"
+#include "base/output.h"
 #include "labs/class/class_report.h"
 #include "labs/class/class_judge.h"
 #include "labs/class/class_run.h"
 #include "labs/sandbox/sandbox.h"
+#include "labs/sandbox/source.h"
 #include "labs/submission/lab_json.h"
 
 #include <ctype.h>
@@ -85,7 +87,7 @@ static bool report(const ClassStore *store, Message *message)
     }
     return class_table_csv(store, message) && class_table_json(store, message) &&
            class_table_junit(store, message) && class_table_gradescope(store, message) &&
-           class_html_write(store, front, message);
+           class_html_write(store, front, message) && class_platform_write(store, message);
 }
 
 /* Opens the sandbox and prints what it guarantees. False: too little to go on. */
@@ -149,11 +151,27 @@ static void find_results(const ClassOptions *options, char entry[NAME_MAX + 1])
     snprintf(entry, NAME_MAX + 1, "%.*s", (int)strcspn(name, "/"), name);
 }
 
-static int run_class(const ClassOptions *options, Message *message)
+/* An archive of the class is unpacked beside its results, which then are of that folder. */
+static bool open_archive(ClassOptions *options, char folder[PATH_MAX], Message *message)
 {
+    if (!unpack_is_archive(options->folder))
+        return true;
+    if (!output_folder(options->output, message) ||
+        !output_path(folder, options->output, "submissions", message) ||
+        !class_unpack(options->folder, folder, message))
+        return false;
+    options->folder = folder;
+    return true;
+}
+
+static int run_class(ClassOptions *options, Message *message)
+{
+    char folder[PATH_MAX];
     FoundList list;
     char results[NAME_MAX + 1];
     Message notes = {.text = ""};
+    if (!open_archive(options, folder, message))
+        return options_fail(PROGRAM, message, EXIT_FAILED);
     find_results(options, results);
     if (!class_find(options->folder, results, &list, &notes, message))
         return options_fail(PROGRAM, message, EXIT_FAILED);

@@ -35,7 +35,7 @@ bool class_options_read(ClassOptions *options, int argc, char *argv[], Message *
                                                                     : (int)processors};
     const Parameter table[] = {
         {"class",
-         "judge every submission in DIR: folders, archives or files, one for each student, as "
+         "judge every submission in DIR, or in a platform's .zip: folders, archives or files, one for each student, as "
          "people or learning platforms name them; each in a sandboxed process",
          PARAMETER_TEXT, &options->folder, .min = 1, .placeholder = "DIR", .standard = ""},
         {"lab",

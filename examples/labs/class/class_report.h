@@ -9,6 +9,9 @@
  *   index.html    the class's page, which opens from disk, without network or scripts
  *   students/FOLDER/index.html   one student's, which names no other student and has no links: its
  *     folder can be handed out
+ *   moodle.csv, canvas.csv   grades as Moodle's grading worksheet and Canvas's gradebook take them,
+ *     and feedback.zip, the students' pages as Moodle's "upload feedback files" takes them; only if
+ *     names had a platform's numbers
  *   front.svg, front.png   lab 10's submissions by cost and error
  *
  * Names and driver messages, which students control, are always escaped: never a spreadsheet
@@ -24,6 +27,12 @@ bool class_table_csv(const ClassStore *store, Message *message);
 bool class_table_json(const ClassStore *store, Message *message);
 bool class_table_junit(const ClassStore *store, Message *message);
 bool class_table_gradescope(const ClassStore *store, Message *message);
+
+bool class_platform_write(const ClassStore *store, Message *message);
+
+/* Unpacks a class's .zip, as platforms hand it out, into a folder. False, with a message: it is
+ * damaged, too large, or has links or paths out of the folder. */
+bool class_unpack(const char *path, const char *folder, Message *message);
 
 /* One quoted field; a ' precedes what a spreadsheet would take for a formula. For tests. */
 void class_table_csv_field(FILE *file, const char *text);

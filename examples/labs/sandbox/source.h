@@ -56,6 +56,9 @@ enum {
  * .tar.zst, .7z. */
 bool unpack_is_archive(const char *name);
 
+/* Whether a path stays in the folder it would be unpacked in. */
+bool unpack_stays_inside(const char *path);
+
 /* Adds the source files (source_is_wanted) of the archive open as `file`. Refused, with one
  * sentence: absolute paths and paths out of the folder, links and devices instead of source files,
  * too large or too many files, and contents of more than UNPACK_BYTES_MAX. */

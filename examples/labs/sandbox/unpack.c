@@ -21,8 +21,7 @@ bool unpack_is_archive(const char *name)
     return false;
 }
 
-/* Whether a path stays in the folder it would be unpacked in. */
-static bool stays_inside(const char *path)
+bool unpack_stays_inside(const char *path)
 {
     if (path[0] == '/' || (path[0] && path[1] == ':'))
         return false;
@@ -49,7 +48,7 @@ static bool read_path(struct archive_entry *entry, char path[BUNDLE_NAME_SIZE], 
     for (char *at = path; *at; at++)
         if (*at == '\\')
             *at = '/';
-    if (!stays_inside(path))
+    if (!unpack_stays_inside(path))
         return message_set(message, "the archive leaves its folder: %s", path);
     return true;
 }
