@@ -6,8 +6,7 @@
 #include "app/renderer.h"
 #include "base/clock.h"
 #include "base/input.h"
-#include "probe/probe.h"
-#include "probe/show.h"
+#include "probe/probe_plugin.h"
 
 #include <fcntl.h>
 #include <stdio.h>
@@ -73,6 +72,13 @@ static void end(Probing *probing)
     canvas_close(&probing->canvas);
 }
 
+static const ProbePlugin *evaluator(Message *message)
+{
+    static Plugin plugin = {"probe.so",           "probe_plugin", "probe",
+                            "--probe and --show", "lighting",     NULL};
+    return plugin_open(&plugin, message);
+}
+
 static bool tell_pixel(Probing *probing, const Options *options, Message *message)
 {
     Renderer *renderer = &probing->renderer;
@@ -95,14 +101,12 @@ static bool tell_pixel(Probing *probing, const Options *options, Message *messag
     if (renderer->kind->exact &&
         renderer->kind->exact(renderer, &probing->request, pixel, question.exact, object))
         question.object = object;
-    Probe probe = {.raster = NULL};
-    const bool done = read && probe_open(&probe, &question, message);
     const bool json = options->format && strcmp(options->format, "json") == 0;
-    char *text = !done ? NULL : json ? probe_json(&probe) : probe_text(&probe);
+    const ProbePlugin *plugin = read ? evaluator(message) : NULL;
+    char *text = plugin ? plugin->tell(&question, json, message) : NULL;
     fputs(text ? text : "", stdout);
     free(text);
-    probe_close(&probe);
-    return done;
+    return text != NULL;
 }
 
 bool probing_tell(const Example *example, const Options *options, Message *message)
@@ -118,18 +122,24 @@ bool probing_tell(const Example *example, const Options *options, Message *messa
     return done;
 }
 
-static bool write_shown(const Probing *probing, const Show *show, const Options *options,
-                        Message *message)
+static bool write_shown(Probing *probing, Options *options, Message *message)
 {
-    const Example *example = probing->renderer.example;
     Picture picture = {.image = {.width = 0}};
-    bool done = image_open(&picture.image, show->width, show->height, IMAGE_BYTE, message) &&
+    Message why = {.located = false};
+    const ProbePlugin *plugin = evaluator(message);
+    bool done = plugin &&
+                image_open(&picture.image, options->width, options->height, IMAGE_BYTE, message) &&
                 frames_path(options, 0, picture.path, message);
-    if (done) {
-        show_paint(show, &picture.image, stderr);
-        picture_texts_set(example, &probing->canvas, options, options->seconds, &picture);
-        done = picture_write(&picture, message);
-    }
+    const ShowResult result = done ? plugin->show(&probing->capture, &probing->driver,
+                                                  options->show, &picture.image, stderr, &why)
+                                   : SHOW_FAILED;
+    options->show_unknown = result == SHOW_UNKNOWN;
+    if (done && result != SHOW_DONE)
+        done = message_set(message, options->show ? "--show %s" : "--arithmetic: %s", why.text);
+    if (done)
+        picture_texts_set(probing->renderer.example, &probing->canvas, options, options->seconds,
+                          &picture);
+    done = done && picture_write(&picture, message);
     image_close(&picture.image);
     return done;
 }
@@ -137,20 +147,13 @@ static bool write_shown(const Probing *probing, const Show *show, const Options 
 bool probing_show(const Example *example, Options *options, Message *message)
 {
     Probing probing;
-    Show show = {.pixels = NULL};
-    const int size[2] = {options->width, options->height};
     const double start = clock_now();
     bool done = open_probing(&probing, example, options, message);
     const double drawn = clock_now();
-    Message why = {.located = false};
-    if (done && !show_open(&show, &probing.capture, &probing.driver, options->show, size, &why))
-        done = message_set(message, options->show ? "--show %s" : "--arithmetic: %s", why.text);
-    options->show_unknown = show.unknown;
-    done = done && write_shown(&probing, &show, options, message);
+    done = done && write_shown(&probing, options, message);
     if (done && options->verbose)
         fprintf(stderr, "drawing took %.1f ms, running its shaders and writing %.1f ms\n",
                 1e3 * (drawn - start), 1e3 * (clock_now() - drawn));
-    show_close(&show);
     end(&probing);
     return done;
 }

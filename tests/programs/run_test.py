@@ -371,6 +371,7 @@ class Folders(Case):
         self.tool("ninja", 'shift 2; [ "$1" = -n ] || echo "$*" >>"$HOME/targets"; exit 1')
         for arguments, plugins in (((), []), (("-o", "a.exr"), ["image_oiio"]),
                                    (("-n", "3", "-o", "a.gif"), ["image_oiio"]),
+                                   (("--show", "error"), ["probe"]), (("--show-clipped",), []),
                                    (("--model", "a.obj", "-w"), ["model_assimp", "panel_imgui"])):
             self.assertEqual(self.start(*arguments)[0], 1)
             self.assertEqual(self.read("home/targets").decode(), " ".join(

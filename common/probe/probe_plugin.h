@@ -1,0 +1,26 @@
+/*
+ * probe_plugin: the plugin that runs shaders (probe_plugin.c), as app calls it; so programs compile
+ * and link no evaluator.
+ */
+#ifndef PROBE_PLUGIN_H
+#define PROBE_PLUGIN_H
+
+#include "base/image.h"
+#include "base/plugin.h"
+#include "probe/probe.h"
+
+#include <stdio.h>
+
+typedef enum ShowResult { SHOW_DONE, SHOW_UNKNOWN, SHOW_FAILED } ShowResult; /* see Show.unknown */
+
+/* The variable `probe_plugin`. */
+typedef struct ProbePlugin {
+    PluginVersion *version;
+    /* What probe_text or probe_json write; NULL: a shader cannot be run, and why. */
+    char *(*tell)(const ProbeQuestion *question, bool json, Message *message);
+    /* What show_open computes, as show_paint paints it. */
+    ShowResult (*show)(const Capture *capture, const GlslArithmetic *driver, const char *what,
+                       Image *picture, FILE *legend, Message *message);
+} ProbePlugin;
+
+#endif
