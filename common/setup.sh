@@ -31,7 +31,7 @@ packages_to_study="gnuplot-nox"
 # check: archives, JSON, the sandbox of a submission.
 packages_to_check="libarchive-dev libjansson-dev libseccomp-dev zlib1g-dev bubblewrap"
 # The pages for a browser, and to test them.
-packages_to_web="emscripten node-acorn python3 fonttools meson ninja-build libstb-dev fonts-dejavu-core"
+packages_to_web="emscripten node-acorn python3 fonttools pandoc meson ninja-build libstb-dev fonts-dejavu-core"
 packages_to_browse="chromium firefox-esr"
 packages_to_test="libcmocka-dev libosmesa6-dev glslang-tools python3 libwebpdemux2 locales xvfb xauth xdotool \
 poppler-utils"

@@ -2,7 +2,7 @@
 /* A form of a program's options, from the table that the module gives: names, ranges, choices and help are those of the
  * command line. */
 const Controls = (() => {
-    const LONGEST_RANGE = 1000; /* of a slider */
+    const LONGEST_RANGE = 1024; /* of a slider */
 
     function element(name, attributes = {}, ...children) {
         const made = document.createElement(name);
@@ -105,6 +105,19 @@ const Controls = (() => {
             });
     }
 
+    /* Adds an option to `parent`, and returns its control. */
+    function put(parent, option, id, change) {
+        const control = kind(option)(option, id, {"aria-describedby": id + "-help"});
+        const range = option.range ? " (" + option.range + ")" : "";
+        parent.append(element("div", {class: "option"},
+                              element("label", {for: id}, title(option.name)),
+                              element("span", {class: "inputs"}, ...control.inputs),
+                              element("small", {id: id + "-help"}, (option.help || "") + range)));
+        for (const input of control.inputs)
+            input.addEventListener("input", () => change(option.name, control.read()));
+        return control;
+    }
+
     /* Fills `form`; change(name, value) is called for each change by the user. */
     function fill(form, options, change) {
         const shown = new Map();
@@ -113,18 +126,8 @@ const Controls = (() => {
             if (!group.length)
                 continue;
             const set = element("fieldset", {}, element("legend", {}, heading));
-            for (const option of group) {
-                const id = "option-" + option.name;
-                const control = kind(option)(option, id, {"aria-describedby": id + "-help"});
-                const range = option.range ? " (" + option.range + ")" : "";
-                set.append(element("div", {class: "option"},
-                                   element("label", {for: id}, title(option.name)),
-                                   element("span", {class: "inputs"}, ...control.inputs),
-                                   element("small", {id: id + "-help"}, (option.help || "") + range)));
-                for (const input of control.inputs)
-                    input.addEventListener("input", () => change(option.name, control.read()));
-                shown.set(option.name, control);
-            }
+            for (const option of group)
+                shown.set(option.name, put(set, option, "option-" + option.name, change));
             form.append(set);
         }
         return {
@@ -143,5 +146,5 @@ const Controls = (() => {
         };
     }
 
-    return {element, title, save, paint, refuseFiles, fill};
+    return {element, title, save, paint, refuseFiles, put, fill};
 })();

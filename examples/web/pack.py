@@ -2,8 +2,9 @@
 
     pack.py SOURCE_FOLDER MODULE_JS LABS_MODULE_JS FOLDER FOLDER/PROGRAM... labs/LAB...
 
-FOLDER gets index.html and labs.html, a page for each program and lab, what they share, and .lighting, the list of all;
-FOLDER/single has each page of a program or lab as one file.
+FOLDER gets index.html, book.html and labs.html, a page for each program, chapter and lab, what they share, and .lighting, the
+list of all; FOLDER/single has each page of a program or lab as one file. LIGHTING_NATIVE in the environment is the folder of
+the native programs, which draw the book's pictures.
 A browser fetches nothing for a page from file://, so the WebAssembly is a text in a script, and a page names each of its
 scripts.
 """
@@ -18,11 +19,13 @@ import re
 import shutil
 import sys
 
+import book
 import markdown
 
 INDEX = ["lighting.js", "module.js", "index.js"]
 PROGRAM = ["lighting.js", "module.js", "worker.js", "png.js", "zip.js", "link.js", "controls.js", "editor.js",
            "lent.js", "share.js", "program.js"]
+BOOK = ["lighting.js", "module.js", "worker.js", "controls.js", "book.js", "slides.js"]
 LABS = ["progress.js", "labs.js"]
 LAB = ["labs_module.js", "module.js", "progress.js", "lab_worker.js", "png.js", "zip.js", "controls.js",
        "editor.js", "lab.js"]
@@ -198,11 +201,35 @@ def write_labs():
         write(site / "single" / f"{name}.html", lab_page(name, alone(LAB), True))
 
 
+def beside(all_chapters, at):
+    """Links to the list, the slides, and the chapters before and after."""
+    links = '<a href="book.html">Contents</a> <a href="?slides">Slides</a>'
+    for i, word, kind in ((at - 1, "Before", ""), (at + 1, "Next", ' class="next"')):
+        if 0 <= i < len(all_chapters):
+            other = all_chapters[i]
+            links += f' <a{kind} href="{other.name}.html">{word}: {html.escape(book.plain(other.title))}</a>'
+    return links
+
+
+def write_book():
+    all_chapters = book.chapters()
+    for at, chapter in enumerate(all_chapters):
+        scripts = BOOK + ["precision.js"] * ("](precision:" in chapter.text)
+        write(site / f"{chapter.name}.html",
+              fill("chapter.html", title=html.escape(book.plain(chapter.title)), links=beside(all_chapters, at),
+                   body=book.body(chapter, diff), **shared(scripts)))
+    items = "".join(f'<li value="{chapter.number}"><a href="{chapter.name}.html">{html.escape(book.plain(chapter.title))}</a></li>\n'
+                    for chapter in all_chapters)
+    write(site / "book.html", fill("book.html", chapters=items, **shared([])))
+    if "LIGHTING_NATIVE" in os.environ:
+        book.draw(site, pathlib.Path(os.environ["LIGHTING_NATIVE"]))
+
+
 def main():
     shutil.rmtree(site, ignore_errors=True)
     (site / "single").mkdir(parents=True)
     write(site / "lighting.js", module_js(module))
-    for path in [*here.glob("*.js"), here / "style.css"]:
+    for path in [*here.glob("*.js"), *here.glob("*.css")]:
         shutil.copy(path, site)
     cards = {group: "".join(card(folder, name) for folder, name in programs if folder == group)
              for group in ("lecture", "lighting")}
@@ -212,6 +239,7 @@ def main():
         write(site / f"{name}.html", page(folder, name, shared(PROGRAM), False))
         write(site / "single" / f"{name}.html", page(folder, name, alone(PROGRAM), True))
     write_labs()
+    write_book()
     files = sorted(str(path.relative_to(site)) for path in site.rglob("*") if path.is_file())
     write(site / ".lighting", "\n".join(files) + "\n")
 

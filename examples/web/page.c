@@ -31,9 +31,10 @@ enum { MAX_SIDE = 4096 };
 
 /* The common options that a page has; the others are of files, processes or a terminal. */
 static const char *const SHOWN[] = {
-    "size",    "time",         "angle",        "orbit",   "samples",  "precision",   "alpha",
-    "full",    "clamp",        "linear-light", "terms",   "light-at", "light-color", "lighting",
-    "shadows", "show-clipped", "clamp-dots",   "normals", NULL};
+    "size",        "time",     "angle",   "orbit",        "samples",       "precision",
+    "alpha",       "full",     "clamp",   "linear-light", "terms",         "light-at",
+    "light-color", "lighting", "shadows", "shadow-bias",  "shadow-filter", "show-clipped",
+    "clamp-dots",  "normals",  NULL};
 /* What a program has itself, but no page: files. */
 static const char *const ABSENT[] = {"model", "up", NULL};
 

@@ -13,7 +13,8 @@ pages = [root / "README.md", root / "CHANGELOG.md", *sorted(root.glob("[cest]*/*
 # Options of scripts are looked for in their text; these are of other programs.
 SCRIPTS = ("examples/run", "tests/run", "tests/tables", "tests/drivers", "tests/systems/run", "tests/labs/labs_test.py", "tests/benchmark/bench.c")
 FOREIGN = {"--benchmark", "--array", "--half", "--table", "--cross-file",  # meson, sbatch, labs/corpus.py
-           "--cflags", "--libs", "--variable"}  # pkg-config
+           "--cflags", "--libs", "--variable",  # pkg-config
+           "--places"}  # examples/web/book.py
 failures = []
 
 

@@ -29,6 +29,7 @@ sys.path.insert(0, os.path.dirname(__file__))
 import browser
 import sizes
 import firefox_pages
+from book_pages import Book
 from firefox_pages import InFirefox
 from labs_pages import Accessible, Corpus, Labs, Verdicts
 from sharing_pages import Sharing
@@ -948,7 +949,7 @@ class Pages(Case):
 
 
 # Those that take longest first.
-CLASSES = ["Parity", "Verdicts", "Corpus", "Accessible", "InFirefox", "Labs", "Pages", "Sharing", "SwiftShader"]
+CLASSES = ["Parity", "Verdicts", "Corpus", "Book", "Accessible", "InFirefox", "Labs", "Pages", "Sharing", "SwiftShader"]
 
 
 def run(name):

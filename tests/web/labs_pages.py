@@ -229,6 +229,11 @@ class Accessible(OfLabs):
         self.nonsense()
         self.assert_accessible("a comparison and an error")
 
+    def test_chapters(self):
+        for name in ("chapter06", "chapter11", "chapter19", "chapter21"):
+            self.open(name)
+            self.assert_accessible(name)
+
     def test_labs(self):
         for name in ["labs", *mistakes.NAMES.values(), "single/" + mistakes.NAMES[9]]:
             self.page.resize(360, 700)

@@ -15,10 +15,10 @@ def packed(path):
 
 
 def loaded(site, name):
-    """The files that a page loads: itself, scripts, styles, pictures."""
+    """The files that a page loads: scripts, styles, pictures other than a chapter's, which come when they may."""
     text = (site / f"{name}.html").read_text(encoding="utf-8")
     return [site / file for file in re.findall(r'<(?:script|img) src="(.*?)"|<link rel="stylesheet" href="(.*?)"', text)
-            for file in file if file]
+            for file in file if file and not re.match(r"chapter\d\d_", file)]
 
 
 def sizes(site):

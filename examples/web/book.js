@@ -1,0 +1,340 @@
+"use strict";
+/* A chapter: one module with one WebGL context draws all of its figures, one after the other, while they are in sight. */
+const Book = (() => {
+    const TURN = 12; /* seconds of a turn at 30 degrees per second */
+    const SETTLE = 400; /* milliseconds before a plot's point follows what is being dragged */
+    const FRAMES = 15; /* of which the median time counts */
+    const {element} = Controls;
+    const book = {engine: null, compiled: null, programs: new Map(), figures: [], opened: "", playing: null, last: 0, scheduled: false};
+
+    /* "NAME --option value --flag", or the options alone, as a name and a Map. */
+    function read(text, name) {
+        const words = text.split(" ").filter(word => word), values = new Map();
+        if (words.length && !words[0].startsWith("--"))
+            name = words.shift();
+        const flags = book.programs.get(name).options.filter(option => option.kind === "flag").map(option => option.name);
+        while (words.length) {
+            const option = words.shift().slice(2);
+            values.set(option, flags.includes(option) ? true : words.shift());
+        }
+        return {name, values};
+    }
+
+    class Figure {
+        constructor(where) {
+            this.where = where;
+            this.canvas = where.querySelector("canvas");
+            this.image = where.querySelector("img");
+            this.told = where.querySelector(".told");
+            this.base = read(where.dataset.words);
+            this.controls = new Map();
+            this.wanted = where.dataset.controls.split(",").filter(name => name);
+            this.inSight = false;
+            this.drawn = "";
+            this.set(this.base);
+            this.fill();
+            this.listen();
+        }
+
+        /* Another command; what has the same name keeps its controls. */
+        set({name, values}) {
+            this.name = name;
+            this.values = new Map(values);
+            this.seconds = Number(values.get("time") || 0);
+            const [a = 0, e = 0, d = 1, r = 0] = (values.get("orbit") || "").split(",").filter(x => x).map(Number);
+            this.orbit = [a, e, d, r];
+            this.values.delete("time");
+            this.values.delete("orbit");
+        }
+
+        lines() {
+            return [this.name, ...[...this.values].map(([name, value]) => "--" + name + (value === true ? "" : "=" + value))];
+        }
+
+        /* A button or range of the time, options, a comparison. */
+        fill() {
+            const form = this.where.querySelector(".controls");
+            const {options} = book.programs.get(this.name);
+            for (const name of this.wanted) {
+                if (name === "time")
+                    form.append(this.timeRow());
+                else if (name === "error")
+                    form.append(this.button("Compare with the exact picture", () => this.compare()));
+                else if (name !== "plot")
+                    this.controls.set(name, Controls.put(form, options.find(option => option.name === name),
+                                                         this.where.id + name, (...changed) => this.change(...changed)));
+            }
+            form.addEventListener("submit", event => event.preventDefault());
+        }
+
+        button(text, action) {
+            const made = element("button", {type: "button"}, text);
+            made.addEventListener("click", action);
+            return made;
+        }
+
+        timeRow() {
+            this.play = this.button("Play", () => play(book.playing === this ? null : this));
+            this.slider = element("input", {type: "range", min: 0, max: TURN, step: 0.05, value: 0,
+                                            "aria-label": "Time within a turn, seconds"});
+            this.slider.addEventListener("input", () => { this.seconds = Number(this.slider.value); schedule(); });
+            return element("div", {class: "row"}, this.play, this.slider);
+        }
+
+        change(name, value) {
+            const before = new Map(this.values);
+            if (value === "" || value === false)
+                this.values.delete(name);
+            else
+                this.values.set(name, value);
+            const message = this.open();
+            if (message) {
+                this.values = before;
+                this.open();
+            }
+            this.told.textContent = message;
+            schedule();
+        }
+
+        /* The mouse turns the camera, arrows too; a swipe scrolls the page. A click tells the colour there. */
+        listen() {
+            let from = null;
+            const turn = (dx, dy) => {
+                const [a, e, ...rest] = this.orbit;
+                this.orbit = [(a + dx) % 360, Math.min(90, Math.max(-90, e + dy)), ...rest];
+                schedule();
+            };
+            this.canvas.addEventListener("pointerdown", event => {
+                from = {x: event.clientX, y: event.clientY, moved: false};
+                if (event.pointerType === "mouse")
+                    this.canvas.setPointerCapture(event.pointerId);
+            });
+            this.canvas.addEventListener("pointermove", event => {
+                if (!from || event.pointerType !== "mouse")
+                    return;
+                const dx = event.clientX - from.x, dy = event.clientY - from.y;
+                if (from.moved || Math.hypot(dx, dy) > 3) {
+                    turn(-dx / 2, dy / 2);
+                    from = {x: event.clientX, y: event.clientY, moved: true};
+                }
+            });
+            this.canvas.addEventListener("pointerup", event => {
+                if (from && !from.moved)
+                    this.tell(event);
+                from = null;
+            });
+            this.canvas.addEventListener("keydown", event => {
+                const by = {ArrowLeft: [-10, 0], ArrowRight: [10, 0], ArrowUp: [0, 10], ArrowDown: [0, -10]}[event.key];
+                if (!by || event.ctrlKey || event.altKey || event.metaKey)
+                    return;
+                event.preventDefault();
+                event.stopPropagation();
+                turn(...by);
+            });
+        }
+
+        tell(event) {
+            const box = this.canvas.getBoundingClientRect();
+            const x = Math.floor((event.clientX - box.left) * this.canvas.width / box.width);
+            const y = Math.floor((event.clientY - box.top) * this.canvas.height / box.height);
+            const [r, g, b] = this.canvas.getContext("2d").getImageData(x, y, 1, 1).data;
+            this.where.querySelector(".read").textContent =
+                `Pixel ${x}, ${y}: red ${r}, green ${g}, blue ${b} of 255. How it came about: add --probe ${x},${y} to the command.`;
+        }
+
+        /* "" or why not. */
+        open() {
+            const lines = this.lines(), key = lines.join("\n");
+            if (book.opened !== key && book.engine.run(lines) !== 0) {
+                book.opened = "";
+                return book.engine.message || "cannot be drawn";
+            }
+            book.opened = key;
+            return "";
+        }
+
+        key() { return [this.lines().join("\n"), this.seconds, this.orbit].join("\n"); }
+
+        draw() {
+            const message = this.open() || (book.engine.draw(this.seconds, this.orbit) ? "" : book.engine.message || "cannot be drawn");
+            this.drawn = this.key();
+            if (message) {
+                this.told.textContent = message;
+                return;
+            }
+            Controls.paint(this.canvas, book.engine.picture());
+            this.canvas.hidden = false;
+            this.image.hidden = true;
+            this.show();
+        }
+
+        show() {
+            const values = this.name === this.base.name ? book.engine.json("values") : {}, orbit = this.orbit.map(x => +x.toFixed(2));
+            const turned = this.orbit[2] === 1 && !this.orbit[3] ? orbit.slice(0, 2) : orbit;
+            for (const [name, control] of this.controls)
+                if (!control.inputs.includes(document.activeElement))
+                    control.show(this.values.get(name) === true || (values[name] === undefined ? "" : values[name]));
+            if (this.slider && document.activeElement !== this.slider)
+                this.slider.value = ((this.seconds % TURN) + TURN) % TURN;
+            const moved = this.orbit.some((x, i) => x !== [0, 0, 1, 0][i]);
+            const more = (this.seconds ? " --time " + +this.seconds.toFixed(2) : "") + (moved ? " --orbit " + turned.join(",") : "");
+            const words = [...this.values].map(([name, value]) => " --" + name + (value === true ? "" : " " + value)).join("");
+            this.where.querySelector(".command").textContent = "examples/run " + this.name + words + more;
+            if (this.wanted.includes("plot"))
+                this.later();
+        }
+
+        later() {
+            if (this.asked === this.drawn)
+                return;
+            this.asked = this.drawn;
+            clearTimeout(this.timer);
+            this.timer = setTimeout(() => this.compare(), SETTLE);
+        }
+
+        /* Milliseconds of a frame, drawn and read back. */
+        time() {
+            const times = [];
+            for (let i = 0; i < FRAMES && !this.open(); i++) {
+                const start = performance.now();
+                book.engine.draw(this.seconds, this.orbit);
+                times.push(performance.now() - start);
+            }
+            return times.sort((a, b) => a - b)[FRAMES >> 1];
+        }
+
+        async compare() {
+            this.told.textContent = "Computing the exact picture...";
+            const milliseconds = this.time();
+            const {error, message} = await ErrorWorker.compute({compiled: book.compiled, lines: this.lines(), texts: new Map(),
+                                                                seconds: this.seconds, orbit: this.orbit});
+            if (!error)
+                return message && (this.told.textContent = message);
+            const {maximum, rms} = error.inside;
+            this.told.textContent = `Error inside objects: at most ${maximum.toFixed(2)} steps of 1/255, root mean square ` +
+                `${rms.toFixed(2)}. A frame on this device: ${milliseconds.toFixed(1)} ms, with the copy to the page.`;
+            this.move(milliseconds, maximum);
+        }
+
+        /* The point of this device in a plot. */
+        move(x, y) {
+            const plot = this.where.querySelector(".plot");
+            if (!plot)
+                return;
+            const place = (name, value, from, to) => {
+                const [low, high] = plot.dataset[name].split(",").map(Number);
+                return from + (to - from) * Math.min(1, Math.max(0, (Math.log10(value) - low) / (high - low)));
+            };
+            const mine = plot.querySelector(".mine"); /* the first: the other is in the key */
+            mine.setAttribute("cx", place("x", x, 40, 470));
+            mine.setAttribute("cy", place("y", y, 250, 10));
+            mine.removeAttribute("visibility");
+        }
+    }
+
+    /* Once a frame: what has changed and is in sight. */
+    function schedule() {
+        if (book.scheduled)
+            return;
+        book.scheduled = true;
+        requestAnimationFrame(now => {
+            book.scheduled = false;
+            const {playing} = book;
+            if (playing && playing.inSight) {
+                playing.seconds += Math.min(0.25, Math.max(0, now - book.last) / 1000);
+                book.last = now;
+                schedule();
+            }
+            const next = book.figures.find(figure => figure.inSight && figure.drawn !== figure.key());
+            if (!next)
+                return;
+            next.draw();
+            schedule();
+        });
+    }
+
+    function play(figure) {
+        for (const other of book.figures)
+            if (other.play)
+                other.play.textContent = other === figure ? "Pause" : "Play";
+        book.playing = figure;
+        book.last = performance.now();
+        schedule();
+    }
+
+    /* An answer sets its options in the figure before it; closed, the figure is as it was. */
+    function listenToAnswers() {
+        for (const question of document.querySelectorAll(".expect[data-words]")) {
+            const before = book.figures.filter(({where}) =>
+                where.compareDocumentPosition(question) & Node.DOCUMENT_POSITION_FOLLOWING).pop();
+            if (!before)
+                continue;
+            const {name, values} = read(question.dataset.words, before.base.name);
+            const words = name === before.base.name ? new Map([...before.base.values, ...values]) : values;
+            question.addEventListener("toggle", () => {
+                if (book.printing)
+                    return;
+                if (!question.open && before.answer !== question)
+                    return;
+                before.answer = question.open ? question : null;
+                before.set(question.open ? {name, values: words} : before.base);
+                before.told.textContent = question.open ? "Drawn with the options of the answer that is open." : "";
+                schedule();
+            });
+        }
+    }
+
+    /* The module draws into a canvas of its own. When its context is lost, another one takes its place. */
+    function newCanvas() {
+        const canvas = element("canvas", {width: 1, height: 1});
+        canvas.addEventListener("webglcontextlost", event => {
+            event.preventDefault();
+            setTimeout(() => {
+                book.engine.close();
+                book.opened = "";
+                book.engine.module.canvas = newCanvas();
+                book.figures.forEach(figure => { figure.drawn = ""; });
+                schedule();
+            }, 100);
+        });
+        return canvas;
+    }
+
+    function listenToPrinting() {
+        let closed = [];
+        window.addEventListener("beforeprint", () => {
+            book.printing = true;
+            closed = [...document.querySelectorAll(".expect:not([open])")];
+            closed.forEach(question => { question.open = true; });
+        });
+        window.addEventListener("afterprint", () => {
+            closed.forEach(question => { question.open = false; });
+            setTimeout(() => { book.printing = false; }, 500); /* toggle events come late */
+        });
+    }
+
+    async function open() {
+        listenToPrinting();
+        book.compiled = await compileLighting();
+        book.engine = await Engine.open(book.compiled, newCanvas());
+        for (const program of book.engine.json("programs"))
+            book.programs.set(program.name, program);
+        book.figures = [...document.querySelectorAll("figure.live")].map(where => new Figure(where));
+        const watch = new IntersectionObserver(entries => {
+            for (const {target, isIntersecting} of entries)
+                book.figures.find(({where}) => where === target).inSight = isIntersecting;
+            book.last = performance.now();
+            schedule();
+        }, {rootMargin: "100px"});
+        book.figures.forEach(({where}) => watch.observe(where));
+        listenToAnswers();
+        document.body.dataset.ready = "yes";
+    }
+
+    /* Then the figures are the pictures that stand there. */
+    open().catch(error => {
+        document.getElementById("error").textContent = "The figures stand still, because this page cannot draw: " + error;
+        document.body.dataset.ready = "still";
+    });
+    return {book, schedule};
+})();

@@ -1,0 +1,237 @@
+"""The book: examples/chapter/NN-title.md as pages whose figures are drawn by the programs.
+
+    book.py --places     prints the table of examples/README.md: where each section of the originals is shown
+
+A chapter is Markdown with formulas in TeX, and
+
+    ![CAPTION](program: NAME OPTIONS controls: OPTION,time,error,plot)   a figure, drawn live with these few controls
+    ![CAPTION](change: OLD NEW)                         what differs from a program to the next
+    ![CAPTION](precision: highp mediump lowp)           what the reader's own device computes
+    QUESTION `OPTIONS`                                  what the reader expects when these options are set in the figure
+    :   ANSWER                                          above, or in the program that is named
+    [NUMBER]{check="EXPRESSION"}                        a number that tests/book computes again
+    <!-- place: HEADING; HEADING -->                    what the section above shows of places.txt
+"""
+import html
+import math
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+import markdown
+
+FOLDER = pathlib.Path(__file__).resolve().parent.parent / "chapter"
+FIGURE = re.compile(r"^!\[((?:[^\[\]]|\[[^\]]*\])*)\]\((program|change|precision): *([^)]*)\)$", re.MULTILINE)
+ANSWER = re.compile(r"`([A-Z]\w+ --[^`]+|hard_cases --[^`]+)`\n+:   ")
+CHECK = re.compile(r'\[([^\[\]]*)\]\{check="([^"]*)"\}')
+PLACE = re.compile(r"<!-- place: (.*?) -->", re.DOTALL)
+STILL = {"Vectors", "hard_cases"}  # not in the pages' module
+# Emphasis, links, code and checks left out.
+PLAIN = ((CHECK, r"\1"), (re.compile(r"\[([^\]]*)\]\([^)]*\)"), r"\1"), (re.compile(r"[`*$]"), ""))
+
+
+def plain(text):
+    for pattern, to in PLAIN:
+        text = pattern.sub(to, text)
+    return " ".join(text.split())
+
+
+class Figure:
+    def __init__(self, chapter, number, found):
+        self.caption, self.kind, rest = found.groups()
+        words, _, controls = rest.partition("controls:")
+        self.words = words.split()
+        self.controls = controls.strip()
+        self.number = f"{chapter}.{number}"
+        self.name = self.words[0] if self.words else ""
+        self.live = self.kind == "program" and self.name not in STILL
+        self.picture = f"chapter{chapter:02}_{number}.{suffix(self.name)}" if self.kind == "program" else None
+
+    def command(self):
+        return "examples/run " + " ".join(self.words)
+
+
+def draw_one(programs, words, to):
+    """The picture of a command; of a hard case its sheet."""
+    name, *options = words
+    quiet = {"check": True, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    if name != "hard_cases":
+        subprocess.run([programs / name, *options, "-o", to], **quiet)
+        return
+    folder = to.with_suffix(".hard")
+    subprocess.run([programs / name, *options, "-o", folder], **quiet)
+    os.replace(folder / (options[-1] + ".png"), to)
+    os.rmdir(folder)
+
+
+def suffix(program):
+    return "svg" if program == "Vectors" else "png"
+
+
+class Chapter:
+    def __init__(self, path):
+        self.path = path
+        self.number = int(path.stem[:2])
+        self.text = path.read_text(encoding="utf-8")
+        self.title = re.match(r"# (.*)\n", self.text)[1]
+        self.name = f"chapter{self.number:02}"
+        self.figures = [Figure(self.number, i + 1, found) for i, found in enumerate(FIGURE.finditer(self.text))]
+        # Of answers that no live figure draws: the command's words by the name of the picture.
+        self.answers = {f"{self.name}_answer{i + 1}.{suffix(words.split()[0])}": words
+                        for i, words in enumerate(words for words in ANSWER.findall(self.text) if words.split()[0] in STILL)}
+        self.checks = CHECK.findall(self.text)
+
+    def sections(self):
+        """(heading, text) of each section, the chapter's own title first."""
+        parts = re.split(r"^##? (.*)\n", self.text, flags=re.MULTILINE)
+        return list(zip(parts[1::2], parts[2::2]))
+
+
+def chapters():
+    return [Chapter(path) for path in sorted(FOLDER.glob("[0-9][0-9]-*.md"))]
+
+
+def plot():
+    """Error over time of the study's ball, as its table has them, both by factors; a point to be moved by book.js."""
+    rows = re.findall(r"^\| \d+ \|((?: [\d.]* \|){6})$", (FOLDER.parent / "study/tables/accuracy.md").read_text(encoding="utf-8"),
+                      re.MULTILINE)
+    x, y = (-1, 2), (-1, 2.5)
+
+    def place(value, range_, low, high):
+        return low + (high - low) * (math.log10(value) - range_[0]) / (range_[1] - range_[0])
+
+    points, lines = "", ""
+    for numbers in rows:
+        cells = [float(cell) for cell in numbers.replace("|", " ").split()]
+        for kind, error, ms in zip(("Phong", "Gouraud", "flat"), cells[::2], cells[1::2]):
+            points += f'<circle class="{kind}" cx="{place(ms, x, 40, 470):.1f}" cy="{place(error, y, 250, 10):.1f}" r="3"/>'
+    for value in (0.1, 1, 10, 100):
+        at = place(value, x, 40, 470)
+        lines += f'<line x1="{at:.1f}" y1="10" x2="{at:.1f}" y2="250"/><text x="{at:.1f}" y="264" text-anchor="middle">{value} ms</text>'
+        at = place(value, y, 250, 10)
+        lines += f'<line x1="40" y1="{at:.1f}" x2="470" y2="{at:.1f}"/><text x="35" y="{at + 4:.1f}" text-anchor="end">{value}</text>'
+    return ('<svg class="plot" viewBox="0 0 500 290" role="img" aria-label="Error in steps over time of a frame" '
+            f'data-x="{x[0]},{x[1]}" data-y="{y[0]},{y[1]}">{lines}{points}<circle class="mine" r="6" visibility="hidden"/>'
+            '<circle class="Phong" cx="60" cy="280" r="3"/><text x="68" y="284">at the fragments</text>'
+            '<circle class="Gouraud" cx="180" cy="280" r="3"/><text x="188" y="284">at the vertices</text>'
+            '<circle class="flat" cx="290" cy="280" r="3"/><text x="298" y="284">flat</text>'
+            '<circle class="mine" cx="345" cy="280" r="5"/><text x="355" y="284">this device</text></svg>')
+
+
+def frame(figure, change):
+    """What stands above a caption."""
+    caption = html.escape(plain(figure.caption), quote=True)
+    if figure.kind == "change":
+        return f'<details class="diff"><summary>The text itself</summary>\n<pre tabindex="0">{change(*figure.words)}</pre></details>'
+    if figure.kind == "precision":
+        return '<div class="wide" tabindex="0" role="group" aria-label="Table"><table class="precision"></table></div>'
+    image = f'<img src="{figure.picture}" alt="{caption}">'
+    if not figure.live:
+        return image
+    below = plot() if "plot" in figure.controls.split(",") else ""
+    return (f'{image}\n<canvas hidden tabindex="0" role="img" aria-label="{caption}"></canvas>\n{below}<p class="read"></p>\n'
+            '<form class="controls" autocomplete="off"></form>\n<p class="told" role="status"></p>')
+
+
+def block(figure, change):
+    attributes = f' data-words="{html.escape(" ".join(figure.words))}" data-controls="{figure.controls}"' if figure.live else ""
+    kind = "live" if figure.live else figure.kind if figure.kind != "program" else f"still {figure.name}"
+    command = f'<code class="command">{html.escape(figure.command())}</code>' if figure.kind == "program" else ""
+    return (f'```{{=html}}\n<figure class="{kind}" id="figure{figure.number.replace(".", "_")}"{attributes}>\n{frame(figure, change)}\n'
+            f'<figcaption>\n```\n\n**Figure {figure.number}.** {figure.caption}\n\n```{{=html}}\n{command}</figcaption></figure>\n```')
+
+
+def ask(found, chapter):
+    """Questions, of which some set options, or show another still picture."""
+    items = []
+    names = {words: name for name, words in chapter.answers.items()}
+    for question, answer in re.findall(r"<dt>(.*?)</dt>\s*<dd>(.*?)</dd>", found[1], re.DOTALL):
+        code = re.search(r"<code>([^<]*)</code>\s*$", question)
+        words = f' data-words="{html.escape(html.unescape(code[1]))}"' if code else ""
+        still = names.get(html.unescape(code[1])) if code else None
+        image = f'<div class="still {code[1].split()[0]}"><img src="{still}" alt="" loading="lazy"></div>' if still else ""
+        items.append(f'<details class="expect"{"" if still else words}><summary>{question}</summary>\n{answer.strip()}{image}</details>')
+    return "\n".join(items)
+
+
+def numbers(chapter):
+    if not chapter.checks:
+        return ""
+    rows = "".join(f'<tr><td>{html.escape(value)}</td><td><code>{html.escape(how)}</code></td></tr>'
+                   for value, how in chapter.checks)
+    return ('<details class="numbers"><summary>Where the numbers of this chapter come from</summary>\n<p>A test computes each again, '
+            'from the programs, and fails if it is another one.</p><div class="wide" tabindex="0" role="group" aria-label="Numbers">'
+            f'<table><tr><th scope="col">number</th><th scope="col">computed by</th></tr>{rows}</table></div></details>')
+
+
+def link(target):
+    """Other chapters, labs and programs are pages; the guides are not."""
+    found = re.fullmatch(r"(\d\d)-[\w-]+\.md", target)
+    lab = re.fullmatch(r"\.\./labs/(lab\d\d_\w+)/TASK\.md", target)
+    return f"chapter{found[1]}.html" if found else f"{lab[1]}.html" if lab else target if re.fullmatch(r"\w+\.html", target) else None
+
+
+def body(chapter, change):
+    """The chapter as HTML; change(old, new) is the difference of two programs."""
+    figures = iter(chapter.figures)
+    text = FIGURE.sub(lambda _: block(next(figures), change), PLACE.sub("", chapter.text))
+    made = markdown.to_html(CHECK.sub(r"\1", text), link).replace("<h1>", f"<h1>{chapter.number}. ", 1)
+    made = re.sub(r"<dl>(.*?)</dl>", lambda found: ask(found, chapter), made, flags=re.DOTALL)
+    return made + numbers(chapter)
+
+
+def draw(folder, programs):
+    for chapter in chapters():
+        for figure in chapter.figures:
+            if figure.picture:
+                draw_one(programs, figure.words, folder / figure.picture)
+        for name, words in chapter.answers.items():
+            draw_one(programs, words.split(), folder / name)
+
+
+def places():
+    """{heading: [(chapter, section, its text)]} in the order of places.txt, and a list of those that are not in it."""
+    lines = (FOLDER / "places.txt").read_text(encoding="utf-8").splitlines()
+    found = {line: [] for line in lines if line and not line.startswith("#")}
+    unknown = []
+    for chapter in chapters():
+        for section, text in chapter.sections():
+            for mark in PLACE.findall(text):
+                for heading in re.split(r"\s*;\s*", " ".join(mark.split())):
+                    if heading in found:
+                        found[heading].append((chapter, section, text))
+                    else:
+                        unknown.append((chapter.path.name, heading))
+    return found, unknown
+
+
+def commands(text):
+    """Of figures and within sentences."""
+    words = [" ".join(Figure(0, 0, found).words) for found in FIGURE.finditer(text) if found[2] == "program"]
+    return list(dict.fromkeys(words + re.findall(r"`([A-Z]\w+ --[^`]+|hard_cases --[^`]+)`", text)))
+
+
+def anchor(heading):
+    return re.sub(r"[^\w\- ]", "", plain(heading).lower()).replace(" ", "-")
+
+
+def table():
+    lines = (FOLDER / "places.txt").read_text(encoding="utf-8").splitlines()
+    found, _ = places()
+    for line in lines:
+        if line.startswith("# "):
+            print(f"\n### {line[2:]}\n\n| section or slide | in the book | by | lab |\n|---|---|---|---|")
+        elif line:
+            where = ", ".join(f"[{chapter.number}: {plain(section)}](chapter/{chapter.path.name}#{anchor(section)})"
+                              for chapter, section, _ in found[line])
+            shown = dict.fromkeys(command for _, _, text in found[line] for command in commands(text))
+            labs = sorted({int(lab) for chapter, _, _ in found[line] for lab in re.findall(r"labs/lab(\d\d)_", chapter.text)})
+            print(f"| {line} | {where} | {', '.join(f'`{command}`' for command in shown)} | {', '.join(map(str, labs))} |")
+
+
+if __name__ == "__main__":
+    if sys.argv[1:] != ["--places"]:
+        sys.exit("usage: book.py --places")
+    table()

@@ -1,0 +1,129 @@
+#!/usr/bin/env python3
+"""The book: its numbers, its figures' commands, and a place for every heading of the originals.
+
+usage: book_test.py EXAMPLES_FOLDER_OF_THE_BUILD PAGE_NATIVE SOURCE_FOLDER [unittest's arguments]
+"""
+import os
+import re
+import subprocess
+import sys
+import unittest
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.dirname(__file__))
+sys.path.insert(0, os.path.join(os.path.abspath(sys.argv[3]), "examples/web"))
+import book
+import claims
+from claims import EXAMPLES, SOURCE
+
+CHAPTERS = book.chapters()
+# Where a fraction is no claim: formulas, code, names, other marks.
+NO_CLAIMS = re.compile(r"\$\$.*?\$\$|\$[^$]*\$|```.*?```|`[^`]*`|\]\([^)]*\)|<!--.*?-->|OpenGL(?: ES)? \d\.\d+|[Ff]igure \d+\.\d+|"
+                       r"[Ss]ection \d\.\d+(?:\.\d+)?|\{#[^}]*\}", re.DOTALL)
+
+
+class Numbers(unittest.TestCase):
+    def test_each_number_is_computed_again(self):
+        for chapter in CHAPTERS:
+            for text, expression in chapter.checks:
+                with self.subTest(chapter.path.name, number=text, by=expression):
+                    right, value = claims.holds(text, expression)
+                    self.assertTrue(right, f"it is {value}")
+
+    def test_no_fraction_is_unchecked(self):
+        for chapter in CHAPTERS:
+            left = NO_CLAIMS.sub("", book.CHECK.sub("", chapter.text))
+            self.assertEqual(re.findall(r".{0,40}\d\.\d.{0,20}", left), [], chapter.path.name)
+
+
+class Figures(unittest.TestCase):
+    def test_each_command_draws(self):
+        """Those of figures, of answers and within sentences."""
+        for chapter in CHAPTERS:
+            for command in sorted({*book.commands(chapter.text), *self.answers(chapter)}):
+                name, *words = command.replace(" --alpha", "").split()
+                if name == "hard_cases" or "--explain" in words:
+                    continue  # draws more than a picture, and has its own tests
+                with self.subTest(chapter.path.name, command=command):
+                    done = subprocess.run([os.path.join(EXAMPLES, name), *words, "--size", "60x60", "-o", "-", "--format", "rgb"],
+                                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=False)
+                    self.assertEqual((done.returncode, len(done.stdout)), (0, 3 * 60 * 60), done.stderr.decode())
+
+    @staticmethod
+    def answers(chapter):
+        """The command of each question: that of the figure above with other options, or its own."""
+        base, found = "", []
+        for match in re.finditer(r"\(program: *([^)]*)\)$|^.*`([^`]+)`\n+:   ", chapter.text, re.MULTILINE):
+            if match[1]:
+                base = match[1].partition("controls:")[0].strip()
+            elif match[2].startswith("--"):
+                found.append(merge(base, match[2]))
+            else:
+                found.append(match[2])
+        return found
+
+    def test_controls_are_options(self):
+        for chapter in CHAPTERS:
+            for figure in chapter.figures:
+                if figure.live:
+                    options = claims.run(figure.name, "--help").decode()
+                    for name in filter(None, figure.controls.split(",")):
+                        with self.subTest(figure.number, control=name):
+                            self.assertTrue(name in ("time", "error", "plot") or f"--{name} " in options)
+
+    def test_each_figure_has_two_questions(self):
+        for chapter in CHAPTERS:
+            parts = book.FIGURE.split(chapter.text)[4::4]
+            for figure, text in zip(chapter.figures, parts):
+                if figure.kind == "program":
+                    with self.subTest(figure.number):
+                        self.assertGreaterEqual(len(re.findall(r"^:   ", text, re.MULTILINE)), 2)
+
+
+def merge(base, words):
+    """The later of two values of an option wins, as in a page."""
+    name, *first = base.split()
+    values = {}
+    for words_of in (first, words.split()):
+        last = None
+        for word in words_of:
+            if word.startswith("--"):
+                last, values[word] = word, []
+            else:
+                values[last].append(word)
+    return " ".join([name, *(part for option, rest in values.items() for part in (option, *rest))])
+
+
+class Text(unittest.TestCase):
+    def test_the_chapters_are_in_order(self):
+        self.assertEqual([chapter.number for chapter in CHAPTERS], list(range(1, len(CHAPTERS) + 1)))
+
+    def test_a_chapter_is_400_to_900_words(self):
+        for chapter in CHAPTERS:
+            text = re.sub(r"\$\$.*?\$\$|<!--.*?-->|\]\((?:program|change)[^)]*\)", "", chapter.text, flags=re.DOTALL)
+            words = len(book.plain(text).split())
+            with self.subTest(chapter.path.name, words=words):
+                self.assertTrue(400 <= words <= 1000)
+
+    def test_links_lead_somewhere(self):
+        for chapter in CHAPTERS:
+            for target in re.findall(r"\]\((?!program|change|precision)([^)#]+)[^)]*\)", chapter.text):
+                with self.subTest(chapter.path.name, target=target):
+                    self.assertTrue((book.FOLDER / target).exists() or re.fullmatch(r"\w+\.html", target))
+
+
+class Places(unittest.TestCase):
+    def test_every_heading_of_the_originals_has_a_place(self):
+        found, unknown = book.places()
+        self.assertEqual([heading for heading, where in found.items() if not where], [])
+        self.assertEqual(unknown, [])
+
+    def test_the_table_is_that_of_the_book(self):
+        table = subprocess.run([sys.executable, "-B", os.path.join(SOURCE, "examples/web/book.py"), "--places"], check=True,
+                               stdout=subprocess.PIPE, text=True).stdout
+        with open(os.path.join(SOURCE, "examples/README.md"), encoding="utf-8") as file:
+            self.assertIn(table.strip(), file.read(), "examples/README.md: tests/tables book.py writes the table")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[4:]])

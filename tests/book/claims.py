@@ -1,0 +1,114 @@
+"""The numbers of the book, computed again from what they claim: [0.866]{check="cos(radians(30))"}.
+
+An expression has Python's math and the functions below; a command is a program's name with its options.
+"""
+import functools
+import json
+import math
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+EXAMPLES, PAGE_NATIVE, SOURCE = (os.path.abspath(path) for path in sys.argv[1:4])
+
+
+@functools.lru_cache(None)
+def run(command, *more):
+    name, *words = command.split()
+    return subprocess.run([os.path.join(EXAMPLES, name), *words, *more], check=True, stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE).stdout
+
+
+def size(command):
+    with_size = re.search(r"--size (\d+)x(\d+)", command)
+    if not with_size:
+        name = command.split()[0]
+        with_size = re.search(r"-s, --size WxH\s+in pixels; default (\d+)x(\d+)", run(name, "--help").decode())
+    return tuple(map(int, with_size.groups()))
+
+
+def pixels(command):
+    """(red, green, blue) of each, row by row."""
+    data = run(command, "-o", "-", "--format", "rgb")
+    return list(zip(data[::3], data[1::3], data[2::3]))
+
+
+def pixel(command, x, y):
+    return pixels(command)[y * size(command)[0] + x]
+
+
+def colours(command):
+    return len(set(pixels(command)))
+
+
+def difference(command, other):
+    """The largest, of a byte."""
+    return max(abs(a - b) for a, b in zip(run(command, "-o", "-", "--format", "rgb"), run(other, "-o", "-", "--format", "rgb")))
+
+
+def changed(command, other):
+    """How many pixels."""
+    return sum(a != b for a, b in zip(pixels(command), pixels(other)))
+
+
+@functools.lru_cache(None)
+def error(command):
+    """Against the exact picture."""
+    name, *words = command.split()
+    line = name
+    for word in words:
+        line += ("=" if not word.startswith("--") else " ") + word
+    said = subprocess.run([PAGE_NATIVE], input=line + "\n", stdout=subprocess.PIPE, text=True, check=True).stdout
+    return json.loads(said)
+
+
+def largest(command):
+    return error(command)["inside"]["maximum"]
+
+
+def rms(command):
+    return error(command)["inside"]["rms"]
+
+
+def rms_of_all(command):
+    return error(command)["all"]["rms"]
+
+
+def said(command, pattern):
+    """The number in what a command prints."""
+    return float(re.search(pattern, run(command).decode(), re.MULTILINE)[1])
+
+
+def page(path, pattern):
+    """A number that a page of the project has measured."""
+    text = " ".join(pathlib.Path(SOURCE, path).read_text(encoding="utf-8").split())
+    return float(re.search(pattern, text)[1])
+
+
+def unit(*vector):
+    length = math.sqrt(sum(x * x for x in vector))
+    return tuple(x / length for x in vector)
+
+
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
+
+NAMES = {name: value for name, value in vars(math).items() if not name.startswith("_")}
+NAMES.update({function.__name__: function for function in (size, pixels, pixel, colours, difference, changed, error, largest, rms,
+                                                          rms_of_all, said, page, unit, dot)},
+             sorted=sorted, abs=abs, max=max, min=min, round=round, sum=sum, len=len, set=set, any=any, all=all, int=int, zip=zip, range=range)
+
+
+def computed(expression):
+    return eval(expression, {"__builtins__": {}, **NAMES})
+
+
+def holds(text, expression):
+    """Whether a number is right in all the digits that it has; and what it should be."""
+    value = computed(expression)
+    number = float(re.sub(r"[ ,%]", "", text.replace("−", "-")))
+    digits = len(text.rstrip("%").partition(".")[2])
+    return abs(value - number) <= 0.5 * 10 ** -digits + 1e-9, value

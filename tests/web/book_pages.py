@@ -1,0 +1,147 @@
+"""The book's pages: what its figures draw, and what answers, slides and paper show."""
+import base64
+import json
+import pathlib
+import shlex
+
+from pages import SITE, Case, address, differences, native
+
+CHAPTERS = sorted(path.stem for path in pathlib.Path(SITE).glob("chapter*.html")) or [f"chapter{i:02}" for i in range(1, 22)]
+STEADY = """(() => {
+    const {figures} = Book.book;
+    return figures.every(figure => !figure.inSight || figure.drawn === figure.key());
+})()"""
+COLOURS = """(number => {
+    const {canvas} = Book.book.figures[number];
+    const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    let text = "";
+    for (let i = 0; i < data.length; i += 4)
+        text += String.fromCharCode(data[i], data[i + 1], data[i + 2]);
+    return btoa(text);
+})"""
+
+
+class Book(Case):
+    def setUp(self):
+        # Only in sight a figure is drawn: the window shows all of them.
+        self.page.resize(1000, 12000)
+
+    def open_all(self, name):
+        self.open(name)
+        self.page.wait("Book.book.figures.every(({drawn}) => drawn)")
+
+    def command(self, number):
+        return self.page.run(f"Book.book.figures[{number}].where.querySelector('.command').textContent")
+
+    def assert_figure(self, number):
+        """What it shows is what its command draws."""
+        self.page.wait(STEADY)
+        words = shlex.split(self.command(number))
+        drawn = base64.b64decode(self.page.run(f"{COLOURS}({number})"))
+        self.assertEqual(differences(drawn, native(words[1], words[2:])), (0, 0), words)
+        return words
+
+    def test_each_figure_is_native(self):
+        for name in CHAPTERS:
+            self.open_all(name)
+            with self.subTest(name):
+                for number in range(self.page.run("Book.book.figures.length")):
+                    self.assert_figure(number)
+                self.assertEqual(self.page.run("""[...document.images].filter(image =>
+                    image.complete && !image.naturalWidth).map(image => image.src)"""), [])
+                self.assertEqual(self.page.complaints(), [])
+                self.assertTrue(all(url.startswith(("file:", "blob:", "data:")) for url in self.page.requests()))
+
+    def test_narrow_pages(self):
+        self.page.resize(360, 700)
+        for name in ["book", *CHAPTERS]:
+            self.page.open(address(name), "true" if name == "book" else "document.body.dataset.ready")
+            self.page.run("for (const part of document.querySelectorAll('details')) part.open = true")
+            self.assertLessEqual(self.page.run("document.documentElement.scrollWidth"), 360, name)
+
+    def test_every_answer_is_drawn(self):
+        for name in CHAPTERS:
+            self.open_all(name)
+            for number in range(self.page.run("document.querySelectorAll('.expect[data-words]').length")):
+                question = f"document.querySelectorAll('.expect[data-words]')[{number}]"
+                with self.subTest(name, question=self.page.run(question + ".textContent")):
+                    figure = self.page.run(f"""(() => {{
+                        const before = Book.book.figures.map(({{where}}) => where.compareDocumentPosition({question}) &
+                            Node.DOCUMENT_POSITION_FOLLOWING);
+                        return before.filter(follows => follows).length - 1;
+                    }})()""")
+                    self.page.wait(STEADY)
+                    before = self.page.run(f"{COLOURS}({figure})")
+                    self.page.run(question + ".open = true")
+                    self.page.wait(f"!!Book.book.figures[{figure}].answer")
+                    self.assert_figure(figure)
+                    self.page.run(question + ".open = false")
+                    self.page.wait(f"!Book.book.figures[{figure}].answer")
+                    self.page.wait(STEADY)
+                    self.assertEqual(self.page.run(f"{COLOURS}({figure})"), before)
+
+    def test_controls_and_the_error(self):
+        self.open("chapter12")
+        last = "#" + self.page.run("Book.book.figures[Book.book.figures.length - 1].where.id")
+        self.page.run(f"""(() => {{
+            const choice = document.querySelector({json.dumps(last + " select")});
+            choice.value = "phong";
+            choice.dispatchEvent(new Event("input", {{bubbles: true}}));
+        }})()""")
+        number = self.page.run("Book.book.figures.length") - 1
+        self.assertIn("--interpolation phong", " ".join(self.assert_figure(number)))
+        self.page.run(f"Book.book.figures[{number}].compare()")
+        self.page.wait(f"/at most 49\\.5\\d steps/.test(document.querySelector({json.dumps(last + ' .told')}).textContent)")
+
+    def test_out_of_sight_it_rests(self):
+        self.page.resize(1000, 600)
+        self.open("chapter12")
+        self.page.wait("Book.book.figures[0].drawn")
+        last = "Book.book.figures[Book.book.figures.length - 1]"
+        self.assertEqual(self.page.run(last + ".drawn"), "")
+        self.page.run(last + ".where.scrollIntoView()")
+        self.page.wait(last + ".drawn")
+
+    def test_slides(self):
+        self.page.resize(1280, 800)
+        self.page.open(address("chapter07").replace(".html", ".html?slides"))
+        shown = "[...document.querySelectorAll('article > *')].filter(part => part.offsetHeight).map(part => part.tagName).join()"
+        self.assertEqual(self.page.run(shown), "H1")
+        for tag in ("FIGURE", "P", "H2", "FIGURE"):
+            self.page.key("ArrowRight")
+            self.assertEqual(self.page.run(shown), tag)
+        self.page.wait("Book.book.figures[0].drawn")
+        self.page.key("Home")
+        self.assertEqual(self.page.run(shown), "H1")
+
+    def test_paper(self):
+        self.open("chapter07")
+        self.page.wait("!Book.book.figures[0].canvas.hidden")
+        self.page.call("Emulation.setEmulatedMedia", media="print")
+        try:
+            self.assertEqual(self.page.run("[...document.querySelectorAll('figure > canvas')].filter(c => c.offsetHeight).length"), 0)
+            self.assertEqual(self.page.run("[...document.querySelectorAll('figure > img')].filter(c => !c.offsetHeight).length"), 0)
+        finally:
+            self.page.call("Emulation.setEmulatedMedia", media="")
+        self.page.run("dispatchEvent(new Event('beforeprint'))")
+        self.assertEqual(self.page.run("document.querySelectorAll('.expect:not([open])').length"), 0)
+
+    def test_without_webgl(self):
+        script = self.page.call("Page.addScriptToEvaluateOnNewDocument", source="""
+            const real = HTMLCanvasElement.prototype.getContext;
+            HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
+                return kind.startsWith("webgl") ? null : real.call(this, kind, ...more);
+            };""")["identifier"]
+        try:
+            self.open("chapter07")
+            self.page.wait("Book.book.figures.every(({drawn}) => drawn)")
+            self.assertEqual(self.page.run("[...document.querySelectorAll('figure > canvas')].filter(c => !c.hidden).length"), 0)
+            self.assertEqual(self.page.run("[...document.querySelectorAll('figure > img')].filter(c => !c.offsetHeight).length"), 0)
+        finally:
+            self.page.call("Page.removeScriptToEvaluateOnNewDocument", identifier=script)
+
+    def test_the_device_is_measured(self):
+        """llvmpipe's highp has 24 bits; of mediump nothing is known here."""
+        self.open("chapter21")
+        rows = self.page.run("[...document.querySelector('table.precision').rows].map(row => [...row.cells].map(c => c.textContent))")
+        self.assertEqual(rows[1], ["highp", "24", "24", "2^−126", "2^127"])
