@@ -1,0 +1,8 @@
+/* A page writes no files. */
+#include "kinds/scene_save.h"
+
+bool scene_save(const Scene *scene, const char *path, Message *message)
+{
+    (void)scene;
+    return message_set(message, "%.80s: not in the browser; the command writes it", path);
+}
