@@ -87,6 +87,11 @@ def page(path, pattern):
     return float(re.search(pattern, text)[1])
 
 
+def operations(effect, column=3):
+    """Per fragment, as the study counts them: of the program that is specialized, or of the full one, column 4."""
+    return page("examples/study/tables/costs.md", rf"\| {re.escape(effect)} (?:\|[^|]*){{{column - 1}}}\| (\d+) ")
+
+
 def unit(*vector):
     length = math.sqrt(sum(x * x for x in vector))
     return tuple(x / length for x in vector)
@@ -98,7 +103,7 @@ def dot(a, b):
 
 NAMES = {name: value for name, value in vars(math).items() if not name.startswith("_")}
 NAMES.update({function.__name__: function for function in (size, pixels, pixel, colours, difference, changed, error, largest, rms,
-                                                          rms_of_all, said, page, unit, dot)},
+                                                          rms_of_all, said, page, operations, unit, dot)},
              sorted=sorted, abs=abs, max=max, min=min, round=round, sum=sum, len=len, set=set, any=any, all=all, int=int, zip=zip, range=range)
 
 
