@@ -171,14 +171,16 @@ static GlslBound bound_of(GlslBoundRun *run, int result)
     for (int i = result; i >= 0; i--) {
         const int node = state->entries[i].node;
         double *line = &state->lines[state->line_of[node]];
-        if (*line > bound.share) {
+        if (*line >= bound.share && *line > 0) { /* of those without bound the first */
             bound.share = *line;
             bound.node = node;
         }
         *line = 0;
     }
-    if (!(bound.error <= last.error))
+    if (!(bound.error <= last.error)) {
+        bound.share *= isfinite(bound.error) ? last.error / bound.error : 1;
         bound.error = last.error;
+    }
     return bound;
 }
 

@@ -7,6 +7,7 @@
  */
 #include "base/output_text.h"
 #include "base/progress.h"
+#include "study/arithmetic/proof.h"
 #include "study/measure/survey.h"
 #include "study/measure/scenes.h"
 #include "study/report/conclusions.h"
@@ -25,8 +26,10 @@ static Part part;
 static const char *quality_asked;
 static int seed = 1;
 
-/* The names of the study's scenes, and the last: all of them. */
-static const char *SCENES[STUDY_SCENE_COUNT + 2];
+static int proved = STUDY_SCENE_COUNT; /* none */
+
+/* The names of the study's scenes, and the last: all of them, or none. */
+static const char *SCENES[STUDY_SCENE_COUNT + 2], *PROVED[STUDY_SCENE_COUNT + 2];
 
 static const Parameter parameters[] = {
     {"scene", "what is drawn", PARAMETER_CHOICE, .value = &scene, .choices = SCENES},
@@ -55,6 +58,10 @@ static const Parameter parameters[] = {
      PARAMETER_FLAG, .value = &all_rows},
     {"markdown", "print tables of the findings as Markdown, with processor, driver and compiler",
      PARAMETER_FLAG, .value = &markdown},
+    {"prove",
+     "bound the error of all points of each object of a scene, from what is measured of the "
+     "driver's arithmetic, instead of drawing settings",
+     PARAMETER_CHOICE, .value = &proved, .choices = PROVED},
     {"seed", "of the order in which settings are measured", PARAMETER_WHOLE, .value = &seed,
      .min = 0, .max = 1e9},
     {.name = NULL},
@@ -401,9 +408,35 @@ static bool check(Message *message)
                            part.count ? "part" : "merge");
     if (quality_asked && fresh)
         return message_set(message, "--fresh: --setting keeps no rows, so there are none to drop");
+    if (proved < STUDY_SCENE_COUNT && (one || quality_asked || part.count || merge || fresh))
+        return message_set(message, "--prove: names its scene, and measures no settings");
     if (by_rms && budget < 0 && time_budget < 0)
         return message_set(message, "--rms: goes with --budget or --time-budget");
     return true;
+}
+
+/* --prove: no settings but the usual. */
+static bool prove(const Options *options, Message *message)
+{
+    static Arithmetics found;
+    const Quality quality = quality_usual();
+    SolidMeshes meshes = {.first = NULL};
+    StudyScene study;
+    SceneCopy made;
+    Meter meter;
+    if (!meter_open(&meter, options->canvas.backend, message))
+        return false;
+    study_scene(proved, &study);
+    bool done = arithmetic_measure(&meter, 1 << 17, &found, message) &&
+                quality_scene_open(&made, &study.scene, &quality, &meshes, message);
+    if (done) {
+        printf("%s, %d rows\n", STUDY_SCENES[proved].name, options->height);
+        done = prove_scene(&made.scene, &found, options->height, stdout, message);
+        scene_copy_close(&made);
+    }
+    solid_meshes_close(&meshes);
+    meter_close(&meter);
+    return done;
 }
 
 static const Usage usage = {
@@ -421,8 +454,9 @@ int main(int argc, char *argv[])
     Quality quality;
     Message message = {0};
     for (int i = 0; i < STUDY_SCENE_COUNT; i++)
-        SCENES[i] = STUDY_SCENES[i].name;
+        SCENES[i] = PROVED[i] = STUDY_SCENES[i].name;
     SCENES[STUDY_SCENE_COUNT] = "all";
+    PROVED[STUDY_SCENE_COUNT] = "none";
     make_details();
     if (!options_begin(&options, &usage, argc, argv, &code))
         return code;
@@ -433,7 +467,8 @@ int main(int argc, char *argv[])
         message_set(&said, "--setting: %s", message.text);
         return options_fail(usage.name, &said, EXIT_USAGE);
     }
-    if (!measure(&options, quality_asked ? &quality : NULL, &message))
+    if (proved < STUDY_SCENE_COUNT ? !prove(&options, &message)
+                                   : !measure(&options, quality_asked ? &quality : NULL, &message))
         return options_fail(usage.name, &message, EXIT_FAILED);
     return options_finish(usage.name, 0);
 }

@@ -171,6 +171,11 @@ static bool is_seen(const CaptureDraw *draw)
     return draw->mode == GL_TRIANGLES && draw->colors[0] && draw->sources[0] && draw->sources[1];
 }
 
+bool proof_is_drawn(const Proof *proof, int draw)
+{
+    return is_seen(&proof->capture.draws[draw]);
+}
+
 static bool open_draws(Proof *proof, Message *message)
 {
     const Capture *capture = &proof->capture;
@@ -379,8 +384,21 @@ ProofBound proof_piece(const Proof *proof, const ProofTriangle *triangle, const 
         const int node = ran ? bound.node : run->node;
         worst.steps = 255 * error;
         worst.bounded = ran && isfinite(bound.error);
-        worst.line = node ? draw->trees[1]->nodes[node].place.line : 0;
+        worst.node = node;
         worst.share = bound.error > 0 ? 255 * error * bound.share / bound.error : 0;
     }
     return worst;
+}
+
+void proof_text(const Proof *proof, int draw, const ProofBound *bound, char *text, size_t size)
+{
+    const GlslTree *tree = proof->draws[draw].trees[1];
+    char expression[40];
+    if (!bound->node) {
+        snprintf(text, size, "the varyings and uniforms");
+        return;
+    }
+    glsl_expression_text(tree, bound->node, expression, sizeof expression);
+    /* Lines of files that are included begin at a multiple of a million. */
+    snprintf(text, size, "line %d: %s", tree->nodes[bound->node].place.line % 1000000, expression);
 }

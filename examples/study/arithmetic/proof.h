@@ -45,10 +45,30 @@ typedef struct ProofBound {
     double steps; /* the largest error of a channel, clamped, before it is rounded to a byte */
     bool bounded; /* without the clamp, too */
     bool edges;   /* there are pixels through which an edge of light runs, which are left out */
-    int line;     /* of the fragment shader: the one that makes most of it, 0: what it gets */
+    int node;     /* of the fragment shader, in the line that makes most of it; 0: what it gets */
     double share; /* what that makes, in steps */
 } ProofBound;
 ProofBound proof_piece(const Proof *proof, const ProofTriangle *triangle, const double center[2],
                        double half);
+
+/* "line 21: pow(base, exponent)". */
+void proof_text(const Proof *proof, int draw, const ProofBound *bound, char *text, size_t size);
+
+bool proof_is_drawn(const Proof *proof, int draw);
+
+/* Of all points of a draw. */
+typedef struct ProvedDraw {
+    ProofBound bound;
+    int draw, triangle; /* where it is largest */
+    double found;       /* the largest bound at single points: that of all is not less */
+    int triangles, pieces;
+} ProvedDraw;
+
+/* From the bounds of at most so many pieces more than there are triangles. */
+ProvedDraw prove_draw(const Proof *proof, int draw, int most);
+
+/* Prints a line for each object, in highp and in mediump, and what is assumed. A canvas is open. */
+bool prove_scene(const Scene *scene, const Arithmetics *found, int height, FILE *file,
+                 Message *message);
 
 #endif
