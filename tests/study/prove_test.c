@@ -1,0 +1,190 @@
+/*
+ * accuracy --prove: no picture of a random scene, drawn to floats, has a larger error than is
+ * proved for it; and how much larger the bound is than the error.
+ */
+#include "base/random.h"
+#include "core/mesh.h"
+#include "lighting/lighting.h"
+#include "reference/picture_error.h"
+#include "shapes/mesh_solids.h"
+#include "study/arithmetic/proof.h"
+#include "support/picture_check.h"
+#include "support/testing.h"
+
+enum { WIDTH = 96, HEIGHT = 72, MESHES = 3 };
+
+static Arithmetics found;
+static Mesh meshes[MESHES];
+
+FIXTURE(measure)
+{
+    Meter meter;
+    require(meter_open(&meter, NULL, FAILURE), FAILURE);
+    require(arithmetic_measure(&meter, 1 << 17, &found, FAILURE), FAILURE);
+    meter_close(&meter);
+    require(mesh_sphere(&meshes[0], 1, 16, 8, FAILURE), FAILURE);
+    require(mesh_torus(&meshes[1], .3, .8, 8, 14, FAILURE), FAILURE);
+    require(mesh_quad(&meshes[2], 3, FAILURE), FAILURE);
+    return 0;
+}
+
+FIXTURE(close_meshes)
+{
+    for (int i = 0; i < MESHES; i++)
+        mesh_close(&meshes[i]);
+    return 0;
+}
+
+typedef struct Made {
+    Scene scene;
+    Light lights[3];
+    Object objects[2];
+} Made;
+
+static Vec3 direction(Random *random)
+{
+    return vec3_unit((Vec3){random_between(random, -1, 1), random_between(random, -1, 1),
+                            random_between(random, -1, 1)});
+}
+
+static Vec3 color(Random *random)
+{
+    return (Vec3){random_between(random, 0, 1), random_between(random, 0, 1),
+                  random_between(random, 0, 1)};
+}
+
+static Light random_light(Random *random)
+{
+    Light light = {.kind = (LightKind)random_below(random, 3),
+                   .position = vec3_scale(direction(random), random_between(random, 2, 6)),
+                   .diffuse = color(random),
+                   .specular = color(random),
+                   .cutoff = random_between(random, 10, 60),
+                   .exponent = random_below(random, 2) ? random_between(random, 0, 20) : 0};
+    light.direction = light.kind == LIGHT_SPOT ? vec3_scale(light.position, -1) : direction(random);
+    if (random_below(random, 3) == 0)
+        light.constant = 1, light.quadratic = .1;
+    return light;
+}
+
+static void make(Made *made, Random *random)
+{
+    memset(made, 0, sizeof *made);
+    Scene *scene = &made->scene;
+    scene->lights = made->lights;
+    scene->objects = made->objects;
+    scene->light_count = 1 + random_below(random, 3);
+    scene->object_count = 1 + random_below(random, 2);
+    scene->reflection = (Reflection)random_below(random, 2);
+    scene->distant_viewer = random_below(random, 4) == 0;
+    scene->linear = random_below(random, 6) == 0;
+    scene->global_ambient = (Vec3){.1, .1, .1};
+    scene->camera = (Camera){.eye = vec3_scale(direction(random), random_between(random, 4, 9)),
+                             .up = {.1, 1, .2},
+                             .fovy = random_between(random, 20, 40),
+                             .near = 1,
+                             .far = 100};
+    for (int i = 0; i < scene->light_count; i++)
+        made->lights[i] = random_light(random);
+    for (int i = 0; i < scene->object_count; i++) {
+        const int mesh = random_below(random, MESHES);
+        const Vec3 move = vec3_scale(direction(random), random_between(random, 0, 1));
+        made->objects[i] = (Object){.mesh = &meshes[mesh],
+                                    .closed = mesh < 2,
+                                    .world_from_object = mat4_translate(move),
+                                    .front = {.ambient = color(random),
+                                              .diffuse = color(random),
+                                              .specular = color(random),
+                                              .shininess = random_between(random, 1, 100),
+                                              .alpha = 1}};
+    }
+}
+
+/* The largest error inside objects, in steps. */
+static double drawn_error(const Canvas *canvas, const Scene *scene, bool narrow)
+{
+    const ReferenceOptions options = {
+        .width = WIDTH, .height = HEIGHT, .meshes = true, .centers = true};
+    const ShaderLoader loader = {.precision = narrow ? "mediump" : "highp"};
+    PictureError error = {.all = {0}};
+    Reference exact;
+    Lighting *lighting;
+    Image image;
+    require(reference_open(&exact, scene, &options, FAILURE), FAILURE);
+    require(image_open(&image, WIDTH, HEIGHT, IMAGE_FLOAT, FAILURE), FAILURE);
+    require(lighting_open(&lighting, &loader, FAILURE), FAILURE);
+    canvas_clear(canvas, scene->background, 0);
+    require(lighting_show(lighting,
+                          &(LightingFrame){.scene = scene, .aspect = (double)WIDTH / HEIGHT},
+                          FAILURE),
+            FAILURE);
+    require(canvas_read(canvas, &image, FAILURE), FAILURE);
+    picture_error_add(&error, &image, &(ExactView){.exact = &exact, .scene = scene});
+    lighting_close(lighting);
+    image_close(&image);
+    reference_close(&exact);
+    return error.interior.pixels ? error.interior.maximum : -1;
+}
+
+static double proved_error(const Scene *scene, bool narrow)
+{
+    const ProofDriver driver = {&found.of[METER_VERTEX][METER_HIGHP],
+                                &found.of[METER_FRAGMENT][narrow], &found.raster, HEIGHT};
+    Proof proof;
+    double steps = 0;
+    require(proof_open(&proof, scene, &driver, true, FAILURE), FAILURE);
+    for (int i = 0; i < proof.capture.draw_count; i++)
+        if (proof_is_drawn(&proof, i))
+            steps = fmax(steps, prove_draw(&proof, i, 2000).bound.steps);
+    proof_close(&proof);
+    return steps;
+}
+
+static int compare(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+TEST(no_picture_has_a_larger_error_than_is_proved)
+{
+    /* A float of the exact picture is rounded. */
+    static const double ROUNDED = 255 * 0x1p-24;
+    const CanvasOptions options = {.width = WIDTH, .height = HEIGHT, .real = true};
+    const int count = testing_part(500, 20);
+    Random random = {testing_seed(28)};
+    double *ratios[4]; /* in floats, and with a byte's rounding in both */
+    Canvas canvas;
+    int larger = 0;
+    require(canvas_open(&canvas, &options, FAILURE), FAILURE);
+    for (int i = 0; i < 4; i++)
+        ratios[i] = calloc((size_t)count, sizeof *ratios[i]);
+    for (int i = 0; i < count; i++) {
+        Made made;
+        make(&made, &random);
+        if (!scene_check(&made.scene, FAILURE))
+            fail_msg("scene %d: %s", i, FAILURE->text);
+        for (int k = 0; k < 2; k++) {
+            const double proved = proved_error(&made.scene, k);
+            const double error = drawn_error(&canvas, &made.scene, k);
+            if (error > proved + ROUNDED) {
+                print_message("scene %d, %s: proved %g, is %g\n", i, METER_PRECISION_NAMES[k],
+                              proved, error);
+                larger++;
+            }
+            ratios[k][i] = error < 0 ? 1 : proved / fmax(error, ROUNDED);
+            ratios[2 + k][i] = error < 0 ? 1 : (proved + .5) / (error + .5);
+        }
+    }
+    for (int k = 0; k < 4; k++) {
+        qsort(ratios[k], (size_t)count, sizeof *ratios[k], compare);
+        print_message("%d scenes, %s, %s: half of the bounds within %.1f times the error\n", count,
+                      METER_PRECISION_NAMES[k % 2], k < 2 ? "floats" : "bytes",
+                      ratios[k][count / 2]);
+        free(ratios[k]);
+    }
+    canvas_close(&canvas);
+    assert_int_equal(larger, 0);
+}
+
+PICTURE_TEST_MAIN("prove", measure, close_meshes)
