@@ -60,15 +60,16 @@ static void judge(Probe *probe)
         find_magnifier(probe);
 }
 
-/* What samplers have is asked of the driver, which does not tell of all. False: what is
- * computed is not the picture's. */
-static bool put_samplers(FILE *file, const CaptureDraw *draw)
+bool probe_samplers(FILE *file, const CaptureDraw *draw)
 {
     bool known = true;
     for (int i = 0; i < draw->uniform_count; i++) {
         const CaptureUniform *uniform = &draw->uniforms[i];
         const int texture = uniform->type == GL_SAMPLER_2D ? (int)uniform->values[0] : 0;
-        if (uniform->type == GL_SAMPLER_2D && texture < 0)
+        if (uniform->type == GL_SAMPLER_CUBE) {
+            fprintf(file, "%s: a cube map, which is not read: taken as black\n", uniform->name);
+            known = false;
+        } else if (uniform->type == GL_SAMPLER_2D && texture < 0)
             fprintf(file, "%s: a sampler without a texture: black\n", uniform->name);
         else if (uniform->type == GL_SAMPLER_2D && !draw->textures[texture]->texels) {
             fprintf(file, "%s: a depth texture, which cannot be read: taken as black\n",
@@ -111,7 +112,7 @@ static bool put_remarks(FILE *file, const Probe *probe, const GlslRun *run)
             fprintf(file, "vertex %u: ", probe->pixel.corners[c]);
         put_notes(file, draw->sources[0], run, run->note_count > 0);
     }
-    return put_samplers(file, draw) && !discarded;
+    return probe_samplers(file, draw) && !discarded;
 }
 
 bool probe_open(Probe *probe, const ProbeQuestion *question, Message *message)

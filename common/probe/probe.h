@@ -7,6 +7,8 @@
 #include "probe/place.h"
 #include "probe/raster.h"
 
+#include <stdio.h>
+
 typedef struct ProbeQuestion {
     const Capture *capture;
     const GlslArithmetic *driver; /* as which device it is computed */
@@ -42,6 +44,10 @@ typedef struct Probe {
 /* False: a shader cannot be run, and why. */
 bool probe_open(Probe *probe, const ProbeQuestion *question, Message *message);
 void probe_close(Probe *probe); /* a zeroed one is fine */
+
+/* Says which samplers have no texture that can be read: the driver does not tell of all. False:
+ * what is computed is not the picture's. */
+bool probe_samplers(FILE *file, const CaptureDraw *draw);
 
 /* For free(). */
 char *probe_text(const Probe *probe);

@@ -27,6 +27,9 @@ static ShowResult show(const Capture *capture, const GlslArithmetic *driver, con
     const ShowResult result = done ? SHOW_DONE : shown.unknown ? SHOW_UNKNOWN : SHOW_FAILED;
     if (done)
         show_paint(&shown, picture, legend);
+    for (int i = 0; i < capture->draw_count && done; i++) /* objects in turn share a program */
+        if (i == 0 || capture->draws[i].sources[1] != capture->draws[i - 1].sources[1])
+            probe_samplers(legend, &capture->draws[i]);
     show_close(&shown);
     return result;
 }

@@ -45,7 +45,7 @@ static void look_up(void *context, int unit, int function, const double *coordin
         function == GLSL_TEXTURE_2D_PROJ && count > 2 ? coordinates[count - 1] : 1;
     for (int i = 0; i < 4; i++)
         color[i] = i == 3;
-    if (!texture || !texture->texels)
+    if (!texture || !texture->texels || function >= GLSL_TEXTURE_CUBE)
         return;
     const int x = texel(coordinates[0] / divisor, texture->width, texture->repeats[0]);
     const int y = texel(coordinates[1] / divisor, texture->height, texture->repeats[1]);

@@ -142,8 +142,9 @@ static void put_legend(const Range *range, FILE *legend)
     else if (range->form == ERRORS)
         fprintf(legend,
                 "from %g, dark violet, to %.3g steps of 1/255, yellow, on a logarithmic scale; "
-                "less, in dark grey; over half a step: %ld of %ld pixels",
-                SHOW_LEAST, fmax(range->largest, 2 * SHOW_LEAST), range->half, range->shown);
+                "less, in dark grey; at most %.3g, over half a step: %ld of %ld pixels",
+                SHOW_LEAST, fmax(range->largest, 2 * SHOW_LEAST), range->largest, range->half,
+                range->shown);
     else if (range->form == DIRECTIONS)
         fprintf(legend, "directions, each component c as 0.5 + 0.5 c");
     else if (range->form == PLACES)

@@ -283,6 +283,32 @@ TEST(a_power_magnifies_what_rounding_has_left)
     assert_true(judged > 1);
 }
 
+TEST(a_cube_map_is_not_read_as_a_flat_texture)
+{
+    float red[4] = {1, 0, 0, 1}, unit = 0;
+    CaptureTexture flat = {.width = 1, .height = 1, .texels = red}, *textures[] = {&flat};
+    CaptureUniform cube = {
+        .name = "u_Cube", .type = GL_SAMPLER_CUBE, .length = 1, .numbers = 1, .values = &unit};
+    const Capture *capture = capture_of("precision highp float;\n"
+                                        "uniform samplerCube u_Cube;\n"
+                                        "void main() {\n"
+                                        "    gl_FragColor = textureCube(u_Cube, vec3(1.0));\n"
+                                        "}\n");
+    CLOSED(probe_close) Probe probe;
+    capture->draws->textures = textures;
+    capture->draws->texture_count = 1;
+    capture->draws->uniforms = &cube;
+    capture->draws->uniform_count = 1;
+    require(
+        probe_open(&probe,
+                   &(ProbeQuestion){.capture = capture, .driver = &GLSL_LLVMPIPE, .height = SIDE},
+                   FAILURE),
+        FAILURE);
+    assert_true(probe.driver.color[0] == 0);
+    assert_false(probe.judged);
+    assert_non_null(strstr(probe.remarks, "u_Cube: a cube map, which is not read: taken as black"));
+}
+
 TEST(an_unknown_name_is_told_with_those_there_are)
 {
     CLOSED(show_close) Show shown;
