@@ -106,6 +106,9 @@ static const char *operands(const Usage *usage)
 
 void help_print(const Usage *usage, const Parameter *table)
 {
+    /* Written at once, at the end: then the reason is known why it does not arrive. */
+    static char buffer[1 << 14];
+    setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
     char text[DETAILS_SIZE];
     const char *last = details(usage, text), *names = operands(usage);
     const bool has_own = usage->parameters && usage->parameters->name;
