@@ -169,7 +169,8 @@ static bool find_cause(HardResult *result, const Way *way, const ShaderLoader *s
                        Message *message)
 {
     const size_t worst = result->naive_worst, width = (size_t)way->canvas->width;
-    ProbeQuestion question = {.column = (int)(worst % width),
+    ProbeQuestion question = {.driver = &GLSL_LLVMPIPE,
+                              .column = (int)(worst % width),
                               .row = (int)(worst / width),
                               .height = way->canvas->height,
                               .object = "inside an object"};
