@@ -26,10 +26,10 @@ static void put_lights(const LightGroup *group, FILE *file)
     const struct {
         bool has;
         const char *name;
-    } parts[] = {{terms->ambient, "ambient"},          {terms->diffuse, "diffuse"},
-                 {terms->specular, "specular"},        {terms->attenuation, "attenuation"},
-                 {terms->exponent, "falloff"},         {terms->shadow > 0, "shadow"},
-                 {terms->at_vertex, "at the vertices"}};
+    } parts[] = {{terms->ambient, "ambient"},   {terms->diffuse, "diffuse"},
+                 {terms->specular, "specular"}, {terms->attenuation, "attenuation"},
+                 {terms->range, "range"},       {terms->exponent, "falloff"},
+                 {terms->shadow > 0, "shadow"}, {terms->at_vertex, "at the vertices"}};
     const char *before = " (";
     fprintf(file, "%d %s light%s", group->count, kinds[terms->kind], group->count > 1 ? "s" : "");
     for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
@@ -73,13 +73,36 @@ static void print_groups(const Group *groups, int count, int objects)
     printf("\n");
 }
 
+/* Of how many objects a light was left out because it does not reach them. */
+static void print_reach(const LightingPlan *plan)
+{
+    bool any = false;
+    for (int light = 0; light < plan->light_count; light++) {
+        int beyond = 0, missed = 0;
+        for (int i = 0; i < plan->object_count; i++) {
+            beyond += (int)(plan->objects[i].facts.beyond_range >> light & 1);
+            missed += (int)(plan->objects[i].facts.missed >> light & 1);
+        }
+        if (beyond)
+            printf("light %d: %d of %d objects are beyond its range\n", light, beyond,
+                   plan->object_count);
+        if (missed)
+            printf("light %d: its cone misses %d of %d objects\n", light, missed,
+                   plan->object_count);
+        any |= beyond || missed;
+    }
+    fputs(any ? "\n" : "", stdout);
+}
+
 bool *explain_groups(const LightingPlan *plan)
 {
     Group *groups = NULL;
     int count = 0, room = 0;
     bool *first = memory_new((size_t)plan->object_count + 1, sizeof *first);
     for (int i = 0; i < plan->object_count; i++) {
-        const Effects effects = lighting_plan_effects(plan, i);
+        Effects effects = lighting_plan_effects(plan, i);
+        for (int g = 0; g < effects.group_count; g++) /* whichever lights they are */
+            memset(effects.groups[g].lights, 0, sizeof effects.groups[g].lights);
         int k = 0;
         while (k < count && memcmp(&groups[k].effects, &effects, sizeof effects) != 0)
             k++;
@@ -94,6 +117,7 @@ bool *explain_groups(const LightingPlan *plan)
     }
     qsort(groups, (size_t)count, sizeof *groups, by_count);
     print_groups(groups, count, plan->object_count);
+    print_reach(plan);
     free(groups);
     return first;
 }

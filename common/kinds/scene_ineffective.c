@@ -149,7 +149,7 @@ static Light seen_light(Light light)
     if (directional)
         light.position = none;
     if (directional)
-        light.constant = light.linear = light.quadratic = 0;
+        light.constant = light.linear = light.quadratic = light.range = 0;
     if (!spot)
         light.cutoff = light.exponent = 0;
     if (light.kind == LIGHT_POINT)
@@ -162,8 +162,8 @@ static void add_light(CacheKey *key, Light light)
     const int kinds[] = {light.off, light.shadows, (int)light.kind, (int)light.space};
     const Vec3 vectors[] = {light.position, light.direction, light.ambient, light.diffuse,
                             light.specular};
-    const double numbers[] = {light.cutoff, light.exponent, light.constant, light.linear,
-                              light.quadratic};
+    const double numbers[] = {light.cutoff, light.exponent,  light.constant,
+                              light.linear, light.quadratic, light.range};
     cache_key_add(key, kinds, sizeof kinds);
     cache_key_add(key, vectors, sizeof vectors);
     cache_key_add(key, numbers, sizeof numbers);

@@ -73,9 +73,9 @@ void lighting_forget(Lighting *lighting, const Mesh *mesh)
 typedef struct EyeLight {
     float position[4]; /* w = 0: a direction */
     float direction[3], half[3], attenuation[3];
-    float spot[4]; /* the cone's axis, and the cosine of its cutoff */
-    float exponent;
-    double share; /* of its attenuation, what does not depend on the distance */
+    float spot[4];         /* the cone's axis, and the cosine of its cutoff */
+    float exponent, range; /* 1 / its square; 0: none */
+    double share;          /* of its attenuation, what does not depend on the distance */
 } EyeLight;
 
 /* What is the same for all objects of a scene. */
@@ -119,6 +119,7 @@ static EyeLight eye_light(const LightingTransforms *transforms, const Camera *ca
     vec3_to_float(directional || none ? (Vec3){1, 0, 0}
                                       : (Vec3){light->constant, light->linear, light->quadratic},
                   made.attenuation);
+    made.range = directional || light->range <= 0 ? 0 : (float)(1 / (light->range * light->range));
     vec3_to_float(direction, made.spot);
     /* No cosine is below -1, so that other lights shine in every direction. */
     made.spot[3] = spot ? (float)cos(light->cutoff * RADIANS) : -2.0F;
@@ -196,6 +197,7 @@ static void set_lights(const LightingVariant *variant, const EyeScene *eye)
         set_part(at->half, 3, group, eye->lights[0].half);
         set_part(at->attenuation, 3, group, eye->lights[0].attenuation);
         set_part(at->spot, 4, group, eye->lights[0].spot);
+        set_part(at->range, 1, group, &eye->lights[0].range);
         set_part(at->exponent, 1, group, &eye->lights[0].exponent);
         set_channels(at->channel, group, variant->key.shadows);
     }

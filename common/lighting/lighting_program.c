@@ -60,6 +60,7 @@ static GroupLocations group_locations(GLuint program, int g)
                             .attenuation = numbered(program, "u_Attenuation", g),
                             .spot = numbered(program, "u_Spot", g),
                             .exponent = numbered(program, "u_Exponent", g),
+                            .range = numbered(program, "u_Range", g),
                             .channel = numbered(program, "u_Channel", g)};
     for (int side = 0; side < 2; side++)
         for (int k = 0; k < 3; k++)

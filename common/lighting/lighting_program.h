@@ -13,7 +13,7 @@ typedef struct SideLocations {
 } SideLocations;
 
 typedef struct GroupLocations {
-    GLint position, direction, half, attenuation, spot, exponent, channel;
+    GLint position, direction, half, attenuation, spot, exponent, range, channel;
     GLint colors[2][3]; /* of the front and the back: ambient, diffuse, specular */
 } GroupLocations;
 

@@ -17,14 +17,14 @@ bool lighting_is_mediump(const ShaderLoader *loader)
 
 /* The uniforms of group.glsl, renamed per group. */
 static const char *const GROUP_UNIFORMS[] = {
-    "u_Position",     "u_Direction",   "u_FrontAmbient",  "u_BackAmbient",
-    "u_FrontDiffuse", "u_BackDiffuse", "u_FrontSpecular", "u_BackSpecular",
-    "u_Half",         "u_Attenuation", "u_Spot",          "u_Exponent",
+    "u_Position",    "u_Direction",     "u_FrontAmbient", "u_BackAmbient", "u_FrontDiffuse",
+    "u_BackDiffuse", "u_FrontSpecular", "u_BackSpecular", "u_Half",        "u_Attenuation",
+    "u_Spot",        "u_Exponent",      "u_Range",
 };
 enum { GROUP_UNIFORM_COUNT = sizeof GROUP_UNIFORMS / sizeof GROUP_UNIFORMS[0] };
 
 /* The defines of group.glsl. 16-bit floats need the guard of the attenuation for any light. */
-enum { MAX_GROUP_DEFINES = 13 };
+enum { MAX_GROUP_DEFINES = 14 };
 static int group_defines(const LightGroup *group, bool mediump,
                          const char *defines[MAX_GROUP_DEFINES])
 {
@@ -43,6 +43,7 @@ static int group_defines(const LightGroup *group, bool mediump,
         {terms->half_vector, "HALF_VECTOR"},
         {terms->attenuation, "ATTENUATION"},
         {terms->exponent, "EXPONENT"},
+        {terms->range, "RANGE"},
         {terms->attenuation && (group->guard_attenuation || mediump), "GUARD_ATTENUATION"},
         {terms->shadow && !terms->at_vertex, "SHADOW"},
         {terms->shadow && !terms->at_vertex && group->count > 1, "CHANNELS"},

@@ -11,10 +11,15 @@
 /* What of a positional light arrives at distance d. */
 static Real attenuation(const Light *light, Real d)
 {
+    Real left = 1; /* within its range */
+    if (light->range > 0) {
+        const Real near = d * d / (light->range * light->range);
+        left = real_max(1 - near * near, 0);
+    }
     if (light->constant == 0 && light->linear == 0 && light->quadratic == 0)
-        return 1;
+        return left;
     /* On the light itself the sum may be 0, and the share is not a number but large. */
-    return 1 /
+    return left /
            real_max(light->constant + light->linear * d + light->quadratic * d * d, (Real)1e-30);
 }
 

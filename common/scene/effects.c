@@ -79,6 +79,8 @@ static void explain_light(const Decision *made, int number, const LightTerms *te
     say(why,
         terms->attenuation ? "  attenuation: depends on the distance" : "  without attenuation: %s",
         positional ? "constant" : "the light is at infinity");
+    if (terms->range)
+        say(why, "  range: it ends at a distance");
     if (terms->kind == LIGHT_SPOT)
         say(why, "  spot: only within its cone, %s",
             terms->exponent ? "with falloff" : "without falloff: its exponent is 0");
@@ -107,6 +109,7 @@ static bool reflected_terms(const Decision *made, const LightFacts *light, Light
     terms->specular = reflected(made, light->specular, front->specular, back->specular);
     terms->attenuation = light->fades;
     terms->exponent = light->exponent;
+    terms->range = light->range;
     terms->signed_dots = made->scene->signed_dots && terms->diffuse && !light->shadows;
     terms->ambient =
         varies(light) && reflected(made, light->ambient, front->ambient, back->ambient);
@@ -126,6 +129,10 @@ static bool decide_terms(const Decision *made, int number, LightTerms *terms)
     }
     if (object->missed >> number & 1) {
         say(made->why, "without light %d: its cone misses the object", number);
+        return false;
+    }
+    if (object->beyond_range >> number & 1) {
+        say(made->why, "without light %d: the object is beyond its range", number);
         return false;
     }
     if (!reflected_terms(made, light, terms)) {
@@ -332,6 +339,7 @@ Effects effects_decide_full(const SceneFacts *scene, const ObjectFacts *object)
         terms.kind = LIGHT_SPOT;
         terms.any = terms.ambient = terms.diffuse = terms.specular = true;
         terms.attenuation = terms.exponent = true;
+        terms.range = scene->lights[i].range;
         terms.signed_dots = scene->signed_dots && !scene->lights[i].shadows;
         terms.at_vertex = scene->interpolation != INTERPOLATION_PHONG;
         if (shadows >> i & 1)

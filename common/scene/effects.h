@@ -28,7 +28,8 @@ typedef struct LightTerms {
     bool at_vertex;   /* computed per vertex: interpolation is exact, or requested */
     bool any;         /* full program: any kind, selected by coefficients */
     bool signed_dots; /* a negative N.L counts */
-    bool unused[3];   /* instead of padding */
+    bool range;       /* it ends at a distance */
+    bool unused[2];   /* instead of padding */
     /* Another surface may come between: 1 plus the number of the mask that knows where; or 0. */
     int shadow;
 } LightTerms;
@@ -72,6 +73,7 @@ typedef struct LightFacts {
     uint8_t kind, off, shadows;
     uint8_t fades;    /* attenuation depends on the distance */
     uint8_t exponent; /* of a spot; not 0 */
+    uint8_t range;    /* not 0 */
     uint8_t ambient, diffuse, specular;
 } LightFacts;
 
@@ -88,7 +90,8 @@ typedef struct SideFacts {
 
 typedef struct ObjectFacts {
     /* A bit for each light: */
-    uint32_t missed;   /* a spot, whose cone misses the object */
+    uint32_t missed; /* a spot, whose cone misses the object */
+    uint32_t beyond_range;
     uint32_t guarded;  /* as LightGroup.guard_attenuation */
     uint32_t shadowed; /* the object may lie in its shadow */
     SideFacts front, back;

@@ -12,7 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-static_assert(sizeof(ObjectFacts) == 3 * 4 + 2 * sizeof(SideFacts) + 10, "no padding");
+static_assert(sizeof(ObjectFacts) == 4 * 4 + 2 * sizeof(SideFacts) + 10, "no padding");
 static_assert(sizeof(SceneFacts) == EFFECTS_MAX_LIGHTS * sizeof(LightFacts) + 11, "no padding");
 
 static uint8_t channels_of(Vec3 color)
@@ -54,6 +54,7 @@ SceneFacts effects_scene(const Scene *scene)
             .shadows = light->shadows,
             .fades = light_fades(light),
             .exponent = light->kind == LIGHT_SPOT && light->exponent != 0,
+            .range = light->kind != LIGHT_DIRECTIONAL && light->range != 0,
             .ambient = channels_of(light->ambient),
             .diffuse = channels_of(light->diffuse),
             .specular = channels_of(light->specular),
@@ -134,6 +135,13 @@ static bool attenuation_guarded(const Light *light, Sphere sphere)
     return !(light->constant > 1e-29 && distance + sphere.radius < FAR);
 }
 
+/* Whether no point of the object is as near as the light's range. */
+static bool beyond_range(const Light *light, Sphere sphere)
+{
+    const double distance = vec3_length(vec3_subtract(sphere.center, light->position));
+    return light->range > 0 && distance - sphere.radius > light->range * (1 + 1e-6);
+}
+
 static SideFacts side_facts(const Object *object, const Material *material)
 {
     const bool colors = object->mesh->colors; /* as effects_material: white here */
@@ -164,7 +172,9 @@ ObjectFacts effects_object(const EffectsView *view, const Object *object, const 
         if (cone_misses(&view->lights[__builtin_ctz(left)], place->sphere))
             facts.missed |= left & -left;
     for (uint32_t left = view->fading; left; left &= left - 1)
-        if (attenuation_guarded(&view->lights[__builtin_ctz(left)], place->sphere))
+        if (beyond_range(&view->lights[__builtin_ctz(left)], place->sphere))
+            facts.beyond_range |= left & -left;
+        else if (attenuation_guarded(&view->lights[__builtin_ctz(left)], place->sphere))
             facts.guarded |= left & -left;
     return facts;
 }

@@ -138,28 +138,55 @@ static Light viewers_light(void)
                    .specular = {0.9, 0.9, 0.9}};
 }
 
-/* What a white surface in the middle that faces all lights reflects at most; a near light is half
- * the radius away. */
-static double brightness(const FileScene *made)
+/* What a white surface in an object's middle that faces all lights reflects at most; a near light
+ * is half the object's radius away. */
+static double brightness(const Scene *scene, Sphere around)
 {
     double sum = 0;
-    for (int i = 0; i < made->file.light_count; i++) {
-        const Light light = light_at(made, &made->file.lights[i]);
-        const double away = vec3_length(vec3_subtract(light.position, made->middle));
-        const double d = fmax(away, made->radius / 2);
-        sum += fmax(fmax(light.diffuse.x, light.diffuse.y), light.diffuse.z) /
-               (light.kind == LIGHT_DIRECTIONAL ? 1 : d * d);
+    for (int i = 0; i < scene->light_count; i++) {
+        const Light *light = &scene->lights[i];
+        const double away = vec3_length(vec3_subtract(light->position, around.center));
+        const double d = fmax(away, around.radius / 2),
+                     near = light->range > 0 ? d / light->range : 0;
+        const double color = fmax(fmax(light->diffuse.x, light->diffuse.y), light->diffuse.z);
+        sum +=
+            light->kind == LIGHT_DIRECTIONAL ? color : color / (d * d) * fmax(1 - pow(near, 4), 0);
     }
     return sum;
+}
+
+static int by_size(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Of the objects, all but the brightest tenth are not brighter. */
+static double usual_brightness(const Scene *scene)
+{
+    const size_t count = (size_t)scene->object_count;
+    double *all = memory_new(count, sizeof *all);
+    for (size_t i = 0; i < count; i++) {
+        const MeshBox box = mesh_bounds(scene->objects[i].mesh);
+        all[i] = brightness(scene, scene_sphere(&scene->objects[i], &box));
+    }
+    qsort(all, count, sizeof *all, by_size);
+    const double found = all[(count - 1) * 9 / 10];
+    free(all);
+    return found;
 }
 
 static void choose_exposure(FileScene *made, double asked)
 {
     static const double DARK = 0.1, BRIGHT = 1.5;
+    Scene scene;
     made->exposure = asked > 0 ? asked : 1;
-    const double sum = brightness(made);
-    if (asked <= 0 && made->file.photometric && sum > 0 && (sum < DARK || sum > BRIGHT))
-        made->exposure = 1 / sum;
+    if (asked > 0 || !made->file.photometric)
+        return;
+    file_scene_make(made, 0, &scene);
+    const double usual = usual_brightness(&scene);
+    if (usual > 0 && (usual < DARK || usual > BRIGHT))
+        made->exposure = 1 / usual;
 }
 
 /* The scene */

@@ -46,7 +46,6 @@ static bool add_light(Reading *reading, const json_t *node, int number)
                                   gltf_number(from, "intensity", 1) / PI);
     gltf_name(to->name, json_object_get(from, "name") ? from : node);
     to->node = number;
-    to->range = sun ? 0 : gltf_number(from, "range", 0);
     to->light = (Light){.kind = sun    ? LIGHT_DIRECTIONAL
                                 : spot ? LIGHT_SPOT
                                        : LIGHT_POINT,
@@ -54,7 +53,8 @@ static bool add_light(Reading *reading, const json_t *node, int number)
                         .diffuse = color,
                         .specular = color,
                         .cutoff = fmin(outer * DEGREES, 90),
-                        .quadratic = !sun};
+                        .quadratic = !sun,
+                        .range = sun ? 0 : fmax(gltf_number(from, "range", 0), 0)};
     if (spot)
         to->light.exponent =
             scene_file_spot_exponent(gltf_number(cone, "innerConeAngle", 0), outer);

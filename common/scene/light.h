@@ -38,6 +38,9 @@ typedef struct Light {
     /* Point and spot: 1 / (constant + linear d + quadratic d^2) of the light arrives at distance d.
      * Each 0 or more; all three 0 mean no attenuation. */
     double constant, linear, quadratic;
+    /* Point and spot, if not 0: that times 1 - (d / range)^4, and beyond nothing.
+     * (KHR_lights_punctual of glTF 2.0) */
+    double range;
 } Light;
 
 /* As OpenGL's GL_POSITION has it: a position with w = 1, or the direction towards it with w = 0. */
@@ -57,7 +60,8 @@ static inline bool color_is_black(Vec3 color)
 /* Whether attenuation depends on distance. */
 static inline bool light_fades(const Light *light)
 {
-    return light->kind != LIGHT_DIRECTIONAL && (light->linear != 0 || light->quadratic != 0);
+    return light->kind != LIGHT_DIRECTIONAL &&
+           (light->linear != 0 || light->quadratic != 0 || light->range != 0);
 }
 
 /* Whether its ambient light varies over a surface; otherwise it is part of the constant base. */

@@ -177,7 +177,7 @@ static Light at_infinity(const Light *light, Vec3 center)
     Light far = *light;
     const Vec3 to_light = vec3_subtract(light->position, center);
     const double d = vec3_length(to_light);
-    if (light->kind != LIGHT_POINT || d == 0) /* a spot needs a position */
+    if (light->kind != LIGHT_POINT || d == 0 || light->range > 0) /* which need a position */
         return far;
     const double loss = light->constant + light->linear * d + light->quadratic * d * d;
     const double share = loss > 0 ? 1 / loss : 1;
@@ -306,7 +306,7 @@ static double operations(const Effects *effects, bool at_vertex)
         one += terms->diffuse ? 10 : 0;
         one += terms->specular ? 25 : 0;
         one += terms->specular && !terms->half_vector ? 14 : 0;
-        one += terms->attenuation ? 8 : 0;
+        one += (terms->attenuation ? 8 : 0) + (terms->range ? 4 : 0);
         one += terms->kind == LIGHT_SPOT ? 8 : 0;
         one += terms->exponent ? 12 : 0;
         sum += one * effects->groups[g].count;

@@ -84,7 +84,8 @@ static bool check_light(const Light *light, int number, Message *message)
     if (!check_vector(subject, "position", light->position, message) ||
         !check_range(subject, "constant", light->constant, 0, MAX_COEFFICIENT, message) ||
         !check_range(subject, "linear", light->linear, 0, MAX_COEFFICIENT, message) ||
-        !check_range(subject, "quadratic", light->quadratic, 0, MAX_COEFFICIENT, message))
+        !check_range(subject, "quadratic", light->quadratic, 0, MAX_COEFFICIENT, message) ||
+        !check_range(subject, "range", light->range, 0, MAX_POSITION, message))
         return false;
     if (light->kind == LIGHT_POINT)
         return true;

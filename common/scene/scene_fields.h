@@ -43,7 +43,8 @@ static const Field LIGHT_FIELDS[] = {
     WHOLE(Light, space),    VECTOR(Light, position),  VECTOR(Light, direction),
     VECTOR(Light, ambient), VECTOR(Light, diffuse),   VECTOR(Light, specular),
     NUMBER(Light, cutoff),  NUMBER(Light, exponent),  NUMBER(Light, constant),
-    NUMBER(Light, linear),  NUMBER(Light, quadratic), {.name = NULL},
+    NUMBER(Light, linear),  NUMBER(Light, quadratic), NUMBER(Light, range),
+    {.name = NULL},
 };
 
 static const Field MATERIAL_FIELDS[] = {

@@ -41,8 +41,7 @@ typedef struct FileObject {
 /* In its node's space. */
 typedef struct FileLight {
     Light light;
-    double range; /* farther away there is none of it; 0: everywhere */
-    int node;     /* -1: as it is */
+    int node; /* -1: as it is */
     char name[FILE_NAME];
 } FileLight;
 

@@ -33,6 +33,9 @@ uniform vec3 u_Half[COUNT]; // unit
 #ifdef ATTENUATION
 uniform vec3 u_Attenuation[COUNT]; // constant, linear, quadratic
 #endif
+#ifdef RANGE
+uniform float u_Range[COUNT]; // 1 / its square; 0: none
+#endif
 #ifdef SPOT
 uniform vec4 u_Spot[COUNT]; // the cone's axis, away from the light, unit; the cosine of its cutoff
 #endif
@@ -82,6 +85,10 @@ void GROUP(vec3 normal, vec3 position, vec3 viewer, bool front, inout vec3 color
         share = 1.0 / dot(u_Attenuation[i], vec3(1.0, sqrt(square), square));
 #endif
 #endif
+#endif
+#ifdef RANGE
+        float near = min(square * u_Range[i], 2.0);
+        share *= max(1.0 - near * near, 0.0); // KHR_lights_punctual
 #endif
 #ifdef SPOT
         float along = dot(-to_light, u_Spot[i].xyz);

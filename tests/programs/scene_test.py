@@ -124,7 +124,7 @@ class Scene(base.Case):
         nodes = [node(mesh=0, children=[1, 2]), node(children=[3, 4]), node(mesh=0, camera=0), node(mesh=0)]
         nodes += [node(extensions={"KHR_lights_punctual": {"light": i}}) for i in range(3)]
         nodes[3]["children"] = [5]
-        kinds = ({"type": "point", "color": [1, 0.5, 0.25], "intensity": 10}, {"type": "directional"},
+        kinds = ({"type": "point", "color": [1, 0.5, 0.25], "intensity": 10, "range": 7}, {"type": "directional"},
                  {"type": "spot", "intensity": 40, "spot": {"innerConeAngle": 0.2, "outerConeAngle": 0.6}})
         return tetrahedron(nodes=nodes, scenes=[{"nodes": [0, 6]}], extensions={"KHR_lights_punctual": {"lights": kinds}},
                            cameras=[{"type": "perspective", "perspective": {"yfov": 0.7, "znear": 0.1}, "name": "eye"}])
@@ -150,6 +150,7 @@ class Scene(base.Case):
             near = {light["kind"]: light for light in lights}
             self.near(near[1]["diffuse"], (10, 5, 2.5))
             self.assertAlmostEqual(near[2]["cutoff"], math.degrees(0.6))
+            self.assertEqual((near[1]["range"], near[2]["range"]), (7, 0))
             self.assertEqual((near[1]["constant"], near[1]["linear"], near[1]["quadratic"]), (0, 0, 1))
             eye = apply(found[2], (0, 0, 0))
             self.near(camera["eye"], eye)
@@ -216,6 +217,29 @@ class Scene(base.Case):
                      "of the file, 30 times: transparency", "of the file, 30 times: skins",
                      "the file has no light: there is one at the viewer"):
             self.assertIn(text, said)
+
+    def test_lights_light_what_they_reach(self):
+        """Balls in a row, a light with a range at each end, and none of what is left out is seen."""
+        nodes = [{"mesh": 0, "translation": [i, 0, 0]} for i in range(40)]
+        nodes += [{"translation": [i, 1, 1], "extensions": {"KHR_lights_punctual": {"light": 0}}} for i in (0, 39)]
+        nodes.append({"translation": [20, 2, 0.5], "rotation": [-math.sqrt(0.5), 0, 0, math.sqrt(0.5)],
+                      "extensions": {"KHR_lights_punctual": {"light": 1}}})
+        lights = [{"type": "point", "intensity": 9, "range": 5}, {"type": "spot", "intensity": 9}]
+        material = {"pbrMetallicRoughness": {"metallicFactor": 0}}
+        self.save("a.gltf", tetrahedron(nodes=nodes, scenes=[{"nodes": list(range(43))}], materials=[material],
+                                        meshes=[{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
+                                        extensions={"KHR_lights_punctual": {"lights": lights}}))
+        said = self.good("a.gltf", "--explain", program="Scene").decode()
+        for light in (0, 1):
+            self.assertRegex(said, rf"light {light}: 3[3-5] of 40 objects are beyond its range")
+        self.assertRegex(said, r"light 2: its cone misses 3\d of 40 objects")
+        self.assertRegex(said, r"\d+ of 40 objects, first object \d+: no light")
+        self.assertRegex(said, r"1 point light \(diffuse,\s+specular,\s+attenuation,\s+range\)")
+        pictures = [self.drawn("a.gltf", "-s", "300x300", *full, program="Scene").pixels for full in ((), ("--full",))]
+        self.assertLessEqual(max(abs(a - b) for a, b in zip(*pictures)), 1)  # another order of the sum
+        self.assertGreater(max(pictures[0]), 100)
+        said = self.good("a.gltf", "--error", "1", "--explain", "-s", "160x160", program="Scene").decode()
+        self.assertLessEqual(float(re.search(r"error ([\d.]+)\s+of\s+1\s+allowed", said)[1]), 1)
 
     def bad_files(self):
         """Name, file, what its message says."""
