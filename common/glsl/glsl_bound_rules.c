@@ -227,7 +227,7 @@ static GlslRange slope_of(int op, GlslRange a, GlslRange result)
     /* clang-format on */
 }
 
-void slopes_of(int op, GlslRange a, GlslRange b, bool same, GlslRange result, GlslRange by[2])
+void slopes_of(int op, GlslRange a, GlslRange b, GlslRange result, GlslRange by[2])
 {
     by[1] = (GlslRange){0, 0};
     /* clang-format off */
@@ -246,7 +246,6 @@ void slopes_of(int op, GlslRange a, GlslRange b, bool same, GlslRange result, Gl
     default: by[0] = slope_of(op, a, result);
     }
     /* clang-format on */
-    (void)same;
 }
 
 /* The driver's rounding */
@@ -300,16 +299,17 @@ double conversion_of(const GlslErrors *errors, int precision, GlslRange a)
     return rounded(errors, precision, .5, magnitude(a), a);
 }
 
-/* Products with powers of 2, and sums with 0, are not rounded, unless they become too small. */
-static bool is_kept(int op, GlslRange a, GlslRange b)
+static bool is_power(GlslRange a)
 {
     int exponent;
-    if (op == OP_ADD || op == OP_SUBTRACT)
-        return is_zero(a) || is_zero(b);
-    if (op == OP_MULTIPLY && is_point(a) && fabs(frexp(a.low, &exponent)) == .5 && fabs(a.low) >= 1)
-        return true;
-    return (op == OP_MULTIPLY || op == OP_DIVIDE) && is_point(b) &&
-           fabs(frexp(b.low, &exponent)) == .5 && fabs(b.low) >= 1 && op == OP_MULTIPLY;
+    return is_point(a) && fabs(a.low) >= 1 && fabs(frexp(a.low, &exponent)) == .5;
+}
+
+/* Products with powers of 2 from 1 on, and sums with 0, are not rounded. */
+static bool is_kept(int op, GlslRange a, GlslRange b)
+{
+    return op == OP_MULTIPLY ? is_power(a) || is_power(b)
+                             : (op == OP_ADD || op == OP_SUBTRACT) && (is_zero(a) || is_zero(b));
 }
 
 double rounding_of(const GlslErrors *errors, const GlslInstruction *at, GlslRange a, GlslRange b,
@@ -318,8 +318,10 @@ double rounding_of(const GlslErrors *errors, const GlslInstruction *at, GlslRang
     const double *units = errors->units[at->precision];
     double size = magnitude(result);
     int kind = GLSL_UNITS_OTHER;
-    if (errors->numbers.of[at->precision].bits == 53 || is_kept(at->op, a, b))
+    if (errors->numbers.of[at->precision].bits == 53)
         return 0;
+    if (is_kept(at->op, a, b))
+        return size < two(errors->numbers.of[at->precision].most + 1) ? 0 : (double)INFINITY;
     /* clang-format off */
     switch (at->op) {
     case OP_ADD: case OP_SUBTRACT:

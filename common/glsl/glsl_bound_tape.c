@@ -301,7 +301,7 @@ int tape_compute(GlslBoundRun *run, const GlslInstruction *at, int a, int b)
         }
     } else {
         const GlslRange p = hull(x->exact, x->driver), q = hull(y->exact, y->driver);
-        slopes_of(at->op, p, q, same, hull(entry.exact, entry.driver), entry.by);
+        slopes_of(at->op, p, q, hull(entry.exact, entry.driver), entry.by);
         if (at->op == OP_POW)
             narrow_power(x, y, &entry);
         entry.born = rounding_of(run->errors, at, x->driver, y->driver, entry.driver);

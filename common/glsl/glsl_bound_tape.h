@@ -108,7 +108,7 @@ double range_difference(GlslRange exact, GlslRange driver);
 GlslRange range_of(int op, GlslRange a, GlslRange b, bool same);
 
 /* Its derivatives by a and b, between any two values; `result` is its range. */
-void slopes_of(int op, GlslRange a, GlslRange b, bool same, GlslRange result, GlslRange by[2]);
+void slopes_of(int op, GlslRange a, GlslRange b, GlslRange result, GlslRange by[2]);
 
 /* By how much the driver's rounding changes a result in `result` of operands in these ranges. */
 double rounding_of(const GlslErrors *errors, const GlslInstruction *at, GlslRange a, GlslRange b,

@@ -268,14 +268,9 @@ bool proof_next(const Proof *proof, ProofTriangle *triangle)
         if (!is_seen(draw))
             continue;
         while (3 * ++triangle->number + 2 < draw->vertex_count) {
-            double w = 1;
-            for (int i = 0; i < 3; i++) {
+            for (int i = 0; i < 3; i++)
                 triangle->corners[i] = draw->vertices[3 * triangle->number + i];
-                w *= fmax(place(proof, triangle, i, 3), 0);
-            }
-            const double area = area_of(proof, triangle);
-            triangle->front = (area > 0) == (draw->front_face == GL_CCW);
-            triangle->area = w > 0 ? fabs(area) / w / 8 : (double)INFINITY;
+            triangle->front = (area_of(proof, triangle) > 0) == (draw->front_face == GL_CCW);
             if (!draw->culls || (draw->cull_face == GL_BACK && triangle->front) ||
                 (draw->cull_face == GL_FRONT && !triangle->front))
                 return true;
@@ -373,7 +368,6 @@ ProofBound proof_piece(const Proof *proof, const ProofTriangle *triangle, const 
     const bool ran = glsl_bound_run(run);
     if (run->discarded || !glsl_find(run->code, "gl_FragColor", &color))
         return worst;
-    worst.edges = run->edges;
     for (int i = 0; i < 3; i++) {
         const GlslBound bound = glsl_bound(run, color.first + i);
         const double above = clamped(bound.driver.high) - clamped(bound.exact.low);

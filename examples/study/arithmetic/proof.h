@@ -33,7 +33,6 @@ typedef struct ProofTriangle {
     int draw, number;
     unsigned corners[3];
     bool front;
-    double area; /* of the picture's height squared; INFINITY: it begins behind the eye */
 } ProofTriangle;
 
 /* The next after *triangle, which begins with {.draw = 0, .number = -1}; false: there is none. */
@@ -44,7 +43,6 @@ bool proof_next(const Proof *proof, ProofTriangle *triangle);
 typedef struct ProofBound {
     double steps; /* the largest error of a channel, clamped, before it is rounded to a byte */
     bool bounded; /* without the clamp, too */
-    bool edges;   /* there are pixels through which an edge of light runs, which are left out */
     int node;     /* of the fragment shader, in the line that makes most of it; 0: what it gets */
     double share; /* what that makes, in steps */
 } ProofBound;
