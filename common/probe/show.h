@@ -12,12 +12,17 @@
 
 #include <stdio.h>
 
-/* A pixel: `count` numbers, 0 if nothing has the value there. */
+/* A pixel: `count` numbers, 0 if nothing has the value there; with SHOW_BLAME, a place. */
 typedef struct ShowPixel {
     signed char count;
-    float values[4];
-    int draw;        /* with SHOW_BLAME */
-    GlslPlace place; /* of a fragment's shader; line 0: the vertex shader, -1: nothing to blame */
+    union {
+        float values[4];
+        struct {
+            int draw;
+            GlslPlace place; /* of its fragment shader; line 0: the vertex shader, -1: nothing to
+                                blame */
+        };
+    };
 } ShowPixel;
 
 /* The value's own numbers; the colour; of its error in steps of 1/255 red, green and blue; places.
