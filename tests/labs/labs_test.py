@@ -82,6 +82,9 @@ def outcome(result, kinds):
     names = set(named(result))
     if not names:
         return "unseen" if result["verdict"] == "right" else "unnamed"
+    # Derived from the solution: it computes the same numbers everywhere.
+    if all("It draws what the right program draws with" in said["sentence"] for said in result["mistakes"]):
+        return "named"
     accepted = [mistakes.CALLED.get(kind, {kind}) for kind in kinds]
     # Of several that look alike one must be true, otherwise all.
     if result["one_of"]:

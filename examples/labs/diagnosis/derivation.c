@@ -158,8 +158,7 @@ void derivation_close(Derivation *all)
         point_shader_close(&all->own[i]);
         shader_source_close(&all->sources[i]);
     }
-    for (int i = 0; i < all->found_count; i++)
-        free(all->found[i].text);
+    free(all->best.text);
     points_close(&all->points);
     free(all->wanted);
     free(all->exact);

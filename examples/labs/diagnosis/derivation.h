@@ -9,7 +9,7 @@
 #include "labs/diagnosis/points.h"
 #include "labs/submission/verdict.h"
 
-enum { MAX_FOUND = 60, MAX_FIRST = 6, TRACED = 6, MAX_VALUES = 400 };
+enum { MAX_FIRST = 6, TRACED = 6, MAX_VALUES = 400 };
 
 /* One mutation, or two: of a text that has another already. */
 typedef struct Found {
@@ -41,8 +41,9 @@ typedef struct Derivation {
     const Found *first;                 /* that mutant */
     Found nearest[MAX_FIRST];           /* single mutations that explain some points more */
     int nearest_count, like;
-    Found found[MAX_FOUND];
-    int found_count, tried;
+    Found best;  /* of those that compute the same; its text is NULL: none does */
+    bool unique; /* no other has as many of the submission's values */
+    int tried;
 } Derivation;
 
 /* A submission at points. NULL: it cannot be run, or, with a message, the driver failed. */

@@ -16,6 +16,7 @@
 
 /* Equal formulas differ by 1e-12, with attributes in floats by 1e-7, with constants like 3.14159 by
  * more. A highlight that nearly vanishes is 1e-4 from one that does. */
+static const double UNIQUE = 0.9, ONE_OF_SEVERAL = 0.75;
 static const double EQUAL = 5e-5, ALIKE = 1e-6;
 
 /* Constants of a shader that may be a mistake's numbers: they and their reciprocals. */
@@ -121,27 +122,6 @@ static void keep_nearest(Derivation *all, const Found *found)
     all->nearest[at].text = memory_text(found->text);
 }
 
-static bool try_mutant(void *context, const Mutation *mutation, const char *text)
-{
-    Derivation *all = context;
-    PointShader shader;
-    Found found = {.mutation = *mutation, .stage = all->stage, .first = all->first};
-    all->tried++;
-    if (!point_shader_open(&shader, text, all->stage))
-        return true;
-    shader.at_once = all->stage == GLSL_VERTEX && all->right[0].at_once;
-    found.text = memory_text(text);
-    found.apart = all->stage == GLSL_VERTEX ? distance(all, &shader, all->base[1], &found.like)
-                                            : distance(all, all->base[0], &shader, &found.like);
-    keep_nearest(all, &found);
-    if (found.apart <= EQUAL)
-        all->found[all->found_count++] = found;
-    else
-        free(found.text);
-    point_shader_close(&shader);
-    return all->found_count < MAX_FOUND && (!all->first || all->tried < MOST);
-}
-
 /* Opens a mutant again, beside the right program's other stage. */
 static bool open_found(Derivation *all, const Found *found, PointShader *shader)
 {
@@ -178,14 +158,12 @@ static void close_pair(Pair *pair)
     point_shader_close(&pair->other);
 }
 
-static void compare_values(Derivation *all)
+/* How many of the submission's values it has on its way, and how alike the texts are. */
+static void compare_values(Derivation *all, Found *found)
 {
     Values *own = memory_new(2, sizeof *own), *other = own + 1;
-    for (int i = 0; i < all->found_count; i++) {
-        Found *found = &all->found[i];
-        Pair pair;
-        if (!open_pair(all, found, &pair))
-            continue;
+    Pair pair;
+    if (open_pair(all, found, &pair)) {
         for (int k = 0; k < TRACED && 2 * k < all->points.count; k++) {
             const int point = all->order[2 * k];
             values_trace(&all->points, &all->own[0], &all->own[1], point, own);
@@ -199,27 +177,52 @@ static void compare_values(Derivation *all)
     free(own);
 }
 
-static bool is_nearer(const Found *a, const Found *b)
+/* Below 0: a is the better explanation. */
+static int compare_found(const Found *a, const Found *b)
 {
-    return a->shared != b->shared ? a->shared > b->shared
-           : a->other != b->other ? a->other < b->other
-           : a->mutation.rank != b->mutation.rank
-               ? a->mutation.rank < b->mutation.rank
-               : strlen(a->mutation.name) < strlen(b->mutation.name);
+    const bool exact = a->apart <= ALIKE, other_exact = b->apart <= ALIKE;
+    return exact != other_exact     ? other_exact - exact
+           : a->shared != b->shared ? b->shared - a->shared
+                                    : a->other - b->other;
 }
 
-static const Found *choose(Derivation *all)
+static void take_found(Derivation *all, Found *found)
 {
-    const Found *best = NULL;
-    double least = 2;
-    for (int i = 0; i < all->found_count; i++)
-        least = fmin(least, all->found[i].apart);
-    compare_values(all);
-    for (int i = 0; i < all->found_count; i++)
-        if (all->found[i].apart <= fmax(4 * least, ALIKE) &&
-            (!best || is_nearer(&all->found[i], best)))
-            best = &all->found[i];
-    return best;
+    compare_values(all, found);
+    const int order = all->best.text ? compare_found(found, &all->best) : -1;
+    const Mutation *mutation = &found->mutation, *best = &all->best.mutation;
+    const bool earlier = mutation->rank != best->rank ? mutation->rank < best->rank
+                                                      : strlen(mutation->name) < strlen(best->name);
+    const bool same =
+        order == 0 && mutation->node == best->node && strcmp(mutation->by, best->by) == 0;
+    all->unique = order < 0 || (all->unique && (order > 0 || same));
+    if (order > 0 || (order == 0 && !earlier)) {
+        free(found->text);
+        return;
+    }
+    free(all->best.text);
+    all->best = *found;
+}
+
+static bool try_mutant(void *context, const Mutation *mutation, const char *text)
+{
+    Derivation *all = context;
+    PointShader shader;
+    Found found = {.mutation = *mutation, .stage = all->stage, .first = all->first};
+    all->tried++;
+    if (!point_shader_open(&shader, text, all->stage))
+        return true;
+    shader.at_once = all->stage == GLSL_VERTEX && all->right[0].at_once;
+    found.text = memory_text(text);
+    found.apart = all->stage == GLSL_VERTEX ? distance(all, &shader, all->base[1], &found.like)
+                                            : distance(all, all->base[0], &shader, &found.like);
+    keep_nearest(all, &found);
+    point_shader_close(&shader);
+    if (found.apart <= EQUAL)
+        take_found(all, &found);
+    else
+        free(found.text);
+    return !all->first || all->tried < MOST;
 }
 
 /* Where the submission's first value is that is wrong; else the name of what is. */
@@ -243,7 +246,7 @@ static void find_place(Derivation *all, const Found *found, char *place, size_t 
     free(own);
 }
 
-static void add(const Mutation *mutation, const char *place, Verdict *verdict)
+static void add(const Mutation *mutation, const char *place, double sure, Verdict *verdict)
 {
     char name[64], sentence[VERDICT_SENTENCE_SIZE];
     snprintf(name, sizeof name, "%.63s", mutation->name);
@@ -251,16 +254,17 @@ static void add(const Mutation *mutation, const char *place, Verdict *verdict)
              "%s%sIt draws what the right program draws with %s instead of %s.", mutation->sentence,
              mutation->sentence[0] ? " " : "", mutation->by[0] ? mutation->by : "nothing",
              mutation->was);
-    verdict_add_mistake(verdict, name, sentence, place, 0.9);
+    verdict_add_mistake(verdict, name, sentence, place, sure);
 }
 
 static void say(Derivation *all, const Found *found, Verdict *verdict)
 {
     char place[VERDICT_SENTENCE_SIZE];
+    const double sure = all->unique ? UNIQUE : ONE_OF_SEVERAL;
     find_place(all, found, place, sizeof place);
     if (found->first)
-        add(&found->first->mutation, place, verdict);
-    add(&found->mutation, place, verdict);
+        add(&found->first->mutation, place, sure, verdict);
+    add(&found->mutation, place, sure, verdict);
     snprintf(verdict->message, sizeof verdict->message, "%s%s%s%s",
              found->first ? "Two mistakes: " : "", found->first ? found->first->mutation.name : "",
              found->first ? "; " : "", found->mutation.name);
@@ -271,16 +275,14 @@ static void mutate(Derivation *all)
 {
     for (int stage = GLSL_FRAGMENT; stage >= GLSL_VERTEX; stage--) {
         all->stage = (GlslStage)stage;
-        if (all->found_count < MAX_FOUND)
-            mutations_each(all->base[stage]->tree, all->numbers, all->number_count, try_mutant,
-                           all);
+        mutations_each(all->base[stage]->tree, all->numbers, all->number_count, try_mutant, all);
     }
 }
 
 /* Two mutations: of those that explain some points more than none, each with all others. */
 static void mutate_twice(Derivation *all)
 {
-    for (int i = 0; i < all->nearest_count && all->found_count == 0 && all->tried < MOST; i++) {
+    for (int i = 0; i < all->nearest_count && !all->best.text && all->tried < MOST; i++) {
         PointShader shader;
         const Found *first = &all->nearest[i];
         if (!open_found(all, first, &shader))
@@ -311,17 +313,17 @@ static bool search(Derivation *all)
 {
     static const char *const ENDINGS[] = {"_apart", ""};
     for (int count = 1; count <= 2; count++) {
-        for (int i = 0; i < 2 && all->found_count == 0; i++) {
+        for (int i = 0; i < 2 && !all->best.text; i++) {
             /* Where it computes what is right, it is wrong by what is undefined, or by precision.
              */
             if (!use_right(all, ENDINGS[i]) || all->wrong_by <= 4 * EQUAL)
                 continue;
             mutate(all);
-            if (count == 2 && all->found_count == 0)
+            if (count == 2 && !all->best.text)
                 mutate_twice(all);
         }
     }
-    return all->found_count > 0;
+    return all->best.text;
 }
 
 bool derive_name(const LabPictures *pictures, const SubmissionFiles *files, Verdict *verdict,
@@ -335,7 +337,7 @@ bool derive_name(const LabPictures *pictures, const SubmissionFiles *files, Verd
     take_all_numbers(all);
     *named = search(all);
     if (*named)
-        say(all, choose(all), verdict);
+        say(all, &all->best, verdict);
     else if (all->wrong_by > 4 * EQUAL)
         wrong_part_describe(all, verdict);
     derivation_close(all);

@@ -212,6 +212,24 @@ static void say_number(Verdict *verdict, const Suspect *number)
              sign * factor_value(&number->choices));
 }
 
+/* Of several that draw the same, the text may tell which it is. */
+static bool choose_one(const Lineup *lineup, Verdict *verdict, Message *message)
+{
+    bool named = false;
+    if (!verdict->one_of)
+        return true;
+    Verdict *other = memory_new(1, sizeof *other);
+    const bool done = derive_name(lineup->pictures, lineup->painter->files, other, &named, message);
+    if (named && other->mistake_count == 1 && other->mistakes[0].sure >= SURE) {
+        verdict->one_of = false;
+        verdict->mistake_count = 1;
+        verdict->mistakes[0] = other->mistakes[0];
+        snprintf(verdict->message, sizeof verdict->message, "%s", other->message);
+    }
+    free(other);
+    return done;
+}
+
 /* Tries single mistakes; then, where edges may be smoothed, those with other edges; then pairs. */
 static bool find(Lineup *lineup, Verdict *verdict, bool *named, Message *message)
 {
@@ -241,8 +259,10 @@ static bool find(Lineup *lineup, Verdict *verdict, bool *named, Message *message
         done = narrow(lineup, verdict->seed, pairs, &pair_count, &near, message);
         *named = done && name(verdict, pairs, pair_count, near ? less_sure : SURE);
     }
-    if (done && !*named && lineup->painter->files && !lineup->pictures->lab->given)
-        done = derive_name(lineup->pictures, lineup->painter->files, verdict, named, message);
+    if (done && lineup->painter->files && !lineup->pictures->lab->given)
+        done = *named
+                   ? choose_one(lineup, verdict, message)
+                   : derive_name(lineup->pictures, lineup->painter->files, verdict, named, message);
     free(all.singles);
     free(all.numbers);
     free(all.tried);

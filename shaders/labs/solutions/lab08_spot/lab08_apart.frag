@@ -27,7 +27,6 @@ void main() {
     float distance = length(toLight);
     vec3 lightDirection = toLight / distance;
     float nDotL = dot(normal, lightDirection);
-    vec3 color = u_AmbientLight * v_Color.rgb;
 
     float cosine = dot(-lightDirection, u_SpotDirection);
     float spot = cosine >= cos(radians(u_SpotCutoff)) ? pow(max(cosine, 0.0), u_SpotExponent) : 0.0;
@@ -37,6 +36,7 @@ void main() {
     vec3 reflected = reflect(-lightDirection, normal);
     float rDotV = max(dot(reflected, viewDirection), 0.0);
     float highlight = nDotL > 0.0 ? pow(rDotV, u_Shininess) : 0.0;
+    vec3 color = u_AmbientLight * v_Color.rgb;
     color += attenuation * spot * u_LightColor * v_Color.rgb * max(nDotL, 0.0);
     color += attenuation * spot * u_LightColor * u_SpecularColor * highlight;
     gl_FragColor = vec4(color, v_Color.a);
