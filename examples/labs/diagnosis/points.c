@@ -263,6 +263,9 @@ static void set_attributes(const Points *points, PointShader *shader, const Poin
     const LabAttributes *names = &points->lab->attributes;
     for (int i = 0; i < shader->code->variable_count; i++) {
         const GlslVariable *variable = &shader->code->variables[i];
+        if (variable->storage == GLSL_VARYING) /* not what the last run left */
+            memset(shader->run->registers + variable->first, 0,
+                   (size_t)variable->count * sizeof(double));
         if (variable->storage != GLSL_ATTRIBUTE)
             continue;
         const float *from = is_called(variable->name, names->position, "a_Position")
