@@ -23,11 +23,14 @@
 
 static int seed = -1;
 static double limit = 10;
+static bool report;
 static const char *json, *pictures, *expected, *own, *fresh, *solution;
 
 static const Parameter parameters[] = {
     {"lab", "the folder of a lab of your own, instead of LAB; see TEACHING.md", PARAMETER_TEXT,
      .value = &own, .placeholder = "DIR"},
+    {"report", "with --lab DIR: which changes of its solution no scene shows", PARAMETER_FLAG,
+     .value = &report},
     {"new-lab", "make this folder, a lab to edit, from the shaders of --solution", PARAMETER_TEXT,
      .value = &fresh, .placeholder = "DIR"},
     {"solution", "its vertex shader that works; the fragment shader follows", PARAMETER_TEXT,
@@ -124,7 +127,7 @@ int main(int argc, char *argv[])
     char *const *names = options.names;
     if (fresh || solution)
         return make_lab(names, &message);
-    const int count = !own + !expected;
+    const int count = !own + !(expected || report);
     int given = 0;
     while (names[given])
         given++;
@@ -137,6 +140,9 @@ int main(int argc, char *argv[])
     const Lab *lab = lab_open(own ? own : names[0], &message);
     if (!lab)
         return options_fail(usage.name, &message, EXIT_USAGE);
+    if (report)
+        return lab_report(lab, stdout, &message) ? options_finish(usage.name, 0)
+                                                 : options_fail(usage.name, &message, EXIT_FAILED);
     if (!expected)
         return check(&options, lab, names[count - 1], &message);
     if (!judge_expected(lab, expected, &message))

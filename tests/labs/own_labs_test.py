@@ -7,6 +7,7 @@ Exit code: 77 if nothing can be drawn.
 import csv
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -267,6 +268,23 @@ class Folder(Case):
             self.assertIn(said, done.stderr)
             self.assertIn(os.path.join(os.path.realpath(lab), "lab.json"), done.stderr)
             self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+
+    def test_the_report_says_what_no_scene_shows(self):
+        lab = self.copy("fog", "fog")
+        same, missed = "reversed: v_Position - u_EyePosition", "term missing: u_AmbientLight"
+        said = check("--lab", lab, "--report").stdout
+        self.assertIn(same, said)
+        self.assertNotIn(missed, said)
+        tried, shown, hidden = map(int, re.search(r"(\d+) mistakes tried; shown: (\d+), not shown: (\d+)", said).groups())
+        self.assertEqual((tried, said.count(" instead of ")), (shown + hidden, hidden))
+        self.assertGreater(shown, 40)
+        # A fog through which nothing is seen hides the light's mistakes.
+        self.change('"value": 0.12, "min": 0.08, "max": 0.16', '"value": 3, "min": 3, "max": 4', "fog", "lab.json")
+        said = check("--lab", lab, "--report").stdout
+        self.assertIn(missed, said)
+        self.assertGreater(said.count(" instead of "), hidden + 10)
+        shutil.rmtree(self.path("fog", "solution"))
+        self.assertIn("fog: has no solution to change", check("--lab", lab, "--report").stderr)
 
     def test_a_lab_that_cannot_be_judged(self):
         lab = self.copy("fog", "fog")

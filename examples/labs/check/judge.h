@@ -46,6 +46,10 @@ void judge_limit(rlim_t seconds);
  * written. Any fault of the submission is a verdict. */
 bool judge(const JudgeOptions *options, Verdict *verdict, Message *message);
 
+/* Says which changes of a lab's first solution no scene tells from it. False, with a message: it
+ * has none, or does not compile. */
+bool lab_report(const Lab *lab, FILE *file, Message *message);
+
 /* Writes the exact picture of a lab's usual scene at 1 s, as its task shows. */
 bool judge_expected(const Lab *lab, const char *path, Message *message);
 
