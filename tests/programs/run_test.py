@@ -125,6 +125,18 @@ class Names(Case):
                    "name another folder\n"))
         self.assertTrue(os.path.exists(self.path("systems/trixie/notes")))
 
+    def test_what_is_about_a_word(self):
+        """Programs, options and the book's places; in any case of letters."""
+        code, text, said = self.start("--list", "Specular")
+        self.assertEqual((code, said), (0, ""))
+        lines = {line[:32].strip(): line[32:].strip() for line in text.splitlines()}
+        self.assertIn("diffuse and specular colour", lines["Materials"])
+        self.assertIn("ShininessRow", lines["--specular R,G,B"])
+        self.assertEqual(lines["Specular Reflection"], "chapter 13 of the book, in examples/chapter")
+        self.assertTrue(all("specular" in line.lower() for line in text.splitlines()))
+        self.assertEqual(self.start("--list", "a.b*c"), (
+            1, "", "examples/run: nothing is about a.b*c; examples/run --list names all programs\n"))
+
     def test_the_list_for_tools_has_every_program(self):
         code, text, said = self.start("--json")
         self.assertEqual((code, said), (0, ""))
