@@ -65,7 +65,7 @@
     const gl = table && canvas.getContext("webgl");
     if (!gl)
         return;
-    table.append(row("th", ["", "bits of the significand, said", "found", "smallest power of 2, found", "largest power of 2, found"]));
+    table.append(row("th", ["precision", "bits of the significand, said", "found", "smallest power of 2, found", "largest power of 2, found"]));
     for (const name of ["highp", "mediump", "lowp"]) {
         const said = gl.getShaderPrecisionFormat(gl.FRAGMENT_SHADER, gl[{highp: "HIGH", mediump: "MEDIUM", lowp: "LOW"}[name] + "_FLOAT"]);
         const found = measure(gl, name);
