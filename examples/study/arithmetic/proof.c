@@ -314,9 +314,27 @@ static void set(GlslBoundRun *run, const char *name, int at, GlslInput input)
         run->inputs[found.first + at] = input;
 }
 
+/* How much lower a triangle is on the screen than those of a few pixels that were measured, at
+ * least 1: the error of an interpolated number's slope grows so. */
+static double flatness(const Proof *proof, const ProofTriangle *triangle)
+{
+    static const double MEASURED = 5; /* of an equilateral one with sides of 6 pixels */
+    double at[3][2], longest = 0;
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 2; k++)
+            at[i][k] = place(proof, triangle, i, k) / fmax(place(proof, triangle, i, 3), 1e-6) *
+                       proof->driver.height / 2;
+    for (int i = 0; i < 3; i++)
+        longest =
+            fmax(longest, hypot(at[(i + 1) % 3][0] - at[i][0], at[(i + 1) % 3][1] - at[i][1]));
+    const double area = fabs((at[1][0] - at[0][0]) * (at[2][1] - at[0][1]) -
+                             (at[1][1] - at[0][1]) * (at[2][0] - at[0][0]));
+    return fmin(fmax(MEASURED * longest / fmax(area, 1e-6), 1), 1e3);
+}
+
 /* A varying's number: linear, with the corners' error and the interpolation's. */
 static GlslInput interpolated(const Proof *proof, const Output *const corners[3],
-                              const double at[2])
+                              const double at[2], double flat)
 {
     const Raster *raster = proof->driver.raster;
     const Format *format = &proof->driver.vertex->format;
@@ -328,7 +346,7 @@ static GlslInput interpolated(const Proof *proof, const Output *const corners[3]
                        .error = error +
                                 fmax(raster->flat, raster->perspective) *
                                     format_ulp(format, fmax(most, 1e-30)) +
-                                raster->small * format_unit(format) * range,
+                                flat * raster->small * format_unit(format) * range,
                        .slope = {{s, s}, {t, t}}};
 }
 
@@ -337,13 +355,14 @@ static void set_inputs(const Proof *proof, const ProofTriangle *triangle, const 
     ProofDraw *draw = &proof->draws[triangle->draw];
     GlslBoundRun *run = draw->runs[1];
     static const GlslRange any = {-(double)INFINITY, (double)INFINITY};
+    const double flat = flatness(proof, triangle);
     for (int i = 0; i < draw->varying_count; i++)
         for (int k = 0; k < draw->varyings[i].count; k++) {
             const Output *corners[3];
             for (int c = 0; c < 3; c++)
                 corners[c] = draw->vertices + triangle->corners[c] * (size_t)draw->outputs +
                              draw->varyings[i].first + k;
-            run->inputs[draw->varyings[i].fragment + k] = interpolated(proof, corners, at);
+            run->inputs[draw->varyings[i].fragment + k] = interpolated(proof, corners, at, flat);
         }
     set(run, "gl_FrontFacing", 0, (GlslInput){.middle = triangle->front});
     for (int k = 0; k < 4; k++) /* only masks are looked up there */

@@ -148,8 +148,9 @@ bool prove_scene(const Scene *scene, const Arithmetics *found, int height, FILE 
     }
     fprintf(file,
             "Steps of 1/255, for all points; a byte's rounding adds %.2f. Left out are pixels "
-            "through which\nan edge of light or of a shadow runs. Assumed: the errors that were "
-            "measured of %s,\nand that its compiler keeps the text's operations or rounds less.\n",
-            found->raster.bytes, found->renderer);
+            "through which\nan edge of light or of a shadow runs, or whose middle is beside a side "
+            "of a triangle, within\n2^-%d of a pixel. Assumed: the errors that were measured of "
+            "%s,\nand that its compiler keeps the text's operations or rounds less.\n",
+            found->raster.bytes, found->raster.subpixel_bits, found->renderer);
     return true;
 }
