@@ -118,14 +118,28 @@ const Controls = (() => {
         return control;
     }
 
+    const MATERIAL = /^(back-)?material$|^(ambient|diffuse|specular|emission|shininess|opacity)$/;
+    const LIGHTS = new RegExp("light|^(red|green|blue|viewpoint|ambient|directional|point|spot|cutoff|exponent|ambient-cone|" +
+                              "constant|linear|quadratic|rotating)$|^(fixed|turning)-");
+    const COMPUTED = /^(reflection|interpolation|viewer|two-sided|front-face|matrix|fit|gain)$/;
+    const ALL = "Of all programs";
+
+    /* A switch is not a reflectivity. */
+    function heading({name, own, choices}) {
+        return !own ? ALL : MATERIAL.test(name) && (!choices.length || name.endsWith("material")) ? "Material" :
+            LIGHTS.test(name) ? "Light" : COMPUTED.test(name) ? "How it is computed" : "Of this program";
+    }
+
     /* Fills `form`; change(name, value) is called for each change by the user. */
     function fill(form, options, change) {
         const shown = new Map();
-        for (const [heading, own] of [["Of this program", true], ["Of all programs", false]]) {
-            const group = options.filter(option => option.own === own && option.name !== "time");
+        for (const title of ["Of this program", "Material", "Light", "How it is computed", ALL]) {
+            const group = options.filter(option => heading(option) === title && option.name !== "time");
             if (!group.length)
                 continue;
-            const set = element("fieldset", {}, element("legend", {}, heading));
+            const folded = title === ALL && group.length < options.length - 1;
+            const set = folded ? element("details", {}, element("summary", {}, title)) :
+                element("fieldset", {}, element("legend", {}, title));
             for (const option of group)
                 shown.set(option.name, put(set, option, "option-" + option.name, change));
             form.append(set);

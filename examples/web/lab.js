@@ -53,6 +53,8 @@ const Lab = (() => {
     async function apply(texts) {
         lab.texts = texts;
         const message = await draw(true);
+        if (message !== null)
+            part("old").hidden = !message;
         return message === "" && texts.size && !part("check") ? "Kept; the browser compiles no C." : message;
     }
 
@@ -124,7 +126,18 @@ const Lab = (() => {
         Controls.save((student || "mine") + "-" + number + ".zip", Zip.encode(all));
     }
 
+    function wipe() {
+        const on = part("pictures").classList.toggle("over");
+        part("wipe-on").setAttribute("aria-pressed", on);
+        part("wipe-row").hidden = !on;
+        part("drawn").style.clipPath = "";
+        if (on)
+            Wipe.show(part("wipe"), part("drawn"));
+    }
+
     function listen() {
+        part("wipe-on").addEventListener("click", wipe);
+        part("wipe").addEventListener("input", () => Wipe.show(part("wipe"), part("drawn")));
         part("slider").addEventListener("input", event => setTime(Number(event.target.value)));
         part("time").addEventListener("change", event => setTime(Number(event.target.value)));
         part("hand-in").addEventListener("click", handIn);
@@ -153,9 +166,14 @@ const Lab = (() => {
             throw message;
         if (!hung || !lab.editor.edited())
             await lab.editor.run();
+        if (part("compared").textContent.startsWith("Loading"))
+            part("compared").textContent = "";
         document.body.dataset.ready = "yes";
     }
 
-    open().catch(error => { part("error").textContent = "This page cannot run: " + error; });
+    open().catch(error => {
+        part("compared").textContent = "";
+        part("error").textContent = "This page cannot run: " + error;
+    });
     return {lab, check, draw, setTime};
 })();

@@ -158,12 +158,29 @@ class Engine {
         return engine;
     }
 
+    /* The context keeps the sources, vertex shader's first, of the last program with which it drew by lighting.vert. */
+    static watchPrograms(context) {
+        const {attachShader, useProgram} = context;
+        context.attachShader = function (program, shader) {
+            (program.sources ||= []).push(this.getShaderSource(shader));
+            attachShader.call(this, program, shader);
+        };
+        context.useProgram = function (program) {
+            if (program?.sources?.[0].includes("// lighting.vert:"))
+                this.lighting = program.sources;
+            useProgram.call(this, program);
+        };
+    }
+
+    get lighting() { return this.module.canvas.getContext("webgl2")?.lighting || []; }
+
     /* A fragment shader that sets no colour draws whatever there is; WebGL fails instead. It draws nothing visible here. */
     static drawColourless() {
         const context = self.WebGL2RenderingContext && WebGL2RenderingContext.prototype;
         if (!context || Engine.source)
             return;
         const source = Engine.source = context.shaderSource;
+        Engine.watchPrograms(context);
         context.shaderSource = function (shader, text) {
             const words = text.replace(/\/\/.*|\/\*[^]*?\*\//g, " ");
             const colourless = /\bmain\b/.test(words) && !/\bgl_Frag(Color|Data)\b/.test(words);

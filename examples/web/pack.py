@@ -24,11 +24,11 @@ import markdown
 
 INDEX = ["lighting.js", "module.js", "index.js"]
 PROGRAM = ["lighting.js", "module.js", "worker.js", "png.js", "zip.js", "link.js", "controls.js", "editor.js",
-           "lent.js", "share.js", "program.js"]
+           "lent.js", "share.js", "undo.js", "wipe.js", "before.js", "assembled.js", "program.js"]
 BOOK = ["lighting.js", "module.js", "worker.js", "controls.js", "book.js", "slides.js"]
 LABS = ["progress.js", "labs.js"]
 LAB = ["labs_module.js", "module.js", "progress.js", "lab_worker.js", "png.js", "zip.js", "controls.js",
-       "editor.js", "lab.js"]
+       "editor.js", "wipe.js", "lab.js"]
 CHECK = """<div class="row"><button type="button" id="check">Check</button></div>
 <p><small>Draws your files in a dozen scenes and says what is wrong, as <code>check</code> does natively.</small></p>"""
 NO_CHECK = """<p>This lab is written in C, which the browser does not compile. Check it natively:
@@ -69,8 +69,11 @@ EDITOR = """<div class="row">
 <p class="said" role="status"></p>
 <ul class="errors" aria-label="Errors"></ul>"""
 ALL = '\n<button type="button" class="all">Save all as ZIP</button>'
-SHADERS = '<section aria-labelledby="shaders-heading" id="editor">\n<h2 id="shaders-heading">Shaders</h2>\n%s\n</section>\n'
+SHADERS = '<section aria-labelledby="shaders-heading" id="editor">\n<h2 id="shaders-heading">Shaders</h2>\n%s%s\n</section>\n'
 # Effects are of scenes.
+ASSEMBLED = """<details id="assembled"><summary>The shader that lights, as assembled for this scene</summary>
+<p><small>What the driver gets, without the parts that this scene's conditions leave out. It is made of the files below.</small></p>
+<pre tabindex="0"></pre></details>\n"""
 EXPLAIN = """<details id="explain"><summary>What is computed, and why (<code>--explain</code>)</summary>
 <pre id="explained" tabindex="0"></pre></details>"""
 
@@ -157,7 +160,7 @@ def page(folder, name, parts, single):
         more = (f"<details class=\"diff\"><summary>What differs from {before}</summary>\n<p>The predecessor is {link}.</p>\n"
                 f'<pre tabindex="0">{diff(before, name)}</pre></details>')
     links = "" if single else '<nav aria-label="Pages"><a href="index.html">All programs</a></nav>'
-    shaders = SHADERS % (EDITOR % ("shader file", ALL)) + more
+    shaders = SHADERS % (ASSEMBLED if scene else "", EDITOR % ("shader file", ALL)) + more
     # A lecture program is its shaders; a scene its options.
     return fill("program.html", name=name, summary=html.escape(summary(folder, name)), links=links,
                 first="" if scene else shaders, last=shaders if scene else "", exact=EXACT if scene else NO_SCENE,
@@ -181,9 +184,10 @@ def lab_page(name, parts, single):
     links = "" if single else f'<nav aria-label="Pages"><a href="labs.html">All labs</a>{links}</nav>'
     # Without the title and the picture.
     task = re.sub(r"^# .*\n+!\[.*\n+", "", read(root / "examples/labs" / name / "TASK.md"))
-    task = markdown.to_html(task.replace("## Run and check", "## The same natively"))
+    task, more = task.replace("## Run and check", "## The same natively").split("\n## What there is\n")
     note = f"<p>{NOTES[name]}</p>" if name in NOTES else ""
-    return fill("lab.html", name=name, title=html.escape(title(name)), task=task, links=links, note=note,
+    return fill("lab.html", name=name, title=html.escape(title(name)), task=markdown.to_html(task),
+                more=markdown.to_html("## What there is\n" + more), links=links, note=note,
                 editor=EDITOR % ("file", ""), check=NO_CHECK if name == "lab03_normal_matrix" else CHECK, **parts)
 
 

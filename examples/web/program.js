@@ -75,13 +75,15 @@ const Page = (() => {
         return "";
     }
 
+    const state = () => ({values: page.values, seconds: page.seconds, orbit: page.orbit});
+
     function change(name, value) {
         const values = new Map(page.values);
         if (value === "" || value === false)
             values.delete(name);
         else
             values.set(name, value);
-        start(values, page.seconds, name === "orbit" && readOrbit(value) || page.orbit);
+        start(values, page.seconds, name === "orbit" && readOrbit(value) || page.orbit, name);
     }
 
     function readOrbit(text) {
@@ -92,8 +94,12 @@ const Page = (() => {
 
     function paint(picture) {
         Controls.paint(part("picture"), picture);
+        part("picture").parentNode.style.setProperty("--ratio", picture.width / picture.height);
         page.picture = picture;
+        Before.draw(now());
     }
+
+    const now = () => ({lines: lines(page.values), edited: page.texts.size > 0, seconds: page.seconds, orbit: page.orbit});
 
     function tellTime(milliseconds) {
         page.times = [...page.times.slice(1 - SAMPLES), milliseconds];
@@ -138,6 +144,7 @@ const Page = (() => {
         ErrorWorker.cancel("The picture has changed; compare again.");
         setLink(link);
         part("whole").hash = link;
+        tellAssembled();
     }
 
     /* Once a frame, however many events there are. */
@@ -178,17 +185,22 @@ const Page = (() => {
     }
 
     function turn(azimuth, elevation, factor, roll = 0) {
+        const before = state();
         const limit = (x, min, max) => Math.min(max, Math.max(min, x));
         page.orbit = [rounded((page.orbit[0] + azimuth) % 360), rounded(limit(page.orbit[1] + elevation, -90, 90)),
                       rounded(limit(page.orbit[2] * factor, 0.01, 100), 1e6), rounded((page.orbit[3] + roll) % 360)];
         page.controls.show({...page.engine.json("values"), orbit: page.orbit.join(",")});
+        page.undo.remember("the camera", before);
         schedule();
     }
 
     function reset() {
+        const before = state();
         page.orbit = [0, 0, 1, 0];
+        page.values = new Map(page.values);
         page.values.delete("orbit");
         turn(0, 0, 1);
+        page.undo.remember("the camera", before);
     }
 
     function press(event) {
@@ -276,8 +288,10 @@ const Page = (() => {
             await new Promise(requestAnimationFrame);
         }
         show("Computing the exact picture...");
+        part("compare").setAttribute("aria-busy", true);
         const result = await ErrorWorker.compute({compiled: page.compiled, lines: lines(page.values), texts: page.texts,
                                                   seconds: page.seconds, orbit: page.orbit});
+        part("compare").setAttribute("aria-busy", false);
         if (!result.error)
             return result.message && show(result.message);
         const tell = ({pixels, wrong, rms, maximum}) => pixels + " pixels, largest " + maximum.toFixed(2) + ", rms " +
@@ -285,7 +299,18 @@ const Page = (() => {
         show("In steps of 1/255. Inside objects: " + tell(result.error.inside) + ". All: " + tell(result.error.all) + ".");
         Controls.paint(part("map"), result.map);
         part("exact").hidden = false;
+        part("exact-heading").scrollIntoView({block: "nearest"});
+        part("exact").scrollIntoView({block: "nearest"});
         return result;
+    }
+
+    /* The vertex shader if that has the lights, else the fragment shader. */
+    function tellAssembled() {
+        if (!part("assembled")?.open)
+            return;
+        const [vertex = "", fragment = ""] = page.engine.lighting;
+        part("assembled").querySelector("pre").textContent =
+            Assembled.read(/^#define VERTEX_LIGHTS/m.test(vertex) ? vertex : fragment);
     }
 
     function tellEffects() {
@@ -319,8 +344,11 @@ const Page = (() => {
     }
 
     function start(values, seconds = Number(values.get("time") || 0),
-                   orbit = readOrbit(values.get("orbit")) || [0, 0, 1, 0]) {
-        return update({values, seconds, orbit});
+                   orbit = readOrbit(values.get("orbit")) || [0, 0, 1, 0], kind = "all options") {
+        const before = state(), message = update({values, seconds, orbit});
+        if (!message)
+            page.undo.remember(kind, before);
+        return message;
     }
 
     function listTries() {
@@ -377,6 +405,9 @@ const Page = (() => {
         click("reset", reset);
         click("save", save);
         click("default", () => start(new Map()));
+        click("undo", page.undo.undo);
+        click("redo", page.undo.redo);
+        click("wipe-on", () => Before.toggle(page.compiled, now));
         part("slider").addEventListener("input", event => setTime(Number(event.target.value)));
         part("time").addEventListener("change", event => setTime(Number(event.target.value)));
         part("options").addEventListener("submit", event => event.preventDefault());
@@ -388,6 +419,7 @@ const Page = (() => {
         if (page.program.scene) {
             click("compare", compare);
             part("explain").addEventListener("toggle", tellEffects);
+            part("assembled").addEventListener("toggle", tellAssembled);
         }
     }
 
@@ -412,6 +444,7 @@ const Page = (() => {
             return page.engine.message;
         page.texts = texts;
         const message = reopen() || tryDraw();
+        part("old").hidden = !message;
         if (message) {
             page.engine.replace(page.drawn);
             page.texts = page.drawn;
@@ -435,19 +468,25 @@ const Page = (() => {
         page.engine = await Engine.open(page.compiled, newCanvas());
         page.program = page.engine.json("programs").find(({name}) => name === page.name);
         page.controls = Controls.fill(part("options"), page.program.options.filter(shows), change);
+        for (const folded of part("options").querySelectorAll("details"))
+            folded.open = Boolean(embedded);
+        page.undo = Undo.open(state, update, message => { part("status").textContent = message; });
         listTries();
         listAbsent();
         listen();
         follow();
         if (!page.picture)
             return;
-        if (!embedded)
-            part("status").textContent = "First picture after " + (performance.now() - begin).toFixed(0) + " ms.";
+        part("status").textContent = embedded ? "" : "First picture after " + (performance.now() - begin).toFixed(0) + " ms.";
         page.editor = Editor.open(part("editor"), "lighting " + page.name, page.engine.json("shaders"), replace);
         await Lent.open(page.editor, {note, fail, draw: replace});
+        page.undo.clear();
         document.body.dataset.ready = "yes";
     }
 
-    open().catch(error => fail("This page cannot run: " + error));
+    open().catch(error => {
+        part("status").textContent = "";
+        fail("This page cannot run: " + error);
+    });
     return {page, save, compare, update, lines, start, play};
 })();

@@ -186,6 +186,7 @@ class Pages(Case):
         self.assertNotEqual(self.shown(), before)
         # What follows from another option is shown.
         self.assertNotEqual(self.page.run("document.getElementById('option-diffuse').value"), "0.6")
+        self.page.click("#options summary")
         self.page.click("#option-show-clipped")
         self.settle()
         self.assertIn("--show-clipped", self.text("#command"))
