@@ -119,7 +119,7 @@ const Controls = (() => {
     }
 
     const MATERIAL = /^(back-)?material$|^(ambient|diffuse|specular|emission|shininess|opacity)$/;
-    const LIGHTS = new RegExp("light|^(red|green|blue|viewpoint|ambient|directional|point|spot|cutoff|exponent|ambient-cone|" +
+    const LIGHTS = new RegExp("light|^(global-ambient|red|green|blue|viewpoint|ambient|directional|point|spot|cutoff|exponent|ambient-cone|" +
                               "constant|linear|quadratic|rotating)$|^(fixed|turning)-");
     const COMPUTED = /^(reflection|interpolation|viewer|two-sided|front-face|matrix|fit|gain)$/;
     const ALL = "Of all programs";

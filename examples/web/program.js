@@ -200,7 +200,7 @@ const Page = (() => {
         page.values = new Map(page.values);
         page.values.delete("orbit");
         turn(0, 0, 1);
-        page.undo.remember("the camera", before);
+        page.undo.remember("the camera's return", before);
     }
 
     function press(event) {
@@ -218,13 +218,15 @@ const Page = (() => {
         keys[event.key]();
     }
 
-    /* One finger or the mouse turns; two fingers or the wheel, once the picture has the focus, go nearer. */
+    /* One finger or the mouse turns; two fingers or the wheel, once the picture has the focus, go nearer. Before it has the
+     * focus a finger scrolls the page up and down. */
     function listenToPointers(canvas) {
         const down = new Map();
         const apart = () => {
             const [a, b] = [...down.values()];
             return Math.hypot(a.x - b.x, a.y - b.y) || 1;
         };
+        const scrolls = event => event.pointerType === "touch" && document.activeElement !== canvas;
         canvas.addEventListener("pointerdown", event => {
             canvas.setPointerCapture(event.pointerId);
             down.set(event.pointerId, {x: event.clientX, y: event.clientY});
@@ -238,7 +240,7 @@ const Page = (() => {
             if (down.size === 2)
                 turn(0, 0, was / apart());
             else if (down.size === 1)
-                turn((before.x - now.x) / 2, (now.y - before.y) / 2, 1);
+                turn((before.x - now.x) / 2, scrolls(event) ? 0 : (now.y - before.y) / 2, 1);
         });
         for (const name of ["pointerup", "pointercancel"])
             canvas.addEventListener(name, event => down.delete(event.pointerId));
@@ -344,7 +346,7 @@ const Page = (() => {
     }
 
     function start(values, seconds = Number(values.get("time") || 0),
-                   orbit = readOrbit(values.get("orbit")) || [0, 0, 1, 0], kind = "all options") {
+                   orbit = readOrbit(values.get("orbit")) || [0, 0, 1, 0], kind = Undo.ALL) {
         const before = state(), message = update({values, seconds, orbit});
         if (!message)
             page.undo.remember(kind, before);
@@ -460,6 +462,12 @@ const Page = (() => {
     const embedded = new URLSearchParams(location.search).get("embed")?.split(",") || null;
     const shows = ({name}) => !embedded || embedded.includes(name);
 
+    /* The one with the lights first: of a lecture's pair the longer one. */
+    function shaders() {
+        const files = page.engine.json("shaders");
+        return page.program.scene ? files : files.sort((a, b) => b.text.length - a.text.length);
+    }
+
     async function open() {
         document.body.classList.toggle("embed", Boolean(embedded));
         const begin = performance.now();
@@ -478,7 +486,7 @@ const Page = (() => {
         if (!page.picture)
             return;
         part("status").textContent = embedded ? "" : "First picture after " + (performance.now() - begin).toFixed(0) + " ms.";
-        page.editor = Editor.open(part("editor"), "lighting " + page.name, page.engine.json("shaders"), replace);
+        page.editor = Editor.open(part("editor"), "lighting " + page.name, shaders(), replace);
         await Lent.open(page.editor, {note, fail, draw: replace});
         page.undo.clear();
         document.body.dataset.ready = "yes";

@@ -5,21 +5,22 @@ const Undo = (() => {
     const TOGETHER = 1000; /* ms */
     const MOST = 200;
     const NATIVE = "textarea, [type=text], [type=number]"; /* undo what is typed in them by themselves */
+    const ALL = "all options"; /* are several steps, however fast */
     const text = value => JSON.stringify(value instanceof Map ? [...value] : value);
 
     /* `state()` is an object, of which `apply` takes a part; `say(message)`. */
     function open(state, apply, say) {
         let done = [], undone = [];
 
-        function remember(kind, before, now = performance.now()) {
-            const after = state(), step = {};
+        function remember(kind, before) {
+            const after = state(), step = {}, now = performance.now();
             for (const name of Object.keys(before).filter(name => text(before[name]) !== text(after[name])))
                 step[name] = before[name];
             if (!Object.keys(step).length)
                 return;
             const last = done[done.length - 1];
             undone = [];
-            if (last && last.kind === kind && now - last.at < TOGETHER)
+            if (last && last.kind === kind && kind !== ALL && now - last.at < TOGETHER)
                 Object.assign(last, {at: now, step: {...step, ...last.step}});
             else
                 done = [...done, {kind, at: now, step}].slice(-MOST);
@@ -46,5 +47,5 @@ const Undo = (() => {
         return {remember, undo, redo, clear() { done = undone = []; }};
     }
 
-    return {open};
+    return {open, ALL};
 })();

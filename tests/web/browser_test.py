@@ -32,7 +32,7 @@ import firefox_pages
 from book_pages import Book
 from firefox_pages import InFirefox
 from labs_pages import Accessible, Corpus, Labs, Verdicts
-from sharing_pages import Sharing
+from sharing_pages import Sharing, Working
 from pages import CONFIRM, EXAMPLES, RENDERER, SITE, SOURCE, Case, address, differences, make, native
 
 # Draws by a module of its own: no page in between.
@@ -950,7 +950,8 @@ class Pages(Case):
 
 
 # Those that take longest first.
-CLASSES = ["Parity", "Verdicts", "Corpus", "Book", "Accessible", "InFirefox", "Labs", "Pages", "Sharing", "SwiftShader"]
+CLASSES = ["Parity", "Verdicts", "Corpus", "Book", "Accessible", "InFirefox", "Labs", "Pages", "Sharing", "Working",
+           "SwiftShader"]
 
 
 def run(name):

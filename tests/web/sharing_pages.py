@@ -1,4 +1,4 @@
-"""What is taken from a page elsewhere, and what comes to it: links with shader texts, archives, films, parts of other pages."""
+"""What is taken from a page elsewhere and what comes to it, and how it is worked with: steps back, two pictures at once."""
 import base64
 import html
 import io
@@ -16,6 +16,7 @@ import zlib
 import browser
 from pages import EXAMPLES, SITE, Case, address, differences
 
+CONTROL = 2
 VALUE = "document.querySelector('.source').value"
 KEPT = "Object.keys(localStorage).filter(key => key.startsWith('lighting LightedCube'))"
 
@@ -273,3 +274,185 @@ class Sharing(Case):
             self.assertEqual(path.read_bytes()[:4], b"\x1a\x45\xdf\xa3")  # EBML
             self.assertEqual(self.page.run("[Page.page.playing, document.getElementById('record').textContent]"),
                              [False, "Record WebM"])
+
+
+class Working(Case):
+    """What helps those who work with a page."""
+
+    def put(self, name, value):
+        self.page.run(f"""(input => {{ input.value = {json.dumps(value)}; input.dispatchEvent(new Event("input")); }})(
+            document.getElementById("option-{name}"))""")
+
+    def test_options_are_undone(self):
+        self.open("Materials", "material=gold")
+        start = self.page.run("location.hash")
+        steps = [start]
+        for what in (lambda: self.put("shape", "torus"), lambda: self.put("material", "jade"),
+                     lambda: self.page.click("#default"), lambda: self.page.drag("#picture", 40, 10),
+                     lambda: self.page.click("#reset"), lambda: self.page.click("#tries button")):
+            what()
+            self.settle()
+            steps.append(self.page.run("location.hash"))
+        shown = self.shown()
+        # One after the other, by the button and by keys.
+        for i, link in enumerate(reversed(steps[:-1])):
+            if i % 2:
+                self.page.click("#undo")
+            else:
+                self.page.run("document.getElementById('picture').focus()")
+                self.page.key("z", CONTROL)
+            self.settle()
+            self.assertEqual(self.page.run("location.hash"), link)
+            self.assert_native()
+        self.page.click("#undo")
+        self.assertEqual(self.text("#status"), "Nothing to undo.")
+        for link in steps[1:]:
+            self.page.click("#redo")
+            self.settle()
+            self.assertEqual(self.page.run("location.hash"), link)
+        self.assertEqual(self.shown(), shown)
+        # What is typed into a field the browser undoes; a slider that is moved is one step.
+        self.page.run("""(() => {
+            const slider = document.querySelector("#option-shininess + input");
+            for (const value of [10, 20, 30, 40]) {
+                slider.value = value;
+                slider.dispatchEvent(new Event("input"));
+            }
+        })()""")
+        self.page.click("#undo")
+        self.settle()
+        self.assertEqual(self.page.run("location.hash"), steps[-1])
+        self.assertEqual(self.page.complaints(), [])
+
+    def test_back_goes_to_the_page_one_came_from(self):
+        self.page.open(pathlib.Path(SITE, "index.html").as_uri())
+        self.page.run("setTimeout(() => document.querySelector('a[href=\"Materials.html\"]').click())")
+        self.page.wait("location.pathname.endsWith('Materials.html') && document.body?.dataset.ready")
+        self.put("material", "gold")
+        self.put("shape", "torus")
+        self.page.click("#forward")
+        self.page.click("#undo")
+        self.settle()
+        self.page.run("setTimeout(() => history.back())")
+        self.page.wait("location.pathname.endsWith('index.html') && document.body?.dataset.ready")
+
+    def test_before_and_after(self):
+        """Both pictures are those of their commands, also when time and camera change."""
+        upper = """(() => {
+            const canvas = document.getElementById("before");
+            const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+            return btoa(data.reduce((text, byte, i) => i % 4 < 3 ? text + String.fromCharCode(byte) : text, ""));
+        })()"""
+        self.open("LightedCube")
+        self.page.click("#forward")
+        self.settle()
+        original = self.shown()
+        field = "document.querySelector('.source')"
+        self.page.run(f"""{field}.value = {field}.value.replace("vec4(diffuse,", "vec4(diffuse.bgr,");
+                          {field}.dispatchEvent(new Event("input"))""")
+        self.page.wait("document.querySelector('.said').textContent.startsWith('Drawn with')")
+        self.page.click("#back")
+        self.page.click("#wipe-on")
+        self.page.wait("document.getElementById('wipe-said').textContent.startsWith('Left: by the original')")
+        self.page.click("#forward")
+        self.settle()
+        self.assertEqual(base64.b64decode(self.page.run(upper)), original)
+        self.assertNotEqual(self.shown(), original)
+        self.page.run("""(slider => { slider.value = 25; slider.dispatchEvent(new Event("input")); })(
+            document.getElementById("wipe"))""")
+        self.assertIn("75%", self.page.run("document.getElementById('before').style.clipPath"))
+        box = "JSON.stringify(document.getElementById('{}').getBoundingClientRect())"
+        self.assertEqual(self.page.run(box.format("before")), self.page.run(box.format("picture")))
+        self.page.click("#wipe-on")
+        self.assertFalse(self.page.run("document.getElementById('before').offsetHeight"))
+        self.page.click(".revert")
+        # Of options: those of when it was switched on.
+        self.open("Materials")
+        before = self.shown()
+        self.page.click("#wipe-on")
+        self.page.wait("document.getElementById('wipe-said').textContent.startsWith('Left: with the options')")
+        self.put("material", "gold")
+        self.settle()
+        self.assertEqual(base64.b64decode(self.page.run(upper)), before)
+        self.assert_native()
+        self.assertNotEqual(self.shown(), before)
+
+    def test_an_old_picture_is_marked(self):
+        self.open("LightedCube")
+        field = "document.querySelector('.source')"
+        for text, old in (("#error here", True), ("", False)):
+            self.page.run(f"{field}.value += {json.dumps(text)}; {field}.dispatchEvent(new Event('input'))"
+                          if text else f"{field}.value = {field}.value.replace('#error here', ''); "
+                          f"{field}.dispatchEvent(new Event('input'))")
+            self.page.wait(f"Boolean(document.getElementById('old').offsetHeight) === {json.dumps(old)}")
+        self.page.click(".revert")
+
+    def test_loading_is_said(self):
+        script = self.page.call("Page.addScriptToEvaluateOnNewDocument",
+                                source="WebAssembly.instantiate = () => new Promise(() => {});")["identifier"]
+        try:
+            for name, place in (("Materials", "#status"), ("lab05_per_fragment", "#compared")):
+                self.page.open(address(name), "document.readyState === 'complete'")
+                self.assertTrue(self.text(place).startswith("Loading"), name)
+                self.assertNotEqual(self.page.run("getComputedStyle(document.querySelector('canvas')).backgroundColor"),
+                                    "rgb(0, 0, 0)")
+        finally:
+            self.page.call("Page.removeScriptToEvaluateOnNewDocument", identifier=script)
+
+    def test_the_assembled_shader(self):
+        """Has no condition left, and compiles to the same picture in place of the file."""
+        for name, link in (("Materials", ""), ("FourLights", ""), ("Shadows", "shadows=map"), ("Materials", "interpolation=phong"),
+                           ("TwoSidedLighting", "interpolation=phong")):
+            with self.subTest(name, link=link):
+                self.open(name, link)
+                self.page.click("#assembled summary")
+                self.page.wait("document.querySelector('#assembled pre').textContent")
+                text = self.page.run("document.querySelector('#assembled pre').textContent")
+                self.assertNotRegex(text, r"#\s*(if|el|endif|line)")
+                self.assertIn("void main()", text)
+                stage = "vert" if "gl_Position" in text else "frag"
+                self.assertEqual(stage == "vert", "#define VERTEX_LIGHTS" in text)
+                before = self.shown()
+                self.assertEqual(self.page.run(f"""(() => {{
+                    const gl = document.createElement("canvas").getContext("webgl2");
+                    const shader = gl.createShader(gl.{"VERTEX" if stage == "vert" else "FRAGMENT"}_SHADER);
+                    gl.shaderSource(shader, {json.dumps(text)});
+                    gl.compileShader(shader);
+                    return gl.getShaderInfoLog(shader) || "";
+                }})()""").strip("\0"), "")
+                self.assertEqual(self.shown(), before)
+
+    def test_the_comparison_is_seen(self):
+        self.page.resize(1280, 600)
+        self.open("PhongBlinn")
+        self.page.click("#compare")
+        self.page.wait("!document.getElementById('exact').hidden")
+        self.settle()
+        self.assertTrue(self.page.run("""(box => box.top < innerHeight && box.bottom <= innerHeight + 1)(
+            document.getElementById("exact").getBoundingClientRect())"""))
+
+    def test_a_swipe_over_the_picture_scrolls(self):
+        self.page.resize(360, 700)
+        self.open("Materials")
+        self.page.run("scrollTo(0, 0)")
+        for kind, places in (("touchStart", [350]), *(("touchMove", [y]) for y in (330, 300, 250, 200)), ("touchEnd", [])):
+            self.page.call("Input.dispatchTouchEvent", type=kind, touchPoints=[{"x": 150, "y": y, "id": 0} for y in places])
+        self.page.wait("scrollY > 50")
+        self.assertEqual(self.page.run("String(Page.page.orbit)"), "0,0,1,0")
+
+    def test_labs_beside_and_over(self):
+        self.open("lab06_phong")
+        self.page.click("#wipe-on")
+        boxes = self.page.run("""["drawn", "expected"].map(id => document.getElementById(id).getBoundingClientRect().toJSON())""")
+        self.assertEqual(boxes[0], boxes[1])
+        self.page.run("""(slider => { slider.value = 40; slider.dispatchEvent(new Event("input")); })(
+            document.getElementById("wipe"))""")
+        self.assertIn("60%", self.page.run("document.getElementById('drawn').style.clipPath"))
+        self.page.click("#wipe-on")
+        self.assertEqual(self.page.run("document.getElementById('drawn').style.clipPath"), "")
+        # On a phone the pictures and the editor come before the table.
+        self.page.resize(360, 700)
+        order = self.page.run("['h1', '.task p', '#drawn', '.source', 'table'].map(name => "
+                              "document.querySelector(name).getBoundingClientRect().top)")
+        self.assertEqual(order, sorted(order))
+        self.assertLessEqual(self.page.run("document.documentElement.scrollWidth"), 360)
