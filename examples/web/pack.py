@@ -89,6 +89,13 @@ def read(path):
     return path.read_text(encoding="utf-8")
 
 
+def stripped(text):
+    """A script or style without what a browser does not need: indentation, and comments that have lines of their own. No text in
+    one goes over a line's end."""
+    text = re.sub(r"^[ \t]*/\*(?:[^*]|\*(?!/))*\*/[ \t]*\n", "", text, flags=re.MULTILINE)
+    return re.sub(r"^[ \t]+|^\n", "", text, flags=re.MULTILINE)
+
+
 def write(path, text):
     path.write_text(text, encoding="utf-8")
 
@@ -234,7 +241,7 @@ def main():
     (site / "single").mkdir(parents=True)
     write(site / "lighting.js", module_js(module))
     for path in [*here.glob("*.js"), *here.glob("*.css")]:
-        shutil.copy(path, site)
+        write(site / path.name, stripped(read(path)))
     cards = {group: "".join(card(folder, name) for folder, name in programs if folder == group)
              for group in ("lecture", "lighting")}
     version = re.search(r'VERSION "(.*)"', read(pathlib.Path("common/base/version.h"))).group(1)
