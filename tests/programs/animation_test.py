@@ -279,7 +279,7 @@ class Formats(Animations):
                 ("apng has 0.001 to 65535", "-o", "a.apng", "--fps", "65536"),
                 ("webp has at most 16383", "-n", "2", "-o", "a.webp", "-s", "16384x1"),
                 ("too large for ffmpeg", "-o", "a.mp4", "-s", "16384x16129"),
-                ("png, y4m or rgb", "-o", "-", "--format", "gif"),
+                ("png, y4m, rgb or json", "-o", "-", "--format", "gif"),
                 ("to standard output", "-o", "a.gif", "--format", "y4m"),
                 ("to standard output", "--format", "png"),
                 ("format y4m or rgb", "-n", "2", "-o", "-", "--format", "png"),

@@ -134,9 +134,9 @@ class Lights(base.Case):
         for place in seen:
             self.assertLessEqual(abs(faded[place][0] - plain[place][0] / 2), 1, place)
 
-    def test_the_index_shows_attenuation_brightly(self):
-        with open(os.path.join(base.SOURCE, "examples/README.md")) as file:
-            row = re.search(r"^\| Attenuation \| `LightTypes (.*?)`", file.read(), re.M)[1]
+    def test_the_chapter_shows_attenuation_brightly(self):
+        with open(os.path.join(base.SOURCE, "examples/chapter/17-two-sides-spot-attenuation.md")) as file:
+            row = re.search(r"^By the square of the distance\. `(.*?)`", file.read(), re.M)[1]
         floor = view(self.drawn(*row.split(), program="LightTypes"), 3, 2, 3)
         greys = [g for r, g, b in floor.values() if r == g == b and 0 < g < 255]
         self.assertGreater(max(greys), 100)
