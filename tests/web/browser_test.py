@@ -430,7 +430,7 @@ class Pages(Case):
             self.assertEqual(said[:2], [True, True])
             self.assertEqual(said[2:4], [-said[4], -said[5]])  # from the first line, which is above the field
             self.assertGreater(said[5], 0)
-            for word in ("special #define", "number 1.0", "comment /* <b> */", "word void", "special gl_Position"):
+            for word in ("special #define", "number 1.0", "comment /* <b> */", "word void", "special gl_FragColor"):
                 self.assertIn(word, said[6])
         # A long line has none: it is to be typed in without a pause.
         self.page.run("(field => { field.value = '/'.repeat(60000); field.dispatchEvent(new Event('input')); })"
