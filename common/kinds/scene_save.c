@@ -311,8 +311,8 @@ static void put_base64(FILE *file, const unsigned char *bytes, size_t size)
 {
     static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     for (size_t i = 0; i < size; i += 3) {
-        const unsigned word = (unsigned)bytes[i] << 16 | (i + 1 < size ? bytes[i + 1] << 8 : 0) |
-                              (i + 2 < size ? bytes[i + 2] : 0);
+        const unsigned word = (unsigned)bytes[i] << 16 | (i + 1 < size ? bytes[i + 1] * 256u : 0u) |
+                              (i + 2 < size ? bytes[i + 2] : 0u);
         for (unsigned k = 0; k < 4; k++)
             fputc(i + k > size ? '=' : digits[word >> (18 - 6 * k) & 63], file);
     }

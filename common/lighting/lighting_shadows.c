@@ -216,7 +216,7 @@ static bool cast_shadow(const ShadowFrame *frame, const ShadowEnds *ends, int li
     Mat4 object_from_world;
     vec3_normalize(light.direction, &light.direction);
     if (!mat4_inverse(object->world_from_object, &object_from_world))
-        return message_set(message, "object %d: singular transform: casts no shadow", number);
+        return true; /* flattened: no volume lies behind it */
     const Vec4 end = shadow_ends_choose(ends, &plan->pairs.placed[number], &light);
     const Vec4 light_object = mat4_transform(object_from_world, light_place(&light));
     const PlacedBox seen = eye_box(frame);

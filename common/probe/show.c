@@ -327,7 +327,11 @@ static bool check_draws(const Capture *capture, Message *message)
         const CaptureDraw *draw = &capture->draws[i];
         if (draw->mode >= GL_TRIANGLES && (draw->blends || draw->tests_stencil))
             return message_set(message, "it is drawn with %s, which is not imitated",
-                               draw->blends ? "blending" : "a stencil, as volumes of shadow are");
+                               draw->blends ? "blending" : "a stencil");
+        for (int k = 0; k < draw->texture_count; k++)
+            if (draw->textures[k] && !draw->textures[k]->texels)
+                return message_set(message, "its shaders read a texture of depths, as those of "
+                                            "--shadows map do, which OpenGL ES 2 cannot read back");
     }
     return true;
 }
@@ -353,6 +357,12 @@ bool show_open(Show *show, const Capture *capture, const GlslArithmetic *driver,
         done = message_set(message, "show: not enough memory for %dx%d pixels", size[0], size[1]);
     if (done)
         work_all(&job);
+    bool shown = !done || job.component < 0;
+    for (int i = 0; i < size[0] * size[1] && !shown; i++)
+        shown = show->pixels[i].count > 0;
+    show->unknown |= !shown;
+    if (!shown)
+        done = message_set(message, "%s: nothing that is drawn has this component", what);
     free(job.stages);
     raster_close(raster);
     return done;

@@ -63,7 +63,7 @@ static void finish(void)
 const Example Scene_ = {
     .name = "Scene",
     .summary = "a scene from a file: glTF 2.0, FBX, COLLADA, Blender, 3DS",
-    .tries = {"room.glb --explain", "room.glb --shadows", "room.gltf --camera fit --error 1"},
+    .tries = {"room.glb --explain", "room.glb --shadows on", "room.gltf --camera fit --error 1"},
     .looks = {"what each object needs, and what of the file is not drawn",
               "every light of the file has shadows",
               "as cheap as an error of one step of 1/255 allows"},
