@@ -335,8 +335,6 @@ void main()
         "lamp[0].position": {"is": "u_LightPosition", "light": 0}, "lamp[0].direction": "u_SpotDirection",
         "lamp[0].diffuse": {"is": "u_LightColor", "light": 0}, "lamp[0].cutOff": "cosine of 0.8 u_SpotCutoff",
         "lamp[0].outerCutOff": "cosine of u_SpotCutoff", "lamp[0].linear": "linear of u_Attenuation",
-        "wrap": {"value": 0.5, "min": 0.25, "max": 0.75},
-        "mist": {"value": [0.5] * 3, "min": [0.25] * 3, "max": [0.75] * 3},
     }
 
     def make(self, vertex, fragment, name="mist_lab"):
@@ -349,6 +347,9 @@ void main()
         lab = self.path("mist_lab")
         with open(os.path.join(lab, "lab.json")) as file:
             made = json.load(file)
+        own = [made["uniforms"].pop(name) for name in ("wrap", "mist")]
+        self.assertNotEqual(own[0]["value"], own[1]["value"][0])  # one cannot stand for the other
+        self.assertEqual([round(most / least, 5) for most, least in zip(own[1]["max"], own[1]["min"])], [3] * 3)
         self.assertEqual(made["uniforms"], {name.replace("lamp", "light"): meant for name, meant in self.MEANT.items()})
         self.assertEqual((made["attributes"], made["light"]), ({"position": "aPos", "normal": "aNormal"}, "spot"))
         self.assertEqual(result(lab, os.path.join(lab, "solution"))["points"], 10)
@@ -359,6 +360,12 @@ void main()
         self.assertNotIn("smoothstep", starter)
         self.assertIn("| `wrap` | uniform float | to do |", read(lab, "TASK.md"))
         self.assertTrue(os.path.exists(os.path.join(lab, "expected.png")))
+
+    def test_a_solution_that_draws_nothing_is_said(self):
+        result = self.make("attribute vec4 aPos;\nvoid main() { gl_Position = vec4(aPos.xyz + 9.0, 1.0); }\n",
+                           "precision mediump float;\nvoid main() { gl_FragColor = vec4(1.0); }\n")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("the solution draws one colour and nothing else", result.stderr)
 
     def test_light_at_the_vertices(self):
         for name in "lab01_diffuse", "lab09_two_sided":

@@ -4,6 +4,8 @@
 #include "labs/check/judge.h"
 #include "labs/program/lab_scene_open.h"
 
+#include <string.h>
+
 bool judge_worst(const LabPictures *pictures, int number, const char *folder, Message *message)
 {
     Image sheet = {0};
@@ -36,6 +38,13 @@ static bool draw_solution(const Lab *lab, const LabScene *lab_scene, Image *imag
     return done;
 }
 
+static bool is_plain(const Image *image)
+{
+    const size_t row = image_row_size(image), pixel = row / (size_t)image->width;
+    const char *pixels = image->pixels;
+    return memcmp(pixels, pixels + pixel, row * (size_t)image->height - pixel) == 0;
+}
+
 bool judge_expected(const Lab *lab, const char *path, Message *message)
 {
     enum { SIZE = 400 };
@@ -49,10 +58,14 @@ bool judge_expected(const Lab *lab, const char *path, Message *message)
     const Scene scene = lab_pictures_truth_scene(lab, &lab_scene, 0, objects);
     const ImageOptions file = {.compress = 9};
     lab_scene.width = lab_scene.height = SIZE;
-    const bool done = (lab->solution_count ? draw_solution(lab, &lab_scene, &image, message)
-                                           : reference_open(&exact, &scene, &options, message) &&
-                                                 reference_image(&exact, &image, message)) &&
-                      image_write(&image, path, &file, message);
+    const bool done =
+        (lab->solution_count ? draw_solution(lab, &lab_scene, &image, message)
+                             : reference_open(&exact, &scene, &options, message) &&
+                                   reference_image(&exact, &image, message)) &&
+        image_write(&image, path, &file, message) &&
+        (!is_plain(&image) ||
+         message_set(message, "the solution draws one colour and nothing else: what do "
+                              "the uniforms in lab.json stand for?"));
     image_close(&image);
     reference_close(&exact);
     lab_scene_close(&lab_scene);

@@ -35,6 +35,7 @@ static const Rule RULES[] = {
     {'m', "model", "view", "u_ModelViewMatrix", "model space to eye space"},
     {'m', "model", "", "u_ModelMatrix", "model space to world space"},
     {'m', "world", "", "u_ModelMatrix", "model space to world space"},
+    {'m', "view", "proj", "u_ViewProjMatrix", "world space to clip space"},
     {'m', "view", "", "u_ViewMatrix", "world space to eye space"},
     {'m', "proj", "", "u_ProjMatrix", "eye space to clip space"},
     {'v', "spot", "dir", "u_SpotDirection", "the spot light's axis; world space, normalized"},
@@ -54,6 +55,11 @@ static const Rule RULES[] = {
     {'v', "light", "dir", "u_LightDirection", "to the light; world space, normalized"},
     {'v', "light", "col", "u_LightColor", "its colour, including intensity"},
     {'v', "light", "diff", "u_LightColor", "its colour, including intensity"},
+    {'v', "lamp", "pos", "u_LightPosition", "world space"},
+    {'v', "lamp", "dir", "u_LightDirection", "to the light; world space, normalized"},
+    {'v', "lamp", "col", "u_LightColor", "its colour, including intensity"},
+    {'v', "sun", "dir", "u_LightDirection", "to the light; world space, normalized"},
+    {'v', "sun", "col", "u_LightColor", "its colour, including intensity"},
     {'f', "shin", "", "u_Shininess", "the highlight's exponent"},
     {'f', "spot", "exp", "u_SpotExponent", "how fast the spot light falls off"},
     {'f', "outer", "cut", "cosine of u_SpotCutoff", "cosine of half the outer cone's angle"},
@@ -221,16 +227,18 @@ static void put_scene(JsonWriter *json, const Making *making, bool spot)
     json_write_end(json);
 }
 
-static void put_own(JsonWriter *json, const Found *found)
+/* All have other values, so that none can stand for another. */
+static void put_own(JsonWriter *json, const Found *found, int number)
 {
     static const char *const names[] = {"value", "min", "max"};
-    static const double values[] = {0.5, 0.25, 0.75};
+    static const double factors[] = {1, 0.5, 1.5};
     json_write_object(json, found->name);
     for (int k = 0; k < 3; k++) {
         if (found->size > 1)
             json_write_list(json, names[k]);
         for (int i = 0; i < found->size; i++)
-            json_write_number(json, found->size > 1 ? NULL : names[k], values[k]);
+            json_write_number(json, found->size > 1 ? NULL : names[k],
+                              factors[k] * (0.2 + 0.1 * ((3 * number + 2 * i) % 5)));
         if (found->size > 1)
             json_write_end(json);
     }
@@ -251,7 +259,7 @@ static void put_uniforms(JsonWriter *json, const Making *making, bool attributes
         if (attributes) {
             json_write_text(json, found->rule->is, found->name);
         } else if (!found->rule) {
-            put_own(json, found);
+            put_own(json, found, i);
         } else if (found->light < 0 || !strstr(found->rule->is, "u_Light")) {
             json_write_text(json, found->name, found->rule->is);
         } else {
@@ -335,10 +343,11 @@ static int before_functions(const Making *making, GlslStage stage)
 static void put_position(const Making *making, FILE *file)
 {
     static const char *const ways[][3] = {{"u_MvpMatrix"},
+                                          {"u_ViewProjMatrix", "u_ModelMatrix"},
                                           {"u_ProjMatrix", "u_ModelViewMatrix"},
                                           {"u_ProjMatrix", "u_ViewMatrix", "u_ModelMatrix"}};
     const Found *position = find(making, "position");
-    for (int w = 0; w < 3 && position; w++) {
+    for (int w = 0; w < 4 && position; w++) {
         bool all = true;
         for (int k = 0; k < 3 && ways[w][k]; k++)
             all &= find(making, ways[w][k]) != NULL;
@@ -397,6 +406,16 @@ static void guess_again(Making *making)
     }
 }
 
+static void tell_guesses(const Making *making)
+{
+    for (int i = 0; i < making->count; i++) {
+        const Found *found = &making->found[i];
+        printf("%s: %s%s%s\n", found->name, found->rule ? found->rule->is : "nothing fits",
+               found->rule ? ", " : "; a value of the lab's own: set its range in lab.json",
+               found->rule ? found->rule->meaning : "");
+    }
+}
+
 static bool put_files(Making *making)
 {
     char solution[PATH_MAX], expected[PATH_MAX], name[LAB_NAME_SIZE + 8];
@@ -420,6 +439,7 @@ static bool put_files(Making *making)
     }
     if (!done || !put_json(making) || !put_task(making))
         return false;
+    tell_guesses(making);
     const Lab *lab = lab_open(making->folder, message);
     if (lab && judge_expected(lab, expected, message))
         return true;

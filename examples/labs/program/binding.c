@@ -194,6 +194,7 @@ static bool gather(Values *values, const Lab *lab, const Drawn *drawn, Message *
     add_matrix(values, "u_NormalMatrix", normal);
     add_matrix(values, "u_ViewMatrix", eye_from_world);
     add_matrix(values, "u_ProjMatrix", clip_from_eye);
+    add_matrix(values, "u_ViewProjMatrix", mat4_product(clip_from_eye, eye_from_world));
     add_matrix(values, "u_ModelViewMatrix", eye_from_model);
     add_matrix(values, "u_EyeNormalMatrix", eye_normal);
     add_vector(values, "u_EyePosition", KIND_POINT, scene->camera.eye);
