@@ -176,7 +176,7 @@ static int find_repair(Derivation *all, const Values *rights, const Values *own,
                                    .symbol = right->items[k].symbol,
                                    .stage = right->items[k].stage,
                                    .offset = offset};
-                if (repairs(all, rights, own->items[i].stage, repair))
+                if (repairs(all, rights, (int)own->items[i].stage, repair))
                     return i;
             }
         }
