@@ -250,9 +250,10 @@ def divided_at_vertices():
 
 
 def read(lab):
+    """A submission that is right; "_apart" is another form of it."""
     folder = os.path.join(SOLUTIONS, NAMES[lab])
     texts = {}
-    for name in sorted(os.listdir(folder)):
+    for name in sorted(name for name in os.listdir(folder) if "_apart" not in name):
         with open(os.path.join(folder, name)) as file:
             texts[name] = file.read()
     return texts
