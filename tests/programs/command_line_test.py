@@ -1546,7 +1546,9 @@ class Again(Case):
             if b"Command" not in data:
                 continue  # of a window or a page
             picture, (program, *words) = Png(data), self.command(data)
-            again = self.drawn(*words, program=program, cwd=os.path.dirname(path))
+            result = self.run_it(*words, "-o", "-", program=program, cwd=os.path.dirname(path))
+            self.assertEqual((result.returncode, result.stderr == b""), (0, "--show" not in words), path)
+            again = Png(result.stdout)
             self.assertEqual((picture.width, picture.height), (again.width, again.height), path)
             other = sum(abs(a - b) > 8 for a, b in zip(picture.pixels, again.pixels))
             # A diagram is full of letters, each of which another FreeType places otherwise.

@@ -926,7 +926,7 @@ class Pages(Case):
         # A page that is sent has no others beside it.
         self.open("single/PointLightedCube")
         self.assertIn("The predecessor is LightedTranslatedRotatedCube.", self.text(".diff"))
-        self.assertEqual(self.page.run("document.querySelectorAll('a[href$=\".html\"]').length"), 0)
+        self.assertEqual(self.page.run("document.querySelectorAll('a[href$=\".html\"]:not(#whole)').length"), 0)
 
     def test_one_file_draws_by_itself(self):
         with tempfile.TemporaryDirectory() as folder:

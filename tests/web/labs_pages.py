@@ -430,8 +430,7 @@ class Labs(OfLabs):
         self.put(mistakes.read(10))
         self.page.wait("parseFloat(document.getElementById('compared').textContent.split(': ')[1]) < 1.3")
         self.finish()
-        self.assertIn("right, 5 of 10 points", self.text("#result"))
-        self.assertIn("check natively", self.text("#result"))
+        self.assertIn("right, 10 of 10 points", self.text("#result"))
         budget = mistakes.read(10)["budget.c"]
         for text, message in ((budget.replace("112", "56 * 2"), "reads lines like"), (budget.replace("112", "1"), "3 to 512"),
                               ("#define X\n" + budget, "reads lines like"), ("int" + budget, "reads lines like")):
