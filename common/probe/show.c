@@ -330,8 +330,9 @@ static bool check_draws(const Capture *capture, Message *message)
                                draw->blends ? "blending" : "a stencil");
         for (int k = 0; k < draw->texture_count; k++)
             if (draw->textures[k] && !draw->textures[k]->texels)
-                return message_set(message, "its shaders read a texture of depths, as those of "
-                                            "--shadows map do, which OpenGL ES 2 cannot read back");
+                return message_set(message,
+                                   "its shaders read a texture of depths, as maps of shadows are, "
+                                   "which OpenGL ES 2 cannot read back");
     }
     return true;
 }
