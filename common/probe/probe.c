@@ -65,17 +65,12 @@ bool probe_samplers(FILE *file, const CaptureDraw *draw)
     bool known = true;
     for (int i = 0; i < draw->uniform_count; i++) {
         const CaptureUniform *uniform = &draw->uniforms[i];
-        const int texture = uniform->type == GL_SAMPLER_2D ? (int)uniform->values[0] : 0;
-        if (uniform->type == GL_SAMPLER_CUBE) {
-            fprintf(file, "%s: a cube map, which is not read: taken as black\n", uniform->name);
-            known = false;
-        } else if (uniform->type == GL_SAMPLER_2D && texture < 0)
+        const char *unread = raster_unread(draw, uniform);
+        if (unread)
+            fprintf(file, "%s: %s: taken as black\n", uniform->name, unread);
+        else if (uniform->type == GL_SAMPLER_2D && uniform->values[0] < 0)
             fprintf(file, "%s: a sampler without a texture: black\n", uniform->name);
-        else if (uniform->type == GL_SAMPLER_2D && !draw->textures[texture]->texels) {
-            fprintf(file, "%s: a depth texture, which cannot be read: taken as black\n",
-                    uniform->name);
-            known = false;
-        }
+        known &= !unread;
     }
     return known;
 }
@@ -107,7 +102,7 @@ static bool put_remarks(FILE *file, const Probe *probe, const GlslRun *run)
     put_notes(file, draw->sources[1], run, run->note_count);
     for (int c = 0; c < 3; c++) {
         run = raster_vertex(probe->raster, probe->pixel.draw, probe->pixel.corners[c],
-                            &GLSL_LLVMPIPE);
+                            raster_driver(probe->raster));
         if (run->note_count)
             fprintf(file, "vertex %u: ", probe->pixel.corners[c]);
         put_notes(file, draw->sources[0], run, run->note_count > 0);

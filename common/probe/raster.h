@@ -52,6 +52,9 @@ void raster_log(Raster *raster, bool always);
 const GlslRun *raster_vertex(Raster *raster, int draw, unsigned vertex,
                              const GlslArithmetic *arithmetic);
 
+/* What a sampler has that is not read, and is black instead; NULL: nothing, or it is no sampler. */
+const char *raster_unread(const CaptureDraw *draw, const CaptureUniform *uniform);
+
 /* NULL: not a draw of triangles. */
 const GlslCode *raster_code(const Raster *raster, int draw, int stage);
 

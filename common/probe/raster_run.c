@@ -53,6 +53,16 @@ static void look_up(void *context, int unit, int function, const double *coordin
         color[i] = (double)texture->texels[4 * (y * texture->width + x) + i];
 }
 
+const char *raster_unread(const CaptureDraw *draw, const CaptureUniform *uniform)
+{
+    if (uniform->type == GL_SAMPLER_CUBE)
+        return "a cube map, which is not read";
+    if (uniform->type == GL_SAMPLER_2D && uniform->values[0] >= 0 &&
+        !draw->textures[(int)uniform->values[0]]->texels)
+        return "a depth texture, which cannot be read";
+    return NULL;
+}
+
 static void set_uniforms(GlslRun *run, const CaptureDraw *draw)
 {
     for (int i = 0; i < draw->uniform_count; i++) {

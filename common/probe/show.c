@@ -328,11 +328,11 @@ static bool check_draws(const Capture *capture, Message *message)
         if (draw->mode >= GL_TRIANGLES && (draw->blends || draw->tests_stencil))
             return message_set(message, "it is drawn with %s, which is not imitated",
                                draw->blends ? "blending" : "a stencil");
-        for (int k = 0; k < draw->texture_count; k++)
-            if (draw->textures[k] && !draw->textures[k]->texels)
-                return message_set(message,
-                                   "its shaders read a texture of depths, as maps of shadows are, "
-                                   "which OpenGL ES 2 cannot read back");
+        for (int k = 0; k < draw->uniform_count; k++) {
+            const char *unread = raster_unread(draw, &draw->uniforms[k]);
+            if (unread)
+                return message_set(message, "%s is %s", draw->uniforms[k].name, unread);
+        }
     }
     return true;
 }
