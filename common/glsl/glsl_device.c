@@ -8,19 +8,27 @@
 #include <string.h>
 
 /* clang-format off */
+#define DOUBLE {53, -1022, 1023, true}
 #define FLOAT {24, -126, 127, false}
 #define KEPT {24, -126, 127, true}
 #define HALF {11, -14, 15, true}
-#define ALL(highp, mediump) {{53, -1022, 1023, true}, mediump, mediump, highp}
+#define ALL(highp, mediump) {DOUBLE, mediump, mediump, highp}
 /* clang-format on */
 
+const GlslArithmetic GLSL_EXACT = {.of = ALL(DOUBLE, DOUBLE)};
+const GlslArithmetic GLSL_LLVMPIPE = {.of = ALL(FLOAT, HALF), .mesa = true, .fused = true};
+static const GlslArithmetic NARROW = {.of = ALL(FLOAT, FLOAT), .mesa = true}; /* no F16C, no FMA */
+static const GlslArithmetic SOFTPIPE = {.of = ALL(FLOAT, FLOAT)};
+static const GlslArithmetic HALVED = {.of = ALL(FLOAT, HALF)};
+static const GlslArithmetic WHOLE = {.of = ALL(KEPT, KEPT)};
+
 const GlslDevice GLSL_DEVICES[] = {
-    {"llvmpipe", {.of = ALL(FLOAT, HALF), .mesa = true, .fused = true}},
-    {"llvmpipe-128", {.of = ALL(FLOAT, FLOAT), .mesa = true}}, /* without F16C and FMA */
-    {"softpipe", {.of = ALL(KEPT, KEPT)}},
-    {"half", {.of = ALL(FLOAT, HALF)}},
-    {"float", {.of = ALL(KEPT, KEPT)}},
-    {NULL, {.mesa = false}},
+    {"llvmpipe", &GLSL_LLVMPIPE},
+    {"llvmpipe-128", &NARROW},
+    {"softpipe", &SOFTPIPE},
+    {"half", &HALVED},
+    {"float", &WHOLE},
+    {NULL, &GLSL_LLVMPIPE},
 };
 
 /* "24,-126,127,kept" after `name`. */
@@ -42,7 +50,7 @@ bool glsl_arithmetic_read(const char *text, GlslArithmetic *arithmetic)
     const GlslDevice *device = GLSL_DEVICES;
     while (device->name && strcmp(device->name, text) != 0)
         device++;
-    *arithmetic = device->name ? device->arithmetic : GLSL_DEVICES[0].arithmetic;
+    *arithmetic = *device->arithmetic;
     if (device->name)
         return true;
     arithmetic->mesa = arithmetic->fused = strstr(text, "llvmpipe") != NULL;

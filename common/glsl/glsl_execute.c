@@ -13,15 +13,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* clang-format off */
-const GlslArithmetic GLSL_EXACT = {.of = {{53, -1022, 1023, true}, {53, -1022, 1023, true},
-                                          {53, -1022, 1023, true}, {53, -1022, 1023, true}}};
-const GlslArithmetic GLSL_LLVMPIPE = {.of = {{53, -1022, 1023, true}, {11, -14, 15, true},
-                                             {11, -14, 15, true}, {24, -126, 127, false}},
-                                      .mesa = true,
-                                      .fused = true};
-/* clang-format on */
-
 /* What a variable holds before it has a value: a NaN that no operation makes. */
 static const uint64_t UNSET = 0x7ff8dead00000001;
 

@@ -65,7 +65,7 @@ extern const GlslArithmetic GLSL_EXACT, GLSL_LLVMPIPE;
 
 typedef struct GlslDevice {
     const char *name;
-    GlslArithmetic arithmetic;
+    const GlslArithmetic *arithmetic;
 } GlslDevice;
 extern const GlslDevice GLSL_DEVICES[]; /* the last has no name */
 
