@@ -68,27 +68,26 @@ static void set_uniforms(GlslRun *run, const CaptureDraw *draw)
     for (int i = 0; i < draw->uniform_count; i++) {
         const CaptureUniform *uniform = &draw->uniforms[i];
         for (int k = 0; k < uniform->length; k++) {
-            char *name = memory_format(uniform->length > 1 ? "%s[%d]" : "%s", uniform->name, k);
-            double values[16];
-            for (int j = 0; j < uniform->numbers; j++)
-                values[j] = (double)uniform->values[k * uniform->numbers + j];
-            set(run, name, values, uniform->numbers);
-            free(name);
+            GlslVariable found;
+            if (!stages_uniform(run->code, uniform, k, &found))
+                continue;
+            for (int j = 0; j < uniform->numbers && j < found.count; j++)
+                run->registers[found.first + j] = (double)uniform->values[k * uniform->numbers + j];
         }
     }
 }
 
 static GlslRun *begin(Raster *raster, int draw, int stage, const GlslArithmetic *arithmetic)
 {
-    Stages *stages = &raster->stages[raster->draws[draw].stages];
-    GlslRun *run = stages->runs[stage];
+    RasterProgram *program = &raster->programs[raster->draws[draw].program];
+    GlslRun *run = program->runs[stage];
     run->arithmetic = arithmetic;
     run->exact_from = INT_MAX;
     run->texture = look_up;
     run->context = &raster->capture->draws[draw];
-    if (stages->set_for[stage] != draw + 1)
+    if (program->set_for[stage] != draw + 1)
         set_uniforms(run, &raster->capture->draws[draw]);
-    stages->set_for[stage] = draw + 1;
+    program->set_for[stage] = draw + 1;
     return run;
 }
 
@@ -107,59 +106,20 @@ static void run_vertex(GlslRun *run, const CaptureDraw *draw, unsigned vertex)
 
 /* Opening */
 
-static bool compile(Stages *stages, const CaptureDraw *draw, Message *message)
-{
-    for (int i = 0; i < 2; i++) {
-        if (!draw->sources[i])
-            return message_set(message, "a program without its sources was drawn with");
-        stages->sources[i] = draw->sources[i];
-        stages->trees[i] = glsl_parse(draw->sources[i], i ? GLSL_FRAGMENT : GLSL_VERTEX, NULL);
-        if (stages->trees[i]->message_count)
-            return message_set(message, "%s shader: line %d: %s", i ? "fragment" : "vertex",
-                               stages->trees[i]->messages[0].place.line,
-                               stages->trees[i]->messages[0].text);
-        if (!glsl_check_whole(stages->trees[i]))
-            return message_set(message, "%s shader: %s", i ? "fragment" : "vertex",
-                               stages->trees[i]->messages[0].text);
-        stages->codes[i] = glsl_compile(stages->trees[i]);
-        if (stages->codes[i]->message.text[0])
-            return message_set(message, "%s shader: line %d: %s", i ? "fragment" : "vertex",
-                               stages->codes[i]->message.place.line,
-                               stages->codes[i]->message.text);
-        stages->runs[i] = glsl_run_open(stages->codes[i]);
-    }
-    return true;
-}
-
-/* The varyings that both stages have. */
-static void link_stages(Stages *stages)
-{
-    const GlslCode *fragment = stages->codes[1];
-    stages->links = memory_new((size_t)fragment->variable_count + 1, sizeof *stages->links);
-    for (int k = 0; k < fragment->variable_count; k++) {
-        const GlslVariable *to = &fragment->variables[k];
-        GlslVariable from;
-        if (to->storage != GLSL_VARYING || !glsl_find(stages->codes[0], to->name, &from))
-            continue;
-        const int count = to->count < from.count ? to->count : from.count;
-        stages->links[stages->link_count++] =
-            (Link){to->first, from.first, count, stages->handed, to->name};
-        stages->handed += count;
-    }
-}
-
-static bool find_stages(Raster *raster, const CaptureDraw *draw, int *number, Message *message)
+static bool find_program(Raster *raster, const CaptureDraw *draw, int *number, Message *message)
 {
     for (*number = 0; *number < raster->count; ++*number) {
-        const Stages *known = &raster->stages[*number];
+        const Stages *known = &raster->programs[*number].stages;
         if (known->sources[0] == draw->sources[0] && known->sources[1] == draw->sources[1])
             return true;
     }
-    Stages *made = memory_add(&raster->stages, &raster->count, &raster->room, sizeof *made);
-    *made = (Stages){.sources = {NULL, NULL}};
-    if (!compile(made, draw, message))
+    RasterProgram *made =
+        memory_add(&raster->programs, &raster->count, &raster->room, sizeof *made);
+    *made = (RasterProgram){.set_for = {0, 0}};
+    if (!stages_open(&made->stages, draw, message))
         return false;
-    link_stages(made);
+    for (int i = 0; i < 2; i++)
+        made->runs[i] = glsl_run_open(made->stages.codes[i]);
     return true;
 }
 
@@ -204,7 +164,7 @@ bool raster_open(Raster **opened, const Capture *capture, const GlslArithmetic *
     for (int i = 0; i < capture->draw_count; i++) {
         if (!raster_is_filled(&capture->draws[i]))
             continue;
-        if (!find_stages(raster, &capture->draws[i], &raster->draws[i].stages, message)) {
+        if (!find_program(raster, &capture->draws[i], &raster->draws[i].program, message)) {
             raster_close(raster);
             *opened = NULL;
             return false;
@@ -223,26 +183,17 @@ Raster *raster_beside(const Raster *first)
 {
     Raster *raster = memory_copy(first, sizeof *first);
     raster->first = first;
-    raster->stages = memory_copy(first->stages, sizeof *first->stages * (size_t)first->count);
+    raster->programs = memory_copy(first->programs, sizeof *first->programs * (size_t)first->count);
     raster->draws =
         memory_copy(first->draws, sizeof *first->draws * (size_t)first->capture->draw_count);
     for (int i = 0; i < raster->count; i++)
         for (int k = 0; k < 2; k++) {
-            raster->stages[i].runs[k] = glsl_run_open(raster->stages[i].codes[k]);
-            raster->stages[i].set_for[k] = 0;
+            raster->programs[i].runs[k] = glsl_run_open(raster->programs[i].stages.codes[k]);
+            raster->programs[i].set_for[k] = 0;
         }
     for (int i = 0; i < raster->capture->draw_count; i++)
         memset(raster->draws[i].handed, 0, sizeof raster->draws[i].handed);
     return raster;
-}
-
-static void close_stage(Stages *stages, int stage, bool owned)
-{
-    glsl_run_close(stages->runs[stage]);
-    if (owned && stages->codes[stage])
-        glsl_code_free(stages->codes[stage]);
-    if (owned && stages->trees[stage])
-        glsl_tree_free(stages->trees[stage]);
 }
 
 void raster_close(Raster *raster)
@@ -251,9 +202,9 @@ void raster_close(Raster *raster)
         return;
     for (int i = 0; i < raster->count; i++) {
         for (int k = 0; k < 2; k++)
-            close_stage(&raster->stages[i], k, !raster->first);
+            glsl_run_close(raster->programs[i].runs[k]);
         if (!raster->first)
-            free(raster->stages[i].links);
+            stages_close(&raster->programs[i].stages);
     }
     for (int i = 0; i < raster->capture->draw_count; i++) {
         DrawState *draw = &raster->draws[i];
@@ -265,7 +216,7 @@ void raster_close(Raster *raster)
             free(draw->places);
     }
     free(raster->draws);
-    free(raster->stages);
+    free(raster->programs);
     free(raster);
 }
 
@@ -285,7 +236,7 @@ static const double *hand_over(Raster *raster, int draw, unsigned vertex,
                                const GlslArithmetic *arithmetic)
 {
     DrawState *state = &raster->draws[draw];
-    const Stages *stages = &raster->stages[state->stages];
+    const Stages *stages = &raster->programs[state->program].stages;
     const size_t room = (size_t)state->most + 1, each = (size_t)stages->handed;
     const int exact = arithmetic == &GLSL_EXACT;
     if (state->handed[exact].arithmetic != arithmetic) {
@@ -312,9 +263,9 @@ static const double *hand_over(Raster *raster, int draw, unsigned vertex,
 static void interpolate(Raster *raster, const RasterPixel *pixel, GlslRun *fragment,
                         const GlslArithmetic *arithmetic)
 {
-    const Stages *stages = &raster->stages[raster->draws[pixel->draw].stages];
+    const Stages *stages = &raster->programs[raster->draws[pixel->draw].program].stages;
     for (int k = 0; k < stages->link_count; k++) {
-        const Link *link = &stages->links[k];
+        const StageLink *link = &stages->links[k];
         const bool kept = raster->kept && strcmp(link->name, raster->kept) == 0;
         const double *corners[3];
         for (int c = 0; c < 3; c++)
@@ -363,6 +314,6 @@ const GlslRun *raster_run(Raster *raster, const RasterPixel *pixel,
 const GlslCode *raster_code(const Raster *raster, int draw, int stage)
 {
     return raster_is_filled(&raster->capture->draws[draw])
-               ? raster->stages[raster->draws[draw].stages].codes[stage]
+               ? raster->programs[raster->draws[draw].program].stages.codes[stage]
                : NULL;
 }

@@ -5,28 +5,18 @@
 #define RASTER_STATE_H
 
 #include "probe/raster.h"
+#include "probe/stages.h"
 
-/* A varying's registers in the fragment's run and in the vertex's, and its place among the numbers
- * that a vertex hands over. */
-typedef struct Link {
-    int fragment, vertex, count, at;
-    const char *name;
-} Link;
-
-/* Both stages of a program, once for all its draws. */
-typedef struct Stages {
-    const char *sources[2];
-    GlslTree *trees[2];
-    GlslCode *codes[2];
+/* Shaders, once for all draws that have the same. */
+typedef struct RasterProgram {
+    Stages stages;
     GlslRun *runs[2];
-    Link *links;
-    int link_count, handed; /* handed: the numbers of all links */
-    int set_for[2];         /* the draw whose uniforms the runs hold, plus 1 */
-} Stages;
+    int set_for[2]; /* the draw whose uniforms the runs hold, plus 1 */
+} RasterProgram;
 
 /* Of the vertices, by number. */
 typedef struct DrawState {
-    int stages;
+    int program;
     unsigned most;       /* the last vertex */
     double (*places)[4]; /* clip coordinates, as the driver computes them */
     struct {
@@ -39,7 +29,7 @@ typedef struct DrawState {
 struct Raster {
     const Capture *capture;
     const GlslArithmetic *driver;
-    Stages *stages;
+    RasterProgram *programs;
     int count, room;
     DrawState *draws;
     const Raster *first; /* which owns what is constant; NULL: this one */

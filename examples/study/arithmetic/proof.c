@@ -8,18 +8,13 @@
 #include "study/arithmetic/proof.h"
 
 #include "base/memory.h"
+#include "core/shader_source.h"
 #include "lighting/lighting.h"
+#include "probe/stages.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* A varying in both stages: registers, and where a vertex's numbers have it. */
-typedef struct Varying {
-    int vertex, fragment, first, count;
-} Varying;
-
-enum { VARYINGS = 32 };
 
 /* A number of a vertex. */
 typedef struct Output {
@@ -27,13 +22,10 @@ typedef struct Output {
 } Output;
 
 typedef struct ProofDraw {
-    GlslTree *trees[2];
-    GlslCode *codes[2];
+    Stages stages;
     GlslBoundRun *runs[2];
     GlslErrors errors[2];
-    Varying varyings[VARYINGS];
-    int varying_count, outputs;
-    Output *vertices;    /* by number, `outputs` of each */
+    Output *vertices;    /* by number, what each hands over */
     double (*places)[4]; /* clip coordinates */
 } ProofDraw;
 
@@ -87,40 +79,14 @@ static void set_uniforms(GlslBoundRun *run, const CaptureDraw *draw)
         const CaptureUniform *uniform = &draw->uniforms[i];
         for (int k = 0; k < uniform->length; k++) {
             GlslVariable found;
-            char *name = memory_format(uniform->length > 1 ? "%s[%d]" : "%s", uniform->name, k);
-            const bool used = glsl_find(run->code, name, &found);
+            const bool used = stages_uniform(run->code, uniform, k, &found);
             for (int j = 0; used && j < uniform->numbers && j < found.count; j++) {
                 const double value = (double)uniform->values[k * uniform->numbers + j];
                 run->inputs[found.first + j] =
                     (GlslInput){.middle = value, .error = uniform_error(value)};
             }
-            free(name);
         }
     }
-}
-
-static bool compile(ProofDraw *made, const CaptureDraw *draw, const ProofDriver *driver,
-                    Message *message)
-{
-    for (int i = 0; i < 2; i++) {
-        made->trees[i] = glsl_parse(draw->sources[i], i ? GLSL_FRAGMENT : GLSL_VERTEX, NULL);
-        made->codes[i] = glsl_compile(made->trees[i]);
-        made->errors[i] = errors_of(driver, i);
-        if (made->codes[i]->message.text[0])
-            return message_set(message, "%s shader: line %d: %s", i ? "fragment" : "vertex",
-                               made->codes[i]->message.place.line, made->codes[i]->message.text);
-    }
-    for (int i = 0; i < made->codes[1]->variable_count; i++) {
-        const GlslVariable *to = &made->codes[1]->variables[i];
-        GlslVariable from;
-        if (to->storage != GLSL_VARYING || !glsl_find(made->codes[0], to->name, &from) ||
-            made->varying_count == VARYINGS)
-            continue;
-        made->varyings[made->varying_count++] =
-            (Varying){from.first, to->first, made->outputs, to->count};
-        made->outputs += to->count;
-    }
-    return true;
 }
 
 static void run_vertex(ProofDraw *made, const CaptureDraw *draw, unsigned vertex)
@@ -135,10 +101,11 @@ static void run_vertex(ProofDraw *made, const CaptureDraw *draw, unsigned vertex
                 run->inputs[found.first + k] = (GlslInput){.middle = (double)value[k]};
     }
     glsl_bound_run(run);
-    for (int i = 0; i < made->varying_count; i++)
-        for (int k = 0; k < made->varyings[i].count; k++) {
-            const GlslBound bound = glsl_bound(run, made->varyings[i].vertex + k);
-            made->vertices[vertex * (size_t)made->outputs + (size_t)(made->varyings[i].first + k)] =
+    Output *handed = made->vertices + vertex * (size_t)made->stages.handed;
+    for (int i = 0; i < made->stages.link_count; i++)
+        for (int k = 0; k < made->stages.links[i].count; k++) {
+            const GlslBound bound = glsl_bound(run, made->stages.links[i].vertex + k);
+            handed[made->stages.links[i].at + k] =
                 (Output){(bound.exact.low + bound.exact.high) / 2,
                          run->stopped ? (double)INFINITY : bound.error};
         }
@@ -156,7 +123,7 @@ static void run_vertices(ProofDraw *made, const CaptureDraw *draw)
     bool *done = memory_new((size_t)most + 1, sizeof *done);
     made->places = memory_new((size_t)most + 1, sizeof *made->places);
     made->vertices =
-        memory_new(((size_t)most + 1) * (size_t)made->outputs + 1, sizeof *made->vertices);
+        memory_new(((size_t)most + 1) * (size_t)made->stages.handed + 1, sizeof *made->vertices);
     for (int i = 0; i < draw->vertex_count; i++) {
         const unsigned vertex = draw->vertices[i];
         if (!done[vertex])
@@ -185,10 +152,11 @@ static bool open_draws(Proof *proof, Message *message)
         const CaptureDraw *draw = &capture->draws[i];
         if (!is_seen(draw))
             continue;
-        if (!compile(made, draw, &proof->driver, message))
+        if (!stages_open(&made->stages, draw, message))
             return false;
         for (int k = 0; k < 2; k++) {
-            made->runs[k] = glsl_bound_open(made->codes[k], &made->errors[k]);
+            made->errors[k] = errors_of(&proof->driver, k);
+            made->runs[k] = glsl_bound_open(made->stages.codes[k], &made->errors[k]);
             set_uniforms(made->runs[k], draw);
         }
         run_vertices(made, draw);
@@ -223,13 +191,10 @@ void proof_close(Proof *proof)
 {
     for (int i = 0; proof->draws && i < proof->capture.draw_count; i++) {
         ProofDraw *draw = &proof->draws[i];
-        for (int k = 0; k < 2; k++) {
+        for (int k = 0; k < 2; k++)
             if (draw->runs[k])
                 glsl_bound_close(draw->runs[k]);
-            glsl_code_free(draw->codes[k]);
-            if (draw->trees[k])
-                glsl_tree_free(draw->trees[k]);
-        }
+        stages_close(&draw->stages);
         free(draw->vertices);
         free(draw->places);
     }
@@ -245,18 +210,14 @@ static double place(const Proof *proof, const ProofTriangle *triangle, int corne
     return proof->draws[triangle->draw].places[triangle->corners[corner]][k];
 }
 
-/* Of x, y and w of the corners. */
+/* The determinant of x, y and w of the corners. */
 static double area_of(const Proof *proof, const ProofTriangle *triangle)
 {
-    double sum = 0;
-    for (int i = 0; i < 3; i++) {
-        const int k = (i + 1) % 3, n = (i + 2) % 3;
-        sum +=
-            place(proof, triangle, 0, i == 2 ? 3 : i) *
-            (place(proof, triangle, 1, k == 2 ? 3 : k) * place(proof, triangle, 2, n == 2 ? 3 : n) -
-             place(proof, triangle, 1, n == 2 ? 3 : n) * place(proof, triangle, 2, k == 2 ? 3 : k));
-    }
-    return sum;
+    double(*const places)[4] = proof->draws[triangle->draw].places;
+    const double *a = places[triangle->corners[0]], *b = places[triangle->corners[1]];
+    const double *c = places[triangle->corners[2]];
+    return a[0] * (b[1] * c[3] - b[3] * c[1]) + a[1] * (b[3] * c[0] - b[0] * c[3]) +
+           a[3] * (b[0] * c[1] - b[1] * c[0]);
 }
 
 bool proof_next(const Proof *proof, ProofTriangle *triangle)
@@ -356,13 +317,14 @@ static void set_inputs(const Proof *proof, const ProofTriangle *triangle, const 
     GlslBoundRun *run = draw->runs[1];
     static const GlslRange any = {-(double)INFINITY, (double)INFINITY};
     const double flat = flatness(proof, triangle);
-    for (int i = 0; i < draw->varying_count; i++)
-        for (int k = 0; k < draw->varyings[i].count; k++) {
+    for (int i = 0; i < draw->stages.link_count; i++)
+        for (int k = 0; k < draw->stages.links[i].count; k++) {
+            const StageLink *link = &draw->stages.links[i];
             const Output *corners[3];
             for (int c = 0; c < 3; c++)
-                corners[c] = draw->vertices + triangle->corners[c] * (size_t)draw->outputs +
-                             draw->varyings[i].first + k;
-            run->inputs[draw->varyings[i].fragment + k] = interpolated(proof, corners, at, flat);
+                corners[c] = draw->vertices + triangle->corners[c] * (size_t)draw->stages.handed +
+                             link->at + k;
+            run->inputs[link->fragment + k] = interpolated(proof, corners, at, flat);
         }
     set(run, "gl_FrontFacing", 0, (GlslInput){.middle = triangle->front});
     for (int k = 0; k < 4; k++) /* only masks are looked up there */
@@ -405,13 +367,13 @@ ProofBound proof_piece(const Proof *proof, const ProofTriangle *triangle, const 
 
 void proof_text(const Proof *proof, int draw, const ProofBound *bound, char *text, size_t size)
 {
-    const GlslTree *tree = proof->draws[draw].trees[1];
+    const GlslTree *tree = proof->draws[draw].stages.trees[1];
     char expression[40];
     if (!bound->node) {
         snprintf(text, size, "the varyings and uniforms");
         return;
     }
     glsl_expression_text(tree, bound->node, expression, sizeof expression);
-    /* Lines of files that are included begin at a multiple of a million. */
-    snprintf(text, size, "line %d: %s", tree->nodes[bound->node].place.line % 1000000, expression);
+    snprintf(text, size, "line %d: %s", tree->nodes[bound->node].place.line % SHADER_LINES_OF_FILE,
+             expression);
 }
