@@ -65,11 +65,6 @@ void gltf_name(char name[FILE_NAME], const json_t *object)
     snprintf(name, FILE_NAME, "%s", text ? text : "");
 }
 
-static Vec3 within_one(Vec3 c)
-{
-    return (Vec3){fmin(fmax(c.x, 0), 1), fmin(fmax(c.y, 0), 1), fmin(fmax(c.z, 0), 1)};
-}
-
 /* Materials */
 
 static void note_material(const Reading *reading, const json_t *material)
@@ -101,7 +96,7 @@ static void set_highlight(Material *to, Vec3 reflectance, double roughness)
 {
     const double a = fmax(roughness * roughness, 1e-3);
     to->shininess = fmin(fmax(2 / (a * a) - 2, 1), 128);
-    to->specular = within_one(vec3_scale(reflectance, (to->shininess + 8) / 8));
+    to->specular = color_within_one(vec3_scale(reflectance, (to->shininess + 8) / 8));
 }
 
 static void set_material(const Reading *reading, const json_t *from, Object *object)
@@ -115,7 +110,7 @@ static void set_material(const Reading *reading, const json_t *from, Object *obj
     Material *to = &object->front;
     if (!gltf_numbers(gloss, "diffuseFactor", 4, color))
         gltf_numbers(pbr, "baseColorFactor", 4, color);
-    const Vec3 base = within_one((Vec3){color[0], color[1], color[2]});
+    const Vec3 base = color_within_one((Vec3){color[0], color[1], color[2]});
     *to = (Material){.alpha = mode && strcmp(mode, "BLEND") == 0 ? fmin(fmax(color[3], 0), 1) : 1,
                      .diffuse = gloss ? base : vec3_scale(base, 1 - metal)};
     if (gloss)
@@ -125,10 +120,10 @@ static void set_material(const Reading *reading, const json_t *from, Object *obj
         set_highlight(to, vec3_add(vec3_scale(white, 0.04 * (1 - metal)), vec3_scale(base, metal)),
                       gltf_number(pbr, "roughnessFactor", 1));
     to->ambient = base; /* a metal reflects its surroundings */
-    to->emission =
-        within_one(vec3_scale(gltf_vector(from, "emissiveFactor", (Vec3){0, 0, 0}),
-                              gltf_number(gltf_extension(from, "KHR_materials_emissive_strength"),
-                                          "emissiveStrength", 1)));
+    to->emission = color_within_one(
+        vec3_scale(gltf_vector(from, "emissiveFactor", (Vec3){0, 0, 0}),
+                   gltf_number(gltf_extension(from, "KHR_materials_emissive_strength"),
+                               "emissiveStrength", 1)));
     if (gltf_extension(from, "KHR_materials_unlit"))
         *to = (Material){.emission = base, .alpha = to->alpha};
     object->two_sided = json_is_true(json_object_get(from, "doubleSided"));
@@ -225,7 +220,7 @@ static void set_vertex(Mesh *mesh, size_t to, const Attributes *from, size_t i)
     if (from->colors) {
         const double *c = from->colors + (size_t)from->color_size * i;
         vec3_to_float(
-            within_one((Vec3){c[0] * from->tint.x, c[1] * from->tint.y, c[2] * from->tint.z}),
+            color_within_one((Vec3){c[0] * from->tint.x, c[1] * from->tint.y, c[2] * from->tint.z}),
             mesh->colors[to]);
     }
 }

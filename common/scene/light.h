@@ -6,6 +6,7 @@
 
 #include "core/matrix.h"
 
+#include <math.h>
 #include <stdbool.h>
 
 typedef enum LightKind {
@@ -55,6 +56,12 @@ static inline Vec4 light_place(const Light *light)
 static inline bool color_is_black(Vec3 color)
 {
     return color.x == 0 && color.y == 0 && color.z == 0;
+}
+
+/* As a reflectivity: each from 0 to 1. */
+static inline Vec3 color_within_one(Vec3 color)
+{
+    return (Vec3){fmin(fmax(color.x, 0), 1), fmin(fmax(color.y, 0), 1), fmin(fmax(color.z, 0), 1)};
 }
 
 /* Whether attenuation depends on distance. */

@@ -40,12 +40,6 @@ static Vec3 vector(const struct aiVector3D *a)
     return (Vec3){a->x, a->y, a->z};
 }
 
-/* A reflectivity. */
-static Vec3 within_one(Vec3 c)
-{
-    return (Vec3){fmin(fmax(c.x, 0), 1), fmin(fmax(c.y, 0), 1), fmin(fmax(c.z, 0), 1)};
-}
-
 static void set_name(char name[FILE_NAME], const char *text)
 {
     snprintf(name, FILE_NAME, "%.47s", text);
@@ -112,8 +106,8 @@ static bool fill_mesh(const struct aiMesh *part, Vec3 diffuse, Mesh *mesh, Messa
         if (part->mNormals)
             vec3_to_float(vector(&part->mNormals[i]), mesh->vertices[i].normal);
         if (colors)
-            vec3_to_float(within_one((Vec3){colors[i].r * diffuse.x, colors[i].g * diffuse.y,
-                                            colors[i].b * diffuse.z}),
+            vec3_to_float(color_within_one((Vec3){colors[i].r * diffuse.x, colors[i].g * diffuse.y,
+                                                  colors[i].b * diffuse.z}),
                           mesh->colors[i]);
     }
     mesh->index_count = 0;
@@ -130,7 +124,7 @@ static bool color_of(const struct aiMaterial *material, const char *key, Vec3 *c
     struct aiColor4D found;
     if (aiGetMaterialColor(material, key, 0, 0, &found) != aiReturn_SUCCESS)
         return false;
-    *color = within_one((Vec3){found.r, found.g, found.b});
+    *color = color_within_one((Vec3){found.r, found.g, found.b});
     return true;
 }
 
@@ -169,7 +163,8 @@ static void set_material(const struct aiMaterial *from, Object *object)
     color_of(from, "$clr.emissive", &to->emission);
     to->shininess = fmin(fmax(number_of(from, "$mat.shininess", 0), 0), 128);
     if (color_of(from, "$clr.specular", &to->specular))
-        to->specular = within_one(vec3_scale(to->specular, number_of(from, "$mat.shinpercent", 1)));
+        to->specular =
+            color_within_one(vec3_scale(to->specular, number_of(from, "$mat.shinpercent", 1)));
     if (to->shininess == 0) /* no exponent: no highlight */
         to->specular = black;
     to->alpha = fmin(fmax(number_of(from, "$mat.opacity", 1), 0), 1);

@@ -87,8 +87,7 @@ Vec3 optics_color(const Optics *optics, Vec3 point, Vec3 normal)
     ShadeSides sides;
     material.shininess = optics->shininess;
     const ShadePoint lit = {&material, real3(vec3_subtract(point, eye)), real3(normal)};
-    const Vec3 color = real3_round(shade_point(&shading, &lit, &sides));
-    return (Vec3){fmin(fmax(color.x, 0), 1), fmin(fmax(color.y, 0), 1), fmin(fmax(color.z, 0), 1)};
+    return color_within_one(real3_round(shade_point(&shading, &lit, &sides)));
 }
 
 Optics optics_matte(const Optics *optics, Material *matte)

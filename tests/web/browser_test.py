@@ -674,15 +674,6 @@ class Pages(Case):
         self.page.wait("/Drawn with|Warnings/.test(document.querySelector('.said').textContent)")
         self.page.click(".revert")
 
-    def edit(self, old, new):
-        """Selects a part of the text and types over it."""
-        self.page.run(f"""(() => {{
-            const field = document.querySelector(".source"), at = field.value.indexOf({json.dumps(old)});
-            field.focus();
-            field.setSelectionRange(at, at + {len(old)});
-        }})()""")
-        self.page.type(new)
-
     def test_a_dropped_file_leaves_the_page(self):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "<b>duck.obj")

@@ -64,6 +64,15 @@ class Case(unittest.TestCase):
         cls.addClassCleanup(cls.page.close)
         cls.page.before_pages(CONFIRM)
 
+    def edit(self, old, new):
+        """Selects a part of the text and types over it."""
+        self.page.run(f"""(() => {{
+            const field = document.querySelector(".source"), at = field.value.indexOf({json.dumps(old)});
+            field.focus();
+            field.setSelectionRange(at, at + {len(old)});
+        }})()""")
+        self.page.type(new)
+
     def tearDown(self):
         self.page.resize(1280, 900)
 

@@ -38,14 +38,6 @@ class Sharing(Case):
         self.page.run("localStorage.clear()")
         self.open("LightedCube")
 
-    def edit(self, old, new):
-        self.page.run(f"""(() => {{
-            const field = document.querySelector(".source"), at = field.value.indexOf({json.dumps(old)});
-            field.focus();
-            field.setSelectionRange(at, at + {len(old)});
-        }})()""")
-        self.page.type(new)
-
     def copied(self, button):
         self.page.run("document.getElementById('status').textContent = ''")
         self.page.click(button)

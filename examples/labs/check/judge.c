@@ -30,8 +30,7 @@ typedef struct Session {
     LabBudget budget; /* lab 10 */
     bool settled;     /* the submission is at fault: there is a verdict */
     bool moved;       /* its outline is wrong */
-    Shader solutions[LAB_MAX_SOLUTIONS];
-    Painter right[LAB_MAX_SOLUTIONS]; /* with these */
+    LabSolutions right;
 } Session;
 
 /* Settles on a verdict: the first line is the message, the others are details. */
@@ -63,27 +62,13 @@ static bool open_given(Session *session, Message *message)
     return shader_open(&session->shader, &loader, session->lab->file, message);
 }
 
-/* What the lab's solutions draw becomes what is right. Their faults are the lab's. */
+/* What the lab's solutions draw becomes what is right. */
 static bool take_solutions(Session *session, Message *message)
 {
-    const Lab *lab = session->lab;
-    if (!lab->solution_count)
-        return true;
-    for (int i = 0; i < lab->solution_count; i++) {
-        Shader *shader = &session->solutions[i];
-        const SubmissionFiles *files = &lab->solutions[i];
-        Message why = {.text = ""};
-        if ((!submission_compile(shader, lab, files, "highp", NULL) &&
-             !submission_compile(shader, lab, files, NULL, &why)) ||
-            !binding_check(lab, shader, &why)) {
-            for (char *at = why.text; *at; at++)
-                *at = *at == '\n' ? ' ' : *at;
-            return message_set(message, "the solution of %.200s: %.700s", lab->name, why.text);
-        }
-        session->right[i] = (Painter){.lab = lab, .program = shader->program};
-    }
-    return lab_pictures_use_solutions(&session->pictures, session->right, &session->canvas,
-                                      message);
+    return !session->lab->solution_count ||
+           (lab_solutions_open(&session->right, session->lab, message) &&
+            lab_pictures_use_solutions(&session->pictures, session->right.painters,
+                                       &session->canvas, message));
 }
 
 /* As the files are written. */
@@ -345,7 +330,8 @@ static bool look_closer(Session *session, const Painter *painter, int worst, boo
         return false;
     bool bent = false; /* the solution itself moves vertices */
     if (session->moved && session->lab->solution_count &&
-        !outline_check(&session->pictures, session->right, &session->canvas, &bent, message))
+        !outline_check(&session->pictures, session->right.painters, &session->canvas, &bent,
+                       message))
         return false;
     session->moved &= !bent;
     *wrong =
@@ -443,8 +429,7 @@ bool judge(const JudgeOptions *options, Verdict *verdict, Message *message)
     lab_pictures_close(&session.pictures);
     shader_close(&session.shader);
     shader_close(&session.own);
-    for (int i = 0; i < LAB_MAX_SOLUTIONS; i++)
-        shader_close(&session.solutions[i]);
+    lab_solutions_close(&session.right);
     submission_files_close(&session.plain);
     submission_files_close(&session.mended);
     canvas_close(&session.canvas);

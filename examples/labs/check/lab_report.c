@@ -82,18 +82,13 @@ bool lab_report(const Lab *lab, FILE *file, Message *message)
     const CanvasOptions options = {.width = 96, .height = 96};
     LabPictures *pictures = memory_new(1, sizeof *pictures);
     Canvas canvas = {0};
-    Shader shaders[LAB_MAX_SOLUTIONS] = {0};
-    Painter right[LAB_MAX_SOLUTIONS];
+    LabSolutions right = {.shaders = {{0}}};
     Report report = {lab, pictures, &canvas, file, .message = message};
     bool done =
         (lab->solution_count || message_set(message, "%s: has no solution to change", lab->name)) &&
-        lab_pictures_open(pictures, lab, 1, message) && canvas_open(&canvas, &options, message);
-    for (int i = 0; i < lab->solution_count && done; i++) {
-        done = submission_compile(&shaders[i], lab, &lab->solutions[i], "highp", message) &&
-               binding_check(lab, &shaders[i], message);
-        right[i] = (Painter){.lab = lab, .program = shaders[i].program};
-    }
-    done = done && lab_pictures_use_solutions(pictures, right, &canvas, message);
+        lab_pictures_open(pictures, lab, 1, message) && canvas_open(&canvas, &options, message) &&
+        lab_solutions_open(&right, lab, message) &&
+        lab_pictures_use_solutions(pictures, right.painters, &canvas, message);
     if (done)
         fprintf(file, "Likely mistakes in the solution that no scene shows; some are as right:\n");
     done = done && try_stage(&report, GLSL_VERTEX) && try_stage(&report, GLSL_FRAGMENT);
@@ -104,8 +99,7 @@ bool lab_report(const Lab *lab, FILE *file, Message *message)
         fprintf(file, "  scene %s (%s): shows %d\n",
                 LAB_SCENE_NAMES[pictures->items[i].lab_scene.kind],
                 pictures->items[i].lab_scene.known ? "known" : "seed 1", report.shown[i]);
-    for (int i = 0; i < LAB_MAX_SOLUTIONS; i++)
-        shader_close(&shaders[i]);
+    lab_solutions_close(&right);
     lab_pictures_close(pictures);
     free(pictures);
     canvas_close(&canvas);

@@ -197,3 +197,27 @@ bool painter_draw(const Painter *painter, const LabScene *lab_scene,
     return painter_draw_at(painter, lab_scene, geometry, (PainterView){canvas, 0, 0}, image,
                            message);
 }
+
+bool lab_solutions_open(LabSolutions *solutions, const Lab *lab, Message *message)
+{
+    for (int i = 0; i < lab->solution_count; i++) {
+        Shader *shader = &solutions->shaders[i];
+        const SubmissionFiles *files = &lab->solutions[i];
+        Message why = {.text = ""};
+        if ((!submission_compile(shader, lab, files, "highp", NULL) &&
+             !submission_compile(shader, lab, files, NULL, &why)) ||
+            !binding_check(lab, shader, &why)) {
+            for (char *at = why.text; *at; at++)
+                *at = *at == '\n' ? ' ' : *at;
+            return message_set(message, "the solution of %.200s: %.700s", lab->name, why.text);
+        }
+        solutions->painters[i] = (Painter){.lab = lab, .program = shader->program};
+    }
+    return true;
+}
+
+void lab_solutions_close(LabSolutions *solutions)
+{
+    for (int i = 0; i < LAB_MAX_SOLUTIONS; i++)
+        shader_close(&solutions->shaders[i]);
+}

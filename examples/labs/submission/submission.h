@@ -89,6 +89,15 @@ bool painter_draw_at(const Painter *painter, const LabScene *lab_scene,
                      const SubmissionGeometry *geometry, PainterView view, Image *image,
                      Message *message);
 
+/* The lab's own solutions, ready to draw. To be closed whatever opening returns; false, with a
+ * message: one does not compile, which is the lab's fault. */
+typedef struct LabSolutions {
+    Shader shaders[LAB_MAX_SOLUTIONS];
+    Painter painters[LAB_MAX_SOLUTIONS];
+} LabSolutions;
+bool lab_solutions_open(LabSolutions *solutions, const Lab *lab, Message *message);
+void lab_solutions_close(LabSolutions *solutions); /* a zeroed one is fine */
+
 /* What a driver draws must be what others read and count. So a text may not use the version, the
  * macros of extensions or the limits of an implementation, and where it depends on GL_ES or
  * GL_FRAGMENT_PRECISION_HIGH, its branches may differ in precision only. Nor may it read
