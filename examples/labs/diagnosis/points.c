@@ -95,40 +95,40 @@ static void add_points(Points *points, const Mesh *mesh, Random *random)
     }
 }
 
-static bool add_scene(Points *points, const LabScene *lab_scene, const Mesh *mesh, Message *message)
+static bool add_scene(Points *points, const LabScene *lab_scene, const Mesh *mesh,
+                      LabShadowMap *map, Message *message)
 {
-    LabShadowMap map = {0};
     Random random = {0x5EED + (uint64_t)points->setting_count};
-    bool done = !points->lab->shadow || lab_shadow_map_open(&map, lab_scene, message);
+    bool done = !points->lab->shadow || lab_shadow_map_open(map, lab_scene, message);
     for (int i = 0; i < lab_scene->scene.object_count && done; i++) {
         PointSetting *setting = memory_add(&points->settings, &points->setting_count,
                                            &points->setting_room, sizeof *setting);
         const Drawn drawn = {.scene = &lab_scene->scene,
                              .object = i,
                              .aspect = (double)lab_scene->width / lab_scene->height,
-                             .map = &map,
+                             .map = map,
                              .own = lab_scene->own};
         *setting = (PointSetting){
             .width = lab_scene->width, .height = lab_scene->height, .color = {0, 0, 0, 1}};
         setting->value_count = binding_values(points->lab, &drawn, setting->values, message);
         vec3_to_float(lab_scene->objects[i].front.diffuse, setting->color);
         setting->owns_map = points->lab->shadow && i == 0;
-        setting->map = setting->owns_map ? read_map(&map) : i > 0 ? setting[-1].map : NULL;
+        setting->map = setting->owns_map ? read_map(map) : i > 0 ? setting[-1].map : NULL;
         done = setting->value_count > 0;
         if (done)
             add_points(points, mesh ? mesh : &lab_scene->meshes[i], &random);
     }
-    lab_shadow_map_close(&map);
     return done;
 }
 
 /* Where highlights are near the line of sight. */
-static bool add_further(Points *points, LabSceneKind kind, const Mesh *mesh, Message *message)
+static bool add_further(Points *points, LabSceneKind kind, const Mesh *mesh, LabShadowMap *map,
+                        Message *message)
 {
     LabScene lab_scene;
     if (!lab_scene_open_seed(&lab_scene, points->lab, kind, 0x0F0E0D0C, message))
         return false;
-    const bool done = add_scene(points, &lab_scene, mesh, message);
+    const bool done = add_scene(points, &lab_scene, mesh, map, message);
     lab_scene_close(&lab_scene);
     return done;
 }
@@ -136,12 +136,15 @@ static bool add_further(Points *points, LabSceneKind kind, const Mesh *mesh, Mes
 bool points_open(Points *points, const LabPictures *pictures, Message *message)
 {
     const Mesh *mesh = pictures->mesh.vertices ? &pictures->mesh : NULL;
+    LabShadowMap map = {0};
     bool done = true;
     *points = (Points){.lab = pictures->lab};
     for (int i = 0; i < pictures->count && done; i++)
-        done = add_scene(points, &pictures->items[i].lab_scene, mesh, message);
-    return done && add_further(points, LAB_SCENE_ALONG, mesh, message) &&
-           add_further(points, LAB_SCENE_AGAINST, mesh, message);
+        done = add_scene(points, &pictures->items[i].lab_scene, mesh, &map, message);
+    done = done && add_further(points, LAB_SCENE_ALONG, mesh, &map, message) &&
+           add_further(points, LAB_SCENE_AGAINST, mesh, &map, message);
+    lab_shadow_map_close(&map);
+    return done;
 }
 
 void points_close(Points *points)

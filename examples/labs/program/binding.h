@@ -22,13 +22,16 @@ enum { LAB_SHADOW_MAP_SIZE = 1024 }; /* in texels, each way */
 typedef struct LabShadowMap {
     GLuint texture;
     Mat4 clip_from_world; /* of the light */
+    Shader shader;        /* that draws it */
 } LabShadowMap;
 
 /* From world space to clip space of a view from the first light at the objects before the last,
  * which is the floor. Their shadows are within. No GL. */
 Mat4 lab_shadow_map_matrix(const LabScene *lab_scene);
 
-/* Draws it, and binds what was bound. Of a scene whose light casts no shadows: zeroed. */
+/* Draws it, and binds what was bound. Of a scene whose light casts no shadows it has no texture. It
+ * is zeroed before, or open: then it is that of another scene from now on, drawn by the same
+ * shader, which a driver compiles in 30 ms. */
 bool lab_shadow_map_open(LabShadowMap *map, const LabScene *lab_scene, Message *message);
 void lab_shadow_map_close(LabShadowMap *map); /* NULL or zeroed is fine */
 

@@ -46,12 +46,11 @@ Mat4 lab_shadow_map_matrix(const LabScene *lab_scene)
                         mat4_look_at(light, center, (Vec3){0, 0, -1}));
 }
 
-static bool draw_objects(const LabShadowMap *map, const LabScene *lab_scene, const Shader *shader,
-                         Message *message)
+static bool draw_objects(const LabShadowMap *map, const LabScene *lab_scene, Message *message)
 {
-    const GLint position = glGetAttribLocation(shader->program, "a_Position");
-    const GLint clip = glGetUniformLocation(shader->program, "u_ClipFromObject");
-    glUseProgram(shader->program);
+    const GLint position = glGetAttribLocation(map->shader.program, "a_Position");
+    const GLint clip = glGetUniformLocation(map->shader.program, "u_ClipFromObject");
+    glUseProgram(map->shader.program);
     for (int i = 0; i < lab_scene->scene.object_count; i++) {
         const Object *object = &lab_scene->objects[i];
         MeshBuffer mesh;
@@ -65,8 +64,7 @@ static bool draw_objects(const LabShadowMap *map, const LabScene *lab_scene, con
     return true;
 }
 
-static bool draw_map(const LabShadowMap *map, const LabScene *lab_scene, const Shader *shader,
-                     Message *message)
+static bool draw_map(const LabShadowMap *map, const LabScene *lab_scene, Message *message)
 {
     GLuint framebuffer, depth;
     glGenFramebuffers(1, &framebuffer);
@@ -86,7 +84,7 @@ static bool draw_map(const LabShadowMap *map, const LabScene *lab_scene, const S
         glViewport(0, 0, LAB_SHADOW_MAP_SIZE, LAB_SHADOW_MAP_SIZE);
         glClearColor(1, 1, 1, 1); /* beyond all depths */
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-        done = draw_objects(map, lab_scene, shader, message);
+        done = draw_objects(map, lab_scene, message);
     }
     glDeleteFramebuffers(1, &framebuffer);
     glDeleteRenderbuffers(1, &depth);
@@ -97,11 +95,12 @@ bool lab_shadow_map_open(LabShadowMap *map, const LabScene *lab_scene, Message *
 {
     const ShaderLoader loader = {.precision = "highp"};
     GLint target, place[4];
-    Shader shader;
-    *map = (LabShadowMap){.texture = 0};
+    if (map->texture)
+        glDeleteTextures(1, &map->texture);
+    map->texture = 0;
     if (!lab_scene->lights[0].shadows)
         return true;
-    if (!shader_open(&shader, &loader, "labs/map", message))
+    if (!map->shader.program && !shader_open(&map->shader, &loader, "labs/map", message))
         return false;
     const bool cut = glIsEnabled(GL_SCISSOR_TEST), cull = glIsEnabled(GL_CULL_FACE);
     const bool hidden = glIsEnabled(GL_DEPTH_TEST);
@@ -113,7 +112,7 @@ bool lab_shadow_map_open(LabShadowMap *map, const LabScene *lab_scene, Message *
     map->clip_from_world = lab_shadow_map_matrix(lab_scene);
     map->texture =
         canvas_texture(GL_RGBA, GL_UNSIGNED_BYTE, LAB_SHADOW_MAP_SIZE, LAB_SHADOW_MAP_SIZE);
-    const bool done = draw_map(map, lab_scene, &shader, message);
+    const bool done = draw_map(map, lab_scene, message);
     if (cut)
         glEnable(GL_SCISSOR_TEST);
     if (cull)
@@ -122,7 +121,6 @@ bool lab_shadow_map_open(LabShadowMap *map, const LabScene *lab_scene, Message *
         glDisable(GL_DEPTH_TEST);
     glViewport(place[0], place[1], place[2], place[3]);
     glBindFramebuffer(GL_FRAMEBUFFER, (GLuint)target);
-    shader_close(&shader);
     if (!done)
         lab_shadow_map_close(map);
     return done;
@@ -134,5 +132,6 @@ void lab_shadow_map_close(LabShadowMap *map)
         return;
     if (map->texture)
         glDeleteTextures(1, &map->texture);
+    shader_close(&map->shader);
     *map = (LabShadowMap){.texture = 0};
 }
