@@ -285,14 +285,17 @@ TEST_WITH(0, results_are_kept_and_merged, start, NULL)
     assert_false(class_store_open(&other, "out", NULL, &message)); /* locked */
     assert_non_null(strstr(message.text, "another run"));
     message.text[0] = '\0';
-    assert_true(class_store_put(&store, &b, NULL, 0, &kept, &message) && kept);
-    assert_true(class_store_put(&store, &a, NULL, 0, &kept, &message) && kept);
-    assert_true(class_store_put(&store, &cut, NULL, 0, &kept, &message) && !kept);
+    assert_true(class_store_put(&store, &b, (ClassFiles){.picture = NULL}, &kept, &message) &&
+                kept);
+    assert_true(class_store_put(&store, &a, (ClassFiles){.picture = NULL}, &kept, &message) &&
+                kept);
+    assert_true(class_store_put(&store, &cut, (ClassFiles){.picture = NULL}, &kept, &message) &&
+                !kept);
     class_store_close(&store);
 
     assert_true(class_store_open(&other, "part", NULL, &message));
-    assert_true(class_store_put(&other, &better, NULL, 0, &kept, &message));
-    assert_true(class_store_put(&other, &cut, NULL, 0, &kept, &message));
+    assert_true(class_store_put(&other, &better, (ClassFiles){.picture = NULL}, &kept, &message));
+    assert_true(class_store_put(&other, &cut, (ClassFiles){.picture = NULL}, &kept, &message));
     class_store_close(&other);
 
     assert_true(class_store_open(&store, "out", NULL, &message));
@@ -311,7 +314,7 @@ TEST_WITH(0, a_broken_result_is_passed_over, start, NULL)
     Message notes = {.text = ""};
     const ClassResult result = result_of("a", 1, true, 8);
     assert_true(class_store_open(&store, "broken", NULL, &message));
-    assert_true(class_store_put(&store, &result, NULL, 0, NULL, &message));
+    assert_true(class_store_put(&store, &result, (ClassFiles){.picture = NULL}, NULL, &message));
     class_store_close(&store);
     assert_int_equal(truncate("broken/students/a/result.json", 100), 0);
     assert_true(class_store_open(&store, "broken", &notes, &message));
@@ -373,8 +376,8 @@ TEST_WITH(0, a_page_shows_only_known_counts, start, NULL)
     uncounted.verdict.cost.operations = -1;
     uncounted.verdict.cost.operations_ratio = -1;
     assert_true(class_store_open(&store, "pages", NULL, &message));
-    assert_true(class_store_put(&store, &counted, NULL, 0, NULL, &message));
-    assert_true(class_store_put(&store, &uncounted, NULL, 0, NULL, &message));
+    assert_true(class_store_put(&store, &counted, (ClassFiles){.picture = NULL}, NULL, &message));
+    assert_true(class_store_put(&store, &uncounted, (ClassFiles){.picture = NULL}, NULL, &message));
     require(class_html_write(&store, false, &message), &message);
     class_store_close(&store);
     assert_page("pages/students/counted/index.html", "Operations: 750000, 0.750 of");

@@ -479,6 +479,31 @@ class Results(Class):
         self.assertGreater(picture.width, picture.height)
         self.assertEqual(picture.texts, {})
 
+    def test_similar_submissions_are_listed_with_both_texts(self):
+        """Each student writes a line that no other has; the copy has other names, order and layout."""
+        last = "gl_FragColor = "
+        for i in range(12):
+            line = f"float own{i} = fract({i}.5 * v_Position.x) * min({i}.25, v_Position.y);"
+            self.submit(f"student_{i}", lab05_frag=self.frag(replace=((last, f"{line}\n  {last}"),)))
+        first = """vec2 a = mod(v_Position.xy, 0.3) / 7.5;
+            float b = atan(a.x, a.y) + 0.125;
+            vec3 c = cross(vec3(a, b), vec3(0.5, 0.25, b));
+            if (b > 0.75) c = reflect(c, c.zyx) - vec3(b);"""
+        second = """vec2 other = mod(v_Position.xy, 0.30)/7.5; float _z = 0.125 + /* mine */ atan(other.x,
+            other.y); vec3 v = cross(vec3(other, _z), vec3(0.5, 0.25, _z));
+            if (_z > 0.75)\n                v = reflect(v, v.zyx) - vec3(_z);"""
+        for name, text in (("first", first), ("second", second)):
+            self.submit(name, lab05_frag=self.frag(replace=((last, f"{text}\n  {last}"),)))
+        self.assertEqual(self.run_class("--lab", "5")[0], 0)
+        page = read(self.path("out", "index.html"))
+        self.assertEqual(
+            re.findall("<summary>.*</summary>", page),
+            ["<summary><bdi>first</bdi> and <bdi>second</bdi>: 4 statements that few others have</summary>"],
+        )
+        self.assertEqual(page.count('<span class="same">'), 7)  # lines
+        Page(page)
+        self.assertNotIn("second", read(self.path("out", "students", "first", "index.html")))
+
     def test_a_run_continues_where_another_stopped(self):
         count = 12 if base.LONG else 6
         for i in range(count):

@@ -4,7 +4,6 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "base/output.h"
-#include "base/template.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -257,6 +256,7 @@ bool class_html_write(const ClassStore *store, bool front, Message *message)
     if (front)
         set_front(values, store);
     set_bars(values, store);
+    class_similar_set(values, store);
     set_results(values, store);
     return write_page(page, store->folder, message);
 }

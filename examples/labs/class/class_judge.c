@@ -47,11 +47,11 @@ static bool settle(Judging *judging, Job *job, Message *message)
     bool kept;
     ClassResult *result = &job->result;
     const VerdictKind kind = result->verdict.kind;
-    size_t size;
-    char *picture = sandbox_part(&job->run, 3, &size);
+    ClassFiles files;
+    files.picture = sandbox_part(&job->run, SANDBOX_PICTURE, &files.picture_size);
+    files.statements = sandbox_part(&job->run, SANDBOX_STATEMENTS, &files.statements_size);
     result->when = (long long)time(NULL);
-    const bool done =
-        class_store_put(judging->of->store, result, (unsigned char *)picture, size, &kept, message);
+    const bool done = class_store_put(judging->of->store, result, files, &kept, message);
     if (done && kind != VERDICT_RIGHT && kind != VERDICT_WRONG) {
         progress_end(&judging->progress);
         fprintf(stderr, "check: %s: %s: %s%s\n", result->student, VERDICT_NAMES[kind],

@@ -20,7 +20,12 @@
 #ifndef CLASS_REPORT_H
 #define CLASS_REPORT_H
 
+#include "base/template.h"
 #include "labs/class/class_store.h"
+
+/* Adds a section "similar" for each pair of submissions that share what few others have, the most
+ * unlikely first, with both texts: a hint to a person, which no other file repeats. */
+void class_similar_set(TemplateValues *page, const ClassStore *store);
 
 /* Each writes into the store's folder, whole or not at all. */
 bool class_table_csv(const ClassStore *store, Message *message);

@@ -20,6 +20,7 @@
 #include <unistd.h>
 
 enum { FILE_MAX = 4 << 20 }; /* bytes */
+static const char STATEMENTS[] = "statements.txt";
 
 bool class_store_path(const char *store, const char *folder, const char *name, char path[PATH_MAX],
                       Message *message)
@@ -201,33 +202,40 @@ static bool write_result(const char *path, const ClassResult *result, Message *m
     return output_text_write(&out, path, message);
 }
 
-/* Writes the result's picture; if it is invalid, the result names none. */
-static bool write_picture(const ClassStore *store, ClassResult *result, unsigned char *picture,
-                          size_t size, Message *message)
+/* Writes the result's files; if its picture is invalid, the result names none. */
+static bool write_files(const ClassStore *store, ClassResult *result, ClassFiles *files,
+                        Message *message)
 {
     char path[PATH_MAX];
     Verdict *verdict = &result->verdict;
-    if (!verdict->picture[0] || !picture || !png_copy(picture, &size, NULL)) {
+    char *text = memory_new(files->statements_size + 1, 1);
+    if (files->statements)
+        verdict_clean(text, files->statements_size + 1, files->statements, true);
+    bool done = class_store_path(store->folder, result->folder, STATEMENTS, path, message) &&
+                output_write(path, text, strlen(text), message);
+    free(text);
+    if (!verdict->picture[0] || !files->picture ||
+        !png_copy((unsigned char *)files->picture, &files->picture_size, NULL)) {
         verdict->picture[0] = '\0';
-        return true;
+        return done;
     }
-    return class_store_path(store->folder, result->folder, verdict->picture, path, message) &&
-           output_write(path, picture, size, message);
+    return done &&
+           class_store_path(store->folder, result->folder, verdict->picture, path, message) &&
+           output_write(path, files->picture, files->picture_size, message);
 }
 
-bool class_store_put(ClassStore *store, const ClassResult *result, unsigned char *picture,
-                     size_t size, bool *kept, Message *message)
+bool class_store_put(ClassStore *store, const ClassResult *result, ClassFiles files, bool *kept,
+                     Message *message)
 {
     char path[PATH_MAX];
     ClassResult *old = class_store_find(store, result->folder);
     ClassResult *next = memory_copy(result, sizeof *result);
     const bool keep = !old || !class_result_is_worse(next, old);
     const bool done =
-        !keep ||
-        (class_store_path(store->folder, next->folder, NULL, path, message) &&
-         output_folder(path, message) && write_picture(store, next, picture, size, message) &&
-         class_store_path(store->folder, next->folder, "result.json", path, message) &&
-         write_result(path, next, message));
+        !keep || (class_store_path(store->folder, next->folder, NULL, path, message) &&
+                  output_folder(path, message) && write_files(store, next, &files, message) &&
+                  class_store_path(store->folder, next->folder, "result.json", path, message) &&
+                  write_result(path, next, message));
     if (done && keep && old)
         *old = *next;
     else if (done && keep)
@@ -238,14 +246,20 @@ bool class_store_put(ClassStore *store, const ClassResult *result, unsigned char
     return done;
 }
 
-/* The picture of another folder's result, for the caller to free; NULL: there is none. */
-static unsigned char *read_picture(const ClassStore *from, const ClassResult *result, size_t *size)
+/* A file of a result, for free(); NULL: there is none. */
+static char *read_file(const ClassStore *store, const ClassResult *result, const char *name,
+                       size_t *size)
 {
     char path[PATH_MAX];
-    if (!result->verdict.picture[0] ||
-        !class_store_path(from->folder, result->folder, result->verdict.picture, path, NULL))
-        return NULL;
-    return (unsigned char *)input_read(AT_FDCWD, path, path, FILE_MAX, size, NULL);
+    return name[0] && class_store_path(store->folder, result->folder, name, path, NULL)
+               ? input_read(AT_FDCWD, path, path, FILE_MAX, size, NULL)
+               : NULL;
+}
+
+char *class_store_statements(const ClassStore *store, const ClassResult *result)
+{
+    size_t size;
+    return read_file(store, result, STATEMENTS, &size);
 }
 
 bool class_store_merge(ClassStore *store, const ClassStore *from, Message *message)
@@ -258,10 +272,12 @@ bool class_store_merge(ClassStore *store, const ClassStore *from, Message *messa
             done = message_set(message, "%s: has results of %s, but %s has those of %s",
                                from->folder, next->lab, store->folder, store->results[0].lab);
         } else if (!old || old->hash == next->hash || old->when <= next->when) {
-            size_t size = 0;
-            unsigned char *picture = read_picture(from, next, &size);
-            done = class_store_put(store, next, picture, size, NULL, message);
-            free(picture);
+            ClassFiles files = {.picture_size = 0};
+            files.picture = read_file(from, next, next->verdict.picture, &files.picture_size);
+            files.statements = read_file(from, next, STATEMENTS, &files.statements_size);
+            done = class_store_put(store, next, files, NULL, message);
+            free(files.picture);
+            free(files.statements);
         }
     }
     return done;

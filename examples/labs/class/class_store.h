@@ -1,7 +1,8 @@
 /*
  * class_store: the results of a class, each written to its own folder as soon as it is known.
  *
- * OUT/students/FOLDER/result.json is the result; pictures and pages are beside it. A result is
+ * OUT/students/FOLDER/result.json is the result; what was submitted (statements.txt, see
+ * submission/statements.h), pictures and pages are beside it. A result is
  * replaced only by one that is not worse, or by that of a changed submission.
  */
 #ifndef CLASS_STORE_H
@@ -58,10 +59,19 @@ bool class_result_stands(const ClassResult *result, const char *lab, uint64_t ha
  * finished, or has fewer points. */
 bool class_result_is_worse(const ClassResult *next, const ClassResult *old);
 
-/* Writes a result, after its picture (may be NULL; is changed, see png_copy), unless it is worse
- * than the existing one. *kept, if not NULL: it was written. */
-bool class_store_put(ClassStore *store, const ClassResult *result, unsigned char *picture,
-                     size_t size, bool *kept, Message *message);
+/* What a sandbox said beside a verdict; NULL: nothing. The picture is changed, see png_copy. */
+typedef struct ClassFiles {
+    char *picture, *statements;
+    size_t picture_size, statements_size;
+} ClassFiles;
+
+/* Writes a result, after its files, unless it is worse than the existing one. *kept, if not NULL:
+ * it was written. */
+bool class_store_put(ClassStore *store, const ClassResult *result, ClassFiles files, bool *kept,
+                     Message *message);
+
+/* What was submitted, for free(); NULL: it is not known. */
+char *class_store_statements(const ClassStore *store, const ClassResult *result);
 
 /* Adds every result of `from`; of two different submissions of a student the one judged last
  * counts. False: the labs differ. */

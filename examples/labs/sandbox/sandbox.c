@@ -275,26 +275,27 @@ void sandbox_wait(SandboxRun *const runs[], int count, double seconds)
     }
 }
 
-char *sandbox_part(const SandboxRun *run, int part, size_t *size)
+char *sandbox_part(const SandboxRun *run, SandboxPart part, size_t *size)
 {
     char *at = run->bytes; /* NULL: nothing was said */
     size_t left = at ? run->size : 0;
-    for (; at && part > 0; part--) {
+    for (int i = 0; at && i < (int)part; i++) {
         char *const zero = memchr(at, '\0', left);
         left = zero ? left - (size_t)(zero + 1 - at) : 0;
         at = zero ? zero + 1 : NULL;
     }
-    *size = left;
+    const char *const zero = at && part < SANDBOX_PICTURE ? memchr(at, '\0', left) : NULL;
+    *size = zero ? (size_t)(zero - at) : left;
     return at;
 }
 
 SandboxEnd sandbox_end(const SandboxRun *run)
 {
     size_t size;
-    const bool begun = sandbox_part(run, 1, &size) != NULL;
+    const bool begun = sandbox_part(run, SANDBOX_WORK, &size) != NULL;
     if (run->timed_out || run->status == 128 + SIGXCPU)
         return SANDBOX_TIMEOUT;
-    if (run->status == 0 && !run->too_much && sandbox_part(run, 2, &size))
+    if (run->status == 0 && !run->too_much && sandbox_part(run, SANDBOX_RESULT, &size))
         return SANDBOX_DONE;
     return begun && !run->too_much && run->status != SANDBOX_BROKEN ? SANDBOX_CRASHED
                                                                     : SANDBOX_FAILED;
@@ -312,8 +313,8 @@ void sandbox_reason(const SandboxRun *run, char text[1024])
 {
     const char *said = run->bytes;
     size_t rest, end, start;
-    const bool cut = sandbox_part(run, 2, &rest) != NULL;
-    start = run->size - (cut ? rest : 0);
+    const char *result = sandbox_part(run, SANDBOX_RESULT, &rest);
+    start = result ? (size_t)(result - said) : run->size;
     do {
         end = start;
         while (end > 0 && (said[end - 1] == '\n' || said[end - 1] == '\0'))
@@ -376,7 +377,7 @@ static bool prove(Sandbox *sandbox, const char *hidden, Message *message)
         sandbox_reason(&run, reason);
         done = message_set(message, "%s", reason);
     }
-    const char *proof = done ? sandbox_part(&run, 2, &size) : NULL;
+    const char *proof = done ? sandbox_part(&run, SANDBOX_RESULT, &size) : NULL;
     sandbox->proven = proof ? (unsigned)strtoul(proof, NULL, 10) : 0;
     sandbox_close(&run);
     close(server);

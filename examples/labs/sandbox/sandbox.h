@@ -75,8 +75,7 @@ typedef struct SandboxInputs {
 /* One process, running or ended. Zeroed: none.
  *
  * Standard output and error are one pipe. A zero byte in it says that what follows is the work of
- * the driver and the compiler on the submission, a second one begins the result, a third one the
- * picture. */
+ * the driver and the compiler on the submission; others begin the result and what belongs to it. */
 typedef struct SandboxRun {
     pid_t pid;
     int pipe; /* -1: closed */
@@ -108,8 +107,16 @@ typedef enum SandboxEnd {
 
 SandboxEnd sandbox_end(const SandboxRun *run);
 
-/* The result (part 2) or the picture (3); NULL: there is none. */
-char *sandbox_part(const SandboxRun *run, int part, size_t *size);
+/* What a zero byte begins, in this order; the picture may have more of them. */
+typedef enum SandboxPart {
+    SANDBOX_WORK = 1,
+    SANDBOX_RESULT,
+    SANDBOX_STATEMENTS, /* statements_text */
+    SANDBOX_PICTURE,
+} SandboxPart;
+
+/* NULL: there is none. */
+char *sandbox_part(const SandboxRun *run, SandboxPart part, size_t *size);
 
 /* Why there is no result: the last line before it that does not start with a space, as quoted
  * source lines do, of at most 1000 bytes, without control characters. */
@@ -132,7 +139,7 @@ bool breakout_try(const char *hidden, int port, const char *labs, unsigned *fail
  * then does one of these steps, with FOLDER for its files:
  *   prove HIDDEN PORT LABS   tries what must be impossible; its result is what failed
  *   check LAB SEED KIND PLACE NAME...   judges the submission in these places, of a SandboxSource;
- *     its results are the verdict as JSON and the picture
+ *     its results are the verdict as JSON, its statements and the picture
  * Standard output is as SandboxRun has it. Returns the exit code: 0 or SANDBOX_BROKEN. */
 int sandboxed_main(int count, char *arguments[]);
 

@@ -53,7 +53,7 @@ bool sandboxed_check_end(const Sandbox *sandbox, const SandboxRun *run, const Sa
                          Verdict *verdict, Message *message)
 {
     char lab[64], reason[1024];
-    size_t size, picture_size;
+    size_t size;
     Message why = {.text = ""};
     const SandboxEnd end = sandbox_end(run);
     *verdict = (Verdict){.seed = check->seed, .most = check->lab->points.most};
@@ -65,8 +65,7 @@ bool sandboxed_check_end(const Sandbox *sandbox, const SandboxRun *run, const Sa
         explain_end(run, sandbox->seconds, verdict);
         return true;
     }
-    const char *result = sandbox_part(run, 2, &size);
-    size -= sandbox_part(run, 3, &picture_size) ? picture_size + 1 : 0;
+    const char *result = sandbox_part(run, SANDBOX_RESULT, &size);
     if (!verdict_read(result, size, lab, verdict, &why))
         return message_set(message, "invalid result: %.1000s", why.text);
     if (strcmp(lab, check->lab->name) != 0 || verdict->seed != check->seed)
@@ -80,7 +79,7 @@ static bool take_picture(const SandboxRun *run, const char *folder, Verdict *ver
 {
     char path[PATH_MAX];
     size_t size;
-    char *picture = sandbox_part(run, 3, &size);
+    char *picture = sandbox_part(run, SANDBOX_PICTURE, &size);
     if (!folder || !verdict->picture[0] || !png_copy((unsigned char *)picture, &size, NULL)) {
         verdict->picture[0] = '\0';
         return true;

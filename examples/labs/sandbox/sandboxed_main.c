@@ -9,6 +9,7 @@
 #include "labs/check/judge.h"
 #include "labs/sandbox/source.h"
 #include "labs/submission/lab_json.h"
+#include "labs/submission/statements.h"
 #include "labs/submission/verdict_json.h"
 
 #include <errno.h>
@@ -194,9 +195,13 @@ static bool check(Submitted *of, double seconds, const char *folder, Message *me
     char path[PATH_MAX];
     snprintf(path, sizeof path, "%s/%s", folder, JUDGE_WORST);
     judge_limit((rlim_t)seconds);
-    return put_part("", 0, message) && judge(&judged, &verdict, message) &&
-           put_part("", 0, message) && verdict_write(&verdict, of->lab, "", "-", message) &&
+    bool done = put_part("", 0, message) && judge(&judged, &verdict, message) &&
+                put_part("", 0, message) && verdict_write(&verdict, of->lab, "", "-", message);
+    char *statements = statements_text(of->lab, &of->files);
+    done = done && put_part(statements, strlen(statements), message) &&
            (!verdict.picture[0] || put_file(path, message));
+    free(statements);
+    return done;
 }
 
 int sandboxed_main(int count, char *arguments[])
