@@ -27,10 +27,15 @@ extern const NamedMaterial MATERIALS[MATERIAL_COUNT];
 
 /* The initializer of one of them: lecture pages start with it. */
 enum { MATERIAL_GOLD_INDEX = 10 };
-#define MATERIAL_GOLD                                                                              \
+#define MATERIAL_GOLD MATERIAL_OF(MATERIAL_GOLD_NUMBERS)
+#define MATERIAL_GOLD_NUMBERS                                                                      \
+    0.24725, 0.1995, 0.0745, 0.75164, 0.60648, 0.22648, 0.628281, 0.555802, 0.366065, 0.4
+
+/* An opaque material from these numbers as the list has them. */
+#define MATERIAL_OF(...) MATERIAL_OF_(__VA_ARGS__)
+#define MATERIAL_OF_(ar, ag, ab, dr, dg, db, sr, sg, sb, share)                                    \
     {                                                                                              \
-        .ambient = {0.24725, 0.1995, 0.0745}, .diffuse = {0.75164, 0.60648, 0.22648},              \
-        .specular = {0.628281, 0.555802, 0.366065}, .alpha = 1, .shininess = 128 * 0.4             \
+        {ar, ag, ab}, {dr, dg, db}, {sr, sg, sb}, {0, 0, 0}, 1, 128 * share                        \
     }
 
 /* Names in that order, then "none", NULL-terminated, for a PARAMETER_CHOICE. */
