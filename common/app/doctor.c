@@ -6,7 +6,7 @@
 #include "base/plugin.h"
 #include "images/animation.h"
 #include "images/image_file.h"
-#include "images/image_png.h"
+#include "images/image_options.h"
 #include "window/backends.h"
 #include "window/panel.h"
 

@@ -1,7 +1,7 @@
 /* The panel over the picture. What costs time is found a few times per second, and only while the
  * panel is open: effects and commands here, errors by a worker in the background.
  */
-#include "app/viewer_panel.h"
+#include "app/viewer_state.h"
 
 #include "app/command.h"
 #include "base/clock.h"

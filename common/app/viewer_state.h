@@ -4,9 +4,119 @@
 #ifndef VIEWER_STATE_H
 #define VIEWER_STATE_H
 
+#include "app/options.h"
+#include "app/panel_kind.h"
 #include "app/shader_reload.h"
-#include "app/viewer_panel.h"
+#include "base/clock.h"
 #include "images/picture_queue.h"
+#include "window/panel_draw.h"
+
+/* What a window shows over the picture: the example's parameters, their cost, the command that
+ * draws the picture, help, errors.
+ *
+ * Without the panel's module the picture is shown alone, and help goes to standard error. */
+
+enum { VIEWER_COMMAND_SIZE = 16384 };
+
+/* A picture of which something was found. */
+typedef struct PanelPicture {
+    DrawRequest request;
+    int width, height;
+} PanelPicture;
+
+typedef struct ViewerPanel {
+    const Example *example;
+    const PanelKind *kind; /* NULL: there is no more to show than parameters */
+    Window *window;
+    Panel *panel; /* NULL: there is none */
+    PanelDraw draw;
+    PanelView view;
+    PanelResult result; /* of this frame */
+    bool help;
+    ParameterValue defaults[OPTIONS_MAX_PARAMETERS];
+    Parameter options[9]; /* common ones that the panel changes; their values are the viewer's */
+    ParameterValue option_defaults[8];
+    /* Colors of the lights, diffuse and specular of each, by number. */
+    Parameter lights[2 * SCENE_MAX_PLACED + 1];
+    char light_names[2 * SCENE_MAX_PLACED][24];
+    Vec3 light_values[2 * SCENE_MAX_PLACED];
+    ParameterValue light_defaults[2 * SCENE_MAX_PLACED];
+    Handle handles[HANDLES_MAX]; /* the lights of this frame's picture */
+    int handle_count;
+    double seconds; /* per frame, smoothed; 0: unknown */
+    double rate;    /* frames per second; 0: unknown */
+    void *worker;   /* the kind's */
+    bool mapped;    /* its map is shown in the picture's place */
+    Image map;      /* of result number: */
+    int map_number;
+    double error_time; /* clock_now when it was last started */
+    PanelPicture error_of;
+    bool stale; /* the parameters have changed since */
+    char *effects;
+    double effects_time; /* clock_now when they were listed; 0: the parameters have changed */
+    PanelPicture effects_of;
+    char command[VIEWER_COMMAND_SIZE];
+    char notice[PATH_MAX + 64];
+    double notice_time;
+    /* As in the last frame: */
+    bool noticed, troubled, error_wanted, effects_wanted;
+    bool computing;
+    double text; /* the size of letters, as a factor */
+} ViewerPanel;
+
+/* `defaults`: of the example's parameters, before the command line was read. The panel changes the
+ * options. Never fails: what is missing is reported on standard error. */
+void viewer_panel_open(ViewerPanel *panel, const Example *example, const Canvas *canvas,
+                       Options *options, const ParameterValue *defaults);
+
+typedef struct ViewerPanelInput {
+    const WindowInput *window;
+    double seconds;         /* since the last frame */
+    Renderer *renderer;     /* of the picture; NULL: there is none */
+    const Options *options; /* that it was drawn with */
+    const Message *trouble; /* shown as an error unless it is empty */
+    const Handle *held;     /* that is dragged; NULL: none */
+} ViewerPanelInput;
+
+/* One frame of the panel; viewer_panel_draw draws it. */
+bool viewer_panel_frame(ViewerPanel *panel, const ViewerPanelInput *input, Message *message);
+
+/* The light's handle nearest to a point of the picture; NULL: there is none within `reach`. */
+const Handle *viewer_panel_find_handle(const ViewerPanel *panel, double x, double y, double reach);
+
+/* Sets the options to the colors of lights that were changed in this frame; false: none. */
+bool viewer_panel_tint(const ViewerPanel *panel, LightTints *tints);
+
+/* The panel's margins in the window, and the picture's place between them: see panel.h. */
+void viewer_panel_margins(const ViewerPanel *panel, const WindowInput *input,
+                          int margins[PANEL_MARGINS]);
+void viewer_panel_place(const ViewerPanel *panel, const WindowInput *input, int place[4]);
+
+/* Whether it has something new to show although nobody touched it: a result, the end of a notice.
+ */
+bool viewer_panel_due(ViewerPanel *panel);
+
+/* What is shown instead of the picture: the map of its error, or of one before it; of this size.
+ * NULL: nothing. */
+const Image *viewer_panel_map(ViewerPanel *panel, int width, int height);
+
+/* Draws it into the bound framebuffer, of the window's size. */
+bool viewer_panel_draw(ViewerPanel *panel, int width, int height, Message *message);
+
+/* The time a frame took to draw. */
+void viewer_panel_measured(ViewerPanel *panel, double seconds);
+
+/* The parameters, or what they draw, have changed. */
+void viewer_panel_renew(ViewerPanel *panel);
+
+/* Shows a line for a few seconds; NULL: removes it. */
+void viewer_panel_notice(ViewerPanel *panel, const char *text);
+
+void viewer_panel_toggle(ViewerPanel *panel);
+void viewer_panel_letters(ViewerPanel *panel, int larger);
+void viewer_panel_toggle_help(ViewerPanel *panel);
+
+void viewer_panel_close(ViewerPanel *panel);
 
 typedef struct Viewer {
     const Example *example;

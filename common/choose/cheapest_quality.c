@@ -6,7 +6,6 @@
 
 #include "base/memory.h"
 #include "choose/cheapest_search.h"
-#include "choose/exact_cache.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -23,7 +23,6 @@
 #include "choose/cheapest_search.h"
 
 #include "base/memory.h"
-#include "choose/exact_cache.h"
 #include "reference/picture_error.h"
 #include "reference/reference_trace.h"
 

@@ -2,7 +2,7 @@
  * Hints for learners. The driver's words are not read: the front end parses the same text, and its
  * messages know types. So the hints are the same with every driver.
  */
-#include "core/shader_advice.h"
+#include "core/shader_source.h"
 
 #include "base/text.h"
 #include "glsl/glsl.h"

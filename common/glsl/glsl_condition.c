@@ -1,5 +1,5 @@
 /* The expressions of #if: integers, by precedence. */
-#include "glsl/glsl_tokens.h"
+#include "glsl/glsl_preprocess.h"
 
 #include <stdlib.h>
 

@@ -1,5 +1,5 @@
 /* Characters to tokens. */
-#include "glsl/glsl_tokens.h"
+#include "glsl/glsl_preprocess.h"
 
 #include "base/memory.h"
 #include "base/text.h"

@@ -4,7 +4,7 @@
 #ifndef GLSL_PARSER_H
 #define GLSL_PARSER_H
 
-#include "glsl/glsl_tokens.h"
+#include "glsl/glsl_preprocess.h"
 
 /* The first names are those of types, in the order of the types; then words in this order. */
 /* clang-format off */

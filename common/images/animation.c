@@ -15,7 +15,7 @@
 #include "base/output.h"
 #include "base/plugin.h"
 #include "base/process.h"
-#include "images/image_gif.h"
+#include "images/image_options.h"
 
 #include <errno.h>
 #include <fcntl.h>

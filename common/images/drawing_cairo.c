@@ -1,5 +1,5 @@
-/* The plugin that links cairo: see drawing_plugin.h. */
-#include "images/drawing_plugin.h"
+/* The plugin that links cairo: see drawing_list.h. */
+#include "images/drawing_list.h"
 
 #include <cairo-pdf.h>
 #include <cairo-svg.h>

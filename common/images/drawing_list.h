@@ -5,8 +5,12 @@
 #ifndef DRAWING_LIST_H
 #define DRAWING_LIST_H
 
+#include "base/image.h"
+#include "base/plugin.h"
 #include "core/matrix.h"
 #include "images/font.h"
+
+#include <stdio.h>
 
 typedef struct DrawingPoint {
     double x, y;
@@ -51,5 +55,14 @@ typedef struct Drawing {
     int step_count, point_count, path_count, label_count;
     int step_room, point_room, path_room, label_room;
 } Drawing;
+
+/* The plugin that links cairo (drawing_cairo.c), as drawing.c calls it. */
+
+/* The variable `drawing_plugin`. Functions return NULL, or why they failed. */
+typedef struct DrawingPlugin {
+    PluginVersion *version;
+    const char *(*paint)(const Drawing *drawing, Image *image, bool transparent);
+    const char *(*encode)(const Drawing *drawing, const char *format, bool transparent, FILE *to);
+} DrawingPlugin;
 
 #endif

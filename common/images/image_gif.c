@@ -6,7 +6,7 @@
  * all, ffmpeg other ones; when the file is complete, its blocks are walked and each delay is
  * replaced in place. (GIF89a specification, sections 17 to 23)
  */
-#include "images/image_gif.h"
+#include "images/image_options.h"
 
 #include "base/memory.h"
 #include "images/image_plugin.h"

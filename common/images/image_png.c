@@ -5,7 +5,7 @@
  * fixed, which takes a quarter of the time. Where nearly all neighbours are equal, runs are all
  * there is to find, and zlib is told to look for nothing else.
  */
-#include "images/image_png.h"
+#include "images/image_options.h"
 
 #include <math.h>
 #include <png.h>

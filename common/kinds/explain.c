@@ -1,10 +1,9 @@
 /* --explain. Effects are lists of lines; objects that have the same, or nearly, are told by what
  * differs from the nearest one before, so that a scene of many objects stays a screenful. */
-#include "kinds/explain.h"
+#include "kinds/scene_views.h"
 
 #include "base/memory.h"
 #include "base/text.h"
-#include "kinds/scene_views.h"
 #include "scene/shader_cost.h"
 #include "scene/unmodelled.h"
 

@@ -1,7 +1,7 @@
 /* Of many objects: how many have the same effects, and which in a few words. */
 #include "base/memory.h"
 #include "base/text.h"
-#include "kinds/explain.h"
+#include "kinds/scene_views.h"
 
 #include <stdlib.h>
 #include <string.h>

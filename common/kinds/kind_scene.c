@@ -2,11 +2,6 @@
 #include "app/panel_kind.h"
 #include "base/memory.h"
 #include "images/label.h"
-#include "kinds/explain.h"
-#include "kinds/panel_scene.h"
-#include "kinds/scene_ineffective.h"
-#include "kinds/scene_options.h"
-#include "kinds/scene_save.h"
 #include "kinds/scene_views.h"
 #include "reference/reference_trace.h"
 

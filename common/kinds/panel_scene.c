@@ -1,8 +1,5 @@
 /* What a window's panel shows of a program with scenes: errors from a worker in the background,
  * effects as --explain lists them, lights with their handles. */
-#include "kinds/panel_scene.h"
-
-#include "kinds/explain.h"
 #include "kinds/scene_views.h"
 
 static bool open_worker(void **worker, Message *message)

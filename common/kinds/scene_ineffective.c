@@ -1,10 +1,8 @@
 /* Which options of a program with scenes name what is not there, or change nothing: all that its
  * scenes hand over at three moments is added to a key, less what cannot be seen of it. */
-#include "kinds/scene_ineffective.h"
+#include "kinds/scene_views.h"
 
 #include "base/cache.h"
-#include "kinds/scene_options.h"
-#include "kinds/scene_views.h"
 #include "lighting/lighting.h"
 
 #include <stdio.h>

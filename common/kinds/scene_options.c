@@ -1,6 +1,6 @@
 /* Options of scenes: terms and lights by number, how shadows are drawn, the error that is allowed.
  */
-#include "kinds/scene_options.h"
+#include "kinds/scene_views.h"
 
 #include "base/parse.h"
 #include "base/text.h"

@@ -3,7 +3,7 @@
  * the buffer: vertices, indices, and what else it has of each vertex. All members that decide the
  * picture go into `extras` in full precision; what other readers draw follows from them.
  */
-#include "kinds/scene_save.h"
+#include "kinds/scene_views.h"
 
 #include "base/json_writer.h"
 #include "base/memory.h"

@@ -5,11 +5,18 @@
 #ifndef SCENE_VIEWS_H
 #define SCENE_VIEWS_H
 
+#include "app/options_table.h"
+#include "app/panel_kind.h"
 #include "app/renderer.h"
 #include "choose/cheapest_quality.h"
 #include "choose/error_worker.h"
+#include "kinds/ineffective_options.h"
+#include "lighting/lighting.h"
 #include "scene/overlay.h"
+#include "scene/scene.h"
 #include "scene/scene_example.h"
+
+#include <stdio.h>
 
 /* The state of a renderer whose example is of SCENE_KIND. */
 typedef struct SceneState {
@@ -70,5 +77,49 @@ void scene_forget_choices(SceneState *state);
 /* For --explain: what was chosen for a view, as it was opened; nothing without --error. */
 void scene_explain_choice(const Renderer *renderer, const DrawRequest *request,
                           const SceneView *view, int number, FILE *file);
+
+/* The options of programs that draw scenes. */
+
+/* Ended by a NULL name. */
+extern const Parameter SCENE_OPTIONS[];
+
+/* By bit of SceneTerms. */
+extern const char *const SCENE_TERM_NAMES[4];
+
+/* Options of a program with scenes that name what is not there, or change nothing. */
+
+/* Whether the scene has the terms that --terms names, and the lights that --terms, --light-at and
+ * --light-color do; the message lists those it has. Runs init and finish of the example. */
+bool scene_check_names(const Example *example, const DrawRequest *request, Message *message);
+
+/* As in ExampleKind: also --shadows, where no shadow can fall on anything. */
+void ineffective_scene_options(const Example *example, const Options *options,
+                               const ParameterValue *defaults, char *text, size_t size);
+
+/* The effects that the views of a scene need, and what their programs cost. */
+
+/* Writes the effects at the request's time, by view and object. */
+void explain_effects(Renderer *renderer, const DrawRequest *request, FILE *file);
+
+/* --explain: the same on standard output, with each program's operations; without --verbose a
+ * screenful, the first object in full and of the others what differs. Compiles the programs, so
+ * that the loader prints them if it was asked to. */
+bool explain_programs(Renderer *renderer, const DrawRequest *request, Message *message);
+
+/* Of a plan of many objects prints how many have the same effects; returns, to be freed, which are
+ * the first of theirs. */
+enum { EXPLAIN_FEW = 24 };
+bool *explain_groups(const LightingPlan *plan);
+
+/* What a window's panel shows of a program with scenes. */
+
+extern const PanelKind SCENE_PANEL;
+
+/* A scene as a file of glTF 2.0. */
+
+/* Writes all of a scene into one file, whose buffer is a data URI. What glTF has no word for is in
+ * `extras`, so that reading it gives the same scene; other readers see materials as diffuse colours
+ * with a roughness, lights without ambient colours and attenuation. */
+bool scene_save(const Scene *scene, const char *path, Message *message);
 
 #endif

@@ -1,5 +1,5 @@
 /* Lists of what was made of meshes, each made when it is first asked for. */
-#include "lighting/lighting_meshes.h"
+#include "lighting/lighting_state.h"
 
 #include "base/memory.h"
 #include "core/mesh_make.h"

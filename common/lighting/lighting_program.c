@@ -3,7 +3,7 @@
  * is its text written, and compiled if no other key has the same. Where its variables are is asked
  * once, after it is linked.
  */
-#include "lighting/lighting_program.h"
+#include "lighting/lighting_state.h"
 
 #include "base/clock.h"
 #include "base/memory.h"

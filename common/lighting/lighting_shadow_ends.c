@@ -5,7 +5,7 @@
  * extent along these few directions is found once, and for each caster the plane that it reaches
  * first: the time is linear in both.
  */
-#include "lighting/lighting_shadow_ends.h"
+#include "lighting/lighting_state.h"
 
 #include <math.h>
 

@@ -2,11 +2,11 @@
  * A light's shadows are drawn from a map (shadows/shadow_map.h) or as volumes
  * (shadows/shadow_cast.h). A map of one face is looked up by the programs that light the objects,
  * as far as they have room; else, and for volumes, what is in shadow is drawn into a mask first
- * (shadows/shadow_mask.h). Volumes end where lighting_shadow_ends.h says.
+ * (shadows/shadow_mask.h). Volumes end where lighting_shadow_ends.c says.
  */
 #include "lighting/lighting_shadows.h"
 
-#include "lighting/lighting_shadow_ends.h"
+#include "lighting/lighting_state.h"
 
 #include <math.h>
 #include <stdio.h>

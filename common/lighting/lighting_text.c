@@ -4,7 +4,7 @@
  * shadows need is written here, too: which map or which channel of a mask says that a light is kept
  * off.
  */
-#include "lighting/lighting_text.h"
+#include "lighting/lighting_state.h"
 
 #include <stdio.h>
 #include <stdlib.h>

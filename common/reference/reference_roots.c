@@ -4,7 +4,7 @@
  * one root, which is bracketed. Closed forms of quartics lose digits where roots lie close; a
  * bracket does not.
  */
-#include "reference/reference_roots.h"
+#include "reference/reference_solid.h"
 
 static Real evaluate(const Real *c, int degree, Real s)
 {

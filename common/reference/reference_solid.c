@@ -13,7 +13,6 @@
  */
 #include "reference/reference_solid.h"
 
-#include "reference/reference_roots.h"
 #include "shapes/mesh_solids.h"
 
 /* What of a line lies within a convex solid, and through which parts it comes in and goes out. */

@@ -10,6 +10,12 @@
 
 #include <stdint.h>
 
+/* The real roots of polynomials of at most the fourth degree. */
+
+/* All roots of c[0] + c[1] s + ... + c[degree] s^degree between low and high, in their order;
+ * returns their number. Where it touches 0 without a change of sign there is none. */
+int polynomial_roots(const Real *c, int degree, Real low, Real high, Real *roots);
+
 /* A point of the line origin + t direction on the surface; `part` is the face that it lies on: of a
  * box in the order of mesh_cube; of a cylinder or cone one of those below; of all others 0. */
 typedef struct SolidHit {

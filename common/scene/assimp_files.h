@@ -6,6 +6,7 @@
 #define ASSIMP_FILES_H
 
 #include <assimp/cfileio.h>
+#include <stdbool.h>
 #include <stddef.h>
 
 typedef struct Folder {
@@ -15,5 +16,11 @@ typedef struct Folder {
 } Folder;
 
 struct aiFileIO assimp_files(Folder *folder);
+
+/* Whether a PLY file was cut. */
+
+/* False, with the reason, if the file ends before the rows that its header names; true of anything
+ * that is no PLY file. */
+bool model_ply_is_whole(const char *path, char *reason, size_t reason_size);
 
 #endif

@@ -3,7 +3,7 @@
  * it is checked against what is there before anything is read. A buffer is a file in the folder of
  * the scene's, or below; a URI that leaves the folder or names a network is refused.
  */
-#include "scene/gltf_data.h"
+#include "scene/gltf.h"
 
 #include "base/input.h"
 #include "base/memory.h"

@@ -4,7 +4,6 @@
 #include "core/mesh_make.h"
 #include "scene/assimp_files.h"
 #include "scene/model_module.h"
-#include "scene/model_ply.h"
 
 #include <assimp/cimport.h>
 #include <assimp/commonMetaData.h>

@@ -7,7 +7,7 @@
  * lengths: one pass over the file's words or bytes. Of 500,000 triangles it takes 4% of Assimp's
  * time in bytes, and a quarter in words. (Greg Turk, "The PLY Polygon File Format", 1994.)
  */
-#include "scene/model_ply.h"
+#include "scene/assimp_files.h"
 
 #include <ctype.h>
 #include <fcntl.h>

@@ -1,4 +1,4 @@
 /* A page's controls are the page's own. */
-#include "kinds/panel_scene.h"
+#include "kinds/scene_views.h"
 
 const PanelKind SCENE_PANEL = {0};

@@ -1,5 +1,5 @@
 /* A page writes no files. */
-#include "kinds/scene_save.h"
+#include "kinds/scene_views.h"
 
 bool scene_save(const Scene *scene, const char *path, Message *message)
 {

@@ -8,7 +8,7 @@
 #include "core/canvas.h"
 #include "core/mesh_buffer.h"
 #include "lighting/lighting.h"
-#include "lighting/lighting_program.h"
+#include "lighting/lighting_state.h"
 #include "shapes/mesh_solids.h"
 
 #include <math.h>

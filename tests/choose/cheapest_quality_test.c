@@ -11,7 +11,7 @@
 #include "kinds/scene_views.h"
 #include "base/clock.h"
 #include "base/random.h"
-#include "choose/exact_cache.h"
+#include "choose/cheapest_search.h"
 #include "scene/scene_example.h"
 #include "study/results/table.h"
 #include "support/examples.h"

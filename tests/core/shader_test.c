@@ -3,7 +3,7 @@
  * first group needs no driver.
  */
 #include "core/canvas.h"
-#include "core/shader_advice.h"
+#include "core/shader_source.h"
 #include "core/shader.h"
 #include "core/shader_files.h"
 #include "support/testing.h"

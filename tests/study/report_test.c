@@ -5,7 +5,7 @@
 #include "study/measure/scenes.h"
 #include "study/report/conclusions.h"
 #include "study/report/report.h"
-#include "study/report/report_labels.h"
+#include "study/report/report_gnuplot.h"
 #include "support/testing.h"
 
 #include <png.h>

@@ -4,7 +4,7 @@
 #include "labs/check/judge.h"
 
 #include "base/clock.h"
-#include "core/shader_advice.h"
+#include "core/shader_source.h"
 #include "labs/check/budget.h"
 #include "labs/check/code.h"
 #include "labs/diagnosis/catalogue.h"

@@ -44,4 +44,21 @@ const HardCase *hard_case(int number);
 bool hard_scene_open(HardScene *made, const HardCase *of, Message *message);
 void hard_scene_close(HardScene *made);
 
+/* Formulas as they are usually written, which fail. */
+
+/* The inverse transpose; of a singular matrix the identity, as if left unchanged. */
+Mat4 naive_inverse_transpose(Mat4 eye_from_object);
+
+/* The cofactor matrix, without the sign of the determinant. */
+Mat4 naive_cofactors(Mat4 eye_from_object);
+
+/* The inverse transpose by cofactors and determinant, in single precision. */
+Mat4 naive_float_inverse_transpose(Mat4 eye_from_object);
+
+/* A view matrix in single precision: s = f x up, u = s x f. */
+const LightingTransforms *naive_float_look_at(void);
+
+/* All matrices in single precision, multiplied in the lecture's order. */
+const LightingTransforms *naive_float_lecture(void);
+
 #endif

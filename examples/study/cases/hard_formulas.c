@@ -4,7 +4,6 @@
 #include "study/cases/hard_case.h"
 
 #include "shapes/mesh_solids.h"
-#include "study/cases/plain_formulas.h"
 
 #include <string.h>
 

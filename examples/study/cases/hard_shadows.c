@@ -4,7 +4,6 @@
 #include "study/cases/hard_case.h"
 
 #include "shapes/mesh_solids.h"
-#include "study/cases/plain_formulas.h"
 
 static Mat4 placed(Vec3 at, Vec3 size)
 {

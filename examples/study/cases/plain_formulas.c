@@ -1,4 +1,4 @@
-#include "study/cases/plain_formulas.h"
+#include "study/cases/hard_case.h"
 
 #include "study/measure/setting_picture.h"
 

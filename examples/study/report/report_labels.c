@@ -1,4 +1,4 @@
-#include "study/report/report_labels.h"
+#include "study/report/report_gnuplot.h"
 
 #include <math.h>
 #include <string.h>

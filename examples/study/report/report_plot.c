@@ -1,7 +1,6 @@
 #include "study/report/report.h"
 #include "base/memory.h"
 #include "study/report/report_gnuplot.h"
-#include "study/report/report_labels.h"
 
 #include <errno.h>
 #include <math.h>
