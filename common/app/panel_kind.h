@@ -11,16 +11,18 @@
 
 #include <stdio.h>
 
+struct ErrorWorker; /* see choose/error_worker.h */
+
 typedef struct PanelKind {
     /* What computes the error of a picture in the background. */
-    bool (*open)(void **worker, Message *message);
-    void (*close)(void *worker);
-    bool (*start)(void *worker, Renderer *renderer, const DrawRequest *request);
-    void (*cancel)(void *worker);
-    bool (*busy)(void *worker);
-    PanelError (*error)(void *worker);
+    bool (*open)(struct ErrorWorker **worker, Message *message);
+    void (*close)(struct ErrorWorker *worker);
+    bool (*start)(struct ErrorWorker *worker, Renderer *renderer, const DrawRequest *request);
+    void (*cancel)(struct ErrorWorker *worker);
+    bool (*busy)(struct ErrorWorker *worker);
+    PanelError (*error)(struct ErrorWorker *worker);
     /* Copies the map of the last result, if that has another number. */
-    void (*map)(void *worker, Image *map, int *number);
+    void (*map)(struct ErrorWorker *worker, Image *map, int *number);
 
     void (*write_effects)(Renderer *renderer, const DrawRequest *request, FILE *file);
 

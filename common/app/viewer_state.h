@@ -45,9 +45,9 @@ typedef struct ViewerPanel {
     int handle_count;
     double seconds; /* per frame, smoothed; 0: unknown */
     double rate;    /* frames per second; 0: unknown */
-    void *worker;   /* the kind's */
-    bool mapped;    /* its map is shown in the picture's place */
-    Image map;      /* of result number: */
+    struct ErrorWorker *worker;
+    bool mapped; /* its map is shown in the picture's place */
+    Image map;   /* of result number: */
     int map_number;
     double error_time; /* clock_now when it was last started */
     PanelPicture error_of;

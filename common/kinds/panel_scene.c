@@ -2,21 +2,8 @@
  * effects as --explain lists them, lights with their handles. */
 #include "kinds/scene_views.h"
 
-static bool open_worker(void **worker, Message *message)
-{
-    ErrorWorker *made;
-    const bool done = error_worker_open(&made, message);
-    *worker = done ? made : NULL;
-    return done;
-}
-
-static void close_worker(void *worker)
-{
-    error_worker_close(worker);
-}
-
 /* If this fails, drawing the frame fails too and reports why. */
-static bool start(void *worker, Renderer *renderer, const DrawRequest *request)
+static bool start(ErrorWorker *worker, Renderer *renderer, const DrawRequest *request)
 {
     ErrorPicture picture;
     if (!scene_error_picture(renderer, request, request->seconds, &picture, NULL))
@@ -25,22 +12,12 @@ static bool start(void *worker, Renderer *renderer, const DrawRequest *request)
     return true;
 }
 
-static void cancel(void *worker)
-{
-    error_worker_cancel(worker);
-}
-
-static bool busy(void *worker)
-{
-    return error_worker_busy(worker);
-}
-
 static PanelErrorPart part_of(const ErrorSum *sum)
 {
     return (PanelErrorPart){.rms = error_sum_rms(sum), .maximum = sum->maximum};
 }
 
-static PanelError known_error(void *worker)
+static PanelError known_error(ErrorWorker *worker)
 {
     ErrorResult result;
     error_worker_result(worker, &result);
@@ -53,7 +30,7 @@ static PanelError known_error(void *worker)
                         .colors = PICTURE_ERROR_COLORS};
 }
 
-static void copy_map(void *worker, Image *map, int *number)
+static void copy_map(ErrorWorker *worker, Image *map, int *number)
 {
     ErrorResult result;
     error_worker_result(worker, &result);
@@ -108,11 +85,11 @@ static bool drag(Renderer *renderer, const DrawRequest *request, const Handle *h
 }
 
 const PanelKind SCENE_PANEL = {
-    .open = open_worker,
-    .close = close_worker,
+    .open = error_worker_open,
+    .close = error_worker_close,
     .start = start,
-    .cancel = cancel,
-    .busy = busy,
+    .cancel = error_worker_cancel,
+    .busy = error_worker_busy,
     .error = known_error,
     .map = copy_map,
     .write_effects = explain_effects,
