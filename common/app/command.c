@@ -4,6 +4,7 @@
  */
 #include "app/command.h"
 
+#include "base/output_text.h"
 #include "window/backends.h"
 
 #include <stdio.h>
@@ -68,23 +69,30 @@ static bool put_own(FILE *line, const Parameter *table, const ParameterValue *de
     return done;
 }
 
+/* Ends a line and copies it, or nothing if it does not fit or was not done. */
+static bool take(OutputText *line, bool done, char *text, size_t size)
+{
+    char *written = output_text_close(line);
+    done = done && line->size < size;
+    if (size > 0)
+        snprintf(text, size, "%s", done ? written : "");
+    free(written);
+    return done;
+}
+
 bool command_start(const char *name, const char *argv0, char *text, size_t size)
 {
     const char *script = getenv("LIGHTING_RUN");
-    char *written = NULL;
-    size_t length = 0;
-    FILE *line = open_memstream(&written, &length);
-    if (line && script && script[0]) {
-        put_quoted(line, script);
-        fputc(' ', line);
-        put_quoted(line, name);
-    } else if (line) {
-        put_quoted(line, argv0 && argv0[0] ? argv0 : name);
+    OutputText line;
+    output_text_open(&line);
+    if (script && script[0]) {
+        put_quoted(line.file, script);
+        fputc(' ', line.file);
+        put_quoted(line.file, name);
+    } else {
+        put_quoted(line.file, argv0 && argv0[0] ? argv0 : name);
     }
-    const bool done = line && fclose(line) == 0 && length < size;
-    snprintf(text, size, "%s", done ? written : "");
-    free(written);
-    return done;
+    return take(&line, true, text, size);
 }
 
 static bool put_command(FILE *line, const Usage *usage, Options *own,
@@ -116,15 +124,10 @@ bool command_write_usage(const Usage *usage, const Options *options, const Param
                          char *text, size_t size)
 {
     Options own = *options;
-    char *written = NULL;
-    size_t length = 0;
-    FILE *line = open_memstream(&written, &length);
-    bool done = line && put_command(line, usage, &own, defaults);
-    done = line && fclose(line) == 0 && done && length < size;
-    if (size > 0)
-        snprintf(text, size, "%s", done ? written : "");
-    free(written);
-    return done;
+    OutputText line;
+    output_text_open(&line);
+    const bool done = put_command(line.file, usage, &own, defaults);
+    return take(&line, done, text, size);
 }
 
 bool command_write(const Example *example, const Options *options, const ParameterValue *defaults,

@@ -5,6 +5,7 @@
 
 #include "app/command.h"
 #include "base/clock.h"
+#include "base/output_text.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -116,19 +117,16 @@ static PanelPicture picture_of(const Renderer *renderer, const DrawRequest *requ
 static void update_effects(ViewerPanel *panel, Renderer *renderer, const DrawRequest *request)
 {
     const double now = clock_now();
-    size_t size = 0;
+    OutputText text;
     const bool known = panel->effects && panel->effects_time > 0;
     panel->effects_wanted = !known || is_other(&panel->effects_of, renderer, request);
     if (!panel->effects_wanted || (known && now - panel->effects_time < EFFECTS_SECONDS))
         return;
     panel->effects_wanted = false;
     free(panel->effects);
-    panel->effects = NULL;
-    FILE *file = open_memstream(&panel->effects, &size);
-    if (!file)
-        return;
-    panel->kind->write_effects(renderer, request, file);
-    fclose(file);
+    output_text_open(&text);
+    panel->kind->write_effects(renderer, request, text.file);
+    panel->effects = output_text_close(&text);
     panel->effects_time = now;
     panel->effects_of = picture_of(renderer, request);
 }

@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "base/output.h"
+#include "base/text.h"
 
 #include <stdlib.h>
 
@@ -37,4 +38,11 @@ bool output_text_write(OutputText *text, const char *path, Message *message)
     const bool done = output_write(path, bytes, text->size, message);
     free(bytes);
     return done;
+}
+
+void output_text_wrap(OutputText *text, FILE *file, int indent, int width)
+{
+    char *line = output_text_close(text);
+    text_wrap(file, line, 0, indent, width);
+    free(line);
 }

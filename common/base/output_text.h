@@ -24,4 +24,7 @@ char *output_text_close(OutputText *text);
 bool output_text_write(OutputText *text, const char *path, Message *message);
 bool output_text_put(OutputText *text, const char *folder, const char *name, Message *message);
 
+/* Closes it and writes it as text_wrap does, from the first column on. */
+void output_text_wrap(OutputText *text, FILE *file, int indent, int width);
+
 #endif

@@ -6,7 +6,7 @@
 #include "base/template.h"
 
 #include "base/memory.h"
-#include "base/output.h"
+#include "base/output_text.h"
 #include "base/paths.h"
 
 #include <errno.h>
@@ -246,19 +246,16 @@ bool template_write(const char *source, const TemplateValues *values, const char
                     Message *message)
 {
     const char *name = strrchr(source, '/') + 1;
-    char installed[NAME_MAX], found[PATH_MAX], *filled = NULL;
-    size_t size = 0;
+    char installed[NAME_MAX], found[PATH_MAX];
+    OutputText filled;
     snprintf(installed, sizeof installed, "templates/%s", name);
     paths_find_data(source, installed, found);
     char *text = read_text(found, message);
-    FILE *out = text ? open_memstream(&filled, &size) : NULL;
-    bool done = out && template_fill(found, text, values, out, message);
-    if (out && fclose(out) != 0)
-        done = message_set(message, "%s: not enough memory", path);
-    else if (!out)
-        message_set(message, "%s: %s", path, strerror(errno));
-    done = done && output_write(path, filled, size, message);
-    free(filled);
+    output_text_open(&filled);
+    const bool done = text && template_fill(found, text, values, filled.file, message);
     free(text);
-    return done;
+    if (done)
+        return output_text_write(&filled, path, message);
+    free(output_text_close(&filled));
+    return false;
 }

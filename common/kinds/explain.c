@@ -3,7 +3,7 @@
 #include "kinds/scene_views.h"
 
 #include "base/memory.h"
-#include "base/text.h"
+#include "base/output_text.h"
 #include "scene/shader_cost.h"
 #include "scene/unmodelled.h"
 
@@ -42,17 +42,13 @@ static void explained_add(Explained *explained, ExplainedObject object)
     explained->all[explained->count++] = object;
 }
 
-/* What a plan says of an object; NULL if memory is out. */
+/* What a plan says of an object. */
 static char *effects_text(const LightingPlan *plan, int object)
 {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *memory = open_memstream(&text, &size);
-    if (!memory)
-        return NULL;
-    lighting_plan_explain(plan, object, memory);
-    fclose(memory);
-    return text;
+    OutputText text;
+    output_text_open(&text);
+    lighting_plan_explain(plan, object, text.file);
+    return output_text_close(&text);
 }
 
 /* Writes an object's effects, or which earlier object has the same; false then. */
@@ -61,7 +57,7 @@ static bool write_effects(const Renderer *renderer, const LightingPlan *plan, in
 {
     char *text = effects_text(plan, object);
     fprintf(file, "# %s, view %d, object %d\n", renderer->example->name, number, object);
-    for (int i = 0; text && i < explained->count; i++) {
+    for (int i = 0; i < explained->count; i++) {
         const ExplainedObject *earlier = &explained->all[i];
         if (strcmp(earlier->text, text) == 0) {
             fprintf(file, "as view %d, object %d\n", earlier->view, earlier->object);
@@ -69,9 +65,8 @@ static bool write_effects(const Renderer *renderer, const LightingPlan *plan, in
             return false;
         }
     }
-    fputs(text ? text : "", file);
-    if (text)
-        explained_add(explained, (ExplainedObject){text, number, object});
+    fputs(text, file);
+    explained_add(explained, (ExplainedObject){text, number, object});
     return true;
 }
 
@@ -262,47 +257,37 @@ static int find_nearest(const Explained *explained, const char *text, int *apart
 /* What an object has that an earlier one has not. */
 static void print_difference(const ExplainedObject *object, const ExplainedObject *earlier)
 {
-    char *line = NULL;
-    size_t size = 0;
-    FILE *file = open_memstream(&line, &size);
-    if (!file)
-        return;
-    fprintf(file, "view %d, object %d: as view %d, object %d, but ", object->view, object->object,
-            earlier->view, earlier->object);
-    write_difference(object->text, earlier->text, file);
-    fclose(file);
-    text_wrap(stdout, line, 0, 2, 100);
+    OutputText line;
+    output_text_open(&line);
+    fprintf(line.file, "view %d, object %d: as view %d, object %d, but ", object->view,
+            object->object, earlier->view, earlier->object);
+    write_difference(object->text, earlier->text, line.file);
+    output_text_wrap(&line, stdout, 2, 100);
     printf("\n");
-    free(line);
 }
 
-/* An object's effects with lines folded; NULL if memory is out. */
+/* An object's effects with lines folded. */
 static char *folded_text(const LightingPlan *plan, int object)
 {
-    char *whole = effects_text(plan, object), *text = NULL;
-    size_t size = 0;
-    FILE *file = whole ? open_memstream(&text, &size) : NULL;
-    if (file) {
-        fold_lines(whole, file);
-        fclose(file);
-    }
+    OutputText text;
+    char *whole = effects_text(plan, object);
+    output_text_open(&text);
+    fold_lines(whole, text.file);
     free(whole);
-    return text;
+    return output_text_close(&text);
 }
 
 /* `object` is without its text. */
-static bool explain_object(const Renderer *renderer, const LightingPlan *plan,
-                           ExplainedObject object, Explained *explained, Message *message)
+static void explain_object(const Renderer *renderer, const LightingPlan *plan,
+                           ExplainedObject object, Explained *explained)
 {
     int apart = 0;
     object.text = folded_text(plan, object.object);
-    if (!object.text)
-        return message_set(message, "--explain: not enough memory");
     const int nearest = find_nearest(explained, object.text, &apart);
     if (nearest >= 0 && apart == 0) {
         add_same(explained, nearest, object.view, object.object);
         free(object.text);
-        return true;
+        return;
     }
     print_same(explained);
     if (nearest < 0)
@@ -314,7 +299,6 @@ static bool explain_object(const Renderer *renderer, const LightingPlan *plan,
     print_operations(plan, object.object, nearest < 0);
     if (nearest < 0)
         printf("\n");
-    return true;
 }
 
 /* A depth d is kept as far (d - near) / (d (far - near)), whose derivative says how far apart in
@@ -360,17 +344,16 @@ static void print_matrices(const Object *object)
            object->wrong_normals ? "; the scene has M for normals, too" : "");
 }
 
-static bool explain_objects(const Renderer *renderer, const LightingPlan *plan, bool verbose,
-                            int number, Explained *explained, Message *message)
+static void explain_objects(const Renderer *renderer, const LightingPlan *plan, bool verbose,
+                            int number, Explained *explained)
 {
-    bool done = true;
     bool *told = !verbose && plan->object_count > EXPLAIN_FEW ? explain_groups(plan) : NULL;
-    for (int i = 0; i < plan->object_count && done; i++) {
+    for (int i = 0; i < plan->object_count; i++) {
         if (told && !told[i])
             continue;
         const ExplainedObject said = {.view = number, .object = i};
         if (!verbose) {
-            done = explain_object(renderer, plan, said, explained, message);
+            explain_object(renderer, plan, said, explained);
             continue;
         }
         if (write_effects(renderer, plan, number, i, explained, stdout))
@@ -380,7 +363,6 @@ static bool explain_objects(const Renderer *renderer, const LightingPlan *plan, 
     if (!verbose)
         print_same(explained);
     free(told);
-    return done;
 }
 
 static bool explain_view(Renderer *renderer, const DrawRequest *request, int number,
@@ -390,9 +372,10 @@ static bool explain_view(Renderer *renderer, const DrawRequest *request, int num
     LightingPlan plan = {.lighting = NULL};
     bool done = scene_view_open(&view, renderer, request, request->seconds, number, message) &&
                 plan_view(&plan, renderer, request, &view, message);
-    if (done)
+    if (done) {
         scene_explain_choice(renderer, request, &view, number, stdout);
-    done = done && explain_objects(renderer, &plan, request->verbose, number, explained, message);
+        explain_objects(renderer, &plan, request->verbose, number, explained);
+    }
     if (done && number == 0 && view.scene.object_count > 0) {
         fputs(explained->count > 1 ? "\n" : "", stdout);
         print_matrices(&view.scene.objects[0]);

@@ -1,6 +1,6 @@
 /* Of many objects: how many have the same effects, and which in a few words. */
 #include "base/memory.h"
-#include "base/text.h"
+#include "base/output_text.h"
 #include "kinds/scene_views.h"
 
 #include <stdlib.h>
@@ -49,26 +49,20 @@ static void put_effects(const Effects *effects, FILE *file)
     fprintf(file, "%s%s%snormal matrix, %sculled", effects->base ? "base, " : "",
             effects->vertex_color ? "colours of vertices, " : "",
             effects->normal_matrix ? "" : "no ", effects->cull ? "" : "not ");
-    fputs(effects->two_sided ? ", two-sided\n" : "\n", file);
+    fputs(effects->two_sided ? ", two-sided" : "", file);
 }
 
 static void print_groups(const Group *groups, int count, int objects)
 {
     printf("# %d objects with %d sets of effects\n", objects, count);
     for (int i = 0; i < count; i++) {
-        char *line = NULL;
-        size_t size = 0;
-        FILE *file = open_memstream(&line, &size);
-        if (!file)
-            return;
-        fprintf(file, "%d of %d objects, first object %d: ", groups[i].count, objects,
+        OutputText line;
+        output_text_open(&line);
+        fprintf(line.file, "%d of %d objects, first object %d: ", groups[i].count, objects,
                 groups[i].first);
-        put_effects(&groups[i].effects, file);
-        fclose(file);
-        line[strcspn(line, "\n")] = '\0';
-        text_wrap(stdout, line, 0, 2, 100);
+        put_effects(&groups[i].effects, line.file);
+        output_text_wrap(&line, stdout, 2, 100);
         printf("\n");
-        free(line);
     }
     printf("\n");
 }

@@ -4,7 +4,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
-#include "base/text.h"
+#include "base/output_text.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -151,17 +151,14 @@ void scene_explain_choice(const Renderer *renderer, const DrawRequest *request,
 {
     const CheapestQuality *choice =
         request->cheap ? &scene_state(renderer)->choices[number] : &(CheapestQuality){.count = 0};
-    char *text = NULL;
-    size_t size = 0;
-    FILE *line = choice->count ? open_memstream(&text, &size) : NULL;
-    if (!line)
+    OutputText line;
+    if (choice->count == 0)
         return;
-    fprintf(line, "view %d, --error: ", number);
-    cheapest_quality_write(choice, &view->asked, request->error, line);
-    fclose(line);
-    text_wrap(file, text, 0, 2, 100);
+    output_text_open(&line);
+    fprintf(line.file, "view %d, --error: ", number);
+    cheapest_quality_write(choice, &view->asked, request->error, line.file);
+    output_text_wrap(&line, file, 2, 100);
     fprintf(file, "\n\n");
-    free(text);
 }
 
 /* In one line, the view that is farthest from the error allowed. */

@@ -155,10 +155,7 @@ const LightingVariant *lighting_program(LightingPrograms *programs, const Lighti
         if (variant->hash == hash && memcmp(&variant->key, key, sizeof *key) == 0)
             return variant;
     programs->printed++;
-    if (!lighting_recipe_open(&recipe, key, lighting_is_mediump(&programs->loader), message)) {
-        lighting_recipe_close(&recipe);
-        return NULL;
-    }
+    lighting_recipe_open(&recipe, key, lighting_is_mediump(&programs->loader));
     const LightingProgram *program = compile(programs, &recipe, key, message);
     if (!program)
         return NULL;

@@ -21,14 +21,13 @@ typedef struct LightingKey {
     Effects effects;            /* the last: most of its groups are not used */
 } LightingKey;
 
-/* What determines a text: equal recipes give equal programs. Closed after a failure, too. */
+/* What determines a text: equal recipes give equal programs. */
 enum { LIGHTING_DEFINES = 32 };
 typedef struct LightingRecipe {
     const char *defines[LIGHTING_DEFINES];
     char *groups[2]; /* of lights, by ShaderStage */
 } LightingRecipe;
-bool lighting_recipe_open(LightingRecipe *recipe, const LightingKey *key, bool mediump,
-                          Message *message);
+void lighting_recipe_open(LightingRecipe *recipe, const LightingKey *key, bool mediump);
 void lighting_recipe_close(LightingRecipe *recipe);
 bool lighting_recipe_equal(const LightingRecipe *a, const LightingRecipe *b);
 

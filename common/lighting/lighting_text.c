@@ -6,6 +6,8 @@
  */
 #include "lighting/lighting_state.h"
 
+#include "base/output_text.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -236,13 +238,11 @@ static void write_group(const LightingKey *key, int g, bool mediump, int shadowe
 static char *groups_text(const LightingKey *key, bool mediump, bool at_vertex)
 {
     const Effects *effects = &key->effects;
-    char *text = NULL;
-    size_t size = 0;
+    OutputText text;
     int shadowed = 0; /* lights, so far */
     const Shadows shadows = shadows_of(key);
-    FILE *file = open_memstream(&text, &size);
-    if (!file)
-        return NULL;
+    output_text_open(&text);
+    FILE *file = text.file;
     if (!at_vertex)
         write_shadows(key, mediump, file);
     else if (shadows.maps)
@@ -261,8 +261,7 @@ static char *groups_text(const LightingKey *key, bool mediump, bool at_vertex)
         if (effects->groups[g].terms.at_vertex == at_vertex)
             fprintf(file, "    group%d(normal, position, viewer, front, color);\n", g);
     fprintf(file, "}\n");
-    fclose(file);
-    return text;
+    return output_text_close(&text);
 }
 
 /* What is computed where, by ShaderStage, and anywhere. */
@@ -334,16 +333,12 @@ static void find_defines(const Effects *effects, Shadows shadows, bool mediump,
             defines[count++] = all[i].define;
 }
 
-bool lighting_recipe_open(LightingRecipe *recipe, const LightingKey *key, bool mediump,
-                          Message *message)
+void lighting_recipe_open(LightingRecipe *recipe, const LightingKey *key, bool mediump)
 {
     *recipe = (LightingRecipe){{NULL}, {NULL}};
     find_defines(&key->effects, shadows_of(key), mediump, recipe->defines);
     recipe->groups[SHADER_VERTEX] = groups_text(key, mediump, true);
     recipe->groups[SHADER_FRAGMENT] = groups_text(key, mediump, false);
-    if (recipe->groups[SHADER_VERTEX] && recipe->groups[SHADER_FRAGMENT])
-        return true;
-    return message_set(message, "lighting: not enough memory");
 }
 
 void lighting_recipe_close(LightingRecipe *recipe)
@@ -377,14 +372,13 @@ bool lighting_program_sources(const ShaderLoader *base, const LightingKey *key,
 {
     LightingRecipe recipe;
     ShaderText texts[3];
-    bool done = lighting_recipe_open(&recipe, key, lighting_is_mediump(base), message);
+    lighting_recipe_open(&recipe, key, lighting_is_mediump(base));
     const ShaderLoader loader = lighting_recipe_loader(&recipe, base, texts);
     sources[SHADER_VERTEX] = sources[SHADER_FRAGMENT] = (ShaderSource){0};
-    done = done &&
-           shader_source_open(&sources[SHADER_VERTEX], &loader, "lighting.vert", SHADER_VERTEX,
-                              message) &&
-           shader_source_open(&sources[SHADER_FRAGMENT], &loader, "lighting.frag", SHADER_FRAGMENT,
-                              message);
+    const bool done = shader_source_open(&sources[SHADER_VERTEX], &loader, "lighting.vert",
+                                         SHADER_VERTEX, message) &&
+                      shader_source_open(&sources[SHADER_FRAGMENT], &loader, "lighting.frag",
+                                         SHADER_FRAGMENT, message);
     if (!done)
         shader_source_close(&sources[SHADER_VERTEX]);
     lighting_recipe_close(&recipe);

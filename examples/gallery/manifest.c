@@ -1,6 +1,6 @@
 #include "gallery/manifest.h"
 
-#include "base/output.h"
+#include "base/output_text.h"
 
 #include <errno.h>
 #include <stdint.h>
@@ -82,21 +82,13 @@ bool manifest_add(Manifest *manifest, const char *name, const ImageFile *file, M
 
 bool manifest_write(const Manifest *manifest, const char *path, Message *message)
 {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *file = open_memstream(&text, &size);
-    bool done = file != NULL;
-    if (file)
-        fprintf(file, "# %s\n", manifest->command);
-    for (int i = 0; file && i < manifest->count; i++)
-        fprintf(file, "%s  %s.png\n# pixels %s\n", manifest->entries[i].file,
+    OutputText text;
+    output_text_open(&text);
+    fprintf(text.file, "# %s\n", manifest->command);
+    for (int i = 0; i < manifest->count; i++)
+        fprintf(text.file, "%s  %s.png\n# pixels %s\n", manifest->entries[i].file,
                 manifest->entries[i].name, manifest->entries[i].pixels);
-    if (file)
-        done = fclose(file) == 0;
-    done = done ? output_write(path, text, size, message)
-                : message_set(message, "%s: not enough memory", path);
-    free(text);
-    return done;
+    return output_text_write(&text, path, message);
 }
 
 static bool is_hash(const char *text)
