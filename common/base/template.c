@@ -242,19 +242,24 @@ static char *read_text(const char *path, Message *message)
     return text;
 }
 
-bool template_write(const char *source, const TemplateValues *values, const char *path,
-                    Message *message)
+bool template_print(const char *source, const TemplateValues *values, FILE *out, Message *message)
 {
     const char *name = strrchr(source, '/') + 1;
     char installed[NAME_MAX], found[PATH_MAX];
-    OutputText filled;
     snprintf(installed, sizeof installed, "templates/%s", name);
     paths_find_data(source, installed, found);
     char *text = read_text(found, message);
-    output_text_open(&filled);
-    const bool done = text && template_fill(found, text, values, filled.file, message);
+    const bool done = text && template_fill(found, text, values, out, message);
     free(text);
-    if (done)
+    return done;
+}
+
+bool template_write(const char *source, const TemplateValues *values, const char *path,
+                    Message *message)
+{
+    OutputText filled;
+    output_text_open(&filled);
+    if (template_print(source, values, filled.file, message))
         return output_text_write(&filled, path, message);
     free(output_text_close(&filled));
     return false;

@@ -32,12 +32,14 @@ TemplateValues *template_add(TemplateValues *values, const char *section);
 void template_close(TemplateValues *values);
 
 /* Fills the template in a file, FOLDER/NAME in the source tree and templates/NAME in an
- * installation, into the file `path`, whole or not at all. Messages about a template begin with
- * "file:line:". */
+ * installation. Messages about a template begin with "file:line:". */
+bool template_print(const char *source, const TemplateValues *values, FILE *out, Message *message);
+
+/* The same into the file `path`, whole or not at all. */
 bool template_write(const char *source, const TemplateValues *values, const char *path,
                     Message *message);
 
-/* The same with the template's text in memory; `file` is its name in messages. */
+/* With the template's text in memory; `file` is its name in messages. */
 bool template_fill(const char *file, const char *text, const TemplateValues *values, FILE *out,
                    Message *message);
 

@@ -4,6 +4,7 @@
 
 #include "base/cache.h"
 #include "lighting/lighting.h"
+#include "scene/scene_fields.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -155,59 +156,55 @@ static Light seen_light(Light light)
     return light;
 }
 
-static void add_light(CacheKey *key, Light light)
+static void add_fields(CacheKey *key, const Field *fields, const void *from)
 {
-    const int kinds[] = {light.off, light.shadows, (int)light.kind, (int)light.space};
-    const Vec3 vectors[] = {light.position, light.direction, light.ambient, light.diffuse,
-                            light.specular};
-    const double numbers[] = {light.cutoff, light.exponent,  light.constant,
-                              light.linear, light.quadratic, light.range};
-    cache_key_add(key, kinds, sizeof kinds);
-    cache_key_add(key, vectors, sizeof vectors);
-    cache_key_add(key, numbers, sizeof numbers);
+    static const size_t sizes[] = {[FIELD_NUMBER] = sizeof(double),
+                                   [FIELD_VECTOR] = sizeof(Vec3),
+                                   [FIELD_WHOLE] = sizeof(int),
+                                   [FIELD_FLAG] = sizeof(bool)};
+    for (; fields->name; fields++)
+        cache_key_add(key, (const char *)from + fields->place, sizes[fields->kind]);
 }
 
 /* What of a material is seen: alpha in pictures that keep it, a colour where there is light of its
  * term, the exponent of a highlight where there is one. */
-static void add_material(CacheKey *key, const Material *material, unsigned light, bool alpha)
+static void add_material(CacheKey *key, Material material, unsigned light, bool alpha)
 {
     static const Vec3 none = {0, 0, 0};
-    const bool shiny = light & TERM_SPECULAR && !color_is_black(material->specular);
-    const Vec3 colors[] = {light & TERM_AMBIENT ? material->ambient : none,
-                           light & TERM_DIFFUSE ? material->diffuse : none,
-                           shiny ? material->specular : none, material->emission};
-    const double numbers[] = {alpha ? material->alpha : 0, shiny ? material->shininess : 0};
-    cache_key_add(key, colors, sizeof colors);
-    cache_key_add(key, numbers, sizeof numbers);
+    if (!(light & TERM_AMBIENT))
+        material.ambient = none;
+    if (!(light & TERM_DIFFUSE))
+        material.diffuse = none;
+    if (!(light & TERM_SPECULAR))
+        material.specular = none;
+    if (!alpha)
+        material.alpha = 0;
+    if (color_is_black(material.specular))
+        material.shininess = 0;
+    add_fields(key, MATERIAL_FIELDS, &material);
 }
 
 static void add_object(CacheKey *key, const Object *object, unsigned light, bool alpha)
 {
-    const int flags[] = {object->flat,         object->closed,    object->clockwise,
-                         object->behind_lines, object->two_sided, object->wrong_normals,
-                         object->lamp};
-    cache_key_add(key, flags, sizeof flags);
+    add_fields(key, OBJECT_FIELDS, object);
     cache_key_add(key, &object->world_from_object, sizeof object->world_from_object);
-    add_material(key, &object->front, light, alpha);
+    add_material(key, object->front, light, alpha);
     if (object->two_sided)
-        add_material(key, &object->back, light, alpha);
+        add_material(key, object->back, light, alpha);
     if (object->mesh)
         scene_key_mesh(key, object->mesh);
 }
 
 static void add_scene(CacheKey *key, const Scene *scene, bool alpha)
 {
-    const int kinds[] = {scene->light_count,          (int)scene->interpolation,
-                         (int)scene->reflection,      scene->distant_viewer,
-                         scene->object_count,         scene->clamp_vertex,
-                         scene->skip_renormalization, scene->linear,
-                         scene->signed_dots};
-    cache_key_add(key, kinds, sizeof kinds);
-    cache_key_add(key, &scene->camera, sizeof scene->camera);
-    cache_key_add(key, &scene->background, sizeof scene->background);
-    cache_key_add(key, &scene->global_ambient, sizeof scene->global_ambient);
-    for (int i = 0; i < scene->light_count; i++)
-        add_light(key, seen_light(scene->lights[i]));
+    const int counts[] = {scene->light_count, scene->object_count};
+    cache_key_add(key, counts, sizeof counts);
+    add_fields(key, SCENE_FIELDS, scene);
+    add_fields(key, CAMERA_FIELDS, &scene->camera);
+    for (int i = 0; i < scene->light_count; i++) {
+        const Light light = seen_light(scene->lights[i]);
+        add_fields(key, LIGHT_FIELDS, &light);
+    }
     for (int i = 0; i < scene->object_count; i++)
         add_object(key, &scene->objects[i], light_terms(scene), alpha);
 }

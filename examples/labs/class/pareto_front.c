@@ -34,58 +34,37 @@ static int by_operations(const void *a, const void *b)
            ((*first)->operations < (*second)->operations);
 }
 
-/* Writes lines "OPERATIONS ERROR", the cheapest first, of the efficient submissions or the others.
- */
-static int put_points(const ClassStore *store, bool efficient, FILE *file)
+/* The efficient submissions or the others, the cheapest first. */
+static void set_points(TemplateValues *plot, const ClassStore *store, bool efficient)
 {
     int count = 0;
+    TemplateValues *points = NULL;
     const VerdictCost **costs = memory_new((size_t)store->count, sizeof *costs);
     for (int i = 0; i < store->count; i++)
         if (counted(&store->results[i]) && pareto_front_has(store, &store->results[i]) == efficient)
             costs[count++] = &store->results[i].verdict.cost;
     qsort(costs, (size_t)count, sizeof *costs, by_operations);
-    for (int i = 0; i < count; i++)
-        fprintf(file, "%.9g %.9g\n", costs[i]->operations_ratio, costs[i]->error);
+    for (int i = 0; i < count; i++) {
+        points = points ? points : template_add(plot, efficient ? "front" : "others");
+        TemplateValues *point = template_add(points, "point");
+        template_set(point, "operations", "%.9g", costs[i]->operations_ratio);
+        template_set(point, "error", "%.9g", costs[i]->error);
+    }
+    if (points && !efficient)
+        template_set(points, "color", "%s", GNUPLOT_PALETTE[5]);
     free(costs);
-    return count;
-}
-
-static void put_data(const ClassStore *store, FILE *script)
-{
-    fputs("$others << END\n", script);
-    const int others = put_points(store, false, script);
-    fputs("END\n$front << END\n", script);
-    put_points(store, true, script);
-    fputs("END\n", script);
-    /* An empty block is an error to gnuplot. */
-    fputs("plot ", script);
-    if (others)
-        fprintf(script, "$others using 1:2 with points pt 7 lc rgb '%s' title 'others', ",
-                GNUPLOT_PALETTE[5]);
-    fprintf(script,
-            "$front using 1:2 with steps lw 2 lc rgb '%s' notitle, "
-            "$front using 1:2 with points pt 5 lc rgb '%s' title 'efficient: no other is both "
-            "cheaper and more exact'\n",
-            GNUPLOT_PALETTE[1], GNUPLOT_PALETTE[1]);
 }
 
 bool pareto_front_draw(const ClassStore *store, bool *drawn, Message *message)
 {
-    OutputText script;
     *drawn = false;
     for (int i = 0; i < store->count && !*drawn; i++)
         *drawn = counted(&store->results[i]);
     if (!*drawn)
         return true;
-    output_text_open(&script);
-    FILE *file = script.file;
-    fputs("set title 'Cost and error of the submissions'\n"
-          "set xlabel 'operations per picture, relative to the plain program'\n"
-          "set ylabel 'largest error, steps of 1/255'\n"
-          "set xrange [0:*]\nset yrange [0:*]\nset key top right\n"
-          "set grid lc rgb '#dddddd'\nset offsets graph 0.02, graph 0.05, graph 0.1, 0\n"
-          "set arrow 1 from graph 0, first 1 to graph 1, first 1 nohead dt 2 lc rgb '#000000'\n",
-          file);
-    put_data(store, file);
-    return gnuplot_finish(&script, store->folder, "front", message);
+    TemplateValues *plot = template_values();
+    template_set(plot, "color", "%s", GNUPLOT_PALETTE[1]);
+    set_points(plot, store, false);
+    set_points(plot, store, true);
+    return gnuplot_draw("examples/labs/class/front.gp", plot, store->folder, "front", message);
 }

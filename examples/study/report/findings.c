@@ -95,82 +95,60 @@ typedef struct Bars {
     const char *names[2]; /* of the values; the second may be NULL */
     const char *foot;     /* as in ReportAxes */
     struct {
-        char name[48], note[48]; /* notes are shown if there are few bars */
+        char name[48], note[48];
         Bar values[2];
     } bars[MAX_BARS];
     int count;
 } Bars;
 
-/* Names below each other where there are few bars, else turned. */
-static void put_names(FILE *file, const Bars *bars)
+/* Returns its largest number. Notes are shown if there are few bars. */
+static double set_bar(TemplateValues *plot, const Bars *bars, int number, int values)
 {
-    const bool few = bars->count <= FEW_BARS;
-    fprintf(file, "set xtics nomirror out scale 0 %s (", few ? "norotate" : "rotate by -35");
-    for (int i = 0; i < bars->count; i++) {
-        fputs(i ? ", " : "", file);
-        gnuplot_string(file, bars->bars[i].name);
-        fprintf(file, " %d", i);
-    }
-    fputs(")\nset bmargin at screen 0.2\nset rmargin at screen 0.93\n", file);
-    for (int i = 0; i < bars->count && few; i++) {
-        fputs("set label ", file);
-        gnuplot_string(file, bars->bars[i].note);
-        fprintf(file, " at first %d, screen 0.11 center textcolor rgb '#555555'\n", i);
-    }
-}
-
-/* Returns the largest number. */
-static double put_bars(FILE *file, const Bars *bars, int values)
-{
+    TemplateValues *bar = template_add(plot, "bar");
     double max = 0;
-    fputs("$bars << EOD\n", file);
-    for (int i = 0; i < bars->count; i++) {
-        for (int k = 0; k < values; k++) {
-            const Bar bar = bars->bars[i].values[k];
-            fprintf(file, "%.9g %.9g %.9g ", bar.value, bar.low, bar.high);
-            max = fmax(max, fmax(bar.value, bar.high));
-        }
-        fputc('\n', file);
+    template_set(bar, "comma", "%s", number ? ", " : "");
+    template_set(bar, "number", "%d", number);
+    gnuplot_set(bar, "name", bars->bars[number].name);
+    if (bars->count <= FEW_BARS)
+        gnuplot_set(bar, "note", bars->bars[number].note);
+    for (int k = 0; k < values; k++) {
+        const Bar of = bars->bars[number].values[k];
+        TemplateValues *value = template_add(bar, "value");
+        template_set(value, "middle", "%.9g", of.value);
+        template_set(value, "low", "%.9g", of.low);
+        template_set(value, "high", "%.9g", of.high);
+        max = fmax(max, fmax(of.value, of.high));
     }
-    fputs("EOD\n", file);
     return max;
 }
 
 static bool draw_bars(const Bars *bars, const char *folder, const char *name, Message *message)
 {
-    OutputText script;
     const int values = bars->names[1] ? 2 : 1;
+    const double width = 0.7 / values;
+    double max = 0;
     if (bars->count == 0)
         return true;
-    output_text_open(&script);
-    FILE *file = script.file;
-    gnuplot_foot(file, bars->foot);
-    gnuplot_title(file, bars->title);
-    fputs("set encoding utf8\nset border 3 lc rgb '#444444'\nset tmargin at screen 0.92\n"
-          "set grid y lc rgb '#dddddd' lw 0.6 lt 1\nset ylabel ",
-          file);
-    gnuplot_string(file, bars->y);
-    fprintf(file,
-            "\nset key inside top left Left reverse samplen 1.5 opaque\n"
-            "set style fill solid 0.9 noborder\nset xrange [-0.6:%g]\n",
-            bars->count - 0.4);
+    TemplateValues *plot = gnuplot_values(bars->title, bars->foot);
+    gnuplot_set(plot, "y", bars->y);
+    template_set(plot, "right", "%g", bars->count - 0.4);
+    template_set(plot, "turn", "%s", bars->count <= FEW_BARS ? "norotate" : "rotate by -35");
+    template_set(plot, "width", "%g", width);
+    for (int i = 0; i < bars->count; i++)
+        max = fmax(max, set_bar(plot, bars, i, values));
     /* Room for the key above the bars. */
-    gnuplot_axis(file, 'y', 0, put_bars(file, bars, values) * (1.08 + 0.08 * values), false);
-    put_names(file, bars);
-    const double width = 0.7 / values;
-    fprintf(file, "set boxwidth %g\nplot ", width);
+    gnuplot_set_axis(plot, 'y', 0, max * (1.08 + 0.08 * values), false);
     for (int k = 0; k < values; k++) {
-        const double offset = width * (k - 0.5 * (values - 1));
-        fprintf(file, "%s$bars using ($0 + %g):%d with boxes lc rgb '%s' title ",
-                k ? ", \\\n  " : "", offset, 3 * k + 1, GNUPLOT_PALETTE[k]);
-        gnuplot_string(file, bars->names[k]);
-        fprintf(file,
-                ", \\\n  '' using ($0 + %g):%d:(0):($%d - $%d) with vectors heads size graph "
-                "0.006,90 lw 2 lc rgb '#222222' notitle",
-                offset, 3 * k + 2, 3 * k + 3, 3 * k + 2);
+        TemplateValues *box = template_add(plot, "box");
+        template_set(box, "comma", "%s", k ? ", \\\n  " : "");
+        template_set(box, "offset", "%g", width * (k - 0.5 * (values - 1)));
+        template_set(box, "middle", "%d", 3 * k + 1); /* the columns of the value */
+        template_set(box, "low", "%d", 3 * k + 2);
+        template_set(box, "high", "%d", 3 * k + 3);
+        template_set(box, "color", "%s", GNUPLOT_PALETTE[k]);
+        gnuplot_set(box, "name", bars->names[k]);
     }
-    fputc('\n', file);
-    return gnuplot_finish(&script, folder, name, message);
+    return gnuplot_draw("examples/study/report/bars.gp", plot, folder, name, message);
 }
 
 _Static_assert((int)STUDY_SCENE_COUNT <= (int)MAX_BARS, "a bar for each scene");

@@ -47,41 +47,47 @@ static double value_in(const Range *range, double value)
     return range->log && value <= 0 ? range->floor : value;
 }
 
-/* A series without points is still in the key. */
-static void put_series(FILE *script, int number, const ReportSeries *series, const Range *x,
+static void set_series(TemplateValues *plot, int number, const ReportSeries *series, const Range *x,
                        const Range *y)
 {
-    bool any = false;
-    fprintf(script, "$series%d << EOD\n", number);
+    static const int marks[] = {7, 9, 5, 11, 13};
+    TemplateValues *values = template_add(plot, "series");
+    template_set(values, "comma", "%s", number ? ", \\\n " : "");
+    template_set(values, "number", "%d", number);
+    template_set(values, "mark", "%d", marks[number % 5]);
+    template_set(values, "color", "%s", GNUPLOT_PALETTE[number % GNUPLOT_COLORS]);
+    gnuplot_set(values, "name", series->name);
     for (int j = 0; j < series->count; j++) {
         if (!isfinite(series->x[j]) || !isfinite(series->y[j]))
             continue;
-        fprintf(script, "%.9g %.9g\n", value_in(x, series->x[j]), value_in(y, series->y[j]));
-        any = true;
+        TemplateValues *point = template_add(values, "point");
+        template_set(point, "x", "%.9g", value_in(x, series->x[j]));
+        template_set(point, "y", "%.9g", value_in(y, series->y[j]));
     }
-    fputs(any ? "EOD\n" : "NaN NaN\nEOD\n", script);
 }
 
-static void put_curve_axis(FILE *script, char axis, const char *label, const Range *range)
+static void set_axis(TemplateValues *plot, const char axis[2], const char *label,
+                     const Range *range)
 {
     char text[256];
-    gnuplot_axis(script, axis, range->min, range->max, range->log);
+    gnuplot_set_axis(plot, axis[0], range->min, range->max, range->log);
     snprintf(text, sizeof text, "%s%s", label,
              range->floored ? " (0: drawn at the lower end)" : "");
-    fprintf(script, "set %clabel ", axis);
-    gnuplot_string(script, text);
-    fputc('\n', script);
+    gnuplot_set(plot, axis, text);
 }
 
 /* Instead of tics at 1, 2 and 5 times powers of ten. */
-static void put_doubling(FILE *script, const Range *x)
+static void set_doubling(TemplateValues *plot, const Range *x)
 {
-    int written = 0;
-    fputs("set xtics nomirror out (", script);
-    for (double value = 1; value <= x->max; value *= 2)
-        if (value >= x->min)
-            fprintf(script, "%s'%.0f' %.0f", written++ ? ", " : "", value, value);
-    fputs(")\n", script);
+    TemplateValues *doubling = template_add(plot, "doubling");
+    int count = 0;
+    for (double value = 1; value <= x->max; value *= 2) {
+        if (value < x->min)
+            continue;
+        TemplateValues *tic = template_add(doubling, "tic");
+        template_set(tic, "comma", "%s", count++ ? ", " : "");
+        template_set(tic, "at", "%.0f", value);
+    }
 }
 
 /* The approximate number of lines of the key. */
@@ -97,34 +103,15 @@ static int key_lines(const ReportSeries *series, int count)
 bool report_curves(const ReportAxes *axes, const ReportSeries *series, int count,
                    const char *folder, const char *name, Message *message)
 {
-    static const int marks[] = {7, 9, 5, 11, 13};
     const Range x = range_of(series, count, false, axes->log_x);
     const Range y = range_of(series, count, true, axes->log_y);
-    OutputText script;
-    int drawn = 0;
-    output_text_open(&script);
-    FILE *file = script.file;
-    const int lines = key_lines(series, count);
-    gnuplot_foot(file, axes->foot);
-    gnuplot_title(file, axes->title);
-    fprintf(file,
-            "set encoding utf8\nset border 3 lc rgb '#444444'\n"
-            "set grid lc rgb '#dddddd' lw 0.6 lt 1\n"
-            "set tmargin at screen %.5f\nset bmargin at screen 0.175\n"
-            "set key at screen 0.5,0.937 center top horizontal reverse Left samplen 2.5 width 1\n",
-            1 - (62.0 + 24 * lines) / GNUPLOT_HEIGHT);
-    put_curve_axis(file, 'x', axes->x, &x);
+    TemplateValues *plot = gnuplot_values(axes->title, axes->foot);
+    template_set(plot, "top", "%.5f", 1 - (62.0 + 24 * key_lines(series, count)) / GNUPLOT_HEIGHT);
+    set_axis(plot, "x", axes->x, &x);
+    set_axis(plot, "y", axes->y, &y);
     if (axes->doubling_x)
-        put_doubling(file, &x);
-    put_curve_axis(file, 'y', axes->y, &y);
+        set_doubling(plot, &x);
     for (int i = 0; i < count; i++)
-        put_series(file, i, &series[i], &x, &y);
-    for (int i = 0; i < count; i++) {
-        fprintf(file,
-                "%s $series%d using 1:2 with linespoints lw 1.8 pt %d ps 0.7 lc rgb '%s' title ",
-                drawn++ ? ", \\\n " : "plot", i, marks[i % 5], GNUPLOT_PALETTE[i % GNUPLOT_COLORS]);
-        gnuplot_string(file, series[i].name);
-    }
-    fputc('\n', file);
-    return gnuplot_finish(&script, folder, name, message);
+        set_series(plot, i, &series[i], &x, &y);
+    return gnuplot_draw("examples/study/report/curves.gp", plot, folder, name, message);
 }

@@ -1,5 +1,6 @@
 #include "study/report/report_gnuplot.h"
 
+#include "base/output_text.h"
 #include "base/output.h"
 #include "base/process.h"
 
@@ -80,8 +81,8 @@ static bool draw_plot(const char *terminal, const char *script, size_t size, con
     return done;
 }
 
-bool gnuplot_draw(const char *script, size_t size, const char *folder, const char *name,
-                  Message *message)
+static bool draw_plots(const OutputText *script, const char *folder, const char *name,
+                       Message *message)
 {
     static const char *const extensions[] = {"svg", "png"};
     /* Scaled to equal sizes: svg counts in pixels, pngcairo in points. */
@@ -96,17 +97,22 @@ bool gnuplot_draw(const char *script, size_t size, const char *folder, const cha
                  terminals[i], GNUPLOT_WIDTH, GNUPLOT_HEIGHT, GNUPLOT_FONT);
         snprintf(file, sizeof file, "%s.%s", name, extensions[i]);
         if (!output_path(path, folder, file, message) ||
-            !draw_plot(terminal, script, size, path, message))
+            !draw_plot(terminal, script->text, script->size, path, message))
             return false;
     }
     return true;
 }
 
-bool gnuplot_finish(OutputText *script, const char *folder, const char *name, Message *message)
+bool gnuplot_draw(const char *source, TemplateValues *values, const char *folder, const char *name,
+                  Message *message)
 {
-    char *text = output_text_close(script);
-    const bool done = gnuplot_draw(text, script->size, folder, name, message);
-    free(text);
+    OutputText text;
+    output_text_open(&text);
+    bool done = template_print(source, values, text.file, message);
+    template_close(values);
+    output_text_close(&text);
+    done = done && draw_plots(&text, folder, name, message);
+    free(text.text);
     return done;
 }
 
@@ -124,30 +130,21 @@ bool gnuplot_forget(const char *folder, const char *name, Message *message)
     return true;
 }
 
-void gnuplot_string(FILE *script, const char *text)
+void gnuplot_set(TemplateValues *values, const char *name, const char *text)
 {
     /* Within single quotes only the quote itself is special. */
-    fputc('\'', script);
-    for (const char *p = text; *p; p++) {
-        if (*p == '\'')
-            fputc('\'', script);
-        fputc((unsigned char)*p < ' ' ? ' ' : *p, script);
-    }
-    fputc('\'', script);
+    OutputText quoted;
+    output_text_open(&quoted);
+    for (const char *p = text; *p; p++)
+        fprintf(quoted.file, "%s%c", *p == '\'' ? "'" : "", (unsigned char)*p < ' ' ? ' ' : *p);
+    char *written = output_text_close(&quoted);
+    template_set(values, name, "'%s'", written);
+    free(written);
 }
 
-void gnuplot_title(FILE *script, const char *text)
+/* What was measured with, without what is in parentheses: there is no room for it. */
+static void set_foot(TemplateValues *values, const char *text)
 {
-    fputs("set label ", script);
-    gnuplot_string(script, text);
-    fprintf(script, " at screen 0.5,0.965 center font ',%d'\n", GNUPLOT_TITLE);
-}
-
-void gnuplot_foot(FILE *script, const char *text)
-{
-    if (!text)
-        return;
-    /* Without what is in parentheses there is room for it. */
     char kept[256];
     size_t used = 0;
     int depth = 0;
@@ -158,9 +155,17 @@ void gnuplot_foot(FILE *script, const char *text)
         depth -= *p == ')';
     }
     kept[used] = '\0';
-    fputs("set label ", script);
-    gnuplot_string(script, kept);
-    fputs(" at screen 0.99,0.018 right textcolor rgb '#666666'\n", script);
+    gnuplot_set(values, "foot", kept);
+}
+
+TemplateValues *gnuplot_values(const char *title, const char *foot)
+{
+    TemplateValues *values = template_values();
+    gnuplot_set(values, "title", title);
+    template_set(values, "title_size", "%d", GNUPLOT_TITLE);
+    if (foot)
+        set_foot(values, foot);
+    return values;
 }
 
 /* Writes the numbers in min..max that are a factor times a power of ten; returns how many. */
@@ -194,7 +199,7 @@ static void put_steps(FILE *script, double min, double max)
     }
 }
 
-void gnuplot_axis(FILE *script, char axis, double min, double max, bool log)
+void gnuplot_set_axis(TemplateValues *values, char axis, double min, double max, bool log)
 {
     enum { FEW = 5, MANY = 16 };
     static const double factors[] = {1, 2, 5, 1, 1.5, 2, 3, 4, 5, 7};
@@ -202,6 +207,9 @@ void gnuplot_axis(FILE *script, char axis, double min, double max, bool log)
         int first, count;
     } sets[] = {{0, 3}, {0, 1}, {3, 7}};
     int set = -1;
+    OutputText text;
+    output_text_open(&text);
+    FILE *script = text.file;
     for (int i = 0; i < 3 && log && set < 0; i++) {
         const int count = put_decades(NULL, min, max, factors + sets[i].first, sets[i].count);
         if (count >= FEW && count <= MANY)
@@ -215,5 +223,8 @@ void gnuplot_axis(FILE *script, char axis, double min, double max, bool log)
         put_decades(script, min, max, factors + sets[set].first, sets[set].count);
     else
         put_steps(script, min, max);
-    fprintf(script, ")\n");
+    fprintf(script, ")");
+    char *commands = output_text_close(&text);
+    template_set(values, axis == 'x' ? "x_axis" : "y_axis", "%s", commands);
+    free(commands);
 }

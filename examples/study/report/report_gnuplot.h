@@ -1,10 +1,10 @@
 /*
- * report_gnuplot: runs gnuplot and writes parts of its scripts.
+ * report_gnuplot: fills scripts of gnuplot and runs them.
  */
 #ifndef REPORT_GNUPLOT_H
 #define REPORT_GNUPLOT_H
 
-#include "base/output_text.h"
+#include "base/template.h"
 #include "scene/quality.h"
 
 #include <stdbool.h>
@@ -18,29 +18,24 @@ enum { GNUPLOT_WIDTH = 1000, GNUPLOT_HEIGHT = 700, GNUPLOT_FONT = 18, GNUPLOT_TI
 enum { GNUPLOT_COLORS = 7 };
 extern const char *const GNUPLOT_PALETTE[GNUPLOT_COLORS];
 
-/* Runs a script twice, for FOLDER/NAME.svg and FOLDER/NAME.png, each written completely or not at
- * all. The script sets neither terminal nor output. Uses no shell and no temporary files. */
-bool gnuplot_draw(const char *script, size_t size, const char *folder, const char *name,
-                  Message *message);
+/* The values of a script: its title, and a footer that says what was measured with; NULL: none. */
+TemplateValues *gnuplot_values(const char *title, const char *foot);
 
-/* Draws a script and frees it. */
-bool gnuplot_finish(OutputText *script, const char *folder, const char *name, Message *message);
+/* A quoted string. */
+void gnuplot_set(TemplateValues *values, const char *name, const char *text);
+
+/* As x_axis or y_axis the range of an axis ('x' or 'y') and its tics: 1, 2 and 5 times powers of
+ * ten, or others if those are too few or too many. If `log`, 0 < min < max. */
+void gnuplot_set_axis(TemplateValues *values, char axis, double min, double max, bool log);
+
+/* Fills a script, "examples/.../curves.gp" (see template_print), closes the values, and runs it
+ * twice, for FOLDER/NAME.svg and FOLDER/NAME.png, each written completely or not at all. The script
+ * sets neither terminal nor output. Uses no shell and no temporary files. */
+bool gnuplot_draw(const char *source, TemplateValues *values, const char *folder, const char *name,
+                  Message *message);
 
 /* Removes both files of an earlier run, if there are any. */
 bool gnuplot_forget(const char *folder, const char *name, Message *message);
-
-/* Writes a quoted string. */
-void gnuplot_string(FILE *script, const char *text);
-
-/* A title at the top. */
-void gnuplot_title(FILE *script, const char *text);
-
-/* A footer: what was measured with, without what is in parentheses. NULL: none. */
-void gnuplot_foot(FILE *script, const char *text);
-
-/* The range of an axis ('x' or 'y') and its tics: 1, 2 and 5 times powers of ten, or others if
- * those are too few or too many. If `log`, 0 < min < max. */
-void gnuplot_axis(FILE *script, char axis, double min, double max, bool log);
 
 /* Places labels of points in a plot, so that none covers another or a point. */
 

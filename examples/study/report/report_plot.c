@@ -2,7 +2,6 @@
 #include "base/memory.h"
 #include "study/report/report_gnuplot.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,6 +20,7 @@ static const double FLOOR = 0.01;
 static const double ROUNDING = 0.5;
 
 enum { INTERPOLATIONS = 3 };
+static const int FILLED[INTERPOLATIONS] = {7, 9, 5}; /* points */
 
 /* A scene's rows and ranges. */
 typedef struct Plot {
@@ -138,11 +138,9 @@ static void make_labels(const Plot *plot, Label labels[REPORT_PINS])
     }
 }
 
-static bool place_labels(const Plot *plot, Label *labels, int count, Message *message)
+static void place_labels(const Plot *plot, Label *labels, int count)
 {
-    Place *places = malloc((size_t)(plot->count + plot->front.count) * sizeof *places);
-    if (!places)
-        return message_set(message, "the plot: %s", strerror(ENOMEM));
+    Place *places = memory_new((size_t)(plot->count + plot->front.count), sizeof *places);
     for (int i = 0; i < plot->count; i++)
         places[i] = place_of(plot, plot->rows[i]);
     for (int i = 0; i < plot->front.count; i++)
@@ -160,157 +158,118 @@ static bool place_labels(const Plot *plot, Label *labels, int count, Message *me
                                 .letter = 10.5,
                                 .line = 21});
     free(places);
-    return true;
 }
 
-static void put_screen(FILE *script, Place place)
+static void set_screen(TemplateValues *values, const char *x, const char *y, Place place)
 {
-    fprintf(script, " screen %.5f,%.5f", place.x / GNUPLOT_WIDTH, place.y / GNUPLOT_HEIGHT);
+    template_set(values, x, "%.5f", place.x / GNUPLOT_WIDTH);
+    template_set(values, y, "%.5f", place.y / GNUPLOT_HEIGHT);
 }
 
-static void put_labels(FILE *script, const Label *labels, int count)
+static void set_label(TemplateValues *page, const Label *label)
 {
-    for (int i = 0; i < count; i++) {
-        const Label *label = &labels[i];
-        const bool before = label->max.x <= label->point.x; /* it ends at the point */
-        const double step = (label->max.y - label->min.y) / label->line_count;
-        if (!label->placed)
-            continue;
-        for (int j = 0; j < label->line_count; j++) {
-            fputs("set label ", script);
-            gnuplot_string(script, label->lines[j]);
-            fputs(" at", script);
-            put_screen(script, (Place){before ? label->max.x : label->min.x,
-                                       label->max.y - (j + 0.5) * step});
-            fprintf(script, " %s front textcolor rgb '#222222'\n", before ? "right" : "left");
-        }
-        if (!label->led)
-            continue;
-        fputs("set arrow from", script);
-        put_screen(script, (Place){fmin(fmax(label->point.x, label->min.x), label->max.x),
-                                   fmin(fmax(label->point.y, label->min.y), label->max.y)});
-        fputs(" to", script);
-        put_screen(script, label->point);
-        fputs(" nohead front lw 0.7 lc rgb '#888888'\n", script);
+    const bool before = label->max.x <= label->point.x; /* it ends at the point */
+    const double step = (label->max.y - label->min.y) / label->line_count;
+    for (int j = 0; j < label->line_count && label->placed; j++) {
+        TemplateValues *line = template_add(page, "label");
+        gnuplot_set(line, "text", label->lines[j]);
+        set_screen(line, "x", "y",
+                   (Place){before ? label->max.x : label->min.x, label->max.y - (j + 0.5) * step});
+        template_set(line, "side", "%s", before ? "right" : "left");
     }
+    if (!label->placed || !label->led)
+        return;
+    TemplateValues *leader = template_add(page, "leader");
+    set_screen(leader, "x0", "y0",
+               (Place){fmin(fmax(label->point.x, label->min.x), label->max.x),
+                       fmin(fmax(label->point.y, label->min.y), label->max.y)});
+    set_screen(leader, "x1", "y1", label->point);
 }
 
-/* The rows of one interpolation, efficient or not, as a data block; false if there are none. */
-static bool put_rows(FILE *script, const Plot *plot, int interpolation, bool efficient)
+static TemplateValues *add_row(TemplateValues *to, const Plot *plot, const ResultRow *row)
 {
-    bool any = false;
+    TemplateValues *values = template_add(to, "row");
+    template_set(values, "time", "%.9g", row->time);
+    template_set(values, "error", "%.9g", height_of(plot, row));
+    return values;
+}
+
+/* The rows of one interpolation, efficient or not; false if there are none. */
+static bool set_rows(TemplateValues *page, const Plot *plot, int interpolation, bool efficient)
+{
+    static const int hollow[INTERPOLATIONS] = {6, 8, 4};
+    TemplateValues *rows = NULL;
     for (int i = 0; i < plot->count; i++) {
         const ResultRow *row = plot->rows[i];
         if (row->quality.choice[AXIS_INTERPOLATION] != interpolation ||
             front_has(&plot->front, row) != efficient)
             continue;
-        if (!any)
-            fprintf(script, "$%s%d << EOD\n", efficient ? "efficient" : "other", interpolation);
-        any = true;
-        fprintf(script, "%.9g %.9g\n", row->time, height_of(plot, row));
+        if (!rows) {
+            rows = template_add(page, efficient ? "efficient" : "other");
+            template_set(rows, "number", "%d", interpolation);
+            template_set(rows, "filled", "%d", FILLED[interpolation]);
+            template_set(rows, "hollow", "%d", hollow[interpolation]);
+            template_set(rows, "color", "%s", GNUPLOT_PALETTE[interpolation]);
+        }
+        add_row(rows, plot, row);
     }
-    if (any)
-        fputs("EOD\n", script);
-    return any;
+    return rows != NULL;
 }
 
 /* Each with its quartiles. */
-static void put_front(FILE *script, const Plot *plot)
+static void set_front(TemplateValues *page, const Plot *plot)
 {
-    fputs("$front << EOD\n", script);
+    TemplateValues *front = template_add(page, "front");
     for (int i = 0; i < plot->front.count; i++) {
         const ResultRow *row = plot->front.rows[i];
         const bool known = isfinite(row->time_lower) && isfinite(row->time_upper);
         const double lower = known ? fmax(row->time_lower, plot->x_min) : row->time;
         const double upper = known ? fmin(row->time_upper, plot->x_max) : row->time;
-        fprintf(script, "%.9g %.9g %.9g %.9g\n", row->time, height_of(plot, row), lower,
-                upper - lower);
+        TemplateValues *values = add_row(front, plot, row);
+        template_set(values, "lower", "%.9g", lower);
+        template_set(values, "width", "%.9g", upper - lower);
     }
-    fputs("EOD\n", script);
 }
 
-static void put_axes(FILE *script, const Plot *plot, const char *title)
+static void set_points(TemplateValues *page, const Plot *plot)
+{
+    for (int i = 0; i < INTERPOLATIONS; i++) {
+        const bool other = set_rows(page, plot, i, false);
+        if (!set_rows(page, plot, i, true) && !other)
+            continue;
+        TemplateValues *entry = template_add(page, "entry");
+        template_set(entry, "filled", "%d", FILLED[i]);
+        template_set(entry, "color", "%s", GNUPLOT_PALETTE[i]);
+        template_set(entry, "name", "%s", QUALITY_AXES[AXIS_INTERPOLATION].choices[i]);
+    }
+    if (!plot->front.busy) {
+        set_front(page, plot);
+        return;
+    }
+    TemplateValues *busy = template_add(page, "busy");
+    template_set(busy, "bound", "%.0f", 100 * FRONT_NOISE_BOUND);
+    template_set(busy, "y", "%.5f", (STRIP + STRIP_HEIGHT / 2) / GNUPLOT_HEIGHT);
+}
+
+static void set_axes(TemplateValues *page, const Plot *plot)
 {
     static const char *const kinds[] = {
         [ERROR_INTERIOR_MAXIMUM] = "largest error",
         [ERROR_INTERIOR_RMS] = "RMS error",
         [ERROR_ALL_RMS] = "RMS error of all pixels",
     };
-    char label[160];
-    char with[RESULT_WITH_SIZE];
-    results_measured_with(plot->rows[0], with);
-    gnuplot_foot(script, with);
-    gnuplot_title(script, title);
-    fputs("set encoding utf8\nset border 3 lc rgb '#444444'\n", script);
-    fprintf(script,
-            "set lmargin at screen %.5f\nset rmargin at screen %.5f\n"
-            "set bmargin at screen %.5f\nset tmargin at screen %.5f\n",
-            MIN.x / GNUPLOT_WIDTH, MAX.x / GNUPLOT_WIDTH, MIN.y / GNUPLOT_HEIGHT,
-            MAX.y / GNUPLOT_HEIGHT);
-    gnuplot_axis(script, 'x', plot->x_min, plot->x_max, true);
-    gnuplot_axis(script, 'y', plot->y_min, plot->y_max, true);
-    fputs("set xlabel 'time of a frame, drawn and read back, in ms' offset 0,0.4\nset label ",
-          script);
-    snprintf(label, sizeof label, "%s, in steps of 1/255", kinds[plot->kind]);
-    gnuplot_string(script, label);
-    fprintf(script, " at screen 0.022,%.5f center rotate", (MIN.y + MAX.y) / 2 / GNUPLOT_HEIGHT);
+    set_screen(page, "left", "bottom", MIN);
+    set_screen(page, "right", "top", MAX);
+    gnuplot_set_axis(page, 'x', plot->x_min, plot->x_max, true);
+    gnuplot_set_axis(page, 'y', plot->y_min, plot->y_max, true);
+    template_set(page, "error", "%s", kinds[plot->kind]);
+    template_set(page, "middle", "%.5f", (MIN.y + MAX.y) / 2 / GNUPLOT_HEIGHT);
     if (plot->floored)
-        fprintf(script, "\nset ytics add ('≤%g' %g)", FLOOR, FLOOR);
-    fputs("\nset grid lc rgb '#dddddd' lw 0.6 lt 1\n"
-          "set key at screen 0.5,0.937 center top horizontal reverse Left samplen 1.5 width 1\n",
-          script);
+        template_set(page, "floor", "%g", FLOOR);
     if (plot->kind == ERROR_INTERIOR_MAXIMUM && plot->y_min < ROUNDING && plot->y_max > ROUNDING)
-        fprintf(script,
-                "set arrow from graph 0,first 0.5 to graph 1,first 0.5 nohead back lw 1 dt 2 "
-                "lc rgb '#999999'\n"
-                "set label 'rounding to 8 bits' at screen %.5f,first 0.5 left offset 0,0.5 "
-                "textcolor rgb '#666666'\n",
-                (MIN.x + 6) / GNUPLOT_WIDTH);
-}
-
-/* The line of the efficient ones; where the machine was busy that instead. */
-static void put_efficient(FILE *script, const Plot *plot)
-{
-    if (!plot->front.busy) {
-        put_front(script, plot);
-        fputs("plot $front using 1:2 with lines lw 1.5 lc rgb '#555555' title 'efficient', \\\n"
-              "  $front using 3:2:4:(0) with vectors nohead lw 1.5 lc rgb '#555555' notitle",
-              script);
-        return;
-    }
-    fprintf(script,
-            "set label 'The machine was busy: half the times have a noise of more than %.0f%%; no "
-            "setting is marked.' at screen 0.5,%.5f center front textcolor rgb '#b00000'\n"
-            "plot NaN notitle",
-            100 * FRONT_NOISE_BOUND, (STRIP + STRIP_HEIGHT / 2) / GNUPLOT_HEIGHT);
-}
-
-/* Later ones cover earlier ones. */
-static void put_plot(FILE *script, const Plot *plot)
-{
-    static const int filled[INTERPOLATIONS] = {7, 9, 5}, hollow[INTERPOLATIONS] = {6, 8, 4};
-    bool other[INTERPOLATIONS], efficient[INTERPOLATIONS];
-    for (int i = 0; i < INTERPOLATIONS; i++) {
-        other[i] = put_rows(script, plot, i, false);
-        efficient[i] = put_rows(script, plot, i, true);
-    }
-    put_efficient(script, plot);
-    for (int i = 0; i < INTERPOLATIONS; i++)
-        if (other[i])
-            fprintf(script,
-                    ", \\\n  $other%d using 1:2 with points pt %d ps 0.5 lw 1 lc rgb '%s' notitle",
-                    i, hollow[i], GNUPLOT_PALETTE[i]);
-    for (int i = 0; i < INTERPOLATIONS; i++)
-        if (efficient[i])
-            fprintf(script,
-                    ", \\\n  $efficient%d using 1:2 with points pt %d ps 1.1 lc rgb '%s' notitle, "
-                    "\\\n  '' using 1:2 with points pt %d ps 1.1 lw 1 lc rgb '#000000' notitle",
-                    i, filled[i], GNUPLOT_PALETTE[i], hollow[i]);
-    for (int i = 0; i < INTERPOLATIONS; i++)
-        if (other[i] || efficient[i])
-            fprintf(script, ", \\\n  keyentry with points pt %d ps 0.9 lc rgb '%s' title '%s'",
-                    filled[i], GNUPLOT_PALETTE[i], QUALITY_AXES[AXIS_INTERPOLATION].choices[i]);
-    fputs("\n", script);
+        template_set(page, "rounding", "%.5f", (MIN.x + 6) / GNUPLOT_WIDTH);
+    template_set(page, "width", "%d", GNUPLOT_WIDTH);
+    template_set(page, "height", "%d", GNUPLOT_HEIGHT);
 }
 
 /* A pin's picture in its part of the strip; lines from there to its point. */
@@ -325,54 +284,36 @@ static double pin_width(void)
     return (MAX.x - MIN.x + 80) / REPORT_PINS - 14;
 }
 
-static void put_pins(FILE *script, const Plot *plot)
+static void set_pin(TemplateValues *page, const Plot *plot, int number)
 {
-    for (int i = 0; i < plot->pins.count; i++) {
-        const ResultRow *row = plot->pins.rows[i];
-        char caption[64];
-        const double middle = pin_left(i) + pin_width() / 2;
-        const double error = row_error(row, plot->kind);
-        snprintf(caption, sizeof caption, "%.*f ms, %.*f steps", row->time < 9.95, row->time,
-                 error < 9.95, error);
-        fputs("set label ", script);
-        gnuplot_string(script, caption);
-        fputs(" at", script);
-        put_screen(script, (Place){middle, CAPTION});
-        fputs(" center front\nset arrow from", script);
-        put_screen(script, (Place){middle, CAPTION - 12});
-        fputs(" to", script);
-        put_screen(script, place_of(plot, row));
-        fputs(" nohead back lw 1 lc rgb '#999999'\n", script);
-    }
+    const ResultRow *row = plot->pins.rows[number];
+    const double middle = pin_left(number) + pin_width() / 2;
+    const double error = row_error(row, plot->kind);
+    TemplateValues *pin = template_add(page, "pin");
+    template_set(pin, "caption", "'%.*f ms, %.*f steps'", row->time < 9.95, row->time, error < 9.95,
+                 error);
+    set_screen(pin, "x0", "y", (Place){middle, CAPTION});
+    template_set(pin, "y0", "%.5f", (CAPTION - 12) / GNUPLOT_HEIGHT);
+    set_screen(pin, "x1", "y1", place_of(plot, row));
 }
 
-/* Over the plot, in pixels. */
-static void put_pictures(FILE *script, const char *scene, const char *folder, const Plot *plot)
+/* True if it is there. `first`: of all. */
+static bool set_picture(TemplateValues *page, const Plot *plot, const char *path, int number,
+                        bool first)
 {
-    bool any = false;
-    fprintf(script,
-            "unset border\nunset tics\nunset key\nunset title\nunset xlabel\nunset ylabel\n"
-            "unset label\nunset arrow\nunset grid\nunset logscale\nset lmargin at screen 0\n"
-            "set rmargin at screen 1\nset bmargin at screen 0\nset tmargin at screen 1\n"
-            "set xrange [0:%d]\nset yrange [0:%d]\n",
-            GNUPLOT_WIDTH, GNUPLOT_HEIGHT);
-    for (int i = 0; i < plot->pins.count; i++) {
-        const ResultRow *row = plot->pins.rows[i];
-        char path[PATH_MAX];
-        report_pin_path(folder, scene, i, path);
-        if (access(path, R_OK) != 0)
-            continue;
-        /* As wide as there is room, but for tall pictures. */
-        const double aspect = (double)row->height / row->width * REPORT_PANEL;
-        const double scale =
-            fmin(pin_width() / (2 * REPORT_PANEL + REPORT_GAP), STRIP_HEIGHT / aspect);
-        fputs(any ? ", \\\n  " : "plot ", script);
-        gnuplot_string(script, path);
-        fprintf(script, " binary filetype=png origin=(%g,%g) dx=%.6g dy=%.6g with rgbimage",
-                pin_left(i), STRIP, scale, scale);
-        any = true;
-    }
-    fputs("\n", script);
+    const ResultRow *row = plot->pins.rows[number];
+    if (access(path, R_OK) != 0)
+        return false;
+    /* As wide as there is room, but for tall pictures. */
+    const double aspect = (double)row->height / row->width * REPORT_PANEL;
+    TemplateValues *picture = template_add(page, "picture");
+    template_set(picture, "join", "%s", first ? "plot " : ", \\\n  ");
+    gnuplot_set(picture, "path", path);
+    template_set(picture, "x", "%g", pin_left(number));
+    template_set(picture, "y", "%g", STRIP);
+    template_set(picture, "scale", "%.6g",
+                 fmin(pin_width() / (2 * REPORT_PANEL + REPORT_GAP), STRIP_HEIGHT / aspect));
+    return true;
 }
 
 void report_pin_path(const char *folder, const char *scene, int pin, char path[PATH_MAX])
@@ -396,24 +337,22 @@ bool report_plot(const Results *results, const char *scene, const char *title, E
 {
     Plot plot;
     Label labels[REPORT_PINS];
-    OutputText script;
+    char with[RESULT_WITH_SIZE], path[PATH_MAX];
+    bool any = false;
     if (!plot_open(&plot, results, scene, kind, message))
         return false;
-    const int count = plot.pins.count;
     make_labels(&plot, labels);
-    bool done = place_labels(&plot, labels, count, message);
-    if (done) {
-        output_text_open(&script);
-        FILE *file = script.file;
-        fputs("set multiplot\n", file);
-        put_axes(file, &plot, title);
-        put_labels(file, labels, count);
-        put_pins(file, &plot);
-        put_plot(file, &plot);
-        put_pictures(file, scene, folder, &plot);
-        fputs("unset multiplot\n", file);
-        done = gnuplot_finish(&script, folder, scene, message);
+    place_labels(&plot, labels, plot.pins.count);
+    results_measured_with(plot.rows[0], with);
+    TemplateValues *page = gnuplot_values(title, with);
+    set_axes(page, &plot);
+    for (int i = 0; i < plot.pins.count; i++) {
+        set_label(page, &labels[i]);
+        set_pin(page, &plot, i);
+        report_pin_path(folder, scene, i, path);
+        any |= set_picture(page, &plot, path, i, !any);
     }
+    set_points(page, &plot);
     plot_close(&plot);
-    return done;
+    return gnuplot_draw("examples/study/report/scene.gp", page, folder, scene, message);
 }
