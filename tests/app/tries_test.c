@@ -26,8 +26,7 @@ static Canvas canvas;
 
 FIXTURE(open_canvas)
 {
-    require(canvas_open(&canvas, &(CanvasOptions){.width = SIZE, .height = SIZE}, FAILURE),
-            FAILURE);
+    SUCCEEDS(canvas_open(&canvas, &(CanvasOptions){.width = SIZE, .height = SIZE}, message));
     return 0;
 }
 
@@ -43,8 +42,7 @@ static const double WHOLE = 1.01;
 static void check_whole(const Scene *scene, double aspect, const char *what)
 {
     Mat4 eye_from_world, clip_from_eye;
-    require(scene_camera(&scene->camera, aspect, &eye_from_world, &clip_from_eye, FAILURE),
-            FAILURE);
+    SUCCEEDS(scene_camera(&scene->camera, aspect, &eye_from_world, &clip_from_eye, message));
     const Mat4 clip_from_world = mat4_product(clip_from_eye, eye_from_world);
     for (int i = 0; i < scene->object_count; i++) {
         const Object *object = &scene->objects[i];
@@ -67,7 +65,7 @@ static void check_scene(Renderer *renderer, const DrawRequest *request, const ch
     for (double seconds = request->seconds; seconds < request->seconds + 12; seconds += 3.1) {
         for (int view = 0; view < scene_view_count(renderer); view++) {
             SceneView opened;
-            require(scene_view_open(&opened, renderer, request, seconds, view, FAILURE), FAILURE);
+            SUCCEEDS(scene_view_open(&opened, renderer, request, seconds, view, message));
             for (double aspect = 0.25; aspect <= 4; aspect *= 16)
                 check_whole(&opened.scene, aspect, what);
             scene_view_close(&opened);
@@ -91,16 +89,15 @@ static void check_line(const Example *example, const char *line, bool drawn)
         fail_msg("%s %s: %s", example->name, line, FAILURE->text);
     const DrawRequest request = options_request(&options, example);
     snprintf(what, sizeof what, "%s %s", example->name, line);
-    require(renderer_open(&renderer, example, &canvas, &request, FAILURE), FAILURE);
+    SUCCEEDS(renderer_open(&renderer, example, &canvas, &request, message));
     if (example_scene(example))
         check_scene(&renderer, &request, what);
     if (drawn) {
         CLOSED(image_close) Image image;
         int colors = 0;
         SUCCEEDS(image_open(&image, SIZE, SIZE, IMAGE_BYTE, message));
-        require(renderer_draw(&renderer, &request, options.seconds, FAILURE) &&
-                    canvas_read(&canvas, &image, FAILURE),
-                FAILURE);
+        SUCCEEDS(renderer_draw(&renderer, &request, options.seconds, message) &&
+                 canvas_read(&canvas, &image, message));
         for (size_t i = 4; i < 4 * SIZE * SIZE; i += 4)
             colors += memcmp((char *)image.pixels + i, image.pixels, 3) != 0;
         if (colors < 8)

@@ -451,13 +451,13 @@ static void judge_view(const ErrorPicture *picture, const ErrorView *view, int s
     Judged judged = {.picture = picture, .view = view};
     double largest = -1;
     int worst[2] = {0, 0}, inside = 0;
-    require(reference_open(&judged.exact, &view->scene.scene, &options, FAILURE), FAILURE);
+    SUCCEEDS(reference_open(&judged.exact, &view->scene.scene, &options, message));
     if (judged.exact.lights) {
         ReferenceOptions meshes = options;
         Scene scene = view->drawn.objects ? view->drawn.scene : view->scene.scene;
         scene.interpolation = INTERPOLATION_PHONG;
         meshes.meshes = true;
-        require(reference_open(&judged.meshes, &scene, &meshes, FAILURE), FAILURE);
+        SUCCEEDS(reference_open(&judged.meshes, &scene, &meshes, message));
     }
     for (int i = 0; i < place[2] * place[3]; i++)
         inside += judged.exact.interior[i];
@@ -492,7 +492,7 @@ static double frame(Renderer *renderer, const DrawRequest *request)
 {
     glFinish();
     const double start = clock_now();
-    require(renderer_draw(renderer, request, request->seconds, FAILURE), FAILURE);
+    SUCCEEDS(renderer_draw(renderer, request, request->seconds, message));
     glFinish();
     return clock_now() - start;
 }
@@ -551,20 +551,16 @@ static Verdict run(const Command *command, bool timed)
         before[i] = parameter_save(&own[i]);
     for (int i = 0; i < command->count; i++)
         words[1 + i] = (char *)command->words[i];
-    require(options_read(&options, &usage, command->count + 1, words, FAILURE) == OPTIONS_RUN,
-            FAILURE);
-    require(
-        options_open_canvas(&canvas, &options, options.output ? options.output : "x.png", FAILURE),
-        FAILURE);
+    SUCCEEDS(options_read(&options, &usage, command->count + 1, words, message) == OPTIONS_RUN);
+    SUCCEEDS(
+        options_open_canvas(&canvas, &options, options.output ? options.output : "x.png", message));
     const DrawRequest request = options_request(&options, example);
-    require(renderer_open(&renderer, example, &canvas, &request, FAILURE), FAILURE);
+    SUCCEEDS(renderer_open(&renderer, example, &canvas, &request, message));
     const SceneState *state = scene_state(&renderer);
     verdict.allowed = options.error;
     for (int frame_number = 0; frame_number < options.frames; frame_number++) {
-        require(scene_error_picture(&renderer, &request,
-                                    options.seconds + frame_number / options.fps, &picture,
-                                    FAILURE),
-                FAILURE);
+        SUCCEEDS(scene_error_picture(
+            &renderer, &request, options.seconds + frame_number / options.fps, &picture, message));
         for (int i = 0; i < picture.view_count && !timed; i++)
             judge_view(&picture, &picture.views[i], 300 / (options.frames * picture.view_count) + 1,
                        &verdict);
@@ -735,7 +731,7 @@ static int print_table(void)
     const int cases = asked && atoi(asked) > 0 && atoi(asked) < MOST ? atoi(asked) : CASES;
     static const double errors[] = {1, 2, 4, 8, 16};
     Canvas canvas;
-    require(canvas_open(&canvas, &(CanvasOptions){.width = 1, .height = 1}, FAILURE), FAILURE);
+    SUCCEEDS(canvas_open(&canvas, &(CanvasOptions){.width = 1, .height = 1}, message));
     char renderer[256];
     snprintf(renderer, sizeof renderer, "%s; %s", canvas.renderer, canvas.version);
     canvas_close(&canvas);

@@ -106,13 +106,13 @@ static PictureError expect(const Example *example, const Options *options,
             continue;
         Reference exact, meshes = {.lights = NULL};
         ReferenceOptions size = {.width = right - left, .height = bottom - top};
-        require(reference_open(&exact, &scene, &size, FAILURE), FAILURE);
+        SUCCEEDS(reference_open(&exact, &scene, &size, message));
         size.meshes = true;
         if (exact.lights) {
             const ErrorView *own = &picture->views[seen];
             Scene drawn = own->drawn.objects ? own->drawn.scene : scene;
             drawn.interpolation = INTERPOLATION_PHONG;
-            require(reference_open(&meshes, &drawn, &size, FAILURE), FAILURE);
+            SUCCEEDS(reference_open(&meshes, &drawn, &size, message));
         }
         picture_error_add(&error, image,
                           &(ExactView){.exact = &exact,
@@ -135,7 +135,7 @@ static void draw_case(Renderer *renderer, int way, Case *made)
     options.shadows.way = example_scene(example)->shadows ? SHADOWS_VOLUMES : SHADOWS_OFF;
     snprintf(made->name, sizeof made->name, "%s %s", example->name, WAYS[way].name);
     const DrawRequest request = options_request(&options, example);
-    require(scene_error_picture(renderer, &request, SECONDS, &made->picture, FAILURE), FAILURE);
+    SUCCEEDS(scene_error_picture(renderer, &request, SECONDS, &made->picture, message));
     made->expected = expect(example, &options, &made->picture);
 }
 
@@ -151,9 +151,9 @@ FIXTURE(draw_all)
                 example_scene(EXAMPLES[i])->shadows ? SHADOWS_VOLUMES : SHADOWS_OFF;
             if (!is_drawn(way, i))
                 continue;
-            require(options_open_canvas(&canvas, &options, WAYS[way].output, FAILURE), FAILURE);
+            SUCCEEDS(options_open_canvas(&canvas, &options, WAYS[way].output, message));
             const DrawRequest request = options_request(&options, EXAMPLES[i]);
-            require(renderer_open(&renderer, EXAMPLES[i], &canvas, &request, FAILURE), FAILURE);
+            SUCCEEDS(renderer_open(&renderer, EXAMPLES[i], &canvas, &request, message));
             draw_case(&renderer, way, &cases[way][i]);
             renderer_close(&renderer);
             canvas_close(&canvas);
@@ -198,17 +198,15 @@ static ErrorPicture copy_of(const ErrorPicture *picture)
 {
     ErrorPicture copy;
     const Image *image = &picture->image;
-    require(error_picture_open(&copy, image->width, image->height, image->type, picture->view_count,
-                               FAILURE),
-            FAILURE);
+    SUCCEEDS(error_picture_open(&copy, image->width, image->height, image->type,
+                                picture->view_count, message));
     memcpy(copy.image.pixels, image->pixels, image_row_size(image) * (size_t)image->height);
     copy.seconds = picture->seconds;
     copy.simplified = picture->simplified;
     for (int i = 0; i < picture->view_count; i++) {
         const ErrorView *view = &picture->views[i];
-        require(error_picture_add(&copy, view->place, &view->scene.scene,
-                                  view->drawn.objects ? &view->drawn.scene : NULL, FAILURE),
-                FAILURE);
+        SUCCEEDS(error_picture_add(&copy, view->place, &view->scene.scene,
+                                   view->drawn.objects ? &view->drawn.scene : NULL, message));
     }
     return copy;
 }
@@ -216,7 +214,7 @@ static ErrorPicture copy_of(const ErrorPicture *picture)
 static ErrorWorker *open_worker(void)
 {
     ErrorWorker *worker;
-    require(error_worker_open(&worker, FAILURE), FAILURE);
+    SUCCEEDS(error_worker_open(&worker, message));
     return worker;
 }
 
@@ -329,7 +327,7 @@ typedef struct Pot {
 
 static void pot_open(Pot *pot, SolidKind kind)
 {
-    require(mesh_teapot(&pot->mesh, 1, 10, FAILURE), FAILURE);
+    SUCCEEDS(mesh_teapot(&pot->mesh, 1, 10, message));
     pot->light = (Light){.direction = {1, 1, 1}, .diffuse = {1, 1, 1}, .specular = {1, 1, 1}};
     pot->object = (Object){.mesh = &pot->mesh,
                            .solid = {.kind = kind, .radius = 1},
@@ -346,10 +344,10 @@ static ErrorPicture picture_of(const Scene *scene, int width, int height, double
 {
     const int place[4] = {0, 0, width, height};
     ErrorPicture picture;
-    require(error_picture_open(&picture, width, height, IMAGE_BYTE, 1, FAILURE), FAILURE);
+    SUCCEEDS(error_picture_open(&picture, width, height, IMAGE_BYTE, 1, message));
     memset(picture.image.pixels, 255, image_row_size(&picture.image) * (size_t)height);
     picture.seconds = seconds;
-    require(error_picture_add(&picture, place, scene, NULL, FAILURE), FAILURE);
+    SUCCEEDS(error_picture_add(&picture, place, scene, NULL, message));
     return picture;
 }
 
@@ -467,7 +465,7 @@ TEST(nothing_to_compare_is_no_error)
     error_picture_close(NULL);
     error_picture_close(&picture);
     error_worker_close(NULL);
-    require(error_picture_open(&empty, 3, 2, IMAGE_FLOAT, 0, FAILURE), FAILURE);
+    SUCCEEDS(error_picture_open(&empty, 3, 2, IMAGE_FLOAT, 0, message));
     ErrorWorker *worker = open_worker();
     error_worker_start(worker, &empty);
     const ErrorResult result = wait_for(worker);

@@ -1,7 +1,9 @@
 /*
- * What the search has found: each scene shrunk, with its cause, and a bound that follows from it.
+ * Scenes that were wrong once, found by a search and shrunk, each with its cause and a bound that
+ * follows from it; then random scenes in which things coincide exactly: lights, eye, corners.
+ * HARD_SEED in the environment chooses others.
  */
-#include "hard/search.h"
+#include "hard/judge.h"
 #include "support/picture_check.h"
 #include "support/testing.h"
 
@@ -185,7 +187,7 @@ static const RandomScene SHININESS_IN_BOTH_SHADERS = {
 typedef struct Found {
     const char *name;
     const RandomScene *scene;
-    double max; /* steps of 1/255, beyond the allowance for rounding; see search_error */
+    double max; /* steps of 1/255, beyond the allowance for rounding; see judge_error */
 } Found;
 
 #define FOUND(scene, max)                                                                          \
@@ -206,17 +208,15 @@ static const Found FOUND_SCENES[] = {
     FOUND(SHININESS_IN_BOTH_SHADERS, 0.1),
 };
 
-static Search search;
-
 FIXTURE(open_all)
 {
-    search_open(&search, SIZE, 1);
+    judge_open(SIZE);
     return 0;
 }
 
 FIXTURE(close_all)
 {
-    search_close(&search);
+    judge_close();
     return 0;
 }
 
@@ -225,7 +225,7 @@ TEST(found_scenes_stay_within_their_bounds)
     for (size_t i = 0; i < sizeof FOUND_SCENES / sizeof FOUND_SCENES[0]; i++) {
         const Found *found = &FOUND_SCENES[i];
         RandomScene scene = *found->scene;
-        const double error = search_error(&search, &scene, 0);
+        const double error = judge_error(&scene, 0);
         const bool refused = !scene_check(&scene.scene, NULL);
         const bool right = refused || (error >= 0 && error <= found->max);
         print_message("%s: %.3g steps, of %g\n", found->name, error, found->max);
@@ -238,11 +238,134 @@ TEST(found_scenes_stay_within_their_bounds)
 TEST(shininess_in_both_shaders_links)
 {
     RandomScene scene = SHININESS_IN_BOTH_SHADERS;
-    assert_true(random_scene_ready(&scene, &search.meshes, NULL));
-    for (int i = 0; i < 2; i++) {
-        require(random_scene_draw(&scene, &hard.floats, hard.lightings[i], &hard.real, FAILURE),
-                FAILURE);
+    assert_true(judge_ready(&scene));
+    for (int i = 0; i < 2; i++)
+        SUCCEEDS(random_scene_draw(&scene, &hard.floats, hard.lightings[i], &hard.real, message));
+}
+
+/* A corner of a random face or, once in three times, the middle of an edge. */
+static Vec3 random_corner(Random *random, const RandomScene *scene, Vec3 *normal)
+{
+    const Object *object = &scene->objects[random_below(random, scene->scene.object_count)];
+    const Mesh *mesh = object->mesh;
+    const size_t triangle = (size_t)random_below(random, (int)(mesh->index_count / 3));
+    const float *p = mesh->vertices[mesh->indices[3 * triangle]].position;
+    const float *q = mesh->vertices[mesh->indices[3 * triangle + 1]].position;
+    const double share = random_below(random, 3) == 0 ? 0.5 : 0;
+    Vec3 corner;
+    const Mat4 matrix = mat4_normal(object->world_from_object);
+    mesh_face(mesh, triangle, normal);
+    vec3_normalize(mat4_transform_direction(matrix, *normal), normal);
+    corner.x = (1 - share) * (double)p[0] + share * (double)q[0];
+    corner.y = (1 - share) * (double)p[1] + share * (double)q[1];
+    corner.z = (1 - share) * (double)p[2] + share * (double)q[2];
+    return mat4_transform_point(object->world_from_object, corner);
+}
+
+/* Puts two things at exactly the same place, plane or direction. */
+static void coincide(Random *random, RandomScene *scene)
+{
+    Vec3 normal;
+    const Vec3 corner = random_corner(random, scene, &normal);
+    Camera *camera = &scene->scene.camera;
+    Light given = {.off = true}, *light = &given;
+    Mat4 eye_from_world, clip_from_eye;
+    const Camera before = *camera;
+    scene_camera(&before, 1, &eye_from_world, &clip_from_eye, NULL);
+    if (scene->scene.light_count > 0) {
+        const int number = random_below(random, scene->scene.light_count);
+        light = &scene->lights[number];
+        given = *light;
+        *light = scene_world_light(&scene->scene, number);
     }
+    const Vec3 to_eye = vec3_subtract(camera->eye, corner);
+    const Vec3 to_light = vec3_subtract(light->position, corner);
+    const int way = random_below(random, 10);
+    if (way == 0)
+        light->position = corner;
+    else if (way == 1) /* in the plane of a face */
+        light->position =
+            vec3_subtract(light->position, vec3_scale(normal, vec3_dot(to_light, normal)));
+    else if (way == 2)
+        camera->eye = vec3_subtract(camera->eye, vec3_scale(normal, vec3_dot(to_eye, normal)));
+    else if (way == 3)
+        light->position = camera->eye;
+    else if (way == 4)
+        light->direction = vec3_subtract(corner, light->position);
+    else if (way == 5)
+        light->direction = normal;
+    else if (way == 6) { /* mirrored at the face, so that the highlight is visible */
+        light->direction = vec3_subtract(vec3_scale(normal, 2 * vec3_dot(to_eye, normal)), to_eye);
+        light->position = vec3_add(corner, light->direction);
+    } else if (way == 7)
+        camera->center = corner;
+    else if (way == 8) /* towards the light, just in front of it */
+        light->position =
+            vec3_add(corner, vec3_scale(to_light, pow(10, random_between(random, -8, 0))));
+    else { /* a close-up */
+        camera->eye = vec3_add(corner, vec3_scale(to_eye, pow(10, random_between(random, -4, 0))));
+        camera->center = corner;
+    }
+    if (given.space == LIGHT_EYE) { /* back to where it was given */
+        light->space = LIGHT_EYE;
+        light->position = scene_eye_point(&before, eye_from_world, light->position);
+        light->direction = mat4_transform_direction(eye_from_world, light->direction);
+    }
+}
+
+/* The judge can fail: a light a quarter to one side is far off. */
+static Vec3 wrong_point(const Camera *camera, Mat4 eye_from_world, Vec3 point_world)
+{
+    return vec3_add(scene_eye_point(camera, eye_from_world, point_world), (Vec3){0.25, 0, 0});
+}
+
+static Mat4 clip_from_object(Mat4 clip_from_eye, Mat4 eye_from_world, Mat4 world_from_object,
+                             Mat4 eye_from_object)
+{
+    (void)eye_from_world, (void)world_from_object;
+    return mat4_product(clip_from_eye, eye_from_object);
+}
+
+TEST(a_light_elsewhere_is_an_error)
+{
+    static const LightingTransforms wrong = {scene_eye_from_object, wrong_point, clip_from_object};
+    RandomScene scene = SHININESS_NEXT_TO_0;
+    scene.lights[0] = (Light){.kind = LIGHT_POINT, .position = {1, 1, 1}, .diffuse = {1, 1, 1}};
+    scene.objects[0].front.diffuse = (Vec3){0.8, 0.8, 0.8};
+    assert_true(judge_error(&scene, 0) < 0.1);
+    lighting_use_transforms(hard.lightings[HARD_HIGHP], &wrong);
+    assert_true(judge_error(&scene, 0) > 8);
+    lighting_use_transforms(hard.lightings[HARD_HIGHP], NULL);
+}
+
+/* Of each scene also some in which up to three things coincide. They share its programs, because
+ * compiling one costs more than many pictures. */
+TEST(coincidences_are_drawn_right)
+{
+    enum { SCENES = 240, VARIATIONS = 6 };
+    const char *given = getenv("HARD_SEED");
+    const unsigned long long seed = given ? strtoull(given, NULL, 10) : 1;
+    double worst = 0;
+    int judged = 0;
+    for (int i = 0; i < testing_part(SCENES, 30); i++) {
+        Random random = {seed + (unsigned)i};
+        RandomScene scene;
+        random_scene_make(&scene, random.state, seed);
+        assert_true(judge_ready(&scene));
+        for (int k = 0; k < VARIATIONS; k++) {
+            RandomScene varied = scene;
+            assert_true(judge_ready(&varied));
+            for (int n = random_below(&random, 4); n > 0; n--)
+                coincide(&random, &varied);
+            const double error = judge_error(&varied, 0.5);
+            if (error > 0.5)
+                fail_msg("seed %llu, scene %d, variation %d: wrong by %g steps", seed, i, k, error);
+            worst = fmax(worst, error);
+            judged += error >= 0;
+        }
+    }
+    print_message("HARD_SEED=%llu: %d scenes, at most %.3g steps of 1/255\n", seed, judged, worst);
+    assert_true(judged > VARIATIONS);
 }
 
 PICTURE_TEST_MAIN("found", open_all, close_all)

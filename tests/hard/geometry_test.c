@@ -171,11 +171,10 @@ static void check_centres(double max)
 {
     Trace *trace;
     const int width = hard.bytes.width, height = hard.bytes.height;
-    require(trace_open(
-                &trace, &world.scene,
-                &(ReferenceOptions){.width = width, .height = height, .meshes = true, .threads = 1},
-                FAILURE),
-            FAILURE);
+    SUCCEEDS(trace_open(
+        &trace, &world.scene,
+        &(ReferenceOptions){.width = width, .height = height, .meshes = true, .threads = 1},
+        message));
     for (int i = 0; i < width * height; i++) {
         Sample sample;
         trace_sample(trace, i % width + 0.5, i / width + 0.5, &sample);

@@ -14,17 +14,15 @@ void hard_open(int width, int height)
     const CanvasOptions bytes = {.width = width, .height = height};
     const CanvasOptions floats = {.width = width, .height = height, .real = true};
     memset(&hard, 0, sizeof hard);
-    require(mesh_sphere(&hard.sphere, 1, 24, 12, FAILURE) && mesh_quad(&hard.quad, 2, FAILURE),
-            FAILURE);
-    require(canvas_open(&hard.bytes, &bytes, FAILURE), FAILURE);
-    require(canvas_open_beside(&hard.floats, &hard.bytes, &floats, FAILURE), FAILURE);
-    require(image_open(&hard.image, width, height, IMAGE_BYTE, FAILURE), FAILURE);
-    require(
-        image_open(&hard.real, width, height, hard.floats.real ? IMAGE_FLOAT : IMAGE_BYTE, FAILURE),
-        FAILURE);
+    SUCCEEDS(mesh_sphere(&hard.sphere, 1, 24, 12, message) && mesh_quad(&hard.quad, 2, message));
+    SUCCEEDS(canvas_open(&hard.bytes, &bytes, message));
+    SUCCEEDS(canvas_open_beside(&hard.floats, &hard.bytes, &floats, message));
+    SUCCEEDS(image_open(&hard.image, width, height, IMAGE_BYTE, message));
+    SUCCEEDS(image_open(&hard.real, width, height, hard.floats.real ? IMAGE_FLOAT : IMAGE_BYTE,
+                        message));
     for (int i = 0; i < 2; i++) {
         const ShaderLoader loader = {.precision = precisions[i]};
-        require(lighting_open(&hard.lightings[i], &loader, FAILURE), FAILURE);
+        SUCCEEDS(lighting_open(&hard.lightings[i], &loader, message));
     }
 }
 
@@ -44,12 +42,11 @@ void hard_resize(int width, int height)
 {
     image_close(&hard.image);
     image_close(&hard.real);
-    require(canvas_resize(&hard.bytes, width, height, FAILURE) &&
-                canvas_resize(&hard.floats, width, height, FAILURE) &&
-                image_open(&hard.image, width, height, IMAGE_BYTE, FAILURE) &&
-                image_open(&hard.real, width, height, hard.floats.real ? IMAGE_FLOAT : IMAGE_BYTE,
-                           FAILURE),
-            FAILURE);
+    SUCCEEDS(canvas_resize(&hard.bytes, width, height, message) &&
+             canvas_resize(&hard.floats, width, height, message) &&
+             image_open(&hard.image, width, height, IMAGE_BYTE, message) &&
+             image_open(&hard.real, width, height, hard.floats.real ? IMAGE_FLOAT : IMAGE_BYTE,
+                        message));
 }
 
 void hard_forget(const Mesh *mesh)
@@ -62,19 +59,18 @@ void hard_exact(const Scene *scene, bool solids, Reference *exact)
 {
     const ReferenceOptions options = {
         .width = hard.bytes.width, .height = hard.bytes.height, .meshes = !solids};
-    require(scene_check(scene, FAILURE), FAILURE);
-    require(reference_open(exact, scene, &options, FAILURE), FAILURE);
+    SUCCEEDS(scene_check(scene, message));
+    SUCCEEDS(reference_open(exact, scene, &options, message));
 }
 
 static void render(const Canvas *canvas, Lighting *lighting, const Scene *scene, Image *image)
 {
     canvas_clear(canvas, scene->background, 1);
-    require(lighting_show(
-                lighting,
-                &(LightingFrame){.scene = scene, .aspect = (double)canvas->width / canvas->height},
-                FAILURE),
-            FAILURE);
-    require(canvas_read(canvas, image, FAILURE), FAILURE);
+    SUCCEEDS(lighting_show(
+        lighting,
+        &(LightingFrame){.scene = scene, .aspect = (double)canvas->width / canvas->height},
+        message));
+    SUCCEEDS(canvas_read(canvas, image, message));
 }
 
 /* The value of channel `c`, counted over all pixels, from 0 to 1. */
@@ -89,7 +85,7 @@ HardResult hard_draw(const Scene *scene, HardPrecision precision, const Referenc
     HardResult result = {.interior_pixels = 0};
     Reference own = {.width = 0};
     const size_t count = (size_t)hard.image.width * (size_t)hard.image.height;
-    require(scene_check(scene, FAILURE), FAILURE);
+    SUCCEEDS(scene_check(scene, message));
     const Reference *right = exact ? exact : &own;
     if (!exact)
         hard_exact(scene, false, &own);

@@ -22,11 +22,10 @@ FIXTURE(open_all)
 {
     const CanvasOptions options = {.width = 2 * SIZE, .height = SIZE, .real = true};
     hard_open(SIZE, SIZE);
-    require(canvas_open_beside(&wide, &hard.bytes, &options, FAILURE) &&
-                image_open(&wide_image, 2 * SIZE, SIZE, IMAGE_FLOAT, FAILURE) &&
-                image_open(&picture, SIZE, SIZE, IMAGE_FLOAT, FAILURE) &&
-                image_open(&other, SIZE, SIZE, IMAGE_FLOAT, FAILURE),
-            FAILURE);
+    SUCCEEDS(canvas_open_beside(&wide, &hard.bytes, &options, message) &&
+             image_open(&wide_image, 2 * SIZE, SIZE, IMAGE_FLOAT, message) &&
+             image_open(&picture, SIZE, SIZE, IMAGE_FLOAT, message) &&
+             image_open(&other, SIZE, SIZE, IMAGE_FLOAT, message));
     return 0;
 }
 
@@ -47,15 +46,13 @@ static void make_scene(RandomScene *made, int number)
 {
     random_scene_make(made, seed + (unsigned long long)(number / PER_KIND),
                       (unsigned long long)number);
-    require(random_scene_ready(made, &meshes, FAILURE) && scene_check(&made->scene, FAILURE),
-            FAILURE);
+    SUCCEEDS(random_scene_ready(made, &meshes, message) && scene_check(&made->scene, message));
 }
 
 static void render(const RandomScene *scene, const Canvas *canvas, Image *image)
 {
-    require(scene_check(&scene->scene, FAILURE) &&
-                random_scene_draw(scene, canvas, hard.lightings[HARD_HIGHP], image, FAILURE),
-            FAILURE);
+    SUCCEEDS(scene_check(&scene->scene, message) &&
+             random_scene_draw(scene, canvas, hard.lightings[HARD_HIGHP], image, message));
 }
 
 /* Changes that keep the picture. */
@@ -228,7 +225,7 @@ static void exact_picture(const RandomScene *scene, Reference *exact)
     /* Edges need not be exact, only known. */
     const ReferenceOptions options = {
         .width = SIZE, .height = SIZE, .meshes = true, .edge_error = 255};
-    require(reference_open(exact, &scene->scene, &options, FAILURE), FAILURE);
+    SUCCEEDS(reference_open(exact, &scene->scene, &options, message));
 }
 
 /* Fails if the difference is too large, unless rounding decides there. */
@@ -243,7 +240,6 @@ static void judge(const char *name, int number, const RandomScene *scene, double
     tally->worst = fmax(tally->worst, difference);
     if (difference <= max)
         return;
-    random_scene_print(scene, "CHANGED", stdout);
     fail_msg("scene %d of seed %llu, %s: %g steps apart, of %g", number, seed, name, difference,
              max);
 }
@@ -270,7 +266,7 @@ TEST(changes_that_keep_the_picture_keep_it)
             Random random = {(uint64_t)seed ^ (uint64_t)i};
             RandomScene changed = scene;
             CHANGES[k].apply(&changed, &random);
-            require(random_scene_ready(&changed, &meshes, FAILURE), FAILURE);
+            SUCCEEDS(random_scene_ready(&changed, &meshes, message));
             render(&changed, &hard.floats, &other);
             judge(CHANGES[k].name, i, &scene,
                   largest_difference(&picture, &other, &exact, CHANGES[k].mirrored, 0,
@@ -287,9 +283,8 @@ TEST(changes_that_keep_the_picture_keep_it)
 static void reorder(const Mesh *from, Mesh *to, bool constant, Random *random)
 {
     const size_t triangles = from->index_count / 3;
-    require(mesh_open(to, from->vertex_count, from->index_count, FAILURE) &&
-                (!from->colors || mesh_open_colors(to, FAILURE)),
-            FAILURE);
+    SUCCEEDS(mesh_open(to, from->vertex_count, from->index_count, message) &&
+             (!from->colors || mesh_open_colors(to, message)));
     uint32_t *place = malloc((from->vertex_count + triangles + 1) * sizeof *place);
     assert_non_null(place);
     uint32_t *order = place + from->vertex_count;

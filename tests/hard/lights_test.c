@@ -23,7 +23,7 @@ FIXTURE(open_all)
 {
     const Solid solid = {.kind = SOLID_QUAD, .radius = 2};
     hard_open(SIZE, SIZE);
-    require(solid_mesh(&solid, 16, &fine_quad, FAILURE), FAILURE);
+    SUCCEEDS(solid_mesh(&solid, 16, &fine_quad, message));
     return 0;
 }
 
@@ -228,11 +228,9 @@ static double compare_centres(HardPrecision precision, double margin, const Refe
     Vec3 axis;
     const Light *light = &world.lights[0];
     assert_int_equal(hard_draw(&world.scene, precision, unused).not_finite, 0);
-    require(
-        trace_open(&trace, &world.scene,
-                   &(ReferenceOptions){.width = SIZE, .height = SIZE, .meshes = true, .threads = 1},
-                   FAILURE),
-        FAILURE);
+    SUCCEEDS(trace_open(
+        &trace, &world.scene,
+        &(ReferenceOptions){.width = SIZE, .height = SIZE, .meshes = true, .threads = 1}, message));
     vec3_normalize(light->direction, &axis);
     for (int i = 0; i < SIZE * SIZE; i++) {
         Sample sample;

@@ -112,7 +112,7 @@ static Mesh side_of(const HardWorld *world, bool front)
 {
     const Mesh *all = world->objects[0].mesh;
     Mesh side;
-    require(mesh_open(&side, all->vertex_count, all->index_count, FAILURE), FAILURE);
+    SUCCEEDS(mesh_open(&side, all->vertex_count, all->index_count, message));
     memcpy(side.vertices, all->vertices, all->vertex_count * sizeof *all->vertices);
     side.index_count = 0;
     for (size_t t = 0; t < all->index_count; t += 3) {
@@ -534,11 +534,10 @@ DRAWN_TEST(normal_matrix_table_on_the_screen)
 FIXTURE(open_all)
 {
     hard_open(SIZE, SIZE);
-    require(mesh_sphere(&sphere, 1, SLICES, SLICES, FAILURE) && mesh_cube(&cube, 0.6, FAILURE) &&
-                mesh_torus(&torus, 0.3, 0.8, SLICES / 2, SLICES, FAILURE) &&
-                mesh_teapot(&teapot, 0.7, 6, FAILURE) && mesh_quad(&quad, 4, FAILURE) &&
-                mesh_quad(&sideways, 4, FAILURE),
-            FAILURE);
+    SUCCEEDS(mesh_sphere(&sphere, 1, SLICES, SLICES, message) && mesh_cube(&cube, 0.6, message) &&
+             mesh_torus(&torus, 0.3, 0.8, SLICES / 2, SLICES, message) &&
+             mesh_teapot(&teapot, 0.7, 6, message) && mesh_quad(&quad, 4, message) &&
+             mesh_quad(&sideways, 4, message));
     for (size_t i = 0; i < sideways.vertex_count; i++)
         memcpy(sideways.vertices[i].normal, (const float[]){1, 0, 0}, sizeof(float[3]));
     return 0;

@@ -20,7 +20,7 @@ FIXTURE(open_all)
 {
     hard_open(SIZE, SIZE);
     memcpy(cosine, hard.lightings, sizeof cosine);
-    require(mesh_sphere(&sphere, 1, 96, 48, FAILURE), FAILURE);
+    SUCCEEDS(mesh_sphere(&sphere, 1, 96, 48, message));
     return 0;
 }
 
@@ -99,7 +99,7 @@ TEST(the_cross_product_keeps_the_digits_of_a_highlight)
     Lighting *cross[2];
     for (int i = 0; i < 2; i++) {
         const ShaderLoader loader = {.precision = precisions[i], .replacements = replacements};
-        require(lighting_open(&cross[i], &loader, FAILURE), FAILURE);
+        SUCCEEDS(lighting_open(&cross[i], &loader, message));
     }
     for (size_t i = 0; i < sizeof shininesses / sizeof shininesses[0]; i++) {
         const double s = shininesses[i];

@@ -1,14 +1,11 @@
 /*
- * random_scene: random scenes as flat data, the same for the same seeds, which can be printed as C
- * text for a test and changed number by number by a search.
+ * random_scene: random scenes as flat data, the same for the same seeds.
  */
 #ifndef RANDOM_SCENE_H
 #define RANDOM_SCENE_H
 
 #include "hard/hard.h"
 #include "scene/scene.h"
-
-#include <stdio.h>
 
 enum { RANDOM_MAX_LIGHTS = 8, RANDOM_MAX_OBJECTS = 4 };
 
@@ -71,18 +68,5 @@ bool random_scene_grazes(const RandomScene *made);
 /* Draws a scene that is ready. Fails as lighting_draw does. */
 bool random_scene_draw(const RandomScene *made, const Canvas *canvas, Lighting *lighting,
                        Image *image, Message *message);
-
-/* A number of the scene, and the range that scene_check or the mesh accepts. */
-typedef struct RandomNumber {
-    double *value;
-    double min, max;
-} RandomNumber;
-enum { RANDOM_MAX_NUMBERS = 400 };
-
-/* The numbers in use, of existing lights, objects and sides; returns how many. */
-int random_scene_numbers(RandomScene *made, RandomNumber numbers[RANDOM_MAX_NUMBERS]);
-
-/* Writes "static const RandomScene NAME = {...};", which compiles to the same bits. */
-void random_scene_print(const RandomScene *made, const char *name, FILE *file);
 
 #endif

@@ -19,7 +19,7 @@ static Mesh cube;
 FIXTURE(open_all)
 {
     hard_open(SIZE, SIZE);
-    require(mesh_cube(&cube, 0.8, FAILURE), FAILURE);
+    SUCCEEDS(mesh_cube(&cube, 0.8, message));
     return 0;
 }
 

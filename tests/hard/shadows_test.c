@@ -42,7 +42,7 @@ static void open_scene(const char *name)
     for (int i = 0; i < HARD_SHADOW_COUNT; i++) {
         if (strcmp(HARD_SHADOWS[i].name, name) != 0)
             continue;
-        require(hard_scene_open(&made, &HARD_SHADOWS[i], FAILURE), FAILURE);
+        SUCCEEDS(hard_scene_open(&made, &HARD_SHADOWS[i], message));
         return;
     }
     fail_msg("%s: no hard case of shadows", name);
@@ -64,7 +64,7 @@ static void leave_out_edges(const Scene *scene, unsigned char unsure[SIZE * SIZE
     const ReferenceOptions options = {
         .width = PARTS * SIZE, .height = PARTS * SIZE, .meshes = true, .centers = true};
     CLOSED(reference_close) Reference fine;
-    require(reference_open(&fine, scene, &options, FAILURE), FAILURE);
+    SUCCEEDS(reference_open(&fine, scene, &options, message));
     memset(unsure, 0, SIZE * SIZE);
     for (int y = 0; y < fine.height; y++) {
         for (int x = 0; x < fine.width; x++) {

@@ -36,15 +36,14 @@ static bool open_triangle(Mesh *mesh, Message *message)
 FIXTURE(open_all)
 {
     const CanvasOptions options = {.width = SIZE, .height = SIZE, .real = true};
-    require(canvas_open(&canvas, &options, FAILURE) &&
-                lighting_open(&lighting, &(ShaderLoader){0}, FAILURE) &&
-                image_open(&picture, SIZE, SIZE, IMAGE_FLOAT, FAILURE) &&
-                image_open(&other, SIZE, SIZE, IMAGE_FLOAT, FAILURE) &&
-                mesh_sphere(&sphere, 1, 24, 12, FAILURE) &&
-                mesh_sphere(&fine_sphere, 1, 320, 160, FAILURE) && mesh_quad(&quad, 1, FAILURE) &&
-                mesh_copy(&colored_sphere, &sphere, FAILURE) &&
-                mesh_open_colors(&colored_sphere, FAILURE) && open_triangle(&triangle, FAILURE),
-            FAILURE);
+    SUCCEEDS(canvas_open(&canvas, &options, message) &&
+             lighting_open(&lighting, &(ShaderLoader){0}, message) &&
+             image_open(&picture, SIZE, SIZE, IMAGE_FLOAT, message) &&
+             image_open(&other, SIZE, SIZE, IMAGE_FLOAT, message) &&
+             mesh_sphere(&sphere, 1, 24, 12, message) &&
+             mesh_sphere(&fine_sphere, 1, 320, 160, message) && mesh_quad(&quad, 1, message) &&
+             mesh_copy(&colored_sphere, &sphere, message) &&
+             mesh_open_colors(&colored_sphere, message) && open_triangle(&triangle, message));
     Random random = {7};
     for (size_t i = 0; i < 3 * sphere.vertex_count; i++)
         colored_sphere.colors[i / 3][i % 3] = (float)random_between(&random, 0, 1);
@@ -111,10 +110,9 @@ static void make_world(const Mesh *mesh)
 static void draw_scene(const Scene *scene, Image *image)
 {
     canvas_clear(&canvas, scene->background, 1);
-    require(scene_check(scene, FAILURE) &&
-                lighting_show(lighting, &(LightingFrame){.scene = scene, .aspect = 1}, FAILURE) &&
-                canvas_read(&canvas, image, FAILURE),
-            FAILURE);
+    SUCCEEDS(scene_check(scene, message) &&
+             lighting_show(lighting, &(LightingFrame){.scene = scene, .aspect = 1}, message) &&
+             canvas_read(&canvas, image, message));
 }
 
 static void draw_terms(SceneTerms terms, Image *image)
@@ -239,7 +237,7 @@ static void check_terms(void)
 {
     static const unsigned terms[] = {TERM_AMBIENT, TERM_DIFFUSE, TERM_SPECULAR, TERM_EMISSION};
     CLOSED(image_close) Image sum = {.width = 0};
-    require(image_open(&sum, SIZE, SIZE, IMAGE_FLOAT, FAILURE), FAILURE);
+    SUCCEEDS(image_open(&sum, SIZE, SIZE, IMAGE_FLOAT, message));
     memset(sum.pixels, 0, image_row_size(&sum) * SIZE);
     for (int i = 0; i < 4; i++) {
         draw_terms((SceneTerms){.left_out = TERM_ALL & ~terms[i]}, &other);
@@ -248,7 +246,7 @@ static void check_terms(void)
             draw_terms((SceneTerms){.left_out = TERM_ALL & ~terms[k]}, &picture);
             add_picture(&picture, &other, 1);
             CLOSED(image_close) Image both = {.width = 0};
-            require(image_open(&both, SIZE, SIZE, IMAGE_FLOAT, FAILURE), FAILURE);
+            SUCCEEDS(image_open(&both, SIZE, SIZE, IMAGE_FLOAT, message));
             draw_terms((SceneTerms){.left_out = TERM_ALL & ~(terms[i] | terms[k])}, &both);
             assert_true(largest_difference(&picture, &both, NULL) < ROUNDING);
         }
@@ -267,7 +265,7 @@ TEST(the_terms_add_up_to_the_whole)
 static void check_lights(void)
 {
     CLOSED(image_close) Image sum = {.width = 0};
-    require(image_open(&sum, SIZE, SIZE, IMAGE_FLOAT, FAILURE), FAILURE);
+    SUCCEEDS(image_open(&sum, SIZE, SIZE, IMAGE_FLOAT, message));
     memset(sum.pixels, 0, image_row_size(&sum) * SIZE);
     for (unsigned i = 0; i < LIGHTS; i++) {
         draw_terms((SceneTerms){.lights_left_out = ~(1U << i)}, &other);

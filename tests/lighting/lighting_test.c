@@ -64,7 +64,7 @@ TEST(random_scenes_draw_as_the_full_program)
             made.objects[k].front.alpha = random_below(&random, 2) ? 1 : 0.6;
             made.objects[k].back.alpha = random_below(&random, 2) ? 1 : 0.3;
         }
-        require(random_scene_ready(&made, &meshes, FAILURE), FAILURE);
+        SUCCEEDS(random_scene_ready(&made, &meshes, message));
         if (random_scene_grazes(&made))
             continue;
         render(&made.scene, false, &specialised);
@@ -90,7 +90,7 @@ static int below(int limit)
 static bool is_guarded(const Scene *scene, bool with_all)
 {
     ShaderSource sources[2];
-    require(lighting_sources(lighting, scene, scene->objects, with_all, sources, FAILURE), FAILURE);
+    SUCCEEDS(lighting_sources(lighting, scene, scene->objects, with_all, sources, message));
     bool found = false;
     for (int stage = 0; stage < 2; stage++) {
         found |= strstr(sources[stage].text, "#define GUARD_ATTENUATION") != NULL;

@@ -15,16 +15,14 @@ Mesh sphere, smooth_sphere, cube, tube, quad;
 int open_all(void **state)
 {
     (void)state;
-    require(canvas_open(&canvas, &(CanvasOptions){.width = SIZE, .height = SIZE}, FAILURE) &&
-                lighting_open(&lighting, &(ShaderLoader){0}, FAILURE) &&
-                image_open(&specialised, SIZE, SIZE, IMAGE_BYTE, FAILURE) &&
-                image_open(&full, SIZE, SIZE, IMAGE_BYTE, FAILURE) &&
-                mesh_sphere(&sphere, 1, 24, 12, FAILURE) &&
-                mesh_sphere(&smooth_sphere, 1, 320, 160, FAILURE) &&
-                mesh_cube(&cube, 0.8, FAILURE) &&
-                mesh_cylinder(&tube, (MeshCylinder){0.8, 1.5, 24, 4, MESH_CAP_NONE}, FAILURE) &&
-                mesh_quad(&quad, 4, FAILURE),
-            FAILURE);
+    SUCCEEDS(canvas_open(&canvas, &(CanvasOptions){.width = SIZE, .height = SIZE}, message) &&
+             lighting_open(&lighting, &(ShaderLoader){0}, message) &&
+             image_open(&specialised, SIZE, SIZE, IMAGE_BYTE, message) &&
+             image_open(&full, SIZE, SIZE, IMAGE_BYTE, message) &&
+             mesh_sphere(&sphere, 1, 24, 12, message) &&
+             mesh_sphere(&smooth_sphere, 1, 320, 160, message) && mesh_cube(&cube, 0.8, message) &&
+             mesh_cylinder(&tube, (MeshCylinder){0.8, 1.5, 24, 4, MESH_CAP_NONE}, message) &&
+             mesh_quad(&quad, 4, message));
     return 0;
 }
 
@@ -44,12 +42,11 @@ int close_all(void **state)
 void render(const Scene *scene, bool with_all, Image *picture)
 {
     canvas_clear(&canvas, scene->background, 1);
-    require(scene_check(scene, FAILURE) &&
-                lighting_show(lighting,
-                              &(LightingFrame){.scene = scene, .aspect = 1, .full = with_all},
-                              FAILURE) &&
-                canvas_read(&canvas, picture, FAILURE),
-            FAILURE);
+    SUCCEEDS(scene_check(scene, message) &&
+             lighting_show(lighting,
+                           &(LightingFrame){.scene = scene, .aspect = 1, .full = with_all},
+                           message) &&
+             canvas_read(&canvas, picture, message));
 }
 
 unsigned char *pixel(const Image *image, int x, int y)

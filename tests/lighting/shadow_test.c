@@ -245,7 +245,7 @@ static Vec3 touching(const Mesh *mesh, size_t triangle, int way)
 static void make_soup(Random *random, Mesh *mesh)
 {
     enum { CORNERS = 12, TRIANGLES = 14 };
-    require(mesh_open(mesh, CORNERS, 3 * TRIANGLES, FAILURE), FAILURE);
+    SUCCEEDS(mesh_open(mesh, CORNERS, 3 * TRIANGLES, message));
     for (size_t i = 0; i < CORNERS; i++) {
         vec3_to_float(random_place(random, 0.8), mesh->vertices[i].position);
         mesh->vertices[i].normal[2] = 1;

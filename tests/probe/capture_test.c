@@ -24,8 +24,7 @@ static Canvas canvas;
 
 FIXTURE(open_canvas)
 {
-    require(canvas_open(&canvas, &(CanvasOptions){.width = SIDE, .height = SIDE}, FAILURE),
-            FAILURE);
+    SUCCEEDS(canvas_open(&canvas, &(CanvasOptions){.width = SIDE, .height = SIDE}, message));
     return 0;
 }
 
@@ -42,19 +41,16 @@ static void check(const Example *example, const DrawRequest *request, const char
     CLOSED(image_close) Image drawn = {.width = 0}, again = {.width = 0};
     Renderer renderer;
     long differ = 0;
-    require(image_open(&drawn, SIDE, SIDE, IMAGE_BYTE, FAILURE) &&
-                image_open(&again, SIDE, SIDE, IMAGE_BYTE, FAILURE),
-            FAILURE);
+    SUCCEEDS(image_open(&drawn, SIDE, SIDE, IMAGE_BYTE, message) &&
+             image_open(&again, SIDE, SIDE, IMAGE_BYTE, message));
     capture_begin(&capture, &canvas);
-    require(renderer_open(&renderer, example, &canvas, request, FAILURE) &&
-                renderer_draw(&renderer, request, request->seconds, FAILURE),
-            FAILURE);
+    SUCCEEDS(renderer_open(&renderer, example, &canvas, request, message) &&
+             renderer_draw(&renderer, request, request->seconds, message));
     capture_end(&capture);
-    require(canvas_read(&canvas, &drawn, FAILURE), FAILURE);
+    SUCCEEDS(canvas_read(&canvas, &drawn, message));
     assert_true(capture.draw_count > 0);
-    require(replay_draw(&capture, &canvas, NULL, NULL, FAILURE) &&
-                canvas_read(&canvas, &again, FAILURE),
-            FAILURE);
+    SUCCEEDS(replay_draw(&capture, &canvas, NULL, NULL, message) &&
+             canvas_read(&canvas, &again, message));
     renderer_close(&renderer);
     for (int i = 0; i < SIDE * SIDE; i++)
         differ += memcmp((unsigned char *)drawn.pixels + 4 * i,

@@ -28,8 +28,7 @@ static long compared, equal;
 
 FIXTURE(open_canvas)
 {
-    require(canvas_open(&canvas, &(CanvasOptions){.width = SIDE, .height = SIDE}, FAILURE),
-            FAILURE);
+    SUCCEEDS(canvas_open(&canvas, &(CanvasOptions){.width = SIDE, .height = SIDE}, message));
     return 0;
 }
 
@@ -96,17 +95,15 @@ static void check(const Example *example)
     const DrawRequest request = {.seconds = 0.7, .shaders = {.precision = "highp"}};
     Renderer renderer;
     Raster *raster;
-    require(image_open(&drawn, SIDE, SIDE, IMAGE_BYTE, FAILURE), FAILURE);
+    SUCCEEDS(image_open(&drawn, SIDE, SIDE, IMAGE_BYTE, message));
     capture_begin(&capture, &canvas);
-    require(renderer_open(&renderer, example, &canvas, &request, FAILURE) &&
-                renderer_draw(&renderer, &request, request.seconds, FAILURE),
-            FAILURE);
+    SUCCEEDS(renderer_open(&renderer, example, &canvas, &request, message) &&
+             renderer_draw(&renderer, &request, request.seconds, message));
     capture_end(&capture);
-    require(replay_draw(&capture, &canvas, is_filled, NULL, FAILURE) &&
-                canvas_read(&canvas, &drawn, FAILURE),
-            FAILURE);
+    SUCCEEDS(replay_draw(&capture, &canvas, is_filled, NULL, message) &&
+             canvas_read(&canvas, &drawn, message));
     renderer_close(&renderer);
-    require(raster_open(&raster, &capture, &GLSL_LLVMPIPE, FAILURE), FAILURE);
+    SUCCEEDS(raster_open(&raster, &capture, &GLSL_LLVMPIPE, message));
     compare(raster, &drawn, example->name);
     raster_close(raster);
 }
@@ -134,7 +131,7 @@ TEST(frag_data_is_a_colour)
     const RasterPixel pixel = {.weights = {1, 0, 0}};
     Raster *raster;
     double color[4];
-    require(raster_open(&raster, &capture, &GLSL_LLVMPIPE, FAILURE), FAILURE);
+    SUCCEEDS(raster_open(&raster, &capture, &GLSL_LLVMPIPE, message));
     raster_run(raster, &pixel, &GLSL_EXACT, INT_MAX, color);
     assert_true(color[0] == 0.25);
     raster_close(raster);

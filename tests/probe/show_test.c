@@ -54,9 +54,8 @@ static char *paint(const char *fragment, const char *what, Image *picture)
     char *legend = NULL;
     size_t size;
     FILE *file = open_memstream(&legend, &size);
-    require(show(&shown, fragment, what, FAILURE) &&
-                image_open(picture, SIDE, SIDE, IMAGE_BYTE, FAILURE),
-            FAILURE);
+    SUCCEEDS(show(&shown, fragment, what, message) &&
+             image_open(picture, SIDE, SIDE, IMAGE_BYTE, message));
     show_paint(&shown, picture, file);
     fclose(file);
     show_close(&shown);
@@ -157,7 +156,7 @@ TEST(values_of_the_vertex_shader_and_components)
     static const char *const NAMES[] = {"twice", "gl_Position.y", "v_Place.x"};
     for (int k = 0; k < 3; k++) {
         CLOSED(show_close) Show shown;
-        require(show(&shown, SPHERE, NAMES[k], FAILURE), FAILURE);
+        SUCCEEDS(show(&shown, SPHERE, NAMES[k], message));
         for (int i = 0; i < PIXELS; i++) {
             double place[2];
             place_of(i, place);
@@ -189,7 +188,7 @@ static double mediump(double x)
 TEST(errors_are_those_of_eleven_bits)
 {
     CLOSED(show_close) Show shown;
-    require(show(&shown, DIGITS, "error", FAILURE), FAILURE);
+    SUCCEEDS(show(&shown, DIGITS, "error", message));
     for (int i = 0; i < PIXELS; i++) {
         double place[2];
         place_of(i, place);
@@ -209,7 +208,7 @@ TEST(what_the_variables_cause_adds_up)
     static double sums[PIXELS], far[PIXELS];
     for (int k = 0; k < 5; k++) {
         CLOSED(show_close) Show shown;
-        require(show(&shown, DIGITS, NAMES[k], FAILURE), FAILURE);
+        SUCCEEDS(show(&shown, DIGITS, NAMES[k], message));
         for (int i = 0; i < PIXELS; i++) {
             const double value = (double)shown.pixels[i].values[0];
             sums[i] = k == 0 ? value : sums[i] - value;
@@ -236,7 +235,7 @@ TEST(the_line_that_loses_digits_is_blamed)
     char *legend = paint(DIGITS, "blame", &picture);
     assert_non_null(strstr(legend, "orange: line 4: float far = v_Place.x + 17.0;"));
     free(legend);
-    require(show(&shown, DIGITS, "blame", FAILURE), FAILURE);
+    SUCCEEDS(show(&shown, DIGITS, "blame", message));
     for (int i = 0; i < PIXELS; i++) {
         double place[2];
         place_of(i, place);
@@ -266,7 +265,7 @@ TEST(a_power_magnifies_what_rounding_has_left)
         double place[2];
         place_of(question.column, place);
         const double base = (place[0] + 1) / 2, slope = 24 * pow(base, 23);
-        require(probe_open(&probe, &question, FAILURE), FAILURE);
+        SUCCEEDS(probe_open(&probe, &question, message));
         /* What pow rounds in 11 bits, at most: log2, below 0.25 here; the product, below 4; exp2.
          */
         const double own = (24 * 0x1p-15 + 0x1p-11) * 0.7 * pow(base, 24) + 0x1p-12;
@@ -299,11 +298,9 @@ TEST(a_cube_map_is_not_read_as_a_flat_texture)
     capture->draws->texture_count = 1;
     capture->draws->uniforms = &cube;
     capture->draws->uniform_count = 1;
-    require(
-        probe_open(&probe,
-                   &(ProbeQuestion){.capture = capture, .driver = &GLSL_LLVMPIPE, .height = SIDE},
-                   FAILURE),
-        FAILURE);
+    SUCCEEDS(probe_open(
+        &probe, &(ProbeQuestion){.capture = capture, .driver = &GLSL_LLVMPIPE, .height = SIDE},
+        message));
     assert_true(probe.driver.color[0] == 0);
     assert_false(probe.judged);
     assert_non_null(strstr(probe.remarks, "u_Cube: a cube map, which is not read: taken as black"));

@@ -94,9 +94,8 @@ static void lesson_open(const Lesson *lesson, double seconds, LessonScene *made)
     const Vec3 grey = {lesson->light_color, lesson->light_color, lesson->light_color};
     const double degrees = lesson->turn + lesson->turn_per_second * seconds;
     const Mat4 turned = mat4_rotate(degrees, lesson->about_z ? (Vec3){0, 0, 1} : (Vec3){0, 1, 0});
-    require(lesson->half_side > 0 ? mesh_cube(&made->mesh, lesson->half_side, FAILURE)
-                                  : mesh_sphere(&made->mesh, 1, 13, 13, FAILURE),
-            FAILURE);
+    SUCCEEDS(lesson->half_side > 0 ? mesh_cube(&made->mesh, lesson->half_side, message)
+                                   : mesh_sphere(&made->mesh, 1, 13, 13, message));
     made->light = (Light){.kind = lesson->kind,
                           .position = lesson->light,
                           .direction = lesson->light,
@@ -236,12 +235,11 @@ static void draw_exact(const Lesson *lesson, Size size, double seconds, Exact *e
     LessonScene made;
     Trace *trace;
     lesson_open(lesson, seconds, &made);
-    require(
+    SUCCEEDS(
         trace_open(&trace, &made.scene,
                    &(ReferenceOptions){
                        .width = size.width, .height = size.height, .meshes = true, .threads = 1},
-                   FAILURE),
-        FAILURE);
+                   message));
     *exact = (Exact){.lesson = lesson, .width = size.width, .height = size.height};
     exact->pixels = calloc((size_t)size.width * (size_t)size.height, sizeof *exact->pixels);
     assert_non_null(exact->pixels);

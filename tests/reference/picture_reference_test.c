@@ -41,8 +41,8 @@ static bool check(const char *name, const Image *image, const Reference *exact, 
 static void open_exact(Reference *exact, const Scene *scene, int width, int height, bool meshes)
 {
     const ReferenceOptions options = {.width = width, .height = height, .meshes = meshes};
-    require(scene_check(scene, FAILURE), FAILURE);
-    require(reference_open(exact, scene, &options, FAILURE), FAILURE);
+    SUCCEEDS(scene_check(scene, message));
+    SUCCEEDS(reference_open(exact, scene, &options, message));
 }
 
 /* The programs that are scenes. */
@@ -51,12 +51,11 @@ static void open_exact(Reference *exact, const Scene *scene, int width, int heig
 static void render(const Canvas *canvas, Lighting *lighting, const Scene *scene, Image *image)
 {
     canvas_clear(canvas, scene->background, 1);
-    require(lighting_show(
-                lighting,
-                &(LightingFrame){.scene = scene, .aspect = (double)canvas->width / canvas->height},
-                FAILURE),
-            FAILURE);
-    require(canvas_read(canvas, image, FAILURE), FAILURE);
+    SUCCEEDS(lighting_show(
+        lighting,
+        &(LightingFrame){.scene = scene, .aspect = (double)canvas->width / canvas->height},
+        message));
+    SUCCEEDS(canvas_read(canvas, image, message));
 }
 
 TEST(scenes_are_drawn_as_the_reference_has_them)
@@ -71,10 +70,10 @@ TEST(scenes_are_drawn_as_the_reference_has_them)
         Image image;
         Lighting *lighting;
         int columns = 1, rows = 1;
-        require(canvas_open(&canvas, &options, FAILURE), FAILURE);
-        require(image_open(&image, canvas.width, canvas.height, IMAGE_BYTE, FAILURE), FAILURE);
-        require(example->init(&loader, FAILURE), FAILURE);
-        require(lighting_open(&lighting, &loader, FAILURE), FAILURE);
+        SUCCEEDS(canvas_open(&canvas, &options, message));
+        SUCCEEDS(image_open(&image, canvas.width, canvas.height, IMAGE_BYTE, message));
+        SUCCEEDS(example->init(&loader, message));
+        SUCCEEDS(lighting_open(&lighting, &loader, message));
         if (example_scene(example)->layout)
             example_scene(example)->layout(&columns, &rows);
         for (int view = 0; view < columns * rows; view++) {

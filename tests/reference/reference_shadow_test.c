@@ -282,11 +282,10 @@ static void sample_points(bool meshes, bool shadows, Sample samples[POINTS])
     Random random = {1};
     Trace *rays;
     let_shadow(shadows);
-    require(trace_open(
-                &rays, &world.scene,
-                &(ReferenceOptions){.width = SIZE, .height = SIZE, .meshes = meshes, .threads = 1},
-                FAILURE),
-            FAILURE);
+    SUCCEEDS(trace_open(
+        &rays, &world.scene,
+        &(ReferenceOptions){.width = SIZE, .height = SIZE, .meshes = meshes, .threads = 1},
+        message));
     let_shadow(true);
     for (int i = 0; i < POINTS; i++) {
         const double x = random_between(&random, 0, SIZE), y = random_between(&random, 0, SIZE);
@@ -782,7 +781,7 @@ TEST_WITH(0, between_the_shadows_of_a_solid_and_its_mesh_is_an_edge, set_up, tea
     PictureError without = {.all = {0}}, with = {.all = {0}};
     Image image;
     int on_wall = 0;
-    require(image_open(&image, SIZE, SIZE, IMAGE_FLOAT, FAILURE), FAILURE);
+    SUCCEEDS(image_open(&image, SIZE, SIZE, IMAGE_FLOAT, message));
     for (int i = 0; i < PIXELS; i++) {
         float *pixel = (float *)image.pixels + 4 * i;
         memcpy(pixel, &meshes.color[3 * i], 3 * sizeof *pixel);

@@ -104,7 +104,7 @@ TEST_WITH(0, colors_of_vertices_are_linear_between_them, set_up, tear_down)
 {
     Object *quad = add_object((Solid){.kind = SOLID_QUAD}, 3);
     Mesh *mesh = &world.meshes[0];
-    require(mesh_open_colors(mesh, FAILURE), FAILURE);
+    SUCCEEDS(mesh_open_colors(mesh, message));
     for (size_t i = 0; i < mesh->vertex_count; i++)
         mesh->colors[i][1] = 0.5F + 0.5F * mesh->vertices[i].position[0];
     world.scene.global_ambient = (Vec3){0.25, 0.25, 0.25};
@@ -802,7 +802,7 @@ TEST_WITH(0, closing_twice_or_nothing_is_fine, set_up, tear_down)
     Reference picture;
     const Reference zero = {0};
     const ReferenceOptions options = {.width = 1, .height = 1};
-    require(reference_open(&picture, &world.scene, &options, FAILURE), FAILURE);
+    SUCCEEDS(reference_open(&picture, &world.scene, &options, message));
     reference_close(&picture);
     assert_memory_equal(&picture, &zero, sizeof zero);
     reference_close(&picture);

@@ -113,7 +113,7 @@ static void write_set(const Effects *effects, char text[1024])
 static void assert_set(const char *expected)
 {
     char text[1024];
-    require(scene_check(&world.scene, FAILURE), FAILURE);
+    SUCCEEDS(scene_check(&world.scene, message));
     const Effects effects = effects_of(&world.scene, &world.object);
     write_set(&effects, text);
     assert_string_equal(text, expected);
@@ -586,7 +586,7 @@ TEST_WITH(0, the_full_set_has_every_effect, set_up, NULL)
 
 static void assert_guarded(bool expected)
 {
-    require(scene_check(&world.scene, FAILURE), FAILURE);
+    SUCCEEDS(scene_check(&world.scene, message));
     const Effects effects = effects_of(&world.scene, &world.object);
     assert_int_equal(effects.groups[0].guard_attenuation, expected);
 }
@@ -611,7 +611,7 @@ TEST_WITH(0, attenuation_is_guarded_unless_its_constant_coefficient_bounds_it, s
 
 static void assert_limited(bool expected)
 {
-    require(scene_check(&world.scene, FAILURE), FAILURE);
+    SUCCEEDS(scene_check(&world.scene, message));
     assert_int_equal(effects_of(&world.scene, &world.object).limit, expected);
     assert_int_equal(effects_full(&world.scene, &world.object).limit, expected);
 }

@@ -49,7 +49,7 @@ static Vec3 line_of(const OverlayList *list, int number)
 TEST(a_cube_has_three_normals_at_each_corner)
 {
     CLOSED(mesh_close) Mesh cube;
-    require(mesh_cube(&cube, 1, FAILURE), FAILURE);
+    SUCCEEDS(mesh_cube(&cube, 1, message));
     const Object object = {.mesh = &cube, .world_from_object = mat4_scale((Vec3){3, 1, 2})};
     CLOSED(overlay_list_close) OverlayList list = normals_of(&object, INTERPOLATION_PHONG);
     assert_int_equal(list.count, 2 * 24);
@@ -72,7 +72,7 @@ TEST(a_cube_has_three_normals_at_each_corner)
 TEST(normals_are_perpendicular_to_the_face_and_a_back_has_its_own)
 {
     CLOSED(mesh_close) Mesh quad;
-    require(mesh_quad(&quad, 2, FAILURE), FAILURE);
+    SUCCEEDS(mesh_quad(&quad, 2, message));
     const Mat4 shear = {{1, 0, 0.5, 0, 0.25, 2, 0, 0, 0, 0, 3, 0, 1, 2, 3, 1}};
     Object object = {.mesh = &quad, .world_from_object = shear};
     for (int way = 0; way < 4; way++) {
@@ -122,7 +122,7 @@ TEST(a_sphere_has_the_sides_of_its_quadrilaterals)
         assert_int_equal(edges_of_made(&m, mesh_sphere(&m, 4, slices, stacks, FAILURE)),
                          slices * (stacks - 1) + slices * stacks);
     }
-    require(mesh_sphere(&m, 4, 8, 4, FAILURE) && mesh_flatten(&m, FAILURE), FAILURE);
+    SUCCEEDS(mesh_sphere(&m, 4, 8, 4, message) && mesh_flatten(&m, message));
     assert_int_equal(edges_of_made(&m, true), 56); /* triangles with vertices of their own, too */
 }
 
@@ -140,7 +140,7 @@ TEST(equal_places_are_one_corner)
     static const float corners[6][3] = {{0, 0, 0},     {1, 0.5F, 0}, {0, 1, 0},
                                         {-0.0F, 0, 0}, {0, 1, 0},    {-1, 0.5F, 0}};
     Mesh m;
-    require(mesh_open(&m, 6, 9, FAILURE), FAILURE);
+    SUCCEEDS(mesh_open(&m, 6, 9, message));
     for (uint32_t i = 0; i < 6; i++) {
         memcpy(m.vertices[i].position, corners[i], sizeof corners[i]);
         m.indices[i] = i;
@@ -156,7 +156,7 @@ TEST(a_fold_is_an_edge)
     static const float corners[4][3] = {{0, 0, 0}, {1, 0, 0}, {0.5F, 1, 0}, {0.5F, 0.5F, 0}};
     static const uint32_t indices[6] = {0, 1, 2, 0, 1, 3};
     Mesh m;
-    require(mesh_open(&m, 4, 6, FAILURE), FAILURE);
+    SUCCEEDS(mesh_open(&m, 4, 6, message));
     for (uint32_t i = 0; i < 4; i++)
         memcpy(m.vertices[i].position, corners[i], sizeof corners[i]);
     memcpy(m.indices, indices, sizeof indices);
@@ -189,7 +189,7 @@ TEST(lights_are_marked_where_they_are)
 static void open_facing(Mesh *facing, const Mesh *mesh, Vec3 eye)
 {
     size_t count = 0;
-    require(mesh_copy(facing, mesh, FAILURE), FAILURE);
+    SUCCEEDS(mesh_copy(facing, mesh, message));
     for (size_t i = 0; i + 2 < mesh->index_count; i += 3) {
         Vec3 normal;
         const Vec3 place = vec3_from_float(mesh->vertices[mesh->indices[i]].position);
@@ -206,8 +206,8 @@ static void draw_lines(const Canvas *canvas, const Overlay *overlay, const Mesh 
 {
     CLOSED(overlay_list_close) OverlayList list = {.count = 0};
     overlay_add_edges(&list, mesh, mat4_identity(), BLACK);
-    require(overlay_draw(overlay, &list, scene, 1, FAILURE) && canvas_read(canvas, image, FAILURE),
-            FAILURE);
+    SUCCEEDS(overlay_draw(overlay, &list, scene, 1, message) &&
+             canvas_read(canvas, image, message));
 }
 
 static bool is_black(const Image *image, int i)
@@ -227,13 +227,12 @@ static void check_size(int size, int slices, int stacks, bool offset, int *cover
     CLOSED(mesh_close) Mesh mesh;
     CLOSED(mesh_close) Mesh facing;
     Lighting *lighting = NULL;
-    require(canvas_open(&canvas, &(CanvasOptions){.width = size, .height = size}, FAILURE) &&
-                overlay_open(&overlay, &(ShaderLoader){0}, FAILURE) &&
-                lighting_open(&lighting, &(ShaderLoader){0}, FAILURE) &&
-                image_open(&edges, size, size, IMAGE_BYTE, FAILURE) &&
-                image_open(&picture, size, size, IMAGE_BYTE, FAILURE) &&
-                mesh_sphere(&mesh, 4, slices, stacks, FAILURE),
-            FAILURE);
+    SUCCEEDS(canvas_open(&canvas, &(CanvasOptions){.width = size, .height = size}, message) &&
+             overlay_open(&overlay, &(ShaderLoader){0}, message) &&
+             lighting_open(&lighting, &(ShaderLoader){0}, message) &&
+             image_open(&edges, size, size, IMAGE_BYTE, message) &&
+             image_open(&picture, size, size, IMAGE_BYTE, message) &&
+             mesh_sphere(&mesh, 4, slices, stacks, message));
     const Object object = {.mesh = &mesh,
                            .closed = true,
                            .behind_lines = offset,
@@ -248,8 +247,7 @@ static void check_size(int size, int slices, int stacks, bool offset, int *cover
     glDisable(GL_DEPTH_TEST);
     draw_lines(&canvas, &overlay, &facing, &scene, &edges);
     canvas_clear(&canvas, (Vec3){1, 1, 1}, 1);
-    require(lighting_show(lighting, &(LightingFrame){.scene = &scene, .aspect = 1}, FAILURE),
-            FAILURE);
+    SUCCEEDS(lighting_show(lighting, &(LightingFrame){.scene = &scene, .aspect = 1}, message));
     draw_lines(&canvas, &overlay, &mesh, &scene, &picture);
     *covered = *missing = 0;
     for (int i = 0; i < size * size; i++) {

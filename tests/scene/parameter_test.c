@@ -33,7 +33,7 @@ static void assert_written(const Parameter *parameter, const char *expected, Par
     assert_string_equal(written, expected);
     parameter_restore(parameter, other);
     assert_false(parameter_equal(parameter, &value));
-    require(parameter_read(parameter, written, FAILURE), FAILURE);
+    SUCCEEDS(parameter_read(parameter, written, message));
     assert_true(parameter_equal(parameter, &value));
 }
 

@@ -287,7 +287,7 @@ TEST_WITH(0, fitted_planes_clip_nothing, set_up, NULL)
     CLOSED(mesh_close) Mesh cube;
     Object objects[3];
     int moved = 0, before_the_near_plane = 0;
-    require(mesh_cube(&cube, 1, FAILURE), FAILURE);
+    SUCCEEDS(mesh_cube(&cube, 1, message));
     world.scene.objects = objects;
     for (int i = 0; i < 1000; i++) {
         double near, far;
@@ -330,7 +330,7 @@ TEST_WITH(0, fitted_planes_clip_nothing, set_up, NULL)
 TEST_WITH(0, planes_around_all_objects_stay, set_up, NULL)
 {
     CLOSED(mesh_close) Mesh cube;
-    require(mesh_cube(&cube, 1, FAILURE), FAILURE);
+    SUCCEEDS(mesh_cube(&cube, 1, message));
     world.object.mesh = &cube;
     Camera *camera = &world.scene.camera;
     camera->near = 4, camera->far = 6; /* exactly */
@@ -465,7 +465,7 @@ TEST_WITH(0, a_copy_shares_nothing, set_up, NULL)
     Mesh quad, cube;
     Object objects[4];
     SceneCopy copy;
-    require(mesh_quad(&quad, 3, FAILURE) && mesh_cube(&cube, 1, FAILURE), FAILURE);
+    SUCCEEDS(mesh_quad(&quad, 3, message) && mesh_cube(&cube, 1, message));
     for (int i = 0; i < 4; i++) {
         objects[i] = world.object;
         objects[i].front.shininess = i;
@@ -474,7 +474,7 @@ TEST_WITH(0, a_copy_shares_nothing, set_up, NULL)
     objects[3].mesh = NULL;
     world.scene.objects = objects;
     world.scene.object_count = 4;
-    require(scene_copy_open_deep(&copy, &world.scene, FAILURE), FAILURE);
+    SUCCEEDS(scene_copy_open_deep(&copy, &world.scene, message));
     assert_memory_equal(&copy.scene.camera, &world.scene.camera, sizeof(Camera));
     assert_int_equal(copy.scene.light_count, 3);
     assert_memory_equal(copy.scene.lights, world.lights, sizeof world.lights);
@@ -498,7 +498,7 @@ TEST_WITH(0, a_copy_shares_nothing, set_up, NULL)
     scene_copy_close(&copy);
     scene_copy_close(NULL);
     world.scene = (Scene){.lights = NULL};
-    require(scene_copy_open_deep(&copy, &world.scene, FAILURE), FAILURE); /* empty */
+    SUCCEEDS(scene_copy_open_deep(&copy, &world.scene, message)); /* empty */
     scene_copy_close(&copy);
     mesh_close(&quad);
     mesh_close(&cube);

@@ -267,7 +267,7 @@ TEST(functions_and_names_change_no_count)
         ShaderCost costs[2];
         for (int k = 0; k < 2; k++) {
             write_random(seed + i, k, texts[k], sizeof texts[k]);
-            require(shader_cost(texts[k], SHADER_FRAGMENT, &costs[k], FAILURE), FAILURE);
+            SUCCEEDS(shader_cost(texts[k], SHADER_FRAGMENT, &costs[k], message));
         }
         if (memcmp(&costs[0], &costs[1], sizeof costs[0]) != 0)
             fail_msg("%d + %d and %d + %d\n%s\n%s", costs[0].arithmetic, costs[0].special,
@@ -296,13 +296,13 @@ TEST(no_scene_costs_more_than_the_full_program)
     const unsigned long long seed = testing_seed(1);
     Lighting *lighting;
     RandomMeshes meshes = {.first = NULL};
-    require(lighting_open(&lighting, &loader, FAILURE), FAILURE);
+    SUCCEEDS(lighting_open(&lighting, &loader, message));
     for (int i = 0; i < SCENES; i += testing_step(9)) {
         RandomScene made;
         ShaderCost mine[2], full[2];
         random_scene_make(&made, seed + (unsigned)i, seed);
         made.scene.interpolation %= 2; /* the others move light to the vertices, as flat does */
-        require(random_scene_ready(&made, &meshes, FAILURE), FAILURE);
+        SUCCEEDS(random_scene_ready(&made, &meshes, message));
         made.objects[0].flat = false;
         count_program(lighting, &made.scene, false, mine);
         count_program(lighting, &made.scene, true, full);

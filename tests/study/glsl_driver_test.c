@@ -16,7 +16,7 @@ static Meter meter;
 
 FIXTURE(open)
 {
-    require(meter_open(&meter, NULL, FAILURE), FAILURE);
+    SUCCEEDS(meter_open(&meter, NULL, message));
     return 0;
 }
 
@@ -115,7 +115,7 @@ static bool check(const char *code, bool near, const float (*a)[4], const float 
     static float results[COUNT][4];
     const GLuint program = meter_program(code, METER_FRAGMENT, METER_HIGHP, FAILURE);
     require(program != 0, FAILURE);
-    require(meter_run(&meter, program, METER_FRAGMENT, results, COUNT, FAILURE), FAILURE);
+    SUCCEEDS(meter_run(&meter, program, METER_FRAGMENT, results, COUNT, message));
     glDeleteProgram(program);
     GlslRun *run = run_open(code);
     int same = 0, worst = 0, worst_part = 0;

@@ -23,8 +23,8 @@ FIXTURE(measure)
     const int part = testing_step(3) == 1 ? 1 : 3;
     width = 240 / part;
     height = 180 / part;
-    require(meter_open(&meter, NULL, FAILURE), FAILURE);
-    require(arithmetic_measure(&meter, 1, &found, FAILURE), FAILURE);
+    SUCCEEDS(meter_open(&meter, NULL, message));
+    SUCCEEDS(arithmetic_measure(&meter, 1, &found, message));
     meter_close(&meter);
     return 0;
 }
@@ -35,11 +35,9 @@ static double error_in_picture(const Canvas *canvas, Lighting *lighting, const S
 {
     PictureError error = {.all = {0}};
     canvas_clear(canvas, scene->background, 0);
-    require(lighting_show(lighting,
-                          &(LightingFrame){.scene = scene, .aspect = (double)width / height},
-                          FAILURE),
-            FAILURE);
-    require(canvas_read(canvas, image, FAILURE), FAILURE);
+    SUCCEEDS(lighting_show(
+        lighting, &(LightingFrame){.scene = scene, .aspect = (double)width / height}, message));
+    SUCCEEDS(canvas_read(canvas, image, message));
     picture_error_add(&error, image, &(ExactView){.exact = exact, .scene = scene});
     return error.interior.maximum;
 }
@@ -51,8 +49,8 @@ static bool check(const Canvas *canvas, Lighting *lightings[2], const char *name
         .width = width, .height = height, .meshes = true, .centers = true};
     Reference exact;
     bool right = true;
-    require(scene_check(scene, FAILURE), FAILURE);
-    require(reference_open(&exact, scene, &options, FAILURE), FAILURE);
+    SUCCEEDS(scene_check(scene, message));
+    SUCCEEDS(reference_open(&exact, scene, &options, message));
     for (int i = 0; i < 2; i++) {
         const double predicted = predict_scene(scene, height, &found.of[METER_VERTEX][METER_HIGHP],
                                                &found.of[METER_FRAGMENT][i], &found.raster);
@@ -73,17 +71,17 @@ TEST(no_picture_has_a_larger_error_than_predicted)
     Canvas canvas;
     Image image;
     bool all = true;
-    require(canvas_open(&canvas, &options, FAILURE), FAILURE);
-    require(image_open(&image, width, height, IMAGE_BYTE, FAILURE), FAILURE);
+    SUCCEEDS(canvas_open(&canvas, &options, message));
+    SUCCEEDS(image_open(&image, width, height, IMAGE_BYTE, message));
     for (int i = 0; i < 2; i++) {
         const ShaderLoader loader = {.precision = precisions[i]};
-        require(lighting_open(&lightings[i], &loader, FAILURE), FAILURE);
+        SUCCEEDS(lighting_open(&lightings[i], &loader, message));
     }
     for (int i = 0; i < EXAMPLE_COUNT; i++) {
         const Example *example = EXAMPLES[i];
         const ShaderLoader none = {.only_texts = true};
         int columns = 1, rows = 1;
-        require(example->init(&none, FAILURE), FAILURE);
+        SUCCEEDS(example->init(&none, message));
         if (example_scene(example)->layout)
             example_scene(example)->layout(&columns, &rows);
         for (int view = 0; view < columns * rows; view += testing_step(24)) {

@@ -19,12 +19,12 @@ static Mesh meshes[MESHES];
 FIXTURE(measure)
 {
     Meter meter;
-    require(meter_open(&meter, NULL, FAILURE), FAILURE);
-    require(arithmetic_measure(&meter, 1 << 17, &found, FAILURE), FAILURE);
+    SUCCEEDS(meter_open(&meter, NULL, message));
+    SUCCEEDS(arithmetic_measure(&meter, 1 << 17, &found, message));
     meter_close(&meter);
-    require(mesh_sphere(&meshes[0], 1, 16, 8, FAILURE), FAILURE);
-    require(mesh_torus(&meshes[1], .3, .8, 8, 14, FAILURE), FAILURE);
-    require(mesh_quad(&meshes[2], 3, FAILURE), FAILURE);
+    SUCCEEDS(mesh_sphere(&meshes[0], 1, 16, 8, message));
+    SUCCEEDS(mesh_torus(&meshes[1], .3, .8, 8, 14, message));
+    SUCCEEDS(mesh_quad(&meshes[2], 3, message));
     return 0;
 }
 
@@ -126,15 +126,13 @@ static double drawn_error(const Canvas *canvas, const Scene *scene, bool narrow,
     Reference exact;
     Lighting *lighting;
     Image image;
-    require(reference_open(&exact, scene, &options, FAILURE), FAILURE);
-    require(image_open(&image, WIDTH, HEIGHT, IMAGE_FLOAT, FAILURE), FAILURE);
-    require(lighting_open(&lighting, &loader, FAILURE), FAILURE);
+    SUCCEEDS(reference_open(&exact, scene, &options, message));
+    SUCCEEDS(image_open(&image, WIDTH, HEIGHT, IMAGE_FLOAT, message));
+    SUCCEEDS(lighting_open(&lighting, &loader, message));
     canvas_clear(canvas, scene->background, 0);
-    require(lighting_show(lighting,
-                          &(LightingFrame){.scene = scene, .aspect = (double)WIDTH / HEIGHT},
-                          FAILURE),
-            FAILURE);
-    require(canvas_read(canvas, &image, FAILURE), FAILURE);
+    SUCCEEDS(lighting_show(
+        lighting, &(LightingFrame){.scene = scene, .aspect = (double)WIDTH / HEIGHT}, message));
+    SUCCEEDS(canvas_read(canvas, &image, message));
     picture_error_add(&error, &image, &(ExactView){.exact = &exact, .scene = scene});
     *sides = sides_error(&exact);
     lighting_close(lighting);
@@ -149,7 +147,7 @@ static double proved_error(const Scene *scene, bool narrow)
                                 &found.of[METER_FRAGMENT][narrow], &found.raster, HEIGHT};
     Proof proof;
     double steps = 0;
-    require(proof_open(&proof, scene, &driver, true, FAILURE), FAILURE);
+    SUCCEEDS(proof_open(&proof, scene, &driver, true, message));
     for (int i = 0; i < proof.capture.draw_count; i++)
         if (proof_is_drawn(&proof, i))
             steps = fmax(steps, prove_draw(&proof, i, 2000).bound.steps);
@@ -173,7 +171,7 @@ TEST(no_picture_has_a_larger_error_than_is_proved)
     double *ratios[4]; /* in floats, and with a byte's rounding in both */
     Canvas canvas;
     int larger = 0;
-    require(canvas_open(&canvas, &options, FAILURE), FAILURE);
+    SUCCEEDS(canvas_open(&canvas, &options, message));
     for (int i = 0; i < 4; i++)
         ratios[i] = calloc((size_t)count, sizeof *ratios[i]);
     for (int i = 0; i < count; i++) {

@@ -41,7 +41,7 @@ Object *world_add(Solid solid, int divisions, Mat4 world_from_object)
 {
     const int i = world.scene.object_count++;
     assert_in_range(i, 0, WORLD_MAX - 1);
-    require(solid_mesh(&solid, divisions, &world.meshes[i], FAILURE), FAILURE);
+    SUCCEEDS(solid_mesh(&solid, divisions, &world.meshes[i], message));
     world.objects[i] =
         (Object){.mesh = &world.meshes[i],
                  .solid = solid,
@@ -56,8 +56,8 @@ Reference world_trace(ReferenceOptions options)
     Reference picture;
     if (options.width == 0)
         options.width = options.height = WORLD_SIZE;
-    require(scene_check(&world.scene, FAILURE), FAILURE);
-    require(reference_open(&picture, &world.scene, &options, FAILURE), FAILURE);
+    SUCCEEDS(scene_check(&world.scene, message));
+    SUCCEEDS(reference_open(&picture, &world.scene, &options, message));
     assert_in_range(drawn_count, 0, MAX_DRAWN - 1);
     drawn[drawn_count++] = picture;
     for (int i = 0; i < 3 * options.width * options.height; i++)
@@ -89,7 +89,7 @@ double world_distance_from_means(const Reference *picture, int grid,
     Trace *rays;
     double worst = 0;
     *count = 0;
-    require(trace_open(&rays, &world.scene, &options, FAILURE), FAILURE);
+    SUCCEEDS(trace_open(&rays, &world.scene, &options, message));
     for (int i = 0; i < WORLD_PIXELS; i++) {
         double sums[3] = {0, 0, 0};
         if (!mixed(picture, i))
