@@ -70,21 +70,17 @@ static void put_back(const ParameterValue *values)
         parameter_restore(&PARAMETERS[i], values[i]);
 }
 
-static int save_defaults(void **state)
+FIXTURE(save_defaults)
 {
-    (void)state;
     for (int i = 0; i < PARAMETER_COUNT; i++)
         defaults[i] = parameter_save(&PARAMETERS[i]);
     unsetenv("LIGHTING_BACKEND");
-    return 0;
 }
 
-static int restore_defaults(void **state)
+FIXTURE(restore_defaults)
 {
-    (void)state;
     put_back(defaults);
     unsetenv("LIGHTING_BACKEND");
-    return 0;
 }
 
 #define COMMAND_TEST(name) TEST_WITH(0, name, NULL, restore_defaults)

@@ -27,13 +27,11 @@ static Canvas canvas;
 FIXTURE(open_canvas)
 {
     SUCCEEDS(canvas_open(&canvas, &(CanvasOptions){.width = SIZE, .height = SIZE}, message));
-    return 0;
 }
 
 FIXTURE(close_canvas)
 {
     canvas_close(&canvas);
-    return 0;
 }
 
 /* The textbook's teapot, turned, has the tip of its spout 0.6% beyond the original's camera. */

@@ -159,7 +159,6 @@ FIXTURE(draw_all)
             canvas_close(&canvas);
         }
     }
-    return 0;
 }
 
 FIXTURE(forget_all)
@@ -167,7 +166,6 @@ FIXTURE(forget_all)
     for (int way = 0; way < WAY_COUNT; way++)
         for (int i = 0; i < EXAMPLE_COUNT; i++)
             error_picture_close(&cases[way][i].picture);
-    return 0;
 }
 
 static void pause_for(double seconds)

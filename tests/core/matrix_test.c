@@ -77,11 +77,9 @@ static void assert_vector(Vec3 value, double x, double y, double z, double toler
 /* Tools: random numbers, restarted for each test. No expression draws two of them, so
  * the order is the same with every compiler. */
 
-static int start_random(void **state)
+FIXTURE(start_random)
 {
-    (void)state;
     random_state.state = seed;
-    return 0;
 }
 
 static double between(double low, double high)

@@ -22,13 +22,11 @@ static Mesh made[2]; /* of the current test, until forget_made */
 FIXTURE(open_all)
 {
     hard_open(SIZE, SIZE);
-    return 0;
 }
 
 FIXTURE(close_all)
 {
     hard_close();
-    return 0;
 }
 
 FIXTURE(forget_made)
@@ -39,7 +37,6 @@ FIXTURE(forget_made)
     }
     if (hard.bytes.width != SIZE || hard.bytes.height != SIZE)
         hard_resize(SIZE, SIZE);
-    return 0;
 }
 
 static void check(const char *name, double reach, int min_pixels)

@@ -63,16 +63,6 @@ void hard_exact(const Scene *scene, bool solids, Reference *exact)
     SUCCEEDS(reference_open(exact, scene, &options, message));
 }
 
-static void render(const Canvas *canvas, Lighting *lighting, const Scene *scene, Image *image)
-{
-    canvas_clear(canvas, scene->background, 1);
-    SUCCEEDS(lighting_show(
-        lighting,
-        &(LightingFrame){.scene = scene, .aspect = (double)canvas->width / canvas->height},
-        message));
-    SUCCEEDS(canvas_read(canvas, image, message));
-}
-
 /* The value of channel `c`, counted over all pixels, from 0 to 1. */
 static double value_of(const Image *image, size_t c)
 {
@@ -89,8 +79,9 @@ HardResult hard_draw(const Scene *scene, HardPrecision precision, const Referenc
     const Reference *right = exact ? exact : &own;
     if (!exact)
         hard_exact(scene, false, &own);
-    render(&hard.bytes, hard.lightings[precision], scene, &hard.image);
-    render(&hard.floats, hard.lightings[precision], scene, &hard.real);
+    const LightingFrame frame = {.scene = scene};
+    picture_draw(&hard.bytes, hard.lightings[precision], &frame, &hard.image);
+    picture_draw(&hard.floats, hard.lightings[precision], &frame, &hard.real);
     for (size_t i = 0; i < 4 * count; i++)
         result.not_finite += !isfinite(value_of(&hard.real, i));
     ErrorSum bytes = {0}, floats = {0};

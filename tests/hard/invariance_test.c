@@ -26,7 +26,6 @@ FIXTURE(open_all)
              image_open(&wide_image, 2 * SIZE, SIZE, IMAGE_FLOAT, message) &&
              image_open(&picture, SIZE, SIZE, IMAGE_FLOAT, message) &&
              image_open(&other, SIZE, SIZE, IMAGE_FLOAT, message));
-    return 0;
 }
 
 FIXTURE(close_all)
@@ -39,7 +38,6 @@ FIXTURE(close_all)
     image_close(&wide_image);
     canvas_close(&wide);
     hard_close();
-    return 0;
 }
 
 static void make_scene(RandomScene *made, int number)
@@ -51,8 +49,8 @@ static void make_scene(RandomScene *made, int number)
 
 static void render(const RandomScene *scene, const Canvas *canvas, Image *image)
 {
-    SUCCEEDS(scene_check(&scene->scene, message) &&
-             random_scene_draw(scene, canvas, hard.lightings[HARD_HIGHP], image, message));
+    picture_draw(canvas, hard.lightings[HARD_HIGHP], &(LightingFrame){.scene = &scene->scene},
+                 image);
 }
 
 /* Changes that keep the picture. */

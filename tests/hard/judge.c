@@ -1,6 +1,6 @@
 #include "hard/judge.h"
 
-#include "support/testing.h"
+#include "support/picture_check.h"
 
 enum { MAX_MESHES = 64 };
 
@@ -155,8 +155,8 @@ double judge_error(RandomScene *scene, double enough)
     if (!judge_ready(scene) || !scene_check(&scene->scene, NULL) || !depth_suffices(scene))
         return -1;
     exact_picture(scene, &exact);
-    SUCCEEDS(
-        random_scene_draw(scene, &hard.floats, hard.lightings[HARD_HIGHP], &hard.real, message));
+    picture_draw(&hard.floats, hard.lightings[HARD_HIGHP], &(LightingFrame){.scene = &scene->scene},
+                 &hard.real);
     float *slack = calloc(3 * (size_t)exact.width * (size_t)exact.height, sizeof *slack);
     assert_non_null(slack);
     double error = largest_error(&exact, slack);

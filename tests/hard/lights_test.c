@@ -24,14 +24,12 @@ FIXTURE(open_all)
     const Solid solid = {.kind = SOLID_QUAD, .radius = 2};
     hard_open(SIZE, SIZE);
     SUCCEEDS(solid_mesh(&solid, 16, &fine_quad, message));
-    return 0;
 }
 
 FIXTURE(close_all)
 {
     mesh_close(&fine_quad);
     hard_close();
-    return 0;
 }
 
 static void check(const char *name, double reach)
@@ -183,7 +181,6 @@ FIXTURE(restore_size)
 {
     if (hard.bytes.width != SIZE)
         hard_resize(SIZE, SIZE);
-    return 0;
 }
 
 /* A light moves away from the middle of a quad. Closer than a hundred times the last digit of the

@@ -540,7 +540,6 @@ FIXTURE(open_all)
              mesh_quad(&sideways, 4, message));
     for (size_t i = 0; i < sideways.vertex_count; i++)
         memcpy(sideways.vertices[i].normal, (const float[]){1, 0, 0}, sizeof(float[3]));
-    return 0;
 }
 
 FIXTURE(close_all)
@@ -549,7 +548,6 @@ FIXTURE(close_all)
     hard_close();
     for (int i = 0; i < 6; i++)
         mesh_close(meshes[i]);
-    return 0;
 }
 
 int main(void)

@@ -21,14 +21,12 @@ FIXTURE(open_all)
 {
     hard_open(SIZE, SIZE);
     SUCCEEDS(mesh_cylinder(&tube, (MeshCylinder){0.8, 1.6, 24, 4, MESH_CAP_NONE}, message));
-    return 0;
 }
 
 FIXTURE(close_all)
 {
     mesh_close(&tube);
     hard_close();
-    return 0;
 }
 
 FIXTURE(forget_made)
@@ -37,7 +35,6 @@ FIXTURE(forget_made)
     mesh_close(&made);
     if (hard.bytes.width != SIZE)
         hard_resize(SIZE, SIZE);
-    return 0;
 }
 
 /* `made`, a copy, in the world. */

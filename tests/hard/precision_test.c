@@ -21,14 +21,12 @@ FIXTURE(open_all)
     hard_open(SIZE, SIZE);
     memcpy(cosine, hard.lightings, sizeof cosine);
     SUCCEEDS(mesh_sphere(&sphere, 1, 96, 48, message));
-    return 0;
 }
 
 FIXTURE(close_all)
 {
     mesh_close(&sphere);
     hard_close();
-    return 0;
 }
 
 /* Only a highlight, as bright as a light can be. */

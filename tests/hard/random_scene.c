@@ -290,17 +290,6 @@ bool random_scene_ready(RandomScene *made, RandomMeshes *meshes, Message *messag
     return true;
 }
 
-bool random_scene_draw(const RandomScene *made, const Canvas *canvas, Lighting *lighting,
-                       Image *image, Message *message)
-{
-    canvas_clear(canvas, made->scene.background, 1);
-    return lighting_show(lighting,
-                         &(LightingFrame){.scene = &made->scene,
-                                          .aspect = (double)canvas->width / canvas->height},
-                         message) &&
-           canvas_read(canvas, image, message);
-}
-
 /* Discontinuities. */
 
 static bool black(Vec3 a, Vec3 b)

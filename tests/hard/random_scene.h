@@ -65,8 +65,4 @@ bool random_scene_ready(RandomScene *made, RandomMeshes *meshes, Message *messag
  * edge. */
 bool random_scene_grazes(const RandomScene *made);
 
-/* Draws a scene that is ready. Fails as lighting_draw does. */
-bool random_scene_draw(const RandomScene *made, const Canvas *canvas, Lighting *lighting,
-                       Image *image, Message *message);
-
 #endif

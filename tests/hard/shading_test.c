@@ -20,14 +20,12 @@ FIXTURE(open_all)
 {
     hard_open(SIZE, SIZE);
     SUCCEEDS(mesh_cube(&cube, 0.8, message));
-    return 0;
 }
 
 FIXTURE(close_all)
 {
     mesh_close(&cube);
     hard_close();
-    return 0;
 }
 
 static void check(const char *name, double reach)

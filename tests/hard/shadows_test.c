@@ -20,13 +20,11 @@ static HardScene made;
 FIXTURE(open_all)
 {
     hard_open(SIZE, SIZE);
-    return 0;
 }
 
 FIXTURE(close_all)
 {
     hard_close();
-    return 0;
 }
 
 static void use_way(ShadowWay way)
@@ -52,7 +50,6 @@ FIXTURE(close_scene)
 {
     hard_forget(NULL);
     hard_scene_close(&made);
-    return 0;
 }
 
 /* Pixels in parts of which a light arrives otherwise: the exact picture's nine samples may miss a

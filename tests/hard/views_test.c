@@ -231,7 +231,6 @@ FIXTURE(open_all)
 {
     hard_open(SIZE, SIZE);
     SUCCEEDS(mesh_sphere(&sphere, 1, SLICES, SLICES, message) && mesh_quad(&quad, 8, message));
-    return 0;
 }
 
 FIXTURE(close_all)
@@ -239,7 +238,6 @@ FIXTURE(close_all)
     hard_close();
     mesh_close(&quad);
     mesh_close(&sphere);
-    return 0;
 }
 
 PICTURE_TEST_MAIN("hard views", open_all, close_all)

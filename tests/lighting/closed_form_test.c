@@ -47,7 +47,6 @@ FIXTURE(open_all)
     Random random = {7};
     for (size_t i = 0; i < 3 * sphere.vertex_count; i++)
         colored_sphere.colors[i / 3][i % 3] = (float)random_between(&random, 0, 1);
-    return 0;
 }
 
 FIXTURE(close_all)
@@ -59,7 +58,6 @@ FIXTURE(close_all)
     image_close(&picture);
     lighting_close(lighting);
     canvas_close(&canvas);
-    return 0;
 }
 
 static struct {
@@ -109,10 +107,7 @@ static void make_world(const Mesh *mesh)
 
 static void draw_scene(const Scene *scene, Image *image)
 {
-    canvas_clear(&canvas, scene->background, 1);
-    SUCCEEDS(scene_check(scene, message) &&
-             lighting_show(lighting, &(LightingFrame){.scene = scene, .aspect = 1}, message) &&
-             canvas_read(&canvas, image, message));
+    picture_draw(&canvas, lighting, &(LightingFrame){.scene = scene}, image);
 }
 
 static void draw_terms(SceneTerms terms, Image *image)

@@ -41,12 +41,7 @@ int close_all(void **state)
 
 void render(const Scene *scene, bool with_all, Image *picture)
 {
-    canvas_clear(&canvas, scene->background, 1);
-    SUCCEEDS(scene_check(scene, message) &&
-             lighting_show(lighting,
-                           &(LightingFrame){.scene = scene, .aspect = 1, .full = with_all},
-                           message) &&
-             canvas_read(&canvas, picture, message));
+    picture_draw(&canvas, lighting, &(LightingFrame){.scene = scene, .full = with_all}, picture);
 }
 
 unsigned char *pixel(const Image *image, int x, int y)

@@ -77,7 +77,6 @@ FIXTURE(open_all)
     real_attribute = glGetAttribLocation;
     glGetUniformLocation = counted_uniform;
     glGetAttribLocation = counted_attribute;
-    return 0;
 }
 
 FIXTURE(close_all)
@@ -89,7 +88,6 @@ FIXTURE(close_all)
     mesh_close(&cube);
     mesh_close(&floor_mesh);
     canvas_close(&canvas);
-    return 0;
 }
 
 /* A ball and two boxes over a floor, in the light of a point, a spot and the sun. */
@@ -128,7 +126,6 @@ FIXTURE(make_world)
                           .light_count = LIGHTS,
                           .objects = world.objects,
                           .object_count = OBJECTS};
-    return 0;
 }
 
 static void use_shadows(ShadowWay way)

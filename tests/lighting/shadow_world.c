@@ -42,12 +42,7 @@ int close_all(void **state)
 
 void draw(const Scene *scene, bool full)
 {
-    SUCCEEDS(scene_check(scene, message));
-    canvas_clear(&canvas, scene->background, 1);
-    SUCCEEDS(lighting_show(
-        lighting, &(LightingFrame){.scene = scene, .aspect = (double)WIDTH / HEIGHT, .full = full},
-        message));
-    SUCCEEDS(canvas_read(&canvas, &image, message));
+    picture_draw(&canvas, lighting, &(LightingFrame){.scene = scene, .full = full}, &image);
 }
 
 /* Whether at most so many pixels inside an object are farther than a step from the exact picture.

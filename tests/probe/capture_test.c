@@ -25,13 +25,11 @@ static Canvas canvas;
 FIXTURE(open_canvas)
 {
     SUCCEEDS(canvas_open(&canvas, &(CanvasOptions){.width = SIDE, .height = SIDE}, message));
-    return 0;
 }
 
 FIXTURE(close_canvas)
 {
     canvas_close(&canvas);
-    return 0;
 }
 
 /* Labels, which are painted afterwards, are not in it. */

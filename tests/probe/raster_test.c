@@ -29,13 +29,11 @@ static long compared, equal;
 FIXTURE(open_canvas)
 {
     SUCCEEDS(canvas_open(&canvas, &(CanvasOptions){.width = SIDE, .height = SIDE}, message));
-    return 0;
 }
 
 FIXTURE(close_canvas)
 {
     canvas_close(&canvas);
-    return 0;
 }
 
 static RasterPixel pixels[SIDE * SIDE]; /* row 0 is the bottom */

@@ -101,7 +101,6 @@ FIXTURE(open_all)
     SUCCEEDS(overlay_open(&overlay, &(ShaderLoader){0}, message));
     SUCCEEDS(image_open(&ours, SIZE, SIZE, IMAGE_BYTE, message));
     SUCCEEDS(image_open(&theirs, SIZE, SIZE, IMAGE_BYTE, message));
-    return 0;
 }
 
 FIXTURE(close_all)
@@ -111,7 +110,7 @@ FIXTURE(close_all)
     overlay_close(&overlay);
     shader_close(&shader);
     canvas_close(&canvas);
-    return testing_leave_folder(NULL);
+    assert_int_equal(testing_leave_folder(NULL), 0);
 }
 
 /* Drawing as the originals do. */

@@ -45,13 +45,11 @@ FIXTURE(set_up)
 {
     world_open();
     world_forget();
-    return 0;
 }
 
 FIXTURE(tear_down)
 {
     world_close();
-    return 0;
 }
 
 static void let_shadow(bool shadows)

@@ -25,7 +25,6 @@ FIXTURE(set_up)
 {
     srand48(SEED);
     printf("seed %ld\n", SEED);
-    return 0;
 }
 
 /* Each closed solid as the set of points where this is not above 0; its size is about 1. */

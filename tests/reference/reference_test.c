@@ -27,13 +27,11 @@ FIXTURE(set_up)
     world.lights[0] = (Light){.direction = {0, 0, 1}, .diffuse = {1, 1, 1}};
     world.scene.light_count = 1;
     world.scene.background = (Vec3){0.1, 0.2, 0.3};
-    return 0;
 }
 
 FIXTURE(tear_down)
 {
     world_close();
-    return 0;
 }
 
 static Object *add_object(Solid solid, int divisions)

@@ -18,14 +18,13 @@ static const Vec3 BLACK = {0, 0, 0}, WHITE = {1, 1, 1}, RED = {1, 0, 0}, GREEN =
 
 FIXTURE(open_meshes)
 {
-    return mesh_cube(&cube, 1, NULL) && mesh_sphere(&sphere, 1, 8, 4, NULL) ? 0 : 1;
+    assert_true(mesh_cube(&cube, 1, NULL) && mesh_sphere(&sphere, 1, 8, 4, NULL));
 }
 
 FIXTURE(close_meshes)
 {
     mesh_close(&cube);
     mesh_close(&sphere);
-    return 0;
 }
 
 /* A smooth open object in white directional light, diffuse only, lit per fragment. */
@@ -43,7 +42,6 @@ FIXTURE(set_up)
                   .objects = &world.object,
                   .object_count = 1},
     };
-    return 0;
 }
 
 static void shine_specular(void)

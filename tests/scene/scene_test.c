@@ -40,7 +40,6 @@ FIXTURE(set_up)
                   .objects = &world.object,
                   .object_count = 1},
     };
-    return 0;
 }
 
 /* One number of the world set to a value without meaning there, and how the message begins. */

@@ -25,14 +25,12 @@ FIXTURE(measure)
     SUCCEEDS(mesh_sphere(&meshes[0], 1, 16, 8, message));
     SUCCEEDS(mesh_torus(&meshes[1], .3, .8, 8, 14, message));
     SUCCEEDS(mesh_quad(&meshes[2], 3, message));
-    return 0;
 }
 
 FIXTURE(close_meshes)
 {
     for (int i = 0; i < MESHES; i++)
         mesh_close(&meshes[i]);
-    return 0;
 }
 
 typedef struct Made {
@@ -129,10 +127,7 @@ static double drawn_error(const Canvas *canvas, const Scene *scene, bool narrow,
     SUCCEEDS(reference_open(&exact, scene, &options, message));
     SUCCEEDS(image_open(&image, WIDTH, HEIGHT, IMAGE_FLOAT, message));
     SUCCEEDS(lighting_open(&lighting, &loader, message));
-    canvas_clear(canvas, scene->background, 0);
-    SUCCEEDS(lighting_show(
-        lighting, &(LightingFrame){.scene = scene, .aspect = (double)WIDTH / HEIGHT}, message));
-    SUCCEEDS(canvas_read(canvas, &image, message));
+    picture_draw(canvas, lighting, &(LightingFrame){.scene = scene}, &image);
     picture_error_add(&error, &image, &(ExactView){.exact = &exact, .scene = scene});
     *sides = sides_error(&exact);
     lighting_close(lighting);

@@ -1,6 +1,5 @@
 #include "support/picture_check.h"
 
-#include "core/canvas.h"
 #include "window/backends.h"
 
 #include <limits.h>
@@ -27,6 +26,17 @@ bool picture_check_driver(const char *test)
 int picture_check_run(const char *name, CMFixtureFunction setup, CMFixtureFunction teardown)
 {
     return picture_check_driver(name) ? testing_run(0, name, setup, teardown) : EXIT_SKIPPED;
+}
+
+void picture_draw(const Canvas *canvas, Lighting *lighting, const LightingFrame *frame,
+                  Image *image)
+{
+    LightingFrame own = *frame;
+    own.aspect = (double)canvas->width / canvas->height;
+    canvas_clear(canvas, frame->scene->background, 1);
+    SUCCEEDS(scene_check(frame->scene, message));
+    SUCCEEDS(lighting_show(lighting, &own, message));
+    SUCCEEDS(canvas_read(canvas, image, message));
 }
 
 static void keep(const char *name, const char *what, const Image *image)

@@ -5,7 +5,9 @@
 #ifndef PICTURE_CHECK_H
 #define PICTURE_CHECK_H
 
+#include "core/canvas.h"
 #include "images/image_file.h"
+#include "lighting/lighting.h"
 #include "reference/reference.h"
 #include "support/testing.h"
 
@@ -19,6 +21,11 @@ int picture_check_run(const char *name, CMFixtureFunction setup, CMFixtureFuncti
     {                                                                                              \
         return picture_check_run(name, setup, teardown);                                           \
     }
+
+/* Draws a frame, whose scene must pass scene_check and whose aspect is the canvas's, and reads the
+ * picture back. */
+void picture_draw(const Canvas *canvas, Lighting *lighting, const LightingFrame *frame,
+                  Image *image);
 
 /* Whether two byte pictures differ by at most `levels` steps of 1/255 in every channel, alpha
  * included. If not, prints where they differ most and keeps both as `name`. */

@@ -45,8 +45,15 @@ void testing_add(int list, struct CMUnitTest test);
 /* Runs a list in the order of the file; returns how many tests failed. */
 int testing_run(int list, const char *name, CMFixtureFunction setup, CMFixtureFunction teardown);
 
-/* Defines a set-up or tear-down: FIXTURE(open_all) { ...; return 0; } */
-#define FIXTURE(name) static int name(__attribute__((unused)) void **state)
+/* Defines a set-up or tear-down: FIXTURE(open_all) { ... } */
+#define FIXTURE(name)                                                                              \
+    static void name##_once(void);                                                                 \
+    static int name(__attribute__((unused)) void **state)                                          \
+    {                                                                                              \
+        name##_once();                                                                             \
+        return 0;                                                                                  \
+    }                                                                                              \
+    static void name##_once(void)
 
 /* Defines main: runs list 0. */
 #define TEST_MAIN(name, setup, teardown)                                                           \
