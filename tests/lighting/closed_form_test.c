@@ -7,6 +7,7 @@
 #include "core/mesh_make.h"
 #include "lighting/lighting.h"
 #include "shapes/mesh_solids.h"
+#include "support/oracle.h"
 #include "support/picture_check.h"
 #include "support/testing.h"
 
@@ -352,28 +353,6 @@ TEST(colors_of_vertices_have_their_barycentric_mean)
     }
 }
 
-/* The color of a vertex by the equation: a point light, the viewer at the eye. */
-static Vec3 vertex_color(const Vec3 place, Vec3 normal, Vec3 reflectivity)
-{
-    const Light *light = &world.lights[0];
-    const Material *m = &world.object.front;
-    Vec3 l, v, h, sum = m->emission;
-    const Vec3 way = vec3_subtract(light->position, place);
-    vec3_normalize(way, &l);
-    vec3_normalize(vec3_subtract(world.scene.camera.eye, place), &v);
-    vec3_normalize(vec3_add(l, v), &h);
-    const double d = vec3_length(way), share = 1 / (light->constant + light->linear * d);
-    const double n_l = fmax(vec3_dot(normal, l), 0);
-    const double power = n_l > 0 ? pow(fmax(vec3_dot(normal, h), 0), m->shininess) : 0;
-    for (int c = 0; c < 3; c++) {
-        const double own = (&reflectivity.x)[c];
-        (&sum.x)[c] += (&world.scene.global_ambient.x)[c] * own +
-                       share * (((&light->ambient.x)[c] + n_l * (&light->diffuse.x)[c]) * own +
-                                power * (&light->specular.x)[c] * (&m->specular.x)[c]);
-    }
-    return sum;
-}
-
 /* Whichever corner the triangle's last is. */
 TEST(constant_interpolation_has_the_color_of_the_last_vertex)
 {
@@ -387,11 +366,16 @@ TEST(constant_interpolation_has_the_color_of_the_last_vertex)
         world.scene.interpolation = INTERPOLATION_CONSTANT;
         world.object.world_from_object = mat4_rotate(30, (Vec3){1, 0.5, 0});
         const Mat4 turn = world.object.world_from_object;
-        const Vec3 expected = vertex_color(
-            mat4_transform_point(turn, vec3_from_float(triangle.vertices[last].position)),
-            mat4_transform_direction(turn, (Vec3){0, 0, 1}),
-            vec3_from_float(triangle.colors[last]));
         draw_scene(&world.scene, &picture);
+        const Vec3 place =
+            mat4_transform_point(turn, vec3_from_float(triangle.vertices[last].position));
+        OraclePoint vertex = {.object = &world.object,
+                              .point = place,
+                              .normal = mat4_transform_direction(turn, (Vec3){0, 0, 1}),
+                              .viewer = vec3_unit(vec3_subtract(world.scene.camera.eye, place))};
+        world.object.front.ambient = world.object.front.diffuse =
+            vec3_from_float(triangle.colors[last]);
+        const Vec3 expected = oracle_light(&world.scene, &vertex);
         for (int y = 0; y < SIZE; y++) {
             for (int x = 0; x < SIZE; x++) {
                 double w[3];

@@ -500,68 +500,6 @@ TEST(a_black_mirrored_or_mistimed_picture_is_refused)
     }
 }
 
-TEST(a_still_scene_is_the_same_at_every_time)
-{
-    static const double moments[] = {-1e9, -0.4, 3, 13.3, 1e9};
-    const Options options = options_for(SIZES[1], NULL);
-    for (int i = 0; i < LESSON_COUNT; i++) {
-        if (LESSONS[i].turn_per_second > 0)
-            continue;
-        Picture first;
-        draw_alone(&LESSONS[i], &options, 0, &first);
-        for (size_t m = 0; m < sizeof moments / sizeof moments[0]; m++) {
-            Picture later;
-            draw_alone(&LESSONS[i], &options, moments[m], &later);
-            assert_true(
-                picture_check_same(LESSONS[i].example->name, &later.image, &first.image, 0));
-            image_close(&later.image);
-        }
-        image_close(&first.image);
-    }
-}
-
-TEST(drawing_twice_gives_the_same_bits)
-{
-    const Options options = options_for(SIZES[0], NULL);
-    for (int i = 0; i < LESSON_COUNT; i++) {
-        const Lesson *lesson = &LESSONS[i];
-        Picture alone, again;
-        Canvas canvas;
-        Renderer renderer;
-        draw_alone(lesson, &options, TIMES[2], &alone);
-        /* On a canvas that has drawn another time before. */
-        open_canvas(&canvas, &options);
-        open_picture(&again, SIZES[0]);
-        open_example(&renderer, lesson, &canvas, &options);
-        draw_picture(&renderer, &options, TIMES[1], &again);
-        draw_picture(&renderer, &options, TIMES[2], &again);
-        renderer_close(&renderer);
-        canvas_close(&canvas);
-        assert_true(picture_check_same(lesson->example->name, &again.image, &alone.image, 0));
-        image_close(&alone.image);
-        image_close(&again.image);
-    }
-}
-
-TEST(without_alpha_the_same_picture_stands_on_opaque_black)
-{
-    const Options with = options_for(SIZES[1], NULL);
-    Options without = with;
-    without.alpha = false;
-    for (int i = 0; i < LESSON_COUNT; i++) {
-        Picture transparent, opaque;
-        draw_alone(&LESSONS[i], &with, TIMES[1], &transparent);
-        draw_alone(&LESSONS[i], &without, TIMES[1], &opaque);
-        unsigned char *bytes = transparent.image.pixels;
-        for (int p = 0; p < SIZES[1].width * SIZES[1].height; p++)
-            bytes[4 * p + 3] = 255;
-        assert_true(
-            picture_check_same(LESSONS[i].example->name, &opaque.image, &transparent.image, 0));
-        image_close(&transparent.image);
-        image_close(&opaque.image);
-    }
-}
-
 int main(void)
 {
     return picture_check_run("picture lecture", find_snap, NULL);

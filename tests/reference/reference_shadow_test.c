@@ -8,6 +8,7 @@
 #include "reference/reference_trace.h"
 #include "shapes/mesh_solids.h"
 #include "support/exact_world.h"
+#include "support/oracle.h"
 #include "support/testing.h"
 
 static const double PI = 3.14159265358979323846;
@@ -152,65 +153,6 @@ TEST_WITH(0, the_shadow_of_a_sphere_is_a_conic, set_up, tear_down)
         world.lights[0].diffuse = (Vec3){0.02, 0.02, 0.02};
         const Reference faint = world_trace((ReferenceOptions){0});
         assert_memory_equal(faint.interior, with.interior, PIXELS);
-    }
-}
-
-/* Of the convex hull of points. (Andrew, 1979) */
-static double hull_area(Vec3 *points, int count)
-{
-    Vec3 hull[20];
-    int size = 0;
-    for (int i = 1; i < count; i++)
-        for (int k = i;
-             k > 0 && (points[k].x < points[k - 1].x ||
-                       (points[k].x == points[k - 1].x && points[k].y < points[k - 1].y));
-             k--) {
-            const Vec3 swapped = points[k];
-            points[k] = points[k - 1];
-            points[k - 1] = swapped;
-        }
-    for (int pass = 0; pass < 2; pass++)
-        for (int i = 0, first = size; i < count; i++) {
-            const Vec3 p = points[pass ? count - 1 - i : i];
-            while (size >= first + 2 && vec3_cross(vec3_subtract(hull[size - 1], hull[size - 2]),
-                                                   vec3_subtract(p, hull[size - 1]))
-                                                .z <= 0)
-                size--;
-            hull[size++] = p;
-        }
-    double area = 0;
-    for (int i = 0; i < size; i++)
-        area += vec3_cross(hull[i], hull[(i + 1) % size]).z / 2;
-    return area;
-}
-
-TEST_WITH(0, the_shadow_of_a_box_is_the_polygon_of_its_corners, set_up, tear_down)
-{
-    const Mat4 place = mat4_product(
-        mat4_translate((Vec3){0.1, 0.2, 5}),
-        mat4_product(mat4_rotate(35, (Vec3){1, 2, 0.5}), mat4_scale((Vec3){1, 0.7, 1.3})));
-    add_wall();
-    add_object((Solid){.kind = SOLID_BOX, .radius = 0.25}, 4, place);
-    for (int kind = LIGHT_DIRECTIONAL; kind <= LIGHT_SPOT; kind++) {
-        const Vec3 at = kind == LIGHT_DIRECTIONAL ? (Vec3){0.1, -0.08, 1} : (Vec3){0.3, 0.3, 9};
-        Vec3 shadow[8];
-        for (int i = 0; i < 8; i++) {
-            const Vec3 corner = {i & 1 ? 0.25 : -0.25, i & 2 ? 0.25 : -0.25, i & 4 ? 0.25 : -0.25};
-            const Vec3 p = mat4_transform_point(place, corner);
-            const Vec3 way = kind == LIGHT_DIRECTIONAL ? at : vec3_subtract(at, p);
-            shadow[i] = vec3_subtract(p, vec3_scale(way, p.z / way.z));
-        }
-        const double expected = hull_area(shadow, 8) * scale() * scale();
-        for (int meshes = 0; meshes < 2; meshes++) {
-            world.scene.light_count = 0;
-            add_light((LightKind)kind, at);
-            const Reference with = world_trace((ReferenceOptions){.meshes = meshes});
-            const Reference without = trace_lit((ReferenceOptions){.meshes = meshes});
-            const double area = shadow_area(&with, &without);
-            printf("light %d: %.3f pixels of %.3f\n", kind, area, expected);
-            assert_true(fabs(area - expected) < 8 * sqrt(expected / PI) * 0.5 / 170);
-            world_forget();
-        }
     }
 }
 
@@ -495,21 +437,6 @@ TEST_WITH(0, size_and_place_of_a_scene_do_not_change_its_shadows, set_up, tear_d
 
 /* A walk along the segment, in steps, by how far outside a solid's surface a point is. */
 
-static double outside_solid(const Solid *solid, Vec3 p)
-{
-    const double across = hypot(p.x, p.y), r = solid->radius, h = solid->height;
-    switch (solid->kind) {
-    case SOLID_BOX:
-        return fmax(fabs(p.x), fmax(fabs(p.y), fabs(p.z))) - r;
-    case SOLID_TORUS:
-        return hypot(across - r, p.z) - solid->tube;
-    case SOLID_CONE:
-        return fmax(-p.z, (across * h - r * (h - p.z)) / hypot(r, h));
-    default:
-        return vec3_length(p) - r;
-    }
-}
-
 /* The least of that between two points, the first STEPS / 100 of which are left out on the way from
  * an object's own surface. */
 enum { STEPS = 3000 };
@@ -522,7 +449,7 @@ static double least_outside(const Object *object, Vec3 from, Vec3 to, bool own)
     double least = INFINITY;
     for (int i = own ? STEPS / 100 : 0; i <= STEPS; i++)
         least = fmin(
-            least, outside_solid(&object->solid, vec3_add(a, vec3_scale(way, (double)i / STEPS))));
+            least, oracle_outside(&object->solid, vec3_add(a, vec3_scale(way, (double)i / STEPS))));
     return least;
 }
 
@@ -747,23 +674,6 @@ TEST_WITH(0, edges_of_shadows_are_the_means_of_their_pixels, set_up, tear_down)
     assert_true(count > 10);
     /* Half a step asked for; half a row of so many samples may be on the wrong side. */
     assert_true(worst < 0.5 + 0.5 * 255 / GRID);
-}
-
-TEST_WITH(0, threads_and_a_stop_leave_pictures_with_shadows_whole, set_up, tear_down)
-{
-    atomic_bool stop;
-    Random random = {testing_seed(38)};
-    for (int meshes = 0; meshes < 2; meshes++) {
-        open_group(&random, 3);
-        const Reference one = world_trace((ReferenceOptions){.threads = 1, .meshes = meshes});
-        const Reference many = world_trace((ReferenceOptions){.threads = 5, .meshes = meshes});
-        assert_true(world_same(&one, &many));
-        Reference none;
-        const ReferenceOptions options = {.width = SIZE, .height = SIZE, .stop = &stop};
-        atomic_init(&stop, true);
-        assert_false(reference_open(&none, &world.scene, &options, NULL));
-        assert_null(none.color);
-    }
 }
 
 /* A square's shadow on the wall instead of a circle's: between the two the whole light is missing

@@ -632,6 +632,7 @@ static void assert_same(const Reference *a, const Reference *b)
 TEST_WITH(0, any_number_of_threads_makes_the_same_bits, set_up, tear_down)
 {
     open_edge_scene();
+    world.lights[1].shadows = true;
     for (int meshes = 0; meshes < 2; meshes++) {
         Reference one = world_trace((ReferenceOptions){.threads = 1, .meshes = meshes});
         for (int threads = 0; threads < 9; threads++) {

@@ -86,9 +86,21 @@ static void meet_side(Hit *hit, const Ray *ray, double r, double k, double heigh
     }
 }
 
-static double torus_value(const Solid *solid, Vec3 p)
+double oracle_outside(const Solid *solid, Vec3 p)
 {
-    return hypot(hypot(p.x, p.y) - solid->radius, p.z) - solid->tube;
+    const double r = solid->radius, h = solid->height, across = hypot(p.x, p.y);
+    switch (solid->kind) {
+    case SOLID_BOX:
+        return fmax(fabs(p.x), fmax(fabs(p.y), fabs(p.z))) - r;
+    case SOLID_CYLINDER:
+        return fmax(across - r, fmax(-p.z, p.z - h));
+    case SOLID_CONE:
+        return fmax(-p.z, (across * h - r * (h - p.z)) / hypot(r, h));
+    case SOLID_TORUS:
+        return hypot(across - r, p.z) - solid->tube;
+    default:
+        return vec3_length(p) - r;
+    }
 }
 
 static void meet_torus(Hit *hit, const Ray *ray, const Solid *solid)
@@ -100,14 +112,14 @@ static void meet_torus(Hit *hit, const Ray *ray, const Solid *solid)
                vec3_dot(ray->from, ray->from) - bound * bound, t))
         return;
     const double step = (t[1] - t[0]) / STEPS;
-    double before = torus_value(solid, at(ray, t[0]));
+    double before = oracle_outside(solid, at(ray, t[0]));
     for (int i = 1; i <= STEPS; i++) {
         double low = t[0] + (i - 1) * step, high = low + step;
-        const double after = torus_value(solid, at(ray, high));
+        const double after = oracle_outside(solid, at(ray, high));
         if ((before < 0) != (after < 0)) {
             for (int k = 0; k < 50; k++) {
                 const double middle = (low + high) / 2;
-                if ((torus_value(solid, at(ray, middle)) < 0) == (before < 0))
+                if ((oracle_outside(solid, at(ray, middle)) < 0) == (before < 0))
                     low = middle;
                 else
                     high = middle;

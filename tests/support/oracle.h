@@ -28,6 +28,9 @@ typedef struct OraclePoint {
  */
 bool oracle_trace(const Scene *scene, int width, int height, int x, int y, OraclePoint *hit);
 
+/* How far a point is outside a closed solid; negative inside. */
+double oracle_outside(const Solid *solid, Vec3 p);
+
 /* The sum of the lighting equation, not clamped. Of the point are needed: object, back, point,
  * normal, viewer. */
 Vec3 oracle_light(const Scene *scene, OraclePoint *at);
