@@ -1296,36 +1296,6 @@ TEST_WITH(0, to_float_rounds_to_nearest, start_random, NULL)
     assert_true(v[0] == 0.1f && isinf(v[1]) && v[1] < 0 && v[2] == 16777220);
 }
 
-/* The forms by value return what the others write, on success and on failure. */
-TEST_WITH(0, forms_by_value_agree, start_random, NULL)
-{
-    for (int i = 0; i < 400; i++) {
-        Mat4 written, a = i % 4 ? random_matrix() : mat4_scale(random_vector());
-        const double *r = a.m, factor = i % 5 ? 1 : 0;
-        const Vec3 u = vec3_scale(random_vector(), factor), v = random_vector();
-        Vec3 unit;
-        if (i % 7 == 0)
-            a.m[i % 16] = i % 2 ? not_a_number : infinity;
-        if (i % 3 == 0)
-            a = mat4_product(a, mat4_scale((Vec3){1, 0, factor}));
-        vec3_normalize(u, &unit);
-        assert_vector(vec3_unit(u), unit.x, unit.y, unit.z, 0);
-        mat4_try_rotate(360 * r[0], u, &written);
-        assert_matrix(mat4_rotate(360 * r[0], u), written, 0);
-        mat4_try_look_at(v, u, unit, &written);
-        assert_matrix(mat4_look_at(v, u, unit), written, 0);
-        mat4_try_perspective(200 * r[1], r[2], r[3], r[4], &written);
-        assert_matrix(mat4_perspective(200 * r[1], r[2], r[3], r[4]), written, 0);
-        mat4_try_frustum((MatrixSides){r[0], r[1], r[2], r[3], r[4], r[5]}, &written);
-        assert_matrix(mat4_frustum(r[0], r[1], r[2], r[3], r[4], r[5]), written, 0);
-        mat4_try_ortho((MatrixSides){r[0], r[1], r[2], r[3], r[4], r[5]}, &written);
-        assert_matrix(mat4_ortho(r[0], r[1], r[2], r[3], r[4], r[5]), written, 0);
-        mat4_try_normal(a, &written);
-        assert_matrix(mat4_normal(a), written, 0);
-        assert_true(mat4_is_finite(written));
-    }
-}
-
 int main(void)
 {
     seed = testing_seed(20240607);

@@ -4,13 +4,10 @@
  * computed in it depends on the driver's compiler.
  */
 #include "hard/hard.h"
-#include "support/oracle.h"
 #include "support/picture_check.h"
 #include "support/testing.h"
 
 enum { SIZE = 128 };
-
-static const double REACH = 4; /* see normals_test.c */
 
 static HardWorld world;
 static Mesh sphere;
@@ -47,29 +44,6 @@ static double worst_of(double shininess, Reflection reflection, HardPrecision pr
 
     assert_true(result.interior_pixels > SIZE * SIZE / 8);
     return result.byte_error;
-}
-
-/* The largest error in steps of 1/255, by reflection: 3, 12, 37 and 8, 25, 82 were measured; the
- * bounds are a third larger. The bound of oracle_mediump_max, for which every rounding is at its
- * worst, is several times as large. */
-TEST(a_highlight_loses_digits_in_mediump_as_its_shininess_grows)
-{
-    static const struct {
-        double shininess, max[2];
-    } rows[] = {{8, {4, 10.6}}, {32, {16, 33.3}}, {128, {49.3, 109.3}}};
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        for (int reflection = 0; reflection < 2; reflection++) {
-            const double shininess = rows[i].shininess;
-            const double high = worst_of(shininess, (Reflection)reflection, HARD_HIGHP);
-            const double medium = worst_of(shininess, (Reflection)reflection, HARD_MEDIUMP);
-            const double derived = oracle_mediump_max(&world.scene, REACH);
-            printf("shininess %g, %s: %.2f in highp, %.2f in mediump (derived: at most %.0f)\n",
-                   shininess, reflection ? "Phong" : "Blinn-Phong", high, medium, derived);
-            assert_true(high <= 1);
-            assert_true(medium <= rows[i].max[reflection]);
-            assert_true(medium <= derived);
-        }
-    }
 }
 
 /* Lagrange's identity: the highlight is (1 - q^2)^(s / 2), where q is the length of a cross

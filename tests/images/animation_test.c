@@ -24,32 +24,6 @@ static AnimationOptions wanted(const char *format, const char *path)
                               .compress = IMAGE_COMPRESS_DEFAULT};
 }
 
-static void is_format(const char *path, int frames, const char *format)
-{
-    const char *found = animation_format(path, frames);
-    if (!format != !found || (format && strcmp(found, format) != 0))
-        fail_msg("%s: %s, not %s", path, found ? found : "none", format ? format : "none");
-}
-
-FOLDER_TEST(the_extension_and_the_number_of_pictures_decide)
-{
-    is_format("a.gif", 2, "gif");
-    is_format("a.gif", 1, NULL);
-    is_format("a.webp", 2, "webp");
-    is_format("a.webp", 1, NULL);
-    is_format("a.apng", 1, "apng");
-    is_format("a.mp4", 1, "mp4");
-    is_format("folder.png/A.WebM", 9, "webm");
-    is_format("a.y4m", 9, NULL); /* only for pipes */
-    is_format("a.rgb", 9, NULL);
-    is_format("a.png", 9, NULL);
-    is_format("gif", 9, NULL);
-    is_format(".gif", 9, NULL);
-    is_format("a.gif/b", 9, NULL);
-    is_format("a.", 9, NULL);
-    is_format("", 9, NULL);
-}
-
 FOLDER_TEST(what_a_format_cannot_hold_is_refused)
 {
     static const struct {

@@ -390,45 +390,6 @@ TEST_WITH(0, a_light_behind_takes_light_away_on_request, set_up, tear_down)
     assert_color(&picture, MIDDLE, 0.9, 0.5, 0.05);
 }
 
-/* Sides and transforms. */
-
-TEST_WITH(0, the_back_has_its_own_material_and_the_reversed_normal, set_up, tear_down)
-{
-    Object *quad = add_object((Solid){.kind = SOLID_QUAD}, 3);
-    quad->back = (Material){.diffuse = {0.1, 0.9, 0.3}, .alpha = 1};
-    for (int turned = 0; turned < 2; turned++)
-        for (int mirrored = 0; mirrored < 2; mirrored++)
-            for (int two_sided = 0; two_sided < 2; two_sided++)
-                for (int meshes = 0; meshes < 2; meshes++) {
-                    /* A mirror in x changes no side: what faces the eye stays. */
-                    quad->world_from_object =
-                        mat4_scale((Vec3){mirrored ? -1 : 1, 1, turned ? -1 : 1});
-                    quad->two_sided = two_sided;
-                    Reference picture = world_trace((ReferenceOptions){.meshes = meshes});
-                    if (!turned)
-                        assert_color(&picture, MIDDLE, 0.8, 0.5, 0.2);
-                    else if (two_sided)
-                        assert_color(&picture, MIDDLE, 0.1, 0.9, 0.3);
-                    else
-                        assert_color(&picture, MIDDLE, 0, 0, 0); /* the light is behind it */
-                }
-}
-
-TEST_WITH(0, wrong_normals_are_wrong, set_up, tear_down)
-{
-    Object *quad = add_object((Solid){.kind = SOLID_QUAD}, 3);
-    /* z' = z + x / 2: the plane's normal becomes (-1/2, 0, 1); as a direction (0, 0, 1) stays. */
-    quad->world_from_object.m[2] = 0.5;
-    for (int meshes = 0; meshes < 2; meshes++) {
-        quad->wrong_normals = false;
-        Reference picture = world_trace((ReferenceOptions){.meshes = meshes});
-        assert_color(&picture, MIDDLE, 0.8 / sqrt(1.25), 0.5 / sqrt(1.25), 0.2 / sqrt(1.25));
-        quad->wrong_normals = true;
-        picture = world_trace((ReferenceOptions){.meshes = meshes});
-        assert_color(&picture, MIDDLE, 0.8, 0.5, 0.2);
-    }
-}
-
 TEST_WITH(0, flattened_objects_have_finite_colors, set_up, tear_down)
 {
     static const Vec3 scales[] = {{1, 1, 0}, {1, 0, 0}, {0, 0, 0}, {1e-8, 1, 1}, {1, 1, 1e-9}};

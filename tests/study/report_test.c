@@ -104,51 +104,6 @@ TEST_WITH(0, a_table_is_sorted_and_marked, enter, leave)
     free(text);
 }
 
-TEST_WITH(0, a_busy_machine_marks_nothing, enter, leave)
-{
-    add_four();
-    for (int i = 0; i < results.count; i++)
-        results.rows[i].noise = i < 3 ? 0.11 : 0.02;
-    assert_true(front_busy(&results, "sphere"));
-    char *text = table(true);
-    assert_non_null(strstr(text, "The machine was busy"));
-    assert_null(strstr(text, "*"));
-    assert_non_null(strstr(text, "divisions=24")); /* the rows are still there */
-    assert_non_null(strstr(text, "divisions=32"));
-    free(text);
-}
-
-/* The table, the plot, the headline, the conclusions and the page. */
-TEST_WITH(0, a_busy_machine_compares_times_nowhere, enter, leave)
-{
-    const int sphere = study_scene_number("sphere");
-    for (int busy = 0; busy < 2; busy++) {
-        char said[CONCLUSION_SIZE];
-        size_t size;
-        results_close(&results);
-        add_four();
-        for (int i = 0; i < results.count; i++)
-            results.rows[i].noise = busy ? 0.11 : 0.05;
-        const Conclusions conclusions =
-            conclusions_of(&results, &sphere, 1, &(ModelsApart){{0, 0}, {0, 0}});
-        conclusion_of_scene(&results, "sphere", said);
-        assert_int_equal(said[0] == '\0', busy);
-        assert_int_equal(conclusions.busy, busy);
-        bool compared = false;
-        for (int i = 0; i < conclusions.count; i++)
-            compared |= strstr(conclusions.lines[i], " ms") != NULL;
-        assert_int_equal(compared, !busy);
-        require(report_page(&results, &sphere, 1, &conclusions, "out", fresh()), &message);
-        char *page = testing_read("out/index.html", &size);
-        assert_int_equal(strstr(page, "The machine was busy") != NULL, busy);
-        assert_int_equal(strstr(page, "class=\"busy\">the machine was busy in 1 of 1 ") != NULL,
-                         busy);
-        assert_int_equal(strstr(page, "Phong interpolation") == NULL, busy);
-        assert_int_equal(strstr(page, "<td>1.00</td>") == NULL, busy);
-        free(page);
-    }
-}
-
 TEST_WITH(0, a_sentence_compares_at_the_error_that_both_reach, enter, leave)
 {
     char text[CONCLUSION_SIZE];
@@ -248,25 +203,6 @@ static char *drawn(const char *name)
 static bool plot(const char *title)
 {
     return report_plot(&results, "sphere", title, ERROR_INTERIOR_MAXIMUM, "out", fresh());
-}
-
-TEST_WITH(0, a_plot_of_a_busy_machine_has_no_line, enter, leave)
-{
-    ReportPins pins;
-    if (!has_gnuplot())
-        skip();
-    add_four();
-    for (int i = 0; i < results.count; i++)
-        results.rows[i].noise = 0.11;
-    require(plot("busy") &&
-                report_pins(&pins, &results, "sphere", ERROR_INTERIOR_MAXIMUM, &message),
-            &message);
-    char *svg = drawn("sphere");
-    assert_non_null(strstr(svg, "The machine was busy"));
-    assert_null(strstr(svg, ">efficient<"));
-    assert_null(strstr(svg, ">usual<"));
-    assert_int_equal(pins.count, 0);
-    free(svg);
 }
 
 TEST_WITH(0, a_plot_names_the_efficient_ones, enter, leave)

@@ -801,20 +801,6 @@ PANEL_TEST(test_what_is_shown_over_the_picture)
     assert_false(result.wants_pointer || result.wants_keys);
 }
 
-PANEL_TEST(test_fonts_follow_the_scale)
-{
-    frames(2);
-    const unsigned generation = result.drawing.generation;
-    const int area = result.drawing.atlas_width * result.drawing.atlas_height;
-    assert_true(generation > 0);
-    frame();
-    assert_int_equal(result.drawing.generation, generation);
-    window.scale = 2;
-    frames(2);
-    assert_true(result.drawing.generation > generation);
-    assert_true(result.drawing.atlas_width * result.drawing.atlas_height > area);
-}
-
 PANEL_TEST(test_two_panels)
 {
     Panel *first = panel, *second;
