@@ -5,7 +5,6 @@
 #include "base/memory.h"
 #include "base/output_text.h"
 #include "scene/shader_cost.h"
-#include "scene/unmodelled.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -122,4 +122,11 @@ extern const PanelKind SCENE_PANEL;
  * with a roughness, lights without ambient colours and attenuation. */
 bool scene_save(const Scene *scene, const char *path, Message *message);
 
+/* What a scene would show in reality that the lighting model leaves out. */
+
+/* Writes a line for each thing that this scene lacks: "object 0, a sphere, would cast a shadow on
+ * object 1, a square (light 0)". Shadows are found by rays from points spread over the surfaces to
+ * each light. Fails only if memory is out. */
+bool unmodelled_explain(const Scene *scene, FILE *file, Message *message);
+
 #endif

@@ -21,11 +21,14 @@ static Mat4 clip_from_object(Mat4 clip_from_eye, Mat4 eye_from_world, Mat4 world
     return mat4_product(clip_from_eye, eye_from_object);
 }
 
-static const LightingTransforms USUAL = {scene_eye_from_object, scene_eye_point, clip_from_object};
+const LightingTransforms LIGHTING_TRANSFORMS = {scene_eye_from_object, scene_eye_point,
+                                                clip_from_object};
 
 void lighting_use_transforms(Lighting *lighting, const LightingTransforms *transforms)
 {
-    lighting->transforms = transforms ? *transforms : USUAL;
+    lighting->transforms = transforms ? *transforms : LIGHTING_TRANSFORMS;
+    if (!lighting->transforms.clip_from_object)
+        lighting->transforms.clip_from_object = clip_from_object;
 }
 
 static bool same_settings(const ShadowSettings *a, const ShadowSettings *b)
@@ -412,7 +415,7 @@ bool lighting_open(Lighting **opened, const ShaderLoader *loader, Message *messa
     Lighting *lighting = memory_new(1, sizeof *lighting);
     (void)message;
     lighting->programs.loader = *loader;
-    lighting->transforms = USUAL;
+    lighting->transforms = LIGHTING_TRANSFORMS;
     lighting->shadows = SHADOWS_DEFAULT;
     *opened = lighting;
     return true;

@@ -39,11 +39,13 @@ typedef struct LightingTransforms {
     Mat4 (*eye_from_object)(const Camera *camera, Mat4 eye_from_world, Mat4 world_from_object);
     Vec3 (*eye_point)(const Camera *camera, Mat4 eye_from_world, Vec3 point_world);
     Mat4 (*clip_from_object)(Mat4 clip_from_eye, Mat4 eye_from_world, Mat4 world_from_object,
-                             Mat4 eye_from_object);
+                             Mat4 eye_from_object); /* NULL: as usual */
 } LightingTransforms;
 
-/* From now on, instead of scene_eye_from_object, scene_eye_point and clip_from_eye *
- * eye_from_object. NULL restores those. */
+/* The usual ones: scene_eye_from_object, scene_eye_point and clip_from_eye * eye_from_object. */
+extern const LightingTransforms LIGHTING_TRANSFORMS;
+
+/* From now on, instead of those. NULL restores them. */
 void lighting_use_transforms(Lighting *lighting, const LightingTransforms *transforms);
 
 /* From now on, instead of mat4_normal, for every object with normals, to show wrong ones. NULL

@@ -20,18 +20,13 @@ static double box_most(const PlacedBox *box, Vec3 way)
     return vec3_dot(box->center, way) + placed_reach(box, way);
 }
 
-static double size_of(const PlacedBox *box)
-{
-    return vec3_length(box->half[0]) + vec3_length(box->half[1]) + vec3_length(box->half[2]);
-}
-
 /* The numbers of the largest boxes, in their order; how many. */
 static int largest_boxes(const ShadowPairs *pairs, int numbers[END_BOXES])
 {
     double sizes[END_BOXES];
     int count = 0;
     for (int i = 0; i < pairs->count; i++) {
-        const double size = size_of(&pairs->placed[i]);
+        const double size = placed_size(&pairs->placed[i]);
         int least = 0;
         for (int k = 1; k < count; k++)
             least = sizes[k] < sizes[least] ? k : least;

@@ -78,16 +78,11 @@ static bool misses(const Search *search, int object)
                                                     &search->pairs->boxes[object]));
 }
 
-static double radius_of(const PlacedBox *box)
-{
-    return vec3_length(box->half[0]) + vec3_length(box->half[1]) + vec3_length(box->half[2]);
-}
-
 /* Whether spheres around both show that the occluder is beside, behind or beyond all that lies
  * between the receiver and the light. */
 static bool far_apart(const PlacedBox *occluder, const PlacedBox *receiver, Vec4 light)
 {
-    const double apart = (radius_of(occluder) + radius_of(receiver)) * (1 + 1e-5);
+    const double apart = (placed_size(occluder) + placed_size(receiver)) * (1 + 1e-5);
     const Vec3 place = {light.x, light.y, light.z};
     const Vec3 to_light = light.w != 0 ? vec3_subtract(place, receiver->center) : place;
     const Vec3 way = vec3_subtract(occluder->center, receiver->center);

@@ -28,7 +28,7 @@ double placed_reach(const PlacedBox *box, Vec3 way)
            fabs(vec3_dot(box->half[2], way));
 }
 
-static double size_of(const PlacedBox *box)
+double placed_size(const PlacedBox *box)
 {
     return vec3_length(box->half[0]) + vec3_length(box->half[1]) + vec3_length(box->half[2]);
 }
@@ -57,7 +57,7 @@ static Vec3 least(const Hull *hull, Vec3 way)
  * light is not in the box. */
 static bool plane_separates(const PlacedBox *box, const Hull *hull, Vec3 normal)
 {
-    const double touches = TOUCHES * (size_of(box) + size_of(hull->box));
+    const double touches = TOUCHES * (placed_size(box) + placed_size(hull->box));
     Vec3 way;
     if (!vec3_normalize(normal, &way))
         return false;
@@ -77,7 +77,7 @@ static bool search_separates(const PlacedBox *box, const Hull *hull)
 {
     enum { STEPS = 64 };
     const Hull other = {.box = box};
-    const double touches = TOUCHES * (size_of(box) + size_of(hull->box));
+    const double touches = TOUCHES * (placed_size(box) + placed_size(hull->box));
     Vec3 nearest = vec3_subtract(hull->box->center, box->center);
     for (int step = 0; step < STEPS; step++) {
         const double length = vec3_length(nearest);

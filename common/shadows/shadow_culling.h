@@ -16,6 +16,9 @@ PlacedBox placed_box(const MeshBox *box, Mat4 world_from_object);
 /* How far it reaches from its center along a direction, in lengths of that. */
 double placed_reach(const PlacedBox *box, Vec3 way);
 
+/* At least the radius of a sphere around it. */
+double placed_size(const PlacedBox *box);
+
 /* Whether a segment from the receiver to the light may meet the occluder. `light`: its position
  * with w = 1, or the direction towards it with w = 0. False is certain, up to a millionth of the
  * boxes' sizes: a plane lies between the occluder and all those segments. */

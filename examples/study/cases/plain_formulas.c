@@ -101,19 +101,11 @@ static Vec3 look_at_eye_point(const Camera *camera, Mat4 eye_from_world, Vec3 po
     return mat4_transform_point(float_look_at(camera), point_world);
 }
 
-static Mat4 look_at_clip_from_object(Mat4 clip_from_eye, Mat4 eye_from_world,
-                                     Mat4 world_from_object, Mat4 eye_from_object)
-{
-    (void)eye_from_world, (void)world_from_object;
-    return mat4_product(clip_from_eye, eye_from_object);
-}
-
 const LightingTransforms *naive_float_look_at(void)
 {
     static const LightingTransforms transforms = {
         .eye_from_object = look_at_eye_from_object,
         .eye_point = look_at_eye_point,
-        .clip_from_object = look_at_clip_from_object,
     };
     return &transforms;
 }

@@ -249,20 +249,10 @@ static const char *const COMPOSITIONS[] = {
 };
 enum { COMPOSITION_COUNT = sizeof COMPOSITIONS / sizeof COMPOSITIONS[0] };
 
-/* As `lighting` does by default. */
-static Mat4 usual_clip_from_object(Mat4 clip_from_eye, Mat4 eye_from_world, Mat4 world_from_object,
-                                   Mat4 eye_from_object)
-{
-    (void)eye_from_world, (void)world_from_object;
-    return mat4_product(clip_from_eye, eye_from_object);
-}
-
 /* Nanoseconds for one object's matrices and one light's position: the median of some runs. */
 static double time_composition(const char *text)
 {
     enum { RUNS = 15, TIMES = 2000 };
-    static const LightingTransforms USUAL = {scene_eye_from_object, scene_eye_point,
-                                             usual_clip_from_object};
     double nanoseconds[RUNS];
     volatile double kept = 0; /* so that nothing is optimized away */
     StudyScene made;
@@ -273,7 +263,7 @@ static double time_composition(const char *text)
         !scene_camera(&made.scene.camera, 1, &eye_from_world, &clip_from_eye, NULL))
         return NAN;
     const LightingTransforms *transforms = transforms_of(&quality);
-    transforms = transforms ? transforms : &USUAL;
+    transforms = transforms ? transforms : &LIGHTING_TRANSFORMS;
     Mat4 world_from_object = made.objects[0].world_from_object;
     for (int run = 0; run < RUNS; run++) {
         const double start = clock_now();

@@ -1,9 +1,12 @@
-/* What the lighting model leaves out of this very scene, found by rays: from some hundred points of
- * each surface, spread evenly (Roberts' sequence), segments to each light; where another object is
- * in between there would be a shadow. Spheres around the objects spare most of the triangles. Some
- * hundred points miss small shadows, which is good enough for a sentence about the scene.
+/* What the lighting model leaves out of this very scene, found by the exact picture's rays: from
+ * some hundred points of each surface, spread evenly (Roberts' sequence), segments to each light;
+ * where another object is in between there would be a shadow. Some hundred points miss small
+ * shadows, which is good enough for a sentence about the scene.
  */
-#include "scene/unmodelled.h"
+#include "kinds/scene_views.h"
+
+#include "base/memory.h"
+#include "reference/reference_triangles.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -23,62 +26,30 @@ static const char *name_of(const Object *object)
 /* An object in world coordinates. */
 typedef struct Placed {
     const Object *object;
-    Vec3 *vertices;
-    Sphere around;
+    Real3 *vertices;
+    Triangles triangles;
 } Placed;
 
 static void placed_close(Placed *placed, int count)
 {
-    for (int i = 0; placed && i < count; i++)
+    for (int i = 0; i < count; i++) {
+        triangles_close(&placed[i].triangles);
         free(placed[i].vertices);
+    }
     free(placed);
 }
 
-/* NULL: not enough memory. */
-static Placed *placed_open(const Scene *scene)
+/* False: not enough memory. */
+static bool place(Placed *placed, const Object *object)
 {
-    Placed *all = calloc((size_t)scene->object_count + 1, sizeof *all);
-    for (int i = 0; all && i < scene->object_count; i++) {
-        const Object *object = &scene->objects[i];
-        const Mesh *mesh = object->mesh;
-        const MeshBox box = mesh_bounds(mesh);
-        all[i] = (Placed){object, malloc((mesh->vertex_count + 1) * sizeof(Vec3)),
-                          scene_sphere(object, &box)};
-        if (!all[i].vertices) {
-            placed_close(all, scene->object_count);
-            return NULL;
-        }
-        for (size_t k = 0; k < mesh->vertex_count; k++)
-            all[i].vertices[k] = mat4_transform_point(object->world_from_object,
-                                                      vec3_from_float(mesh->vertices[k].position));
-    }
-    return all;
-}
-
-/* Whether the segment from `from` along `way` meets the triangle, away from its ends. (Moeller and
- * Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, JGT 2(1), 1997) */
-static bool meets(Vec3 from, Vec3 way, Vec3 a, Vec3 b, Vec3 c)
-{
-    static const double END = 1e-3;
-    const Vec3 ab = vec3_subtract(b, a), ac = vec3_subtract(c, a);
-    const Vec3 p = vec3_cross(way, ac), s = vec3_subtract(from, a);
-    const double determinant = vec3_dot(ab, p);
-    if (determinant == 0)
-        return false;
-    const double u = vec3_dot(s, p) / determinant;
-    const Vec3 q = vec3_cross(s, ab);
-    const double v = vec3_dot(way, q) / determinant, t = vec3_dot(ac, q) / determinant;
-    return u >= 0 && v >= 0 && u + v <= 1 && t > END && t < 1 - END;
-}
-
-static bool is_hidden(const Placed *occluder, Vec3 from, Vec3 way)
-{
-    const Mesh *mesh = occluder->object->mesh;
-    const Vec3 *v = occluder->vertices;
-    for (size_t i = 0; i + 2 < mesh->index_count; i += 3)
-        if (meets(from, way, v[mesh->indices[i]], v[mesh->indices[i + 1]], v[mesh->indices[i + 2]]))
-            return true;
-    return false;
+    const Mesh *mesh = object->mesh;
+    placed->object = object;
+    placed->vertices = malloc((mesh->vertex_count + 1) * sizeof *placed->vertices);
+    for (size_t k = 0; placed->vertices && k < mesh->vertex_count; k++)
+        placed->vertices[k] = real3(mat4_transform_point(
+            object->world_from_object, vec3_from_float(mesh->vertices[k].position)));
+    return placed->vertices &&
+           triangles_open(&placed->triangles, mesh, placed->vertices, true, 1, NULL);
 }
 
 /* The way from a point to the light; for a directional one, out of a scene of this size. */
@@ -103,7 +74,7 @@ static Vec3 surface_point(const Placed *placed, int sample, Vec3 *normal)
     double v = fmod(0.5 + 0.5698402909980532 * sample, 1);
     Vec3 corners[3];
     for (size_t k = 0; k < 3; k++)
-        corners[k] = placed->vertices[mesh->indices[3 * triangle + k]];
+        corners[k] = real3_round(placed->vertices[mesh->indices[3 * triangle + k]]);
     if (u + v > 1) {
         u = 1 - u;
         v = 1 - v;
@@ -116,25 +87,25 @@ static Vec3 surface_point(const Placed *placed, int sample, Vec3 *normal)
     return vec3_add(corners[0], vec3_add(vec3_scale(ab, u), vec3_scale(ac, v)));
 }
 
-/* Whether the segment passes through the sphere. */
-static bool passes_near(Sphere sphere, Vec3 from, Vec3 way)
-{
-    const Vec3 to = vec3_subtract(sphere.center, from);
-    const double t = fmin(fmax(vec3_dot(to, way) / vec3_dot(way, way), 0), 1);
-    return vec3_length(vec3_subtract(to, vec3_scale(way, t))) <= sphere.radius;
-}
-
 /* Whether some point of the receiver that faces the light is hidden from it. */
 static bool throws_shadow(const Placed *occluder, const Placed *receiver, const Light *light,
                           double size)
 {
+    static const double END = 1e-3;
     for (int sample = 0; sample < SAMPLES; sample++) {
         Vec3 normal;
         const Vec3 from = surface_point(receiver, sample, &normal);
         const Vec3 way = way_to(light, from, size);
+        /* Not at the ends, where surfaces touch. */
+        const double error = END * vec3_length(way);
+        const TriangleSegment segment = {.from = real3(from),
+                                         .way = real3(way),
+                                         .own = TRIANGLES_NONE,
+                                         .error = error,
+                                         .light_error = error};
         /* At a grazing angle a mesh's own facets are in the way. */
         if (vec3_dot(normal, way) > 0.3 * vec3_length(normal) * vec3_length(way) &&
-            passes_near(occluder->around, from, way) && is_hidden(occluder, from, way))
+            triangles_block(&occluder->triangles, &segment))
             return true;
     }
     return false;
@@ -146,7 +117,7 @@ static double scene_size(const Placed *placed, int count)
     double largest = 0;
     for (int i = 0; i < count; i++)
         for (size_t k = 0; k < placed[i].object->mesh->vertex_count; k++)
-            largest = fmax(largest, vec3_length(placed[i].vertices[k]));
+            largest = fmax(largest, vec3_length(real3_round(placed[i].vertices[k])));
     return 4 * largest;
 }
 
@@ -224,11 +195,14 @@ bool unmodelled_explain(const Scene *scene, FILE *file, Message *message)
         explain_many(scene, file);
         return true;
     }
-    Placed *placed = placed_open(scene);
-    if (!placed)
-        return message_set(message, "scene: not enough memory to look for shadows");
-    int reflecting = 0, lines = explain_shadows(scene, placed, file);
+    Placed *placed = memory_new((size_t)scene->object_count, sizeof *placed);
+    bool done = true;
+    for (int i = 0; i < scene->object_count && done; i++)
+        done = place(&placed[i], &scene->objects[i]);
+    int reflecting = 0, lines = done ? explain_shadows(scene, placed, file) : 0;
     placed_close(placed, scene->object_count);
+    if (!done)
+        return message_set(message, "scene: not enough memory to look for shadows");
     for (int i = 0; i < scene->object_count; i++) {
         const Object *object = &scene->objects[i];
         reflecting += is_lit(object);
