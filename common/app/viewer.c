@@ -36,6 +36,8 @@ void viewer_renew(Viewer *viewer)
     const Message before = viewer->unmade;
     viewer_panel_renew(&viewer->panel);
     viewer->unmade = (Message){0};
+    if (!viewer->reload.renderer.example)
+        shader_reload_renew(&viewer->reload);
     if (!viewer->reload.renderer.example ||
         renderer_renew(&viewer->reload.renderer, viewer_request(viewer), &viewer->unmade) ||
         strcmp(viewer->unmade.text, before.text) == 0)
@@ -78,7 +80,8 @@ static bool present(Viewer *viewer, const Image *image, Message *message)
                               {0, 0, width, below},
                               {0, below + place[3], width, place[1]}};
     bool done = true;
-    image = map ? map : image;
+    const Image *shown = viewer_pixel_image(viewer);
+    image = shown ? shown : map ? map : image;
     if (image)
         done = canvas_present_image(image, from_below, message);
     else
@@ -131,21 +134,26 @@ static bool show(Viewer *viewer, Message *message)
     if (viewer->panel.view == PANEL_OPEN)
         glFinish(); /* to measure the time of the picture */
     viewer_panel_measured(&viewer->panel, clock_now() - start);
-    return canvas_check(viewer->canvas, message) &&
-           viewer_panel_draw(&viewer->panel, input->width, input->height, message);
+    if (!canvas_check(viewer->canvas, message) ||
+        !viewer_panel_draw(&viewer->panel, input->width, input->height, message))
+        return false;
+    viewer_pixel_point(viewer); /* binds the canvas */
+    return true;
 }
 
 /* Name, state, and while time runs the rate: twice per second, and at once when the state changes.
  */
 static void update_title(Viewer *viewer)
 {
-    enum { SIZE = 200 };
+    enum { SIZE = 200 + PIXEL_LINE };
     static const char *const states[] = {"", ", paused", ", no picture", ", broken shader"};
     char title[SIZE], rate[40] = "";
+    const char *line = viewer->panel.view == PANEL_OPEN ? "" : viewer->pixel.line;
     const double now = clock_now(), elapsed = now - viewer->title_time;
     const bool trouble = viewer->unmade.text[0] || viewer->trouble.text[0];
     const char *state = states[viewer->broken.text[0] ? 3 : trouble ? 2 : viewer->paused];
-    const bool same = state == viewer->state && viewer->title_paused == viewer->paused;
+    const bool same = state == viewer->state && viewer->title_paused == viewer->paused &&
+                      strcmp(line, viewer->title_line) == 0;
     viewer->frames++;
     if (same && (viewer->paused || elapsed < 0.5))
         return;
@@ -156,7 +164,9 @@ static void update_title(Viewer *viewer)
     viewer->title_paused = viewer->paused;
     if (!viewer->paused)
         snprintf(rate, sizeof rate, ", %.0f frames per second", viewer->panel.rate);
-    snprintf(title, SIZE, "%s%s%s", viewer->example->name, rate, state);
+    snprintf(title, SIZE, "%s%s%s%s%s", viewer->example->name, line[0] ? ", " : "", line, rate,
+             state);
+    snprintf(viewer->title_line, sizeof viewer->title_line, "%s", line);
     window_title(viewer->window, title);
 }
 
@@ -203,7 +213,8 @@ static bool use_panel(Viewer *viewer, double elapsed, Message *message)
                                         viewer_is_made(viewer) ? &viewer->reload.renderer : NULL,
                                     .options = &viewer->options,
                                     .trouble = trouble,
-                                    .held = viewer->holding ? &viewer->held : NULL};
+                                    .held = viewer->holding ? &viewer->held : NULL,
+                                    .pixel = viewer_pixel_content(viewer)};
     if (!viewer_panel_frame(panel, &input, message))
         return false;
     if (viewer_panel_tint(panel, &viewer->options.tints)) {
@@ -216,6 +227,7 @@ static bool use_panel(Viewer *viewer, double elapsed, Message *message)
     else if (panel->result.changed || panel->result.options)
         viewer_renew(viewer);
     viewer_panel_letters(panel, panel->result.larger);
+    viewer_pixel_choose(viewer, &panel->result);
     return true;
 }
 
@@ -265,7 +277,7 @@ static bool frame(Viewer *viewer, double wait, Message *message)
         viewer_pass_time(viewer, elapsed);
     if (!load(viewer, message))
         return false;
-    if (input->touched || viewer_panel_due(&viewer->panel))
+    if (input->touched || viewer_panel_due(&viewer->panel) || viewer_pixel_due(viewer))
         viewer->due = SETTLE;
     if (viewer->paused && viewer->due == 0) {
         viewer->title_time = now;
@@ -282,6 +294,7 @@ static bool frame(Viewer *viewer, double wait, Message *message)
     viewer->left |= input->closed;
     if (viewer->left || input->width == 0 || input->height == 0)
         return true;
+    viewer_pixel_update(viewer);
     if (!show(viewer, message))
         return false;
     window_swap(viewer->window);
@@ -335,6 +348,7 @@ bool viewer_run(const Example *example, Canvas *canvas, const Options *options,
     if (options->verbose)
         fprintf(stderr, "window: %d frames drawn, %d of them while time stood still\n",
                 viewer.drawn, viewer.drawn_paused);
+    viewer_pixel_close(&viewer.pixel);
     viewer_panel_close(&viewer.panel);
     image_close(&viewer.picture.image);
     shader_reload_close(&viewer.reload);

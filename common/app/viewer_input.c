@@ -237,6 +237,8 @@ static bool use_handles(Viewer *viewer)
             viewer_panel_find_handle(&viewer->panel, input->press_x,
                                      input->press_y - viewer->place[1], REACH * input->scale);
         viewer->holding = handle != NULL;
+        viewer->clicks = !handle;
+        viewer->dragged[0] = viewer->dragged[1] = 0;
         if (handle)
             viewer->held = *handle;
     }
@@ -251,23 +253,40 @@ static bool use_handles(Viewer *viewer)
     return true;
 }
 
+/* Turns the camera, or is a click if the pointer moves less than a hand does unwillingly. */
+static void use_drag(Viewer *viewer)
+{
+    static const double UNWILLING = 3;
+    const WindowInput *input = &viewer->input;
+    Orbit *orbit = &viewer->options.orbit;
+    double *dragged = viewer->dragged;
+    const double degrees = DEGREES_PER_PIXEL / input->scale;
+    dragged[0] += input->drag_x;
+    dragged[1] += input->drag_y;
+    viewer->clicks &= hypot(dragged[0], dragged[1]) < UNWILLING * input->scale;
+    if (viewer->clicks && !input->buttons[0])
+        viewer_pixel_click(viewer, input->press_x, input->press_y);
+    viewer->clicks &= input->buttons[0];
+    if (viewer->clicks || (dragged[0] == 0 && dragged[1] == 0))
+        return;
+    orbit->azimuth = rounded(fmod(orbit->azimuth - degrees * dragged[0], 360), PARTS_OF_DEGREE);
+    orbit->elevation = rounded(orbit->elevation + degrees * dragged[1], PARTS_OF_DEGREE);
+    orbit->elevation = fmin(fmax(orbit->elevation, -90), 90);
+    dragged[0] = dragged[1] = 0;
+}
+
 void viewer_use_pointer(Viewer *viewer)
 {
     const WindowInput *input = &viewer->input;
     Orbit *orbit = &viewer->options.orbit;
     if (viewer->panel.result.wants_pointer || viewer->panel_had_pointer) {
         viewer->pressed = input->buttons[0];
+        viewer->clicks = false;
         return;
     }
     if (use_handles(viewer))
         return;
-    const double degrees = DEGREES_PER_PIXEL / input->scale;
-    if (input->drag_x != 0 || input->drag_y != 0) {
-        orbit->azimuth =
-            rounded(fmod(orbit->azimuth - degrees * input->drag_x, 360), PARTS_OF_DEGREE);
-        orbit->elevation = rounded(orbit->elevation + degrees * input->drag_y, PARTS_OF_DEGREE);
-        orbit->elevation = fmin(fmax(orbit->elevation, -90), 90);
-    }
+    use_drag(viewer);
     if (input->scroll != 0) {
         const double distance = orbit_distance(*orbit);
         /* --orbit may start beyond these limits. */

@@ -17,6 +17,7 @@ static const double NOTICE_SECONDS = 3, EFFECTS_SECONDS = 0.25, ERROR_SECONDS = 
 static const PanelHelp HELP[] = {
     {"page down, up", "the next lesson, the one before"}, /* of pages alone */
     {"drag", "turns the camera"},
+    {"click", "explains the pixel"},
     {"scroll", "zooms"},
     {"space", "pauses, resumes"},
     {"left, right", "a picture back, forward"},
@@ -98,16 +99,15 @@ static bool same_picture(const DrawRequest *a, const DrawRequest *b)
            a->orbit.roll == b->orbit.roll;
 }
 
-/* Whether what was found for a picture is not that of the request, in this canvas. */
-static bool is_other(const PanelPicture *picture, const Renderer *renderer,
-                     const DrawRequest *request)
+bool viewer_panel_other(const PanelPicture *picture, const Renderer *renderer,
+                        const DrawRequest *request)
 {
     const Canvas *canvas = renderer->canvas;
     return picture->width != canvas->width || picture->height != canvas->height ||
            !same_picture(&picture->request, request);
 }
 
-static PanelPicture picture_of(const Renderer *renderer, const DrawRequest *request)
+PanelPicture viewer_panel_picture(const Renderer *renderer, const DrawRequest *request)
 {
     return (PanelPicture){
         .request = *request, .width = renderer->canvas->width, .height = renderer->canvas->height};
@@ -119,7 +119,7 @@ static void update_effects(ViewerPanel *panel, Renderer *renderer, const DrawReq
     const double now = clock_now();
     OutputText text;
     const bool known = panel->effects && panel->effects_time > 0;
-    panel->effects_wanted = !known || is_other(&panel->effects_of, renderer, request);
+    panel->effects_wanted = !known || viewer_panel_other(&panel->effects_of, renderer, request);
     if (!panel->effects_wanted || (known && now - panel->effects_time < EFFECTS_SECONDS))
         return;
     panel->effects_wanted = false;
@@ -128,7 +128,7 @@ static void update_effects(ViewerPanel *panel, Renderer *renderer, const DrawReq
     panel->kind->write_effects(renderer, request, text.file);
     panel->effects = output_text_close(&text);
     panel->effects_time = now;
-    panel->effects_of = picture_of(renderer, request);
+    panel->effects_of = viewer_panel_picture(renderer, request);
 }
 
 static bool busy(const ViewerPanel *panel)
@@ -145,7 +145,7 @@ static bool may_start(const ViewerPanel *panel)
  * twice per second as time passes. */
 static void update_error(ViewerPanel *panel, Renderer *renderer, const DrawRequest *request)
 {
-    panel->error_wanted = panel->stale || is_other(&panel->error_of, renderer, request);
+    panel->error_wanted = panel->stale || viewer_panel_other(&panel->error_of, renderer, request);
     if (!panel->error_wanted || (!panel->stale && !may_start(panel)))
         return;
     panel->error_wanted = false;
@@ -153,7 +153,7 @@ static void update_error(ViewerPanel *panel, Renderer *renderer, const DrawReque
         panel->kind->cancel(panel->worker);
     if (!panel->kind->start(panel->worker, renderer, request))
         return;
-    panel->error_of = picture_of(renderer, request);
+    panel->error_of = viewer_panel_picture(renderer, request);
     panel->error_time = clock_now();
     panel->stale = false;
 }
@@ -294,8 +294,10 @@ static void update(ViewerPanel *panel, Renderer *renderer, const Options *option
     command_write(panel->example, options, panel->defaults, panel->command, sizeof panel->command);
 }
 
-static PanelContent content_of(ViewerPanel *panel, const Message *trouble, const PanelMark *marks)
+static PanelContent content_of(ViewerPanel *panel, const ViewerPanelInput *input,
+                               const PanelMark *marks)
 {
+    const Message *trouble = input->trouble;
     const Example *example = panel->example;
     return (PanelContent){.name = example->name,
                           .view = panel->view,
@@ -312,6 +314,7 @@ static PanelContent content_of(ViewerPanel *panel, const Message *trouble, const
                           .milliseconds = 1e3 * panel->seconds,
                           .frames_per_second = panel->rate,
                           .error = known_error(panel),
+                          .pixel = input->pixel,
                           .effects = panel->effects,
                           .command = panel->command[0] ? panel->command : NULL,
                           .help = panel->help ? help_of(panel) : NULL,
@@ -338,7 +341,7 @@ bool viewer_panel_frame(ViewerPanel *panel, const ViewerPanelInput *input, Messa
                            .clipboard = panel->window,
                            .get_clipboard = get_clipboard,
                            .set_clipboard = set_clipboard};
-    const PanelContent content = content_of(panel, input->trouble, marks);
+    const PanelContent content = content_of(panel, input, marks);
     if (!panel_frame(panel->panel, &in, &content, &panel->result, message))
         return false;
     panel->view = panel->result.view;
@@ -361,6 +364,7 @@ void viewer_panel_measured(ViewerPanel *panel, double seconds)
 void viewer_panel_renew(ViewerPanel *panel)
 {
     panel->stale = true;
+    panel->renewals++;
     panel->effects_time = 0;
 }
 

@@ -6,6 +6,7 @@
 
 #include "app/options.h"
 #include "app/panel_kind.h"
+#include "app/probing.h"
 #include "app/shader_reload.h"
 #include "base/clock.h"
 #include "images/picture_queue.h"
@@ -23,6 +24,12 @@ typedef struct PanelPicture {
     DrawRequest request;
     int width, height;
 } PanelPicture;
+
+PanelPicture viewer_panel_picture(const Renderer *renderer, const DrawRequest *request);
+
+/* Whether it is not that of the request, in the renderer's canvas. */
+bool viewer_panel_other(const PanelPicture *picture, const Renderer *renderer,
+                        const DrawRequest *request);
 
 typedef struct ViewerPanel {
     const Example *example;
@@ -51,7 +58,8 @@ typedef struct ViewerPanel {
     int map_number;
     double error_time; /* clock_now when it was last started */
     PanelPicture error_of;
-    bool stale; /* the parameters have changed since */
+    bool stale;   /* the parameters have changed since */
+    int renewals; /* how often they have */
     char *effects;
     double effects_time; /* clock_now when they were listed; 0: the parameters have changed */
     PanelPicture effects_of;
@@ -76,6 +84,7 @@ typedef struct ViewerPanelInput {
     const Options *options; /* that it was drawn with */
     const Message *trouble; /* shown as an error unless it is empty */
     const Handle *held;     /* that is dragged; NULL: none */
+    PanelPixel pixel;
 } ViewerPanelInput;
 
 /* One frame of the panel; viewer_panel_draw draws it. */
@@ -118,6 +127,24 @@ void viewer_panel_toggle_help(ViewerPanel *panel);
 
 void viewer_panel_close(ViewerPanel *panel);
 
+/* The pixel under the pointer, and the one that was clicked. */
+enum { PIXEL_LINE = 256, PIXEL_NAMES = 127 };
+typedef struct ViewerPixel {
+    char line[PIXEL_LINE]; /* of that under the pointer; empty: it is not over the picture */
+    double line_time;      /* clock_now then */
+    bool open;             /* one was clicked: */
+    double at[2];          /* there, of the picture's width and height */
+    char title[64], *text; /* what is said of it */
+    char *all;             /* the names that can be drawn instead of the picture, a line each: */
+    const char *names[PIXEL_NAMES + 1];
+    char shown[CAPTURE_NAME]; /* the one that is; empty: none */
+    char *legend;
+    Image image; /* of it */
+    PanelPicture of;
+    int renewals; /* of the panel, then */
+    double time;  /* clock_now then; 0: not yet */
+} ViewerPixel;
+
 typedef struct Viewer {
     const Example *example;
     Canvas *canvas;
@@ -141,11 +168,15 @@ typedef struct Viewer {
     int frames;
     const char *state; /* in the title */
     bool title_paused;
+    char title_line[PIXEL_LINE];
     ViewerPanel panel;
     bool panel_had_pointer; /* in the previous frame: a press may precede the pointer's current
                                position */
     bool pressed, holding;  /* in the previous frame: the left button; a light, by its handle */
     Handle held;            /* where it has been dragged */
+    bool clicks;            /* the button that is down has not dragged anything */
+    double dragged[2];      /* less than a drag, so far */
+    ViewerPixel pixel;
     ShaderReload reload;
     DrawRequest request; /* of the options: see current */
     Message broken;      /* error of the shaders on disk */
@@ -176,5 +207,25 @@ void viewer_try(Viewer *viewer, const char *arguments);
 /* What was typed, and what the pointer did, since the last frame. */
 void viewer_use_keys(Viewer *viewer);
 void viewer_use_pointer(Viewer *viewer);
+
+/* Opens the pixel at a point of the window, and pauses. */
+void viewer_pixel_click(Viewer *viewer, double x, double y);
+
+/* Whether what is said of the open pixel is of another picture, and it is time to say it anew;
+ * viewer_pixel_update does. */
+bool viewer_pixel_due(const Viewer *viewer);
+void viewer_pixel_update(Viewer *viewer);
+
+/* After drawing: the line of the pixel under the pointer. */
+void viewer_pixel_point(Viewer *viewer);
+
+/* For the panel; and what its click has changed. */
+PanelPixel viewer_pixel_content(const Viewer *viewer);
+void viewer_pixel_choose(Viewer *viewer, const PanelResult *result);
+
+/* What is shown instead of the picture; NULL: nothing. */
+const Image *viewer_pixel_image(const Viewer *viewer);
+
+void viewer_pixel_close(ViewerPixel *pixel);
 
 #endif

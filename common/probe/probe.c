@@ -137,6 +137,11 @@ bool probe_open(Probe *probe, const ProbeQuestion *question, Message *message)
     fclose(file);
     if (judges)
         judge(probe);
+    if (probe->pixel.draw >= 0) {
+        double color[4];
+        probe->run =
+            raster_run(probe->raster, &probe->pixel, raster_driver(probe->raster), INT_MAX, color);
+    }
     return true;
 }
 

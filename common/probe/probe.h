@@ -31,6 +31,7 @@ typedef struct Probe {
     Raster *raster;
     RasterPixel pixel;
     ProbeTrail driver, exact; /* none of the background */
+    const GlslRun *run;       /* of the fragment's shader, whose inputs are the driver's */
     char *remarks;            /* what is undefined or cannot be known, in lines */
     /* The verdict, in steps of 1/255: the driver's colour against the exact picture; what of that
      * is the formula's, and what is rounding. */

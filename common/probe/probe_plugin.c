@@ -34,4 +34,5 @@ static ShowResult show(const Capture *capture, const GlslArithmetic *driver, con
     return result;
 }
 
-__attribute__((visibility("default"))) const ProbePlugin probe_plugin = {version, tell, show};
+__attribute__((visibility("default")))
+const ProbePlugin probe_plugin = {version, tell, show, show_names};

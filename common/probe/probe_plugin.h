@@ -21,6 +21,9 @@ typedef struct ProbePlugin {
     /* What show_open computes, as show_paint paints it. */
     ShowResult (*show)(const Capture *capture, const GlslArithmetic *driver, const char *what,
                        Image *picture, FILE *legend, Message *message);
+    /* What show_names writes. */
+    bool (*names)(const Capture *capture, const GlslArithmetic *driver, int stage, FILE *file,
+                  Message *message);
 } ProbePlugin;
 
 #endif

@@ -6,6 +6,7 @@
 #include "core/shader_source.h"
 #include "probe/origin.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -41,18 +42,24 @@ static double steps_apart(const Probe *probe, const GlslEvent *event, const Glsl
     return 255 * most;
 }
 
-/* " in line 15 (pow(base, 8.0))". */
-static void put_event(FILE *file, const Probe *probe, int event)
+/* "pow(base, 8.0)": what an event assigns. */
+static void event_text(const Probe *probe, int event, char *text, size_t size)
 {
     const GlslTree *tree = tree_of(probe);
     const int node = probe->driver.events[event].node, kind = tree->nodes[node].kind;
-    char place[PLACE_TEXT], text[64];
-    place_name(draw_of(probe)->sources[1], place_of(probe, event), place);
     glsl_expression_text(tree,
                          kind == GLSL_VARIABLE_NODE ? tree->nodes[node].first
                          : kind == GLSL_ASSIGN      ? glsl_child(tree, node, 1)
                                                     : node,
-                         text, sizeof text);
+                         text, size);
+}
+
+/* " in line 15 (pow(base, 8.0))". */
+static void put_event(FILE *file, const Probe *probe, int event)
+{
+    char place[PLACE_TEXT], text[64];
+    place_name(draw_of(probe)->sources[1], place_of(probe, event), place);
+    event_text(probe, event, text, sizeof text);
     fprintf(file, " in %s (%s)", place, text);
 }
 
@@ -91,6 +98,99 @@ static void put_steps(FILE *file, const char *name, const double color[3])
             origin_step(color[2]));
 }
 
+static FILE *open_text(char **text)
+{
+    static size_t size;
+    FILE *file = open_memstream(text, &size);
+    if (!file)
+        memory_end();
+    return file;
+}
+
+/* What a variable, or an element of an array, holds before an event; returns how many numbers, 0:
+ * it is not known, or no vector. */
+static int value_before(const Probe *probe, int event, const char *name, double value[4])
+{
+    const GlslRun *run = probe->run;
+    GlslVariable found;
+    for (int i = event - 1; i >= 0; i--) {
+        const GlslEvent *at = &probe->driver.events[i];
+        const GlslSymbol *symbol = &tree_of(probe)->symbols[at->symbol];
+        if (strcmp(symbol->name, name) != 0)
+            continue;
+        if (!glsl_is_vector(symbol->type) || at->count != glsl_size(symbol->type))
+            return 0;
+        memcpy(value, probe->driver.values + at->value, sizeof *value * (size_t)at->count);
+        return at->count;
+    }
+    if (!glsl_find(run->code, name, &found) || !glsl_is_vector(found.type))
+        return 0;
+    memcpy(value, run->registers + found.first, sizeof *value * (size_t)found.count);
+    return found.count;
+}
+
+/* Writes the value of the variable at the beginning of a text, with index and components; returns
+ * where the text goes on; NULL: it is not known. */
+static const char *put_value(FILE *file, const Probe *probe, int event, const char *text)
+{
+    static const char NAME[] = "_0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
+    char name[CAPTURE_NAME], index[CAPTURE_NAME];
+    double value[4];
+    int count = (int)strspn(text, NAME), used = 0;
+    snprintf(name, sizeof name, "%.*s", count, text);
+    text += count;
+    if (sscanf(text, "[%60[_0-9a-zA-Z]]%n", index, &used) == 1 && used) {
+        text += used;
+        const bool known = value_before(probe, event, index, value) == 1;
+        snprintf(name + count, sizeof name - (size_t)count, "[%d]",
+                 known ? (int)value[0] : atoi(index));
+    }
+    count = value_before(probe, event, name, value);
+    if (count == 0 || *text == '(' || *text == '[')
+        return NULL;
+    const int chosen = *text == '.' ? (int)strspn(text + 1, NAME) : 0;
+    fprintf(file, chosen != 1 && count > 1 ? "(" : "");
+    for (int i = 0; i < (chosen ? chosen : count); i++) {
+        const int at = chosen ? (int)(strchr("xyzwrgbastpq", text[1 + i]) - "xyzwrgbastpq") % 4 : i;
+        fprintf(file, "%s%.4g", i ? ", " : "", value[at]);
+    }
+    fprintf(file, chosen != 1 && count > 1 ? ")" : "");
+    return text + (chosen ? chosen + 1 : 0);
+}
+
+/* What an event assigns, with the numbers in it that its variables hold; nothing if it computes
+ * nothing of these. */
+static void put_filled(FILE *file, const Probe *probe, int event)
+{
+    char text[512], *filled;
+    event_text(probe, event, text, sizeof text);
+    FILE *own = open_text(&filled);
+    const char *at = text;
+    bool any = false, begins = true;
+    while (*at) {
+        const bool letter = isalpha((unsigned char)*at) || *at == '_';
+        const char *next = letter && begins ? put_value(own, probe, event, at) : NULL;
+        any |= next != NULL;
+        begins = next || !(letter || isdigit((unsigned char)*at) || *at == '.');
+        if (!next)
+            fputc(*at++, own);
+        else
+            at = next;
+    }
+    fclose(own);
+    const GlslNode *node = &tree_of(probe)->nodes[probe->driver.events[event].node];
+    const int op = node->kind == GLSL_ASSIGN ? node->op : GLSL_SET;
+    if (any && node->kind != GLSL_UNARY && (op != GLSL_SET || strpbrk(text, "+-*/(")))
+        fprintf(file, "      %s= %s\n",
+                op == GLSL_ADD        ? "+"
+                : op == GLSL_SUBTRACT ? "-"
+                : op == GLSL_MULTIPLY ? "*"
+                : op == GLSL_DIVIDE   ? "/"
+                                      : "",
+                filled);
+    free(filled);
+}
+
 /* The lines of a text of several files are shown, for nobody has it at hand. */
 static void put_trail(FILE *file, const Probe *probe)
 {
@@ -115,6 +215,7 @@ static void put_trail(FILE *file, const Probe *probe)
         } else {
             fprintf(file, " | the exact one goes another way\n");
         }
+        put_filled(file, probe, i);
     }
 }
 
@@ -138,15 +239,6 @@ static void put_corner(FILE *file, const Probe *probe, int corner)
         fprintf(file, ")");
     }
     fprintf(file, "\n");
-}
-
-static FILE *open_text(char **text)
-{
-    static size_t size;
-    FILE *file = open_memstream(text, &size);
-    if (!file)
-        memory_end();
-    return file;
 }
 
 static void put_end(FILE *file, const Probe *probe)

@@ -52,6 +52,24 @@ static void add_names(const GlslCode *code, const char ***names, int *count, int
     }
 }
 
+bool show_names(const Capture *capture, const GlslArithmetic *driver, int stage, FILE *file,
+                Message *message)
+{
+    Raster *raster;
+    const char **names = NULL;
+    int count = 0, room = 0;
+    if (!raster_open(&raster, capture, driver, message))
+        return false;
+    for (int d = 0; d < capture->draw_count; d++)
+        if (raster_code(raster, d, stage))
+            add_names(raster_code(raster, d, stage), &names, &count, &room);
+    for (int i = 0; i < count; i++)
+        fprintf(file, "%s\n", names[i]);
+    free(names);
+    raster_close(raster);
+    return true;
+}
+
 static bool has_name(const GlslCode *code, const char *name)
 {
     GlslVariable variable;

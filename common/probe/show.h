@@ -47,6 +47,10 @@ typedef struct Show {
  * cause, and the vertex shader, adds up to error. */
 bool show_open(Show *show, const Capture *capture, const GlslArithmetic *driver, const char *what,
                const int size[2], Message *message);
+/* The names of a stage's variables, one a line. False: a shader cannot be run, and why. */
+bool show_names(const Capture *capture, const GlslArithmetic *driver, int stage, FILE *file,
+                Message *message);
+
 void show_close(Show *show); /* a zeroed one is fine */
 
 /* Into a picture of bytes of the same size; writes what the colours mean, in lines. */

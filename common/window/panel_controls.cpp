@@ -56,11 +56,16 @@ bool escape_pressed()
 #endif
 }
 
+} // namespace
+
 void close_popup_on_escape()
 {
     if (escape_pressed())
         ImGui::CloseCurrentPopup();
 }
+
+namespace
+{
 
 // Numbers.
 

@@ -50,6 +50,15 @@ typedef struct PanelMark {
     bool held;
 } PanelMark;
 
+/* A pixel of the picture. */
+typedef struct PanelPixel {
+    const char *line;         /* over the picture: of the one under the pointer */
+    const char *title, *text; /* of the one that was clicked, in lines; NULL: none was */
+    const char *const *names; /* what can be drawn instead of the picture; ended by NULL */
+    const char *shown;        /* which of them is; "": none */
+    const char *legend;       /* what its colours mean, in lines */
+} PanelPixel;
+
 /* What to show. Texts are UTF-8; NULL: none. */
 typedef struct PanelContent {
     const char *name; /* of the program: the title */
@@ -65,6 +74,7 @@ typedef struct PanelContent {
     double milliseconds; /* per frame; not positive: unknown */
     double frames_per_second;
     PanelError error;
+    PanelPixel pixel;
     const char *effects;      /* lines, as effects_explain writes them */
     const char *command;      /* that draws this picture */
     const char *const *tries; /* arguments to try, a button each; ended by NULL; may be NULL */
@@ -108,6 +118,8 @@ typedef struct PanelResult {
     bool mapped;          /* as PanelError has it, or as a click on its switch has set it */
     int larger;           /* letters by so many sizes, or smaller if negative */
     const char *tried;    /* the arguments of the button that was pressed; NULL: none */
+    const char *shown;    /* one of PanelPixel.names, or "", if that was chosen; else NULL */
+    bool pixel_closed;    /* no pixel is to be explained any more */
     bool wants_pointer;   /* the panel uses pointer and wheel in this frame */
     bool wants_keys;      /* ... keys and characters */
     PanelDrawing drawing; /* valid until the next frame */

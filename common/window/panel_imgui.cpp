@@ -222,18 +222,21 @@ void help_window(const PanelHelp *help)
     ImGui::End();
 }
 
-void notice_window(const Context &context, const char *notice)
+// In the picture's upper left corner; or in the lower one, or by the pointer in that in the upper.
+void notice_window(const Context &context, const char *name, const char *notice, bool below)
 {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float edge = margin(context);
     const float max = std::max(display.x - 2 * edge, 4.0f);
     const float padding = 2 * ImGui::GetStyle().WindowPadding.x;
     const float width = std::min(ImGui::CalcTextSize(notice).x + padding + 1, max);
-    // In the picture's upper left corner.
-    const float top = float(context.input->place[1]);
-    ImGui::SetNextWindowPos(ImVec2(edge, top + edge));
+    const int *place = context.input->place;
+    const float top = float(place[1]), bottom = float(place[1] + place[3]);
+    below = below && context.input->window->y < place[1] + place[3] / 2;
+    ImGui::SetNextWindowPos(ImVec2(edge, below ? bottom - edge : top + edge), ImGuiCond_Always,
+                            ImVec2(0, below ? 1 : 0));
     ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0), ImVec2(width, FLT_MAX));
-    if (ImGui::Begin("notice", nullptr, OVERLAY))
+    if (ImGui::Begin(name, nullptr, OVERLAY))
         put_wrapped(notice);
     ImGui::End();
 }
@@ -343,7 +346,9 @@ void make_frame(Context &context, const PanelContent &content, PanelResult &resu
     if (content.help)
         help_window(content.help);
     if (content.notice)
-        notice_window(context, content.notice);
+        notice_window(context, "notice", content.notice, false);
+    if (content.view == PANEL_OPEN && content.pixel.line)
+        notice_window(context, "line", content.pixel.line, true);
     if (context.typing.field && !is_typed(context.typing))
         context.typing = {}; // its field is gone
     ImGui::Render();

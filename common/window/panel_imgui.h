@@ -47,6 +47,7 @@ void rescale(Context &context, double scale);
 void put_text(const char *text);
 void put_wrapped(const char *text);
 void tooltip(const Parameter &parameter);
+void close_popup_on_escape();
 
 // Whether it set the value. `width` is what it may take of the row.
 bool edit(Context &context, const Parameter &parameter, float width);

@@ -1,8 +1,10 @@
-// The sections of the panel: parameters, options, lights, things to try, cost, effects, command.
+// The sections of the panel: a pixel, parameters, options, lights, things to try, cost, effects,
+// command.
 #include "window/panel_imgui.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 
 namespace panel
@@ -238,6 +240,71 @@ ImVec4 effect_color(const char *begin, const char *end)
                : PLAIN;
 }
 
+// Wrapped, each line in its color, in a window of its own that scrolls.
+void put_lines(const char *name, const char *text, float height,
+               ImVec4 (*color)(const char *begin, const char *end))
+{
+    if (ImGui::BeginChild(name, ImVec2(0, height), false,
+                          ImGuiWindowFlags_AlwaysUseWindowPadding)) {
+        const char *const last = text + strnlen(text, 4 * LONGEST_TEXT);
+        ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing,
+                            ImVec2(0, std::round(ImGui::GetStyle().ItemSpacing.y / 3)));
+        ImGui::PushTextWrapPos(0);
+        while (text < last) {
+            const char *end = std::find(text, last, '\n');
+            ImGui::PushStyleColor(ImGuiCol_Text, color(text, end));
+            ImGui::TextUnformatted(text, text + std::min(size_t(end - text), LONGEST_TEXT));
+            ImGui::PopStyleColor();
+            text = end < last ? end + 1 : last;
+        }
+        ImGui::PopTextWrapPos();
+        ImGui::PopStyleVar();
+    }
+    ImGui::EndChild();
+}
+
+// What is computed with numbers in it is dim.
+ImVec4 pixel_color(const char *begin, const char *end)
+{
+    while (begin < end && *begin == ' ')
+        begin++;
+    return begin < end && std::strchr("=+-*/", *begin) ? DIM : PLAIN;
+}
+
+void pixel_section(const PanelContent &content, PanelResult &result)
+{
+    constexpr float LINES = 12;
+    const PanelPixel &pixel = content.pixel;
+    char label[96];
+    bool open = true;
+    if (!pixel.text)
+        return;
+    std::snprintf(label, sizeof label, "%s###pixel", pixel.title);
+    const bool shown = ImGui::CollapsingHeader(label, &open, ImGuiTreeNodeFlags_DefaultOpen);
+    result.pixel_closed = !open;
+    if (!shown)
+        return;
+    put_lines("pixel", pixel.text, LINES * ImGui::GetTextLineHeightWithSpacing(), pixel_color);
+    ImGui::AlignTextToFramePadding();
+    put_text("show");
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(-1);
+    if (ImGui::BeginCombo("##show", pixel.shown[0] ? pixel.shown : "the picture")) {
+        if (ImGui::Selectable("the picture", !pixel.shown[0]))
+            result.shown = "";
+        for (const char *const *name = pixel.names; *name; name++)
+            if (ImGui::Selectable(*name, std::strcmp(*name, pixel.shown) == 0))
+                result.shown = *name;
+        close_popup_on_escape();
+        ImGui::EndCombo();
+    }
+    if (!pixel.legend)
+        return;
+    ImGui::PushStyleColor(ImGuiCol_Text, DIM);
+    put_wrapped(pixel.legend);
+    ImGui::PopStyleColor();
+}
+
 // As high as the rest of the panel leaves room for. Returns its height.
 float effects_section(const Context &context, const PanelContent &content, float room)
 {
@@ -248,24 +315,7 @@ float effects_section(const Context &context, const PanelContent &content, float
     const float line = ImGui::GetTextLineHeightWithSpacing();
     const float height =
         std::min(std::max(room - context.other_height, MIN_LINES * line), MAX_LINES * line);
-    if (ImGui::BeginChild("effects", ImVec2(0, height), false,
-                          ImGuiWindowFlags_AlwaysUseWindowPadding)) {
-        const char *text = content.effects;
-        const char *const last = text + strnlen(text, 4 * LONGEST_TEXT);
-        ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing,
-                            ImVec2(0, std::round(ImGui::GetStyle().ItemSpacing.y / 3)));
-        ImGui::PushTextWrapPos(0);
-        while (text < last) {
-            const char *end = std::find(text, last, '\n');
-            ImGui::PushStyleColor(ImGuiCol_Text, effect_color(text, end));
-            ImGui::TextUnformatted(text, text + std::min(size_t(end - text), LONGEST_TEXT));
-            ImGui::PopStyleColor();
-            text = end < last ? end + 1 : last;
-        }
-        ImGui::PopTextWrapPos();
-        ImGui::PopStyleVar();
-    }
-    ImGui::EndChild();
+    put_lines("effects", content.effects, height, effect_color);
     return height;
 }
 
@@ -284,6 +334,7 @@ void command_section(Context &context, const PanelContent &content)
 
 void sections(Context &context, const PanelContent &content, float max, PanelResult &result)
 {
+    pixel_section(content, result);
     result.changed = parameters_section(context, content);
     options_section(context, content, result);
     lights_section(context, content, result);

@@ -920,6 +920,58 @@ class Shaders(Case):
         self.assert_drawn(shown, self.dark)
 
 
+class Pixels(Case):
+    def explained(self, shown, picture, place):
+        """Whether the window says of a pixel of the picture what --probe says."""
+        said = self.good(*picture.command[1:], "--probe", "%d,%d" % place, program=shown.program)
+        lines = said.decode().splitlines()
+        verdict, = (line for line in lines if line.startswith("verdict: "))
+        lines.remove(verdict)
+        return "\n".join([verdict.removeprefix("verdict: "), *lines]) in shown.said()
+
+    def test_a_click_explains_a_pixel_and_a_drag_none(self):
+        for program, place in (SCENE, (180, 220)), ("LightedCube_ambient", (210, 190)):
+            shown = self.show("-v", "-s", "400x400", "--precision", "mediump", program=program)
+            shown.drag(place, (place[0] + 30, place[1]), place)  # and back
+            self.server.xdotool("mousemove", *place, "mousedown", 1, "mousemove", place[0] + 1,
+                                place[1], "mouseup", 1)  # at the place where the button went down
+            wait_for(lambda: "explaining the pixel took" in shown.said(), "an explanation")
+            wait_for(lambda: shown.place()[2:] == (400 + PANEL, 400), "the panel")
+            self.server.xdotool("mousemove", *AWAY)
+            wait_for(lambda: shown.title() == f"{program}, paused", "a pause")
+            shown.key("s")
+            command = wait_for(lambda: re.search("saved (.*); the same.*: (.*)", shown.said()),
+                               "a saved picture")
+            picture = self.png(command[1])
+            picture.command = shlex.split(command[2])
+            self.assertIsNone(orbit_of(picture))
+            wait_for(lambda: self.explained(shown, picture, place), "what --probe says")
+            # The second entry of the list, which opens upwards, is error.
+            self.says(0, "^error: ", *picture.command[1:], "--show", "error", "-o", "error.png",
+                      program=program)
+            wanted = crop(self.png("error.png").pixels, 400, (0, 60, 400, 280))
+            self.assertNotEqual(wanted, crop(picture.pixels, 400, (0, 60, 400, 280)))
+            self.server.xdotool("mousemove", 680, 310, "click", 1)
+            time.sleep(0.5)
+            self.server.xdotool("mousemove", 520, 171, "click", 1)
+            wait_for(lambda: crop(self.visible(shown), 400 + PANEL, (0, 60, 400, 280)) == wanted,
+                     "what --show draws")
+            shown.key("Escape")
+            shown.ends(0, None)
+
+    def test_the_title_tells_of_the_pixel_under_the_pointer(self):
+        shown = self.show("-s", "400x400", program=SCENE, paused=True)
+        picture = shown.save()
+        for x, y in (180, 220), (185, 225), (3, 5):
+            self.server.xdotool("mousemove", x, y)
+            drawn = "%d, %d, %d" % picture.at(x, y)
+            wait_for(lambda: re.fullmatch(rf"{SCENE}, {x},{y}: {drawn}; (object \d|the background), "
+                                          r"exactly [\d., ]+: \d+\.\d steps off, paused",
+                                          shown.title()), drawn)
+        self.server.xdotool("mousemove", *AWAY)
+        wait_for(lambda: shown.title() == f"{SCENE}, paused", "no pixel")
+
+
 class Ends(Case):
     def test_closing_the_window_ends_the_program(self):
         shown = self.show("-s", "60x60")
