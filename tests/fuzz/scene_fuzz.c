@@ -13,6 +13,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -107,19 +108,50 @@ static void change_choices(RandomScene *made, uint64_t bits)
         made->scene.interpolation = (Interpolation)(int)((bits >> 42 & 3) + (bits >> 45 & 1));
 }
 
+/* Where the numbers of a scene are: of its structs those from one field to another, which are all
+ * doubles. */
+typedef struct Numbers {
+    double *at[512];
+    int count;
+} Numbers;
+
+static void add_numbers(Numbers *to, void *of, size_t first, size_t last)
+{
+    for (size_t at = first; at <= last; at += sizeof(double))
+        to->at[to->count++] = (double *)(void *)((char *)of + at);
+}
+
+#define ADD_NUMBERS(to, of, Type, first, last)                                                     \
+    add_numbers(to, of, offsetof(Type, first), offsetof(Type, last))
+
+static void find_numbers(Numbers *to, RandomScene *made)
+{
+    ADD_NUMBERS(to, &made->scene.camera, Camera, eye, aspect);
+    ADD_NUMBERS(to, &made->scene, Scene, global_ambient.x, global_ambient.z);
+    for (int i = 0; i < made->scene.light_count; i++)
+        ADD_NUMBERS(to, &made->lights[i], Light, position, range);
+    for (int i = 0; i < made->scene.object_count; i++) {
+        Object *object = &made->objects[i];
+        ADD_NUMBERS(to, &object->world_from_object, Mat4, m[0], m[15]);
+        ADD_NUMBERS(to, &object->front, Material, ambient, shininess);
+        ADD_NUMBERS(to, &object->back, Material, ambient, shininess);
+        ADD_NUMBERS(to, &made->shapes[i].solid, Solid, radius, tube);
+    }
+}
+
 FUZZ(data, size)
 {
     Input input = {data, size};
     RandomScene made;
-    RandomNumber numbers[RANDOM_MAX_NUMBERS];
+    Numbers numbers = {.count = 0};
     Message message = {0};
     const uint64_t kind = take(&input, 2), values = take(&input, 1);
     random_scene_make(&made, kind, values);
     const uint64_t choices = take(&input, 6);
     change_choices(&made, choices);
-    const int count = random_scene_numbers(&made, numbers);
+    find_numbers(&numbers, &made);
     while (input.size > 0) {
-        double *value = numbers[take(&input, 2) % (uint64_t)count].value;
+        double *value = numbers.at[take(&input, 2) % (uint64_t)numbers.count];
         *value = taken_number(&input, *value);
     }
     if (meshes.count > 64)
