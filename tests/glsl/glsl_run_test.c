@@ -1,8 +1,7 @@
 /*
  * glsl_run: operators and functions against C's doubles, control flow, arrays, structures,
- * functions with `out`, what is undefined, loops without end, the log of events and the speed.
+ * functions with `out`, what is undefined, loops without end, and the log of events.
  */
-#include "base/clock.h"
 #include "glsl/glsl_run.h"
 #include "support/testing.h"
 
@@ -77,9 +76,8 @@ static void gives(const char *statements, double expected)
     shader_close(&shader);
 }
 
-static void functions_are_c(void **state)
+TEST(functions_are_c)
 {
-    (void)state;
     const double x = .3, y = 1.7, z = -.6, l = sqrt(x * x + y * y + z * z);
     const struct {
         const char *text;
@@ -133,9 +131,8 @@ static void functions_are_c(void **state)
     }
 }
 
-static void statements_run(void **state)
+TEST(statements_run)
 {
-    (void)state;
     gives("float v = 3.0; twice(v, r); r += v;", 9);
     gives("vec3 v = vec3(1.0, 2.0, 3.0); v.xy = v.yx; v[i] = 8.0; r = v.x + v.z * 10.0;", 82);
     gives("vec3 v = vec3(1.0, 2.0, 3.0); v.zx[i - 1] = 8.0; v.yz[0] += 5.0; r = v.x + v.y * 10.0;",
@@ -167,9 +164,8 @@ static void notes(const char *statements, int kind)
     shader_close(&shader);
 }
 
-static void undefined_is_noted(void **state)
+TEST(undefined_is_noted)
 {
-    (void)state;
     notes("r = x; float q; q = r; r = q;", GLSL_NOTE_NONE);
     notes("while (x < y) r += 1.0;", GLSL_NOTE_LOOP);
     notes("float q; r = q;", GLSL_NOTE_UNSET);
@@ -187,9 +183,8 @@ static void undefined_is_noted(void **state)
 }
 
 /* The sum of 1 and 1e-9 is lost in a driver's arithmetic, unless it is exact from before it on. */
-static void events_say_where_digits_are_lost(void **state)
+TEST(events_say_where_digits_are_lost)
 {
-    (void)state;
     Shader shader = ran("float a = x + 1.0;\nfloat b = a - 1.0;\nr = b - x;");
     GlslRun *run = shader.run;
     run->trace = true;
@@ -210,9 +205,8 @@ static void events_say_where_digits_are_lost(void **state)
 }
 
 /* Results of float arithmetic in C, which is what the driver's highp is, to the last bit. */
-static void single_is_c(void **state)
+TEST(single_is_c)
 {
-    (void)state;
     Shader shader = ran("vec3 v = normalize(vec3(x, y, z)); r = v.x / 3.0 + sqrt(v.y) * x;");
     shader.run->arithmetic = &GLSL_LLVMPIPE;
     for (int k = 0; k < 1000; k++) {
@@ -231,9 +225,8 @@ static void single_is_c(void **state)
 }
 
 /* Calls that double forty times end with one message. */
-static void too_large_is_said(void **state)
+TEST(too_large_is_said)
 {
-    (void)state;
     char text[4096] = "void f0() { }\n";
     for (int k = 1; k <= 40; k++)
         snprintf(text + strlen(text), sizeof text - strlen(text), "void f%d() { f%d(); f%d(); }\n",
@@ -247,9 +240,8 @@ static void too_large_is_said(void **state)
 }
 
 /* Structures that double forty times are compared, and refused, in no time. */
-static void doubled_structures_end(void **state)
+TEST(doubled_structures_end)
 {
-    (void)state;
     static const char *const INNERMOST[] = {"struct A0 { sampler2D s; };\n",
                                             "struct A0 { lowp float s; };\n"};
     for (int i = 0; i < 2; i++) {
@@ -269,9 +261,8 @@ static void doubled_structures_end(void **state)
 }
 
 /* Loops that do not end within a second are not run, and not counted, to their end. */
-static void long_loops_end(void **state)
+TEST(long_loops_end)
 {
-    (void)state;
     Shader shader = ran("for (int i = 0; i < 90000; i++) { float a[900000]; a[3] = x; r = a[3]; }");
     assert_true(shader.run->stopped);
     shader_close(&shader);
@@ -290,32 +281,4 @@ static void long_loops_end(void **state)
     free(text);
 }
 
-static void twenty_million_a_second(void **state)
-{
-    (void)state;
-    Shader shader = ran("for (int k = 0; k < 20000; k++) r = r * x + y * sqrt(y);");
-    shader.run->operations = 0;
-    shader.run->arithmetic = &GLSL_LLVMPIPE;
-    const double start = clock_processor();
-    for (int k = 0; k < 20; k++)
-        glsl_run(shader.run);
-    print_message("%.0f million operations a second\n",
-                  (double)shader.run->operations / (clock_processor() - start) / 1e6);
-    shader_close(&shader);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(functions_are_c),
-        cmocka_unit_test(statements_run),
-        cmocka_unit_test(undefined_is_noted),
-        cmocka_unit_test(too_large_is_said),
-        cmocka_unit_test(doubled_structures_end),
-        cmocka_unit_test(long_loops_end),
-        cmocka_unit_test(events_say_where_digits_are_lost),
-        cmocka_unit_test(single_is_c),
-        cmocka_unit_test(twenty_million_a_second),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_MAIN("glsl run", NULL, NULL)

@@ -116,46 +116,14 @@ static void lesson_open(const Lesson *lesson, double seconds, LessonScene *made)
                 .interpolation = lesson->interpolation};
 }
 
-/* Of a fragment shader with 11 significant bits: numbers below this, the smallest with all its
- * bits, may become zero. */
-static const double TINY = 1.0 / 16384;
-
-/* v.v has 3 roundings, the root halves their effect; root, reciprocal and product one each: 4.5,
- * and half a one for two squares that become zero beside a third of at least 1/4 (normals are
- * handed over at any length from 1/2 to 1): 5; two components of the result may become zero: less
- * than 2 TINY. */
-static double normalize_error(double error, double length)
+/* What rounding to 11 bits in the fragment shader changes, in steps. Lit at the vertices, it copies
+ * a shade that is rounded when written there and when read. The light is at most 5.8 from a cube's
+ * middle, 3.5 from which its corners are, and at least 2.5 from the cube; the sphere's is far. */
+static double shader_rounding(const Scene *scene)
 {
-    return oracle_mediump_normalized(error, length, 5) + 2 * TINY;
-}
-
-/* Per-vertex lighting: the fragment shader copies a positive shade, which is rounded when written
- * at the vertices and when read: 2. */
-static double vertex_shade_error(double shaded)
-{
-    return oracle_mediump_gamma(2) * shaded + TINY;
-}
-
-/*
- * Per-fragment lighting, with L and A the colours of the light and the ambient light, p the
- * position, n the normal, l the light's position: p is rounded at the vertices, at most `radius`
- * from the origin, and where it is read: u each; l is rounded where it is read, l - p once; n as p,
- * at most 1 long, but TINY counts double for one handed over at half its length; cutting at 0 adds
- * none; (L * color) * dot + A * color: L, A and color are rounded, two products, one sum: at most 6
- * for each of the two terms, also when color or dot is taken out of the sum.
- */
-static double fragment_shade_error(const Lesson *lesson, Vec3 position, double normal_length,
-                                   double radius, double shaded)
-{
-    const double u = ORACLE_MEDIUMP_UNIT, sum = oracle_mediump_gamma(6);
-    const double distance = vec3_length(vec3_subtract(lesson->light, position));
-    const double position_error = 2 * u * radius + 2 * TINY;
-    const double light_error =
-        position_error + u * vec3_length(lesson->light) + u * (distance + position_error);
-    const double dot_error = oracle_mediump_dot(normalize_error(light_error, distance),
-                                                normalize_error(2 * u + 4 * TINY, normal_length)) +
-                             3 * TINY;
-    return (1 + sum) * lesson->light_color * dot_error + sum * shaded + 2 * TINY;
+    const double reach = (5.8 + 3.5 + 2.5) / 2.5;
+    return scene->interpolation == INTERPOLATION_GOURAUD ? 255 * 2 * ORACLE_MEDIUMP_UNIT
+                                                         : oracle_mediump_max(scene, reach) - 0.5;
 }
 
 /* The exact picture. */
@@ -165,7 +133,6 @@ typedef struct Pixel {
     bool left_out;   /* too near to an edge where the colour jumps */
     double level[3]; /* of each channel */
     double shift[3]; /* change of the level by snapping of vertices */
-    double rounding; /* error of 11 bits in the fragment shader */
 } Pixel;
 
 /*
@@ -196,6 +163,7 @@ static int find_snap(void **state)
 typedef struct Exact {
     const Lesson *lesson;
     int width, height;
+    double rounding; /* by shader_rounding */
     Pixel *pixels;
 } Exact;
 
@@ -219,14 +187,6 @@ static void find_pixel(const Trace *trace, const Lesson *lesson, double x, doubl
     }
     for (int c = 0; c < 3; c++)
         pixel->level[c] = 255 * (double)at[0].color[c];
-    const Vec3 place = vec3_add(at[0].position, lesson->eye);
-    const double shaded = at[0].linear[0]; /* every object has red */
-    if (lesson->interpolation == INTERPOLATION_GOURAUD)
-        pixel->rounding = 255 * vertex_shade_error(shaded);
-    else /* a sphere's places are its normals */
-        pixel->rounding =
-            255 * fragment_shade_error(lesson, place, half > 0 ? 1 : vec3_length(place),
-                                       half > 0 ? sqrt(3) * half : 1, shaded);
 }
 
 /* The caller frees the pixels. */
@@ -240,7 +200,10 @@ static void draw_exact(const Lesson *lesson, Size size, double seconds, Exact *e
                    &(ReferenceOptions){
                        .width = size.width, .height = size.height, .meshes = true, .threads = 1},
                    message));
-    *exact = (Exact){.lesson = lesson, .width = size.width, .height = size.height};
+    *exact = (Exact){.lesson = lesson,
+                     .width = size.width,
+                     .height = size.height,
+                     .rounding = shader_rounding(&made.scene)};
     exact->pixels = calloc((size_t)size.width * (size_t)size.height, sizeof *exact->pixels);
     assert_non_null(exact->pixels);
     for (int i = 0; i < size.width * size.height; i++)
@@ -267,19 +230,19 @@ static const char *precision_of(bool half)
 /*
  * How far a channel may be off, in steps: half a step for the byte's rounding, what the snapping
  * of vertices does at this pixel, 0.01 for the floats of 24 bits (20 operations: 255 * 20 * 2^-24
- * is 3e-4), and with 11 bits what the shader's rounding does. With highp never more than one step.
+ * is 3e-4), and with 11 bits the shader's rounding. With highp, 0, never more than one step.
  */
-static double allowed(const Pixel *pixel, int c, bool half)
+static double allowed(const Pixel *pixel, int c, double rounding)
 {
     const double rest = pixel->shift[c] + 0.01;
     if (!pixel->covered)
         return 0;
-    return 0.5 + (pixel->level[c] > 0) * (half ? pixel->rounding + rest : fmin(rest, 0.5));
+    return 0.5 + (pixel->level[c] > 0) * (rounding > 0 ? rounding + rest : fmin(rest, 0.5));
 }
 
 /* Counts one pixel that is not left out. Pictures are drawn with their alpha kept: 255 where the
  * shape is, else 0. */
-static void compare_pixel(const unsigned char *bytes, const Pixel *pixel, bool half,
+static void compare_pixel(const unsigned char *bytes, const Pixel *pixel, double rounding,
                           Verdict *verdict)
 {
     /* Relative to its bound; infinite if nothing may be there. */
@@ -287,7 +250,7 @@ static void compare_pixel(const unsigned char *bytes, const Pixel *pixel, bool h
     for (int c = 0; c < 3; c++) {
         const double error = fabs(bytes[c] - pixel->level[c]);
         if (error > 0)
-            part = fmax(part, error / allowed(pixel, c, half));
+            part = fmax(part, error / allowed(pixel, c, rounding));
         verdict->worst = fmax(verdict->worst, error);
     }
     verdict->squares += pow(bytes[0] - pixel->level[0], 2);
@@ -306,7 +269,7 @@ static Verdict compare(const Image *picture, const Exact *exact, bool half)
         if (exact->pixels[i].left_out)
             verdict.left_out++;
         else
-            compare_pixel(bytes + 4 * i, &exact->pixels[i], half, &verdict);
+            compare_pixel(bytes + 4 * i, &exact->pixels[i], half ? exact->rounding : 0, &verdict);
         if (verdict.worst_part > before) {
             verdict.column = i % exact->width;
             verdict.row = i / exact->width;

@@ -167,8 +167,4 @@ TEST(results_are_the_drivers)
     assert_true(right);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(results_are_the_drivers)};
-    return cmocka_run_group_tests(tests, open, close);
-}
+TEST_MAIN("glsl driver", open, close)

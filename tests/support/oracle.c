@@ -350,23 +350,6 @@ bool oracle_color(const Scene *scene, int width, int height, int x, int y, doubl
 
 const double ORACLE_MEDIUMP_UNIT = 0x1p-11;
 
-double oracle_mediump_gamma(double roundings)
-{
-    return roundings * ORACLE_MEDIUMP_UNIT / (1 - roundings * ORACLE_MEDIUMP_UNIT);
-}
-
-/* The exact normalize moves by at most 2 |a - b| / (|a| + |b|) (Dunkl and Williams, American
- * Mathematical Monthly 71, 1964). */
-double oracle_mediump_normalized(double error, double length, double roundings)
-{
-    return 2 * error / (2 * length - error) + oracle_mediump_gamma(roundings);
-}
-
-double oracle_mediump_dot(double a, double b)
-{
-    return a + b + a * b + oracle_mediump_gamma(3) * (1 + a) * (1 + b);
-}
-
 static double largest_product(Vec3 a, Vec3 b)
 {
     return fmax(a.x * b.x, fmax(a.y * b.y, a.z * b.z));

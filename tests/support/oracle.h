@@ -48,15 +48,6 @@ bool oracle_color(const Scene *scene, int width, int height, int x, int y, doubl
  */
 extern const double ORACLE_MEDIUMP_UNIT; /* u */
 
-/* The relative error of so many roundings in a row. */
-double oracle_mediump_gamma(double roundings);
-
-/* After normalizing a vector of this length with this error, which is rounded so often then. */
-double oracle_mediump_normalized(double error, double length, double roundings);
-
-/* Of the dot product of two unit vectors with these errors. */
-double oracle_mediump_dot(double a, double b);
-
 /* The largest possible distance, in steps of 1/255, between a mediump picture lit at the fragments
  * and the exact one. `reach` bounds how far eye and light are relative to the distance between
  * light and surface: the largest (|light| + |point| + d) / d, in eye coordinates; 1 for directional
