@@ -163,3 +163,22 @@ double quad_orthonormality_error(Mat4 r)
     }
     return sqrt((double)sum);
 }
+
+double quad_inverse_error(Mat4 a, Mat4 inverse)
+{
+    const QuadMatrix q = quad_from(a), x = quad_from(inverse);
+    QuadMatrix exact;
+    quad_inverse(&q, &exact);
+    const QuadMatrix difference = quad_subtract(&x, &exact);
+    return sqrt((double)(quad_norm_squared(&difference) / quad_norm_squared(&exact)));
+}
+
+double quad_normal_error(Mat4 a, const float normal[16], const float n[3])
+{
+    const QuadMatrix exact = quad_normal(a);
+    Quad right[3], got[3];
+    image_of(&exact, vec3_from_float(n), right);
+    for (int i = 0; i < 3; i++)
+        got[i] = (Quad)(normal[i] * n[0] + normal[4 + i] * n[1] + normal[8 + i] * n[2]);
+    return angle_between(got, right);
+}

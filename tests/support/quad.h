@@ -44,4 +44,11 @@ double quad_angle(const QuadMatrix *a, const QuadMatrix *b, Vec3 direction);
 /* || R R^T - I ||, Frobenius, of the upper left 3x3 part. */
 double quad_orthonormality_error(Mat4 r);
 
+/* || X - A^-1 || / || A^-1 ||, Frobenius; A has an inverse. */
+double quad_inverse_error(Mat4 a, Mat4 inverse);
+
+/* The angle to the exact normal from what a vertex shader gets of the matrix for normals, in
+ * floats. */
+double quad_normal_error(Mat4 a, const float normal[16], const float n[3]);
+
 #endif

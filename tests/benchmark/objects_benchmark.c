@@ -1,0 +1,240 @@
+/*
+ * What a scene's objects cost the processor, which is to submit them: of few pixels, drawn by
+ * lighting and by a loop as one writes it by hand, which looks uniforms up once, sets those of the
+ * lights once a frame, and for each object its matrices and products of colors. And what shadows
+ * cost by casters and lights, on a floor, at rest and while the lights move.
+ */
+#include "benchmark/bench.h"
+#include "core/canvas.h"
+#include "core/mesh_buffer.h"
+#include "lighting/lighting.h"
+#include "lighting/lighting_state.h"
+#include "shapes/mesh_solids.h"
+
+#include <math.h>
+
+enum { SIZE = 32, ROUNDS = 5, MOST_OBJECTS = 10000, MOST_LIGHTS = 8, AT_LEAST = 1000 };
+
+static Lighting *lighting;
+static Mesh cube, plane;
+static MeshBuffer buffer; /* of the cube, for the loop */
+
+static Light lights[MOST_LIGHTS];
+static Object objects[MOST_OBJECTS + 1];
+static Scene scene;
+static int frames; /* that one measurement draws */
+
+/* A square of objects, a little above the floor, which is the last. */
+static void make_scene(int object_count, int light_count, bool shadows)
+{
+    const int side = (int)ceil(sqrt(object_count));
+    const double step = 20.0 / side;
+    for (int i = 0; i < object_count; i++) {
+        const double shade = 0.2 + 0.6 * i / object_count;
+        const Vec3 at = {step * (i % side) - 10, 0.5 * step, step * (i / side) - 10};
+        const Mat4 turned = mat4_product(mat4_rotate(7 * i, (Vec3){1, 1, 0}),
+                                         mat4_scale((Vec3){3 * step, 3 * step, 3 * step}));
+        objects[i] = (Object){.mesh = &cube,
+                              .solid = {.kind = SOLID_BOX, .radius = 0.1},
+                              .flat = true,
+                              .closed = true,
+                              .world_from_object = mat4_product(mat4_translate(at), turned),
+                              .front = {{shade, 0.2, 0.1},
+                                        {0.3, shade, 0.2},
+                                        {0.4, 0.4, shade},
+                                        {0, 0, 0},
+                                        1,
+                                        10 + 10 * shade}};
+    }
+    for (int i = 0; i < light_count; i++)
+        lights[i] = (Light){.kind = LIGHT_POINT,
+                            .shadows = shadows,
+                            .position = {3.0 * i - 8, 9, 5.0 - i},
+                            .ambient = {0.02, 0.02, 0.02},
+                            .diffuse = {0.2, 0.2, 0.2},
+                            .specular = {0.1, 0.1, 0.1}};
+    objects[object_count] =
+        (Object){.mesh = &plane,
+                 .solid = {.kind = SOLID_QUAD},
+                 .flat = true,
+                 .world_from_object = mat4_product(mat4_rotate(-90, (Vec3){1, 0, 0}),
+                                                   mat4_scale((Vec3){12, 12, 12})),
+                 .front = {{0.1, 0.1, 0.1}, {0.5, 0.5, 0.5}, {0, 0, 0}, {0, 0, 0}, 1, 1}};
+    scene = (Scene){.camera = {{0, 16, 22}, {0, 0, 0}, {0, 1, 0}, 50, 1, 60, 0},
+                    .global_ambient = {0.1, 0.1, 0.1},
+                    .lights = lights,
+                    .light_count = light_count,
+                    .objects = objects,
+                    .object_count = object_count + shadows};
+    frames = object_count < AT_LEAST ? AT_LEAST / object_count : 1;
+}
+
+static bool draw_lighting(__attribute__((unused)) void *argument, Message *message)
+{
+    bool done = true;
+    for (int i = 0; i < frames && done; i++) {
+        canvas_clear(&bench_canvas, scene.background, 1);
+        done = lighting_show(lighting, &(LightingFrame){.scene = &scene, .aspect = 1}, message);
+    }
+    glFinish();
+    return done;
+}
+
+/* The loop */
+
+static struct {
+    GLuint program;
+    GLint position, normal; /* attributes */
+    GLint clip_from_object, eye_from_object;
+    GLint base, shininess, light_positions, diffuse, specular;
+} loop;
+
+static bool open_loop(Message *message)
+{
+    LightingPlan plan = {.lighting = NULL};
+    const LightingFrame frame = {.scene = &scene, .aspect = 1};
+    if (!lighting_plan(&plan, lighting, &frame, message))
+        return false;
+    loop.program = plan.objects[0].variant->program->program;
+    lighting_plan_close(&plan);
+    loop.position = glGetAttribLocation(loop.program, "a_Position");
+    loop.normal = glGetAttribLocation(loop.program, "a_Normal");
+    loop.clip_from_object = glGetUniformLocation(loop.program, "u_ClipFromObject");
+    loop.eye_from_object = glGetUniformLocation(loop.program, "u_EyeFromObject");
+    loop.base = glGetUniformLocation(loop.program, "u_FrontBase");
+    loop.shininess = glGetUniformLocation(loop.program, "u_FrontShininess");
+    loop.light_positions = glGetUniformLocation(loop.program, "u_Position0");
+    loop.diffuse = glGetUniformLocation(loop.program, "u_FrontDiffuse0");
+    loop.specular = glGetUniformLocation(loop.program, "u_FrontSpecular0");
+    return loop.base >= 0 && loop.shininess >= 0 && loop.light_positions >= 0 &&
+           loop.diffuse >= 0 && loop.specular >= 0 && loop.eye_from_object >= 0;
+}
+
+static Vec3 multiply(Vec3 a, Vec3 b)
+{
+    return (Vec3){a.x * b.x, a.y * b.y, a.z * b.z};
+}
+
+static void loop_object(const Object *object, Mat4 eye_from_world, Mat4 clip_from_eye)
+{
+    float diffuse[MOST_LIGHTS][3], specular[MOST_LIGHTS][3];
+    const Material *material = &object->front;
+    const float shininess = (float)material->shininess;
+    const Mat4 eye_from_object =
+        scene_eye_from_object(&scene.camera, eye_from_world, object->world_from_object);
+    Vec3 ambient = scene.global_ambient;
+    for (int i = 0; i < scene.light_count; i++) {
+        ambient = vec3_add(ambient, lights[i].ambient);
+        vec3_to_float(multiply(lights[i].diffuse, material->diffuse), diffuse[i]);
+        vec3_to_float(multiply(lights[i].specular, material->specular), specular[i]);
+    }
+    shader_set_mat4(loop.clip_from_object, mat4_product(clip_from_eye, eye_from_object));
+    shader_set_mat4(loop.eye_from_object, eye_from_object);
+    shader_set_vec3(loop.base, vec3_add(material->emission, multiply(ambient, material->ambient)));
+    glUniform1fv(loop.shininess, 1, &shininess);
+    glUniform3fv(loop.diffuse, scene.light_count, diffuse[0]);
+    glUniform3fv(loop.specular, scene.light_count, specular[0]);
+    glDrawElements(GL_TRIANGLES, buffer.index_count, buffer.index_type, NULL);
+}
+
+static bool draw_loop(__attribute__((unused)) void *argument, Message *message)
+{
+    Mat4 eye_from_world, clip_from_eye;
+    float positions[MOST_LIGHTS][3];
+    for (int f = 0; f < frames; f++) {
+        canvas_clear(&bench_canvas, scene.background, 1);
+        if (!scene_camera(&scene.camera, 1, &eye_from_world, &clip_from_eye, message))
+            return false;
+        glEnable(GL_DEPTH_TEST);
+        glEnable(GL_CULL_FACE);
+        glUseProgram(loop.program);
+        mesh_buffer_bind(&buffer, loop.position, loop.normal);
+        for (int i = 0; i < scene.light_count; i++)
+            vec3_to_float(scene_eye_point(&scene.camera, eye_from_world, lights[i].position),
+                          positions[i]);
+        glUniform3fv(loop.light_positions, scene.light_count, positions[0]);
+        for (int i = 0; i < scene.object_count; i++)
+            loop_object(&objects[i], eye_from_world, clip_from_eye);
+        glDisable(GL_CULL_FACE);
+    }
+    glFinish();
+    return true;
+}
+
+/* Tables */
+
+static bool measure_objects(Message *message)
+{
+    static const int light_counts[] = {1, 2, 4, 8};
+    Table table;
+    bool done = true;
+    table_open(&table, "objects|lights|loop, µs an object|lighting, µs an object|over the loop");
+    for (int count = 1; count <= MOST_OBJECTS && done; count *= 10) {
+        for (size_t l = 0; l < sizeof light_counts / sizeof *light_counts && done; l++) {
+            BenchRun both[] = {{"loop", draw_loop, NULL, NULL, 0},
+                               {"lighting", draw_lighting, NULL, NULL, 0}};
+            make_scene(count, light_counts[l], false);
+            const double scale = 1e6 / ((double)count * frames);
+            const BenchColumn columns[] = {BENCH_TIME(0, scale, 2), BENCH_TIME(1, scale, 2),
+                                           BENCH_RATIO(1, 0, 2)};
+            done = draw_lighting(NULL, message) && open_loop(message) &&
+                   bench_rounds(both, 2, ROUNDS, message);
+            if (done)
+                bench_row(&table, both, columns, 3, "%d|%d", count, light_counts[l]);
+            bench_finish(both, 2);
+        }
+    }
+    bench_print("objects", &table);
+    return done;
+}
+
+/* The lights move by so little that nothing looks different. */
+static bool draw_moving(void *argument, Message *message)
+{
+    for (int i = 0; i < scene.light_count; i++)
+        lights[i].position.x += 1e-9;
+    return draw_lighting(argument, message);
+}
+
+static bool measure_shadows(Message *message)
+{
+    static const int casters[] = {1, 10, 30, 100}, light_counts[] = {1, 2, 4};
+    Table table;
+    bool done = true;
+    table_open(&table, "casters|lights|at rest, µs a caster and light|lights move");
+    for (int c = 0; c < 4 && done; c++) {
+        for (int l = 0; l < 3 && done; l++) {
+            BenchRun both[] = {{"at rest", draw_lighting, NULL, NULL, 0},
+                               {"moving", draw_moving, NULL, NULL, 0}};
+            make_scene(casters[c], light_counts[l], true);
+            frames = casters[c] < 10 ? 10 : 1;
+            const double scale = 1e6 / ((double)casters[c] * light_counts[l] * frames);
+            const BenchColumn columns[] = {BENCH_TIME(0, scale, 1), BENCH_TIME(1, scale, 1)};
+            done = bench_rounds(both, 2, 3, message);
+            if (done)
+                bench_row(&table, both, columns, 2, "%d|%d", casters[c], light_counts[l]);
+            bench_finish(both, 2);
+        }
+    }
+    bench_print("shadows", &table);
+    return done;
+}
+
+static bool run(Message *message)
+{
+    return lighting_open(&lighting, &(ShaderLoader){0}, message) &&
+           mesh_cube(&cube, 0.1, message) && mesh_quad(&plane, 1, message) &&
+           mesh_buffer_open(&buffer, &cube, message) && measure_objects(message) &&
+           measure_shadows(message);
+}
+
+static void finish(void)
+{
+    mesh_buffer_close(&buffer);
+    lighting_close(lighting);
+    mesh_close(&cube);
+    mesh_close(&plane);
+}
+
+const Bench BENCH = {
+    .name = "objects_benchmark", .width = SIZE, .height = SIZE, .run = run, .close = finish};
