@@ -33,6 +33,8 @@ packages_to_check="libarchive-dev libjansson-dev libseccomp-dev zlib1g-dev bubbl
 # The pages for a browser, and to test them.
 packages_to_web="emscripten node-acorn python3 fonttools pandoc meson ninja-build libstb-dev fonts-dejavu-core"
 packages_to_browse="chromium firefox-esr"
+# The book as a PDF:
+packages_to_print="chromium poppler-utils"
 packages_to_test="libcmocka-dev libosmesa6-dev glslang-tools python3 libwebpdemux2 locales xvfb xauth xdotool \
 poppler-utils"
 # tests/run --long: what the pages show of several processes and machines.

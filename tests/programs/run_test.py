@@ -106,9 +106,10 @@ class Names(Case):
         self.assertEqual(self.start("cluster", "8", "--", "gallry")[0], 2)
 
     def test_pages_replace_only_pages(self):
-        for arguments, code, said in (((), 2, "web: -o DIR names the folder for the pages"),
+        for arguments, code, said in (((), 2, "web: -o DIR names the folder for the pages, --pdf FILE the book's file"),
                                       (("-o",), 2, "-o: name a folder, as in -o pages"),
-                                      (("--size", "9x9"), 2, "web: --size: no such option; -o DIR names the folder"),
+                                      (("--pdf",), 2, "--pdf: name a file, as in --pdf book.pdf"),
+                                      (("--size", "9x9"), 2, "web: --size: no such option; -o DIR names the folder, --pdf FILE the book's file"),
                                       (("-o", self.folder), 1,
                                        f"web: {self.folder}: is there, and holds no such pages; name another folder")):
             before = sorted(os.listdir(self.folder))

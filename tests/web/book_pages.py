@@ -1,10 +1,16 @@
 """The book's pages: what its figures draw, and what answers, slides and paper show."""
 import base64
+import html
 import json
+import os
 import pathlib
+import re
 import shlex
+import subprocess
+import sys
+import tempfile
 
-from pages import SITE, Case, address, differences, native
+from pages import SITE, SOURCE, Case, address, differences, native
 
 CHAPTERS = sorted(path.stem for path in pathlib.Path(SITE).glob("chapter*.html")) or [f"chapter{i:02}" for i in range(1, 22)]
 STEADY = """(() => {
@@ -125,6 +131,34 @@ class Book(Case):
             self.page.call("Emulation.setEmulatedMedia", media="")
         self.page.run("dispatchEvent(new Event('beforeprint'))")
         self.assertEqual(self.page.run("document.querySelectorAll('.expect:not([open])').length"), 0)
+
+    def test_the_whole_on_paper(self):
+        """As one PDF: every heading and figure in order, each picture, and the page of each chapter in the contents."""
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "book.pdf")
+            subprocess.run([sys.executable, "-B", os.path.join(SOURCE, "examples/web/pdf.py"), SITE, file], check=True)
+            read = {"check": True, "stdout": subprocess.PIPE, "encoding": "utf-8"}
+            pages = subprocess.run(["pdftotext", file, "-"], **read).stdout.split("\f")[:-1]
+            images = subprocess.run(["pdfimages", "-list", file], **read).stdout.splitlines()[2:]
+        self.assertGreater(len(pages), 3 * len(CHAPTERS))  # as a chapter of 50 to 90 lines with pictures has
+        self.assertLess(len(pages), 6 * len(CHAPTERS))
+        text, at, pictures = " ".join("".join(pages).split()), 0, 0
+        for number, name in enumerate(CHAPTERS, 1):
+            source = pathlib.Path(SITE, name + ".html").read_text(encoding="utf-8")
+            title = self.spoken(re.search("<h1>(.*?)</h1>", source)[1])
+            page = int(re.search(re.escape(title) + r" (\d+) ", " ".join(pages[1].split()))[1])
+            self.assertEqual(" ".join(pages[page - 1].split()).count(title), 2, title)  # above and as the heading
+            for words in map(self.spoken, re.findall(r"<h[12]>(?!.*<math)(.*?)</h|<strong>(Figure .*?)</strong>", source)):
+                found = text.find(words, at)
+                self.assertGreater(found, -1, words)
+                at = found
+            pictures += len(re.findall(r'<img src="\w+\.png"', source))
+        self.assertGreaterEqual(len(images), pictures)
+
+    @staticmethod
+    def spoken(found):
+        text = found if isinstance(found, str) else "".join(found)
+        return " ".join(html.unescape(re.sub("<.*?>", "", text)).split())
 
     def test_without_webgl(self):
         script = self.page.call("Page.addScriptToEvaluateOnNewDocument", source="""
