@@ -319,7 +319,8 @@ const Book = (() => {
         book.engine = await Engine.open(book.compiled, newCanvas());
         for (const program of book.engine.json("programs"))
             book.programs.set(program.name, program);
-        book.figures = [...document.querySelectorAll("figure.live")].map(where => new Figure(where));
+        book.figures = [...document.querySelectorAll("figure.live, figure.formula")].map(where =>
+            where.dataset.slider ? new Formula(where) : new Figure(where));
         const watch = new IntersectionObserver(entries => {
             for (const {target, isIntersecting} of entries)
                 book.figures.find(({where}) => where === target).inSight = isIntersecting;
@@ -336,5 +337,5 @@ const Book = (() => {
         document.getElementById("error").textContent = "The figures stand still, because this page cannot draw: " + error;
         document.body.dataset.ready = "still";
     });
-    return {book, schedule};
+    return {book, schedule, read};
 })();

@@ -7,6 +7,9 @@ A chapter is Markdown with formulas in TeX, and
     ![CAPTION](program: NAME OPTIONS controls: OPTION,time,error,plot)   a figure, drawn live with these few controls
     ![CAPTION](change: OLD NEW)                         what differs from a program to the next
     ![CAPTION](precision: highp mediump lowp)           what the reader's own device computes
+    ![CAPTION](formula: CASE live: NAME OPTIONS plain: MORE stable: MORE slider: OPTION START FROM TO STEP VALUE)
+                                                        a hard case, plain, stable and exact, drawn live by a program, with the
+                                                        slider in place of $ in VALUE; of MORE may be FILE=STUDY, shaders' names
     QUESTION `OPTIONS`                                  what the reader expects when these options are set in the figure
     :   ANSWER                                          above, or in the program that is named
     [NUMBER]{check="EXPRESSION"}                        a number that tests/book computes again
@@ -23,7 +26,8 @@ import sys
 import markdown
 
 FOLDER = pathlib.Path(__file__).resolve().parent.parent / "chapter"
-FIGURE = re.compile(r"^!\[((?:[^\[\]]|\[[^\]]*\])*)\]\((program|change|precision): *([^)]*)\)$", re.MULTILINE)
+SHADERS = FOLDER.parent.parent / "shaders"
+FIGURE = re.compile(r"^!\[((?:[^\[\]]|\[[^\]]*\])*)\]\((program|change|precision|formula): *([^)]*)\)$", re.MULTILINE)
 ANSWER = re.compile(r"`([A-Z]\w+ --[^`]+|hard_cases --[^`]+)`\n+:   ")
 CHECK = re.compile(r'\[([^\[\]]*)\]\{check="([^"]*)"\}')
 PLACE = re.compile(r"<!-- place: (.*?) -->", re.DOTALL)
@@ -42,12 +46,17 @@ class Figure:
     def __init__(self, chapter, number, found):
         self.caption, self.kind, rest = found.groups()
         words, _, controls = rest.partition("controls:")
+        self.parts = {}
+        if self.kind == "formula":
+            case, *more = re.split(r"\s*\b(live|plain|stable|slider): *", rest)
+            words, self.parts = f"hard_cases --case {case}", dict(zip(more[::2], more[1::2]))
         self.words = words.split()
         self.controls = controls.strip()
         self.number = f"{chapter}.{number}"
         self.name = self.words[0] if self.words else ""
         self.live = self.kind == "program" and self.name not in STILL
-        self.picture = f"chapter{chapter:02}_{number}.{suffix(self.name)}" if self.kind == "program" else None
+        drawn = self.kind in ("program", "formula")
+        self.picture = f"chapter{chapter:02}_{number}.{suffix(self.name)}" if drawn else None
 
     def command(self):
         return "examples/run " + " ".join(self.words)
@@ -128,6 +137,8 @@ def frame(figure, change):
     if figure.kind == "precision":
         return '<div class="wide" tabindex="0" role="group" aria-label="Table"><table class="precision"></table></div>'
     image = f'<img src="{figure.picture}" alt="{caption}">'
+    if figure.kind == "formula":
+        return image + ways(figure)
     if not figure.live:
         return image
     below = plot() if "plot" in figure.controls.split(",") else ""
@@ -135,10 +146,29 @@ def frame(figure, change):
             '<form class="controls" autocomplete="off"></form>\n<p class="told" role="status"></p>')
 
 
+def ways(figure):
+    """Places for three pictures, the plain formula's text, and a slider: see formula.js."""
+    option, start, low, high, step, _ = figure.parts["slider"].split()
+    made, texts = "", ""
+    for way in ("plain", "stable", "exact"):
+        words = figure.parts.get(way, "").split()
+        for name, study in (word.split("=") for word in words if not word.startswith("--") and "=" in word):
+            text = (SHADERS / study).read_text(encoding="utf-8")
+            texts += (f'<details data-file="{name}"><summary>The plain formula</summary><pre tabindex="0">{html.escape(text)}</pre>'
+                      "</details>")
+        words = " ".join(word for word in words if ".glsl=" not in word)
+        made += f'<p class="way" data-words="{words}"><canvas role="img" aria-label="{way}"></canvas>{way}<span></span></p>'
+    return (f'<div class="ways" hidden>{made}</div>{texts}<p class="told" role="status"></p><form class="controls" hidden><label>'
+            f'<code>--{option}</code> <output></output><input type="range" min="{low}" max="{high}" step="{step}" value="{start}">'
+            "</label></form>")
+
+
 def block(figure, change):
     attributes = f' data-words="{html.escape(" ".join(figure.words))}" data-controls="{figure.controls}"' if figure.live else ""
+    if figure.parts:
+        attributes = f' data-words="{figure.parts["live"]}" data-slider="{figure.parts["slider"]}"'
     kind = "live" if figure.live else figure.kind if figure.kind != "program" else f"still {figure.name}"
-    command = f'<code class="command">{html.escape(figure.command())}</code>' if figure.kind == "program" else ""
+    command = f'<code class="command">{html.escape(figure.command())}</code>' if figure.picture else ""
     return (f'```{{=html}}\n<figure class="{kind}" id="figure{figure.number.replace(".", "_")}"{attributes}>\n{frame(figure, change)}\n'
             f'<figcaption>\n```\n\n**Figure {figure.number}.** {figure.caption}\n\n```{{=html}}\n{command}</figcaption></figure>\n```')
 

@@ -225,7 +225,7 @@ def beside(all_chapters, at):
 def write_book():
     all_chapters = book.chapters()
     for at, chapter in enumerate(all_chapters):
-        scripts = BOOK + ["precision.js"] * ("](precision:" in chapter.text)
+        scripts = [f"{kind}.js" for kind in ("formula", "precision") if f"]({kind}:" in chapter.text] + BOOK
         write(site / f"{chapter.name}.html",
               fill("chapter.html", title=html.escape(book.plain(chapter.title)), links=beside(all_chapters, at),
                    body=book.body(chapter, diff), **shared(scripts)))

@@ -459,9 +459,28 @@ static uint64_t add_hash(uint64_t hash, const float *values, size_t count)
     return hash;
 }
 
-static bool compute(const ErrorPicture *drawn, PictureError *error, Image *map, uint64_t *hash,
-                    Message *message)
+/* A view's part of what the page shows: the exact picture, or the map of the errors. */
+static bool paint(Image *to, const Image *drawn, const ExactView *view, bool exact,
+                  Message *message)
 {
+    Image part = {.pixels = NULL};
+    if (!exact)
+        picture_error_map(to, drawn, view);
+    else if (!reference_image(view->exact, &part, message))
+        return false;
+    for (int y = 0; y < part.height; y++)
+        memcpy((unsigned char *)to->pixels + image_row_size(to) * (size_t)(view->top + y) +
+                   4 * (size_t)view->left,
+               (unsigned char *)part.pixels + image_row_size(&part) * (size_t)y,
+               image_row_size(&part));
+    image_close(&part);
+    return true;
+}
+
+static bool compute(const ErrorPicture *drawn, PictureError *error, bool paints_exact,
+                    uint64_t *hash, Message *message)
+{
+    Image *map = &page.image;
     for (int i = 0; i < drawn->view_count; i++) {
         const ErrorView *view = &drawn->views[i];
         Reference exact, meshes;
@@ -480,9 +499,11 @@ static bool compute(const ErrorPicture *drawn, PictureError *error, Image *map, 
                                 .top = view->place[1]};
         picture_error_add(error, &drawn->image, &part);
         reference_close(&meshes);
-        picture_error_map(map, &drawn->image, &part);
+        const bool painted = paint(map, &drawn->image, &part, paints_exact, message);
         *hash = add_hash(*hash, exact.color, 3 * (size_t)exact.width * (size_t)exact.height);
         reference_close(&exact);
+        if (!painted)
+            return false;
     }
     return true;
 }
@@ -497,7 +518,7 @@ static void put_sum(JsonWriter *json, const char *name, const ErrorSum *sum)
     json_write_end(json);
 }
 
-const char *page_error(void)
+const char *page_error(int exact)
 {
     ErrorPicture drawn = {.views = NULL};
     PictureError error = {.all = {0}};
@@ -513,7 +534,7 @@ const char *page_error(void)
     Image *map = &page.image;
     for (size_t i = 0; i < image_row_size(map) * (size_t)map->height; i++)
         ((unsigned char *)map->pixels)[i] = i % 4 == 3 ? 255 : 0;
-    const bool done = compute(&drawn, &error, map, &hash, &page.message);
+    const bool done = compute(&drawn, &error, exact != 0, &hash, &page.message);
     error_picture_close(&drawn);
     FILE *file = done ? text_begin() : NULL;
     if (!file)

@@ -45,8 +45,8 @@ const char *page_shaders(void);
 int page_replace(const char *name, const char *text, int size);
 
 /* Computes the exact picture of the last one: a second or more. Returns the errors as JSON, "" on
- * failure; page_pixels are then the map of errors. */
-const char *page_error(void);
+ * failure; page_pixels are then the map of errors, or with `exact` that picture. */
+const char *page_error(int exact);
 
 /* Closes the program and its canvas, also when WebGL has lost it. */
 void page_close(void);

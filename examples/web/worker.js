@@ -9,7 +9,7 @@ const ErrorWorker = (() => {
                 const engine = await Engine.open(data.compiled, new OffscreenCanvas(1, 1));
                 const drawn = engine.replace(data.texts) && engine.run(data.lines) === 0 &&
                               engine.draw(data.seconds, data.orbit);
-                const error = drawn && engine.json("error");
+                const error = drawn && JSON.parse(engine.module.ccall("page_error", "string", ["number"], [+!!data.exact]) || "null");
                 self.postMessage(error ? {error, map: engine.picture()} : {message: engine.message});
             } catch (error) {
                 self.postMessage({message: String(error)});
@@ -26,7 +26,7 @@ const ErrorWorker = (() => {
         answer({message});
     }
 
-    /* {error, map} or {message}; no message if another one is computed instead. */
+    /* {error, map}, where `exact` is asked with the exact picture as the map, or {message}; no message if another one is computed instead. */
     function compute(task) {
         cancel();
         return new Promise(resolve => {

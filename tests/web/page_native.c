@@ -15,7 +15,7 @@ int main(void)
         for (char *space = line; (space = strchr(space, ' '));)
             *space = '\n';
         const int code = page_open(line);
-        const char *error = code == 0 && page_draw(0, 0, 0, 1, 0) ? page_error() : "";
+        const char *error = code == 0 && page_draw(0, 0, 0, 1, 0) ? page_error(0) : "";
         printf("%s\n", error[0] ? error : page_message());
     }
     page_close();
