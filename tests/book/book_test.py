@@ -53,9 +53,9 @@ class Figures(unittest.TestCase):
     def answers(chapter):
         """The command of each question: that of the figure above with other options, or its own."""
         base, found = "", []
-        for match in re.finditer(r"\(program: *([^)]*)\)$|^.*`([^`]+)`\n+:   ", chapter.text, re.MULTILINE):
+        for match in re.finditer(r"\((?:program|formula): *([^)]*)\)$|^.*`([^`]+)`\n+:   ", chapter.text, re.MULTILINE):
             if match[1]:
-                base = match[1].partition("controls:")[0].strip()
+                base = (match[1].partition(" live: ")[2].partition(" plain:")[0] or match[1].partition("controls:")[0]).strip()
             elif match[2].startswith("--"):
                 found.append(merge(base, match[2]))
             else:
@@ -100,14 +100,14 @@ class Text(unittest.TestCase):
 
     def test_a_chapter_is_400_to_900_words(self):
         for chapter in CHAPTERS:
-            text = re.sub(r"\$\$.*?\$\$|<!--.*?-->|\]\((?:program|change)[^)]*\)", "", chapter.text, flags=re.DOTALL)
+            text = re.sub(r"\$\$.*?\$\$|<!--.*?-->|\]\((?:program|change|formula)[^)]*\)", "", chapter.text, flags=re.DOTALL)
             words = len(book.plain(text).split())
             with self.subTest(chapter.path.name, words=words):
                 self.assertTrue(400 <= words <= 1000)
 
     def test_links_lead_somewhere(self):
         for chapter in CHAPTERS:
-            for target in re.findall(r"\]\((?!program|change|precision)([^)#]+)[^)]*\)", chapter.text):
+            for target in re.findall(r"\]\((?!program|change|precision|formula)([^)#]+)[^)]*\)", chapter.text):
                 with self.subTest(chapter.path.name, target=target):
                     self.assertTrue((book.FOLDER / target).exists() or re.fullmatch(r"\w+\.html", target))
 
