@@ -69,6 +69,8 @@ typedef struct Search {
     size_t moved, most_moved;
     double every_second[2]; /* the largest error of all objects at even and odd moments */
     double difference;      /* of these for the last choice */
+    Progress progress;
+    int drawn; /* candidates */
 } Search;
 
 /* Drawing and comparing. */
@@ -173,6 +175,13 @@ static bool draw_parts(const CheapestQualityTask *task, const Scene *scene,
         message);
 }
 
+/* Of two bisections, the relaxations and the end, as often as that has begun. */
+static void show_progress(Search *search)
+{
+    const int some = 20 + candidate_relaxation_count(&search->scene), done = search->drawn++;
+    progress_update(&search->progress, done, (1 + done / some) * some);
+}
+
 /* Draws `current` at all moments. The errors of objects that are nowhere inside stay 0. `left_out`:
  * NULL, or what does not count is added to it. */
 static bool evaluate_with(Search *search, LeftOut *left_out, Message *message)
@@ -182,6 +191,7 @@ static bool evaluate_with(Search *search, LeftOut *left_out, Message *message)
         search->found[i].error = 0;
     search->every_second[0] = search->every_second[1] = 0;
     search->moved = 0;
+    show_progress(search);
     for (int moment = 0; moment < task->moments; moment++) {
         Scene scene;
         QualityParts made;
@@ -524,6 +534,7 @@ static bool search_open(Search *search, const CheapestQualityTask *task, int cou
     const int *place = task->place;
     *search = (Search){.task = task,
                        .count = count,
+                       .progress = progress_start("exact picture"),
                        .exacts = memory_new((size_t)task->moments, sizeof(Exact)),
                        .current = memory_new((size_t)count, sizeof(ObjectQuality)),
                        .found = memory_new((size_t)count, sizeof(Found))};
@@ -533,8 +544,10 @@ static bool search_open(Search *search, const CheapestQualityTask *task, int cou
     for (int moment = 0; moment < task->moments; moment++) {
         Scene scene;
         Exact *exact = &search->exacts[moment];
-        if (!task->scene(task->data, moment, &scene, message) ||
-            !exact_open(exact, &scene, place[2], place[3], message))
+        const bool opened = task->scene(task->data, moment, &scene, message) &&
+                            exact_open(exact, &scene, &place[2], &search->progress, message);
+        progress_end(&search->progress);
+        if (!opened)
             return false;
         for (size_t i = 0; i < (size_t)place[2] * (size_t)place[3]; i++) {
             exact->inside += exact->owner[i] >= 0;
@@ -548,9 +561,11 @@ static bool search_open(Search *search, const CheapestQualityTask *task, int cou
 bool cheapest_search(CheapestQuality *cheapest, const CheapestQualityTask *task, Message *message)
 {
     Search search;
-    const bool done = search_open(&search, task, cheapest->count, message) &&
-                      search_all(&search, cheapest, message) &&
-                      tell_left_out(&search, cheapest, message);
+    bool done = search_open(&search, task, cheapest->count, message);
+    search.progress = progress_start("candidates");
+    done =
+        done && search_all(&search, cheapest, message) && tell_left_out(&search, cheapest, message);
+    progress_end(&search.progress);
     search_close(&search);
     return done;
 }

@@ -6,6 +6,7 @@
 #define CHEAPEST_SEARCH_H
 
 #include "base/cache.h"
+#include "base/progress.h"
 #include "core/canvas.h"
 #include "lighting/lighting.h"
 #include "scene/quality.h"
@@ -88,8 +89,10 @@ typedef struct Exact {
     size_t inside;    /* pixels with an owner */
 } Exact;
 
-/* From the cache, or computed and put there. The scene has at most INT16_MAX objects. */
-bool exact_open(Exact *exact, const Scene *scene, int width, int height, Message *message);
+/* From the cache, or computed and put there; `area`: its width and height. The scene has at most
+ * INT16_MAX objects. */
+bool exact_open(Exact *exact, const Scene *scene, const int area[2], Progress *progress,
+                Message *message);
 void exact_close(Exact *exact); /* a zeroed one is fine */
 
 /* Adds to a key all that a scene's exact picture depends on; with `meshes` those that stand for

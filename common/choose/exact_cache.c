@@ -67,23 +67,23 @@ static void exact_fill(Exact *exact, const Reference *reference, size_t pixels)
         memcpy(exact->lights, reference->lights, pixels * sizeof *exact->lights);
 }
 
-bool exact_open(Exact *exact, const Scene *scene, int width, int height, Message *message)
+bool exact_open(Exact *exact, const Scene *scene, const int area[2], Progress *progress,
+                Message *message)
 {
     const bool casts = scene_has_shadows(scene);
-    const size_t pixels = (size_t)width * (size_t)height;
+    const size_t pixels = (size_t)area[0] * (size_t)area[1];
     const size_t size = ((casts ? 7 : 5) * pixels + (casts ? pixels % 2 : 0)) * sizeof(uint16_t);
-    const int area[2] = {width, height};
     CacheKey key = {{0, 0}};
     size_t have = 0;
     cache_key_add_program(&key);
-    cache_key_add(&key, area, sizeof area);
+    cache_key_add(&key, area, 2 * sizeof *area);
     exact_key_scene(&key, scene, false);
     uint16_t *block = cache_read("exact", &key, &have);
     if (block && have == size)
         return set_block(exact, block, pixels, casts, message);
     free(block);
     Reference reference;
-    const ReferenceOptions options = {.width = width, .height = height};
+    const ReferenceOptions options = {.width = area[0], .height = area[1], .progress = progress};
     if (!set_block(exact, calloc(1, size), pixels, casts, message))
         return false;
     if (!reference_open(&reference, scene, &options, message)) {

@@ -325,6 +325,7 @@ static void print_matrices(const Object *object)
 {
     static const char *const compared[] = {[ORTHONORMAL] = "M is orthogonal: N = M",
                                            [ORTHOGONAL] = "M scales evenly: N is a multiple of M",
+                                           [EXTREME] = "M scales evenly: N is a multiple of M",
                                            [GENERAL] = "M scales unevenly or shears: N is not M"};
     const MeshBox box = mesh_bounds(object->mesh);
     Mat4 m = object->world_from_object, inverse;

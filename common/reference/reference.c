@@ -21,13 +21,15 @@ typedef struct Job {
     PixelTracer tracer; /* without `recent` */
     bool centers;
     const atomic_bool *stop;
+    Progress *progress;
     atomic_int next; /* band */
 } Job;
 
 typedef struct Worker {
     Job *job;
     PixelTracer tracer;
-    Sample *samples; /* three rows */
+    Sample *samples;    /* three rows */
+    Progress *progress; /* of one of them */
     pthread_t thread;
 } Worker;
 
@@ -87,8 +89,11 @@ static void *work(void *argument)
     Job *job = worker->job;
     const int count = band_count(job->reference);
     for (int band = atomic_fetch_add(&job->next, 1); band < count && !stop_asked(job->stop);
-         band = atomic_fetch_add(&job->next, 1))
+         band = atomic_fetch_add(&job->next, 1)) {
+        if (worker->progress)
+            progress_update(worker->progress, band, count);
         draw_band(worker, band);
+    }
     return NULL;
 }
 
@@ -107,7 +112,7 @@ static bool draw_bands(Job *job, int threads)
     int ready = 0, running = 1;
     while (workers && ready < count) {
         Worker *worker = &workers[ready];
-        *worker = (Worker){job, job->tracer, malloc(length * sizeof(Sample)), 0};
+        *worker = (Worker){job, job->tracer, malloc(length * sizeof(Sample)), NULL, 0};
         worker->tracer.recent = calloc(PIXEL_RECENT, sizeof(PixelRecent));
         if (!worker->samples || !worker->tracer.recent)
             break;
@@ -116,8 +121,10 @@ static bool draw_bands(Job *job, int threads)
     while (running < ready &&
            pthread_create(&workers[running].thread, NULL, work, &workers[running]) == 0)
         running++;
-    if (ready > 0)
+    if (ready > 0) {
+        workers[0].progress = job->progress;
         work(&workers[0]);
+    }
     for (int i = 1; i < running && i < ready; i++)
         pthread_join(workers[i].thread, NULL);
     for (int i = 0; workers && i < count; i++) {
@@ -168,7 +175,8 @@ bool reference_open(Reference *reference, const Scene *scene, const ReferenceOpt
     Job job = {.reference = reference,
                .tracer = {trace, options->edge_error > 0 ? options->edge_error : EDGE_ERROR, NULL},
                .centers = options->centers,
-               .stop = options->stop};
+               .stop = options->stop,
+               .progress = options->progress};
     const bool done = open_pixels(reference, trace_casts(trace)) && draw_bands(&job, own.threads);
     trace_close(trace);
     const bool stopped = stop_asked(options->stop);

@@ -27,6 +27,7 @@
 #define REFERENCE_H
 
 #include "base/image.h"
+#include "base/progress.h"
 #include "base/stop.h"
 #include "scene/scene.h"
 
@@ -45,6 +46,7 @@ typedef struct ReferenceOptions {
     double edge_error;
     int threads;             /* 0: one per core. The picture does not depend on it */
     const atomic_bool *stop; /* NULL, or set by another thread to cancel */
+    Progress *progress;      /* NULL, or shows how much is done */
 } ReferenceOptions;
 
 /* Row 0 at the top. Object and depth are those at the pixel's center. */

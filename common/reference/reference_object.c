@@ -122,6 +122,19 @@ static bool light_corners(TraceObject *ready, const Scene *scene, const TraceLay
     return true;
 }
 
+static Ball ball_around_box(const Box *box)
+{
+    Real middle[3], square = 0, reach = 0;
+    for (int k = 0; k < 3; k++) {
+        const Real half = (box->high[k] - box->low[k]) / 2;
+        middle[k] = box->low[k] + half;
+        square += half * half;
+        reach = real_max(reach, real_abs(middle[k]) + half);
+    }
+    const Real around = (1 + (Real)1e-9) * real_sqrt(square) + (Real)1e-13 * reach;
+    return (Ball){{middle[0], middle[1], middle[2]}, around * around};
+}
+
 static bool open_triangles(TraceObject *ready, const Scene *scene, const TraceLayers *layers,
                            const ReferenceOptions *options)
 {
@@ -133,11 +146,15 @@ static bool open_triangles(TraceObject *ready, const Scene *scene, const TraceLa
     ready->points = points;
     ready->normals = malloc((mesh->vertex_count + 1) * sizeof *ready->normals);
     bool done = points && ready->normals;
+    Box box = box_empty();
     for (size_t i = 0; done && i < mesh->vertex_count; i++) {
         const MeshVertex *vertex = &mesh->vertices[i];
         points[i] = trace_object_place(ready, to_real3(vertex->position));
+        const Real place[3] = {points[i].x, points[i].y, points[i].z};
+        box_extend(&box, place, place);
         ready->normals[i] = trace_object_normal(ready, to_real3(vertex->normal));
     }
+    ready->ball = ball_around_box(&box);
     return done &&
            triangles_open(&ready->triangles, mesh, points, ready->own_corners, options->threads,
                           options->stop) &&

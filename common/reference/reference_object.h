@@ -25,9 +25,8 @@ typedef struct TraceObject {
     Real3 offset;            /* its translation, from the eye */
     bool mirrored;           /* determinant below 0 */
     bool exact;              /* a solid by its formula; else triangles */
-    /* Exact: rows of object_from_world, the eye in object coordinates, and what contains it. */
-    Real3 inverse[3], eye;
-    Ball ball;
+    Ball ball;               /* what contains it */
+    Real3 inverse[3], eye;   /* exact: rows of object_from_world, the eye in object coordinates */
     /* Triangles, and for each of their vertices the unit normal; or, where light is computed there,
      * the colors of the front and of the back: for each vertex, or, for flat triangles, for each
      * corner. */

@@ -130,9 +130,8 @@ static bool solid_between(const ShadowPoint *point, int number, int light, Real3
     const Shadows *shadows = point->shadows;
     const TraceObject *ready = &shadows->objects[number];
     const bool endless = shadows->lights[light].light->kind == LIGHT_DIRECTIONAL;
-    if (ball_missed(&ready->ball, point->from, way, endless) ||
-        (is_plane(&ready->object->solid) &&
-         (number == point->object || beside_plane(ready, point, way, endless))))
+    if (is_plane(&ready->object->solid) &&
+        (number == point->object || beside_plane(ready, point, way, endless)))
         return false;
     const ShadowEnd *end = &shadows->ends[number * shadows->light_count + light];
     SolidSegment segment = {.way = end->place, .light_touched = end->touched};
@@ -168,14 +167,14 @@ bool shadow_falls(const ShadowPoint *point, int light)
 {
     const Shadows *shadows = point->shadows;
     const ShadeLight *shade = &shadows->lights[light];
-    const Real3 way = shade->light->kind == LIGHT_DIRECTIONAL
-                          ? shade->direction
-                          : real3_subtract(shade->position, point->from);
+    const bool endless = shade->light->kind == LIGHT_DIRECTIONAL;
+    const Real3 way = endless ? shade->direction : real3_subtract(shade->position, point->from);
     const bool convex = object_is_convex(shadows->objects[point->object].object);
     if (!convex && !(real3_dot(point->normal, way) > 0))
         return true;
     for (int i = 0; i < shadows->object_count; i++)
-        if (shadows->objects[i].object->lamp || (convex && i == point->object))
+        if (shadows->objects[i].object->lamp || (convex && i == point->object) ||
+            ball_missed(&shadows->objects[i].ball, point->from, way, endless))
             continue;
         else if (shadows->objects[i].exact ? solid_between(point, i, light, way)
                                            : triangles_between(point, i, light, way))

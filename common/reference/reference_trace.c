@@ -201,14 +201,14 @@ static void meet_object(const Trace *trace, int number, Real3 direction, Nearest
 {
     const TraceObject *ready = &trace->objects[number];
     const Real near = trace->scene->camera.near, far = trace->scene->camera.far;
+    if (ball_missed(&ready->ball, (Real3){0, 0, 0}, direction, true))
+        return;
     if (!ready->exact) {
         TriangleHit hit = {.t = nearest->t};
         if (triangles_ray(&ready->triangles, direction, near, far, &hit))
             *nearest = (Nearest){.object = number, .t = hit.t, .triangle = hit};
         return;
     }
-    if (ball_missed(&ready->ball, (Real3){0, 0, 0}, direction, true))
-        return;
     SolidHit hits[SOLID_MAX_HITS];
     const Real3 d = {real3_dot(ready->inverse[0], direction),
                      real3_dot(ready->inverse[1], direction),

@@ -249,9 +249,11 @@ static void decide_normals(Decision *made)
         say(why, "without normals: no term depends on them");
         return;
     }
-    effects->normal_matrix = transform == GENERAL && !object->wrong_normals;
+    effects->normal_matrix = transform >= EXTREME && !object->wrong_normals;
     if (effects->normal_matrix)
-        say(why, "normal matrix: the model-view matrix scales unevenly or shears");
+        say(why, "normal matrix: the model-view matrix %s",
+            transform == EXTREME ? "scales evenly, but the square of that leaves a 16-bit float"
+                                 : "scales unevenly or shears");
     else if (object->wrong_normals)
         say(why, "without normal matrix: the scene requests the wrong one, the model-view matrix");
     else
@@ -259,7 +261,7 @@ static void decide_normals(Decision *made)
     const bool skip = made->scene->skip_renormalization;
     effects->normalize_fragment = made->at_fragments && !object->flat && !skip;
     /* If fragments normalize, equal lengths at the vertices do not matter. */
-    const bool equal_lengths = transform != GENERAL;
+    const bool equal_lengths = transform < EXTREME;
     effects->normalize_vertex =
         transform != ORTHONORMAL && (object->flat || skip || made->at_vertices || !equal_lengths);
     say(why,

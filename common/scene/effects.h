@@ -103,8 +103,9 @@ typedef struct ObjectFacts {
 
 SceneFacts effects_scene(const Scene *scene);
 
-/* Of an object's transform, up to a rotation and a translation: none, a factor, anything. */
-typedef enum EffectsTransform { ORTHONORMAL, ORTHOGONAL, GENERAL } EffectsTransform;
+/* Of an object's transform, up to a rotation and a translation: none, a factor, one whose square
+ * leaves a 16-bit float, anything. */
+typedef enum EffectsTransform { ORTHONORMAL, ORTHOGONAL, EXTREME, GENERAL } EffectsTransform;
 
 /* What follows from its mesh and transform alone. */
 typedef struct EffectsPlace {

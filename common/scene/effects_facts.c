@@ -94,14 +94,16 @@ static EffectsTransform transform_of(Mat4 m)
             dots[i][j] =
                 a[4 * i] * a[4 * j] + a[4 * i + 1] * a[4 * j + 1] + a[4 * i + 2] * a[4 * j + 2];
     const double square = dots[0][0];
-    /* The squares of other lengths lose digits, or overflow, in a fragment's 16-bit float. The
-     * normal matrix is scaled. */
-    if (!(square > 1e-4 && square < 1e4))
+    if (!(square > 0))
         return GENERAL;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
             if (fabs(dots[i][j] - (i == j ? square : 0)) > 1e-7 * square)
                 return GENERAL;
+    /* The squares of other lengths lose digits, or overflow, in a fragment's 16-bit float. The
+     * normal matrix is scaled. */
+    if (!(square > 1e-4 && square < 1e4))
+        return EXTREME;
     return fabs(square - 1) <= 1e-7 ? ORTHONORMAL : ORTHOGONAL;
 }
 

@@ -43,9 +43,12 @@ static void find_middle(FileScene *made)
 static bool list_cameras(const SceneFile *file, const char *asked, Message *message)
 {
     message_set(message, "camera %s: there is none; the file has ", asked);
-    for (int i = 0; i < file->camera_count && i < 20; i++)
-        message_add(message, "%s%d%s%s", i ? ", " : "", i, file->cameras[i].name[0] ? " " : "",
-                    file->cameras[i].name);
+    for (int i = 0; i < file->camera_count && i < 20; i++) {
+        const FileCamera *camera = &file->cameras[i];
+        const bool placed = camera->place[0] && strcmp(camera->place, camera->name) != 0;
+        message_add(message, "%s%d%s%s%s%s", i ? ", " : "", i, camera->name[0] ? " " : "",
+                    camera->name, placed ? " at " : "", placed ? camera->place : "");
+    }
     return message_add(message, "%s", file->camera_count ? ", and fit" : "none, and fit");
 }
 
@@ -57,7 +60,8 @@ static bool choose_camera(FileScene *made, const char *asked, Message *message)
         made->camera = -1;
     else if (asked && !parse_whole(asked, 0, file->camera_count - 1, &made->camera)) {
         int i = 0;
-        while (i < file->camera_count && strcmp(file->cameras[i].name, asked) != 0)
+        while (i < file->camera_count && strcmp(file->cameras[i].name, asked) != 0 &&
+               strcmp(file->cameras[i].place, asked) != 0)
             i++;
         if (i == file->camera_count)
             return list_cameras(file, asked, message);
@@ -146,11 +150,8 @@ static double brightness(const Scene *scene, Sphere around)
     for (int i = 0; i < scene->light_count; i++) {
         const Light *light = &scene->lights[i];
         const double away = vec3_length(vec3_subtract(light->position, around.center));
-        const double d = fmax(away, around.radius / 2),
-                     near = light->range > 0 ? d / light->range : 0;
         const double color = fmax(fmax(light->diffuse.x, light->diffuse.y), light->diffuse.z);
-        sum +=
-            light->kind == LIGHT_DIRECTIONAL ? color : color / (d * d) * fmax(1 - pow(near, 4), 0);
+        sum += color * light_attenuation(light, fmax(away, around.radius / 2));
     }
     return sum;
 }

@@ -15,7 +15,7 @@ typedef struct FileSceneOptions {
     int up;             /* a ModelUp */
     const char *camera; /* its number or name; "fit": one that sees all; NULL: the first, or that */
     double exposure;    /* a factor of the lights; 0: one that overexposes little, if the file's are
-                           in candela and lux */
+                           in candela and lux, or above 1 */
 } FileSceneOptions;
 
 typedef struct FileScene {

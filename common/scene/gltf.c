@@ -23,6 +23,18 @@ static size_t count_of(const Reading *reading, const char *list)
 
 /* Lights and cameras */
 
+/* A LightKind; -1: unknown. */
+static int kind_of_light(const json_t *light)
+{
+    static const char *const types[] = {
+        [LIGHT_DIRECTIONAL] = "directional", [LIGHT_POINT] = "point", [LIGHT_SPOT] = "spot"};
+    const char *type = json_string_value(json_object_get(light, "type"));
+    int kind = LIGHT_SPOT;
+    while (kind >= 0 && !(type && strcmp(type, types[kind]) == 0))
+        kind--;
+    return kind;
+}
+
 static bool add_light(Reading *reading, const json_t *node, int number)
 {
     const json_int_t index = gltf_whole(gltf_extension(node, "KHR_lights_punctual"), "light", -1);
@@ -34,21 +46,28 @@ static bool add_light(Reading *reading, const json_t *node, int number)
     if (!from)
         return message_set(reading->gltf.reason, "lights %lld: there is none; the file has %zu",
                            (long long)index, json_array_size(all));
-    const char *type = json_string_value(json_object_get(from, "type"));
-    const bool sun = type && strcmp(type, "directional") == 0,
-               spot = type && strcmp(type, "spot") == 0;
+    const int kind = kind_of_light(from);
+    const bool sun = kind == LIGHT_DIRECTIONAL, spot = kind == LIGHT_SPOT;
     const json_t *cone = json_object_get(from, "spot");
+    const double inner = gltf_number(cone, "innerConeAngle", 0);
     const double outer = gltf_number(cone, "outerConeAngle", PI / 4);
-    FileLight *to = scene_file_add(reading->file, FILE_LIGHTS);
+    if (kind < 0)
+        return message_set(reading->gltf.reason,
+                           "lights %lld: its type must be directional, point or spot",
+                           (long long)index);
+    if (spot && !(inner >= 0 && inner <= outer && outer < PI / 2 + 1e-3)) /* rounded */
+        return message_set(reading->gltf.reason,
+                           "lights %lld: innerConeAngle %g and outerConeAngle %g: must be "
+                           "0 <= inner <= outer <= pi / 2",
+                           (long long)index, inner, outer);
+    FileLight *to = scene_file_add(reading->file, FILE_LIGHTS, reading->gltf.reason);
     if (!to)
-        return gltf_too_many(reading, "lights");
+        return false;
     const Vec3 color = vec3_scale(gltf_vector(from, "color", (Vec3){1, 1, 1}),
                                   gltf_number(from, "intensity", 1) / PI);
     gltf_name(to->name, json_object_get(from, "name") ? from : node);
     to->node = number;
-    to->light = (Light){.kind = sun    ? LIGHT_DIRECTIONAL
-                                : spot ? LIGHT_SPOT
-                                       : LIGHT_POINT,
+    to->light = (Light){.kind = (LightKind)kind,
                         .direction = {0, 0, sun ? 1 : -1},
                         .diffuse = color,
                         .specular = color,
@@ -56,8 +75,7 @@ static bool add_light(Reading *reading, const json_t *node, int number)
                         .quadratic = !sun,
                         .range = sun ? 0 : fmax(gltf_number(from, "range", 0), 0)};
     if (spot)
-        to->light.exponent =
-            scene_file_spot_exponent(gltf_number(cone, "innerConeAngle", 0), outer);
+        to->light.exponent = scene_file_spot_exponent(inner, outer);
     if (gltf_own(from)) {
         to->node = -1;
         gltf_fields(gltf_own(from), LIGHT_FIELDS, &to->light);
@@ -78,12 +96,13 @@ static bool add_camera(Reading *reading, const json_t *node, int number)
                  *lens = json_object_get(from, flat ? "orthographic" : "perspective");
     if (!from)
         return index < 0;
-    FileCamera *to = scene_file_add(reading->file, FILE_CAMERAS);
+    FileCamera *to = scene_file_add(reading->file, FILE_CAMERAS, reading->gltf.reason);
     if (!to)
-        return gltf_too_many(reading, "cameras");
+        return false;
     const double half = gltf_number(lens, "ymag", 1), away = flat ? AWAY * half : 0;
     const double far = gltf_number(lens, "zfar", 0);
-    gltf_name(to->name, json_object_get(node, "name") ? node : from);
+    gltf_name(to->name, from);
+    gltf_name(to->place, node);
     to->node = number;
     to->camera = (Camera){.eye = {0, 0, away},
                           .center = {0, 0, -1},
@@ -148,9 +167,9 @@ static bool visit(Reading *reading, Visit now, Visits *visits)
         return message_set(reading->gltf.reason,
                            "nodes %lld: is reached twice: it has two parents, or is its own",
                            (long long)now.node);
-    FileNode *added = scene_file_add(reading->file, FILE_NODES);
+    FileNode *added = scene_file_add(reading->file, FILE_NODES, reading->gltf.reason);
     if (!added)
-        return gltf_too_many(reading, "nodes");
+        return false;
     const int number = reading->nodes[now.node] = reading->file->node_count - 1;
     added->parent = now.parent;
     place_node(node, added);
@@ -192,7 +211,7 @@ static bool read_nodes(Reading *reading)
 {
     Visits visits = {.count = 0};
     json_t *roots = find_roots(reading);
-    FileNode *world = scene_file_add(reading->file, FILE_NODES);
+    FileNode *world = scene_file_add(reading->file, FILE_NODES, NULL);
     *world = (FileNode){.parent = -1, .parent_from_node = mat4_identity()};
     push_all(&visits, roots, 0);
     while (visits.count > 0 && !gltf_failed(reading))
@@ -228,28 +247,21 @@ static bool add_channel(Reading *reading, const json_t *channel, const json_t *s
     double *values =
         times ? gltf_accessor(&reading->gltf, gltf_whole(from, "output", -1), &counts[1], &sizes[1])
               : NULL;
-    FileChannel *to = NULL;
+    const FileChannel made = {.node = reading->nodes[node],
+                              .path = kind,
+                              .step = cubic == 3                          ? FILE_CUBIC
+                                      : step && strcmp(step, "STEP") == 0 ? FILE_STEP
+                                                                          : FILE_LINEAR,
+                              .count = (int)counts[0]};
+    const size_t numbers = counts[1] * (size_t)sizes[1];
+    float *keys = NULL;
     if (values &&
         (sizes[0] != 1 || counts[1] != cubic * counts[0] || sizes[1] != (kind == 1 ? 4 : 3)))
         message_set(reading->gltf.reason, "an animation's input and output do not match");
-    else if (values && !(to = scene_file_add(reading->file, FILE_CHANNELS)))
-        gltf_too_many(reading, "channels");
-    if (to) {
-        *to = (FileChannel){reading->nodes[node], kind,
-                            cubic == 3                          ? FILE_CUBIC
-                            : step && strcmp(step, "STEP") == 0 ? FILE_STEP
-                                                                : FILE_LINEAR,
-                            (int)counts[0], reading->file->key_count};
-        reading->file->nodes[to->node].moving = true;
-        const size_t numbers = counts[1] * (size_t)sizes[1];
-        for (size_t i = 0; i < counts[0] + numbers && !gltf_failed(reading); i++) {
-            float *key = scene_file_add(reading->file, FILE_KEYS);
-            if (!key)
-                message_set(reading->gltf.reason, "more than %d keys of animations", FILE_KEYS_MAX);
-            else
-                *key = (float)(i < counts[0] ? times[i] : values[i - counts[0]]);
-        }
-    }
+    else if (values)
+        keys = scene_file_add_channel(reading->file, made, numbers, reading->gltf.reason);
+    for (size_t i = 0; keys && i < counts[0] + numbers; i++)
+        keys[i] = (float)(i < counts[0] ? times[i] : values[i - counts[0]]);
     free(times);
     free(values);
     return !gltf_failed(reading);

@@ -53,9 +53,6 @@ typedef struct Reading {
 
 bool gltf_failed(const Reading *reading);
 
-/* Fails. */
-bool gltf_too_many(const Reading *reading, const char *what);
-
 Vec3 gltf_vector(const json_t *object, const char *key, Vec3 usual);
 
 /* What our own files have besides; NULL: nothing. */

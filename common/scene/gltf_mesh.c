@@ -23,11 +23,6 @@ bool gltf_failed(const Reading *reading)
     return reading->gltf.reason->text[0];
 }
 
-bool gltf_too_many(const Reading *reading, const char *what)
-{
-    return message_set(reading->gltf.reason, "more than %d %s", FILE_ITEMS_MAX, what);
-}
-
 Vec3 gltf_vector(const json_t *object, const char *key, Vec3 usual)
 {
     double v[4];
@@ -275,11 +270,9 @@ static int read_primitive(Reading *reading, const json_t *primitive, Vec3 tint)
         from.lit = read_attribute(reading, primitive, "_LIT_POSITION", vertices, &from.lit_size);
         reading->indices += count;
         reading->vertices += from.normals && vertices < count ? vertices : count;
-        if (reading->vertices > MODEL_VERTICES_MAX || reading->indices / 3 > MODEL_TRIANGLES_MAX)
-            message_set(reading->gltf.reason, "more than %d vertices or %d triangles",
-                        MODEL_VERTICES_MAX, MODEL_TRIANGLES_MAX);
-        else if (!gltf_failed(reading) && !(mesh = scene_file_add(reading->file, FILE_MESHES)))
-            gltf_too_many(reading, "meshes");
+        if (!gltf_failed(reading) &&
+            scene_file_fits(reading->vertices, reading->indices, reading->gltf.reason))
+            mesh = scene_file_add(reading->file, FILE_MESHES, reading->gltf.reason);
     }
     if (mesh)
         fill_mesh(&from, corners, count, vertices, mesh, reading->gltf.reason);
@@ -326,9 +319,9 @@ bool gltf_add_objects(Reading *reading, const json_t *node, int number)
             scene_file_note(reading->file, NOTE_LINES);
         if (gltf_failed(reading) || *known < 0)
             continue;
-        FileObject *added = scene_file_add(reading->file, FILE_OBJECTS);
+        FileObject *added = scene_file_add(reading->file, FILE_OBJECTS, reading->gltf.reason);
         if (!added)
-            return gltf_too_many(reading, "objects");
+            return false;
         object.mesh = *known;
         gltf_name(object.name, json_object_get(node, "name") ? node : mesh);
         set_own(gltf_own(node), &object.object);

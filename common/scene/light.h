@@ -71,6 +71,17 @@ static inline bool light_fades(const Light *light)
            (light->linear != 0 || light->quadratic != 0 || light->range != 0);
 }
 
+/* How much of it arrives at a distance: 1 of a light without attenuation. */
+static inline double light_attenuation(const Light *light, double distance)
+{
+    const double d = distance, near = light->range > 0 ? d / light->range : 0;
+    const double sum = light->constant + light->linear * d + light->quadratic * d * d;
+    const bool none = light->constant == 0 && light->linear == 0 && light->quadratic == 0;
+    return light->kind == LIGHT_DIRECTIONAL
+               ? 1
+               : fmax(1 - near * near * near * near, 0) / (none ? 1 : sum);
+}
+
 /* Whether its ambient light varies over a surface; otherwise it is part of the constant base. */
 static inline bool light_ambient_varies(const Light *light)
 {

@@ -41,15 +41,13 @@ static void add_object(const Mesh *part, Mat4 world_from_part, Mesh *mesh)
 static bool flatten(const char *path, const SceneFile *file, Mesh *mesh, Message *message)
 {
     size_t vertices = 0, indices = 0;
+    Message why = {0};
     for (int i = 0; i < file->object_count; i++) {
         vertices += file->meshes[file->objects[i].mesh].vertex_count;
         indices += file->meshes[file->objects[i].mesh].index_count;
     }
-    if (vertices > MODEL_VERTICES_MAX || indices / 3 > MODEL_TRIANGLES_MAX)
-        return message_set(message,
-                           "%s: cannot read: %zu vertices and %zu triangles; at most %d and %d are "
-                           "read",
-                           path, vertices, indices / 3, MODEL_VERTICES_MAX, MODEL_TRIANGLES_MAX);
+    if (!scene_file_fits(vertices, indices, &why))
+        return message_set(message, "%s: cannot read: %s", path, why.text);
     if (!mesh_open(mesh, vertices, indices, message))
         return false;
     mesh->vertex_count = mesh->index_count = 0;
@@ -58,7 +56,6 @@ static bool flatten(const char *path, const SceneFile *file, Mesh *mesh, Message
     for (int i = 0; i < file->object_count; i++)
         add_object(&file->meshes[file->objects[i].mesh], poses[file->objects[i].node], mesh);
     free(poses);
-    Message why = {0};
     return mesh_check(mesh, &why) || message_set(message, "%s: %s", path, why.text);
 }
 

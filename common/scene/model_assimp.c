@@ -23,7 +23,6 @@ typedef struct Walk {
     const struct aiScene *scene;
     SceneFile *file;
     double scale; /* of the file's lengths in the world */
-    size_t vertices, indices;
     Message *reason;
 } Walk;
 
@@ -181,29 +180,35 @@ static const struct aiMaterial *material_of(const struct aiScene *scene, const s
 /* Each mesh once, with triangles or without. */
 static bool add_meshes(Walk *walk)
 {
+    size_t vertices = 0, indices = 0;
+    for (unsigned i = 0; i < walk->scene->mNumMeshes; i++) {
+        vertices += walk->scene->mMeshes[i]->mNumVertices;
+        indices += 3 * (size_t)walk->scene->mMeshes[i]->mNumFaces;
+    }
+    if (!scene_file_fits(vertices, indices, walk->reason))
+        return false;
     for (unsigned i = 0; i < walk->scene->mNumMeshes; i++) {
         const struct aiMesh *part = walk->scene->mMeshes[i];
         Object object = {.lamp = 0};
-        Mesh *mesh = scene_file_add(walk->file, FILE_MESHES);
-        walk->vertices += part->mNumVertices;
-        walk->indices += 3 * (size_t)part->mNumFaces;
-        if (!mesh || walk->vertices > MODEL_VERTICES_MAX || walk->indices / 3 > MODEL_TRIANGLES_MAX)
-            continue;
+        Mesh *mesh = scene_file_add(walk->file, FILE_MESHES, walk->reason);
         set_material(material_of(walk->scene, part), &object);
-        if (!fill_mesh(part, object.front.diffuse, mesh, walk->reason))
+        if (!mesh || !fill_mesh(part, object.front.diffuse, mesh, walk->reason))
             return false;
     }
-    if (walk->scene->mNumMeshes > FILE_ITEMS_MAX)
-        return message_set(walk->reason, "%u meshes; at most %d are read", walk->scene->mNumMeshes,
-                           FILE_ITEMS_MAX);
-    if (walk->vertices > MODEL_VERTICES_MAX || walk->indices / 3 > MODEL_TRIANGLES_MAX)
-        return message_set(
-            walk->reason, "%zu vertices and %zu triangles; at most %d and %d are read",
-            walk->vertices, walk->indices / 3, MODEL_VERTICES_MAX, MODEL_TRIANGLES_MAX);
     return true;
 }
 
 /* Lights, cameras, animations */
+
+/* Light of an FBX file is at its full strength where its decay starts, at a distance s, and beyond
+ * as s / d or its square; of which Assimp makes 2 d / s, or its square in half, and of light
+ * without decay s. 1 + d / s and 1 + (d / s)^2 are right near by and far away. */
+static void set_decay(Light *light)
+{
+    light->constant = 1;
+    light->linear /= 2;
+    light->quadratic /= 2;
+}
 
 static bool add_light(Walk *walk, const struct aiLight *from, int node)
 {
@@ -215,9 +220,9 @@ static bool add_light(Walk *walk, const struct aiLight *from, int node)
         *sum = vec3_add(*sum, color_is_black(ambient) ? diffuse : ambient);
         return true;
     }
-    FileLight *to = scene_file_add(walk->file, FILE_LIGHTS);
+    FileLight *to = scene_file_add(walk->file, FILE_LIGHTS, walk->reason);
     if (!to)
-        return message_set(walk->reason, "more than %d lights", FILE_ITEMS_MAX);
+        return false;
     set_name(to->name, from->mName.data);
     to->node = node;
     to->light = (Light){
@@ -231,6 +236,9 @@ static bool add_light(Walk *walk, const struct aiLight *from, int node)
         .constant = from->mAttenuationConstant,
         .linear = from->mAttenuationLinear / walk->scale,
         .quadratic = from->mAttenuationQuadratic / (walk->scale * walk->scale)};
+    walk->file->photometric |= fmax(fmax(diffuse.x, diffuse.y), diffuse.z) > 1;
+    if (importer_is(walk->scene, "FBX"))
+        set_decay(&to->light);
     if (from->mType == aiLightSource_AREA)
         scene_file_note(walk->file, NOTE_AREA);
     if (color_is_black(to->light.specular))
@@ -248,12 +256,12 @@ static bool add_light(Walk *walk, const struct aiLight *from, int node)
 static bool add_camera(Walk *walk, const struct aiCamera *from, int node)
 {
     static const double DEGREES = 57.29577951308232;
-    FileCamera *to = scene_file_add(walk->file, FILE_CAMERAS);
+    FileCamera *to = scene_file_add(walk->file, FILE_CAMERAS, walk->reason);
     if (!to)
-        return message_set(walk->reason, "more than %d cameras", FILE_ITEMS_MAX);
+        return false;
     const double aspect = from->mAspect > 0 ? from->mAspect : 1;
     const double fovy = 2 * DEGREES * atan(tan(from->mHorizontalFOV / 2) / aspect);
-    set_name(to->name, from->mName.data);
+    set_name(to->name, from->mName.data); /* and its node's */
     to->node = node;
     to->camera = (Camera){.eye = vector(&from->mPosition),
                           .center = vec3_add(vector(&from->mPosition), vector(&from->mLookAt)),
@@ -264,21 +272,15 @@ static bool add_camera(Walk *walk, const struct aiCamera *from, int node)
     return true;
 }
 
-/* A channel of so many keys, whose numbers are to be filled in; NULL: no room. */
+/* A channel of so many keys, whose numbers are to be filled in; NULL: it has none, or no room. */
 static float *add_channel(Walk *walk, int node, FilePath path, unsigned count)
 {
-    SceneFile *file = walk->file;
-    const long long numbers = (long long)count * (path == FILE_ROTATION ? 5 : 4);
-    FileChannel *channel = count > 0 && file->key_count + numbers <= FILE_KEYS_MAX
-                               ? scene_file_add(file, FILE_CHANNELS)
-                               : NULL;
-    if (!channel)
-        return NULL;
-    *channel = (FileChannel){node, (int)path, FILE_LINEAR, (int)count, file->key_count};
-    for (long long i = 0; i < numbers; i++)
-        scene_file_add(file, FILE_KEYS);
-    file->nodes[node].moving = true;
-    return file->keys + channel->first;
+    const FileChannel made = {
+        .node = node, .path = (int)path, .step = FILE_LINEAR, .count = (int)count};
+    return count == 0 ? NULL
+                      : scene_file_add_channel(walk->file, made,
+                                               (path == FILE_ROTATION ? 4 : 3) * (size_t)count,
+                                               walk->reason);
 }
 
 static void add_vectors(Walk *walk, int node, FilePath path, const struct aiVectorKey *keys,
@@ -319,9 +321,9 @@ static bool add_motion(Walk *walk, const struct aiNode *node, int number)
             times[k] = (float)(moves->mRotationKeys[k].mTime / rate);
             memcpy(times + count + 4 * k, values, sizeof values);
         }
-        return true;
+        break;
     }
-    return true;
+    return !walk->reason->text[0];
 }
 
 /* Nodes */
@@ -334,9 +336,9 @@ static bool add_object(Walk *walk, const struct aiNode *node, int number, unsign
         scene_file_note(walk->file, NOTE_LINES);
         return true;
     }
-    FileObject *object = scene_file_add(walk->file, FILE_OBJECTS);
+    FileObject *object = scene_file_add(walk->file, FILE_OBJECTS, walk->reason);
     if (!object)
-        return message_set(walk->reason, "more than %d objects", FILE_ITEMS_MAX);
+        return false;
     object->node = number;
     object->mesh = (int)index;
     set_name(object->name, node->mName.data);
@@ -366,9 +368,9 @@ static bool add_named(Walk *walk, const struct aiNode *node, int number)
 
 static bool visit(Walk *walk, const struct aiNode *node, int parent, const Mat4 *world_from_file)
 {
-    FileNode *added = scene_file_add(walk->file, FILE_NODES);
+    FileNode *added = scene_file_add(walk->file, FILE_NODES, walk->reason);
     if (!added)
-        return message_set(walk->reason, "more than %d nodes", FILE_ITEMS_MAX);
+        return false;
     const int number = walk->file->node_count - 1;
     const Mat4 own = matrix(&node->mTransformation);
     added->parent = parent;

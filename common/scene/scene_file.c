@@ -21,35 +21,58 @@
 
 FileListPlace scene_file_list(SceneFile *file, FileList list)
 {
+#define LIST(items, name, most)                                                                    \
+    {                                                                                              \
+        name, (void **)&file->items##s, &file->items##_count, sizeof *file->items##s, most         \
+    }
     const FileListPlace places[FILE_LISTS] = {
-        [FILE_NODES] = {(void **)&file->nodes, &file->node_count, sizeof *file->nodes,
-                        FILE_ITEMS_MAX},
-        [FILE_OBJECTS] = {(void **)&file->objects, &file->object_count, sizeof *file->objects,
-                          FILE_ITEMS_MAX},
-        [FILE_LIGHTS] = {(void **)&file->lights, &file->light_count, sizeof *file->lights,
-                         FILE_ITEMS_MAX},
-        [FILE_CAMERAS] = {(void **)&file->cameras, &file->camera_count, sizeof *file->cameras,
-                          FILE_ITEMS_MAX},
-        [FILE_CHANNELS] = {(void **)&file->channels, &file->channel_count, sizeof *file->channels,
-                           FILE_ITEMS_MAX},
-        [FILE_KEYS] = {(void **)&file->keys, &file->key_count, sizeof *file->keys, FILE_KEYS_MAX},
-        [FILE_NOTES] = {(void **)&file->notes, &file->note_count, sizeof *file->notes, 100},
-        [FILE_MESHES] = {(void **)&file->meshes, &file->mesh_count, sizeof *file->meshes,
+        [FILE_NODES] = LIST(node, "nodes", FILE_ITEMS_MAX),
+        [FILE_OBJECTS] = LIST(object, "objects", FILE_ITEMS_MAX),
+        [FILE_LIGHTS] = LIST(light, "lights", FILE_ITEMS_MAX),
+        [FILE_CAMERAS] = LIST(camera, "cameras", FILE_ITEMS_MAX),
+        [FILE_CHANNELS] = LIST(channel, "channels of animations", FILE_ITEMS_MAX),
+        [FILE_KEYS] = LIST(key, "keys of animations", FILE_KEYS_MAX),
+        [FILE_NOTES] = LIST(note, "notes", 100),
+        [FILE_MESHES] = {"meshes", (void **)&file->meshes, &file->mesh_count, sizeof *file->meshes,
                          FILE_ITEMS_MAX},
     };
+#undef LIST
     return places[list];
 }
 
-void *scene_file_add(SceneFile *file, FileList list)
+void *scene_file_add(SceneFile *file, FileList list, Message *reason)
 {
     const FileListPlace place = scene_file_list(file, list);
     const int count = *place.count;
-    if (count >= place.most)
+    if (count >= place.most) {
+        message_set(reason, "more than %d %s", place.most, place.name);
         return NULL;
+    }
     if ((count & (count - 1)) == 0) /* a power of two is full */
         *place.items = memory_grow(*place.items, count ? 2 * (size_t)count : 1, place.size);
     *place.count = count + 1;
     return memset((char *)*place.items + (size_t)count * place.size, 0, place.size);
+}
+
+float *scene_file_add_channel(SceneFile *file, FileChannel channel, size_t numbers, Message *reason)
+{
+    FileChannel *added = scene_file_add(file, FILE_CHANNELS, reason);
+    if (!added)
+        return NULL;
+    channel.first = file->key_count;
+    for (size_t i = 0; i < (size_t)channel.count + numbers; i++)
+        if (!scene_file_add(file, FILE_KEYS, reason))
+            return NULL;
+    *added = channel;
+    file->nodes[channel.node].moving = true;
+    return file->keys + channel.first;
+}
+
+bool scene_file_fits(size_t vertices, size_t indices, Message *reason)
+{
+    return (vertices <= MODEL_VERTICES_MAX && indices / 3 <= MODEL_TRIANGLES_MAX) ||
+           message_set(reason, "%zu vertices and %zu triangles; at most %d and %d are read",
+                       vertices, indices / 3, MODEL_VERTICES_MAX, MODEL_TRIANGLES_MAX);
 }
 
 void scene_file_note(SceneFile *file, const char *text)
@@ -60,7 +83,7 @@ void scene_file_note(SceneFile *file, const char *text)
             note->count++;
             return;
         }
-    if (!(note = scene_file_add(file, FILE_NOTES)))
+    if (!(note = scene_file_add(file, FILE_NOTES, NULL)))
         return;
     snprintf(note->text, sizeof note->text, "%s", text);
     note->count = 1;

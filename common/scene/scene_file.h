@@ -46,9 +46,9 @@ typedef struct FileLight {
 } FileLight;
 
 typedef struct FileCamera {
-    Camera camera; /* far 0: as the scene needs it */
-    int node;      /* -1: as it is */
-    char name[FILE_NAME];
+    Camera camera;                          /* far 0: as the scene needs it */
+    int node;                               /* -1: as it is */
+    char name[FILE_NAME], place[FILE_NAME]; /* its own and its node's */
 } FileCamera;
 
 /* What changes of a node, by time. */
@@ -68,7 +68,7 @@ typedef struct FileNote {
 
 typedef struct SceneFile {
     Scene scene;      /* all else of it, as its colours are meant; without lights and objects */
-    bool photometric; /* lights are in candela and lux */
+    bool photometric; /* lights are in candela and lux, or watts: above 1 */
     bool own;         /* written by us: nothing of it is to be chosen */
     FileNode *nodes;
     FileObject *objects;
@@ -96,7 +96,8 @@ void scene_file_pose(const SceneFile *file, double seconds, Mat4 *world_from_nod
 /* A node's matrix from what channels change. */
 Mat4 scene_file_moved(const FileNode *node);
 
-/* Of a file that is made: one more item, zeroed, of one of its lists; NULL: there are too many. */
+/* Of a file that is made: one more item, zeroed, of one of its lists; NULL, with the reason: there
+ * are too many. */
 typedef enum FileList {
     FILE_NODES,
     FILE_OBJECTS,
@@ -108,10 +109,19 @@ typedef enum FileList {
     FILE_MESHES,
     FILE_LISTS,
 } FileList;
-void *scene_file_add(SceneFile *file, FileList list);
+void *scene_file_add(SceneFile *file, FileList list, Message *reason);
 
-/* Where a list begins, how many items it has, the bytes of one and the most there may be. */
+/* Adds a channel, whose `first` is set here; its times and so many numbers are to be filled in. */
+float *scene_file_add_channel(SceneFile *file, FileChannel channel, size_t numbers,
+                              Message *reason);
+
+/* Whether so many vertices and indices are read; else with the reason. */
+bool scene_file_fits(size_t vertices, size_t indices, Message *reason);
+
+/* What a list holds, where it begins, how many items it has, the bytes of one and the most there
+ * may be. */
 typedef struct FileListPlace {
+    const char *name;
     void **items;
     int *count;
     size_t size;

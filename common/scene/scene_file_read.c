@@ -243,7 +243,7 @@ static bool check_references(const SceneFile *file)
         sound &= in_range(file->lights[i].node, -1, file->node_count);
     }
     for (int i = 0; i < file->camera_count; i++) {
-        file->cameras[i].name[FILE_NAME - 1] = '\0';
+        file->cameras[i].name[FILE_NAME - 1] = file->cameras[i].place[FILE_NAME - 1] = '\0';
         sound &= in_range(file->cameras[i].node, -1, file->node_count);
     }
     for (int i = 0; i < file->note_count; i++)

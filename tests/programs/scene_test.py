@@ -197,13 +197,14 @@ class Scene(base.Case):
         file = tetrahedron(nodes=[{"mesh": 0}, {"camera": 0, "name": "left", "translation": [-1, 0, 9]},
                                   {"camera": 0, "name": "far", "translation": [0, 0, 30]}],
                            scenes=[{"nodes": [0, 1, 2]}],
-                           cameras=[{"type": "perspective", "perspective": {"yfov": 0.5, "znear": 1}}])
+                           cameras=[{"name": "lens", "type": "perspective", "perspective": {"yfov": 0.5, "znear": 1}}])
         self.save("a.gltf", file)
-        for option, eye in ((), (-1, 0, 9)), (("--camera", "1"), (0, 0, 30)), (("--camera", "far"), (0, 0, 30)):
+        for option, eye in (((), (-1, 0, 9)), (("--camera", "1"), (0, 0, 30)), (("--camera", "far"), (0, 0, 30)),
+                            (("--camera", "lens"), (-1, 0, 9))):
             self.near(self.read_back("a.gltf", *option)[2]["eye"], eye)
         self.assertNotIn(self.read_back("a.gltf", "--camera", "fit")[2]["eye"][2], (9, 30))
         said = self.one_line(self.run_it("a.gltf", "--camera", "4", program="Scene"))
-        self.assertIn("camera 4: there is none; the file has 0 left, 1 far, and fit", said)
+        self.assertIn("camera 4: there is none; the file has 0 lens at left, 1 lens at far, and fit", said)
         result = self.run_it(program="Scene")
         self.assertEqual(result.returncode, 2)
         self.assertEqual(self.run_it("a.gltf", "b.gltf", program="Scene").returncode, 2)
@@ -276,6 +277,11 @@ class Scene(base.Case):
         yield "a.gltf", changed(("bufferViews", 0, "byteLength"), huge), "leaves its buffer of 72"
         yield "a.gltf", changed(("bufferViews", 0, "byteStride"), 1 << 30), "leave"
         yield "a.gltf", changed(("buffers", 0, "byteLength"), huge), "byteLength 1000000000, but it has 72 bytes"
+        for light, what in (({"type": "area"}, "lights 0: its type must be"), ({}, "lights 0: its type must be"),
+                            ({"type": "spot", "spot": {"innerConeAngle": 1, "outerConeAngle": 0.5}}, "inner <= outer"),
+                            ({"type": "spot", "spot": {"outerConeAngle": 2}}, "innerConeAngle 0 and outerConeAngle 2")):
+            yield "a.gltf", tetrahedron(nodes=[{"mesh": 0, "extensions": {"KHR_lights_punctual": {"light": 0}}}],
+                                        extensions={"KHR_lights_punctual": {"lights": [light]}}), what
         for uri, what in (("http://example.org/a.bin", "refused"), ("file:///etc/passwd", "refused"),
                           ("../a.bin", "outside"), ("/etc/passwd", "outside"), ("x/..%2f..%2fa.bin", "outside"),
                           ("%2e%2e/a.bin", "outside"), ("..\\a.bin", "outside"), ("none.bin", "No such file")):
@@ -321,6 +327,14 @@ class Scene(base.Case):
                 self.one_line(result, path)
             drawn += result.returncode == 0
         self.assertGreater(drawn, len(paths) / 2)
+
+    def test_lights_of_fbx_are_as_bright_as_they_are_meant(self):
+        """Their decay starts at a distance, where they are not brighter than near by; of 1000 watts they are dimmed."""
+        for path in glob.glob(f"{MODELS}/FBX/spider.fbx") + glob.glob(f"{MODELS}/FBX/animation_with_skeleton.fbx"):
+            pixels = self.drawn(path, "--camera", "fit", *base.SMALL, program="Scene").pixels
+            self.assertLess(sum(value == 255 for value in pixels) / len(pixels), 0.02, path)
+            said = self.good(path, "--explain", program="Scene").decode()
+            self.assertIn("M scales evenly" if "spider" in path else "of the file: how bright", said)
 
     def test_the_exact_picture_agrees(self):
         paths = [path for name in ("Collada/duck.dae", "OBJ/spider.obj", "glTF2/ClearCoat-glTF/ClearCoatTest.gltf",
