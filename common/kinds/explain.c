@@ -327,7 +327,6 @@ static void print_matrices(const Object *object)
                                            [ORTHOGONAL] = "M scales evenly: N is a multiple of M",
                                            [EXTREME] = "M scales evenly: N is a multiple of M",
                                            [GENERAL] = "M scales unevenly or shears: N is not M"};
-    const MeshBox box = mesh_bounds(object->mesh);
     Mat4 m = object->world_from_object, inverse;
     for (int k = 0; k < 3; k++)
         m.m[12 + k] = 0;
@@ -340,7 +339,7 @@ static void print_matrices(const Object *object)
         printf("%s %9.4g %9.4g %9.4g    %s %9.4g %9.4g %9.4g\n",
                row ? "   " : "M =", entry(&m, row, 0), entry(&m, row, 1), entry(&m, row, 2),
                row ? "   " : "N =", entry(&n, row, 0), entry(&n, row, 1), entry(&n, row, 2));
-    printf("%s%s\n\n", compared[effects_place(object, &box).transform],
+    printf("%s%s\n\n", compared[effects_transform(object->world_from_object)],
            object->wrong_normals ? "; the scene has M for normals, too" : "");
 }
 

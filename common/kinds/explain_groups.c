@@ -72,18 +72,22 @@ static void print_reach(const LightingPlan *plan)
 {
     bool any = false;
     for (int light = 0; light < plan->light_count; light++) {
-        int beyond = 0, missed = 0;
+        static const char *const why[] = {"are beyond its range", "are missed by its cone",
+                                          "turn away from it", "find it too faint"};
+        int counts[4] = {0};
         for (int i = 0; i < plan->object_count; i++) {
-            beyond += (int)(plan->objects[i].facts.beyond_range >> light & 1);
-            missed += (int)(plan->objects[i].facts.missed >> light & 1);
+            const ObjectFacts *facts = &plan->objects[i].facts;
+            counts[0] += (int)(facts->beyond_range >> light & 1);
+            counts[1] += (int)(facts->missed >> light & 1);
+            counts[2] += (int)(facts->behind >> light & 1);
+            counts[3] += (int)(facts->faint >> light & 1);
         }
-        if (beyond)
-            printf("light %d: %d of %d objects are beyond its range\n", light, beyond,
-                   plan->object_count);
-        if (missed)
-            printf("light %d: its cone misses %d of %d objects\n", light, missed,
-                   plan->object_count);
-        any |= beyond || missed;
+        for (int k = 0; k < 4; k++) {
+            if (counts[k])
+                printf("light %d: %d of %d objects %s\n", light, counts[k], plan->object_count,
+                       why[k]);
+            any |= counts[k] > 0;
+        }
     }
     fputs(any ? "\n" : "", stdout);
 }

@@ -75,6 +75,7 @@ typedef struct PlannedObject {
     const struct ShadowCaster *caster; /* NULL: it casts no shadow by a volume */
     /* What the facts were last found from. */
     const Mesh *mesh;
+    NormalCone normals; /* the mesh's */
     bool convex, lamp;
     Mat4 world_from_object;
     EffectsPlace place;

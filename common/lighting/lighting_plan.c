@@ -90,13 +90,14 @@ static bool place_objects(LightingPlan *plan, const LightingFrame *frame)
                    sizeof object->world_from_object) == 0)
             continue;
         if (other) {
-            *planned = (PlannedObject){.mesh = object->mesh};
+            *planned =
+                (PlannedObject){.mesh = object->mesh, .normals = effects_normal_cone(object->mesh)};
             plan->pairs.boxes[i] = mesh_bounds(object->mesh);
         }
         planned->convex = convex;
         planned->lamp = lamp;
         planned->world_from_object = object->world_from_object;
-        planned->place = effects_place(object, &plan->pairs.boxes[i]);
+        planned->place = effects_place(object, &plan->pairs.boxes[i], &planned->normals);
         plan->pairs.placed[i] = placed_box(&plan->pairs.boxes[i], object->world_from_object);
         moved = true;
     }
@@ -185,8 +186,9 @@ static bool plan_objects(LightingPlan *plan, const LightingFrame *frame, bool an
             changed = find_scene(&plan->scenes[i], scene) || anew;
             effects_view(&view, scene);
         }
-        const ObjectFacts facts =
-            effects_object(&view, object, &planned->place, plan->pairs.receives[i]);
+        ObjectFacts facts = effects_object(&view, object, &planned->place, plan->pairs.receives[i]);
+        if (plan->lighting->normal_matrix) /* wrong normals turn anywhere */
+            facts.behind = 0;
         if (!changed && planned->variant && memcmp(&facts, &planned->facts, sizeof facts) == 0)
             continue;
         Message why = {.located = false};

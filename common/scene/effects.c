@@ -49,11 +49,21 @@ static bool varies(const LightFacts *light)
     return light->kind == LIGHT_SPOT || light->fades;
 }
 
+static const char *const turned = "all of the surface turns away from it";
+
+/* Where nothing of it is reflected; a negative N.L may take light away. */
+static bool is_behind(const Decision *made, int number)
+{
+    const SceneFacts *scene = made->scene;
+    return (made->object->behind >> number & 1) &&
+           (!scene->signed_dots || scene->lights[number].shadows);
+}
+
 static void explain_light(const Decision *made, int number, const LightTerms *terms)
 {
     static const char *const kinds[] = {
         [LIGHT_DIRECTIONAL] = "directional", [LIGHT_POINT] = "point", [LIGHT_SPOT] = "spot"};
-    static const char *const black = "black in light or material";
+    const char *const black = is_behind(made, number) ? turned : "black in light or material";
     const int interpolation = made->scene->interpolation;
     const bool positional = terms->kind != LIGHT_DIRECTIONAL;
     FILE *why = made->why;
@@ -100,13 +110,15 @@ static void explain_light(const Decision *made, int number, const LightTerms *te
 }
 
 /* The terms of a light that is on and does not miss; false if the material reflects none. */
-static bool reflected_terms(const Decision *made, const LightFacts *light, LightTerms *terms)
+static bool reflected_terms(const Decision *made, int number, LightTerms *terms)
 {
+    const LightFacts *light = &made->scene->lights[number];
+    const bool behind = is_behind(made, number);
     const SideFacts *front = &made->object->front, *back = &made->object->back;
     memset(terms, 0, sizeof *terms);
     terms->kind = (LightKind)light->kind;
-    terms->diffuse = reflected(made, light->diffuse, front->diffuse, back->diffuse);
-    terms->specular = reflected(made, light->specular, front->specular, back->specular);
+    terms->diffuse = !behind && reflected(made, light->diffuse, front->diffuse, back->diffuse);
+    terms->specular = !behind && reflected(made, light->specular, front->specular, back->specular);
     terms->attenuation = light->fades;
     terms->exponent = light->exponent;
     terms->range = light->range;
@@ -135,8 +147,15 @@ static bool decide_terms(const Decision *made, int number, LightTerms *terms)
         say(made->why, "without light %d: the object is beyond its range", number);
         return false;
     }
-    if (!reflected_terms(made, light, terms)) {
-        say(made->why, "without light %d: the material reflects none of its colour%s", number,
+    if (object->faint >> number & 1) {
+        say(made->why,
+            "without light %d: too faint: with all that are it adds less than half a step of 1/255",
+            number);
+        return false;
+    }
+    if (!reflected_terms(made, number, terms)) {
+        say(made->why, "without light %d: %s%s", number,
+            is_behind(made, number) ? turned : "the material reflects none of its colour",
             reflected(made, light->ambient, object->front.ambient, object->back.ambient)
                 ? " but the ambient, which is constant and part of the base"
                 : "");

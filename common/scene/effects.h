@@ -92,6 +92,8 @@ typedef struct ObjectFacts {
     /* A bit for each light: */
     uint32_t missed; /* a spot, whose cone misses the object */
     uint32_t beyond_range;
+    uint32_t behind;   /* all of the surface turns away from it */
+    uint32_t faint;    /* together they add less than half a step of 1/255 to any pixel */
     uint32_t guarded;  /* as LightGroup.guard_attenuation */
     uint32_t shadowed; /* the object may lie in its shadow */
     SideFacts front, back;
@@ -107,19 +109,32 @@ SceneFacts effects_scene(const Scene *scene);
  * leaves a 16-bit float, anything. */
 typedef enum EffectsTransform { ORTHONORMAL, ORTHOGONAL, EXTREME, GENERAL } EffectsTransform;
 
+EffectsTransform effects_transform(Mat4 world_from_object);
+
+/* Around all normals of a surface, of its vertices and its triangles; and the surface is nowhere
+ * lower than `low` along the axis. */
+typedef struct NormalCone {
+    Vec3 axis;     /* unit */
+    double cosine; /* of half its angle; 0: it may have any normal */
+    double low;
+} NormalCone;
+NormalCone effects_normal_cone(const Mesh *mesh);
+
 /* What follows from its mesh and transform alone. */
 typedef struct EffectsPlace {
     Sphere sphere;
     EffectsTransform transform;
+    NormalCone normals; /* in the world */
 } EffectsPlace;
-EffectsPlace effects_place(const Object *object, const MeshBox *box);
+EffectsPlace effects_place(const Object *object, const MeshBox *box, const NormalCone *normals);
 
 /* A scene's lights and eye, for all its objects. */
 typedef struct EffectsView {
     const Scene *scene;
     Mat4 eye_from_world;
-    Light lights[EFFECTS_MAX_LIGHTS]; /* in the world */
-    uint32_t spots, fading;           /* of those that are on, a bit each */
+    Light lights[EFFECTS_MAX_LIGHTS];        /* in the world */
+    double brightest[EFFECTS_MAX_LIGHTS][3]; /* ambient that varies, diffuse, specular */
+    uint32_t on, spots, fading;              /* a bit each; of those that are on */
 } EffectsView;
 void effects_view(EffectsView *view, const Scene *scene);
 

@@ -2,8 +2,11 @@
  * Pictures of the lighting model, and the programs that draw them: the specialized program
  * draws what the full program draws. The model itself: equation_test.c.
  */
+#include "core/mesh_make.h"
 #include "hard/random_scene.h"
 #include "lighting/lighting_world.h"
+#include "reference/reference.h"
+#include "support/effects_of.h"
 #include "support/picture_check.h"
 #include "support/testing.h"
 
@@ -186,6 +189,135 @@ TEST(multisampling_uses_the_same_program)
         lighting_show(lighting, &(LightingFrame){.scene = &world.scene, .aspect = 1}, &message));
     assert_int_equal(lighting_counts(lighting).programs, before);
     canvas_close(&samples);
+}
+
+/* Lights that do not reach an object. */
+
+/* A square sheet, flat or bent, so that its normals lie in a cone. */
+static void make_sheet(Mesh *mesh, double bend)
+{
+    enum { SIDE = 8 };
+    require(mesh_open(mesh, (SIDE + 1) * (SIDE + 1), mesh_grid_size(SIDE, SIDE, MESH_POLE_NONE),
+                      FAILURE),
+            FAILURE);
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
+        const double x = (double)(i % (SIDE + 1)) / (SIDE / 2) - 1;
+        const double y = 1 - (double)(i / (SIDE + 1)) / (SIDE / 2);
+        vec3_to_float((Vec3){x, y, -bend * (x * x + y * y)}, mesh->vertices[i].position);
+    }
+    mesh_grid(mesh->indices, 0, SIDE, SIDE, MESH_POLE_NONE);
+    require(mesh_compute_normals(mesh, MESH_WEIGHT_ANGLE, FAILURE), FAILURE);
+}
+
+static Vec3 random_color(double most)
+{
+    return vec3_scale((Vec3){between(0, 1), between(0, 1), between(0, 1)}, most);
+}
+
+/* Lights of all brightnesses around the object: most of those on the other side are behind it, and
+ * many of the others too faint. No spots: their edges are where rounding has them. */
+static void make_dim_world(const Mesh *sheet)
+{
+    make_world(&(Case){.turn = (Turn)below(TURNS),
+                       .interpolation = (Interpolation)below(3),
+                       .reflection = (Reflection)below(2),
+                       .distant_viewer = below(2)});
+    world.scene.light_count = 12;
+    world.scene.linear = below(2);
+    world.scene.signed_dots = below(4) == 0;
+    world.scene.camera.eye = vec3_scale(random_direction(), 4);
+    world.object.mesh = sheet;
+    world.object.closed = false;
+    world.object.two_sided = below(4) == 0;
+    world.object.front = world.object.back =
+        (Material){random_color(1), random_color(1), random_color(1), {0, 0, 0}, 1, between(1, 60)};
+    for (int i = 0; i < world.scene.light_count; i++) {
+        const double bright = pow(10, between(-4, -0.5));
+        world.lights[i] = (Light){.kind = below(4) ? LIGHT_POINT : LIGHT_DIRECTIONAL,
+                                  .position = vec3_scale(random_direction(), between(0.3, 9)),
+                                  .direction = random_direction(),
+                                  .ambient = random_color(below(4) ? 0 : bright),
+                                  .diffuse = random_color(bright),
+                                  .specular = random_color(bright),
+                                  .constant = below(2),
+                                  .linear = between(0, 1),
+                                  .quadratic = below(2) * between(0, 1),
+                                  .range = below(3) ? 0 : between(5, 15)};
+    }
+}
+
+static void draw_floats(const Canvas *floats, bool with_all, Image *picture)
+{
+    const LightingFrame frame = {.scene = &world.scene, .aspect = 1, .full = with_all};
+    canvas_begin(floats);
+    canvas_clear(floats, world.scene.background, 1);
+    require(scene_check(&world.scene, FAILURE) && lighting_show(lighting, &frame, FAILURE) &&
+                canvas_read(floats, picture, FAILURE),
+            FAILURE);
+}
+
+/* The largest difference of two pictures; of the exact one, if there is one, inside objects. */
+static double farthest(const Image *a, const Image *b, const Reference *exact)
+{
+    double most = 0;
+    for (size_t i = 0; i < SIZE * SIZE; i++)
+        for (size_t k = 0; k < 3 && (!exact || exact->interior[i]); k++) {
+            const double one = (double)((const float *)a->pixels)[4 * i + k];
+            const double other = exact ? (double)exact->color[3 * i + k]
+                                       : (double)((const float *)b->pixels)[4 * i + k];
+            most = fmax(most, fabs((exact ? fmin(fmax(one, 0), 1) : one) - other));
+        }
+    return most;
+}
+
+/* As floats, before they are rounded to bytes. */
+TEST(lights_that_are_left_out_change_no_pixel_by_more_than_half_a_step)
+{
+    /* Of 12 lights in floats, encoded as sRGB; and highlights to the power of 60. */
+    const double half = 0.5 / 255, rounding = 0.01 / 255, evaluated = 0.1 / 255;
+    const CanvasOptions options = {.width = SIZE, .height = SIZE, .real = true};
+    Message message = {0};
+    Canvas floats;
+    CLOSED(mesh_close) Mesh flat = {.vertices = NULL}, bent = {.vertices = NULL};
+    CLOSED(image_close) Image with = {.width = 0}, without = {.width = 0};
+    int behind = 0, faint = 0;
+    double worst[2] = {0, 0};
+    random_state.state = testing_seed(20261124);
+    if (!canvas_open_beside(&floats, &canvas, &options, &message)) {
+        print_message("%s\n", message.text);
+        skip();
+    }
+    make_sheet(&flat, 0);
+    make_sheet(&bent, 0.4);
+    require(image_open(&with, SIZE, SIZE, IMAGE_FLOAT, FAILURE) &&
+                image_open(&without, SIZE, SIZE, IMAGE_FLOAT, FAILURE),
+            FAILURE);
+    for (int i = 0; i < testing_part(400, 8); i++) {
+        Reference exact;
+        make_dim_world(below(2) ? &flat : &bent);
+        draw_floats(&floats, true, &with);
+        draw_floats(&floats, false, &without);
+        require(reference_open(&exact, &world.scene,
+                               &(ReferenceOptions){
+                                   .width = SIZE, .height = SIZE, .meshes = true, .centers = true},
+                               FAILURE),
+                FAILURE);
+        worst[0] = fmax(worst[0], farthest(&without, &with, NULL));
+        worst[1] = fmax(worst[1], farthest(&without, NULL, &exact));
+        reference_close(&exact);
+        const ObjectFacts facts = effects_facts(&world.scene, &world.object);
+        behind += __builtin_popcount(facts.behind);
+        faint += __builtin_popcount(facts.faint);
+        if (worst[0] > half + rounding || worst[1] > half + evaluated)
+            fail_msg("scene %d: %g steps from the full program, %g from the exact picture", i,
+                     255 * worst[0], 255 * worst[1]);
+    }
+    print_message("%d lights behind, %d too faint; %.3f steps at most, %.3f from exact pictures\n",
+                  behind, faint, 255 * worst[0], 255 * worst[1]);
+    assert_true(behind > 0 && faint > 0);
+    lighting_forget(lighting, NULL);
+    canvas_close(&floats);
+    canvas_begin(&canvas);
 }
 
 /* Programs are shared. */

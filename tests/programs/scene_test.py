@@ -233,7 +233,7 @@ class Scene(base.Case):
         said = self.good("a.gltf", "--explain", program="Scene").decode()
         for light in (0, 1):
             self.assertRegex(said, rf"light {light}: 3[3-5] of 40 objects are beyond its range")
-        self.assertRegex(said, r"light 2: its cone misses 3\d of 40 objects")
+        self.assertRegex(said, r"light 2: 3\d of 40 objects are missed by its cone")
         self.assertRegex(said, r"\d+ of 40 objects, first object \d+: no light")
         self.assertRegex(said, r"1 point light \(diffuse,\s+specular,\s+attenuation,\s+range\)")
         pictures = [self.drawn("a.gltf", "-s", "300x300", *full, program="Scene").pixels for full in ((), ("--full",))]

@@ -4,10 +4,11 @@
 #include "scene/shadow_pairs.h"
 
 /* Where memory runs out, all lights that have shadows cast them on it. */
-static ObjectFacts effects_facts(const Scene *scene, const Object *object)
+ObjectFacts effects_facts(const Scene *scene, const Object *object)
 {
     const MeshBox box = mesh_bounds(object->mesh);
-    const EffectsPlace place = effects_place(object, &box);
+    const NormalCone normals = effects_normal_cone(object->mesh);
+    const EffectsPlace place = effects_place(object, &box, &normals);
     const SceneFacts facts = effects_scene(scene);
     ShadowPairs pairs = {.count = 0};
     EffectsView view;

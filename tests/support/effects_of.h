@@ -6,6 +6,7 @@
 
 #include "scene/effects.h"
 
+ObjectFacts effects_facts(const Scene *scene, const Object *object);
 Effects effects_of(const Scene *scene, const Object *object);
 Effects effects_full(const Scene *scene, const Object *object);
 void effects_explain(const Scene *scene, const Object *object, FILE *file);
