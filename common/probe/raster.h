@@ -48,6 +48,12 @@ void raster_keep(Raster *raster, const char *varying);
 /* Events are logged with `exact_from`, too. */
 void raster_log(Raster *raster, bool always);
 
+/* Is called in each run of a stage from now on, after each assignment, which it may change
+ * (glsl_run.h); NULL: no more. */
+void raster_observe(Raster *raster, int stage,
+                    void (*assigned)(GlslRun *run, const GlslEvent *event, void *observer),
+                    void *observer);
+
 /* Runs the vertex stage. */
 const GlslRun *raster_vertex(Raster *raster, int draw, unsigned vertex,
                              const GlslArithmetic *arithmetic);

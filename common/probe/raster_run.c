@@ -83,6 +83,8 @@ static GlslRun *begin(Raster *raster, int draw, int stage, const GlslArithmetic 
     GlslRun *run = program->runs[stage];
     run->arithmetic = arithmetic;
     run->exact_from = INT_MAX;
+    run->assigned = raster->assigned[stage];
+    run->observer = raster->observer;
     run->texture = look_up;
     run->context = &raster->capture->draws[draw];
     if (program->set_for[stage] != draw + 1)
@@ -284,6 +286,18 @@ static void interpolate(Raster *raster, const RasterPixel *pixel, GlslRun *fragm
 void raster_keep(Raster *raster, const char *varying)
 {
     raster->kept = varying;
+}
+
+void raster_observe(Raster *raster, int stage,
+                    void (*assigned)(GlslRun *run, const GlslEvent *event, void *observer),
+                    void *observer)
+{
+    raster->assigned[stage] = assigned;
+    raster->observer = observer;
+    for (int i = 0; stage == 0 && i < raster->capture->draw_count; i++)
+        for (int k = 0; k < 2; k++) /* what vertices handed over is another */
+            if (raster->draws[i].handed[k].known)
+                memset(raster->draws[i].handed[k].known, 0, (size_t)raster->draws[i].most + 1);
 }
 
 void raster_log(Raster *raster, bool always)

@@ -35,6 +35,9 @@ struct Raster {
     const Raster *first; /* which owns what is constant; NULL: this one */
     bool logs;
     const char *kept; /* see raster_keep */
+    /* See raster_observe, by stage. */
+    void (*assigned[2])(GlslRun *run, const GlslEvent *event, void *observer);
+    void *observer;
 };
 
 bool raster_is_filled(const CaptureDraw *draw); /* of triangles */

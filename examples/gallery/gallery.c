@@ -18,12 +18,14 @@
 #include "base/text.h"
 #include "core/shader_files.h"
 #include "gallery/manifest.h"
+#include "gallery/regression.h"
 #include "gallery/sheet.h"
 #include "window/backends.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 /* From the build: X(LightedCube) X(LightedCube_animation)... */
 #define X(name) extern const Example name;
@@ -38,21 +40,24 @@ static const Example *const ALL[] = {
 enum { COUNT = sizeof ALL / sizeof ALL[0] };
 
 static bool with_lecture, with_manifest;
-static const char *verified; /* the manifest to verify; NULL: none */
+static const char *verified; /* the manifest, or the earlier pictures' folder; NULL: none */
 
 static const Parameter parameters[] = {
     {"lecture",
      "the lecture's nine programs, beside those named; without --time its animations are at 1 s",
      PARAMETER_FLAG, .value = &with_lecture},
     {"manifest",
-     "also write manifest.txt: the SHA-256 of every picture and of its pixels, for sha256sum -c and "
-     "for --verify",
+     "also write manifest.txt, the SHA-256 of every picture and of its pixels, for sha256sum -c and "
+     "for --verify, and the shader files that were read",
      PARAMETER_FLAG, .value = &with_manifest},
     {"verify",
      "draw the pictures of a manifest in memory, with the same options, and say which differ: by "
      "how many pixels and steps of 255, if the manifest's pictures are still beside it. Exit status "
-     "1 if pixels differ, 0 if only the texts in the files do",
-     PARAMETER_TEXT, .value = &verified, .min = 1, .placeholder = "FILE", .standard = ""},
+     "1 if pixels differ, 0 if only the texts in the files do. Of a folder of earlier pictures: say "
+     "of each pixel that changed whether rounding can have moved it, and if not, which line of the "
+     "shaders the change looks like; a page shows both (without -o in \"changed\"). Exit status 1 "
+     "if any cannot be",
+     PARAMETER_TEXT, .value = &verified, .min = 1, .placeholder = "FILE|DIR", .standard = ""},
     {.name = NULL},
 };
 
@@ -139,30 +144,35 @@ static bool write_page(const char *folder, const Selection *selection, const Opt
     return written;
 }
 
+/* `captured`: what draws it is, too, and the files that are read are left open; NULL: neither. */
 static bool draw_one(const Example *example, Canvas *canvas, const Options *options,
-                     Picture *picture, Message *message)
+                     Picture *picture, RegressionPicture *captured, Message *message)
 {
     Renderer renderer;
     ShaderFiles files = {.count = 0};
     Options own = options_of(example, options);
-    own.shaders.files = &files;
+    own.shaders.files = captured ? &captured->files : &files;
     const DrawRequest request = options_request(&own, example);
     const bool shadows = options_have_shadows(&own);
     if ((shadows != canvas->supersampled &&
          !canvas_set_samples(canvas, own.canvas.samples, shadows, message)) ||
-        !canvas_resize(canvas, own.width, own.height, message) ||
-        !renderer_open(&renderer, example, canvas, &request, message)) {
-        shader_files_close(&files);
+        !canvas_resize(canvas, own.width, own.height, message))
         return false;
-    }
-    if (renderer.warning.text[0])
+    if (captured)
+        capture_begin(&captured->capture, canvas);
+    bool drawn = renderer_open(&renderer, example, canvas, &request, message);
+    if (drawn && renderer.warning.text[0])
         options_warn(example->name, &renderer.warning);
-    const bool drawn = renderer_picture(&renderer, &request, own.seconds, &picture->image, message);
+    drawn = drawn && renderer_picture(&renderer, &request, own.seconds, &picture->image, message);
+    if (captured)
+        capture_end(&captured->capture);
     renderer_close(&renderer);
     picture_texts_set(example, canvas, &own, own.seconds, picture);
     PictureSources sources = {.files = 0};
     if (own.part.count)
         picture_texts_sources(&sources, example, &own, picture);
+    else if (with_manifest && drawn)
+        drawn = regression_keep(options->output, &files, message);
     shader_files_close(&files);
     return drawn;
 }
@@ -194,7 +204,7 @@ static bool draw_all(const Selection *selection, Canvas *canvas, const Options *
         const Example *example = selection->examples[i];
         Picture *picture = picture_queue_take(queue);
         set_path(picture, example, options);
-        done = draw_one(example, canvas, options, picture, message);
+        done = draw_one(example, canvas, options, picture, NULL, message);
         if (done && sheet->pixels)
             sheet_put(sheet, i, &picture->image);
         done = done && picture_queue_give(queue, picture, message);
@@ -358,7 +368,7 @@ static bool verify(const Manifest *manifest, const Selection *selection, const O
     for (int i = 0; i < selection->count && done; i++) {
         const Example *example = selection->examples[i];
         ManifestResult result = MANIFEST_FAILED;
-        if (draw_one(example, &canvas, options, picture, message))
+        if (draw_one(example, &canvas, options, picture, NULL, message))
             result = verify_one(manifest_find(manifest, example->name), manifest, picture, message);
         done = result != MANIFEST_FAILED;
         if (done)
@@ -370,6 +380,41 @@ static bool verify(const Manifest *manifest, const Selection *selection, const O
                counts[MANIFEST_DIFFERENT]);
     *code = counts[MANIFEST_DIFFERENT] ? EXIT_FAILED : 0;
     canvas_close(&canvas);
+    image_close(&picture->image);
+    free(picture);
+    return done;
+}
+
+static bool is_folder(const char *path)
+{
+    struct stat is;
+    return stat(path, &is) == 0 && S_ISDIR(is.st_mode);
+}
+
+/* --verify DIR; *code is EXIT_FAILED if a pixel cannot be. */
+static bool verify_folder(const Selection *selection, const Options *options, int *code,
+                          Message *message)
+{
+    Regression *regression;
+    Canvas canvas = {0};
+    Picture *picture = memory_new(1, sizeof *picture);
+    bool done =
+        regression_open(&regression, verified, options->output_given ? options->output : "changed",
+                        options->canvas.backend, message) &&
+        open_canvas(&canvas, options, message);
+    for (int i = 0; i < selection->count && done; i++) {
+        const Example *example = selection->examples[i];
+        RegressionPicture of = {.now = picture, .canvas = &canvas};
+        if (!options->names[0] && !regression_has(regression, example->name))
+            continue;
+        done = draw_one(example, &canvas, options, picture, &of, message) &&
+               regression_judge(regression, &of, message);
+        capture_close(&of.capture);
+        shader_files_close(&of.files);
+    }
+    done = done && regression_end(regression, code, message);
+    canvas_close(&canvas);
+    regression_close(regression);
     image_close(&picture->image);
     free(picture);
     return done;
@@ -400,6 +445,13 @@ static bool select_verified(Manifest *manifest, Selection *selection, const Opti
 
 static bool check(const Options *options, Message *message)
 {
+    if (verified && is_folder(verified))
+        return (!with_manifest && !options->part.count && !options->merge &&
+                !options->shaders.print) ||
+               message_set(message,
+                           "--verify %s: leave out --manifest, --part, --merge and "
+                           "--print-shader",
+                           verified);
     if (verified && (options->output_given || with_manifest || options->part.count ||
                      options->merge || options->shaders.print))
         return message_set(message, "--verify: writes nothing; leave out --output, --manifest, "
@@ -428,12 +480,14 @@ int main(int argc, char *argv[])
     static Manifest manifest;
     if (!options_begin(&options, &GALLERY, argc, argv, &code))
         return code;
+    const bool folder = verified && is_folder(verified);
     if (!check(&options, &message) ||
-        !(verified ? select_verified(&manifest, &selection, &options, &message)
-                   : select_examples(&selection, options.names, &message)))
+        !(verified && !folder ? select_verified(&manifest, &selection, &options, &message)
+                              : select_examples(&selection, options.names, &message)))
         return options_fail(GALLERY.name, &message, EXIT_USAGE);
     select_part(&selection, options.part);
-    if (!(verified        ? verify(&manifest, &selection, &options, &code, &message)
+    if (!(folder          ? verify_folder(&selection, &options, &code, &message)
+          : verified      ? verify(&manifest, &selection, &options, &code, &message)
           : options.merge ? merge_gallery(&selection, &options, &message)
                           : write_gallery(&selection, &options, &message)))
         return options_fail(GALLERY.name, &message, EXIT_FAILED);

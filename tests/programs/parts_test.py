@@ -241,7 +241,7 @@ class Galleries(Parts):
         self.assert_whole("parts.parts")
         self.assertNotIn("parts", os.listdir(self.folder))
         self.gallery(*SOME, "-o", "parts", "--merge", *(("--manifest",) if self.hashes() else ()))
-        names = os.listdir(self.path("one"))
+        names = set(os.listdir(self.path("one"))) - {"shaders"}  # --merge draws nothing, and reads none
         self.assertEqual(filecmp.cmpfiles(self.path("one"), self.path("parts"), names, False)[1:],
                          ([], []))
 

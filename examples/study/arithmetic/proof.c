@@ -133,9 +133,14 @@ static void run_vertices(ProofDraw *made, const CaptureDraw *draw)
     free(done);
 }
 
+static bool is_colored(const CaptureDraw *draw)
+{
+    return draw->colors[0] && draw->sources[0] && draw->sources[1];
+}
+
 static bool is_seen(const CaptureDraw *draw)
 {
-    return draw->mode == GL_TRIANGLES && draw->colors[0] && draw->sources[0] && draw->sources[1];
+    return draw->mode == GL_TRIANGLES && is_colored(draw);
 }
 
 bool proof_is_drawn(const Proof *proof, int draw)
@@ -150,7 +155,7 @@ static bool open_draws(Proof *proof, Message *message)
     for (int i = 0; i < capture->draw_count; i++) {
         ProofDraw *made = &proof->draws[i];
         const CaptureDraw *draw = &capture->draws[i];
-        if (!is_seen(draw))
+        if (!is_colored(draw))
             continue;
         if (!stages_open(&made->stages, draw, message))
             return false;
@@ -181,7 +186,15 @@ bool proof_open(Proof *proof, const Scene *scene, const ProofDriver *driver, boo
     done = done && lighting_show(lighting, &(LightingFrame){.scene = scene, .aspect = 1}, message);
     capture_end(&proof->capture);
     lighting_close(lighting);
-    if (done && open_draws(proof, message))
+    if (done)
+        return proof_of_capture(proof, message);
+    proof_close(proof);
+    return false;
+}
+
+bool proof_of_capture(Proof *proof, Message *message)
+{
+    if (open_draws(proof, message))
         return true;
     proof_close(proof);
     return false;
@@ -205,9 +218,21 @@ void proof_close(Proof *proof)
 
 /* Triangles */
 
+const double *proof_vertex(const Proof *proof, int draw, unsigned vertex)
+{
+    return proof->draws[draw].places[vertex];
+}
+
 static double place(const Proof *proof, const ProofTriangle *triangle, int corner, int k)
 {
-    return proof->draws[triangle->draw].places[triangle->corners[corner]][k];
+    return proof_vertex(proof, triangle->draw, triangle->corners[corner])[k];
+}
+
+/* Pixels of a unit of x / w or y / w. */
+static double pixels_of(const Proof *proof, const ProofTriangle *triangle, int k)
+{
+    const int *viewport = proof->capture.draws[triangle->draw].viewport;
+    return (proof->driver.height ? proof->driver.height : viewport[2 + k]) / 2.0;
 }
 
 /* The determinant of x, y and w of the corners. */
@@ -256,7 +281,7 @@ static void find_pixel(const Proof *proof, const ProofTriangle *triangle, const 
     for (int k = 0; k < 2; k++)
         for (int i = 0; i < 2; i++)
             slope[k][i] = (change[k][i] * p[2] - p[k] * change[2][i]) / (p[2] * p[2]) *
-                          proof->driver.height / 2;
+                          pixels_of(proof, triangle, k);
     const double area = slope[0][0] * slope[1][1] - slope[0][1] * slope[1][0];
     if (!(p[2] > 0) || !(fabs(area) > 0))
         return;
@@ -284,7 +309,7 @@ static double flatness(const Proof *proof, const ProofTriangle *triangle)
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 2; k++)
             at[i][k] = place(proof, triangle, i, k) / fmax(place(proof, triangle, i, 3), 1e-6) *
-                       proof->driver.height / 2;
+                       pixels_of(proof, triangle, k);
     for (int i = 0; i < 3; i++)
         longest =
             fmax(longest, hypot(at[(i + 1) % 3][0] - at[i][0], at[(i + 1) % 3][1] - at[i][1]));
@@ -363,6 +388,26 @@ ProofBound proof_piece(const Proof *proof, const ProofTriangle *triangle, const 
         worst.share = bound.error > 0 ? 255 * error * bound.share / bound.error : 0;
     }
     return worst;
+}
+
+bool proof_color(const Proof *proof, const ProofTriangle *triangle, const double center[2],
+                 double half, GlslRange channels[3])
+{
+    GlslBoundRun *run = proof->draws[triangle->draw].runs[1];
+    GlslVariable color;
+    set_inputs(proof, triangle, center);
+    run->radius = half;
+    if (!glsl_bound_run(run) || run->edges || run->discarded ||
+        !glsl_find(run->code, "gl_FragColor", &color))
+        return false;
+    for (int i = 0; i < 3; i++) {
+        const GlslBound bound = glsl_bound(run, color.first + i);
+        channels[i].low = fmax(bound.driver.low, bound.exact.low - bound.error);
+        channels[i].high = fmin(bound.driver.high, bound.exact.high + bound.error);
+        if (!(channels[i].low <= channels[i].high))
+            return false;
+    }
+    return true;
 }
 
 void proof_text(const Proof *proof, int draw, const ProofBound *bound, char *text, size_t size)

@@ -9,7 +9,7 @@
 #include "probe/capture.h"
 #include "study/arithmetic/arithmetic.h"
 
-/* What is measured of the driver; `height`: of the picture, in pixels. */
+/* What is measured of the driver; `height`: of the picture, in pixels; 0: as it was drawn. */
 typedef struct ProofDriver {
     const Arithmetic *vertex, *fragment; /* of the precision that the fragment shader declares */
     const Raster *raster;
@@ -27,6 +27,9 @@ typedef struct Proof {
 bool proof_open(Proof *proof, const Scene *scene, const ProofDriver *driver, bool shadows,
                 Message *message);
 void proof_close(Proof *proof);
+
+/* Of what is in `proof->capture` already. False: closed, too. */
+bool proof_of_capture(Proof *proof, Message *message);
 
 /* A triangle of a draw that is not culled. */
 typedef struct ProofTriangle {
@@ -49,10 +52,18 @@ typedef struct ProofBound {
 ProofBound proof_piece(const Proof *proof, const ProofTriangle *triangle, const double center[2],
                        double half);
 
+/* What each channel of the driver's colour can be there, before it is clamped. False: anything,
+ * because an edge of light runs through the pixel, or no bound exists. */
+bool proof_color(const Proof *proof, const ProofTriangle *triangle, const double center[2],
+                 double half, GlslRange channels[3]);
+
 /* "line 21: pow(base, exponent)". */
 void proof_text(const Proof *proof, int draw, const ProofBound *bound, char *text, size_t size);
 
 bool proof_is_drawn(const Proof *proof, int draw);
+
+/* Clip coordinates, of draws of points and lines, too. */
+const double *proof_vertex(const Proof *proof, int draw, unsigned vertex);
 
 /* Of all points of a draw. */
 typedef struct ProvedDraw {

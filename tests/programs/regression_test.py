@@ -1,0 +1,63 @@
+"""gallery --verify DIR: what rounding and edges can have moved between two drivers passes; a mistake is named with its line."""
+import os
+import re
+import sys
+
+import command_line_test as base
+
+NAMES = ("LightedTranslatedRotatedCube", "PointLightedSphere_perFragment", "ShininessRow")
+ROUNDED = re.compile(r"\w+: \d+ pixels? moved(?: \(\d+ at edges\))? by up to \d+ steps?: all by rounding")
+
+
+class Regression(base.Case):
+    def gallery(self, *arguments, code=0, driver=None):
+        environment = {"GALLIUM_DRIVER": driver} if driver else None
+        said = self.run_it("--samples", "0", "-s", "150x150", *arguments, program="gallery", environment=environment)
+        self.assertEqual((said.returncode, said.stderr), (code, b""), said.stdout)
+        return said.stdout.decode().splitlines()
+
+    def test_two_drivers_differ_by_rounding_and_edges(self):
+        for before, now in (("llvmpipe", "softpipe"), ("softpipe", "llvmpipe")):
+            self.gallery(*NAMES, "-o", before, driver=before)
+            said = self.gallery("--verify", before, "-o", "report", driver=now)
+            moved = [line for line in said if ROUNDED.fullmatch(line)]
+            self.assertEqual(len(moved) + 2, len(said), said)
+            self.assertTrue(moved)
+            self.assertIn(f", {len(moved)} moved by rounding, 0 cannot have, 0 cannot be judged", said[-2])
+            page = self.read("report/index.html").decode()
+            for line in moved:
+                self.assertIn(line.partition(": ")[2], page)
+                self.assertTrue(self.png(f"report/{line.partition(':')[0]}-difference.png").pixels)
+
+    def test_a_mistake_is_named_with_its_line(self):
+        self.gallery(*NAMES[1:], "-o", "before", "--manifest")
+        # Mistakes of the labs, each of more than two steps of 1/255.
+        for name, was, now, variable in (
+                ("PointLightedSphere_perFragment.frag", "normalize(v_Normal)", "v_Normal", "normal"),
+                ("PointLightedSphere_perFragment.frag", "u_LightPosition - v_Position", "u_LightPosition - 0.5 * v_Position", "lightDirection"),
+                ("PointLightedSphere_perFragment.frag", "max(dot(lightDirection, normal), 0.0)", "dot(lightDirection, normal)", "nDotL"),
+                ("PointLightedSphere_perFragment.vert", "vec3(u_ModelMatrix", "0.5 * vec3(u_ModelMatrix", "v_Position")):
+            with open(os.path.join(base.SOURCE, "shaders/lecture", name), encoding="utf-8") as file:
+                text = file.read()
+            self.assertEqual(text.count(was), 1)
+            self.make("mine/" + name, text.replace(was, now))
+            line = text[:text.index(was)].count("\n") + 1
+            said = self.gallery("PointLightedSphere_perFragment", "--shaders", "mine", "--verify", "before", code=1)
+            self.assertIn(f" cannot be by rounding: {variable}, in {name}:{line}: ", said[-3])
+            self.assertIn(f": {name} has changed", said[1])
+            os.remove(self.path("mine/" + name))
+        said = self.gallery("ShininessRow", "--orbit", "5,0", "--verify", "before", code=1)
+        self.assertRegex(said[0], "^ShininessRow: its command was ShininessRow .*, and is ShininessRow .*--orbit 5,0")
+        self.assertRegex(said[1], r"cannot be by rounding; most like the change is \w+.*, in \w+\.\w+:\d+: ")
+
+    def test_what_is_no_folder_of_pictures_is_refused(self):
+        self.gallery(NAMES[0], "-o", "before")
+        os.mkdir(self.path("empty"))
+        self.refused(1, "^gallery: empty: has no picture of a program", "--verify", "empty", program="gallery")
+        self.refused(1, "^gallery: before: has the earlier pictures", "--verify", "before", "-o", "before", program="gallery")
+        self.refused(2, "^gallery: --verify before: leave out", "--verify", "before", "--manifest", program="gallery")
+        self.refused(1, "ShininessRow.png", "--verify", "before", "ShininessRow", program="gallery")
+
+
+if __name__ == "__main__":
+    sys.exit(base.main())
