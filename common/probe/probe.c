@@ -47,9 +47,14 @@ static void find_magnifier(Probe *probe)
 
 static void judge(Probe *probe)
 {
-    const double picture[4] = {(double)probe->question.exact[0], (double)probe->question.exact[1],
-                               (double)probe->question.exact[2], 1};
+    double picture[4] = {(double)probe->question.exact[0], (double)probe->question.exact[1],
+                         (double)probe->question.exact[2], 1};
     probe->judged = true;
+    if (!probe->question.object) {
+        raster_at_pixel(probe->raster, true);
+        raster_run(probe->raster, &probe->pixel, &GLSL_EXACT, INT_MAX, picture);
+        raster_at_pixel(probe->raster, false);
+    }
     probe->whole = origin_apart(probe->driver.color, picture);
     probe->formula = origin_apart(probe->exact.color, picture);
     probe->rounding = origin_apart(probe->driver.color, probe->exact.color);

@@ -34,7 +34,8 @@ typedef struct Probe {
     const GlslRun *run;       /* of the fragment's shader, whose inputs are the driver's */
     char *remarks;            /* what is undefined or cannot be known, in lines */
     /* The verdict, in steps of 1/255: the driver's colour against the exact picture; what of that
-     * is the formula's, and what is rounding. */
+     * is the formula's, and what is rounding. Without an exact picture, against what the program's
+     * own equation gives at the pixel: the formula's is then what interpolating changes. */
     bool judged;
     double whole, formula, rounding;
     int birth;        /* the event in which the rounding is born; -1: before the first */

@@ -65,11 +65,8 @@ static void put_event(FILE *file, const Probe *probe, int event)
 
 static void put_verdict(FILE *file, const Probe *probe)
 {
-    if (probe->question.object)
-        fprintf(file, "%.2f steps off: %.2f by the formula, %.2f by rounding", probe->whole,
-                probe->formula, probe->rounding);
-    else
-        fprintf(file, "%.2f steps off by rounding", probe->rounding);
+    fprintf(file, "%.2f steps off: %.2f by %s, %.2f by rounding", probe->whole, probe->formula,
+            probe->question.object ? "the formula" : "interpolation", probe->rounding);
     if (probe->rounding < 0.01)
         return;
     fprintf(file, ", born");
@@ -338,10 +335,8 @@ static void write_verdict(JsonWriter *json, const Probe *probe)
     json_write_object(json, "verdict");
     json_write_text(json, "text", text);
     free(text);
-    if (probe->question.object) {
-        json_write_number(json, "steps", probe->whole);
-        json_write_number(json, "formula", probe->formula);
-    }
+    json_write_number(json, "steps", probe->whole);
+    json_write_number(json, probe->question.object ? "formula" : "interpolation", probe->formula);
     json_write_number(json, "rounding", probe->rounding);
     json_write_whole(json, "born", probe->birth); /* which of the assignments */
     if (probe->magnifier >= 0) {

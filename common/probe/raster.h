@@ -45,6 +45,10 @@ const GlslRun *raster_run(Raster *raster, const RasterPixel *pixel,
 /* Whatever the arithmetic, this varying is what the driver computes; NULL: none. */
 void raster_keep(Raster *raster, const char *varying);
 
+/* The varyings are not interpolated, but what the vertex stage computes of the interpolated
+ * attributes: as if its lines stood in the fragment's shader. */
+void raster_at_pixel(Raster *raster, bool computed);
+
 /* Events are logged with `exact_from`, too. */
 void raster_log(Raster *raster, bool always);
 

@@ -93,17 +93,26 @@ static GlslRun *begin(Raster *raster, int draw, int stage, const GlslArithmetic 
     return run;
 }
 
-static void run_vertex(GlslRun *run, const CaptureDraw *draw, unsigned vertex)
+/* Of vertices, weighted. */
+static void run_between(GlslRun *run, const CaptureDraw *draw, const unsigned *vertices,
+                        const double *weights, int count)
 {
     for (int i = 0; i < draw->attribute_count; i++) {
-        float value[4];
-        double wide[4];
-        capture_attribute(&draw->attributes[i], vertex, value);
-        for (int k = 0; k < 4; k++)
-            wide[k] = (double)value[k];
-        set(run, draw->attributes[i].name, wide, 4);
+        double sum[4] = {0};
+        for (int c = 0; c < count; c++) {
+            float value[4];
+            capture_attribute(&draw->attributes[i], vertices[c], value);
+            for (int k = 0; k < 4; k++)
+                sum[k] += weights[c] * (double)value[k];
+        }
+        set(run, draw->attributes[i].name, sum, 4);
     }
     glsl_run(run);
+}
+
+static void run_vertex(GlslRun *run, const CaptureDraw *draw, unsigned vertex)
+{
+    run_between(run, draw, &vertex, (const double[]){1}, 1);
 }
 
 /* Opening */
@@ -283,6 +292,24 @@ static void interpolate(Raster *raster, const RasterPixel *pixel, GlslRun *fragm
     }
 }
 
+static void compute(Raster *raster, const RasterPixel *pixel, GlslRun *fragment,
+                    const GlslArithmetic *arithmetic)
+{
+    const Stages *stages = &raster->programs[raster->draws[pixel->draw].program].stages;
+    GlslRun *run = begin(raster, pixel->draw, 0, arithmetic);
+    run->trace = false;
+    run_between(run, &raster->capture->draws[pixel->draw], pixel->corners, pixel->weights, 3);
+    for (int k = 0; k < stages->link_count; k++)
+        memcpy(fragment->registers + stages->links[k].fragment,
+               run->registers + stages->links[k].vertex,
+               sizeof(double) * (size_t)stages->links[k].count);
+}
+
+void raster_at_pixel(Raster *raster, bool computed)
+{
+    raster->at_pixel = computed;
+}
+
 void raster_keep(Raster *raster, const char *varying)
 {
     raster->kept = varying;
@@ -311,7 +338,7 @@ const GlslRun *raster_run(Raster *raster, const RasterPixel *pixel,
     GlslRun *run = begin(raster, pixel->draw, 1, arithmetic);
     const double front = pixel->front;
     GlslVariable found;
-    interpolate(raster, pixel, run, arithmetic);
+    (raster->at_pixel ? compute : interpolate)(raster, pixel, run, arithmetic);
     set(run, "gl_FragCoord", pixel->coord, 4);
     set(run, "gl_FrontFacing", &front, 1);
     run->exact_from = exact_from;

@@ -33,8 +33,8 @@ struct Raster {
     int count, room;
     DrawState *draws;
     const Raster *first; /* which owns what is constant; NULL: this one */
-    bool logs;
-    const char *kept; /* see raster_keep */
+    bool logs, at_pixel; /* see raster_at_pixel */
+    const char *kept;    /* see raster_keep */
     /* See raster_observe, by stage. */
     void (*assigned[2])(GlslRun *run, const GlslEvent *event, void *observer);
     void *observer;

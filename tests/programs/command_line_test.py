@@ -803,6 +803,21 @@ class Outputs(Case):
         self.assertRegex(text, r"\ngroup\.glsl:\d+  float n_dot_l = dot\(normal, to_light\);\n +n_dot_l: ")
         self.refused(2, "--format json: is of --probe", "--format", "json")
 
+    def test_what_interpolation_changes_is_what_a_program_per_fragment_mends(self):
+        """The next program of the lecture computes the same equation at each fragment."""
+        for program in "PointLightedCube", "PointLightedSphere":
+            for pixel in "200,200", "230,150", "180,230":
+                probe = "--precision", "highp", "--probe", pixel, "--format", "json"
+                coarse, fine = (json.loads(self.good(*probe, program=program + rest))
+                                for rest in ("", "_perFragment"))
+                apart = max(abs(255 * min(a, 1) - 255 * min(b, 1))
+                            for a, b in zip(coarse["computed"][:3], fine["exact"][:3]))
+                if program == "PointLightedCube":  # the spheres are of different triangles
+                    # The vertices are rounded to floats, and highp's numbers.
+                    self.assertAlmostEqual(coarse["verdict"]["steps"], apart, delta=1e-3)
+                self.assertGreater(coarse["verdict"]["interpolation"], 0.01)
+                self.assertAlmostEqual(fine["verdict"]["interpolation"], 0, delta=1e-3)
+
     def test_output_that_does_not_arrive_is_a_failure(self):
         for arguments in (("--help",), ("--version",), ("-o", "-"), ("--print-shader",),
                           ("--doctor",)):
