@@ -19,16 +19,6 @@ static const double FAR_OFF = 64; /* for vertices about sixteen times as far awa
 static HardWorld world;
 static Mesh made[2]; /* of the current test, until forget_made */
 
-FIXTURE(open_all)
-{
-    hard_open(SIZE, SIZE);
-}
-
-FIXTURE(close_all)
-{
-    hard_close();
-}
-
 FIXTURE(forget_made)
 {
     for (int i = 0; i < 2; i++) {
@@ -299,4 +289,4 @@ TEST_WITH(0, needles_are_finite_and_right_where_they_are_wide, NULL, forget_made
     hard_report("needles");
 }
 
-PICTURE_TEST_MAIN("hard geometry", open_all, close_all)
+HARD_TEST_MAIN("hard geometry", SIZE)

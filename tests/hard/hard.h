@@ -28,6 +28,18 @@ typedef enum HardPrecision { HARD_HIGHP, HARD_MEDIUMP } HardPrecision;
 void hard_open(int width, int height);
 void hard_close(void);
 
+/* A main of list 0 with pictures of so many pixels each way; needs support/picture_check.h. */
+#define HARD_TEST_MAIN(name, size)                                                                 \
+    FIXTURE(open_all)                                                                              \
+    {                                                                                              \
+        hard_open(size, size);                                                                     \
+    }                                                                                              \
+    FIXTURE(close_all)                                                                             \
+    {                                                                                              \
+        hard_close();                                                                              \
+    }                                                                                              \
+    PICTURE_TEST_MAIN(name, open_all, close_all)
+
 /* Resizes the pictures. */
 void hard_resize(int width, int height);
 

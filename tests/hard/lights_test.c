@@ -16,21 +16,7 @@ static const double REACH = 4;        /* see normals_test.c */
 static const double NEXT_TO_IT = 1e9; /* the light: in mediump its direction has no correct digit */
 
 static HardWorld world;
-static Mesh fine_quad;
 static unsigned char before[4 * SIZE * SIZE];
-
-FIXTURE(open_all)
-{
-    const Solid solid = {.kind = SOLID_QUAD, .radius = 2};
-    hard_open(SIZE, SIZE);
-    SUCCEEDS(solid_mesh(&solid, 16, &fine_quad, message));
-}
-
-FIXTURE(close_all)
-{
-    mesh_close(&fine_quad);
-    hard_close();
-}
 
 static void check(const char *name, double reach)
 {
@@ -115,6 +101,8 @@ TEST(a_light_may_touch_the_object_or_be_inside)
         {true, {0, 1, 0}},          {true, {0, 0, 1}},          {true, {0.3, 0.2, 0.93}},
         {true, {0.5, 0.25, -0.25}}, {true, {0, 0, 4}},
     };
+    CLOSED(mesh_close) Mesh fine_quad;
+    SUCCEEDS(solid_mesh(&(Solid){.kind = SOLID_QUAD}, 16, &fine_quad, message));
     for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
         for (int fades = 0; fades < 2; fades++) {
             char name[64];
@@ -126,6 +114,7 @@ TEST(a_light_may_touch_the_object_or_be_inside)
             check(name, NEXT_TO_IT);
         }
     }
+    hard_forget(&fine_quad);
     hard_report("lights on and within the object");
 }
 
@@ -382,4 +371,4 @@ TEST(thirty_two_lights_add_up)
     hard_report("0 to 32 lights");
 }
 
-PICTURE_TEST_MAIN("hard lights", open_all, close_all)
+HARD_TEST_MAIN("hard lights", SIZE)

@@ -17,16 +17,6 @@ static const double REACH = 16;
 
 static HardScene made;
 
-FIXTURE(open_all)
-{
-    hard_open(SIZE, SIZE);
-}
-
-FIXTURE(close_all)
-{
-    hard_close();
-}
-
 static void use_way(ShadowWay way)
 {
     ShadowSettings settings = SHADOWS_DEFAULT;
@@ -200,4 +190,4 @@ TEST_WITH(0, occluders_may_be_mirrored_and_open, NULL, close_scene)
     }
 }
 
-PICTURE_TEST_MAIN("hard shadows", open_all, close_all)
+HARD_TEST_MAIN("hard shadows", SIZE)
