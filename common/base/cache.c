@@ -7,6 +7,7 @@
  */
 #include "base/cache.h"
 
+#include "base/input.h"
 #include "base/memory.h"
 #include "base/output.h"
 
@@ -170,26 +171,17 @@ static void name_of(const char *kind, const CacheKey *key, char name[NAME_SIZE])
              (unsigned long long)key->bits[1]);
 }
 
-static bool read_all(int file, void *bytes, size_t size)
-{
-    size_t have = 0;
-    ssize_t more = 1;
-    while (have < size && (more = read(file, (char *)bytes + have, size - have)) > 0)
-        have += (size_t)more;
-    return have == size;
-}
-
 /* Of an open file; NULL: it is not a file of the cache, or damaged. */
 static void *read_sealed(int file, const CacheKey *key, size_t *size)
 {
     struct stat status;
     Seal seal;
     if (fstat(file, &status) != 0 || !S_ISREG(status.st_mode) || status.st_uid != geteuid() ||
-        status.st_size > CACHE_MAX || !read_all(file, &seal, sizeof seal))
+        status.st_size > CACHE_MAX || input_bytes(file, &seal, sizeof seal) != sizeof seal)
         return NULL;
     *size = (size_t)status.st_size - sizeof seal;
     void *bytes = malloc(*size + 1);
-    if (bytes && read_all(file, bytes, *size)) {
+    if (bytes && input_bytes(file, bytes, *size) == (ssize_t)*size) {
         const Seal right = seal_of(key, bytes, *size);
         if (memcmp(&seal, &right, sizeof seal) == 0)
             return bytes;

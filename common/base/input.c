@@ -28,6 +28,19 @@ static bool check_file(int file, const char *name, size_t max, size_t *size, Mes
     return true;
 }
 
+ssize_t input_bytes(int file, void *bytes, size_t size)
+{
+    size_t have = 0;
+    ssize_t more = 1;
+    while (have < size && more != 0) {
+        more = read(file, (char *)bytes + have, size - have);
+        if (more < 0 && errno != EINTR)
+            return -1;
+        have += more > 0 ? (size_t)more : 0;
+    }
+    return (ssize_t)have;
+}
+
 char *input_read(int folder, const char *path, const char *name, size_t max, size_t *size,
                  Message *message)
 {
@@ -42,9 +55,8 @@ char *input_read(int folder, const char *path, const char *name, size_t max, siz
     }
     size_t room = 0;
     char *bytes = check_file(file, name, max, &room, message) ? malloc(room + 1) : NULL;
-    ssize_t got = bytes ? 1 : -1;
-    for (*size = 0; got > 0 && *size<room; *size += got> 0 ? (size_t)got : 0)
-        got = read(file, bytes + *size, room - *size);
+    const ssize_t got = bytes ? input_bytes(file, bytes, room) : -1;
+    *size = got < 0 ? 0 : (size_t)got;
     if (got < 0) {
         message_set(message, "%s: %s", name, strerror(errno));
         free(bytes);

@@ -1,5 +1,5 @@
 /*
- * input: a whole file from a folder that is not trusted.
+ * input: whole files, and one from a folder that is not trusted.
  */
 #ifndef INPUT_H
 #define INPUT_H
@@ -7,6 +7,10 @@
 #include "base/message.h"
 
 #include <stddef.h>
+#include <sys/types.h>
+
+/* Reads `size` bytes of an open file, or all that are left; how many. -1, with errno: it fails. */
+ssize_t input_bytes(int file, void *bytes, size_t size);
 
 /* The bytes of a regular file of at most `max`, with a zero byte after them, to be freed. `path` is
  * taken from the open folder (AT_FDCWD: the current one); no link is followed, and no pipe waited

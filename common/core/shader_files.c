@@ -1,6 +1,7 @@
 /* A list, searched linearly: a program reads some ten files. */
 #include "core/shader_files.h"
 
+#include "base/input.h"
 #include "base/memory.h"
 #include "base/text.h"
 
@@ -37,11 +38,10 @@ static bool read_text(ShaderFile *file, int from, Message *message)
                            (long long)status.st_size, SHADER_FILE_MAX);
     const size_t max = (size_t)status.st_size;
     file->text = memory_new(max + 1, 1);
-    ssize_t got = 0;
-    while (file->size < max && (got = read(from, file->text + file->size, max - file->size)) > 0)
-        file->size += (size_t)got;
+    const ssize_t got = input_bytes(from, file->text, max);
     if (got < 0)
         return message_set(message, "%s: %s", file->path, strerror(errno));
+    file->size = (size_t)got;
     file->text[file->size] = '\0';
     return true;
 }

@@ -1,5 +1,6 @@
 #include "study/results/results.h"
 
+#include "base/input.h"
 #include "base/memory.h"
 #include "base/output.h"
 #include "base/output_text.h"
@@ -192,21 +193,6 @@ static int open_file(const char *path, int flags, bool *missing, Message *messag
     return file;
 }
 
-static bool read_all(int file, char *text, size_t size, size_t *used)
-{
-    for (*used = 0; *used < size;) {
-        const ssize_t got = read(file, text + *used, size - *used);
-        if (got < 0 && errno == EINTR)
-            continue;
-        if (got < 0)
-            return false;
-        if (got == 0)
-            break;
-        *used += (size_t)got;
-    }
-    return true;
-}
-
 static bool size_check(const char *path, long long size, Message *message)
 {
     if (size <= RESULTS_SIZE_MAX)
@@ -220,7 +206,7 @@ bool results_read(Results *results, const char *path, const ResultRow *like, Mes
     bool missing;
     struct stat status;
     char *text = NULL;
-    size_t used = 0;
+    ssize_t used = 0;
     const int file = open_file(path, O_RDONLY, &missing, message);
     if (file < 0)
         return missing;
@@ -230,12 +216,13 @@ bool results_read(Results *results, const char *path, const ResultRow *like, Mes
     done = done && size_check(path, status.st_size, message);
     if (done) {
         text = malloc((size_t)status.st_size + 1);
-        done = text && read_all(file, text, (size_t)status.st_size, &used);
+        used = text ? input_bytes(file, text, (size_t)status.st_size) : -1;
+        done = used >= 0;
         if (!done)
             message_set(message, "%s: cannot read: %s", path, strerror(errno));
     }
     close(file);
-    done = done && results_parse(results, path, text, used, like, message);
+    done = done && results_parse(results, path, text, (size_t)used, like, message);
     free(text);
     return done;
 }
@@ -312,11 +299,11 @@ static bool tail_find(Tail *tail, int file, const char *path, Message *message)
 {
     struct stat status;
     char start[2 * RESULTS_HEADER_SIZE], last = '\n';
-    size_t used;
-    if (fstat(file, &status) != 0 || !read_all(file, start, sizeof start, &used))
+    const ssize_t used = input_bytes(file, start, sizeof start);
+    if (fstat(file, &status) != 0 || used < 0)
         return message_set(message, "%s: cannot read: %s", path, strerror(errno));
     *tail = (Tail){.keep = status.st_size};
-    if (is_cut_header(start, used)) {
+    if (is_cut_header(start, (size_t)used)) {
         tail->keep = 0;
         tail->header = true;
         return true;
