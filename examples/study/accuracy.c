@@ -271,10 +271,32 @@ static bool print_tables(const Survey *survey, const int *scenes, int count, con
     return true;
 }
 
+/* The pictures of the first screen: each where its error is the largest. */
+static bool write_glances(Survey *survey, const Conclusions *conclusions, const char *folder,
+                          Message *message)
+{
+    bool done = true;
+    for (int i = 0; i < conclusions->glance_count && done; i++) {
+        const Glance *glance = &conclusions->glances[i];
+        Quality quality;
+        Subject subject;
+        char path[PATH_MAX];
+        if (!glance->setting)
+            continue;
+        glance_path(glance, folder, path);
+        done = quality_parse(&quality, glance->setting, message) &&
+               open_subject(&subject, survey, glance->scene, message);
+        if (done) {
+            done = write_sheet(&subject, &quality, true, path, message);
+            close_subject(&subject);
+        }
+    }
+    return done;
+}
+
 static void print_conclusions(const Conclusions *conclusions, const char *folder)
 {
-    for (int i = 0; i < conclusions->count; i++)
-        puts(conclusions->lines[i]);
+    conclusions_print(conclusions, stdout);
     printf("%s/index.html: plots and tables; all tables: table.txt; --verbose prints them\n",
            folder);
 }
@@ -314,8 +336,10 @@ static bool report(Survey *survey, const Options *options, const int *scenes, in
         draw_plots(survey, options, scenes, count, &ways, &progress);
     progress_end(&progress);
     if (done) {
-        const Conclusions conclusions = conclusions_of(&survey->results, scenes, count, &apart);
-        done = report_page(&survey->results, scenes, count, &conclusions, options->output, message);
+        const Conclusions conclusions =
+            conclusions_of(&survey->results, scenes, count, &apart, &ways);
+        done = write_glances(survey, &conclusions, options->output, message) &&
+               report_page(&survey->results, scenes, count, &conclusions, options->output, message);
         if (done && (markdown || options->verbose || all_rows))
             done = print_tables(survey, scenes, count, more, message);
         if (done && !markdown)

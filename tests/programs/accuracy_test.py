@@ -87,10 +87,16 @@ class Surveys(Study):
 
     def test_a_scene_gives_table_rows_plots_and_sheets(self):
         text = self.survey()
-        self.assertLessEqual(text.count("\n"), 10)
+        self.assertLessEqual(text.count("\n"), 12)
         self.assertRegex(text, r"^1 scene; half the times")
         self.assertRegex(text, r"\ncube: 0\.5 steps: Phong interpolation [\d.]+ ms, Gouraud [\d.]+ ms")
-        self.assertRegex(text, r"\nmediump: the error grows by up to 0\.\d steps \(cube\); time")
+        self.assertRegex(text, r"\nmediump +[# ]{7}\|[# ]{7} [a-z:, ]+ \(time x [\d.]+; error \+0\.\d steps, cube\)\n")
+        self.assertRegex(text, r"\n4 samples .* rms of all \d\.\d+, was \d\.\d+, cube\)\n")
+        page = self.read("accuracy/index.html").decode()
+        for name, verdict, time in re.findall(r"\n([\w ]+?) +[# ]{7}\|[# ]{7} (.*?) \((time x [^;]*); ", text):
+            self.assertIn(f"<p><b>{name}</b>: {verdict}</p>", page)
+            self.assertIn(f"<p>{time}; ", page)
+        self.assertEqual(self.png("accuracy/glance-mediump.png").width, 2 * 240 + 8)
         self.assertRegex(text, r"\nBlinn-Phong: \d+ to \d+ steps .*\naccuracy/index\.html: .*table\.txt.*\n$")
         tables = self.read("accuracy/table.txt").decode()
         printed = self.says(0, "^renderer: ", "--scene", "cube", "--verbose", *QUICK,
@@ -180,7 +186,9 @@ class Surveys(Study):
         page, plot, table = (self.read("accuracy/" + name).decode()
                              for name in ("index.html", "cube.svg", "table.txt"))
         self.assertRegex(text, r"^the machine was busy in 1 of 1 scenes: ")
-        self.assertRegex(text, r"; time: too noisy to tell\n")
+        self.assertRegex(text, r"\nmediump {19}\|.* \(time: too noisy to tell; ")
+        self.assertNotRegex(text, r"time x|\| *#|# *\|")
+        self.assertNotIn('<i class="', page)
         self.assertNotRegex(text + page, r"Phong interpolation [\d.]+ ms")
         self.assertRegex(page, r'<p class="busy">the machine was busy in 1 of 1 scenes: ')
         self.assertNotRegex(page, r"<td>|efficient ones|finding-(guards|interpolation)")

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Errors above the smallest one by this share are as good. */
@@ -75,88 +76,178 @@ __attribute__((format(printf, 2, 3))) static void add(Conclusions *to, const cha
     va_end(arguments);
 }
 
-/* One choice changed, over some scenes. */
-typedef struct Change {
-    int count;           /* scenes */
-    int timed, same;     /* those with times; of these those the same within the noise */
-    double most;         /* by how many steps the error grows */
-    const char *at_most; /* the scene */
-    double slow[2];      /* the time over the usual one: least, most */
-} Change;
+/* The first screen */
 
-static Change change_of(const Results *results, const int *scenes, int count, const char *setting)
+static const Glance GLANCE_ROWS[] = {
+    {.name = "mediump", .file = "mediump", .setting = "precision=mediump"},
+    {.name = "Gouraud", .file = "gouraud", .setting = "interpolation=gouraud"},
+    {.name = "4 samples", .file = "samples", .setting = "samples=4"},
+    {.name = "viewer at infinity", .file = "viewer", .setting = "viewer=infinite"},
+    {.name = "lights at infinity", .file = "lights", .setting = "lights=infinite"},
+    {.name = "no guards", .file = "guards", .setting = "guards=off"},
+};
+
+double glance_bar(double ratio)
 {
-    Change change = {.slow = {INFINITY, 0}, .most = -INFINITY};
+    return isnan(ratio) ? 0 : fmin(fmax(log2(ratio) / 2, -1), 1);
+}
+
+void glance_path(const Glance *glance, const char *folder, char path[PATH_MAX])
+{
+    snprintf(path, PATH_MAX, "%s/glance-%s.png", folder, glance->file);
+}
+
+/* Errors of less than this are not to be seen in any picture, and those of less than SEEN hardly.
+ */
+static const double EXACT = 0.05, SEEN = 2;
+
+/* `slower`: 1, -1 or 0: the same within the noise. */
+static const char *verdict_of(int slower, double more)
+{
+    const int worse = (more >= EXACT) - (more <= -EXACT);
+    static const char *const words[3][3] = {
+        {"faster and more exact", "saves time, for nothing", "buys time with accuracy"},
+        {"more exact, for nothing", "changes nothing", "saves nothing, costs accuracy"},
+        {"buys accuracy with time", "costs time, for nothing", "worse in both: leave it"}};
+    return worse > 0 && more < SEEN && slower < 0 ? "saves time, hardly to be seen"
+                                                  : words[slower + 1][worse + 1];
+}
+
+static int compare_numbers(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* "time x 1.80, 1.10 to 3.20" and the verdict; `slower`: of the ratios so many surely are, or,
+ * below 0, are surely less. */
+static void judge(Glance *glance, double *ratios, int count, int slower)
+{
+    glance->ratio = NAN;
+    if (count == 0) {
+        snprintf(glance->time, GLANCE_TEXT, "time: too noisy to tell");
+        snprintf(glance->verdict, GLANCE_TEXT, "%s",
+                 fabs(glance->more) < EXACT ? "as exact"
+                 : glance->more > 0         ? "costs accuracy"
+                                            : "more exact");
+        return;
+    }
+    qsort(ratios, (size_t)count, sizeof *ratios, compare_numbers);
+    glance->ratio = (ratios[(count - 1) / 2] + ratios[count / 2]) / 2;
+    glance->least = ratios[0];
+    glance->most = ratios[count - 1];
+    const int used = snprintf(glance->time, GLANCE_TEXT, "time x %.2f", glance->ratio);
+    if (count > 1)
+        snprintf(glance->time + used, (size_t)(GLANCE_TEXT - used), ", %.2f to %.2f", glance->least,
+                 glance->most);
+    const bool most = 2 * abs(slower) > count;
+    snprintf(glance->verdict, GLANCE_TEXT, "%s",
+             verdict_of(!most        ? 0
+                        : slower > 0 ? 1
+                                     : -1,
+                        glance->more));
+}
+
+/* One choice changed, over the scenes that have it. Samples are for edges: the error of all pixels
+ * counts. */
+static void add_glance(Conclusions *to, const Glance *row, const Results *results,
+                       const int *scenes, int count)
+{
+    Glance glance = *row;
+    const bool edges = strstr(row->setting, "samples") != NULL;
+    double ratios[STUDY_SCENE_COUNT], from = NAN;
+    int measured = 0, timed = 0, slower = 0;
+    glance.more = -INFINITY;
     for (int i = 0; i < count; i++) {
         const char *scene = STUDY_SCENES[scenes[i]].name;
         const ResultRow *usual = results_of(results, scene, "usual");
-        const ResultRow *other = results_of(results, scene, setting);
-        const double more =
-            usual && other ? other->interior_maximum - usual->interior_maximum : NAN;
+        const ResultRow *other = results_of(results, scene, row->setting);
+        const ErrorKind kind = edges ? ERROR_ALL_RMS : ERROR_INTERIOR_MAXIMUM;
+        const double more = usual && other ? row_error(other, kind) - row_error(usual, kind) : NAN;
         if (!isfinite(more))
             continue;
-        const double ratio = other->time / usual->time;
-        change.count++;
-        if (more > change.most) {
-            change.most = more;
-            change.at_most = scene;
+        measured++;
+        if (edges ? isnan(from) || strcmp(scene, "sphere") == 0 : more > glance.more) {
+            from = row_error(usual, kind);
+            glance.more = more;
+            glance.scene = scenes[i];
         }
         if (front_busy(results, scene))
             continue;
-        change.timed++;
-        change.same += !row_faster(usual, other) && !row_faster(other, usual);
-        change.slow[0] = fmin(change.slow[0], ratio);
-        change.slow[1] = fmax(change.slow[1], ratio);
+        slower += row_faster(usual, other) - row_faster(other, usual);
+        ratios[timed++] = other->time / usual->time;
     }
-    return change;
-}
-
-/* "time x 0.97 to 1.05, within the noise in 9 of 12 scenes" */
-static void put_change_time(char text[96], const Change *change)
-{
-    if (change->timed == 0)
-        snprintf(text, 96, "time: too noisy to tell");
-    else if (change->same == change->timed)
-        snprintf(text, 96, "time the same within the noise");
-    else if (change->timed == 1)
-        snprintf(text, 96, "time x %.2f", change->slow[0]);
-    else
-        snprintf(text, 96, "time x %.2f to %.2f, within the noise in %d of %d scenes",
-                 change->slow[0], change->slow[1], change->same, change->timed);
-}
-
-static void add_changes(Conclusions *to, const Results *results, const int *scenes, int count)
-{
-    static const struct {
-        const char *setting, *name;
-    } changes[] = {{"precision=mediump", "mediump"},
-                   {"viewer=infinite", "a viewer at infinity"},
-                   {"lights=infinite", "lights at infinity"},
-                   {"guards=off", "without guards"}};
-    for (size_t i = 0; i < sizeof changes / sizeof changes[0]; i++) {
-        const Change change = change_of(results, scenes, count, changes[i].setting);
-        char time[96];
-        put_change_time(time, &change);
-        if (change.count && change.most < 0.05)
-            add(to, "%s: no larger error; %s", changes[i].name, time);
-        else if (change.count)
-            add(to, "%s: the error grows by up to %.1f steps (%s); %s", changes[i].name,
-                change.most, change.at_most, time);
-    }
-}
-
-static void add_antialiasing(Conclusions *to, const Results *results, const char *scene)
-{
-    const ResultRow *usual = results_of(results, scene, "usual");
-    const ResultRow *samples = results_of(results, scene, "samples=4");
-    const ResultRow *finest = results_of(results, scene, "supersample=4");
-    char more[64] = "";
-    if (!usual || !samples)
+    if (isnan(from))
         return;
-    if (finest)
-        snprintf(more, sizeof more, ", 4x4 supersampling %.2f", finest->all_rms);
-    add(to, "antialiasing (%s): rms error of all pixels %.2f steps, with 4 samples %.2f%s", scene,
-        usual->all_rms, samples->all_rms, more);
+    if (edges)
+        snprintf(glance.error, GLANCE_TEXT, "rms of all %.2f, was %.2f", from + glance.more, from);
+    else
+        snprintf(glance.error, GLANCE_TEXT, "error %+.1f steps", glance.more);
+    const size_t used = strlen(glance.error);
+    snprintf(glance.error + used, GLANCE_TEXT - used, ", %s", STUDY_SCENES[glance.scene].name);
+    judge(&glance, ratios, 2 * timed < measured ? 0 : timed, slower); /* else few speak for all */
+    to->glances[to->glance_count++] = glance;
+}
+
+/* Maps against a frame without shadows, while the light rests; volumes beside them. */
+static void add_shadows(Conclusions *to, const ShadowWays *ways)
+{
+    ShadowMeasured volumes, map;
+    int size;
+    Glance *glance = &to->glances[to->glance_count];
+    if (!shadow_ways_best(ways, 0, &volumes, &map, &size))
+        return;
+    *glance = (Glance){.name = "shadows by maps",
+                       .file = "shadows",
+                       .scene = -1,
+                       .ratio = map.still.ratio,
+                       .least = map.still.lower,
+                       .most = map.still.upper,
+                       .more = map.error - volumes.error};
+    snprintf(glance->error, GLANCE_TEXT, "%.1f steps at edges, volumes %.1f", map.error,
+             volumes.error);
+    const bool apart =
+        map.still.upper < volumes.still.lower || volumes.still.upper < map.still.lower;
+    if (to->busy) {
+        glance->ratio = NAN;
+        snprintf(glance->time, GLANCE_TEXT, "time: too noisy to tell");
+    } else {
+        snprintf(glance->time, GLANCE_TEXT, "time x %.2f, volumes x %.2f", map.still.ratio,
+                 volumes.still.ratio);
+    }
+    snprintf(glance->verdict, GLANCE_TEXT, "%s%s",
+             to->busy                                ? ""
+             : !apart                                ? "as fast as volumes, "
+             : map.still.ratio < volumes.still.ratio ? "faster than volumes, "
+                                                     : "slower than volumes, ",
+             glance->more < EXACT ? "as exact" : "less exact");
+    to->glance_count++;
+}
+
+/* Seven places to the left of | for what is faster and as many to its right for what is slower. */
+static void put_bar(double ratio, char bar[16])
+{
+    enum { HALF = 7 };
+    memset(bar, ' ', 2 * HALF + 1);
+    bar[HALF] = '|';
+    bar[2 * HALF + 1] = '\0';
+    const int length = (int)lround(HALF * glance_bar(ratio));
+    for (int i = length < 0 ? length : 1; i <= (length < 0 ? -1 : length); i++)
+        bar[HALF + i] = '#';
+}
+
+void conclusions_print(const Conclusions *conclusions, FILE *file)
+{
+    for (int i = 0; i < conclusions->count; i++) {
+        fprintf(file, "%s\n", conclusions->lines[i]);
+        for (int k = 0; i == 0 && k < conclusions->glance_count; k++) {
+            const Glance *glance = &conclusions->glances[k];
+            char bar[16];
+            put_bar(glance->ratio, bar);
+            fprintf(file, "%-18s %s %s (%s; %s)\n", glance->name, bar, glance->verdict,
+                    glance->time, glance->error);
+        }
+    }
 }
 
 static void add_matrices(Conclusions *to, const Results *results)
@@ -171,7 +262,7 @@ static void add_matrices(Conclusions *to, const Results *results)
 }
 
 Conclusions conclusions_of(const Results *results, const int *scenes, int count,
-                           const ModelsApart *apart)
+                           const ModelsApart *apart, const ShadowWays *ways)
 {
     Conclusions to = {.count = 0};
     const int shiny = study_scene_number("shiny32");
@@ -195,8 +286,9 @@ Conclusions conclusions_of(const Results *results, const int *scenes, int count,
     conclusion_of_scene(results, scene, text);
     if (text[0])
         add(&to, "%s: %s", scene, text);
-    add_changes(&to, results, scenes, count);
-    add_antialiasing(&to, results, count == 1 ? scene : "sphere");
+    for (size_t i = 0; i < sizeof GLANCE_ROWS / sizeof GLANCE_ROWS[0]; i++)
+        add_glance(&to, &GLANCE_ROWS[i], results, scenes, count);
+    add_shadows(&to, ways);
     add_matrices(&to, results);
     add(&to,
         "Blinn-Phong: %.0f to %.0f steps from Phong with the same exponent, %.0f to %.0f with "

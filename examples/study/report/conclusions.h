@@ -8,6 +8,7 @@
 #include "study/measure/survey.h"
 #include "study/results/results.h"
 
+#include <limits.h>
 #include <stdio.h>
 
 /* "1.3 steps: Phong interpolation 1.8 ms, Gouraud 17 ms": the smallest largest error inside objects
@@ -16,18 +17,41 @@
 enum { CONCLUSION_SIZE = 320 };
 void conclusion_of_scene(const Results *results, const char *scene, char text[CONCLUSION_SIZE]);
 
-/* Up to CONCLUSIONS lines, those whose rows there are; returns their number. The first says what
- * was measured, with how much noise. */
-enum { CONCLUSIONS = 9 };
+/* What one change of a setting costs, over the scenes in which it was measured: a row of the first
+ * screen. */
+enum { GLANCE_TEXT = 96 };
+typedef struct Glance {
+    const char *name, *file;   /* "4 samples"; of its picture, without an ending */
+    const char *setting;       /* NULL: shadows */
+    double ratio, least, most; /* the time over the usual one's: median and range; NAN: unknown */
+    double more;               /* by how many steps the error grows at most */
+    int scene;                 /* its number; -1: none of the study's */
+    char time[GLANCE_TEXT], error[GLANCE_TEXT], verdict[GLANCE_TEXT];
+} Glance;
+
+/* How far a ratio is from 1: -1 to 1 for a quarter to four times; 0 of NAN. */
+double glance_bar(double ratio);
+
+/* The rows whose measurements there are, and up to CONCLUSIONS lines. The first line says what was
+ * measured, with how much noise. */
+enum { CONCLUSIONS = 4, GLANCES = 7 };
 typedef struct Conclusions {
     char lines[CONCLUSIONS][CONCLUSION_SIZE];
-    int count;
+    Glance glances[GLANCES];
+    int count, glance_count;
     bool busy; /* the machine, for some scenes: the first line says it */
 } Conclusions;
 
 /* Of these scenes, by their numbers. */
+struct ShadowWays;
 Conclusions conclusions_of(const Results *results, const int *scenes, int count,
-                           const ModelsApart *apart);
+                           const ModelsApart *apart, const struct ShadowWays *ways);
+
+/* The first line, the rows and the other lines. */
+void conclusions_print(const Conclusions *conclusions, FILE *file);
+
+/* FOLDER/NAME.png, the picture of a row. */
+void glance_path(const Glance *glance, const char *folder, char path[PATH_MAX]);
 
 /* Into the folder, as FOLDER/finding-NAME.svg and .png:
  *   interpolation  Gouraud's and Phong's error over time as divisions grow
@@ -81,6 +105,11 @@ typedef struct ShadowWays {
     } scenes[SHADOW_SCENES];
     char with[RESULT_WITH_SIZE]; /* what was measured with */
 } ShadowWays;
+
+/* The volumes of a scene, and the map with a filter that is the cheapest of those within 8 steps
+ * near shadows' edges, or the most exact; its size. False: they were not measured. */
+bool shadow_ways_best(const ShadowWays *ways, int scene, ShadowMeasured *volumes,
+                      ShadowMeasured *map, int *size);
 
 /* Measures, prints a table and writes FOLDER/shadows.csv. A quick survey has one scene, and few
  * maps. */

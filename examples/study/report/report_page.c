@@ -57,6 +57,29 @@ static TemplateValues *set_scene(TemplateValues *page, const Results *results,
     return values;
 }
 
+/* A bar of a ratio is in hundredths of its half's width. */
+static void set_glance(TemplateValues *page, const Glance *glance, const char *folder)
+{
+    TemplateValues *values = template_add(page, "glance");
+    const double bar = 50 * glance_bar(glance->ratio);
+    char path[PATH_MAX];
+    template_set(values, "name", "%s", glance->name);
+    template_set(values, "time", "%s", glance->time);
+    template_set(values, "error", "%s", glance->error);
+    template_set(values, "verdict", "%s", glance->verdict);
+    if (fabs(bar) > 0) {
+        TemplateValues *drawn = template_add(values, "bar");
+        template_set(drawn, "from", "%.1f", bar < 0 ? 50 + bar : 50);
+        template_set(drawn, "width", "%.1f", fabs(bar));
+        template_set(drawn, "kind", "%s", bar < 0 ? "faster" : "slower");
+    }
+    glance_path(glance, folder, path);
+    if (access(path, R_OK) == 0)
+        template_set(values, "picture", "glance-%s.png", glance->file);
+    else if (!glance->setting && has_plot(folder, "finding-shadows-sphere"))
+        template_set(values, "picture", "finding-shadows-sphere.svg");
+}
+
 static void set_findings(TemplateValues *page, const Conclusions *conclusions, const char *folder)
 {
     static const char *const findings[][2] = {
@@ -74,6 +97,8 @@ static void set_findings(TemplateValues *page, const Conclusions *conclusions, c
     };
     if (conclusions->busy)
         template_set(template_add(page, "banner"), "text", "%s", conclusions->lines[0]);
+    for (int i = 0; i < conclusions->glance_count; i++)
+        set_glance(page, &conclusions->glances[i], folder);
     for (int i = 0; i < conclusions->count; i++)
         template_set(template_add(page, "conclusion"), "text", "%s", conclusions->lines[i]);
     for (size_t i = 0; i < sizeof findings / sizeof findings[0]; i++) {

@@ -374,3 +374,25 @@ bool shadow_ways_plot(const ShadowWays *ways, const char *folder, Message *messa
             return false;
     return true;
 }
+
+bool shadow_ways_best(const ShadowWays *ways, int scene, ShadowMeasured *volumes,
+                      ShadowMeasured *map, int *size)
+{
+    enum { FILTERED = 1 }; /* of KINDS */
+    static const double NEAR_ENOUGH = 8;
+    const ShadowMeasured *best = NULL;
+    for (int i = 0; i < SHADOW_MAP_SIZES; i++) {
+        const ShadowMeasured *at = &ways->scenes[scene].maps[FILTERED][i];
+        const bool enough = best && best->error <= NEAR_ENOUGH;
+        if (!(at->still.ratio > 0) ||
+            (best && (enough ? at->still.ratio >= best->still.ratio || at->error > NEAR_ENOUGH
+                             : at->error >= best->error)))
+            continue;
+        best = at;
+        *size = SIZES[i];
+    }
+    *volumes = ways->scenes[scene].volumes;
+    if (best)
+        *map = *best;
+    return best && volumes->still.ratio > 0;
+}
