@@ -129,8 +129,8 @@ void hard_check_ways(const char *name, const Scene *scene, double reach, int min
 /* hard_check_ways with each reflection; the world's scene keeps the last one. */
 void hard_check_reflections(const char *name, HardWorld *world, double reach, int min_pixels);
 
-/* hard_draw without an exact picture; every value must be finite. */
-HardResult hard_draw_finite(const Scene *scene, HardPrecision precision);
+/* Draws without comparing; every value must be finite. */
+void hard_draw_finite(const Scene *scene, HardPrecision precision);
 
 /* A unit vector, uniform over the sphere. */
 Vec3 hard_random_direction(Random *random);

@@ -82,7 +82,8 @@ TEST(in_mediump_lights_are_near_or_at_infinity)
     hard_check("light beyond mediump, at vertices", &world.scene, HARD_MEDIUMP, 1.5,
                SIZE * SIZE / 8);
     world.scene.interpolation = INTERPOLATION_PHONG;
-    const HardResult result = hard_draw_finite(&world.scene, HARD_MEDIUMP);
+    const HardResult result = hard_draw(&world.scene, HARD_MEDIUMP, NULL);
+    assert_int_equal(result.not_finite, 0);
     printf("a light at 1e8, at fragments in mediump: error %.1f\n", result.byte_error);
 
     hard_report("lights within reach of mediump");
@@ -206,14 +207,13 @@ TEST_WITH(0, light_never_grows_with_the_distance, NULL, restore_size)
 
 /* Compares every pixel of the object at its centre: within `max` steps of the exact colour, except
  * where the cosine of its angle from the axis is within `margin` of the cone's edge. */
-static double compare_centres(HardPrecision precision, double margin, const Reference *unused,
-                              int *compared)
+static double compare_centres(HardPrecision precision, double margin, int *compared)
 {
     Trace *trace;
     double worst = 0;
     Vec3 axis;
     const Light *light = &world.lights[0];
-    assert_int_equal(hard_draw(&world.scene, precision, unused).not_finite, 0);
+    hard_draw_finite(&world.scene, precision);
     SUCCEEDS(trace_open(
         &trace, &world.scene,
         &(ReferenceOptions){.width = SIZE, .height = SIZE, .meshes = true, .threads = 1}, message));
@@ -248,9 +248,6 @@ TEST(a_cone_has_its_exact_edge)
     static const double MEDIUMP = (4 + 3.5 + 3) * 0x1p-11;
     double worst[2] = {0, 0};
     int compared = 0;
-    Reference unused; /* hard_draw's own picture would resolve the cones' edges within pixels */
-    hard_world(&world, &hard.quad);
-    hard_exact(&world.scene, false, &unused);
     for (size_t i = 0; i < sizeof cutoffs / sizeof cutoffs[0]; i++) {
         for (size_t k = 0; k < sizeof exponents / sizeof exponents[0]; k++) {
             hard_world(&world, &hard.quad);
@@ -265,7 +262,7 @@ TEST(a_cone_has_its_exact_edge)
                                        ? 1
                                        : fmin(255, oracle_mediump_max(&world.scene, REACH) +
                                                        255 * expm1(exponents[k] * MEDIUMP));
-                const double error = compare_centres(precision, margin, &unused, &compared);
+                const double error = compare_centres(precision, margin, &compared);
                 worst[precision] = fmax(worst[precision], error);
                 if (error > max)
                     fail_msg("cutoff %g, exponent %g, precision %d: %.3f of %.3f", cutoffs[i],
@@ -273,7 +270,6 @@ TEST(a_cone_has_its_exact_edge)
             }
         }
     }
-    reference_close(&unused);
     assert_true(compared > SIZE * SIZE * 30);
     printf("cones: %d pixels, largest error %.2f in highp, %.2f in mediump\n", compared, worst[0],
            worst[1]);
@@ -308,7 +304,7 @@ TEST(a_light_behind_the_surface_leaves_ambient_light_only)
         world.scene.reflection = way & 2 ? REFLECTION_PHONG : REFLECTION_BLINN_PHONG;
         world.scene.interpolation = way & 4 ? INTERPOLATION_GOURAUD : INTERPOLATION_PHONG;
         for (HardPrecision precision = HARD_HIGHP; precision <= HARD_MEDIUMP; precision++) {
-            hard_draw(&world.scene, precision, NULL);
+            hard_draw_finite(&world.scene, precision);
             for (int c = 0; c < 3; c++) /* 0.25 * 255 = 63.75 */
                 assert_int_equal(middle()[c], 64);
         }

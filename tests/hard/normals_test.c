@@ -65,7 +65,7 @@ TEST_WITH(0, a_zero_normal_gives_exactly_ambient_light, NULL, forget_made)
             world.scene.interpolation = way == 1 ? INTERPOLATION_GOURAUD : INTERPOLATION_PHONG;
             world.objects[0].world_from_object =
                 mat4_scale(way == 2 ? (Vec3){1, 0.5, 2} : (Vec3){1, 1, 1});
-            hard_draw(&world.scene, precision, NULL);
+            hard_draw_finite(&world.scene, precision);
             const unsigned char *middle =
                 (unsigned char *)hard.image.pixels + 4 * (SIZE / 2 * SIZE + SIZE / 2);
             assert_int_equal(middle[0], 64);  /* 63.75 */

@@ -40,7 +40,8 @@ static void highlight_world(double shininess, Reflection reflection)
 static double worst_of(double shininess, Reflection reflection, HardPrecision precision)
 {
     highlight_world(shininess, reflection);
-    const HardResult result = hard_draw_finite(&world.scene, precision);
+    const HardResult result = hard_draw(&world.scene, precision, NULL);
+    assert_int_equal(result.not_finite, 0);
 
     assert_true(result.interior_pixels > SIZE * SIZE / 8);
     return result.byte_error;
