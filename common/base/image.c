@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static size_t value_size(ImageType type)
 {
@@ -31,6 +32,18 @@ void image_close(Image *image)
         return;
     free(image->pixels);
     *image = (Image){0};
+}
+
+void image_fill(Image *image, const int place[4], const unsigned char color[3])
+{
+    const int all[4] = {0, 0, image->width, image->height};
+    place = place ? place : all;
+    for (int y = place[1]; y < place[1] + place[3]; y++) {
+        unsigned char *pixel = (unsigned char *)image->pixels +
+                               4 * ((size_t)y * (size_t)image->width + (size_t)place[0]);
+        for (int x = 0; x < place[2]; x++, pixel += 4)
+            memcpy(pixel, (const unsigned char[4]){color[0], color[1], color[2], 255}, 4);
+    }
 }
 
 void image_viridis(double t, unsigned char color[3])

@@ -24,6 +24,10 @@ typedef struct Image {
 bool image_open(Image *image, int width, int height, ImageType type, Message *message);
 void image_close(Image *image);
 
+/* Makes a rectangle (x, y, width, height) of an image of bytes one opaque colour; NULL: all of it.
+ */
+void image_fill(Image *image, const int place[4], const unsigned char color[3]);
+
 /* Viridis (van der Walt and Smith, 2015), perceptually uniform in lightness: from 0, dark violet,
  * over blue and green to 1, yellow; red, green, blue. */
 void image_viridis(double t, unsigned char color[3]);

@@ -47,11 +47,7 @@ bool sheet_open(Image *sheet, int count, Message *message)
     if (!image_open(sheet, MARGIN + columns * (THUMBNAIL + MARGIN),
                     MARGIN + rows * (THUMBNAIL + LABEL + MARGIN), IMAGE_BYTE, message))
         return false;
-    unsigned char *pixels = sheet->pixels;
-    for (size_t i = 0; i < (size_t)sheet->width * (size_t)sheet->height; i++) {
-        pixels[4 * i] = pixels[4 * i + 1] = pixels[4 * i + 2] = 48;
-        pixels[4 * i + 3] = 255;
-    }
+    image_fill(sheet, NULL, (const unsigned char[3]){48, 48, 48});
     return true;
 }
 

@@ -142,15 +142,6 @@ static bool paint_line(Image *page, Strip at, int letters, const ChangeLine *lin
     return image_text(page, at.x, at.y, &style, text, message);
 }
 
-static void clear(Image *page)
-{
-    unsigned char *pixels = page->pixels;
-    for (size_t i = 0; i < (size_t)page->width * (size_t)page->height; i++) {
-        memcpy(pixels + 4 * i, BACKGROUND, 3);
-        pixels[4 * i + 3] = 255;
-    }
-}
-
 bool page_paint_lines(Image *page, const Changes *changes, Message *message)
 {
     const PageLayout layout = page_layout(page->width, page->height);
@@ -159,7 +150,7 @@ bool page_paint_lines(Image *page, const Changes *changes, Message *message)
     const int rows = (page->height - layout.text_top) / step;
     const int width = column_width(columns.count, &layout, page->width);
     bool done = true;
-    clear(page);
+    image_fill(page, NULL, BACKGROUND);
     for (int column = 0; column < columns.count; column++) {
         const int first = columns.first[column], end = columns.first[column + 1];
         for (int i = first; i < end && i - first < rows && done; i++) {

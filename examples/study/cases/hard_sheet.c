@@ -111,7 +111,7 @@ bool hard_sheet(const HardSheet *of, const char *path, Message *message)
     if (!image_open(&sheet.image, MARGIN + of->columns * across, MARGIN / 2 + HEAD + rows * down,
                     IMAGE_BYTE, message))
         return false;
-    report_fill(&sheet.image, (int[]){0, 0, sheet.image.width, sheet.image.height}, ground);
+    image_fill(&sheet.image, NULL, ground);
     for (int i = 0; i < of->columns; i++)
         put_head(&sheet, MARGIN + i * across);
     bool done = true;

@@ -54,9 +54,8 @@ bool report_curves(const ReportAxes *axes, const ReportSeries *series, int count
                    const char *folder, const char *name, Message *message);
 
 /* Puts a picture into a rectangle (x, y, width, height) of a larger one, both of bytes: each pixel
- * is the mean of samples in it. And fills one with a colour. */
+ * is the mean of samples in it. */
 void report_panel(Image *sheet, const int place[4], const Image *picture);
-void report_fill(Image *sheet, const int place[4], const unsigned char color[3]);
 
 /* A PNG of three labelled pictures: drawn, exact, and their difference in false colour with a scale
  * in steps of 1/255. `drawn` is a byte or float image of the reference's size. The difference is

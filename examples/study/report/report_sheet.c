@@ -58,16 +58,6 @@ static double channel(const Image *image, size_t index)
                                       : ((const unsigned char *)image->pixels)[index] / 255.0;
 }
 
-void report_fill(Image *sheet, const int place[4], const unsigned char color[3])
-{
-    for (int y = place[1]; y < place[1] + place[3]; y++) {
-        unsigned char *pixel = (unsigned char *)sheet->pixels +
-                               4 * ((size_t)y * (size_t)sheet->width + (size_t)place[0]);
-        for (int x = 0; x < place[2]; x++, pixel += 4)
-            memcpy(pixel, (const unsigned char[4]){color[0], color[1], color[2], 255}, 4);
-    }
-}
-
 void report_panel(Image *sheet, const int place[4], const Image *picture)
 {
     enum { SIDE = 4 };
@@ -85,7 +75,7 @@ void report_panel(Image *sheet, const int place[4], const Image *picture)
         unsigned char mean[3];
         for (int c = 0; c < 3; c++)
             mean[c] = (unsigned char)((sums[c] + SIDE * SIDE / 2) / (SIDE * SIDE));
-        report_fill(sheet, (int[]){place[0] + x, place[1] + y, 1, 1}, mean);
+        image_fill(sheet, (int[]){place[0] + x, place[1] + y, 1, 1}, mean);
     }
 }
 
@@ -114,8 +104,8 @@ static bool open_panels(Image panels[PANELS], const Image *drawn, const Referenc
         if (!image_open(&panels[panel], exact->width, exact->height, IMAGE_BYTE, message))
             return false;
         for (int i = 0; i < exact->width * exact->height; i++)
-            report_fill(&panels[panel], (int[]){i % exact->width, i / exact->width, 1, 1},
-                        panel_color(panel, drawn, exact, (size_t)i).of);
+            image_fill(&panels[panel], (int[]){i % exact->width, i / exact->width, 1, 1},
+                       panel_color(panel, drawn, exact, (size_t)i).of);
     }
     return true;
 }
@@ -147,17 +137,17 @@ static void put_scale(Sheet *sheet)
     const int top = 2 * MARGIN + LINE + sheet->height;
     const int width = sheet->width - 2 * MARGIN, neutral = width / 10;
     const int left = panel_left(sheet, 2) + MARGIN, start = left + neutral;
-    report_fill(&sheet->image, (int[]){left, top, neutral, BAR}, NEUTRAL.of);
+    image_fill(&sheet->image, (int[]){left, top, neutral, BAR}, NEUTRAL.of);
     for (int x = start; x < left + width; x++)
-        report_fill(&sheet->image, (int[]){x, top, 1, BAR},
-                    viridis((x - start + 0.5) / (width - neutral)).of);
+        image_fill(&sheet->image, (int[]){x, top, 1, BAR},
+                   viridis((x - start + 0.5) / (width - neutral)).of);
     image_label(&sheet->image, left, top + BAR + LINE - 6, LETTERS - 2, "0", NULL);
-    report_fill(&sheet->image, (int[]){left, top + BAR, 1, 4}, WHITE.of);
+    image_fill(&sheet->image, (int[]){left, top + BAR, 1, 4}, WHITE.of);
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
         char text[16];
         const int x = start + (int)lround(scale_of(numbers[i]) * (width - neutral - 1));
         snprintf(text, sizeof text, "%g", numbers[i]);
-        report_fill(&sheet->image, (int[]){x, top + BAR, 1, 4}, WHITE.of);
+        image_fill(&sheet->image, (int[]){x, top + BAR, 1, 4}, WHITE.of);
         image_label(&sheet->image, x, top + BAR + LINE - 6, LETTERS - 2, text, NULL);
     }
 }
@@ -201,7 +191,7 @@ bool report_pair(const Image *drawn, const Reference *exact, const char *path, M
     bool done = open_panels(panels, drawn, exact, message) &&
                 image_open(&pair, 2 * REPORT_PANEL + REPORT_GAP, height, IMAGE_BYTE, message);
     if (done) {
-        report_fill(&pair, (int[]){0, 0, pair.width, height}, WHITE.of);
+        image_fill(&pair, NULL, WHITE.of);
         report_panel(&pair, (int[]){0, 0, REPORT_PANEL, height}, &panels[0]);
         report_panel(&pair, (int[]){SECOND, 0, REPORT_PANEL, height}, &panels[2]);
         done =
@@ -233,7 +223,7 @@ bool report_sheet(const Image *drawn, const Reference *exact, const char *captio
         const ImageText text[] = {{"Description", caption}, {NULL, NULL}};
         const ImageOptions options = {.compress = IMAGE_COMPRESS_DEFAULT,
                                       .text = caption[0] ? text : NULL};
-        report_fill(&sheet.image, (int[]){0, 0, width, height}, GROUND.of);
+        image_fill(&sheet.image, NULL, GROUND.of);
         for (int panel = 0; panel < PANELS; panel++)
             put_panel(&sheet, panel, &panels[panel]);
         put_scale(&sheet);
