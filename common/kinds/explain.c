@@ -20,6 +20,7 @@ typedef struct ExplainedObject {
 typedef struct Explained {
     ExplainedObject *all;
     int count;
+    bool receipts; /* below the effects, their lines */
     /* Not printed yet: objects that are as number `same`, the first and the last by view and
      * object.
      */
@@ -64,7 +65,10 @@ static bool write_effects(const Renderer *renderer, const LightingPlan *plan, in
             return false;
         }
     }
-    fputs(text, file);
+    if (explained->receipts)
+        receipt_write(plan, object, text, file);
+    else
+        fputs(text, file);
     explained_add(explained, (ExplainedObject){text, number, object});
     return true;
 }
@@ -452,7 +456,7 @@ static void print_lights(Renderer *renderer, const DrawRequest *request)
 
 bool explain_programs(Renderer *renderer, const DrawRequest *request, Message *message)
 {
-    Explained explained = {0};
+    Explained explained = {.receipts = request->verbose};
     bool done = true;
     print_lights(renderer, request);
     for (int number = 0; number < scene_view_count(renderer) && done; number++)

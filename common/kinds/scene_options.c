@@ -250,7 +250,7 @@ const Parameter SCENE_OPTIONS[] = {
     {"explain",
      "report the scene's lights and their numbers, required and omitted effects with reasons, and "
      "what they cost; draw nothing. Of several objects only what differs; with --verbose "
-     "everything",
+     "everything, and the shaders' lines that each effect brings in",
      PARAMETER_FLAG, AT(explain), .programs = PROGRAM_ONE | ASIDE},
     {"save-scene", "write the scene as a file of glTF 2.0, which Scene reads; draw nothing",
      PARAMETER_TEXT, .placeholder = "FILE", .min = 1, .standard = "", AT(save_scene),

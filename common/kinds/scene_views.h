@@ -129,4 +129,9 @@ bool scene_save(const Scene *scene, const char *path, Message *message);
  * each light. Fails only if memory is out. */
 bool unmodelled_explain(const Scene *scene, FILE *file, Message *message);
 
+/* What a plan says of an object (lighting_plan_explain), and below each effect the shaders' lines
+ * that it brings in: those of the object's program that the program without this effect has not. Of
+ * an effect of lights, they are listed once, and belong to all lights that have it. */
+void receipt_write(const LightingPlan *plan, int object, const char *effects, FILE *file);
+
 #endif

@@ -147,6 +147,10 @@ void lighting_plan_explain_shadows(const LightingPlan *plan, const Scene *scene,
 bool lighting_plan_sources(const LightingPlan *plan, int object, bool full, ShaderSource sources[2],
                            Message *message);
 
+/* The same with other effects than the object's; shadows are looked up as they are for its own. */
+bool lighting_plan_sources_of(const LightingPlan *plan, int object, const Effects *effects,
+                              ShaderSource sources[2], Message *message);
+
 /* The same for an object of a scene, from a plan that is only decided. */
 bool lighting_sources(Lighting *lighting, const Scene *scene, const Object *object, bool full,
                       ShaderSource sources[2], Message *message);

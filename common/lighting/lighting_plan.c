@@ -260,6 +260,15 @@ bool lighting_plan_sources(const LightingPlan *plan, int object, bool full, Shad
     return lighting_program_sources(&plan->lighting->programs.loader, &key, sources, message);
 }
 
+bool lighting_plan_sources_of(const LightingPlan *plan, int object, const Effects *effects,
+                              ShaderSource sources[2], Message *message)
+{
+    LightingKey key;
+    make_key(plan, object, false, &key);
+    memcpy(&key.effects, effects, sizeof key.effects);
+    return lighting_program_sources(&plan->lighting->programs.loader, &key, sources, message);
+}
+
 bool lighting_sources(Lighting *lighting, const Scene *scene, const Object *object, bool full,
                       ShaderSource sources[2], Message *message)
 {

@@ -803,6 +803,23 @@ class Outputs(Case):
         self.assertRegex(text, r"\ngroup\.glsl:\d+  float n_dot_l = dot\(normal, to_light\);\n +n_dot_l: ")
         self.refused(2, "--format json: is of --probe", "--format", "json")
 
+    def test_each_effect_has_the_lines_that_it_brings_in(self):
+        """But those that are no lines: what is left out, culling, and that a light is there."""
+        none = re.compile(r"#|$|as view | *without |light |culling |normals not |  dot products clamped|operations|in the full")
+        for program, *options in (("FourLights",), ("TwoSidedLighting",), ("NormalMatrix", "--linear-light"),
+                                  ("LightTypes", "--show-clipped"), ("Shadows", "--clamp-dots", "off")):
+            said = self.run_it("--explain", "--verbose", *options, program=program).stdout.decode()
+            for text in re.findall(r"^# \w+, view \d+, object \d+\n(.+?)\n\n", said, re.M | re.S):
+                lines, told = text.split("\n") + [""], set()
+                for line, after in zip(lines, lines[1:]):
+                    effect = line.split(":")[0]
+                    if line.startswith("      ") or none.match(line) or effect in told:
+                        continue
+                    told.add(effect)
+                    self.assertRegex(after, r"^ {6}(written|\w+\.\w+:\d+)  \S", (program, line))
+        self.assertIn("\nsRGB encoding: requested\n      lighting.frag:",
+                      self.run_it("--explain", "-v", "--linear-light", program="PhongBlinn").stdout.decode())
+
     def test_what_interpolation_changes_is_what_a_program_per_fragment_mends(self):
         """The next program of the lecture computes the same equation at each fragment."""
         for program in "PointLightedCube", "PointLightedSphere":
