@@ -10,6 +10,7 @@
 #include "study/arithmetic/proof.h"
 #include "study/measure/survey.h"
 #include "study/measure/scenes.h"
+#include "study/report/compare.h"
 #include "study/report/conclusions.h"
 #include "study/report/report.h"
 #include "study/results/table.h"
@@ -23,7 +24,7 @@ static int scene = STUDY_SCENE_COUNT; /* all */
 static double budget = -1, time_budget = -1;
 static bool by_rms, quick, fresh, all_rows, markdown, merge;
 static Part part;
-static const char *quality_asked;
+static const char *quality_asked, *compared;
 static int seed = 1;
 
 static int proved = STUDY_SCENE_COUNT; /* none */
@@ -58,6 +59,10 @@ static const Parameter parameters[] = {
      PARAMETER_FLAG, .value = &all_rows},
     {"markdown", "print tables of the findings as Markdown, with processor, driver and compiler",
      PARAMETER_FLAG, .value = &markdown},
+    {"compare",
+     "measure nothing: show the results in DIR beside those in the folder that is named after it, of "
+     "another driver or machine: errors, and times over the usual setting's",
+     PARAMETER_TEXT, .value = &compared, .placeholder = "DIR", .min = 1, .standard = ""},
     {"prove",
      "bound the error of all points of each object of a scene, from what is measured of the "
      "driver's arithmetic, instead of drawing settings",
@@ -294,13 +299,6 @@ static bool write_glances(Survey *survey, const Conclusions *conclusions, const 
     return done;
 }
 
-static void print_conclusions(const Conclusions *conclusions, const char *folder)
-{
-    conclusions_print(conclusions, stdout);
-    printf("%s/index.html: plots and tables; all tables: table.txt; --verbose prints them\n",
-           folder);
-}
-
 static bool draw_sheets(Survey *survey, const Options *options, int number, Message *message)
 {
     Subject subject;
@@ -343,7 +341,7 @@ static bool report(Survey *survey, const Options *options, const int *scenes, in
         if (done && (markdown || options->verbose || all_rows))
             done = print_tables(survey, scenes, count, more, message);
         if (done && !markdown)
-            print_conclusions(&conclusions, options->output);
+            conclusions_print(&conclusions, options->output, stdout);
         fflush(stdout);
     }
     free(more);
@@ -407,9 +405,16 @@ static bool measure(const Options *options, const Quality *quality, Message *mes
 }
 
 /* Options that contradict each other. */
-static bool check(Message *message)
+static bool check(const Options *options, Message *message)
 {
     const bool one = scene < STUDY_SCENE_COUNT;
+    const char *const *names = (const char *const *)options->names;
+    if (compared && (!names[0] || names[1]))
+        return message_set(message, "--compare %s: needs one other folder, as in --compare A B",
+                           compared);
+    if (names[0] && !compared)
+        return message_set(message, "%s: not an option; --help lists them, -o DIR names the folder",
+                           names[0]);
     if ((budget < 0 && budget != -1) || (time_budget < 0 && time_budget != -1))
         return message_set(message, "--%s %g: must be 0 or more, or -1: off",
                            budget < 0 && budget != -1 ? "budget" : "time-budget",
@@ -439,35 +444,12 @@ static bool check(Message *message)
     return true;
 }
 
-/* --prove: no settings but the usual. */
-static bool prove(const Options *options, Message *message)
-{
-    static Arithmetics found;
-    const Quality quality = quality_usual();
-    SolidMeshes meshes = {.first = NULL};
-    StudyScene study;
-    SceneCopy made;
-    Meter meter;
-    if (!meter_open(&meter, options->canvas.backend, message))
-        return false;
-    study_scene(proved, &study);
-    bool done = arithmetic_measure(&meter, 1 << 17, &found, message) &&
-                quality_scene_open(&made, &study.scene, &quality, &meshes, message);
-    if (done) {
-        printf("%s, %d rows\n", STUDY_SCENES[proved].name, options->height);
-        done = prove_scene(&made.scene, &found, options->height, stdout, message);
-        scene_copy_close(&made);
-    }
-    solid_meshes_close(&meshes);
-    meter_close(&meter);
-    return done;
-}
-
 static const Usage usage = {
     .name = "accuracy",
     .summary = "what accuracy costs in time, scene by scene and setting by setting",
     .details = details,
     .study = true,
+    .names = "[DIR]",
     .parameters = parameters,
 };
 
@@ -484,15 +466,18 @@ int main(int argc, char *argv[])
     make_details();
     if (!options_begin(&options, &usage, argc, argv, &code))
         return code;
-    if (!check(&message))
+    if (!check(&options, &message))
         return options_fail(usage.name, &message, EXIT_USAGE);
     if (quality_asked && !quality_parse(&quality, quality_asked, &message)) {
         Message said = {0};
         message_set(&said, "--setting: %s", message.text);
         return options_fail(usage.name, &said, EXIT_USAGE);
     }
-    if (proved < STUDY_SCENE_COUNT ? !prove(&options, &message)
-                                   : !measure(&options, quality_asked ? &quality : NULL, &message))
+    const char *const folders[2] = {compared, options.names[0]};
+    if (compared ? !compare_folders(folders, options.output, stdout, &message)
+        : proved < STUDY_SCENE_COUNT
+            ? !prove_study(proved, options.canvas.backend, options.height, stdout, &message)
+            : !measure(&options, quality_asked ? &quality : NULL, &message))
         return options_fail(usage.name, &message, EXIT_FAILED);
     return options_finish(usage.name, 0);
 }

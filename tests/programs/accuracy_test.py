@@ -197,6 +197,27 @@ class Surveys(Study):
         self.assertNotRegex(table.split("\n\nmodel")[0], r"\n[*=] ")
         self.assertEqual([name for name in os.listdir(self.path("accuracy")) if "-pin-" in name], [])
 
+    def test_two_folders_are_compared_row_by_row(self):
+        self.survey()
+        text = self.read("accuracy/results.csv").decode()
+        head, *rows = text.splitlines()
+        names = head.split(",")
+        for number, row in enumerate(csv.reader(rows)):
+            if row[names.index("precision")] == "mediump":  # twice as slow, and 3 steps worse
+                for name in ("time", "time_lower", "time_upper", "run_1", "run_2", "run_3"):
+                    row[names.index(name)] = str(40 * float(row[names.index(name)]))
+                row[names.index("interior_maximum")] = str(3 + float(row[names.index("interior_maximum")]))
+                rows[number] = ",".join([f'"{cell}"' if "," in cell else cell for cell in row[:-1]] + [f'"{row[-1]}"'])
+        self.make("other/results.csv", "\n".join([head, *rows, ""]))
+        said = self.accuracy("--compare", "accuracy", "other", "-o", "both")
+        self.assertRegex(said, r"\n15 settings are in both; 1 have another error in B, most of all cube: precision=mediump\n")
+        self.assertRegex(said, r"\ncube: precision=mediump +\d\.\d\d +\d\.\d\d +\+3\.00 .* x 40\.00, ")
+        self.assertRegex(said, r"\ncube: guards=off .* \+0\.00 .* the same\n")
+        self.assertIn('<td class="worse">+3.00</td>', self.read("both/compare.html").decode())
+        self.wrong(2, "--compare a: needs one other folder", "--compare", "a")
+        self.wrong(2, "b: not an option", "b")
+        self.wrong(1, "none/results.csv: has no results", "--compare", "none", "accuracy")
+
     def test_existing_rows_are_not_measured_again(self):
         self.survey()
         before = self.read("accuracy/results.csv")

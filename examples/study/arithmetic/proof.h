@@ -76,8 +76,8 @@ typedef struct ProvedDraw {
 /* From the bounds of at most so many pieces more than there are triangles. */
 ProvedDraw prove_draw(const Proof *proof, int draw, int most);
 
-/* Prints a line for each object, in highp and in mediump, and what is assumed. A canvas is open. */
-bool prove_scene(const Scene *scene, const Arithmetics *found, int height, FILE *file,
-                 Message *message);
+/* Measures the driver, and prints a line for each object of a scene of the study, in highp and in
+ * mediump, and what is assumed. */
+bool prove_study(int scene, const CanvasBackend *backend, int height, FILE *file, Message *message);
 
 #endif

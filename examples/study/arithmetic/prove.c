@@ -7,6 +7,8 @@
 #include "study/arithmetic/proof.h"
 
 #include "base/memory.h"
+#include "scene/quality.h"
+#include "study/measure/scenes.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -124,8 +126,8 @@ static void tell_draw(const Proof *proof, const ProvedDraw *proved, int number, 
             proved->triangles, proved->pieces);
 }
 
-bool prove_scene(const Scene *scene, const Arithmetics *found, int height, FILE *file,
-                 Message *message)
+static bool prove_scene(const Scene *scene, const Arithmetics *found, int height, FILE *file,
+                        Message *message)
 {
     enum { PIECES = 60000 }; /* some seconds */
     for (int i = 0; i < 2; i++) {
@@ -153,4 +155,30 @@ bool prove_scene(const Scene *scene, const Arithmetics *found, int height, FILE 
             "%s,\nand that its compiler keeps the text's operations or rounds less.\n",
             found->raster.bytes, found->raster.subpixel_bits, found->renderer);
     return true;
+}
+
+/* With no settings but the usual. */
+bool prove_study(int number, const CanvasBackend *backend, int height, FILE *file, Message *message)
+{
+    Arithmetics *found = memory_new(1, sizeof *found);
+    const Quality quality = quality_usual();
+    SolidMeshes meshes = {.first = NULL};
+    StudyScene study;
+    SceneCopy made;
+    Meter meter;
+    bool done = meter_open(&meter, backend, message);
+    if (done) {
+        study_scene(number, &study);
+        done = arithmetic_measure(&meter, 1 << 17, found, message) &&
+               quality_scene_open(&made, &study.scene, &quality, &meshes, message);
+        if (done) {
+            fprintf(file, "%s, %d rows\n", STUDY_SCENES[number].name, height);
+            done = prove_scene(&made.scene, found, height, file, message);
+            scene_copy_close(&made);
+        }
+        solid_meshes_close(&meshes);
+        meter_close(&meter);
+    }
+    free(found);
+    return done;
 }

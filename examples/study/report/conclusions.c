@@ -236,7 +236,7 @@ static void put_bar(double ratio, char bar[16])
         bar[HALF + i] = '#';
 }
 
-void conclusions_print(const Conclusions *conclusions, FILE *file)
+void conclusions_print(const Conclusions *conclusions, const char *folder, FILE *file)
 {
     for (int i = 0; i < conclusions->count; i++) {
         fprintf(file, "%s\n", conclusions->lines[i]);
@@ -248,6 +248,8 @@ void conclusions_print(const Conclusions *conclusions, FILE *file)
                     glance->time, glance->error);
         }
     }
+    fprintf(file, "%s/index.html: plots and tables; all tables: table.txt; --verbose prints them\n",
+            folder);
 }
 
 static void add_matrices(Conclusions *to, const Results *results)

@@ -47,8 +47,8 @@ struct ShadowWays;
 Conclusions conclusions_of(const Results *results, const int *scenes, int count,
                            const ModelsApart *apart, const struct ShadowWays *ways);
 
-/* The first line, the rows and the other lines. */
-void conclusions_print(const Conclusions *conclusions, FILE *file);
+/* The first line, the rows, the other lines, and where the page is. */
+void conclusions_print(const Conclusions *conclusions, const char *folder, FILE *file);
 
 /* FOLDER/NAME.png, the picture of a row. */
 void glance_path(const Glance *glance, const char *folder, char path[PATH_MAX]);
