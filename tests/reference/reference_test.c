@@ -596,8 +596,10 @@ TEST_WITH(0, any_number_of_threads_makes_the_same_bits, set_up, tear_down)
     world.lights[1].shadows = true;
     for (int meshes = 0; meshes < 2; meshes++) {
         Reference one = world_trace((ReferenceOptions){.threads = 1, .meshes = meshes});
-        for (int threads = 0; threads < 9; threads++) {
-            Reference many = world_trace((ReferenceOptions){.threads = threads, .meshes = meshes});
+        for (int i = 0; i < 3; i++) {
+            const int threads[] = {0, 2, 7};
+            const Reference many =
+                world_trace((ReferenceOptions){.threads = threads[i], .meshes = meshes});
             assert_same(&one, &many);
         }
     }
