@@ -192,11 +192,23 @@ void viewer_pixel_point(Viewer *viewer)
     Image image = {.width = 0};
     int at[2];
     const bool over = can_explain(viewer) && !viewer->panel.result.wants_pointer &&
+                      !viewer->input.buttons[0] &&
                       find_place(viewer, viewer->input.x, viewer->input.y, at);
     if (!over)
         pixel->line[0] = '\0';
     if (!over || (!viewer->paused && now - pixel->line_time < LINE_SECONDS))
         return;
+    const PanelPicture of = viewer_panel_picture(&viewer->reload.renderer, viewer_request(viewer));
+    const bool same = viewer->paused == pixel->line_paused && pixel->line[0] &&
+                      memcmp(at, pixel->line_at, sizeof at) == 0 &&
+                      pixel->line_renewals == viewer->panel.renewals &&
+                      !viewer_panel_other(&pixel->line_of, &viewer->reload.renderer, &of.request);
+    if (same)
+        return;
+    memcpy(pixel->line_at, at, sizeof at);
+    pixel->line_of = of;
+    pixel->line_renewals = viewer->panel.renewals;
+    pixel->line_paused = viewer->paused;
     pixel->line_time = now;
     if (image_open(&image, canvas->width, canvas->height, IMAGE_BYTE, NULL) &&
         canvas_read(canvas, &image, NULL))

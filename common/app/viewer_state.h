@@ -132,6 +132,10 @@ enum { PIXEL_LINE = 256, PIXEL_NAMES = 127 };
 typedef struct ViewerPixel {
     char line[PIXEL_LINE]; /* of that under the pointer; empty: it is not over the picture */
     double line_time;      /* clock_now then */
+    /* Of which pixel and picture it is: */
+    int line_at[2], line_renewals;
+    bool line_paused;
+    PanelPicture line_of;
     bool open;             /* one was clicked: */
     double at[2];          /* there, of the picture's width and height */
     char title[64], *text; /* what is said of it */
