@@ -12,6 +12,7 @@
 #include "core/example.h"
 #include "core/orbit.h"
 #include "core/shader.h"
+#include "probe/exact_pixel.h"
 #include "scene/parameter.h"
 #include "scene/scene.h"
 
@@ -117,9 +118,9 @@ struct ExampleKind {
     /* --explain, on standard output. */
     bool (*explain)(Renderer *renderer, const DrawRequest *request, Message *message);
 
-    /* The exact colour at a pixel's centre, and what is seen there. False: unknown. */
+    /* What is exactly at a pixel's centre. False: unknown. */
     bool (*exact)(Renderer *renderer, const DrawRequest *request, const int pixel[2],
-                  float color[3], char name[64]);
+                  ExactPixel *exact);
 
     /* Turns so many pages, as far as there are; false: none. */
     bool (*turn_page)(const Example *example, int pages);

@@ -57,7 +57,7 @@ char *probing_pixel(Probing *probing, const ProbePlugin *plugin, const int pixel
                               .column = pixel[0],
                               .row = pixel[1],
                               .height = canvas->height};
-    char object[64];
+    ExactPixel exact = {.equation = NULL};
     Image image = {.width = 0};
     if (!image_open(&image, canvas->width, canvas->height, IMAGE_BYTE, message))
         return NULL;
@@ -67,8 +67,9 @@ char *probing_pixel(Probing *probing, const ProbePlugin *plugin, const int pixel
                4 * ((size_t)pixel[1] * (size_t)image.width + (size_t)pixel[0]),
            sizeof question.drawn);
     image_close(&image);
-    if (renderer->kind->exact &&
-        renderer->kind->exact(renderer, &probing->request, pixel, question.exact, object))
-        question.object = object;
-    return read ? plugin->tell(&question, json, message) : NULL;
+    if (renderer->kind->exact && renderer->kind->exact(renderer, &probing->request, pixel, &exact))
+        question.exact = &exact;
+    char *text = read ? plugin->tell(&question, json, message) : NULL;
+    free(exact.equation);
+    return text;
 }

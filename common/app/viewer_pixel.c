@@ -167,21 +167,23 @@ void viewer_pixel_update(Viewer *viewer)
 static void write_line(Viewer *viewer, const int at[2], const unsigned char drawn[3])
 {
     Renderer *renderer = &viewer->reload.renderer;
-    char *line = viewer->pixel.line, object[64];
-    float exact[3];
+    char *line = viewer->pixel.line;
+    ExactPixel exact;
     double most = 0;
     const int length =
         snprintf(line, PIXEL_LINE, "%d,%d: %d, %d, %d", at[0], at[1], drawn[0], drawn[1], drawn[2]);
     if (!viewer->paused || !renderer->kind->exact ||
-        !renderer->kind->exact(renderer, viewer_request(viewer), at, exact, object))
+        !renderer->kind->exact(renderer, viewer_request(viewer), at, &exact))
         return;
+    free(exact.equation);
+    double steps[3];
     for (int i = 0; i < 3; i++) {
-        exact[i] = 255 * fminf(fmaxf(exact[i], 0), 1);
-        most = fmax(most, fabs((double)exact[i] - drawn[i]));
+        steps[i] = 255 * fmin(fmax((double)exact.color[i], 0), 1);
+        most = fmax(most, fabs(steps[i] - drawn[i]));
     }
     snprintf(line + length, (size_t)(PIXEL_LINE - length),
-             "; %s, exactly %.1f, %.1f, %.1f: %.1f steps off", object, (double)exact[0],
-             (double)exact[1], (double)exact[2], most);
+             "; %s, exactly %.1f, %.1f, %.1f: %.1f steps off", exact.object, steps[0], steps[1],
+             steps[2], most);
 }
 
 void viewer_pixel_point(Viewer *viewer)

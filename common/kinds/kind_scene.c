@@ -3,7 +3,6 @@
 #include "base/memory.h"
 #include "images/label.h"
 #include "kinds/scene_views.h"
-#include "reference/reference_trace.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -31,6 +30,7 @@ static void forget_scene(Renderer *renderer)
 {
     SceneState *state = scene_state(renderer);
     scene_forget_choices(state);
+    scene_forget_exact(renderer);
     lighting_forget(state->lighting, NULL);
 }
 
@@ -40,6 +40,7 @@ static void close_scene(Renderer *renderer)
     if (!state)
         return;
     scene_forget_choices(state);
+    scene_forget_exact(renderer);
     lighting_close(state->lighting);
     solid_meshes_close(&state->meshes);
     overlay_close(&state->overlay);
@@ -172,35 +173,6 @@ bool scene_error_picture(Renderer *renderer, const DrawRequest *request, double 
     return false;
 }
 
-static bool exact_pixel(Renderer *renderer, const DrawRequest *request, const int pixel[2],
-                        float color[3], char name[64])
-{
-    bool known = false;
-    for (int number = 0; number < scene_view_count(renderer) && !known; number++) {
-        SceneCopy kept = {.lights = NULL};
-        Scene scene;
-        Sample sample;
-        Trace *trace = NULL;
-        int place[4];
-        if (!scene_view_place(renderer, number, place) || pixel[0] < place[0] ||
-            pixel[1] < place[1] || pixel[0] >= place[0] + place[2] ||
-            pixel[1] >= place[1] + place[3])
-            continue;
-        const ViewMoment moment = {renderer, request, request->seconds, number};
-        const ReferenceOptions size = {.width = place[2], .height = place[3], .threads = 1};
-        known = scene_view_make(&moment, &kept, &scene, NULL) && scene.object_count > 0 &&
-                trace_open(&trace, &scene, &size, NULL);
-        if (known) {
-            trace_sample(trace, pixel[0] - place[0] + 0.5, pixel[1] - place[1] + 0.5, &sample);
-            memcpy(color, sample.color, sizeof sample.color);
-            snprintf(name, 64, sample.object < 0 ? "the background" : "object %d", sample.object);
-        }
-        trace_close(trace);
-        scene_copy_close(&kept);
-    }
-    return known;
-}
-
 /* The finished picture */
 
 /* Of many frames those that needed another program. */
@@ -292,6 +264,6 @@ const ExampleKind SCENE_KIND = {
     .retouch = retouch,
     .save = save,
     .explain = explain_programs,
-    .exact = exact_pixel,
+    .exact = scene_exact_pixel,
     .panel = &SCENE_PANEL,
 };

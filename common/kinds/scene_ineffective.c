@@ -195,7 +195,7 @@ static void add_object(CacheKey *key, const Object *object, unsigned light, bool
         scene_key_mesh(key, object->mesh);
 }
 
-static void add_scene(CacheKey *key, const Scene *scene, bool alpha)
+void scene_key(CacheKey *key, const Scene *scene, bool alpha)
 {
     const int counts[] = {scene->light_count, scene->object_count};
     cache_key_add(key, counts, sizeof counts);
@@ -229,7 +229,7 @@ static void add_view(CacheKey *key, const Example *example, const Options *optio
     own->make(seconds, view, &scene);
     scene_copy_open(&kept, &scene);
     scene_keep_terms(&kept, options->terms);
-    add_scene(key, &kept.scene, options->alpha);
+    scene_key(key, &kept.scene, options->alpha);
     if (own->annotate)
         own->annotate(seconds, view, &kept.scene, &marks);
     add_marks(key, &marks);

@@ -29,6 +29,7 @@ typedef struct SceneState {
     CheapestQuality *choices;
     int choice_count, choice_width, choice_height;
     double choice_seconds;
+    struct SceneExact *exact; /* by view: see scene_exact_pixel */
 } SceneState;
 
 SceneState *scene_state(const Renderer *renderer);
@@ -77,6 +78,14 @@ void scene_forget_choices(SceneState *state);
 /* For --explain: what was chosen for a view, as it was opened; nothing without --error. */
 void scene_explain_choice(const Renderer *renderer, const DrawRequest *request,
                           const SceneView *view, int number, FILE *file);
+
+/* Adds what decides the picture of a scene to a key; with `alpha`, of one that keeps it. */
+void scene_key(CacheKey *key, const Scene *scene, bool alpha);
+
+/* See ExampleKind.exact. What is made for a pixel is kept for the next of the same scene. */
+bool scene_exact_pixel(Renderer *renderer, const DrawRequest *request, const int pixel[2],
+                       ExactPixel *exact);
+void scene_forget_exact(Renderer *renderer);
 
 /* The options of programs that draw scenes. */
 

@@ -30,6 +30,8 @@ typedef struct CaptureStore {
     CaptureTexture **textures;
     char **texts; /* sources, each once */
     int block_count, size_count, texture_count, text_count;
+    GLuint *shaders; /* deleted at the end: WebGL does not tell the source of a deleted one */
+    int shader_count;
     int moment; /* changes with what textures may hold */
 } CaptureStore;
 
@@ -42,7 +44,8 @@ static Capture *current;
     X(TEXIMAGE2D, TexImage2D)                                                                      \
     X(CLEAR, Clear)                                                                                \
     X(DRAWARRAYS, DrawArrays)                                                                      \
-    X(DRAWELEMENTS, DrawElements)
+    X(DRAWELEMENTS, DrawElements)                                                                  \
+    X(DELETESHADER, DeleteShader)
 #define X(TYPE, name) static PFNGL##TYPE##PROC driver##name;
 REPLACED(X)
 #undef X
@@ -413,6 +416,13 @@ static void GL_APIENTRY clear(GLbitfield buffers)
     driverClear(buffers);
 }
 
+static void GL_APIENTRY delete_shader(GLuint shader)
+{
+    CaptureStore *store = current->store;
+    store->shaders = grow(store->shaders, &store->shader_count, sizeof *store->shaders);
+    store->shaders[store->shader_count - 1] = shader;
+}
+
 /* On and off */
 
 void capture_begin(Capture *capture, const Canvas *canvas)
@@ -431,6 +441,7 @@ void capture_begin(Capture *capture, const Canvas *canvas)
     glClear = clear;
     glDrawArrays = draw_arrays;
     glDrawElements = draw_elements;
+    glDeleteShader = delete_shader;
 }
 
 void capture_end(Capture *capture)
@@ -442,6 +453,8 @@ void capture_end(Capture *capture)
 #define X(TYPE, name) gl##name = driver##name;
     REPLACED(X)
 #undef X
+    for (int i = 0; i < capture->store->shader_count; i++)
+        glDeleteShader(capture->store->shaders[i]);
 }
 
 void capture_close(Capture *capture)
@@ -462,6 +475,7 @@ void capture_close(Capture *capture)
         free(store->sizes);
         free(store->texts);
         free(store->textures);
+        free(store->shaders);
     }
     free(store);
     *capture = (Capture){0};

@@ -47,10 +47,12 @@ static void find_magnifier(Probe *probe)
 
 static void judge(Probe *probe)
 {
-    double picture[4] = {(double)probe->question.exact[0], (double)probe->question.exact[1],
-                         (double)probe->question.exact[2], 1};
+    const ExactPixel *exact = probe->question.exact;
+    double picture[4] = {0, 0, 0, 1};
     probe->judged = true;
-    if (!probe->question.object) {
+    for (int i = 0; i < 3 && exact; i++)
+        picture[i] = (double)exact->color[i];
+    if (!exact) {
         raster_at_pixel(probe->raster, true);
         raster_run(probe->raster, &probe->pixel, &GLSL_EXACT, INT_MAX, picture);
         raster_at_pixel(probe->raster, false);

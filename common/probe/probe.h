@@ -4,6 +4,7 @@
 #ifndef PROBE_H
 #define PROBE_H
 
+#include "probe/exact_pixel.h"
 #include "probe/place.h"
 #include "probe/raster.h"
 
@@ -14,8 +15,7 @@ typedef struct ProbeQuestion {
     const GlslArithmetic *driver; /* as which device it is computed */
     int column, row, height;      /* of the picture, from its upper left corner */
     unsigned char drawn[4];
-    const char *object; /* what is seen there in the exact picture; NULL: unknown */
-    float exact[3];     /* its colour there, with `object` */
+    const ExactPixel *exact; /* NULL: unknown */
 } ProbeQuestion;
 
 /* What a run of the fragment's shader assigned, and the colour. */

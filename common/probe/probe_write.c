@@ -66,7 +66,7 @@ static void put_event(FILE *file, const Probe *probe, int event)
 static void put_verdict(FILE *file, const Probe *probe)
 {
     fprintf(file, "%.2f steps off: %.2f by %s, %.2f by rounding", probe->whole, probe->formula,
-            probe->question.object ? "the formula" : "interpolation", probe->rounding);
+            probe->question.exact ? "the formula" : "interpolation", probe->rounding);
     if (probe->rounding < 0.01)
         return;
     fprintf(file, ", born");
@@ -155,9 +155,9 @@ static const char *put_value(FILE *file, const Probe *probe, int event, const ch
     return text + (chosen ? chosen + 1 : 0);
 }
 
-/* What an event assigns, with the numbers in it that its variables hold; nothing if it computes
- * nothing of these. */
-static void put_filled(FILE *file, const Probe *probe, int event)
+/* What an event assigns, with the numbers in it that its variables hold: "= 0.8 * 0.5", for free();
+ * NULL if it computes nothing of these. */
+static char *filled_text(const Probe *probe, int event)
 {
     char text[512], *filled;
     event_text(probe, event, text, sizeof text);
@@ -177,15 +177,17 @@ static void put_filled(FILE *file, const Probe *probe, int event)
     fclose(own);
     const GlslNode *node = &tree_of(probe)->nodes[probe->driver.events[event].node];
     const int op = node->kind == GLSL_ASSIGN ? node->op : GLSL_SET;
+    char *said = NULL;
     if (any && node->kind != GLSL_UNARY && (op != GLSL_SET || strpbrk(text, "+-*/(")))
-        fprintf(file, "      %s= %s\n",
-                op == GLSL_ADD        ? "+"
-                : op == GLSL_SUBTRACT ? "-"
-                : op == GLSL_MULTIPLY ? "*"
-                : op == GLSL_DIVIDE   ? "/"
-                                      : "",
-                filled);
+        said = memory_format("%s= %s",
+                             op == GLSL_ADD        ? "+"
+                             : op == GLSL_SUBTRACT ? "-"
+                             : op == GLSL_MULTIPLY ? "*"
+                             : op == GLSL_DIVIDE   ? "/"
+                                                   : "",
+                             filled);
     free(filled);
+    return said;
 }
 
 /* The lines of a text of several files are shown, for nobody has it at hand. */
@@ -212,7 +214,10 @@ static void put_trail(FILE *file, const Probe *probe)
         } else {
             fprintf(file, " | the exact one goes another way\n");
         }
-        put_filled(file, probe, i);
+        char *filled = filled_text(probe, i);
+        if (filled)
+            fprintf(file, "      %s\n", filled);
+        free(filled);
     }
 }
 
@@ -261,15 +266,16 @@ char *probe_text(const Probe *probe)
 {
     const ProbeQuestion *question = &probe->question;
     const unsigned char *drawn = question->drawn;
-    const double exact[3] = {(double)question->exact[0], (double)question->exact[1],
-                             (double)question->exact[2]};
+    const ExactPixel *exact = question->exact;
     char *text;
     FILE *file = open_text(&text);
     fprintf(file, "pixel %d,%d: drawn %d, %d, %d\n", question->column, question->row, drawn[0],
             drawn[1], drawn[2]);
-    if (question->object) {
-        put_steps(file, "exact picture:", exact);
-        fprintf(file, ", %s\n", question->object);
+    if (exact) {
+        const double color[3] = {(double)exact->color[0], (double)exact->color[1],
+                                 (double)exact->color[2]};
+        put_steps(file, "exact picture:", color);
+        fprintf(file, ", %s\n%s", exact->object, exact->equation ? exact->equation : "");
     }
     if (probe->pixel.draw >= 0) {
         put_steps(file, "computed:", probe->driver.color);
@@ -316,6 +322,10 @@ static void write_trail(JsonWriter *json, const Probe *probe)
         json_write_object(json, NULL);
         write_place(json, probe, i);
         json_write_text(json, "name", tree_of(probe)->symbols[event->symbol].name);
+        char *filled = filled_text(probe, i);
+        if (filled)
+            json_write_text(json, "filled", filled);
+        free(filled);
         write_numbers(json, "driver", probe->driver.values + event->value, event->count);
         if (exact) {
             write_numbers(json, "exact", probe->exact.values + exact->value, exact->count);
@@ -336,7 +346,7 @@ static void write_verdict(JsonWriter *json, const Probe *probe)
     json_write_text(json, "text", text);
     free(text);
     json_write_number(json, "steps", probe->whole);
-    json_write_number(json, probe->question.object ? "formula" : "interpolation", probe->formula);
+    json_write_number(json, probe->question.exact ? "formula" : "interpolation", probe->formula);
     json_write_number(json, "rounding", probe->rounding);
     json_write_whole(json, "born", probe->birth); /* which of the assignments */
     if (probe->magnifier >= 0) {
@@ -362,25 +372,42 @@ static void write_corner(JsonWriter *json, const Probe *probe, int corner)
     json_write_end(json);
 }
 
+static void write_exact(JsonWriter *json, const ExactPixel *exact)
+{
+    const double color[3] = {(double)exact->color[0], (double)exact->color[1],
+                             (double)exact->color[2]};
+    write_numbers(json, "exact_picture", color, 3);
+    json_write_text(json, "object", exact->object);
+    if (!exact->equation)
+        return;
+    json_write_text(json, "equation", exact->equation);
+    json_write_list(json, "directions");
+    for (int i = 0; i < exact->direction_count; i++) {
+        const ExactDirection *direction = &exact->directions[i];
+        json_write_object(json, NULL);
+        json_write_text(json, "name", direction->name);
+        write_numbers(json, "vector", direction->vector, 3);
+        write_numbers(json, "to", direction->to, 2); /* drawn from the pixel, in its units */
+        json_write_end(json);
+    }
+    json_write_end(json);
+}
+
 /* Of colours 0 to 1 is the range that a framebuffer keeps. */
 char *probe_json(const Probe *probe)
 {
     const ProbeQuestion *question = &probe->question;
-    double drawn[3], exact[3];
+    double drawn[3];
     char *text;
     JsonWriter json = {.file = open_text(&text), .lines = 2};
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 3; i++)
         drawn[i] = question->drawn[i] / 255.0;
-        exact[i] = (double)question->exact[i];
-    }
     json_write_object(&json, NULL);
     json_write_whole(&json, "column", question->column);
     json_write_whole(&json, "row", question->row);
     write_numbers(&json, "drawn", drawn, 3);
-    if (question->object) {
-        write_numbers(&json, "exact_picture", exact, 3);
-        json_write_text(&json, "object", question->object);
-    }
+    if (question->exact)
+        write_exact(&json, question->exact);
     if (probe->pixel.draw >= 0) {
         write_numbers(&json, "computed", probe->driver.color, 4);
         write_numbers(&json, "exact", probe->exact.color, 4);

@@ -45,6 +45,9 @@ typedef __float128 Real;
 #define triangles_close quad_triangles_close
 #define trace_open quad_trace_open
 #define trace_sample quad_trace_sample
+#define trace_object quad_trace_object
+#define trace_point quad_trace_point
+#define trace_place quad_trace_place
 #define trace_same_side quad_trace_same_side
 #define trace_agree quad_trace_agree
 #define trace_close quad_trace_close

@@ -3,11 +3,6 @@
  * smallest parameter wins: it is the depth, since a ray's direction has depth 1. The eye is the
  * origin, and what is far from the world's origin loses no digits.
  *
- * A sample keeps more than its color: which smooth surface was seen, from which side, and on which
- * side of each jump of the light the point lies. Samples that agree in all of that, have like
- * colors, and lie in each other's tangent planes are taken for one smooth surface; whether a pixel
- * has an edge is decided by nothing else.
- *
  * Light that is computed at the corners of triangles is computed there once, when the trace is
  * opened. With shadows the lights that cast them are kept apart, in layers: at each point the
  * layers whose lights reach it are added and interpolated.
@@ -233,6 +228,7 @@ static Real3 interpolate(Real3 a, Real3 b, Real3 c, const Real weights[3])
 typedef struct Surface {
     Real3 geometric;         /* the surface's own unit normal */
     Real3 normal;            /* that which light sees */
+    Real3 position;          /* as seen from the eye */
     const uint32_t *indices; /* of the triangle's corners */
     Real3 local;             /* of a solid: the point in its coordinates */
 } Surface;
@@ -366,41 +362,61 @@ static void put_out(const Trace *trace, Real3 color, Sample *sample)
     }
 }
 
-void trace_sample(const Trace *trace, double x, double y, Sample *sample)
+/* Where the ray meets the scene; false: nowhere. The sample gets what is known without light. */
+static bool meet(const Trace *trace, double x, double y, Nearest *nearest, Surface *surface,
+                 Sample *sample)
 {
     const Scene *scene = trace->scene;
     const Real3 direction =
         real3_along(real3_along(trace->corner, x, trace->across), y, trace->down);
-    Nearest nearest = {.object = -1, .t = INFINITY};
+    *nearest = (Nearest){.object = -1, .t = INFINITY};
     *sample = (Sample){.object = -1, .depth = INFINITY};
     for (int i = 0; i < scene->object_count; i++)
-        meet_object(trace, i, direction, &nearest);
-    if (nearest.object < 0) {
-        const Vec3 background = scene->background;
+        meet_object(trace, i, direction, nearest);
+    if (nearest->object < 0)
+        return false;
+    const TraceObject *ready = &trace->objects[nearest->object];
+    *surface = ready->exact ? solid_surface(ready, nearest, direction, sample)
+                            : triangle_surface(ready, nearest, direction, sample);
+    surface->position = real3_scale(direction, nearest->t);
+    sample->object = nearest->object;
+    sample->depth = (double)nearest->t;
+    sample->position = real3_round(surface->position);
+    sample->normal = real3_round(surface->geometric);
+    return true;
+}
+
+static ShadePoint lit_point(const Trace *trace, const Nearest *nearest, const Surface *surface,
+                            bool front, Material *material)
+{
+    const TraceObject *ready = &trace->objects[nearest->object];
+    const bool reversed = ready->object->two_sided && !front;
+    *material = reversed ? ready->object->back : ready->object->front;
+    if (!ready->exact && ready->mesh->colors)
+        material->ambient = material->diffuse =
+            real3_round(vertex_color(ready->mesh, surface->indices, nearest->triangle.weights));
+    return (ShadePoint){material, surface->position,
+                        real3_scale(surface->normal, reversed ? -1 : 1)};
+}
+
+void trace_sample(const Trace *trace, double x, double y, Sample *sample)
+{
+    const Vec3 background = trace->scene->background;
+    Nearest nearest;
+    Surface surface;
+    if (!meet(trace, x, y, &nearest, &surface, sample)) {
         sample->color[0] = (float)background.x;
         sample->color[1] = (float)background.y;
         sample->color[2] = (float)background.z;
         return;
     }
-    const TraceObject *ready = &trace->objects[nearest.object];
-    const Surface surface = ready->exact ? solid_surface(ready, &nearest, direction, sample)
-                                         : triangle_surface(ready, &nearest, direction, sample);
-    const Real3 position = real3_scale(direction, nearest.t);
-    sample->object = nearest.object;
-    sample->depth = (double)nearest.t;
-    sample->position = real3_round(position);
-    sample->normal = real3_round(surface.geometric);
     if (trace->at_corners) {
         put_out(trace, corner_color(trace, &nearest, &surface, sample), sample);
         return;
     }
-    const bool reversed = ready->object->two_sided && !sample->front;
-    Material material = reversed ? ready->object->back : ready->object->front;
+    Material material;
     ShadeSides sides;
-    if (!ready->exact && ready->mesh->colors)
-        material.ambient = material.diffuse =
-            real3_round(vertex_color(ready->mesh, surface.indices, nearest.triangle.weights));
-    const ShadePoint point = {&material, position, real3_scale(surface.normal, reversed ? -1 : 1)};
+    const ShadePoint point = lit_point(trace, &nearest, &surface, sample->front, &material);
     Real3 color;
     if (trace->casts) {
         const ShadowPoint start = shadow_start(trace, &nearest, &surface, point.normal);
@@ -414,68 +430,34 @@ void trace_sample(const Trace *trace, double x, double y, Sample *sample)
     put_out(trace, color, sample);
 }
 
+bool trace_point(const Trace *trace, double x, double y, TracePoint *point)
+{
+    Nearest nearest;
+    Surface surface;
+    Sample sample;
+    *point = (TracePoint){.shading = &trace->shading};
+    if (!meet(trace, x, y, &nearest, &surface, &sample) || trace->at_corners)
+        return false;
+    point->point = lit_point(trace, &nearest, &surface, sample.front, &point->material);
+    return true;
+}
+
+void trace_place(const Trace *trace, Vec3 position, double at[2])
+{
+    /* position = t (corner + x across + y down), and these are perpendicular but for the corner. */
+    const Real3 p = real3(position);
+    const Real t = -real3_dot(p, trace->shading.view);
+    const Real3 from = real3_subtract(real3_scale(p, 1 / t), trace->corner);
+    at[0] = (double)(real3_dot(from, trace->across) / real3_dot(trace->across, trace->across));
+    at[1] = (double)(real3_dot(from, trace->down) / real3_dot(trace->down, trace->down));
+}
+
 bool trace_casts(const Trace *trace)
 {
     return trace->casts;
 }
 
-uint32_t trace_pixel_lights(const Sample *const rows[3])
+const TraceObject *trace_object(const Trace *trace, int number)
 {
-    uint32_t lights = 0;
-    for (int row = 0; row < 3; row++)
-        for (int i = 0; i < 3; i++)
-            lights |= rows[row][i].object == rows[1][1].object ? rows[row][i].lights : 0;
-    return lights;
-}
-
-/* A smooth surface's chord is nearly perpendicular to the mean of the normals at its ends: on a
- * circle exactly, elsewhere but for the third power of its length. A jump in depth is along the
- * view. */
-static bool in_tangent_planes(const Sample *a, const Sample *b)
-{
-    const Real3 chord = real3_subtract(real3(b->position), real3(a->position));
-    const Real out = real3_dot(chord, real3_add(real3(a->normal), real3(b->normal)));
-    return out * out <= (Real)0.0025 * real3_dot(chord, chord);
-}
-
-/* Whether triangles hang together smoothly: by an edge, with its normals; else not where a crease
- * is between them; else by a corner at which they are not folded, or as far as their planes tell.
- */
-static bool joined(const Triangles *triangles, const Sample *a, const Sample *b)
-{
-    const TrianglesShare share = triangles_share(triangles, a->triangle, b->triangle);
-    if (share.corners >= 2 || share.places > share.corners)
-        return share.corners >= 2;
-    return real3_dot(real3(a->normal), real3(b->normal)) > (Real)0.7 &&
-           (share.corners == 1 || in_tangent_planes(a, b));
-}
-
-static bool like_colors(const Sample *a, const Sample *b)
-{
-    for (int k = 0; k < 3; k++)
-        if (fabsf(a->color[k] - b->color[k]) > 0.0625F)
-            return false;
-    return true;
-}
-
-bool trace_same_side(const Sample *a, const Sample *b)
-{
-    return a->object == b->object && a->piece == b->piece && a->front == b->front &&
-           a->clipped == b->clipped &&
-           ((a->sides ^ b->sides) & (a->sides_matter | b->sides_matter)) == 0;
-}
-
-bool trace_agree(const Trace *trace, const Sample *a, const Sample *b)
-{
-    if (!trace_same_side(a, b))
-        return false;
-    if (a->object < 0)
-        return true;
-    const TraceObject *ready = &trace->objects[a->object];
-    if (!like_colors(a, b))
-        return false;
-    if (!ready->exact)
-        return joined(&ready->triangles, a, b);
-    /* Of all solids only a torus lies before itself with the same side outwards. */
-    return ready->object->solid.kind != SOLID_TORUS || in_tangent_planes(a, b);
+    return &trace->objects[number];
 }

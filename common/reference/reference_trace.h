@@ -8,6 +8,7 @@
 #define REFERENCE_TRACE_H
 
 #include "reference/reference.h"
+#include "reference/reference_object.h"
 #include "reference/reference_real.h"
 #include "scene/scene.h"
 
@@ -38,6 +39,19 @@ typedef struct Sample {
 
 /* x in 0..width from the left, y in 0..height from the top, in pixels. */
 void trace_sample(const Trace *trace, double x, double y, Sample *sample);
+
+/* What is lit there, and by what. False: nothing, or light is computed at corners. */
+typedef struct TracePoint {
+    const Shading *shading;
+    Material material;
+    ShadePoint point; /* points at the material */
+} TracePoint;
+bool trace_point(const Trace *trace, double x, double y, TracePoint *point);
+
+/* Where in the picture a position before the eye, as in Sample, is seen. */
+void trace_place(const Trace *trace, Vec3 position, double at[2]);
+
+const TraceObject *trace_object(const Trace *trace, int number);
 
 /* Whether a light of the scene casts shadows. */
 bool trace_casts(const Trace *trace);

@@ -169,11 +169,12 @@ static bool find_cause(HardResult *result, const Way *way, const ShaderLoader *s
                        Message *message)
 {
     const size_t worst = result->naive_worst, width = (size_t)way->canvas->width;
+    ExactPixel exact = {.object = "inside an object"};
     ProbeQuestion question = {.driver = &GLSL_LLVMPIPE,
                               .column = (int)(worst % width),
                               .row = (int)(worst / width),
                               .height = way->canvas->height,
-                              .object = "inside an object"};
+                              .exact = &exact};
     ShaderReplacement replaced[3];
     Way captured = *way;
     Capture capture;
@@ -185,7 +186,7 @@ static bool find_cause(HardResult *result, const Way *way, const ShaderLoader *s
     capture_end(&capture);
     question.capture = &capture;
     memcpy(question.drawn, (unsigned char *)result->naive.pixels + 4 * worst, 4);
-    memcpy(question.exact, result->exact.color + 3 * worst, sizeof question.exact);
+    memcpy(exact.color, result->exact.color + 3 * worst, sizeof exact.color);
     done = done && probe_open(&probe, &question, message);
     if (done)
         result->verdict = probe_verdict(&probe);

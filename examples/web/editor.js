@@ -429,7 +429,7 @@ const Editor = (() => {
         });
         kept(key);
         showKept();
-        return {run, texts, edited: () => edited.size > 0, changed: () => new Map(edited), borrow, own,
+        return {run, texts, names, go, edited: () => edited.size > 0, changed: () => new Map(edited), borrow, own,
                 strange: others => [...others.keys()].find(name => !originals.has(name))};
     }
 

@@ -1,7 +1,7 @@
 "use strict";
-/* The compiled programs. lighting.js, which the build makes, has LIGHTING_WASM, LZMA in base64, LIGHTING_SIZE, how long that
- * is unpacked, and lightingFactory(), which returns Emscripten's createLighting. This file's functions also run in a worker,
- * as their own text. */
+/* The compiled programs. lighting.js, which the build makes, has LIGHTING: `wasm`, LZMA in base64, `size`, how long that is
+ * unpacked, and factory(), which returns Emscripten's createLighting; probe.js has PROBE likewise. This file's functions also
+ * run in a worker, as their own text. */
 
 /* The decoder of LZMA (Igor Pavlov's specification, lc = 3, lp = pb = 0): a seventh smaller than gzip, which browsers have. */
 class Lzma {
@@ -125,14 +125,18 @@ class Lzma {
 }
 
 /* Instances of the module share what is compiled. */
-function compileLighting() {
-    const packed = Uint8Array.from(atob(LIGHTING_WASM), letter => letter.charCodeAt(0));
-    return WebAssembly.compile(new Lzma(packed, LIGHTING_SIZE).unpack());
+function compileLighting(module = programModule()) {
+    const packed = Uint8Array.from(atob(module.wasm), letter => letter.charCodeAt(0));
+    return WebAssembly.compile(new Lzma(packed, module.size).unpack());
 }
 
+/* In one file PROBE does the work of both. */
+function programModule() { return typeof LIGHTING === "undefined" ? PROBE : LIGHTING; }
+
 /* A worker that has Engine and runs a function. From a file none is allowed without a server, from a text one is. */
-function startWorker(work) {
-    const text = ['"use strict";', lightingFactory, Engine, "(" + work + ")();"].join("\n");
+function startWorker(work, module = programModule()) {
+    const text = ['"use strict";', "const LIGHTING = {factory: " + module.factory + "};", programModule, Engine,
+                  "(" + work + ")();"].join("\n");
     const address = URL.createObjectURL(new Blob([text], {type: "text/javascript"}));
     const worker = new Worker(address);
     URL.revokeObjectURL(address);
@@ -146,7 +150,7 @@ class Engine {
         Engine.drawColourless();
         engine.lines = [];
         /* Emscripten waits for done() for ever. */
-        engine.module = await new Promise((resolve, reject) => lightingFactory()({
+        engine.module = await new Promise((resolve, reject) => programModule().factory()({
             canvas,
             print: line => engine.lines.push(line),
             printErr: line => engine.lines.push(line),

@@ -1,6 +1,6 @@
 """Packs the module and the pages into a folder that works by double click.
 
-    pack.py SOURCE_FOLDER MODULE_JS LABS_MODULE_JS FOLDER FOLDER/PROGRAM... labs/LAB...
+    pack.py SOURCE_FOLDER MODULE_JS LABS_MODULE_JS PROBE_JS FOLDER FOLDER/PROGRAM... labs/LAB...
 
 FOLDER gets index.html, book.html and labs.html, a page for each program, chapter and lab, what they share, and .lighting, the
 list of all; FOLDER/single has each page of a program or lab as one file. LIGHTING_NATIVE in the environment is the folder of
@@ -10,6 +10,7 @@ scripts.
 """
 import base64
 import difflib
+import gzip
 import hashlib
 import html
 import lzma
@@ -24,7 +25,9 @@ import markdown
 
 INDEX = ["lighting.js", "module.js", "index.js"]
 PROGRAM = ["lighting.js", "module.js", "worker.js", "png.js", "zip.js", "link.js", "controls.js", "editor.js",
-           "lent.js", "share.js", "undo.js", "wipe.js", "before.js", "assembled.js", "program.js"]
+           "lent.js", "share.js", "undo.js", "wipe.js", "before.js", "assembled.js", "point.js", "program.js"]
+# What a page loads when a pixel is asked for.
+POINTED = ["probe.js", "precision.js", "pixel.js"]
 BOOK = ["lighting.js", "module.js", "worker.js", "controls.js", "book.js", "slides.js"]
 LABS = ["progress.js", "labs.js"]
 LAB = ["labs_module.js", "module.js", "progress.js", "lab_worker.js", "png.js", "zip.js", "controls.js",
@@ -77,8 +80,8 @@ ASSEMBLED = """<details id="assembled"><summary>The shader that lights, as assem
 EXPLAIN = """<details id="explain"><summary>What is computed, and why (<code>--explain</code>)</summary>
 <pre id="explained" tabindex="0"></pre></details>"""
 
-root, module, labs_module, site = (pathlib.Path(path) for path in sys.argv[1:5])
-paths = [path.split("/") for path in sys.argv[5:]]
+root, module, labs_module, probe_module, site = (pathlib.Path(path) for path in sys.argv[1:6])
+paths = [path.split("/") for path in sys.argv[6:]]
 programs = [path for path in paths if path[0] != "labs"]
 labs = [name for folder, name in paths if folder == "labs"]
 here = root / "examples/web"
@@ -105,13 +108,13 @@ predecessors = dict(re.findall(r"X\((\w+), &(\w+)\)", read(root / "examples/less
 assert predecessors, "lessons.c: no LESSON_LIST"
 
 
-def module_js(module):
-    """The module in a function, whose text a worker gets too, and the WebAssembly. A page has one module."""
+def module_js(name, module):
+    """The module as {wasm, size, factory}; a worker gets the factory's text, too."""
     wasm = module.with_suffix(".wasm").read_bytes()
     packed = lzma.compress(wasm, lzma.FORMAT_RAW, filters=[{"id": lzma.FILTER_LZMA1, "preset": 9 | lzma.PRESET_EXTREME, "lc": 3,
                                                             "lp": 0, "pb": 0}])
-    return ('"use strict";\nconst LIGHTING_WASM = "%s", LIGHTING_SIZE = %d;\nfunction lightingFactory() {\n%s\n'
-            'return createLighting;\n}\n' % (base64.b64encode(packed).decode(), len(wasm), read(module)))
+    return ('"use strict";\nconst %s = {wasm: "%s", size: %d, factory: function () {\n%s\nreturn createLighting;\n}};\n'
+            % (name, base64.b64encode(packed).decode(), len(wasm), read(module)))
 
 
 def summary(folder, name):
@@ -152,10 +155,18 @@ def shared(names):
 
 
 def alone(names):
+    """In one file. The module that runs shaders does what the pages' own does, and takes its place."""
+    if PROGRAM[-1] in names:
+        names = [POINTED[0], *names[1:-1], *POINTED[1:], names[-1]]
     texts = ["\n" + read(site / name).replace("</script", "<\\/script") for name in names]
-    style = "\n" + read(site / "style.css")
+    style = "\n" + read(site / "style.css") + read(site / "pixel.css")
     return {"head": HEAD % policy(" ".join(map(digest, texts)), digest(style)), "style": f"<style>{style}</style>",
             "scripts": "\n".join(f"<script>{text}</script>" for text in texts)}
+
+
+def weight(names):
+    """In kB, packed as a server sends them."""
+    return sum(len(gzip.compress((site / name).read_bytes(), 9)) for name in names) / 1000
 
 
 def page(folder, name, parts, single):
@@ -171,7 +182,7 @@ def page(folder, name, parts, single):
     # A lecture program is its shaders; a scene its options.
     return fill("program.html", name=name, summary=html.escape(summary(folder, name)), links=links,
                 first="" if scene else shaders, last=shaders if scene else "", exact=EXACT if scene else NO_SCENE,
-                only="<code>--error</code>, " if scene else "", **parts)
+                only="<code>--error</code>, " if scene else "", pointed=" ".join(POINTED), weight=f"{weight([*POINTED, 'pixel.css']):.0f}", **parts)
 
 
 def card(folder, name):
@@ -204,7 +215,7 @@ def lab_card(name):
 
 
 def write_labs():
-    write(site / "labs_module.js", module_js(labs_module))
+    write(site / "labs_module.js", module_js("LIGHTING", labs_module))
     write(site / "labs.html", fill("labs.html", cards="".join(map(lab_card, labs)), **shared(LABS)))
     for name in labs:
         shutil.copy(root / "examples/labs" / name / "expected.png", site / f"{name}.png")
@@ -239,7 +250,8 @@ def write_book():
 def main():
     shutil.rmtree(site, ignore_errors=True)
     (site / "single").mkdir(parents=True)
-    write(site / "lighting.js", module_js(module))
+    write(site / "lighting.js", module_js("LIGHTING", module))
+    write(site / "probe.js", module_js("PROBE", probe_module))
     for path in [*here.glob("*.js"), *here.glob("*.css")]:
         write(site / path.name, stripped(read(path)))
     cards = {group: "".join(card(folder, name) for folder, name in programs if folder == group)

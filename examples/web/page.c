@@ -1,11 +1,10 @@
 #include "web/page.h"
 
+#include "web/page_state.h"
+
 #include "app/command.h"
-#include "app/options.h"
-#include "app/renderer.h"
 #include "base/json_writer.h"
 #include "choose/error_worker.h"
-#include "core/shader_files.h"
 #include "kinds/scene_views.h"
 
 #include <math.h>
@@ -38,19 +37,7 @@ static const char *const SHOWN[] = {
 /* What a program has itself, but no page: files. */
 static const char *const ABSENT[] = {"model", "up", NULL};
 
-static struct {
-    Message message;
-    const Example *example; /* open; NULL: none */
-    Options options;
-    char *lines; /* which the options point into */
-    Canvas canvas;
-    Renderer renderer;
-    ShaderFiles files;
-    char folder[64]; /* of the files that page_replace wrote; "": there are none */
-    bool replaced;   /* since the last page_open */
-    Image image;
-    char *text; /* returned */
-} page;
+PageState page;
 
 static ParameterValue defaults[COUNT][OPTIONS_MAX_PARAMETERS];
 
@@ -84,8 +71,7 @@ static void restore_defaults(int number)
 
 /* Texts. */
 
-/* Replaces the text that was returned last by what is written. */
-static FILE *text_begin(void)
+FILE *page_text_begin(void)
 {
     static size_t size;
     free(page.text);
@@ -93,7 +79,7 @@ static FILE *text_begin(void)
     return open_memstream(&page.text, &size);
 }
 
-static const char *text_end(FILE *file)
+const char *page_text_end(FILE *file)
 {
     const bool whole = file && fclose(file) == 0;
     return whole && page.text ? page.text : "";
@@ -160,7 +146,7 @@ static void put_program(JsonWriter *json, const Example *example)
 
 const char *page_programs(void)
 {
-    JsonWriter json = {.file = text_begin()};
+    JsonWriter json = {.file = page_text_begin()};
     if (json.file)
         json_write_list(&json, NULL);
     for (int i = 0; json.file && i < COUNT; i++) {
@@ -170,7 +156,7 @@ const char *page_programs(void)
     if (json.file)
         json_write_end(&json);
     page.example = NULL; /* its options are the defaults now */
-    return text_end(json.file);
+    return page_text_end(json.file);
 }
 
 const char *page_message(void)
@@ -226,9 +212,9 @@ const char *page_values(void)
 {
     Parameter table[OPTIONS_MAX];
     char value[PARAMETER_TEXT_SIZE];
-    FILE *file = text_begin();
+    FILE *file = page_text_begin();
     if (!file || !page.example)
-        return text_end(file);
+        return page_text_end(file);
     const Usage usage = options_usage(page.example);
     const int common = options_table(&usage, &page.options, OPTIONS_TO_SHOW, table);
     JsonWriter json = {.file = file};
@@ -237,7 +223,7 @@ const char *page_values(void)
         if (is_shown(&table[i], i >= common))
             json_write_text(&json, table[i].name, parameter_text(&table[i], value));
     json_write_end(&json);
-    return text_end(file);
+    return page_text_end(file);
 }
 
 static int find_example(const char *lines)
@@ -365,16 +351,16 @@ int page_height(void)
 const char *page_command(void)
 {
     char command[4096], start[128];
-    FILE *file = text_begin();
+    FILE *file = page_text_begin();
     Options own = page.options;
     if (!file || !page.example)
-        return text_end(file);
+        return page_text_end(file);
     snprintf(start, sizeof start, "examples/run %s", page.example->name);
     own.start = start;
     own.shaders.folder = own.shaders.folder ? "mine" : NULL;
     command_write(page.example, &own, own.defaults, command, sizeof command);
     fputs(command, file);
-    return text_end(file);
+    return page_text_end(file);
 }
 
 int page_explain(void)
@@ -399,7 +385,7 @@ static const char *shader_name(const char *path)
 
 const char *page_shaders(void)
 {
-    JsonWriter json = {.file = text_begin()};
+    JsonWriter json = {.file = page_text_begin()};
     if (!json.file)
         return "";
     json_write_list(&json, NULL);
@@ -413,7 +399,7 @@ const char *page_shaders(void)
         json_write_end(&json);
     }
     json_write_end(&json);
-    return text_end(json.file);
+    return page_text_end(json.file);
 }
 
 static bool make_folders(char *path)
@@ -536,7 +522,7 @@ const char *page_error(int exact)
         ((unsigned char *)map->pixels)[i] = i % 4 == 3 ? 255 : 0;
     const bool done = compute(&drawn, &error, exact != 0, &hash, &page.message);
     error_picture_close(&drawn);
-    FILE *file = done ? text_begin() : NULL;
+    FILE *file = done ? page_text_begin() : NULL;
     if (!file)
         return "";
     char bits[20];
@@ -547,5 +533,5 @@ const char *page_error(int exact)
     put_sum(&json, "all", &error.all);
     json_write_text(&json, "bits", bits);
     json_write_end(&json);
-    return text_end(file);
+    return page_text_end(file);
 }

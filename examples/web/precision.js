@@ -1,6 +1,6 @@
 "use strict";
 /* What this device's fragment shaders compute with: what the driver says, and what a shader finds. */
-(() => {
+const Precision = (() => {
     const VERTEX = "attribute vec2 at; void main() { gl_Position = vec4(at, 0.0, 1.0); }";
     /* Numbers come in as uniforms, and sums go through min or max, so that a compiler knows nothing and simplifies nothing.
      * Red: how many halves can be added to 1 and seen; green: how often 1 can be doubled; blue: how often halved. */
@@ -60,20 +60,27 @@
         return made;
     }
 
-    const table = document.querySelector("table.precision"), canvas = document.createElement("canvas");
-    canvas.width = canvas.height = 1;
-    const gl = table && canvas.getContext("webgl");
-    if (!gl)
-        return;
-    table.append(row("th", ["precision", "bits of the significand, said", "found", "smallest power of 2, found", "largest power of 2, found"]));
-    for (const name of ["highp", "mediump", "lowp"]) {
-        const said = gl.getShaderPrecisionFormat(gl.FRAGMENT_SHADER, gl[{highp: "HIGH", mediump: "MEDIUM", lowp: "LOW"}[name] + "_FLOAT"]);
-        const found = measure(gl, name);
-        table.append(row("td", found ? [name, said.precision + 1, found[0] + 1, "2^−" + found[2], "2^" + found[1]] :
-            [name, said.precision + 1, "no such shader here", "", ""]));
+    function fill(table) {
+        const canvas = document.createElement("canvas");
+        canvas.width = canvas.height = 1;
+        const gl = canvas.getContext("webgl");
+        if (!gl)
+            return;
+        table.append(row("th", ["precision", "bits of the significand, said", "found", "smallest power of 2, found", "largest power of 2, found"]));
+        for (const name of ["highp", "mediump", "lowp"]) {
+            const said = gl.getShaderPrecisionFormat(gl.FRAGMENT_SHADER, gl[{highp: "HIGH", mediump: "MEDIUM", lowp: "LOW"}[name] + "_FLOAT"]);
+            const found = measure(gl, name);
+            table.append(row("td", found ? [name, said.precision + 1, found[0] + 1, "2^−" + found[2], "2^" + found[1]] :
+                [name, said.precision + 1, "no such shader here", "", ""]));
+        }
+        const info = gl.getExtension("WEBGL_debug_renderer_info");
+        table.append(row("td", ["drawn by", String(gl.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : gl.RENDERER))]));
+        table.lastChild.lastChild.colSpan = 4;
+        gl.getExtension("WEBGL_lose_context").loseContext();
     }
-    const info = gl.getExtension("WEBGL_debug_renderer_info");
-    table.append(row("td", ["drawn by", String(gl.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : gl.RENDERER))]));
-    table.lastChild.lastChild.colSpan = 4;
-    gl.getExtension("WEBGL_lose_context").loseContext();
+
+    const table = document.querySelector("table.precision");
+    if (table)
+        fill(table);
+    return {measure};
 })();

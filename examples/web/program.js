@@ -145,6 +145,7 @@ const Page = (() => {
         setLink(link);
         part("whole").hash = link;
         tellAssembled();
+        Point.renew();
     }
 
     /* Once a frame, however many events there are. */
@@ -204,6 +205,8 @@ const Page = (() => {
     }
 
     function press(event) {
+        if (event.target === part("picture") && !embedded && Point.press(event))
+            return event.preventDefault();
         const step = event.shiftKey ? 1 : 10;
         const keys = {
             ArrowLeft: () => turn(-step, 0, 1), ArrowRight: () => turn(step, 0, 1),
@@ -401,6 +404,9 @@ const Page = (() => {
         const canvas = part("picture");
         canvas.addEventListener("keydown", press);
         listenToPointers(canvas);
+        if (!embedded)
+            Point.open({picture: () => page.picture, task: () => ({lines: lines(current()), texts: page.texts}),
+                        editor: () => page.editor});
         click("play", () => play(!page.playing));
         click("back", () => setTime(rounded(page.seconds - 0.1)));
         click("forward", () => setTime(rounded(page.seconds + 0.1)));

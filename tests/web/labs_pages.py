@@ -225,6 +225,9 @@ class Accessible(OfLabs):
         for name in ("index", "LightedCube_ambient", "PointLightedSphere_perFragment", "Materials", "single/FourLights"):
             self.open(name)
             self.assert_accessible(name)
+        self.page.click("#picture")
+        self.page.wait("document.getElementById('pixel') && document.getElementById('pixel').dataset.milliseconds")
+        self.assert_accessible("a pixel")
         self.page.run("Page.compare().then(() => true)")
         self.nonsense()
         self.assert_accessible("a comparison and an error")

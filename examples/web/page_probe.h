@@ -1,0 +1,23 @@
+/*
+ * page_probe: page.h and what the shaders of the open program compute: a module of its own, which a
+ * page loads when a pixel is asked for.
+ */
+#ifndef PAGE_PROBE_H
+#define PAGE_PROBE_H
+
+#include "web/page.h"
+
+/* After page_open, which it replaces until the next: draws the picture of the options, time and
+ * camera among them, and keeps its draws. `device`: as --arithmetic names it. 0 on failure. */
+int page_capture(const char *device);
+
+/* The pixel as `--probe --format json` has it; "" on failure. */
+const char *page_probe(int column, int row);
+
+/* The names that --show can show: {"fragment": [...], "vertex": [...]}; "" on failure. */
+const char *page_names(void);
+
+/* page_pixels become what --show draws, and what its colours mean is returned; "" on failure. */
+const char *page_show(const char *what);
+
+#endif
