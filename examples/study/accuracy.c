@@ -24,7 +24,7 @@ static int scene = STUDY_SCENE_COUNT; /* all */
 static double budget = -1, time_budget = -1;
 static bool by_rms, quick, fresh, all_rows, markdown, merge;
 static Part part;
-static const char *quality_asked, *compared;
+static const char *quality_asked, *compared, *scene_file;
 static int seed = 1;
 
 static int proved = STUDY_SCENE_COUNT; /* none */
@@ -34,6 +34,8 @@ static const char *SCENES[STUDY_SCENE_COUNT + 2], *PROVED[STUDY_SCENE_COUNT + 2]
 
 static const Parameter parameters[] = {
     {"scene", "what is drawn", PARAMETER_CHOICE, .value = &scene, .choices = SCENES},
+    {"scene-file", "what is drawn instead: a scene of your own, as Scene draws it", PARAMETER_TEXT,
+     .value = &scene_file, .placeholder = "FILE", .min = 1, .standard = ""},
     {"budget",
      "name the cheapest setting of --scene with at most this error, in steps of 1/255; "
      "-1: off",
@@ -238,7 +240,7 @@ static bool measure_more(Survey *survey, const Options *options, ModelsApart *ap
     return done;
 }
 
-/* Without gnuplot there are no plots, and one line says so. */
+/* Without gnuplot there are no plots, and one line says so. `ways`, `progress`: NULL of a file. */
 static void draw_plots(const Survey *survey, const Options *options, const int *scenes, int count,
                        const ShadowWays *ways, Progress *progress)
 {
@@ -249,9 +251,10 @@ static void draw_plots(const Survey *survey, const Options *options, const int *
             !report_plot(&survey->results, info->name, info->what, ERROR_INTERIOR_MAXIMUM,
                          options->output, &message))
             break;
-        progress_update(progress, count + i + 1, 2 * count);
+        if (progress)
+            progress_update(progress, count + i + 1, 2 * count);
     }
-    if (!message.text[0])
+    if (!message.text[0] && ways)
         (void)(findings_plot(&survey->results, options->output, &message) &&
                shadow_ways_plot(ways, options->output, &message));
     if (message.text[0])
@@ -348,6 +351,15 @@ static bool report(Survey *survey, const Options *options, const int *scenes, in
     return done;
 }
 
+/* Of a file: what is found besides is of the study's scenes. */
+static bool report_file(Survey *survey, const Options *options, Message *message)
+{
+    draw_plots(survey, options, &(int){STUDY_FILE}, 1, NULL, NULL);
+    return draw_sheets(survey, options, STUDY_FILE, message) &&
+           report_table(&survey->results, STUDY_SCENES[STUDY_FILE].name, ERROR_INTERIOR_MAXIMUM,
+                        !all_rows, stdout, message);
+}
+
 /* --setting: one row, one sheet. */
 static bool measure_one(Survey *survey, const Options *options, const Quality *quality,
                         Message *message)
@@ -383,21 +395,24 @@ static bool measure(const Options *options, const Quality *quality, Message *mes
     for (int i = 0; i < STUDY_SCENE_COUNT; i++)
         if (scene == STUDY_SCENE_COUNT || scene == i)
             scenes[count++] = i;
+    if (scene_file)
+        scenes[0] = STUDY_FILE, count = 1;
     const SurveyPlan plan = {
         .seed = (unsigned)seed, .quick = quick, .fresh = fresh, .merge = merge, .part = part};
+    if (scene_file && !study_open_file(scene_file, message))
+        return false;
     if (!survey_open(&survey, options, &plan, message))
         return false;
     if (options->verbose)
         fprintf(stderr, "renderer: %s\nLP_NUM_THREADS: %s\n", survey.like.renderer,
                 survey.like.threads);
-    bool done;
-    if (quality)
-        done = measure_one(&survey, options, quality, message);
-    else
-        done = (merge ? survey_merge : survey_run)(&survey, scenes, count, message) &&
-               (part.count         ? true
-                : limit.value >= 0 ? choose(&survey, scene, &limit, message)
-                                   : report(&survey, options, scenes, count, message));
+    const bool done = quality
+                          ? measure_one(&survey, options, quality, message)
+                          : (merge ? survey_merge : survey_run)(&survey, scenes, count, message) &&
+                                (part.count         ? true
+                                 : limit.value >= 0 ? choose(&survey, scene, &limit, message)
+                                 : scene_file       ? report_file(&survey, options, message)
+                                              : report(&survey, options, scenes, count, message));
     if (done && !quality && !part.count && limit.value < 0)
         options_tell("accuracy", "wrote %s", options->output);
     survey_close(&survey);
@@ -407,7 +422,7 @@ static bool measure(const Options *options, const Quality *quality, Message *mes
 /* Options that contradict each other. */
 static bool check(const Options *options, Message *message)
 {
-    const bool one = scene < STUDY_SCENE_COUNT;
+    const bool one = scene < STUDY_SCENE_COUNT || scene_file;
     const char *const *names = (const char *const *)options->names;
     if (compared && (!names[0] || names[1]))
         return message_set(message, "--compare %s: needs one other folder, as in --compare A B",
@@ -415,6 +430,8 @@ static bool check(const Options *options, Message *message)
     if (names[0] && !compared)
         return message_set(message, "%s: not an option; --help lists them, -o DIR names the folder",
                            names[0]);
+    if (scene_file && scene < STUDY_SCENE_COUNT)
+        return message_set(message, "--scene and --scene-file: one of them");
     if ((budget < 0 && budget != -1) || (time_budget < 0 && time_budget != -1))
         return message_set(message, "--%s %g: must be 0 or more, or -1: off",
                            budget < 0 && budget != -1 ? "budget" : "time-budget",

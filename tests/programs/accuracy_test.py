@@ -130,6 +130,17 @@ class Surveys(Study):
                      "finding-shadows-sphere-time.png", "finding-shadows-sphere-time.svg"):
             self.assertGreater(len(self.read("accuracy/" + name)), 500)
 
+    def test_a_scene_of_your_own_is_surveyed(self):
+        self.good("--save-scene", "own.gltf", program="SpotLight")
+        self.assertRegex(self.accuracy("--scene-file", "own.gltf", *QUICK), r"^file-[0-9a-f]{12}, 48x48; ")
+        rows = self.rows()
+        self.assertEqual(len({row["scene"] for row in rows}), 1)
+        self.assertEqual({row["divisions"] for row in rows}, {rows[0]["divisions"]})
+        self.assertTrue({"mediump", "highp"} <= {row["precision"] for row in rows})
+        self.assertTrue({"gouraud", "phong"} <= {row["interpolation"] for row in rows})
+        self.wrong(1, "none.glb: No such file", "--scene-file", "none.glb", *QUICK)
+        self.wrong(2, "--scene and --scene-file: one", "--scene-file", "own.gltf", "--scene", "cube", *QUICK)
+
     def test_shadows_are_measured_by_each_way(self):
         self.survey()
         text = self.read("accuracy/shadows.csv").decode()

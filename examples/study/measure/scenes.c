@@ -1,5 +1,9 @@
 #include "study/measure/scenes.h"
 
+#include "choose/cheapest_search.h"
+
+#include <inttypes.h>
+#include <stdio.h>
 #include <string.h>
 
 static const Vec3 Y = {0, 1, 0};
@@ -223,7 +227,27 @@ static void wide(StudyScene *made)
     camera->far *= scale;
 }
 
-const StudySceneInfo STUDY_SCENES[STUDY_SCENE_COUNT] = {
+static FileScene file;
+static char file_name[24];
+
+bool study_open_file(const char *path, Message *message)
+{
+    CacheKey key = {{0, 0}};
+    StudyScene made;
+    if (!file_scene_open(&file, &(FileSceneOptions){.path = path}, message))
+        return false;
+    study_scene(STUDY_FILE, &made);
+    exact_key_scene(&key, &made.scene, true);
+    snprintf(file_name, sizeof file_name, "file-%012" PRIx64, key.bits[0] >> 16);
+    return true;
+}
+
+static void from_file(StudyScene *made)
+{
+    file_scene_make(&file, 0, &made->scene);
+}
+
+const StudySceneInfo STUDY_SCENES[STUDY_SCENE_COUNT + 1] = {
     {"sphere", "the lecture's sphere, diffuse, a point light", lecture_sphere, false},
     {"cube", "the lecture's cube, diffuse, a point light", lecture_cube, false},
     {"shiny8", "a sphere with Phong's highlight, shininess 8", shiny8, false},
@@ -236,6 +260,7 @@ const StudySceneInfo STUDY_SCENES[STUDY_SCENE_COUNT] = {
     {"wide", "shiny32, 300 units wide", wide, false},
     {"spot-sphere", "a spot with a hard edge on a sphere", spot_sphere, true},
     {"teapot-lights", "a teapot on a disc, four lights", teapot_lights, true},
+    {file_name, "the scene of the file", from_file, false},
 };
 
 int study_scene_number(const char *name)

@@ -5,7 +5,7 @@
 #ifndef SCENES_H
 #define SCENES_H
 
-#include "scene/scene.h"
+#include "scene/file_scene.h"
 
 enum { STUDY_MAX_OBJECTS = 6, STUDY_MAX_LIGHTS = 4 };
 
@@ -23,8 +23,13 @@ typedef struct StudySceneInfo {
     bool few; /* measured with other interpolation, divisions, precision and normals alone */
 } StudySceneInfo;
 
-enum { STUDY_SCENE_COUNT = 12 };
-extern const StudySceneInfo STUDY_SCENES[STUDY_SCENE_COUNT];
+/* The study's own, and after those the file's. */
+enum { STUDY_SCENE_COUNT = 12, STUDY_FILE = STUDY_SCENE_COUNT };
+extern const StudySceneInfo STUDY_SCENES[STUDY_SCENE_COUNT + 1];
+
+/* Opens the file of the last one, for as long as the process lives; it gets its name of what it
+ * holds: "file-0123456789ab". */
+bool study_open_file(const char *path, Message *message);
 
 /* A scene by its number; the number of a name, which must be one of them. */
 void study_scene(int number, StudyScene *made);

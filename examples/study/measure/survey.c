@@ -93,6 +93,11 @@ static bool is_common(Quality quality)
     return quality_equal(&quality, &usual);
 }
 
+static bool has_usual_divisions(const Quality *quality)
+{
+    return quality->choice[AXIS_DIVISIONS] == quality_usual().choice[AXIS_DIVISIONS];
+}
+
 /* The planned settings of a scene, the usual one first. */
 static void planned(const Survey *survey, int scene, QualityList *list)
 {
@@ -100,7 +105,8 @@ static void planned(const Survey *survey, int scene, QualityList *list)
     setting_times_plan(survey->plan.quick, &all);
     *list = (QualityList){.qualities = NULL};
     for (int i = 0; i < all.count; i++)
-        if (!STUDY_SCENES[scene].few || is_common(all.qualities[i]))
+        if ((!STUDY_SCENES[scene].few || is_common(all.qualities[i])) &&
+            (scene != STUDY_FILE || has_usual_divisions(&all.qualities[i])))
             quality_list_add(list, &all.qualities[i]);
     quality_list_close(&all);
 }
