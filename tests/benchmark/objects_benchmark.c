@@ -1,23 +1,29 @@
 /*
  * What a scene's objects cost the processor, which is to submit them: of few pixels, drawn by
  * lighting and by a loop as one writes it by hand, which looks uniforms up once, sets those of the
- * lights once a frame, and for each object its matrices and products of colors. And what shadows
- * cost by casters and lights, on a floor, at rest and while the lights move.
+ * lights once a frame, and for each object its matrices and products of colors; a million triangles
+ * in the same two ways. What shadows cost by casters and lights, on a floor, at rest and while the
+ * lights move. And scenes of files, and of this one, by their programs over the full one.
+ *
+ * An argument is the only table to be made: objects, triangles, shadows or scenes.
  */
 #include "benchmark/bench.h"
 #include "core/canvas.h"
 #include "core/mesh_buffer.h"
 #include "lighting/lighting.h"
 #include "lighting/lighting_state.h"
+#include "scene/file_scene.h"
 #include "shapes/mesh_solids.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { SIZE = 32, ROUNDS = 5, MOST_OBJECTS = 10000, MOST_LIGHTS = 8, AT_LEAST = 1000 };
 
 static Lighting *lighting;
-static Mesh cube, plane;
-static MeshBuffer buffer; /* of the cube, for the loop */
+static Mesh cube, plane, ball;
+static const Mesh *drawn = &cube;
+static MeshBuffer buffer; /* of what is drawn, for the loop */
 
 static Light lights[MOST_LIGHTS];
 static Object objects[MOST_OBJECTS + 1];
@@ -34,9 +40,8 @@ static void make_scene(int object_count, int light_count, bool shadows)
         const Vec3 at = {step * (i % side) - 10, 0.5 * step, step * (i / side) - 10};
         const Mat4 turned = mat4_product(mat4_rotate(7 * i, (Vec3){1, 1, 0}),
                                          mat4_scale((Vec3){3 * step, 3 * step, 3 * step}));
-        objects[i] = (Object){.mesh = &cube,
-                              .solid = {.kind = SOLID_BOX, .radius = 0.1},
-                              .flat = true,
+        objects[i] = (Object){.mesh = drawn,
+                              .flat = drawn == &cube,
                               .closed = true,
                               .world_from_object = mat4_product(mat4_translate(at), turned),
                               .front = {{shade, 0.2, 0.1},
@@ -69,12 +74,15 @@ static void make_scene(int object_count, int light_count, bool shadows)
     frames = object_count < AT_LEAST ? AT_LEAST / object_count : 1;
 }
 
-static bool draw_lighting(__attribute__((unused)) void *argument, Message *message)
+/* An argument: by the full program. */
+static bool draw_lighting(void *argument, Message *message)
 {
+    const LightingFrame frame = {
+        .scene = &scene, .aspect = 1, .full = argument != NULL, .view = argument != NULL};
     bool done = true;
     for (int i = 0; i < frames && done; i++) {
         canvas_clear(&bench_canvas, scene.background, 1);
-        done = lighting_show(lighting, &(LightingFrame){.scene = &scene, .aspect = 1}, message);
+        done = lighting_show(lighting, &frame, message);
     }
     glFinish();
     return done;
@@ -163,28 +171,123 @@ static bool draw_loop(__attribute__((unused)) void *argument, Message *message)
 
 /* Tables */
 
+/* A row: the loop and lighting, in seconds times a scale of what one frame takes. */
+static bool measure_both(Table *table, int object_count, int light_count, double scale,
+                         Message *message)
+{
+    BenchRun both[] = {{"loop", draw_loop, NULL, NULL, 0},
+                       {"lighting", draw_lighting, NULL, NULL, 0}};
+    make_scene(object_count, light_count, false);
+    const BenchColumn columns[] = {BENCH_TIME(0, scale / frames, 2),
+                                   BENCH_TIME(1, scale / frames, 2), BENCH_RATIO(1, 0, 2)};
+    const bool done = mesh_buffer_open(&buffer, drawn, message) && draw_lighting(NULL, message) &&
+                      open_loop(message) && bench_rounds(both, 2, ROUNDS, message);
+    if (done)
+        bench_row(table, both, columns, 3, "%d|%d", object_count, light_count);
+    bench_finish(both, 2);
+    mesh_buffer_close(&buffer);
+    return done;
+}
+
 static bool measure_objects(Message *message)
 {
-    static const int light_counts[] = {1, 2, 4, 8};
     Table table;
     bool done = true;
     table_open(&table, "objects|lights|loop, µs an object|lighting, µs an object|over the loop");
-    for (int count = 1; count <= MOST_OBJECTS && done; count *= 10) {
-        for (size_t l = 0; l < sizeof light_counts / sizeof *light_counts && done; l++) {
-            BenchRun both[] = {{"loop", draw_loop, NULL, NULL, 0},
-                               {"lighting", draw_lighting, NULL, NULL, 0}};
-            make_scene(count, light_counts[l], false);
-            const double scale = 1e6 / ((double)count * frames);
-            const BenchColumn columns[] = {BENCH_TIME(0, scale, 2), BENCH_TIME(1, scale, 2),
-                                           BENCH_RATIO(1, 0, 2)};
-            done = draw_lighting(NULL, message) && open_loop(message) &&
-                   bench_rounds(both, 2, ROUNDS, message);
-            if (done)
-                bench_row(&table, both, columns, 3, "%d|%d", count, light_counts[l]);
-            bench_finish(both, 2);
-        }
-    }
+    for (int count = 1; count <= MOST_OBJECTS && done; count *= 10)
+        for (int light_count = 1; light_count <= MOST_LIGHTS && done; light_count *= 2)
+            done = measure_both(&table, count, light_count, 1e6 / count, message);
     bench_print("objects", &table);
+    return done;
+}
+
+/* 1000 objects of 1008 triangles. */
+static bool measure_triangles(Message *message)
+{
+    Table table;
+    bool done = true;
+    table_open(&table, "objects of 1008 triangles|lights|loop, ms|lighting, ms|over the loop");
+    drawn = &ball;
+    for (int light_count = 1; light_count <= MOST_LIGHTS && done; light_count *= 8)
+        done = measure_both(&table, 1000, light_count, 1e3, message);
+    drawn = &cube;
+    bench_print(NULL, &table);
+    return done;
+}
+
+/* Scenes: of Debian's assimp-testmodels, and this one's. */
+
+static const char MODELS[] = "/usr/share/assimp/models/";
+static const char *const FILES[] = {"3DS/fels.3ds",
+                                    "3DS/test1.3ds",
+                                    "ASE/ThreeCubesGreen.ASE",
+                                    "Collada/duck.dae",
+                                    "Collada/earthCylindrical.DAE",
+                                    "FBX/global_settings.fbx",
+                                    "FBX/huesitos.fbx",
+                                    "FBX/spider.fbx",
+                                    "glTF2/2CylinderEngine-glTF-Binary/2CylinderEngine.glb",
+                                    "glTF2/BoxTextured-glTF/BoxTextured.gltf",
+                                    "glTF2/ClearCoat-glTF/ClearCoatTest.gltf",
+                                    "OBJ/spider.obj",
+                                    "PLY/Wuson.ply",
+                                    "BLEND/TorusLightsCams_250_compressed.blend"};
+
+static bool measure_scene(Table *table, const char *name, Message *message)
+{
+    enum { FRAMES = 3 };
+    BenchRun both[] = {{name, draw_lighting, NULL, NULL, 0},
+                       {"full", draw_lighting, &scene, NULL, 0}};
+    const BenchColumn columns[] = {BENCH_TIME(0, 1e3 / FRAMES, 2), BENCH_TIME(1, 1e3 / FRAMES, 2),
+                                   BENCH_RATIO(0, 1, 2)};
+    size_t triangles = 0;
+    frames = FRAMES;
+    for (int i = 0; i < scene.object_count; i++)
+        triangles += scene.objects[i].mesh->index_count / 3;
+    const bool done = bench_rounds(both, 2, ROUNDS, message);
+    if (done)
+        bench_row(table, both, columns, 3, "%s|%d|%zu|%d", name, scene.object_count, triangles,
+                  scene.light_count);
+    bench_finish(both, 2);
+    return done;
+}
+
+static bool measure_file(Table *table, const char *name, Message *message)
+{
+    char path[200];
+    FileScene file;
+    Message why = {0};
+    snprintf(path, sizeof path, "%s%s", MODELS, name);
+    if (!file_scene_open(&file, &(FileSceneOptions){.path = path, .camera = "fit"}, &why)) {
+        file_scene_close(&file); /* not installed, or without a camera */
+        return true;
+    }
+    file_scene_make(&file, 0, &scene);
+    const bool done = measure_scene(table, name, message);
+    lighting_forget(lighting, NULL);
+    file_scene_close(&file);
+    return done;
+}
+
+static bool measure_scenes(Message *message)
+{
+    enum { LARGE = 400 };
+    static const int made[][2] = {{1, 1}, {10, 1}, {10, 8}, {100, 4}, {1000, 1}, {1000, 8}};
+    Canvas small = bench_canvas;
+    Table table;
+    bool done = canvas_open_beside(&bench_canvas, &small,
+                                   &(CanvasOptions){.width = LARGE, .height = LARGE}, message);
+    table_open(&table, "a frame of 400x400|objects|triangles|lights|ms|full, ms|over full");
+    for (size_t i = 0; i < sizeof FILES / sizeof *FILES && done; i++)
+        done = measure_file(&table, FILES[i], message);
+    for (size_t i = 0; i < sizeof made / sizeof *made && done; i++) {
+        make_scene(made[i][0], made[i][1], false);
+        done = measure_scene(&table, "cubes", message);
+    }
+    bench_print(NULL, &table);
+    canvas_close(&bench_canvas);
+    bench_canvas = small;
+    canvas_begin(&bench_canvas);
     return done;
 }
 
@@ -220,18 +323,26 @@ static bool measure_shadows(Message *message)
     return done;
 }
 
+static bool asked(const char *table)
+{
+    return !bench_arguments[0] || strcmp(bench_arguments[0], table) == 0;
+}
+
 static bool run(Message *message)
 {
     return lighting_open(&lighting, &(ShaderLoader){0}, message) &&
            mesh_cube(&cube, 0.1, message) && mesh_quad(&plane, 1, message) &&
-           mesh_buffer_open(&buffer, &cube, message) && measure_objects(message) &&
-           measure_shadows(message);
+           mesh_sphere(&ball, 0.05, 24, 22, message) &&
+           (!asked("objects") || measure_objects(message)) &&
+           (!asked("triangles") || measure_triangles(message)) &&
+           (!asked("shadows") || measure_shadows(message)) &&
+           (!asked("scenes") || measure_scenes(message));
 }
 
 static void finish(void)
 {
-    mesh_buffer_close(&buffer);
     lighting_close(lighting);
+    mesh_close(&ball);
     mesh_close(&cube);
     mesh_close(&plane);
 }
