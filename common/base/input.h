@@ -6,6 +6,7 @@
 
 #include "base/message.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <sys/types.h>
 
@@ -17,5 +18,9 @@ ssize_t input_bytes(int file, void *bytes, size_t size);
  * for. NULL, with a message that begins with `name`: it cannot be read. */
 char *input_read(int folder, const char *path, const char *name, size_t max, size_t *size,
                  Message *message);
+
+/* Whether a path that a file names leads out of the file's folder: it begins with a slash or has a
+ * part "..". Backslashes are slashes. */
+bool input_leaves(const char *path);
 
 #endif

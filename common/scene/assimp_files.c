@@ -1,6 +1,11 @@
 /* The C library's files as Assimp calls them; none outside the folder, and none to be written. */
 #include "scene/assimp_files.h"
 
+#include "base/input.h"
+#include "base/memory.h"
+#include "scene/scene_file.h"
+
+#include <fcntl.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -79,4 +84,49 @@ static void file_close(struct aiFileIO *io, struct aiFile *file)
 struct aiFileIO assimp_files(Folder *folder)
 {
     return (struct aiFileIO){file_open, file_close, (char *)folder};
+}
+
+/* Textures */
+
+/* A texture that the file holds: by its number, or by the name it had. */
+static const struct aiTexture *find_held(const struct aiScene *scene, const char *path)
+{
+    for (unsigned i = 0; i < scene->mNumTextures; i++) {
+        char number[16];
+        snprintf(number, sizeof number, "*%u", i);
+        if (strcmp(path, number) == 0 || strcmp(path, scene->mTextures[i]->mFilename.data) == 0)
+            return scene->mTextures[i];
+    }
+    return NULL;
+}
+
+/* A file in the folder, or below; of another only the name counts, for files often have the path
+ * that was right where they were made. */
+static char *read_texture(const Folder *folder, const char *path, size_t *size, Message *why)
+{
+    char *name = memory_text(path), *bytes = NULL;
+    for (char *c = name; *c; c++)
+        *c = *c == '\\' ? '/' : *c;
+    const char *last = strrchr(name, '/'), *tried = name;
+    for (int i = 0; i < 2 && !bytes && tried; i++, tried = last ? last + 1 : NULL) {
+        char *whole = memory_format("%.*s%s", (int)folder->length, folder->path, tried);
+        if (i == 1 || (!input_leaves(name) && !strchr(name, ':')))
+            bytes = input_read(AT_FDCWD, whole, tried, MODEL_BYTES_MAX, size, why);
+        free(whole);
+    }
+    free(name);
+    return bytes;
+}
+
+char *assimp_texture(const struct aiScene *scene, const Folder *folder, const char *path,
+                     size_t *size, Message *why)
+{
+    const struct aiTexture *held = find_held(scene, path);
+    if (!held)
+        return read_texture(folder, path, size, why);
+    *size = held->mWidth;
+    if (held->mHeight == 0)
+        return memory_copy(held->pcData, *size);
+    message_set(why, "it is not compressed");
+    return NULL;
 }

@@ -5,7 +5,10 @@
 #ifndef ASSIMP_FILES_H
 #define ASSIMP_FILES_H
 
+#include "base/message.h"
+
 #include <assimp/cfileio.h>
+#include <assimp/scene.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -16,6 +19,11 @@ typedef struct Folder {
 } Folder;
 
 struct aiFileIO assimp_files(Folder *folder);
+
+/* The bytes of a texture's image, in the scene or in the folder, to be freed; NULL, with why.
+ */
+char *assimp_texture(const struct aiScene *scene, const Folder *folder, const char *path,
+                     size_t *size, Message *why);
 
 /* Whether a PLY file was cut. */
 

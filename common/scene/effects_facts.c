@@ -258,7 +258,8 @@ static uint32_t faint_lights(const EffectsView *view, const Object *object, Sphe
         const Light *light = &view->lights[i];
         const double *color = view->brightest[i];
         const double sum = reflects[0] * color[0] + reflects[1] * color[1] + reflects[2] * color[2];
-        adds[i] = ROUNDING * sum * light_attenuation(light, nearest_to(light, sphere));
+        const double distance = rest & -rest & view->fading ? nearest_to(light, sphere) : 0;
+        adds[i] = ROUNDING * sum * light_attenuation(light, distance);
         candidates |= adds[i] > 0 && adds[i] < left ? rest & -rest : 0;
     }
     while (candidates) {

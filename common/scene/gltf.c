@@ -290,8 +290,11 @@ bool gltf_read(const char *path, SceneFile *file, bool *other, Message *reason)
                                              (size_t)gltf_whole(reading.gltf.root, "scene", 0));
         reading.nodes = memory_new(nodes + 1, sizeof *reading.nodes);
         reading.meshes = memory_new(count_of(&reading, "meshes") + 1, sizeof *reading.meshes);
+        reading.means = memory_new(count_of(&reading, "textures") + 1, sizeof *reading.means);
         for (size_t i = 0; i < nodes; i++)
             reading.nodes[i] = -1;
+        for (size_t i = 0; i < count_of(&reading, "textures"); i++)
+            reading.means[i].x = -1;
         file->scene.linear = true;
         file->own = gltf_own(scene) != NULL;
         gltf_fields(gltf_own(scene), SCENE_FIELDS, &file->scene);
@@ -299,6 +302,7 @@ bool gltf_read(const char *path, SceneFile *file, bool *other, Message *reason)
         for (size_t i = 0; i < count_of(&reading, "meshes"); i++)
             free(reading.meshes[i]);
         free(reading.meshes);
+        free(reading.means);
         free(reading.nodes);
     }
     gltf_close(&reading.gltf);

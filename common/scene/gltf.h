@@ -31,6 +31,9 @@ void gltf_close(Gltf *gltf);
 /* An item of one of the root's lists; NULL, with the reason: there is none. */
 json_t *gltf_item(const Gltf *gltf, const char *list, json_int_t index);
 
+/* The bytes of a texture's image, to be freed. NULL, with why: they cannot be read. */
+char *gltf_texture(Gltf *gltf, json_int_t index, size_t *size, Message *why);
+
 /* Members of an object, which may be NULL. A value of another type is as none. */
 json_int_t gltf_whole(const json_t *object, const char *key, json_int_t usual);
 double gltf_number(const json_t *object, const char *key, double usual);
@@ -48,6 +51,7 @@ typedef struct Reading {
     SceneFile *file;
     int *nodes;   /* by the file's number; -1: not reached */
     int **meshes; /* by the file's number and primitive; -1: not read yet, -2: no triangles */
+    Vec3 *means;  /* by the texture's number; below 0: not read yet */
     size_t vertices, indices;
 } Reading;
 

@@ -232,15 +232,7 @@ static char *decode_uri(const char *uri)
     return path;
 }
 
-static bool leaves_folder(const char *path)
-{
-    for (const char *part = path; part; part = strpbrk(part, "/\\"), part += part != NULL)
-        if (strncmp(part, "..", 2) == 0 && (!part[2] || strchr("/\\", part[2])))
-            return true;
-    return path[0] == '/' || path[0] == '\\' || path[0] == '\0';
-}
-
-static char *read_uri(const Gltf *gltf, const char *uri, size_t *size)
+static char *read_uri(const Gltf *gltf, const char *uri, size_t *size, Message *reason)
 {
     const char *comma = strncmp(uri, "data:", 5) == 0 ? strchr(uri, ',') : NULL;
     if (comma)
@@ -249,11 +241,11 @@ static char *read_uri(const Gltf *gltf, const char *uri, size_t *size)
     const size_t letters =
         strspn(uri, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ+-.0123456789");
     if (uri[letters] == ':')
-        message_set(gltf->reason, "%.80s: refused: no file in the scene's folder", uri);
-    else if (leaves_folder(path))
-        message_set(gltf->reason, "%.80s: refused: outside the scene's folder", uri);
+        message_set(reason, "%.80s: refused: no file in the scene's folder", uri);
+    else if (input_leaves(path))
+        message_set(reason, "%.80s: refused: outside the scene's folder", uri);
     else
-        bytes = input_read(gltf->folder, path, path, MODEL_BYTES_MAX, size, gltf->reason);
+        bytes = input_read(gltf->folder, path, path, MODEL_BYTES_MAX, size, reason);
     free(path);
     return bytes;
 }
@@ -271,7 +263,7 @@ static const char *find_buffer(Gltf *gltf, json_int_t index, size_t *size)
         *bytes = (char *)gltf->bin;
         *length = gltf->bin_size;
     } else if (!*bytes && uri) {
-        *bytes = read_uri(gltf, uri, length);
+        *bytes = read_uri(gltf, uri, length, gltf->reason);
         gltf->total += *length;
         if (gltf->total > MODEL_BYTES_MAX)
             message_set(gltf->reason, "its buffers have more than %d bytes", MODEL_BYTES_MAX);
@@ -327,24 +319,54 @@ static int numbers_of(const char *type)
     return 0;
 }
 
+/* The bytes of a part of a buffer. */
+static const char *find_view(Gltf *gltf, const json_t *view, const char *name, json_int_t *length)
+{
+    size_t size = 0;
+    const char *bytes = view ? find_buffer(gltf, gltf_whole(view, "buffer", -1), &size) : NULL;
+    const json_int_t begin = gltf_whole(view, "byteOffset", 0);
+    *length = gltf_whole(view, "byteLength", -1);
+    if (bytes && begin >= 0 && *length >= 0 && begin <= (json_int_t)size &&
+        *length <= (json_int_t)size - begin)
+        return bytes + begin;
+    if (bytes)
+        message_set(gltf->reason,
+                    "%s: its bufferView, %lld bytes from %lld on, leaves its buffer of %zu", name,
+                    (long long)*length, (long long)begin, size);
+    return NULL;
+}
+
+char *gltf_texture(Gltf *gltf, json_int_t index, size_t *size, Message *why)
+{
+    const json_t *texture = json_array_get(json_object_get(gltf->root, "textures"), (size_t)index);
+    const json_t *image = json_array_get(json_object_get(gltf->root, "images"),
+                                         (size_t)gltf_whole(texture, "source", -1));
+    const char *uri = json_string_value(json_object_get(image, "uri"));
+    json_int_t length = 0;
+    if (uri)
+        return read_uri(gltf, uri, size, why);
+    if (!json_object_get(image, "bufferView")) {
+        message_set(why, "there is no image");
+        return NULL;
+    }
+    const json_t *view = gltf_item(gltf, "bufferViews", gltf_whole(image, "bufferView", -1));
+    const char *bytes = find_view(gltf, view, "images", &length);
+    *size = (size_t)length;
+    return bytes ? memory_copy(bytes, *size) : NULL;
+}
+
 /* Sets where elements lie, of which all but where is known; `where` has bufferView and byteOffset.
  */
 static bool find_place(Gltf *gltf, const json_t *where, const char *name, Place *place)
 {
     const json_t *view = gltf_item(gltf, "bufferViews", gltf_whole(where, "bufferView", -1));
-    size_t size = 0;
-    const char *bytes = view ? find_buffer(gltf, gltf_whole(view, "buffer", -1), &size) : NULL;
+    json_int_t length;
+    const char *bytes = find_view(gltf, view, name, &length);
     if (!bytes)
         return false;
-    const json_int_t begin = gltf_whole(view, "byteOffset", 0),
-                     length = gltf_whole(view, "byteLength", -1);
     const json_int_t offset = gltf_whole(where, "byteOffset", 0);
     const json_int_t stride = gltf_whole(view, "byteStride", 0);
     const size_t element = bytes_of(place->component) * (size_t)place->size;
-    if (begin < 0 || length < 0 || begin > (json_int_t)size || length > (json_int_t)size - begin)
-        return message_set(gltf->reason,
-                           "%s: its bufferView, %lld bytes from %lld on, leaves its buffer of %zu",
-                           name, (long long)length, (long long)begin, size);
     place->stride = stride > 0 ? (size_t)stride : element;
     const size_t last = (place->count - 1) * place->stride + element; /* counts are limited */
     if (offset < 0 || stride < 0 || stride > 1 << 20 || offset > length ||
@@ -352,7 +374,7 @@ static bool find_place(Gltf *gltf, const json_t *where, const char *name, Place 
         return message_set(gltf->reason,
                            "%s: %zu elements from byte %lld on leave its bufferView of %lld bytes",
                            name, place->count, (long long)offset, (long long)length);
-    place->bytes = bytes + begin + offset;
+    place->bytes = bytes + offset;
     return true;
 }
 

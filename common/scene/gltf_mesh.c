@@ -10,6 +10,7 @@
 
 #include "base/memory.h"
 #include "core/mesh_make.h"
+#include "scene/texture_mean.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -66,12 +67,15 @@ static void note_material(const Reading *reading, const json_t *material)
 {
     const json_t *value;
     const char *key, *mode = json_string_value(json_object_get(material, "alphaMode"));
-    bool textures = false;
+    bool textures = false, base = false;
     if (mode && strcmp(mode, "OPAQUE") != 0)
         scene_file_note(reading->file, NOTE_TRANSPARENT);
-    json_object_foreach(json_object_get(material, "pbrMetallicRoughness"), key, value) textures |=
+    json_object_foreach(json_object_get(material, "pbrMetallicRoughness"), key, value) *
+        (strcmp(key, "baseColorTexture") == 0 ? &base : &textures) |=
         strstr(key, "Texture") != NULL;
     json_object_foreach((json_t *)material, key, value) textures |= strstr(key, "Texture") != NULL;
+    if (base)
+        scene_file_note(reading->file, NOTE_MEAN);
     if (textures)
         scene_file_note(reading->file, NOTE_TEXTURES);
     json_object_foreach(json_object_get(material, "extensions"), key, value)
@@ -86,6 +90,29 @@ static void note_material(const Reading *reading, const json_t *material)
     }
 }
 
+/* Of the texture of a base colour; white: it has none. */
+static Vec3 texture_color(Reading *reading, const json_t *texture)
+{
+    const json_int_t index = gltf_whole(texture, "index", -1);
+    const size_t count = json_array_size(json_object_get(reading->gltf.root, "textures"));
+    Message why = {0};
+    char name[40];
+    size_t size = 0;
+    if (!texture)
+        return (Vec3){1, 1, 1};
+    snprintf(name, sizeof name, "texture %lld", (long long)index);
+    const bool known = index >= 0 && index < (json_int_t)count;
+    if (!known)
+        message_set(&why, "there is none");
+    else if (reading->means[index].x >= 0)
+        return reading->means[index];
+    char *bytes = known ? gltf_texture(&reading->gltf, index, &size, &why) : NULL;
+    const Vec3 mean = texture_mean(reading->file, name, bytes, size, &why);
+    if (known)
+        reading->means[index] = mean;
+    return mean;
+}
+
 /* A highlight of this reflectance and roughness. */
 static void set_highlight(Material *to, Vec3 reflectance, double roughness)
 {
@@ -94,7 +121,7 @@ static void set_highlight(Material *to, Vec3 reflectance, double roughness)
     to->specular = color_within_one(vec3_scale(reflectance, (to->shininess + 8) / 8));
 }
 
-static void set_material(const Reading *reading, const json_t *from, Object *object)
+static void set_material(Reading *reading, const json_t *from, Object *object)
 {
     static const Vec3 white = {1, 1, 1};
     const json_t *pbr = json_object_get(from, "pbrMetallicRoughness");
@@ -105,7 +132,10 @@ static void set_material(const Reading *reading, const json_t *from, Object *obj
     Material *to = &object->front;
     if (!gltf_numbers(gloss, "diffuseFactor", 4, color))
         gltf_numbers(pbr, "baseColorFactor", 4, color);
-    const Vec3 base = color_within_one((Vec3){color[0], color[1], color[2]});
+    const Vec3 mean = texture_color(reading, gloss ? json_object_get(gloss, "diffuseTexture")
+                                                   : json_object_get(pbr, "baseColorTexture"));
+    const Vec3 base =
+        color_within_one((Vec3){color[0] * mean.x, color[1] * mean.y, color[2] * mean.z});
     *to = (Material){.alpha = mode && strcmp(mode, "BLEND") == 0 ? fmin(fmax(color[3], 0), 1) : 1,
                      .diffuse = gloss ? base : vec3_scale(base, 1 - metal)};
     if (gloss)

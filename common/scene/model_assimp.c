@@ -1,9 +1,11 @@
 /*
  * The plugin that reads files of scenes with Assimp; glTF 2.0 goes to gltf.c.
  */
+#include "base/memory.h"
 #include "core/mesh_make.h"
 #include "scene/assimp_files.h"
 #include "scene/model_module.h"
+#include "scene/texture_mean.h"
 
 #include <assimp/cimport.h>
 #include <assimp/commonMetaData.h>
@@ -22,7 +24,9 @@
 typedef struct Walk {
     const struct aiScene *scene;
     SceneFile *file;
-    double scale; /* of the file's lengths in the world */
+    const Folder *folder; /* of the file */
+    Object *materials;    /* of an object with this material */
+    double scale;         /* of the file's lengths in the world */
     Message *reason;
 } Walk;
 
@@ -137,17 +141,40 @@ static double number_of(const struct aiMaterial *material, const char *key, doub
 
 static void note_material(SceneFile *file, const struct aiMaterial *material, double alpha)
 {
-    unsigned textures = 0;
+    bool base = false, textures = false;
     for (int kind = 1; kind <= AI_TEXTURE_TYPE_MAX; kind++)
-        textures += aiGetMaterialTextureCount(material, (enum aiTextureType)kind);
+        *(kind == aiTextureType_DIFFUSE || kind == aiTextureType_BASE_COLOR ? &base : &textures) |=
+            aiGetMaterialTextureCount(material, (enum aiTextureType)kind) > 0;
+    if (base)
+        scene_file_note(file, NOTE_MEAN);
     if (textures)
         scene_file_note(file, NOTE_TEXTURES);
     if (alpha < 1)
         scene_file_note(file, NOTE_TRANSPARENT);
 }
 
+static Vec3 multiply(Vec3 a, Vec3 b)
+{
+    return (Vec3){a.x * b.x, a.y * b.y, a.z * b.z};
+}
+
+/* Of the texture of a material's diffuse colour; white: it has none. */
+static Vec3 texture_color(Walk *walk, const struct aiMaterial *material)
+{
+    struct aiString path;
+    Message why = {0};
+    size_t size = 0;
+    if (aiGetMaterialTexture(material, aiTextureType_DIFFUSE, 0, &path, NULL, NULL, NULL, NULL,
+                             NULL, NULL) != aiReturn_SUCCESS &&
+        aiGetMaterialTexture(material, aiTextureType_BASE_COLOR, 0, &path, NULL, NULL, NULL, NULL,
+                             NULL, NULL) != aiReturn_SUCCESS)
+        return (Vec3){1, 1, 1};
+    char *bytes = assimp_texture(walk->scene, walk->folder, path.data, &size, &why);
+    return texture_mean(walk->file, path.data, bytes, size, &why);
+}
+
 /* An object's material; Assimp gives Phong's terms. */
-static void set_material(const struct aiMaterial *from, Object *object)
+static void set_material(Walk *walk, const struct aiMaterial *from, Object *object)
 {
     Material *to = &object->front;
     Vec3 black = {0, 0, 0};
@@ -155,9 +182,12 @@ static void set_material(const struct aiMaterial *from, Object *object)
     *to = (Material){.diffuse = {0.8, 0.8, 0.8}, .alpha = 1};
     if (!from)
         return;
+    const Vec3 mean = texture_color(walk, from);
     color_of(from, "$clr.diffuse", &to->diffuse);
     if (!color_of(from, "$clr.ambient", &to->ambient) || color_is_black(to->ambient))
         to->ambient = to->diffuse;
+    to->ambient = multiply(to->ambient, mean);
+    to->diffuse = multiply(to->diffuse, mean);
     color_of(from, "$clr.emissive", &to->emission);
     to->shininess = fmin(fmax(number_of(from, "$mat.shininess", 0), 0), 128);
     if (color_of(from, "$clr.specular", &to->specular))
@@ -171,10 +201,24 @@ static void set_material(const struct aiMaterial *from, Object *object)
     object->back = *to;
 }
 
-static const struct aiMaterial *material_of(const struct aiScene *scene, const struct aiMesh *part)
+/* All materials, and after them that of meshes without one. */
+static void make_materials(Walk *walk)
 {
-    return part->mMaterialIndex < scene->mNumMaterials ? scene->mMaterials[part->mMaterialIndex]
-                                                       : NULL;
+    const unsigned count = walk->scene->mNumMaterials;
+    walk->materials = memory_new((size_t)count + 1, sizeof *walk->materials);
+    for (unsigned i = 0; i <= count; i++)
+        set_material(walk, i < count ? walk->scene->mMaterials[i] : NULL, &walk->materials[i]);
+}
+
+static unsigned material_number(const Walk *walk, const struct aiMesh *part)
+{
+    const unsigned count = walk->scene->mNumMaterials;
+    return part->mMaterialIndex < count ? part->mMaterialIndex : count;
+}
+
+static const Object *material_of(const Walk *walk, const struct aiMesh *part)
+{
+    return &walk->materials[material_number(walk, part)];
 }
 
 /* Each mesh once, with triangles or without. */
@@ -189,10 +233,8 @@ static bool add_meshes(Walk *walk)
         return false;
     for (unsigned i = 0; i < walk->scene->mNumMeshes; i++) {
         const struct aiMesh *part = walk->scene->mMeshes[i];
-        Object object = {.lamp = 0};
         Mesh *mesh = scene_file_add(walk->file, FILE_MESHES, walk->reason);
-        set_material(material_of(walk->scene, part), &object);
-        if (!mesh || !fill_mesh(part, object.front.diffuse, mesh, walk->reason))
+        if (!mesh || !fill_mesh(part, material_of(walk, part)->front.diffuse, mesh, walk->reason))
             return false;
     }
     return true;
@@ -331,7 +373,7 @@ static bool add_motion(Walk *walk, const struct aiNode *node, int number)
 static bool add_object(Walk *walk, const struct aiNode *node, int number, unsigned index)
 {
     const struct aiMesh *part = walk->scene->mMeshes[index];
-    const struct aiMaterial *material = material_of(walk->scene, part);
+    const unsigned material = material_number(walk, part);
     if (walk->file->meshes[index].index_count == 0) {
         scene_file_note(walk->file, NOTE_LINES);
         return true;
@@ -342,9 +384,9 @@ static bool add_object(Walk *walk, const struct aiNode *node, int number, unsign
     object->node = number;
     object->mesh = (int)index;
     set_name(object->name, node->mName.data);
-    set_material(material, &object->object);
-    if (material)
-        note_material(walk->file, material, object->object.front.alpha);
+    object->object = walk->materials[material];
+    if (material < walk->scene->mNumMaterials)
+        note_material(walk->file, walk->scene->mMaterials[material], object->object.front.alpha);
     if (part->mNumBones)
         scene_file_note(walk->file, NOTE_SKIN);
     if (part->mNumAnimMeshes)
@@ -387,17 +429,21 @@ static bool visit(Walk *walk, const struct aiNode *node, int parent, const Mat4 
     return true;
 }
 
-static bool collect(const struct aiScene *scene, ModelUp up, SceneFile *file, Message *reason)
+static bool collect(const struct aiScene *scene, ModelUp up, const Folder *folder, SceneFile *file,
+                    Message *reason)
 {
     const Mat4 world_from_file = stand_up(scene, up);
-    Walk walk = {.scene = scene, .file = file, .reason = reason};
+    Walk walk = {.scene = scene, .file = file, .folder = folder, .reason = reason};
     if (importer_is(scene, "FBX"))
         aiIdentityMatrix4(&scene->mRootNode->mTransformation);
     walk.scale = cbrt(fabs(mat4_determinant(matrix(&scene->mRootNode->mTransformation))));
     walk.scale = walk.scale > 0 ? walk.scale : 1;
     for (unsigned i = 1; i < scene->mNumAnimations; i++)
         scene_file_note(file, NOTE_ANIMATION);
-    return add_meshes(&walk) && visit(&walk, scene->mRootNode, -1, &world_from_file);
+    make_materials(&walk);
+    const bool done = add_meshes(&walk) && visit(&walk, scene->mRootNode, -1, &world_from_file);
+    free(walk.materials);
+    return done;
 }
 
 bool assimp_read(const char *path, ModelUp up, SceneFile *file, Message *reason)
@@ -422,7 +468,7 @@ bool assimp_read(const char *path, ModelUp up, SceneFile *file, Message *reason)
         return message_set(reason, "%s", aiGetErrorString());
     if (folder.refused[0])
         scene_file_note(file, NOTE_OUTSIDE);
-    const bool collected = collect(scene, up, file, reason);
+    const bool collected = collect(scene, up, &folder, file, reason);
     aiReleaseImport(scene);
     return collected;
 }

@@ -131,7 +131,8 @@ FileListPlace scene_file_list(SceneFile *file, FileList list);
 
 /* Counts one more of what is not drawn. */
 void scene_file_note(SceneFile *file, const char *text);
-#define NOTE_TEXTURES "textures: the material's own colours alone"
+#define NOTE_MEAN "textures of the base colour: their mean colour"
+#define NOTE_TEXTURES "textures of all but the base colour: left out"
 #define NOTE_TRANSPARENT "transparency: drawn opaque"
 #define NOTE_LINES "points and lines: left out"
 #define NOTE_SKIN "skins: the mesh as it rests"

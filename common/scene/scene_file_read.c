@@ -75,7 +75,10 @@ static void limit_child(off_t size)
     }
     if (memory)
         fclose(memory);
-    process_limit(1 + file / mebibyte, RLIM_INFINITY);
+    /* Images take time beyond that, up to so much: scene/texture_mean.h. */
+    const rlim_t images = 60, most = 1 + file / mebibyte + images;
+    process_limit(most, RLIM_INFINITY);
+    setrlimit(RLIMIT_CPU, &(struct rlimit){most - images, most});
 }
 
 static bool send_mesh(const Mesh *mesh, int pipe_end)

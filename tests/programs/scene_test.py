@@ -13,6 +13,7 @@ import random
 import re
 import struct
 import sys
+import zlib
 
 import command_line_test as base
 
@@ -210,14 +211,48 @@ class Scene(base.Case):
         self.assertEqual(self.run_it("a.gltf", "b.gltf", program="Scene").returncode, 2)
 
     def test_what_is_not_drawn_is_counted(self):
-        material = {"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}, "alphaMode": "BLEND"}
+        material = {"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}, "alphaMode": "BLEND",
+                    "normalTexture": {"index": 0}}
         file = tetrahedron(materials=[material], nodes=[{"mesh": 0, "skin": 0}] * 30, scenes=[{"nodes": list(range(30))}])
         file["meshes"][0]["primitives"][0]["material"] = 0
         said = self.good(self.save("a.gltf", file), "--explain", program="Scene").decode()
-        for text in ("30 of 30 objects, first object 0: 1 directional light", "of the file, 30 times: textures: ",
+        for text in ("30 of 30 objects, first object 0: 1 directional light", "of the file, 30 times: textures of all but", "texture 0: white, for it cannot be read: there is none",
                      "of the file, 30 times: transparency", "of the file, 30 times: skins",
                      "the file has no light: there is one at the viewer"):
             self.assertIn(text, said)
+
+    def textured(self, uri, **image):
+        """A file whose material has an image, of a base colour of 0.5 in green."""
+        material = {"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}, "baseColorFactor": [1, 0.5, 1, 1],
+                                             "metallicFactor": 0}}
+        file = tetrahedron(materials=[material], textures=[{"source": 0}], images=[{"uri": uri} if uri else image])
+        file["meshes"][0]["primitives"][0]["material"] = 0
+        return file
+
+    def test_a_texture_of_the_base_colour_is_its_mean(self):
+        """Of light, not of bytes: black and white pixels are half as bright as white ones."""
+        rows = 4 * (b"\0" + b"".join(bytes((255 * (x < 5), 255, 188)) for x in range(10)))
+
+        def chunk(kind, data):
+            return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+        png = (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 10, 4, 8, 2, 0, 0, 0)) +
+               chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+        light = ((188 / 255 + 0.055) / 1.055) ** 2.4
+        self.make("a b.png", png)
+        for uri in "a%20b.png", data_uri(png):
+            self.good(self.save("a.gltf", self.textured(uri)), "--save-scene", "back.gltf", program="Scene")
+            node, = [node for node in json.loads(self.read("back.gltf"))["nodes"] if "mesh" in node]
+            self.near(node["extras"]["lighting"]["front"]["diffuse"], (0.5, 0.5, light))
+        chance = random.Random(SEED)
+        damaged = bytearray(png)
+        damaged[chance.randrange(40, len(png))] ^= 255
+        for uri, what in ((data_uri(png[:50]), "damaged"), (data_uri(b"GIF89a"), "no PNG"), ("none.png", "No such file"),
+                          ("../a b.png", "outside"), ("http://example.org/a.png", "refused"), (data_uri(bytes(damaged)), ""),
+                          (None, "there is no image")):
+            said = self.good(self.save("a.gltf", self.textured(uri)), "--explain", program="Scene").decode()
+            if what:
+                self.assertRegex(said, f"texture 0: white, for it cannot be read: .*{what}")
 
     def test_lights_light_what_they_reach(self):
         """Balls in a row, a light with a range at each end, and none of what is left out is seen."""
