@@ -70,7 +70,7 @@ char *input_read(int folder, const char *path, const char *name, size_t max, siz
 
 bool input_leaves(const char *path)
 {
-    for (const char *part = path; part; part = strpbrk(part, "/\\"), part += part != NULL)
+    for (const char *part = path; part; part = strpbrk(part, "/\\"), part = part ? part + 1 : NULL)
         if (strncmp(part, "..", 2) == 0 && (!part[2] || strchr("/\\", part[2])))
             return true;
     return path[0] == '/' || path[0] == '\\' || path[0] == '\0';
