@@ -135,10 +135,7 @@ bool manifest_read(Manifest *manifest, const char *path, Message *message)
     char line[1100];
     int number = 0;
     bool good = true;
-    const char *slash = strrchr(path, '/');
     *manifest = (Manifest){.count = 0};
-    snprintf(manifest->folder, sizeof manifest->folder, "%.*s", slash ? (int)(slash - path) + 1 : 0,
-             path);
     FILE *file = fopen(path, "re");
     if (!file)
         return message_set(message, "%s: cannot read: %s", path, strerror(errno));
@@ -167,62 +164,14 @@ const ManifestEntry *manifest_find(const Manifest *manifest, const char *name)
     return NULL;
 }
 
-/* Says how many pixels differ, by how much, and where the first is. */
-static void count_differences(const Image *a, const Image *b, Message *found)
-{
-    const unsigned char *one = a->pixels, *other = b->pixels;
-    size_t pixels = 0, first = 0;
-    int most = 0;
-    if (a->width != b->width || a->height != b->height) {
-        message_set(found, "%dx%d pixels instead of %dx%d", a->width, a->height, b->width,
-                    b->height);
-        return;
-    }
-    const size_t count = (size_t)a->width * (size_t)a->height;
-    for (size_t i = 0; i < count; i++) {
-        int steps = 0;
-        for (size_t c = 4 * i; c < 4 * i + 4; c++)
-            steps = abs(one[c] - other[c]) > steps ? abs(one[c] - other[c]) : steps;
-        if (steps && !pixels++)
-            first = i;
-        most = steps > most ? steps : most;
-    }
-    message_set(found,
-                "%zu of %zu pixels differ, by at most %d step%s of 255, the first at (%zu,%zu)",
-                pixels, count, most, most == 1 ? "" : "s", first % (size_t)a->width,
-                first / (size_t)a->width);
-}
-
-/* Against the picture beside the manifest, if that is still the one of the manifest. */
-static void compare_beside(const Manifest *manifest, const ManifestEntry *entry,
-                           const Picture *picture, Message *found)
-{
-    char path[PATH_MAX + 80];
-    ImageFile file;
-    ManifestEntry has = *entry;
-    Picture old = {.alpha = false};
-    snprintf(path, sizeof path, "%s%s.png", manifest->folder, entry->name);
-    if (image_file_read(&file, path, NULL) && describe(&has, &file, &old, NULL) &&
-        strcmp(has.file, entry->file) == 0)
-        count_differences(&picture->image, &old.image, found);
-    else
-        message_set(found, "differs; by how much would need the manifest's own %s", path);
-    image_close(&old.image);
-    image_file_close(&file);
-}
-
-ManifestResult manifest_compare(const Manifest *manifest, const ManifestEntry *entry,
-                                const ImageFile *file, Message *found, Message *message)
+ManifestResult manifest_compare(const ManifestEntry *entry, const ImageFile *file, Message *message)
 {
     Picture picture;
     ManifestEntry has = *entry;
     const bool done = describe(&has, file, &picture, message);
-    ManifestResult result = !done                                    ? MANIFEST_FAILED
-                            : strcmp(has.file, entry->file) == 0     ? MANIFEST_SAME
-                            : strcmp(has.pixels, entry->pixels) == 0 ? MANIFEST_PIXELS
-                                                                     : MANIFEST_DIFFERENT;
-    if (result == MANIFEST_DIFFERENT)
-        compare_beside(manifest, entry, &picture, found);
     image_close(&picture.image);
-    return result;
+    return !done                                    ? MANIFEST_FAILED
+           : strcmp(has.file, entry->file) == 0     ? MANIFEST_SAME
+           : strcmp(has.pixels, entry->pixels) == 0 ? MANIFEST_PIXELS
+                                                    : MANIFEST_DIFFERENT;
 }

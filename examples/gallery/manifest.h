@@ -20,7 +20,6 @@ typedef struct ManifestEntry {
 } ManifestEntry;
 
 typedef struct Manifest {
-    char folder[PATH_MAX]; /* of a manifest that was read, with its slash; "": the current one */
     char command[1024];
     ManifestEntry entries[MANIFEST_MAX];
     int count;
@@ -39,14 +38,14 @@ bool manifest_read(Manifest *manifest, const char *path, Message *message);
 const ManifestEntry *manifest_find(const Manifest *manifest, const char *name);
 
 typedef enum ManifestResult {
-    MANIFEST_SAME,      /* the same file */
-    MANIFEST_PIXELS,    /* the same pixels: other texts, or compressed otherwise */
-    MANIFEST_DIFFERENT, /* `found` says by how much, if the picture is beside the manifest */
+    MANIFEST_SAME,   /* the same file */
+    MANIFEST_PIXELS, /* the same pixels: other texts, or compressed otherwise */
+    MANIFEST_DIFFERENT,
     MANIFEST_FAILED,
 } ManifestResult;
 
 /* Compares a picture with the entry of its name. */
-ManifestResult manifest_compare(const Manifest *manifest, const ManifestEntry *entry,
-                                const ImageFile *file, Message *found, Message *message);
+ManifestResult manifest_compare(const ManifestEntry *entry, const ImageFile *file,
+                                Message *message);
 
 #endif

@@ -290,26 +290,13 @@ class Galleries(Parts):
                          "3 of 3 pictures are the same; 0 have the same pixels, 0 differ\n")
         self.assertEqual(self.everything(), before)
 
-        # A manifest of another picture: first without that beside it.
-        changed = self.good(*base.SMALL, "--specular", "0.9,0,0", "-o", "-", program="Materials")
-        old = self.read("g/Materials.png")
+        # A manifest of another picture.
+        was = hashlib.sha256(self.read("g/Materials.png")).hexdigest()
         text = self.read("g/manifest.txt").decode()
-        was, now = (hashlib.sha256(data).hexdigest() for data in (old, changed))
-        self.make("g/manifest.txt", re.sub(f"{was}(.*\n# pixels ).*", rf"{now}\g<1>{'0' * 64}",
-                                           text))
+        self.make("g/manifest.txt", re.sub(f"{was}(.*\n# pixels ).*", rf"{'1' * 64}\g<1>{'0' * 64}", text))
         said = self.run_it(*verify, "Materials", program="gallery")
         self.assertEqual((said.returncode, said.stderr), (1, b""))
-        self.assertRegex(said.stdout.decode(), "^Materials: differs; by how much would need the "
-                                               "manifest's own g/Materials.png\n0 of 1 ")
-        self.make("g/Materials.png", changed)
-        said = self.run_it(*verify, "Materials", program="gallery")
-        a, b = base.Png(old), base.Png(changed)
-        steps = [max(abs(x - y) for x, y in zip(a.pixels[i:i + 3], b.pixels[i:i + 3]))
-                 for i in range(0, len(a.pixels), 3)]
-        first = next(i for i, step in enumerate(steps) if step)
-        self.assertEqual(said.stdout.decode().splitlines()[0],
-                         f"Materials: {sum(map(bool, steps))} of 1600 pixels differ, by at most "
-                         f"{max(steps)} steps of 255, the first at ({first % 40},{first // 40})")
+        self.assertRegex(said.stdout.decode(), "^Materials: other pixels; .*\n0 of 1 ")
         # Only what the file says, its compression, differs.
         self.make("g/manifest.txt", text.replace(was, "0" * 64))
         self.assertRegex(self.good(*verify, "Materials", program="gallery").decode(),
