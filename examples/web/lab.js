@@ -86,8 +86,6 @@ const Lab = (() => {
             nodes.push(element("p", {}, verdict.message));
         if (verdict.details)
             nodes.push(element("pre", {tabindex: 0}, verdict.details));
-        if (verdict.one_of)
-            nodes.push(element("p", {}, "One of these, which look alike:"));
         nodes.push(...list(verdict.mistakes.map(hint), "Mistakes"),
                    ...list(verdict.symptoms.map(text => element("li", {}, text)), "Symptoms"));
         if (sheet) {

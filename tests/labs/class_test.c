@@ -115,7 +115,7 @@ TEST_WITH(0, no_name_is_that_of_anothers_folder, start, NULL)
 
 static const char GOOD[] =
     "{\"lab\":\"lab05_per_fragment\",\"seed\":7,\"points\":7.5,\"most\":10,\"verdict\":\"wrong\","
-    "\"message\":\"one\\u0007 line\\nmore\",\"details\":\"a\\nb\",\"one_of\":false,\"mistakes\":"
+    "\"message\":\"one\\u0007 line\\nmore\",\"details\":\"a\\nb\",\"mistakes\":"
     "[{\"name\":\"n\",\"sentence\":\"s\",\"look\":\"l\",\"sure\":0.5}],\"symptoms\":[\"x\"],"
     "\"probes\":[{\"name\":\"C\",\"set\":\"seed\",\"width\":96,\"height\":64,\"seconds\":1,"
     "\"maximum\":null,\"rms\":0.4,\"passed\":false}],\"pictures\":[\"worst.png\"],\"seconds\":0.4,"

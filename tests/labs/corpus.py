@@ -82,13 +82,12 @@ def judge(check, lab, name, files, seed=3):
     try:
         result = json.loads(done.stdout)
     except ValueError:
-        return {**row, "verdict": "no verdict", "message": str(done.stderr), "said": [], "one_of": 0}
+        return {**row, "verdict": "no verdict", "message": str(done.stderr), "said": []}
     return {
         **row,
         "verdict": result["verdict"],
         "message": result["message"],
-        "said": [[mistake["name"], mistake["sure"]] for mistake in result["mistakes"]],
-        "one_of": result["one_of"],
+        "said": [[mistake["name"], mistake["sure"], mistake["look"]] for mistake in result["mistakes"]],
     }
 
 
@@ -114,7 +113,7 @@ def rulings():
 
 
 def outcome(row, wrongly):
-    """right, passes, accused, error, refused, named, one of, unknown or MISNAMED."""
+    """right, passes, accused, error, refused, named, unknown or MISNAMED."""
     if row["label"].startswith("right") and row["verdict"] != "right":
         return "accused"
     if row["verdict"] == "right" and not row["said"]:
@@ -126,7 +125,7 @@ def outcome(row, wrongly):
     if not row["said"]:
         starter = row["message"].startswith("unchanged")
         return "named" if starter else "unknown"
-    return "one of" if row["one_of"] else "named"
+    return "named"
 
 
 def interval(count, total):
@@ -163,7 +162,6 @@ def table(rows):
         "error": "reported with the compiler's message",
         "refused": "refused or stopped, with the reason",
         "named": "named rightly",
-        "one of": "among two to six names",
         "unknown": "wrong, without a name",
         "MISNAMED": "wrongly named",
     }
@@ -174,7 +172,7 @@ def table(rows):
                 print(f"| {name} | {words[said]} | {interval(kinds[kind][said], total)} |")
     sure = collections.Counter()
     for row in rows:
-        for name, share in row["said"] if not row["one_of"] else []:
+        for _, share, _ in row["said"]:
             sure[round(share, 2), row["name"] not in wrongly] += 1
     for value in sorted({key[0] for key in sure}):
         good, bad = sure[value, True], sure[value, False]
@@ -203,9 +201,8 @@ def main():
         with open(option("--json"), "w") as file:
             json.dump(rows, file, indent=1)
     for row in rows:
-        said = "; ".join(f"{name} {sure:.0%}" for name, sure in row["said"])
-        both = "one of: " if row["one_of"] else ""
-        print(f"{row['name']} | {row['label'][:100]} | {row['verdict']} | {both}{said or row['message'][:100]}")
+        said = "; ".join(f"{name} {sure:.0%}, {look[:80]}" for name, sure, look in row["said"])
+        print(f"{row['name']} | {row['label'][:100]} | {row['verdict']} | {said or row['message'][:100]}")
 
 
 if __name__ == "__main__":

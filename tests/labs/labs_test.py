@@ -72,6 +72,25 @@ def named(result):
     return [mistake["name"] for mistake in result["mistakes"]]
 
 
+def derived(result):
+    return all(said["sentence"].rpartition(". ")[2].startswith("It draws what") for said in result["mistakes"])
+
+
+def points_at(result, texts, right):
+    """Whether it names a line that was changed, or quotes one."""
+    changed = {
+        f"line {i + 1} of {name}:": line
+        for name in texts
+        for i, line in enumerate(texts[name].split("\n"))
+        if line not in right[name].split("\n")
+    }
+    # What is missing has no line of its own.
+    lost = [line for name in texts for line in right[name].split("\n") if line not in texts[name].split("\n")]
+    said = " ".join(mistake["look"] for mistake in result["mistakes"])
+    quoted = [mistake["sentence"].rpartition(" instead of ")[2][:-1] for mistake in result["mistakes"]]
+    return any(line in said for line in changed) or any(text in line for text in quoted for line in lost)
+
+
 def pictures(result):
     """Two submissions with equal errors in every scene draw the same."""
     return [(probe["maximum"], probe["rms"]) for probe in result["probes"]]
@@ -82,30 +101,26 @@ def outcome(result, kinds):
     names = set(named(result))
     if not names:
         return "unseen" if result["verdict"] == "right" else "unnamed"
-    # Derived from the solution: it computes the same numbers everywhere.
-    if all("It draws what the right program draws with" in said["sentence"] for said in result["mistakes"]):
+    # Derived: it computes the same numbers everywhere, or what is right with the change that it names.
+    if derived(result):
         return "named"
     accepted = [mistakes.CALLED.get(kind, {kind}) for kind in kinds]
-    # Of several that look alike one must be true, otherwise all.
-    if result["one_of"]:
-        return ("named", "one")[len(kinds) - 1] if names & set.union(*accepted) else "MISNAMED"
     if not names <= set.union(*accepted):
         return "MISNAMED"
     return "named" if all(of & names for of in accepted) else "one"
 
 
 def judge_single(lab, name, seed):
-    result = check_texts(lab, mistakes.single(lab, name, seed % 2), seed)
-    return lab, name, seed, outcome(result, [name]), result
+    texts = mistakes.single(lab, name, seed % 2)
+    result = check_texts(lab, texts, seed)
+    right = mistakes.as_the_lecture(mistakes.read(lab)) if seed % 2 else mistakes.read(lab)
+    return lab, name, seed, outcome(result, [name]), result, points_at(result, texts, right)
 
 
 def judge_pair(lab, first, second, seed):
-    """If one of two hides the other, the name of the first is right; if both together equal a third
-    mistake, so is the name of that."""
+    """If one of two hides the other, the name of the first is right."""
     result = check_texts(lab, mistakes.pair(lab, first, second, seed % 2), seed)
     said = outcome(result, [first, second])
-    if named(result) == [mistakes.THIRD.get((first, second))]:
-        said = "hidden"
     if said in ("one", "unnamed"):
         alone = (mistakes.single(lab, name, seed % 2) for name in (first, second))
         if any(pictures(check_texts(lab, one, seed)) == pictures(result) for one in alone):
@@ -239,7 +254,12 @@ class Wrong(Labs):
             # Those of the other labs that have a name are in Holes.
             and (base.LONG or lab in (4, 8))
         ]
-        self.assert_named(in_parallel(judge_single, jobs), 0.95)
+        rows = in_parallel(judge_single, jobs)
+        self.assert_named(rows, 0.95)
+        # Two changes may be the same: of the normal's sign and the light's.
+        named_rows = [row for row in rows if row[3] == "named" and derived(row[4])]
+        elsewhere = [row[:4] + (row[4]["mistakes"],) for row in named_rows if not row[5]]
+        self.assertLessEqual(len(elsewhere), 0.25 * len(named_rows), elsewhere)
 
     def test_two_at_once_are_named(self):
         chance = random.Random(7)
@@ -248,13 +268,13 @@ class Wrong(Labs):
         ]
         self.assert_named(in_parallel(judge_pair, jobs[:: 4 * base.step(30)]), 0.7)
 
-    def test_an_unknown_mistake_gets_no_name_of_the_catalogue(self):
+    def test_a_mistake_of_no_known_kind_is_derived_or_has_no_name(self):
         names = list(mistakes.ART)[:: 2 * base.step(24)]
         jobs = [(*mistakes.art(name), 4) for name in names]
         for name, result in zip(names, in_parallel(check_texts, jobs)):
             self.assertEqual(result["verdict"], "wrong", (name, result["message"]))
             for mistake in result["mistakes"]:
-                self.assertIn("It draws what the right program draws with", mistake["sentence"], name)
+                self.assertIn("It draws what", mistake["sentence"], name)
             self.assertTrue(result["symptoms"], name)
 
 
@@ -314,7 +334,8 @@ class Holes(Labs):
             self.wrong(lab, (mistakes.light_file(lab), out, limited))
         out = "vec4(light * color.rgb, color.a)"
         result = self.wrong(9, ("frag", out, f"min({out}, 0.9)"))
-        self.assertEqual(named(result), ["picture clamped below 1"])
+        self.assertEqual(len(named(result)), 1, result["message"])
+        self.assertIn("min(", result["mistakes"][0]["sentence"])
 
     @LONG
     def test_a_sphere_that_the_fragment_shader_cuts_out_of_a_larger_mesh(self):
@@ -368,7 +389,7 @@ class Holes(Labs):
 
     def test_an_exponent_a_little_off(self):
         result = self.wrong(6, ("frag", "u_Shininess)", "0.95 * u_Shininess)"))
-        self.assertEqual(named(result), ["wrong exponent"])
+        self.assertEqual(named(result), ["factor too many: 0.95"])
 
     def test_numbers_a_little_off(self):
         edits = (
@@ -457,11 +478,6 @@ class Holes(Labs):
         late = f"{out}\n    if (gl_FragCoord.x > 200.0) gl_FragColor.rgb *= 0.5;"
         result = self.wrong(5, ("frag", out, late))
         self.assertEqual(named(result), ["depends on the picture's size"])
-
-    def test_what_draws_the_same_has_a_name_that_says_so(self):
-        dark = mistakes.COSINE[1].replace("max(", "step(")
-        result = self.wrong(1, ("vert", mistakes.COSINE[1], dark))
-        self.assertEqual(named(result), ["lit where it faces away, without shades"])
 
     @LONG
     def test_legal_words_of_glsl_1_are_counted(self):
@@ -717,7 +733,7 @@ def many(seeds, pairs):
         )
         missed.update(
             f"{name}, {kind}: {said}  {', '.join(named(result))}"
-            for _, kind, _, said, result in alone + two
+            for _, kind, _, said, result, *_ in alone + two
             if said not in ("named", "hidden")
         )
     print("not named (how often: lab, mistake: outcome, what was said):", file=sys.stderr)

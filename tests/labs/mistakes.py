@@ -1,4 +1,4 @@
-"""Wrong programs, as edits of the solutions: independent of check's own catalogue.
+"""Wrong programs, as edits of the solutions: independent of check's own rules.
 
 A mistake is a name and, for each lab where it can be made, its edits: (file's ending, old text, new
 text). An old text that is missing is a fault of this file.
@@ -285,7 +285,7 @@ N_DOT_H, R_DOT_V = "max(dot(normal, halfway), 0.0)", "max(dot(reflected, viewDir
 NOT_9, ROUND = (1, 2, 4, 5, 6, 7, 8, 10, 11), (4, 5, 6, 7, 8, 9, 11)
 TURNED = (1, 2, *ROUND)
 
-# The mistakes to be recognized, under the names that `check` gives them where CALLED has no other.
+# The mistakes to be recognized; lab 3's under the names that `check` gives them where CALLED has no other.
 MISTAKES = {
     "light direction reversed": each((1, 2, 4, 5, 6, 7, 9, 10, 11), to_light_reversed),
     "light direction not normalized": each(
@@ -482,32 +482,8 @@ MISTAKES = {
 
 ALONE = {"light at the vertices"}  # replaces the whole text: no pairs
 
-# Pairs that together are the same program as a third mistake, whose name is then right.
-THIRD = {
-    ("light direction reversed", "reflect's sign"): "normal reversed",
-    ("back's normal not reversed", "back in the front's colour"): "back not lit",
-}
-
-# The names that `check` may give instead; several where the pictures are the same.
-CALLED = {
-    "light direction reversed": {"light direction reversed", "light direction or normal reversed"},
-    "normals not transformed": {
-        "normals not transformed",
-        "normals not transformed, or the light too",
-    },
-    "reflect's sign": {"reflect's or the view vector's sign"},
-    "transposed twice": {"inverse without transpose"},
-    "normal in eye space": {"world and eye space mixed"},
-    "position in eye space": {"world and eye space mixed"},
-    # In lab 10 the centre is the world's origin.
-    "light direction from the object's centre": {
-        "light direction from the object's centre",
-        "point light treated as directional",
-    },
-    "transposed": {"position matrix transposed", "model matrix transposed"},
-    "Phong for Blinn-Phong": {"the other reflection model"},
-    "Blinn-Phong for Phong": {"the other reflection model"},
-}
+# The names that `check` may give instead to lab 3's.
+CALLED = {"transposed twice": {"inverse without transpose"}, "transposed": {"model matrix transposed"}}
 
 
 def applied(texts, lab, made):

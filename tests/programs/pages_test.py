@@ -12,7 +12,7 @@ examples, root = (pathlib.Path(path).resolve() for path in sys.argv[1:3])
 pages = [root / "README.md", root / "CHANGELOG.md", *sorted(root.glob("[cest]*/**/*.md"))]
 # Options of scripts are looked for in their text; these are of other programs.
 SCRIPTS = ("examples/run", "tests/run", "tests/tables", "tests/drivers", "tests/systems/run", "tests/labs/labs_test.py", "tests/benchmark/bench.c")
-FOREIGN = {"--benchmark", "--array", "--half", "--table", "--cross-file",  # meson, sbatch, labs/corpus.py
+FOREIGN = {"--benchmark", "--array", "--half", "--every", "--table", "--cross-file",  # meson, sbatch, labs/corpus.py
            "--cflags", "--libs", "--variable",  # pkg-config
            "--places"}  # examples/web/book.py
 failures = []

@@ -36,7 +36,7 @@ def check(lab, texts):
 
 def said(verdict):
     """What has to be the same."""
-    return (verdict["verdict"], verdict["points"], [mistake["name"] for mistake in verdict["mistakes"]], verdict["one_of"])
+    return (verdict["verdict"], verdict["points"], [mistake["name"] for mistake in verdict["mistakes"]])
 
 
 def scenes(verdict):

@@ -7,8 +7,6 @@
 #include "core/shader_source.h"
 #include "labs/check/budget.h"
 #include "labs/check/code.h"
-#include "labs/diagnosis/catalogue.h"
-#include "labs/diagnosis/derive.h"
 #include "labs/diagnosis/diagnose.h"
 #include "labs/diagnosis/text_facts.h"
 #include "labs/diagnosis/undefined.h"
@@ -23,9 +21,8 @@ typedef struct Session {
     Verdict *verdict;
     Canvas canvas;
     const SubmissionFiles *files;
-    SubmissionFiles plain;  /* lab 10: its shaders, preprocessed; none: they cannot be */
-    SubmissionFiles mended; /* what is judged instead of `files`; none: there is nothing to mend */
-    Shader shader, own;     /* the latter with the files' own precision, if that is another */
+    SubmissionFiles plain; /* lab 10: its shaders, preprocessed; none: they cannot be */
+    Shader shader, own;    /* the latter with the files' own precision, if that is another */
     LabPictures pictures;
     LabBudget budget; /* lab 10 */
     bool settled;     /* the submission is at fault: there is a verdict */
@@ -123,12 +120,6 @@ static bool open_shader(Session *session, Message *message)
         return settle(session, VERDICT_ERROR, &own);
     if (!check_conditions(session, &own))
         return settle(session, VERDICT_REFUSED, &own);
-    if (text_mend_overruns(session->lab, session->files, &session->mended)) {
-        session->files = &session->mended;
-        shader_close(&session->own);
-        if (!submission_compile(&session->own, session->lab, session->files, NULL, &own))
-            return settle(session, VERDICT_ERROR, &own);
-    }
     if (session->lab->budget) {
         /* The driver draws the very text that is counted. */
         if (!budget_preprocess(session->files, &session->plain, NULL) ||
@@ -222,101 +213,106 @@ static bool look_at_precision(Session *session, Message *message)
                                   &session->canvas, message);
 }
 
-static void blame_known(Verdict *verdict, const char *before, const char *name)
+/* What no text says: found by drawing otherwise. */
+typedef struct Blame {
+    const char *name, *sentence, *look;
+} Blame;
+static const Blame
+    MESH =
+        {"mesh too coarse",
+         "Right shaders draw something else with this mesh, too: it has too few slices or stacks.",
+         "slices and stacks in budget.c"},
+    MEDIUMP = {"mediump too coarse",
+               "In 32 bits the same shaders are right: mediump has 11 significant bits.",
+               "the fragment shader's precision: highp float"},
+    OVERFLOW = {"mediump overflow", "It fails at large distances: their squares overflow 16 bits.",
+                "the fragment shader's precision: highp float"},
+    SIZE = {"depends on the picture's size",
+            "The picture is right at small sizes, and wrong at a larger one or at another place.",
+            "the uses of gl_FragCoord"};
+
+static void blame(Verdict *verdict, const char *before, Blame what)
 {
-    const Mistake *known = &MISTAKES[catalogue_find(name)];
-    verdict_add_mistake(verdict, known->name, known->sentence, known->look, 0.9);
-    snprintf(verdict->message, sizeof verdict->message, "%s%s", before, known->name);
+    verdict_add_mistake(verdict, what.name, what.sentence, what.look, 0.9);
+    snprintf(verdict->message, sizeof verdict->message, "%s%s", before, what.name);
 }
 
-/* Lab 10: whether the picture is right with a fine mesh, or with highp. */
-static bool is_right_with(Session *session, int slices, const char *precision, bool *right,
-                          Message *message)
+/* Lab 10: whether its mesh is right with these shaders. They are closed. */
+static bool is_right_with(Session *session, Shader *shader, bool *right, Message *message)
 {
-    Shader shader = {0};
-    const bool compiled =
-        submission_compile(&shader, session->lab, session->files, precision, NULL);
-    const Painter painter = {.lab = session->lab, .program = shader.program};
+    const Painter painter = {.lab = session->lab, .program = shader->program};
     LabPictures *pictures = &session->pictures;
-    *right = false;
-    const int stacks = slices ? slices : session->budget.stacks;
-    bool done =
-        !compiled || (lab_pictures_use_sphere(pictures, slices ? slices : session->budget.slices,
-                                              stacks, message) &&
-                      lab_pictures_draw(pictures, &painter, &session->canvas, message));
-    for (int i = 0; i < pictures->count && done && compiled; i++)
-        *right = (i == 0 || *right) && lab_pictures_error(pictures, i, pictures->truth).maximum <=
-                                           lab_pictures_tolerance(pictures, i);
-    shader_close(&shader);
+    const bool done = lab_pictures_draw(pictures, &painter, &session->canvas, message);
+    *right = done;
+    for (int i = 0; i < pictures->count && *right; i++)
+        *right = lab_pictures_error(pictures, i, pictures->truth).maximum <=
+                 lab_pictures_tolerance(pictures, i);
+    shader_close(shader);
     return done;
 }
 
-/* Lab 10: a mesh that is too coarse, or mediump. *found: it is one of these. */
-static bool look_at_budget(Session *session, bool *found, Message *message)
+/* Lab 10: a mesh that is too coarse for right shaders, too, or mediump. *found: it is that. */
+static bool look_at_budget(Session *session, bool of_mesh, bool *found, Message *message)
 {
-    enum { FINE = 256 };
+    const ShaderLoader loader = {.precision = "highp"};
+    char name[PATH_MAX];
+    Shader shader = {0};
+    bool right = false;
     *found = false;
     if (!session->lab->budget)
         return true;
-    if (!is_right_with(session, FINE, NULL, found, message))
+    snprintf(name, sizeof name, "labs/solutions/%s/%s", session->lab->name, session->lab->file);
+    if (of_mesh ? !shader_open(&shader, &loader, name, message)
+                : !submission_compile(&shader, session->lab, session->files, "highp", NULL))
+        return !of_mesh;
+    if (!is_right_with(session, &shader, &right, message))
         return false;
+    *found = right != of_mesh;
     if (*found)
-        blame_known(session->verdict, "", "mesh too coarse");
-    else if (!is_right_with(session, 0, "highp", found, message))
-        return false;
-    else if (*found)
-        blame_known(session->verdict, "", "mediump too coarse");
+        blame(session->verdict, "", of_mesh ? MESH : MEDIUMP);
     /* As it was. */
     const Painter painter = {.lab = session->lab, .program = session->shader.program};
-    return lab_pictures_use_sphere(&session->pictures, session->budget.slices,
-                                   session->budget.stacks, message) &&
-           lab_pictures_draw(&session->pictures, &painter, &session->canvas, message);
+    return lab_pictures_draw(&session->pictures, &painter, &session->canvas, message);
 }
 
-/* Says why the submission is wrong. */
-static bool explain(Session *session, const Painter *painter, const char *numbers, Message *message)
+/* By its shaders, unless, lab 10, they cannot be right with its mesh. */
+static bool explain_shaders(Session *session, Message *message)
 {
     Verdict *verdict = session->verdict;
     bool found;
+    if (!look_at_budget(session, true, &found, message))
+        return false;
+    if (!found && !diagnose(&session->pictures, session->files, verdict, message))
+        return false;
+    if (verdict->mistake_count == 0 && !look_at_budget(session, false, &found, message))
+        return false;
+    if (verdict->mistake_count == 0)
+        text_find_suspicion(session->lab, session->files, verdict);
+    return true;
+}
+
+/* Says why the submission is wrong. */
+static bool explain(Session *session, const char *numbers, Message *message)
+{
+    Verdict *verdict = session->verdict;
     if (text_is_starter(session->lab, session->files)) {
         snprintf(verdict->message, sizeof verdict->message, "unchanged: this is the starter");
         return true;
     }
-    if (numbers[0] && !session->lab->given) {
+    if (session->lab->given) {
+        matrices_name(&session->pictures, verdict);
+    } else if (numbers[0]) {
         if (text_has_word(session->files, "gl_FragCoord"))
-            blame_known(verdict, "", "depends on the picture's size");
+            blame(verdict, "", SIZE);
         else
             snprintf(verdict->message, sizeof verdict->message, "right in small scenes only");
-        verdict_add_symptom(verdict, "%s", numbers);
-        return true;
-    }
-    found = !session->lab->given && text_find_fault(session->lab, session->files, verdict);
-    if (!found && !session->lab->given &&
-        !undefined_explain(&session->pictures, session->files, verdict, &found, message))
+    } else if (!explain_shaders(session, message)) {
         return false;
-    if (found) {
-        symptoms_describe(&session->pictures, session->moved, verdict);
-        return true;
     }
-    if (session->lab->solution_count) {
-        snprintf(verdict->message, sizeof verdict->message,
-                 "Unknown mistake: it draws something else than the solution");
-        if (!derive_name(&session->pictures, session->files, verdict, &found, message))
-            return false;
-        symptoms_describe(&session->pictures, session->moved, verdict);
-        return true;
-    }
-    if (!diagnose(&session->pictures, painter, session->moved, &session->canvas, verdict, message))
-        return false;
-    /* A mistake with a name is more than a mesh that would hide it. */
-    if (verdict->mistake_count == 0 && !look_at_budget(session, &found, message))
-        return false;
-    if (session->lab->given && verdict->mistake_count == 0)
-        matrices_name(&session->pictures, verdict);
-    if (!session->lab->given && verdict->mistake_count == 0)
-        text_find_suspicion(session->lab, session->files, verdict);
     if (numbers[0])
         verdict_add_symptom(verdict, "%s", numbers);
+    if (session->lab->given || !numbers[0])
+        symptoms_describe(&session->pictures, session->moved, verdict);
     return true;
 }
 
@@ -364,8 +360,7 @@ void judge_limit(rlim_t seconds)
 static bool judge_pictures(Session *session, Message *message)
 {
     Verdict *verdict = session->verdict;
-    const Painter painter = {
-        .lab = session->lab, .program = session->shader.program, .files = session->files};
+    const Painter painter = {.lab = session->lab, .program = session->shader.program};
     char numbers[VERDICT_SENTENCE_SIZE];
     bool outside;
     if (!lab_pictures_draw(&session->pictures, &painter, &session->canvas, message))
@@ -374,25 +369,25 @@ static bool judge_pictures(Session *session, Message *message)
     int worst = add_probes(&session->pictures, verdict);
     if (!look_closer(session, &painter, worst, &outside, numbers, message))
         return false;
-    const bool overrun = worst < 0 && !outside && session->mended.count > 0 &&
-                         text_find_overrun(session->lab, session->options->files, verdict);
-    const bool wrong = worst >= 0 || outside || overrun;
+    bool wrong = worst >= 0 || outside, chance = false; /* right by chance */
+    if (!wrong && !session->lab->given &&
+        !undefined_warn(&session->pictures, session->files, verdict, &chance, message))
+        return false;
+    wrong |= chance;
     verdict->kind = wrong ? VERDICT_WRONG : VERDICT_RIGHT;
     if (!wrong) {
-        if (!look_at_precision(session, message) ||
-            (!session->lab->given &&
-             !undefined_warn(&session->pictures, session->files, verdict, message)))
+        if (!look_at_precision(session, message))
             return false;
         verdict->probe_count = 0;
         worst = add_probes(&session->pictures, verdict);
         snprintf(verdict->message, sizeof verdict->message, "Right in all %d scenes",
                  verdict->probe_count);
-    } else if (!overrun && !explain(session, &painter, numbers, message)) {
+    } else if (!chance && !explain(session, numbers, message)) {
         return false;
     }
     verdict_score(verdict, session->lab);
     if (!wrong && worst >= 0) { /* right in 32 bits counts as right, minus a point */
-        blame_known(verdict, "Right except in large scenes: ", "mediump overflow");
+        blame(verdict, "Right except in large scenes: ", OVERFLOW);
         verdict->points -= 1;
     }
     if (session->lab->budget &&
@@ -431,7 +426,6 @@ bool judge(const JudgeOptions *options, Verdict *verdict, Message *message)
     shader_close(&session.own);
     lab_solutions_close(&session.right);
     submission_files_close(&session.plain);
-    submission_files_close(&session.mended);
     canvas_close(&session.canvas);
     verdict->seconds = clock_now() - start;
     return done;

@@ -49,7 +49,6 @@ static void set_mistakes(TemplateValues *page, const Verdict *verdict)
     template_set(page, "mistakes", "%s",
                  verdict->mistake_count == 0   ? ""
                  : verdict->mistake_count == 1 ? "The likely mistake"
-                 : verdict->one_of             ? "Likely mistakes: one of these"
                                                : "Likely mistakes: all of these");
     for (int i = 0; i < verdict->mistake_count; i++) {
         const VerdictMistake *mistake = &verdict->mistakes[i];
@@ -236,8 +235,8 @@ static void set_results(TemplateValues *page, const ClassStore *store)
         char names[CLASS_NAMES_SIZE];
         class_mistake_names(verdict, names);
         const bool unnamed = verdict->mistake_count == 0 && verdict->kind != VERDICT_RIGHT;
-        template_set(add_result(page, "result", result), "fault", "%s%s%s",
-                     verdict->one_of ? "one of: " : "", names, unnamed ? verdict->message : "");
+        template_set(add_result(page, "result", result), "fault", "%s%s", names,
+                     unnamed ? verdict->message : "");
         if (verdict->picture[0])
             add_result(page, "thumbnail", result);
         pictures |= verdict->picture[0] != '\0';

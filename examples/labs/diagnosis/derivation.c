@@ -16,6 +16,8 @@ static void take_events(const PointShader *shader, GlslStage stage, Values *valu
         if (event->count > 4)
             continue;
         values->items[values->count].size = event->count;
+        values->items[values->count].scalar =
+            glsl_scalar(shader->tree->symbols[event->symbol].type);
         values->items[values->count].node = event->node;
         values->items[values->count].symbol = event->symbol;
         values->items[values->count].stage = stage;
@@ -39,11 +41,14 @@ void values_trace(const Points *points, PointShader *vertex, PointShader *fragme
 }
 
 /* A vec4 has the same value as its first three numbers. */
-static bool has_value(const Values *values, const double *numbers, int size)
+static bool has_value(const Values *values, const Values *of, int number)
 {
+    const double *numbers = of->items[number].numbers;
+    const int size = of->items[number].size;
     for (int i = 0; i < values->count; i++) {
         const int other = values->items[i].size;
-        bool same = size == other || (size >= 3 && other >= 3);
+        bool same = (size == other || (size >= 3 && other >= 3)) &&
+                    values->items[i].scalar == of->items[number].scalar;
         for (int c = 0; c < size && c < other && same; c++)
             same = fabs(numbers[c] - values->items[i].numbers[c]) <= 1e-5 * (1 + fabs(numbers[c]));
         if (same)
@@ -56,19 +61,13 @@ int values_shared(const Values *own, const Values *other)
 {
     int shared = 0;
     for (int i = 0; i < own->count; i++)
-        shared += has_value(other, own->items[i].numbers, own->items[i].size);
+        shared += has_value(other, own, i);
     return shared;
 }
 
-int values_first(const Values *own, const Values *mutant, const Values *right)
+bool values_is_wrong(const Values *own, int number, const Values *mutant, const Values *right)
 {
-    for (int i = 0; i < own->count; i++) {
-        const double *numbers = own->items[i].numbers;
-        if (has_value(mutant, numbers, own->items[i].size) &&
-            !has_value(right, numbers, own->items[i].size))
-            return i;
-    }
-    return -1;
+    return has_value(mutant, own, number) && !has_value(right, own, number);
 }
 
 enum { BAG = 1024 };
@@ -110,6 +109,16 @@ int values_count_other(const GlslTree *a, const GlslTree *b)
     return sum;
 }
 
+/* Of an operand; a number alone says nothing. */
+static int parent_of(const GlslTree *tree, int node)
+{
+    for (int i = 1; i < tree->node_count; i++)
+        for (int k = tree->nodes[i].first; k; k = tree->nodes[k].next)
+            if (k == node && tree->nodes[i].kind <= GLSL_CONSTRUCT)
+                return i;
+    return node;
+}
+
 void derivation_place(const Derivation *all, GlslStage stage, int node, char *text, size_t size)
 {
     const GlslTree *tree = all->own[stage].tree;
@@ -119,19 +128,44 @@ void derivation_place(const Derivation *all, GlslStage stage, int node, char *te
         at->place.file >= 0 && at->place.file < source->file_count ? at->place.file : 0;
     const char *path = source->file_count ? source->files[file] : "", *slash = strrchr(path, '/');
     char code[80];
-    const int shown = at->kind == GLSL_VARIABLE_NODE ? at->first : node;
+    const bool named = at->kind == GLSL_VARIABLE_NODE;
+    const int shown = named || at->kind == GLSL_EXPRESSION ? at->first
+                      : at->kind == GLSL_LITERAL           ? parent_of(tree, node)
+                                                           : node;
     glsl_expression_text(tree, shown, code, sizeof code);
     snprintf(text, size, "line %d of %s: %s%s%s", at->place.line, slash ? slash + 1 : path,
-             shown == node ? "" : tree->symbols[at->symbol].name, shown == node ? "" : " = ", code);
+             named ? tree->symbols[at->symbol].name : "", named ? " = " : "", code);
+}
+
+/* Lines that a backslash continues, which drivers accept, become one; what follows keeps its
+ * number, and the text its length. */
+static void join_lines(char *text)
+{
+    int joined = 0;
+    char *to = text;
+    for (const char *at = text; *at; at++) {
+        if (at[0] == '\\' && at[1] == '\n') {
+            *to++ = ' ';
+            at++, joined++;
+            continue;
+        }
+        *to++ = *at;
+        for (; *at == '\n' && joined > 0; joined--)
+            *to++ = '\n';
+    }
+    *to = '\0';
 }
 
 static bool open_own(Derivation *all, const SubmissionFiles *files)
 {
     const ShaderLoader loader = {.texts = files->texts, .only_texts = true, .precision = "highp"};
-    for (int i = 0; i < 2; i++)
-        if (!derivation_read(all->lab, &loader, "", i, "", &all->sources[i]) ||
-            !point_shader_open(&all->own[i], all->sources[i].text, (GlslStage)i))
+    for (int i = 0; i < 2; i++) {
+        if (!derivation_read(all->lab, &loader, "", i, "", &all->sources[i]))
             return false;
+        join_lines(all->sources[i].text);
+        if (!point_shader_open(&all->own[i], all->sources[i].text, (GlslStage)i))
+            return false;
+    }
     return true;
 }
 
@@ -148,16 +182,23 @@ Derivation *derivation_open(const LabPictures *pictures, const SubmissionFiles *
     all->wanted = memory_new(count, sizeof *all->wanted);
     all->exact = memory_new(count, sizeof *all->exact);
     all->order = memory_new(count, sizeof *all->order);
+    derivation_run(all, all->own, all->wanted, NULL);
     return all;
 }
 
 void derivation_close(Derivation *all)
 {
+    if (!all)
+        return;
     right_close(all);
     for (int i = 0; i < 2; i++) {
         point_shader_close(&all->own[i]);
         shader_source_close(&all->sources[i]);
     }
+    for (int i = 0; i < all->right_count; i++)
+        free(all->rights[i]);
+    free(all->undeclared[0]);
+    free(all->undeclared[1]);
     free(all->best.text);
     points_close(&all->points);
     free(all->wanted);

@@ -9,7 +9,17 @@
 #include "labs/diagnosis/points.h"
 #include "labs/submission/verdict.h"
 
-enum { MAX_FIRST = 6, TRACED = 6, MAX_VALUES = 400 };
+enum { MAX_FIRST = 10, TRACED = 6, MAX_VALUES = 400, MAX_RIGHTS = 8 };
+
+/* Of all points in the order of a search, those that rule out most of what is tried. */
+enum { HOPELESS_POINTS = 8, FIRST_POINTS = 32 };
+
+/* Equal formulas differ by 1e-12, with attributes in floats by 1e-7, with constants like 3.14159 by
+ * more. A highlight that nearly vanishes is 1e-4 from one that does. */
+#define DERIVATION_EQUAL 5e-5
+
+/* What a pair of shaders draws at each point. */
+typedef double (*Numbers)[POINT_NUMBERS];
 
 /* One mutation, or two: of a text that has another already. */
 typedef struct Found {
@@ -28,28 +38,38 @@ typedef struct Derivation {
     Points points;
     PointShader own[2], right[2]; /* by GlslStage */
     ShaderSource sources[2];      /* the submission's */
-    double (*wanted)[POINT_NUMBERS], (*exact)[POINT_NUMBERS];
+    Numbers wanted, exact;        /* the submission's, and those of the right program */
+    Numbers rights[MAX_RIGHTS];   /* those of all right programs */
+    int right_count;
     int *order; /* of the points: where it is farthest from right, and where it is right, in turn */
     double nearest_right; /* the sum of how far it is from the right program */
+    bool nearest_light;   /* at the points, where that is not asked for */
     char *nearest_text;   /* of its fragment shader, if it has other numbers */
     double wrong_by;
     bool noted; /* the submission does what is undefined */
     double numbers[MUTATION_NUMBERS];
     int number_count, own_number_count; /* as they are in the submission */
-    GlslStage stage;                    /* that is mutated */
-    PointShader *base[2];               /* of what: the right program, or a mutant of it */
-    const Found *first;                 /* that mutant */
-    Found nearest[MAX_FIRST];           /* single mutations that explain some points more */
+    double right_numbers[MUTATION_NUMBERS];
+    int right_number_count;
+    char *undeclared[2];      /* uniforms that the submission's stages lack */
+    GlslStage stage;          /* that is mutated */
+    PointShader *base[2];     /* of what: the right program, or a mutant of it */
+    const Found *first;       /* that mutant */
+    Found nearest[MAX_FIRST]; /* single mutations that explain some points more */
     int nearest_count, like;
     Found best;  /* of those that compute the same; its text is NULL: none does */
     bool unique; /* no other has as many of the submission's values */
     int tried;
+    Found mending; /* the change of the submission that makes it right, if `mended` */
+    bool mended, mended_there;
+    int place_node; /* of the submission, in place_stage: the first wrong value; 0: not known */
+    GlslStage place_stage;
 } Derivation;
 
 /* A submission at points. NULL: it cannot be run, or, with a message, the driver failed. */
 Derivation *derivation_open(const LabPictures *pictures, const SubmissionFiles *files,
                             Message *message);
-void derivation_close(Derivation *all);
+void derivation_close(Derivation *all); /* NULL is fine */
 
 /* Reads a lab's shader of a stage from a folder that ends in a slash, or "". `ending`: of its name.
  */
@@ -57,22 +77,36 @@ bool derivation_read(const Lab *lab, const ShaderLoader *loader, const char *fol
                      const char *ending, ShaderSource *source);
 
 /* Runs a pair at all points; the sum of how far it is from `wanted`, which may be NULL. */
-double derivation_run(Derivation *all, PointShader pair[2], double (*numbers)[POINT_NUMBERS],
-                      const double (*wanted)[POINT_NUMBERS]);
+double derivation_run(Derivation *all, PointShader pair[2], Numbers numbers, Numbers wanted);
 
 /* The lab's solution, or one that is written in another way; false: it has none. */
 bool right_open(Derivation *all, const char *ending);
 
 void right_close(Derivation *all);
 
+/* Where light at the vertices is as right. */
+typedef enum LitAt { LIT_NEAREST, LIT_AT_VERTICES, LIT_AT_POINTS } LitAt;
+
 /* Makes it the right program that is nearest to the submission, and runs it. */
-void right_run(Derivation *all);
+void right_run(Derivation *all, LitAt lit);
+
+/* Runs all right programs: with light at the vertices or not, and with each number that a task
+ * leaves open. */
+void right_run_all(Derivation *all);
+
+/* The declarations of the interface's uniforms that a text lacks, but a change of it may use; a
+ * text with them. For free(). */
+char *right_undeclared(const Points *points, const GlslTree *tree);
+char *right_declare(const char *declarations, const char *text);
+
+/* Finds the one change of the submission, if any, that makes it right. */
+bool mend_find(Derivation *all);
 
 /* What shaders assign on their way, in order. */
 typedef struct Values {
     struct {
         double numbers[4];
-        int size, node, symbol;
+        int size, scalar, node, symbol; /* scalar: their type, GLSL_FLOAT or another */
         GlslStage stage;
     } items[MAX_VALUES];
     int count;
@@ -85,9 +119,8 @@ void values_trace(const Points *points, PointShader *vertex, PointShader *fragme
 /* How many of `own` are among the others. */
 int values_shared(const Values *own, const Values *other);
 
-/* The first of the submission's values that is the mutant's and not the right program's; -1: none.
- */
-int values_first(const Values *own, const Values *mutant, const Values *right);
+/* Whether the submission's value of this number is the mutant's and not the right program's. */
+bool values_is_wrong(const Values *own, int number, const Values *mutant, const Values *right);
 
 /* How often operations, built-in functions, uniforms and numbers occur more in one than in the
  * other. */
@@ -95,6 +128,10 @@ int values_count_other(const GlslTree *a, const GlslTree *b);
 
 /* "line 14 of lab06.frag, float d = dot(n, l)". */
 void derivation_place(const Derivation *all, GlslStage stage, int node, char *text, size_t size);
+
+/* Adds the mistake of a submission that computes at the vertices what has to be computed at each
+ * fragment; false: it does not. */
+bool at_vertices_explain(Derivation *all, Verdict *verdict);
 
 /* Says which terms are right or wrong and, if one value alone explains all, which. */
 void wrong_part_describe(Derivation *all, Verdict *verdict);

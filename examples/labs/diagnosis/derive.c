@@ -6,48 +6,55 @@
 #include "labs/diagnosis/derive.h"
 
 #include "base/memory.h"
-#include "core/shader_source.h"
-#include "labs/diagnosis/derivation.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Equal formulas differ by 1e-12, with attributes in floats by 1e-7, with constants like 3.14159 by
- * more. A highlight that nearly vanishes is 1e-4 from one that does. */
 static const double UNIQUE = 0.9, ONE_OF_SEVERAL = 0.75;
-static const double EQUAL = 5e-5, ALIKE = 1e-6;
+static const double EQUAL = DERIVATION_EQUAL, ALIKE = 1e-6;
 
 /* Constants of a shader that may be a mistake's numbers: they and their reciprocals. */
-static void take_number(Derivation *all, double number)
+static void take_number(double numbers[MUTATION_NUMBERS], int *count, double number)
 {
     number = fabs(number);
-    for (int i = 0; i < all->number_count; i++)
-        if (fabs(all->numbers[i] - number) <= 1e-9 * number)
+    for (int i = 0; i < *count; i++)
+        if (fabs(numbers[i] - number) <= 1e-9 * number)
             return;
-    if (number > 1e-6 && number < 1e6 && all->number_count < MUTATION_NUMBERS)
-        all->numbers[all->number_count++] = number;
+    if (number > 1e-6 && number < 1e6 && *count < MUTATION_NUMBERS)
+        numbers[(*count)++] = number;
 }
 
-static void take_numbers(Derivation *all, const GlslTree *tree, int node)
+static void take_numbers(const GlslTree *tree, int node, double *numbers, int *count)
 {
     const GlslNode *at = &tree->nodes[node];
     if (at->constant && at->type == GLSL_FLOAT)
-        take_number(all, tree->values[at->value]);
+        take_number(numbers, count, tree->values[at->value]);
     for (int i = at->first; i; i = tree->nodes[i].next)
-        take_numbers(all, tree, i);
+        take_numbers(tree, i, numbers, count);
 }
 
-static void take_all_numbers(Derivation *all)
+static void take_own_numbers(Derivation *all)
 {
+    double *numbers = all->numbers;
     for (int i = 0; i < 2; i++)
-        take_numbers(all, all->own[i].tree, all->own[i].tree->root);
+        take_numbers(all->own[i].tree, all->own[i].tree->root, numbers, &all->number_count);
     const int count = all->own_number_count = all->number_count;
     for (int i = 0; i < count; i++)
-        take_number(all, 1 / all->numbers[i]);
-    for (int i = 0; i < count; i++)
-        take_number(all, 1 + all->numbers[i]), take_number(all, 1 - all->numbers[i]);
+        take_number(numbers, &all->number_count, 1 / numbers[i]);
+    for (int i = 0; i < count; i++) {
+        take_number(numbers, &all->number_count, 1 + numbers[i]);
+        take_number(numbers, &all->number_count, 1 - numbers[i]);
+    }
+}
+
+/* Those of a right program. */
+static void take_right_numbers(Derivation *all)
+{
+    for (int i = 0; i < 2; i++)
+        take_numbers(all->right[i].tree, all->right[i].tree->root, all->right_numbers,
+                     &all->right_number_count);
 }
 
 typedef struct Apart {
@@ -85,7 +92,7 @@ static void sort_points(Derivation *all)
     free(list);
 }
 
-enum { FIRST_POINTS = 16, MOST = 40000 /* mutants: some seconds */ };
+enum { MOST = 20000 /* mutants: some seconds */ };
 
 /* How far the pair is from the submission, and how many of the first points are alike; far away:
  * it is not looked at further. */
@@ -99,7 +106,7 @@ static double distance(Derivation *all, PointShader *vertex, PointShader *fragme
         const double apart = points_apart(numbers, all->wanted[point]);
         most = fmax(most, apart);
         *like += i < FIRST_POINTS && apart <= EQUAL;
-        if ((i == FIRST_POINTS / 2 && *like == 0) || /* hopeless */
+        if ((i == HOPELESS_POINTS && *like == 0) ||
             (!all->noted && vertex->run->note_count + fragment->run->note_count > 0))
             return 2;
     }
@@ -177,26 +184,38 @@ static void compare_values(Derivation *all, Found *found)
     free(own);
 }
 
-/* Below 0: a is the better explanation. */
+/* Below 0: a is the better explanation: nearer, by what is on its way, and without a name or number
+ * that was tried. */
 static int compare_found(const Found *a, const Found *b)
 {
     const bool exact = a->apart <= ALIKE, other_exact = b->apart <= ALIKE;
+    const bool general = a->mutation.general, other_general = b->mutation.general;
     return exact != other_exact     ? other_exact - exact
            : a->shared != b->shared ? b->shared - a->shared
-                                    : a->other - b->other;
+                                    : other_general - general;
+}
+
+/* Of those that are as good the likelier one; and how alike the texts are. */
+static int compare_texts(const Found *a, const Found *b)
+{
+    const Mutation *p = &a->mutation, *q = &b->mutation;
+    return p->rank != q->rank     ? p->rank - q->rank
+           : a->other != b->other ? a->other - b->other
+                                  : (int)strlen(p->name) - (int)strlen(q->name);
 }
 
 static void take_found(Derivation *all, Found *found)
 {
     compare_values(all, found);
-    const int order = all->best.text ? compare_found(found, &all->best) : -1;
-    const Mutation *mutation = &found->mutation, *best = &all->best.mutation;
-    const bool earlier = mutation->rank != best->rank ? mutation->rank < best->rank
-                                                      : strlen(mutation->name) < strlen(best->name);
-    const bool same =
-        order == 0 && mutation->node == best->node && strcmp(mutation->by, best->by) == 0;
-    all->unique = order < 0 || (all->unique && (order > 0 || same));
-    if (order > 0 || (order == 0 && !earlier)) {
+    const Found *best = &all->best;
+    const int order = best->text ? compare_found(found, best) : -1;
+    const bool better = order < 0 || (order == 0 && compare_texts(found, best) < 0);
+    const bool same = order == 0 && found->mutation.node == best->mutation.node &&
+                      strcmp(found->mutation.by, best->mutation.by) == 0;
+    /* The other is not as good, or less alike, too. */
+    const int less = order != 0 ? order : found->other - best->other;
+    all->unique = order < 0 || (all->unique && (same || (better ? less < 0 : less > 0)));
+    if (!better) {
         free(found->text);
         return;
     }
@@ -225,49 +244,109 @@ static bool try_mutant(void *context, const Mutation *mutation, const char *text
     return !all->first || all->tried < MOST;
 }
 
-/* Where the submission's first value is that is wrong; else the name of what is. */
-static void find_place(Derivation *all, const Found *found, char *place, size_t size)
+/* The submission's values, the right program's and the mutant's at a point. */
+static void trace_all(Derivation *all, PointShader *const mutant[2], int point, Values values[3])
 {
-    Values *own = memory_new(3, sizeof *own), *mutant = own + 1, *right = own + 2;
-    Pair pair;
-    const int point = all->order[0];
-    int first = -1;
-    if (open_pair(all, found, &pair)) {
-        values_trace(&all->points, &all->own[0], &all->own[1], point, own);
-        values_trace(&all->points, &all->right[0], &all->right[1], point, right);
-        values_trace(&all->points, pair.stages[0], pair.stages[1], point, mutant);
-        first = values_first(own, mutant, right);
-        close_pair(&pair);
-    }
-    if (first >= 0)
-        derivation_place(all, own->items[first].stage, own->items[first].node, place, size);
-    else
-        snprintf(place, size, "where %s should be", found->mutation.was);
-    free(own);
+    values_trace(&all->points, &all->own[0], &all->own[1], point, &values[0]);
+    values_trace(&all->points, &all->right[0], &all->right[1], point, &values[1]);
+    values_trace(&all->points, mutant[0], mutant[1], point, &values[2]);
 }
 
-static void add(const Mutation *mutation, const char *place, double sure, Verdict *verdict)
+static bool is_wrong_at(const Values values[3], GlslStage stage, int node)
 {
-    char name[64], sentence[VERDICT_SENTENCE_SIZE];
-    snprintf(name, sizeof name, "%.63s", mutation->name);
+    bool wrong = false;
+    for (int i = 0; i < values[0].count && !wrong; i++)
+        wrong = values[0].items[i].node == node && values[0].items[i].stage == stage &&
+                values_is_wrong(&values[0], i, &values[2], &values[1]);
+    return wrong;
+}
+
+/* Finds the submission's first value that is wrong as the mutant's is; at two points, because at
+ * one it may be so by chance. */
+static void find_place(Derivation *all, const Found *found)
+{
+    Values *values = memory_new(6, sizeof *values);
+    Pair pair;
+    all->place_node = 0;
+    if (open_pair(all, found, &pair)) {
+        for (int k = 0; k < 2; k++) /* where it is wrong */
+            trace_all(all, pair.stages, all->order[2 * k], values + 3 * k);
+        for (int i = 0; i < values[0].count && !all->place_node; i++) {
+            const int node = values[0].items[i].node;
+            all->place_stage = values[0].items[i].stage;
+            if (is_wrong_at(values, all->place_stage, node) &&
+                is_wrong_at(values + 3, all->place_stage, node))
+                all->place_node = node;
+        }
+        close_pair(&pair);
+    }
+    free(values);
+}
+
+static void add(const char *name, const Mutation *mutation, const char *place, double sure,
+                Verdict *verdict)
+{
+    char short_name[64], sentence[VERDICT_SENTENCE_SIZE];
+    snprintf(short_name, sizeof short_name, "%.63s", name);
     snprintf(sentence, sizeof sentence,
              "%s%sIt draws what the right program draws with %s instead of %s.", mutation->sentence,
              mutation->sentence[0] ? " " : "", mutation->by[0] ? mutation->by : "nothing",
              mutation->was);
-    verdict_add_mistake(verdict, name, sentence, place, sure);
+    verdict_add_mistake(verdict, short_name, sentence, place, sure);
 }
 
-static void say(Derivation *all, const Found *found, Verdict *verdict)
+/* The line that has to change, and to what. */
+static void say_mending(Derivation *all, char look[VERDICT_SENTENCE_SIZE], Verdict *verdict)
 {
-    char place[VERDICT_SENTENCE_SIZE];
+    const Found *best = &all->best;
+    const Mutation *mending = &all->mending.mutation;
+    char place[VERDICT_SENTENCE_SIZE], sentence[VERDICT_SENTENCE_SIZE];
+    derivation_place(all, all->mending.stage, mending->node, place, sizeof place);
+    snprintf(look, VERDICT_SENTENCE_SIZE, "%.250s; all is right with %s", place,
+             mending->by[0] ? mending->by : "nothing there");
+    if (best->text && best->mutation.general && all->unique) {
+        add(best->mutation.name, &best->mutation, look, UNIQUE, verdict);
+        return;
+    }
+    char name[64];
+    snprintf(name, sizeof name, "%.63s", mending->mends);
+    snprintf(sentence, sizeof sentence, "It draws what is right with %s instead of %s.",
+             mending->by[0] ? mending->by : "nothing", mending->was);
+    verdict_add_mistake(verdict, name, sentence, look, UNIQUE);
+}
+
+/* Whether the first wrong value is known, and not just the result. */
+static bool is_inside(const Derivation *all)
+{
+    const GlslTree *tree = all->own[all->place_stage].tree;
+    const GlslNode *node = &tree->nodes[all->place_node];
+    while (node->kind != GLSL_NAME && node->kind != GLSL_VARIABLE_NODE && node->first)
+        node = &tree->nodes[node->first];
+    const GlslSymbol *symbol = &tree->symbols[node->symbol];
+    return all->place_node && !symbol->built_in && symbol->storage != GLSL_VARYING;
+}
+
+static void say(Derivation *all, Verdict *verdict)
+{
+    const Found *found = &all->best;
     const double sure = all->unique ? UNIQUE : ONE_OF_SEVERAL;
-    find_place(all, found, place, sizeof place);
-    if (found->first)
-        add(&found->first->mutation, place, sure, verdict);
-    add(&found->mutation, place, sure, verdict);
+    char look[VERDICT_SENTENCE_SIZE];
+    const bool other = found->text && found->mutation.general && all->unique && is_inside(all);
+    if (all->mended && (all->mended_there || !other)) {
+        say_mending(all, look, verdict);
+    } else {
+        if (all->place_node)
+            derivation_place(all, all->place_stage, all->place_node, look, sizeof look);
+        else
+            snprintf(look, sizeof look, "where %s should be", found->mutation.was);
+        if (found->first)
+            add(found->first->mutation.name, &found->first->mutation, look, sure, verdict);
+        add(found->mutation.name, &found->mutation, look, sure, verdict);
+    }
     snprintf(verdict->message, sizeof verdict->message, "%s%s%s%s",
-             found->first ? "Two mistakes: " : "", found->first ? found->first->mutation.name : "",
-             found->first ? "; " : "", found->mutation.name);
+             verdict->mistake_count > 1 ? "Two mistakes: " : "", verdict->mistakes[0].name,
+             verdict->mistake_count > 1 ? "; " : "",
+             verdict->mistake_count > 1 ? verdict->mistakes[1].name : "");
 }
 
 /* All mutants of both stages of the base. */
@@ -295,12 +374,12 @@ static void mutate_twice(Derivation *all)
     }
 }
 
-static bool use_right(Derivation *all, const char *ending)
+bool derive_use_right(Derivation *all, const char *ending, LitAt lit)
 {
     right_close(all);
     if (!right_open(all, ending))
         return false;
-    right_run(all);
+    right_run(all, lit);
     sort_points(all);
     for (int i = 0; i < 2; i++)
         all->base[i] = &all->right[i];
@@ -308,38 +387,50 @@ static bool use_right(Derivation *all, const char *ending)
     return true;
 }
 
-/* One mutation of each right program, then two. */
-static bool search(Derivation *all)
+/* One mutation of each right program, or two. */
+static bool search(Derivation *all, int count)
 {
     static const char *const ENDINGS[] = {"_apart", ""};
-    for (int count = 1; count <= 2; count++) {
-        for (int i = 0; i < 2 && !all->best.text; i++) {
-            /* Where it computes what is right, it is wrong by what is undefined, or by precision.
-             */
-            if (!use_right(all, ENDINGS[i]) || all->wrong_by <= 4 * EQUAL)
-                continue;
-            mutate(all);
-            if (count == 2 && !all->best.text)
-                mutate_twice(all);
-        }
+    for (int i = 0; i < 4 && !all->best.text; i++) {
+        const LitAt lit = i % 2 ? LIT_AT_POINTS : LIT_AT_VERTICES;
+        /* Where it computes what is right, it is wrong by what is undefined, or by precision. */
+        if ((i % 2 && !all->lab->either) || !derive_use_right(all, ENDINGS[i / 2], lit) ||
+            all->wrong_by <= 4 * EQUAL)
+            continue;
+        mutate(all);
+        if (count == 2 && !all->best.text)
+            mutate_twice(all);
     }
     return all->best.text;
 }
 
-bool derive_name(const LabPictures *pictures, const SubmissionFiles *files, Verdict *verdict,
-                 bool *named, Message *message)
+/* The change that makes a right program as wrong, and that which makes the submission right; then
+ * what is at the vertices, then two changes. */
+static bool explain(Derivation *all, Verdict *verdict)
 {
-    Derivation *all = derivation_open(pictures, files, message);
-    *named = false;
-    if (!all)
-        return !message->text[0];
-    derivation_run(all, all->own, all->wanted, NULL);
-    take_all_numbers(all);
-    *named = search(all);
-    if (*named)
-        say(all, &all->best, verdict);
-    else if (all->wrong_by > 4 * EQUAL)
-        wrong_part_describe(all, verdict);
-    derivation_close(all);
+    take_own_numbers(all);
+    if (!derive_use_right(all, "", LIT_NEAREST) || all->wrong_by <= 4 * EQUAL)
+        return false;
+    right_run_all(all);
+    take_right_numbers(all);
+    if (search(all, 1))
+        find_place(all, &all->best);
+    if (mend_find(all) || all->best.text ||
+        (derive_use_right(all, "_apart", LIT_NEAREST) && at_vertices_explain(all, verdict)) ||
+        (derive_use_right(all, "", LIT_NEAREST) && at_vertices_explain(all, verdict)))
+        return true;
+    /* Of lab 10's sphere normals and places are the same, so that two changes explain too much. */
+    if (all->lab->budget || !search(all, 2))
+        return false;
+    find_place(all, &all->best);
+    return true;
+}
+
+bool derive_mistake(Derivation *all, Verdict *verdict)
+{
+    if (!explain(all, verdict))
+        return false;
+    if (verdict->mistake_count == 0)
+        say(all, verdict);
     return true;
 }

@@ -1,16 +1,18 @@
 /*
- * derive: names a mistake that no catalogue has: the change of a right program (mutation.h) that
- * makes it compute what the submission computes.
+ * derive: names a mistake from its shaders and a right program alone, by a change (mutation.h):
+ * that which makes the submission right, or that which makes a right program compute the same.
  */
 #ifndef DERIVE_H
 #define DERIVE_H
 
-#include "labs/submission/lab_pictures.h"
-#include "labs/submission/verdict.h"
+#include "labs/diagnosis/derivation.h"
 
-/* *named: a mistake was added, less sure if others draw the same and are as near to its text.
- * False, with a message: the driver failed. */
-bool derive_name(const LabPictures *pictures, const SubmissionFiles *files, Verdict *verdict,
-                 bool *named, Message *message);
+/* Adds the mistake, less sure if others compute the same and are as near to the submission's text.
+ * False: none is found. */
+bool derive_mistake(Derivation *all, Verdict *verdict);
+
+/* Runs the lab's right program of this ending; false: it has none. `order` begins where the
+ * submission is farthest from it, and `wrong_by` says how far. */
+bool derive_use_right(Derivation *all, const char *ending, LitAt lit);
 
 #endif

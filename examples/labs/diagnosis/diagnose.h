@@ -1,6 +1,6 @@
 /*
- * diagnose: says what is wrong with a submission: by its outline, by its numbers (lab 3), and by
- * the catalogue's mistake that draws what it drew.
+ * diagnose: says what is wrong with a submission: by its outline, by its matrices (lab 3), and by
+ * the change of its text or of a right program's that explains it.
  */
 #ifndef DIAGNOSE_H
 #define DIAGNOSE_H
@@ -23,24 +23,18 @@ bool outline_check(const LabPictures *pictures, const Painter *painter, Canvas *
  * not, *said is a sentence with the first wrong number. */
 bool matrices_are_right(const LabPictures *pictures, char said[VERDICT_SENTENCE_SIZE]);
 
-/* Adds a mistake if all model matrices are a product of the task's form in which one part has wrong
- * numbers. False: they are not. */
-bool matrices_name(const LabPictures *pictures, Verdict *verdict);
+/* Fills in the message, and the mistakes if the matrices are those of another formula, or a product
+ * of the task's form in which one part has wrong numbers. */
+void matrices_name(const LabPictures *pictures, Verdict *verdict);
 
 /* A wrong picture in words. */
 
 /* Adds the symptoms to the verdict. `moved`: the outline is wrong. */
 void symptoms_describe(const LabPictures *pictures, bool moved, Verdict *verdict);
 
-/* A mistake is named only if its pictures match the submission's in every scene and no other
- * mistake's do. If several match, the submission is drawn in further scenes that tell them apart;
- * if none does, all are named as "one of". If no single mistake matches, pairs are tried. Otherwise
- * only symptoms are described.
- */
-
-/* Fills in the message, mistakes and symptoms of a wrong submission, drawn in all pictures.
- * `moved`: its outline is wrong. False, with a message: the driver failed. */
-bool diagnose(const LabPictures *pictures, const Painter *painter, bool moved, Canvas *canvas,
-              Verdict *verdict, Message *message);
+/* Fills in the message and mistakes of a wrong submission that has shaders, and of one without a
+ * name the part that is wrong. False, with a message: the driver failed. */
+bool diagnose(const LabPictures *pictures, const SubmissionFiles *files, Verdict *verdict,
+              Message *message);
 
 #endif

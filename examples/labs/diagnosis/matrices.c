@@ -1,11 +1,13 @@
 /* Lab 3's matrices are numbers, so they are judged as numbers. A model matrix that is move * turn *
  * scale can be taken apart: its last column is the move, the lengths of the others are the scale,
  * what is left is the turn, whose axis is in its antisymmetric part and whose angle is in its
- * trace. What is true of these in all scenes are facts; a rule is a set of facts with a name. */
+ * trace. What is true of these in all scenes are facts; a rule is a set of facts with a name. Other
+ * products than the right one are formulas, which are computed and compared. */
 #include "labs/diagnosis/diagnose.h"
 
 #include "core/example.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -17,30 +19,42 @@ static Mat4 right_world(double seconds)
     return mat4_product(move, mat4_product(turn, scale));
 }
 
-/* The directions of the normals along x, y and z are what the picture depends on. */
-static bool normals_are_right(const LabPictures *pictures, int i, char said[VERDICT_SENTENCE_SIZE])
+/* By which the directions of normals differ, along x, y and z, is what the picture depends on: any
+ * positive multiple is the same, one for all of the matrix. The first element that is another is in
+ * *at, and what it would have to be in *wanted. */
+static bool same_normals(const Mat4 *found, const Mat4 *right, int *at, double *wanted)
 {
-    const Mat4 right = binding_normal_matrix(right_world(pictures->items[i].lab_scene.seconds));
-    /* Any positive multiple is right, the same for all of the matrix. */
     double product = 0, square = 0;
     for (int k = 0; k < 12; k++) {
         if (k % 4 == 3)
             continue;
-        product += right.m[k] * pictures->normal_matrix[i].m[k];
-        square += right.m[k] * right.m[k];
+        product += right->m[k] * found->m[k];
+        square += right->m[k] * right->m[k];
     }
     const double factor = product / square;
-    for (int k = 0; k < 12; k++) {
-        const double wanted = factor * right.m[k], found = pictures->normal_matrix[i].m[k];
-        if (k % 4 == 3 || fabs(found - wanted) <= 2 * MATRICES_TOLERANCE * fabs(factor))
-            continue;
+    for (*at = 0; *at < 12; ++*at) {
+        *wanted = factor * right->m[*at];
+        if (*at % 4 != 3 &&
+            !(fabs(found->m[*at] - *wanted) <= 2 * MATRICES_TOLERANCE * fabs(factor)))
+            return false;
+    }
+    return factor > 0;
+}
+
+static bool normals_are_right(const LabPictures *pictures, int i, char said[VERDICT_SENTENCE_SIZE])
+{
+    const Mat4 right = binding_normal_matrix(right_world(pictures->items[i].lab_scene.seconds));
+    int at;
+    double wanted;
+    if (same_normals(&pictures->normal_matrix[i], &right, &at, &wanted))
+        return true;
+    if (at < 12)
         snprintf(said, VERDICT_SENTENCE_SIZE,
                  "The normal matrix after %g s: row %d, column %d is %.4g; a multiple of the right "
                  "one has %.4g there.",
-                 pictures->items[i].lab_scene.seconds, k % 4, k / 4, found, wanted);
-        return false;
-    }
-    return factor > 0;
+                 pictures->items[i].lab_scene.seconds, at % 4, at / 4,
+                 pictures->normal_matrix[i].m[at], wanted);
+    return false;
 }
 
 bool matrices_are_right(const LabPictures *pictures, char said[VERDICT_SENTENCE_SIZE])
@@ -118,29 +132,19 @@ static bool column_factors(const Mat4 *found, const Mat4 *right, double factors[
     return true;
 }
 
-static bool is_identity(const Mat4 *matrix)
-{
-    const Mat4 identity = mat4_identity();
-    for (int i = 0; i < 16; i++)
-        if (!(fabs(matrix->m[i] - identity.m[i]) <= MATRICES_TOLERANCE))
-            return false;
-    return true;
-}
-
 /* What is true of the matrices of all scenes. */
 enum {
-    NEVER_SET = 1 << 0,
-    COLUMNS = 1 << 1, /* the right ones, each times the same factor everywhere */
-    TURNS = 1 << 2,   /* they can be taken apart */
-    MOVED = 1 << 3,   /* these four are right */
-    SCALED = 1 << 4,
-    TURNED = 1 << 5,
-    ABOUT_AXIS = 1 << 6,
-    AS_FAR = 1 << 7, /* the angle is right, if not its axis */
-    SAME_MOVE = 1 << 8,
-    SAME_TURN = 1 << 9,
-    SAME_AXIS = 1 << 10,
-    LINEAR = 1 << 11, /* the angle is in proportion to the time */
+    COLUMNS = 1 << 0, /* the right ones, each times the same factor everywhere */
+    TURNS = 1 << 1,   /* they can be taken apart */
+    MOVED = 1 << 2,   /* these four are right */
+    SCALED = 1 << 3,
+    TURNED = 1 << 4,
+    ABOUT_AXIS = 1 << 5,
+    AS_FAR = 1 << 6, /* the angle is right, if not its axis */
+    SAME_MOVE = 1 << 7,
+    SAME_TURN = 1 << 8,
+    SAME_AXIS = 1 << 9,
+    LINEAR = 1 << 10, /* the angle is in proportion to the time */
 };
 
 typedef struct Facts {
@@ -194,7 +198,6 @@ static Facts gather_facts(const LabPictures *pictures)
         note(&facts, COLUMNS,
              column_factors(matrix, &wanted, now) && (i == 0 || is_near(now, facts.factors)));
         memcpy(facts.factors, now, sizeof now);
-        note(&facts, NEVER_SET, is_identity(matrix));
         note(&facts, TURNS, found.turns);
         note(&facts, MOVED, is_near(found.move, right.move));
         note(&facts, SCALED, is_near(found.scale, right.scale));
@@ -218,8 +221,6 @@ typedef struct Rule {
 #define ANGLE "the angle: 30 degrees times seconds"
 
 static const Rule RULES[] = {
-    {NEVER_SET, 0, "model matrix never set", "The model matrix is still the identity.", NO_NUMBERS,
-     "the assignment to *world_from_model"},
     {COLUMNS | MOVED, SCALED, "wrong scale", "The scale", SCALE,
      "the numbers of the scale: (2, 0.7, 1.2); in C 7 / 10 is 0"},
     {TURNS | TURNED | ABOUT_AXIS | SCALED | SAME_MOVE, MOVED, "wrong translation",
@@ -250,7 +251,70 @@ static void say(const Rule *rule, const Facts *facts, char sentence[VERDICT_SENT
                  numbers[rule->numbers][0], numbers[rule->numbers][1], numbers[rule->numbers][2]);
 }
 
-bool matrices_name(const LabPictures *pictures, Verdict *verdict)
+/* A formula of matrices: matrix_forms.def says what its letters mean. */
+static Mat4 form_matrix(const char *form, double seconds, const Mat4 *world)
+{
+    static const char LETTERS[] = "MTSW";
+    const char *const first = form;
+    Mat4 parts[4], product = mat4_identity(), inverse;
+    lab_scene_world_parts(seconds, &parts[0], &parts[1], &parts[2]);
+    parts[3] = *world;
+    for (; *form; form++) {
+        const char *at = strchr(LETTERS, toupper((unsigned char)*form));
+        if (at && isupper((unsigned char)*form))
+            product = mat4_product(product, parts[at - LETTERS]);
+        else if (at && mat4_inverse(parts[at - LETTERS], &inverse))
+            product = mat4_product(product, inverse);
+        else if (*form == '\'')
+            product = mat4_transpose(product);
+    }
+    if (strchr(first, 'N'))
+        product = binding_normal_matrix(product);
+    return first[0] == '-' ? mat4_product(mat4_scale((Vec3){-1, -1, -1}), product) : product;
+}
+
+typedef struct Form {
+    enum { MODEL, NORMAL } of;
+    const char *formula, *name, *sentence, *look;
+} Form;
+
+static const Form FORMS[] = {
+#include "labs/diagnosis/matrix_forms.def"
+};
+
+/* Whether a formula gives the submission's matrices in all scenes. `own`: W is its own. */
+static bool has_form(const LabPictures *pictures, int of, const char *formula, bool own)
+{
+    bool same = true;
+    for (int i = 0; i < pictures->count && same; i++) {
+        const double seconds = pictures->items[i].lab_scene.seconds;
+        const Mat4 right = right_world(seconds), *world = &pictures->world_from_object[i];
+        const Mat4 wanted = form_matrix(formula, seconds, own ? world : &right);
+        int at;
+        double number;
+        for (int k = 0; k < 16 && of == MODEL; k++)
+            same &= fabs(world->m[k] - wanted.m[k]) <= MATRICES_TOLERANCE;
+        if (of == NORMAL)
+            same = same_normals(&pictures->normal_matrix[i], &wanted, &at, &number);
+    }
+    return same;
+}
+
+/* Whether it is right, or which form it has. *right: of its own model matrix, too. */
+static const Form *find_form(const LabPictures *pictures, int of, bool *right)
+{
+    *right = of == MODEL
+                 ? has_form(pictures, of, "MTS", false)
+                 : has_form(pictures, of, "NW", false) || has_form(pictures, of, "NW", true);
+    for (size_t i = 0; i < sizeof FORMS / sizeof FORMS[0] && !*right; i++)
+        if ((int)FORMS[i].of == of && (has_form(pictures, of, FORMS[i].formula, false) ||
+                                       has_form(pictures, of, FORMS[i].formula, true)))
+            return &FORMS[i];
+    return NULL;
+}
+
+/* The model matrix taken apart. */
+static bool name_facts(const LabPictures *pictures, Verdict *verdict)
 {
     char sentence[VERDICT_SENTENCE_SIZE];
     const Facts facts = gather_facts(pictures);
@@ -260,8 +324,33 @@ bool matrices_name(const LabPictures *pictures, Verdict *verdict)
             continue;
         say(rule, &facts, sentence);
         verdict_add_mistake(verdict, rule->name, sentence, rule->look, 0.9);
-        snprintf(verdict->message, sizeof verdict->message, "%s", rule->name);
         return true;
     }
     return false;
+}
+
+static void add_form(const Form *form, Verdict *verdict)
+{
+    verdict_add_mistake(verdict, form->name, form->sentence, form->look, 0.9);
+}
+
+void matrices_name(const LabPictures *pictures, Verdict *verdict)
+{
+    bool model, normal;
+    const Form *const of_model = find_form(pictures, MODEL, &model);
+    const Form *const of_normal = find_form(pictures, NORMAL, &normal);
+    const bool told = model || of_model || name_facts(pictures, verdict);
+    if (of_model)
+        add_form(of_model, verdict);
+    if (of_normal && told)
+        add_form(of_normal, verdict);
+    const VerdictMistake *said = verdict->mistakes;
+    const char *const unknown = normal || of_normal ? "Unknown mistake in the model matrix"
+                                : told              ? "Unknown mistake in the normal matrix"
+                                                    : "Unknown mistake in both matrices";
+    snprintf(verdict->message, sizeof verdict->message, "%s%s%s%s",
+             verdict->mistake_count > 1 ? "Two mistakes: " : "",
+             verdict->mistake_count > 0 ? said[0].name : unknown,
+             verdict->mistake_count > 1 ? "; " : "",
+             verdict->mistake_count > 1 ? said[1].name : "");
 }

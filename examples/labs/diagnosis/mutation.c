@@ -1,12 +1,11 @@
 /* A mutant is made as text: the tree is printed with a mark for one node, and what a rule says
  * replaces the mark. So the parser checks the types, and a rule is one line. In a rule $0 is the
- * node's own text, $1 to $3 are its operands, # is a number, and @ any name of the rule's type. */
+ * node's own text, $1 to $3 are its operands, $4 what its variable begins with, $6 and $7 those of
+ * the first, $8 and $9 those of the second, # is a number, and @ any name of the rule's type. */
 #include "labs/diagnosis/mutation.h"
 
 #include "base/memory.h"
-#include "base/text.h"
 
-#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,14 +16,25 @@ enum { ANY_FLOAT = 100, ANY_VEC3, ANY_NAME, ANY_BOTH };
 typedef struct Rule {
     int kind, op; /* `op`: of a built-in function its number, -1: any */
     const char *by, *name, *sentence;
+    const char *mends; /* the mistake's name where this change mends it; "": "$0 for" the new */
 } Rule;
 
 /* What is likelier comes first. */
 static const Rule RULES[] = {
+#include "labs/diagnosis/mutation_likely.def"
+/* The others. */
 #include "labs/diagnosis/mutation_rules.def"
 };
-
-enum { RULE_COUNT = sizeof RULES / sizeof RULES[0], MAX_NAMES = 48, NAME_SIZE = 72 };
+enum {
+    RULE_COUNT = sizeof RULES / sizeof RULES[0],
+    LIKELY_COUNT = sizeof((const Rule[]){
+#include "labs/diagnosis/mutation_likely.def"
+                   }) /
+                   sizeof(Rule),
+    MAX_NAMES = 48,
+    NAME_SIZE = 72,
+    OPERANDS = 10
+};
 
 typedef struct Maker {
     GlslTree *tree;
@@ -33,10 +43,11 @@ typedef struct Maker {
     MutationTake *take;
     void *context;
     bool ended;
-    const char *name, *number; /* that are tried */
-    char *before, *after;      /* the text around the node */
-    char operands[7][512];     /* the node's text, those of its children, and what a variable begins
-                                  with, of the first and the second light; 6: its first grandchild's */
+    const char *name, *number;    /* that are tried */
+    char *before, *after;         /* the text around the node */
+    char operands[OPERANDS][512]; /* the node's text, those of its children, what its variable
+                                     begins with; from 6 on: those of the children of its first and
+                                     of its second child */
     int node;
 } Maker;
 
@@ -68,72 +79,38 @@ static bool cut(Maker *maker, int mark)
     return at;
 }
 
-/* Replaces words of a text by their values in parentheses: variables by what they begin with, and
- * the loop's index by a number. */
-static void replace_word(char *text, size_t size, const char *word, const char *by)
+/* What a variable begins with. */
+static int first_value(const GlslTree *tree, int symbol)
 {
-    const size_t length = strlen(word);
-    char *rest;
-    for (char *at = text; (at = strstr(at, word)); at++) {
-        if ((at > text && text_is_word(at[-1])) || text_is_word(at[length]) ||
-            strlen(text) + strlen(by) + 3 >= size)
-            continue;
-        rest = memory_text(at + length);
-        at += snprintf(at, size - (size_t)(at - text),
-                       isdigit((unsigned char)by[0]) ? "%s" : "(%s)", by);
-        snprintf(at, size - (size_t)(at - text), "%s", rest);
-        free(rest);
-    }
+    int value = 0;
+    for (int i = 1; i < tree->node_count && !value; i++)
+        if (tree->nodes[i].kind == GLSL_VARIABLE_NODE && tree->nodes[i].symbol == symbol)
+            value = tree->nodes[i].first;
+    return value;
 }
 
-/* The variable's value as its declaration has it, with a light's number for the index; "": it does
- * not depend on the light. */
-static void read_light(const GlslTree *tree, int symbol, int light, char *text, size_t size)
+/* Of a node and those after it, at most `count`; "" where there is none. */
+static void read_texts(Maker *maker, int node, int first, int count)
 {
-    const int values = tree->node_count;
-    text[0] = '\0';
-    for (int round = 0; round < 3; round++) {
-        for (int i = values - 1; i > 0; i--) {
-            const GlslNode *at = &tree->nodes[i];
-            char value[256];
-            if (at->kind != GLSL_VARIABLE_NODE || !at->first || tree->symbols[at->symbol].global ||
-                tree->symbols[at->symbol].type == GLSL_INT)
-                continue;
-            glsl_expression_text(tree, at->first, value, sizeof value);
-            if (round == 0 && at->symbol == symbol)
-                snprintf(text, size, "%s", value);
-            else if (round > 0 && (strstr(value, "[i]") || strstr(value, "Direction")))
-                replace_word(text, size, tree->symbols[at->symbol].name, value);
-        }
+    for (int i = first; i < first + count; i++) {
+        maker->operands[i][0] = '\0';
+        if (node)
+            glsl_expression_text(maker->tree, node, maker->operands[i], sizeof maker->operands[i]);
+        node = maker->tree->nodes[node].next; /* of node 0: 0 */
     }
-    if (strstr(text, "[i]"))
-        replace_word(text, size, "i", light == 0 ? "0" : "1");
-    else
-        text[0] = '\0';
 }
 
 static void read_operands(Maker *maker)
 {
-    int child = maker->tree->nodes[maker->node].first;
-    const bool statement = maker->tree->nodes[maker->node].kind == GLSL_EXPRESSION;
-    glsl_expression_text(maker->tree, statement ? child : maker->node, maker->operands[0],
-                         sizeof maker->operands[0]);
-    for (int i = 1; i < 4; i++) {
-        maker->operands[i][0] = '\0';
-        if (child)
-            glsl_expression_text(maker->tree, child, maker->operands[i], sizeof maker->operands[i]);
-        child = child ? maker->tree->nodes[child].next : 0;
-    }
-    child = maker->tree->nodes[maker->tree->nodes[maker->node].first].first;
-    maker->operands[6][0] = '\0';
-    if (child)
-        glsl_expression_text(maker->tree, child, maker->operands[6], sizeof maker->operands[6]);
-    for (int light = 0; light < 2; light++) {
-        maker->operands[4 + light][0] = '\0';
-        if (maker->tree->nodes[maker->node].kind == GLSL_NAME)
-            read_light(maker->tree, maker->tree->nodes[maker->node].symbol, light,
-                       maker->operands[4 + light], sizeof maker->operands[0]);
-    }
+    const GlslNode *nodes = maker->tree->nodes, *node = &nodes[maker->node];
+    const bool statement = node->kind == GLSL_EXPRESSION;
+    read_texts(maker, statement ? node->first : maker->node, 0, 1);
+    read_texts(maker, node->first, 1, 3);
+    read_texts(maker, nodes[node->first].first, 6, 2);
+    read_texts(maker, nodes[nodes[node->first].next].first, 8, 2);
+    const GlslNode *variable = node->kind == GLSL_ASSIGN ? &nodes[node->first] : node;
+    const bool named = variable->kind == GLSL_NAME;
+    read_texts(maker, named ? first_value(maker->tree, variable->symbol) : 0, 4, 1);
 }
 
 /* Whether an operand has to stand in parentheses: any operator binds it. */
@@ -156,7 +133,7 @@ static void fill(const Maker *maker, const char *form, bool grouped, char *text,
     for (const char *at = form; *at && used + 1 < size; at++) {
         const char *put = NULL;
         char one[2] = {*at, '\0'};
-        if (*at == '$' && at[1] >= '0' && at[1] <= '6')
+        if (*at == '$' && at[1] >= '0' && at[1] <= '9')
             put = maker->operands[*++at - '0'];
         else if (*at == '@')
             put = maker->name;
@@ -169,12 +146,22 @@ static void fill(const Maker *maker, const char *form, bool grouped, char *text,
 
 static void make(Maker *maker, int rule)
 {
-    Mutation mutation = {.node = maker->node, .sentence = RULES[rule].sentence, .rank = rule};
+    Mutation mutation = {.node = maker->node,
+                         .sentence = RULES[rule].sentence,
+                         .rank = rule,
+                         .likely = rule < LIKELY_COUNT,
+                         .general =
+                             !strpbrk(RULES[rule].by, "#@") && RULES[rule].kind != GLSL_LITERAL};
     char by[2048];
     fill(maker, RULES[rule].by, true, by, sizeof by);
     fill(maker, RULES[rule].name, false, mutation.name, sizeof mutation.name);
     snprintf(mutation.was, sizeof mutation.was, "%.159s", maker->operands[0]);
     snprintf(mutation.by, sizeof mutation.by, "%.159s", by);
+    if (RULES[rule].mends[0])
+        fill(maker, RULES[rule].mends, false, mutation.mends, sizeof mutation.mends);
+    else
+        snprintf(mutation.mends, sizeof mutation.mends, "%.70s for %.70s", mutation.was,
+                 mutation.by);
     if (strcmp(by, maker->operands[0]) == 0 || (!by[0] && RULES[rule].by[0]))
         return;
     /* A statement is followed by its semicolon; within an expression anything is grouped. */
@@ -194,7 +181,8 @@ static int names_of(const GlslTree *tree, int type, char names[MAX_NAMES][NAME_S
     for (int i = 1; i < tree->symbol_count; i++) {
         const GlslSymbol *symbol = &tree->symbols[i];
         if (symbol->kind != GLSL_VARIABLE || symbol->built_in || !symbol->name[0] ||
-            strcmp(symbol->name, MARK) == 0)
+            strcmp(symbol->name, MARK) == 0 ||
+            (tree->stage == GLSL_VERTEX && symbol->storage == GLSL_VARYING)) /* not set yet */
             continue;
         const bool element = tree->types[symbol->type].element == type;
         const bool color = type == GLSL_VEC3 && symbol->type == GLSL_VEC4;
@@ -220,6 +208,8 @@ static void apply(Maker *maker, int rule)
                 snprintf(number, sizeof number, "%.9g", maker->numbers[k]);
                 strcat(number, strpbrk(number, ".e") ? "" : ".0");
             }
+            if (named && strcmp(names[i], maker->operands[0]) == 0)
+                continue;
             maker->name = names[i];
             maker->number = number;
             make(maker, rule);

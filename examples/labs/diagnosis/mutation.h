@@ -1,5 +1,6 @@
 /*
- * mutation: a right shader with one mistake, of all kinds that a table has, as texts. No GL.
+ * mutation: a shader with one change, of all kinds that a table has, as texts. A right one becomes
+ * wrong by it, a wrong one right. No GL.
  *
  * A rule says what becomes of a node of the tree (glsl/glsl.h), in GLSL, with the node's own
  * operands and names. What does not compile is no mutant.
@@ -12,11 +13,15 @@
 enum { MUTATION_TEXT = 160, MUTATION_NUMBERS = 16 };
 
 typedef struct Mutation {
-    int node;                                   /* of the right tree */
+    int node;                                   /* of the tree */
     char name[MUTATION_TEXT];                   /* "not normalized: u_EyePosition - v_Position" */
     char was[MUTATION_TEXT], by[MUTATION_TEXT]; /* the node's text, and what is there instead */
-    const char *sentence;                       /* what is wrong, or "" */
-    int rank;                                   /* of two that are as near, the lower is named */
+    char
+        mends[MUTATION_TEXT]; /* the name of the mistake in a wrong text that becomes right by it */
+    const char *sentence;     /* what is wrong, or "" */
+    int rank;                 /* of two that are as near, the lower is named */
+    bool likely;              /* of mutation_likely.def */
+    bool general;             /* its text has no number and no name that was tried */
 } Mutation;
 
 /* Gets each mutant's text. False: no more. */

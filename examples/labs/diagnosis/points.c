@@ -10,7 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { OF_OBJECT = 12, TRIES = 40 * OF_OBJECT };
+/* Shadows cover little. */
+enum { OF_OBJECT = 24, OF_OBJECT_IN_SHADOW = 40, TRIES = 40 * OF_OBJECT_IN_SHADOW };
 
 static unsigned char *read_map(const LabShadowMap *map)
 {
@@ -78,7 +79,8 @@ void points_place(const Points *points, int point, double place[3])
 static void add_points(Points *points, const Mesh *mesh, Random *random)
 {
     const int setting = points->setting_count - 1, triangles = (int)(mesh->index_count / 3);
-    for (int try = 0, found = 0; try < TRIES && found < OF_OBJECT; try++) {
+    const int wanted = points->lab->shadow ? OF_OBJECT_IN_SHADOW : OF_OBJECT;
+    for (int try = 0, found = 0; try < TRIES && found < wanted; try++) {
         const int triangle = random_below(random, triangles);
         Point point = {.setting = setting};
         double sum = 0;
@@ -351,7 +353,9 @@ static bool interpolate(const Points *points, const PointShader *vertex, int num
             for (int k = 0; k < count; k++) {
                 numbers[k] = 0;
                 for (int corner = 0; corner < POINT_CORNERS; corner++)
-                    numbers[k] += point->weights[corner] * from[corner * vertex->width + k];
+                    numbers[k] +=
+                        (points->corner ? points->corner == corner + 1 : point->weights[corner]) *
+                        from[corner * vertex->width + k];
             }
             return true;
         }

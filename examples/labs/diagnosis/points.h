@@ -38,6 +38,7 @@ typedef struct Points {
     Point *items;
     int setting_count, setting_room, count, room;
     int without; /* POINTS_NO_ bits */
+    int corner;  /* of the triangle, from 1 on, instead of the point itself; 0: the point */
 } Points;
 
 bool points_open(Points *points, const LabPictures *pictures, Message *message);

@@ -29,8 +29,7 @@ static bool normalizes(const GlslTree *tree, int node)
     return found;
 }
 
-/* The interface's uniforms that a right program does not use, but a mutant may. */
-static char *declare_rest(const Points *points, const GlslTree *tree)
+char *right_undeclared(const Points *points, const GlslTree *tree)
 {
     char *text = memory_text("");
     const PointSetting *setting = &points->settings[0];
@@ -52,16 +51,21 @@ static char *declare_rest(const Points *points, const GlslTree *tree)
     return text;
 }
 
+char *right_declare(const char *declarations, const char *text)
+{
+    const int version = (int)strcspn(text, "\n") + 1; /* comes first */
+    return memory_format("%.*s%s%s", version, text, declarations, text + version);
+}
+
 /* What differs from the tree's text: uniforms that are declared, and a vertex shader whose normals
  * are normalized in the fragment shader only, if the submission's are. */
 static char *make_text(const Derivation *all, GlslTree *tree)
 {
-    char *rest = declare_rest(&all->points, tree), *body = glsl_print(tree, tree->root);
-    const int version = (int)strcspn(body, "\n") + 1; /* comes first */
+    char *rest = right_undeclared(&all->points, tree), *body = glsl_print(tree, tree->root);
     char *at = strstr(body, "v_Normal = normalize(");
     if (tree->stage == GLSL_VERTEX && at && !normalizes(all->own[0].tree, all->own[0].tree->root))
         memcpy(at + strlen("v_Normal = "), "         ", strlen("normalize"));
-    char *text = memory_format("%.*s%s%s", version, body, rest, body + version);
+    char *text = right_declare(rest, body);
     free(rest);
     free(body);
     return text;
@@ -93,8 +97,7 @@ bool right_open(Derivation *all, const char *ending)
     return true;
 }
 
-double derivation_run(Derivation *all, PointShader pair[2], double (*numbers)[POINT_NUMBERS],
-                      const double (*wanted)[POINT_NUMBERS])
+double derivation_run(Derivation *all, PointShader pair[2], Numbers numbers, Numbers wanted)
 {
     double sum = 0;
     for (int i = 0; i < all->points.count; i++) {
@@ -113,13 +116,26 @@ static bool is_free(const Lab *lab, const char *was, double number)
            (lab->shadow && strcmp(was, "0.002") == 0 && number > 0.0004 && number < 0.0065);
 }
 
-/* A number that the submission has is its own; else 0, as if it were left out. */
+/* Whether the text adds or subtracts the number. */
+static bool adds(const GlslTree *tree, double number)
+{
+    bool found = false;
+    for (int i = 1; i < tree->node_count && !found; i++) {
+        const GlslNode *at = &tree->nodes[i];
+        const bool sum = at->kind == GLSL_BINARY && (at->op == GLSL_ADD || at->op == GLSL_SUBTRACT);
+        for (int k = sum ? at->first : 0; k && !found; k = tree->nodes[k].next)
+            found = tree->nodes[k].constant && tree->nodes[k].type == GLSL_FLOAT &&
+                    fabs(tree->values[tree->nodes[k].value] - number) < 1e-9;
+    }
+    return found;
+}
+
+/* A number that the submission adds is its own; else 0, as if it were left out. */
 static double expected(const Derivation *all, double number)
 {
-    for (int i = 0; i < all->own_number_count; i++)
-        if (fabs(all->numbers[i] - number) < 1e-9)
-            return 2e6;
-    return number == 0 ? 1e6 : 0;
+    return number == 0                                                        ? 1e6
+           : adds(all->own[0].tree, number) || adds(all->own[1].tree, number) ? 2e6
+                                                                              : 0;
 }
 
 /* Keeps a right program with another of these numbers if it is nearer to the submission. */
@@ -131,9 +147,7 @@ static bool try_right(void *context, const Mutation *mutation, const char *text)
     if (!is_free(all->lab, mutation->was, number) ||
         !point_shader_open(&pair[1], text, GLSL_FRAGMENT))
         return true;
-    const double apart =
-        derivation_run(all, pair, all->exact, (const double(*)[POINT_NUMBERS])all->wanted) -
-        expected(all, number);
+    const double apart = derivation_run(all, pair, all->exact, all->wanted) - expected(all, number);
     const double was =
         all->nearest_right - (all->nearest_text ? 0 : expected(all, atof(mutation->was)));
     if (apart < was) {
@@ -145,18 +159,63 @@ static bool try_right(void *context, const Mutation *mutation, const char *text)
     return true;
 }
 
-/* Of the right programs the nearest: light at the vertices or not, and with which numbers. */
-void right_run(Derivation *all)
+/* Light at the point itself, or interpolated from the corners. */
+static void light_at_once(Derivation *all, bool at_once)
 {
-    const double(*wanted)[POINT_NUMBERS] = (const double(*)[POINT_NUMBERS])all->wanted;
-    all->nearest_right = derivation_run(all, all->right, all->exact, wanted);
-    for (int at_once = 1; at_once >= 0 && all->lab->either; at_once--) {
+    if (all->right[0].done) /* else it has not run */
         memset(all->right[0].done, 0, (size_t)all->points.count * sizeof(bool));
-        all->right[0].at_once = at_once;
-        if (derivation_run(all, all->right, all->exact, wanted) <= all->nearest_right)
-            break;
+    all->right[0].at_once = at_once;
+}
+
+static void add_right(Derivation *all, PointShader pair[2])
+{
+    if (all->right_count == MAX_RIGHTS)
+        return;
+    Numbers numbers = memory_new((size_t)all->points.count, sizeof *numbers);
+    derivation_run(all, pair, numbers, all->wanted);
+    all->rights[all->right_count++] = numbers;
+}
+
+static bool add_free(void *context, const Mutation *mutation, const char *text)
+{
+    Derivation *all = context;
+    PointShader pair[2] = {all->right[0], {.setting = -1}};
+    const double number = atof(mutation->by + (mutation->by[0] == '('));
+    if (is_free(all->lab, mutation->was, number) &&
+        point_shader_open(&pair[1], text, GLSL_FRAGMENT)) {
+        add_right(all, pair);
+        point_shader_close(&pair[1]);
     }
-    mutations_each(all->right[1].tree, all->numbers, all->number_count, try_right, all);
+    return true;
+}
+
+void right_run_all(Derivation *all)
+{
+    for (int at_once = 0; at_once <= (int)all->lab->either; at_once++) {
+        light_at_once(all, at_once);
+        add_right(all, all->right);
+    }
+    if (all->lab->fitted || all->lab->shadow)
+        mutations_each(all->right[1].tree, all->numbers, all->number_count, add_free, all);
+}
+
+void right_run(Derivation *all, LitAt lit)
+{
+    all->nearest_right = INFINITY;
+    for (int at_once = 0; at_once <= (int)all->lab->either; at_once++) {
+        light_at_once(all, at_once);
+        const double apart = derivation_run(all, all->right, all->exact, all->wanted);
+        if (lit == LIT_NEAREST && apart < all->nearest_right) {
+            all->nearest_right = apart;
+            all->nearest_light = at_once;
+        }
+    }
+    if (lit != LIT_NEAREST)
+        all->nearest_light = lit == LIT_AT_POINTS;
+    light_at_once(all, all->nearest_light);
+    all->nearest_right = derivation_run(all, all->right, all->exact, all->wanted);
+    if (all->lab->fitted || all->lab->shadow)
+        mutations_each(all->right[1].tree, all->numbers, all->number_count, try_right, all);
     if (all->nearest_text) {
         point_shader_close(&all->right[1]);
         point_shader_open(&all->right[1], all->nearest_text, GLSL_FRAGMENT);

@@ -16,19 +16,6 @@ bool text_is_starter(const Lab *lab, const SubmissionFiles *files);
 /* Whether one of the files has the word, comments aside. */
 bool text_has_word(const SubmissionFiles *files, const char *word);
 
-/* Adds a mistake for the fault that explains any picture: no gl_FragColor, a varying that is never
- * set. False: none. */
-bool text_find_fault(const Lab *lab, const SubmissionFiles *files, Verdict *verdict);
-
-/* Adds a mistake for a loop that counts beyond the last element of a uniform array, and uses its
- * counter as an index alone: what it reads there is undefined, and nothing with some drivers.
- * False: none. */
-bool text_find_overrun(const Lab *lab, const SubmissionFiles *files, Verdict *verdict);
-
-/* Copies the files, with such loops ending at the array's end: these are drawn, so that a verdict
- * does not depend on what a driver reads there. False, and no copy: there are none. */
-bool text_mend_overruns(const Lab *lab, const SubmissionFiles *files, SubmissionFiles *mended);
-
 /* Adds a mistake for what only may be the fault: lowp. False: none. */
 bool text_find_suspicion(const Lab *lab, const SubmissionFiles *files, Verdict *verdict);
 

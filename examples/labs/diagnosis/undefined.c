@@ -4,7 +4,6 @@
 #include "labs/diagnosis/undefined.h"
 
 #include "base/memory.h"
-#include "labs/diagnosis/derivation.h"
 #include "labs/diagnosis/derive.h"
 
 #include <math.h>
@@ -113,46 +112,98 @@ static bool explain_unset(Derivation *all, const Facts *facts, Verdict *verdict)
     return true;
 }
 
-bool undefined_explain(const LabPictures *pictures, const SubmissionFiles *files, Verdict *verdict,
-                       bool *found, Message *message)
+/* A loop that counts too far reads what lies behind an array, or its last element again: that
+ * depends on the driver. */
+static bool explain_index(Derivation *all, const Facts *facts, Verdict *verdict)
 {
-    Derivation *all = derivation_open(pictures, files, message);
-    Facts facts;
-    *found = false;
-    if (!all)
-        return !message->text[0];
-    gather(all, &facts);
-    bool done = true;
-    *found = explain_unset(all, &facts, verdict);
-    if (*found || !facts.black || !facts.places_right || explain_black(all, &facts, verdict)) {
-        *found |= facts.black && facts.places_right;
-    } else {
-        char place[VERDICT_SENTENCE_SIZE];
-        bool product = false;
-        const bool zero = find_zero(all, place, sizeof place, &product);
-        if (!product)
-            done = derive_name(pictures, files, verdict, found, message);
-        if (zero && done && !*found) {
-            blame(verdict, "black: 0 from here on",
-                  "All is black though all is in its place: a colour is 0, or is multiplied by 0.",
-                  place);
-            *found = true;
-        }
+    char place[VERDICT_SENTENCE_SIZE];
+    if (facts->nodes[GLSL_NOTE_INDEX] < 0)
+        return false;
+    derivation_place(all, facts->stages[GLSL_NOTE_INDEX], facts->nodes[GLSL_NOTE_INDEX], place,
+                     sizeof place);
+    blame(verdict, "index beyond the array",
+          "An index is beyond the last element, where anything may be: 0 with one driver, the last "
+          "light once more with another.",
+          place);
+    return true;
+}
+
+static int find_symbol(const GlslTree *tree, const char *name)
+{
+    int found = 0;
+    for (int i = 1; i < tree->symbol_count; i++)
+        if (tree->symbols[i].kind == GLSL_VARIABLE && strcmp(tree->symbols[i].name, name) == 0)
+            found = i;
+    return found;
+}
+
+static bool is_used(const GlslTree *tree, int symbol)
+{
+    bool used = false;
+    for (int i = 1; i < tree->node_count && !used; i++)
+        used = tree->nodes[i].kind == GLSL_NAME && tree->nodes[i].symbol == symbol;
+    return used;
+}
+
+/* A colour or a varying that no line sets. */
+static bool explain_missing(Derivation *all, Verdict *verdict)
+{
+    const GlslTree *vertex = all->own[0].tree, *fragment = all->own[1].tree;
+    char place[128];
+    if (!fragment->symbols[find_symbol(fragment, "gl_FragColor")].written &&
+        !fragment->symbols[find_symbol(fragment, "gl_FragData")].written) {
+        blame(verdict, "no gl_FragColor",
+              "The fragment shader sets no colour, so anything may be drawn.",
+              "the end of the fragment shader's main: gl_FragColor = ...");
+        return true;
     }
-    derivation_close(all);
-    return done;
+    for (int i = 1; i < vertex->symbol_count; i++) {
+        const GlslSymbol *symbol = &vertex->symbols[i];
+        const int other = find_symbol(fragment, symbol->name);
+        if (symbol->storage != GLSL_VARYING || symbol->written || !is_used(fragment, other))
+            continue;
+        snprintf(place, sizeof place, "the vertex shader: set %.60s in main", symbol->name);
+        blame(verdict, "varying never set",
+              "The vertex shader declares a varying and never sets it; the fragment shader reads "
+              "what is there by chance.",
+              place);
+        return true;
+    }
+    return false;
+}
+
+bool undefined_explain(Derivation *all, Verdict *verdict)
+{
+    Facts facts;
+    char place[VERDICT_SENTENCE_SIZE];
+    bool product = false;
+    gather(all, &facts);
+    const bool black = facts.black && facts.places_right;
+    if (explain_missing(all, verdict) || explain_unset(all, &facts, verdict) ||
+        explain_index(all, &facts, verdict) || (black && explain_black(all, &facts, verdict)))
+        return true;
+    const bool zero = black && find_zero(all, place, sizeof place, &product);
+    if (!(zero && product) && derive_mistake(all, verdict))
+        return true;
+    if (zero)
+        blame(verdict, "black: 0 from here on",
+              "All is black though all is in its place: a colour is 0, or is multiplied by 0.",
+              place);
+    return zero;
 }
 
 bool undefined_warn(const LabPictures *pictures, const SubmissionFiles *files, Verdict *verdict,
-                    Message *message)
+                    bool *wrong, Message *message)
 {
     static const int kinds[] = {GLSL_NOTE_POW, GLSL_NOTE_ROOT, GLSL_NOTE_LOG, GLSL_NOTE_ARC};
     Derivation *all = derivation_open(pictures, files, message);
     char place[VERDICT_SENTENCE_SIZE];
     Facts facts;
+    *wrong = false;
     if (!all)
         return !message->text[0];
     gather(all, &facts);
+    *wrong = explain_index(all, &facts, verdict);
     for (int i = 0; i < (int)(sizeof kinds / sizeof kinds[0]); i++) {
         const int kind = kinds[i];
         if (facts.nodes[kind] < 0)

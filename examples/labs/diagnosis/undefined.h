@@ -5,17 +5,16 @@
 #ifndef UNDEFINED_H
 #define UNDEFINED_H
 
-#include "labs/submission/lab_pictures.h"
-#include "labs/submission/verdict.h"
+#include "labs/diagnosis/derivation.h"
 
-/* Adds the mistake of a wrong submission that reads what it has not set, or draws only black in the
- * right places. *found: it is one of these. False, with a message: the driver failed. */
-bool undefined_explain(const LabPictures *pictures, const SubmissionFiles *files, Verdict *verdict,
-                       bool *found, Message *message);
+/* Adds the mistake of a wrong submission: what it reads and has not set, or why it draws only black
+ * in the right places; else what derive.h finds. False: it has no name. */
+bool undefined_explain(Derivation *all, Verdict *verdict);
 
 /* Adds a symptom to a right submission that is right by chance: where it takes a power of a
- * negative number, or another number that is undefined. */
+ * negative number, or another number that is undefined. *wrong: a mistake is added, because it
+ * reads beyond an array. */
 bool undefined_warn(const LabPictures *pictures, const SubmissionFiles *files, Verdict *verdict,
-                    Message *message);
+                    bool *wrong, Message *message);
 
 #endif

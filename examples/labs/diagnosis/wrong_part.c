@@ -1,7 +1,7 @@
 /* Light is a sum, so its terms can be seen one by one without knowing the text: what a uniform
  * switches off is left out of both programs. Then each value that the submission assigns is
  * replaced by each value of the right program: if one makes all right, the mistake is there. */
-#include "labs/diagnosis/derivation.h"
+#include "labs/diagnosis/derive.h"
 
 #include "base/memory.h"
 
@@ -46,8 +46,6 @@ static int list_terms(const Lab *lab, Term terms[MAX_TERMS])
     }
     return count;
 }
-
-typedef double (*Numbers)[POINT_NUMBERS];
 
 static void run_without(Derivation *all, PointShader pair[2], int without, Numbers numbers)
 {
@@ -215,6 +213,8 @@ void wrong_part_describe(Derivation *all, Verdict *verdict)
 {
     Term terms[MAX_TERMS];
     int states[MAX_TERMS], first = -1;
+    if (!derive_use_right(all, "", LIT_NEAREST) || all->wrong_by <= 4 * DERIVATION_EQUAL)
+        return;
     char right[256], wrong[256], place[VERDICT_SENTENCE_SIZE] = "";
     const int count = list_terms(all->lab, terms);
     for (int i = 0; i < count; i++)

@@ -82,37 +82,6 @@ static int apart(const unsigned char *a, const unsigned char *b)
     return max;
 }
 
-/* Whether a pixel of one picture is like a neighbor of the same place in the other. */
-static bool is_near(const Image *a, const Image *b, int x, int y, double tolerance)
-{
-    for (int v = y > 0 ? y - 1 : 0; v <= y + 1 && v < a->height; v++)
-        for (int u = x > 0 ? x - 1 : 0; u <= x + 1 && u < a->width; u++)
-            if (apart(pixel(a, x, y), pixel(b, u, v)) <= tolerance)
-                return true;
-    return false;
-}
-
-/* Whether each channel of a pixel of one picture is between two within two of the same place in the
- * other. */
-static bool is_between(const Image *a, const Image *b, int x, int y, double tolerance)
-{
-    const unsigned char *here = pixel(a, x, y);
-    int low[3] = {255, 255, 255}, high[3] = {0, 0, 0};
-    for (int v = y > 1 ? y - 2 : 0; v <= y + 2 && v < a->height; v++) {
-        for (int u = x > 1 ? x - 2 : 0; u <= x + 2 && u < a->width; u++) {
-            for (int c = 0; c < 3; c++) {
-                const int value = pixel(b, u, v)[c];
-                low[c] = value < low[c] ? value : low[c];
-                high[c] = value > high[c] ? value : high[c];
-            }
-        }
-    }
-    for (int c = 0; c < 3; c++)
-        if (here[c] < low[c] - tolerance || here[c] > high[c] + tolerance)
-            return false;
-    return true;
-}
-
 /* Whether a neighbor differs by more than EDGE, which smooth shading does not. */
 static bool at_edge(const Image *image, int x, int y)
 {
@@ -132,38 +101,4 @@ void compare_take(Reference *exact, const Image *image)
             exact->color[3 * p + c] = (float)bytes[4 * p + c] / 255;
         exact->interior[p] &= !at_edge(image, p % image->width, p / image->width);
     }
-}
-
-static bool is_dark(const unsigned char *p)
-{
-    return p[0] == 0 && p[1] == 0 && p[2] == 0;
-}
-
-Likeness compare_drawn(const Image *a, const Image *b, double tolerance, int max, bool soft)
-{
-    Likeness found = {.maximum = 0};
-    if (memcmp(a->pixels, b->pixels, 4 * (size_t)a->width * (size_t)a->height) == 0)
-        return found;
-    for (int y = 0; y < a->height; y++) {
-        for (int x = 0; x < a->width; x++) {
-            const unsigned char *p = pixel(a, x, y), *q = pixel(b, x, y);
-            found.pixels += !is_dark(p) || !is_dark(q);
-            const int d = apart(p, q);
-            if (d <= tolerance) {
-                found.maximum = fmax(found.maximum, d);
-                found.squares += d > 1 ? (d - 1) * (d - 1) : 0;
-                continue;
-            }
-            const bool edge = at_edge(a, x, y) || at_edge(b, x, y);
-            if (edge && is_near(a, b, x, y, tolerance) && is_near(b, a, x, y, tolerance))
-                continue;
-            if (soft && is_between(a, b, x, y, tolerance) && is_between(b, a, x, y, tolerance))
-                continue;
-            found.maximum = fmax(found.maximum, d);
-            found.squares += soft && edge ? 0 : (d - 1) * (d - 1);
-            if (++found.differing > max)
-                return found;
-        }
-    }
-    return found;
 }

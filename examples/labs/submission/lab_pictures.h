@@ -13,8 +13,7 @@
 
 /* The largest error of a correct picture. Rounding to bytes adds 0.5, 32-bit arithmetic far less;
  * two ways to write the same formula differ by at most 1, and Blinn-Phong with the fitted exponent
- * and with four times Phong's by 1.9 (see scene.c). Every visible mistake of the catalogue causes
- * at least 4. */
+ * and with four times Phong's by 1.9 (see scene.c). Mistakes that show cause at least 4. */
 #define COMPARE_TOLERANCE 2.5
 
 /* Over the pixels inside an object and over background pixels without an object next to them.
@@ -25,20 +24,6 @@ ErrorSum compare_exact(const Image *image, const Reference *exact, const Referen
 
 /* Makes what a solution drew the exact picture; pixels at edges are not interior. */
 void compare_take(Reference *exact, const Image *image);
-
-/* The difference of two drawn pictures of one size. */
-typedef struct Likeness {
-    double maximum; /* of the pixels compared */
-    int pixels;     /* not black in both */
-    int differing;  /* by more than the tolerance */
-    double squares; /* of what differs by more than the one step of rounding */
-} Likeness;
-
-/* A pixel at an edge, of a shape or of light, may be like a neighbor of the same place in the other
- * picture instead: two programs may round a vertex differently. `soft`: or between two pixels
- * within two of it, because one of them may smooth its edges, of which `squares` has none. Stops
- * once more than `max` pixels differ. */
-Likeness compare_drawn(const Image *a, const Image *b, double tolerance, int max, bool soft);
 
 /* Two pictures may be right: light at the vertices or at the fragments, or in lab 7 the fitted
  * exponent or four times Phong's; or what each solution draws. */

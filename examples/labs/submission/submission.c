@@ -184,8 +184,7 @@ bool painter_draw_at(const Painter *painter, const LabScene *lab_scene,
     glEnable(GL_DEPTH_TEST);
     if (geometry->cull)
         glEnable(GL_CULL_FACE);
-    const bool done = painter->paint ? painter->paint(painter, lab_scene, geometry, message)
-                                     : paint(painter, lab_scene, geometry, message);
+    const bool done = paint(painter, lab_scene, geometry, message);
     glDisable(GL_CULL_FACE);
     return done && read_part(view, image, message);
 }

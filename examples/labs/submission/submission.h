@@ -63,15 +63,10 @@ bool lab_scene_buffers_open(LabSceneBuffers *buffers, const LabScene *lab_scene,
                             const SubmissionGeometry *geometry, Message *message);
 void lab_scene_buffers_close(LabSceneBuffers *buffers);
 
-/* Draws with a submission's program or, in a test, as a known mistake. */
+/* Draws with a submission's program. */
 typedef struct Painter {
     const Lab *lab;
     GLuint program;
-    const SubmissionFiles *files; /* NULL: a test's, whose texts nobody reads */
-    /* Draws a scene's objects into the cleared canvas; NULL: with the program. */
-    bool (*paint)(const struct Painter *painter, const LabScene *lab_scene,
-                  const SubmissionGeometry *geometry, Message *message);
-    const void *what; /* for `paint` */
 } Painter;
 
 /* Resizes a canvas to a scene's size, draws the scene and reads it back into an image of bytes of

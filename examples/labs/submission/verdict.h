@@ -68,7 +68,6 @@ typedef struct Verdict {
     char details[VERDICT_DETAILS_SIZE];  /* more lines: from driver or compiler */
     VerdictMistake mistakes[VERDICT_MAX_MISTAKES];
     int mistake_count;
-    bool one_of; /* one of the mistakes, which look alike; else all of them */
     char symptoms[VERDICT_MAX_SYMPTOMS][VERDICT_SENTENCE_SIZE];
     int symptom_count;
     VerdictProbe probes[VERDICT_MAX_PROBES];

@@ -50,7 +50,6 @@ const Field VERDICT_FIELDS[] = {
     TEXT(Verdict, message),
     {.name = "details", .kind = FIELD_LINES, AT(Verdict, details), .max = VERDICT_DETAILS_SIZE},
     LIST("mistakes", mistakes, mistake_count, MISTAKE),
-    {.name = "one_of", .kind = FIELD_FLAG, AT(Verdict, one_of)},
     LIST("symptoms", symptoms, symptom_count, SYMPTOM),
     LIST("probes", probes, probe_count, PROBE),
     NUMBER(Verdict, seconds, 0, 1e9),

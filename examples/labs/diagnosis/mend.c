@@ -1,0 +1,97 @@
+/* A wrong program is changed as right ones are, by the same rules, until it computes what a right
+ * program computes: then the change is where the mistake is, in the submission's own words, however
+ * it is written. What is found is true by itself, so that of several the likeliest rule is enough.
+ */
+#include "labs/diagnosis/derivation.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* In `right` a bit for each right program that it may still be. */
+static bool is_right(Derivation *all, PointShader *const pair[2], int *like)
+{
+    unsigned right = (1u << all->right_count) - 1;
+    *like = 0;
+    for (int i = 0; i < all->points.count && (right || i < FIRST_POINTS); i++) {
+        const int point = all->order[i];
+        double numbers[POINT_NUMBERS];
+        bool any = false;
+        points_run(&all->points, pair[0], pair[1], point, numbers);
+        for (int k = 0; k < all->right_count; k++) {
+            const bool same = points_apart(numbers, all->rights[k][point]) <= DERIVATION_EQUAL;
+            any |= same;
+            right &= same ? ~0u : ~(1u << k);
+        }
+        *like += any && i < FIRST_POINTS;
+        if (i == HOPELESS_POINTS && *like == 0) /* hopeless */
+            return false;
+    }
+    return right;
+}
+
+static bool holds(const GlslTree *tree, int node, int wanted)
+{
+    bool found = node == wanted;
+    for (int i = tree->nodes[node].first; i && !found; i = tree->nodes[i].next)
+        found = holds(tree, i, wanted);
+    return found;
+}
+
+/* Whether it is where the first value is that is wrong, if that is known. */
+static bool is_there(const Derivation *all, const Found *found)
+{
+    return all->place_node > 0 && found->stage == all->place_stage &&
+           holds(all->own[found->stage].tree, all->place_node, found->mutation.node);
+}
+
+/* Below 0: a is the better change: where the first wrong value is; of the likelier rule; the
+ * earlier one; the smaller one. */
+static int compare(const Derivation *all, const Found *a, const Found *b)
+{
+    const GlslPlace *place = &all->own[a->stage].tree->nodes[a->mutation.node].place;
+    const GlslPlace *other = &all->own[b->stage].tree->nodes[b->mutation.node].place;
+    const bool there = is_there(all, a), other_there = is_there(all, b);
+    return there != other_there                   ? (int)other_there - (int)there
+           : a->mutation.rank != b->mutation.rank ? a->mutation.rank - b->mutation.rank
+           : a->stage != b->stage                 ? (int)a->stage - (int)b->stage
+           : place->line != other->line
+               ? place->line - other->line
+               : (int)strlen(a->mutation.was) - (int)strlen(b->mutation.was);
+}
+
+static bool try_change(void *context, const Mutation *mutation, const char *text)
+{
+    Derivation *all = context;
+    PointShader shader, *pair[2] = {&all->own[0], &all->own[1]};
+    Found found = {.mutation = *mutation, .stage = all->stage};
+    if (all->mended && compare(all, &found, &all->mending) >= 0)
+        return true;
+    char *whole = right_declare(all->undeclared[all->stage], text);
+    const bool opened = point_shader_open(&shader, whole, all->stage);
+    free(whole);
+    if (!opened)
+        return true;
+    pair[all->stage] = &shader;
+    if (is_right(all, pair, &found.like)) {
+        all->mending = found;
+        all->mended = true;
+    }
+    point_shader_close(&shader);
+    return true;
+}
+
+bool mend_find(Derivation *all)
+{
+    for (int stage = GLSL_VERTEX; stage <= GLSL_FRAGMENT; stage++) {
+        all->stage = (GlslStage)stage;
+        all->undeclared[stage] = right_undeclared(&all->points, all->own[stage].tree);
+        mutations_each(all->own[stage].tree, all->right_numbers, all->right_number_count,
+                       try_change, all);
+    }
+    all->mended_there = all->mended && is_there(all, &all->mending);
+    return all->mended;
+}
