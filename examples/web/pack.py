@@ -93,9 +93,10 @@ def read(path):
 
 
 def stripped(text):
-    """A script or style without what a browser does not need: indentation, and comments that have lines of their own. No text in
-    one goes over a line's end."""
+    """A script or style without what a browser does not need: indentation, and comments that have lines of their own or end
+    one. No text in one goes over a line's end."""
     text = re.sub(r"^[ \t]*/\*(?:[^*]|\*(?!/))*\*/[ \t]*\n", "", text, flags=re.MULTILINE)
+    text = re.sub(r"[ \t]*/\*[^*\n]*\*/[ \t]*$", "", text, flags=re.MULTILINE)
     return re.sub(r"^[ \t]+|^\n", "", text, flags=re.MULTILINE)
 
 
@@ -259,8 +260,9 @@ def main():
     version = re.search(r'VERSION "(.*)"', read(pathlib.Path("common/base/version.h"))).group(1)
     write(site / "index.html", fill("index.html", version=html.escape(version), **cards, **shared(INDEX)))
     for folder, name in programs:
-        write(site / f"{name}.html", page(folder, name, shared(PROGRAM), False))
-        write(site / "single" / f"{name}.html", page(folder, name, alone(PROGRAM), True))
+        scripts = [script for script in PROGRAM if folder == "lighting" or script != "assembled.js"]
+        write(site / f"{name}.html", page(folder, name, shared(scripts), False))
+        write(site / "single" / f"{name}.html", page(folder, name, alone(scripts), True))
     write_labs()
     write_book()
     files = sorted(str(path.relative_to(site)) for path in site.rglob("*") if path.is_file())
