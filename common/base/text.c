@@ -5,7 +5,26 @@
 #include "base/text.h"
 
 #include <ctype.h>
+#include <stdlib.h>
 #include <string.h>
+
+int text_numbers(const char *text, const char *form, int *numbers)
+{
+    const char *at = text;
+    for (; *form; form++) {
+        char *end;
+        if (*form != '#') {
+            if (*at++ != *form)
+                return 0;
+            continue;
+        }
+        *numbers++ = (int)strtol(at, &end, 10);
+        if (end == at)
+            return 0;
+        at = end;
+    }
+    return (int)(at - text);
+}
 
 bool text_is_word(char c)
 {

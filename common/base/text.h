@@ -23,6 +23,10 @@ const char *text_comment_end(const char *text);
 /* In place, makes each comment a blank. */
 void text_strip_comments(char *text);
 
+/* The whole numbers at the #s of `form`, if a text begins as that says, as "12:3" does of "#:#";
+ * and how many characters that is. 0: it does not begin so. */
+int text_numbers(const char *text, const char *form, int *numbers);
+
 /* Writes a paragraph in lines of as many words as fit, at least one. Breaks at blanks, which are
  * not counted, after bars, and at line feeds. It begins in `column`, other lines after `indent`
  * blanks; `width` counts both. Ends without a line feed; returns the column it ends in. */

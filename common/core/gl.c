@@ -1,7 +1,8 @@
 /* Each function's pointer, by name; those of extensions only if the context lists the extension. */
 #include "core/gl.h"
 
-#include <stdio.h>
+#include "base/text.h"
+
 #include <string.h>
 
 #define GL_DEFINE(TYPE, name) PFNGL##TYPE##PROC gl##name;
@@ -61,12 +62,12 @@ bool gl_load(GlFunction (*address)(const char *name), Message *message)
 int gl_version(void)
 {
     const char *text = (const char *)glGetString(GL_VERSION);
-    int major = 0, minor = 0;
+    int version[2];
     if (!text)
         return 0;
-    if (sscanf(text, "OpenGL ES %d.%d", &major, &minor) == 2)
-        return 10 * major + minor;
-    return sscanf(text, "%d.%d", &major, &minor) == 2 && major >= 3 ? 30 : 20;
+    if (text_numbers(text, "OpenGL ES #.#", version))
+        return 10 * version[0] + version[1];
+    return text_numbers(text, "#.#", version) && version[0] >= 3 ? 30 : 20;
 }
 
 bool gl_desktop(void)

@@ -5,6 +5,8 @@
  */
 #include "core/shader_source.h"
 
+#include "base/text.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -40,19 +42,21 @@ const char *shader_find_line(const char *text, int file, int line, int *length)
 /* Reads "0:12(3): rest" (Mesa), "ERROR: 0:12: rest" (ANGLE) or "0(12) : rest" (NVIDIA). */
 static const char *parse_position(const char *log, int *file, int *line)
 {
-    int used = 0, column = 0;
+    int places[3] = {0}, used;
     if (strncmp(log, "ERROR: ", 7) == 0)
         log += 7;
     else if (strncmp(log, "WARNING: ", 9) == 0)
         log += 9;
-    const bool found = (sscanf(log, "%d:%d(%d):%n", file, line, &column, &used) == 3 && used) ||
-                       (sscanf(log, "%d:%d:%n", file, line, &used) == 2 && used) ||
-                       (sscanf(log, "%d(%d) :%n", file, line, &used) == 2 && used);
-    if (found && *line > SHADER_LINES_OF_FILE) {
+    if (!(used = text_numbers(log, "#:#(#):", places)) &&
+        !(used = text_numbers(log, "#:#:", places)))
+        used = text_numbers(log, "#(#) :", places);
+    *file = places[0];
+    *line = places[1];
+    if (used && *line > SHADER_LINES_OF_FILE) {
         *file = *line / SHADER_LINES_OF_FILE;
         *line %= SHADER_LINES_OF_FILE;
     }
-    return found ? log + used : NULL;
+    return used ? log + used : NULL;
 }
 
 static void show_line(const ShaderSource *source, int file, int line, Message *message)

@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "base/output_text.h"
+#include "base/text.h"
 #include "scene/shader_cost.h"
 
 #include <math.h>
@@ -150,7 +151,7 @@ static void fold_lines(const char *text, FILE *file)
             text = next;
             continue;
         }
-        if (sscanf(text, "light %d:", &first) != 1 || !body) {
+        if (!text_numbers(text, "light #:", &first) || !body) {
             fprintf(file, "%.*s", (int)(next - text), text);
             text = next;
             continue;
@@ -158,7 +159,7 @@ static void fold_lines(const char *text, FILE *file)
         while (strncmp(next, "  ", 2) == 0)
             next += strcspn(next, "\n") + 1;
         const size_t size = (size_t)(next - body);
-        for (last = first; sscanf(next, "light %d:", &number) == 1 && number == last + 1; last++) {
+        for (last = first; text_numbers(next, "light #:", &number) && number == last + 1; last++) {
             const char *other = strchr(next, ':');
             const bool ends = other && strnlen(other, size) == size &&
                               memcmp(other, body, size) == 0 && strncmp(other + size, "  ", 2) != 0;

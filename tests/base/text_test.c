@@ -113,4 +113,15 @@ TEST(the_nearest_name_has_the_fewest_edits)
     text_nearest(endless, names); /* whatever it finds, it must return */
 }
 
+TEST(numbers_at_their_places)
+{
+    int n[3] = {0};
+    assert_int_equal(text_numbers("0:12(3): rest", "#:#(#):", n), 8);
+    assert_true(n[0] == 0 && n[1] == 12 && n[2] == 3);
+    assert_int_equal(text_numbers("-1:-2: rest", "#:#:", n), 6);
+    assert_true(n[0] == -1 && n[1] == -2);
+    assert_int_equal(text_numbers("0:12", "#:#:", n), 0);
+    assert_int_equal(text_numbers("a:12:", "#:#:", n), 0);
+}
+
 TEST_MAIN("text", NULL, NULL)
