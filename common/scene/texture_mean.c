@@ -67,8 +67,13 @@ static bool read_mean(const char *bytes, size_t size, Vec3 *mean, Message *reaso
     all += pixels;
     take_time(pixels);
     unsigned char *image = stbi_load_from_memory(file, length, &width, &height, &channels, 3);
-    if (!image)
-        return message_set(reason, "damaged: %.40s", stbi_failure_reason());
+    if (!image) {
+        message_set(reason, "damaged: %.40s", stbi_failure_reason());
+        for (char *at = reason->text; *at; at++) /* it may quote bytes of the file */
+            if (*at < ' ' || *at > '~')
+                *at = '?';
+        return false;
+    }
     *mean = mean_of(image, (size_t)width * (size_t)height);
     stbi_image_free(image);
     return true;

@@ -249,7 +249,7 @@ class Scene(base.Case):
         damaged[chance.randrange(40, len(png))] ^= 255
         for uri, what in ((data_uri(png[:50]), "damaged"), (data_uri(b"GIF89a"), "no PNG"), ("none.png", "No such file"),
                           ("../a b.png", "outside"), ("http://example.org/a.png", "refused"), (data_uri(bytes(damaged)), ""),
-                          (None, "there is no image")):
+                          (None, "there is no image"), (data_uri(png.replace(b"IDAT", b"\xdf\xba\xff\xff")), "damaged: ")):
             said = self.good(self.save("a.gltf", self.textured(uri)), "--explain", program="Scene").decode()
             if what:
                 self.assertRegex(said, f"texture 0: white, for it cannot be read: .*{what}")
