@@ -70,4 +70,4 @@ class InFirefox(OfLabs):
         self.page.run(f"Lab.lab.editor.texts = () => new Map(Object.entries({json.dumps(texts)}))")
         self.page.run("document.getElementById('check').click()")
         self.page.wait("!document.getElementById('check').disabled")
-        self.assertIn("not renormalized per fragment", self.text("#result"))
+        self.assertIn("not normalized: v_Normal", self.text("#result"))

@@ -35,8 +35,9 @@ def check(lab, texts):
 
 
 def said(verdict):
-    """What has to be the same."""
-    return (verdict["verdict"], verdict["points"], [mistake["name"] for mistake in verdict["mistakes"]])
+    """What has to be the same. Of a bias more than one number is right, and depths are the driver's."""
+    names = [re.sub(r" for [0-9.e-]+$", " for another", mistake["name"]) for mistake in verdict["mistakes"]]
+    return (verdict["verdict"], verdict["points"], names)
 
 
 def scenes(verdict):
@@ -250,7 +251,7 @@ class Accessible(OfLabs):
         texts = {**SOLUTION, "lab05.frag": SOLUTION["lab05.frag"].replace("normalize(v_Normal)", "v_Normal")}
         self.page.run(f"Lab.lab.editor.texts = () => new Map(Object.entries({json.dumps(texts)}))")
         self.page.run("Lab.check(1)")
-        self.assertIn("renormalized", self.text("[aria-label=Mistakes]"))
+        self.assertIn("not normalized", self.text("[aria-label=Mistakes]"))
         self.nonsense()
         self.assert_accessible("a mistake and an error")
 
@@ -320,7 +321,7 @@ class Labs(OfLabs):
     def test_a_mistake_is_named_and_hints_are_asked_for(self):
         self.put({**SOLUTION, "lab05.frag": SOLUTION["lab05.frag"].replace("normalize(v_Normal)", "v_Normal")})
         self.finish()
-        self.assertIn("not renormalized per fragment", self.text("#result"))
+        self.assertIn("not normalized: v_Normal", self.text("#result"))
         self.assertFalse(self.page.run("document.querySelector('#result details').open"))
         self.page.click("#result summary")
         self.page.wait("document.querySelector('#result details').open")

@@ -121,6 +121,7 @@ static bool explain_index(Derivation *all, const Facts *facts, Verdict *verdict)
         return false;
     derivation_place(all, facts->stages[GLSL_NOTE_INDEX], facts->nodes[GLSL_NOTE_INDEX], place,
                      sizeof place);
+    verdict->undefined = true;
     blame(verdict, "index beyond the array",
           "An index is beyond the last element, where anything may be: 0 with one driver, the last "
           "light once more with another.",

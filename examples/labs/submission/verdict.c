@@ -52,8 +52,11 @@ void verdict_score(Verdict *verdict, const Lab *lab)
     if (verdict->kind == VERDICT_RIGHT)
         verdict->points = points->most;
     else if (verdict->kind == VERDICT_WRONG && verdict->probe_count > 0)
-        verdict->points = points->drawn +
-                          floor(2.0 * points->scenes * passed(verdict) / verdict->probe_count) / 2;
+        verdict->points =
+            points->drawn +
+            (verdict->undefined
+                 ? 0
+                 : floor(2.0 * points->scenes * passed(verdict) / verdict->probe_count) / 2);
 }
 
 /* Text. */

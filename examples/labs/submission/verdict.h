@@ -72,6 +72,7 @@ typedef struct Verdict {
     int symptom_count;
     VerdictProbe probes[VERDICT_MAX_PROBES];
     int probe_count;
+    bool undefined;   /* what is drawn is the driver's choice, so that no scene counts */
     char picture[64]; /* in the folder for pictures; empty: none */
     VerdictCost cost;
     double seconds; /* of judging */
