@@ -483,7 +483,11 @@ MISTAKES = {
 ALONE = {"light at the vertices"}  # replaces the whole text: no pairs
 
 # The names that `check` may give instead to lab 3's.
-CALLED = {"transposed twice": {"inverse without transpose"}, "transposed": {"model matrix transposed"}}
+CALLED = {
+    "transposed twice": {"inverse without transpose"},
+    "transposed": {"model matrix transposed"},
+    "turned about another axis": {"wrong axis"},
+}
 
 
 def applied(texts, lab, made):
