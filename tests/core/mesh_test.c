@@ -56,23 +56,6 @@ TEST(the_cube_has_the_corners_normals_and_split_of_the_lecture)
     }
 }
 
-TEST(the_cube_is_closed_and_turns_its_triangles_outwards)
-{
-    CLOSED(mesh_close) Mesh mesh;
-    assert_true(mesh_cube(&mesh, 1.5, NULL));
-    topology_check_indices(&mesh);
-    assert_counter_clockwise_from_outside(&mesh);
-    assert_closed(&mesh);
-    for (size_t i = 0; i < 12; i++) {
-        const Vec3 face = topology_face(&mesh, i);
-        const Vec3 normal = topology_vector(mesh.vertices[mesh.indices[3 * i]].normal);
-        assert_true(vec3_dot(face, normal) == vec3_length(face));
-    }
-    /* 1.5 and what is made of it here have few bits: nothing is rounded. */
-    assert_true(topology_area(&mesh) == 6 * 9);
-    assert_true(topology_volume(&mesh) == 27);
-}
-
 /* The sphere. */
 
 typedef struct Tessellation {
@@ -146,27 +129,6 @@ TEST(a_sphere_is_closed_turned_outwards_and_has_no_triangle_without_area)
         topology_check_indices(&mesh);
         assert_counter_clockwise_from_outside(&mesh);
         assert_closed(&mesh);
-    }
-}
-
-TEST(area_and_volume_of_a_sphere_converge_with_the_square_of_the_divisions)
-{
-    double area_before = 0, volume_before = 0;
-    for (int divisions = 16; divisions <= 256; divisions *= 2) {
-        Mesh mesh;
-        open_sphere(&mesh, (Tessellation){divisions, divisions, 2});
-        const double area_error = 4 * PI * 4 - topology_area(&mesh);
-        const double volume_error = 4 * PI * 8 / 3 - topology_volume(&mesh);
-        mesh_close(&mesh);
-        assert_true(area_error > 0 && volume_error > 0); /* all of it is inside the sphere */
-        /* Twice the divisions, a quarter of the error, but for a term of the fourth order: its part
-         * is about the square of the angle of a division, (2 pi / 16)^2 = 0.15 at the coarsest. */
-        if (divisions > 16) {
-            assert_true(fabs(area_before / area_error - 4) < 0.15);
-            assert_true(fabs(volume_before / volume_error - 4) < 0.15);
-        }
-        area_before = area_error;
-        volume_before = volume_error;
     }
 }
 

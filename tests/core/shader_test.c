@@ -794,21 +794,6 @@ DRIVER_TEST(a_broken_line_is_named_in_any_file)
     }
 }
 
-DRIVER_TEST(errors_around_an_include_have_their_own_lines)
-{
-    make("a.glsl", "int a;\nint b;\n\nint c;\n");
-    program_refused("wrong;\n#include \"a.glsl\"\nvoid main() {}\n", FRAGMENT,
-                    "./main.vert:1: ", "  1 | wrong;");
-    program_refused("#include \"a.glsl\"\nwrong;\nvoid main() {}\n", FRAGMENT,
-                    "./main.vert:2: ", "  2 | wrong;");
-    program_refused("\n#include \"a.glsl\"\n\n/* two\nlines */\nvoid main() {\n    wrong = 1;\n}\n",
-                    FRAGMENT, "./main.vert:7: ", "  7 |     wrong = 1;");
-    program_refused("#version 100\nvoid main() {\n\n    int a = 1.0;\n}\n", FRAGMENT,
-                    "./main.vert:4: ", "  4 |     int a = 1.0;");
-    program_refused(VERTEX, "\n\nprecision mediump float;\nvarying int v;\nvoid main() {}\n",
-                    "./main.frag:4: ", "  4 | varying int v;");
-}
-
 DRIVER_TEST(a_link_error_is_named_at_the_declaration)
 {
     static const char vertex[] = "attribute vec4 a_Position;\nvarying vec4 v_First;\n"
@@ -861,15 +846,6 @@ DRIVER_TEST(line_directives_of_the_shader_itself_do_no_harm)
         assert_false(open_program(&shader));
         assert_true(message.text[0] != '\0');
     }
-}
-
-DRIVER_TEST(a_missing_file_of_a_pair_is_named)
-{
-    Shader shader;
-    make("main.vert", VERTEX);
-    assert_false(open_program(&shader));
-    assert_non_null(strstr(message.text, "main.frag: no such shader file"));
-    assert_int_equal(shader.program, 0);
 }
 
 DRIVER_TEST(a_missing_variable_is_named_with_its_program)
@@ -940,25 +916,6 @@ DRIVER_TEST(a_missing_variable_is_a_warning_if_the_loader_has_one)
     shader_set_attribute(locations[2], (Vec3){1, 1, 1});
     assert_int_equal(glGetError(), GL_NO_ERROR);
     shader_close(&shader);
-}
-
-DRIVER_TEST(every_precision_and_define_reaches_the_driver)
-{
-    static const char *const precisions[] = {NULL, "highp", "mediump"};
-    static const char *const defines[] = {"COLOR vec4(1.0)", "CORRECT", NULL};
-    make("main.vert", VERTEX);
-    make("main.frag", "#ifndef CORRECT\n#error not defined\n#endif\n"
-                      "#ifdef GL_FRAGMENT_PRECISION_HIGH\nprecision highp float;\n#else\n"
-                      "precision mediump float;\n#endif\nuniform mediump float u_A;\n"
-                      "uniform highp float u_B;\n"
-                      "void main() {\n    gl_FragColor = COLOR * u_A * u_B;\n}\n");
-    loader.defines = defines;
-    for (size_t i = 0; i < sizeof precisions / sizeof precisions[0]; i++) {
-        Shader shader;
-        loader.precision = precisions[i];
-        require(open_program(&shader), &message);
-        shader_close(&shader);
-    }
 }
 
 /* The cache of files. */

@@ -1,13 +1,13 @@
 /*
  * What has a closed form: the viewer's lights, the terms of the sum and the lights one by one,
- * colors of vertices, one color per triangle, polygon offset. Pictures of floats.
+ * polygon offset. Pictures of floats. Colors of vertices and one color per triangle:
+ * fixed_function_test.c.
  */
 #include "base/random.h"
 #include "core/canvas.h"
 #include "core/mesh_make.h"
 #include "lighting/lighting.h"
 #include "shapes/mesh_solids.h"
-#include "support/oracle.h"
 #include "support/picture_check.h"
 #include "support/testing.h"
 
@@ -17,22 +17,7 @@ static const double TANGENT = 0.36; /* of half the field of view */
 static Canvas canvas;
 static Lighting *lighting;
 static Image picture, other;
-static Mesh sphere, fine_sphere, quad, colored_sphere, triangle;
-
-/* A triangle in the plane z = 0, with a color at each corner. */
-static bool open_triangle(Mesh *mesh, Message *message)
-{
-    static const MeshVertex corners[3] = {
-        {{-1, -0.9F, 0}, {0, 0, 1}}, {{1, -0.6F, 0}, {0, 0, 1}}, {{-0.3F, 1, 0}, {0, 0, 1}}};
-    static const float colors[3][3] = {{1, 0.25F, 0}, {0, 1, 0.5F}, {0.125F, 0, 1}};
-    if (!mesh_open(mesh, 3, 3, message) || !mesh_open_colors(mesh, message))
-        return false;
-    memcpy(mesh->vertices, corners, sizeof corners);
-    memcpy(mesh->colors, colors, sizeof colors);
-    for (uint32_t i = 0; i < 3; i++)
-        mesh->indices[i] = i;
-    return true;
-}
+static Mesh sphere, fine_sphere, quad, colored_sphere;
 
 FIXTURE(open_all)
 {
@@ -44,7 +29,7 @@ FIXTURE(open_all)
              mesh_sphere(&sphere, 1, 24, 12, message) &&
              mesh_sphere(&fine_sphere, 1, 320, 160, message) && mesh_quad(&quad, 1, message) &&
              mesh_copy(&colored_sphere, &sphere, message) &&
-             mesh_open_colors(&colored_sphere, message) && open_triangle(&triangle, message));
+             mesh_open_colors(&colored_sphere, message));
     Random random = {7};
     for (size_t i = 0; i < 3 * sphere.vertex_count; i++)
         colored_sphere.colors[i / 3][i % 3] = (float)random_between(&random, 0, 1);
@@ -52,8 +37,8 @@ FIXTURE(open_all)
 
 FIXTURE(close_all)
 {
-    Mesh *const meshes[] = {&sphere, &fine_sphere, &quad, &colored_sphere, &triangle};
-    for (int i = 0; i < 5; i++)
+    Mesh *const meshes[] = {&sphere, &fine_sphere, &quad, &colored_sphere};
+    for (int i = 0; i < 4; i++)
         mesh_close(meshes[i]);
     image_close(&other);
     image_close(&picture);
@@ -92,7 +77,7 @@ static void make_world(const Mesh *mesh)
                               .exponent = 4};
     world.object =
         (Object){.mesh = mesh,
-                 .closed = mesh != &quad && mesh != &triangle,
+                 .closed = mesh != &quad,
                  .world_from_object = mat4_identity(),
                  .front = {{0.5, 0.4, 0.3}, {0.6, 0.5, 0.3}, {0.5, 0.6, 0.7}, {0.05, 0, 0.1}, 1, 9},
                  .two_sided = true,
@@ -290,108 +275,6 @@ TEST(without_lighting_the_color_is_exact)
                 for (int c = 0; c < 3; c++)
                     assert_true(pixel(&picture, x, y)[c] ==
                                 (float)(&world.object.front.diffuse.x)[c]);
-}
-
-/* Colors of vertices. */
-
-/* The weights of the corners at the point of the triangle that a pixel's center sees. */
-static bool weights_at(int x, int y, Mat4 world_from_object, double weights[3])
-{
-    Mat4 object_from_world;
-    double area = 0;
-    mat4_inverse(world_from_object, &object_from_world);
-    const Vec3 way = {TANGENT * ((x + 0.5) / SIZE * 2 - 1), TANGENT * (1 - (y + 0.5) / SIZE * 2),
-                      -1};
-    const Vec3 o = mat4_transform_point(object_from_world, world.scene.camera.eye);
-    const Vec3 d = mat4_transform_direction(object_from_world, way);
-    const Vec3 p = vec3_add(o, vec3_scale(d, -o.z / d.z));
-    bool inside = true;
-    for (int k = 0; k < 3; k++) {
-        const Vec3 a = vec3_from_float(triangle.vertices[(k + 1) % 3].position);
-        const Vec3 b = vec3_from_float(triangle.vertices[(k + 2) % 3].position);
-        weights[k] = vec3_cross(vec3_subtract(a, p), vec3_subtract(b, p)).z;
-        area += weights[k];
-    }
-    for (int k = 0; k < 3; k++) {
-        weights[k] /= area;
-        inside &= weights[k] > 0.02;
-    }
-    return inside;
-}
-
-/* Unlit, and by diffuse light that falls straight on the triangle from far away. */
-TEST(colors_of_vertices_have_their_barycentric_mean)
-{
-    for (int lit = 0; lit < 2; lit++) {
-        int compared = 0;
-        make_world(&triangle);
-        world.object.world_from_object = mat4_rotate(50, (Vec3){1, 1, 0.2});
-        world.lights[0] = (Light){.diffuse = {0.75, 0.75, 0.75}};
-        world.lights[0].direction =
-            mat4_transform_direction(world.object.world_from_object, (Vec3){0, 0, 1});
-        world.scene.light_count = 1;
-        draw_terms((SceneTerms){.unlit = !lit, .left_out = lit ? TERM_ALL & ~TERM_DIFFUSE : 0},
-                   &picture);
-        for (int y = 0; y < SIZE; y++) {
-            for (int x = 0; x < SIZE; x++) {
-                double w[3];
-                if (!weights_at(x, y, world.object.world_from_object, w))
-                    continue;
-                compared++;
-                for (int c = 0; c < 3; c++) {
-                    double mean = 0;
-                    for (int k = 0; k < 3; k++)
-                        mean += w[k] * (double)triangle.colors[k][c];
-                    /* Corners are rounded to 1/256 of a pixel, of which a color changes by a tenth
-                     * at most. */
-                    assert_true(fabs((double)pixel(&picture, x, y)[c] - (lit ? 0.75 : 1) * mean) <
-                                2 * 0.1 / 256);
-                }
-            }
-        }
-        assert_true(compared > SIZE * SIZE / 20);
-    }
-}
-
-/* Whichever corner the triangle's last is. */
-TEST(constant_interpolation_has_the_color_of_the_last_vertex)
-{
-    for (uint32_t last = 0; last < 3; last++) {
-        int inside = 0;
-        make_world(&triangle);
-        for (uint32_t k = 0; k < 3; k++)
-            triangle.indices[k] = (last + 1 + k) % 3;
-        lighting_forget(lighting, &triangle);
-        world.scene.light_count = 1;
-        world.scene.interpolation = INTERPOLATION_CONSTANT;
-        world.object.world_from_object = mat4_rotate(30, (Vec3){1, 0.5, 0});
-        const Mat4 turn = world.object.world_from_object;
-        draw_scene(&world.scene, &picture);
-        const Vec3 place =
-            mat4_transform_point(turn, vec3_from_float(triangle.vertices[last].position));
-        OraclePoint vertex = {.object = &world.object,
-                              .point = place,
-                              .normal = mat4_transform_direction(turn, (Vec3){0, 0, 1}),
-                              .viewer = vec3_unit(vec3_subtract(world.scene.camera.eye, place))};
-        world.object.front.ambient = world.object.front.diffuse =
-            vec3_from_float(triangle.colors[last]);
-        const Vec3 expected = oracle_light(&world.scene, &vertex);
-        for (int y = 0; y < SIZE; y++) {
-            for (int x = 0; x < SIZE; x++) {
-                double w[3];
-                if (!weights_at(x, y, turn, w))
-                    continue;
-                inside++;
-                for (int c = 0; c < 3; c++)
-                    assert_true(fabs((double)pixel(&picture, x, y)[c] - (&expected.x)[c]) <
-                                ROUNDING);
-            }
-        }
-        assert_true(inside > SIZE * SIZE / 20);
-    }
-    for (uint32_t k = 0; k < 3; k++)
-        triangle.indices[k] = k;
-    lighting_forget(lighting, &triangle);
 }
 
 TEST(polygon_offset_does_not_change_colors)

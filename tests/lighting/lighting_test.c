@@ -154,22 +154,6 @@ TEST(guarded_cases_draw_as_the_full_program)
     assert_true(guarded > enough && unguarded > enough);
 }
 
-TEST(attenuation_is_guarded_only_without_a_constant_coefficient)
-{
-    const Case c = {.terms = {7, 7},
-                    .kinds = {0, 7},
-                    .light_count = 2,
-                    .turn = UNEVEN,
-                    .base = true,
-                    .alpha = true};
-    make_world(&c);
-    assert_false(is_guarded(&world.scene, false));
-    assert_true(is_guarded(&world.scene, true));
-    check_case(&c);
-    world.lights[1].constant = 0;
-    assert_true(is_guarded(&world.scene, false));
-}
-
 /* With multisampling a pixel may be shaded at a point outside the triangle: no other program is
  * needed, because guards do not depend on where the object is. */
 TEST(multisampling_uses_the_same_program)

@@ -1,16 +1,12 @@
 /*
- * The pictures of the lecture's nine programs: every pixel against what a ray of the exact picture
- * (reference/reference_trace.h) sees through its centre, in double precision. The scenes are
- * written down here as data, from the lecture.
- *
- * Columns and rows are in pixels from the upper left corner of a picture; a pixel's centre is at
- * its number plus one half. Colours are in steps, 0 to 255.
+ * The pictures of the lecture's nine programs: every pixel that no edge runs through against what a
+ * ray of the exact picture sees through its centre, in double precision. The scenes are written
+ * down here as data, from the lecture. Errors are in steps, 0 to 255.
  */
 #include "app/options.h"
 #include "app/renderer.h"
 #include "core/mesh_make.h"
-#include "images/picture_queue.h"
-#include "reference/reference_trace.h"
+#include "reference/picture_error.h"
 #include "support/oracle.h"
 #include "support/picture_check.h"
 #include "support/testing.h"
@@ -67,15 +63,8 @@ static const Lesson LESSONS[] = {
     {.example = &PointLightedSphere_perFragment, SPHERE, .turn = 90},
 };
 
-enum { LESSON_COUNT = sizeof LESSONS / sizeof LESSONS[0] };
-
-typedef struct Size {
-    int width, height;
-} Size;
-
 /* The lecture's size; odd numbers; portrait; so narrow that every object exceeds both sides. */
-static const Size SIZES[] = {{400, 400}, {257, 193}, {64, 128}, {31, 400}};
-
+static const int SIZES[][2] = {{400, 400}, {257, 193}, {64, 128}, {31, 400}};
 enum { SIZE_COUNT = sizeof SIZES / sizeof SIZES[0], TIME_COUNT = 4 };
 
 /* The start, two times of the first turn, one of the second. */
@@ -126,344 +115,90 @@ static double shader_rounding(const Scene *scene)
                                                          : oracle_mediump_max(scene, reach) - 0.5;
 }
 
-/* The exact picture. */
-
-typedef struct Pixel {
-    bool covered;    /* the centre is inside the silhouette */
-    bool left_out;   /* too near to an edge where the colour jumps */
-    double level[3]; /* of each channel */
-    double shift[3]; /* change of the level by snapping of vertices */
-} Pixel;
-
-/*
- * Rasterizers move vertices to a grid of 1/2^bits pixel, each way by half a step at most: by 0.71
- * steps in all. This is a whole step, in pixels; the rest is for the floats that a projection goes
- * through (24 bits for 400 pixels: a few of 2.4e-5 pixels, against 0.29 * 2^-8 = 1.1e-3).
- */
-static double snap;
-
-static int find_snap(void **state)
+/* What is drawn of an object is where it is, and nothing else. */
+static void assert_covered(const char *name, const Image *picture, const Reference *exact)
 {
-    const CanvasOptions options = {.width = 1, .height = 1};
-    Canvas canvas;
-    Message message = {0};
-    GLint bits = 0;
-    (void)state;
-    if (!canvas_open(&canvas, &options, &message)) {
-        printf("%s\n", message.text);
-        return -1;
-    }
-    glGetIntegerv(GL_SUBPIXEL_BITS, &bits);
-    canvas_close(&canvas);
-    snap = ldexp(1, -bits);
-    printf("vertices are moved to %d bits of a pixel\n", (int)bits);
-    return bits >= 4 ? 0 : -1; /* OpenGL ES 2.0.25, table 6.18 */
-}
-
-typedef struct Exact {
-    const Lesson *lesson;
-    int width, height;
-    double rounding; /* by shader_rounding */
-    Pixel *pixels;
-} Exact;
-
-/* By the rays through the centre and four points around it: no edge is nearer than a snap that does
- * not pass between these. On a common edge of two triangles of a sphere the driver may take either:
- * the change to both sides counts. */
-static void find_pixel(const Trace *trace, const Lesson *lesson, double x, double y, Pixel *pixel)
-{
-    static const int around[5][2] = {{0, 0}, {1, 0}, {0, 1}, {-1, 0}, {0, -1}};
-    const double far = sqrt(2) * snap, half = lesson->half_side;
-    Sample at[5];
-    for (int k = 0; k < 5; k++)
-        trace_sample(trace, x + far * around[k][0], y + far * around[k][1], &at[k]);
-    pixel->covered = at[0].object >= 0;
-    for (int k = 1; k < 5; k++) {
-        pixel->left_out |= at[k].object != at[0].object ||
-                           (pixel->covered && half > 0 && at[k].piece != at[0].piece);
-        for (int c = 0; c < 3; c++)
-            pixel->shift[c] +=
-                255 / sqrt(2) * fabs((double)at[k].color[c] - (double)at[0].color[c]);
-    }
-    for (int c = 0; c < 3; c++)
-        pixel->level[c] = 255 * (double)at[0].color[c];
-}
-
-/* The caller frees the pixels. */
-static void draw_exact(const Lesson *lesson, Size size, double seconds, Exact *exact)
-{
-    LessonScene made;
-    Trace *trace;
-    lesson_open(lesson, seconds, &made);
-    SUCCEEDS(
-        trace_open(&trace, &made.scene,
-                   &(ReferenceOptions){
-                       .width = size.width, .height = size.height, .meshes = true, .threads = 1},
-                   message));
-    *exact = (Exact){.lesson = lesson,
-                     .width = size.width,
-                     .height = size.height,
-                     .rounding = shader_rounding(&made.scene)};
-    exact->pixels = calloc((size_t)size.width * (size_t)size.height, sizeof *exact->pixels);
-    assert_non_null(exact->pixels);
-    for (int i = 0; i < size.width * size.height; i++)
-        find_pixel(trace, lesson, i % size.width + 0.5, i / size.width + 0.5, &exact->pixels[i]);
-    trace_close(trace);
-    mesh_close(&made.mesh);
-}
-
-/* The comparison. */
-
-typedef struct Verdict {
-    long compared, covered, left_out; /* pixels; covered: of those compared */
-    long wrong;                       /* of those compared: colour or coverage */
-    double worst, squares;            /* |picture - exact|, in steps */
-    double worst_part;                /* the largest ratio of an error to its bound */
-    int column, row;                  /* of the worst ratio */
-} Verdict;
-
-static const char *precision_of(bool half)
-{
-    return half ? NULL : "highp";
-}
-
-/*
- * How far a channel may be off, in steps: half a step for the byte's rounding, what the snapping
- * of vertices does at this pixel, 0.01 for the floats of 24 bits (20 operations: 255 * 20 * 2^-24
- * is 3e-4), and with 11 bits the shader's rounding. With highp, 0, never more than one step.
- */
-static double allowed(const Pixel *pixel, int c, double rounding)
-{
-    const double rest = pixel->shift[c] + 0.01;
-    if (!pixel->covered)
-        return 0;
-    return 0.5 + (pixel->level[c] > 0) * (rounding > 0 ? rounding + rest : fmin(rest, 0.5));
-}
-
-/* Counts one pixel that is not left out. Pictures are drawn with their alpha kept: 255 where the
- * shape is, else 0. */
-static void compare_pixel(const unsigned char *bytes, const Pixel *pixel, double rounding,
-                          Verdict *verdict)
-{
-    /* Relative to its bound; infinite if nothing may be there. */
-    double part = bytes[3] == (pixel->covered ? 255 : 0) ? 0 : INFINITY;
-    for (int c = 0; c < 3; c++) {
-        const double error = fabs(bytes[c] - pixel->level[c]);
-        if (error > 0)
-            part = fmax(part, error / allowed(pixel, c, rounding));
-        verdict->worst = fmax(verdict->worst, error);
-    }
-    verdict->squares += pow(bytes[0] - pixel->level[0], 2);
-    verdict->compared++;
-    verdict->covered += pixel->covered;
-    verdict->wrong += part > 1;
-    verdict->worst_part = fmax(verdict->worst_part, part);
-}
-
-static Verdict compare(const Image *picture, const Exact *exact, bool half)
-{
-    const unsigned char *bytes = picture->pixels;
-    Verdict verdict = {0};
+    double drawn = 0, area = 0;
     for (int i = 0; i < exact->width * exact->height; i++) {
-        const double before = verdict.worst_part;
-        if (exact->pixels[i].left_out)
-            verdict.left_out++;
-        else
-            compare_pixel(bytes + 4 * i, &exact->pixels[i], half ? exact->rounding : 0, &verdict);
-        if (verdict.worst_part > before) {
-            verdict.column = i % exact->width;
-            verdict.row = i / exact->width;
-        }
+        const double part = (double)exact->coverage[i],
+                     covered = exact->object[i] < 0 ? 1 - part : part;
+        const unsigned char alpha = ((const unsigned char *)picture->pixels)[4 * i + 3];
+        if (alpha ? covered == 0 : covered == 1)
+            fail_msg("%s: column %d, row %d: alpha %d", name, i % exact->width, i / exact->width,
+                     alpha);
+        drawn += alpha / 255.0;
+        area += covered;
     }
-    return verdict;
+    if (fabs(drawn - area) > 0.005 * area)
+        fail_msg("%s: %.0f pixels are covered, not %.0f", name, drawn, area);
 }
 
-/* The exact picture as bytes, for inspection. */
-static void exact_image(const Exact *exact, Image *image)
+static void check_picture(const char *name, const Image *picture, const Scene *scene,
+                          const Reference *exact, bool half, ErrorSum *sum)
 {
-    assert_true(image_open(image, exact->width, exact->height, IMAGE_BYTE, NULL));
-    for (int i = 0; i < exact->width * exact->height; i++) {
-        unsigned char *bytes = (unsigned char *)image->pixels + 4 * i;
-        for (int c = 0; c < 3; c++)
-            bytes[c] = (unsigned char)lrint(exact->pixels[i].level[c]);
-        bytes[3] = exact->pixels[i].covered ? 255 : 0;
+    const double most = half ? fmax(0.5 + shader_rounding(scene), 1) : 1;
+    PictureError error = {.all = {0}};
+    picture_error_add(&error, picture, &(ExactView){.exact = exact, .scene = scene});
+    const ErrorSum *inside = &error.interior;
+    assert_covered(name, picture, exact);
+    assert_true(inside->pixels > exact->width * exact->height / 20);
+    if (inside->maximum > most) {
+        picture_check_keep_exact(name, picture, exact);
+        fail_msg("%s: off by %.2f of %.2f at column %zu, row %zu", name, inside->maximum, most,
+                 inside->worst % (size_t)exact->width, inside->worst / (size_t)exact->width);
     }
-}
-
-/* Drawing. */
-
-static Options options_for(Size size, const char *precision)
-{
-    return (Options){.width = size.width,
-                     .height = size.height,
-                     .frames = 1,
-                     .alpha = true,
-                     .shaders = {.precision = precision}};
-}
-
-static void open_canvas(Canvas *canvas, const Options *options)
-{
-    SUCCEEDS(options_open_canvas(canvas, options, "picture.png", message));
-}
-
-static void open_picture(Picture *picture, Size size)
-{
-    memset(picture, 0, sizeof *picture);
-    SUCCEEDS(image_open(&picture->image, size.width, size.height, IMAGE_BYTE, message));
-}
-
-static void open_example(Renderer *renderer, const Lesson *lesson, const Canvas *canvas,
-                         const Options *options)
-{
-    const DrawRequest request = options_request(options, lesson->example);
-    SUCCEEDS(renderer_open(renderer, lesson->example, canvas, &request, message));
-}
-
-static void draw_picture(Renderer *renderer, const Options *options, double seconds,
-                         Picture *picture)
-{
-    const DrawRequest request = options_request(options, renderer->example);
-    SUCCEEDS(renderer_picture(renderer, &request, seconds, &picture->image, message));
-}
-
-/* One picture, on a canvas of its own. */
-static void draw_alone(const Lesson *lesson, const Options *options, double seconds,
-                       Picture *picture)
-{
-    CLOSED(canvas_close) Canvas canvas;
-    CLOSED(renderer_close) Renderer renderer;
-    open_canvas(&canvas, options);
-    open_picture(picture, (Size){options->width, options->height});
-    open_example(&renderer, lesson, &canvas, options);
-    draw_picture(&renderer, options, seconds, picture);
-}
-
-/* Every lesson at every size and time. */
-
-/* The sums of one lesson's pictures. */
-static void add_verdict(Verdict *sum, const Verdict *verdict)
-{
-    sum->compared += verdict->compared;
-    sum->covered += verdict->covered;
-    sum->left_out += verdict->left_out;
-    sum->wrong += verdict->wrong;
-    sum->squares += verdict->squares;
-    sum->worst = fmax(sum->worst, verdict->worst);
-    sum->worst_part = fmax(sum->worst_part, verdict->worst_part);
-}
-
-static void check_picture(const Exact *exact, double seconds, const Image *picture, bool half,
-                          Verdict *sum)
-{
-    const Verdict verdict = compare(picture, exact, half);
-    const long all = (long)exact->width * exact->height;
-    char name[128];
-    snprintf(name, sizeof name, "%s-%dx%d-%gs-%s", exact->lesson->example->name, exact->width,
-             exact->height, seconds, half ? "default" : "highp");
-    if (verdict.wrong && !sum->wrong) { /* write one picture per lesson */
-        CLOSED(image_close) Image expected;
-        printf("%s: %ld pixels are wrong; the worst, column %d, row %d, by %.2f of its bound\n",
-               name, verdict.wrong, verdict.column, verdict.row, verdict.worst_part);
-        exact_image(exact, &expected);
-        picture_check_keep(name, picture, &expected);
-    }
-    /* Every object fills a tenth of its picture at least, and of a hundred covered pixels at most
-     * one is too near to an edge to be compared: such strips are 3 `snap` wide, and an object of
-     * d pixels across has some 8 d of them for its d^2 / 2 pixels or more. */
-    if (verdict.covered < all / 10 || verdict.left_out > verdict.covered / 100)
-        fail_msg("%s: of %ld pixels %ld are covered and %ld left out", name, all, verdict.covered,
-                 verdict.left_out);
-    add_verdict(sum, &verdict);
+    sum->pixels += inside->pixels;
+    sum->squares += inside->squares;
+    sum->maximum = fmax(sum->maximum, inside->maximum);
 }
 
 /* In both precisions. A still lesson only at the first and the last time. */
-static void check_lesson(const Lesson *lesson, Size size, Canvas *canvas, Verdict sums[2])
+static void check_lesson(const Lesson *lesson, const int size[2], ErrorSum sums[2])
 {
-    Exact exact[TIME_COUNT];
     const int step = lesson->turn_per_second > 0 ? 1 : TIME_COUNT - 1;
-    for (int t = 0; t < TIME_COUNT; t += step)
-        draw_exact(lesson, size, TIMES[t], &exact[t]);
     for (int half = 0; half < 2; half++) {
-        const Options options = options_for(size, precision_of(half));
-        CLOSED(renderer_close) Renderer renderer;
-        Picture picture;
-        open_picture(&picture, size);
-        open_example(&renderer, lesson, canvas, &options);
-        for (int t = 0; t < TIME_COUNT; t += step) {
-            draw_picture(&renderer, &options, TIMES[t], &picture);
-            check_picture(&exact[t], TIMES[t], &picture.image, half, &sums[half]);
-        }
-        image_close(&picture.image);
-    }
-    for (int t = 0; t < TIME_COUNT; t += step)
-        free(exact[t].pixels);
-}
-
-/* With highp the exact colour, by default within the bound of 11 bits. */
-TEST(every_pixel_clear_of_an_edge_has_its_colour)
-{
-    Verdict sums[LESSON_COUNT][2] = {0};
-    long wrong = 0;
-    for (int s = 0; s < SIZE_COUNT; s++) {
-        const Options options = options_for(SIZES[s], NULL);
+        const Options options = {.width = size[0],
+                                 .height = size[1],
+                                 .frames = 1,
+                                 .alpha = true,
+                                 .shaders = {.precision = half ? NULL : "highp"}};
+        const DrawRequest request = options_request(&options, lesson->example);
         CLOSED(canvas_close) Canvas canvas;
-        open_canvas(&canvas, &options);
-        for (int i = 0; i < LESSON_COUNT; i++)
-            check_lesson(&LESSONS[i], SIZES[s], &canvas, sums[i]);
-    }
-    printf("%-40s   worst  of bound    rms   compared  covered  left out\n", "steps of 1/255");
-    for (int i = 0; i < 2 * LESSON_COUNT; i++) {
-        const Verdict *sum = &sums[i / 2][i % 2];
-        printf("%-31s %-8s %7.3f %8.0f%% %7.3f %9ld %8ld %8ld\n", LESSONS[i / 2].example->name,
-               i % 2 ? "default" : "highp", sum->worst, 100 * sum->worst_part,
-               sqrt(sum->squares / (double)sum->covered), sum->compared, sum->covered,
-               sum->left_out);
-        wrong += sum->wrong;
-    }
-    assert_int_equal(wrong, 0);
-}
-
-/* The comparison itself can fail. */
-
-/* Rejects more than 1% of the covered pixels, so rounding is not the cause. */
-static void must_refuse(const char *what, const Exact *exact, const Image *picture)
-{
-    const Verdict verdict = compare(picture, exact, true);
-    if (verdict.wrong <= verdict.covered / 100)
-        fail_msg("%s: of the picture %s only %ld pixels count as wrong",
-                 exact->lesson->example->name, what, verdict.wrong);
-}
-
-TEST(a_black_mirrored_or_mistimed_picture_is_refused)
-{
-    const Size size = SIZES[0];
-    const Options options = options_for(size, NULL);
-    for (int i = 0; i < LESSON_COUNT; i++) {
-        Picture picture;
-        Exact exact;
-        draw_alone(&LESSONS[i], &options, TIMES[1], &picture);
-        if (LESSONS[i].turn_per_second > 0) {
-            draw_exact(&LESSONS[i], size, TIMES[2], &exact);
-            must_refuse("of another moment", &exact, &picture.image);
-            free(exact.pixels);
+        CLOSED(renderer_close) Renderer renderer;
+        CLOSED(image_close) Image picture;
+        SUCCEEDS(options_open_canvas(&canvas, &options, "picture.png", message));
+        SUCCEEDS(renderer_open(&renderer, lesson->example, &canvas, &request, message));
+        SUCCEEDS(image_open(&picture, size[0], size[1], IMAGE_BYTE, message));
+        for (int t = 0; t < TIME_COUNT; t += step) {
+            const ReferenceOptions as = {
+                .width = size[0], .height = size[1], .meshes = true, .centers = true};
+            CLOSED(reference_close) Reference exact;
+            LessonScene made;
+            char name[96];
+            lesson_open(lesson, TIMES[t], &made);
+            SUCCEEDS(reference_open(&exact, &made.scene, &as, message));
+            SUCCEEDS(renderer_picture(&renderer, &request, TIMES[t], &picture, message));
+            snprintf(name, sizeof name, "%s-%dx%d-%gs-%s", lesson->example->name, size[0], size[1],
+                     TIMES[t], half ? "default" : "highp");
+            check_picture(name, &picture, &made.scene, &exact, half, &sums[half]);
+            mesh_close(&made.mesh);
         }
-        draw_exact(&LESSONS[i], size, TIMES[1], &exact);
-        uint32_t *pixels = picture.image.pixels;
-        for (int k = 0; k < size.width * size.height; k++) {
-            const int other = k - k % size.width + size.width - 1 - k % size.width;
-            const uint32_t kept = pixels[k];
-            if (other > k)
-                pixels[k] = pixels[other], pixels[other] = kept;
-        }
-        must_refuse("mirrored", &exact, &picture.image);
-        memset(pixels, 0, image_row_size(&picture.image) * (size_t)size.height);
-        must_refuse("in black", &exact, &picture.image);
-        free(exact.pixels);
-        image_close(&picture.image);
     }
 }
 
-int main(void)
+/* With highp within a step, by default within the bound of 11 bits. */
+TEST(every_pixel_has_its_colour)
 {
-    return picture_check_run("picture lecture", find_snap, NULL);
+    printf("%-40s   worst    rms     pixels\n", "steps of 1/255");
+    for (size_t i = 0; i < sizeof LESSONS / sizeof LESSONS[0]; i++) {
+        ErrorSum sums[2] = {{.pixels = 0}};
+        for (int s = 0; s < SIZE_COUNT; s++)
+            check_lesson(&LESSONS[i], SIZES[s], sums);
+        for (int half = 0; half < 2; half++)
+            printf("%-31s %-8s %7.3f %7.3f %9lld\n", LESSONS[i].example->name,
+                   half ? "default" : "highp", sums[half].maximum, error_sum_rms(&sums[half]),
+                   sums[half].pixels);
+    }
 }
+
+PICTURE_TEST_MAIN("picture lecture", NULL, NULL)

@@ -200,29 +200,6 @@ TEST_WITH(0, colors_at_centers_are_not_mixed, set_up, tear_down)
     assert_true(inside > 0 && partial > 0); /* the coverage is still there */
 }
 
-TEST_WITH(0, a_cube_has_the_colors_of_its_faces, set_up, tear_down)
-{
-    Object *cube = add_object((Solid){.kind = SOLID_BOX, .radius = 0.7}, 5);
-    cube->world_from_object = mat4_rotate(30, (Vec3){0, 1, 0});
-    for (int mode = 0; mode < 4; mode++) {
-        world.scene.interpolation = (Interpolation)(mode % 3);
-        Reference picture = world_trace((ReferenceOptions){.meshes = mode > 0});
-        int faces[2] = {0, 0};
-        for (size_t i = 0; i < pixel_count(&picture); i++) {
-            if (!picture.interior[i])
-                continue;
-            /* The front is turned by 30 degrees from the light, its neighbor by 60. A mesh has
-             * its corners, to which colors are interpolated, and normals as floats. */
-            const double red = channel(&picture, i, 0);
-            const bool front = red > 0.6;
-            assert_true(fabs(red - 0.8 * (front ? sqrt(0.75) : 0.5)) < 2 * ROUNDED);
-            faces[front]++;
-        }
-        assert_in_range(faces[0], 100, 1000);
-        assert_in_range(faces[1], 300, 1500);
-    }
-}
-
 /* One triangle in perspective, colors at its corners. */
 TEST_WITH(0, colors_are_interpolated_by_place_on_the_triangle, set_up, tear_down)
 {
@@ -324,28 +301,6 @@ TEST_WITH(0, flat_solids_are_their_meshes, set_up, tear_down)
         assert_memory_equal(exact.object, mesh.object, pixel_count(&exact) * sizeof *exact.object);
         assert_memory_equal(exact.interior, mesh.interior, pixel_count(&exact));
     }
-}
-
-TEST_WITH(0, triangles_are_flat_if_the_scene_is, set_up, tear_down)
-{
-    add_object((Solid){.kind = SOLID_SPHERE, .radius = 1}, 8);
-    world.scene.interpolation = INTERPOLATION_FLAT;
-    const Mesh *mesh = &world.meshes[0];
-    Reference picture = world_trace((ReferenceOptions){.meshes = true});
-    int count = 0;
-    for (size_t i = 0; i < pixel_count(&picture); i++) {
-        bool found = false;
-        if (!picture.interior[i])
-            continue;
-        count++;
-        for (size_t k = 0; k < mesh->index_count / 3 && !found; k++) {
-            Vec3 normal;
-            mesh_face(mesh, k, &normal);
-            found = fabs(0.8 * normal.z - channel(&picture, i, 0)) < ROUNDED;
-        }
-        assert_true(found);
-    }
-    assert_true(count > 300);
 }
 
 TEST_WITH(0, colors_are_clamped_at_vertices_on_request, set_up, tear_down)

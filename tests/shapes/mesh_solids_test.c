@@ -116,24 +116,6 @@ TEST(a_cone_lies_on_its_surface_with_the_normals_of_it)
     }
 }
 
-TEST(a_cone_is_closed_and_has_the_area_and_volume_of_its_pyramid)
-{
-    for (int n = 0; n < TESSELLATION_COUNT; n++) {
-        const Tessellation t = TESSELLATIONS[n];
-        const double r = 1.5, h = 4, apothem = r * cos(PI / t.around);
-        CLOSED(mesh_close) Mesh mesh;
-        assert_true(mesh_cone(&mesh, r, h, t.around, t.along, NULL));
-        assert_int_equal(mesh.index_count, 3 * t.around * (2 * t.along - 1 + 1));
-        assert_sound(&mesh, 0);
-        /* Half a step in every coordinate: relative errors of a few FLT_EPSILON. */
-        assert_near(topology_volume(&mesh), polygon(t.around) * r * r * h / 3, 4 * FLT_EPSILON);
-        assert_near(topology_area(&mesh),
-                    polygon(t.around) * r * r +
-                        t.around * r * sin(PI / t.around) * hypot(h, apothem),
-                    4 * FLT_EPSILON);
-    }
-}
-
 TEST(a_cylinder_lies_on_its_surface_with_the_normals_of_it)
 {
     for (int n = 0; n < TESSELLATION_COUNT; n++) {
@@ -200,6 +182,8 @@ TEST(a_torus_lies_on_its_surface_with_the_normals_of_it)
             assert_int_equal(mesh.vertex_count, (rings + 1) * (sides + 1));
             assert_int_equal(mesh.index_count, 6 * rings * sides);
             assert_seam(mesh.vertices, (size_t)sides + 1, (size_t)rings);
+            if (thickness[s % 3] == 0.3)
+                assert_sound(&mesh, 0);
             assert_memory_equal(mesh.vertices, mesh.vertices + (rings + 1) * sides,
                                 ((size_t)rings + 1) * sizeof *mesh.vertices);
             for (size_t i = 0; i < mesh.vertex_count; i++) {
@@ -217,34 +201,6 @@ TEST(a_torus_lies_on_its_surface_with_the_normals_of_it)
             }
         }
     }
-}
-
-TEST(a_torus_is_closed_and_its_area_and_volume_converge)
-{
-    const double tube = 0.5, ring = 2;
-    double area_before = 0, volume_before = 0;
-    for (int n = 1; n < TESSELLATION_COUNT; n++) {
-        const int sides = TESSELLATIONS[n].along < 3 ? 3 : TESSELLATIONS[n].along;
-        CLOSED(mesh_close) Mesh mesh;
-        assert_true(mesh_torus(&mesh, tube, ring, sides, TESSELLATIONS[n].around, NULL));
-        assert_sound(&mesh, 0);
-    }
-    for (int divisions = 16; divisions <= 256; divisions *= 2) {
-        Mesh mesh;
-        assert_true(mesh_torus(&mesh, tube, ring, divisions, divisions, NULL));
-        const double area_error = 4 * PI * PI * tube * ring - topology_area(&mesh);
-        const double volume_error = 2 * PI * PI * tube * tube * ring - topology_volume(&mesh);
-        mesh_close(&mesh);
-        /* Twice the divisions leave a quarter of the error, apart from a term of fourth order:
-         * about the square of a division's angle, (2 pi / 16)^2 = 0.15 at the coarsest. */
-        if (divisions > 16) {
-            assert_true(fabs(area_before / area_error - 4) < 0.15);
-            assert_true(fabs(volume_before / volume_error - 4) < 0.15);
-        }
-        area_before = area_error;
-        volume_before = volume_error;
-    }
-    assert_true(area_before > 0 && area_before < 0.01 && volume_before > 0);
 }
 
 TEST(a_disc_is_a_polygon_that_faces_up)
@@ -507,42 +463,6 @@ TEST(a_teapot_passes_through_known_points)
     }
 }
 
-TEST(a_teapot_is_its_own_mirror_image)
-{
-    const int divisions = 9;
-    CLOSED(mesh_close) Mesh mesh = teapot(1, divisions);
-    for (int part = 0; part < PART_COUNT; part++) {
-        const int columns = PARTS[part].around * divisions;
-        for (int row = 0; row <= PARTS[part].down * divisions; row++) {
-            for (int column = 0; column <= columns; column++) {
-                const MeshVertex *a = part_vertex(&mesh, divisions, part, row, column);
-                const MeshVertex *b = part_vertex(&mesh, divisions, part, row, columns - column);
-                assert_true(a->position[0] == b->position[0]);
-                assert_true(a->position[1] == b->position[1]);
-                assert_true(a->position[2] == -b->position[2]);
-                /* Normals are computed from differences: only the last bit may differ. */
-                const Vec3 mirrored = {b->normal[0], b->normal[1], -b->normal[2]};
-                assert_true(topology_distance(topology_vector(a->normal), mirrored) <= FLT_EPSILON);
-            }
-        }
-    }
-}
-
-TEST(a_coarse_teapot_has_the_vertices_of_a_fine_one)
-{
-    CLOSED(mesh_close) Mesh fine = teapot(1, 64);
-    for (int coarse_divisions = 2; coarse_divisions <= 32; coarse_divisions *= 4) {
-        const int step = 64 / coarse_divisions;
-        CLOSED(mesh_close) Mesh coarse = teapot(1, coarse_divisions);
-        for (int part = 0; part < PART_COUNT; part++)
-            for (int row = 0; row <= PARTS[part].down * coarse_divisions; row++)
-                for (int column = 0; column <= PARTS[part].around * coarse_divisions; column++)
-                    assert_memory_equal(part_vertex(&coarse, coarse_divisions, part, row, column),
-                                        part_vertex(&fine, 64, part, step * row, step * column),
-                                        sizeof(MeshVertex));
-    }
-}
-
 /* The sine of the angle between the normal and the surface, estimated from the neighbours on both
  * sides in one direction. */
 static double tilt(const MeshVertex *before, const MeshVertex *vertex, const MeshVertex *after)
@@ -651,20 +571,9 @@ TEST(a_flat_mesh_has_its_triangles_and_their_normals)
     }
 }
 
-TEST(a_flat_cube_is_the_cube_and_a_flat_sphere_has_no_triangle_without_area)
+TEST(a_flat_sphere_has_no_triangle_without_area)
 {
-    Mesh cube, flat, sphere;
-    assert_true(mesh_cube(&cube, 2, NULL) && mesh_cube(&flat, 2, NULL));
-    assert_true(mesh_flatten(&flat, NULL));
-    for (size_t i = 0; i < cube.index_count; i++) {
-        const MeshVertex *vertex = &cube.vertices[cube.indices[i]];
-        assert_true(
-            topology_distance(topology_corner(&flat, i), topology_vector(vertex->position)) == 0);
-        assert_true(topology_distance(topology_vector(flat.vertices[i].normal),
-                                      topology_vector(vertex->normal)) == 0);
-    }
-    mesh_close(&cube);
-    mesh_close(&flat);
+    Mesh sphere;
     /* The lecture's sphere has 2 * 13 at the poles. At the south pole sin(pi) is not quite 0, so in
      * floats these triangles are slivers; at the north pole the area is exactly 0. */
     assert_true(mesh_sphere_lecture(&sphere, 13, NULL));
@@ -704,19 +613,6 @@ static double worst_normal(const Mesh *welded, const Mesh *truth)
             worst, topology_distance(topology_vector(welded->vertices[welded->indices[i]].normal),
                                      topology_vector(truth->vertices[welded->indices[i]].normal)));
     return worst;
-}
-
-TEST(separate_faces_get_face_normals)
-{
-    for (int w = 0; w < 3; w++) {
-        CLOSED(mesh_close) Mesh truth, mesh;
-        assert_true(mesh_cube(&truth, 3, NULL) && mesh_cube(&mesh, 3, NULL));
-        for (size_t i = 0; i < mesh.vertex_count; i++)
-            mesh.vertices[i].normal[0] = NAN;
-        assert_true(mesh_compute_normals(&mesh, WEIGHTS[w], NULL));
-        assert_memory_equal(mesh.vertices, truth.vertices,
-                            mesh.vertex_count * sizeof *mesh.vertices);
-    }
 }
 
 TEST(angle_weights_do_not_depend_on_how_faces_are_triangulated)
@@ -794,47 +690,6 @@ TEST(max_weights_are_exact_on_any_triangulated_sphere)
                       worst[0], worst[1], worst[2]);
         assert_true(worst[MESH_WEIGHT_MAX] <= rounding_of_max(divisions));
         assert_true(worst[MESH_WEIGHT_ANGLE] > 0.01 && worst[MESH_WEIGHT_AREA] > 0.01);
-    }
-}
-
-/* The worst computed normal of a regular sphere or torus. */
-static double worst_of_shape(bool torus, MeshWeight weight, int divisions)
-{
-    Mesh mesh, truth;
-    Mesh *const both[2] = {&mesh, &truth};
-    for (int i = 0; i < 2; i++)
-        assert_true(torus ? mesh_torus(both[i], 0.5, 1, divisions, 2 * divisions, NULL)
-                          : mesh_sphere(both[i], 1, divisions, divisions, NULL));
-    weld(&mesh);
-    assert_true(mesh_compute_normals(&mesh, weight, NULL));
-    const double worst = worst_normal(&mesh, &truth);
-    mesh_close(&mesh);
-    mesh_close(&truth);
-    return worst;
-}
-
-TEST(normals_of_a_sphere_and_a_torus_converge_to_the_exact_ones)
-{
-    /* On a regular grid the first order cancels, except around the poles of the sphere: triangles
-     * there have very different areas however small they are. */
-    static const double falls[2][2] = {{4, 4}, {2, 4}}; /* angle, area; sphere, torus */
-    for (int torus = 0; torus < 2; torus++) {
-        for (int w = 0; w < 3; w++) {
-            double before = 0;
-            for (int divisions = 16; divisions <= 128; divisions *= 2) {
-                const double worst = worst_of_shape(torus, WEIGHTS[w], divisions);
-                if (WEIGHTS[w] == MESH_WEIGHT_MAX)
-                    assert_true(worst <= rounding_of_max(divisions));
-                else if (divisions > 16) /* next order: 0.02 at the coarsest */
-                    assert_true(before / worst > 0.96 * falls[w][torus]);
-                before = worst;
-            }
-            print_message("%s, %s: off by %.3g at 128 divisions\n", torus ? "torus" : "sphere",
-                          w == 0   ? "angle"
-                          : w == 1 ? "area"
-                                   : "Max",
-                          before);
-        }
     }
 }
 
