@@ -1,7 +1,7 @@
 /*
  * --error keeps its word: random scenes of all programs, drawn with random errors allowed, against
- * two judges that share nothing with the choice: the exact picture of the public interface, and for
- * a sample of the pixels support/oracle.
+ * two judges: the exact picture, which the choice has asked for and the cache keeps, and for a
+ * sample of the pixels support/oracle, which shares nothing with either.
  *
  * cheapest_quality_test --markdown: what the same scenes save, as a table.
  * cheapest_quality_test NAME --error E ...: judges this command of a program alone.
@@ -22,79 +22,6 @@
 /* What the judges may differ by from the chooser's comparison: colors are kept there in 16 bits
  * (0.002), and the reserve is 0.015. */
 static const double SLACK = 0.02;
-
-/* The exact picture is a function of the scene and the options, and what takes longest: where the
- * choice has asked for one, the judge of the same scene gets its copy. The linker puts
- * asked_before_or_open in the place of reference_open. */
-
-typedef struct Known {
-    CacheKey key; /* of everything that was asked for */
-    Reference picture;
-} Known;
-
-static Known known[64];
-static int known_count;
-
-static CacheKey key_of(const Scene *scene, const ReferenceOptions *options)
-{
-    CacheKey key = {{0, 0}};
-    cache_key_add(&key, options, sizeof *options);
-    exact_key_scene(&key, scene, true);
-    return key;
-}
-
-static void *copy_of(const void *values, size_t size)
-{
-    void *copy = values ? malloc(size) : NULL;
-    if (copy)
-        memcpy(copy, values, size);
-    return copy;
-}
-
-static void remember(const CacheKey *key, const Reference *picture)
-{
-    const size_t count = (size_t)picture->width * (size_t)picture->height;
-    if (known_count == sizeof known / sizeof known[0])
-        return;
-    known[known_count++] =
-        (Known){*key,
-                {.width = picture->width,
-                 .height = picture->height,
-                 .color = copy_of(picture->color, 3 * count * sizeof *picture->color),
-                 .depth = copy_of(picture->depth, count * sizeof *picture->depth),
-                 .object = copy_of(picture->object, count * sizeof *picture->object),
-                 .coverage = copy_of(picture->coverage, count * sizeof *picture->coverage),
-                 .interior = copy_of(picture->interior, count * sizeof *picture->interior),
-                 .lights = copy_of(picture->lights, count * sizeof *picture->lights)}};
-}
-
-static void forget(void)
-{
-    while (known_count > 0)
-        reference_close(&known[--known_count].picture);
-}
-
-bool really_open(Reference *reference, const Scene *scene, const ReferenceOptions *options,
-                 Message *message) __asm__("__real_reference_open");
-bool asked_before_or_open(Reference *reference, const Scene *scene, const ReferenceOptions *options,
-                          Message *message) __asm__("__wrap_reference_open");
-
-bool asked_before_or_open(Reference *reference, const Scene *scene, const ReferenceOptions *options,
-                          Message *message)
-{
-    const CacheKey key = key_of(scene, options);
-    for (int i = 0; i < known_count; i++) {
-        if (memcmp(&known[i].key, &key, sizeof key) != 0)
-            continue;
-        *reference = known[i].picture;
-        known[i] = known[--known_count];
-        return true;
-    }
-    if (!really_open(reference, scene, options, message))
-        return false;
-    remember(&key, reference);
-    return true;
-}
 
 /* Random scenes. */
 
@@ -376,14 +303,15 @@ static void read_pixel(const Image *image, size_t pixel, double channels[4])
 typedef struct Judged {
     const ErrorPicture *picture;
     const ErrorView *view;
-    Reference exact, meshes; /* the second as drawn, where there are shadows */
+    Exact exact;
+    Reference meshes; /* as drawn, where there are shadows */
 } Judged;
 
 /* Whether a light that reaches the pixel in one of the pictures is kept from a part of it in the
  * other. */
 static bool is_lit_otherwise(const Judged *judged, int pixel)
 {
-    if (!judged->exact.lights || judged->exact.object[pixel] != judged->meshes.object[pixel])
+    if (!judged->exact.lights || judged->exact.seen[pixel] != judged->meshes.object[pixel])
         return false;
     for (int light = 0; light < 16; light++) {
         const uint32_t exact = judged->exact.lights[pixel] >> 2 * light & 3;
@@ -404,8 +332,8 @@ static double look(const Judged *judged, int x, int y, double drawn[4], double c
     read_pixel(image, (size_t)(place[1] + y) * (size_t)image->width + (size_t)(place[0] + x),
                drawn);
     for (int k = 0; k < 3; k++)
-        color[k] = 255 * (double)judged->exact.color[3 * i + k];
-    if (!judged->exact.interior[i] || !is_covered(&judged->view->scene.scene, drawn[3]))
+        color[k] = 255.0 / 65535 * judged->exact.colors[3 * i + k];
+    if (judged->exact.owner[i] < 0 || !is_covered(&judged->view->scene.scene, drawn[3]))
         return OUTLINE;
     return is_lit_otherwise(judged, i) ? OTHER_LIGHTS : apart(drawn, color);
 }
@@ -414,10 +342,9 @@ static double look(const Judged *judged, int x, int y, double drawn[4], double c
 static void judge_uncounted(const Judged *judged, int x, int y, Verdict *verdict)
 {
     const int i = y * judged->view->place[2] + x;
-    const Reference *exact = &judged->exact;
     double drawn[4], color[3];
     const bool inside = look(judged, x, y, drawn, color) == OTHER_LIGHTS;
-    if (!inside && exact->object[i] < 0 && exact->coverage[i] >= 1.0F && drawn[3] == 0)
+    if (!inside && judged->exact.owner[i] == -2 && drawn[3] == 0)
         return;
     Uncounted *where = &verdict->uncounted[inside ? LEFT_OUT_SHADOWS : LEFT_OUT_OUTLINES];
     const double off = apart(drawn, color);
@@ -446,21 +373,20 @@ static void judge_view(const ErrorPicture *picture, const ErrorView *view, int s
                        Verdict *verdict)
 {
     const int *place = view->place;
-    const ReferenceOptions options = {.width = place[2], .height = place[3]};
     const long long before = verdict->pixels;
     Judged judged = {.picture = picture, .view = view};
     double largest = -1;
     int worst[2] = {0, 0}, inside = 0;
-    SUCCEEDS(reference_open(&judged.exact, &view->scene.scene, &options, message));
+    Progress progress = {.shown = false};
+    SUCCEEDS(exact_open(&judged.exact, &view->scene.scene, &place[2], &progress, message));
     if (judged.exact.lights) {
-        ReferenceOptions meshes = options;
+        const ReferenceOptions meshes = {.width = place[2], .height = place[3], .meshes = true};
         Scene scene = view->drawn.objects ? view->drawn.scene : view->scene.scene;
         scene.interpolation = INTERPOLATION_PHONG;
-        meshes.meshes = true;
         SUCCEEDS(reference_open(&judged.meshes, &scene, &meshes, message));
     }
     for (int i = 0; i < place[2] * place[3]; i++)
-        inside += judged.exact.interior[i];
+        inside += judged.exact.owner[i] >= 0;
     for (int y = 0; y < place[3]; y++) {
         for (int x = 0; x < place[2]; x++) {
             double drawn[4], color[3];
@@ -484,7 +410,7 @@ static void judge_view(const ErrorPicture *picture, const ErrorView *view, int s
         verdict->worst[0] = place[0] + worst[0];
         verdict->worst[1] = place[1] + worst[1];
     }
-    reference_close(&judged.exact);
+    exact_close(&judged.exact);
     reference_close(&judged.meshes);
 }
 
@@ -582,7 +508,6 @@ static Verdict run(const Command *command, bool timed)
         verdict.over_plain = measure(&renderer, &request);
     renderer_close(&renderer);
     canvas_close(&canvas);
-    forget();
     for (int i = 0; own && own[i].name; i++)
         parameter_restore(&own[i], before[i]);
     return verdict;
@@ -603,8 +528,8 @@ static bool check(const Command *command, Verdict *found)
     const double limit = fmax(verdict.allowed, verdict.reached) + SLACK;
     const bool kept = verdict.by_reference <= limit && verdict.by_oracle <= limit &&
                       !verdict.in_vain && verdict.tells_uncounted;
-    /* The two evaluators agree to a thousandth of a step before encoding. */
-    const bool agree = verdict.apart < 1e-3;
+    /* The two evaluators agree to the 16 bits of the cache. */
+    const bool agree = verdict.apart < 255.0 / 65535;
     if (!kept || !agree || getenv("LIGHTING_TEST_VERBOSE")) {
         printf("%s", kept && agree ? "" : "FAILED: ");
         print_command(command, stdout);
