@@ -31,8 +31,8 @@ packages_to_study="gnuplot-nox"
 # check: archives, JSON, the sandbox of a submission.
 packages_to_check="libarchive-dev libjansson-dev libseccomp-dev zlib1g-dev bubblewrap"
 # The pages for a browser, and to test them.
-packages_to_web="emscripten node-acorn python3 fonttools pandoc meson ninja-build libstb-dev fonts-dejavu-core"
-packages_to_browse="chromium firefox-esr"
+packages_to_web="emscripten node-acorn node-qrcode-generator python3 fonttools pandoc meson ninja-build libstb-dev fonts-dejavu-core"
+packages_to_browse="chromium firefox-esr zbar-tools"
 # The book as a PDF:
 packages_to_print="chromium poppler-utils"
 packages_to_test="libcmocka-dev libosmesa6-dev glslang-tools python3 libwebpdemux2 locales xvfb xauth xdotool \
@@ -40,7 +40,7 @@ poppler-utils"
 # tests/run --long: what the pages show of several processes and machines.
 packages_to_cluster="make munge parallel slurm-client slurmctld slurmd"
 # What a release may not have; without it some tests are skipped. OSMesa left Mesa with 25.1.
-packages_optional="libosmesa6-dev $packages_to_cluster"
+packages_optional="libosmesa6-dev node-qrcode-generator zbar-tools $packages_to_cluster"
 
 say() {
     printf '%s: %s\n' "${self#"$root"/}" "$*" >&2

@@ -96,9 +96,11 @@ const Book = (() => {
             schedule();
         }
 
-        /* The mouse turns the camera, arrows too; a swipe scrolls the page. A click tells the colour there. */
+        /* The mouse turns the camera, arrows too; a swipe scrolls the page. A click explains the pixel. */
         listen() {
             let from = null;
+            point(this.where, this, () => ({texts: new Map(), lines: [...this.lines(), "--time=" + this.seconds,
+                                                                      "--orbit=" + this.orbit.join(",")]}));
             const turn = (dx, dy) => {
                 const [a, e, ...rest] = this.orbit;
                 this.orbit = [(a + dx) % 360, Math.min(90, Math.max(-90, e + dy)), ...rest];
@@ -118,11 +120,7 @@ const Book = (() => {
                     from = {x: event.clientX, y: event.clientY, moved: true};
                 }
             });
-            this.canvas.addEventListener("pointerup", event => {
-                if (from && !from.moved)
-                    this.tell(event);
-                from = null;
-            });
+            this.canvas.addEventListener("pointerup", () => { from = null; });
             this.canvas.addEventListener("keydown", event => {
                 const by = {ArrowLeft: [-10, 0], ArrowRight: [10, 0], ArrowUp: [0, 10], ArrowDown: [0, -10]}[event.key];
                 if (!by || event.ctrlKey || event.altKey || event.metaKey)
@@ -131,15 +129,6 @@ const Book = (() => {
                 event.stopPropagation();
                 turn(...by);
             });
-        }
-
-        tell(event) {
-            const box = this.canvas.getBoundingClientRect();
-            const x = Math.floor((event.clientX - box.left) * this.canvas.width / box.width);
-            const y = Math.floor((event.clientY - box.top) * this.canvas.height / box.height);
-            const [r, g, b] = this.canvas.getContext("2d").getImageData(x, y, 1, 1).data;
-            this.where.querySelector(".read").textContent =
-                `Pixel ${x}, ${y}: red ${r}, green ${g}, blue ${b} of 255. How it came about: add --probe ${x},${y} to the command.`;
         }
 
         /* "" or why not. */
@@ -162,10 +151,13 @@ const Book = (() => {
                 this.told.textContent = message;
                 return;
             }
-            Controls.paint(this.canvas, book.engine.picture());
-            this.canvas.hidden = false;
+            this.picture = book.engine.picture();
+            Controls.paint(this.canvas, this.picture);
+            this.canvas.parentNode.hidden = false;
             this.image.hidden = true;
             this.show();
+            if (book.playing !== this)
+                this.point.renew();
         }
 
         show() {
@@ -230,6 +222,12 @@ const Book = (() => {
             mine.setAttribute("cy", place("y", y, 250, 10));
             mine.removeAttribute("visibility");
         }
+    }
+
+    /* What explains a pixel of `drawn`, {canvas, picture}, stands above the caption. */
+    function point(where, drawn, task) {
+        drawn.point = Point.open({canvas: drawn.canvas, line: where.querySelector(".read"), picture: () => drawn.picture, task, late: true,
+                                  put: section => where.querySelector("figcaption").before(section)});
     }
 
     /* Once a frame: what has changed and is in sight. */
@@ -337,5 +335,5 @@ const Book = (() => {
         document.getElementById("error").textContent = "The figures stand still, because this page cannot draw: " + error;
         document.body.dataset.ready = "still";
     });
-    return {book, schedule, read};
+    return {book, schedule, read, point};
 })();

@@ -142,7 +142,7 @@ def frame(figure, change):
     if not figure.live:
         return image
     below = plot() if "plot" in figure.controls.split(",") else ""
-    return (f'{image}\n<canvas hidden tabindex="0" role="img" aria-label="{caption}"></canvas>\n{below}<p class="read"></p>\n'
+    return (f'{image}\n<div class="stack" hidden><canvas tabindex="0" role="img" aria-label="{caption}"></canvas></div>\n{below}<p class="read"></p>\n'
             '<form class="controls" autocomplete="off"></form>\n<p class="told" role="status"></p>')
 
 
@@ -157,8 +157,9 @@ def ways(figure):
             texts += (f'<details data-file="{name}"><summary>The plain formula</summary><pre tabindex="0">{html.escape(text)}</pre>'
                       "</details>")
         words = " ".join(word for word in words if ".glsl=" not in word)
-        made += f'<p class="way" data-words="{words}"><canvas role="img" aria-label="{way}"></canvas>{way}<span></span></p>'
-    return (f'<div class="ways" hidden>{made}</div>{texts}<p class="told" role="status"></p><form class="controls" hidden><label>'
+        focus = "" if way == "exact" else ' tabindex="0"'
+        made += f'<p class="way" data-words="{words}"><span class="stack"><canvas{focus} role="img" aria-label="{way}"></canvas></span>{way}<span></span></p>'
+    return (f'<div class="ways" hidden>{made}</div><p class="read"></p>{texts}<p class="told" role="status"></p><form class="controls" hidden><label>'
             f'<code>--{option}</code> <output></output><input type="range" min="{low}" max="{high}" step="{step}" value="{start}">'
             "</label></form>")
 

@@ -9,13 +9,15 @@ class Formula {
         const {name, values} = Book.read(where.dataset.words);
         this.told = where.querySelector(".told");
         this.ways = [...where.querySelectorAll(".way")].map(way => ({
-            canvas: way.querySelector("canvas"), said: way.querySelector("span"), values: Book.read(way.dataset.words, name).values}));
+            canvas: way.querySelector("canvas"), said: way.lastChild, values: Book.read(way.dataset.words, name).values}));
         this.canvas = this.ways[1].canvas;
         this.slider = where.querySelector("input");
         this.value = number => value.replace("$", number);
         this.base = {name, values: new Map([...values, [option, this.value(this.slider.value)]])};
         this.number = text => text.slice(value.indexOf("$"), text.length - value.length + value.indexOf("$") + 1);
         this.slider.addEventListener("input", () => Book.schedule());
+        for (const way of [0, 1])
+            Book.point(where, this.ways[way], () => ({lines: this.lines(way), texts: way ? new Map() : this.plain}));
     }
 
     /* An answer's options: of these, the slider's. */
@@ -38,8 +40,9 @@ class Formula {
         const {engine} = Book.book;
         if (!engine.replace(texts) || engine.run(this.lines(way)) !== 0 || !engine.draw(0, this.orbit))
             throw new Error(engine.message);
-        const picture = engine.picture();
+        const picture = this.ways[way].picture = engine.picture();
         Controls.paint(this.ways[way].canvas, picture);
+        this.ways[way].point.renew();
         return picture;
     }
 
@@ -47,7 +50,7 @@ class Formula {
         const {book} = Book;
         this.drawn = this.key();
         try {
-            const stable = this.drawWay(1, new Map()), plain = this.drawWay(0, this.texts());
+            const stable = this.drawWay(1, new Map()), plain = this.drawWay(0, this.plain = this.texts());
             const apart = plain.data.reduce((most, x, i) => Math.max(most, Math.abs(x - stable.data[i])), 0);
             this.ways[0].said.textContent = apart ? `: ${apart} steps from stable` : ": as stable";
             this.show();

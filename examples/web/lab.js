@@ -45,6 +45,10 @@ const Lab = (() => {
         for (const id of ["drawn", "expected", "difference"])
             if (answer[id])
                 Controls.paint(part(id), answer[id]);
+        lab.picture = answer.drawn;
+        lab.shown = lab.texts;
+        if (exact)
+            lab.point?.renew();
         part("compared").textContent = !exact ? "" : answer.largest < 0 ? "" :
             "Largest difference inside objects: " + answer.largest.toFixed(2) + " steps of 1/255.";
         return "";
@@ -142,6 +146,9 @@ const Lab = (() => {
         if (part("check"))
             part("check").addEventListener("click", () => check());
         LabWorker.lost = () => draw(true);
+        lab.point = Point.open({canvas: part("drawn"), line: part("pixel-line"), picture: () => lab.picture, editor: () => lab.editor,
+                                task: () => ({lines: [lab.name], lab: true, texts: lab.shown, seconds: lab.seconds}),
+                                put: section => part("compared").before(section)});
         Controls.refuseFiles(name => {
             part("error").textContent = name + ": a page reads no files; paste its text into the editor";
         });

@@ -28,10 +28,13 @@ PROGRAM = ["lighting.js", "module.js", "worker.js", "png.js", "zip.js", "link.js
            "lent.js", "share.js", "undo.js", "wipe.js", "before.js", "assembled.js", "point.js", "program.js"]
 # What a page loads when a pixel is asked for.
 POINTED = ["probe.js", "precision.js", "pixel.js"]
-BOOK = ["lighting.js", "module.js", "worker.js", "controls.js", "book.js", "slides.js"]
+BOOK = ["lighting.js", "module.js", "worker.js", "controls.js", "point.js", "book.js", "slides.js"]
 LABS = ["progress.js", "labs.js"]
+BORROW = ["precision.js", "qrcode.js", "borrow.js"]
 LAB = ["labs_module.js", "module.js", "progress.js", "lab_worker.js", "png.js", "zip.js", "controls.js",
-       "editor.js", "wipe.js", "lab.js"]
+       "editor.js", "wipe.js", "point.js", "lab.js"]
+# The labs' module runs shaders itself.
+LAB_POINTED = ["precision.js", "pixel.js"]
 CHECK = """<div class="row"><button type="button" id="check">Check</button></div>
 <p><small>Draws your files in a dozen scenes and says what is wrong, as <code>check</code> does natively.</small></p>"""
 NO_CHECK = """<p>This lab is written in C, which the browser does not compile. Check it natively:
@@ -159,6 +162,8 @@ def alone(names):
     """In one file. The module that runs shaders does what the pages' own does, and takes its place."""
     if PROGRAM[-1] in names:
         names = [POINTED[0], *names[1:-1], *POINTED[1:], names[-1]]
+    if LAB[-1] in names:
+        names = [*names[:-1], *LAB_POINTED, names[-1]]
     texts = ["\n" + read(site / name).replace("</script", "<\\/script") for name in names]
     style = "\n" + read(site / "style.css") + read(site / "pixel.css")
     return {"head": HEAD % policy(" ".join(map(digest, texts)), digest(style)), "style": f"<style>{style}</style>",
@@ -240,12 +245,19 @@ def write_book():
         scripts = [f"{kind}.js" for kind in ("formula", "precision") if f"]({kind}:" in chapter.text] + BOOK
         write(site / f"{chapter.name}.html",
               fill("chapter.html", title=html.escape(book.plain(chapter.title)), links=beside(all_chapters, at),
-                   body=book.body(chapter, diff), **shared(scripts)))
+                   body=book.body(chapter, diff), pointed=" ".join(POINTED), **shared(scripts)))
     items = "".join(f'<li value="{chapter.number}"><a href="{chapter.name}.html">{html.escape(book.plain(chapter.title))}</a></li>\n'
                     for chapter in all_chapters)
     write(site / "book.html", fill("book.html", chapters=items, **shared([])))
     if "LIGHTING_NATIVE" in os.environ:
         book.draw(site, pathlib.Path(os.environ["LIGHTING_NATIVE"]))
+
+
+def qr_library():
+    """Kazuhiko Arase's, with its licence; where node has none the page has the link alone."""
+    folders = [*os.environ.get("NODE_PATH", "").split(":"), "/usr/share/nodejs", "/usr/lib/node_modules"]
+    found = [path for folder in folders if folder and (path := pathlib.Path(folder, "qrcode-generator/qrcode.js")).exists()]
+    return read(found[0]) if found else ""
 
 
 def main():
@@ -265,6 +277,8 @@ def main():
         write(site / "single" / f"{name}.html", page(folder, name, alone(scripts), True))
     write_labs()
     write_book()
+    write(site / "qrcode.js", qr_library())
+    write(site / "precision.html", fill("precision.html", **shared(BORROW)))
     files = sorted(str(path.relative_to(site)) for path in site.rglob("*") if path.is_file())
     write(site / ".lighting", "\n".join(files) + "\n")
 

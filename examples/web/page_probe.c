@@ -1,12 +1,10 @@
 #include "web/page_probe.h"
 
 #include "app/probing.h"
-#include "base/json_writer.h"
 #include "probe/show.h"
 #include "web/page_state.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 extern const ProbePlugin probe_plugin;
 
@@ -44,33 +42,15 @@ const char *page_probe(int column, int row)
     return page.text ? page.text : "";
 }
 
-static bool put_names(JsonWriter *json, int stage)
-{
-    char *names = NULL, *rest = NULL;
-    size_t size;
-    FILE *file = open_memstream(&names, &size);
-    const bool done =
-        file && show_names(&probing.capture, &probing.driver, stage, file, &page.message);
-    if (file)
-        fclose(file);
-    json_write_list(json, stage ? "fragment" : "vertex");
-    for (char *name = strtok_r(names, "\n", &rest); done && name;
-         name = strtok_r(NULL, "\n", &rest))
-        json_write_text(json, NULL, name);
-    json_write_end(json);
-    free(names);
-    return done;
-}
-
 const char *page_names(void)
 {
-    JsonWriter json = {.file = page_text_begin()};
-    if (!json.file)
+    FILE *file = page_text_begin();
+    if (!file)
         return "";
-    json_write_object(&json, NULL);
-    const bool done = captured && put_names(&json, 1) && put_names(&json, 0);
-    json_write_end(&json);
-    const char *text = page_text_end(json.file);
+    const bool done =
+        captured && show_names(&probing.capture, &probing.driver, 1, file, &page.message) &&
+        fputc('\n', file) && show_names(&probing.capture, &probing.driver, 0, file, &page.message);
+    const char *text = page_text_end(file);
     return done ? text : "";
 }
 
@@ -85,8 +65,9 @@ const char *page_show(const char *what)
     if (!image_open(&page.image, page.canvas.width, page.canvas.height, IMAGE_BYTE, &page.message))
         return "";
     FILE *legend = page_text_begin();
-    const bool done = legend && probe_plugin.show(&probing.capture, &probing.driver, what,
-                                                  &page.image, legend, &page.message) == SHOW_DONE;
+    const bool done =
+        legend && probe_plugin.show(&probing.capture, &probing.driver, what[0] ? what : NULL,
+                                    &page.image, legend, &page.message) == SHOW_DONE;
     const char *text = page_text_end(legend);
     return done ? text : "";
 }

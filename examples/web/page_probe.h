@@ -14,10 +14,12 @@ int page_capture(const char *device);
 /* The pixel as `--probe --format json` has it; "" on failure. */
 const char *page_probe(int column, int row);
 
-/* The names that --show can show: {"fragment": [...], "vertex": [...]}; "" on failure. */
+/* The names that --show can show, one a line: the fragment shader's, an empty line, the vertex
+ * shader's; "" on failure. */
 const char *page_names(void);
 
-/* page_pixels become what --show draws, and what its colours mean is returned; "" on failure. */
+/* page_pixels become what --show draws, or of "" --arithmetic, and what its colours mean is
+ * returned; "" on failure. */
 const char *page_show(const char *what);
 
 #endif

@@ -5,21 +5,30 @@ const Pixel = (() => {
     const {element} = Controls;
     const part = id => document.getElementById(id);
     const STILL = 150; /* ms without another picture */
-    let of = null, worker = null, compiled = null, device = "", timer = 0, count = 0;
+    let of = null; /* the picture with the pixel that is explained */
+    let worker = null, compiled = null, device = "", timer = 0, count = 0;
     let asked = null, next = null; /* pixels of the line */
     let open = null, said = null, shown = ""; /* the pixel that is explained, and how; the value that is shown */
+    let layers = null, section = null;
+    const DEVICES = ["llvmpipe", "llvmpipe-128", "softpipe", "half", "float"]; /* as --arithmetic names them */
+    const COMPUTED = "computed"; /* of the values: the picture itself */
+    const AS = new URLSearchParams(location.search).get("as"); /* the device of the page's address */
     const waiting = new Map();
+    const probe = () => typeof PROBE === "undefined" ? programModule() : PROBE; /* the labs' module runs shaders itself */
 
     function work() {
         let ready = null, drawn = "";
         async function draw({compiled, task, device}) {
             const engine = await (ready ||= Engine.open(compiled, new OffscreenCanvas(1, 1)));
-            const key = JSON.stringify([task.lines, [...task.texts]]);
+            const key = JSON.stringify([device, task.lines, task.seconds, [...task.texts]]);
             if (key === drawn)
                 return engine;
             drawn = "";
-            const capture = () => engine.module.ccall("page_capture", "number", ["string"], [device]) === 1;
-            if (!engine.replace(task.texts) || engine.run(task.lines) !== 0 || !capture())
+            const capture = () => engine.module.ccall("page_capture", "number", ["string", "number"], [device, task.seconds || 0]) === 1;
+            /* A lab is open before it has texts. */
+            const begun = task.lab ? engine.run(task.lines) === 0 && engine.replace(task.texts) :
+                engine.replace(task.texts) && engine.run(task.lines) === 0;
+            if (!begun || !capture())
                 throw engine.message;
             drawn = key;
             return engine;
@@ -29,7 +38,7 @@ const Pixel = (() => {
                 const engine = await draw(data), {id, what, values} = data;
                 const text = what === "probe" ? engine.module.ccall("page_probe", "string", ["number", "number"], values) :
                     engine.text(what, ...values);
-                if (!text)
+                if (!text && engine.message)
                     throw engine.message;
                 self.postMessage({id, text, picture: what === "show" ? engine.picture() : null});
             } catch (error) {
@@ -39,67 +48,68 @@ const Pixel = (() => {
     }
 
     /* {text, picture} or {message}. */
-    async function ask(what, values) {
-        compiled ||= compileLighting(PROBE);
-        const data = {id: ++count, compiled: await compiled, task: of.task(), device, what, values};
+    async function ask(what, values, from = of) {
+        const task = from.task();
+        compiled ||= compileLighting(probe());
+        device ||= AS || Precision.device();
+        const data = {id: ++count, compiled: await compiled, task, device, what, values};
         if (!worker) {
-            worker = startWorker(work, PROBE);
+            worker = startWorker(work, probe());
             worker.onmessage = ({data}) => { waiting.get(data.id)(data); waiting.delete(data.id); };
         }
         return new Promise(resolve => { waiting.set(data.id, resolve); worker.postMessage(data); });
     }
 
-    /* As --arithmetic names it: Mesa's by its name, others as they are measured. */
-    function findDevice() {
-        const canvas = element("canvas"), gl = canvas.getContext("webgl");
-        const info = gl?.getExtension("WEBGL_debug_renderer_info");
-        const renderer = String(gl?.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : gl.RENDERER));
-        const numbers = name => {
-            const [bits = 23, most = 127, least = 126] = Precision.measure(gl, name) || [];
-            return name + "=" + [bits + 1, 1 - most, most, ...least > most - 1 ? ["kept"] : []].join();
-        };
-        device = /llvmpipe/.test(renderer) ? (/256 bits/.test(renderer) ? "llvmpipe" : "llvmpipe-128") :
-            /softpipe/.test(renderer) || !gl ? "softpipe" : numbers("highp") + ";" + numbers("mediump");
-        gl?.getExtension("WEBGL_lose_context")?.loseContext();
-    }
-
     /* What the page has not until now: layers over the picture, a legend, and the part that explains. */
-    function begin(page) {
-        if (of)
-            return;
-        of = page;
-        findDevice();
+    function make() {
         document.head.append(...document.querySelector("style") ? [] : [element("link", {rel: "stylesheet", href: "pixel.css"})]);
-        part("picture").parentNode.append(element("canvas", {id: "shown", hidden: true, "aria-hidden": "true"}),
-                                          svg("svg", {id: "directions", "aria-hidden": "true"}));
+        layers = [element("canvas", {id: "shown", hidden: true, "aria-hidden": "true"}), svg("svg", {id: "directions", "aria-hidden": "true"}),
+                  element("p", {id: "legend", role: "status"})];
         const close_ = element("button", {type: "button"}, "Close"), values = element("select", {id: "pixel-values"});
-        part("pixel-line").after(element("p", {id: "legend", role: "status"}));
-        const section = {id: "pixel", "aria-labelledby": "pixel-title", hidden: true};
-        document.querySelector("main > :last-child").prepend(element("section", section,
+        const as = element("input", {id: "pixel-as", list: "devices", title: "A device, or what the page of a device's arithmetic says of it"});
+        section = element("section", {id: "pixel", "aria-labelledby": "pixel-title", hidden: true},
             element("div", {class: "row"}, element("h2", {id: "pixel-title", tabindex: -1}), close_),
-            element("div", {class: "row"}, element("label", {}, "Over the whole picture ", values)),
-            element("div", {id: "pixel-said"})));
+            element("div", {class: "row"}, element("label", {}, "Over the whole picture ", values),
+                    element("label", {}, "As computed by ", as), element("datalist", {id: "devices"},
+                            ...DEVICES.map(value => element("option", {value})))),
+            element("div", {id: "pixel-said"}));
         close_.addEventListener("click", close);
         values.addEventListener("change", () => show(values.value));
+        as.addEventListener("change", () => { device = as.value.trim() || Precision.device(); renew(of); });
+    }
+
+    /* This picture's, from now on. */
+    function begin(page) {
+        if (of === page)
+            return;
+        section || make();
+        if (of)
+            close(false);
+        of = page;
+        const [shown, directions, legend] = layers;
+        of.canvas.parentNode.append(shown, directions);
+        of.line.after(legend);
+        of.put(section);
+        part("pixel-values").replaceChildren();
     }
 
     const number = x => x === null ? "no number" : String(+x.toPrecision(7));
     const numbers = list => list.map(number).join(", ");
     const steps = list => list.slice(0, 3).map(x => (255 * Math.min(1, Math.max(0, x))).toFixed(1)).join(", ");
 
-    /* The line under the picture. One question at a time: what was pointed at meanwhile is asked last. */
-    async function tell(at) {
-        next = at;
+    /* The line under a picture. One question at a time: what was pointed at meanwhile is asked last. */
+    async function tell(page, at) {
+        next = {page, at};
         if (asked)
             return;
         asked = next;
-        const answer = await ask("probe", asked);
-        if (String(asked) === String(next))
-            of.say(answer.text ? line(JSON.parse(answer.text)) : answer.message);
-        const again = String(asked) !== String(next);
+        const answer = await ask("probe", at, page);
+        if (asked === next)
+            page.say(answer.text ? line(JSON.parse(answer.text)) : answer.message);
+        const again = asked !== next;
         asked = null;
         if (again)
-            tell(next);
+            tell(next.page, next.at);
     }
 
     function line(said) {
@@ -119,11 +129,12 @@ const Pixel = (() => {
     /* The editor's line of "line 15" or "group.glsl:124". */
     function goTo(place, line) {
         const file = place.startsWith("line ") ? ".frag" : place.replace(/:\d+$/, "");
-        const name = of.editor().names.find(name => file === ".frag" ? name.endsWith(file) : ("/" + name).endsWith("/" + file));
+        const editor = of.editor?.();
+        const name = editor?.names.find(name => file === ".frag" ? name.endsWith(file) : ("/" + name).endsWith("/" + file));
         if (!name || place.startsWith("file "))
             return place;
         const button = element("button", {type: "button", class: "place"}, place);
-        button.addEventListener("click", () => of.editor().go({name, line}));
+        button.addEventListener("click", () => editor.go({name, line}));
         return button;
     }
 
@@ -187,7 +198,7 @@ const Pixel = (() => {
 
     /* A cross at a pixel, and the directions from there. */
     function mark(at, directions = []) {
-        const {width, height, clientWidth} = part("picture"), map = part("directions");
+        const {width, height, clientWidth} = of.canvas, map = part("directions");
         map.setAttribute("viewBox", "0 0 " + width + " " + height);
         map.replaceChildren();
         if (!at)
@@ -204,9 +215,10 @@ const Pixel = (() => {
 
     async function explain(at, focus) {
         const pressed = performance.now(), answer = await ask("probe", at);
-        part("pixel").hidden = false;
+        section.hidden = false;
+        part("pixel-as").value = device;
         if (matchMedia("(max-width: 56rem)").matches)
-            part("legend").after(part("pixel"));
+            part("legend").after(section);
         open = at;
         part("pixel-title").textContent = "Pixel " + at.join(",");
         if (answer.text) {
@@ -222,8 +234,13 @@ const Pixel = (() => {
         if (focus)
             part("pixel-title").focus();
         part("pixel").scrollIntoView({block: "nearest"});
-        if (!part("pixel-values").options.length)
-            await list();
+        if (part("pixel-values").options.length)
+            return;
+        await list();
+        if (AS) {
+            part("pixel-values").value = COMPUTED;
+            await show(COMPUTED);
+        }
     }
 
     /* The values of both shaders. */
@@ -231,13 +248,14 @@ const Pixel = (() => {
         const answer = await ask("names", []);
         if (!answer.text)
             return;
-        const names = JSON.parse(answer.text), option = value => element("option", {value}, value);
+        const [fragment, vertex] = answer.text.split("\n\n").map(names => names.split("\n").filter(name => name));
+        const option = value => element("option", {value}, value);
         const group = (label, values) => element("optgroup", {label}, ...values.map(option));
         const chosen = part("pixel-values").value;
-        const vertex = names.vertex.filter(name => !names.fragment.includes(name));
-        part("pixel-values").replaceChildren(element("option", {value: ""}, "the picture"), group("Errors", ["error", "blame"]),
-            group("Fragment shader", names.fragment), group("Vertex shader", vertex),
-            group("Error caused by", names.fragment.map(name => "error:" + name)));
+        part("pixel-values").replaceChildren(element("option", {value: ""}, "the picture"),
+            element("option", {value: COMPUTED}, "the picture as it is computed"), group("Errors", ["error", "blame"]),
+            group("Fragment shader", fragment), group("Vertex shader", vertex.filter(name => !fragment.includes(name))),
+            group("Error caused by", fragment.map(name => "error:" + name)));
         part("pixel-values").value = chosen;
         part("pixel-values").value ||= "";
     }
@@ -250,30 +268,31 @@ const Pixel = (() => {
             return;
         }
         part("legend").textContent = what + ": is computed for all pixels.";
-        const answer = await ask("show", [what]);
+        const answer = await ask("show", [what === COMPUTED ? "" : what]);
         if (shown !== what)
             return;
         part("shown").hidden = !answer.picture;
-        part("legend").textContent = answer.text || answer.message;
+        part("legend").textContent = answer.text || answer.message || "The picture as " + device + " computes it.";
         if (answer.picture)
             Controls.paint(part("shown"), answer.picture);
     }
 
-    function close() {
-        part("pixel").hidden = true;
+    function close(leaves = true) {
+        section.hidden = true;
         open = null;
         part("pixel-values").value = "";
         show("");
         mark(null);
-        part("picture").focus();
+        if (leaves)
+            of.canvas.focus();
     }
 
     /* What is open is that of the new picture, once that stays. */
-    function renew() {
-        clearTimeout(timer);
-        const {width, height} = part("picture");
-        if (!open)
+    function renew(page) {
+        if (page !== of || !open)
             return;
+        clearTimeout(timer);
+        const {width, height} = of.canvas;
         mark(null);
         if (open[0] >= width || open[1] >= height)
             return close();

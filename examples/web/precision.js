@@ -50,6 +50,33 @@ const Precision = (() => {
         return pixel;
     }
 
+    const rendererOf = gl => {
+        const info = gl.getExtension("WEBGL_debug_renderer_info");
+        return String(gl.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : gl.RENDERER));
+    };
+
+    function withContext(use) {
+        const canvas = document.createElement("canvas");
+        canvas.width = canvas.height = 1;
+        const gl = canvas.getContext("webgl"), answer = gl && use(gl, rendererOf(gl));
+        gl?.getExtension("WEBGL_lose_context")?.loseContext();
+        return answer;
+    }
+
+    /* As --arithmetic reads it: "highp=24,-126,127;mediump=11,-14,15,kept". Some have no highp. */
+    const numbers = gl => ["highp", "mediump"].map(name => {
+        const [bits, most, least] = measure(gl, name) || measure(gl, "mediump");
+        return name + "=" + [bits + 1, 1 - most, most, ...least > most - 1 ? ["kept"] : []].join();
+    }).join(";");
+
+    /* Of Mesa's llvmpipe the functions are known, too. null: no WebGL. */
+    const measured = () => withContext((gl, renderer) => (/llvmpipe/.test(renderer) ? "llvmpipe;" : "") + numbers(gl));
+
+    /* As --arithmetic names it: Mesa's by its name, others as they are measured. */
+    const device = () => withContext((gl, renderer) =>
+        /llvmpipe/.test(renderer) ? (/256 bits/.test(renderer) ? "llvmpipe" : "llvmpipe-128") :
+            /softpipe/.test(renderer) ? "softpipe" : numbers(gl)) || "softpipe";
+
     function row(tag, cells) {
         const made = document.createElement("tr");
         for (const text of cells) {
@@ -60,12 +87,7 @@ const Precision = (() => {
         return made;
     }
 
-    function fill(table) {
-        const canvas = document.createElement("canvas");
-        canvas.width = canvas.height = 1;
-        const gl = canvas.getContext("webgl");
-        if (!gl)
-            return;
+    const fill = table => withContext((gl, renderer) => {
         table.append(row("th", ["precision", "bits of the significand, said", "found", "smallest power of 2, found", "largest power of 2, found"]));
         for (const name of ["highp", "mediump", "lowp"]) {
             const said = gl.getShaderPrecisionFormat(gl.FRAGMENT_SHADER, gl[{highp: "HIGH", mediump: "MEDIUM", lowp: "LOW"}[name] + "_FLOAT"]);
@@ -73,14 +95,12 @@ const Precision = (() => {
             table.append(row("td", found ? [name, said.precision + 1, found[0] + 1, "2^−" + found[2], "2^" + found[1]] :
                 [name, said.precision + 1, "no such shader here", "", ""]));
         }
-        const info = gl.getExtension("WEBGL_debug_renderer_info");
-        table.append(row("td", ["drawn by", String(gl.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : gl.RENDERER))]));
+        table.append(row("td", ["drawn by", renderer]));
         table.lastChild.lastChild.colSpan = 4;
-        gl.getExtension("WEBGL_lose_context").loseContext();
-    }
+    });
 
-    const table = document.querySelector("table.precision");
+    const table = document.querySelector("figure table.precision");
     if (table)
         fill(table);
-    return {measure};
+    return {device, measured, fill};
 })();

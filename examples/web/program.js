@@ -145,7 +145,7 @@ const Page = (() => {
         setLink(link);
         part("whole").hash = link;
         tellAssembled();
-        Point.renew();
+        page.point?.renew();
     }
 
     /* Once a frame, however many events there are. */
@@ -205,8 +205,6 @@ const Page = (() => {
     }
 
     function press(event) {
-        if (event.target === part("picture") && !embedded && Point.press(event))
-            return event.preventDefault();
         const step = event.shiftKey ? 1 : 10;
         const keys = {
             ArrowLeft: () => turn(-step, 0, 1), ArrowRight: () => turn(step, 0, 1),
@@ -405,8 +403,9 @@ const Page = (() => {
         canvas.addEventListener("keydown", press);
         listenToPointers(canvas);
         if (!embedded)
-            Point.open({picture: () => page.picture, task: () => ({lines: lines(current()), texts: page.texts}),
-                        editor: () => page.editor});
+            page.point = Point.open({canvas, line: part("pixel-line"), picture: () => page.picture, editor: () => page.editor,
+                                     task: () => ({lines: lines(current()), texts: page.texts}),
+                                     put: section => document.querySelector("main > :last-child").prepend(section)});
         click("play", () => play(!page.playing));
         click("back", () => setTime(rounded(page.seconds - 0.1)));
         click("forward", () => setTime(rounded(page.seconds + 0.1)));
@@ -496,6 +495,8 @@ const Page = (() => {
         await Lent.open(page.editor, {note, fail, draw: replace});
         page.undo.clear();
         document.body.dataset.ready = "yes";
+        if (/[?&]as=/.test(location.search))
+            page.point?.show();
     }
 
     open().catch(error => {

@@ -4,6 +4,7 @@ import json
 import os
 import pathlib
 import shlex
+import shutil
 import subprocess
 import tempfile
 
@@ -36,10 +37,10 @@ class Pixels(Case):
         words = shlex.split(self.text("#command"))
         return subprocess.run([os.path.join(EXAMPLES, words[1]), *words[2:], *more], check=True, capture_output=True)
 
-    def at(self, pixel):
+    def at(self, pixel, canvas="#picture"):
         """The pixel's middle in the window."""
         return self.page.run(f"""(() => {{
-            const canvas = document.getElementById("picture");
+            const canvas = document.querySelector({json.dumps(canvas)});
             canvas.scrollIntoView({{block: "center"}});
             const box = canvas.getBoundingClientRect();
             return [box.left + ({pixel[0]} + 0.5) / canvas.width * box.width,
@@ -51,8 +52,8 @@ class Pixels(Case):
         self.page.wait(CALCULATED)
         self.page.wait("document.getElementById('pixel-values').options.length > 3")
 
-    def point(self, pixel, finger=False):
-        x, y = self.at(pixel)
+    def point(self, pixel, finger=False, canvas="#picture"):
+        x, y = self.at(pixel, canvas)
         self.page.run("delete document.getElementById('pixel')?.dataset.milliseconds")
         if finger:
             self.page.call("Input.dispatchTouchEvent", type="touchStart", touchPoints=[{"x": x, "y": y}])
@@ -139,6 +140,122 @@ class Pixels(Case):
                     shown = self.page.run("bytes(document.getElementById('shown'))")
                     self.assertEqual(*(base64.b64decode(data) for data in (shown, self.page.run(NATIVE % base64.b64encode(done.stdout).decode()))))
                     self.assertEqual(self.text("#legend"), done.stderr.decode().strip())
+
+    def test_a_lab(self):
+        """A student's own text: the values are those of the lab's program, and the exact picture is the lab's."""
+        shaders = {name: pathlib.Path(SOURCE, "shaders/labs/solutions", name).read_text() for name in
+                   ("lab06_phong/lab06.vert", "lab06_phong/lab06.frag")}
+        mine = {pathlib.Path(name).name: text.replace("* nDotL;", "* nDotL * 0.5;") for name, text in shaders.items()}
+        for lab, texts, pixel in (("lab06_phong", mine, (190, 150)), ("lab11_shadow_map", {}, (150, 300)), ("lab10_budget", {}, (190, 150))):
+            with self.subTest(lab), tempfile.TemporaryDirectory() as folder:
+                self.open(lab)
+                for name, text in texts.items():
+                    pathlib.Path(folder, name).write_text(text)
+                self.page.run(f"Lab.lab.texts = new Map({json.dumps(list(texts.items()))}); Lab.draw(true)")
+                self.point(pixel, canvas="#drawn")
+                said = self.page.run("Pixel.said()")
+                options = ["--shaders", folder] if texts else []
+                done = subprocess.run([os.path.join(EXAMPLES, lab), *options, "-t", "1", "--probe", "%d,%d" % pixel, "--format", "json"],
+                                      check=True, capture_output=True)
+                natively = json.loads(done.stdout)
+                for part in ("column", "row", "drawn", "computed", "exact", "assignments", "vertices", "remarks"):
+                    self.assertEqual(said.get(part), natively.get(part), part)
+                self.assertRegex(said["object"], "^object ")
+                self.assertIn("L0", [row["name"] for row in said["directions"]])
+                self.assertIn("light 0", said["equation"])
+                if texts:
+                    self.assertGreater(said["verdict"]["formula"], 2)
+                    shown = self.page.run(BYTES + """
+                        const list = document.getElementById("pixel-values");
+                        list.value = "nDotL";
+                        list.dispatchEvent(new Event("change"));""")
+                    self.page.wait("/^nDotL: (?!is computed)/.test(document.getElementById('legend').textContent)")
+                    done = subprocess.run([os.path.join(EXAMPLES, lab), *options, "-t", "1", "--show", "nDotL", "-o", "-"], check=True,
+                                          capture_output=True)
+                    shown = self.page.run("bytes(document.getElementById('shown'))")
+                    self.assertEqual(*(base64.b64decode(data) for data in
+                                       (shown, self.page.run(NATIVE % base64.b64encode(done.stdout).decode()))))
+                self.assertEqual(self.page.complaints(), [])
+
+    def test_figures_of_the_book(self):
+        """Each as its command; the plain formula by its own text; one pixel is open at a time."""
+        self.page.resize(1000, 12000)
+        self.open("chapter20")
+        self.page.wait("Book.book.figures.every(({drawn}) => drawn)")
+        self.assertEqual([asked for asked in self.page.requests() if "probe" in asked], [])
+        formula = self.page.run("Book.book.figures.findIndex(({ways}) => ways)")
+        where = "#" + self.page.run(f"Book.book.figures[{formula}].where.id")
+        for way in (0, 1):
+            self.point((100, 60), canvas=f"{where} .way:nth-child({way + 1}) canvas")
+            name, *words = self.page.run(f"Book.book.figures[{formula}].lines({way})")
+            texts = self.page.run(f"[...({'new Map()' if way else f'Book.book.figures[{formula}].plain'})]")
+            with tempfile.TemporaryDirectory() as folder:
+                for file, text in texts:
+                    pathlib.Path(folder, file).parent.mkdir(exist_ok=True)
+                    pathlib.Path(folder, file).write_text(text, encoding="utf-8")
+                self.assert_figure(name, [*words, *(["--shaders", folder] if texts else [])], (100, 60))
+        self.assertEqual(self.page.run("document.querySelectorAll('#pixel').length"), 1)
+        self.open("chapter12")
+        self.page.wait("Book.book.figures.every(({drawn}) => drawn)")
+        live = self.page.run("Book.book.figures.findIndex(({name}) => name === 'PointLightedCube_animation')")
+        where = "#" + self.page.run(f"Book.book.figures[{live}].where.id")
+        self.point((200, 200), canvas=where + " canvas")
+        words = shlex.split(self.text(where + " .command"))
+        self.assert_figure(words[1], words[2:], (200, 200))
+        self.assertTrue(self.text(where + " .read").startswith("200,200: "))
+        # Another moment: the same place of the new picture.
+        self.page.run("delete document.getElementById('pixel').dataset.milliseconds")
+        self.page.run(f"Book.book.figures[{live}].seconds = 2; Book.schedule()")
+        self.explained()
+        self.assert_figure(words[1], ["--time", "2"], (200, 200))
+        self.assertEqual(self.page.complaints(), [])
+
+    def assert_figure(self, name, words, pixel):
+        done = subprocess.run([os.path.join(EXAMPLES, name), *words, "--probe", "%d,%d" % pixel, "--format", "json"], check=True,
+                              capture_output=True)
+        self.assertEqual(self.page.run("Pixel.said()"), json.loads(done.stdout))
+
+    def test_a_borrowed_device(self):
+        """What is measured is in a link and a code; a page and a program draw as that device would."""
+        self.open("precision")
+        measured = self.text("#whose").split(": ", 1)[1]
+        self.assertRegex(measured, r"^llvmpipe;highp=24,-126,127;mediump=11,-14,15,kept$")
+        self.assertTrue(self.text("#link").endswith("precision.html#" + measured))
+        half = "highp=24,-126,127;mediump=9,-14,15"
+        self.open("precision", half)
+        self.assertIn("whose link this is: " + half, self.text("#whose"))
+        if shutil.which("zbarimg"):
+            self.page.run("document.getElementById('code').scrollIntoView()")
+            with tempfile.NamedTemporaryFile(suffix=".png") as file:
+                file.write(base64.b64decode(self.page.call("Page.captureScreenshot", format="png")["data"]))
+                file.flush()
+                done = subprocess.run(["zbarimg", "-q", "--raw", file.name], capture_output=True, text=True)
+            self.assertEqual(done.stdout.strip(), half)
+        command = shlex.split(self.text("#command"))
+        self.assertEqual(command[-4:-2], ["--arithmetic", half])
+        link = self.page.run("document.getElementById('link').href")
+        self.page.run(BYTES)
+        drawn = []
+        for device in (link, half):
+            png = subprocess.run([os.path.join(EXAMPLES, "PhongBlinn"), "--precision", "mediump", "--arithmetic", device, "-o", "-"],
+                                 check=True, capture_output=True).stdout
+            drawn.append(self.page.run(NATIVE % base64.b64encode(png).decode()))
+        self.assertEqual(*drawn)
+        self.page.open(self.page.run("document.getElementById('as').href"))
+        self.explained()
+        self.page.wait("/ computes it\\.$/.test(document.getElementById('legend').textContent)")
+        self.page.run(BYTES)
+        self.assertEqual(self.page.run("bytes(document.getElementById('shown'))"), drawn[0])
+        # Another one, and what is none.
+        self.page.run("""(() => {
+            const as = document.getElementById("pixel-as");
+            as.value = "nonsense";
+            as.dispatchEvent(new Event("change"));
+        })()""")
+        self.page.wait("/nonsense/.test(document.getElementById('pixel-said').textContent)")
+        self.open("precision", "highp=<b>")
+        self.assertIn("holds no device's numbers", self.text("#error"))
+        self.assertEqual(self.page.complaints(), [])
 
     def test_keys_and_a_finger(self):
         self.open("Materials", "shape=sphere")

@@ -2,10 +2,13 @@
 #include "labs/web/lab_page.h"
 
 #include "core/shader_files.h"
+#include "kinds/exact_light.h"
 #include "labs/check/code.h"
 #include "labs/check/judge.h"
 #include "labs/program/lab_scene_open.h"
 #include "labs/submission/verdict_fields.h"
+#include "probe/probe.h"
+#include "probe/show.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -27,7 +30,18 @@ static struct {
     const Lab *exact_lab; /* of which it is, and when; NULL: there is none */
     double exact_seconds;
     char *text; /* returned */
+    /* Of the captured picture: its scene, and what follows rays through it. */
+    Capture capture;
+    GlslArithmetic driver;
+    bool captured;
+    LabScene lab_scene;
+    Scene right_scene;
+    Object right_objects[LAB_SCENE_MAX_OBJECTS];
+    Trace *trace;
 } page;
+
+static const ReferenceOptions EXACT = {
+    .width = SIZE, .height = SIZE, .meshes = true, .centers = true, .threads = 1};
 
 bool judge_worst(const LabPictures *pictures, int picture, const char *folder, Message *message)
 {
@@ -236,8 +250,8 @@ int page_expected(double seconds)
         return message_set(&page.message, "no lab is open");
     if (page.exact_lab == page.lab && page.exact_seconds == seconds)
         return show(&page.right);
-    const ReferenceOptions options = {
-        .width = SIZE, .height = SIZE, .meshes = !page.lab->budget, .centers = true, .threads = 1};
+    ReferenceOptions options = EXACT;
+    options.meshes = !page.lab->budget;
     reference_close(&page.exact);
     image_close(&page.right);
     page.exact_lab = NULL;
@@ -268,6 +282,109 @@ double page_difference(void)
         show(&difference);
     image_close(&difference);
     return done ? error.maximum : -1;
+}
+
+/* Pixels of the picture. */
+
+static void end_capture(void)
+{
+    capture_close(&page.capture);
+    trace_close(page.trace);
+    lab_scene_close(&page.lab_scene);
+    page.trace = NULL;
+    page.captured = false;
+}
+
+static bool draw_captured(double seconds)
+{
+    Shader shader = {0};
+    if (!lab_scene_open_usual(&page.lab_scene, page.lab, seconds, &page.message))
+        return false;
+    capture_begin(&page.capture, &page.canvas);
+    const bool done = open_shader(&shader) && draw_scene(&page.lab_scene, &shader);
+    capture_end(&page.capture);
+    shader_close(&shader);
+    return done;
+}
+
+int page_capture(const char *device, double seconds)
+{
+    /* Opens what drawing needs; and a picture that cannot be drawn says so before. */
+    if (!page_draw(seconds))
+        return 0;
+    end_capture();
+    if (!glsl_arithmetic_read(device, &page.driver))
+        return message_set(&page.message, "%s: no device's arithmetic", device);
+    page.captured = draw_captured(seconds);
+    return page.captured;
+}
+
+/* Of what the lab's scene should be; false: not known. */
+static bool tell_exact(const int pixel[2], ExactPixel *exact)
+{
+    ReferenceOptions options = EXACT;
+    options.meshes = !page.lab->budget;
+    page.right_scene = lab_pictures_truth_scene(page.lab, &page.lab_scene, 0, page.right_objects);
+    if (!page.trace && !trace_open(&page.trace, &page.right_scene, &options, NULL))
+        return false;
+    exact_light_tell(exact, page.trace, &page.right_scene, (int[]){0, 0, SIZE, SIZE},
+                     (double[]){pixel[0] + 0.5, pixel[1] + 0.5});
+    return true;
+}
+
+const char *page_probe(int column, int row)
+{
+    page.message = (Message){0};
+    if (!page.captured || column < 0 || row < 0 || column >= SIZE || row >= SIZE) {
+        message_set(&page.message, "%d,%d: no pixel of a picture", column, row);
+        return "";
+    }
+    ExactPixel exact = {.equation = NULL};
+    ProbeQuestion question = {.capture = &page.capture,
+                              .driver = &page.driver,
+                              .column = column,
+                              .row = row,
+                              .height = SIZE};
+    memcpy(question.drawn, (unsigned char *)page.drawn.pixels + 4 * (row * SIZE + column), 4);
+    question.exact = tell_exact((int[]){column, row}, &exact) ? &exact : NULL;
+    Probe probe;
+    free(page.text);
+    page.text = probe_open(&probe, &question, &page.message) ? probe_json(&probe) : NULL;
+    probe_close(&probe);
+    free(exact.equation);
+    return page.text ? page.text : "";
+}
+
+const char *page_names(void)
+{
+    FILE *file = text_begin();
+    if (!file)
+        return "";
+    const bool done =
+        page.captured && show_names(&page.capture, &page.driver, 1, file, &page.message) &&
+        fputc('\n', file) && show_names(&page.capture, &page.driver, 0, file, &page.message);
+    const char *text = text_end(file);
+    return done ? text : "";
+}
+
+const char *page_show(const char *what)
+{
+    Show show = {.pixels = NULL};
+    page.message = (Message){0};
+    if (!page.captured) {
+        message_set(&page.message, "no picture is drawn");
+        return "";
+    }
+    image_close(&page.shown);
+    FILE *legend = text_begin();
+    const bool done = legend && image_open(&page.shown, SIZE, SIZE, IMAGE_BYTE, &page.message) &&
+                      show_open(&show, &page.capture, &page.driver, what[0] ? what : NULL,
+                                (int[]){SIZE, SIZE}, &page.message);
+    if (done)
+        show_paint(&show, &page.shown, legend);
+    show_close(&show);
+    const char *text = text_end(legend);
+    return done ? text : "";
 }
 
 const unsigned char *page_pixels(void)
@@ -336,6 +453,7 @@ const char *page_check(double seed)
 
 void page_close(void)
 {
+    end_capture();
     canvas_close(&page.canvas);
     image_close(&page.drawn);
     image_close(&page.right);

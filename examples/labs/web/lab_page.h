@@ -35,6 +35,15 @@ double page_difference(void);
  * are then the worst scene (width 0: none is wrong). "" on failure. */
 const char *page_check(double seed);
 
+/* After page_open: draws the picture of that time, and keeps its draws, for the next three.
+ * `device`: as --arithmetic names it. 0 on failure. */
+int page_capture(const char *device, double seconds);
+
+/* As in web/page_probe.h; of a lab that has solutions, exactly is what the first draws. */
+const char *page_probe(int column, int row);
+const char *page_names(void);
+const char *page_show(const char *what);
+
 /* RGBA, row 0 at the top. */
 const unsigned char *page_pixels(void);
 int page_width(void);
