@@ -1,17 +1,14 @@
-/* A picture is drawn while other threads encode and write those before. An animation in parts is a
- * folder of pictures, which --merge reads back. */
+/* A picture is drawn while other threads encode and write those before. */
 #include "app/frames.h"
 
 #include "app/picture_texts.h"
 #include "base/clock.h"
 #include "base/output.h"
 #include "base/progress.h"
-#include "window/backends.h"
 
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 bool frames_path(const Options *options, int number, char path[PATH_MAX], Message *message)
 {
@@ -50,8 +47,7 @@ bool frames_close(FrameSink *sink, bool drawn, Message *message)
     return animation_close(sink->animation, written, message);
 }
 
-/* The moment of picture `i`. */
-static double moment(const Options *options, int i)
+double frames_moment(const Options *options, int i)
 {
     return options->seconds + i / options->fps;
 }
@@ -63,7 +59,7 @@ static bool draw_frame(Renderer *renderer, const Options *options, int i, Pictur
                        Picture *picture, Message *message)
 {
     const Example *example = renderer->example;
-    const double seconds = moment(options, i);
+    const double seconds = frames_moment(options, i);
     sources->kept = false;
     if (!frames_path(options, i, picture->path, message))
         return false;
@@ -102,80 +98,4 @@ bool frames_draw(Renderer *renderer, const Options *options, PictureQueue *queue
     if (done && options->verbose)
         fprintf(stderr, "drawing and reading took %.1f ms\n", 1e3 * (clock_now() - progress.start));
     return done;
-}
-
-bool frames_write_vectors(const Example *example, const Options *options, Message *message)
-{
-    bool done = true;
-    for (int i = 0; i < options->frames && done; i++) {
-        char path[PATH_MAX];
-        const VectorFile file = {path, options->vector, options->width, options->height,
-                                 options->alpha};
-        if (part_has(options->part, (uint64_t)i))
-            done = frames_path(options, i, path, message) &&
-                   example_kind(example)->write_vector(example, moment(options, i), &file, message);
-    }
-    return done;
-}
-
-bool frames_find_parts(FrameParts *parts, const Options *options, Message *message)
-{
-    size_t length = 0;
-    parts->options = *options;
-    parts->options.animation = NULL;
-    parts->options.keeps = true;
-    parts->options.numbered = true;
-    parts->options.output = parts->pictures;
-    if (snprintf(parts->folder, sizeof parts->folder, "%s.parts", options->output) >= PATH_MAX)
-        return message_set(message, "%s: %s", options->output, strerror(ENAMETOOLONG));
-    for (const char *p = parts->folder; *p; p++) {
-        parts->pictures[length++] = *p;
-        if (*p == '%')
-            parts->pictures[length++] = '%';
-    }
-    snprintf(parts->pictures + length, sizeof parts->pictures - length, "/%%06d.png");
-    return true;
-}
-
-static bool parts_are_whole(const FrameParts *parts, Message *message)
-{
-    int missing = 0, first = 0;
-    for (int i = parts->options.frames - 1; i >= 0; i--) {
-        char path[PATH_MAX];
-        if (!frames_path(&parts->options, i, path, message))
-            return false;
-        if (access(path, F_OK) != 0) {
-            missing++;
-            first = i;
-        }
-    }
-    return !missing || message_set(message,
-                                   "%s: %d of %d pictures are missing, the first is %06d.png; "
-                                   "--part draws them",
-                                   parts->folder, missing, parts->options.frames, first);
-}
-
-bool frames_merge(const Example *example, const Options *options, Message *message)
-{
-    const CanvasBackend *given = options->canvas.backend;
-    const Canvas canvas = {.width = options->width,
-                           .height = options->height,
-                           .backend = example_kind(example)->without_gl ? NULL
-                                      : given                           ? given
-                                                                        : backend_default(message)};
-    FrameParts parts;
-    FrameSink sink = {.queue = NULL};
-    PictureOrigin origin = {.driver = ""};
-    if (!frames_find_parts(&parts, options, message) || !parts_are_whole(&parts, message))
-        return false;
-    bool done = frames_open(&sink, &canvas, options, message);
-    for (int i = 0; i < options->frames && done; i++) {
-        Picture *picture = picture_queue_take(sink.queue);
-        done = frames_path(&parts.options, i, picture->path, message);
-        if (done)
-            picture_texts_set(example, &canvas, &parts.options, moment(options, i), picture);
-        done = done && picture_texts_check(picture, &origin, message) &&
-               picture_queue_give(sink.queue, picture, message);
-    }
-    return frames_close(&sink, done, message);
 }

@@ -9,8 +9,9 @@
 #include "images/animation.h"
 #include "images/picture_queue.h"
 
-/* The file of picture `number`. */
+/* The file of picture `number`, and its moment. */
 bool frames_path(const Options *options, int number, char path[PATH_MAX], Message *message);
+double frames_moment(const Options *options, int number);
 
 /* The threads that write pictures, and the animation if all go to one file or stream. */
 typedef struct FrameSink {

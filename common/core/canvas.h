@@ -33,6 +33,7 @@ typedef struct CanvasBackend {
 } CanvasBackend;
 
 extern const CanvasBackend CANVAS_EGL, CANVAS_OSMESA;
+#define CANVAS_OSMESA_SUMMARY "headless, Mesa's off-screen renderer without EGL"
 
 /* Those of this platform that need no display, the default first; ended by NULL. */
 extern const CanvasBackend *const CANVAS_HEADLESS[];

@@ -141,7 +141,7 @@ static bool osmesa_probe(Message *findings)
 
 const CanvasBackend CANVAS_OSMESA = {
     .name = "osmesa",
-    .summary = "headless, Mesa's off-screen renderer without EGL",
+    .summary = CANVAS_OSMESA_SUMMARY,
     .open = osmesa_open,
     .address = osmesa_address,
     .current = osmesa_current,

@@ -124,23 +124,23 @@ typedef void(GL_APIENTRYP GlBlitFramebuffer)(GLint, GLint, GLint, GLint, GLint, 
     X(GETPROGRAMBINARY, GetProgramBinary)                                                          \
     X(PROGRAMBINARY, ProgramBinary)
 
-/* Hidden, so that a driver loaded later cannot resolve its functions to these variables. */
-#pragma GCC visibility push(hidden)
-#define GL_DECLARE(TYPE, name) extern PFNGL##TYPE##PROC gl##name;
+/* Linked under other names, so that a driver loaded later cannot resolve its functions to these
+ * variables. */
+#define GL_LINKED(TYPE, name) extern TYPE gl##name __asm__("lighting_gl" #name);
+#define GL_DECLARE(TYPE, name) GL_LINKED(PFNGL##TYPE##PROC, name)
 GL_FUNCTIONS(GL_DECLARE)
 #undef GL_DECLARE
-#define GL_DECLARE(TYPE, name) extern PFNGL##TYPE##EXTPROC gl##name##EXT;
+#define GL_DECLARE(TYPE, name) GL_LINKED(PFNGL##TYPE##EXTPROC, name##EXT)
 GL_TIMER_FUNCTIONS(GL_DECLARE)
 #undef GL_DECLARE
-#define GL_DECLARE(TYPE, name) extern PFNGL##TYPE##OESPROC gl##name##OES;
+#define GL_DECLARE(TYPE, name) GL_LINKED(PFNGL##TYPE##OESPROC, name##OES)
 GL_BINARY_FUNCTIONS(GL_DECLARE)
 #undef GL_DECLARE
 /* Of OpenGL ES 3 or an extension; NULL without them. */
-extern GlRenderbufferStorageMultisample glRenderbufferStorageMultisample;
-extern GlBlitFramebuffer glBlitFramebuffer;
+GL_LINKED(GlRenderbufferStorageMultisample, RenderbufferStorageMultisample)
+GL_LINKED(GlBlitFramebuffer, BlitFramebuffer)
 /* Of GL_EXT_robustness or GL_KHR_robustness; NULL without either. */
-extern PFNGLGETGRAPHICSRESETSTATUSEXTPROC glGetGraphicsResetStatus;
-#pragma GCC visibility pop
+GL_LINKED(PFNGLGETGRAPHICSRESETSTATUSEXTPROC, GetGraphicsResetStatus)
 
 typedef void (*GlFunction)(void);
 

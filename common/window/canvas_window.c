@@ -239,7 +239,7 @@ static bool window_current(void *opened)
 
 Window *window_of(const Canvas *canvas)
 {
-    return canvas->backend == &CANVAS_WINDOW ? canvas->context : NULL;
+    return canvas->backend && canvas->backend->presents ? canvas->context : NULL;
 }
 
 /* Ignores errors about what a platform does not support (Wayland: window positions, focus). */
@@ -435,7 +435,7 @@ static bool window_probe(Message *findings)
 
 const CanvasBackend CANVAS_WINDOW = {
     .name = "window",
-    .summary = "on a display, in a window of GLFW",
+    .summary = CANVAS_WINDOW_SUMMARY,
     .presents = true,
     .open = window_open,
     .address = window_address,

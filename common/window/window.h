@@ -11,6 +11,7 @@
 #include "core/canvas.h"
 
 extern const CanvasBackend CANVAS_WINDOW;
+#define CANVAS_WINDOW_SUMMARY "on a display, in a window of GLFW"
 
 typedef struct Window Window;
 

@@ -449,8 +449,10 @@ class Options(Case):
                 self.assertEqual(said, there[name])
 
     def test_the_doctor_tells_what_is_not_built_yet_from_what_is_missing(self):
-        """A copy of the build folder has the program, but no module."""
+        """A copy of the build folder has the program, but no module except its own."""
         os.makedirs(self.path("build/examples"))
+        os.makedirs(self.path("build/common"))
+        shutil.copy(os.path.join(EXAMPLES, "../common/app.so"), self.path("build/common"))
         program = shutil.copy(os.path.join(EXAMPLES, "LightedCube"), self.path("build/examples"))
         shutil.copy(os.path.join(EXAMPLES, "../source_root"), self.path("build"))
         text = self.good("--doctor", program=program).decode()
@@ -459,6 +461,10 @@ class Options(Case):
             there = os.path.exists(os.path.join(EXAMPLES, "../common", file))
             self.assertRegex(text, rf"(?m)^  {name} +" + (r"installed, gives .*; not built yet: built when needed$"
                                                           if there else "missing, gives"))
+        os.remove(self.path("build/common/app.so"))
+        self.refused(1, "app: its module, common/app.so, is not built yet: .*examples/run", "--help", program=program)
+        self.good(*SMALL, "-o", "a.png", program=program)
+        shutil.copy(os.path.join(EXAMPLES, "../common/app.so"), self.path("build/common"))
         if os.path.exists(MODULE):
             self.refused(1, "OpenImageIO: its module, common/image_oiio.so, is not built yet: .*examples/run",
                          *SMALL, "-o", "a.exr", program=program)

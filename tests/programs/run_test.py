@@ -382,10 +382,10 @@ class Folders(Case):
 
     def test_only_the_plugins_that_are_needed_are_built(self):
         self.tool("ninja", 'shift 2; [ "$1" = -n ] || echo "$*" >>"$HOME/targets"; exit 1')
-        for arguments, plugins in (((), []), (("-o", "a.exr"), ["image_oiio"]),
-                                   (("-n", "3", "-o", "a.gif"), ["image_oiio"]),
-                                   (("--show", "error"), ["probe"]), (("--show-clipped",), []),
-                                   (("--model", "a.obj", "-w"), ["model_assimp", "panel_imgui"])):
+        for arguments, plugins in (((), []), (("-s40", "-n", "2", "-o", "a%d.png"), []), (("-o", "a.exr"), ["app", "image_oiio"]),
+                                   (("-n", "3", "-o", "a.gif"), ["app", "image_oiio"]), (("--help",), ["app"]),
+                                   (("--show", "error"), ["app", "probe"]), (("--show-clipped",), ["app"]),
+                                   (("--model", "a.obj", "-w"), ["app", "model_assimp", "panel_imgui"])):
             self.assertEqual(self.start(*arguments)[0], 1)
             self.assertEqual(self.read("home/targets").decode(), " ".join(
                 ["examples/LightedCube", *(name + "-plugin" for name in plugins)]) + "\n")
@@ -394,18 +394,18 @@ class Folders(Case):
 
 class Build(unittest.TestCase):
     def test_a_program_of_the_lecture_needs_few_files(self):
-        """What scenes alone need is not compiled for it; --probe runs its shaders, so the language is."""
+        """Nothing of scenes, windows and the shaders' language is compiled for a first picture."""
         build = os.path.dirname(base.EXAMPLES)
         if not shutil.which("ninja") or not os.path.exists(os.path.join(build, "build.ninja")):
             self.skipTest("not ninja's build folder")
         commands = subprocess.run(["ninja", "-C", build, "-t", "commands", "examples/LightedCube"],
                                   capture_output=True, text=True, check=True).stdout
         self.assertRegex(commands, r" -c \S*/common/core/matrix\.c")
-        for folder in ("shapes", "shadows", "lighting", "reference", "choose", "kinds"):
+        for folder in ("glsl", "shapes", "shadows", "lighting", "reference", "probe", "choose", "kinds"):
             self.assertNotIn(f"/common/{folder}/", commands)
         # keep_loaded.c is compiled for the sanitizers alone.
         files = re.findall(r" -c (\S+)", commands)
-        self.assertLessEqual(sum("keep_loaded" not in file for file in files), 90)
+        self.assertLessEqual(sum("keep_loaded" not in file for file in files), 51)
 
 
 class Packages(Case):
