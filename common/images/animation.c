@@ -1,9 +1,8 @@
 /*
- * Three ways to write pictures one after the other: OpenImageIO's GIF, where there is no ffmpeg; an
- * ffmpeg process, which is sent raw pictures through a pipe and writes to a file that is already
- * open, so that it is renamed into place only when it is whole, as every output; and two raw
- * streams for pipes, y4m and rgb, written here. One table says for each format what it can hold,
- * and the words for ffmpeg.
+ * Three ways to write pictures one after the other: GIF (image_gif.c); an ffmpeg process, which is
+ * sent raw pictures through a pipe and writes to a file that is already open, so that it is renamed
+ * into place only when it is whole, as every output; and two raw streams for pipes, y4m and rgb,
+ * written here. One table says for each format what it can hold, and the words for ffmpeg.
  *
  * Formats count time in different units. A rate F is sent as a fraction of integers, the nearest
  * whose terms a format can hold, found by the continued fraction of F: its convergents are the best
@@ -45,7 +44,6 @@
 /* ffmpeg's limit for the numbers of a rate is 1001000. */
 enum { MAX_RATE = 1000000 };
 
-/* WRITER_GIF: ffmpeg, or OpenImageIO where that is missing. */
 typedef enum Writer { WRITER_FFMPEG, WRITER_GIF, WRITER_Y4M, WRITER_RGB } Writer;
 
 typedef struct Format {
@@ -69,12 +67,7 @@ static const Format FORMATS[] = {
      .writer = WRITER_GIF,
      .slowest = IMAGE_GIF_SLOWEST,
      .fastest = IMAGE_GIF_FASTEST,
-     .limit = "its times are hundredths of a second, up to 655.35 per picture",
-     /* 256 colours of each picture's own; an ordered dither hides bands and does not flicker. */
-     .codec =
-         "-filter_complex split[a][b];[a]palettegen=stats_mode=single:reserve_transparent=0[p];"
-         "[b][p]paletteuse=new=1:dither=bayer:bayer_scale=3 -c:v gif -loop 0",
-     .pixels = "pal8"},
+     .limit = "its times are hundredths of a second, up to 655.35 per picture"},
     {.name = "webp",
      .fastest = 1000,
      .limit = "its times are milliseconds",
@@ -412,14 +405,8 @@ static bool open_writer(Animation *animation, Message *message)
     case WRITER_FFMPEG:
         return encoder_open(animation, message);
     case WRITER_GIF:
-        if (fits_ffmpeg(options->width, options->height) && encoder_open(animation, &why))
-            return true;
-        encoder_close(animation, false, NULL);
-        animation->encoder = (Encoder){.pictures = -1, .said = -1};
-        return image_gif_open(
-                   &animation->gif, output_file(animation->output),
-                   &(GifOptions){options->width, options->height, options->frames, options->fps},
-                   &why) ||
+        return image_gif_open(&animation->gif, fdopen(dup(output_file(animation->output)), "wb"),
+                              options->width, options->height, options->fps, &why) ||
                encoder_failed(animation, why.text, message);
     default:
         animation->stream = malloc(3 * (size_t)options->width * (size_t)options->height);
@@ -457,10 +444,11 @@ bool animation_add(void *data, const Picture *picture, Message *message)
                            animation->options.width, animation->options.height);
     switch (animation->format->writer) {
     case WRITER_FFMPEG:
+        done = encoder_add(animation, image, message);
+        break;
     case WRITER_GIF:
-        done = animation->gif ? image_gif_add(animation->gif, image, &why) ||
-                                    encoder_failed(animation, why.text, message)
-                              : encoder_add(animation, image, message);
+        done = image_gif_add(animation->gif, image, &why) ||
+               encoder_failed(animation, why.text, message);
         break;
     default:
         done = stream_add(animation, image, message);
@@ -474,16 +462,8 @@ bool animation_close(Animation *animation, bool whole, Message *message)
     Message why = {0};
     if (!animation)
         return whole;
-    const AnimationOptions *options = &animation->options;
-    const Writer writer = animation->format->writer;
-    if (!animation->gif && (writer == WRITER_FFMPEG || writer == WRITER_GIF))
+    if (animation->format->writer == WRITER_FFMPEG)
         whole = encoder_close(animation, whole, message);
-    if (!animation->gif && whole && writer == WRITER_GIF)
-        whole = image_gif_set_times(
-                    output_file(animation->output),
-                    &(GifOptions){options->width, options->height, options->frames, options->fps},
-                    &why) ||
-                encoder_failed(animation, why.text, message);
     if (!image_gif_close(animation->gif, &why) && whole)
         whole = encoder_failed(animation, why.text, message);
     if (animation->output && whole)
@@ -502,6 +482,6 @@ bool animation_probe(Message *findings)
     pid_t process;
     const bool found =
         process_start(&process, words, (int[]){-1, -1, -1, -1}) == 0 && process_wait(process) == 0;
-    return package_tell(findings, "ffmpeg", NULL, "animations: .gif, .webp, .apng, .mp4 and .webm",
+    return package_tell(findings, "ffmpeg", NULL, "animations: .webp, .apng, .mp4 and .webm",
                         found ? NULL : "install the package ffmpeg");
 }

@@ -51,10 +51,9 @@ bool image_file_read(ImageFile *file, const char *path, Message *message)
     return message_set(message, "%s: cannot read", path);
 }
 
-Plugin image_openimageio = {
-    "image_oiio.so",      "image_plugin",
-    "OpenImageIO",        "picture files other than PNG, and GIF animations without ffmpeg",
-    "libopenimageio-dev", NULL};
+Plugin image_openimageio = {"image_oiio.so",      "image_plugin",
+                            "OpenImageIO",        "picture files other than PNG",
+                            "libopenimageio-dev", NULL};
 
 bool image_probe(Message *findings)
 {

@@ -3,30 +3,16 @@
 
 #include "images/image_plugin.h"
 
-#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 
-#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <exception>
-#include <memory>
 #include <string>
-#include <unistd.h>
-#include <vector>
-
-// A GIF that is being written.
-struct PluginGif {
-    std::FILE *file = nullptr;
-    std::unique_ptr<OIIO::Filesystem::IOFile> proxy;
-    std::unique_ptr<OIIO::ImageOutput> output; // writes to the proxy, so is closed first
-    OIIO::ImageSpec spec;
-    int added = 0;
-};
 
 namespace
 {
@@ -43,19 +29,6 @@ bool fail(char *reason, size_t size, std::string text)
         c = c == '\n' ? ' ' : c;
     std::snprintf(reason, size, "%s", text.c_str());
     return false;
-}
-
-// Runs `work`, which returns an error ("" for none), and turns exceptions into errors.
-template <typename Work> bool guarded(char *reason, size_t size, Work work)
-{
-    try {
-        const std::string error = work();
-        return error.empty() ? true : fail(reason, size, error);
-    } catch (const std::exception &exception) {
-        return fail(reason, size, exception.what());
-    } catch (...) {
-        return fail(reason, size, "an unknown exception");
-    }
 }
 
 std::string or_unknown(const std::string &error)
@@ -81,111 +54,55 @@ std::string set_date(ImageSpec &spec)
     return "";
 }
 
+// The reason why it failed, or "".
+std::string write(const Image *image, const char *format, const ImageOptions *options, int file)
+{
+    auto output = ImageOutput::create(std::string("picture.") + format);
+    if (!output)
+        return or_unknown(geterror());
+    const TypeDesc type = image->type == IMAGE_FLOAT ? TypeDesc::FLOAT : TypeDesc::UINT8;
+    const bool alpha = options->alpha && output->supports("alpha");
+    ImageSpec spec(image->width, image->height, alpha ? CHANNELS : CHANNELS - 1, type);
+    // Lossless if possible; WebP then still rounds when it converts colors.
+    spec.attribute("Compression", std::strcmp(format, "webp") == 0     ? "lossless"
+                                  : std::strncmp(format, "jp", 2) == 0 ? "jpeg:95"
+                                                                       : "zip");
+    // The only text of a TIFF file that is not a name or a date is its ImageDescription.
+    const bool tiff = std::strncmp(format, "tif", 3) == 0;
+    for (const ImageText *text = options->text; text && text->key; text++)
+        spec.attribute(tiff && std::strcmp(text->key, "Command") == 0 ? "ImageDescription"
+                                                                      : text->key,
+                       text->text);
+    const std::string error = set_date(spec);
+    if (!error.empty())
+        return error;
+    // TIFF can store colors not multiplied by alpha; for other formats the library expects them
+    // multiplied.
+    ImageBuf own(ImageSpec(image->width, image->height, CHANNELS, type), image->pixels);
+    if (alpha && tiff)
+        spec.attribute("oiio:UnassociatedAlpha", 1);
+    else if (alpha)
+        own = ImageBufAlgo::premult(own);
+    if (own.has_error())
+        return or_unknown(own.geterror());
+    if (!output->open("/proc/self/fd/" + std::to_string(file), spec) ||
+        !output->write_image(type, own.localpixels(), CHANNELS * stride_t(type.size())) ||
+        !output->close())
+        return or_unknown(output->geterror());
+    return "";
+}
+
 bool encode(const Image *image, const char *format, const ImageOptions *options, int file,
             char *reason, size_t reason_size)
 {
-    return guarded(reason, reason_size, [&]() -> std::string {
-        auto output = ImageOutput::create(std::string("picture.") + format);
-        if (!output)
-            return or_unknown(geterror());
-        const TypeDesc type = image->type == IMAGE_FLOAT ? TypeDesc::FLOAT : TypeDesc::UINT8;
-        const bool alpha = options->alpha && output->supports("alpha");
-        ImageSpec spec(image->width, image->height, alpha ? CHANNELS : CHANNELS - 1, type);
-        // Lossless if possible; WebP then still rounds when it converts colors.
-        spec.attribute("Compression", std::strcmp(format, "webp") == 0     ? "lossless"
-                                      : std::strncmp(format, "jp", 2) == 0 ? "jpeg:95"
-                                                                           : "zip");
-        // The only text of a TIFF file that is not a name or a date is its ImageDescription.
-        const bool tiff = std::strncmp(format, "tif", 3) == 0;
-        for (const ImageText *text = options->text; text && text->key; text++)
-            spec.attribute(tiff && std::strcmp(text->key, "Command") == 0 ? "ImageDescription"
-                                                                          : text->key,
-                           text->text);
-        const std::string error = set_date(spec);
-        if (!error.empty())
-            return error;
-        // TIFF can store colors not multiplied by alpha; for other formats the library expects them
-        // multiplied.
-        ImageBuf own(ImageSpec(image->width, image->height, CHANNELS, type), image->pixels);
-        if (alpha && tiff)
-            spec.attribute("oiio:UnassociatedAlpha", 1);
-        else if (alpha)
-            own = ImageBufAlgo::premult(own);
-        if (own.has_error())
-            return or_unknown(own.geterror());
-        if (!output->open("/proc/self/fd/" + std::to_string(file), spec) ||
-            !output->write_image(type, own.localpixels(), CHANNELS * stride_t(type.size())) ||
-            !output->close())
-            return or_unknown(output->geterror());
-        return "";
-    });
-}
-
-// The library's writes are buffered, and it does not check that they succeed.
-std::string gif_error(const PluginGif *gif)
-{
-    errno = 0;
-    if (std::fflush(gif->file) == 0 && !std::ferror(gif->file))
-        return "";
-    return errno ? std::strerror(errno) : "cannot write";
-}
-
-bool gif_open(PluginGif **opened, int file, const GifOptions *options, char *reason,
-              size_t reason_size)
-{
-    return guarded(reason, reason_size, [&]() -> std::string {
-        PluginGif *gif = *opened = new PluginGif;
-        const int own = dup(file);
-        gif->file = own < 0 ? nullptr : fdopen(own, "wb");
-        if (!gif->file) {
-            const std::string error = std::strerror(errno);
-            if (own >= 0)
-                close(own);
-            return error;
-        }
-        gif->proxy = std::make_unique<Filesystem::IOFile>(gif->file, Filesystem::IOProxy::Write);
-        gif->output = ImageOutput::create("picture.gif");
-        if (!gif->output)
-            return or_unknown(geterror());
-        gif->spec = ImageSpec(options->width, options->height, CHANNELS - 1, TypeDesc::UINT8);
-        gif->spec.attribute("FramesPerSecond", 10.0f); // without it the GIF does not repeat
-        const std::vector<ImageSpec> specs(size_t(options->count), gif->spec);
-        if (!gif->output->set_ioproxy(gif->proxy.get()) ||
-            !gif->output->open("picture.gif", options->count, specs.data()))
-            return or_unknown(gif->output->geterror());
-        return "";
-    });
-}
-
-bool gif_add(PluginGif *gif, const Image *image, char *reason, size_t reason_size)
-{
-    return guarded(reason, reason_size, [&]() -> std::string {
-        if ((gif->added++ > 0 &&
-             !gif->output->open("picture.gif", gif->spec, ImageOutput::AppendSubimage)) ||
-            !gif->output->write_image(TypeDesc::UINT8, image->pixels, CHANNELS))
-            return or_unknown(gif->output->geterror());
-        return gif_error(gif);
-    });
-}
-
-bool gif_close(PluginGif *gif, char *reason, size_t reason_size)
-{
-    if (!gif)
-        return true;
-    const bool done = guarded(reason, reason_size, [&]() -> std::string {
-        if (!gif->output || !gif->output->close())
-            return or_unknown(gif->output ? gif->output->geterror() : "");
-        return gif_error(gif);
-    });
     try {
-        gif->output.reset();
-        gif->proxy.reset();
+        const std::string error = write(image, format, options, file);
+        return error.empty() ? true : fail(reason, reason_size, error);
+    } catch (const std::exception &exception) {
+        return fail(reason, reason_size, exception.what());
     } catch (...) {
+        return fail(reason, reason_size, "an unknown exception");
     }
-    if (gif->file)
-        std::fclose(gif->file);
-    delete gif;
-    return done;
 }
 
 const char *version()
@@ -196,4 +113,4 @@ const char *version()
 } // namespace
 
 extern "C" __attribute__((visibility("default")))
-const ImagePlugin image_plugin = {version, encode, gif_open, gif_add, gif_close};
+const ImagePlugin image_plugin = {version, encode};

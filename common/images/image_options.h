@@ -6,6 +6,8 @@
 
 #include "base/image.h"
 
+#include <stdio.h>
+
 /* A text chunk of a PNG file, or an attribute of another format. NULL key: the end of a list. */
 typedef struct ImageText {
     const char *key;  /* Latin-1, 1 to 79 characters: "Software", "Time" */
@@ -29,12 +31,6 @@ typedef struct ImageFile {
     size_t size;
 } ImageFile;
 
-/* An animated GIF of `count` pictures. */
-typedef struct GifOptions {
-    int width, height, count;
-    double fps; /* pictures per second */
-} GifOptions;
-
 /* PNG files, written by libpng. */
 
 /* As image_encode. */
@@ -43,7 +39,7 @@ bool image_png_encode(const Image *image, const ImageOptions *options, ImageFile
 
 const char *image_png_version(void);
 
-/* Animated GIF files, written by OpenImageIO.
+/* Animated GIF files.
  *
  * The format has 256 colors per picture and delays in hundredths of a second. Delays vary so
  * that picture i starts at i / fps to the nearest hundredth, without accumulating error. */
@@ -54,13 +50,11 @@ const char *image_png_version(void);
 
 typedef struct ImageGif ImageGif;
 
-/* Writes byte images without alpha to an open file that supports reading and seeking; the GIF loops
- * forever. image_gif_close is called after a failure too; NULL is fine. */
-bool image_gif_open(ImageGif **gif, int file, const GifOptions *options, Message *message);
+/* Writes byte images without alpha to a file, `fps` of them per second; the GIF loops forever.
+ * image_gif_close closes the file, and is called after a failure too; NULL is fine. */
+bool image_gif_open(ImageGif **gif, FILE *file, int width, int height, double fps,
+                    Message *message);
 bool image_gif_add(ImageGif *gif, const Image *image, Message *message);
-/* Sets the times of a complete GIF with as many pictures; its delays were any. */
-bool image_gif_set_times(int file, const GifOptions *options, Message *message);
-
 bool image_gif_close(ImageGif *gif, Message *message);
 
 #endif

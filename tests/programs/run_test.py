@@ -383,7 +383,7 @@ class Folders(Case):
     def test_only_the_plugins_that_are_needed_are_built(self):
         self.tool("ninja", 'shift 2; [ "$1" = -n ] || echo "$*" >>"$HOME/targets"; exit 1')
         for arguments, plugins in (((), []), (("-s40", "-n", "2", "-o", "a%d.png"), []), (("-o", "a.exr"), ["app", "image_oiio"]),
-                                   (("-n", "3", "-o", "a.gif"), ["app", "image_oiio"]), (("--help",), ["app"]),
+                                   (("-o", "a.gif"), ["app", "image_oiio"]), (("-n", "3", "-o", "a.gif"), ["app"]), (("--help",), ["app"]),
                                    (("--show", "error"), ["app", "probe"]), (("--show-clipped",), ["app"]),
                                    (("--model", "a.obj", "-w"), ["app", "model_assimp", "panel_imgui"])):
             self.assertEqual(self.start(*arguments)[0], 1)
