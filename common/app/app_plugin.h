@@ -7,37 +7,53 @@
 #ifndef APP_PLUGIN_H
 #define APP_PLUGIN_H
 
+#include "app/doctor.h"
 #include "app/help.h"
-#include "app/options.h"
 #include "app/picture_texts.h"
+#include "app/run_more.h"
 #include "base/plugin.h"
+#include "base/process.h"
 #include "core/shader_source.h"
 #include "images/animation.h"
+#include "window/window.h"
 
-/* The variable `app_plugin`: functions by their names. */
+/* Its functions, as X(NAME, TYPE, PARAMETERS, ARGUMENTS), and those that a first picture calls,
+ * too, as X(NAME). */
+#define APP_PLUGIN_FUNCTIONS(X)                                                                    \
+    X(help_print, void, (const Usage *usage, const Parameter *table), (usage, table))              \
+    X(help_generate, void, (const char *form, const Usage *usage, const Parameter *table),         \
+      (form, usage, table))                                                                        \
+    X(doctor_run, int, (void), ())                                                                 \
+    X(process_restart, bool,                                                                       \
+      (char *const *arguments, const char *const *settings, Message *message),                     \
+      (arguments, settings, message))                                                              \
+    X(run_more, bool,                                                                              \
+      (const Example *example, Options *options, const ParameterValue *defaults,                   \
+       Message *message),                                                                          \
+      (example, options, defaults, message))                                                       \
+    X(picture_texts_sources, void,                                                                 \
+      (PictureSources * sources, const Example *example, const Options *options,                   \
+       Picture *picture),                                                                          \
+      (sources, example, options, picture))                                                        \
+    X(picture_texts_kept, bool, (Picture * picture), (picture))                                    \
+    X(animation_format_names, int, (const char *names[], int max), (names, max))                   \
+    X(animation_check, bool, (const AnimationOptions *options, Message *message),                  \
+      (options, message))                                                                          \
+    X(animation_open, bool,                                                                        \
+      (Animation * *animation, const AnimationOptions *options, Message *message),                 \
+      (animation, options, message))                                                               \
+    X(animation_add, bool, (void *animation, const Picture *picture, Message *message),            \
+      (animation, picture, message))
+#define APP_PLUGIN_OTHERS(X)                                                                       \
+    X(shader_advise) X(shader_bounded) X(animation_format) X(animation_is_raw) X(animation_close)
+
+/* The variable `app_plugin`. */
 typedef struct AppPlugin {
     PluginVersion *version;
     const CanvasBackend *osmesa, *window;
-    void (*shader_advise)(const ShaderSource sources[2], int refused, Message *message);
-    bool (*shader_bounded)(const ShaderSource *source, ShaderStage stage, double turns_max,
-                           Message *message);
-    void (*help_print)(const Usage *usage, const Parameter *table);
-    void (*help_generate)(const char *form, const Usage *usage, const Parameter *table);
-    int (*doctor_run)(void);
-    bool (*process_restart)(char *const *arguments, const char *const *settings, Message *message);
-    bool (*run_more)(const Example *example, Options *options, const ParameterValue *defaults,
-                     Message *message);
-    void (*picture_texts_sources)(PictureSources *sources, const Example *example,
-                                  const Options *options, Picture *picture);
-    bool (*picture_texts_kept)(Picture *picture);
-    int (*animation_format_names)(const char *names[], int max);
-    const char *(*animation_format)(const char *path, int frames);
-    bool (*animation_is_raw)(const char *format);
-    bool (*animation_check)(const AnimationOptions *options, Message *message);
-    bool (*animation_open)(Animation **animation, const AnimationOptions *options,
-                           Message *message);
-    bool (*animation_add)(void *animation, const Picture *picture, Message *message);
-    bool (*animation_close)(Animation *animation, bool whole, Message *message);
+#define APP_PLUGIN_MEMBER(name, ...) __typeof__(name) *name;
+    APP_PLUGIN_FUNCTIONS(APP_PLUGIN_MEMBER)
+    APP_PLUGIN_OTHERS(APP_PLUGIN_MEMBER)
 } AppPlugin;
 
 #endif

@@ -88,13 +88,13 @@ int doctor_run(void)
     cache_prepare_driver();
     printf("packages:\n");
     for (int i = 0; BACKENDS[i]; i++)
-        print_findings(BACKENDS[i]->package, &findings);
+        print_findings(canvas_backend_load(BACKENDS[i])->package, &findings);
     for (size_t i = 0; i < sizeof packages / sizeof packages[0]; i++)
         print_findings(packages[i], &findings);
     const CanvasBackend *usual = backend_default(NULL), *works = NULL;
     for (int i = 0; BACKENDS[i]; i++) {
         printf("%s: %s\n", BACKENDS[i]->name, BACKENDS[i]->summary);
-        if (!print_findings(BACKENDS[i]->probe, &findings))
+        if (!print_findings(canvas_backend_load(BACKENDS[i])->probe, &findings))
             continue;
         print_kept(BACKENDS[i]->name, findings.text);
         if (!works || BACKENDS[i] == usual)

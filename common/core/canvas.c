@@ -228,10 +228,15 @@ static bool make_first(Canvas *canvas, const CanvasOptions *options, Message *me
     return check_presents(canvas, message) && make_canvas(canvas, options, message);
 }
 
+const CanvasBackend *canvas_backend_load(const CanvasBackend *backend)
+{
+    return backend && backend->load ? backend->load() : backend;
+}
+
 bool canvas_open(Canvas *canvas, const CanvasOptions *options, Message *message)
 {
-    const CanvasBackend *backend =
-        options->backend ? options->backend : canvas_default_backend(CANVAS_HEADLESS, message);
+    const CanvasBackend *backend = canvas_backend_load(
+        options->backend ? options->backend : canvas_default_backend(CANVAS_HEADLESS, message));
     Canvas opened = {.backend = backend};
     *canvas = (Canvas){0};
     if (!backend)

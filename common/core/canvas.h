@@ -30,7 +30,11 @@ typedef struct CanvasBackend {
     /* Appends lines to `findings`: what each platform answers, what to install. True if the backend
      * works. */
     bool (*probe)(Message *findings);
+    /* Of one in a plugin, which has only the first three: it. */
+    const struct CanvasBackend *(*load)(void);
 } CanvasBackend;
+
+const CanvasBackend *canvas_backend_load(const CanvasBackend *backend);
 
 extern const CanvasBackend CANVAS_EGL, CANVAS_OSMESA;
 #define CANVAS_OSMESA_SUMMARY "headless, Mesa's off-screen renderer without EGL"

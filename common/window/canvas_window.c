@@ -239,7 +239,7 @@ static bool window_current(void *opened)
 
 Window *window_of(const Canvas *canvas)
 {
-    return canvas->backend && canvas->backend->presents ? canvas->context : NULL;
+    return canvas->backend == &CANVAS_WINDOW ? canvas->context : NULL;
 }
 
 /* Ignores errors about what a platform does not support (Wayland: window positions, focus). */
