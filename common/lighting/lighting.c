@@ -93,14 +93,6 @@ static Vec3 multiply(Vec3 a, Vec3 b)
     return (Vec3){a.x * b.x, a.y * b.y, a.z * b.z};
 }
 
-/* The attenuation factor of a light that does not depend on distance: 1 / constant. */
-static double constant_share(const Light *light)
-{
-    const bool shared = light->kind != LIGHT_DIRECTIONAL && !light_fades(light);
-    /* Within the range of float. */
-    return shared && light->constant != 0 ? 1 / fmax(light->constant, 1e-30) : 1;
-}
-
 static EyeLight eye_light(const LightingTransforms *transforms, const Camera *camera,
                           Mat4 eye_from_world, const Light *light)
 {
@@ -114,7 +106,10 @@ static EyeLight eye_light(const LightingTransforms *transforms, const Camera *ca
         position = transforms->eye_point(camera, eye_from_world, position);
     }
     vec3_normalize(vec3_add(direction, (Vec3){0, 0, 1}), &half);
-    EyeLight made = {.share = constant_share(light), .exponent = spot ? (float)light->exponent : 0};
+    /* Attenuation that does not depend on distance is a factor, within the range of float. */
+    const bool shared = !directional && !light_fades(light) && light->constant != 0;
+    EyeLight made = {.share = shared ? 1 / fmax(light->constant, 1e-30) : 1,
+                     .exponent = spot ? (float)light->exponent : 0};
     vec3_to_float(directional ? direction : position, made.position);
     made.position[3] = directional ? 0 : 1;
     vec3_to_float(direction, made.direction);
@@ -206,11 +201,6 @@ static void set_lights(const LightingVariant *variant, const EyeScene *eye)
     }
 }
 
-static Vec3 at_max(Vec3 a, double max)
-{
-    return (Vec3){fmin(a.x, max), fmin(a.y, max), fmin(a.z, max)};
-}
-
 /* The products of light and material colors. */
 static void set_colors(const GLint locations[3], const EyeScene *eye, const LightGroup *group,
                        const Material *material, bool mediump)
@@ -230,8 +220,9 @@ static void set_colors(const GLint locations[3], const EyeScene *eye, const Ligh
             /* In the full program a light that is off is black, and attenuation has its own
              * uniform. */
             const double share = light->off ? 0 : group->terms.any ? 1 : eye->lights[number].share;
-            const Vec3 product = vec3_scale(multiply(color, reflected[k]), share);
-            vec3_to_float(at_max(product, max), &values[3 * i]);
+            const Vec3 all = vec3_scale(multiply(color, reflected[k]), share);
+            vec3_to_float((Vec3){fmin(all.x, max), fmin(all.y, max), fmin(all.z, max)},
+                          &values[3 * i]);
         }
         glUniform3fv(locations[k], group->count, values);
     }

@@ -9,17 +9,6 @@
 
 #include <math.h>
 
-/* Where a box begins along a direction, and where it ends. */
-static double box_least(const PlacedBox *box, Vec3 way)
-{
-    return vec3_dot(box->center, way) - placed_reach(box, way);
-}
-
-static double box_most(const PlacedBox *box, Vec3 way)
-{
-    return vec3_dot(box->center, way) + placed_reach(box, way);
-}
-
 /* The numbers of the largest boxes, in their order; how many. */
 static int largest_boxes(const ShadowPairs *pairs, int numbers[END_BOXES])
 {
@@ -49,8 +38,10 @@ static double receivers_least(const LightingPlan *plan, int light, Vec3 way)
     for (int r = 0; r < plan->pairs.count; r++) {
         if (!(plan->full || plan->pairs.receives[r] >> light & 1))
             continue;
-        least = fmin(least, box_least(&plan->pairs.placed[r], way));
-        most = fmax(most, box_most(&plan->pairs.placed[r], way));
+        const PlacedBox *box = &plan->pairs.placed[r];
+        const double middle = vec3_dot(box->center, way), reach = placed_reach(box, way);
+        least = fmin(least, middle - reach);
+        most = fmax(most, middle + reach);
     }
     return least - 1e-3 * (most - least) - 1e-5 * fabs(least);
 }
@@ -83,11 +74,11 @@ Vec4 shadow_ends_choose(const ShadowEnds *ends, const PlacedBox *caster, const L
     for (int k = 0; k < ends->count; k++) {
         const Vec3 way = ends->ways[k];
         /* The light is on the plane's other side, and the caster between them. */
-        const double least = ends->least[k], most = box_most(caster, way);
-        const double lights =
-            directional ? vec3_dot(light->direction, way) : vec3_dot(light->position, way) - most;
-        const double steps = (vec3_dot(caster->center, way) - least) / lights;
-        if (lights > 0 && box_least(caster, way) > least && steps < soonest) {
+        const double middle = vec3_dot(caster->center, way), reach = placed_reach(caster, way);
+        const double lights = directional ? vec3_dot(light->direction, way)
+                                          : vec3_dot(light->position, way) - middle - reach;
+        const double least = ends->least[k], steps = (middle - least) / lights;
+        if (lights > 0 && middle - reach > least && steps < soonest) {
             soonest = steps;
             found = (Vec4){way.x, way.y, way.z, -least};
         }
@@ -97,5 +88,6 @@ Vec4 shadow_ends_choose(const ShadowEnds *ends, const PlacedBox *caster, const L
 
 bool shadow_end_before(const Vec4 *end, const PlacedBox *box)
 {
-    return box_least(box, (Vec3){end->x, end->y, end->z}) + end->w < 0;
+    const Vec3 way = {end->x, end->y, end->z};
+    return vec3_dot(box->center, way) - placed_reach(box, way) + end->w < 0;
 }
