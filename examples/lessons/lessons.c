@@ -42,6 +42,7 @@ enum { LESSON_COUNT = sizeof LESSONS / sizeof LESSONS[0] };
 static const char *const NAMES[] = {LESSON_LIST(NAME) NULL};
 
 static int lesson;
+static bool light;
 
 static bool read_lesson(const Parameter *parameter, const char *text, Message *message)
 {
@@ -64,6 +65,7 @@ static const ParameterCodec LESSON = {NULL, read_lesson, write_lesson};
 static const Parameter parameters[] = {
     {"lesson", "the program that is shown, by name or by number from 1", PARAMETER_CHOICE,
      .value = &lesson, .choices = NAMES, .codec = &LESSON},
+    {"light", "dark letters on a white page", PARAMETER_SWITCH, .value = &light},
     {.name = NULL},
 };
 
@@ -221,7 +223,7 @@ static bool paint_lines(Image *page, Message *message)
     if (lines->width != page->width || lines->height != page->height) {
         image_close(lines);
         if (!image_open(lines, page->width, page->height, IMAGE_BYTE, message) ||
-            !page_paint_lines(lines, &state.changes, message)) {
+            !page_paint_lines(lines, &state.changes, light, message)) {
             image_close(lines); /* so that the next frame tries again */
             return false;
         }
@@ -256,7 +258,7 @@ static bool paint_difference(Image *page, const Frame *frame, char *text, size_t
                  frame->seconds, found.pixels, found.largest);
     else
         snprintf(text, size, "at %.2f s: no pixel differs", frame->seconds);
-    return page_paint_picture(page, PAGE_DIFFERENCE, difference, name, message);
+    return page_paint_picture(page, PAGE_DIFFERENCE, difference, name, light, message);
 }
 
 static bool paint(const Frame *frame, const Canvas *canvas, Image *page, Message *message)
@@ -272,12 +274,12 @@ static bool paint(const Frame *frame, const Canvas *canvas, Image *page, Message
         Slot *slot = &state.slots[i];
         if (slot->example &&
             (!draw_slot(slot, frame, canvas, side, message) ||
-             !page_paint_picture(page, i, &slot->picture, slot->example->name, message)))
+             !page_paint_picture(page, i, &slot->picture, slot->example->name, light, message)))
             return false;
     }
     return (!state.slots[PAGE_BEFORE].example ||
             paint_difference(page, frame, below, sizeof below, message)) &&
-           page_paint_captions(page, title, below, message);
+           page_paint_captions(page, title, below, light, message);
 }
 
 static void finish(void)

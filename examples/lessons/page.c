@@ -7,14 +7,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const unsigned char BACKGROUND[3] = {24, 26, 30};
-static const TextStyle CAPTION = {.color = {230, 232, 236}}, BELOW = {.color = {180, 185, 195}};
-static const TextStyle LINES[] = {
-    [CHANGE_SAME] = {.mono = true, .color = {165, 170, 180}},
-    [CHANGE_REMOVED] = {.mono = true, .color = {255, 140, 130}},
-    [CHANGE_ADDED] = {.mono = true, .color = {120, 225, 130}},
-    [CHANGE_GAP] = {.mono = true, .color = {150, 155, 165}},
-    [CHANGE_TITLE] = {.mono = true, .color = {140, 190, 255}},
+/* On a dark page and on a light one; at least 7:1 against it, for projectors. */
+static const unsigned char BACKGROUND[][3] = {{16, 18, 22}, {255, 255, 255}};
+static const TextStyle CAPTION[] = {{.color = {240, 242, 246}}, {.color = {20, 20, 24}}};
+static const TextStyle LINES[][2] = {
+    [CHANGE_SAME] = {{.color = {195, 200, 210}}, {.color = {70, 72, 80}}},
+    [CHANGE_REMOVED] = {{.color = {255, 165, 155}}, {.color = {160, 0, 0}}},
+    [CHANGE_ADDED] = {{.color = {140, 240, 150}}, {.color = {0, 90, 20}}},
+    [CHANGE_GAP] = {{.color = {180, 185, 195}}, {.color = {80, 82, 90}}},
+    [CHANGE_TITLE] = {{.color = {165, 210, 255}}, {.color = {0, 60, 150}}},
 };
 static const char *const MARKS[] = {"  ", "- ", "+ ", "  ...", ""};
 
@@ -131,18 +132,17 @@ typedef struct Strip {
 } Strip;
 
 /* A line that is too wide ends in three points. */
-static bool paint_line(Image *page, Strip at, int letters, const ChangeLine *line, Message *message)
+static bool paint_line(Image *page, Strip at, TextStyle style, const ChangeLine *line,
+                       Message *message)
 {
     char text[CHANGE_TEXT_SIZE + 8];
-    TextStyle style = LINES[line->kind];
-    const int fit = (int)(at.width / (letters * IMAGE_MONO_ADVANCE));
-    style.size = letters;
+    const int fit = (int)(at.width / (style.size * IMAGE_MONO_ADVANCE));
     if (snprintf(text, sizeof text, "%s%s", MARKS[line->kind], line->text) > fit)
         snprintf(text + most(0, fit - 3), 4, "...");
     return image_text(page, at.x, at.y, &style, text, message);
 }
 
-bool page_paint_lines(Image *page, const Changes *changes, Message *message)
+bool page_paint_lines(Image *page, const Changes *changes, bool light, Message *message)
 {
     const PageLayout layout = page_layout(page->width, page->height);
     const Columns columns = choose_columns(changes, &layout, page->width, page->height);
@@ -150,7 +150,7 @@ bool page_paint_lines(Image *page, const Changes *changes, Message *message)
     const int rows = (page->height - layout.text_top) / step;
     const int width = column_width(columns.count, &layout, page->width);
     bool done = true;
-    image_fill(page, NULL, BACKGROUND);
+    image_fill(page, NULL, BACKGROUND[light]);
     for (int column = 0; column < columns.count; column++) {
         const int first = columns.first[column], end = columns.first[column + 1];
         for (int i = first; i < end && i - first < rows && done; i++) {
@@ -162,27 +162,24 @@ bool page_paint_lines(Image *page, const Changes *changes, Message *message)
             }
             const Strip at = {layout.margin + column * (width + layout.margin),
                               layout.text_top + (row + 1) * step - step / 4, width};
-            done = paint_line(page, at, columns.letters, &line, message);
+            TextStyle style = LINES[line.kind][light];
+            style.size = columns.letters;
+            style.mono = true;
+            done = paint_line(page, at, style, &line, message);
         }
     }
     return done;
 }
 
-static void copy_opaque(unsigned char *to, const unsigned char *from, int width)
-{
-    memcpy(to, from, 4 * (size_t)width);
-    for (int x = 0; x < width; x++)
-        to[4 * x + 3] = 255;
-}
-
 static void put(Image *page, int left, int top, const Image *picture)
 {
-    const int width = left + picture->width > page->width ? page->width - left : picture->width;
-    for (int y = 0; y < picture->height && top + y < page->height && width > 0; y++)
-        copy_opaque((unsigned char *)page->pixels + (size_t)(top + y) * image_row_size(page) +
-                        4 * (size_t)left,
-                    (const unsigned char *)picture->pixels + (size_t)y * image_row_size(picture),
-                    width);
+    for (int y = 0; y < picture->height && top + y < page->height; y++)
+        for (int x = 0; x < picture->width && left + x < page->width; x++) {
+            const size_t at = (size_t)y * (size_t)picture->width + (size_t)x;
+            const size_t to = (size_t)(top + y) * (size_t)page->width + (size_t)(left + x);
+            memcpy((unsigned char *)page->pixels + 4 * to,
+                   (const unsigned char *)picture->pixels + 4 * at, 3);
+        }
 }
 
 /* In letters with which it is no wider than a picture; none if they could not be read. */
@@ -195,24 +192,25 @@ static bool paint_caption(Image *page, TextStyle style, int letters, Strip at, c
            (style.size == 0 || image_text(page, at.x, at.y, &style, text, message));
 }
 
-bool page_paint_picture(Image *page, int number, const Image *picture, const char *name,
+bool page_paint_picture(Image *page, int number, const Image *picture, const char *name, bool light,
                         Message *message)
 {
     const PageLayout layout = page_layout(page->width, page->height);
     put(page, layout.left[number], layout.top, picture);
     const Strip at = {layout.left[number], layout.top - layout.letters / 3, layout.side};
-    return paint_caption(page, CAPTION, layout.letters, at, name, message);
+    return paint_caption(page, CAPTION[light], layout.letters, at, name, message);
 }
 
-bool page_paint_captions(Image *page, const char *title, const char *below, Message *message)
+bool page_paint_captions(Image *page, const char *title, const char *below, bool light,
+                         Message *message)
 {
     const PageLayout layout = page_layout(page->width, page->height);
     const int width = page->width - 2 * layout.margin;
     const int down = 6 * layout.letters / 5;
     const Strip at = {layout.margin, down, width};
     const Strip under = {layout.margin, layout.top + layout.side + down, width};
-    return paint_caption(page, CAPTION, layout.letters, at, title, message) &&
-           paint_caption(page, BELOW, layout.letters, under, below, message);
+    return paint_caption(page, CAPTION[light], layout.letters, at, title, message) &&
+           paint_caption(page, LINES[CHANGE_SAME][light], layout.letters, under, below, message);
 }
 
 PageDifference page_difference(const Image *before, const Image *after, Image *difference)

@@ -21,14 +21,15 @@ PageLayout page_layout(int width, int height);
 
 /* Paints the page's background and the changed lines in columns, as large as they all fit; if even
  * small letters are too large, lines end in ... and the last says how many are missing. */
-bool page_paint_lines(Image *page, const Changes *changes, Message *message);
+bool page_paint_lines(Image *page, const Changes *changes, bool light, Message *message);
 
 /* Paints a picture of the layout's side and its name. */
-bool page_paint_picture(Image *page, int number, const Image *picture, const char *name,
+bool page_paint_picture(Image *page, int number, const Image *picture, const char *name, bool light,
                         Message *message);
 
 /* Paints the page's title and the line below the pictures. */
-bool page_paint_captions(Image *page, const char *title, const char *below, Message *message);
+bool page_paint_captions(Image *page, const char *title, const char *below, bool light,
+                         Message *message);
 
 /* The absolute difference of two pictures of one size, color by color, `factor` times as large so
  * that it is seen; its largest value, and in how many pixels there is one. What decides the factor

@@ -12,7 +12,7 @@ import command_line_test as base
 
 SIDE, TOP, LEFT = 400, 72, (20, 440, 860)  # of the pictures in a page of its own size
 TEXT = 508  # the lines begin below
-ADDED, REMOVED = (120, 225, 130), (255, 140, 130)
+ADDED, REMOVED, ADDED_ON_WHITE = (140, 240, 150), (255, 165, 155), (0, 90, 20)
 SHADERS = os.path.join(base.SOURCE, "shaders/lecture")
 
 
@@ -35,6 +35,12 @@ def below(png):
 def count(pixels, color):
     """Exact pixels of a color, as the stems of letters have."""
     return sum(pixels[i:i + 3] == bytes(color) for i in range(0, len(pixels), 3))
+
+
+def luminance(color):
+    """WCAG 2.1's."""
+    linear = [(c / 255 / 12.92 if c <= 10 else ((c / 255 + 0.055) / 1.055) ** 2.4) for c in color]
+    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
 
 
 class Lessons(base.Case):
@@ -116,6 +122,22 @@ class Lessons(base.Case):
             page = self.page("--lesson", str(number))
             self.assertTrue(any(part(page, 2)), number)
             self.assertGreater(count(below(page), ADDED), 20, number)
+
+    def test_a_light_page(self):
+        """The same pictures and lines, dark on white: contrasts of letters are at least 7 to 1 on both."""
+        dark, light = self.page("--lesson", "7"), self.page("--lesson", "7", "--light", "on")
+        for number in range(3):
+            self.assertEqual(part(dark, number), part(light, number))
+        self.assertEqual((dark.pixels[:3], light.pixels[:3]), (bytes((16, 18, 22)), bytes((255, 255, 255))))
+        self.assertGreater(count(below(light), ADDED_ON_WHITE), 20)
+        with open(os.path.join(base.SOURCE, "examples/lessons/page.c"), encoding="utf-8") as file:
+            text = file.read()
+        papers, *letters = re.findall(r"{+(?:[.]color = )?{([\d, ]+)}+, {(?:[.]color = )?{?([\d, ]+)}+", text)
+        self.assertEqual(len(letters), 6)
+        for pair in letters:
+            for paper, letter in zip(papers, pair):
+                one, other = sorted(luminance([int(c) for c in color.split(",")]) for color in (paper, letter))
+                self.assertGreaterEqual((other + 0.05) / (one + 0.05), 7, letter)
 
     def test_columns_do_not_touch(self):
         """Between two columns, and at the right, there is nothing but background."""
