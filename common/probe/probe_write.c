@@ -3,6 +3,7 @@
 
 #include "base/json_writer.h"
 #include "base/memory.h"
+#include "base/output_text.h"
 #include "core/shader_source.h"
 #include "probe/origin.h"
 
@@ -95,15 +96,6 @@ static void put_steps(FILE *file, const char *name, const double color[3])
             origin_step(color[2]));
 }
 
-static FILE *open_text(char **text)
-{
-    static size_t size;
-    FILE *file = open_memstream(text, &size);
-    if (!file)
-        memory_end();
-    return file;
-}
-
 /* What a variable, or an element of an array, holds before an event; returns how many numbers, 0:
  * it is not known, or no vector. */
 static int value_before(const Probe *probe, int event, const char *name, double value[4])
@@ -159,22 +151,23 @@ static const char *put_value(FILE *file, const Probe *probe, int event, const ch
  * NULL if it computes nothing of these. */
 static char *filled_text(const Probe *probe, int event)
 {
-    char text[512], *filled;
+    char text[512];
+    OutputText own;
     event_text(probe, event, text, sizeof text);
-    FILE *own = open_text(&filled);
+    output_text_open(&own);
     const char *at = text;
     bool any = false, begins = true;
     while (*at) {
         const bool letter = isalpha((unsigned char)*at) || *at == '_';
-        const char *next = letter && begins ? put_value(own, probe, event, at) : NULL;
+        const char *next = letter && begins ? put_value(own.file, probe, event, at) : NULL;
         any |= next != NULL;
         begins = next || !(letter || isdigit((unsigned char)*at) || *at == '.');
         if (!next)
-            fputc(*at++, own);
+            fputc(*at++, own.file);
         else
             at = next;
     }
-    fclose(own);
+    char *filled = output_text_close(&own);
     const GlslNode *node = &tree_of(probe)->nodes[probe->driver.events[event].node];
     const int op = node->kind == GLSL_ASSIGN ? node->op : GLSL_SET;
     char *said = NULL;
@@ -255,11 +248,10 @@ static void put_end(FILE *file, const Probe *probe)
 
 char *probe_verdict(const Probe *probe)
 {
-    char *text;
-    FILE *file = open_text(&text);
-    put_end(file, probe);
-    fclose(file);
-    return text;
+    OutputText text;
+    output_text_open(&text);
+    put_end(text.file, probe);
+    return output_text_close(&text);
 }
 
 char *probe_text(const Probe *probe)
@@ -267,8 +259,9 @@ char *probe_text(const Probe *probe)
     const ProbeQuestion *question = &probe->question;
     const unsigned char *drawn = question->drawn;
     const ExactPixel *exact = question->exact;
-    char *text;
-    FILE *file = open_text(&text);
+    OutputText text;
+    output_text_open(&text);
+    FILE *file = text.file;
     fprintf(file, "pixel %d,%d: drawn %d, %d, %d\n", question->column, question->row, drawn[0],
             drawn[1], drawn[2]);
     if (exact) {
@@ -289,8 +282,7 @@ char *probe_text(const Probe *probe)
                       "follows is computed exactly)\n");
     for (int c = 0; c < 3 && probe->pixel.draw >= 0; c++)
         put_corner(file, probe, c);
-    fclose(file);
-    return text;
+    return output_text_close(&text);
 }
 
 /* JSON */
@@ -338,13 +330,13 @@ static void write_trail(JsonWriter *json, const Probe *probe)
 
 static void write_verdict(JsonWriter *json, const Probe *probe)
 {
-    char *text;
-    FILE *file = open_text(&text);
-    put_verdict(file, probe);
-    fclose(file);
+    OutputText text;
+    output_text_open(&text);
+    put_verdict(text.file, probe);
+    char *said = output_text_close(&text);
     json_write_object(json, "verdict");
-    json_write_text(json, "text", text);
-    free(text);
+    json_write_text(json, "text", said);
+    free(said);
     json_write_number(json, "steps", probe->whole);
     json_write_number(json, probe->question.exact ? "formula" : "interpolation", probe->formula);
     json_write_number(json, "rounding", probe->rounding);
@@ -368,6 +360,13 @@ static void write_corner(JsonWriter *json, const Probe *probe, int corner)
         const GlslVariable *variable = &run->code->variables[k];
         if (is_handed_over(variable))
             write_numbers(json, variable->name, run->registers + variable->first, variable->count);
+    }
+    for (int i = 0; i < run->event_count; i++) {
+        const GlslEvent *event = &run->events[i];
+        const GlslSymbol *symbol = &run->code->tree->symbols[event->symbol];
+        if (!symbol->global && event == glsl_last(run, symbol->name) &&
+            glsl_is_vector(symbol->type) && event->count == glsl_size(symbol->type))
+            write_numbers(json, symbol->name, run->values + event->value, event->count);
     }
     json_write_end(json);
 }
@@ -398,8 +397,9 @@ char *probe_json(const Probe *probe)
 {
     const ProbeQuestion *question = &probe->question;
     double drawn[3];
-    char *text;
-    JsonWriter json = {.file = open_text(&text), .lines = 2};
+    OutputText text;
+    output_text_open(&text);
+    JsonWriter json = {.file = text.file, .lines = 2};
     for (int i = 0; i < 3; i++)
         drawn[i] = question->drawn[i] / 255.0;
     json_write_object(&json, NULL);
@@ -421,6 +421,5 @@ char *probe_json(const Probe *probe)
     if (probe->judged)
         write_verdict(&json, probe);
     json_write_end(&json);
-    fclose(json.file);
-    return text;
+    return output_text_close(&text);
 }

@@ -12,8 +12,10 @@ A chapter is Markdown with formulas in TeX, and
                                                         slider in place of $ in VALUE; of MORE may be FILE=STUDY, shaders' names
     QUESTION `OPTIONS`                                  what the reader expects when these options are set in the figure
     :   ANSWER                                          above, or in the program that is named
+    $$ A, \\qquad B \\allowbreak + C $$                  a formula, which may be broken there
     [NUMBER]{check="EXPRESSION"}                        a number that tests/book computes again
     <!-- place: HEADING; HEADING -->                    what the section above shows of places.txt
+    <!-- at: NAME = {NAME} ... -->                      below a formula: its numbers at the pixel that is clicked (terms.js)
 """
 import html
 import math
@@ -31,6 +33,7 @@ FIGURE = re.compile(r"^!\[((?:[^\[\]]|\[[^\]]*\])*)\]\((program|change|precision
 ANSWER = re.compile(r"`([A-Z]\w+ --[^`]+|hard_cases --[^`]+)`\n+:   ")
 CHECK = re.compile(r'\[([^\[\]]*)\]\{check="([^"]*)"\}')
 PLACE = re.compile(r"<!-- place: (.*?) -->", re.DOTALL)
+AT = re.compile(r"<!-- at: (.*?) -->", re.DOTALL)
 STILL = {"Vectors", "hard_cases"}  # not in the pages' module
 # Emphasis, links, code and checks left out.
 PLAIN = ((CHECK, r"\1"), (re.compile(r"\[([^\]]*)\]\([^)]*\)"), r"\1"), (re.compile(r"[`*$]"), ""))
@@ -111,11 +114,16 @@ def plot():
     def place(value, range_, low, high):
         return low + (high - low) * (math.log10(value) - range_[0]) / (range_[1] - range_[0])
 
+    def mark(kind, cx, cy):
+        """A filled circle, an empty one, a cross: told apart without colours."""
+        return (f'<path class="flat" d="M{cx - 3:.1f} {cy - 3:.1f}l6 6m0 -6l-6 6"/>' if kind == "flat" else
+                f'<circle class="{kind}" cx="{cx:.1f}" cy="{cy:.1f}" r="3"/>')
+
     points, lines = "", ""
     for numbers in rows:
         cells = [float(cell) for cell in numbers.replace("|", " ").split()]
         for kind, error, ms in zip(("Phong", "Gouraud", "flat"), cells[::2], cells[1::2]):
-            points += f'<circle class="{kind}" cx="{place(ms, x, 40, 470):.1f}" cy="{place(error, y, 250, 10):.1f}" r="3"/>'
+            points += mark(kind, place(ms, x, 40, 470), place(error, y, 250, 10))
     for value in (0.1, 1, 10, 100):
         at = place(value, x, 40, 470)
         lines += f'<line x1="{at:.1f}" y1="10" x2="{at:.1f}" y2="250"/><text x="{at:.1f}" y="264" text-anchor="middle">{value} ms</text>'
@@ -123,9 +131,9 @@ def plot():
         lines += f'<line x1="40" y1="{at:.1f}" x2="470" y2="{at:.1f}"/><text x="35" y="{at + 4:.1f}" text-anchor="end">{value}</text>'
     return ('<svg class="plot" viewBox="0 0 500 290" role="img" aria-label="Error in steps over time of a frame" '
             f'data-x="{x[0]},{x[1]}" data-y="{y[0]},{y[1]}">{lines}{points}<circle class="mine" r="6" visibility="hidden"/>'
-            '<circle class="Phong" cx="60" cy="280" r="3"/><text x="68" y="284">at the fragments</text>'
-            '<circle class="Gouraud" cx="180" cy="280" r="3"/><text x="188" y="284">at the vertices</text>'
-            '<circle class="flat" cx="290" cy="280" r="3"/><text x="298" y="284">flat</text>'
+            f'{mark("Phong", 60, 280)}<text x="68" y="284">at the fragments</text>'
+            f'{mark("Gouraud", 180, 280)}<text x="188" y="284">at the vertices</text>'
+            f'{mark("flat", 290, 280)}<text x="298" y="284">flat</text>'
             '<circle class="mine" cx="345" cy="280" r="5"/><text x="355" y="284">this device</text></svg>')
 
 
@@ -208,6 +216,9 @@ def body(chapter, change):
     """The chapter as HTML; change(old, new) is the difference of two programs."""
     figures = iter(chapter.figures)
     text = FIGURE.sub(lambda _: block(next(figures), change), PLACE.sub("", chapter.text))
+    text = AT.sub(lambda found: f'```{{=html}}\n<p class="at" data-at="{html.escape(" ".join(found[1].split()))}" hidden></p>\n```', text)
+    # Pieces that stand in one line or, on a phone, one below the other.
+    text = re.sub(r"^\$\$.*\$\$$", lambda found: re.sub(r"(\\qquad)|\\allowbreak", r"\1 $$ $$ ", found[0]), text, flags=re.MULTILINE)
     made = markdown.to_html(CHECK.sub(r"\1", text), link).replace("<h1>", f"<h1>{chapter.number}. ", 1)
     made = re.sub(r"<dl>(.*?)</dl>", lambda found: ask(found, chapter), made, flags=re.DOTALL)
     return made + numbers(chapter)

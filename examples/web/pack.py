@@ -245,7 +245,7 @@ def write_book():
         scripts = [f"{kind}.js" for kind in ("formula", "precision") if f"]({kind}:" in chapter.text] + BOOK
         write(site / f"{chapter.name}.html",
               fill("chapter.html", title=html.escape(book.plain(chapter.title)), links=beside(all_chapters, at),
-                   body=book.body(chapter, diff), pointed=" ".join(POINTED), **shared(scripts)))
+                   body=book.body(chapter, diff), pointed=" ".join([*POINTED, "terms.js"]), **shared(scripts)))
     items = "".join(f'<li value="{chapter.number}"><a href="{chapter.name}.html">{html.escape(book.plain(chapter.title))}</a></li>\n'
                     for chapter in all_chapters)
     write(site / "book.html", fill("book.html", chapters=items, **shared([])))

@@ -213,6 +213,9 @@ const Pixel = (() => {
         }
     }
 
+    /* For what else shows numbers of the pixel (terms.js). */
+    const explained = detail => of.canvas.dispatchEvent(new CustomEvent("explained", {bubbles: true, detail}));
+
     async function explain(at, focus) {
         const pressed = performance.now(), answer = await ask("probe", at);
         section.hidden = false;
@@ -226,6 +229,7 @@ const Pixel = (() => {
             of.say(line(said));
             fill(said);
             mark(at, said.directions);
+            explained(said);
         } else {
             part("pixel-said").replaceChildren(element("p", {class: "error"}, answer.message));
             mark(at);
@@ -279,6 +283,7 @@ const Pixel = (() => {
 
     function close(leaves = true) {
         section.hidden = true;
+        explained(null);
         open = null;
         part("pixel-values").value = "";
         show("");

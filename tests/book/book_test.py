@@ -94,6 +94,25 @@ def merge(base, words):
     return " ".join([name, *(part for option, rest in values.items() for part in (option, *rest))])
 
 
+class Formulas(unittest.TestCase):
+    def test_what_a_pixel_fills_in_is_known(self):
+        """Terms of the lighting equation as terms.js names them, corners and variables of the shaders."""
+        terms = set("k_a k_d k_s k_g i_a i_d i_s I_a I_d I_s I e g t f h α w N V L R H N·L R·V N·H A B C ABC bytes".split())
+        shaders = "".join(path.read_text(encoding="utf-8") for path in book.SHADERS.rglob("*.*"))
+        for chapter in CHAPTERS:
+            for text in book.AT.findall(chapter.text):
+                for name in re.findall(r"{(.*?)}", text):
+                    with self.subTest(chapter.path.name, name=name):
+                        self.assertTrue(name in terms or re.search(rf"\b(?:vec\d|float) {name.rstrip('=')}\b", shaders))
+
+    def test_each_formula_has_its_numbers(self):
+        """But for those whose vectors only diagrams have, and matrices."""
+        for chapter in CHAPTERS:
+            if any(figure.live for figure in chapter.figures):
+                with self.subTest(chapter.path.name):
+                    self.assertEqual(len(book.AT.findall(chapter.text)), len(re.findall(r"^\$\$.*\$\$$", chapter.text, re.MULTILINE)))
+
+
 class Text(unittest.TestCase):
     def test_the_chapters_are_in_order(self):
         self.assertEqual([chapter.number for chapter in CHAPTERS], list(range(1, len(CHAPTERS) + 1)))

@@ -3,6 +3,7 @@ import base64
 import json
 import os
 import pathlib
+import re
 import shlex
 import shutil
 import subprocess
@@ -29,6 +30,24 @@ NATIVE = """new Promise(done => {
     picture.src = "data:image/png;base64,%s";
 })"""
 ROWS = """[...document.querySelectorAll(".trail tr:not(.ran)")].slice(1).map(row => [...row.cells].map(cell => cell.textContent))"""
+
+
+class Three:
+    """Red, green and blue; a number is the same in all."""
+
+    def __init__(self, *values):
+        self.values = values
+
+    def each(self, other, operation):
+        return Three(*(operation(a, b) for a, b in zip(self.values, other.values if isinstance(other, Three) else (other,) * 3)))
+
+    def __mul__(self, other):
+        return self.each(other, lambda a, b: a * b)
+
+    def __add__(self, other):
+        return self.each(other, lambda a, b: a + b)
+
+    __rmul__, __radd__ = __mul__, __add__
 
 
 class Pixels(Case):
@@ -209,6 +228,45 @@ class Pixels(Case):
         self.explained()
         self.assert_figure(words[1], ["--time", "2"], (200, 200))
         self.assertEqual(self.page.complaints(), [])
+
+    def test_formulas_of_the_book(self):
+        """Below each the pixel's numbers, which give what stands after the last equals sign; nothing where the figure has none."""
+        self.page.resize(1000, 12000)
+        asked = ((7, 0, (200, 230), 1), (8, 0, (200, 170), 1), (11, 0, (200, 111), 1), (12, 0, (200, 111), 1), (13, 0, (60, 60), 2),
+                 (13, 1, (205, 150), 2), (14, 0, (380, 120), 1), (15, 0, (140, 150), 1), (15, 1, (70, 106), 1), (17, 0, (100, 200), 0), (17, 3, (80, 430), 1))
+        for chapter, figure, pixel, count in asked:
+            with self.subTest(chapter=chapter, figure=figure):
+                self.open(f"chapter{chapter:02}")
+                self.page.wait("Book.book.figures.every(({drawn}) => drawn)")
+                where = "#" + self.page.run(f"Book.book.figures[{figure}].where.id")
+                self.assertEqual(self.filled(), [])
+                self.point(pixel, canvas=where + " canvas")
+                words = shlex.split(self.text(where + " .command"))
+                self.assert_figure(words[1], words[2:], pixel)
+                filled = self.filled()
+                self.assertEqual(len(filled), count)
+                self.assertEqual(self.page.run("document.querySelectorAll('#pixel-said p + .at').length"), count)
+                for first, *lines in filled:
+                    self.assertTrue(first.endswith(f", pixel {pixel[0]}, {pixel[1]}:") and lines, first)
+                    for line in lines:
+                        self.assert_sum(line)
+                self.page.run("document.querySelector('#pixel button').click()")
+                self.assertEqual(self.filled(), [])
+
+    def filled(self):
+        """The lines below each formula, powers as **."""
+        return self.page.run("""[...document.querySelectorAll("[data-at]:not([hidden])")].map(part => [...part.children].map(line =>
+            line.innerHTML.replace(/<sup>(.*?)<.sup>/g, "**$1").replace(/<.*?>/g, "")))""")
+
+    def assert_sum(self, line):
+        """Three digits are shown of each number."""
+        found = re.search(r"(?:I[sd]?|C · [(]N·L[)]|x) = ([^=]*) = ([^=:]*?)(?:, where.*|:.*)?$", line)
+        if not found:
+            return
+        sides = [eval(re.sub(r"[(]([^()]*,[^()]*)[)]", r"Three(\1)", side.replace("−", "-").replace("·", "*")), {"Three": Three})
+                 for side in found.groups()]
+        for one, other in zip(*(side.values if isinstance(side, Three) else (side,) * 3 for side in sides)):
+            self.assertAlmostEqual(one, other, delta=0.02 + 0.02 * abs(other), msg=line)
 
     def assert_figure(self, name, words, pixel):
         done = subprocess.run([os.path.join(EXAMPLES, name), *words, "--probe", "%d,%d" % pixel, "--format", "json"], check=True,
