@@ -97,7 +97,7 @@ def merge(base, words):
 class Formulas(unittest.TestCase):
     def test_what_a_pixel_fills_in_is_known(self):
         """Terms of the lighting equation as terms.js names them, corners and variables of the shaders."""
-        terms = set("k_a k_d k_s k_g i_a i_d i_s I_a I_d I_s I e g t f h α w N V L R H N·L R·V N·H A B C ABC bytes".split())
+        terms = set("k_a k_d k_s k_g i_a i_d i_s I_a I_d I_s I e g t f h α w gl_FragColor N V L R H N·L R·V N·H A B C ABC bytes".split())
         shaders = "".join(path.read_text(encoding="utf-8") for path in book.SHADERS.rglob("*.*"))
         for chapter in CHAPTERS:
             for text in book.AT.findall(chapter.text):
