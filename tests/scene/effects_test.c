@@ -408,8 +408,14 @@ TEST_WITH(0, a_normal_matrix_is_needed_only_where_the_model_view_is_not_orthogon
     assert_set("normals matrix unit_vertex unit_fragment | 0 directional diffuse");
     transform_by(scaled(1, 1, 0)); /* flattened */
     assert_set("normals matrix unit_vertex unit_fragment | 0 directional diffuse");
-    transform_by(scaled(1e-20, 1e-20, 1e-20)); /* their squares underflow in float */
-    assert_set("normals matrix unit_vertex unit_fragment | 0 directional diffuse");
+    /* Their squares underflow in float, or lose digits in 16 bits, from 1/100 and 100 on. */
+    static const double extremes[] = {1e-20, 0.0099, 101}, usual[] = {0.0101, 99};
+    for (int i = 0; i < 3; i++) {
+        transform_by(scaled(extremes[i], extremes[i], extremes[i]));
+        assert_set("normals matrix unit_vertex unit_fragment | 0 directional diffuse");
+        transform_by(scaled(usual[i % 2], usual[i % 2], usual[i % 2]));
+        assert_set("normals unit_fragment | 0 directional diffuse");
+    }
 }
 
 TEST_WITH(0, uneven_scales_that_cancel_need_no_normal_matrix, set_up, NULL)
