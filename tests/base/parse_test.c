@@ -64,6 +64,21 @@ TEST(the_ends_of_a_range_belong_to_it)
     assert_false(parse_number("3.0000001", -2, 3, &number));
 }
 
+TEST(numbers_are_parted_by_commas)
+{
+    static const double min[] = {0, 0, 0}, max[] = {9, 9, 9};
+    char long_one[200] = {0};
+    double numbers[3];
+    assert_int_equal(parse_numbers("1,2.5,3", 3, min, max, numbers), 3);
+    assert_true(numbers[0] == 1 && numbers[1] == 2.5 && numbers[2] == 3);
+    assert_int_equal(parse_numbers("4", 3, min, max, numbers), 1);
+    assert_int_equal(parse_numbers("1,,2", 3, min, max, numbers), 0);
+    assert_int_equal(parse_numbers("1,2,3,4", 3, min, max, numbers), 0);
+    assert_int_equal(parse_numbers("1,10", 3, min, max, numbers), 0);
+    memset(long_one, '0', sizeof long_one - 1);
+    assert_int_equal(parse_numbers(long_one, 3, min, max, numbers), 0);
+}
+
 int main(void)
 {
     return testing_run(0, "parse", NULL, NULL);

@@ -183,6 +183,10 @@ class Scene(base.Case):
         file["animations"][0]["channels"] = [{"sampler": 2, "target": {"node": 0, "path": "translation"}}]
         self.save("a.glb", glb(file, data))
         self.near(self.read_back("a.glb", "--time", "2.9")[0][0][12:15], (2, 0, 0))
+        moved = self.read_back("a.glb", "--time", "1")[2]  # the camera fits what is there at 0
+        del file["animations"]
+        self.save("a.glb", glb(file, data))
+        self.near(moved["eye"], self.read_back("a.glb")[2]["eye"], 6)
 
     def test_a_scene_that_was_saved_draws_the_same_picture(self):
         for program, *options in (("Materials", "--shape", "head"), ("SmoothFlat", "--linear-light"), ("FourLights",),
