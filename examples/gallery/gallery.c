@@ -17,6 +17,7 @@
 #include "base/template.h"
 #include "base/text.h"
 #include "core/shader_files.h"
+#include "gallery/all_examples.h"
 #include "gallery/manifest.h"
 #include "gallery/regression.h"
 #include "gallery/sheet.h"
@@ -26,18 +27,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-
-/* From the build: X(LightedCube) X(LightedCube_animation)... */
-#define X(name) extern const Example name;
-EXAMPLES
-#undef X
-
-static const Example *const ALL[] = {
-#define X(name) &name,
-    EXAMPLES
-#undef X
-};
-enum { COUNT = sizeof ALL / sizeof ALL[0] };
 
 static bool with_lecture, with_manifest;
 static const char *verified; /* the manifest, or the earlier pictures' folder; NULL: none */

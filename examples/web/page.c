@@ -5,6 +5,7 @@
 #include "app/command.h"
 #include "base/json_writer.h"
 #include "choose/error_worker.h"
+#include "gallery/all_examples.h"
 #include "kinds/scene_views.h"
 
 #include <math.h>
@@ -12,18 +13,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-
-/* From the build: X(LightedCube) X(LightedCube_animation)... */
-#define X(name) extern const Example name;
-EXAMPLES
-#undef X
-
-static const Example *const ALL[] = {
-#define X(name) &name,
-    EXAMPLES
-#undef X
-};
-enum { COUNT = sizeof ALL / sizeof ALL[0] };
 
 /* Larger pictures would hold the page up, or its memory. */
 enum { MAX_SIDE = 4096 };

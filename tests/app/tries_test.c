@@ -12,14 +12,6 @@
 #include "support/read_line.h"
 #include "support/testing.h"
 
-#define X(NAME) extern const Example NAME;
-LECTURE_EXAMPLES
-#undef X
-
-#define X(NAME) &NAME,
-static const Example *const LECTURES[] = {LECTURE_EXAMPLES};
-#undef X
-
 enum { SIZE = 96, MOST_PARAMETERS = 64 };
 
 static Canvas canvas;

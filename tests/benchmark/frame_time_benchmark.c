@@ -4,18 +4,9 @@
  */
 #include "app/renderer.h"
 #include "benchmark/bench.h"
+#include "gallery/all_examples.h"
 
-#define X(name) extern const Example name;
-EXAMPLES
-#undef X
-
-static const Example *const ALL[] = {
-#define X(name) &name,
-    EXAMPLES
-#undef X
-};
-
-enum { COUNT = sizeof ALL / sizeof ALL[0], ROUNDS = 31, FRAMES = 10 };
+enum { ROUNDS = 31, FRAMES = 10 };
 
 typedef struct Run {
     Renderer *renderer; /* NULL: only clears */

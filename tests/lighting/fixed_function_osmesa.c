@@ -1,7 +1,5 @@
 #include "lighting/fixed_function_osmesa.h"
 
-#if __has_include(<GL/osmesa.h>)
-
 #include <dlfcn.h>
 #include <GL/osmesa.h>
 #include <stdlib.h>
@@ -267,27 +265,3 @@ void fixed_function_draw_sides(const Scene *scene, Image *picture)
     gl.Disable(GL_CULL_FACE);
     read_back(picture);
 }
-
-#else
-
-bool fixed_function_open(int width, int height, Message *message)
-{
-    (void)width, (void)height;
-    return message_set(message, "built without OSMesa: install libosmesa6-dev and build again");
-}
-
-void fixed_function_draw(const Scene *scene, Image *picture)
-{
-    (void)scene, (void)picture;
-}
-
-void fixed_function_draw_sides(const Scene *scene, Image *picture)
-{
-    (void)scene, (void)picture;
-}
-
-void fixed_function_close(void)
-{
-}
-
-#endif

@@ -10,15 +10,7 @@
 #include "support/picture_check.h"
 #include "support/testing.h"
 
-#define X(NAME) extern const Example NAME;
-LECTURE_EXAMPLES
-#undef X
-
-#define X(NAME) &NAME,
-static const Example *const LECTURES[] = {LECTURE_EXAMPLES};
-#undef X
-
-enum { SIDE = 96, LECTURE_COUNT = sizeof LECTURES / sizeof LECTURES[0] };
+enum { SIDE = 96 };
 
 static Canvas canvas;
 

@@ -13,15 +13,7 @@
 
 #include <limits.h>
 
-#define X(NAME) extern const Example NAME;
-LECTURE_EXAMPLES
-#undef X
-
-#define X(NAME) &NAME,
-static const Example *const LECTURES[] = {LECTURE_EXAMPLES};
-#undef X
-
-enum { SIDE = 160, LECTURE_COUNT = sizeof LECTURES / sizeof LECTURES[0] };
+enum { SIDE = 160 };
 
 static Canvas canvas;
 static long compared, equal;

@@ -2,6 +2,7 @@
 #include "web/page.h"
 
 #include "app/options.h"
+#include "gallery/all_examples.h"
 #include "support/testing.h"
 
 #include <malloc.h>
@@ -16,16 +17,6 @@ static uint32_t drawn(double seconds)
         hash = (hash ^ pixels[i]) * 16777619u;
     return hash;
 }
-
-#define X(name) extern const Example name;
-EXAMPLES
-#undef X
-static const Example *const ALL[] = {
-#define X(name) &name,
-    EXAMPLES
-#undef X
-};
-enum { COUNT = sizeof ALL / sizeof ALL[0] };
 
 static void opened(const char *lines)
 {

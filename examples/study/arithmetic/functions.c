@@ -358,44 +358,25 @@ static void mpfr_of_three(mpfr_t result, Function function, const float a[4], co
 
 static void mpfr_of(mpfr_t result, Function function, const float a[4], const float b[4], int i)
 {
+    static int (*const of_one[FUNCTION_COUNT])(mpfr_ptr, mpfr_srcptr, mpfr_rnd_t) = {
+        [FUNCTION_SQRT] = mpfr_sqrt, [FUNCTION_INVERSESQRT] = mpfr_rec_sqrt,
+        [FUNCTION_EXP2] = mpfr_exp2, [FUNCTION_LOG2] = mpfr_log2,
+        [FUNCTION_SIN] = mpfr_sin,   [FUNCTION_COS] = mpfr_cos};
+    static int (*const of_two[FUNCTION_COUNT])(mpfr_ptr, mpfr_srcptr, mpfr_srcptr,
+                                               mpfr_rnd_t) = {[FUNCTION_ADD] = mpfr_add,
+                                                              [FUNCTION_MULTIPLY] = mpfr_mul,
+                                                              [FUNCTION_DIVIDE] = mpfr_div,
+                                                              [FUNCTION_POW] = mpfr_pow};
     mpfr_t x, y;
     mpfr_inits2(MPFR_BITS, x, y, (mpfr_ptr)0);
     mpfr_set_flt(x, a[i], MPFR_RNDN);
     mpfr_set_flt(y, b[i], MPFR_RNDN);
-    switch (function) {
-    case FUNCTION_ADD:
-        mpfr_add(result, x, y, MPFR_RNDN);
-        break;
-    case FUNCTION_MULTIPLY:
-        mpfr_mul(result, x, y, MPFR_RNDN);
-        break;
-    case FUNCTION_DIVIDE:
-        mpfr_div(result, x, y, MPFR_RNDN);
-        break;
-    case FUNCTION_SQRT:
-        mpfr_sqrt(result, x, MPFR_RNDN);
-        break;
-    case FUNCTION_INVERSESQRT:
-        mpfr_rec_sqrt(result, x, MPFR_RNDN);
-        break;
-    case FUNCTION_POW:
-        mpfr_pow(result, x, y, MPFR_RNDN);
-        break;
-    case FUNCTION_EXP2:
-        mpfr_exp2(result, x, MPFR_RNDN);
-        break;
-    case FUNCTION_LOG2:
-        mpfr_log2(result, x, MPFR_RNDN);
-        break;
-    case FUNCTION_SIN:
-        mpfr_sin(result, x, MPFR_RNDN);
-        break;
-    case FUNCTION_COS:
-        mpfr_cos(result, x, MPFR_RNDN);
-        break;
-    default:
+    if (of_one[function])
+        of_one[function](result, x, MPFR_RNDN);
+    else if (of_two[function])
+        of_two[function](result, x, y, MPFR_RNDN);
+    else
         mpfr_of_three(result, function, a, b, i);
-    }
     mpfr_clears(x, y, (mpfr_ptr)0);
 }
 
