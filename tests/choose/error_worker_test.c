@@ -67,76 +67,32 @@ static bool is_drawn(int way, int example)
     return WAYS[way].teapots || !teapot;
 }
 
-/* The scene of a view from the example itself, changed as the options say. */
-static Scene scene_of(const Example *example, const Options *options, int view)
-{
-    Scene scene = {.object_count = 0};
-    example_scene(example)->make(SECONDS, view, &scene);
-    orbit_move(options->orbit, &scene.camera.eye, scene.camera.center, &scene.camera.up);
-    const Usage usage = options_usage(example);
-    int width, height, columns = 1, rows = 1;
-    options_size(&usage, &width, &height);
-    if (example_scene(example)->layout)
-        example_scene(example)->layout(&columns, &rows);
-    scene.camera.aspect = (double)width * rows / ((double)height * columns);
-    scene.clamp_vertex |= options->clamp_vertex;
-    scene.linear |= options->linear;
-    scene.show_clipped |= options->show_clipped;
-    scene.signed_dots |= options->signed_dots;
-    return scene;
-}
-
 /* Of all views, pixel by pixel. */
-static PictureError expect(const Example *example, const Options *options,
-                           const ErrorPicture *picture)
+static PictureError expect(const ErrorPicture *picture)
 {
-    const Image *image = &picture->image;
-    int seen = 0;
     PictureError error = {.all = {0}};
-    int columns = 1, rows = 1;
-    if (example_scene(example)->layout)
-        example_scene(example)->layout(&columns, &rows);
-    for (int view = 0; view < columns * rows; view++) {
-        const int column = view % columns, row = view / columns;
-        const int left = column * (image->width / columns), top = row * (image->height / rows);
-        const int right = left + image->width / columns;
-        const int bottom = top + image->height / rows;
-        const Scene scene = scene_of(example, options, view);
-        if (right == left || bottom == top || scene.object_count == 0)
-            continue;
+    for (int i = 0; i < picture->view_count; i++) {
+        const ErrorView *view = &picture->views[i];
+        const Scene *scene = &view->scene.scene;
         Reference exact, meshes = {.lights = NULL};
-        ReferenceOptions size = {.width = right - left, .height = bottom - top};
-        SUCCEEDS(reference_open(&exact, &scene, &size, message));
+        ReferenceOptions size = {.width = view->place[2], .height = view->place[3]};
+        SUCCEEDS(reference_open(&exact, scene, &size, message));
         size.meshes = true;
         if (exact.lights) {
-            const ErrorView *own = &picture->views[seen];
-            Scene drawn = own->drawn.objects ? own->drawn.scene : scene;
+            Scene drawn = view->drawn.objects ? view->drawn.scene : *scene;
             drawn.interpolation = INTERPOLATION_PHONG;
             SUCCEEDS(reference_open(&meshes, &drawn, &size, message));
         }
-        picture_error_add(&error, image,
+        picture_error_add(&error, &picture->image,
                           &(ExactView){.exact = &exact,
-                                       .scene = &scene,
+                                       .scene = scene,
                                        .drawn = exact.lights ? &meshes : NULL,
-                                       .left = left,
-                                       .top = top});
+                                       .left = view->place[0],
+                                       .top = view->place[1]});
         reference_close(&exact);
         reference_close(&meshes);
-        seen++;
     }
     return error;
-}
-
-static void draw_case(Renderer *renderer, int way, Case *made)
-{
-    const Example *example = renderer->example;
-    Options options = WAYS[way].options;
-    options.shaders.precision = "highp";
-    options.shadows.way = example_scene(example)->shadows ? SHADOWS_VOLUMES : SHADOWS_OFF;
-    snprintf(made->name, sizeof made->name, "%s %s", example->name, WAYS[way].name);
-    const DrawRequest request = options_request(&options, example);
-    SUCCEEDS(scene_error_picture(renderer, &request, SECONDS, &made->picture, message));
-    made->expected = expect(example, &options, &made->picture);
 }
 
 FIXTURE(draw_all)
@@ -154,7 +110,10 @@ FIXTURE(draw_all)
             SUCCEEDS(options_open_canvas(&canvas, &options, WAYS[way].output, message));
             const DrawRequest request = options_request(&options, EXAMPLES[i]);
             SUCCEEDS(renderer_open(&renderer, EXAMPLES[i], &canvas, &request, message));
-            draw_case(&renderer, way, &cases[way][i]);
+            Case *made = &cases[way][i];
+            snprintf(made->name, sizeof made->name, "%s %s", EXAMPLES[i]->name, WAYS[way].name);
+            SUCCEEDS(scene_error_picture(&renderer, &request, SECONDS, &made->picture, message));
+            made->expected = expect(&made->picture);
             renderer_close(&renderer);
             canvas_close(&canvas);
         }

@@ -63,46 +63,17 @@ typedef struct Change {
     double max; /* difference that rounding to float may cause, in steps of 1/255 */
 } Change;
 
-static void for_places(RandomScene *scene, Vec3 (*apply)(Vec3 place, double a, double b, double c),
-                       Vec3 with)
+/* An affine map of the whole world, and what becomes of the viewer's lights. */
+static void map_world(RandomScene *scene, Mat4 map, Mat4 of_eye)
 {
     Camera *camera = &scene->scene.camera;
-    camera->eye = apply(camera->eye, with.x, with.y, with.z);
-    camera->center = apply(camera->center, with.x, with.y, with.z);
-    for (int i = 0; i < scene->scene.light_count; i++)
-        if (scene->lights[i].space == LIGHT_WORLD)
-            scene->lights[i].position = apply(scene->lights[i].position, with.x, with.y, with.z);
-}
-
-static Vec3 moved_place(Vec3 place, double x, double y, double z)
-{
-    return vec3_add(place, (Vec3){x, y, z});
-}
-
-/* Positions are multiples of 2^-20, so that nothing is rounded below 2^32. */
-static void move(RandomScene *scene, Random *random)
-{
-    const double far = ldexp(1, random_below(random, 30));
-    const Vec3 offset = {far, -far, random_below(random, 2) ? far : 0};
-    for_places(scene, moved_place, offset);
-    for (int i = 0; i < scene->scene.object_count; i++)
-        for (int k = 0; k < 3; k++)
-            scene->objects[i].world_from_object.m[12 + k] += (&offset.x)[k];
-}
-
-/* A linear map of the whole world that keeps angles and lengths, and what becomes of the viewer's
- * lights: where the world is mirrored, the picture has left and right exchanged. */
-static void map_world(RandomScene *scene, Mat4 map)
-{
-    const Mat4 of_eye = mat4_scale((Vec3){mat4_determinant(map) < 0 ? -1 : 1, 1, 1});
-    Camera *camera = &scene->scene.camera;
-    camera->eye = mat4_transform_direction(map, camera->eye);
-    camera->center = mat4_transform_direction(map, camera->center);
+    camera->eye = mat4_transform_point(map, camera->eye);
+    camera->center = mat4_transform_point(map, camera->center);
     camera->up = mat4_transform_direction(map, camera->up);
     for (int i = 0; i < scene->scene.light_count; i++) {
         Light *light = &scene->lights[i];
         const Mat4 own = light->space == LIGHT_EYE ? of_eye : map;
-        light->position = mat4_transform_direction(own, light->position);
+        light->position = mat4_transform_point(own, light->position);
         light->direction = mat4_transform_direction(own, light->direction);
     }
     for (int i = 0; i < scene->scene.object_count; i++)
@@ -110,41 +81,38 @@ static void map_world(RandomScene *scene, Mat4 map)
             mat4_product(map, scene->objects[i].world_from_object);
 }
 
-static void turn(RandomScene *scene, Random *random)
+/* Positions are multiples of 2^-20, so that nothing is rounded below 2^32. */
+static void move(RandomScene *scene, Random *random)
 {
-    const Mat4 rotation =
-        mat4_rotate(random_between(random, 0, 360), hard_random_direction(random));
-    map_world(scene, rotation);
+    const double far = ldexp(1, random_below(random, 30));
+    const Vec3 offset = {far, -far, random_below(random, 2) ? far : 0};
+    map_world(scene, mat4_translate(offset), mat4_identity());
 }
 
+static void turn(RandomScene *scene, Random *random)
+{
+    const double degrees = random_between(random, 0, 360);
+    map_world(scene, mat4_rotate(degrees, hard_random_direction(random)), mat4_identity());
+}
+
+/* The picture has left and right exchanged. */
 static void mirror(RandomScene *scene, Random *random)
 {
     const Vec3 mirrors[3] = {{-1, 1, 1}, {1, -1, 1}, {1, 1, -1}};
-    map_world(scene, mat4_scale(mirrors[random_below(random, 3)]));
-}
-
-static Vec3 scaled_place(Vec3 place, double factor, double unused, double unused_too)
-{
-    (void)unused, (void)unused_too;
-    return vec3_scale(place, factor);
+    map_world(scene, mat4_scale(mirrors[random_below(random, 3)]), mat4_scale(mirrors[0]));
 }
 
 static void scale(RandomScene *scene, Random *random)
 {
     const double factor = ldexp(1, random_below(random, 61) - 30);
-    for_places(scene, scaled_place, (Vec3){factor, 0, 0});
-    for (int i = 0; i < scene->scene.light_count; i++)
-        if (scene->lights[i].space == LIGHT_EYE)
-            scene->lights[i].position = vec3_scale(scene->lights[i].position, factor);
+    const Mat4 map = mat4_scale((Vec3){factor, factor, factor});
+    map_world(scene, map, map);
     scene->scene.camera.near *= factor;
     scene->scene.camera.far *= factor;
     for (int i = 0; i < scene->scene.light_count; i++) {
         scene->lights[i].linear /= factor;
         scene->lights[i].quadratic /= factor * factor;
     }
-    for (int i = 0; i < scene->scene.object_count; i++)
-        for (int k = 0; k < 15; k++)
-            scene->objects[i].world_from_object.m[k] *= factor;
 }
 
 static void permute_lights(RandomScene *scene, Random *random)

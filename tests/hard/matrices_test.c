@@ -1,10 +1,8 @@
 /*
  * Hard cases of model matrices: singular ones, mirrors, scales of any size, rotations about a zero
- * axis, and the precision of inverses and normals. First the functions' results, then the pictures,
- * in both precisions, lit at vertices and at fragments. LIGHTING_TEST_SEED in the environment
- * replaces the seed.
+ * axis. First the functions' results, then the pictures, in both precisions, lit at vertices and at
+ * fragments. LIGHTING_TEST_SEED in the environment replaces the seed.
  */
-#include "base/clock.h"
 #include "core/mesh_make.h"
 #include "hard/hard.h"
 #include "shapes/mesh_solids.h"
@@ -35,25 +33,6 @@ static Mat4 random_rotation(Random *random)
 {
     const Vec3 axis = hard_random_direction(random);
     return turn(random_between(random, -180, 180), axis);
-}
-
-/* R1 S R2 with the singular values 1, one between, and 1 / condition. */
-static Mat4 random_affine(Random *random, double condition)
-{
-    const Mat4 first = random_rotation(random), last = random_rotation(random);
-    const double between = pow(condition, -random_between(random, 0, 1));
-    return mat4_product(first, mat4_product(scale(1, between, 1 / condition), last));
-}
-
-/* Of a vertex shader's normal, with the matrix for normals in floats. */
-static double normal_error(Mat4 a, Vec3 n)
-{
-    Mat4 normal;
-    float uploaded[16], rounded[3];
-    assert_true(mat4_try_normal(a, &normal));
-    mat4_to_float(normal, uploaded);
-    vec3_to_float(n, rounded);
-    return quad_normal_error(a, uploaded, rounded);
 }
 
 /* The background of hard_two_lights. */
@@ -488,32 +467,8 @@ DRAWN_TEST(rotation_drift_in_double_is_invisible)
     hard_each_way("a million steps", &world, check_drifted);
 }
 
-/* Normal-matrix table. */
-
-enum { SAMPLES = 10000 };
-
-TEST(normal_matrix_table)
-{
-    static double errors[SAMPLES];
-    for (int d = 0; d <= 4; d++) {
-        Random random = {seed + (unsigned)d};
-        const double condition = pow(10, 2 * d);
-        for (int i = 0; i < SAMPLES; i++) {
-            const Mat4 a = random_affine(&random, condition);
-            const Vec3 n = hard_random_direction(&random);
-            errors[i] = normal_error(a, n);
-        }
-        const double middle = clock_median(errors, SAMPLES), worst = errors[SAMPLES - 1];
-        print_message("normals, 1e%d: median %.1e, worst %.1e\n", 2 * d, middle, worst);
-        assert_true(middle < 8e-8);
-        /* The matrix's nine entries, and the normal's products and sums, are rounded to floats,
-         * each by 6e-8 of the largest; the result is at least 1 / condition of that length. */
-        assert_true(worst < 6 * 6e-8 * condition);
-    }
-}
-
-/* A thin object keeps its normals: a sphere of condition 1 to 1e8. */
-DRAWN_TEST(normal_matrix_table_on_the_screen)
+/* A sphere of condition 1 to 1e8. */
+DRAWN_TEST(thin_objects_keep_their_normals)
 {
     const Mat4 first = turn(25, (Vec3){1, 2, 0.5}), last = turn(50, (Vec3){3, 1, 2});
     for (int d = 0; d <= 8; d += 2) {
